@@ -1,0 +1,397 @@
+#!/usr/bin/env python3
+"""Tests of tools/toolchain.py. No network, no package manager, nothing installed.
+
+    python3 tests/tools/test_toolchain.py
+
+Tools, apt-get and apt-cache are small scripts in a folder that is the whole PATH; each writes a
+line when it runs, so that a test can also state what must not run.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import toolchain  # noqa: E402
+from toolchain import (  # noqa: E402
+    Cache,
+    Finder,
+    Lock,
+    Log,
+    Spec,
+    Suite,
+    Toolchain,
+    ToolchainError,
+    Tree,
+)
+
+
+def quiet(line: str) -> None:
+    """Takes the place of progress lines."""
+    del line
+
+
+class Sandbox(unittest.TestCase):
+    """A PATH of scripts, a cache and a lock file of the test's own."""
+
+    def setUp(self) -> None:
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        self.bin = self.folder / "bin"
+        self.bin.mkdir()
+        for name in ("sh", "env", "touch", "cp"):
+            (self.bin / name).symlink_to(shutil.which(name) or name)
+        self.cache = self.folder / "cache"
+        self.set_path(self.bin)
+
+    def set_path(self, *folders: Path) -> None:
+        """Make these folders the whole PATH."""
+        values = {"PATH": os.pathsep.join(map(str, folders)), "KEEL_CACHE": str(self.cache)}
+        self.enterContext(mock.patch.dict(os.environ, values))
+        for name in ("KEEL_NO_INSTALL", "KEEL_DEBIAN_MIRROR"):
+            os.environ.pop(name, None)
+
+    def script(self, name: str, body: str, folder: Path | None = None) -> Path:
+        """An executable that notes that it ran."""
+        path = (folder or self.bin) / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(f"#!/bin/sh\necho {name} >> {self.folder}/ran\n{body}\n")
+        path.chmod(0o755)
+        return path
+
+    def ran(self) -> list[str]:
+        """The scripts that ran, in order."""
+        log = self.folder / "ran"
+        return log.read_text().split() if log.exists() else []
+
+    def lock(self, **tools: dict[str, object]) -> Lock:
+        """A lock file with these tools in one group called g."""
+        path = self.folder / "lock.json"
+        path.write_text(json.dumps({"schema": 1, "groups": {"g": list(tools)}, "tools": tools}))
+        return Lock.read(path)
+
+    def refusal(self, tools: Toolchain) -> str:
+        """The message with which ensure fails."""
+        with self.assertRaises(ToolchainError) as caught:
+            tools.ensure("g", say=quiet)
+        return str(caught.exception)
+
+
+def system(name: str, at_least: str = "2.0", below: str = "3") -> dict[str, object]:
+    """The entry of a tool that prints its version."""
+    return {
+        "kind": "system", "commands": [name], "probe": [name, "--version"],
+        "version": r"(\d+\.\d+)", "at_least": at_least, "below": below, "packages": [f"{name}-deb"],
+    }  # fmt: skip
+
+
+DEB: dict[str, object] = {
+    "kind": "deb", "commands": ["prover"], "probe": ["prover", "--version"],
+    "version": r"(\d+\.\d+)", "at_least": "6.6", "below": "7", "suite": "trixie",
+    "package": "prover", "pin": "6.6-4", "sha256": "0" * 64,
+}  # fmt: skip
+
+
+class FindingTools(Sandbox):
+    """What is on PATH is used if it fits, and looked at only once."""
+
+    def test_a_suitable_tool_is_used_and_identified(self) -> None:
+        path = self.script("z", "echo z 2.5")
+        tools = Toolchain(self.cache, self.lock(z=system("z")))
+        tools.ensure("g", say=quiet)
+        self.assertEqual(tools.command("z"), [str(path)])
+        finding = tools.versions("g")["z"]
+        self.assertEqual((finding.version, finding.origin), ("2.5", "found"))
+        self.assertEqual(finding.sha256, toolchain.sha256_of(path))
+
+    def test_the_second_time_runs_nothing(self) -> None:
+        self.script("z", "echo z 2.5")
+        lock = self.lock(z=system("z"))
+        Toolchain(self.cache, lock).ensure("g", say=quiet)
+        Toolchain(self.cache, lock).ensure("g", say=self.fail)
+        self.assertEqual(self.ran(), ["z"])
+
+    def test_a_changed_tool_is_looked_at_again(self) -> None:
+        self.script("z", "echo z 2.5")
+        lock = self.lock(z=system("z"))
+        Toolchain(self.cache, lock).ensure("g", say=quiet)
+        self.script("z", "echo z 4.0 is too new")
+        self.assertIn("version 4.0", self.refusal(Toolchain(self.cache, lock)))
+
+    def test_an_unsuitable_tool_earlier_on_path_does_not_hide_ours(self) -> None:
+        other = self.folder / "other"
+        self.script("z", "echo z 9.0", other)
+        good = self.script("z", "echo z 2.5")
+        self.set_path(other, self.bin)
+        tools = Toolchain(self.cache, self.lock(z=system("z")))
+        tools.ensure("g", say=quiet)
+        self.assertEqual(tools.command("z"), [str(good)])
+        with mock.patch.dict(os.environ, tools.environment()):
+            self.assertEqual(subprocess.check_output(["z"], text=True), "z 2.5\n")
+            # A driver started by a driver finds everything as it was.
+            Toolchain(self.cache, tools.lock).ensure("g", say=self.fail)
+
+    def test_all_commands_of_a_tool_are_needed(self) -> None:
+        self.script("z", "echo z 2.5")
+        entry = {**system("z"), "commands": ["z", "z-link"]}
+        os.environ["KEEL_NO_INSTALL"] = "1"
+        message = self.refusal(Toolchain(self.cache, self.lock(z=entry)))
+        self.assertIn("no suitable z z-link", message)
+
+
+class Refusals(Sandbox):
+    """Where nothing can be installed, each missing tool is named and nothing is begun."""
+
+    def test_each_missing_tool_is_named(self) -> None:
+        os.environ["KEEL_NO_INSTALL"] = "1"
+        tools = Toolchain(self.cache, self.lock(z=system("z"), y=system("y"), prover=DEB))
+        message = self.refusal(tools)
+        for part in ("3 missing", "z: wanted 2.0 or later, before 3", "y-deb", "prover 6.6-4"):
+            self.assertIn(part, message)
+        self.assertIn(str(self.bin), message)
+
+    def test_without_apt(self) -> None:
+        message = self.refusal(Toolchain(self.cache, self.lock(z=system("z"), prover=DEB)))
+        self.assertIn("no apt-get", message)
+        self.assertIn("prover: wanted 6.6", message)
+
+    def test_without_rights(self) -> None:
+        self.script("apt-get", "exit 0")
+        with mock.patch("os.geteuid", return_value=1000):
+            message = self.refusal(Toolchain(self.cache, self.lock(z=system("z"))))
+        self.assertIn("not root", message)
+        self.assertEqual(self.ran(), [])
+
+    def test_an_installation_without_effect_is_no_success(self) -> None:
+        self.script("apt-get", "exit 0")
+        self.script("apt-cache", "printf 'z-deb:\\n  Installed: (none)\\n  Candidate: 9\\n'")
+        with mock.patch("os.geteuid", return_value=0):
+            message = self.refusal(Toolchain(self.cache, self.lock(z=system("z"))))
+        self.assertIn("still not suitable", message)
+
+    def test_lists_are_read_first_when_they_were_never_read(self) -> None:
+        script = self.folder / "z.sh"
+        script.write_text("#!/bin/sh\necho z 2.5\n")
+        script.chmod(0o755)
+        install = f'[ "$1" = update ] && touch {self.folder}/lists\n'
+        install += f'[ "$1" = install ] && cp {script} {self.bin}/z\nexit 0'
+        self.script("apt-get", install)
+        answer = "printf 'z-deb:\\n  Installed: (none)\\n  Candidate: 9\\n'"
+        self.script("apt-cache", f"[ -e {self.folder}/lists ] && {answer}\nexit 0")
+        tools = Toolchain(self.cache, self.lock(z=system("z")))
+        with mock.patch("os.geteuid", return_value=0):
+            tools.ensure("g", say=quiet)
+        self.assertEqual(self.ran(), ["apt-cache", "apt-get", "apt-cache", "apt-get"])
+
+    def test_a_failed_installation_shows_the_words_of_apt_and_its_log(self) -> None:
+        self.script("apt-get", "echo E: held broken packages; exit 100")
+        self.script("apt-cache", "printf 'z-deb:\\n  Installed: (none)\\n  Candidate: 9\\n'")
+        with mock.patch("os.geteuid", return_value=0):
+            message = self.refusal(Toolchain(self.cache, self.lock(z=system("z"))))
+        self.assertIn("held broken packages", message)
+        self.assertIn("install.log", message)
+
+    def test_the_command_line_fails_with_one(self) -> None:
+        os.environ["KEEL_NO_INSTALL"] = "1"
+        with contextlib.redirect_stderr(io.StringIO()) as errors:
+            self.assertEqual(toolchain.main(["ensure", "prove"]), 1)
+        self.assertIn("frama-c: wanted 25", errors.getvalue())
+
+    def test_an_unknown_group_and_tool(self) -> None:
+        tools = Toolchain(self.cache, self.lock(z=system("z")))
+        with self.assertRaisesRegex(ToolchainError, "no such group: proof"):
+            tools.ensure("proof")
+        with self.assertRaisesRegex(ToolchainError, "knows no tool 'cobol'"):
+            tools.command("cobol")
+
+
+class Unpacking(Sandbox):
+    """The cache holds whole, pinned trees or nothing."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.spec = self.lock(prover=DEB).tools["prover"]
+        self.store = Cache(self.cache)
+
+    def fill(self, tree: Tree, answer: str = "6.6") -> None:
+        """A tree with a program that answers a version."""
+        program = tree.root / "usr/bin/prover"
+        program.parent.mkdir(parents=True)
+        program.write_text(f"#!/bin/sh\necho prover {answer}\n")
+        program.chmod(0o755)
+        toolchain._write_starter(tree, "prover")
+        tree.add_part("prover", "6.6-4", "test", program)
+
+    def trees(self) -> list[str]:
+        """What lies in the cache, finished or not."""
+        return [path.name for part in ("tools", "tmp") for path in (self.cache / part).glob("*")]
+
+    def test_a_whole_tree_is_found_again(self) -> None:
+        self.store.unpack(self.spec, self.fill, Finder(self.cache))
+        again = self.store.find(self.spec, Finder(self.cache))
+        assert again is not None
+        self.assertEqual((again.version, again.origin), ("6.6", "cache"))
+        self.assertEqual(again.parts[0]["name"], "prover")
+        self.assertTrue(again.location.endswith("usr/bin/prover"))
+
+    def test_a_download_that_is_not_the_pinned_one_leaves_nothing(self) -> None:
+        def fill(tree: Tree) -> None:
+            self.fill(tree)
+            tree.check_pin(tree.root / "usr/bin/prover")
+
+        with self.assertRaisesRegex(ToolchainError, "is not the pinned file.*nothing was kept"):
+            self.store.unpack(self.spec, fill, Finder(self.cache))
+        self.assertEqual(self.trees(), [])
+
+    def test_a_tool_that_does_not_work_is_not_kept(self) -> None:
+        with self.assertRaisesRegex(ToolchainError, "does not work: .*version 5.0"):
+            self.store.unpack(self.spec, lambda tree: self.fill(tree, "5.0"), Finder(self.cache))
+        self.assertEqual(self.trees(), [])
+
+    def test_a_half_unpacked_tree_never_counts(self) -> None:
+        place = self.store.tree(self.spec)
+        place.mkdir(parents=True)
+        self.fill(Tree(self.spec, place, self.folder, self.store.log))
+        self.assertIsNone(self.store.find(self.spec, Finder(self.cache)))
+
+    def test_what_an_interrupted_installation_left_is_removed(self) -> None:
+        (self.cache / "tmp/prover/root").mkdir(parents=True)
+        with self.store.locked(quiet):
+            self.assertEqual(self.trees(), [])
+
+    def test_only_one_installation_at_a_time(self) -> None:
+        waiting = "import sys; sys.path.insert(0, sys.argv[1]); import toolchain, pathlib\n"
+        waiting += "with toolchain.Cache(pathlib.Path(sys.argv[2])).locked(toolchain.tell):\n"
+        waiting += "    print('inside', flush=True)"
+        command = [sys.executable, "-c", waiting, str(ROOT / "tools"), str(self.cache)]
+        with self.store.locked(quiet):
+            child = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+            assert child.stdout is not None
+            self.assertIn("waiting for another", child.stdout.readline())
+        self.assertEqual(child.communicate()[0], "inside\n")
+
+    def test_a_cache_that_cannot_be_written(self) -> None:
+        self.cache.write_text("a file in the way")
+        self.script("z", "echo z 2.5")
+        message = self.refusal(Toolchain(self.cache, self.lock(z=system("z"))))
+        self.assertIn("cannot write the cache", message)
+
+    def test_a_cache_with_white_space_is_refused(self) -> None:
+        tools = Toolchain(self.folder / "a b", self.lock(z=system("z")))
+        self.assertIn("no white space", self.refusal(tools))
+
+
+class OtherSuites(Sandbox):
+    """Packages of another Debian suite: gone versions are named, and so are the offered ones."""
+
+    def suite(self) -> Suite:
+        """A suite whose lists were read."""
+        os.environ["KEEL_DEBIAN_MIRROR"] = "mirror:/debian"
+        return Suite("trixie", "deb", self.folder / "apt", Log(self.folder / "log"))
+
+    def test_a_gone_version_names_the_offered_one(self) -> None:
+        self.script("apt-get", "exit 0")
+        self.script("apt-cache", "echo Package: prover; echo Version: 6.7-1")
+        with self.assertRaisesRegex(ToolchainError, r"6\.6-4 is not in .*offered: 6\.7-1"):
+            self.suite().download("prover", "6.6-4", self.folder / "into")
+
+    def test_no_server_is_not_taken_for_an_empty_suite(self) -> None:
+        self.script("apt-get", "echo W: Temporary failure resolving; exit 0")
+        with self.assertRaisesRegex(ToolchainError, "cannot read Debian trixie(.|\n)*resolving"):
+            self.suite().update()
+
+    def test_everything_of_apt_is_private(self) -> None:
+        self.script("apt-get", f'echo "$@" >> {self.folder}/words; exit 1')
+        suite = self.suite()
+        with self.assertRaises(ToolchainError):
+            suite.update()
+        words = (self.folder / "words").read_text()
+        for part in ("sourcelist", "State::lists", "State::status", "Cache::archives"):
+            self.assertRegex(words, rf"{part}={re.escape(str(suite.folder))}")
+        self.assertIn("Dir::Etc::sourceparts=-", words)
+        self.assertIn("mirror:/debian trixie main", (suite.folder / "sources.list").read_text())
+
+
+class Mirrors(Sandbox):
+    """The mirror is the one that the host takes Debian from, however it is written down."""
+
+    def etc(self, **files: str) -> Path:
+        """An apt configuration; `list`, `parts_x_list` and `parts_x_sources` are its files."""
+        etc = self.folder / "etc"
+        (etc / "sources.list.d").mkdir(parents=True)
+        for name, text in files.items():
+            file = name.removeprefix("parts_").replace("_", ".")
+            target = etc / "sources.list.d" / file if "_" in name else etc / "sources.list"
+            target.write_text(text)
+        return etc
+
+    def test_one_line_format(self) -> None:
+        text = "# deb x:/old bookworm main\ndeb-src x:/src bookworm main\n"
+        text += "deb [arch=amd64 signed-by=/k.gpg] x:/debian bookworm main contrib # ours\n"
+        self.assertEqual(toolchain.debian_mirror(self.etc(list=text)), "x:/debian")
+
+    def test_deb822_format(self) -> None:
+        text = "Types: deb\nEnabled: no\nURIs: x:/off\nSuites: bookworm\nComponents: main\n\n"
+        text += "Types: deb deb-src\n# a comment\nURIs: x:/debian x:/second\n"
+        text += "Suites: bookworm\n  bookworm-updates\nComponents: main\n"
+        self.assertEqual(toolchain.debian_mirror(self.etc(parts_a_sources=text)), "x:/debian")
+
+    def test_third_parties_with_the_same_suite_name_come_last(self) -> None:
+        third = "deb [signed-by=/usr/share/keyrings/other.gpg] x:/apt bookworm main\n"
+        signed = "Types: deb\nURIs: x:/mirror\nSuites: bookworm\nComponents: main\n"
+        signed += "Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg\n"
+        etc = self.etc(list=third, parts_z_sources=signed)
+        self.assertEqual(toolchain.debian_mirror(etc), "x:/mirror")
+
+    def test_security_and_media_do_not_count(self) -> None:
+        text = "deb x:/debian-security bookworm-security main\ndeb cdrom:[D]/ bookworm main\n"
+        with self.assertRaisesRegex(ToolchainError, "no Debian mirror"):
+            toolchain.debian_mirror(self.etc(list=text))
+
+    def test_the_environment_may_choose(self) -> None:
+        os.environ["KEEL_DEBIAN_MIRROR"] = "x:/chosen"
+        self.assertEqual(toolchain.debian_mirror(self.etc()), "x:/chosen")
+
+
+class TheLockFile(Sandbox):
+    """The lock file that is shipped, and mistakes in one."""
+
+    def test_a_mistyped_key_is_an_error(self) -> None:
+        with self.assertRaisesRegex(ToolchainError, "unknown key 'at_leats'"):
+            self.lock(z={**system("z"), "at_leats": "1"})
+        with self.assertRaisesRegex(ToolchainError, "wrong type"):
+            self.lock(z={**system("z"), "packages": "z"})
+
+    def test_versions_compare_as_numbers(self) -> None:
+        spec = Spec("z", "system", at_least="4.8.12", below="4.9")
+        admitted = [spec.admits(v) for v in ("4.8.12", "4.8.2", "4.9.0", "4.8.100-beta", "")]
+        self.assertEqual(admitted, [True, False, False, True, False])
+
+    def test_what_is_unpacked_is_pinned(self) -> None:
+        for spec in Lock.read().tools.values():
+            if spec.cached:
+                self.assertRegex(spec.sha256, r"^[0-9a-f]{64}$", spec.name)
+                self.assertTrue(spec.pin and spec.package, spec.name)
+            elif not spec.derived:
+                self.assertTrue(spec.at_least and spec.below and spec.packages, spec.name)
+
+    def test_no_registry_is_named(self) -> None:
+        for path in (toolchain.LOCK_FILE, Path(toolchain.__file__)):
+            hosts = re.findall(r"\b[a-z0-9-]+\.(?:org|com|net|io)\b|https?:", path.read_text())
+            self.assertEqual(hosts, [], path.name)
+
+
+if __name__ == "__main__":
+    unittest.main()
