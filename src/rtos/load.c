@@ -57,49 +57,25 @@ static uint64_t distance_us(uint64_t a, uint64_t b)
     return (a >= b) ? (a - b) : (b - a);
 }
 
-/* Adds the period that ends at start_us to the sum, or refuses. */
-/*@ requires \valid(deviation) && deviation->start_us <= start_us;
-  @ assigns deviation->sum_us2;
-  @ behavior added:
-  @   assumes distance(start_us - deviation->start_us, period_us) <= UINT32_MAX;
-  @   assumes deviation->sum_us2
-  @           + deviation_square(deviation->start_us, start_us, period_us) <= UINT64_MAX;
-  @   ensures ok: \result == KEEL_OK;
-  @   ensures sum: deviation->sum_us2 == \old(deviation->sum_us2)
-  @       + deviation_square(\old(deviation->start_us), start_us, period_us);
-  @ behavior refused:
-  @   assumes distance(start_us - deviation->start_us, period_us) > UINT32_MAX ||
-  @       deviation->sum_us2
-  @           + deviation_square(deviation->start_us, start_us, period_us) > UINT64_MAX;
-  @   assigns \nothing;
-  @   ensures refused: \result == KEEL_ERR_STATE;
-  @ complete behaviors;
-  @ disjoint behaviors;
-  @*/
-static keel_status_t add_square(keel_deviation_t *deviation, uint64_t start_us, uint32_t period_us)
+keel_status_t keel_deviation_add(keel_deviation_t *deviation, uint64_t start_us,
+                                 uint32_t period_us)
 {
-    const uint64_t off_us = distance_us(start_us - deviation->start_us, period_us);
+    uint64_t off_us = 0u;
 
-    if (off_us > UINT32_MAX) {
+    if (deviation->starts == UINT32_MAX) {
         return KEEL_ERR_STATE;
+    }
+    if (deviation->starts > 0u) {
+        off_us = distance_us(start_us - deviation->start_us, period_us);
+        if (off_us > UINT32_MAX) {
+            return KEEL_ERR_STATE;
+        }
     }
     //@ assert square: off_us * off_us <= UINT32_MAX * UINT32_MAX;
     if (deviation->sum_us2 > (UINT64_MAX - (off_us * off_us))) {
         return KEEL_ERR_STATE;
     }
     deviation->sum_us2 += off_us * off_us;
-    return KEEL_OK;
-}
-
-keel_status_t keel_deviation_add(keel_deviation_t *deviation, uint64_t start_us,
-                                 uint32_t period_us)
-{
-    if (deviation->starts == UINT32_MAX) {
-        return KEEL_ERR_STATE;
-    }
-    if ((deviation->starts > 0u) && (add_square(deviation, start_us, period_us) != KEEL_OK)) {
-        return KEEL_ERR_STATE;
-    }
     deviation->starts++;
     deviation->start_us = start_us;
     return KEEL_OK;

@@ -44,6 +44,10 @@
   @         ? KEEL_PRIORITY_REALTIME
   @         : 1 + (sp * age_us) / period_us;
   @
+  @ // (max - 1) * T / sp, rounded up: the age at which eq. 3 saturates.
+  @ logic integer promotion_age(integer sp, integer period_us) =
+  @     ((KEEL_PRIORITY_REALTIME - 1) * period_us + sp - 1) / sp;
+  @
   @ lemma PRI_scale: \forall integer s, a, b; 0 <= s ==> a <= b ==> s * a <= s * b;
   @
   @ lemma PRI_quotient: \forall integer a, b, d; 0 <= a <= b ==> 0 < d ==> a / d <= b / d;
@@ -58,6 +62,17 @@
   @ lemma PRI_002_range: \forall integer sp, age_us, period_us;
   @     1 <= sp ==> 0 <= age_us ==> 0 < period_us ==>
   @     1 <= dynamic_priority(sp, age_us, period_us) <= KEEL_PRIORITY_REALTIME;
+  @
+  @ // Requirement PRI-004: a task is promoted from this age on, and not before.
+  @ lemma PRI_004_promotion: \forall integer sp, age_us, period_us;
+  @     1 <= sp ==> 0 <= age_us ==> 0 < period_us ==>
+  @     (dynamic_priority(sp, age_us, period_us) == KEEL_PRIORITY_REALTIME
+  @         <==> age_us >= promotion_age(sp, period_us));
+  @
+  @ // Only the real-time priority itself saturates within its first period.
+  @ lemma PRI_005_not_at_release: \forall integer sp, period_us;
+  @     1 <= sp < KEEL_PRIORITY_REALTIME - 1 ==> 0 < period_us ==>
+  @     promotion_age(sp, period_us) >= period_us;
   @
   @ // Requirement PRI-003: dp never falls while a task waits.
   @ lemma PRI_003_monotone: \forall integer sp, age_us, later_us, period_us;
@@ -93,9 +108,7 @@ uint32_t keel_priority_dynamic(uint32_t sp, uint64_t age_us, uint32_t period_us)
   @ requires period_valid(period_us);
   @ assigns \nothing;
   @ ensures range: 0 < \result < (KEEL_PRIORITY_REALTIME * KEEL_PERIOD_LIMIT_US);
-  @ ensures PRI_004: \forall integer age_us; 0 <= age_us ==>
-  @     (dynamic_priority(sp, age_us, period_us) == KEEL_PRIORITY_REALTIME
-  @         <==> age_us >= \result);
+  @ ensures PRI_004: \result == promotion_age(sp, period_us);
   @*/
 uint64_t keel_priority_promotion_age_us(uint32_t sp, uint32_t period_us);
 
