@@ -10,6 +10,7 @@ void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
     admission->shortest_realtime_us = UINT64_MAX;
     admission->shortest_gap_us = UINT64_MAX;
     admission->longest_other_us = 0u;
+    admission->tasks = 0u;
 }
 
 /*@ assigns \nothing;
@@ -71,5 +72,37 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, const keel_task_
     admission->shortest_realtime_us = period_us;
     admission->shortest_gap_us = gap_us;
     admission->longest_other_us = other_us;
+    admission->tasks++;
+    return KEEL_OK;
+}
+
+keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue_t *queue)
+{
+    /*@ loop invariant range: 0 <= i <= queue->count;
+      @ loop invariant tasks: admission->tasks == i;
+      @ loop invariant valid: admission_valid(*admission);
+      @ loop invariant limits: admission->guard_us == \at(admission->guard_us, Pre) &&
+      @     admission->utilisation_limit == \at(admission->utilisation_limit, Pre);
+      @ loop invariant demand: admission->realtime_demand_us == realtime_demand(queue, i);
+      @ loop invariant utilisation: admission->utilisation == total_utilisation(queue, i);
+      @ loop invariant periods: \forall integer j; 0 <= j < i && j < queue->realtime_count ==>
+      @     admission->shortest_realtime_us <= queue->task[j]->config->period_us;
+      @ loop invariant gaps: \forall integer j; 0 <= j < i && j < queue->realtime_count ==>
+      @     admission->shortest_gap_us <=
+      @         \max(0, queue->task[j]->config->period_us - queue->task[j]->config->budget_us);
+      @ loop invariant others: \forall integer j; queue->realtime_count <= j < i ==>
+      @     admission->longest_other_us >= queue->task[j]->config->budget_us;
+      @ loop invariant some: 0 < i && 0 < queue->realtime_count ==>
+      @     admission->realtime_demand_us > 0;
+      @ loop assigns i, *admission;
+      @ loop variant queue->count - i;
+      @*/
+    for (uint32_t i = 0u; i < queue->count; i++) {
+        const keel_status_t status = keel_admission_admit(admission, queue->task[i]->config);
+
+        if (status != KEEL_OK) {
+            return status;
+        }
+    }
     return KEEL_OK;
 }

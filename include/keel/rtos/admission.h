@@ -35,6 +35,7 @@ typedef struct keel_admission {
     uint64_t shortest_realtime_us; /**< Shortest real-time period, in us; UINT64_MAX if none. */
     uint64_t shortest_gap_us;      /**< Shortest T - C of a real-time task; UINT64_MAX if none. */
     uint64_t longest_other_us;     /**< Longest budget of another task, in us. */
+    uint64_t tasks;                /**< How many tasks were admitted. */
 } keel_admission_t;
 
 /*@ // C / T in parts per million, rounded up.
@@ -60,7 +61,7 @@ typedef struct keel_admission {
   @ predicate admission_valid(keel_admission_t a) =
   @     a.guard_us < KEEL_PERIOD_LIMIT_US && a.utilisation_limit <= KEEL_UTILISATION_FULL_PPM &&
   @     a.realtime_demand_us < KEEL_PERIOD_LIMIT_US &&
-  @     a.longest_other_us <= UINT32_MAX && admissible(a);
+  @     a.longest_other_us <= UINT32_MAX && a.tasks <= KEEL_QUEUE_CAPACITY && admissible(a);
   @
   @ // What the totals become with one more task.
   @ logic integer with_demand(keel_admission_t a, keel_task_config_t *c) =
@@ -104,7 +105,8 @@ typedef struct keel_admission {
   @     admission->utilisation_limit == utilisation_limit;
   @ ensures ADM_001_empty: admission->utilisation == 0 && admission->realtime_demand_us == 0 &&
   @     admission->shortest_realtime_us == UINT64_MAX &&
-  @     admission->shortest_gap_us == UINT64_MAX && admission->longest_other_us == 0;
+  @     admission->shortest_gap_us == UINT64_MAX && admission->longest_other_us == 0 &&
+  @     admission->tasks == 0;
   @*/
 void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
                          uint32_t utilisation_limit);
@@ -118,11 +120,13 @@ void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
  *         KEEL_ERR_UTILISATION
  */
 /*@ requires \valid(admission) && \valid_read(config) && \separated(admission, config);
-  @ requires admission_valid(*admission) && config_valid(config);
+  @ requires admission_valid(*admission) && admission->tasks < KEEL_QUEUE_CAPACITY;
+  @ requires config_valid(config);
   @ assigns *admission;
   @ ensures ADM_002_valid: admission_valid(*admission);
   @ ensures ADM_002_limits: admission->guard_us == \old(admission->guard_us) &&
   @     admission->utilisation_limit == \old(admission->utilisation_limit);
+  @ ensures ADM_002_kept: \result != KEEL_OK ==> admission->tasks == \old(admission->tasks);
   @ behavior demand:
   @   assumes !demand_fits(*admission, config);
   @   assigns \nothing;
@@ -140,6 +144,7 @@ void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
   @   assumes demand_fits(*admission, config) && gap_fits(*admission, config);
   @   assumes utilisation_fits(*admission, config);
   @   ensures ok: \result == KEEL_OK;
+  @   ensures ADM_002_tasks: admission->tasks == \old(admission->tasks) + 1;
   @   ensures ADM_002_utilisation: admission->utilisation ==
   @       \old(admission->utilisation) + utilisation(config);
   @   ensures ADM_002_demand: admission->realtime_demand_us == with_demand(\old(*admission), config);
@@ -150,5 +155,55 @@ void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
   @ disjoint behaviors;
   @*/
 keel_status_t keel_admission_admit(keel_admission_t *admission, const keel_task_config_t *config);
+
+/*@ // Sum of the budgets of the real-time tasks among the first n of the queue.
+  @ logic integer realtime_demand(keel_queue_t *q, integer n) =
+  @     (n <= 0) ? 0 : realtime_demand(q, n - 1) + realtime_budget(q->task[n - 1]->config);
+  @
+  @ // Sum of the utilisations of the first n tasks of the queue, in ppm.
+  @ logic integer total_utilisation(keel_queue_t *q, integer n) =
+  @     (n <= 0) ? 0 : total_utilisation(q, n - 1) + utilisation(q->task[n - 1]->config);
+  @
+  @ // Every real-time period holds all real-time budgets and the guard twice.
+  @ predicate demand_admitted(keel_queue_t *q, integer guard_us) =
+  @     \forall integer i; 0 <= i < q->realtime_count ==>
+  @         realtime_demand(q, q->count) + 2 * guard_us <= q->task[i]->config->period_us;
+  @
+  @ // Every other budget fits the gap that each real-time task leaves.
+  @ predicate gaps_admitted(keel_queue_t *q, integer guard_us) =
+  @     \forall integer i, j; 0 <= i < q->realtime_count <= j < q->count ==>
+  @         q->task[j]->config->budget_us + guard_us
+  @             <= q->task[i]->config->period_us - q->task[i]->config->budget_us;
+  @*/
+
+/**
+ * Admits the tasks of a queue in order, up to the first that is refused (requirement ADM-004).
+ *
+ * @param admission totals of an empty set (keel_admission_init)
+ * @param queue     a valid queue of checked tasks
+ * @return KEEL_OK when all are admitted; otherwise the reason for which the task with index
+ *         admission->tasks is refused
+ */
+/*@ requires \valid(admission) && \valid_read(queue) && \separated(admission, queue);
+  @ requires queue_valid(queue) && queue_checked(queue);
+  @ requires \forall integer i; 0 <= i < queue->count ==>
+  @     \separated(admission, queue->task[i]);
+  @ requires \forall integer i; 0 <= i < queue->count ==>
+  @     \separated(admission, queue->task[i]->config);
+  @ requires admission_valid(*admission) && admission->tasks == 0;
+  @ requires admission->realtime_demand_us == 0 && admission->utilisation == 0;
+  @ assigns *admission;
+  @ ensures ADM_002_valid: admission_valid(*admission);
+  @ ensures ADM_002_limits: admission->guard_us == \old(admission->guard_us) &&
+  @     admission->utilisation_limit == \old(admission->utilisation_limit);
+  @ ensures ADM_004_offender: \result != KEEL_OK ==> admission->tasks < queue->count;
+  @ ensures ADM_004_all: \result == KEEL_OK ==> admission->tasks == queue->count;
+  @ ensures ADM_004_demand: \result == KEEL_OK ==>
+  @     demand_admitted(queue, admission->guard_us);
+  @ ensures ADM_004_gaps: \result == KEEL_OK ==> gaps_admitted(queue, admission->guard_us);
+  @ ensures ADM_004_utilisation: \result == KEEL_OK ==>
+  @     total_utilisation(queue, queue->count) <= admission->utilisation_limit;
+  @*/
+keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue_t *queue);
 
 #endif

@@ -47,10 +47,6 @@
   @ logic integer time_to(keel_task_t *task, integer now_us) =
   @     (task->release_us > now_us) ? task->release_us - now_us : 0;
   @
-  @ // Each task's declaration has passed keel_task_check.
-  @ predicate queue_checked(keel_queue_t *q) =
-  @     \forall integer i; 0 <= i < q->count ==> config_valid(q->task[i]->config);
-  @
   @ predicate decidable(keel_queue_t *q, integer now_us) =
   @     queue_valid(q) && queue_checked(q) && now_us <= KEEL_CLOCK_TIME_LIMIT_US;
   @*/

@@ -22,6 +22,7 @@
 #ifndef KEEL_RTOS_PRIORITY_H
 #define KEEL_RTOS_PRIORITY_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #define KEEL_PRIORITY_LOW         1u
@@ -79,6 +80,21 @@
   @     1 <= sp ==> 0 <= age_us <= later_us ==> 0 < period_us ==>
   @     dynamic_priority(sp, age_us, period_us) <= dynamic_priority(sp, later_us, period_us);
   @*/
+
+/**
+ * Whether eq. 3 has saturated, so that the task is promoted (requirement PRI-004).
+ *
+ * @param sp        static priority, 1 to KEEL_PRIORITY_REALTIME
+ * @param age_us    time since the previous release on the grid, in us
+ * @param period_us period, 1 to 2^31 - 1 us
+ */
+/*@ requires 1 <= sp <= KEEL_PRIORITY_REALTIME;
+  @ requires period_valid(period_us);
+  @ assigns \nothing;
+  @ ensures PRI_004: \result <==>
+  @     dynamic_priority(sp, age_us, period_us) == KEEL_PRIORITY_REALTIME;
+  @*/
+bool keel_priority_promoted(uint32_t sp, uint64_t age_us, uint32_t period_us);
 
 /**
  * The dynamic priority of eq. 3 with saturation (requirement PRI-001).

@@ -61,6 +61,10 @@ typedef struct keel_queue {
   @     queue_configs_valid(q) && queue_apart(q) && queue_realtime_first(q) &&
   @     queue_others_last(q);
   @
+  @ // Each task's declaration has passed keel_task_check.
+  @ predicate queue_checked(keel_queue_t *q) =
+  @     \forall integer i; 0 <= i < q->count ==> config_valid(q->task[i]->config);
+  @
   @ predicate queue_holds(keel_queue_t *q, keel_task_t *task) =
   @     \exists integer i; 0 <= i < q->count && q->task[i] == task;
   @
