@@ -1,7 +1,6 @@
 #include "keel/rtos/admission.h"
 
-void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
-                         uint32_t utilisation_limit)
+void keel_admission_init(keel_admission_t *admission, uint32_t guard_us, uint32_t utilisation_limit)
 {
     admission->guard_us = guard_us;
     admission->utilisation_limit = utilisation_limit;

@@ -72,9 +72,9 @@ static bool fits(const keel_task_t *task, uint64_t slack_us, uint32_t guard_us)
 {
     const uint32_t budget_us = task->config->budget_us;
     const uint32_t longest_us = task->stats.longest_us;
-    const uint64_t worst_us = (longest_us > budget_us) ? longest_us : budget_us;
+    const uint32_t worst_us = (longest_us > budget_us) ? longest_us : budget_us;
 
-    return (guard_us + worst_us) <= slack_us;
+    return ((uint64_t)guard_us + worst_us) <= slack_us;
 }
 
 /* The dynamic priority with which a task competes now: 0, as in eq. 3, when it is not eligible. */

@@ -57,8 +57,7 @@ static uint64_t distance_us(uint64_t a, uint64_t b)
     return (a >= b) ? (a - b) : (b - a);
 }
 
-keel_status_t keel_deviation_add(keel_deviation_t *deviation, uint64_t start_us,
-                                 uint32_t period_us)
+keel_status_t keel_deviation_add(keel_deviation_t *deviation, uint64_t start_us, uint32_t period_us)
 {
     uint64_t off_us = 0u;
 

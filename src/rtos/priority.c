@@ -7,7 +7,7 @@
   @*/
 static uint64_t saturation(uint32_t period_us)
 {
-    return (uint64_t)(KEEL_PRIORITY_REALTIME - 1u) * period_us;
+    return ((uint64_t)KEEL_PRIORITY_REALTIME - 1u) * period_us;
 }
 
 bool keel_priority_promoted(uint32_t sp, uint64_t age_us, uint32_t period_us)

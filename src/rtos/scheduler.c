@@ -1,5 +1,62 @@
 #include "keel/rtos/scheduler.h"
 
+/*@ // What scheduling reads of the declarations, unchanged by writing tasks and the scheduler. One
+  @ // predicate to a field, as provers frame one field at a time.
+  @ predicate config_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(s->queue.task[i]->config, M) ==
+  @             \at(s->queue.task[i]->config, L);
+  @
+  @ predicate priority_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(s->queue.task[i]->config->priority, M) ==
+  @             \at(s->queue.task[i]->config->priority, L);
+  @
+  @ predicate period_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(s->queue.task[i]->config->period_us, M) ==
+  @             \at(s->queue.task[i]->config->period_us, L);
+  @
+  @ predicate budget_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(s->queue.task[i]->config->budget_us, M) ==
+  @             \at(s->queue.task[i]->config->budget_us, L);
+  @
+  @ predicate phase_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(s->queue.task[i]->config->phase_us, M) ==
+  @             \at(s->queue.task[i]->config->phase_us, L);
+  @
+  @ predicate run_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(s->queue.task[i]->config->run, M) ==
+  @             \at(s->queue.task[i]->config->run, L);
+  @
+  @ predicate all_longest_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==> longest_same{L, M}(s, i);
+  @
+  @ predicate worst_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(task_worst(s->queue.task[i]), M) == \at(task_worst(s->queue.task[i]), L);
+  @
+  @ predicate promotion_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(promotion_age(s->queue.task[i]->config->priority,
+  @                           s->queue.task[i]->config->period_us), M) ==
+  @         \at(promotion_age(s->queue.task[i]->config->priority,
+  @                           s->queue.task[i]->config->period_us), L);
+  @*/
+
+/*@ predicate others_wait(keel_scheduler_t *s, integer now_us) =
+  @     \forall integer i; s->queue.realtime_count <= i < s->queue.count ==>
+  @         !may_run(s, s->queue.task[i], now_us);
+  @*/
+
+/*@ requires \valid_read(config);
+  @ assigns \nothing;
+  @ ensures \result <==> (config->guard_us < KEEL_PERIOD_LIMIT_US &&
+  @                       config->utilisation_limit <= KEEL_UTILISATION_FULL_PPM);
+  @*/
 static bool config_is_valid(const keel_scheduler_config_t *config)
 {
     return (config->guard_us < KEEL_PERIOD_LIMIT_US) &&
@@ -29,10 +86,24 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
 }
 
 /* Admits the tasks in the queue in order, up to the first that is refused. */
+/*@ requires \valid_read(scheduler) && scheduler_valid(scheduler);
+  @ requires \valid(admission) && \separated(admission, scheduler);
+  @ requires \forall integer i; 0 <= i < scheduler->queue.count ==>
+  @     \separated(admission, scheduler->queue.task[i]);
+  @ requires \forall integer i; 0 <= i < scheduler->queue.count ==>
+  @     \separated(admission, scheduler->queue.task[i]->config);
+  @ assigns *admission;
+  @ ensures valid: admission_valid(*admission);
+  @ ensures offender: admission->tasks <= scheduler->queue.count;
+  @ ensures all: \result == KEEL_OK <==> admission->tasks == scheduler->queue.count;
+  @ ensures demand: \result == KEEL_OK ==>
+  @     demand_admitted(&scheduler->queue, scheduler->config.guard_us);
+  @ ensures gaps: \result == KEEL_OK ==>
+  @     gaps_admitted(&scheduler->queue, scheduler->config.guard_us);
+  @*/
 static keel_status_t admit_queue(const keel_scheduler_t *scheduler, keel_admission_t *admission)
 {
-    keel_admission_init(admission, scheduler->config.guard_us,
-                        scheduler->config.utilisation_limit);
+    keel_admission_init(admission, scheduler->config.guard_us, scheduler->config.utilisation_limit);
     return keel_admission_queue(admission, &scheduler->queue);
 }
 
@@ -46,6 +117,11 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
 }
 
 /* Whether the queue with one more task can be scheduled. */
+/*@ requires \valid_read(scheduler) && scheduler_valid(scheduler);
+  @ requires scheduler->queue.count < KEEL_QUEUE_CAPACITY;
+  @ requires \valid_read(config) && config_valid(config);
+  @ assigns \nothing;
+  @*/
 static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
                                     const keel_task_config_t *config)
 {
@@ -59,6 +135,15 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
 }
 
 /* Keeps the running task's index right when a slot opens at an index. */
+/*@ requires \valid(scheduler) && scheduler->queue.count < KEEL_QUEUE_CAPACITY;
+  @ requires scheduler->running == KEEL_INDEX_NONE ||
+  @     scheduler->running < scheduler->queue.count;
+  @ assigns scheduler->running;
+  @ ensures none: \old(scheduler->running) == KEEL_INDEX_NONE ==>
+  @     scheduler->running == KEEL_INDEX_NONE;
+  @ ensures shifted: \old(scheduler->running) != KEEL_INDEX_NONE ==> scheduler->running ==
+  @     \old(scheduler->running) + ((\old(scheduler->running) >= place) ? 1 : 0);
+  @*/
 static void shift_running_down(keel_scheduler_t *scheduler, uint32_t place)
 {
     if ((scheduler->running != KEEL_INDEX_NONE) && (scheduler->running >= place)) {
@@ -98,6 +183,19 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, keel_task_t *task)
 }
 
 /* Keeps the indices of a pass right when the task at an index goes. */
+/*@ requires \valid(scheduler) && scheduler_state(scheduler);
+  @ requires index < scheduler->queue.count;
+  @ assigns scheduler->cursor, scheduler->pass_end, scheduler->running;
+  @ ensures cursor: scheduler->cursor == \old(scheduler->cursor)
+  @     - ((index < \old(scheduler->cursor)) ? 1 : 0);
+  @ ensures pass_end: scheduler->pass_end == \old(scheduler->pass_end)
+  @     - ((index < \old(scheduler->pass_end)) ? 1 : 0);
+  @ ensures none: \old(scheduler->running) == KEEL_INDEX_NONE ||
+  @     \old(scheduler->running) == index ==> scheduler->running == KEEL_INDEX_NONE;
+  @ ensures shifted: \old(scheduler->running) != KEEL_INDEX_NONE &&
+  @     \old(scheduler->running) != index ==> scheduler->running ==
+  @         \old(scheduler->running) - ((index < \old(scheduler->running)) ? 1 : 0);
+  @*/
 static void shift_up(keel_scheduler_t *scheduler, uint32_t index)
 {
     if (index < scheduler->cursor) {
@@ -159,40 +257,141 @@ keel_status_t keel_scheduler_begin(keel_scheduler_t *scheduler, uint32_t raw_us)
         return KEEL_ERR_STATE;
     }
     status = keel_clock_advance(&scheduler->clock, raw_us);
-    if ((status != KEEL_OK) || (scheduler->clock.now_us < scheduler->wake_us)) {
+    //@ assert config: config_same{Pre, Here}(scheduler);
+    //@ assert priority: priority_same{Pre, Here}(scheduler);
+    //@ assert period: period_same{Pre, Here}(scheduler);
+    //@ assert budget: budget_same{Pre, Here}(scheduler);
+    //@ assert phase: phase_same{Pre, Here}(scheduler);
+    //@ assert run: run_same{Pre, Here}(scheduler);
+    //@ assert checked: queue_checked(&scheduler->queue);
+    //@ assert time: \at(scheduler->clock.now_us, Pre) <= scheduler->clock.now_us;
+    //@ assert worst: worst_same{Pre, Here}(scheduler);
+    /*@ assert slack: \forall integer i; 0 <= i < scheduler->queue.count ==>
+      @     fits_slack(scheduler, scheduler->queue.task[i], scheduler->clock.now_us) ==>
+      @     \at(fits_slack(scheduler, scheduler->queue.task[i], scheduler->clock.now_us), Pre);
+      @*/
+    /*@ assert wake_realtime: scheduler->clock.now_us < scheduler->wake_us ==>
+      @     wake_realtime(scheduler);
+      @*/
+    //@ assert promotion: promotion_same{Pre, Here}(scheduler);
+    //@ assert wake_others: scheduler->clock.now_us < scheduler->wake_us ==> wake_others(scheduler);
+    if (status != KEEL_OK) {
         return status;
+    }
+    if (scheduler->clock.now_us < scheduler->wake_us) {
+        //@ assert others: others_wait(scheduler, scheduler->clock.now_us);
+        return KEEL_OK;
     }
     scheduler->wake_us = 0u;
     scheduler->stage = KEEL_STAGE_PASS;
     scheduler->cursor = 0u;
     scheduler->pass_end = scheduler->queue.realtime_count;
     scheduler->ran = false;
+    //@ assert config: config_same{Pre, Here}(scheduler);
+    //@ assert priority: priority_same{Pre, Here}(scheduler);
+    //@ assert period: period_same{Pre, Here}(scheduler);
+    //@ assert budget: budget_same{Pre, Here}(scheduler);
+    //@ assert phase: phase_same{Pre, Here}(scheduler);
+    //@ assert run: run_same{Pre, Here}(scheduler);
+    //@ assert checked: queue_checked(&scheduler->queue);
     return KEEL_OK;
 }
 
 /* Takes the task at an index into service: its next release, and what finish has to know. */
-static keel_task_t *dispatch(keel_scheduler_t *scheduler, uint32_t index, uint32_t stage)
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
+  @ requires index < scheduler->queue.count;
+  @ requires scheduler->stage == KEEL_STAGE_PASS && cursor <= scheduler->pass_end;
+  @ requires stage == KEEL_STAGE_REALTIME || stage == KEEL_STAGE_OTHER;
+  @ requires released(scheduler->queue.task[index], scheduler->clock.now_us);
+  @ assigns scheduler->cursor, scheduler->running, scheduler->stage, scheduler->ran;
+  @ assigns scheduler->queue.task[index]->skipped, scheduler->queue.task[index]->release_us;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures task: \result == scheduler->queue.task[index];
+  @ ensures running: scheduler->running == index && scheduler->stage == stage && scheduler->ran;
+  @ ensures cursor: scheduler->cursor == cursor;
+  @ ensures release: scheduler->clock.now_us < \result->release_us;
+  @ ensures on_time: scheduler->clock.now_us <
+  @     \at(\result->release_us, Pre) + \result->config->period_us ==>
+  @     \result->release_us == \at(\result->release_us, Pre) + \result->config->period_us;
+  @ ensures others: \forall integer k; 0 <= k < scheduler->queue.count && k != index ==>
+  @     release_same{Pre, Post}(scheduler, k);
+  @*/
+static keel_task_t *dispatch(keel_scheduler_t *scheduler, uint32_t index, uint32_t cursor,
+                             uint32_t stage)
 {
     keel_task_t *const task = scheduler->queue.task[index];
 
+    /*@ assert apart: \forall integer j; 0 <= j < scheduler->queue.count ==>
+      @     \separated(task, scheduler->queue.task[j]->config);
+      @*/
     keel_task_advance(task, scheduler->clock.now_us);
+    scheduler->cursor = cursor;
     scheduler->running = index;
     scheduler->stage = stage;
     scheduler->ran = true;
+    //@ assert config: config_same{Pre, Here}(scheduler);
+    //@ assert priority: priority_same{Pre, Here}(scheduler);
+    //@ assert period: period_same{Pre, Here}(scheduler);
+    //@ assert budget: budget_same{Pre, Here}(scheduler);
+    //@ assert phase: phase_same{Pre, Here}(scheduler);
+    //@ assert run: run_same{Pre, Here}(scheduler);
     return task;
 }
 
+/*@ requires \valid_read(task) && \valid_read(task->config) && config_valid(task->config);
+  @ requires released(task, now_us) && now_us <= KEEL_CLOCK_TIME_LIMIT_US;
+  @ assigns \nothing;
+  @ ensures \result <==> promoted(task, now_us);
+  @*/
 static bool is_promoted(const keel_task_t *task, uint64_t now_us)
 {
     const uint32_t period_us = task->config->period_us;
 
-    return keel_priority_promoted(task->config->priority,
-                                  (now_us - task->release_us) + period_us, period_us);
+    return keel_priority_promoted(task->config->priority, (now_us - task->release_us) + period_us,
+                                  period_us);
+}
+
+/* Ends a pass in which nothing is left to run; sets the wake-up time if nothing ran at all, as
+ * otherwise time has passed since the pass looked at the first tasks. */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
+  @ requires scheduler->stage == KEEL_STAGE_PASS;
+  @ requires others_wait(scheduler, scheduler->clock.now_us);
+  @ assigns scheduler->wake_us, scheduler->cursor, scheduler->stage;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures wake: wake_right(scheduler);
+  @ ensures stage: scheduler->stage == KEEL_STAGE_READY;
+  @ ensures cursor: scheduler->cursor == scheduler->pass_end;
+  @*/
+static void close_pass(keel_scheduler_t *scheduler)
+{
+    if (!scheduler->ran) {
+        scheduler->wake_us = keel_decision_wake_us(&scheduler->queue, scheduler->clock.now_us);
+    }
+    scheduler->cursor = scheduler->pass_end;
+    scheduler->stage = KEEL_STAGE_READY;
+    //@ assert config: config_same{Pre, Here}(scheduler);
+    //@ assert priority: priority_same{Pre, Here}(scheduler);
+    //@ assert period: period_same{Pre, Here}(scheduler);
+    //@ assert budget: budget_same{Pre, Here}(scheduler);
+    //@ assert phase: phase_same{Pre, Here}(scheduler);
+    //@ assert run: run_same{Pre, Here}(scheduler);
+    //@ assert worst: worst_same{Pre, Here}(scheduler);
+    /*@ assert slack: \forall integer i; 0 <= i < scheduler->queue.count ==>
+      @     fits_slack(scheduler, scheduler->queue.task[i], scheduler->clock.now_us) ==>
+      @     \at(fits_slack(scheduler, scheduler->queue.task[i], scheduler->clock.now_us), Pre);
+      @*/
+    //@ assert promotion: promotion_same{Pre, Here}(scheduler);
+    /*@ assert wake_realtime: scheduler->clock.now_us < scheduler->wake_us ==>
+      @     wake_realtime(scheduler);
+      @*/
+    //@ assert wake_others: scheduler->clock.now_us < scheduler->wake_us ==> wake_others(scheduler);
 }
 
 keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler)
 {
     const uint64_t now_us = scheduler->clock.now_us;
+    keel_task_t *task = NULL;
+    uint64_t slack_us;
     uint32_t index;
 
     if (scheduler->stage != KEEL_STAGE_PASS) {
@@ -201,54 +400,120 @@ keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler)
     index = keel_decision_realtime(&scheduler->queue, scheduler->cursor, scheduler->pass_end,
                                    now_us);
     if (index < scheduler->pass_end) {
-        scheduler->cursor = index + 1u;
-        return dispatch(scheduler, index, KEEL_STAGE_REALTIME);
+        return dispatch(scheduler, index, index + 1u, KEEL_STAGE_REALTIME);
     }
-    scheduler->cursor = index;
-    index = keel_decision_other(&scheduler->queue, now_us,
-                                keel_decision_slack_us(&scheduler->queue, now_us),
-                                scheduler->config.guard_us);
+    slack_us = keel_decision_slack_us(&scheduler->queue, now_us);
+    index = keel_decision_other(&scheduler->queue, now_us, slack_us, scheduler->config.guard_us);
+    /*@ assert fits: \forall integer i; 0 <= i < scheduler->queue.count ==>
+      @     (fits_slack(scheduler, scheduler->queue.task[i], now_us) <==>
+      @      scheduler->config.guard_us + task_worst(scheduler->queue.task[i]) <= slack_us);
+      @*/
     if (index < scheduler->queue.count) {
-        if (is_promoted(scheduler->queue.task[index], now_us)) {
-            keel_stats_promote(&scheduler->queue.task[index]->stats);
+        const bool by_promotion = is_promoted(scheduler->queue.task[index], now_us);
+
+        task = dispatch(scheduler, index, scheduler->pass_end, KEEL_STAGE_OTHER);
+        if (by_promotion) {
+            keel_stats_promote(&task->stats);
         }
-        return dispatch(scheduler, index, KEEL_STAGE_OTHER);
+    } else {
+        close_pass(scheduler);
     }
-    if (!scheduler->ran) {
-        scheduler->wake_us = keel_decision_wake_us(&scheduler->queue, now_us);
-    }
-    scheduler->stage = KEEL_STAGE_READY;
-    return NULL;
+    return task;
 }
 
-/* Records how long the running task took, unless it has removed itself. */
-static void record_run(keel_scheduler_t *scheduler, uint32_t elapsed_us)
+/* Records how long a run took, for the task at an index unless it has removed itself. */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler);
+  @ requires index == KEEL_INDEX_NONE || index < scheduler->queue.count;
+  @ requires scheduler->busy_us + elapsed_us <= UINT64_MAX;
+  @ assigns scheduler->busy_us;
+  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->stats;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures busy: scheduler->busy_us == \old(scheduler->busy_us) + elapsed_us;
+  @ ensures kept: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @     scheduler->clock.raw_us == \old(scheduler->clock.raw_us) &&
+  @     scheduler->stage == \old(scheduler->stage) &&
+  @     scheduler->running == \old(scheduler->running) &&
+  @     scheduler->queue.count == \old(scheduler->queue.count);
+  @ ensures recorded: index != KEEL_INDEX_NONE ==>
+  @     scheduler->queue.task[index]->stats.last_us == elapsed_us &&
+  @     scheduler->queue.task[index]->stats.longest_us ==
+  @         \max(\old(scheduler->queue.task[index]->stats.longest_us), elapsed_us);
+  @ ensures others: \forall integer k; 0 <= k < scheduler->queue.count ==>
+  @     k != index ==> longest_same{Pre, Post}(scheduler, k);
+  @*/
+static void record_run(keel_scheduler_t *scheduler, uint32_t index, uint32_t elapsed_us)
 {
     scheduler->busy_us += elapsed_us;
-    if (scheduler->running != KEEL_INDEX_NONE) {
-        keel_task_t *const task = scheduler->queue.task[scheduler->running];
+    if (index != KEEL_INDEX_NONE) {
+        keel_task_t *const task = scheduler->queue.task[index];
 
+        /*@ assert apart: \forall integer j; 0 <= j < scheduler->queue.count ==>
+          @     \separated(task, scheduler->queue.task[j]->config);
+          @*/
+        /*@ assert apart_tasks: \forall integer k; 0 <= k < scheduler->queue.count ==> k != index ==>
+          @     \separated(task, scheduler->queue.task[k]);
+          @*/
         keel_stats_record(&task->stats, elapsed_us, task->config->budget_us);
+        //@ assert count: scheduler->queue.count == \at(scheduler->queue.count, Pre);
+        /*@ assert realtime_count:
+          @     scheduler->queue.realtime_count == \at(scheduler->queue.realtime_count, Pre);
+          @*/
+        //@ assert state: scheduler_state(scheduler);
     }
+    //@ assert config: config_same{Pre, Here}(scheduler);
+    //@ assert priority: priority_same{Pre, Here}(scheduler);
+    //@ assert period: period_same{Pre, Here}(scheduler);
+    //@ assert budget: budget_same{Pre, Here}(scheduler);
+    //@ assert phase: phase_same{Pre, Here}(scheduler);
+    //@ assert run: run_same{Pre, Here}(scheduler);
+}
+
+/* Leaves the service of a task: the pass goes on after a real-time task, unless the clock broke. */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler);
+  @ requires stage == KEEL_STAGE_READY || stage == KEEL_STAGE_PASS;
+  @ requires scheduler->wake_us == 0;
+  @ assigns scheduler->stage, scheduler->running;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures left: scheduler->stage == stage && scheduler->running == KEEL_INDEX_NONE;
+  @*/
+static void leave_task(keel_scheduler_t *scheduler, uint32_t stage)
+{
+    scheduler->stage = stage;
+    scheduler->running = KEEL_INDEX_NONE;
+    //@ assert config: config_same{Pre, Here}(scheduler);
+    //@ assert priority: priority_same{Pre, Here}(scheduler);
+    //@ assert period: period_same{Pre, Here}(scheduler);
+    //@ assert budget: budget_same{Pre, Here}(scheduler);
+    //@ assert phase: phase_same{Pre, Here}(scheduler);
+    //@ assert run: run_same{Pre, Here}(scheduler);
 }
 
 keel_status_t keel_scheduler_finish(keel_scheduler_t *scheduler, uint32_t raw_us)
 {
     const uint64_t start_us = scheduler->clock.now_us;
-    const bool realtime = scheduler->stage == KEEL_STAGE_REALTIME;
+    const uint32_t stage = scheduler->stage;
+    const uint32_t index = scheduler->running;
     keel_status_t status;
 
-    if ((scheduler->stage != KEEL_STAGE_REALTIME) && (scheduler->stage != KEEL_STAGE_OTHER)) {
+    if ((stage != KEEL_STAGE_REALTIME) && (stage != KEEL_STAGE_OTHER)) {
         return KEEL_ERR_STATE;
     }
     status = keel_clock_advance(&scheduler->clock, raw_us);
-    if (status == KEEL_OK) {
-        record_run(scheduler, (uint32_t)(scheduler->clock.now_us - start_us));
+    //@ assert config: config_same{Pre, Here}(scheduler);
+    //@ assert priority: priority_same{Pre, Here}(scheduler);
+    //@ assert period: period_same{Pre, Here}(scheduler);
+    //@ assert budget: budget_same{Pre, Here}(scheduler);
+    //@ assert phase: phase_same{Pre, Here}(scheduler);
+    //@ assert run: run_same{Pre, Here}(scheduler);
+    if (status != KEEL_OK) {
+        leave_task(scheduler, KEEL_STAGE_READY);
+        return status;
     }
-    /* With a broken clock the pass ends here; the caller learns why. */
-    scheduler->stage = ((status == KEEL_OK) && realtime) ? KEEL_STAGE_PASS : KEEL_STAGE_READY;
-    scheduler->running = KEEL_INDEX_NONE;
-    return status;
+    //@ assert longest: all_longest_same{Pre, Here}(scheduler);
+    leave_task(scheduler, (stage == KEEL_STAGE_REALTIME) ? KEEL_STAGE_PASS : KEEL_STAGE_READY);
+    //@ assert longest_left: all_longest_same{Pre, Here}(scheduler);
+    record_run(scheduler, index, (uint32_t)(scheduler->clock.now_us - start_us));
+    return KEEL_OK;
 }
 
 static uint32_t read_clock(const keel_scheduler_t *scheduler)
@@ -266,16 +531,19 @@ keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler)
 
 keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler)
 {
-    keel_status_t status = keel_scheduler_begin(scheduler, read_clock(scheduler));
+    keel_status_t status;
 
-    while (status == KEEL_OK) {
+    if (scheduler == NULL) {
+        return KEEL_ERR_NULL;
+    }
+    status = keel_scheduler_begin(scheduler, read_clock(scheduler));
+    while ((status == KEEL_OK) && (scheduler->stage == KEEL_STAGE_PASS)) {
         const keel_task_t *const task = keel_scheduler_next(scheduler);
 
-        if (task == NULL) {
-            break;
+        if (task != NULL) {
+            task->config->run(task->config->context);
+            status = keel_scheduler_finish(scheduler, read_clock(scheduler));
         }
-        task->config->run(task->config->context);
-        status = keel_scheduler_finish(scheduler, read_clock(scheduler));
     }
     return status;
 }

@@ -147,8 +147,10 @@ void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
   @   ensures ADM_002_tasks: admission->tasks == \old(admission->tasks) + 1;
   @   ensures ADM_002_utilisation: admission->utilisation ==
   @       \old(admission->utilisation) + utilisation(config);
-  @   ensures ADM_002_demand: admission->realtime_demand_us == with_demand(\old(*admission), config);
-  @   ensures ADM_002_period: admission->shortest_realtime_us == with_period(\old(*admission), config);
+  @   ensures ADM_002_demand:
+  @       admission->realtime_demand_us == with_demand(\old(*admission), config);
+  @   ensures ADM_002_period:
+  @       admission->shortest_realtime_us == with_period(\old(*admission), config);
   @   ensures ADM_002_gap: admission->shortest_gap_us == with_gap(\old(*admission), config);
   @   ensures ADM_002_other: admission->longest_other_us == with_other(\old(*admission), config);
   @ complete behaviors;

@@ -78,6 +78,8 @@ static inline void keel_clock_init(keel_clock_t *clock, uint32_t raw_us)
   @   assumes clock_elapsed(clock->raw_us, raw_us) >= KEEL_CLOCK_STEP_LIMIT_US;
   @   assigns \nothing;
   @   ensures CLK_004: \result == KEEL_ERR_CLOCK;
+  @   ensures CLK_004_kept: clock->now_us == \old(clock->now_us) &&
+  @                         clock->raw_us == \old(clock->raw_us);
   @ behavior forwards:
   @   assumes clock_elapsed(clock->raw_us, raw_us) < KEEL_CLOCK_STEP_LIMIT_US;
   @   assigns *clock;

@@ -65,22 +65,34 @@ typedef struct keel_scheduler {
     bool ran;                       /**< In a pass: whether it has run a task. */
 } keel_scheduler_t;
 
+/* clang-format off: the formatter does not know these clauses. */
+/* The invariant of a scheduler as one clause for each part, which provers take one at a time. */
+#define SCHEDULER_STAYS_VALID(s)                                                                   \
+    ensures SCH_006_counts : queue_counts(&(s)->queue);                                            \
+    ensures SCH_006_no_gaps : queue_no_gaps(&(s)->queue);                                          \
+    ensures SCH_006_no_duplicates : queue_no_duplicates(&(s)->queue);                              \
+    ensures SCH_006_tasks : queue_tasks_valid(&(s)->queue);                                        \
+    ensures SCH_006_configs : queue_configs_valid(&(s)->queue);                                    \
+    ensures SCH_006_realtime : queue_realtime_first(&(s)->queue);                                  \
+    ensures SCH_006_others : queue_others_last(&(s)->queue);                                       \
+    ensures SCH_006_checked : queue_checked(&(s)->queue);                                          \
+    ensures SCH_006_apart : scheduler_apart(s);                                                    \
+    ensures SCH_006_tasks_apart : tasks_apart(s);                                                  \
+    ensures SCH_006_configs_apart : configs_apart(s);                                              \
+    ensures SCH_006_state : scheduler_state(s);
+/* clang-format on */
+
 /*@ predicate stage_running(keel_scheduler_t *s) =
   @     s->stage == KEEL_STAGE_REALTIME || s->stage == KEEL_STAGE_OTHER;
   @
-  @ // In a pass the cursor lies within the pass, the pass within the real-time tasks.
-  @ predicate scheduler_pass(keel_scheduler_t *s) =
-  @     s->cursor <= s->pass_end <= s->queue.realtime_count;
-  @
-  @ predicate scheduler_running(keel_scheduler_t *s) =
-  @     s->running == KEEL_INDEX_NONE || s->running < s->queue.count;
-  @
-  @ // The configuration as keel_scheduler_init accepted it.
-  @ predicate scheduler_configured(keel_scheduler_t *s) =
+  @ // In a pass the cursor lies within the pass, the pass within the real-time tasks; the running
+  @ // task is in the queue; the configuration is as keel_scheduler_init accepted it.
+  @ predicate scheduler_state(keel_scheduler_t *s) =
+  @     s->cursor <= s->pass_end <= s->queue.realtime_count &&
+  @     (s->running == KEEL_INDEX_NONE || s->running < s->queue.count) &&
   @     s->config.guard_us < KEEL_PERIOD_LIMIT_US &&
-  @     s->config.utilisation_limit <= KEEL_UTILISATION_FULL_PPM;
-  @
-  @ predicate scheduler_stage(keel_scheduler_t *s) = s->stage <= KEEL_STAGE_OTHER;
+  @     s->config.utilisation_limit <= KEEL_UTILISATION_FULL_PPM &&
+  @     s->stage <= KEEL_STAGE_OTHER && (s->stage >= KEEL_STAGE_PASS ==> s->wake_us == 0);
   @
   @ // Tasks and declarations are memory apart from the scheduler ...
   @ predicate scheduler_apart(keel_scheduler_t *s) =
@@ -98,23 +110,407 @@ typedef struct keel_scheduler {
   @         \separated(s->queue.task[i], s->queue.task[j]->config);
   @
   @ predicate scheduler_valid(keel_scheduler_t *s) =
-  @     queue_valid(&s->queue) && queue_checked(&s->queue) && scheduler_pass(s) &&
-  @     scheduler_running(s) && scheduler_configured(s) && scheduler_stage(s) &&
-  @     scheduler_apart(s) && tasks_apart(s) && configs_apart(s);
+  @     queue_counts(&s->queue) && queue_no_gaps(&s->queue) && queue_no_duplicates(&s->queue) &&
+  @     queue_tasks_valid(&s->queue) && queue_configs_valid(&s->queue) &&
+  @     queue_realtime_first(&s->queue) && queue_others_last(&s->queue) &&
+  @     queue_checked(&s->queue) && scheduler_apart(s) && tasks_apart(s) && configs_apart(s) &&
+  @     scheduler_state(s);
   @
+  @ // The theorems hold up to this uptime; beyond it the kernel is not proved.
   @ predicate in_uptime(keel_scheduler_t *s) = s->clock.now_us <= KEEL_CLOCK_TIME_LIMIT_US;
+  @
+  @ // A task that the scheduler does not hold yet, in memory of its own.
+  @ predicate task_apart(keel_scheduler_t *s, keel_task_t *task) =
+  @     \separated(s, task) && \separated(s, task->config) && \separated(task, task->config) &&
+  @     (\forall integer i; 0 <= i < s->queue.count && s->queue.task[i] != task ==>
+  @         \separated(s->queue.task[i], task)) &&
+  @     (\forall integer i; 0 <= i < s->queue.count ==>
+  @         \separated(s->queue.task[i], task->config)) &&
+  @     (\forall integer i; 0 <= i < s->queue.count ==>
+  @         \separated(s->queue.task[i]->config, task));
+  @
+  @ // Whether a task fits the time to every real-time release: W + w <= S.
+  @ predicate fits_slack(keel_scheduler_t *s, keel_task_t *task, integer now_us) =
+  @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
+  @         s->config.guard_us + task_worst(task) <= time_to(s->queue.task[j], now_us);
+  @
+  @ // Whether a task runs if the scheduler decides at now_us and no real-time task is due.
+  @ predicate may_run(keel_scheduler_t *s, keel_task_t *task, integer now_us) =
+  @     released(task, now_us) && (promoted(task, now_us) || fits_slack(s, task, now_us));
+  @
+  @ // Nothing is due at now_us: neither a real-time task, nor another that may run.
+  @ predicate nothing_due(keel_scheduler_t *s, integer now_us) =
+  @     (\forall integer i; 0 <= i < s->queue.realtime_count ==>
+  @         !released(s->queue.task[i], now_us)) &&
+  @     (\forall integer i; s->queue.realtime_count <= i < s->queue.count ==>
+  @         !may_run(s, s->queue.task[i], now_us));
+  @
+  @ // Why a task that is not real-time cannot run before wake_us: it is not released before, or it
+  @ // does not fit the slack, which only shrinks, and is not promoted before.
+  @ predicate waits(keel_scheduler_t *s, keel_task_t *task) =
+  @     s->wake_us <= task->release_us ||
+  @     (s->wake_us <= task->release_us - task->config->period_us
+  @                    + promotion_age(task->config->priority, task->config->period_us) &&
+  @      !fits_slack(s, task, s->clock.now_us));
+  @
+  @ // The claim that wake_us makes while it lies ahead: nothing is due before it.
+  @ predicate wake_realtime(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < s->queue.realtime_count ==>
+  @         s->wake_us <= s->queue.task[i]->release_us;
+  @
+  @ predicate wake_others(keel_scheduler_t *s) =
+  @     \forall integer i; s->queue.realtime_count <= i < s->queue.count ==>
+  @         waits(s, s->queue.task[i]);
+  @
+  @ predicate wake_right(keel_scheduler_t *s) =
+  @     s->clock.now_us < s->wake_us ==> wake_realtime(s) && wake_others(s);
+  @
+  @ // The longest run of task k, unchanged.
+  @ predicate longest_same{L, M}(keel_scheduler_t *s, integer k) =
+  @     \at(s->queue.task[k]->stats.longest_us, M) == \at(s->queue.task[k]->stats.longest_us, L);
+  @
+  @ // The release of task k, unchanged.
+  @ predicate release_same{L, M}(keel_scheduler_t *s, integer k) =
+  @     \at(s->queue.task[k]->release_us, M) == \at(s->queue.task[k]->release_us, L);
   @*/
 
+/**
+ * Prepares a scheduler without tasks (requirement SCH-001).
+ *
+ * @param scheduler the scheduler to initialise
+ * @param config    how; it is copied
+ * @return KEEL_OK; KEEL_ERR_NULL for a null argument or a null clock; KEEL_ERR_CONFIG when the
+ *         guard is 2^31 us or more or the utilisation limit above KEEL_UTILISATION_FULL_PPM
+ */
+/*@ requires scheduler == \null || \valid(scheduler);
+  @ requires config == \null || \valid_read(config);
+  @ requires scheduler != \null && config != \null ==> \separated(scheduler, config);
+  @ behavior null:
+  @   assumes scheduler == \null || config == \null || config->read_clock == \null;
+  @   assigns \nothing;
+  @   ensures SCH_002_null: \result == KEEL_ERR_NULL;
+  @ behavior config:
+  @   assumes scheduler != \null && config != \null && config->read_clock != \null;
+  @   assumes config->guard_us >= KEEL_PERIOD_LIMIT_US ||
+  @       config->utilisation_limit > KEEL_UTILISATION_FULL_PPM;
+  @   assigns \nothing;
+  @   ensures SCH_002_config: \result == KEEL_ERR_CONFIG;
+  @ behavior done:
+  @   assumes scheduler != \null && config != \null && config->read_clock != \null;
+  @   assumes config->guard_us < KEEL_PERIOD_LIMIT_US &&
+  @       config->utilisation_limit <= KEEL_UTILISATION_FULL_PPM;
+  @   assigns *scheduler;
+  @   ensures ok: \result == KEEL_OK;
+  @   ensures SCH_001_valid: scheduler_valid(scheduler);
+  @   ensures SCH_001_empty: scheduler->queue.count == 0 && scheduler->clock.now_us == 0 &&
+  @       scheduler->busy_us == 0;
+  @   ensures SCH_001_config: scheduler->config.guard_us == config->guard_us &&
+  @       scheduler->config.utilisation_limit == config->utilisation_limit &&
+  @       scheduler->config.read_clock == config->read_clock &&
+  @       scheduler->config.clock_context == config->clock_context;
+  @   ensures SCH_001_stage: scheduler->stage == KEEL_STAGE_SETUP && scheduler->wake_us == 0 &&
+  @       scheduler->cursor == 0 && scheduler->pass_end == 0 &&
+  @       scheduler->running == KEEL_INDEX_NONE;
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
 keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
                                   const keel_scheduler_config_t *config);
+
+/**
+ * Checks whether the tasks can be scheduled, and names the first that cannot (requirement
+ * SCH-003). Changes nothing.
+ *
+ * @param scheduler the scheduler
+ * @param admitted  receives how many tasks are admitted: on refusal, the offender is
+ *                  scheduler->queue.task[*admitted]
+ * @return KEEL_OK, or the offender's KEEL_ERR_REALTIME_DEMAND, KEEL_ERR_BUDGET_GAP or
+ *         KEEL_ERR_UTILISATION
+ */
+/*@ requires \valid_read(scheduler) && scheduler_valid(scheduler);
+  @ requires \valid(admitted) && \separated(admitted, scheduler);
+  @ requires \forall integer i; 0 <= i < scheduler->queue.count ==>
+  @     \separated(admitted, scheduler->queue.task[i]);
+  @ requires \forall integer i; 0 <= i < scheduler->queue.count ==>
+  @     \separated(admitted, scheduler->queue.task[i]->config);
+  @ assigns *admitted;
+  @ ensures SCH_003_all: \result == KEEL_OK <==> *admitted == scheduler->queue.count;
+  @ ensures SCH_003_offender: *admitted <= scheduler->queue.count;
+  @ ensures SCH_003_demand: \result == KEEL_OK ==>
+  @     \old(demand_admitted(&scheduler->queue, scheduler->config.guard_us));
+  @ ensures SCH_003_gaps: \result == KEEL_OK ==>
+  @     \old(gaps_admitted(&scheduler->queue, scheduler->config.guard_us));
+  @*/
 keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *admitted);
+
+/**
+ * Adds a task (requirement SCH-004). Before the start it is only checked by itself; afterwards it
+ * is also admitted with the rest of the set, and its first release is its phase from now. It may
+ * be called from inside a running task; the new task waits for the next pass.
+ *
+ * @param scheduler the scheduler
+ * @param task      the task, with its declaration set; both must outlive their stay
+ * @return KEEL_OK; KEEL_ERR_NULL, or what keel_task_check says; KEEL_ERR_DUPLICATE;
+ *         KEEL_ERR_FULL; after the start what keel_admission_admit says; in this order
+ */
+/*@ requires scheduler == \null || (\valid(scheduler) && scheduler_valid(scheduler));
+  @ requires scheduler != \null ==> in_uptime(scheduler);
+  @ requires task == \null || \valid(task);
+  @ requires task != \null ==> task->config == \null || \valid_read(task->config);
+  @ requires scheduler != \null && task != \null ==> task_apart(scheduler, task);
+  @ assigns *scheduler, task->skipped, task->release_us, task->stats;
+  @ ensures SCH_005_null: scheduler == \null || task == \null ==> \result == KEEL_ERR_NULL;
+  @ ensures SCH_005_checked: \result == KEEL_OK ==> config_valid(task->config);
+  @ ensures SCH_005_duplicate: scheduler != \null && task != \null &&
+  @     \old(queue_holds(&scheduler->queue, task)) ==> \result != KEEL_OK;
+  @ ensures SCH_006_valid: scheduler != \null ==> scheduler_valid(scheduler);
+  @ ensures SCH_004_count: \result == KEEL_OK ==>
+  @     scheduler->queue.count == \old(scheduler->queue.count) + 1;
+  @ ensures SCH_004_armed: \result == KEEL_OK ==>
+  @     task->release_us == \old(scheduler->clock.now_us) + task->config->phase_us &&
+  @     task->skipped == 0 && stats_fresh(task->stats);
+  @ ensures SCH_004_wake: \result == KEEL_OK ==> scheduler->wake_us == 0;
+  @ ensures SCH_006_pass: scheduler != \null ==>
+  @     scheduler->pass_end == \old(scheduler->pass_end) &&
+  @     scheduler->cursor == \old(scheduler->cursor);
+  @ ensures SCH_006_running: \result == KEEL_OK && \old(scheduler->running) != KEEL_INDEX_NONE ==>
+  @     scheduler->queue.task[scheduler->running] ==
+  @         \old(scheduler->queue.task[scheduler->running]);
+  @*/
 keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, keel_task_t *task);
+
+/**
+ * Removes a task (requirement SCH-007). It may be called from inside a running task, also for the
+ * running task itself; no task is then skipped or run twice in the pass.
+ *
+ * @param scheduler the scheduler
+ * @param task      the task to remove
+ * @return KEEL_OK, KEEL_ERR_NULL, or KEEL_ERR_UNKNOWN_TASK when it is not in the queue
+ */
+/*@ requires scheduler == \null || (\valid(scheduler) && scheduler_valid(scheduler));
+  @ assigns scheduler->queue, scheduler->wake_us, scheduler->cursor, scheduler->pass_end,
+  @     scheduler->running;
+  @ ensures SCH_008_null: scheduler == \null || task == \null ==> \result == KEEL_ERR_NULL;
+  @ ensures SCH_008_unknown: scheduler != \null && task != \null &&
+  @     \old(!queue_holds(&scheduler->queue, task)) ==> \result == KEEL_ERR_UNKNOWN_TASK;
+  @ ensures SCH_006_valid: scheduler != \null ==> scheduler_valid(scheduler);
+  @ ensures SCH_007_gone: \result == KEEL_OK ==> !queue_holds(&scheduler->queue, task);
+  @ ensures SCH_007_count: \result == KEEL_OK ==>
+  @     scheduler->queue.count == \old(scheduler->queue.count) - 1;
+  @ ensures SCH_007_wake: \result == KEEL_OK ==> scheduler->wake_us == 0;
+  @ ensures SCH_006_cursor: \result == KEEL_OK &&
+  @     0 <= \old(scheduler->cursor) < \old(scheduler->pass_end) &&
+  @     \old(scheduler->queue.task[scheduler->cursor]) != task ==>
+  @     scheduler->queue.task[scheduler->cursor] ==
+  @         \old(scheduler->queue.task[scheduler->cursor]);
+  @ ensures SCH_006_running: \result == KEEL_OK && \old(scheduler->running) != KEEL_INDEX_NONE &&
+  @     \old(scheduler->queue.task[scheduler->running]) != task ==>
+  @     scheduler->queue.task[scheduler->running] ==
+  @         \old(scheduler->queue.task[scheduler->running]);
+  @ ensures SCH_006_forgotten: \result == KEEL_OK &&
+  @     \old(scheduler->running) != KEEL_INDEX_NONE &&
+  @     \old(scheduler->queue.task[scheduler->running]) == task ==>
+  @     scheduler->running == KEEL_INDEX_NONE;
+  @*/
 keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, keel_task_t *task);
+
+/**
+ * Starts the scheduler with a given reading of the clock: time begins at 0, and every task's first
+ * release is its phase (requirement SCH-009).
+ *
+ * @param scheduler a scheduler that was not started yet
+ * @param raw_us    the clock now
+ * @return KEEL_OK; KEEL_ERR_STATE when it was started before; what keel_scheduler_check says
+ */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler);
+  @ assigns scheduler->clock, scheduler->stage;
+  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->skipped;
+  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->release_us;
+  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->stats;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures SCH_010_state: \old(scheduler->stage) != KEEL_STAGE_SETUP ==>
+  @     \result == KEEL_ERR_STATE;
+  @ ensures SCH_010_kept: \result != KEEL_OK ==>
+  @     scheduler->stage == \old(scheduler->stage) &&
+  @     scheduler->clock.now_us == \old(scheduler->clock.now_us);
+  @ ensures SCH_009_stage: \result == KEEL_OK ==> scheduler->stage == KEEL_STAGE_READY;
+  @ ensures SCH_009_clock: \result == KEEL_OK ==>
+  @     scheduler->clock.now_us == 0 && scheduler->clock.raw_us == raw_us;
+  @ ensures SCH_009_release: \result == KEEL_OK ==>
+  @     \forall integer i; 0 <= i < scheduler->queue.count ==>
+  @         scheduler->queue.task[i]->release_us == scheduler->queue.task[i]->config->phase_us;
+  @ ensures SCH_009_admitted: \result == KEEL_OK ==>
+  @     \old(demand_admitted(&scheduler->queue, scheduler->config.guard_us)) &&
+  @     \old(gaps_admitted(&scheduler->queue, scheduler->config.guard_us));
+  @*/
 keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_us);
-keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
+
+/**
+ * Begins a step: takes the time, and opens a pass unless nothing can be due (requirement SCH-011).
+ *
+ * @param scheduler a started scheduler
+ * @param raw_us    the clock now, at most 2^31 - 1 us after its last reading
+ * @return KEEL_OK; KEEL_ERR_STATE when it is not started, or a pass is open; KEEL_ERR_CLOCK when
+ *         the clock jumped backwards
+ */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
+  @ requires wake_right(scheduler);
+  @ assigns scheduler->clock, scheduler->wake_us, scheduler->stage, scheduler->cursor,
+  @     scheduler->pass_end, scheduler->ran;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures SCH_012_wake: wake_right(scheduler);
+  @ behavior state:
+  @   assumes scheduler->stage != KEEL_STAGE_READY;
+  @   assigns \nothing;
+  @   ensures SCH_013_state: \result == KEEL_ERR_STATE;
+  @ behavior backwards:
+  @   assumes scheduler->stage == KEEL_STAGE_READY;
+  @   assumes clock_elapsed(scheduler->clock.raw_us, raw_us) >= KEEL_CLOCK_STEP_LIMIT_US;
+  @   assigns scheduler->clock;
+  @   ensures SCH_013_clock: \result == KEEL_ERR_CLOCK;
+  @   ensures SCH_013_kept: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @       scheduler->clock.raw_us == \old(scheduler->clock.raw_us);
+  @ behavior forwards:
+  @   assumes scheduler->stage == KEEL_STAGE_READY;
+  @   assumes clock_elapsed(scheduler->clock.raw_us, raw_us) < KEEL_CLOCK_STEP_LIMIT_US;
+  @   ensures ok: \result == KEEL_OK;
+  @   ensures SCH_011_time: scheduler->clock.now_us == \old(scheduler->clock.now_us)
+  @       + clock_elapsed(\old(scheduler->clock.raw_us), raw_us);
+  @   ensures SCH_011_raw: scheduler->clock.raw_us == raw_us;
+  @   ensures SCH_011_idle: scheduler->stage == KEEL_STAGE_READY ==>
+  @       nothing_due(scheduler, scheduler->clock.now_us);
+  @   ensures SCH_011_open: scheduler->stage == KEEL_STAGE_READY ||
+  @       (scheduler->stage == KEEL_STAGE_PASS && scheduler->cursor == 0 &&
+  @        scheduler->pass_end == scheduler->queue.realtime_count && !scheduler->ran);
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
 keel_status_t keel_scheduler_begin(keel_scheduler_t *scheduler, uint32_t raw_us);
+
+/**
+ * Decides which task runs now and takes it into service: its release moves on along its grid
+ * (requirements SCH-014 to SCH-016).
+ *
+ * @param scheduler a scheduler
+ * @return the task, whose body the caller must run now and then call keel_scheduler_finish; null
+ *         when the pass is over, or none is open
+ */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
+  @ requires wake_right(scheduler);
+  @ assigns scheduler->wake_us, scheduler->stage, scheduler->cursor, scheduler->running,
+  @     scheduler->ran;
+  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->skipped;
+  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->release_us;
+  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->stats.promotions;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ behavior closed:
+  @   assumes scheduler->stage != KEEL_STAGE_PASS;
+  @   ensures SCH_014_closed: \result == \null && scheduler->stage == \old(scheduler->stage);
+  @ behavior open:
+  @   assumes scheduler->stage == KEEL_STAGE_PASS;
+  @   ensures SCH_014_stage: (\result == \null && scheduler->stage == KEEL_STAGE_READY) ||
+  @       (\result != \null && stage_running(scheduler));
+  @   ensures SCH_014_task: \result != \null ==>
+  @       scheduler->running < scheduler->queue.count &&
+  @       \result == scheduler->queue.task[scheduler->running];
+  @   ensures SCH_014_released: \result != \null ==>
+  @       \at(\result->release_us, Pre) <= scheduler->clock.now_us;
+  @   ensures SCH_014_release: \result != \null ==>
+  @       scheduler->clock.now_us < \result->release_us;
+  @   ensures SCH_014_on_time: \result != \null ==>
+  @       scheduler->clock.now_us < \at(\result->release_us, Pre) + \result->config->period_us ==>
+  @       \result->release_us == \at(\result->release_us, Pre) + \result->config->period_us;
+  @   ensures SCH_014_others: \forall integer k; 0 <= k < scheduler->queue.count ==>
+  @       scheduler->queue.task[k] != \result ==> release_same{Pre, Post}(scheduler, k);
+  @   ensures SCH_015_realtime: scheduler->stage == KEEL_STAGE_REALTIME ==>
+  @       \old(scheduler->cursor) <= scheduler->running < scheduler->pass_end &&
+  @       scheduler->cursor == scheduler->running + 1;
+  @   ensures SCH_015_first: scheduler->stage == KEEL_STAGE_REALTIME ==>
+  @       \forall integer i; \old(scheduler->cursor) <= i < scheduler->running ==>
+  @           !\old(released(scheduler->queue.task[i], scheduler->clock.now_us));
+  @   ensures SCH_015_none: scheduler->stage != KEEL_STAGE_REALTIME ==>
+  @       scheduler->cursor == scheduler->pass_end &&
+  @       \forall integer i; \old(scheduler->cursor) <= i < scheduler->pass_end ==>
+  @           !\old(released(scheduler->queue.task[i], scheduler->clock.now_us));
+  @   ensures SCH_016_class: scheduler->stage == KEEL_STAGE_OTHER ==>
+  @       scheduler->running >= scheduler->queue.realtime_count;
+  @   ensures SCH_016_fits: scheduler->stage == KEEL_STAGE_OTHER ==>
+  @       \old(may_run(scheduler, \result, scheduler->clock.now_us));
+  @   ensures SCH_016_highest: scheduler->stage == KEEL_STAGE_OTHER ==>
+  @       \forall integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
+  @           \old(may_run(scheduler, scheduler->queue.task[i], scheduler->clock.now_us)) ==>
+  @           \old(task_priority(scheduler->queue.task[i], scheduler->clock.now_us)) <=
+  @               \at(task_priority(\result, scheduler->clock.now_us), Pre);
+  @   ensures SCH_016_first: scheduler->stage == KEEL_STAGE_OTHER ==>
+  @       \forall integer i; scheduler->queue.realtime_count <= i < scheduler->running ==>
+  @           \old(may_run(scheduler, scheduler->queue.task[i], scheduler->clock.now_us)) ==>
+  @           \old(task_priority(scheduler->queue.task[i], scheduler->clock.now_us)) <
+  @               \at(task_priority(\result, scheduler->clock.now_us), Pre);
+  @   ensures SCH_016_none: \result == \null ==>
+  @       \forall integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
+  @           !\old(may_run(scheduler, scheduler->queue.task[i], scheduler->clock.now_us));
+  @   ensures SCH_012_wake: wake_right(scheduler);
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
 keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler);
+
+/**
+ * Finishes the running task: takes the time, and records how long it ran (requirement SCH-017).
+ * When the clock jumped backwards nothing is recorded, and the pass ends.
+ *
+ * @param scheduler a scheduler whose keel_scheduler_next has returned a task
+ * @param raw_us    the clock now, at most 2^31 - 1 us after its last reading
+ * @return KEEL_OK; KEEL_ERR_STATE when no task runs; KEEL_ERR_CLOCK
+ */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
+  @ requires scheduler->busy_us <= scheduler->clock.now_us;
+  @ assigns scheduler->clock, scheduler->busy_us, scheduler->stage, scheduler->running;
+  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->stats;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures SCH_017_busy_bound: scheduler->busy_us <= scheduler->clock.now_us;
+  @ behavior state:
+  @   assumes !stage_running(scheduler);
+  @   ensures SCH_018_state: \result == KEEL_ERR_STATE;
+  @   ensures SCH_018_kept: scheduler->stage == \old(scheduler->stage) &&
+  @       scheduler->running == \old(scheduler->running) &&
+  @       scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @       scheduler->clock.raw_us == \old(scheduler->clock.raw_us) &&
+  @       scheduler->busy_us == \old(scheduler->busy_us);
+  @ behavior backwards:
+  @   assumes stage_running(scheduler);
+  @   assumes clock_elapsed(scheduler->clock.raw_us, raw_us) >= KEEL_CLOCK_STEP_LIMIT_US;
+  @   ensures SCH_018_clock: \result == KEEL_ERR_CLOCK;
+  @   ensures SCH_018_time: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @       scheduler->busy_us == \old(scheduler->busy_us);
+  @   ensures SCH_018_ends: scheduler->stage == KEEL_STAGE_READY &&
+  @       scheduler->running == KEEL_INDEX_NONE;
+  @ behavior forwards:
+  @   assumes stage_running(scheduler);
+  @   assumes clock_elapsed(scheduler->clock.raw_us, raw_us) < KEEL_CLOCK_STEP_LIMIT_US;
+  @   ensures ok: \result == KEEL_OK;
+  @   ensures SCH_017_time: scheduler->clock.now_us == \old(scheduler->clock.now_us)
+  @       + clock_elapsed(\old(scheduler->clock.raw_us), raw_us);
+  @   ensures SCH_017_raw: scheduler->clock.raw_us == raw_us;
+  @   ensures SCH_017_busy: scheduler->busy_us == \old(scheduler->busy_us)
+  @       + clock_elapsed(\old(scheduler->clock.raw_us), raw_us);
+  @   ensures SCH_017_stage: scheduler->stage ==
+  @       ((\old(scheduler->stage) == KEEL_STAGE_REALTIME) ? KEEL_STAGE_PASS : KEEL_STAGE_READY);
+  @   ensures SCH_017_running: scheduler->running == KEEL_INDEX_NONE;
+  @   ensures SCH_017_recorded: \old(scheduler->running) != KEEL_INDEX_NONE ==>
+  @       scheduler->queue.task[\old(scheduler->running)]->stats.last_us ==
+  @           clock_elapsed(\old(scheduler->clock.raw_us), raw_us) &&
+  @       scheduler->queue.task[\old(scheduler->running)]->stats.longest_us == \max(
+  @           \old(scheduler->queue.task[scheduler->running]->stats.longest_us),
+  @           clock_elapsed(\old(scheduler->clock.raw_us), raw_us));
+  @   ensures SCH_017_others: \forall integer k; 0 <= k < scheduler->queue.count ==>
+  @       k != \old(scheduler->running) ==> longest_same{Pre, Post}(scheduler, k);
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
 keel_status_t keel_scheduler_finish(keel_scheduler_t *scheduler, uint32_t raw_us);
+
+keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
 keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler);
 keel_status_t keel_scheduler_resync(keel_scheduler_t *scheduler);
 

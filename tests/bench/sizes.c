@@ -1,0 +1,11 @@
+/**
+ * @file sizes.c
+ * @brief Objects as large as the kernel's own: tools/bench.py reads their sizes from the symbols,
+ *        so that the target's compiler answers without the target.
+ */
+#include "keel/rtos/scheduler.h"
+
+char bench_size_task[sizeof(keel_task_t)];
+char bench_size_slot[sizeof(keel_task_t *)];
+char bench_size_config[sizeof(keel_task_config_t)];
+char bench_size_scheduler[sizeof(keel_scheduler_t)];

@@ -1,0 +1,309 @@
+#!/usr/bin/env python3
+"""Tests of tools/bench.py: what it reads from callgrind, what it counts, and when it fails.
+
+    python3 tests/tools/test_bench.py
+
+One class measures a function whose instructions are known: it is written in assembly. The last
+runs the demo (examples/demo), which shares its table of tasks with the benchmark, and holds it
+against table 2 of the paper, copied here a second time.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import platform
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from collections import Counter
+from pathlib import Path
+from unittest import mock
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import bench  # noqa: E402
+from bench import BenchError, Dump, Goal, Host, Kind, Target  # noqa: E402
+from toolchain import Toolchain  # noqa: E402
+
+# Three dumps as callgrind writes them. In the first, keel_step's own 40 + 30 instructions stand
+# around a call whose cost (7) is the clock's; the last has no label, so it is not ours.
+CALLGRIND = """\
+# callgrind format
+version: 1
+part: 1
+desc: Timerange: Basic block 0 - 10
+desc: Trigger: Client Request: keel waited 10
+positions: line
+events: Ir
+summary: 77
+
+fn=bench_clock
+0 7
+
+fn=keel_step
+0 40
+cfn=bench_clock
+calls=10 0
+0 7
+0 30
+
+totals: 77
+part: 2
+desc: Trigger: Client Request: keel other 1
+events: Ir
+fn=keel_step
+12 50
+cfn=keel_next
+calls=1 0
+12 25
+fn=keel_next
+0 25
+totals: 75
+part: 3
+desc: Trigger: Program termination
+fn=keel_step
+0 1000
+"""
+LAYER = frozenset({"keel_step", "keel_next"})
+
+
+class DumpTest(unittest.TestCase):
+    def dumps(self) -> list[Dump]:
+        return list(bench.read_dumps(CALLGRIND.splitlines(keepends=True)))
+
+    def test_labelled_dumps_are_read_with_own_costs_only(self) -> None:
+        first, second = self.dumps()
+        self.assertEqual(first, Dump("waited", 10, Counter(bench_clock=7, keel_step=70)))
+        self.assertEqual(second, Dump("other", 1, Counter(keel_step=50, keel_next=25)))
+
+    def test_only_the_layer_is_counted(self) -> None:
+        kinds = bench.sum_dumps(self.dumps(), LAYER)
+        self.assertEqual((kinds["waited"].passes, kinds["waited"].mean), (10, 7.0))
+        self.assertEqual((kinds["other"].mean, kinds["other"].longest), (75.0, 75))
+        self.assertEqual(kinds["idle"], Kind())
+
+    def test_the_longest_of_several_passes(self) -> None:
+        dumps = [Dump("other", 1, Counter(keel_step=cost)) for cost in (10, 40, 25)]
+        kind = bench.sum_dumps(dumps, LAYER)["other"]
+        self.assertEqual((kind.passes, kind.mean, kind.longest), (3, 25.0, 40))
+
+    def test_kinds_are_taken_together_by_their_passes(self) -> None:
+        kinds = {"waited": Kind(9, 90), "idle": Kind(1, 110, 110)}
+        total = bench.merged(kinds, bench.NO_TASK)
+        self.assertEqual((total.passes, total.mean, total.longest), (10, 20.0, 110))
+
+    def test_an_instruction_of_nobody_is_an_error(self) -> None:
+        for name in ("memcpy", "keel_unknown", "bench"):
+            with self.assertRaisesRegex(BenchError, name):
+                bench.sum_dumps([Dump("other", 1, Counter({name: 1}))], LAYER)
+
+    def test_an_unknown_kind_is_an_error(self) -> None:
+        with self.assertRaisesRegex(BenchError, "odd"):
+            bench.sum_dumps([Dump("odd", 1)], LAYER)
+
+
+class MeasureTest(unittest.TestCase):
+    HOST = Host(Path("x"), LAYER)
+
+    def kinds(self, cost: int) -> dict[str, Kind]:
+        return {name: Kind(1, cost, cost) for name in bench.KINDS}
+
+    def measure(self, *runs: dict[str, Kind]) -> dict[str, Kind]:
+        with mock.patch.object(bench, "count", side_effect=runs):
+            return bench.measure_set(mock.Mock(), self.HOST, 21)
+
+    def test_two_equal_runs_are_a_result(self) -> None:
+        self.assertEqual(self.measure(self.kinds(5), self.kinds(5)), self.kinds(5))
+
+    def test_two_runs_that_differ_by_one_are_an_error(self) -> None:
+        with self.assertRaisesRegex(BenchError, "differ"):
+            self.measure(self.kinds(5), self.kinds(6))
+
+    def test_a_kind_that_never_came_is_an_error(self) -> None:
+        for gone in (["waited"], ["idle"], ["realtime", "other"]):
+            kinds = {**self.kinds(5), **{name: Kind() for name in gone}}
+            with self.subTest(gone), self.assertRaisesRegex(BenchError, "no pass"):
+                self.measure(kinds, kinds)
+
+
+class TargetTest(unittest.TestCase):
+    def test_sizes_are_read(self) -> None:
+        text = "  text\t data\t bss\t dec\t hex\tfilename\n 428\t 4\t 8\t 440\t 1b8\tx/decision.o\n"
+        self.assertEqual(bench.read_sizes(text), {"decision": (428, 12)})
+
+    def test_symbols_are_read(self) -> None:
+        text = "00000000 00000028 B bench_size_task\n00000028 00000004 B bench_size_slot\n"
+        self.assertEqual(bench.read_symbols(text), {"task": 40, "slot": 4})
+
+    def test_ram_per_task_holds_a_slot(self) -> None:
+        target = Target({"a": 100, "b": 50}, {}, {"task": 36, "slot": 4})
+        self.assertEqual((target.per_task, target.total), (40, 150))
+
+
+class GoalTest(unittest.TestCase):
+    TARGET = Target({"a": 2048}, {}, {"task": 36, "slot": 4})
+
+    def goals(self, waited: int, one: int) -> list[Goal]:
+        kinds = {name: Kind() for name in bench.KINDS}
+        kinds["waited"] = Kind(2, waited * 2)
+        kinds["other"] = Kind(2, one * 2)
+        return bench.goals_of({21: kinds}, self.TARGET)
+
+    def test_a_goal_is_met_up_to_its_limit(self) -> None:
+        self.assertEqual([goal.met for goal in self.goals(25, 200)], [True] * 4)
+        self.assertEqual([goal.met for goal in self.goals(26, 201)], [False, False, True, True])
+
+    def test_the_verdict_tells_what_is_missed(self) -> None:
+        self.assertIn("all 4 goals met", bench.verdict(self.goals(25, 200)))
+        self.assertIn(
+            "1 of 4 goals missed: instructions, no task 26.0 > 25", bench.verdict(self.goals(26, 1))
+        )
+
+    def status(self, goals: list[Goal], *arguments: str) -> int:
+        quiet = contextlib.redirect_stdout(io.StringIO())
+        with quiet, mock.patch.object(bench, "measure", return_value=goals):
+            with mock.patch.object(Toolchain, "ensure"):
+                return bench.main(arguments)
+
+    def test_a_missed_goal_fails_a_check_only(self) -> None:
+        self.assertEqual(self.status(self.goals(26, 1)), 0)
+        self.assertEqual(self.status(self.goals(26, 1), "--check"), 1)
+        self.assertEqual(self.status(self.goals(25, 1), "--check"), 0)
+
+    def test_an_error_fails(self) -> None:
+        quiet = contextlib.redirect_stderr(io.StringIO())
+        with quiet, mock.patch.object(bench, "measure", side_effect=BenchError("x")):
+            with mock.patch.object(Toolchain, "ensure"):
+                self.assertEqual(bench.main([]), 1)
+
+
+# A step of five instructions and a call of the clock, which has two of its own.
+KNOWN = """
+#include <valgrind/callgrind.h>
+void keel_step(void);
+__asm__(".text\\n.globl keel_step\\n.type keel_step,@function\\nkeel_step:\\n"
+        "nop\\nnop\\nnop\\ncall bench_clock\\nret\\n.size keel_step,.-keel_step\\n"
+        ".type bench_clock,@function\\nbench_clock:\\nnop\\nret\\n"
+        ".size bench_clock,.-bench_clock\\n");
+static void bench_step(void)
+{
+    CALLGRIND_TOGGLE_COLLECT;
+    keel_step();
+    CALLGRIND_TOGGLE_COLLECT;
+}
+int main(void)
+{
+    for (int i = 0; i < 4; i++) { bench_step(); }
+    CALLGRIND_DUMP_STATS_AT("keel waited 4");
+    bench_step();
+    CALLGRIND_DUMP_STATS_AT("keel other 1");
+    return 0;
+}
+"""
+
+
+@unittest.skipUnless(platform.machine() == "x86_64", "the known function is x86-64 assembly")
+class CallgrindTest(unittest.TestCase):
+    def test_known_instructions_are_counted_exactly(self) -> None:
+        tools = Toolchain()
+        tools.ensure("bench", say=lambda _: None)
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "known.c").write_text(KNOWN)
+            program = folder / "known"
+            gcc = [*tools.command("gcc"), "-O1", str(folder / "known.c"), "-o", str(program)]
+            subprocess.run(gcc, check=True)
+            with mock.patch.object(bench, "BUILD", folder):
+                kinds = bench.count(tools, Host(program, frozenset({"keel_step"})), 1)
+        self.assertEqual((kinds["waited"].passes, kinds["waited"].instructions), (4, 20))
+        self.assertEqual((kinds["other"].passes, kinds["other"].longest), (1, 5))
+
+
+# Table 2 of the paper: class, period in ms, worst-case execution time in us.
+TABLE_2 = {
+    "Scheduler analysis": ("low", 100, 10),
+    "Stack": ("low", 100, 7),
+    "ADC": ("low", 1000, 18),
+    "Background power module": ("low", 20, 8),
+    "Foreground power module": ("low", 100, 17),
+    "Background barometer": ("high", 10, 50),
+    "Foreground barometer": ("medium-high", 20, 50),
+    "Background magnetometer": ("high", 10, 350),
+    "Foreground magnetometer": ("medium-high", 20, 37),
+    "Calibration magnetometer": ("low", 50, 41),
+    "Background IMU": ("real time", 1, 57),
+    "Foreground IMU": ("real time", 2, 37),
+    "Calibration IMU": ("low", 50, 22),
+    "GPS": ("medium", 20, 355),
+    "Background radio": ("medium", 10, 21),
+    "Foreground radio": ("medium", 20, 53),
+    "Navigation": ("medium", 20, 47),
+    "Angle rate control": ("real time", 2, 83),
+    "Angle control": ("high", 2, 71),
+    "Position control": ("high", 10, 11),
+    "State machine": ("low", 20, 11),
+}
+# With a turn of the loop of 5 us a real-time task waits at most 4 us for the next turn, and for
+# the real-time tasks before it: nothing else runs when one of them is due.
+LATEST_US = {"Background IMU": 4, "Foreground IMU": 4 + 57, "Angle rate control": 4 + 57 + 37}
+ROW = re.compile(r"^(\S.*?) {2,}(low|medium|medium-high|high|real time) +(\d.*)$")
+
+
+class DemoTest(unittest.TestCase):
+    program: Path
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.program = Path(folder.name) / "demo"
+        sources = [*ROOT.glob("src/rtos/*.c"), *ROOT.glob("examples/demo/*.c")]
+        gcc = [*Toolchain().command("gcc"), "-std=c99", "-O1", "-Wall", "-Wextra", "-Werror"]
+        gcc += ["-fsanitize=undefined,address", "-fno-sanitize-recover=all"]
+        folders = [f"-I{ROOT / name}" for name in ("include", "examples/demo")]
+        subprocess.run([*gcc, *folders, *sources, "-lm", "-o", cls.program], check=True)
+
+    def demo(self, *arguments: str) -> tuple[int, list[str]]:
+        done = subprocess.run(
+            [self.program, *arguments], capture_output=True, text=True, timeout=60, check=False
+        )
+        return done.returncode, done.stdout.splitlines()
+
+    def test_every_task_of_table_2_runs_once_per_period(self) -> None:
+        status, lines = self.demo()
+        rows = [match for match in map(ROW.match, lines) if match]
+        self.assertEqual(status, 0)
+        self.assertEqual([row[1] for row in rows], list(TABLE_2))
+        for row in rows:
+            name, sort, numbers = row[1], row[2], row[3].split()
+            figures = [int(word) for word in numbers if "." not in word]
+            period, runs, _, mean, longest, latest, *counters = figures
+            self.assertEqual((sort, period, longest), TABLE_2[name])
+            self.assertEqual((runs, mean), (60000 // period, longest), name)
+            self.assertLessEqual(latest, LATEST_US.get(name, period * 1000 - longest), name)
+            self.assertEqual(counters, [0, 0, 0, 0], name)
+
+    def test_the_load_is_that_of_table_2(self) -> None:
+        load = sum(wcet / (10 * period) for _, period, wcet in TABLE_2.values())
+        _, lines = self.demo()
+        (line,) = [line for line in lines if line.startswith("CPU load")]
+        minute, _, _, declared = re.findall(r"([\d.]+) (?:%|ms)", line)
+        self.assertAlmostEqual(float(declared), load, places=3)
+        self.assertAlmostEqual(float(minute), load, places=2)
+
+    def test_a_loop_that_is_too_slow_fails(self) -> None:
+        status, lines = self.demo("3000")
+        self.assertEqual(status, 1)
+        self.assertTrue(lines[-1].startswith("FAILED: 21 of 21"), lines[-1])
+
+    def test_a_wrong_command_line_is_refused(self) -> None:
+        for arguments in (["x"], ["0"], ["5", "5"], ["-1"]):
+            self.assertEqual(self.demo(*arguments)[0], 2, arguments)
+
+
+if __name__ == "__main__":
+    unittest.main()

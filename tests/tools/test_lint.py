@@ -1,0 +1,366 @@
+#!/usr/bin/env python3
+"""Tests of tools/lint.py: each rule with a text that breaks it and one that does not.
+
+    python3 tests/tools/test_lint.py
+
+The last class runs clang-format and Cppcheck on small projects of its own.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import sys
+import tempfile
+import unittest
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import lint  # noqa: E402
+from lint import Deviation, Finding, LintError, Text, Violation  # noqa: E402
+from toolchain import Toolchain  # noqa: E402
+
+
+def text(path: str, *lines: str) -> Text:
+    return Text(path, list(lines))
+
+
+def places(findings: object) -> list[tuple[str, int]]:
+    assert isinstance(findings, list)
+    return [(finding.file, finding.line) for finding in findings]
+
+
+class HouseTest(unittest.TestCase):
+    """One rule, one text."""
+
+    def lines_of(self, check: Callable[[Text], Iterator[Finding]], item: Text) -> list[int]:
+        return [finding.line for finding in check(item)]
+
+    def test_unfinished_work_is_found(self) -> None:
+        item = text("a.md", "done", "TO" + "DO: more", "fix" + "me in prose", "(FIX" + "ME)")
+        self.assertEqual(self.lines_of(lint.check_words, item), [2, 4])
+
+    def test_a_path_of_one_machine_is_found(self) -> None:
+        item = text(
+            "a.md", "see /ro" + "ot/x", "cd /wo" + "rk/main", "/ho" + "me/ann/y", "src/work/z"
+        )
+        self.assertEqual(self.lines_of(lint.check_words, item), [1, 2, 3])
+
+    def test_the_name_of_a_registry_is_found(self) -> None:
+        item = text(
+            "a.yml", "url: https://py" + "pi.org/simple", "pip install x", "FROM gh" + "cr.io/a"
+        )
+        self.assertEqual(self.lines_of(lint.check_words, item), [1, 3])
+
+    def test_the_linter_does_not_find_itself(self) -> None:
+        for name in ("tools/lint.py", "tests/tools/test_lint.py"):
+            lines = (ROOT / name).read_text().splitlines()
+            self.assertEqual(list(lint.check_words(Text(name, lines))), [])
+
+    def test_100_columns_are_allowed_101_are_not(self) -> None:
+        item = text("src/a.c", "x" * 100, "x" * 101)
+        self.assertEqual(self.lines_of(lint.check_length, item), [2])
+        self.assertEqual(self.lines_of(lint.check_length, text("a.json", "x" * 101)), [])
+
+    def test_admit_and_axiom_are_found_in_annotations(self) -> None:
+        item = text(
+            "src/rtos/a.c",
+            "//@ admit x > 0;",
+            "/*@ requires \\true;",
+            "  @ axiom zero: \\false;",
+            "  @*/",
+        )
+        self.assertEqual(self.lines_of(lint.check_unproved, item), [1, 3])
+
+    def test_admit_in_prose_and_in_names_is_no_matter(self) -> None:
+        item = text(
+            "src/rtos/a.c",
+            "/* Refuses to admit what it cannot prove: no axiom. */",
+            "/*@ // Whether to admit the task.",
+            "  @ ensures keel_admission_admit_ok: \\true; // no axiom",
+            "  @*/",
+            "status = admit(task);",
+        )
+        self.assertEqual(self.lines_of(lint.check_unproved, item), [])
+
+    def test_axioms_outside_the_kernel_count_in_proofs_alone(self) -> None:
+        self.assertEqual(self.lines_of(lint.check_unproved, text("proofs/a.why", "axiom x")), [1])
+        self.assertEqual(
+            self.lines_of(lint.check_unproved, text("proofs/a.c", "//@ admit x;")), [1]
+        )
+        self.assertEqual(self.lines_of(lint.check_unproved, text("tests/a.c", "//@ admit x;")), [])
+
+    def test_the_kernel_must_not_know_a_prover(self) -> None:
+        item = text("src/rtos/a.c", "#ifdef __FRAMAC__", "__CPROVER_assume(x);", "#endif")
+        self.assertEqual(self.lines_of(lint.check_prover, item), [1, 2])
+        self.assertEqual(self.lines_of(lint.check_prover, text("proofs/a.c", item.lines[1])), [])
+
+    def test_the_guard_is_named_after_the_path(self) -> None:
+        good = ["/** text */", "#ifndef KEEL_RTOS_A_H", "#define KEEL_RTOS_A_H", "int a;", "#endif"]
+        self.assertEqual(self.lines_of(lint.check_guard, Text("include/keel/rtos/a.h", good)), [])
+        self.assertEqual(self.lines_of(lint.check_guard, Text("include/keel/rtos/b.h", good)), [2])
+        self.assertEqual(self.lines_of(lint.check_guard, text("include/keel/a.h", "int a;")), [1])
+        open_end = [*good[:4], "#endif", "#if 1", "int b;"]
+        item = Text("include/keel/rtos/a.h", open_end)
+        self.assertEqual(self.lines_of(lint.check_guard, item), [2])
+
+
+class IncludeTest(unittest.TestCase):
+    """Arrows point down only."""
+
+    def reason(self, path: str, header: str, quoted: bool = True) -> str:
+        return lint.include_reason(path, quoted, header)
+
+    def test_down_is_allowed(self) -> None:
+        for path, header in (
+            ("include/keel/rtos/task.h", "keel/rtos/clock.h"),
+            ("include/keel/rtos/queue.h", "keel/status.h"),
+            ("include/keel/rtos/scheduler.h", "keel/rtos/decision.h"),
+            ("src/rtos/queue.c", "keel/rtos/queue.h"),
+            ("include/keel/flight/pid.h", "keel/rtos/clock.h"),
+            ("src/flight/pid.c", "keel/flight/filter.h"),
+        ):
+            self.assertEqual(self.reason(path, header), "", (path, header))
+        self.assertEqual(self.reason("src/rtos/a.c", "stdint.h", quoted=False), "")
+
+    def test_up_sideways_and_outside_are_refused(self) -> None:
+        for path, header in (
+            ("include/keel/rtos/clock.h", "keel/rtos/task.h"),
+            ("include/keel/rtos/queue.h", "keel/rtos/scheduler.h"),
+            ("src/rtos/admission.c", "keel/rtos/decision.h"),
+            ("src/rtos/task.c", "keel/flight/pid.h"),
+            ("src/middleware/voter.c", "keel/flight/pid.h"),
+            ("src/rtos/task.c", "bsp/board.h"),
+            ("src/rtos/unknown.c", "keel/rtos/clock.h"),
+        ):
+            self.assertNotEqual(self.reason(path, header), "", (path, header))
+        self.assertNotEqual(self.reason("src/rtos/a.c", "stdio.h", quoted=False), "")
+
+    def test_findings_name_the_line(self) -> None:
+        item = text(
+            "src/rtos/clock.c", '#include "keel/rtos/clock.h"', '#  include "keel/rtos/task.h"'
+        )
+        self.assertEqual([finding.line for finding in lint.check_includes(item)], [2])
+
+    def test_a_header_that_no_source_includes_is_found(self) -> None:
+        texts = [
+            text("include/keel/rtos/a.h", '#include "keel/rtos/b.h"'),
+            text("include/keel/rtos/b.h"),
+            text("include/keel/rtos/c.h", '#include "keel/rtos/a.h"'),
+            text("src/rtos/a.c", '#include "keel/rtos/a.h"'),
+        ]
+        self.assertEqual(places(list(lint.check_reached(texts))), [("include/keel/rtos/c.h", 1)])
+
+
+def deviation(
+    name: str = "MD-001", rule: str = "15.5", line: str = "", marked: bool = False
+) -> Deviation:
+    return Deviation(name, rule, "reason", ("src/",), line, marked, 7)
+
+
+class JudgeTest(unittest.TestCase):
+    """Which violations stand, and which deviations are of no use."""
+
+    SOURCE = text("src/a.c", "a", "return 1; /* MISRA deviation MD-001 */", "return 2;", "b")
+
+    def judge(self, violations: list[Violation], *deviations: Deviation) -> list[tuple[str, int]]:
+        return places(list(lint.judge(violations, deviations, [self.SOURCE])))
+
+    def test_a_violation_without_a_deviation_stands(self) -> None:
+        source = text("src/a.c", "return 1;")
+        found = list(lint.judge([Violation("src/a.c", 1, "15.5", "m")], [], [source]))
+        self.assertEqual(found, [Finding("src/a.c", 1, "15.5: m")])
+
+    def test_a_mark_covers_its_line_and_the_next(self) -> None:
+        violations = [Violation("src/a.c", line, "15.5", "m") for line in (1, 2, 3, 4)]
+        found = self.judge(violations, deviation(marked=True))
+        self.assertEqual(found, [("src/a.c", 1), ("src/a.c", 4)])
+
+    def test_a_mark_covers_its_own_rule_alone(self) -> None:
+        violations = [Violation("src/a.c", 2, rule, "m") for rule in ("15.5", "15.6", "15.50")]
+        self.assertEqual(len(self.judge(violations, deviation(marked=True))), 2)
+
+    def test_a_deviation_of_the_project_needs_no_mark_but_its_place(self) -> None:
+        source = text("src/a.c", "return 1;")
+        header = text("include/a.h", "return 1;")
+        violations = [Violation(name, 1, "15.5", "m") for name in ("src/a.c", "include/a.h")]
+        found = list(lint.judge(violations, [deviation()], [source, header]))
+        self.assertEqual(places(found), [("include/a.h", 1)])
+
+    def test_the_line_must_match(self) -> None:
+        source = text("src/a.c", "return 1;", "goto end;")
+        violations = [Violation("src/a.c", line, "15.5", "m") for line in (1, 2)]
+        found = list(lint.judge(violations, [deviation(line="^return")], [source]))
+        self.assertEqual(places(found), [("src/a.c", 2)])
+
+    def test_a_deviation_without_use_is_a_finding(self) -> None:
+        found = self.judge(
+            [Violation("src/a.c", 2, "15.5", "m")],
+            deviation(marked=True),
+            deviation("MD-002", "8.7"),
+        )
+        self.assertEqual(found, [(lint.DEVIATIONS, 7)])
+
+    def test_a_mark_without_use_is_a_finding(self) -> None:
+        self.assertEqual(self.judge([]), [("src/a.c", 2)])
+        elsewhere = [Violation("src/a.c", 4, "8.7", "m")]
+        self.assertEqual(self.judge(elsewhere, deviation("MD-002", "8.7")), [("src/a.c", 2)])
+
+
+ENTRY = """
+[[deviation]]
+id = "MD-001"
+rule = "15.5"
+scope = "line"
+where = ["src/"]
+reason = "because"
+"""
+
+
+class DeviationFileTest(unittest.TestCase):
+    """A slip in the file of deviations must not let findings through."""
+
+    def read(self, content: str) -> list[Deviation]:
+        with tempfile.TemporaryDirectory() as name:
+            path = Path(name) / lint.DEVIATIONS
+            path.parent.mkdir()
+            path.write_text(content)
+            return lint.read_deviations(Path(name))
+
+    def test_an_entry_is_read(self) -> None:
+        (entry,) = self.read(ENTRY)
+        self.assertEqual(entry, Deviation("MD-001", "15.5", "because", ("src/",), "", True, 2))
+
+    def test_slips_are_refused(self) -> None:
+        for old, new in (
+            ('id = "MD-001"', 'id = "MD-1"'),
+            ('rule = "15.5"\n', ""),
+            ('reason = "because"', 'reason = " "'),
+            ('where = ["src/"]\n', ""),
+            ('where = ["src/"]', "where = []"),
+            ('scope = "line"', 'scope = "file"'),
+            ('scope = "line"', 'scope = "line"\nlines = "x"'),
+            ("[[deviation]]", "[[deviation]"),
+            ("[[deviation]]", "[[ deviation ]]"),
+        ):
+            with self.subTest(new), self.assertRaises(LintError):
+                self.read(ENTRY.replace(old, new))
+
+    def test_an_id_declared_twice_is_refused(self) -> None:
+        with self.assertRaisesRegex(LintError, "MD-001 is declared twice"):
+            self.read(ENTRY + ENTRY)
+
+
+HEADER = """#ifndef KEEL_RTOS_CLOCK_H
+#define KEEL_RTOS_CLOCK_H
+
+#include <stdint.h>
+
+uint32_t keel_clock_half(uint32_t a);
+
+#endif
+"""
+BARE = """#include "keel/rtos/clock.h"
+
+uint32_t keel_clock_half(uint32_t a)
+{
+    return a / 2u;
+}
+"""
+TWO_ON_A_LINE = """#include "keel/rtos/clock.h"
+
+uint32_t keel_clock_half(uint32_t a)
+{
+    if (a) {
+        return a / 2;
+    }
+    return 0u;
+}
+"""
+LIBRARY = """
+[[deviation]]
+id = "MD-002"
+rule = "8.7"
+scope = "project"
+where = ["src/"]
+reason = "a library"
+"""
+
+
+class ToolTest(unittest.TestCase):
+    """The tools themselves, on a project of two files."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        Toolchain().ensure("lint")
+
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        self.write(".clang-format", (ROOT / ".clang-format").read_text())
+        self.write("include/keel/rtos/clock.h", HEADER)
+        self.write(lint.DEVIATIONS, LIBRARY)
+
+    def write(self, name: str, content: str) -> None:
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(content)
+
+    def lint(self, *arguments: str) -> tuple[int, list[str]]:
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output), contextlib.redirect_stderr(output):
+            status = lint.main(arguments, self.root)
+        return status, output.getvalue().splitlines()
+
+    def test_a_clean_project_has_no_finding(self) -> None:
+        self.write("src/rtos/clock.c", BARE)
+        status, lines = self.lint()
+        self.assertEqual((status, len(lines)), (0, 1), lines)
+        self.assertTrue(lines[0].startswith("lint: no finding"))
+
+    def test_findings_on_one_line_are_all_told(self) -> None:
+        self.write("src/rtos/clock.c", TWO_ON_A_LINE)
+        status, lines = self.lint()
+        rules = [line.split(": ")[:2] for line in lines[:-1]]
+        source = "src/rtos/clock.c"
+        self.assertEqual(status, 1)
+        self.assertEqual(
+            rules, [[f"{source}:5", "14.4"], [f"{source}:6", "10.4"], [f"{source}:6", "15.5"]]
+        )
+        self.assertTrue(lines[-1].startswith("lint: 3 findings"))
+
+    def test_a_deviation_of_no_use_fails(self) -> None:
+        self.write("src/rtos/clock.c", BARE)
+        self.write(lint.DEVIATIONS, LIBRARY + ENTRY)
+        status, lines = self.lint()
+        self.assertEqual(status, 1)
+        self.assertIn("MD-001 covers no finding", lines[0])
+
+    def test_layout_is_told_and_mended(self) -> None:
+        self.write("src/rtos/clock.c", BARE.replace("    return a", "  return  a"))
+        status, lines = self.lint()
+        self.assertEqual(status, 1)
+        self.assertTrue(lines[0].startswith("src/rtos/clock.c:5: not laid out"), lines)
+        self.assertEqual(self.lint("--fix")[0], 0)
+        self.assertEqual((self.root / "src/rtos/clock.c").read_text(), BARE)
+
+    def test_contracts_are_never_laid_out(self) -> None:
+        contract = "/*@ requires   a>0  &&   \\true;\n  @   ensures   \\result  <=  a;\n  @*/\n"
+        odd = BARE.replace("uint32_t keel", contract + "uint32_t keel")
+        self.write("src/rtos/clock.c", odd)
+        self.lint("--fix")
+        self.assertEqual((self.root / "src/rtos/clock.c").read_text(), odd)
+
+    def test_code_that_does_not_parse_fails(self) -> None:
+        self.write("src/rtos/clock.c", BARE.replace("{", "{{", 1))
+        self.assertEqual(self.lint()[0], 1)
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("PYTHONDONTWRITEBYTECODE", "1")
+    unittest.main()

@@ -1,0 +1,1 @@
+"""The proof driver behind tools/prove.py, one module per reason to change."""

@@ -1,0 +1,315 @@
+"""Proves harnesses with CBMC, on goto binaries of the very sources, built for the target."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import time
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from . import harness as harnesses
+from .harness import Harness, WrongBody
+from .jobs import Finished, Runner
+from .project import closure
+
+CHECKS = (
+    "--unwinding-assertions", "--bounds-check", "--pointer-check", "--pointer-overflow-check",
+    "--pointer-primitive-check", "--div-by-zero-check", "--float-div-by-zero-check",
+    "--signed-overflow-check", "--unsigned-overflow-check", "--conversion-check",
+    "--undefined-shift-check", "--float-overflow-check", "--nan-check", "--enum-range-check",
+    "--drop-unused-functions",
+)  # fmt: skip
+# The coverage run asks what can be reached at all. CBMC takes assertions for assumptions there.
+COVERAGE = ("--cover", "location", "--no-standard-checks", "--drop-unused-functions")
+HARMLESS = (
+    # Said of every coverage run; the proof itself has unwinding assertions.
+    "--cover is incompatible with --unwinding-assertions",
+    "Use --unwinding-assertions to obtain sound verification results",
+)
+ASSERTION = re.compile(r"\.assertion\.\d+$")
+
+
+@dataclass
+class Result:
+    """What became of a harness."""
+
+    properties: list[dict[str, str]] = field(default_factory=list)
+    covered: int = 0
+    blocks: int = 0
+    problems: list[str] = field(default_factory=list)
+    seconds: float = 0.0
+
+    def as_dict(self) -> dict[str, Any]:
+        """For the cache."""
+        return asdict(self)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """CBMC's JSON output, taken apart."""
+
+    properties: list[dict[str, str]]
+    goals: list[dict[str, Any]]
+    warnings: list[str]
+    complete: bool
+
+
+def file_of(location: dict[str, Any]) -> str:
+    """File of a source location."""
+    return os.path.normpath(str(location.get("file", "?")))
+
+
+def place(location: dict[str, Any]) -> str:
+    """File and line of a source location."""
+    return f"{file_of(location)}:{location.get('line', '?')}"
+
+
+def read_answer(text: str) -> Answer:
+    """Read CBMC's JSON output. Output that breaks off is not complete."""
+    try:
+        entries = json.loads(text)
+    except ValueError:
+        return Answer([], [], ["CBMC's output breaks off"], complete=False)
+    properties: list[dict[str, str]] = []
+    goals: list[dict[str, Any]] = []
+    warnings: list[str] = []
+    complete = False
+    for entry in entries if isinstance(entries, list) else []:
+        if entry.get("messageType") in ("WARNING", "ERROR"):
+            warnings.append(str(entry.get("messageText", "")))
+        for item in entry.get("result", []):
+            location = item.get("sourceLocation", {})
+            properties.append(
+                {
+                    "name": str(item["property"]), "description": str(item["description"]),
+                    "status": str(item["status"]), "place": place(location),
+                    "function": str(location.get("function", "")),
+                }
+            )  # fmt: skip
+        goals += entry.get("goals", [])
+        complete = complete or "cProverStatus" in entry or "goalsCovered" in entry
+    return Answer(properties, goals, warnings, complete)
+
+
+def numbers(ranges: str) -> set[int]:
+    """The lines in "18,20-22"."""
+    lines: set[int] = set()
+    for part in ranges.split(","):
+        first, _, last = part.partition("-")
+        lines.update(range(int(first), int(last or first) + 1))
+    return lines
+
+
+@dataclass(frozen=True)
+class Block:
+    """A basic block of the code and whether any execution reaches it."""
+
+    function: str
+    places: frozenset[tuple[str, int]]
+    first: str
+    reached: bool
+
+
+def blocks(goals: Iterable[dict[str, Any]]) -> list[Block]:
+    """The blocks of a coverage run."""
+    found = []
+    for goal in goals:
+        places = frozenset(
+            (os.path.normpath(file), line)
+            for file, functions in goal.get("basicBlockLines", {}).items()
+            for ranges in functions.values()
+            for line in numbers(ranges)
+        )
+        location = goal.get("sourceLocation", {})
+        function = str(location.get("function", ""))
+        found.append(Block(function, places, place(location), goal.get("status") == "satisfied"))
+    return found
+
+
+def proof_problems(answer: Answer) -> list[str]:
+    """Every property that is not proved, and reasons not to believe the rest."""
+    problems = [
+        f"{item['place']}: {item['description']}: {item['status']} ({item['name']})"
+        for item in answer.properties
+        if item["status"] != "SUCCESS"
+    ]
+    problems += [text for text in answer.warnings if not any(known in text for known in HARMLESS)]
+    if not answer.complete:
+        problems.append("CBMC did not finish")
+    elif not any(ASSERTION.search(item["name"]) for item in answer.properties):
+        problems.append("there is no assertion in it")
+    return problems
+
+
+def coverage_problems(
+    found: Sequence[Block], harness: Harness, properties: Sequence[dict[str, str]]
+) -> list[str]:
+    """What no execution reaches: the harness's end, an assertion, a block of what it covers."""
+    problems = []
+    ends = [block for block in found if block.function == harness.name]
+    last = max((line for block in ends for _, line in block.places), default=0)
+    if not any(block.reached and any(line == last for _, line in block.places) for block in ends):
+        problems.append("no execution reaches the harness's end: its assumptions contradict each other")
+    reached = {f"{file}:{line}" for block in found if block.reached for file, line in block.places}
+    for item in properties:
+        if ASSERTION.search(item["name"]) and item["place"] not in reached:
+            problems.append(f"{item['place']}: no execution reaches this assertion")
+    for function in harness.covers:
+        own = [block for block in found if block.function == function]
+        if not own:
+            problems.append(f"{function} is covered nowhere: it is never called")
+        problems += [f"{block.first}: not reached in {function}" for block in own if not block.reached]
+    return list(dict.fromkeys(problems))
+
+
+class Cbmc:
+    """CBMC and its compiler for the target."""
+
+    def __init__(
+        self, goto_cc: Sequence[str], cbmc: Sequence[str], runner: Runner, root: Path, scratch: Path
+    ) -> None:
+        self._goto_cc = list(goto_cc)
+        self._cbmc = list(cbmc)
+        self._runner = runner
+        self._root = root
+        self._scratch = scratch
+
+    def options(self) -> list[str]:
+        """What is the same for all harnesses."""
+        return [*self._goto_cc[1:], *CHECKS, *COVERAGE]
+
+    def prove(self, harness: Harness) -> Result:
+        """Prove a harness and measure what it reaches."""
+        start = time.monotonic()
+        result = Result(problems=harnesses.text_problems(harness))
+        binary, complaint = self.build(harness, harness.name)
+        if complaint:
+            result.problems.append(complaint)
+        else:
+            answer = self.check(harness, binary)
+            result.properties = answer.properties
+            result.problems += proof_problems(answer)
+            self._measure(harness, binary, result)
+        shown = harness.path.relative_to(self._root)
+        result.problems = [f"{shown}: {text}" if not text.startswith(str(shown)) else text
+                           for text in result.problems]  # fmt: skip
+        result.seconds = round(time.monotonic() - start, 1)
+        return result
+
+    def refute(self, wrong: WrongBody, harness: Harness) -> Result:
+        """Show that a harness notices a wrong body, by the assertions that it should."""
+        start = time.monotonic()
+        shown = wrong.path.relative_to(self._root)
+        result = Result()
+        binary, complaint = self.build(harness, f"{harness.name}-{wrong.path.stem}", wrong.path)
+        if complaint:
+            result.problems.append(f"{shown}: {complaint}")
+        else:
+            answer = self.check(harness, binary, self._selection(harness, binary, wrong.expect))
+            result.problems += refutation_problems(answer, wrong, str(shown))
+        result.seconds = round(time.monotonic() - start, 1)
+        return result
+
+    def check(self, harness: Harness, binary: Path, extra: Sequence[str] = ()) -> Answer:
+        """Ask for the status of every property."""
+        command = [*self._cbmc, str(binary), "--json-ui", *CHECKS, *harness.options, *extra]
+        return self._answer(self._runner.run(command, harness.timeout, merged=False), harness)
+
+    def _selection(self, harness: Harness, binary: Path, expect: Sequence[str]) -> list[str]:
+        """Options that restrict CBMC to the assertions that are to fail: all others take longer."""
+        command = [*self._cbmc, str(binary), "--json-ui", "--show-properties", *CHECKS]
+        done = self._runner.run(command, harness.timeout, merged=False)
+        return selection(done.output, expect)
+
+    def build(
+        self, harness: Harness, name: str, replacement: Path | None = None
+    ) -> tuple[Path, str]:
+        """Compile and link; the binary, and the compiler's complaint if there is one.
+
+        A replacement takes the place of the unit's source, or, if it is a header, of its header.
+        """
+        folder = self._scratch / "cbmc" / name
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        include = ["-Iinclude"]
+        sources = list(harness.sources)
+        if replacement and replacement.suffix == ".h":
+            shadow = folder / "include" / harness.unit.header.relative_to(self._root / "include")
+            shadow.parent.mkdir(parents=True)
+            shutil.copyfile(replacement, shadow)
+            include.insert(0, f"-I{folder / 'include'}")
+        elif replacement:
+            sources = [replacement if path == harness.unit.source else path for path in sources]
+        objects: list[str] = []
+        for number, source in enumerate([*sources, harness.path]):
+            shown = source.relative_to(self._root) if source.is_relative_to(self._root) else source
+            objects.append(str(folder / f"{number}.gb"))
+            options = [*include, *harness.defines, "-c", str(shown), "-o", objects[-1]]
+            done = self._runner.run([*self._goto_cc, *options])
+            if done.status != 0 or "warning" in done.output.lower():
+                return folder, f"goto-cc: {done.output.strip()}"
+        binary = folder / "harness.gb"
+        done = self._runner.run(
+            [*self._goto_cc, *objects, "--function", harness.name, "-o", str(binary)]
+        )
+        complaint = f"goto-cc: {done.output.strip()}" if done.status != 0 or done.output.strip() else ""
+        return binary, complaint
+
+    def _measure(self, harness: Harness, binary: Path, result: Result) -> None:
+        """Find out what the harness reaches."""
+        options = harnesses.without_solver(list(harness.options))
+        command = [*self._cbmc, str(binary), "--json-ui", *COVERAGE, *options]
+        answer = self._answer(self._runner.run(command, harness.timeout, merged=False), harness)
+        found = blocks(answer.goals)
+        if not answer.complete:
+            result.problems += ["the coverage run did not finish", *answer.warnings]
+            return
+        result.problems += coverage_problems(found, harness, result.properties)
+        own = [block for block in found if block.function in harness.covers]
+        result.blocks, result.covered = len(own), sum(block.reached for block in own)
+
+    @staticmethod
+    def _answer(done: Finished, harness: Harness) -> Answer:
+        if done.timed_out:
+            return Answer([], [], [f"no answer in {harness.timeout:.0f} s"], complete=False)
+        return read_answer(done.output)
+
+
+def selection(listing: str, expect: Sequence[str]) -> list[str]:
+    """The options that select the properties whose description contains an expected text."""
+    try:
+        entries = json.loads(listing)
+    except ValueError:
+        return []
+    return [
+        word
+        for entry in entries
+        for item in entry.get("properties", [])
+        if any(text in item["description"] for text in expect)
+        for word in ("--property", item["name"])
+    ]
+
+
+def refutation_problems(answer: Answer, wrong: WrongBody, shown: str) -> list[str]:
+    """Why a wrong body does not count as refuted; nothing if it does."""
+    if not answer.complete:
+        return [f"{shown}: CBMC did not finish: {' '.join(answer.warnings)}"]
+    failed = [item["description"] for item in answer.properties if item["status"] == "FAILURE"]
+    if not failed:
+        wanted = ", ".join(wrong.expect)
+        return [f"{shown}: {wrong.harness} does not refute this wrong body at {wanted}: too weak"]
+    return [
+        f"{shown}: {wrong.harness} fails, but not at {expected}; it fails at: {'; '.join(failed)}"
+        for expected in wrong.expect
+        if not any(expected in description for description in failed)
+    ]
+
+
+def dependencies(harness: Harness, root: Path, extra: Sequence[Path] = ()) -> list[Path]:
+    """All files of the project that a harness's verdict depends on."""
+    return closure(root, [harness.path, *harness.sources, harness.unit.header, *extra])

@@ -1,0 +1,179 @@
+"""Reads C text just well enough for the driver: comments, functions, loops, annotations.
+
+Keel's style (one declaration per line, functions at the left margin, no macro that hides a brace)
+makes a scanner of a few lines reliable. Where it matters, what it says is compared with what the
+prover says.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+TOKEN = re.compile(
+    r"""
+      (?P<comment> /\*.*?\*/ | //(?:\\\n|[^\n])* )
+    | (?P<literal> "(?:\\.|[^"\\\n])*" | '(?:\\.|[^'\\\n])*' )
+    """,
+    re.DOTALL | re.VERBOSE,
+)
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+"([^"]+)"', re.MULTILINE)
+DIRECTIVE = re.compile(r"^[ \t]*#(?:\\\n|[^\n])*", re.MULTILINE)
+FUNCTION = re.compile(
+    r"^(?P<head>[A-Za-z_][\w \t\n*]*?[ \t\n*])(?P<name>[A-Za-z_]\w*)[ \t\n]*"
+    r"\((?P<parameters>[^;{}]*)\)[ \t\n]*(?P<end>[{;])",
+    re.MULTILINE,
+)
+NOT_A_FUNCTION = frozenset("if for while switch return sizeof typedef".split())
+LOOP = re.compile(r"\b(?:for|while)\b")
+LEMMA = re.compile(r"\blemma\s+(\w+)")
+
+
+def blanked(match: re.Match[str]) -> str:
+    """The same number of characters and lines, all of them white."""
+    return re.sub(r"[^\n]", " ", match.group())
+
+
+def without_comments(text: str) -> str:
+    """The text with comments, annotations and the insides of literals blanked, places kept."""
+
+    def replace(match: re.Match[str]) -> str:
+        if match.group("comment"):
+            return blanked(match)
+        literal = match.group("literal")
+        return literal[0] + " " * (len(literal) - 2) + literal[-1]
+
+    return TOKEN.sub(replace, text)
+
+
+def essence(text: str) -> str:
+    """The text without comments and blank lines: what a compiler sees of it, places aside."""
+    bare = TOKEN.sub(lambda match: " " if match.group("comment") else match.group(), text)
+    return "\n".join(line.rstrip() for line in bare.splitlines() if line.strip())
+
+
+def code_only(text: str) -> str:
+    """The text without comments, literals and preprocessor directives, places kept."""
+    return DIRECTIVE.sub(blanked, without_comments(text))
+
+
+@dataclass(frozen=True)
+class Function:
+    """A function found in a text; `body` is the slice from brace to brace, None if declared."""
+
+    name: str
+    line: int
+    static: bool
+    body: tuple[int, int] | None
+
+
+def closing(code: str, start: int) -> int:
+    """The index behind the brace that closes the one at `start`."""
+    depth = 0
+    for match in re.finditer(r"[{}]", code[start:]):
+        depth += 1 if match.group() == "{" else -1
+        if depth == 0:
+            return start + match.end()
+    return len(code)
+
+
+def functions(text: str) -> list[Function]:
+    """The functions that a text defines or declares, in its order."""
+    code = code_only(text)
+    found: list[Function] = []
+    position = 0
+    while match := FUNCTION.search(code, position):
+        position = match.end()
+        name, head = match.group("name"), match.group("head")
+        words = head.split()
+        if name in NOT_A_FUNCTION or not words or words[0] in NOT_A_FUNCTION:
+            continue
+        body: tuple[int, int] | None = None
+        if match.group("end") == "{":
+            body = (match.end() - 1, closing(code, match.end() - 1))
+            position = body[1]
+        line = code.count("\n", 0, match.start("name")) + 1
+        found.append(Function(name, line, "static" in words, body))
+    return found
+
+
+def defined(text: str) -> list[Function]:
+    """The functions that a text defines."""
+    return [function for function in functions(text) if function.body]
+
+
+def body_of(text: str, name: str) -> str:
+    """The body of a function as code, or "" when it is not defined here."""
+    for function in defined(text):
+        if function.name == name and function.body:
+            return code_only(text)[slice(*function.body)]
+    return ""
+
+
+def without_other_bodies(text: str, keep: frozenset[str]) -> str:
+    """The text with the bodies of all functions but those in `keep` removed.
+
+    WP proves a function from its own body and the contracts of those it calls, so this is what the
+    verdict on that function depends on.
+    """
+    parts: list[str] = []
+    position = 0
+    for function in defined(text):
+        if function.name not in keep and function.body:
+            parts += [text[position : function.body[0]], "{}"]
+            position = function.body[1]
+    return "".join([*parts, text[position:]])
+
+
+def loops(body: str) -> int:
+    """How many loops a body of code has (a do loop shows by its `while`)."""
+    return len(LOOP.findall(body))
+
+
+def annotations(text: str) -> list[tuple[int, str]]:
+    """The ACSL annotations of a text with the line that each starts on, comments in them blanked."""
+    found = []
+    for match in TOKEN.finditer(text):
+        comment = match.group("comment") or ""
+        if comment[2:3] == "@":
+            inner = re.sub(r"//[^\n]*", blanked, comment[3:])
+            found.append((text.count("\n", 0, match.start()) + 1, inner))
+    return found
+
+
+def lemmas(text: str) -> list[str]:
+    """The lemmas that a text states."""
+    return [name for _, inner in annotations(text) for name in LEMMA.findall(inner)]
+
+
+def includes(text: str) -> list[str]:
+    """The files that a text includes with quotation marks."""
+    return INCLUDE.findall(TOKEN.sub(lambda m: blanked(m) if m.group("comment") else m.group(), text))
+
+
+def calls(body: str, name: str) -> int:
+    """How often a body of code calls a function."""
+    return len(re.findall(rf"\b{re.escape(name)}\s*\(", body))
+
+
+# What takes a claim for granted, or states one that no caller may rely on. Every one of them is a
+# hole in the proof, whatever the prover says.
+FORBIDDEN = re.compile(r"\b(axiom|axiomatic|admit|check|inductive)\b|(\bterminates\s+\\false)")
+
+
+def forbidden(text: str) -> list[tuple[int, str]]:
+    """Annotations that would weaken a proof: line and word."""
+    found = []
+    for line, inner in annotations(text):
+        for match in FORBIDDEN.finditer(inner):
+            found.append((line + inner.count("\n", 0, match.start()), match.group()))
+    return found
+
+
+PROVER_CODE = re.compile(r"\b(__CPROVER\w*|__FRAMAC__|__FC_\w*|__ESBMC\w*)|#\s*pragma\s+CPROVER")
+
+
+def prover_code(text: str) -> list[tuple[int, str]]:
+    """Places where the code itself knows of a prover: line and word."""
+    code = without_comments(text)
+    return [(code.count("\n", 0, m.start()) + 1, m.group()) for m in PROVER_CODE.finditer(code)]

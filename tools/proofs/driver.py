@@ -1,0 +1,95 @@
+"""Runs the jobs whose verdict is not known yet."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from .cache import Cache
+from .jobs import Runner, in_pool
+
+
+@dataclass(frozen=True)
+class Job:
+    """One verdict to be had."""
+
+    unit: str
+    kind: str
+    name: str
+    key: str
+    execute: Callable[[], dict[str, Any]]
+
+    @property
+    def label(self) -> str:
+        """What the job is called between runs."""
+        return f"{self.unit}/{self.kind}/{self.name}"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A job's result, and whether it came from the cache."""
+
+    job: Job
+    result: dict[str, Any]
+    cached: bool
+
+    @property
+    def problems(self) -> list[str]:
+        """What is wrong; nothing if all is proved."""
+        return list(self.result["problems"])
+
+
+class Times:
+    """How long each job took last time: the longest go first, so that none is left to wait for."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        try:
+            self._seconds: dict[str, float] = json.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            self._seconds = {}
+
+    def expected(self, job: Job) -> float:
+        """The last duration; a job never seen may be the longest of all."""
+        return self._seconds.get(job.label, float("inf"))
+
+    def note(self, outcome: Outcome) -> None:
+        """Remember a duration."""
+        if not outcome.cached:
+            self._seconds[outcome.job.label] = float(outcome.result["seconds"])
+
+    def save(self) -> None:
+        """Keep for the next run."""
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        self._path.write_text(json.dumps(self._seconds, indent=1, sort_keys=True), encoding="utf-8")
+
+
+def run_jobs(
+    jobs: Sequence[Job], cache: Cache, runner: Runner, width: int, times: Times,
+    done: Callable[[Outcome], None],
+) -> list[Outcome]:  # fmt: skip
+    """Have a verdict for every job; `done` hears of each as it comes."""
+    outcomes: list[Outcome] = []
+
+    def finish(outcome: Outcome) -> None:
+        outcomes.append(outcome)
+        times.note(outcome)
+        done(outcome)
+
+    waiting: list[Job] = []
+    for job in jobs:
+        known = cache.get(job.key)
+        if known is None:
+            waiting.append(job)
+        else:
+            finish(Outcome(job, known, cached=True))
+    waiting.sort(key=lambda job: (-times.expected(job), job.label))
+    for index, result in in_pool([job.execute for job in waiting], width, runner):
+        outcome = Outcome(waiting[index], result, cached=False)
+        if not outcome.problems:
+            cache.put(outcome.job.key, result)
+        finish(outcome)
+    return outcomes

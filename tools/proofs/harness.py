@@ -1,0 +1,168 @@
+"""Reads CBMC harnesses and wrong bodies: their directives, and what their text must satisfy.
+
+Directives stand in the first comment lines of a file:
+
+    // cbmc: --unwind 33 --external-sat-solver cadical     options of the search, from OPTIONS
+    // sources: src/rtos/queue.c                            what is linked; default: the unit's source
+    // covers: keel_queue_add open_slot                     functions that must be reached everywhere
+    // defines: -DKEEL_QUEUE_CAPACITY=8u                    for a smaller model, shown in the report
+    // timeout: 900                                         seconds
+
+and in a file of wrong/:
+
+    // harness: keel_queue_add_harness                      the harness that must refute it
+    // expect: QUE_006                                      part of each assertion that must fail
+
+The function that a harness proves is in its name: keel_queue_add_harness, or, for one of several
+cases, keel_queue_add__full_harness.
+"""
+
+from __future__ import annotations
+
+import re
+import shlex
+from dataclasses import dataclass
+from pathlib import Path
+
+from . import csource
+from .project import ProjectError, Unit
+
+HARNESS_KEYS = frozenset("cbmc sources covers defines timeout entry".split())
+WRONG_KEYS = frozenset("harness expect".split())
+DIRECTIVE = re.compile(r"^// ?(\w+): *(.*?)\s*$")
+
+# Options that choose how CBMC searches. None of them makes it overlook anything: unwinding too
+# little is caught by the unwinding assertions. True: takes a value.
+OPTIONS = {
+    "--unwind": True, "--unwindset": True, "--object-bits": True, "--external-sat-solver": True,
+    "--sat-solver": True, "--z3": False, "--bitwuzla": False, "--cvc5": False, "--smt2": False,
+    "--slice-formula": False, "--no-simplify": False, "--arrays-uf-always": False,
+    "--arrays-uf-never": False, "--refine": False, "--max-field-sensitivity-array-size": True,
+    "--no-array-field-sensitivity": False,
+}  # fmt: skip
+# Those that choose a solver, which the coverage run (many easy questions) does without.
+SOLVERS = frozenset(["--external-sat-solver", "--sat-solver", "--z3", "--bitwuzla", "--cvc5", "--smt2"])
+
+
+def directives(path: Path, known: frozenset[str]) -> dict[str, list[str]]:
+    """The directives of a file; each may be given on several lines."""
+    found: dict[str, list[str]] = {}
+    for line in path.read_text(encoding="utf-8").splitlines():
+        if not line.startswith("//"):
+            break
+        match = DIRECTIVE.match(line)
+        if match and match[1] in known:
+            found.setdefault(match[1], []).append(match[2])
+        elif match and match[1] in HARNESS_KEYS | WRONG_KEYS | {"source", "cover", "wp"}:
+            raise ProjectError(f"{path}: the directive {match[1]} does not belong here")
+    return found
+
+
+def search_options(path: Path, lines: list[str]) -> list[str]:
+    """The options of a `cbmc` directive, checked."""
+    words = shlex.split(" ".join(lines))
+    expect_value = False
+    for word in words:
+        if expect_value:
+            expect_value = False
+        elif word not in OPTIONS:
+            raise ProjectError(f"{path}: a harness may not use {word}; it may: {' '.join(OPTIONS)}")
+        else:
+            expect_value = OPTIONS[word]
+    return words
+
+
+def without_solver(options: list[str]) -> list[str]:
+    """The options but for those that choose a solver."""
+    kept: list[str] = []
+    skip = False
+    for word in options:
+        if skip:
+            skip = False
+        elif word in SOLVERS:
+            skip = OPTIONS[word]
+        else:
+            kept.append(word)
+    return kept
+
+
+@dataclass(frozen=True)
+class Harness:
+    """A harness as its file describes it."""
+
+    unit: Unit
+    path: Path
+    options: tuple[str, ...]
+    sources: tuple[Path, ...]
+    covers: tuple[str, ...]
+    defines: tuple[str, ...]
+    timeout: float
+
+    @property
+    def name(self) -> str:
+        """Of the harness, which is that of its file and of its entry."""
+        return self.path.stem
+
+    @property
+    def function(self) -> str:
+        """The function that is proved."""
+        return self.name.removesuffix("_harness").partition("__")[0]
+
+
+def read_harness(unit: Unit, path: Path) -> Harness:
+    """Read a harness's directives."""
+    given = directives(path, HARNESS_KEYS)
+    defines = tuple(" ".join(given.get("defines", [])).split())
+    if any(not word.startswith("-D") for word in defines):
+        raise ProjectError(f"{path}: `defines` takes -DNAME=VALUE only")
+    if given.get("entry", [path.stem]) != [path.stem]:
+        raise ProjectError(f"{path}: the entry of a harness bears the name of its file")
+    sources = tuple(unit.root / name for line in given.get("sources", []) for name in line.split())
+    if not sources and unit.source.is_file():
+        sources = (unit.source,)
+    for source in sources:
+        if not source.is_file():
+            raise ProjectError(f"{path}: there is no source {source.relative_to(unit.root)}")
+    return Harness(
+        unit=unit, path=path, sources=sources, defines=defines,
+        options=tuple(search_options(path, given.get("cbmc", []))),
+        covers=tuple(" ".join(given.get("covers", [])).split()),
+        timeout=float(given.get("timeout", ["900"])[0]),
+    )  # fmt: skip
+
+
+def text_problems(harness: Harness) -> list[str]:
+    """What is wrong with a harness before it runs."""
+    text = harness.path.read_text(encoding="utf-8")
+    place = harness.path.relative_to(harness.unit.root)
+    code = csource.code_only(text)
+    problems = []
+    if not csource.body_of(text, harness.name):
+        problems.append(f"{place}: defines no {harness.name}")
+    elif csource.calls(csource.body_of(text, harness.name), harness.function) != 1:
+        problems.append(f"{place}: must call {harness.function} exactly once")
+    elif csource.calls(code, harness.function) != 1:
+        problems.append(f"{place}: calls {harness.function} outside {harness.name}, too")
+    if harness.unit.source.is_file() and harness.unit.source not in harness.sources:
+        problems.append(f"{place}: does not link {harness.unit.source.relative_to(harness.unit.root)}")
+    if harness.function not in harness.covers:
+        problems.append(f"{place}: `covers` must name {harness.function}")
+    return problems
+
+
+@dataclass(frozen=True)
+class WrongBody:
+    """A wrong body of a unit, and the harness that must refute it."""
+
+    unit: Unit
+    path: Path
+    harness: str
+    expect: tuple[str, ...]
+
+
+def read_wrong_body(unit: Unit, path: Path) -> WrongBody:
+    """Read a wrong body's directives."""
+    given = directives(path, WRONG_KEYS)
+    if len(given.get("harness", [])) != 1 or not given.get("expect"):
+        raise ProjectError(f"{path}: needs one `// harness:` and an `// expect:`")
+    return WrongBody(unit, path, given["harness"][0], tuple(given["expect"]))

@@ -1,0 +1,241 @@
+"""What a run found out, for machines (report.json) and for people (the console)."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from toolchain import Found
+
+from . import cbmc
+from .driver import Job, Outcome
+from .project import Unit
+from .settings import Exceptions
+
+
+@dataclass
+class UnitResult:
+    """All that is known about one unit."""
+
+    unit: Unit
+    exceptions: Exceptions
+    goals: list[dict[str, str]] = field(default_factory=list)
+    listed: list[str] = field(default_factory=list)
+    smoke: int = 0
+    accepted: list[str] = field(default_factory=list)
+    harnesses: dict[str, dict[str, Any]] = field(default_factory=dict)
+    negative: dict[str, bool] = field(default_factory=dict)
+    problems: list[str] = field(default_factory=list)
+
+    @property
+    def wp_total(self) -> int:
+        """Goals made or listed: one that has vanished counts, and not as proved."""
+        return len({goal["name"] for goal in self.goals} | set(self.listed))
+
+    @property
+    def wp_proved(self) -> int:
+        """Goals proved."""
+        return len({goal["name"] for goal in self.goals if goal["status"] == "Valid"})
+
+    def _sum(self, key: str) -> int:
+        return sum(int(harness[key]) for harness in self.harnesses.values())
+
+    @property
+    def cbmc_total(self) -> int:
+        """Properties of the harnesses."""
+        return self._sum("properties")
+
+    @property
+    def cbmc_proved(self) -> int:
+        """Properties proved."""
+        return self._sum("proved")
+
+    def add(self, outcome: Outcome) -> None:
+        """Take in a job's result."""
+        job, result = outcome.job, outcome.result
+        self.problems += outcome.problems
+        if job.kind == "wp":
+            self.goals += result["goals"]
+            self.smoke += result["smoke"]
+            self.accepted += [text for text in result["allowed"] if text not in self.accepted]
+        elif job.kind == "cbmc":
+            self.harnesses[job.name] = _harness(result, not outcome.problems)
+        else:
+            self.negative[job.name] = not outcome.problems
+
+
+def _harness(result: Mapping[str, Any], sound: bool) -> dict[str, Any]:
+    """A harness in the report: numbers, and its assertions by name, for the join with requirements."""
+    properties = result["properties"]
+    return {
+        "properties": len(properties),
+        "proved": sum(item["status"] == "SUCCESS" for item in properties),
+        "sound": sound,
+        "assertions": [
+            {key: item[key] for key in ("name", "description", "status")}
+            for item in properties
+            if cbmc.ASSERTION.search(item["name"])
+        ],
+        "coverage": {"blocks": result["blocks"], "reached": result["covered"]},
+    }
+
+
+@dataclass
+class Gathered:
+    """The results of a run."""
+
+    units: dict[str, UnitResult]
+    engines: Sequence[str]
+    problems: list[str] = field(default_factory=list)
+
+    @property
+    def wp_total(self) -> int:
+        """WP's goals."""
+        return sum(unit.wp_total for unit in self.units.values())
+
+    @property
+    def wp_proved(self) -> int:
+        """WP's goals that are proved."""
+        return sum(unit.wp_proved for unit in self.units.values())
+
+    @property
+    def cbmc_total(self) -> int:
+        """CBMC's properties."""
+        return sum(unit.cbmc_total for unit in self.units.values())
+
+    @property
+    def cbmc_proved(self) -> int:
+        """CBMC's properties that are proved."""
+        return sum(unit.cbmc_proved for unit in self.units.values())
+
+    @property
+    def total(self) -> int:
+        """All goals."""
+        return self.wp_total + self.cbmc_total
+
+    @property
+    def proved(self) -> int:
+        """All goals that are proved."""
+        return self.wp_proved + self.cbmc_proved
+
+    @property
+    def all_problems(self) -> list[str]:
+        """Every reason why this is not a success."""
+        texts = [*self.problems, *(text for unit in self.units.values() for text in unit.problems)]
+        return list(dict.fromkeys(texts))
+
+    @property
+    def success(self) -> bool:
+        """True when all is proved, and there is something to prove."""
+        return not self.all_problems and 0 < self.total == self.proved
+
+
+KINDS = {"wp": ("WP", "goals"), "cbmc": ("CBMC", "properties"), "negative": ("CBMC", "wrong bodies refuted")}
+
+
+class Console:
+    """Tells people how far the run is: a line for each job that ran, and for each unit."""
+
+    def __init__(self, jobs: Sequence[Job]) -> None:
+        self._waiting = [(job.unit, job.kind) for job in jobs]
+        self._sums: dict[tuple[str, str], tuple[int, int, float]] = {}
+
+    def done(self, outcome: Outcome) -> None:
+        """A job has its verdict."""
+        job = outcome.job
+        proved, total = self._numbers(outcome)
+        seconds = 0.0 if outcome.cached else float(outcome.result["seconds"])
+        if not outcome.cached and total:
+            self._line(job, job.name, proved, total, seconds)
+        for text in outcome.problems:
+            print(f"    FAILED {text}", flush=True)
+        kind = (job.unit, job.kind)
+        before = self._sums.get(kind, (0, 0, 0.0))
+        self._sums[kind] = (before[0] + proved, before[1] + total, before[2] + seconds)
+        self._waiting.remove(kind)
+        if kind not in self._waiting:
+            self._line(job, "", *self._sums[kind])
+
+    @staticmethod
+    def _numbers(outcome: Outcome) -> tuple[int, int]:
+        result = outcome.result
+        if outcome.job.kind == "wp":
+            return sum(goal["status"] == "Valid" for goal in result["goals"]), len(result["goals"])
+        if outcome.job.kind == "cbmc":
+            properties = result["properties"]
+            return sum(item["status"] == "SUCCESS" for item in properties), len(properties)
+        return int(not outcome.problems), 1
+
+    @staticmethod
+    def _line(job: Job, name: str, proved: int, total: int, seconds: float) -> None:
+        engine, what = KINDS[job.kind]
+        time = f"{seconds:.0f} s" if seconds else "known"
+        numbers = f"{proved:>4} of {total:>4} {what}"
+        print(f"{job.unit:<10} {engine:<4} {name:<38} {numbers}  {time}", flush=True)
+
+
+def closing_lines(gathered: Gathered) -> list[str]:
+    """What is wrong, together, and the line that says how much is proved."""
+    lines = [f"FAILED {text}" for text in gathered.all_problems]
+    engines = f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}"
+    return [*lines, f"proved {gathered.proved} of {gathered.total} goals ({engines})"]
+
+
+def _tool(found: Found) -> dict[str, Any]:
+    return {"version": found.version, "sha256": found.sha256, "parts": found.parts}
+
+
+def content(
+    gathered: Gathered, tools: Mapping[str, Found], seconds: float, partial: bool
+) -> dict[str, Any]:
+    """The report."""
+    report: dict[str, Any] = {"verdict": "proved" if gathered.success else "failed"}
+    if partial:
+        report["partial"] = True
+    return report | {
+        "goals": gathered.total,
+        "proved": gathered.proved,
+        "problems": gathered.all_problems,
+        "units": {name: _unit(result, gathered.engines) for name, result in gathered.units.items()},
+        "tools": {name: _tool(found) for name, found in tools.items()},
+        "seconds": round(seconds, 1),
+    }
+
+
+def _unit(result: UnitResult, engines: Sequence[str]) -> dict[str, Any]:
+    exceptions = result.exceptions
+    entry: dict[str, Any] = {"problems": result.problems}
+    if "wp" in engines:
+        entry["wp"] = {
+            "goals": result.wp_total,
+            "proved": result.wp_proved,
+            "smoke_tests": result.smoke,
+            "accepted_warnings": {text: exceptions.warnings[text] for text in result.accepted},
+            "not_proved_here": exceptions.no_body,
+            "goal_list": sorted(result.goals, key=lambda goal: goal["name"]),
+        }
+    if "cbmc" in engines:
+        harnesses = result.harnesses
+        entry["cbmc"] = {
+            "properties": result.cbmc_total,
+            "proved": result.cbmc_proved,
+            "coverage": {
+                key: sum(harness["coverage"][key] for harness in harnesses.values())
+                for key in ("blocks", "reached")
+            },
+            "negative": {
+                "bodies": len(result.negative),
+                "refuted": sum(result.negative.values()),
+                "list": result.negative,
+            },
+            "without_harness": exceptions.no_harness,
+            "harnesses": harnesses,
+        }
+    return entry
+
+
+def as_text(report: Mapping[str, Any]) -> str:
+    """As it is written."""
+    return json.dumps(report, indent=1) + "\n"

@@ -1,0 +1,88 @@
+"""What must hold of the proofs besides that they succeed: nothing left out, nothing assumed."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+from . import csource
+from .harness import read_harness
+from .project import Unit
+
+
+def assumptions_in(files: Iterable[Path], root: Path) -> list[str]:
+    """Annotations that take something for granted, and code that tells provers apart."""
+    problems = []
+    for path in dict.fromkeys(files):
+        text = path.read_text(encoding="utf-8")
+        for line, word in csource.forbidden(text):
+            place = f"{path.relative_to(root)}:{line}"
+            problems.append(f"{place}: `{word}` is assumed, not proved; state a lemma or a contract")
+        for line, word in csource.prover_code(text):
+            problems.append(f"{path.relative_to(root)}:{line}: `{word}`: what is proved must be what is built")
+    return problems
+
+
+def switched_off_checks(files: Iterable[Path], root: Path) -> list[str]:
+    """Places where a harness tells CBMC not to look."""
+    problems = []
+    for path in dict.fromkeys(files):
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            if "CPROVER" in line and "pragma" in line:
+                problems.append(f"{path.relative_to(root)}:{number}: switches a check off")
+    return problems
+
+
+def undefined_functions(unit: Unit, excepted: Mapping[str, str], root: Path) -> list[str]:
+    """Functions whose contract is stated but whose body nobody proves."""
+    own = [(path, path.read_text(encoding="utf-8")) for path in unit.own_files]
+    bodies = {function.name for _, text in own for function in csource.defined(text)}
+    problems = []
+    for path, text in own:
+        for function in csource.functions(text):
+            if function.name not in bodies and function.name not in excepted:
+                place = f"{path.relative_to(root)}:{function.line}"
+                problems.append(f"{place}: {function.name} has a contract and no body to prove it by")
+    return problems + _stale(unit, "no_body", excepted, bodies)
+
+
+def missing_harnesses(unit: Unit, excepted: Mapping[str, str], root: Path) -> list[str]:
+    """Functions of a unit's header that no harness proves."""
+    proved = {read_harness(unit, path).function for path in unit.harnesses}
+    problems = []
+    names = set()
+    for function in csource.functions(unit.header.read_text(encoding="utf-8")):
+        names.add(function.name)
+        if function.name not in proved and function.name not in excepted:
+            wanted = unit.folder / f"{function.name}_harness.c"
+            problems.append(f"{function.name} has no harness: write {wanted.relative_to(root)}")
+    for name in sorted(proved - names):
+        problems.append(f"{unit.folder.relative_to(root)}: {name}, which a harness proves, is not in the header")
+    return problems + _stale(unit, "no_harness", excepted, proved)
+
+
+def _stale(unit: Unit, kind: str, excepted: Mapping[str, str], settled: set[str]) -> list[str]:
+    return [
+        f"units.toml: [{unit.name}] {kind}: {name} is no exception any more, remove it"
+        for name in excepted
+        if name in settled
+    ]
+
+
+def compare_goals(listed: Sequence[str], seen: Sequence[str], where: str) -> list[str]:
+    """How the goals that WP made differ from the fixed list."""
+    problems = []
+    if list(listed) != sorted(set(listed)):
+        problems.append(f"{where}: not sorted, or a goal twice; run --update-goals")
+    for name in sorted(set(listed) - set(seen)):
+        problems.append(
+            f"{where}: {name} is listed, but WP has no such goal any more: if its clause was"
+            " removed on purpose, review and run --update-goals"
+        )
+    for name in sorted(set(seen) - set(listed)):
+        problems.append(f"{where}: {name} is a new goal: review and run --update-goals")
+    for name, times in Counter(seen).items():
+        if times > 1:
+            problems.append(f"{where}: {times} goals are called {name}")
+    return problems

@@ -1,0 +1,190 @@
+"""One run of the driver, from the choice of units to the report."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import tempfile
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from toolchain import Found, Toolchain
+
+from . import cbmc, csource, driver, engines, report, rules, wp
+from .cache import Cache, write_atomically
+from .jobs import Runner
+from .project import Unit, closure, find_units
+from .settings import Exceptions, read_exceptions
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What the command line asks for."""
+
+    units: tuple[Unit, ...]
+    partial: bool
+    engines: tuple[str, ...]
+    width: int
+    cached: bool
+    quick: bool
+    update_goals: bool
+
+
+def tool_stamp(tools: dict[str, Found]) -> dict[str, str]:
+    """What identifies the tools of a verdict: versions and hashes, no places."""
+    stamp = {name: f"{tool.version} {tool.sha256}" for name, tool in tools.items()}
+    for name, tool in tools.items():
+        parts = [f"{part.get('name')} {part.get('version')} {part.get('sha256', '')}" for part in tool.parts]
+        stamp[name] += "".join(f"; {part.strip()}" for part in parts)
+    # The configuration of why3 differs from host to host in its paths alone.
+    stamp.pop("why3-config", None)
+    return stamp
+
+
+def own_digest() -> str:
+    """SHA-256 over the driver's source: another driver may judge differently."""
+    folder = Path(__file__).resolve().parent
+    state = hashlib.sha256()
+    for path in sorted([*folder.glob("*.py"), folder.parent / "toolchain.py"]):
+        state.update(path.read_bytes())
+    return state.hexdigest()
+
+
+class Session:
+    """Runs a choice of proofs on a tree."""
+
+    def __init__(self, root: Path, tools: Toolchain, choice: Choice) -> None:
+        self._root = root
+        self._tools = tools
+        self._choice = choice
+        self._build = root / "build" / "prove"
+
+    def run(self) -> int:
+        """Prove, report; the exit status."""
+        start = time.monotonic()
+        target = self._build / "report.json"
+        target.unlink(missing_ok=True)
+        self._build.mkdir(parents=True, exist_ok=True)
+        scratch = Path(tempfile.mkdtemp(dir=self._build, prefix="run-"))
+        environment = {**os.environ, **self._tools.environment(), "TMPDIR": str(scratch)}
+        runner = Runner(environment, self._root)
+        try:
+            gathered = self._prove(runner, scratch)
+        finally:
+            runner.stop()
+            shutil.rmtree(scratch, ignore_errors=True)
+        seconds = time.monotonic() - start
+        versions = self._tools.versions("prove")
+        content = report.content(gathered, versions, seconds, self._choice.partial)
+        write_atomically(target, report.as_text(content))
+        print("\n".join(report.closing_lines(gathered)), flush=True)
+        return 0 if gathered.success else 1
+
+    def _prove(self, runner: Runner, scratch: Path) -> report.Gathered:
+        """Run all jobs of the choice."""
+        choice = self._choice
+        everything = find_units(self._root)
+        exceptions = read_exceptions(self._root / "proofs" / "units.toml", list(everything))
+        gathered = report.Gathered(
+            {unit.name: report.UnitResult(unit, exceptions[unit.name]) for unit in choice.units},
+            choice.engines,
+        )
+        stamp = {**tool_stamp(self._tools.versions("prove")), "driver": own_digest()}
+        jobs = []
+        if "wp" in choice.engines:
+            jobs += self._wp_jobs(runner, scratch, stamp, everything, exceptions)
+        if "cbmc" in choice.engines:
+            checker = cbmc.Cbmc(
+                self._tools.goto_cc(), self._tools.command("cbmc"), runner, self._root, scratch
+            )
+            jobs += engines.cbmc_jobs(choice.units, checker, self._root, stamp)
+        cache = Cache(self._build / "cache" if choice.cached else None)
+        times = driver.Times(self._build / "times.json")
+        console = report.Console(jobs)
+        for outcome in driver.run_jobs(jobs, cache, runner, choice.width, times, console.done):
+            gathered.units[outcome.job.unit].add(outcome)
+        times.save()
+        self._apply_rules(gathered)
+        return gathered
+
+    def _wp_jobs(
+        self, runner: Runner, scratch: Path, stamp: dict[str, str], everything: dict[str, Unit],
+        exceptions: dict[str, Exceptions],
+    ) -> list[driver.Job]:  # fmt: skip
+        choice = self._choice
+        prover = wp.Wp(
+            self._tools.frama_c(), runner, self._root, scratch,
+            self._prover_cache(stamp) if choice.cached else None,
+        )  # fmt: skip
+        known = frozenset(
+            function.name
+            for unit in everything.values()
+            for path in (*unit.own_files, *unit.theorems)
+            for function in csource.defined(path.read_text(encoding="utf-8"))
+        )
+        stages = wp.QUICK if choice.quick else wp.THOROUGH
+        place = (self._root, stamp)
+        return [
+            *engines.survey_jobs(choice.units, prover, *place, known),
+            *engines.wp_jobs(choice.units, prover, *place, exceptions, stages),
+        ]
+
+    def _prover_cache(self, stamp: dict[str, str]) -> Path:
+        """Answers of provers, apart for each set of tools. The driver's state does not matter."""
+        tools = "\n".join(f"{name} {text}" for name, text in sorted(stamp.items()) if name != "driver")
+        return self._build / "answers" / hashlib.sha256(tools.encode()).hexdigest()[:16]
+
+    def _apply_rules(self, gathered: report.Gathered) -> None:
+        """What must hold besides that the proofs succeed."""
+        root = self._root
+        own = [path for unit in self._choice.units for path in (*unit.own_files, *unit.theorems)]
+        shared = [*(root / "include" / "keel").glob("*.h"), *(root / "specs").glob("**/*.h")]
+        gathered.problems += rules.assumptions_in([*own, *sorted(shared)], root)
+        for result in gathered.units.values():
+            unit, exceptions = result.unit, result.exceptions
+            result.problems += rules.undefined_functions(unit, exceptions.no_body, root)
+            if "cbmc" in self._choice.engines:
+                files = [path for path in closure(root, unit.harnesses) if "proofs" in path.parts]
+                result.problems += rules.switched_off_checks(files, root)
+                result.problems += rules.missing_harnesses(unit, exceptions.no_harness, root)
+            if "wp" in self._choice.engines:
+                self._check_warnings(result)
+                self._check_goal_list(result)
+
+    @staticmethod
+    def _check_warnings(result: report.UnitResult) -> None:
+        """An accepted warning that does not occur any more must go."""
+        result.problems += [
+            f"units.toml: [{result.unit.name}] warnings: nothing says {text!r} any more, remove it"
+            for text in result.exceptions.warnings
+            if text not in result.accepted
+        ]
+
+    def _check_goal_list(self, result: report.UnitResult) -> None:
+        """Compare the goals with the fixed list, or make the list anew."""
+        seen = [goal["name"] for goal in result.goals]
+        path = result.unit.goal_list
+        shown = str(path.relative_to(self._root))
+        if self._choice.update_goals:
+            self._update_goal_list(result, seen, path)
+        if path.is_file():
+            result.listed = path.read_text(encoding="utf-8").split()
+            result.problems += rules.compare_goals(result.listed, seen, shown)
+        else:
+            result.problems.append(f"{shown} is missing: review the goals, run --update-goals")
+
+    def _update_goal_list(
+        self, result: report.UnitResult, seen: Sequence[str], path: Path
+    ) -> None:
+        """Rewrite the list, unless the run itself is in doubt."""
+        shown = path.relative_to(self._root)
+        if any("WP" in text for text in result.problems):
+            print(f"{result.unit.name:<10} {shown} left alone: the run failed")
+            return
+        text = "".join(f"{name}\n" for name in sorted(set(seen)))
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:
+            write_atomically(path, text)
+            print(f"{result.unit.name:<10} {shown} rewritten: review the difference")

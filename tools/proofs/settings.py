@@ -1,0 +1,55 @@
+"""proofs/units.toml: the few exceptions that a person has accepted, each with its reason.
+
+    [queue]
+    no_harness = [{ function = "keel_queue_init", reason = "…" }]
+    no_body = [{ function = "keel_board_now", reason = "…" }]
+    warnings = [{ text = "part of a message of Frama-C", reason = "…" }]
+
+An exception without a reason, or that nothing needs any more, is an error.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from .project import ProjectError
+
+KINDS = {"no_harness": "function", "no_body": "function", "warnings": "text"}
+
+
+@dataclass
+class Exceptions:
+    """The exceptions of one unit: for each kind, what is excepted and why."""
+
+    no_harness: dict[str, str] = field(default_factory=dict)
+    no_body: dict[str, str] = field(default_factory=dict)
+    warnings: dict[str, str] = field(default_factory=dict)
+
+
+def _read_kind(unit: str, kind: str, entries: Any) -> dict[str, str]:
+    if kind not in KINDS:
+        raise ProjectError(f"units.toml: [{unit}] has the unknown key {kind}; known: {', '.join(KINDS)}")
+    wanted = {KINDS[kind], "reason"}
+    found: dict[str, str] = {}
+    for entry in entries:
+        if set(entry) != wanted or not all(str(value).strip() for value in entry.values()):
+            raise ProjectError(f"units.toml: [{unit}] {kind}: each entry needs {' and '.join(sorted(wanted))}")
+        found[str(entry[KINDS[kind]])] = str(entry["reason"])
+    return found
+
+
+def read_exceptions(path: Path, units: list[str]) -> dict[str, Exceptions]:
+    """Read the file; units that it does not name have no exceptions."""
+    raw = tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    for name in raw:
+        if name not in units:
+            raise ProjectError(f"units.toml: there is no unit {name}")
+    return {
+        name: Exceptions(
+            **{kind: _read_kind(name, kind, entries) for kind, entries in raw.get(name, {}).items()}
+        )
+        for name in units
+    }
