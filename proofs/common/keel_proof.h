@@ -108,29 +108,91 @@ static void any_task(uint32_t index, bool realtime)
     proof_task[index]->config = proof_config[index];
 }
 
-static void any_counts(keel_queue_t *queue)
+/* Any valid queue of at most so many tasks, 0 to count - 1 in this order. The newcomer is in none.
+ * The queue's capacity is the shipped one whatever the number of tasks. */
+static void any_queue_of(keel_queue_t *queue, uint32_t most)
 {
-    queue->count = any_below(CAPACITY + 1u);
+    queue->count = any_below(most + 1u);
     queue->realtime_count = any_below(queue->count + 1u);
-}
-
-/* Any valid queue of tasks 0 to count - 1 in this order. The newcomer is in none. */
-static void any_queue(keel_queue_t *queue)
-{
-    any_counts(queue);
     for (uint32_t i = 0u; i < CAPACITY; i++) {
+        queue->task[i] = NULL;
+    }
+    for (uint32_t i = 0u; i < most; i++) {
         any_task(i, i < queue->realtime_count);
-        queue->task[i] = (i < queue->count) ? proof_task[i] : NULL;
+        if (i < queue->count) {
+            queue->task[i] = proof_task[i];
+        }
     }
     any_task(NEWCOMER, nondet_bool());
 }
 
-/* Assumes that the declarations of all tasks have passed keel_task_check (queue_checked). */
-static void assume_checked(void)
+/* A valid queue of just so many tasks. With no slot in doubt the solver sees which tasks a loop
+ * reads, and how small their numbers are. */
+static void queue_of(keel_queue_t *queue, uint32_t realtime_count, uint32_t count)
 {
-    for (uint32_t i = 0u; i < TASKS; i++) {
+    queue->count = count;
+    queue->realtime_count = realtime_count;
+    for (uint32_t i = 0u; i < CAPACITY; i++) {
+        queue->task[i] = NULL;
+    }
+    for (uint32_t i = 0u; i < count; i++) {
+        any_task(i, i < realtime_count);
+        queue->task[i] = proof_task[i];
+    }
+    any_task(NEWCOMER, nondet_bool());
+}
+
+/* Any valid queue. */
+static void any_queue(keel_queue_t *queue)
+{
+    any_queue_of(queue, CAPACITY);
+}
+
+/* Assumes that the declarations of the first tasks and the newcomer's have passed
+ * keel_task_check (queue_checked). */
+static void assume_checked(uint32_t most)
+{
+    for (uint32_t i = 0u; i < most; i++) {
         __CPROVER_assume(config_is_valid_here(proof_config[i]));
     }
+    __CPROVER_assume(config_is_valid_here(proof_config[NEWCOMER]));
+}
+
+/* Replaces the first tasks' numbers, the newcomer's too, by small ones that pass keel_task_check:
+ * periods, phases, budgets and runs of so many bits, releases of release_bits. For harnesses whose
+ * function divides: the solver comes to the end of a division of small numbers only. */
+static void narrow_task(uint32_t index, uint32_t bits, uint32_t release_bits)
+{
+    keel_task_config_t *const config = proof_config[index];
+
+    config->period_us = any_bits(bits) + 1u;
+    config->phase_us = any_below(config->period_us);
+    config->budget_us = any_bits(bits) + 1u;
+    config->priority = (config->priority == KEEL_PRIORITY_REALTIME) ? KEEL_PRIORITY_REALTIME
+                                                                    : (any_bits(2u) + 1u);
+    proof_task[index]->release_us = any_bits64(release_bits);
+    proof_task[index]->stats.longest_us = any_bits(bits);
+}
+
+static void narrow_tasks(uint32_t most, uint32_t bits, uint32_t release_bits)
+{
+    for (uint32_t i = 0u; i < most; i++) {
+        narrow_task(i, bits, release_bits);
+    }
+    narrow_task(NEWCOMER, bits, release_bits);
+}
+
+/* Eq. 3 without a division: one more for each of the 15 multiples of T that sp * age reaches. */
+static uint32_t dynamic_priority(uint32_t sp, uint64_t age_us, uint32_t period_us)
+{
+    uint32_t priority = 1u;
+
+    for (uint32_t k = 1u; k < KEEL_PRIORITY_REALTIME; k++) {
+        if ((sp * age_us) >= (k * (uint64_t)period_us)) {
+            priority++;
+        }
+    }
+    return priority;
 }
 
 static bool is_realtime(const keel_task_t *task)

@@ -2,7 +2,7 @@
 // sources: src/rtos/load.c
 // covers: keel_load_milli_percent
 //
-// Bounded to windows below 2^8 us, where the solver comes to the end of the
+// Bounded to windows below 2^3 us, where the solver comes to the end of the
 // division; the contract under WP has no such bound.
 #include "../common/keel_proof.h"
 
@@ -10,8 +10,8 @@ void keel_load_milli_percent_harness(void)
 {
     keel_load_t load = {.start_us = any_bits64(63u), .busy_us = any_bits64(63u)};
     const keel_load_t before = load;
-    const uint64_t window_us = any_bits64(8u);
-    const uint64_t spent_us = any_bits64(8u);
+    const uint64_t window_us = any_bits64(3u);
+    const uint64_t spent_us = any_bits64(3u);
     uint64_t milli;
 
     __CPROVER_assume(spent_us <= window_us);

@@ -2,13 +2,13 @@
 // sources: src/rtos/task.c
 // covers: keel_task_advance add_saturating
 //
-// Bounded to periods up to 2^8 us, and up to 2^12 us of lateness, where the solver comes to the end
+// Bounded to periods up to 2^4 us, and up to 2^8 us of lateness, where the solver comes to the end
 // of the division; the contract under WP has no such bound.
 #include "../common/keel_proof.h"
 
 void keel_task_advance_harness(void)
 {
-    const uint64_t late_us = any_bits64(12u);
+    const uint64_t late_us = any_bits64(8u);
     uint64_t now_us;
     uint32_t period_us;
     keel_task_t before;
@@ -16,7 +16,7 @@ void keel_task_advance_harness(void)
     const keel_task_t *task;
 
     any_task(0u, nondet_bool());
-    proof_config[0]->period_us = any_bits(8u) + 1u;
+    proof_config[0]->period_us = any_bits(4u) + 1u;
     proof_task[0]->release_us = any_bits64(62u);
     task = proof_task[0];
     now_us = task->release_us + late_us;

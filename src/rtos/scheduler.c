@@ -1,52 +1,5 @@
 #include "keel/rtos/scheduler.h"
 
-/*@ // What scheduling reads of the declarations, unchanged by writing tasks and the scheduler. One
-  @ // predicate to a field, as provers frame one field at a time.
-  @ predicate config_same{L, M}(keel_scheduler_t *s) =
-  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
-  @         \at(s->queue.task[i]->config, M) ==
-  @             \at(s->queue.task[i]->config, L);
-  @
-  @ predicate priority_same{L, M}(keel_scheduler_t *s) =
-  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
-  @         \at(s->queue.task[i]->config->priority, M) ==
-  @             \at(s->queue.task[i]->config->priority, L);
-  @
-  @ predicate period_same{L, M}(keel_scheduler_t *s) =
-  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
-  @         \at(s->queue.task[i]->config->period_us, M) ==
-  @             \at(s->queue.task[i]->config->period_us, L);
-  @
-  @ predicate budget_same{L, M}(keel_scheduler_t *s) =
-  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
-  @         \at(s->queue.task[i]->config->budget_us, M) ==
-  @             \at(s->queue.task[i]->config->budget_us, L);
-  @
-  @ predicate phase_same{L, M}(keel_scheduler_t *s) =
-  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
-  @         \at(s->queue.task[i]->config->phase_us, M) ==
-  @             \at(s->queue.task[i]->config->phase_us, L);
-  @
-  @ predicate run_same{L, M}(keel_scheduler_t *s) =
-  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
-  @         \at(s->queue.task[i]->config->run, M) ==
-  @             \at(s->queue.task[i]->config->run, L);
-  @
-  @ predicate all_longest_same{L, M}(keel_scheduler_t *s) =
-  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==> longest_same{L, M}(s, i);
-  @
-  @ predicate worst_same{L, M}(keel_scheduler_t *s) =
-  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
-  @         \at(task_worst(s->queue.task[i]), M) == \at(task_worst(s->queue.task[i]), L);
-  @
-  @ predicate promotion_same{L, M}(keel_scheduler_t *s) =
-  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
-  @         \at(promotion_age(s->queue.task[i]->config->priority,
-  @                           s->queue.task[i]->config->period_us), M) ==
-  @         \at(promotion_age(s->queue.task[i]->config->priority,
-  @                           s->queue.task[i]->config->period_us), L);
-  @*/
-
 /*@ predicate others_wait(keel_scheduler_t *s, integer now_us) =
   @     \forall integer i; s->queue.realtime_count <= i < s->queue.count ==>
   @         !may_run(s, s->queue.task[i], now_us);
@@ -134,21 +87,44 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
     return keel_admission_admit(&admission, config);
 }
 
-/* Keeps the running task's index right when a slot opens at an index. */
-/*@ requires \valid(scheduler) && scheduler->queue.count < KEEL_QUEUE_CAPACITY;
-  @ requires scheduler->running == KEEL_INDEX_NONE ||
-  @     scheduler->running < scheduler->queue.count;
-  @ assigns scheduler->running;
-  @ ensures none: \old(scheduler->running) == KEEL_INDEX_NONE ==>
-  @     scheduler->running == KEEL_INDEX_NONE;
-  @ ensures shifted: \old(scheduler->running) != KEEL_INDEX_NONE ==> scheduler->running ==
-  @     \old(scheduler->running) + ((\old(scheduler->running) >= place) ? 1 : 0);
+/* Puts a task that was found fit into the queue; the running task may move down by one slot. */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
+  @ requires \valid(task) && \valid_read(task->config) && config_valid(task->config);
+  @ requires task_apart(scheduler, task) && !queue_holds(&scheduler->queue, task);
+  @ requires scheduler->queue.count < KEEL_QUEUE_CAPACITY;
+  @ assigns scheduler->queue.count, scheduler->queue.realtime_count;
+  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ assigns scheduler->running, scheduler->wake_us;
+  @ assigns task->skipped, task->release_us, task->stats;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures ok: \result == KEEL_OK;
+  @ ensures count: scheduler->queue.count == \old(scheduler->queue.count) + 1;
+  @ ensures armed: task->release_us == \old(scheduler->clock.now_us) + \old(task->config->phase_us)
+  @     && task->skipped == 0 && stats_fresh(task->stats);
+  @ ensures wake: scheduler->wake_us == 0;
+  @ ensures running: \old(scheduler->running) != KEEL_INDEX_NONE ==>
+  @     scheduler->queue.task[scheduler->running] ==
+  @         \old(scheduler->queue.task[scheduler->running]);
   @*/
-static void shift_running_down(keel_scheduler_t *scheduler, uint32_t place)
+static keel_status_t insert(keel_scheduler_t *scheduler, keel_task_t *task)
 {
-    if ((scheduler->running != KEEL_INDEX_NONE) && (scheduler->running >= place)) {
+    const uint32_t place = scheduler->queue.realtime_count;
+    const keel_status_t status = keel_queue_add(&scheduler->queue, task);
+
+    //@ assert checked: queue_checked(&scheduler->queue);
+    //@ assert scheduler_apart: scheduler_apart(scheduler);
+    //@ assert tasks_apart: tasks_apart(scheduler);
+    //@ assert configs_apart: configs_apart(scheduler);
+    /*@ assert apart: \forall integer j; 0 <= j < scheduler->queue.count ==>
+      @     \separated(task, scheduler->queue.task[j]->config);
+      @*/
+    if (keel_task_is_realtime(task) && (scheduler->running != KEEL_INDEX_NONE) &&
+        (scheduler->running >= place)) {
         scheduler->running++;
     }
+    scheduler->wake_us = 0u;
+    keel_task_arm(task, scheduler->clock.now_us);
+    return status;
 }
 
 keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, keel_task_t *task)
@@ -174,12 +150,7 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, keel_task_t *task)
             return status;
         }
     }
-    keel_task_arm(task, scheduler->clock.now_us);
-    if (keel_task_is_realtime(task)) {
-        shift_running_down(scheduler, scheduler->queue.realtime_count);
-    }
-    scheduler->wake_us = 0u;
-    return keel_queue_add(&scheduler->queue, task);
+    return insert(scheduler, task);
 }
 
 /* Keeps the indices of a pass right when the task at an index goes. */
@@ -213,6 +184,54 @@ static void shift_up(keel_scheduler_t *scheduler, uint32_t index)
     }
 }
 
+/* Takes the task at an index out of the queue and keeps the indices of the pass right. */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler);
+  @ requires index < scheduler->queue.count;
+  @ assigns scheduler->queue.count, scheduler->queue.realtime_count;
+  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ assigns scheduler->cursor, scheduler->pass_end, scheduler->running, scheduler->wake_us;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures ok: \result == KEEL_OK;
+  @ ensures gone: !queue_holds(&scheduler->queue, \old(scheduler->queue.task[index]));
+  @ ensures count: scheduler->queue.count == \old(scheduler->queue.count) - 1;
+  @ ensures wake: scheduler->wake_us == 0;
+  @ ensures cursor: \old(scheduler->cursor) < \old(scheduler->pass_end) &&
+  @     \old(scheduler->cursor) != index ==>
+  @     scheduler->queue.task[scheduler->cursor] ==
+  @         \old(scheduler->queue.task[scheduler->cursor]);
+  @ ensures running: \old(scheduler->running) != KEEL_INDEX_NONE &&
+  @     \old(scheduler->running) != index ==>
+  @     scheduler->queue.task[scheduler->running] ==
+  @         \old(scheduler->queue.task[scheduler->running]);
+  @ ensures forgotten: \old(scheduler->running) == index ==>
+  @     scheduler->running == KEEL_INDEX_NONE;
+  @*/
+static keel_status_t take_out(keel_scheduler_t *scheduler, uint32_t index)
+{
+    keel_status_t status;
+
+    shift_up(scheduler, index);
+    scheduler->wake_us = 0u;
+    status = keel_queue_remove(&scheduler->queue, index);
+    //@ assert checked: queue_checked(&scheduler->queue);
+    /*@ assert before: \forall integer i; 0 <= i < index ==>
+      @     \separated(scheduler, scheduler->queue.task[i]);
+      @*/
+    /*@ assert behind: \forall integer i; index <= i < scheduler->queue.count ==>
+      @     \separated(scheduler, scheduler->queue.task[i]);
+      @*/
+    /*@ assert config_before: \forall integer i; 0 <= i < index ==>
+      @     \separated(scheduler, scheduler->queue.task[i]->config);
+      @*/
+    /*@ assert config_behind: \forall integer i; index <= i < scheduler->queue.count ==>
+      @     \separated(scheduler, scheduler->queue.task[i]->config);
+      @*/
+    //@ assert scheduler_apart: scheduler_apart(scheduler);
+    //@ assert tasks_apart: tasks_apart(scheduler);
+    //@ assert configs_apart: configs_apart(scheduler);
+    return status;
+}
+
 keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, keel_task_t *task)
 {
     uint32_t index;
@@ -224,9 +243,55 @@ keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, keel_task_t *ta
     if (index == scheduler->queue.count) {
         return KEEL_ERR_UNKNOWN_TASK;
     }
-    shift_up(scheduler, index);
-    scheduler->wake_us = 0u;
-    return keel_queue_remove(&scheduler->queue, index);
+    return take_out(scheduler, index);
+}
+
+/* Sets the first release of every task. */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler);
+  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->skipped;
+  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->release_us;
+  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->stats;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures release: \forall integer i; 0 <= i < scheduler->queue.count ==>
+  @     scheduler->queue.task[i]->release_us == scheduler->queue.task[i]->config->phase_us;
+  @ ensures kept: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @     scheduler->clock.raw_us == \old(scheduler->clock.raw_us) &&
+  @     scheduler->queue.count == \old(scheduler->queue.count);
+  @*/
+static void arm_all(keel_scheduler_t *scheduler)
+{
+    /*@ loop invariant range: 0 <= i <= scheduler->queue.count;
+      @ loop invariant count: scheduler->queue.count == \at(scheduler->queue.count, Pre);
+      @ loop invariant realtime_count:
+      @     scheduler->queue.realtime_count == \at(scheduler->queue.realtime_count, Pre);
+      @ loop invariant state: scheduler_state(scheduler);
+      @ loop invariant now: scheduler->clock.now_us == \at(scheduler->clock.now_us, Pre);
+      @ loop invariant raw: scheduler->clock.raw_us == \at(scheduler->clock.raw_us, Pre);
+      @ loop invariant config: config_same{Pre, Here}(scheduler);
+      @ loop invariant priority: priority_same{Pre, Here}(scheduler);
+      @ loop invariant period: period_same{Pre, Here}(scheduler);
+      @ loop invariant budget: budget_same{Pre, Here}(scheduler);
+      @ loop invariant phase: phase_same{Pre, Here}(scheduler);
+      @ loop invariant run: run_same{Pre, Here}(scheduler);
+      @ loop invariant release: \forall integer j; 0 <= j < i ==>
+      @     scheduler->queue.task[j]->release_us == scheduler->queue.task[j]->config->phase_us;
+      @ loop assigns i, scheduler->queue.task[0 .. scheduler->queue.count - 1]->skipped,
+      @     scheduler->queue.task[0 .. scheduler->queue.count - 1]->release_us,
+      @     scheduler->queue.task[0 .. scheduler->queue.count - 1]->stats;
+      @ loop variant scheduler->queue.count - i;
+      @*/
+    for (uint32_t i = 0u; i < scheduler->queue.count; i++) {
+        keel_task_t *const task = scheduler->queue.task[i];
+
+        //@ assert apart_scheduler: \separated(scheduler, task);
+        /*@ assert apart: \forall integer j; 0 <= j < scheduler->queue.count ==>
+          @     \separated(task, scheduler->queue.task[j]->config);
+          @*/
+        /*@ assert apart_tasks: \forall integer k; 0 <= k < scheduler->queue.count ==> k != i ==>
+          @     \separated(task, scheduler->queue.task[k]);
+          @*/
+        keel_task_arm(task, 0u);
+    }
 }
 
 keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_us)
@@ -242,9 +307,14 @@ keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_
         return status;
     }
     keel_clock_init(&scheduler->clock, raw_us);
-    for (uint32_t i = 0u; i < scheduler->queue.count; i++) {
-        keel_task_arm(scheduler->queue.task[i], 0u);
-    }
+    //@ assert config: config_same{Pre, Here}(scheduler);
+    //@ assert priority: priority_same{Pre, Here}(scheduler);
+    //@ assert period: period_same{Pre, Here}(scheduler);
+    //@ assert budget: budget_same{Pre, Here}(scheduler);
+    //@ assert phase: phase_same{Pre, Here}(scheduler);
+    //@ assert run: run_same{Pre, Here}(scheduler);
+    //@ assert count: scheduler->queue.count == \at(scheduler->queue.count, Pre);
+    arm_all(scheduler);
     scheduler->stage = KEEL_STAGE_READY;
     return KEEL_OK;
 }
@@ -285,7 +355,7 @@ keel_status_t keel_scheduler_begin(keel_scheduler_t *scheduler, uint32_t raw_us)
     scheduler->wake_us = 0u;
     scheduler->stage = KEEL_STAGE_PASS;
     scheduler->cursor = 0u;
-    scheduler->pass_end = scheduler->queue.realtime_count;
+    scheduler->pass_end = (uint16_t)scheduler->queue.realtime_count;
     scheduler->ran = false;
     //@ assert config: config_same{Pre, Here}(scheduler);
     //@ assert priority: priority_same{Pre, Here}(scheduler);
@@ -316,8 +386,8 @@ keel_status_t keel_scheduler_begin(keel_scheduler_t *scheduler, uint32_t raw_us)
   @ ensures others: \forall integer k; 0 <= k < scheduler->queue.count && k != index ==>
   @     release_same{Pre, Post}(scheduler, k);
   @*/
-static keel_task_t *dispatch(keel_scheduler_t *scheduler, uint32_t index, uint32_t cursor,
-                             uint32_t stage)
+static keel_task_t *dispatch(keel_scheduler_t *scheduler, uint16_t index, uint16_t cursor,
+                             uint8_t stage)
 {
     keel_task_t *const task = scheduler->queue.task[index];
 
@@ -400,7 +470,7 @@ keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler)
     index = keel_decision_realtime(&scheduler->queue, scheduler->cursor, scheduler->pass_end,
                                    now_us);
     if (index < scheduler->pass_end) {
-        return dispatch(scheduler, index, index + 1u, KEEL_STAGE_REALTIME);
+        return dispatch(scheduler, (uint16_t)index, (uint16_t)(index + 1u), KEEL_STAGE_REALTIME);
     }
     slack_us = keel_decision_slack_us(&scheduler->queue, now_us);
     index = keel_decision_other(&scheduler->queue, now_us, slack_us, scheduler->config.guard_us);
@@ -411,7 +481,7 @@ keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler)
     if (index < scheduler->queue.count) {
         const bool by_promotion = is_promoted(scheduler->queue.task[index], now_us);
 
-        task = dispatch(scheduler, index, scheduler->pass_end, KEEL_STAGE_OTHER);
+        task = dispatch(scheduler, (uint16_t)index, scheduler->pass_end, KEEL_STAGE_OTHER);
         if (by_promotion) {
             keel_stats_promote(&task->stats);
         }
@@ -421,81 +491,14 @@ keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler)
     return task;
 }
 
-/* Records how long a run took, for the task at an index unless it has removed itself. */
-/*@ requires \valid(scheduler) && scheduler_valid(scheduler);
-  @ requires index == KEEL_INDEX_NONE || index < scheduler->queue.count;
-  @ requires scheduler->busy_us + elapsed_us <= UINT64_MAX;
-  @ assigns scheduler->busy_us;
-  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->stats;
-  @ SCHEDULER_STAYS_VALID(scheduler)
-  @ ensures busy: scheduler->busy_us == \old(scheduler->busy_us) + elapsed_us;
-  @ ensures kept: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
-  @     scheduler->clock.raw_us == \old(scheduler->clock.raw_us) &&
-  @     scheduler->stage == \old(scheduler->stage) &&
-  @     scheduler->running == \old(scheduler->running) &&
-  @     scheduler->queue.count == \old(scheduler->queue.count);
-  @ ensures recorded: index != KEEL_INDEX_NONE ==>
-  @     scheduler->queue.task[index]->stats.last_us == elapsed_us &&
-  @     scheduler->queue.task[index]->stats.longest_us ==
-  @         \max(\old(scheduler->queue.task[index]->stats.longest_us), elapsed_us);
-  @ ensures others: \forall integer k; 0 <= k < scheduler->queue.count ==>
-  @     k != index ==> longest_same{Pre, Post}(scheduler, k);
-  @*/
-static void record_run(keel_scheduler_t *scheduler, uint32_t index, uint32_t elapsed_us)
-{
-    scheduler->busy_us += elapsed_us;
-    if (index != KEEL_INDEX_NONE) {
-        keel_task_t *const task = scheduler->queue.task[index];
-
-        /*@ assert apart: \forall integer j; 0 <= j < scheduler->queue.count ==>
-          @     \separated(task, scheduler->queue.task[j]->config);
-          @*/
-        /*@ assert apart_tasks: \forall integer k; 0 <= k < scheduler->queue.count ==> k != index ==>
-          @     \separated(task, scheduler->queue.task[k]);
-          @*/
-        keel_stats_record(&task->stats, elapsed_us, task->config->budget_us);
-        //@ assert count: scheduler->queue.count == \at(scheduler->queue.count, Pre);
-        /*@ assert realtime_count:
-          @     scheduler->queue.realtime_count == \at(scheduler->queue.realtime_count, Pre);
-          @*/
-        //@ assert state: scheduler_state(scheduler);
-    }
-    //@ assert config: config_same{Pre, Here}(scheduler);
-    //@ assert priority: priority_same{Pre, Here}(scheduler);
-    //@ assert period: period_same{Pre, Here}(scheduler);
-    //@ assert budget: budget_same{Pre, Here}(scheduler);
-    //@ assert phase: phase_same{Pre, Here}(scheduler);
-    //@ assert run: run_same{Pre, Here}(scheduler);
-}
-
-/* Leaves the service of a task: the pass goes on after a real-time task, unless the clock broke. */
-/*@ requires \valid(scheduler) && scheduler_valid(scheduler);
-  @ requires stage == KEEL_STAGE_READY || stage == KEEL_STAGE_PASS;
-  @ requires scheduler->wake_us == 0;
-  @ assigns scheduler->stage, scheduler->running;
-  @ SCHEDULER_STAYS_VALID(scheduler)
-  @ ensures left: scheduler->stage == stage && scheduler->running == KEEL_INDEX_NONE;
-  @*/
-static void leave_task(keel_scheduler_t *scheduler, uint32_t stage)
-{
-    scheduler->stage = stage;
-    scheduler->running = KEEL_INDEX_NONE;
-    //@ assert config: config_same{Pre, Here}(scheduler);
-    //@ assert priority: priority_same{Pre, Here}(scheduler);
-    //@ assert period: period_same{Pre, Here}(scheduler);
-    //@ assert budget: budget_same{Pre, Here}(scheduler);
-    //@ assert phase: phase_same{Pre, Here}(scheduler);
-    //@ assert run: run_same{Pre, Here}(scheduler);
-}
-
 keel_status_t keel_scheduler_finish(keel_scheduler_t *scheduler, uint32_t raw_us)
 {
     const uint64_t start_us = scheduler->clock.now_us;
-    const uint32_t stage = scheduler->stage;
-    const uint32_t index = scheduler->running;
+    const uint16_t index = scheduler->running;
+    const bool realtime = scheduler->stage == KEEL_STAGE_REALTIME;
     keel_status_t status;
 
-    if ((stage != KEEL_STAGE_REALTIME) && (stage != KEEL_STAGE_OTHER)) {
+    if (!realtime && (scheduler->stage != KEEL_STAGE_OTHER)) {
         return KEEL_ERR_STATE;
     }
     status = keel_clock_advance(&scheduler->clock, raw_us);
@@ -505,15 +508,49 @@ keel_status_t keel_scheduler_finish(keel_scheduler_t *scheduler, uint32_t raw_us
     //@ assert budget: budget_same{Pre, Here}(scheduler);
     //@ assert phase: phase_same{Pre, Here}(scheduler);
     //@ assert run: run_same{Pre, Here}(scheduler);
-    if (status != KEEL_OK) {
-        leave_task(scheduler, KEEL_STAGE_READY);
-        return status;
-    }
+    //@ assert checked: queue_checked(&scheduler->queue);
     //@ assert longest: all_longest_same{Pre, Here}(scheduler);
-    leave_task(scheduler, (stage == KEEL_STAGE_REALTIME) ? KEEL_STAGE_PASS : KEEL_STAGE_READY);
-    //@ assert longest_left: all_longest_same{Pre, Here}(scheduler);
-    record_run(scheduler, index, (uint32_t)(scheduler->clock.now_us - start_us));
-    return KEEL_OK;
+    /* With a broken clock the pass ends here; the caller learns why. */
+    scheduler->stage = ((status == KEEL_OK) && realtime) ? KEEL_STAGE_PASS : KEEL_STAGE_READY;
+    scheduler->running = KEEL_INDEX_NONE;
+    scheduler->busy_us += scheduler->clock.now_us - start_us;
+    if ((status == KEEL_OK) && (index != KEEL_INDEX_NONE)) {
+        keel_task_t *const task = scheduler->queue.task[index];
+
+        //@ assert apart_scheduler: \separated(scheduler, task);
+        /*@ assert apart: \forall integer j; 0 <= j < scheduler->queue.count ==>
+          @     \separated(task, scheduler->queue.task[j]->config);
+          @*/
+        /*@ assert apart_tasks: \forall integer k; 0 <= k < scheduler->queue.count ==> k != index ==>
+          @     \separated(task, scheduler->queue.task[k]);
+          @*/
+        keel_stats_record(&task->stats, (uint32_t)(scheduler->clock.now_us - start_us),
+                          task->config->budget_us);
+        //@ assert count: scheduler->queue.count == \at(scheduler->queue.count, Pre);
+        /*@ assert realtime_count:
+          @     scheduler->queue.realtime_count == \at(scheduler->queue.realtime_count, Pre);
+          @*/
+        //@ assert raw: scheduler->clock.raw_us == raw_us;
+        //@ assert now: scheduler->clock.now_us - start_us == task->stats.last_us;
+        //@ assert busy: scheduler->busy_us == \at(scheduler->busy_us, Pre) + task->stats.last_us;
+        /*@ assert limits: scheduler->config.guard_us == \at(scheduler->config.guard_us, Pre) &&
+          @     scheduler->config.utilisation_limit ==
+          @         \at(scheduler->config.utilisation_limit, Pre);
+          @*/
+        //@ assert state: scheduler_state(scheduler);
+        /*@ assert others: \forall integer k; 0 <= k < scheduler->queue.count ==> k != index ==>
+          @     longest_same{Pre, Here}(scheduler, k);
+          @*/
+    }
+    //@ assert end_checked_config: queue_configs_valid(&scheduler->queue);
+    //@ assert end_config: config_same{Pre, Here}(scheduler);
+    //@ assert end_priority: priority_same{Pre, Here}(scheduler);
+    //@ assert end_period: period_same{Pre, Here}(scheduler);
+    //@ assert end_budget: budget_same{Pre, Here}(scheduler);
+    //@ assert end_phase: phase_same{Pre, Here}(scheduler);
+    //@ assert end_run: run_same{Pre, Here}(scheduler);
+    //@ assert end_checked: queue_checked(&scheduler->queue);
+    return status;
 }
 
 static uint32_t read_clock(const keel_scheduler_t *scheduler)

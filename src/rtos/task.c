@@ -39,11 +39,13 @@ void keel_task_arm(keel_task_t *task, uint64_t start_us)
 }
 
 /*@ assigns \nothing;
-  @ ensures \result == \min(UINT32_MAX, value + more);
+  @ ensures \result == \min(UINT16_MAX, value + more);
   @*/
-static uint32_t add_saturating(uint32_t value, uint64_t more)
+static uint16_t add_saturating(uint16_t value, uint64_t more)
 {
-    return (more > (UINT32_MAX - value)) ? UINT32_MAX : (value + (uint32_t)more);
+    const uint16_t room = (uint16_t)(UINT16_MAX - value);
+
+    return (more > room) ? UINT16_MAX : (uint16_t)(value + more);
 }
 
 void keel_task_advance(keel_task_t *task, uint64_t now_us)

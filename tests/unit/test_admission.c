@@ -100,6 +100,13 @@ static void ADM_003_demand_of_one_task(void)
     admitted(KEEL_PRIORITY_REALTIME, 300u, 100u); /* 100 + 2 * 100 = 300 */
 }
 
+static void ADM_003_demand_of_the_smallest_budget(void)
+{
+    begin(1u);
+    refused(KEEL_ERR_REALTIME_DEMAND, KEEL_PRIORITY_REALTIME, 2u, 1u);
+    admitted(KEEL_PRIORITY_REALTIME, 3u, 1u); /* 1 + 2 * 1 = 3 */
+}
+
 static void ADM_003_demand_adds_up_against_the_shortest_period(void)
 {
     begin(25u);
@@ -282,6 +289,7 @@ int main(void)
     RUN_TEST(ADM_002_totals_of_a_set);
     RUN_TEST(ADM_002_shortest_period_and_gap_may_be_of_different_tasks);
     RUN_TEST(ADM_003_demand_of_one_task);
+    RUN_TEST(ADM_003_demand_of_the_smallest_budget);
     RUN_TEST(ADM_003_demand_adds_up_against_the_shortest_period);
     RUN_TEST(ADM_003_demand_against_the_new_task_s_period);
     RUN_TEST(ADM_003_budget_beyond_the_period_is_a_demand);

@@ -29,6 +29,7 @@ static void SCH_001_init_makes_an_empty_scheduler(void)
     TEST_ASSERT_EQUAL_UINT32(25u, s->config.guard_us);
     TEST_ASSERT_EQUAL_UINT32(1000000u, s->config.utilisation_limit);
     TEST_ASSERT_EQUAL_UINT64(0u, s->clock.now_us);
+    TEST_ASSERT_EQUAL_UINT32(0u, s->clock.raw_us);
     TEST_ASSERT_EQUAL_UINT64(0u, s->wake_us);
     TEST_ASSERT_EQUAL_UINT64(0u, s->busy_us);
     TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_SETUP, s->stage);
@@ -722,6 +723,8 @@ static void SCH_012_a_pass_that_ran_a_task_does_not_sleep(void)
     step();
     TEST_ASSERT_EQUAL_UINT64(1000u, kernel.scheduler.wake_us);
     ran("APO");
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_begin(&kernel.scheduler, 1000u));
+    TEST_ASSERT_EQUAL_UINT64(0u, kernel.scheduler.wake_us); /* As finish demands. */
 }
 
 static void SCH_012_sleeps_for_ever_without_tasks(void)
@@ -932,6 +935,28 @@ static void SCH_007_a_task_removes_a_later_one(void)
     ran("AC");
 }
 
+static void SCH_007_removing_the_next_task_runs_none_twice(void)
+{
+    with_a_b_c();
+    kernel.a.cost_us = 1000u; /* Due again when it ends. */
+    kernel.a.act = remove_b;
+    step();
+    ran("AC");
+    took(&kernel.a, 1u);
+}
+
+static void SCH_007_removing_the_first_other_task_skips_no_realtime_one(void)
+{
+    board_init(0u);
+    add(&kernel.a);
+    add(&kernel.b);
+    add(&kernel.o);
+    start();
+    kernel.a.act = remove_o;
+    step();
+    ran("AB");
+}
+
 static void SCH_007_other_task_removes_itself(void)
 {
     board_init(0u);
@@ -999,6 +1024,19 @@ static void SCH_004_other_task_adds_a_realtime_one(void)
     took(&kernel.d, 0u);
     step();
     ran("DO");
+}
+
+static void SCH_004_the_first_other_task_adds_a_realtime_one(void)
+{
+    board_init(0u);
+    add(&kernel.a);
+    add(&kernel.o);
+    start();
+    kernel.o.act = add_d; /* D takes the very slot of O. */
+    step();
+    ran("AO");
+    took(&kernel.o, 1u);
+    took(&kernel.d, 0u);
 }
 
 static void SCH_004_other_task_adds_another(void)
@@ -1140,7 +1178,7 @@ static void SCH_013_step_refuses_a_backwards_clock(void)
     TEST_ASSERT_EQUAL_UINT64(510u + 0x7FFFFFFFu + 10u, kernel.scheduler.clock.now_us);
 }
 
-static void SCH_018_resync_adopts_the_clock(void)
+static void resync_adopts_the_clock(void)
 {
     board_init(0u);
     kernel.a.config.phase_us = 600u;
@@ -1166,7 +1204,7 @@ static void step_the_clock_back(void)
     board.raw_us = 40u;
 }
 
-static void SCH_018_resync_after_a_task_s_clock_jumped(void)
+static void resync_after_a_task_s_clock_jumped(void)
 {
     board_init(0u);
     add(&kernel.a);
@@ -1190,7 +1228,7 @@ static void resync_is_refused(keel_status_t reason)
     unchanged();
 }
 
-static void SCH_018_resync_refuses_null_and_wrong_stages(void)
+static void resync_refuses_null_and_wrong_stages(void)
 {
     TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_resync(NULL));
     board_init(0u);
@@ -1298,10 +1336,13 @@ int main(void)
     RUN_TEST(SCH_007_the_last_task_removes_itself);
     RUN_TEST(SCH_007_a_task_removes_an_earlier_one);
     RUN_TEST(SCH_007_a_task_removes_a_later_one);
+    RUN_TEST(SCH_007_removing_the_next_task_runs_none_twice);
+    RUN_TEST(SCH_007_removing_the_first_other_task_skips_no_realtime_one);
     RUN_TEST(SCH_007_other_task_removes_itself);
     RUN_TEST(SCH_007_other_task_removes_a_realtime_one);
     RUN_TEST(SCH_004_a_realtime_task_added_in_a_pass_waits_for_the_next);
     RUN_TEST(SCH_004_other_task_adds_a_realtime_one);
+    RUN_TEST(SCH_004_the_first_other_task_adds_a_realtime_one);
     RUN_TEST(SCH_004_other_task_adds_another);
     RUN_TEST(SCH_004_a_task_added_anew_by_itself_waits_for_the_next_pass);
     RUN_TEST(SCH_004_a_task_adds_after_it_has_removed_itself);
@@ -1310,9 +1351,9 @@ int main(void)
     RUN_TEST(SCH_013_step_refuses_inside_a_running_task);
     RUN_TEST(SCH_013_begin_refuses_in_an_open_pass);
     RUN_TEST(SCH_013_step_refuses_a_backwards_clock);
-    RUN_TEST(SCH_018_resync_adopts_the_clock);
-    RUN_TEST(SCH_018_resync_after_a_task_s_clock_jumped);
-    RUN_TEST(SCH_018_resync_refuses_null_and_wrong_stages);
+    RUN_TEST(resync_adopts_the_clock);
+    RUN_TEST(resync_after_a_task_s_clock_jumped);
+    RUN_TEST(resync_refuses_null_and_wrong_stages);
     RUN_TEST(CLK_003_schedule_is_the_same_across_the_wrap);
     return UNITY_END();
 }

@@ -39,6 +39,7 @@ class Result:
     """What became of a harness."""
 
     properties: list[dict[str, str]] = field(default_factory=list)
+    defines: list[str] = field(default_factory=list)
     covered: int = 0
     blocks: int = 0
     problems: list[str] = field(default_factory=list)
@@ -57,6 +58,8 @@ class Answer:
     goals: list[dict[str, Any]]
     warnings: list[str]
     complete: bool
+    failed: bool = False
+    first_failure: str = ""
 
 
 def file_of(location: dict[str, Any]) -> str:
@@ -78,7 +81,8 @@ def read_answer(text: str) -> Answer:
     properties: list[dict[str, str]] = []
     goals: list[dict[str, Any]] = []
     warnings: list[str] = []
-    complete = False
+    complete = failed = False
+    first_failure = ""
     for entry in entries if isinstance(entries, list) else []:
         if entry.get("messageType") in ("WARNING", "ERROR"):
             warnings.append(str(entry.get("messageText", "")))
@@ -93,7 +97,11 @@ def read_answer(text: str) -> Answer:
             )  # fmt: skip
         goals += entry.get("goals", [])
         complete = complete or "cProverStatus" in entry or "goalsCovered" in entry
-    return Answer(properties, goals, warnings, complete)
+        failed = failed or entry.get("cProverStatus") == "failure"
+        for step in entry.get("trace", []):  # what --stop-on-fail shows
+            if step.get("stepType") == "failure":
+                first_failure = str(step.get("reason", ""))
+    return Answer(properties, goals, warnings, complete, failed, first_failure)
 
 
 def numbers(ranges: str) -> set[int]:
@@ -154,7 +162,9 @@ def coverage_problems(
     ends = [block for block in found if block.function == harness.name]
     last = max((line for block in ends for _, line in block.places), default=0)
     if not any(block.reached and any(line == last for _, line in block.places) for block in ends):
-        problems.append("no execution reaches the harness's end: its assumptions contradict each other")
+        problems.append(
+            "no execution reaches the harness's end: its assumptions contradict each other"
+        )
     reached = {f"{file}:{line}" for block in found if block.reached for file, line in block.places}
     for item in properties:
         if ASSERTION.search(item["name"]) and item["place"] not in reached:
@@ -163,7 +173,9 @@ def coverage_problems(
         own = [block for block in found if block.function == function]
         if not own:
             problems.append(f"{function} is covered nowhere: it is never called")
-        problems += [f"{block.first}: not reached in {function}" for block in own if not block.reached]
+        problems += [
+            f"{block.first}: not reached in {function}" for block in own if not block.reached
+        ]
     return list(dict.fromkeys(problems))
 
 
@@ -186,7 +198,8 @@ class Cbmc:
     def prove(self, harness: Harness) -> Result:
         """Prove a harness and measure what it reaches."""
         start = time.monotonic()
-        result = Result(problems=harnesses.text_problems(harness))
+        problems = harnesses.text_problems(harness)
+        result = Result(problems=problems, defines=list(harness.defines))
         binary, complaint = self.build(harness, harness.name)
         if complaint:
             result.problems.append(complaint)
@@ -257,7 +270,9 @@ class Cbmc:
         done = self._runner.run(
             [*self._goto_cc, *objects, "--function", harness.name, "-o", str(binary)]
         )
-        complaint = f"goto-cc: {done.output.strip()}" if done.status != 0 or done.output.strip() else ""
+        complaint = (
+            f"goto-cc: {done.output.strip()}" if done.status != 0 or done.output.strip() else ""
+        )
         return binary, complaint
 
     def _measure(self, harness: Harness, binary: Path, result: Result) -> None:
@@ -310,6 +325,10 @@ def refutation_problems(answer: Answer, wrong: WrongBody, shown: str) -> list[st
     ]
 
 
-def dependencies(harness: Harness, root: Path, extra: Sequence[Path] = ()) -> list[Path]:
+def dependencies(harness: Harness, root: Path, replacement: Path | None = None) -> list[Path]:
     """All files of the project that a harness's verdict depends on."""
-    return closure(root, [harness.path, *harness.sources, harness.unit.header, *extra])
+    sources = list(harness.sources)
+    if replacement and replacement.suffix == ".c":
+        sources = [path for path in sources if path != harness.unit.source]
+    files = [harness.path, *sources, harness.unit.header, *([replacement] if replacement else [])]
+    return closure(root, files)

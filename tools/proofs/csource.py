@@ -130,8 +130,8 @@ def loops(body: str) -> int:
     return len(LOOP.findall(body))
 
 
-def annotations(text: str) -> list[tuple[int, str]]:
-    """The ACSL annotations of a text with the line that each starts on, comments in them blanked."""
+def acsl(text: str) -> list[tuple[int, str]]:
+    """The ACSL annotations of a text and the line of each, comments in them blanked."""
     found = []
     for match in TOKEN.finditer(text):
         comment = match.group("comment") or ""
@@ -143,12 +143,14 @@ def annotations(text: str) -> list[tuple[int, str]]:
 
 def lemmas(text: str) -> list[str]:
     """The lemmas that a text states."""
-    return [name for _, inner in annotations(text) for name in LEMMA.findall(inner)]
+    return [name for _, inner in acsl(text) for name in LEMMA.findall(inner)]
 
 
 def includes(text: str) -> list[str]:
     """The files that a text includes with quotation marks."""
-    return INCLUDE.findall(TOKEN.sub(lambda m: blanked(m) if m.group("comment") else m.group(), text))
+    return INCLUDE.findall(
+        TOKEN.sub(lambda m: blanked(m) if m.group("comment") else m.group(), text)
+    )
 
 
 def calls(body: str, name: str) -> int:
@@ -164,7 +166,7 @@ FORBIDDEN = re.compile(r"\b(axiom|axiomatic|admit|check|inductive)\b|(\bterminat
 def forbidden(text: str) -> list[tuple[int, str]]:
     """Annotations that would weaken a proof: line and word."""
     found = []
-    for line, inner in annotations(text):
+    for line, inner in acsl(text):
         for match in FORBIDDEN.finditer(inner):
             found.append((line + inner.count("\n", 0, match.start()), match.group()))
     return found

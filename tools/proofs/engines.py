@@ -84,23 +84,22 @@ def cbmc_jobs(
 
 def cbmc_key(
     harness: Harness, checker: cbmc.Cbmc, root: Path, stamp: Mapping[str, str],
-    extra: Sequence[Path] = (),
+    replacement: Path | None = None,
 ) -> str:  # fmt: skip
     """What a harness's verdict depends on. Contracts are comments to CBMC."""
     texts = {
         str(path.relative_to(root)): csource.essence(path.read_text(encoding="utf-8"))
-        for path in cbmc.dependencies(harness, root, extra)
+        for path in cbmc.dependencies(harness, root, replacement)
     }
-    directives = [path.read_text(encoding="utf-8") for path in (harness.path, *extra)]
+    told = [harness.path, *([replacement] if replacement else [])]
+    directives = [path.read_text(encoding="utf-8") for path in told]
     return digest(
         {"kind": "cbmc", "stamp": dict(stamp), "options": checker.options(), "texts": texts,
          "directives": directives, "name": harness.name}
     )  # fmt: skip
 
 
-def _harness_job(
-    harness: Harness, checker: cbmc.Cbmc, root: Path, stamp: Mapping[str, str]
-) -> Job:
+def _harness_job(harness: Harness, checker: cbmc.Cbmc, root: Path, stamp: Mapping[str, str]) -> Job:
     def execute() -> dict[str, Any]:
         return checker.prove(harness).as_dict()
 
@@ -114,5 +113,5 @@ def _wrong_job(
     def execute() -> dict[str, Any]:
         return checker.refute(wrong, harness).as_dict()
 
-    key = cbmc_key(harness, checker, root, stamp, [wrong.path])
+    key = cbmc_key(harness, checker, root, stamp, wrong.path)
     return Job(wrong.unit.name, "negative", wrong.path.name, key, execute)

@@ -2,16 +2,16 @@
 
 Directives stand in the first comment lines of a file:
 
-    // cbmc: --unwind 33 --external-sat-solver cadical     options of the search, from OPTIONS
-    // sources: src/rtos/queue.c                            what is linked; default: the unit's source
-    // covers: keel_queue_add open_slot                     functions that must be reached everywhere
-    // defines: -DKEEL_QUEUE_CAPACITY=8u                    for a smaller model, shown in the report
-    // timeout: 900                                         seconds
+    // cbmc: --unwind 33 --external-sat-solver cadical   options of the search, from OPTIONS
+    // sources: src/rtos/queue.c              what is linked; default: the unit's source
+    // covers: keel_queue_add open_slot       functions that must be reached everywhere
+    // defines: -DKEEL_QUEUE_CAPACITY=8u      for a smaller model, shown in the report
+    // timeout: 900                           seconds
 
 and in a file of wrong/:
 
-    // harness: keel_queue_add_harness                      the harness that must refute it
-    // expect: QUE_006                                      part of each assertion that must fail
+    // harness: keel_queue_add_harness        the harness that must refute it
+    // expect: QUE_006                        part of each assertion that must fail
 
 The function that a harness proves is in its name: keel_queue_add_harness, or, for one of several
 cases, keel_queue_add__full_harness.
@@ -41,7 +41,9 @@ OPTIONS = {
     "--no-array-field-sensitivity": False,
 }  # fmt: skip
 # Those that choose a solver, which the coverage run (many easy questions) does without.
-SOLVERS = frozenset(["--external-sat-solver", "--sat-solver", "--z3", "--bitwuzla", "--cvc5", "--smt2"])
+SOLVERS = frozenset(
+    ["--external-sat-solver", "--sat-solver", "--z3", "--bitwuzla", "--cvc5", "--smt2"]
+)
 
 
 def directives(path: Path, known: frozenset[str]) -> dict[str, list[str]]:
@@ -144,7 +146,9 @@ def text_problems(harness: Harness) -> list[str]:
     elif csource.calls(code, harness.function) != 1:
         problems.append(f"{place}: calls {harness.function} outside {harness.name}, too")
     if harness.unit.source.is_file() and harness.unit.source not in harness.sources:
-        problems.append(f"{place}: does not link {harness.unit.source.relative_to(harness.unit.root)}")
+        problems.append(
+            f"{place}: does not link {harness.unit.source.relative_to(harness.unit.root)}"
+        )
     if harness.function not in harness.covers:
         problems.append(f"{place}: `covers` must name {harness.function}")
     return problems

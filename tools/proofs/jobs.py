@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 T = TypeVar("T")
 
@@ -56,6 +56,23 @@ class Runner:
             with self._lock:
                 self._running.discard(process)
 
+    def run_until(self, command: Sequence[str], enough: Callable[[str], bool]) -> str:
+        """Run a program until it has said enough; all that it has said by then."""
+        process = self._start(command, True, self._environment)
+        said: list[str] = []
+        try:
+            assert process.stdout
+            for line in process.stdout:
+                said.append(line)
+                if enough(line):
+                    break
+            return "".join(said)
+        finally:
+            self._kill(process)
+            process.communicate()
+            with self._lock:
+                self._running.discard(process)
+
     def stop(self) -> None:
         """End every program and start no other."""
         with self._lock:
@@ -86,8 +103,15 @@ class Runner:
             pass
 
 
+class Stoppable(Protocol):
+    """Something that starts programs and can end them all."""
+
+    def stop(self) -> None:
+        """End every program and start no other."""
+
+
 def in_pool(
-    tasks: Sequence[Callable[[], T]], width: int, runner: Runner
+    tasks: Sequence[Callable[[], T]], width: int, runner: Stoppable
 ) -> Iterator[tuple[int, T]]:
     """Run tasks, `width` at a time, in their order; yield index and result as each finishes."""
     pool = ThreadPoolExecutor(max_workers=width)

@@ -71,7 +71,9 @@ def find_units(root: Path = ROOT) -> dict[str, Unit]:
     for header in sorted((root / "include" / "keel").glob("*/*.h")):
         unit = Unit(root, header.parent.name, header.stem)
         if unit.name in units:
-            raise ProjectError(f"two units are called {unit.name}: {units[unit.name].header}, {header}")
+            raise ProjectError(
+                f"two units are called {unit.name}: {units[unit.name].header}, {header}"
+            )
         units[unit.name] = unit
     return units
 

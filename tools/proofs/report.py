@@ -67,7 +67,7 @@ class UnitResult:
 
 
 def _harness(result: Mapping[str, Any], sound: bool) -> dict[str, Any]:
-    """A harness in the report: numbers, and its assertions by name, for the join with requirements."""
+    """A harness in the report: numbers, and its assertions, to be joined with requirements."""
     properties = result["properties"]
     return {
         "properties": len(properties),
@@ -78,6 +78,7 @@ def _harness(result: Mapping[str, Any], sound: bool) -> dict[str, Any]:
             for item in properties
             if cbmc.ASSERTION.search(item["name"])
         ],
+        "defines": result["defines"],
         "coverage": {"blocks": result["blocks"], "reached": result["covered"]},
     }
 
@@ -132,7 +133,11 @@ class Gathered:
         return not self.all_problems and 0 < self.total == self.proved
 
 
-KINDS = {"wp": ("WP", "goals"), "cbmc": ("CBMC", "properties"), "negative": ("CBMC", "wrong bodies refuted")}
+KINDS = {
+    "wp": ("WP", "goals"),
+    "cbmc": ("CBMC", "properties"),
+    "negative": ("CBMC", "wrong bodies refuted"),
+}
 
 
 class Console:

@@ -18,9 +18,13 @@ def assumptions_in(files: Iterable[Path], root: Path) -> list[str]:
         text = path.read_text(encoding="utf-8")
         for line, word in csource.forbidden(text):
             place = f"{path.relative_to(root)}:{line}"
-            problems.append(f"{place}: `{word}` is assumed, not proved; state a lemma or a contract")
+            problems.append(
+                f"{place}: `{word}` is assumed, not proved; state a lemma or a contract"
+            )
         for line, word in csource.prover_code(text):
-            problems.append(f"{path.relative_to(root)}:{line}: `{word}`: what is proved must be what is built")
+            problems.append(
+                f"{path.relative_to(root)}:{line}: `{word}`: what is proved must be what is built"
+            )
     return problems
 
 
@@ -43,7 +47,9 @@ def undefined_functions(unit: Unit, excepted: Mapping[str, str], root: Path) -> 
         for function in csource.functions(text):
             if function.name not in bodies and function.name not in excepted:
                 place = f"{path.relative_to(root)}:{function.line}"
-                problems.append(f"{place}: {function.name} has a contract and no body to prove it by")
+                problems.append(
+                    f"{place}: {function.name} has a contract and no body to prove it by"
+                )
     return problems + _stale(unit, "no_body", excepted, bodies)
 
 
@@ -58,7 +64,9 @@ def missing_harnesses(unit: Unit, excepted: Mapping[str, str], root: Path) -> li
             wanted = unit.folder / f"{function.name}_harness.c"
             problems.append(f"{function.name} has no harness: write {wanted.relative_to(root)}")
     for name in sorted(proved - names):
-        problems.append(f"{unit.folder.relative_to(root)}: {name}, which a harness proves, is not in the header")
+        problems.append(
+            f"{unit.folder.relative_to(root)}: {name}, which a harness proves, is not in the header"
+        )
     return problems + _stale(unit, "no_harness", excepted, proved)
 
 

@@ -7,7 +7,7 @@ import os
 import shutil
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -37,7 +37,10 @@ def tool_stamp(tools: dict[str, Found]) -> dict[str, str]:
     """What identifies the tools of a verdict: versions and hashes, no places."""
     stamp = {name: f"{tool.version} {tool.sha256}" for name, tool in tools.items()}
     for name, tool in tools.items():
-        parts = [f"{part.get('name')} {part.get('version')} {part.get('sha256', '')}" for part in tool.parts]
+        parts = [
+            f"{part.get('name')} {part.get('version')} {part.get('sha256', '')}"
+            for part in tool.parts
+        ]
         stamp[name] += "".join(f"; {part.strip()}" for part in parts)
     # The configuration of why3 differs from host to host in its paths alone.
     stamp.pop("why3-config", None)
@@ -49,8 +52,16 @@ def own_digest() -> str:
     folder = Path(__file__).resolve().parent
     state = hashlib.sha256()
     for path in sorted([*folder.glob("*.py"), folder.parent / "toolchain.py"]):
-        state.update(path.read_bytes())
+        if path.stem not in ("mutants", "mutation"):
+            state.update(path.read_bytes())
     return state.hexdigest()
+
+
+def prover_answers(root: Path, stamp: Mapping[str, str]) -> Path:
+    """Where provers' answers are kept, apart for each set of tools; the driver does not matter."""
+    tools = "\n".join(f"{name} {text}" for name, text in sorted(stamp.items()) if name != "driver")
+    name = hashlib.sha256(tools.encode()).hexdigest()[:16]
+    return root / "build" / "prove" / "answers" / name
 
 
 class Session:
@@ -67,8 +78,8 @@ class Session:
         start = time.monotonic()
         target = self._build / "report.json"
         target.unlink(missing_ok=True)
-        self._build.mkdir(parents=True, exist_ok=True)
-        scratch = Path(tempfile.mkdtemp(dir=self._build, prefix="run-"))
+        # Not below build/: why3 puts a socket there, whose path must be short.
+        scratch = Path(tempfile.mkdtemp(prefix="keel-prove-"))
         environment = {**os.environ, **self._tools.environment(), "TMPDIR": str(scratch)}
         runner = Runner(environment, self._root)
         try:
@@ -117,7 +128,7 @@ class Session:
         choice = self._choice
         prover = wp.Wp(
             self._tools.frama_c(), runner, self._root, scratch,
-            self._prover_cache(stamp) if choice.cached else None,
+            prover_answers(self._root, stamp) if choice.cached else None,
         )  # fmt: skip
         known = frozenset(
             function.name
@@ -131,11 +142,6 @@ class Session:
             *engines.survey_jobs(choice.units, prover, *place, known),
             *engines.wp_jobs(choice.units, prover, *place, exceptions, stages),
         ]
-
-    def _prover_cache(self, stamp: dict[str, str]) -> Path:
-        """Answers of provers, apart for each set of tools. The driver's state does not matter."""
-        tools = "\n".join(f"{name} {text}" for name, text in sorted(stamp.items()) if name != "driver")
-        return self._build / "answers" / hashlib.sha256(tools.encode()).hexdigest()[:16]
 
     def _apply_rules(self, gathered: report.Gathered) -> None:
         """What must hold besides that the proofs succeed."""
@@ -176,9 +182,7 @@ class Session:
         else:
             result.problems.append(f"{shown} is missing: review the goals, run --update-goals")
 
-    def _update_goal_list(
-        self, result: report.UnitResult, seen: Sequence[str], path: Path
-    ) -> None:
+    def _update_goal_list(self, result: report.UnitResult, seen: Sequence[str], path: Path) -> None:
         """Rewrite the list, unless the run itself is in doubt."""
         shown = path.relative_to(self._root)
         if any("WP" in text for text in result.problems):

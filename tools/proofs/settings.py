@@ -31,12 +31,16 @@ class Exceptions:
 
 def _read_kind(unit: str, kind: str, entries: Any) -> dict[str, str]:
     if kind not in KINDS:
-        raise ProjectError(f"units.toml: [{unit}] has the unknown key {kind}; known: {', '.join(KINDS)}")
+        raise ProjectError(
+            f"units.toml: [{unit}] has the unknown key {kind}; known: {', '.join(KINDS)}"
+        )
     wanted = {KINDS[kind], "reason"}
     found: dict[str, str] = {}
     for entry in entries:
         if set(entry) != wanted or not all(str(value).strip() for value in entry.values()):
-            raise ProjectError(f"units.toml: [{unit}] {kind}: each entry needs {' and '.join(sorted(wanted))}")
+            raise ProjectError(
+                f"units.toml: [{unit}] {kind}: each entry needs {' and '.join(sorted(wanted))}"
+            )
         found[str(entry[KINDS[kind]])] = str(entry["reason"])
     return found
 

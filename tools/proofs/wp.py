@@ -7,6 +7,8 @@ function is proved where it is defined, in the unit of its header or source; a l
 
 from __future__ import annotations
 
+import contextlib
+import fcntl
 import json
 import re
 import shutil
@@ -39,6 +41,7 @@ QUICK = (Stage("alt-ergo", 2), Stage("cvc4", 5), Stage("z3", 5))
 THOROUGH = (*QUICK, Stage("alt-ergo", 30), Stage("cvc4", 30), Stage("z3", 30))
 SMOKE = Stage("alt-ergo", 1)
 
+VARIANT = re.compile(r"_loop_variant(?:_\d+)?_decrease$")
 CLAUSE = re.compile(r"\b(?:ensures|invariant|assert|requires|lemma)\s+(\w+)\s*:")
 
 # Messages that take nothing from a proof.
@@ -176,20 +179,33 @@ class Wp:
         start = time.monotonic()
         report = self._scratch / f"{target.identity}.json"
         report.unlink(missing_ok=True)
-        done = self._runner.run(self.command(target, stages, smoke, report))
-        log = wplog.read_log(done.output)
-        result = Result(smoke=sum(log.smoke.values()))
-        result.goals = [
-            {"name": goal.name, "status": goal.status, "prover": goal.prover}
-            for goal in log.goals.values()
-        ]
-        result.problems += self._structure(target, log, report, done.output)
-        result.problems += _messages(log, allowed, result.allowed)
-        result.problems += _unproved(target, log, self._root)
-        result.problems += _loops(target, log)
-        self._drop_failures(target)
+        with self._answers_alone(target):
+            done = self._runner.run(self.command(target, stages, smoke, report))
+            self._drop_failures(target)
+        written = report.read_text(encoding="utf-8") if report.is_file() else ""
+        result = judge(target, done.output, written, self._root, allowed)
         result.seconds = round(time.monotonic() - start, 1)
         return result
+
+    def first_problem(self, target: Target, stages: Sequence[Stage], allowed: Sequence[str]) -> str:
+        """Why a target is not proved, without waiting for more than one reason; "" if it is."""
+        report = self._scratch / f"{target.identity}.json"
+        passes = 0
+
+        def enough(line: str) -> bool:
+            nonlocal passes
+            passes += line.startswith("[wp] Running WP plugin")
+            goal = wplog.GOAL.match(line)
+            return passes == len(stages) and goal is not None and goal["status"] != "Valid"
+
+        output = self._runner.run_until(self.command(target, stages, False, report), enough)
+        self._drop_failures(target)
+        log = wplog.read_log(output)
+        if not log.goals:
+            return "WP has no goal"
+        problems = [goal.name for goal in log.goals.values() if not goal.proved]
+        problems += _messages(log, allowed, []) + _loops(target, log)
+        return problems[0] if problems else ""
 
     def command(
         self, target: Target, stages: Sequence[Stage], smoke: bool, report: Path
@@ -200,9 +216,11 @@ class Wp:
         before: list[str] = []
         last = [*stages, SMOKE] if smoke else list(stages)
         for number, stage in enumerate(last):
-            provers = ",".join([*(f"-{name}" for name in before if name != stage.prover), stage.prover])
+            provers = ",".join(
+                [*(f"-{name}" for name in before if name != stage.prover), stage.prover]
+            )
             command += ["-then"] if number else []
-            command += ["-wp", "-wp-rte", *target.selection, "-wp-par", "2"]
+            command += ["-wp", "-wp-rte", "-wp-status-invalid", *target.selection, "-wp-par", "2"]
             command += [f"-wp-prover={provers}", "-wp-timeout", str(stage.seconds)]
             before = [stage.prover]
         if smoke:
@@ -224,6 +242,18 @@ class Wp:
         folder.mkdir(parents=True, exist_ok=True)
         return ["-wp-cache", "update", "-wp-cache-dir", str(folder)]
 
+    @contextlib.contextmanager
+    def _answers_alone(self, target: Target) -> Iterator[None]:
+        """Keep another run in this clone away from the same answers."""
+        folder = self._cache_of(target)
+        if not folder:
+            yield
+            return
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with folder.with_suffix(".lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            yield
+
     def _drop_failures(self, target: Target) -> None:
         """Forget what a prover did not prove, but for the time-outs that smoke tests hope for.
 
@@ -240,21 +270,39 @@ class Wp:
             if not keep:
                 path.unlink(missing_ok=True)
 
-    def _structure(self, target: Target, log: wplog.Log, report: Path, output: str) -> list[str]:
-        """What is wrong with the run as such."""
-        try:
-            totals = wplog.read_report(json.loads(report.read_text(encoding="utf-8")))
-        except (OSError, ValueError, AttributeError):
-            tail = " | ".join(output.strip().splitlines()[-3:])
-            return [f"{target.name}: WP wrote no report; it ended with: {tail}"]
-        problems = []
-        if difference := wplog.disagreement(log, totals):
-            problems.append(f"{target.name}: {difference}; this is a fault of the driver, do not trust it")
-        if not log.goals:
-            problems.append(f"{target.name}: WP has no goal for it")
-        if target.function and target.function not in log.functions:
-            problems.append(f"{target.name}: WP does not know this function")
-        return problems
+
+def judge(
+    target: Target, output: str, report: str, root: Path, allowed: Sequence[str] = ()
+) -> Result:
+    """What a run of WP shows, from its output and its JSON report."""
+    log = wplog.read_log(output)
+    result = Result(smoke=sum(log.smoke.values()))
+    result.goals = [
+        {"name": goal.name, "status": goal.status, "prover": goal.prover}
+        for goal in log.goals.values()
+    ]
+    result.problems += _structure(target, log, report, output)
+    result.problems += _messages(log, allowed, result.allowed)
+    result.problems += _unproved(target, log, root)
+    result.problems += _loops(target, log)
+    return result
+
+
+def _structure(target: Target, log: wplog.Log, report: str, output: str) -> list[str]:
+    """What is wrong with the run as such."""
+    try:
+        totals = wplog.read_report(json.loads(report))
+    except (ValueError, AttributeError):
+        tail = " | ".join(output.strip().splitlines()[-3:])
+        return [f"{target.name}: WP wrote no report; it ended with: {tail}"]
+    problems = []
+    if difference := wplog.disagreement(log, totals):
+        problems.append(f"{target.name}: do not trust this run, WP's {difference}")
+    if not log.goals:
+        problems.append(f"{target.name}: WP has no goal for it")
+    if target.function and target.function not in log.functions:
+        problems.append(f"{target.name}: WP does not know this function")
+    return problems
 
 
 def _messages(log: wplog.Log, allowed: Sequence[str], used: list[str]) -> list[str]:
@@ -277,13 +325,13 @@ def _unproved(target: Target, log: wplog.Log, root: Path) -> list[str]:
     for goal in log.goals.values():
         if not goal.proved:
             tried = ", ".join(dict.fromkeys(goal.attempts)) or goal.status
-            where = place_of(target, goal.name, root)
-            problems.append(f"{goal.name} is not proved ({where}): {tried}")
+            place = place_of(target, goal.name, root)
+            problems.append(f"{goal.name} is not proved ({place}): {tried}")
     for name, passed in log.smoke.items():
         if not passed:
-            what = "a contradiction or dead code: see the warning's line"
-            where = [m.place for m in log.messages if "Failed smoke-test" in m.text]
-            problems.append(f"smoke test {name} failed ({', '.join(where)}): {what}")
+            seen = [m.place for m in log.messages if "Failed smoke-test" in m.text]
+            places = ", ".join(seen) or "no place known"
+            problems.append(f"smoke test {name} failed ({places}): a contradiction, or dead code")
     return problems
 
 
@@ -294,9 +342,10 @@ def _loops(target: Target, log: wplog.Log) -> list[str]:
     for path in (target.file, *target.unit.own_files):
         body = csource.body_of(path.read_text(encoding="utf-8"), target.function)
         if body:
-            variants = sum(bool(re.search(r"_loop_variant(_\d+)?_decrease$", name)) for name in log.goals)
-            if csource.loops(body) != variants:
-                return [f"{target.name}: {csource.loops(body)} loops, {variants} loop variants proved"]
+            loops = csource.loops(body)
+            variants = sum(bool(VARIANT.search(goal.name)) for goal in log.goals.values())
+            if loops != variants:
+                return [f"{target.name}: {loops} loops, but {variants} loop variants: does it end?"]
             return []
     return []
 
@@ -310,10 +359,12 @@ def place_of(target: Target, goal: str, root: Path) -> str:
         shown = path.relative_to(root) if path.is_relative_to(root) else path
         for first, last, line in _regions(text, target.function):
             fallback = f"{shown}:{line}"
-            for offset, clause in enumerate(text.splitlines()[first:last], first + 1):
+            for number, clause in enumerate(text.splitlines()[first:last], first + 1):
                 label = CLAUSE.search(clause)
-                if label and re.search(rf"_{label.group(1)}(_\d+)?(_established|_preserved)?$", goal):
-                    return f"{shown}:{offset}"
+                if label and re.search(
+                    rf"_{label.group(1)}(_\d+)?(_established|_preserved)?$", goal
+                ):
+                    return f"{shown}:{number}"
     return fallback or "no place known"
 
 

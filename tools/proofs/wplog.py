@@ -11,7 +11,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-GOAL = re.compile(r"^\[wp\] \[(?P<by>[^\]]+)\] Goal (?:typed\w*?_)?(?P<name>\w+)(?: : (?P<status>\w+))?")
+GOAL = re.compile(
+    r"^\[wp\] \[(?P<by>[^\]]+)\] Goal (?:typed\w*?_)?(?P<name>\w+)(?: : (?P<status>\w+))?"
+)
 SMOKE = re.compile(r"^\[wp\] \[(?P<by>\w+)\] Smoke-test (?:typed\w*?_)?(?P<name>\w+)")
 ATTEMPT = re.compile(r"^ +(?P<by>[\w-]+(?: [\d.]+)?): (?P<status>[A-Z]\w*)")
 MESSAGE = re.compile(
@@ -133,9 +135,9 @@ def disagreement(log: Log, totals: Totals) -> str:
     counted = len(log.goals) + len(log.smoke)
     proved = log.proved + sum(log.smoke.values())
     if counted != totals.total:
-        return f"the log shows {counted} goals and smoke tests, the JSON report {totals.total}"
+        return f"log shows {counted} goals and smoke tests, its report {totals.total}"
     if proved != totals.valid:
-        return f"the log shows {proved} proved or passed, the JSON report {totals.valid}"
+        return f"log shows {proved} proved or passed, its report {totals.valid}"
     if bool(totals.open) != (totals.valid != totals.total):
-        return "the JSON report's totals differ from its entries"
+        return "report has totals that differ from its entries"
     return ""

@@ -49,7 +49,7 @@ typedef struct keel_scheduler_config {
 #define KEEL_STAGE_OTHER    4u /**< Another task is running. */
 
 /** The index that no task has. */
-#define KEEL_INDEX_NONE UINT32_MAX
+#define KEEL_INDEX_NONE UINT16_MAX
 
 /** A scheduler. Its caller owns the memory; read it freely, only the functions below write it. */
 typedef struct keel_scheduler {
@@ -58,10 +58,10 @@ typedef struct keel_scheduler {
     keel_clock_t clock;             /**< The time of the last clock reading. */
     uint64_t wake_us;               /**< Before this time no task can run, in us. */
     uint64_t busy_us;               /**< Time spent in tasks since the start, in us. */
-    uint32_t stage;                 /**< One of KEEL_STAGE_*. */
-    uint32_t cursor;                /**< In a pass: the next index that FCFS looks at. */
-    uint32_t pass_end;              /**< In a pass: where its real-time tasks end. */
-    uint32_t running;               /**< The running task's index, or KEEL_INDEX_NONE. */
+    uint16_t cursor;                /**< In a pass: the next index that FCFS looks at. */
+    uint16_t pass_end;              /**< In a pass: where its real-time tasks end. */
+    uint16_t running;               /**< The running task's index, or KEEL_INDEX_NONE. */
+    uint8_t stage;                  /**< One of KEEL_STAGE_*. */
     bool ran;                       /**< In a pass: whether it has run a task. */
 } keel_scheduler_t;
 
@@ -80,6 +80,14 @@ typedef struct keel_scheduler {
     ensures SCH_006_tasks_apart : tasks_apart(s);                                                  \
     ensures SCH_006_configs_apart : configs_apart(s);                                              \
     ensures SCH_006_state : scheduler_state(s);
+
+/* What begin, next and finish leave alone: the set of tasks and what was declared of them. */
+#define DECLARATIONS_STAY(s)                                                                       \
+    ensures SCH_022_counts: (s)->queue.count == \old((s)->queue.count) &&                          \
+        (s)->queue.realtime_count == \old((s)->queue.realtime_count) &&                            \
+        (s)->config.guard_us == \old((s)->config.guard_us);                                        \
+    ensures SCH_022_periods: period_same{Pre, Post}(s);                                            \
+    ensures SCH_022_budgets: budget_same{Pre, Post}(s);
 /* clang-format on */
 
 /*@ predicate stage_running(keel_scheduler_t *s) =
@@ -101,7 +109,7 @@ typedef struct keel_scheduler {
   @
   @ // ... from each other ...
   @ predicate tasks_apart(keel_scheduler_t *s) =
-  @     \forall integer i, j; 0 <= i < j < s->queue.count ==>
+  @     \forall integer i, j; 0 <= i < s->queue.count ==> 0 <= j < s->queue.count ==> i != j ==>
   @         \separated(s->queue.task[i], s->queue.task[j]);
   @
   @ // ... and declarations, which may be shared, from all tasks.
@@ -172,6 +180,53 @@ typedef struct keel_scheduler {
   @ // The release of task k, unchanged.
   @ predicate release_same{L, M}(keel_scheduler_t *s, integer k) =
   @     \at(s->queue.task[k]->release_us, M) == \at(s->queue.task[k]->release_us, L);
+  @*/
+
+/*@ // What scheduling reads of the declarations, unchanged by writing tasks and the scheduler. One
+  @ // predicate to a field, as provers frame one field at a time.
+  @ predicate config_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(s->queue.task[i]->config, M) ==
+  @             \at(s->queue.task[i]->config, L);
+  @
+  @ predicate priority_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(s->queue.task[i]->config->priority, M) ==
+  @             \at(s->queue.task[i]->config->priority, L);
+  @
+  @ predicate period_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(s->queue.task[i]->config->period_us, M) ==
+  @             \at(s->queue.task[i]->config->period_us, L);
+  @
+  @ predicate budget_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(s->queue.task[i]->config->budget_us, M) ==
+  @             \at(s->queue.task[i]->config->budget_us, L);
+  @
+  @ predicate phase_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(s->queue.task[i]->config->phase_us, M) ==
+  @             \at(s->queue.task[i]->config->phase_us, L);
+  @
+  @ predicate run_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(s->queue.task[i]->config->run, M) ==
+  @             \at(s->queue.task[i]->config->run, L);
+  @
+  @ predicate all_longest_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==> longest_same{L, M}(s, i);
+  @
+  @ predicate worst_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(task_worst(s->queue.task[i]), M) == \at(task_worst(s->queue.task[i]), L);
+  @
+  @ predicate promotion_same{L, M}(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < \at(s->queue.count, L) ==>
+  @         \at(promotion_age(s->queue.task[i]->config->priority,
+  @                           s->queue.task[i]->config->period_us), M) ==
+  @         \at(promotion_age(s->queue.task[i]->config->priority,
+  @                           s->queue.task[i]->config->period_us), L);
   @*/
 
 /**
@@ -324,9 +379,9 @@ keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, keel_task_t *ta
  */
 /*@ requires \valid(scheduler) && scheduler_valid(scheduler);
   @ assigns scheduler->clock, scheduler->stage;
-  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->skipped;
-  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->release_us;
-  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->stats;
+  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->skipped;
+  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->release_us;
+  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->stats;
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ ensures SCH_010_state: \old(scheduler->stage) != KEEL_STAGE_SETUP ==>
   @     \result == KEEL_ERR_STATE;
@@ -358,6 +413,9 @@ keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_
   @ assigns scheduler->clock, scheduler->wake_us, scheduler->stage, scheduler->cursor,
   @     scheduler->pass_end, scheduler->ran;
   @ SCHEDULER_STAYS_VALID(scheduler)
+  @ DECLARATIONS_STAY(scheduler)
+  @ ensures SCH_011_releases: \forall integer k; 0 <= k < scheduler->queue.count ==>
+  @     release_same{Pre, Post}(scheduler, k);
   @ ensures SCH_012_wake: wake_right(scheduler);
   @ behavior state:
   @   assumes scheduler->stage != KEEL_STAGE_READY;
@@ -399,10 +457,12 @@ keel_status_t keel_scheduler_begin(keel_scheduler_t *scheduler, uint32_t raw_us)
   @ requires wake_right(scheduler);
   @ assigns scheduler->wake_us, scheduler->stage, scheduler->cursor, scheduler->running,
   @     scheduler->ran;
-  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->skipped;
-  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->release_us;
-  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->stats.promotions;
+  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->skipped;
+  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->release_us;
+  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->stats.promotions;
   @ SCHEDULER_STAYS_VALID(scheduler)
+  @ DECLARATIONS_STAY(scheduler)
+  @ ensures SCH_014_pass: scheduler->pass_end == \old(scheduler->pass_end);
   @ behavior closed:
   @   assumes scheduler->stage != KEEL_STAGE_PASS;
   @   ensures SCH_014_closed: \result == \null && scheduler->stage == \old(scheduler->stage);
@@ -466,8 +526,13 @@ keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler);
 /*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
   @ requires scheduler->busy_us <= scheduler->clock.now_us;
   @ assigns scheduler->clock, scheduler->busy_us, scheduler->stage, scheduler->running;
-  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1]->stats;
+  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->stats;
   @ SCHEDULER_STAYS_VALID(scheduler)
+  @ DECLARATIONS_STAY(scheduler)
+  @ ensures SCH_017_releases: \forall integer k; 0 <= k < scheduler->queue.count ==>
+  @     release_same{Pre, Post}(scheduler, k);
+  @ ensures SCH_017_pass: scheduler->cursor == \old(scheduler->cursor) &&
+  @     scheduler->pass_end == \old(scheduler->pass_end);
   @ ensures SCH_017_busy_bound: scheduler->busy_us <= scheduler->clock.now_us;
   @ behavior state:
   @   assumes !stage_running(scheduler);

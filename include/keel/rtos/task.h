@@ -38,7 +38,7 @@ typedef struct keel_task_config {
  */
 typedef struct keel_task {
     const keel_task_config_t *config; /**< What the programmer declared. */
-    uint32_t skipped;                 /**< Whole periods passed unserved; stays at UINT32_MAX. */
+    uint16_t skipped;                 /**< Whole periods passed unserved; stays at UINT16_MAX. */
     uint64_t release_us;              /**< The next release to serve, on the task's grid, in us. */
     keel_stats_t stats;               /**< How its runs went. */
 } keel_task_t;
@@ -137,7 +137,7 @@ void keel_task_arm(keel_task_t *task, uint64_t start_us);
   @ ensures TSK_004_on_time: now_us < \old(task->release_us) + task->config->period_us ==>
   @     task->release_us == \old(task->release_us) + task->config->period_us &&
   @     task->skipped == \old(task->skipped);
-  @ ensures TSK_004_skipped: task->skipped == \min(UINT32_MAX, \old(task->skipped)
+  @ ensures TSK_004_skipped: task->skipped == \min(UINT16_MAX, \old(task->skipped)
   @     + (now_us - \old(task->release_us)) / task->config->period_us);
   @*/
 void keel_task_advance(keel_task_t *task, uint64_t now_us);

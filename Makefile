@@ -1,0 +1,76 @@
+# What Keel can do. Each target installs what it needs (KEEL_NO_INSTALL=1: says what is missing
+# instead) and runs one program of tools/, which can also be called directly.
+
+SHELL := /bin/bash
+MAKEFLAGS += --no-print-directory
+export PYTHONUNBUFFERED := 1
+
+UNIT ?=
+SECONDS := 60
+ARGS ?=
+
+ALL_TOOLS := prove test lint coverage bench fuzz
+CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
+DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
+
+.PHONY: help prove test demo bench lint coverage mutate fuzz trace status tools doctor clean python
+.NOTPARALLEL:
+
+help: ## this list
+	@sed -nE 's/^([a-z]+):[^#]*## (.*)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 18
+
+prove: python ## prove every contract and harness (UNIT=queue: one unit; ARGS=--update-goals)
+	@python3 tools/prove.py $(if $(UNIT),--unit $(UNIT)) $(ARGS)
+
+test: python ## build and run all tests (ARGS='--filter unit/': some of them)
+	@python3 tools/run_tests.py $(ARGS)
+
+demo: python ## the paper's 21 tasks, one simulated minute on this host
+	@python3 tools/toolchain.py ensure test
+	@mkdir -p build
+	gcc $(CFLAGS) -Iinclude -Iexamples/demo $(DEMO) -lm -o build/demo
+	@build/demo
+
+bench: python ## instructions per pass, code size and RAM (ARGS=--check: fail on a missed goal)
+	@python3 tools/bench.py $(ARGS)
+
+lint: python ## layout, MISRA C:2012 and the rules of the house (ARGS=--fix: lay out first)
+	@python3 tools/lint.py $(ARGS)
+
+coverage: python ## lines, branches and MC/DC that the unit tests reach
+	@python3 tools/coverage.py
+
+mutate: python ## break a unit's code and see whether the proofs notice (UNIT=queue)
+	@test -n "$(UNIT)" || { echo 'mutate: which unit? For example: make mutate UNIT=queue' >&2; exit 2; }
+	@python3 tools/mutate.py --unit $(UNIT) $(ARGS)
+
+fuzz: python ## fuzz the scheduler against its reference model (SECONDS=60)
+	@python3 tools/run_tests.py --filter fuzz --fuzz $(SECONDS)
+
+trace: python ## requirement, clause, harness, test: fail when one stands alone
+	@python3 tools/trace.py $(ARGS)
+
+status: python ## write what the last run of 'make prove' proved into README.md
+	@python3 tools/status.py
+
+tools: python ## install all tools now, rather than when they are needed
+	@python3 tools/toolchain.py ensure $(ALL_TOOLS)
+
+doctor: python ## which tools were found, with versions; exit status 1 when one is missing
+	@python3 tools/toolchain.py versions
+
+clean: ## remove build/; what was downloaded stays in the cache
+	rm -rf build
+
+# The tools are Python programs. Where there is none, Debian's is installed.
+python:
+	@command -v python3 >/dev/null || { \
+	    test "$$KEEL_NO_INSTALL" != 1 && command -v apt-get >/dev/null || { \
+	        echo 'make: python3 is missing; please install Python 3.11 or newer' >&2; exit 1; }; \
+	    root=; test "$$(id -u)" = 0 || root='sudo -n'; \
+	    $$root apt-get update && \
+	    $$root apt-get install -y --no-install-recommends python3 ca-certificates || { \
+	        echo 'make: python3 is missing and could not be installed (not root, no sudo' \
+	             'without a password, or no network); please install it' >&2; exit 1; }; }
+	@python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+	    echo "make: Python 3.11 or newer is needed, this is $$(python3 --version)" >&2; exit 1; }

@@ -1,0 +1,78 @@
+// harness: keel_clock_elapsed_us_harness
+// expect: CLK_001
+//
+// Across the wrap a microsecond is lost.
+/**
+ * @file clock.h
+ * @brief A microsecond clock that never wraps, made from a 32-bit counter that does.
+ *
+ * The hardware counter is 32 bits wide and wraps every 71.6 minutes. It is widened here, in one
+ * place, to 64 bits; above this unit time is monotone and ordinary arithmetic on it is right, so
+ * no theorem of the kernel has a wrap-around case. The functions are inline because the
+ * scheduler's idle pass, which is little else, runs them on every poll.
+ */
+#ifndef KEEL_RTOS_CLOCK_H
+#define KEEL_RTOS_CLOCK_H
+
+#include "keel/status.h"
+
+#include <stdint.h>
+
+/** A step of the counter of this size or more is read as a jump backwards, in us. */
+#define KEEL_CLOCK_STEP_LIMIT_US 0x80000000u
+
+/** Uptime up to which the proofs hold, in us: 2^62, about 146 000 years. */
+#define KEEL_CLOCK_TIME_LIMIT_US 0x4000000000000000u
+
+/** A widened clock. The caller owns it; only the functions below write it. */
+typedef struct keel_clock {
+    uint64_t now_us; /**< Time since initialisation, in us. */
+    uint32_t raw_us; /**< The counter at the last reading, in us modulo 2^32. */
+} keel_clock_t;
+
+/**
+ * Time from one raw reading to a later one, across the counter's wrap (requirement CLK-001).
+ *
+ * @param from_us the earlier reading
+ * @param to_us   the later reading, less than 2^32 us after it
+ * @return the difference in us
+ */
+static inline uint32_t keel_clock_elapsed_us(uint32_t from_us, uint32_t to_us)
+{
+    /* Two branches rather than a wrapping subtraction: no operation here overflows. */
+    return (to_us >= from_us) ? (to_us - from_us) : ((UINT32_MAX - from_us) + to_us);
+}
+
+/**
+ * Starts time at 0, with the counter at a given reading (requirement CLK-002).
+ *
+ * @param clock  the clock to initialise
+ * @param raw_us the counter now
+ */
+static inline void keel_clock_init(keel_clock_t *clock, uint32_t raw_us)
+{
+    clock->now_us = 0u;
+    clock->raw_us = raw_us;
+}
+
+/**
+ * Moves time on to a new reading of the counter (requirements CLK-003 and CLK-004).
+ *
+ * @param clock  the clock, whose time is below KEEL_CLOCK_TIME_LIMIT_US
+ * @param raw_us the counter now, read less than 2^31 us after the last reading
+ * @return KEEL_OK, or KEEL_ERR_CLOCK when the reading lies behind the last one: a step of
+ *         KEEL_CLOCK_STEP_LIMIT_US or more cannot be told from a step backwards
+ */
+static inline keel_status_t keel_clock_advance(keel_clock_t *clock, uint32_t raw_us)
+{
+    const uint32_t elapsed_us = keel_clock_elapsed_us(clock->raw_us, raw_us);
+
+    if (elapsed_us >= KEEL_CLOCK_STEP_LIMIT_US) {
+        return KEEL_ERR_CLOCK;
+    }
+    clock->now_us += elapsed_us;
+    clock->raw_us = raw_us;
+    return KEEL_OK;
+}
+
+#endif

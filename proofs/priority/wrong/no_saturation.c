@@ -1,0 +1,29 @@
+// harness: keel_priority_dynamic_harness
+// expect: PRI_002
+//
+// dp grows without a limit.
+#include "keel/rtos/priority.h"
+
+/* What sp * age must reach for eq. 3 to saturate: (max - 1) * T. */
+static uint64_t saturation(uint32_t period_us)
+{
+    return ((uint64_t)KEEL_PRIORITY_REALTIME - 1u) * period_us;
+}
+
+bool keel_priority_promoted(uint32_t sp, uint64_t age_us, uint32_t period_us)
+{
+    const uint64_t limit = saturation(period_us);
+
+    /* The first test keeps the product of the second within 64 bits for every age. */
+    return (age_us >= limit) || ((sp * age_us) >= limit);
+}
+
+uint32_t keel_priority_dynamic(uint32_t sp, uint64_t age_us, uint32_t period_us)
+{
+    return 1u + (uint32_t)((sp * age_us) / period_us);
+}
+
+uint64_t keel_priority_promotion_age_us(uint32_t sp, uint32_t period_us)
+{
+    return (saturation(period_us) + (sp - 1u)) / sp;
+}

@@ -1,0 +1,898 @@
+#!/usr/bin/env python3
+"""Tests of tools/prove.py: what must make a proof fail does, and only success is remembered.
+
+    python3 tests/tools/test_prove.py
+
+No prover is run: the engines are played by small scripts that print what the real ones print.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+from unittest import mock
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import prove  # noqa: E402
+from proofs.cache import Cache  # noqa: E402
+from proofs.jobs import Runner  # noqa: E402
+from proofs.project import ProjectError, Unit, closure, find_units  # noqa: E402
+from proofs.session import Choice, Session  # noqa: E402
+from toolchain import Toolchain, ToolchainError  # noqa: E402
+
+from proofs import cbmc, csource, driver, engines, harness, rules, settings, wp, wplog  # noqa: E402
+
+HEADER = """\
+#ifndef KEEL_RTOS_BOX_H
+#define KEEL_RTOS_BOX_H
+#include "keel/status.h"
+/** Puts a value into a box. */
+/*@ requires \\valid(box);
+  @ assigns *box;
+  @ ensures BOX_001: *box == value;
+  @*/
+void keel_box_put(int *box, int value);
+#endif
+"""
+SOURCE = """\
+#include "keel/rtos/box.h"
+
+/* Counts { for nothing. */
+static int helper(int limit)
+{
+    int i = 0;
+    while (i < limit) {
+        i++;
+    }
+    return i;
+}
+
+void keel_box_put(int *box, int value)
+{
+    *box = value;
+}
+"""
+HARNESS = """\
+// cbmc: --unwind 3 --external-sat-solver cadical
+// covers: keel_box_put
+#include "keel/rtos/box.h"
+
+void keel_box_put_harness(void)
+{
+    int box;
+    keel_box_put(&box, 7);
+    __CPROVER_assert(box == 7, "BOX_001: it holds the value");
+}
+"""
+WRONG = """\
+// harness: keel_box_put_harness
+// expect: BOX_001
+#include "keel/rtos/box.h"
+
+void keel_box_put(int *box, int value)
+{
+    *box = 0;
+}
+"""
+
+
+def make_tree(root: Path) -> Unit:
+    """A project with one unit."""
+    files = {
+        "include/keel/status.h": "/* status */\n",
+        "include/keel/rtos/box.h": HEADER,
+        "src/rtos/box.c": SOURCE,
+        "proofs/box/keel_box_put_harness.c": HARNESS,
+        "proofs/box/wrong/zero.c": WRONG,
+    }
+    for name, text in files.items():
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    return find_units(root)["box"]
+
+
+class TreeTest(unittest.TestCase):
+    """A test with a project of its own."""
+
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name).resolve()
+        self.unit = make_tree(self.root)
+
+
+class CSource(unittest.TestCase):
+    def test_functions_are_found_with_their_bodies(self) -> None:
+        found = csource.functions(SOURCE)
+        self.assertEqual([(f.name, f.line, f.static) for f in found],
+                         [("helper", 4, True), ("keel_box_put", 13, False)])  # fmt: skip
+        self.assertIn("*box = value;", csource.body_of(SOURCE, "keel_box_put"))
+        self.assertEqual([f.body for f in csource.functions(HEADER)], [None])
+
+    def test_comments_and_literals_do_not_confuse(self) -> None:
+        text = "int f(void)\n{\n    return g(\"/* } */\", '{');\n}\n\nint h(void)\n{\n}\n"
+        self.assertEqual([f.name for f in csource.defined(text)], ["f", "h"])
+
+    def test_loops_are_counted_once(self) -> None:
+        body = "{ for (;;) { while (x) { } do { } while (y); } }"
+        self.assertEqual(csource.loops(body), 3)
+
+    def test_other_bodies_are_removed(self) -> None:
+        text = csource.without_other_bodies(SOURCE, frozenset(["keel_box_put"]))
+        self.assertNotIn("while", text)
+        self.assertIn("*box = value;", text)
+
+    def test_words_that_assume_are_found_in_annotations_alone(self) -> None:
+        text = "/* an axiom */\nint check;\n/*@ axiomatic A {\n  @ axiom a: x; } */\n//@ admit x;\n"
+        words = [(3, "axiomatic"), (4, "axiom"), (5, "admit")]
+        self.assertEqual(csource.forbidden(text), words)
+        self.assertEqual(csource.forbidden("/*@ // we check it\n  @ ensures \\true; */"), [])
+
+    def test_includes_in_comments_do_not_count(self) -> None:
+        text = '/* #include "a.h" */\n#include "b.h"\n#include <c.h>\n'
+        self.assertEqual(csource.includes(text), ["b.h"])
+
+    def test_essence_keeps_literals_and_drops_comments(self) -> None:
+        self.assertEqual(
+            csource.essence('/*@ x */\nint a; // y\n\nf("//z");\n'), 'int a;\nf("//z");'
+        )
+
+    def test_code_that_knows_a_prover_is_found(self) -> None:
+        self.assertEqual(csource.prover_code("#ifdef __FRAMAC__\n#endif\n"), [(1, "__FRAMAC__")])
+        self.assertEqual(csource.prover_code("/* __CPROVER */"), [])
+
+
+def wp_log(*lines: str, function: str = "keel_box_put") -> str:
+    """A log of WP about one function."""
+    start = (
+        "[kernel] Warning: machdep keel_cortex_m7 has no registered macro. Using X",
+        "[kernel] Parsing src/rtos/box.c (with preprocessing)",
+        f"[rte:annot] annotating function {function}",
+    )
+    return "\n".join([*start, *lines]) + "\n"
+
+
+def wp_report(total: int, valid: int, *unproved: str) -> str:
+    """A JSON report of WP in the shape of the real one."""
+    entries: dict[str, Any] = {name: {"wp:main": {"total": 1, "unknown": 1}} for name in unproved}
+    if valid:
+        entries["rest"] = {"wp:main": {"total": valid, "valid": valid}}
+    entries["wp:section"] = {"wp:main": {"total": total, "valid": valid}}
+    return json.dumps(
+        {
+            "wp:global": {"wp:main": {"total": total, "valid": valid}},
+            "wp:functions": {"keel_box_put": entries},
+        }
+    )
+
+
+GOOD = (
+    "[wp] [Qed] Goal typed_keel_box_put_ensures_BOX_001 : Valid (1ms)",
+    "[wp] [Alt-Ergo 2.0.0] Goal typed_keel_box_put_assigns : Valid (Qed:1ms) (8ms) (12)",
+    "[wp] [Passed] Smoke-test typed_keel_box_put_wp_smoke_default_requires",
+)
+
+
+class WpVerdict(TreeTest):
+    def judge(self, log: str, report: str, allowed: tuple[str, ...] = ()) -> wp.Result:
+        target = wp.Target(self.unit, self.unit.source, "keel_box_put")
+        return wp.judge(target, log, report, self.root, allowed)
+
+    def assert_fails(self, result: wp.Result, text: str) -> None:
+        self.assertTrue(any(text in problem for problem in result.problems), result.problems)
+
+    def test_all_proved_is_success(self) -> None:
+        result = self.judge(wp_log(*GOOD), wp_report(3, 3))
+        self.assertEqual(result.problems, [])
+        self.assertEqual((result.proved, len(result.goals), result.smoke), (2, 2, 1))
+        self.assertEqual(result.goals[1]["prover"], "Alt-Ergo 2.0.0")
+
+    def test_a_timeout_is_a_failure_and_names_the_clause(self) -> None:
+        log = wp_log(
+            "[wp] [Alt-Ergo 2.0.0] Goal typed_keel_box_put_ensures_BOX_001 : Timeout (2s)",
+            *GOOD[1:],
+            "[wp] [Failed] Goal typed_keel_box_put_ensures_BOX_001",
+            "  CVC4 1.8: Unknown (Qed:7ms)",
+            "  Alt-Ergo 2.0.0: Timeout (Qed:7ms) (30s)",
+        )
+        result = self.judge(log, wp_report(3, 2, "keel_box_put_ensures_BOX_001"))
+        self.assert_fails(
+            result, "keel_box_put_ensures_BOX_001 is not proved (include/keel/rtos/box.h:7)"
+        )
+        self.assert_fails(result, "Alt-Ergo 2.0.0: Timeout, CVC4 1.8: Unknown")
+
+    def test_a_later_stage_may_prove_what_an_earlier_one_did_not(self) -> None:
+        log = wp_log(
+            "[wp] [Alt-Ergo 2.0.0] Goal typed_keel_box_put_assigns : Timeout (2s)",
+            GOOD[0],
+            "[wp] [CVC4 1.8] Goal typed_keel_box_put_assigns : Valid (20ms)",
+            GOOD[2],
+        )
+        result = self.judge(log, wp_report(3, 3))
+        self.assertEqual(result.problems, [])
+        self.assertEqual(result.goals[0]["prover"], "CVC4 1.8")
+
+    def test_a_failed_smoke_test_is_a_failure(self) -> None:
+        log = wp_log(
+            *GOOD[:2],
+            "[wp] [Failed] Smoke-test typed_keel_box_put_wp_smoke_default_requires",
+            "       Qed: Valid",
+            "[wp] src/rtos/box.c:13: Warning: Failed smoke-test",
+        )
+        result = self.judge(log, wp_report(3, 2, "keel_box_put_wp_smoke_default_requires"))
+        self.assert_fails(result, "smoke test keel_box_put_wp_smoke_default_requires failed")
+        self.assert_fails(result, "src/rtos/box.c:13")
+
+    def test_a_warning_of_unsoundness_is_a_failure(self) -> None:
+        warnings = (
+            "[wp] src/rtos/box.c:13: Warning: Missing assigns clause",
+            "[wp] Warning: Missing RTE guards",
+            "[kernel:annot:missing-spec] src/rtos/box.c:3: Warning: \n  Neither code nor",
+            "[wp] src/rtos/box.c:3: Warning: \n  Cast with incompatible pointers types",
+            "[rte] src/rtos/box.c:3: Warning: \n  guaranteed RTE: assert unsigned_overflow",
+            "[wp] Warning: Memory model hypotheses for function 'keel_box_put'",
+            "[kernel] User Error: cannot find entry point",
+            "[kernel] Frama-C aborted: invalid user input.",
+        )
+        for warning in warnings:
+            with self.subTest(warning):
+                result = self.judge(wp_log(warning, *GOOD), wp_report(3, 3))
+                self.assertEqual(len(result.problems), 1, result.problems)
+
+    def test_an_accepted_warning_is_noted(self) -> None:
+        warning = "[wp] src/rtos/box.c:3: Warning: \n  Unknown callee, assigns\n  everything"
+        result = self.judge(
+            wp_log(warning, *GOOD), wp_report(3, 3), ("callee, assigns everything",)
+        )
+        self.assertEqual((result.problems, result.allowed), ([], ["callee, assigns everything"]))
+
+    def test_an_error_is_never_harmless(self) -> None:
+        error = "[kernel] User Error: has no registered macro"
+        self.assert_fails(self.judge(wp_log(error, *GOOD), wp_report(3, 3)), "User Error")
+
+    def test_log_and_report_must_agree(self) -> None:
+        self.assert_fails(self.judge(wp_log(*GOOD), wp_report(4, 4)), "do not trust")
+        self.assert_fails(self.judge(wp_log(*GOOD), wp_report(3, 2, "x")), "do not trust")
+        broken = json.loads(wp_report(3, 3))
+        broken["wp:functions"]["keel_box_put"]["rest"]["wp:main"]["valid"] = 1
+        self.assert_fails(self.judge(wp_log(*GOOD), json.dumps(broken)), "do not trust")
+
+    def test_without_a_report_nothing_is_proved(self) -> None:
+        self.assert_fails(self.judge(wp_log(*GOOD), ""), "wrote no report")
+
+    def test_without_goals_nothing_is_proved(self) -> None:
+        self.assert_fails(self.judge(wp_log(), wp_report(0, 0)), "no goal")
+
+    def test_a_function_that_wp_does_not_see_is_a_failure(self) -> None:
+        log = wp_log(*GOOD, function="other")
+        self.assert_fails(self.judge(log, wp_report(3, 3)), "does not know this function")
+
+    def test_a_loop_without_variant_is_a_failure(self) -> None:
+        target = wp.Target(self.unit, self.unit.source, "helper")
+        goal = "[wp] [Qed] Goal typed_helper_assigns : Valid (1ms)"
+        variant = "[wp] [Qed] Goal typed_helper_loop_variant_decrease : Valid (1ms)"
+        without = wp.judge(target, wp_log(goal, function="helper"), wp_report(1, 1), self.root)
+        self.assert_fails(without, "1 loops, but 0 loop variants")
+        log = wp_log(goal, variant, function="helper")
+        self.assertEqual(wp.judge(target, log, wp_report(2, 2), self.root).problems, [])
+
+
+class WpRun(TreeTest):
+    def prover(self, cache: Path | None = None) -> wp.Wp:
+        runner = Runner({}, self.root)
+        frama_c = ["frama-c", "-load-script", str(self.root / "m.ml")]
+        (self.root / "m.ml").write_text("", encoding="utf-8")
+        return wp.Wp(frama_c, runner, self.root, self.root, cache)
+
+    def test_each_stage_uses_its_own_prover_only(self) -> None:
+        target = wp.Target(self.unit, self.unit.source, "keel_box_put")
+        command = self.prover().command(target, wp.QUICK, True, self.root / "r.json")
+        provers = [word for word in command if word.startswith("-wp-prover")]
+        wanted = ["alt-ergo", "-alt-ergo,cvc4", "-cvc4,z3", "-z3,alt-ergo"]
+        self.assertEqual(provers, [f"-wp-prover={text}" for text in wanted])
+        smoke = command[len(command) - command[::-1].index("-then") :]
+        self.assertIn("-wp-smoke-tests", smoke)
+        self.assertEqual(command.count("-wp-smoke-tests"), 1)
+
+    def test_answers_that_prove_nothing_are_forgotten(self) -> None:
+        prover = self.prover(self.root / "answers")
+        target = wp.Target(self.unit, self.unit.source, "keel_box_put")
+        folder = self.root / "answers" / target.identity
+        folder.mkdir(parents=True)
+        answers = {
+            "valid": {"verdict": "valid", "time": 3.0},
+            "long": {"verdict": "timeout", "time": 2.0},
+            "smoke": {"verdict": "timeout", "time": 1.0},
+            "unknown": {"verdict": "unknown"},
+        }
+        for name, answer in answers.items():
+            (folder / f"{name}.json").write_text(json.dumps(answer), encoding="utf-8")
+        (folder / "torn.json").write_text('{ "verdict":', encoding="utf-8")
+        prover._drop_failures(target)
+        self.assertEqual(sorted(path.stem for path in folder.iterdir()), ["smoke", "valid"])
+
+    def test_targets_are_the_functions_of_header_and_source_and_the_lemmas(self) -> None:
+        with self.unit.header.open("a", encoding="utf-8") as stream:
+            stream.write("/*@ lemma BOX_two: 1 + 1 == 2;\n  @*/\n")
+        names = [(target.name, target.lemmas) for target in wp.targets(self.unit)]
+        self.assertEqual(names, [("helper", ()), ("keel_box_put", ()), ("lemmas", ("BOX_two",))])
+
+    def test_theorem_files_are_targets(self) -> None:
+        text = "// wp: theorem\nvoid theorem(int *b)\n{\n    keel_box_put(b, 1);\n}\n"
+        (self.unit.folder / "twice.c").write_text(text, encoding="utf-8")
+        unit = find_units(self.root)["box"]
+        self.assertIn(("twice", "theorem"), [(t.file.stem, t.function) for t in wp.targets(unit)])
+
+    def test_a_unit_of_inline_functions_is_proved_by_including_it(self) -> None:
+        self.unit.source.unlink()
+        file = wp.translation_unit(self.unit)
+        self.assertEqual(file.read_text(encoding="utf-8"), '#include "keel/rtos/box.h"\n')
+
+
+class Keys(TreeTest):
+    def keys(self) -> dict[str, str]:
+        unit = find_units(self.root)["box"]
+        runner = Runner({}, self.root)
+        prover = wp.Wp(["frama-c"], runner, self.root, self.root)
+        checker = cbmc.Cbmc(["goto-cc"], ["cbmc"], runner, self.root, self.root)
+        exceptions = settings.read_exceptions(self.root / "none", ["box"])
+        stamp = {"tool": "1"}
+        jobs = [
+            *engines.wp_jobs([unit], prover, self.root, stamp, exceptions),
+            *engines.cbmc_jobs([unit], checker, self.root, stamp),
+        ]
+        return {job.name: job.key for job in jobs}
+
+    def changed_by(self, file: str, old: str, new: str) -> set[str]:
+        before = self.keys()
+        path = self.root / file
+        text = path.read_text(encoding="utf-8")
+        self.assertIn(old, text)
+        path.write_text(text.replace(old, new), encoding="utf-8")
+        after = self.keys()
+        return {name for name in after if before[name] != after[name]}
+
+    def test_a_body_matters_to_its_function_and_to_cbmc(self) -> None:
+        changed = self.changed_by("src/rtos/box.c", "*box = value;", "*box = value + 0;")
+        self.assertEqual(changed, {"keel_box_put", "keel_box_put_harness"})
+
+    def test_a_contract_matters_to_wp_alone(self) -> None:
+        changed = self.changed_by("include/keel/rtos/box.h", "BOX_001: *box", "BOX_002: *box")
+        self.assertEqual(changed, {"helper", "keel_box_put"})
+
+    def test_an_included_file_matters_to_all(self) -> None:
+        changed = self.changed_by("include/keel/status.h", "/* status */", "#define X 1")
+        self.assertEqual(changed, set(self.keys()))
+
+    def test_directives_matter(self) -> None:
+        harness_file = "proofs/box/keel_box_put_harness.c"
+        changed = self.changed_by(harness_file, "--unwind 3", "--unwind 4")
+        self.assertEqual(changed, {"keel_box_put_harness", "zero.c"})
+        self.assertEqual(
+            self.changed_by("proofs/box/wrong/zero.c", "BOX_001", "BOX_002"), {"zero.c"}
+        )
+
+    def test_a_missing_include_is_an_error(self) -> None:
+        with self.assertRaisesRegex(ProjectError, "nowhere.h"):
+            self.changed_by("src/rtos/box.c", "keel/rtos/box.h", "nowhere.h")
+
+    def test_closure_follows_includes(self) -> None:
+        names = [path.name for path in closure(self.root, [self.unit.source])]
+        self.assertEqual(sorted(names), ["box.c", "box.h", "status.h"])
+
+
+class Jobs(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def run_job(self, problems: list[str], key: str = "k") -> tuple[int, driver.Outcome]:
+        """Run a job with these problems; how often it was executed, and its outcome."""
+        executed: list[int] = []
+
+        def execute() -> dict[str, Any]:
+            executed.append(1)
+            return {"problems": problems, "seconds": 1.0}
+
+        job = driver.Job("box", "wp", "f", key, execute)
+        runner = Runner({}, self.folder)
+        times = driver.Times(self.folder / "times.json")
+        cache = Cache(self.folder / "cache")
+        [outcome] = driver.run_jobs([job], cache, runner, 1, times, lambda _: None)
+        return len(executed), outcome
+
+    def test_success_is_remembered(self) -> None:
+        self.assertEqual(self.run_job([])[0], 1)
+        executed, outcome = self.run_job([])
+        self.assertEqual((executed, outcome.cached), (0, True))
+
+    def test_another_key_is_another_job(self) -> None:
+        self.run_job([])
+        self.assertEqual(self.run_job([], key="other")[0], 1)
+
+    def test_a_failure_is_not_remembered(self) -> None:
+        self.run_job(["timeout"])
+        executed, outcome = self.run_job(["timeout"])
+        self.assertEqual((executed, outcome.problems), (1, ["timeout"]))
+
+    def test_a_torn_entry_is_ignored(self) -> None:
+        self.run_job([])
+        (self.folder / "cache" / "k.json").write_text('{"key": "k", "resu', encoding="utf-8")
+        self.assertEqual(self.run_job([])[0], 1)
+
+    def test_the_longest_goes_first(self) -> None:
+        (self.folder / "times.json").write_text(json.dumps({"b/wp/short": 1, "b/wp/long": 9}))
+        order: list[str] = []
+
+        def job(name: str) -> driver.Job:
+            def execute() -> dict[str, Any]:
+                order.append(name)
+                return {"problems": [], "seconds": 0.0}
+
+            return driver.Job("b", "wp", name, name, execute)
+
+        jobs = [job("short"), job("long"), job("new")]
+        times = driver.Times(self.folder / "times.json")
+        driver.run_jobs(jobs, Cache(None), Runner({}, self.folder), 1, times, lambda _: None)
+        self.assertEqual(order, ["new", "long", "short"])
+
+
+class Rules(TreeTest):
+    def test_a_vanished_goal_is_a_failure(self) -> None:
+        [problem] = rules.compare_goals(["a", "b"], ["a"], "goals.txt")
+        self.assertIn("b is listed, but WP has no such goal", problem)
+
+    def test_a_new_goal_must_be_reviewed(self) -> None:
+        [problem] = rules.compare_goals(["a"], ["a", "b"], "goals.txt")
+        self.assertIn("b is a new goal", problem)
+
+    def test_goals_have_names_of_their_own(self) -> None:
+        self.assertIn("2 goals are called a", rules.compare_goals(["a"], ["a", "a"], "x")[0])
+        self.assertIn("not sorted", rules.compare_goals(["b", "a"], ["a", "b"], "x")[0])
+
+    def test_equal_lists_are_fine(self) -> None:
+        self.assertEqual(rules.compare_goals(["a", "b"], ["b", "a"], "x"), [])
+
+    def test_a_function_without_harness_is_a_failure(self) -> None:
+        self.assertEqual(rules.missing_harnesses(self.unit, {}, self.root), [])
+        (self.unit.folder / "keel_box_put_harness.c").unlink()
+        unit = find_units(self.root)["box"]
+        [problem] = rules.missing_harnesses(unit, {}, self.root)
+        self.assertIn("write proofs/box/keel_box_put_harness.c", problem)
+        self.assertEqual(rules.missing_harnesses(unit, {"keel_box_put": "why"}, self.root), [])
+
+    def test_a_needless_exception_is_a_failure(self) -> None:
+        [problem] = rules.missing_harnesses(self.unit, {"keel_box_put": "why"}, self.root)
+        self.assertIn("no exception any more", problem)
+
+    def test_a_contract_without_body_is_a_failure(self) -> None:
+        self.assertEqual(rules.undefined_functions(self.unit, {}, self.root), [])
+        self.unit.source.write_text('#include "keel/rtos/box.h"\n', encoding="utf-8")
+        [problem] = rules.undefined_functions(self.unit, {}, self.root)
+        self.assertIn("keel_box_put has a contract and no body", problem)
+        self.assertEqual(rules.undefined_functions(self.unit, {"keel_box_put": "w"}, self.root), [])
+
+    def test_assumptions_are_failures(self) -> None:
+        self.unit.source.write_text("//@ admit x;\n#ifdef __FRAMAC__\n#endif\n", encoding="utf-8")
+        self.assertEqual(len(rules.assumptions_in([self.unit.source], self.root)), 2)
+        self.unit.source.write_text("#pragma CPROVER check disable\n", encoding="utf-8")
+        self.assertEqual(len(rules.switched_off_checks([self.unit.source], self.root)), 1)
+
+    def test_an_exception_needs_a_reason(self) -> None:
+        path = self.root / "units.toml"
+        path.write_text('[box]\nno_harness = [{ function = "f", reason = "why" }]\n')
+        self.assertEqual(settings.read_exceptions(path, ["box"])["box"].no_harness, {"f": "why"})
+        for text in ('[box]\nno_harness = [{ function = "f" }]\n', "[bax]\n",
+                     '[box]\nno_harness = [{ function = "f", reason = " " }]\n',
+                     "[box]\nno_hardness = []\n"):  # fmt: skip
+            path.write_text(text)
+            with self.subTest(text), self.assertRaises(ProjectError):
+                settings.read_exceptions(path, ["box"])
+
+
+def item(name: str, status: str, description: str, line: int = 9) -> dict[str, Any]:
+    """A property in CBMC's JSON output."""
+    location = {"file": "proofs/box/keel_box_put_harness.c", "line": str(line), "function": "f"}
+    return {
+        "property": name,
+        "status": status,
+        "description": description,
+        "sourceLocation": location,
+    }
+
+
+def cbmc_output(*items: dict[str, Any], **more: Any) -> str:
+    """CBMC's JSON output."""
+    failed = any(entry["status"] != "SUCCESS" for entry in items)
+    verdict = {"cProverStatus": "failure" if failed else "success"}
+    return json.dumps([{"program": "CBMC"}, {"result": list(items)}, verdict, more])
+
+
+ASSERTED = item("h.assertion.1", "SUCCESS", "BOX_001: it holds the value")
+
+
+class CbmcVerdict(TreeTest):
+    def problems(self, text: str) -> list[str]:
+        return cbmc.proof_problems(cbmc.read_answer(text))
+
+    def test_all_proved_is_success(self) -> None:
+        self.assertEqual(self.problems(cbmc_output(ASSERTED)), [])
+
+    def test_anything_but_success_is_a_failure(self) -> None:
+        for status in ("FAILURE", "UNKNOWN", "ERROR", "NOT_CHECKED"):
+            output = cbmc_output(ASSERTED, item("h.bounds.1", status, "upper bound", 12))
+            [problem] = self.problems(output)
+            self.assertIn("proofs/box/keel_box_put_harness.c:12: upper bound", problem)
+
+    def test_a_harness_without_assertion_is_a_failure(self) -> None:
+        output = cbmc_output(item("h.bounds.1", "SUCCESS", "upper bound"))
+        self.assertEqual(self.problems(output), ["there is no assertion in it"])
+
+    def test_output_that_breaks_off_is_a_failure(self) -> None:
+        self.assertIn("CBMC did not finish", self.problems(cbmc_output(ASSERTED)[:-20]))
+        self.assertIn("CBMC did not finish", self.problems(json.dumps([{"program": "CBMC"}])))
+
+    def test_a_warning_is_a_failure(self) -> None:
+        output = cbmc_output(ASSERTED, messageType="WARNING", messageText="ignoring forall")
+        self.assertEqual(self.problems(output), ["ignoring forall"])
+
+    def test_a_wrong_body_that_passes_is_a_failure(self) -> None:
+        wrong = harness.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
+        passes = cbmc.read_answer(cbmc_output(ASSERTED))
+        [problem] = cbmc.refutation_problems(passes, wrong, "zero.c")
+        self.assertIn("does not refute this wrong body", problem)
+
+    def test_a_wrong_body_must_fail_at_its_assertion(self) -> None:
+        wrong = harness.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
+        other = cbmc.read_answer(cbmc_output(item("h.assertion.2", "FAILURE", "BOX_002: x")))
+        [problem] = cbmc.refutation_problems(other, wrong, "zero.c")
+        self.assertIn("not at BOX_001", problem)
+        right = cbmc.read_answer(cbmc_output(item("h.assertion.1", "FAILURE", "BOX_001: x")))
+        self.assertEqual(cbmc.refutation_problems(right, wrong, "zero.c"), [])
+
+    def test_a_run_that_breaks_off_refutes_nothing(self) -> None:
+        wrong = harness.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
+        self.assertEqual(len(cbmc.refutation_problems(cbmc.read_answer("[{"), wrong, "zero.c")), 1)
+
+    def test_only_the_expected_assertions_are_asked_for(self) -> None:
+        listing = json.dumps([{"properties": [
+            {"name": "h.assertion.1", "description": "BOX_001: x"},
+            {"name": "h.assertion.2", "description": "BOX_002: x"},
+        ]}])  # fmt: skip
+        self.assertEqual(cbmc.selection(listing, ["BOX_001"]), ["--property", "h.assertion.1"])
+
+
+def goal(function: str, lines: str, reached: bool, file: str = "src/rtos/box.c") -> dict[str, Any]:
+    """A block in CBMC's coverage output."""
+    return {
+        "basicBlockLines": {file: {function: lines}},
+        "sourceLocation": {"file": file, "function": function, "line": lines.split(",")[0]},
+        "status": "satisfied" if reached else "failed",
+    }
+
+
+class Coverage(TreeTest):
+    def problems(self, *goals: dict[str, Any]) -> list[str]:
+        parsed = harness.read_harness(self.unit, self.unit.harnesses[0])
+        properties = cbmc.read_answer(cbmc_output(ASSERTED)).properties
+        return cbmc.coverage_problems(cbmc.blocks(goals), parsed, properties)
+
+    own = "proofs/box/keel_box_put_harness.c"
+    name = "keel_box_put_harness"
+
+    def test_all_reached_is_success(self) -> None:
+        goals = [goal(self.name, "7-9,10", True, self.own), goal("keel_box_put", "15", True)]
+        self.assertEqual(self.problems(*goals), [])
+
+    def test_the_end_must_be_reached(self) -> None:
+        goals = [goal(self.name, "7-9", True, self.own), goal(self.name, "10", False, self.own),
+                 goal("keel_box_put", "15", True)]  # fmt: skip
+        self.assertIn("no execution reaches the harness's end", self.problems(*goals)[0])
+
+    def test_assertions_must_be_reached(self) -> None:
+        goals = [goal(self.name, "7,8,10", True, self.own), goal("keel_box_put", "15", True)]
+        self.assertIn(":9: no execution reaches this assertion", self.problems(*goals)[0])
+
+    def test_covered_functions_must_be_reached_everywhere(self) -> None:
+        ends = goal(self.name, "7-10", True, self.own)
+        [problem] = self.problems(ends, goal("keel_box_put", "15", False))
+        self.assertEqual(problem, "src/rtos/box.c:15: not reached in keel_box_put")
+        [problem] = self.problems(ends)
+        self.assertIn("keel_box_put is covered nowhere", problem)
+
+
+class Harnesses(TreeTest):
+    def read(self, text: str) -> harness.Harness:
+        path = self.unit.harnesses[0]
+        path.write_text(text, encoding="utf-8")
+        return harness.read_harness(self.unit, path)
+
+    def test_directives(self) -> None:
+        read = self.read(HARNESS)
+        self.assertEqual(read.function, "keel_box_put")
+        self.assertEqual(read.sources, (self.unit.source,))
+        self.assertEqual(harness.text_problems(read), [])
+        self.assertEqual(harness.without_solver(list(read.options)), ["--unwind", "3"])
+
+    def test_options_that_weaken_are_refused(self) -> None:
+        for option in ("--no-assertions", "--partial-loops", "--no-bounds-check", "--depth 3"):
+            with self.subTest(option), self.assertRaisesRegex(ProjectError, option.split()[0]):
+                self.read(HARNESS.replace("--unwind 3", option))
+
+    def test_the_function_is_called_exactly_once(self) -> None:
+        call = "keel_box_put(&box, 7);"
+        for text in (
+            HARNESS.replace(call, ""),
+            HARNESS.replace(call, call + call),
+            HARNESS.replace(call, "/* " + call + " */"),
+            HARNESS + "void f(void)\n{\n" + call + "\n}\n",
+        ):
+            with self.subTest(text):
+                self.assertEqual(len(harness.text_problems(self.read(text))), 1)
+
+    def test_the_very_source_must_be_linked(self) -> None:
+        (self.root / "copy.c").write_text(SOURCE, encoding="utf-8")
+        read = self.read("// sources: copy.c\n" + HARNESS)
+        self.assertIn("does not link src/rtos/box.c", harness.text_problems(read)[0])
+
+    def test_a_wrong_body_names_harness_and_assertion(self) -> None:
+        path = self.unit.wrong_bodies[0]
+        self.assertEqual(harness.read_wrong_body(self.unit, path).expect, ("BOX_001",))
+        path.write_text(WRONG.replace("// expect: BOX_001\n", ""), encoding="utf-8")
+        with self.assertRaises(ProjectError):
+            harness.read_wrong_body(self.unit, path)
+
+
+FAKE = """\
+import json, os, sys, time
+name, arguments = sys.argv[1], sys.argv[2:]
+play = json.load(open(os.environ["PLAY"]))
+if name == "frama-c":
+    if "-wp" not in arguments:
+        print("[rte:annot] annotating function helper")
+        print("[rte:annot] annotating function keel_box_put")
+        sys.exit()
+    if "sleep" in play:
+        print("started", flush=True)
+        time.sleep(60)
+    function = arguments[arguments.index("-wp-fct") + 1]
+    goals = play["goals"][function]
+    print("[rte:annot] annotating function " + function)
+    for goal, status in goals.items():
+        print(f"[wp] [Alt-Ergo 2.0.0] Goal typed_{function}_{goal} : {status} (1ms)")
+    valid = sum(status == "Valid" for status in goals.values())
+    entry = {"wp:main": {"total": len(goals), "valid": valid}}
+    report = {"wp:global": entry, "wp:functions": {function: {"all": entry}}}
+    open(arguments[arguments.index("-wp-report-json") + 1], "w").write(json.dumps(report))
+elif name == "goto-cc":
+    open(arguments[arguments.index("-o") + 1], "w").write(" ".join(arguments))
+elif name == "cbmc":
+    print(json.dumps(play["cover" if "--cover" in arguments else
+                     "wrong" if any("zero.c" in a for a in arguments) else "cbmc"]))
+"""
+GOALS = {
+    "helper": {"assigns": "Valid", "loop_variant_decrease": "Valid"},
+    "keel_box_put": {"ensures_BOX_001": "Valid", "assigns": "Valid"},
+}
+COVERED = [{"goals": [goal("keel_box_put_harness", "7-10", True, Coverage.own),
+                      goal("keel_box_put", "15", True)], "goalsCovered": 2}]  # fmt: skip
+
+
+class FakeTools:
+    """What Session asks of a Toolchain."""
+
+    def __init__(self, root: Path) -> None:
+        self._start = [sys.executable, str(root / "fake.py")]
+        (root / "fake.py").write_text(FAKE, encoding="utf-8")
+        (root / "m.ml").write_text("", encoding="utf-8")
+        self._script = root / "m.ml"
+        self._play = root / "play.json"
+
+    def play(self, **parts: Any) -> None:
+        """What the engines are to say."""
+        self._play.write_text(json.dumps(parts), encoding="utf-8")
+
+    def environment(self) -> dict[str, str]:
+        return {"PLAY": str(self._play)}
+
+    def frama_c(self) -> list[str]:
+        return [*self._start, "frama-c", "-load-script", str(self._script)]
+
+    def goto_cc(self) -> list[str]:
+        return [*self._start, "goto-cc"]
+
+    def command(self, tool: str) -> list[str]:
+        return [*self._start, tool]
+
+    def versions(self, *_: str) -> dict[str, Any]:
+        return {}
+
+
+class WholeRun(TreeTest):
+    def setUp(self) -> None:
+        super().setUp()
+        self.tools = FakeTools(self.root)
+        (self.unit.folder / "wrong" / "zero.c").unlink()
+        self.play()
+        names = [f"{f}_{g}\n" for f, goals in GOALS.items() for g in goals]
+        self.unit.goal_list.write_text("".join(sorted(names)), encoding="utf-8")
+        self.report_file = self.root / "build" / "prove" / "report.json"
+
+    def play(self, **changes: Any) -> None:
+        parts = {"goals": GOALS, "cbmc": json.loads(cbmc_output(ASSERTED)), "cover": COVERED}
+        self.tools.play(**(parts | changes))
+
+    def prove(self, update: bool = False, partial: bool = False) -> tuple[int, str, dict[str, Any]]:
+        unit = find_units(self.root)["box"]
+        choice = Choice((unit,), partial, ("wp", "cbmc"), 2, True, False, update)
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output):
+            tools: Any = self.tools
+            status = Session(self.root, tools, choice).run()
+        return status, output.getvalue(), json.loads(self.report_file.read_text(encoding="utf-8"))
+
+    def test_a_proof(self) -> None:
+        status, output, report = self.prove()
+        self.assertEqual(status, 0, output)
+        self.assertEqual(output.splitlines()[-1], "proved 5 of 5 goals (WP 4, CBMC 1)")
+        self.assertEqual((report["verdict"], report["goals"], report["proved"]), ("proved", 5, 5))
+        self.assertNotIn("partial", report)
+        assertion = report["units"]["box"]["cbmc"]["harnesses"]["keel_box_put_harness"][
+            "assertions"
+        ]
+        self.assertEqual(assertion[0]["description"], "BOX_001: it holds the value")
+        self.assertIn("known", self.prove()[1])
+
+    def test_part_of_the_units_is_marked(self) -> None:
+        self.assertIs(self.prove(partial=True)[2]["partial"], True)
+
+    def failing(self, text: str, last: str) -> None:
+        for _ in range(2):
+            status, output, report = self.prove()
+            self.assertEqual((status, report["verdict"]), (1, "failed"))
+            self.assertIn(text, output)
+            self.assertEqual(output.splitlines()[-1], last)
+
+    def test_an_unproved_goal_fails_each_time(self) -> None:
+        goals = {**GOALS, "keel_box_put": {"ensures_BOX_001": "Timeout", "assigns": "Valid"}}
+        self.play(goals=goals)
+        self.failing("keel_box_put_ensures_BOX_001 is not", "proved 4 of 5 goals (WP 3, CBMC 1)")
+
+    def test_a_vanished_goal_fails(self) -> None:
+        self.play(goals={**GOALS, "keel_box_put": {"assigns": "Valid"}})
+        self.failing("BOX_001 is listed, but", "proved 4 of 5 goals (WP 3, CBMC 1)")
+
+    def test_goals_can_be_accepted(self) -> None:
+        self.play(goals={**GOALS, "keel_box_put": {"assigns": "Valid"}})
+        self.assertEqual(self.prove(update=True)[0], 0)
+        self.assertNotIn("BOX_001", self.unit.goal_list.read_text(encoding="utf-8"))
+
+    def test_a_missing_list_fails(self) -> None:
+        self.unit.goal_list.unlink()
+        self.failing("goals.txt is missing", "proved 5 of 5 goals (WP 4, CBMC 1)")
+
+    def test_a_wrong_body_that_passes_fails(self) -> None:
+        path = self.unit.folder / "wrong" / "zero.c"
+        path.write_text(WRONG, encoding="utf-8")
+        self.play(wrong=json.loads(cbmc_output(ASSERTED)))
+        self.failing("does not refute", "proved 5 of 5 goals (WP 4, CBMC 1)")
+
+    def test_a_function_that_only_frama_c_sees_fails(self) -> None:
+        text = SOURCE.replace("static int helper", "static int MACRO(helper")
+        self.unit.source.write_text(text, encoding="utf-8")
+        self.assertIn("Frama-C sees the function helper", self.prove()[1])
+
+    def test_an_old_report_does_not_outlive_the_start_of_a_run(self) -> None:
+        self.prove()
+        self.tools.play()
+        with self.assertRaises(KeyError), contextlib.redirect_stdout(io.StringIO()):
+            self.unit.source.write_text(SOURCE.replace("value;", "value + 0;"), encoding="utf-8")
+            with mock.patch.object(self.tools, "frama_c", side_effect=KeyError):
+                self.prove()
+        self.assertFalse(self.report_file.exists())
+
+
+INTERRUPTED = """\
+import sys
+sys.path[:0] = [{tools!r}, {tests!r}]
+from pathlib import Path
+import test_prove as t
+root = Path({root!r})
+unit = t.find_units(root)["box"]
+t.Session(root, t.FakeTools(root), t.Choice((unit,), False, ("wp",), 2, True, False, False)).run()
+"""
+
+
+class Interruption(TreeTest):
+    def test_ctrl_c_leaves_no_report_and_no_process(self) -> None:
+        tools = FakeTools(self.root)
+        tools.play(sleep=True)
+        script = INTERRUPTED.format(
+            tools=str(ROOT / "tools"), tests=str(Path(__file__).parent), root=str(self.root)
+        )
+        (self.root / "tmp").mkdir()
+        process = subprocess.Popen(
+            [sys.executable, "-c", script], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            start_new_session=True, env={**os.environ, "TMPDIR": str(self.root / "tmp")},
+        )  # fmt: skip
+        self.assertTrue(wait_for(lambda: bool(running(str(self.root)))), "nothing was started")
+        os.kill(process.pid, signal.SIGINT)
+        process.wait(timeout=20)
+        self.assertTrue(wait_for(lambda: not running(str(self.root))), running(str(self.root)))
+        self.assertFalse((self.root / "build" / "prove" / "report.json").exists())
+        self.assertEqual(list((self.root / "tmp").iterdir()), [])
+
+
+def running(text: str) -> list[str]:
+    """The command lines of running engines that contain a text."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/cmdline"):
+        with contextlib.suppress(OSError):
+            line = path.read_bytes().replace(b"\0", b" ").decode(errors="replace")
+            if f"{text}/fake.py frama-c" in line and "-wp " in line:
+                found.append(line)
+    return found
+
+
+def wait_for(condition: Callable[[], bool], seconds: float = 10) -> bool:
+    """Wait until a condition holds; False if it does not in time."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if condition():
+            return True
+        time.sleep(0.05)
+    return False
+
+
+class CommandLine(unittest.TestCase):
+    def test_an_unknown_unit_is_named_with_those_there_are(self) -> None:
+        error = io.StringIO()
+        with contextlib.redirect_stderr(error), self.assertRaises(SystemExit) as stopped:
+            prove.parse(["--unit", "box", "kite"], ["box", "sail"])
+        self.assertEqual(stopped.exception.code, 2)
+        self.assertIn("no such unit: kite (there are: box, sail)", error.getvalue())
+
+    def test_a_tool_that_is_missing_is_no_traceback(self) -> None:
+        error = io.StringIO()
+        missing = ToolchainError("cbmc is missing")
+        with mock.patch.object(Toolchain, "ensure", side_effect=missing), \
+                contextlib.redirect_stderr(error):  # fmt: skip
+            self.assertEqual(prove.main([]), 1)
+        self.assertEqual(error.getvalue(), "prove: cbmc is missing\n")
+
+
+class Logs(unittest.TestCase):
+    def test_continued_messages_are_one(self) -> None:
+        text = "[wp:pedantic-assigns] include/a.h:81: Warning: \n  No \\from\n  for it\n[wp] 3\n"
+        [message] = wplog.read_log(text).messages
+        self.assertEqual(
+            (message.who, message.place, message.text),
+            ("wp:pedantic-assigns", "include/a.h:81", "No \\from for it"),
+        )
+
+    def test_goals_of_lemmas(self) -> None:
+        log = wplog.read_log("[wp] [Z3 4.8.12] Goal typed_lemma_PRI_scale : Valid (22890)\n")
+        self.assertTrue(log.goals["lemma_PRI_scale"].proved)
+
+    def test_a_failed_goal_tells_the_attempts(self) -> None:
+        text = "[wp] [Failed] Goal typed_f_ensures\n  CVC4 1.8: Unknown (Qed:7ms)\n"
+        self.assertEqual(wplog.read_log(text).goals["f_ensures"].attempts, ["CVC4 1.8: Unknown"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+"""Tests of tools/trace.py: each kind of orphan is found in a small project that has just this one.
+
+    python3 tests/tools/test_trace.py
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import trace  # noqa: E402
+
+if Path(trace.__file__).resolve() != ROOT / "tools/trace.py":  # The standard library has one too.
+    raise ImportError(trace.__file__)
+
+SDOC = """\
+[DOCUMENT]
+TITLE: Widget
+
+[REQUIREMENT]
+UID: WID-001
+TITLE: Turning
+VERIFICATION: proof
+CLAUSES: WID_001_range, WID_001_turns
+STATEMENT: >>>
+It shall turn.
+<<<
+
+[REQUIREMENT]
+UID: WID-002
+TITLE: Looping
+VERIFICATION: test
+TESTS: it_loops
+STATEMENT: It shall loop.
+
+[REQUIREMENT]
+UID: WID-003
+TITLE: Forever
+VERIFICATION: theorem
+STATEMENT: It shall turn for ever.
+"""
+HEADER = """\
+/** Turns (requirement WID-001). */
+#define STAYS ensures WID_001_range : \\true;
+/*@ ensures ok: \\true;
+  @ ensures WID_001_turns:
+  @     \\true;
+  @*/
+"""
+FILES = {
+    "specs/requirements/widget.sdoc": SDOC,
+    "specs/soundness.md": "The theorem (WID-003).\n",
+    "include/keel/widget.h": HEADER,
+    "proofs/widget/turn_harness.c": '__CPROVER_assert(x, "WID_001_turns: it turns");\n',
+    "tests/unit/test_widget.c": "RUN_TEST(it_loops);\n",
+}
+
+
+class TraceTest(unittest.TestCase):
+    """A project without orphans, changed in one place."""
+
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        for name, text in FILES.items():
+            self.write(name, text)
+
+    def write(self, name: str, text: str) -> None:
+        """Write a file of the project."""
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+    def change(self, name: str, old: str, new: str) -> None:
+        """Replace a text that must be there."""
+        self.assertIn(old, FILES[name])
+        self.write(name, FILES[name].replace(old, new))
+
+    def run_trace(self, *arguments: str) -> tuple[int, list[str]]:
+        """The exit status, and the lines that were printed."""
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output):
+            status = trace.main(arguments, self.root)
+        return status, output.getvalue().splitlines()
+
+    def orphans(self) -> list[str]:
+        """The orphans; the exit status and the last line agree with them."""
+        status, lines = self.run_trace()
+        self.assertEqual(status, 1 if lines[1:] else 0)
+        self.assertTrue(lines[-1].endswith(f" {len(lines) - 1} orphans"), lines[-1])
+        return lines[:-1]
+
+    def test_no_orphan(self) -> None:
+        self.assertEqual(
+            self.run_trace(),
+            (0, ["traced 3 requirements: 2 clauses, 1 harnesses, 1 tests, 0 orphans"]),
+        )
+
+    def test_label_without_requirement(self) -> None:
+        self.change("include/keel/widget.h", "ensures ok:", "ensures WID_009_ok:")
+        self.assertEqual(self.orphans(), [
+            "include/keel/widget.h: WID_009_ok: there is no requirement WID-009"])  # fmt: skip
+
+    def test_lemma_without_requirement(self) -> None:
+        self.change("include/keel/widget.h", "ensures ok:", "lemma WID_009_ok{Here}:")
+        self.assertEqual(self.orphans(), [
+            "include/keel/widget.h: WID_009_ok: there is no requirement WID-009"])  # fmt: skip
+
+    def test_comment_without_requirement(self) -> None:
+        self.change("include/keel/widget.h", "requirement WID-001", "requirement WID-009")
+        self.assertEqual(self.orphans(), ["include/keel/widget.h: there is no requirement WID-009"])
+
+    def test_harness_without_requirement(self) -> None:
+        self.write("proofs/widget/more_harness.c", '__CPROVER_assert(x, "WID_009: more");\n')
+        self.assertEqual(self.orphans(), [
+            "proofs/widget/more_harness.c: WID_009: there is no requirement WID-009"])  # fmt: skip
+
+    def test_test_without_requirement(self) -> None:
+        self.write("tests/unit/test_more.c", "RUN_TEST(WID_009_more);\n")
+        self.assertEqual(self.orphans(), [
+            "tests/unit/test_more.c: WID_009_more: there is no requirement WID-009"])  # fmt: skip
+
+    def test_requirement_without_clause(self) -> None:
+        self.write("include/keel/widget.h", "/** Turns. */\n")
+        self.assertEqual(self.orphans(), [
+            "WID-001: CLAUSES is not what the headers say (tools/trace.py --update)",
+            "WID-001: no clause states it"])  # fmt: skip
+
+    def test_clause_that_nobody_checks(self) -> None:
+        self.change("proofs/widget/turn_harness.c", "WID_001_turns", "turns")
+        self.assertEqual(self.orphans(), ["WID-001: neither a harness nor a test names it"])
+
+    def test_a_test_is_enough_for_a_clause(self) -> None:
+        self.change("proofs/widget/turn_harness.c", "WID_001_turns", "turns")
+        self.write("tests/unit/test_more.c", "RUN_TEST(WID_001_it_turns);\n")
+        self.assertEqual(self.orphans(), [])
+
+    def test_requirement_to_be_tested_without_test(self) -> None:
+        self.change("specs/requirements/widget.sdoc", "TESTS: it_loops\n", "")
+        self.assertEqual(self.orphans(), ["WID-002: no test checks it"])
+
+    def test_listed_test_that_does_not_exist(self) -> None:
+        self.change("specs/requirements/widget.sdoc", "it_loops", "it_loops, it_stops")
+        self.assertEqual(self.orphans(), ["WID-002: TESTS lists it_stops, which is no test"])
+
+    def test_a_file_of_tests_may_be_listed(self) -> None:
+        self.change("specs/requirements/widget.sdoc", "it_loops", "tests/property/drive.c")
+        self.write("tests/property/drive.c", "")
+        self.assertEqual(self.orphans(), [])
+
+    def test_theorem_that_is_not_argued(self) -> None:
+        self.write("specs/soundness.md", "Nothing.\n")
+        self.assertEqual(self.orphans(), ["WID-003: specs/soundness.md does not name it"])
+
+    def test_unknown_verification(self) -> None:
+        self.change("specs/requirements/widget.sdoc", ": theorem", ": hope")
+        self.assertEqual(self.orphans(), [
+            "WID-003: VERIFICATION is neither proof, test nor theorem"])  # fmt: skip
+
+    def test_two_requirements_with_one_id(self) -> None:
+        self.change("specs/requirements/widget.sdoc", "WID-003", "WID-002")
+        self.assertIn("WID-002: two requirements have this id", self.orphans())
+
+    def test_stale_clauses_are_updated(self) -> None:
+        self.change("specs/requirements/widget.sdoc", "WID_001_range, WID_001_turns", "WID_001")
+        self.assertEqual(self.orphans(), [
+            "WID-001: CLAUSES is not what the headers say (tools/trace.py --update)"])  # fmt: skip
+        self.assertEqual(self.run_trace("--update")[0], 0)
+        text = (self.root / "specs/requirements/widget.sdoc").read_text(encoding="utf-8")
+        self.assertEqual(text, SDOC)
+
+    def test_no_requirement_at_all(self) -> None:
+        with tempfile.TemporaryDirectory() as empty, contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(trace.main([], Path(empty)), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

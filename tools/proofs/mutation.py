@@ -1,0 +1,329 @@
+"""Runs mutants against the proofs: one that no proof notices shows a contract that is too weak."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+import threading
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from . import cbmc, wp
+from .cache import Cache, digest
+from .harness import Harness, read_harness
+from .jobs import Runner
+from .mutants import Mutant
+from .project import ProjectError, Unit, closure
+
+Identity = tuple[str, str, str, int]
+
+# What is not true is given up soon; how soon depends on how long what is true takes.
+PROVERS = {"Alt-Ergo": "alt-ergo", "CVC4": "cvc4", "Z3": "z3"}
+PATIENCE = 3.0
+SHORTEST, LONGEST = 2, 30
+
+
+@dataclass
+class Verdict:
+    """What became of a mutant."""
+
+    mutant: Mutant
+    status: str = "survived"
+    reason: str = ""
+    engines: dict[str, str] = field(default_factory=dict)
+
+    def as_dict(self) -> dict[str, Any]:
+        """For the report."""
+        mutant = self.mutant
+        return {
+            "function": mutant.function, "kind": mutant.kind, "line": mutant.line,
+            "original": mutant.before, "mutant": mutant.after, "occurrence": mutant.occurrence,
+            "status": self.status, "reason": self.reason, "engines": self.engines,
+        }  # fmt: skip
+
+
+def read_equivalent(path: Path) -> dict[Identity, str]:
+    """proofs/UNIT/equivalent.toml: survivors that a person has accepted, each with the reason.
+
+    [[equivalent]]
+    function = "open_slot"
+    original = "for (uint32_t i = queue->count; i > place; i--) {"
+    mutant = "for (uint32_t i = queue->count; i != place; i--) {"
+    reason = "place never exceeds count, so the loop ends at place either way"
+    """
+    raw = tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    found: dict[Identity, str] = {}
+    for entry in raw.get("equivalent", []):
+        wanted = {"function", "original", "mutant", "reason"}
+        if not wanted <= set(entry) <= wanted | {"occurrence"} or not entry["reason"].strip():
+            raise ProjectError(f"{path}: each entry needs {', '.join(sorted(wanted))}")
+        occurrence = int(entry.get("occurrence", 1))
+        found[entry["function"], entry["original"], entry["mutant"], occurrence] = entry["reason"]
+    return found
+
+
+class Trees:
+    """Copies of the tree, one for each trial at a time: the tree itself is never touched."""
+
+    def __init__(self, root: Path, scratch: Path, count: int) -> None:
+        self._free: list[Path] = []
+        self._lock = threading.Lock()
+        for number in range(count):
+            tree = scratch / f"tree{number}"
+            for name in ("include", "src", "proofs"):
+                shutil.copytree(root / name, tree / name)
+            self._free.append(tree)
+
+    @contextmanager
+    def with_mutant(self, mutant: Mutant, root: Path) -> Iterator[Path]:
+        """A tree in which the mutant has taken its file's place."""
+        with self._lock:
+            tree = self._free.pop()
+        file = tree / mutant.file.relative_to(root)
+        text = file.read_text(encoding="utf-8")
+        try:
+            file.write_text(mutant.apply(text), encoding="utf-8")
+            yield tree
+        finally:
+            file.write_text(text, encoding="utf-8")
+            with self._lock:
+                self._free.append(tree)
+
+
+@dataclass(frozen=True)
+class Tools:
+    """The programs that a trial needs, and where it may write."""
+
+    frama_c: Sequence[str]
+    goto_cc: Sequence[str]
+    cbmc: Sequence[str]
+    compiler: Sequence[str]
+    environment: Mapping[str, str]
+    scratch: Path
+    answers: Path
+
+
+class Trial:
+    """Tries the mutants of one unit."""
+
+    def __init__(
+        self, unit: Unit, tools: Tools, trees: Trees, engines: Sequence[str], every: bool,
+        cache: Cache, stamp: Mapping[str, str], allowed: Sequence[str],
+    ) -> None:  # fmt: skip
+        self._unit = unit
+        self._tools = tools
+        self._trees = trees
+        self._engines = engines
+        self._every = every
+        self._cache = cache
+        self._stamp = dict(stamp)
+        self._runners: list[Runner] = []
+        self._allowed = list(allowed)
+        self._baseline = threading.Lock()
+        self._stages: dict[str, tuple[wp.Stage, ...]] = {}
+        self._harnesses = [read_harness(unit, path) for path in unit.harnesses]
+
+    def stop(self) -> None:
+        """End all programs."""
+        for runner in self._runners:
+            runner.stop()
+
+    @property
+    def unusable(self) -> list[str]:
+        """Functions that WP does not prove unchanged: it notices nothing in them."""
+        return sorted(name for name, stages in self._stages.items() if not stages)
+
+    def _stages_for(self, function: str) -> tuple[wp.Stage, ...]:
+        """The provers and limits that prove the function unchanged; none if it is not proved."""
+        with self._baseline:
+            if function not in self._stages:
+                runner = self._runner(self._unit.root)
+                tools = self._tools
+                prover = wp.Wp(tools.frama_c, runner, self._unit.root, tools.scratch, tools.answers)
+                target = self._target(self._unit, function)
+                result = prover.prove(target, wp.THOROUGH, False, self._allowed)
+                self._stages[function] = (
+                    () if result.problems else limits(result, tools.answers / target.identity)
+                )
+            return self._stages[function]
+
+    @staticmethod
+    def _target(unit: Unit, function: str) -> wp.Target:
+        return next(item for item in wp.targets(unit) if item.function == function)
+
+    def try_mutant(self, mutant: Mutant) -> Verdict:
+        """Which engine notices the mutant, if any."""
+        verdict = Verdict(mutant)
+        with self._trees.with_mutant(mutant, self._unit.root) as tree:
+            unit = Unit(tree, self._unit.layer, self._unit.name)
+            runner = self._runner(tree)
+            same = self._compare(unit, runner)
+            if same:
+                verdict.status, verdict.reason = same
+                return verdict
+            key = self._key(mutant, unit)
+            known = self._cache.get(key)
+            if known:
+                verdict.status, verdict.engines = "killed", known["engines"]
+                return verdict
+            for engine in self._engines:
+                check = self._by_cbmc if engine == "cbmc" else self._by_wp
+                verdict.engines[engine] = check(mutant, unit, runner)
+                if verdict.engines[engine].startswith("killed"):
+                    verdict.status = "killed"
+                    if not self._every:
+                        break
+            if verdict.status == "killed":
+                self._cache.put(key, {"engines": verdict.engines})
+        return verdict
+
+    def _runner(self, folder: Path) -> Runner:
+        runner = Runner(dict(self._tools.environment), folder)
+        self._runners.append(runner)
+        return runner
+
+    def _key(self, mutant: Mutant, unit: Unit) -> str:
+        """All that a verdict depends on, with the mutant in it."""
+        files = closure(unit.root, [*unit.own_files, *unit.harnesses])
+        texts = {str(path.relative_to(unit.root)): path.read_text() for path in files}
+        return digest(
+            {"mutant": mutant.function, "texts": texts, "stamp": self._stamp,
+             "engines": list(self._engines), "every": self._every}
+        )  # fmt: skip
+
+    def _compare(self, unit: Unit, runner: Runner) -> tuple[str, str] | None:
+        """Whether the mutant does not compile, or compiles to what the original compiles to."""
+        original = self._assembly(self._unit, self._runner(self._unit.root))
+        if original is None:
+            raise ProjectError(f"{self._unit.name} does not compile, even unchanged")
+        mutated = self._assembly(unit, runner)
+        if mutated is None:
+            return "stillborn", "does not compile"
+        if mutated == original:
+            return "equivalent", "same object code"
+        return None
+
+    def _assembly(self, unit: Unit, runner: Runner) -> str | None:
+        """The optimised assembly of a unit; None if it does not compile."""
+        file = wp.translation_unit(unit)
+        keep = ("-fkeep-inline-functions", "-fkeep-static-functions")
+        options = [
+            "-O2",
+            "-w",
+            *keep,
+            "-Iinclude",
+            "-S",
+            "-o",
+            "-",
+            str(file.relative_to(unit.root)),
+        ]
+        done = runner.run([*self._tools.compiler, *options], merged=False)
+        return done.output if done.status == 0 else None
+
+    def _by_cbmc(self, mutant: Mutant, unit: Unit, runner: Runner) -> str:
+        """Whether a harness that reaches the function fails."""
+        scratch = self._tools.scratch / unit.root.name
+        checker = cbmc.Cbmc(self._tools.goto_cc, self._tools.cbmc, runner, unit.root, scratch)
+        answers = []
+        for path in self._harness_files(mutant, unit):
+            harness = read_harness(unit, path)
+            binary, complaint = checker.build(harness, harness.name)
+            if complaint:
+                return f"killed: {complaint.splitlines()[0]}"
+            answer = checker.check(harness, binary, ["--stop-on-fail"])
+            if answer.failed:
+                return f"killed: {harness.name}: {answer.first_failure}"
+            answers.append("no answer" if not answer.complete else "survived")
+        return (
+            "no harness" if not answers else "no answer" if "no answer" in answers else "survived"
+        )
+
+    def _harness_files(self, mutant: Mutant, unit: Unit) -> list[Path]:
+        """The harnesses that reach the function, its own first."""
+        relevant = [harness for harness in self._harnesses if mutant.function in harness.covers]
+
+        def rank(harness: Harness) -> tuple[bool, str]:
+            return harness.function != mutant.function, harness.name
+
+        return [unit.folder / harness.path.name for harness in sorted(relevant, key=rank)]
+
+    def _by_wp(self, mutant: Mutant, unit: Unit, runner: Runner) -> str:
+        """Whether a goal of the function is not proved any more."""
+        stages = self._stages_for(mutant.function)
+        if not stages:
+            return "the function is not proved unchanged"
+        scratch = self._tools.scratch / unit.root.name
+        answers = scratch / "answers"
+        target = self._target(unit, mutant.function)
+        known = self._tools.answers / target.identity
+        if known.is_dir() and not (answers / target.identity).is_dir():
+            shutil.copytree(known, answers / target.identity)
+        prover = wp.Wp(self._tools.frama_c, runner, unit.root, scratch, answers)
+        problem = prover.first_problem(target, stages, self._allowed)
+        return f"killed: {problem}" if problem else "survived"
+
+
+def limits(result: wp.Result, answers: Path) -> tuple[wp.Stage, ...]:
+    """A stage for each prover that a proof needed, with a multiple of the time that it needed."""
+    needed = {goal["prover"].split(" ")[0] for goal in result.goals} & set(PROVERS)
+    times = dict.fromkeys(needed, 0.0)
+    for path in answers.glob("*.json"):
+        answer = json.loads(path.read_text(encoding="utf-8"))
+        prover = str(answer["prover"]).split(":")[0]
+        if answer["verdict"] == "valid" and prover in times:
+            times[prover] = max(times[prover], float(answer.get("time", 0.0)))
+    stages = [
+        wp.Stage(name, min(max(SHORTEST, math.ceil(PATIENCE * times[prover])), LONGEST))
+        for prover, name in PROVERS.items()
+        if prover in times
+    ]
+    return tuple(stages) or (wp.Stage("alt-ergo", SHORTEST),)
+
+
+def count(verdicts: Sequence[Verdict], status: str) -> int:
+    """How many mutants have a status."""
+    return sum(verdict.status == status for verdict in verdicts)
+
+
+def settle(
+    verdicts: Sequence[Verdict], accepted: Mapping[Identity, str], complete: bool
+) -> list[str]:
+    """Apply the accepted reasons to survivors; what is left to complain about."""
+    problems = []
+    unused = dict(accepted)
+    for verdict in verdicts:
+        reason = unused.pop(verdict.mutant.identity, None)
+        if reason is None:
+            continue
+        if verdict.status == "survived":
+            verdict.status, verdict.reason = "equivalent", reason
+        elif verdict.status != "skipped":
+            problems.append(f"equivalent.toml: needless, it is {verdict.status}: {verdict.mutant}")
+    if complete:
+        problems += [f"equivalent.toml: there is no such mutant: {' | '.join(map(str, identity))}"
+                     for identity in unused]  # fmt: skip
+    return problems
+
+
+def table(verdicts: Sequence[Verdict], engines: Sequence[str]) -> list[str]:
+    """Numbers of the run, by engine and by kind of mutant."""
+    lines = []
+    for engine in engines:
+        asked = [verdict for verdict in verdicts if engine in verdict.engines]
+        killed = sum(verdict.engines[engine].startswith("killed") for verdict in asked)
+        lines.append(f"{engine.upper():<5} killed {killed:>3} of {len(asked):>3} that it saw")
+    return lines
+
+
+def report(unit: str, verdicts: Sequence[Verdict], problems: Sequence[str]) -> str:
+    """The report, as JSON."""
+    names = ("killed", "survived", "equivalent", "stillborn", "skipped")
+    summary: dict[str, Any] = {name: count(verdicts, name) for name in names}
+    entries = [verdict.as_dict() for verdict in verdicts]
+    content = {"unit": unit, "summary": summary, "problems": list(problems), "mutants": entries}
+    return json.dumps(content, indent=1) + "\n"

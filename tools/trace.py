@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+"""Trace every requirement to its clauses, harnesses and tests, and find what stands alone.
+
+    python3 tools/trace.py             # every orphan, one a line
+    python3 tools/trace.py --update    # first bring the CLAUSES of specs/requirements up to date
+
+A requirement is an entry of specs/requirements/*.sdoc, say QUE-003. The ACSL clauses that state
+it carry its id in their labels (QUE_003, QUE_003_count), and so do the assertions of the CBMC
+harnesses and the names of the unit tests that check it; a requirement may also list tests by name
+under TESTS, or the file of a test that checks far more. An orphan is
+
+    a label, an assertion, a test or a comment of a header that names no requirement;
+    a requirement without a clause, unless VERIFICATION says test (it then needs a test) or
+        theorem (specs/soundness.md must then name it);
+    a requirement with clauses which neither a harness nor a test names, unless it is a theorem;
+    a test listed under TESTS that does not exist, a CLAUSES that is not what the files say.
+
+Exit status: 0 without orphans, 1 with, 2 for a wrong command line.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+LABEL = r"[A-Z]{3,4}_\d{3}(?:_\w+)?"
+KEYWORD = r"\b(?:ensures|lemma|assert|check|invariant)"
+CLAUSE = re.compile(rf"{KEYWORD}\s+({LABEL})\s*(?:\{{[^}}]*\}})?\s*:")
+ASSERTION = re.compile(rf'"({LABEL})[:"]')
+TEST = re.compile(r"\bRUN_TEST\((\w+)\)")
+MENTION = re.compile(r"\b[A-Z]{3,4}-\d{3}\b")
+FIELD = re.compile(r"^([A-Z]+): ?(.*)$", re.MULTILINE)
+
+
+def id_of(label: str) -> str:
+    """QUE_003_count names QUE-003; what names none gives an empty text."""
+    match = re.match(r"([A-Z]{3,4})_(\d{3})(?![0-9])", label)
+    return f"{match[1]}-{match[2]}" if match else ""
+
+
+@dataclass
+class Requirement:
+    """One entry, with what names it."""
+
+    uid: str
+    verification: str
+    listed_clauses: list[str]
+    listed_tests: list[str]
+    clauses: list[str] = field(default_factory=list)
+    harnesses: list[str] = field(default_factory=list)
+    tests: list[str] = field(default_factory=list)
+
+
+def names(text: str) -> list[str]:
+    """The names in a list with commas."""
+    return re.findall(r"[^\s,]+", text)
+
+
+def read_requirements(root: Path) -> list[Requirement]:
+    """Every entry of specs/requirements, in order."""
+    found = []
+    for path in sorted((root / "specs/requirements").glob("*.sdoc")):
+        for entry in path.read_text(encoding="utf-8").split("\n[REQUIREMENT]\n")[1:]:
+            of = {match[1]: match[2].strip() for match in FIELD.finditer(entry)}
+            clauses, tests = names(of.get("CLAUSES", "")), names(of.get("TESTS", ""))
+            found.append(Requirement(of["UID"], of.get("VERIFICATION", ""), clauses, tests))
+    return found
+
+
+def collect(root: Path, pattern: re.Pattern[str], *globs: str) -> list[tuple[str, str]]:
+    """What the pattern finds in the files, each once per file, with the file's path."""
+    found: dict[tuple[str, str], None] = {}
+    for glob in globs:
+        for path in sorted(root.glob(glob)):
+            where = path.relative_to(root).as_posix()
+            for match in pattern.finditer(path.read_text(encoding="utf-8")):
+                found[(match[1] if pattern.groups else match[0], where)] = None
+    return list(found)
+
+
+@dataclass
+class Trace:
+    """The join: requirements by id, and what names one that does not exist."""
+
+    requirements: dict[str, Requirement]
+    orphans: list[str]
+    clauses: int = 0
+    harnesses: int = 0
+    tests: int = 0
+
+
+def join(root: Path) -> Trace:
+    """Read everything and bring it together."""
+    trace = Trace({}, [])
+    for entry in read_requirements(root):
+        if entry.uid in trace.requirements:
+            trace.orphans.append(f"{entry.uid}: two requirements have this id")
+        trace.requirements[entry.uid] = entry
+    clauses = collect(root, CLAUSE, "include/**/*.h", "proofs/*/*.c")
+    assertions = collect(root, ASSERTION, "proofs/*/*.[ch]")
+    tests = collect(root, TEST, "tests/unit/*.c")
+    for kind, pairs in (("clauses", clauses), ("harnesses", assertions), ("tests", tests)):
+        for name, where in pairs:
+            uid = id_of(name)
+            if uid in trace.requirements:
+                getattr(trace.requirements[uid], kind).append(name)
+            elif uid:
+                trace.orphans.append(f"{where}: {name}: there is no requirement {uid}")
+    for uid, where in collect(root, MENTION, "include/**/*.h"):
+        if uid not in trace.requirements:
+            trace.orphans.append(f"{where}: there is no requirement {uid}")
+    trace.clauses = len({name for name, _ in clauses})
+    trace.harnesses = len({where for _, where in assertions if where.endswith(".c")})
+    trace.tests = len(tests)
+    known = {name for name, _ in tests}
+    known |= {path.relative_to(root).as_posix() for path in (root / "tests").glob("*/*.c")}
+    soundness = root / "specs/soundness.md"
+    theorems = MENTION.findall(soundness.read_text(encoding="utf-8")) if soundness.exists() else []
+    for entry in trace.requirements.values():
+        trace.orphans += [f"{entry.uid}: {text}" for text in lacks(entry, known, theorems)]
+    return trace
+
+
+def lacks(entry: Requirement, tests: set[str], theorems: Sequence[str]) -> Iterator[str]:
+    """What a requirement lacks."""
+    for name in sorted(set(entry.listed_tests) - tests):
+        yield f"TESTS lists {name}, which is no test"
+    if entry.verification not in ("proof", "test", "theorem"):
+        yield "VERIFICATION is neither proof, test nor theorem"
+    if entry.verification == "proof" and not entry.clauses:
+        yield "no clause states it"
+    if entry.verification == "theorem" and entry.uid not in theorems:
+        yield "specs/soundness.md does not name it"
+    tested = entry.tests or set(entry.listed_tests) & tests
+    if entry.verification == "test" and not tested:
+        yield "no test checks it"
+    if entry.clauses and entry.verification != "theorem" and not (entry.harnesses or tested):
+        yield "neither a harness nor a test names it"
+    if entry.listed_clauses != list(dict.fromkeys(entry.clauses)):
+        yield "CLAUSES is not what the headers say (tools/trace.py --update)"
+
+
+def update(root: Path) -> None:
+    """Write the labels of its clauses into each entry."""
+    requirements = join(root).requirements
+    for path in sorted((root / "specs/requirements").glob("*.sdoc")):
+        lines: list[str] = []
+        uid = ""
+        for line in path.read_text(encoding="utf-8").splitlines():
+            uid = line.removeprefix("UID: ") if line.startswith("UID: ") else uid
+            if not line.startswith("CLAUSES:"):
+                lines.append(line)
+            if line.startswith("VERIFICATION:") and requirements[uid].clauses:
+                lines.append("CLAUSES: " + ", ".join(dict.fromkeys(requirements[uid].clauses)))
+        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
+    """Entry point."""
+    parser = argparse.ArgumentParser(description="Trace requirements to clauses, harnesses, tests.")
+    parser.add_argument("--update", action="store_true", help="write CLAUSES first")
+    if parser.parse_args(arguments).update:
+        update(root)
+    trace = join(root)
+    for orphan in sorted(trace.orphans):
+        print(orphan)
+    print(f"traced {len(trace.requirements)} requirements: {trace.clauses} clauses, "
+          f"{trace.harnesses} harnesses, {trace.tests} tests, "
+          f"{len(trace.orphans)} orphans")  # fmt: skip
+    return 1 if trace.orphans or not trace.requirements else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
