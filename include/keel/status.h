@@ -3,7 +3,8 @@
  * @brief The result of every fallible Keel function.
  *
  * A function that returns anything but KEEL_OK has refused: nothing that the caller can observe
- * has changed (requirement STA-001). Each reason to refuse has a value of its own, so that a
+ * has changed (requirement STA-001; the one exception, a clock that breaks while a task runs, is
+ * stated at keel_scheduler_finish). Each reason to refuse has a value of its own, so that a
  * caller can tell them apart without parsing anything.
  */
 #ifndef KEEL_STATUS_H

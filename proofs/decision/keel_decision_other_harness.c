@@ -19,8 +19,7 @@ static uint32_t competing(const keel_task_t *task, uint64_t now_us, uint64_t sla
     if (task->release_us > now_us) {
         return 0u;
     }
-    priority = dynamic_priority(config->priority,
-                                (now_us - task->release_us) + config->period_us,
+    priority = dynamic_priority(config->priority, (now_us - task->release_us) + config->period_us,
                                 config->period_us);
     if ((priority == 16u) || (((guard_us + config->budget_us) <= slack_us) &&
                               ((guard_us + task->stats.longest_us) <= slack_us))) {

@@ -11,7 +11,8 @@ void keel_stats_record_harness(void)
     const uint32_t budget_us = nondet_u32();
     const bool overrun = elapsed_us > budget_us;
     const bool open = (before.runs < UINT32_MAX) &&
-                      (((unsigned __CPROVER_bitvector[65])before.total_us + elapsed_us) <= UINT64_MAX);
+                      (((unsigned __CPROVER_bitvector[65])before.total_us + elapsed_us) <=
+                       UINT64_MAX);
 
     keel_stats_record(&stats, elapsed_us, budget_us);
 

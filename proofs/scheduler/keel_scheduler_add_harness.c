@@ -1,12 +1,12 @@
-// cbmc: --unwind 34 --unwindset keel_admission_queue.0:4,open_slot.0:4 --external-sat-solver cadical
+// cbmc: --unwind 34 --unwindset keel_admission_queue.0:3,open_slot.0:3 --external-sat-solver cadical
 // sources: src/rtos/scheduler.c src/rtos/queue.c src/rtos/task.c src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
 // covers: keel_scheduler_add admit_one_more insert
 //
-// Bounded to queues of at most 3 tasks, or full ones; periods and budgets up to 2^2 us, as the
+// Bounded to queues of at most 2 tasks, or full ones; periods and budgets up to 2^2 us, as the
 // utilisation divides. The contract under WP has no such bound.
 #include "../common/keel_scheduler_proof.h"
 
-#define MOST 3u
+#define MOST 2u
 
 void keel_scheduler_add_harness(void)
 {
@@ -46,8 +46,9 @@ void keel_scheduler_add_harness(void)
     before = scheduler;
     task_before = *proof_task[t];
     newcomer_before = *proof_task[NEWCOMER];
-    place = ((task != NULL) && (task->config != NULL) && is_realtime(task)) ? scheduler.queue.realtime_count
-                                                  : scheduler.queue.count;
+    place = ((task != NULL) && (task->config != NULL) && is_realtime(task))
+                ? scheduler.queue.realtime_count
+                : scheduler.queue.count;
 
     status = keel_scheduler_add(given ? &scheduler : NULL, task);
 

@@ -19,14 +19,13 @@ void keel_scheduler_resync_harness(void)
     status = keel_scheduler_resync(given ? &scheduler : NULL);
 
     __CPROVER_assert((status == KEEL_ERR_NULL) == !given, "SCH_021_null: no scheduler");
-    __CPROVER_assert(!given ||
-                         ((status == KEEL_ERR_STATE) == (before.stage != KEEL_STAGE_READY)),
+    __CPROVER_assert(!given || ((status == KEEL_ERR_STATE) == (before.stage != KEEL_STAGE_READY)),
                      "SCH_021_state: only between two passes");
     if (status == KEEL_OK) {
         __CPROVER_assert(scheduler.clock.raw_us == clock_reading,
-                         "SCH_020_adopted: the clock's reading is adopted");
+                         "SCH_021_adopted: the clock's reading is adopted");
         before.clock.raw_us = clock_reading;
     }
     __CPROVER_assert(scheduler_same(&scheduler, &before, i),
-                     "SCH_020_frame: nothing else changes, above all not the time");
+                     "SCH_021_frame: nothing else changes, above all not the time");
 }

@@ -31,7 +31,8 @@ void keel_scheduler_start_harness(void)
     if (status == KEEL_OK) {
         assert_scheduler_valid(&scheduler);
         __CPROVER_assert(scheduler.stage == KEEL_STAGE_READY, "SCH_009_stage: it is started");
-        __CPROVER_assert((scheduler.clock.now_us == 0u) && (scheduler.clock.raw_us == clock_reading),
+        __CPROVER_assert((scheduler.clock.now_us == 0u) &&
+                             (scheduler.clock.raw_us == clock_reading),
                          "SCH_009_clock: time begins at 0 with this reading");
         __CPROVER_assert((t >= scheduler.queue.count) ||
                              ((proof_task[t]->release_us == proof_config[t]->phase_us) &&

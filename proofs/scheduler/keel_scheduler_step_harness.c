@@ -50,10 +50,10 @@ static void acting_body(void *context)
 /* Moves on by a little, or breaks. */
 static uint32_t slow_clock(void *context)
 {
-    static uint32_t reading;
+    static uint32_t reading = 1u;
 
     (void)context;
-    reading = nondet_bool() ? (reading + any_bits(2u)) : (reading - 1u);
+    reading = nondet_bool() ? (reading + any_bits(2u)) : 0u;
     return reading;
 }
 
@@ -64,7 +64,8 @@ void keel_scheduler_step_harness(void)
     bool due;
     keel_status_t status;
 
-    queue_of(&scheduler.queue, 2u, MOST);
+    queue_of(&scheduler.queue, 1u, MOST - 1u);
+    any_task(MOST - 1u, nondet_bool());
     narrow_tasks(MOST, 2u, 3u);
     any_state(&scheduler);
     scheduler.config.read_clock = slow_clock;

@@ -379,6 +379,7 @@ keel_status_t keel_scheduler_begin(keel_scheduler_t *scheduler, uint32_t raw_us)
   @ ensures task: \result == scheduler->queue.task[index];
   @ ensures running: scheduler->running == index && scheduler->stage == stage && scheduler->ran;
   @ ensures cursor: scheduler->cursor == cursor;
+  @ ensures pass_end: scheduler->pass_end == \old(scheduler->pass_end);
   @ ensures release: scheduler->clock.now_us < \result->release_us;
   @ ensures on_time: scheduler->clock.now_us <
   @     \at(\result->release_us, Pre) + \result->config->period_us ==>
@@ -482,9 +483,12 @@ keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler)
         const bool by_promotion = is_promoted(scheduler->queue.task[index], now_us);
 
         task = dispatch(scheduler, (uint16_t)index, scheduler->pass_end, KEEL_STAGE_OTHER);
+        //@ assert apart_scheduler: \separated(scheduler, task);
         if (by_promotion) {
             keel_stats_promote(&task->stats);
         }
+        //@ assert pass_end: scheduler->pass_end == \at(scheduler->pass_end, Pre);
+        //@ assert cursor: scheduler->cursor == scheduler->pass_end;
     } else {
         close_pass(scheduler);
     }

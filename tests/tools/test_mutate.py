@@ -26,6 +26,7 @@ from proofs.cache import Cache  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
 from proofs.mutation import Tools, Trees, Trial, Verdict  # noqa: E402
 from proofs.project import ProjectError, Unit  # noqa: E402
+from proofs.settings import Exceptions  # noqa: E402
 
 from proofs import mutation, wp  # noqa: E402
 
@@ -205,7 +206,7 @@ class Trials(unittest.TestCase):
         environment = {"PATH": os.environ["PATH"]}
         tools = Tools((), (), (), ("gcc",), environment, scratch, scratch / "answers")
         trees = Trees(self.root, scratch, 1)
-        self.trial = Trial(self.unit, tools, trees, (), False, Cache(None), {}, ())
+        self.trial = Trial(self.unit, tools, trees, (), False, Cache(None), {}, Exceptions())
 
     def status(self, replacement: str) -> str:
         """What becomes of the header with something else for `a < 3`."""

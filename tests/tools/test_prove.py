@@ -355,7 +355,7 @@ class Keys(TreeTest):
             *engines.wp_jobs([unit], prover, self.root, stamp, exceptions),
             *engines.cbmc_jobs([unit], checker, self.root, stamp),
         ]
-        return {job.name: job.key for job in jobs}
+        return {job.name: job.key() for job in jobs}
 
     def changed_by(self, file: str, old: str, new: str) -> set[str]:
         before = self.keys()
@@ -401,15 +401,18 @@ class Jobs(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def run_job(self, problems: list[str], key: str = "k") -> tuple[int, driver.Outcome]:
+    def run_job(
+        self, problems: list[str], key: str = "k", changed: str = ""
+    ) -> tuple[int, driver.Outcome]:
         """Run a job with these problems; how often it was executed, and its outcome."""
         executed: list[int] = []
 
         def execute() -> dict[str, Any]:
             executed.append(1)
-            return {"problems": problems, "seconds": 1.0}
+            return {"problems": list(problems), "seconds": 1.0}
 
-        job = driver.Job("box", "wp", "f", key, execute)
+        keys = iter([key, key, changed or key])
+        job = driver.Job("box", "wp", "f", lambda: next(keys), execute)
         runner = Runner({}, self.folder)
         times = driver.Times(self.folder / "times.json")
         cache = Cache(self.folder / "cache")
@@ -430,6 +433,12 @@ class Jobs(unittest.TestCase):
         executed, outcome = self.run_job(["timeout"])
         self.assertEqual((executed, outcome.problems), (1, ["timeout"]))
 
+    def test_a_text_that_changes_meanwhile_is_not_proved(self) -> None:
+        executed, outcome = self.run_job([], changed="k2")
+        self.assertIn("changed while it was proved", outcome.problems[0])
+        for key in ("k", "k2"):
+            self.assertEqual(self.run_job([], key)[0], 1)
+
     def test_a_torn_entry_is_ignored(self) -> None:
         self.run_job([])
         (self.folder / "cache" / "k.json").write_text('{"key": "k", "resu', encoding="utf-8")
@@ -444,7 +453,7 @@ class Jobs(unittest.TestCase):
                 order.append(name)
                 return {"problems": [], "seconds": 0.0}
 
-            return driver.Job("b", "wp", name, name, execute)
+            return driver.Job("b", "wp", name, lambda: name, execute)
 
         jobs = [job("short"), job("long"), job("new")]
         times = driver.Times(self.folder / "times.json")
@@ -486,6 +495,13 @@ class Rules(TreeTest):
         [problem] = rules.undefined_functions(self.unit, {}, self.root)
         self.assertIn("keel_box_put has a contract and no body", problem)
         self.assertEqual(rules.undefined_functions(self.unit, {"keel_box_put": "w"}, self.root), [])
+
+    def test_what_wp_leaves_must_be_covered_by_a_harness(self) -> None:
+        self.assertEqual(rules.left_by_wp(self.unit, {"keel_box_put": "why"}, self.root), [])
+        [problem] = rules.left_by_wp(self.unit, {"helper": "why"}, self.root)
+        self.assertIn("helper is proved by neither engine", problem)
+        [problem] = rules.left_by_wp(self.unit, {"gone": "why"}, self.root)
+        self.assertIn("there is no function gone", problem)
 
     def test_assumptions_are_failures(self) -> None:
         self.unit.source.write_text("//@ admit x;\n#ifdef __FRAMAC__\n#endif\n", encoding="utf-8")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -10,6 +11,7 @@ from typing import Any
 
 from .cache import Cache
 from .jobs import Runner, in_pool
+from .project import ProjectError
 
 
 @dataclass(frozen=True)
@@ -19,7 +21,8 @@ class Job:
     unit: str
     kind: str
     name: str
-    key: str
+    # A digest of all that the verdict depends on, as it is now.
+    key: Callable[[], str]
     execute: Callable[[], dict[str, Any]]
 
     @property
@@ -81,15 +84,28 @@ def run_jobs(
 
     waiting: list[Job] = []
     for job in jobs:
-        known = cache.get(job.key)
+        known = cache.get(job.key())
         if known is None:
             waiting.append(job)
         else:
             finish(Outcome(job, known, cached=True))
     waiting.sort(key=lambda job: (-times.expected(job), job.label))
-    for index, result in in_pool([job.execute for job in waiting], width, runner):
-        outcome = Outcome(waiting[index], result, cached=False)
-        if not outcome.problems:
-            cache.put(outcome.job.key, result)
-        finish(outcome)
+    tasks = [functools.partial(_execute, job, cache) for job in waiting]
+    for index, result in in_pool(tasks, width, runner):
+        finish(Outcome(waiting[index], result, cached=False))
     return outcomes
+
+
+def _execute(job: Job, cache: Cache) -> dict[str, Any]:
+    """Run a job and keep its success, if it is one about the text that is still there."""
+    try:
+        before = job.key()
+        result = job.execute()
+        changed = job.key() != before
+    except OSError as error:
+        raise ProjectError(f"{job.label}: did the tree change meanwhile? {error}") from error
+    if changed:
+        result["problems"].append(f"{job.label}: its text changed while it was proved: run again")
+    if not result["problems"]:
+        cache.put(before, result)
+    return result

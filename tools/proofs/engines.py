@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -23,20 +24,29 @@ def wp_jobs(
     for unit in units:
         allowed = list(exceptions[unit.name].warnings)
         for target in wp.targets(unit):
-            key = digest(
-                {
-                    "kind": "wp", "stamp": dict(stamp), "options": prover.options(),
-                    "selection": target.selection, "smoke": wp.SMOKE.seconds, "allowed": allowed,
-                    "text": wp.dependencies(target, root), "file": target.file.name,
-                }
-            )  # fmt: skip
+            if target.function in exceptions[unit.name].not_by_wp:
+                continue
 
             def execute(target: wp.Target = target, allowed: list[str] = allowed) -> dict[str, Any]:
                 return prover.prove(target, stages, allowed=allowed).as_dict()
 
+            key = functools.partial(wp_key, target, prover, root, stamp, allowed)
             theorem = f"{target.file.stem}:" if target.file in unit.theorems else ""
             jobs.append(Job(unit.name, "wp", theorem + target.name, key, execute))
     return jobs
+
+
+def wp_key(
+    target: wp.Target, prover: wp.Wp, root: Path, stamp: Mapping[str, str], allowed: Sequence[str]
+) -> str:
+    """What the verdict on a function, or on lemmas, depends on."""
+    return digest(
+        {
+            "kind": "wp", "stamp": dict(stamp), "options": prover.options(),
+            "selection": target.selection, "smoke": wp.SMOKE.seconds, "allowed": list(allowed),
+            "text": wp.dependencies(target, root), "file": target.file.name,
+        }
+    )  # fmt: skip
 
 
 def survey_jobs(
@@ -47,7 +57,6 @@ def survey_jobs(
     jobs = []
     for unit in units:
         file = wp.translation_unit(unit)
-        text = {str(path): path.read_text(encoding="utf-8") for path in closure(root, [file])}
 
         def execute(unit: Unit = unit, file: Path = file) -> dict[str, Any]:
             log = prover.survey(unit.name, file)
@@ -60,7 +69,11 @@ def survey_jobs(
                 problems.append(f"{unit.name}: Frama-C sees no function: {log.messages}")
             return wp.Result(problems=problems).as_dict()
 
-        key = digest({"survey": text, "stamp": dict(stamp), "known": sorted(known)})
+        def key(file: Path = file) -> str:
+            files = closure(root, [file])
+            text = {str(path): path.read_text(encoding="utf-8") for path in files}
+            return digest({"survey": text, "stamp": dict(stamp), "known": sorted(known)})
+
         jobs.append(Job(unit.name, "wp", "survey", key, execute))
     return jobs
 
@@ -84,18 +97,22 @@ def cbmc_jobs(
 
 def cbmc_key(
     harness: Harness, checker: cbmc.Cbmc, root: Path, stamp: Mapping[str, str],
-    replacement: Path | None = None,
+    wrong: WrongBody | None = None,
 ) -> str:  # fmt: skip
-    """What a harness's verdict depends on. Contracts are comments to CBMC."""
+    """What the verdict of a harness depends on, on the unit or on a wrong body.
+
+    Contracts are comments to CBMC. Directives count as they were read, not as they stand there now.
+    """
     texts = {
         str(path.relative_to(root)): csource.essence(path.read_text(encoding="utf-8"))
-        for path in cbmc.dependencies(harness, root, replacement)
+        for path in cbmc.dependencies(harness, root, wrong.path if wrong else None)
     }
-    told = [harness.path, *([replacement] if replacement else [])]
-    directives = [path.read_text(encoding="utf-8") for path in told]
+    sources = [str(path.relative_to(root)) for path in harness.sources]
+    directives = [harness.name, harness.options, sources, harness.covers, harness.defines]
+    expected = [wrong.path.name, wrong.expect] if wrong else []
     return digest(
         {"kind": "cbmc", "stamp": dict(stamp), "options": checker.options(), "texts": texts,
-         "directives": directives, "name": harness.name}
+         "directives": directives, "expected": expected}
     )  # fmt: skip
 
 
@@ -103,7 +120,7 @@ def _harness_job(harness: Harness, checker: cbmc.Cbmc, root: Path, stamp: Mappin
     def execute() -> dict[str, Any]:
         return checker.prove(harness).as_dict()
 
-    key = cbmc_key(harness, checker, root, stamp)
+    key = functools.partial(cbmc_key, harness, checker, root, stamp)
     return Job(harness.unit.name, "cbmc", harness.name, key, execute)
 
 
@@ -113,5 +130,5 @@ def _wrong_job(
     def execute() -> dict[str, Any]:
         return checker.refute(wrong, harness).as_dict()
 
-    key = cbmc_key(harness, checker, root, stamp, wrong.path)
+    key = functools.partial(cbmc_key, harness, checker, root, stamp, wrong)
     return Job(wrong.unit.name, "negative", wrong.path.name, key, execute)

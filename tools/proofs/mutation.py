@@ -19,6 +19,7 @@ from .harness import Harness, read_harness
 from .jobs import Runner
 from .mutants import Mutant
 from .project import ProjectError, Unit, closure
+from .settings import Exceptions
 
 Identity = tuple[str, str, str, int]
 
@@ -113,7 +114,7 @@ class Trial:
 
     def __init__(
         self, unit: Unit, tools: Tools, trees: Trees, engines: Sequence[str], every: bool,
-        cache: Cache, stamp: Mapping[str, str], allowed: Sequence[str],
+        cache: Cache, stamp: Mapping[str, str], exceptions: Exceptions,
     ) -> None:  # fmt: skip
         self._unit = unit
         self._tools = tools
@@ -123,7 +124,8 @@ class Trial:
         self._cache = cache
         self._stamp = dict(stamp)
         self._runners: list[Runner] = []
-        self._allowed = list(allowed)
+        self._exceptions = exceptions
+        self._allowed = list(exceptions.warnings)
         self._baseline = threading.Lock()
         self._stages: dict[str, tuple[wp.Stage, ...]] = {}
         self._harnesses = [read_harness(unit, path) for path in unit.harnesses]
@@ -254,6 +256,8 @@ class Trial:
 
     def _by_wp(self, mutant: Mutant, unit: Unit, runner: Runner) -> str:
         """Whether a goal of the function is not proved any more."""
+        if mutant.function in self._exceptions.not_by_wp:
+            return "the function is left to CBMC"
         stages = self._stages_for(mutant.function)
         if not stages:
             return "the function is not proved unchanged"

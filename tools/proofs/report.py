@@ -184,6 +184,10 @@ class Console:
 def closing_lines(gathered: Gathered) -> list[str]:
     """What is wrong, together, and the line that says how much is proved."""
     lines = [f"FAILED {text}" for text in gathered.all_problems]
+    for name, unit in gathered.units.items():
+        if unit.exceptions.not_by_wp and "wp" in gathered.engines:
+            left = len(unit.exceptions.not_by_wp)
+            lines.append(f"{name}: {left} functions are left to CBMC alone, see proofs/units.toml")
     engines = f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}"
     return [*lines, f"proved {gathered.proved} of {gathered.total} goals ({engines})"]
 
@@ -219,6 +223,7 @@ def _unit(result: UnitResult, engines: Sequence[str]) -> dict[str, Any]:
             "smoke_tests": result.smoke,
             "accepted_warnings": {text: exceptions.warnings[text] for text in result.accepted},
             "not_proved_here": exceptions.no_body,
+            "not_by_wp": exceptions.not_by_wp,
             "goal_list": sorted(result.goals, key=lambda goal: goal["name"]),
         }
     if "cbmc" in engines:

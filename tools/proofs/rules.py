@@ -70,6 +70,24 @@ def missing_harnesses(unit: Unit, excepted: Mapping[str, str], root: Path) -> li
     return problems + _stale(unit, "no_harness", excepted, proved)
 
 
+def left_by_wp(unit: Unit, excepted: Mapping[str, str], root: Path) -> list[str]:
+    """Functions that WP leaves to CBMC, and that no harness reaches."""
+    names = {
+        function.name
+        for path in (*unit.own_files, *unit.theorems)
+        for function in csource.defined(path.read_text(encoding="utf-8"))
+    }
+    covered = {name for path in unit.harnesses for name in read_harness(unit, path).covers}
+    problems = []
+    for name in excepted:
+        if name not in names:
+            problems.append(f"units.toml: [{unit.name}] not_by_wp: there is no function {name}")
+        elif name not in covered:
+            place = unit.folder.relative_to(root)
+            problems.append(f"{name} is proved by neither engine: no harness in {place} covers it")
+    return problems
+
+
 def _stale(unit: Unit, kind: str, excepted: Mapping[str, str], settled: set[str]) -> list[str]:
     return [
         f"units.toml: [{unit.name}] {kind}: {name} is no exception any more, remove it"

@@ -152,6 +152,7 @@ class Session:
         for result in gathered.units.values():
             unit, exceptions = result.unit, result.exceptions
             result.problems += rules.undefined_functions(unit, exceptions.no_body, root)
+            result.problems += rules.left_by_wp(unit, exceptions.not_by_wp, root)
             if "cbmc" in self._choice.engines:
                 files = [path for path in closure(root, unit.harnesses) if "proofs" in path.parts]
                 result.problems += rules.switched_off_checks(files, root)

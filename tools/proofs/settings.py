@@ -3,6 +3,7 @@
     [queue]
     no_harness = [{ function = "keel_queue_init", reason = "…" }]
     no_body = [{ function = "keel_board_now", reason = "…" }]
+    not_by_wp = [{ function = "keel_queue_sort", reason = "…" }]
     warnings = [{ text = "part of a message of Frama-C", reason = "…" }]
 
 An exception without a reason, or that nothing needs any more, is an error.
@@ -17,7 +18,12 @@ from typing import Any
 
 from .project import ProjectError
 
-KINDS = {"no_harness": "function", "no_body": "function", "warnings": "text"}
+KINDS = {
+    "no_harness": "function",
+    "no_body": "function",
+    "not_by_wp": "function",
+    "warnings": "text",
+}
 
 
 @dataclass
@@ -26,6 +32,7 @@ class Exceptions:
 
     no_harness: dict[str, str] = field(default_factory=dict)
     no_body: dict[str, str] = field(default_factory=dict)
+    not_by_wp: dict[str, str] = field(default_factory=dict)
     warnings: dict[str, str] = field(default_factory=dict)
 
 

@@ -8,14 +8,18 @@
  *
  *     keel_scheduler_init(&s, &config);
  *     keel_scheduler_add(&s, &task);        for every task
- *     keel_scheduler_start(&s, &offender);  admission; sets every task's first release
+ *     keel_scheduler_start(&s);             admission; sets every task's first release
  *     for (;;) { keel_scheduler_step(&s); }
  *
  * A step is made of three smaller operations, which never call a task: begin opens the pass, next
  * decides and hands out the task to run, finish takes its statistics. They are public because the
  * proofs speak of them, and for those who want a loop of their own.
  *
- * A task may add and remove tasks, itself included, while it runs.
+ * A task may add and remove tasks, itself included, while it runs. It calls nothing else of the
+ * scheduler; a step from within a task is refused.
+ *
+ * The pieces begin, next, finish, start_at and check take a scheduler that is not null; the
+ * functions that only call them refuse a null one.
  */
 #ifndef KEEL_RTOS_SCHEDULER_H
 #define KEEL_RTOS_SCHEDULER_H
@@ -83,11 +87,11 @@ typedef struct keel_scheduler {
 
 /* What begin, next and finish leave alone: the set of tasks and what was declared of them. */
 #define DECLARATIONS_STAY(s)                                                                       \
-    ensures SCH_022_counts: (s)->queue.count == \old((s)->queue.count) &&                          \
+    ensures SCH_022_counts : (s)->queue.count == \old((s)->queue.count) &&                         \
         (s)->queue.realtime_count == \old((s)->queue.realtime_count) &&                            \
         (s)->config.guard_us == \old((s)->config.guard_us);                                        \
-    ensures SCH_022_periods: period_same{Pre, Post}(s);                                            \
-    ensures SCH_022_budgets: budget_same{Pre, Post}(s);
+    ensures SCH_022_periods : period_same{Pre, Post}(s);                                           \
+    ensures SCH_022_budgets : budget_same{Pre, Post}(s);
 /* clang-format on */
 
 /*@ predicate stage_running(keel_scheduler_t *s) =
@@ -575,8 +579,31 @@ keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler);
   @*/
 keel_status_t keel_scheduler_finish(keel_scheduler_t *scheduler, uint32_t raw_us);
 
+/**
+ * Reads the clock and starts the scheduler (keel_scheduler_start_at, requirement SCH-019).
+ *
+ * @param scheduler the scheduler, or null
+ * @return KEEL_ERR_NULL, or what keel_scheduler_start_at says
+ */
 keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
+
+/**
+ * One step: a pass over the tasks, if any can be due (requirement SCH-020). To be called for ever,
+ * at most 2^31 us apart; for the isolation theorem (specs/soundness.md) at most W apart.
+ *
+ * @param scheduler a started scheduler, or null
+ * @return KEEL_OK; KEEL_ERR_NULL; KEEL_ERR_STATE before the start and from within a task;
+ *         KEEL_ERR_CLOCK when the clock jumped backwards: see keel_scheduler_resync
+ */
 keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler);
+
+/**
+ * Takes up a clock that has jumped: time goes on from its reading, as if none had passed
+ * (requirement SCH-021).
+ *
+ * @param scheduler a scheduler between two steps, or null
+ * @return KEEL_OK; KEEL_ERR_NULL; KEEL_ERR_STATE before the start and from within a task
+ */
 keel_status_t keel_scheduler_resync(keel_scheduler_t *scheduler);
 
 #endif
