@@ -320,13 +320,14 @@ def check_words(text: Text) -> Iterator[Finding]:
 
 
 def check_length(text: Text) -> Iterator[Finding]:
-    """At most 100 columns; clang-format leaves comments alone."""
+    """At most 100 columns; clang-format leaves comments alone. Directives are one line each."""
     if text.path.endswith((".c", ".h", ".py")):
         for number, line in enumerate(text.lines, 1):
-            if len(line) > LINE_LIMIT:
+            if len(line) > LINE_LIMIT and not DIRECTIVE.match(line):
                 yield Finding(text.path, number, f"{len(line)} columns, {LINE_LIMIT} at most")
 
 
+DIRECTIVE = re.compile(r"// [a-z-]+: ")
 UNPROVED = re.compile(r"\b(admit|axiom)\b")
 ANNOTATION = re.compile(r"/\*@.*?\*/|//@[^\n]*", re.DOTALL)
 ANNOTATION_COMMENT = re.compile(r"//[^\n]*")

@@ -41,7 +41,7 @@ static uint32_t any_below(uint32_t limit)
 }
 
 /* An arbitrary value of so many bits. The bits above are 0 by construction, which the solver sees
- * at once, where it would have to reason from an assumption: products and quotients depend on it. */
+ * at once, where it would have to reason from an assumption: products and quotients need it. */
 static uint32_t any_bits(uint32_t bits)
 {
     return nondet_u32() & ((1u << bits) - 1u);

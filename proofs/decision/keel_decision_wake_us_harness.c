@@ -2,8 +2,8 @@
 // sources: src/rtos/decision.c src/rtos/priority.c
 // covers: keel_decision_wake_us next_event_us keel_priority_promotion_age_us
 //
-// Bounded to a queue of one real-time task and three others, with periods up to 2^4 us and times below 2^6 us: the
-// promotion age divides. The contract under WP has no such bound.
+// Bounded to a queue of one real-time task and three others, with periods up to 2^4 us and times
+// below 2^6 us: the promotion age divides. The contract under WP has no such bound.
 #include "../common/keel_proof.h"
 #include "keel/rtos/decision.h"
 

@@ -101,7 +101,8 @@ void isolation(uint32_t n, const uint32_t *period_us, const uint32_t *budget_us,
         }
         now_us += elapse(guard_us); /* SCH-011: the pass begins. */
         /*@ loop invariant range: 0 <= c <= n;
-          @ loop invariant uptime: now_us <= KEEL_CLOCK_TIME_LIMIT_US - STEP_ROOM_US + guard_us + sum[c];
+          @ loop invariant uptime:
+          @     now_us <= KEEL_CLOCK_TIME_LIMIT_US - STEP_ROOM_US + guard_us + sum[c];
           @ loop invariant served: \forall integer j; 0 <= j < c ==>
           @     now_us - release_us[j] <= sum[c] - sum[j + 1];
           @ loop invariant unserved: \forall integer j; c <= j < n ==>

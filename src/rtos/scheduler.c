@@ -525,11 +525,17 @@ keel_status_t keel_scheduler_finish(keel_scheduler_t *scheduler, uint32_t raw_us
         /*@ assert apart: \forall integer j; 0 <= j < scheduler->queue.count ==>
           @     \separated(task, scheduler->queue.task[j]->config);
           @*/
-        /*@ assert apart_tasks: \forall integer k; 0 <= k < scheduler->queue.count ==> k != index ==>
-          @     \separated(task, scheduler->queue.task[k]);
+        /*@ assert apart_tasks: \forall integer k; 0 <= k < scheduler->queue.count ==>
+          @     k != index ==> \separated(task, scheduler->queue.task[k]);
           @*/
         keel_stats_record(&task->stats, (uint32_t)(scheduler->clock.now_us - start_us),
                           task->config->budget_us);
+        //@ assert in_config: config_same{Pre, Here}(scheduler);
+        //@ assert in_priority: priority_same{Pre, Here}(scheduler);
+        //@ assert in_period: period_same{Pre, Here}(scheduler);
+        //@ assert in_budget: budget_same{Pre, Here}(scheduler);
+        //@ assert in_phase: phase_same{Pre, Here}(scheduler);
+        //@ assert in_run: run_same{Pre, Here}(scheduler);
         //@ assert count: scheduler->queue.count == \at(scheduler->queue.count, Pre);
         /*@ assert realtime_count:
           @     scheduler->queue.realtime_count == \at(scheduler->queue.realtime_count, Pre);
@@ -542,6 +548,7 @@ keel_status_t keel_scheduler_finish(keel_scheduler_t *scheduler, uint32_t raw_us
           @         \at(scheduler->config.utilisation_limit, Pre);
           @*/
         //@ assert state: scheduler_state(scheduler);
+        //@ assert in_checked: queue_checked(&scheduler->queue);
         /*@ assert others: \forall integer k; 0 <= k < scheduler->queue.count ==> k != index ==>
           @     longest_same{Pre, Here}(scheduler, k);
           @*/

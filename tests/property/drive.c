@@ -214,7 +214,7 @@ static void same_task(session_t *s, int i)
     const model_task_t *const model = &s->model.task[i];
 
     same(s, "release", i, kernel->release_us, model->release);
-    same(s, "skipped", i, kernel->skipped, at_most(model->skipped, UINT32_MAX));
+    same(s, "skipped", i, kernel->skipped, at_most(model->skipped, UINT16_MAX));
     same(s, "runs", i, kernel->stats.runs, at_most(model->runs, UINT32_MAX));
     same(s, "total", i, kernel->stats.total_us, model->total);
     same(s, "last", i, kernel->stats.last_us, model->last);
@@ -264,7 +264,7 @@ static void same_running(session_t *s)
         differ(s, "running: index %" PRIu32 " is not task %d", k->running, s->model.running);
     }
     if (!known) {
-        same(s, "running", MODEL_NO_TASK, k->running, UINT32_MAX);
+        same(s, "running", MODEL_NO_TASK, k->running, KEEL_INDEX_NONE);
     }
 }
 

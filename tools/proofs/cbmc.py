@@ -225,6 +225,9 @@ class Cbmc:
         else:
             answer = self.check(harness, binary, self._selection(harness, binary, wrong.expect))
             result.problems += refutation_problems(answer, wrong, str(shown))
+            if result.problems:
+                other = self.check(harness, binary, ["--stop-on-fail"]).first_failure
+                result.problems[0] += f"; what fails is: {other or 'nothing'}"
         result.seconds = round(time.monotonic() - start, 1)
         return result
 
