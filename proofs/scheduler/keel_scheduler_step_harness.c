@@ -5,8 +5,8 @@
 //
 // Bounded to a queue of two real-time tasks and another, each of which may remove any task as it
 // runs, itself included; periods of 8 us, budgets and runs up to 2^2 us and times below 2^3 us at
-// the start. A step over more tasks, or with bodies that add tasks, does not come to an end: that an
-// addition keeps the pass is proved in keel_scheduler_add_harness.
+// the start. A step over more tasks, or with bodies that add tasks, does not come to an end: that
+// an addition keeps the pass is proved in keel_scheduler_add_harness.
 #include "../common/keel_scheduler_proof.h"
 
 #define REALTIME 2u
@@ -23,9 +23,9 @@ static void acting_body(void *context)
     const uint32_t victim = any_below(MOST);
 
     runs[k]++;
-    __CPROVER_assert(!removed[k], "SCH_019_removed: a task that was removed does not run");
+    __CPROVER_assert(!removed[k], "SCH_020_removed: a task that was removed does not run");
     if (k < REALTIME) {
-        __CPROVER_assert(next_realtime <= k, "SCH_019_order: real-time tasks run in queue order");
+        __CPROVER_assert(next_realtime <= k, "SCH_020_order: real-time tasks run in queue order");
         next_realtime = k + 1u;
     }
     if (nondet_bool() && (keel_scheduler_remove(&scheduler, proof_task[victim]) == KEEL_OK)) {
@@ -70,10 +70,10 @@ void keel_scheduler_step_harness(void)
     status = keel_scheduler_step(given ? &scheduler : NULL);
 
     assert_scheduler_valid(&scheduler);
-    __CPROVER_assert((status == KEEL_ERR_NULL) == !given, "SCH_019_null: no scheduler");
-    __CPROVER_assert(runs[k] <= 1u, "SCH_019_once: no task runs twice in a step");
+    __CPROVER_assert((status == KEEL_ERR_NULL) == !given, "SCH_020_null: no scheduler");
+    __CPROVER_assert(runs[k] <= 1u, "SCH_020_once: no task runs twice in a step");
     __CPROVER_assert((status != KEEL_OK) || !given || !due || removed[k] || (runs[k] == 1u),
-                     "SCH_019_all: no due real-time task is left out");
+                     "SCH_020_all: no due real-time task is left out");
     __CPROVER_assert((status != KEEL_OK) || (scheduler.stage == KEEL_STAGE_READY),
-                     "SCH_019_ready: the step ends between two passes");
+                     "SCH_020_ready: the step ends between two passes");
 }

@@ -1,7 +1,7 @@
 // harness: keel_queue_find_harness
-// expect: QUE_002_absent
+// expect: QUE_002_found
 //
-// find never looks into the last slot.
+// find never looks into the last slot, and gives it as the answer.
 #include "keel/rtos/queue.h"
 
 void keel_queue_init(keel_queue_t *queue)
