@@ -26,7 +26,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from proofs.cache import Cache, write_atomically  # noqa: E402
-from proofs.jobs import in_pool  # noqa: E402
+from proofs.driver import Times  # noqa: E402
+from proofs.jobs import end_as_by_ctrl_c, in_pool  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
 from proofs.mutation import Tools, Trees, Trial, Verdict  # noqa: E402
 from proofs.project import ProjectError, Unit, find_units  # noqa: E402
@@ -117,9 +118,11 @@ def measure(unit: Unit, options: argparse.Namespace, toolchain: Toolchain) -> in
     tools = tools_for(toolchain, unit.root, scratch)
     trees = Trees(unit.root, scratch, options.jobs)
     exceptions = read_exceptions(unit.root / "proofs" / "units.toml", list(find_units(unit.root)))
+    times = Times(unit.root / "build" / "prove" / "times.json")
     trial = Trial(
-        unit, tools, trees, engines, options.engine == "both", cache, stamp, exceptions[unit.name]
-    )
+        unit, tools, trees, engines, options.engine == "both", cache, stamp,
+        exceptions[unit.name], times,
+    )  # fmt: skip
     try:
         verdicts = try_all(trial, found, options.jobs, options.max_seconds)
     finally:
@@ -152,6 +155,7 @@ def conclude(verdicts: Sequence[Verdict], problems: Sequence[str], engines: Sequ
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
+    end_as_by_ctrl_c()
     try:
         units = find_units()
         options = parse(arguments, list(units))

@@ -20,6 +20,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
+from proofs.jobs import end_as_by_ctrl_c  # noqa: E402
 from proofs.project import ROOT, ProjectError, find_units  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
 from toolchain import Toolchain, ToolchainError  # noqa: E402
@@ -47,6 +48,7 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
+    end_as_by_ctrl_c()
     try:
         units = find_units()
         options = parse(arguments, list(units))

@@ -39,13 +39,13 @@ void keel_task_advance_harness(void)
                           (task->skipped == before.skipped)),
                      "TSK_004_on_time: within its period the grid moves on by one, none skipped");
     /* Exact: with the next release ahead by at most a period, the grid point is the only one. */
-    __CPROVER_assert((task->skipped == UINT32_MAX) ||
+    __CPROVER_assert((task->skipped == UINT16_MAX) ||
                          ((task->release_us - before.release_us) ==
                           (((uint64_t)task->skipped - before.skipped + 1u) * period_us)),
                      "TSK_004_grid: the release moves on by whole periods, the skipped and one");
     __CPROVER_assert((task->skipped >= before.skipped) &&
-                         ((task->skipped < UINT32_MAX) ||
-                          ((before.skipped + (late_us / period_us)) >= UINT32_MAX)),
+                         ((task->skipped < UINT16_MAX) ||
+                          ((before.skipped + (late_us / period_us)) >= UINT16_MAX)),
                      "TSK_004_skipped: the count stops at its limit, and only there");
     __CPROVER_assert((task->config == before.config) && stats_same(&task->stats, &before.stats) &&
                          config_same(proof_config[0], &config_before),

@@ -23,6 +23,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import mutate  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
+from proofs.driver import Times  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
 from proofs.mutation import Tools, Trees, Trial, Verdict  # noqa: E402
 from proofs.project import ProjectError, Unit  # noqa: E402
@@ -206,7 +207,8 @@ class Trials(unittest.TestCase):
         environment = {"PATH": os.environ["PATH"]}
         tools = Tools((), (), (), ("gcc",), environment, scratch, scratch / "answers")
         trees = Trees(self.root, scratch, 1)
-        self.trial = Trial(self.unit, tools, trees, (), False, Cache(None), {}, Exceptions())
+        self.trial = Trial(self.unit, tools, trees, (), False, Cache(None), {}, Exceptions(),
+                           Times(scratch / "times.json"))  # fmt: skip
 
     def status(self, replacement: str) -> str:
         """What becomes of the header with something else for `a < 3`."""

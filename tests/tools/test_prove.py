@@ -830,12 +830,19 @@ from pathlib import Path
 import test_prove as t
 root = Path({root!r})
 unit = t.find_units(root)["box"]
+t.end_as_by_ctrl_c()
 t.Session(root, t.FakeTools(root), t.Choice((unit,), False, ("wp",), 2, True, False, False)).run()
 """
 
 
 class Interruption(TreeTest):
     def test_ctrl_c_leaves_no_report_and_no_process(self) -> None:
+        self.interrupt(signal.SIGINT)
+
+    def test_a_request_to_end_does_so_as_well(self) -> None:
+        self.interrupt(signal.SIGTERM)
+
+    def interrupt(self, number: signal.Signals) -> None:
         tools = FakeTools(self.root)
         tools.play(sleep=True)
         script = INTERRUPTED.format(
@@ -847,7 +854,7 @@ class Interruption(TreeTest):
             start_new_session=True, env={**os.environ, "TMPDIR": str(self.root / "tmp")},
         )  # fmt: skip
         self.assertTrue(wait_for(lambda: bool(running(str(self.root)))), "nothing was started")
-        os.kill(process.pid, signal.SIGINT)
+        os.kill(process.pid, number)
         process.wait(timeout=20)
         self.assertTrue(wait_for(lambda: not running(str(self.root))), running(str(self.root)))
         self.assertFalse((self.root / "build" / "prove" / "report.json").exists())

@@ -55,6 +55,10 @@ class Times:
         except (OSError, ValueError):
             self._seconds = {}
 
+    def of(self, kind: str, unit: str, name: str) -> float | None:
+        """The last duration of a job, if it was ever run."""
+        return self._seconds.get(f"{unit}/{kind}/{name}")
+
     def expected(self, job: Job) -> float:
         """The last duration; a job never seen may be the longest of all."""
         return self._seconds.get(job.label, float("inf"))

@@ -9,12 +9,13 @@ import threading
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from . import cbmc, wp
 from .cache import Cache, digest
+from .driver import Times
 from .harness import Harness, read_harness
 from .jobs import Runner
 from .mutants import Mutant
@@ -27,6 +28,7 @@ Identity = tuple[str, str, str, int]
 PROVERS = {"Alt-Ergo": "alt-ergo", "CVC4": "cvc4", "Z3": "z3"}
 PATIENCE = 3.0
 SHORTEST, LONGEST = 2, 30
+HARNESS_SHORTEST = 20.0
 
 
 @dataclass
@@ -115,6 +117,7 @@ class Trial:
     def __init__(
         self, unit: Unit, tools: Tools, trees: Trees, engines: Sequence[str], every: bool,
         cache: Cache, stamp: Mapping[str, str], exceptions: Exceptions,
+        times: Times,
     ) -> None:  # fmt: skip
         self._unit = unit
         self._tools = tools
@@ -125,6 +128,7 @@ class Trial:
         self._stamp = dict(stamp)
         self._runners: list[Runner] = []
         self._exceptions = exceptions
+        self._times = times
         self._allowed = list(exceptions.warnings)
         self._baseline = threading.Lock()
         self._stages: dict[str, tuple[wp.Stage, ...]] = {}
@@ -237,13 +241,21 @@ class Trial:
             binary, complaint = checker.build(harness, harness.name)
             if complaint:
                 return f"killed: {complaint.splitlines()[0]}"
-            answer = checker.check(harness, binary, ["--stop-on-fail"])
+            limited = replace(harness, timeout=self._limit(harness))
+            answer = checker.check(limited, binary, ["--stop-on-fail"])
             if answer.failed:
                 return f"killed: {harness.name}: {answer.first_failure}"
             answers.append("no answer" if not answer.complete else "survived")
         return (
             "no harness" if not answers else "no answer" if "no answer" in answers else "survived"
         )
+
+    def _limit(self, harness: Harness) -> float:
+        """How long a harness may take: some mutants are much harder than the original."""
+        usual = self._times.of("cbmc", self._unit.name, harness.name)
+        if usual is None:
+            return harness.timeout
+        return min(harness.timeout, max(HARNESS_SHORTEST, PATIENCE * usual))
 
     def _harness_files(self, mutant: Mutant, unit: Unit) -> list[Path]:
         """The harnesses that reach the function, its own first."""

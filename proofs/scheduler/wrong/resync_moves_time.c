@@ -1,5 +1,5 @@
 // harness: keel_scheduler_resync_harness
-// expect: SCH_020_frame
+// expect: SCH_021_frame
 //
 // Resynchronising moves the time as well.
 #include "keel/rtos/scheduler.h"
