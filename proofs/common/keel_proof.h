@@ -236,7 +236,7 @@ static void assert_queue_valid(const keel_queue_t *queue)
     if (i < queue->count) {
         __CPROVER_assert((j >= queue->count) || (i == j) || (task != queue->task[j]),
                          "QUE_005_no_duplicates: no task is queued twice");
-        __CPROVER_assert(is_known(task), "QUE_005_tasks: what is queued is a task");
+        __CPROVER_assert(is_known(task), "QUE_005_tasks: what is queued is one of the tasks, apart from the queue");
         __CPROVER_assert((i >= queue->realtime_count) || is_known_realtime(task),
                          "QUE_005_realtime: the first realtime_count tasks are real-time");
         __CPROVER_assert((i < queue->realtime_count) || !is_known_realtime(task),

@@ -1,6 +1,6 @@
 // cbmc: --unwind 34 --external-sat-solver cadical
 // sources: src/rtos/scheduler.c src/rtos/queue.c src/rtos/task.c src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
-// covers: keel_scheduler_resync
+// covers: keel_scheduler_resync read_clock
 //
 // Bounded to queues of at most 1 task: the function never looks at one.
 #include "../common/keel_scheduler_proof.h"

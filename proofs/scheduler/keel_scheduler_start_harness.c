@@ -1,6 +1,6 @@
 // cbmc: --unwind 34 --unwindset keel_admission_queue.0:4,arm_all.0:4 --external-sat-solver cadical
 // sources: src/rtos/scheduler.c src/rtos/queue.c src/rtos/task.c src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
-// covers: keel_scheduler_start keel_scheduler_start_at
+// covers: keel_scheduler_start keel_scheduler_start_at read_clock
 //
 // Bounded to queues of at most 3 tasks with periods and budgets up to 2^2 us, as the utilisation
 // divides; the contract under WP has no such bound.

@@ -1,6 +1,6 @@
 // cbmc: --unwind 4 --external-sat-solver cadical
 // sources: src/rtos/scheduler.c src/rtos/queue.c src/rtos/task.c src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
-// covers: keel_scheduler_step
+// covers: keel_scheduler_step read_clock
 // defines: -DKEEL_QUEUE_CAPACITY=3u
 //
 // Bounded to a queue of two real-time tasks and another, each of which may remove any task as it

@@ -830,7 +830,7 @@ from pathlib import Path
 import test_prove as t
 root = Path({root!r})
 unit = t.find_units(root)["box"]
-t.end_as_by_ctrl_c()
+t.prove.end_as_by_ctrl_c()
 t.Session(root, t.FakeTools(root), t.Choice((unit,), False, ("wp",), 2, True, False, False)).run()
 """
 

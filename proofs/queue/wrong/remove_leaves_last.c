@@ -1,7 +1,7 @@
 // harness: keel_queue_remove_harness
 // expect: QUE_005_no_gaps
 //
-// remove empties the slot and closes no gap.
+// remove moves the tasks up, but leaves the last one behind the end as well.
 #include "keel/rtos/queue.h"
 
 void keel_queue_init(keel_queue_t *queue)
@@ -68,8 +68,7 @@ keel_status_t keel_queue_remove(keel_queue_t *queue, uint32_t index)
     if (index >= queue->count) {
         return KEEL_ERR_UNKNOWN_TASK;
     }
-    close_slot(queue, queue->count - 1u);
-    queue->task[index] = NULL;
+    close_slot(queue, index);
     queue->count--;
     if (index < queue->realtime_count) {
         queue->realtime_count--;
