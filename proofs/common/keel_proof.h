@@ -200,7 +200,7 @@ static bool is_realtime(const keel_task_t *task)
     return task->config->priority == KEEL_PRIORITY_REALTIME;
 }
 
-/* The same, found by comparing pointers: to read through a pointer that may be any of many is dear. */
+/* The same, found by comparing pointers: reading through one that may be any of many is dear. */
 static bool is_known_realtime(const keel_task_t *task)
 {
     bool realtime = false;
@@ -236,7 +236,8 @@ static void assert_queue_valid(const keel_queue_t *queue)
     if (i < queue->count) {
         __CPROVER_assert((j >= queue->count) || (i == j) || (task != queue->task[j]),
                          "QUE_005_no_duplicates: no task is queued twice");
-        __CPROVER_assert(is_known(task), "QUE_005_tasks: what is queued is one of the tasks, apart from the queue");
+        __CPROVER_assert(is_known(task),
+                         "QUE_005_tasks: what is queued is a task, apart from the queue");
         __CPROVER_assert((i >= queue->realtime_count) || is_known_realtime(task),
                          "QUE_005_realtime: the first realtime_count tasks are real-time");
         __CPROVER_assert((i < queue->realtime_count) || !is_known_realtime(task),
