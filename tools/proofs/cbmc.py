@@ -113,7 +113,7 @@ def numbers(ranges: str) -> set[int]:
     return lines
 
 
-POINTER_CALL = re.compile(r"->\w+\(")
+POINTER_CALL = re.compile(r"[.>]\w+\(")
 
 
 @dataclass(frozen=True)
