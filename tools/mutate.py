@@ -129,7 +129,7 @@ def measure(unit: Unit, options: argparse.Namespace, toolchain: Toolchain) -> in
         trial.stop()
         shutil.rmtree(scratch, ignore_errors=True)
     accepted = mutation.read_equivalent(unit.folder / "equivalent.toml")
-    problems = [f"WP does not prove {name} even unchanged" for name in trial.unusable]
+    problems = [f"{name} is not proved even unchanged" for name in trial.unusable]
     problems += mutation.settle(verdicts, accepted, not options.function)
     write_atomically(target, mutation.report(unit.name, verdicts, problems))
     return conclude(verdicts, problems, engines)

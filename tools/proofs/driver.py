@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .cache import Cache
+from .cache import Cache, write_atomically
 from .jobs import Runner, in_pool
 from .project import ProjectError
 
@@ -50,10 +50,14 @@ class Times:
 
     def __init__(self, path: Path) -> None:
         self._path = path
+        self._seconds = self._read()
+        self._noted: dict[str, float] = {}
+
+    def _read(self) -> dict[str, float]:
         try:
-            self._seconds: dict[str, float] = json.loads(path.read_text(encoding="utf-8"))
+            return dict(json.loads(self._path.read_text(encoding="utf-8")))
         except (OSError, ValueError):
-            self._seconds = {}
+            return {}
 
     def of(self, kind: str, unit: str, name: str) -> float | None:
         """The last duration of a job, if it was ever run."""
@@ -66,12 +70,12 @@ class Times:
     def note(self, outcome: Outcome) -> None:
         """Remember a duration."""
         if not outcome.cached:
-            self._seconds[outcome.job.label] = float(outcome.result["seconds"])
+            self._noted[outcome.job.label] = float(outcome.result["seconds"])
 
     def save(self) -> None:
-        """Keep for the next run."""
-        self._path.parent.mkdir(parents=True, exist_ok=True)
-        self._path.write_text(json.dumps(self._seconds, indent=1, sort_keys=True), encoding="utf-8")
+        """Keep for the next run, beside what another run may have kept meanwhile."""
+        merged = {**self._read(), **self._noted}
+        write_atomically(self._path, json.dumps(merged, indent=1, sort_keys=True))
 
 
 def run_jobs(

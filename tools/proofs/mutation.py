@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from . import cbmc, wp
+from . import cbmc, engines, wp
 from .cache import Cache, digest
 from .driver import Times
 from .harness import Harness, read_harness
@@ -28,7 +28,8 @@ Identity = tuple[str, str, str, int]
 PROVERS = {"Alt-Ergo": "alt-ergo", "CVC4": "cvc4", "Z3": "z3"}
 PATIENCE = 3.0
 SHORTEST, LONGEST = 2, 30
-HARNESS_SHORTEST = 20.0
+IMPATIENT = 20.0
+NO_ANSWER = "no answer"
 
 
 @dataclass
@@ -115,14 +116,14 @@ class Trial:
     """Tries the mutants of one unit."""
 
     def __init__(
-        self, unit: Unit, tools: Tools, trees: Trees, engines: Sequence[str], every: bool,
+        self, unit: Unit, tools: Tools, trees: Trees, asked: Sequence[str], every: bool,
         cache: Cache, stamp: Mapping[str, str], exceptions: Exceptions,
         times: Times,
     ) -> None:  # fmt: skip
         self._unit = unit
         self._tools = tools
         self._trees = trees
-        self._engines = engines
+        self._engines = asked
         self._every = every
         self._cache = cache
         self._stamp = dict(stamp)
@@ -131,6 +132,8 @@ class Trial:
         self._times = times
         self._allowed = list(exceptions.warnings)
         self._baseline = threading.Lock()
+        self._proved = Cache(unit.root / "build" / "prove" / "cache")
+        self._sound: dict[str, bool] = {}
         self._stages: dict[str, tuple[wp.Stage, ...]] = {}
         self._harnesses = [read_harness(unit, path) for path in unit.harnesses]
 
@@ -141,8 +144,9 @@ class Trial:
 
     @property
     def unusable(self) -> list[str]:
-        """Functions that WP does not prove unchanged: it notices nothing in them."""
-        return sorted(name for name, stages in self._stages.items() if not stages)
+        """What is not proved even unchanged, function or harness: it notices nothing."""
+        functions = [name for name, stages in self._stages.items() if not stages]
+        return sorted([*functions, *(name for name, sound in self._sound.items() if not sound)])
 
     def _stages_for(self, function: str) -> tuple[wp.Stage, ...]:
         """The provers and limits that prove the function unchanged; none if it is not proved."""
@@ -177,16 +181,32 @@ class Trial:
             if known:
                 verdict.status, verdict.engines = "killed", known["engines"]
                 return verdict
-            for engine in self._engines:
-                check = self._by_cbmc if engine == "cbmc" else self._by_wp
-                verdict.engines[engine] = check(mutant, unit, runner)
-                if verdict.engines[engine].startswith("killed"):
-                    verdict.status = "killed"
-                    if not self._every:
-                        break
+            self._ask_engines(verdict, unit, runner)
             if verdict.status == "killed":
                 self._cache.put(key, {"engines": verdict.engines})
         return verdict
+
+    def _ask_engines(self, verdict: Verdict, unit: Unit, runner: Runner) -> None:
+        """Ask each engine, or until one notices.
+
+        In the latter case CBMC has little time at first: some mutants that are very hard for it
+        are easy for WP.
+        """
+        asked = list(self._engines)
+        if not self._every and asked == ["cbmc", "wp"]:
+            asked = ["cbmc", "wp", "cbmc"]
+        for number, engine in enumerate(asked):
+            last = engine not in asked[number + 1 :]
+            if verdict.engines.get(engine, NO_ANSWER) != NO_ANSWER:
+                continue
+            if engine == "cbmc":
+                verdict.engines[engine] = self._by_cbmc(verdict.mutant, unit, runner, last)
+            else:
+                verdict.engines[engine] = self._by_wp(verdict.mutant, unit, runner)
+            if verdict.engines[engine].startswith("killed"):
+                verdict.status = "killed"
+                if not self._every:
+                    return
 
     def _runner(self, folder: Path) -> Runner:
         runner = Runner(dict(self._tools.environment), folder)
@@ -231,7 +251,7 @@ class Trial:
         done = runner.run([*self._tools.compiler, *options], merged=False)
         return done.output if done.status == 0 else None
 
-    def _by_cbmc(self, mutant: Mutant, unit: Unit, runner: Runner) -> str:
+    def _by_cbmc(self, mutant: Mutant, unit: Unit, runner: Runner, patient: bool) -> str:
         """Whether a harness that reaches the function fails."""
         scratch = self._tools.scratch / unit.root.name
         checker = cbmc.Cbmc(self._tools.goto_cc, self._tools.cbmc, runner, unit.root, scratch)
@@ -239,23 +259,35 @@ class Trial:
         for path in self._harness_files(mutant, unit):
             harness = read_harness(unit, path)
             binary, complaint = checker.build(harness, harness.name)
+            limited = replace(harness, timeout=self._limit(harness) if patient else IMPATIENT)
             if complaint:
-                return f"killed: {complaint.splitlines()[0]}"
-            limited = replace(harness, timeout=self._limit(harness))
+                answers.append(NO_ANSWER)
+                continue
             answer = checker.check(limited, binary, ["--stop-on-fail"])
-            if answer.failed:
+            if answer.failed and self._passes_unchanged(harness.name):
                 return f"killed: {harness.name}: {answer.first_failure}"
-            answers.append("no answer" if not answer.complete else "survived")
-        return (
-            "no harness" if not answers else "no answer" if "no answer" in answers else "survived"
-        )
+            answers.append("survived" if answer.complete else NO_ANSWER)
+        if not answers:
+            return "no harness"
+        return NO_ANSWER if NO_ANSWER in answers else "survived"
+
+    def _passes_unchanged(self, name: str) -> bool:
+        """Whether a harness proves the original: if not, its failure shows nothing."""
+        with self._baseline:
+            if name not in self._sound:
+                tools, root = self._tools, self._unit.root
+                runner = self._runner(root)
+                checker = cbmc.Cbmc(tools.goto_cc, tools.cbmc, runner, root, tools.scratch)
+                harness = next(item for item in self._harnesses if item.name == name)
+                key = engines.cbmc_key(harness, checker, root, self._stamp)
+                known = self._proved.get(key)
+                self._sound[name] = known is not None or not checker.prove(harness).problems
+            return self._sound[name]
 
     def _limit(self, harness: Harness) -> float:
         """How long a harness may take: some mutants are much harder than the original."""
         usual = self._times.of("cbmc", self._unit.name, harness.name)
-        if usual is None:
-            return harness.timeout
-        return min(harness.timeout, max(HARNESS_SHORTEST, PATIENCE * usual))
+        return min(harness.timeout, max(IMPATIENT, PATIENCE * (usual or harness.timeout)))
 
     def _harness_files(self, mutant: Mutant, unit: Unit) -> list[Path]:
         """The harnesses that reach the function, its own first."""
