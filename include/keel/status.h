@@ -26,7 +26,19 @@ typedef enum keel_status {
     KEEL_ERR_UTILISATION,     /**< The utilisation exceeds the configured limit. */
     KEEL_ERR_CLOCK,           /**< The clock jumped backwards (or by 2^31 us or more). */
     KEEL_ERR_CONFIG,          /**< The guard or the utilisation limit is out of its range. */
-    KEEL_ERR_STATE            /**< Not allowed now, for example a step before the start. */
+    KEEL_ERR_STATE,           /**< Not allowed now, for example a step before the start. */
+    KEEL_ERR_RATE,            /**< A sample rate is not finite or out of its range. */
+    KEEL_ERR_CUTOFF,          /**< A filter's cut-off or a voter's factor n is out of its range. */
+    KEEL_ERR_GAIN,            /**< A gain is negative, not finite or above its limit. */
+    KEEL_ERR_LIMITS,          /**< Limits are not finite, out of range or in the wrong order. */
+    KEEL_ERR_INPUT,           /**< An input is not finite or out of its range: nothing moves. */
+    KEEL_ERR_SENSORS,         /**< The number of sensors is not 2 to 4, or there is no such one. */
+    KEEL_ERR_AGREEMENT,       /**< The distance of full agreement, a, is out of its range. */
+    KEEL_ERR_INITIAL,         /**< The initial output is not within the plausibility limits. */
+    KEEL_ERR_AGE,             /**< The oldest age of a sample is 0. */
+    KEEL_ERR_LATCH,           /**< The latch count is 0. */
+    KEEL_ERR_FACTOR,          /**< The oversampling factor is 0. */
+    KEEL_ERR_VALUE            /**< A sample is not finite, or beyond the range that is stated. */
 } keel_status_t;
 
 #endif

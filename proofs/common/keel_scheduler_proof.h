@@ -46,6 +46,18 @@ static void any_state(keel_scheduler_t *scheduler)
     scheduler->ran = nondet_bool();
 }
 
+/* Until the start no time has passed, and every task waits for its phase (setup_armed). */
+static void wait_for_the_start(keel_scheduler_t *scheduler, uint32_t most)
+{
+    if (scheduler->stage == KEEL_STAGE_SETUP) {
+        scheduler->clock.now_us = 0u;
+        scheduler->busy_us = 0u;
+        for (uint32_t t = 0u; t < most; t++) {
+            proof_task[t]->release_us = proof_config[t]->phase_us;
+        }
+    }
+}
+
 static void any_scheduler_of(keel_scheduler_t *scheduler, uint32_t most)
 {
     any_queue_of(&scheduler->queue, most);

@@ -1,6 +1,6 @@
 // cbmc: --unwind 34 --unwindset keel_admission_queue.0:3,open_slot.0:3 --external-sat-solver cadical
 // sources: src/rtos/scheduler.c src/rtos/queue.c src/rtos/task.c src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
-// covers: keel_scheduler_add admit_one_more insert
+// covers: keel_scheduler_add admit_one_more insert enqueue
 //
 // Bounded to queues of at most 2 tasks, or full ones; periods and budgets up to 2^2 us, as the
 // utilisation divides. The contract under WP has no such bound.

@@ -87,7 +87,136 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
     return keel_admission_admit(&admission, config);
 }
 
-/* Puts a task that was found fit into the queue; the running task may move down by one slot. */
+/* Lets the queue take a task in; the running task may move down by one slot. */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler);
+  @ requires \valid(task) && \valid_read(task->config) && config_valid(task->config);
+  @ requires task_apart(scheduler, task) && !queue_holds(&scheduler->queue, task);
+  @ requires scheduler->queue.count < KEEL_QUEUE_CAPACITY;
+  @ assigns scheduler->queue.count, scheduler->queue.realtime_count;
+  @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ assigns scheduler->running, scheduler->wake_us;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures ok: \result == KEEL_OK;
+  @ ensures count: scheduler->queue.count == \old(scheduler->queue.count) + 1;
+  @ ensures holds: queue_holds(&scheduler->queue, task);
+  @ ensures wake: scheduler->wake_us == 0;
+  @ ensures running: \old(scheduler->running) != KEEL_INDEX_NONE ==>
+  @     scheduler->queue.task[scheduler->running] ==
+  @         \old(scheduler->queue.task[scheduler->running]);
+  @ ensures waiting: \old(setup_armed(scheduler)) ==> scheduler->stage == KEEL_STAGE_SETUP ==>
+  @     \forall integer i; 0 <= i < scheduler->queue.count ==> scheduler->queue.task[i] != task ==>
+  @     scheduler->queue.task[i]->release_us == scheduler->queue.task[i]->config->phase_us;
+  @*/
+static keel_status_t enqueue(keel_scheduler_t *scheduler, keel_task_t *task)
+{
+    const uint32_t place = scheduler->queue.realtime_count;
+    const keel_status_t status = keel_queue_add(&scheduler->queue, task);
+
+    /*@ assert placed:
+      @     scheduler->queue.task[\at(queue_place(&scheduler->queue, task), Pre)] == task;
+      @*/
+    /*@ assert checked_before: \forall integer i;
+      @     0 <= i < \at(queue_place(&scheduler->queue, task), Pre) ==>
+      @     config_valid(scheduler->queue.task[i]->config);
+      @*/
+    /*@ assert checked_behind: \forall integer i;
+      @     \at(queue_place(&scheduler->queue, task), Pre) < i < scheduler->queue.count ==>
+      @     config_valid(scheduler->queue.task[i]->config);
+      @*/
+    //@ assert checked: queue_checked(&scheduler->queue);
+    /*@ assert running_before:
+      @     scheduler->running < \at(queue_place(&scheduler->queue, task), Pre) ==>
+      @     scheduler->queue.task[scheduler->running] ==
+      @         \at(scheduler->queue.task[scheduler->running], Pre);
+      @*/
+    /*@ assert running_behind: \at(queue_place(&scheduler->queue, task), Pre) <=
+      @         scheduler->running < \at(scheduler->queue.count, Pre) ==>
+      @     scheduler->queue.task[scheduler->running + 1] ==
+      @         \at(scheduler->queue.task[scheduler->running], Pre);
+      @*/
+    /*@ assert before: \forall integer i, j; 0 <= j < \at(scheduler->queue.count, Pre) ==>
+      @     0 <= i < \at(queue_place(&scheduler->queue, task), Pre) ==> i != j ==>
+      @     \separated(scheduler->queue.task[i], \at(scheduler->queue.task[j], Pre));
+      @*/
+    /*@ assert behind: \forall integer i, j; 0 <= j < \at(scheduler->queue.count, Pre) ==>
+      @     \at(queue_place(&scheduler->queue, task), Pre) < i < scheduler->queue.count ==>
+      @     i - 1 != j ==>
+      @     \separated(scheduler->queue.task[i], \at(scheduler->queue.task[j], Pre));
+      @*/
+    /*@ assert waiting_before: \at(setup_armed(scheduler), Pre) ==>
+      @     scheduler->stage == KEEL_STAGE_SETUP ==> \forall integer i;
+      @     0 <= i < \at(queue_place(&scheduler->queue, task), Pre) ==>
+      @     scheduler->queue.task[i]->release_us == scheduler->queue.task[i]->config->phase_us;
+      @*/
+    /*@ assert waiting_behind: \at(setup_armed(scheduler), Pre) ==>
+      @     scheduler->stage == KEEL_STAGE_SETUP ==> \forall integer i;
+      @     \at(queue_place(&scheduler->queue, task), Pre) < i < scheduler->queue.count ==>
+      @     scheduler->queue.task[i]->release_us == scheduler->queue.task[i]->config->phase_us;
+      @*/
+    /*@ assert apart_before: \forall integer i;
+      @     0 <= i < \at(queue_place(&scheduler->queue, task), Pre) ==>
+      @     \separated(scheduler, scheduler->queue.task[i]);
+      @*/
+    /*@ assert apart_behind: \forall integer i;
+      @     \at(queue_place(&scheduler->queue, task), Pre) < i < scheduler->queue.count ==>
+      @     \separated(scheduler, scheduler->queue.task[i]);
+      @*/
+    /*@ assert apart_configs: \forall integer i; 0 <= i < scheduler->queue.count ==>
+      @     \base_addr(scheduler) != \base_addr(scheduler->queue.task[i]->config);
+      @*/
+    //@ assert apart: scheduler_apart(scheduler);
+    /*@ assert new_apart: \forall integer i; 0 <= i < scheduler->queue.count ==>
+      @     i != \at(queue_place(&scheduler->queue, task), Pre) ==>
+      @     \separated(task, scheduler->queue.task[i]);
+      @*/
+    //@ assert tasks_apart: tasks_apart(scheduler);
+    /*@ assert declared_before: \forall integer i, j;
+      @     0 <= j < \at(scheduler->queue.count, Pre) ==>
+      @     0 <= i < \at(queue_place(&scheduler->queue, task), Pre) ==>
+      @     \base_addr(scheduler->queue.task[i]) !=
+      @         \base_addr(\at(scheduler->queue.task[j]->config, Pre));
+      @*/
+    /*@ assert declared_behind: \forall integer i, j;
+      @     0 <= j < \at(scheduler->queue.count, Pre) ==>
+      @     \at(queue_place(&scheduler->queue, task), Pre) < i < scheduler->queue.count ==>
+      @     \base_addr(scheduler->queue.task[i]) !=
+      @         \base_addr(\at(scheduler->queue.task[j]->config, Pre));
+      @*/
+    /*@ assert new_declared: \forall integer i; 0 <= i < scheduler->queue.count ==>
+      @     \base_addr(task) != \base_addr(scheduler->queue.task[i]->config);
+      @*/
+    /*@ assert declared_new: \forall integer i; 0 <= i < scheduler->queue.count ==>
+      @     \base_addr(scheduler->queue.task[i]) != \base_addr(task->config);
+      @*/
+    /*@ assert declared_old: \forall integer i, j; 0 <= j < \at(scheduler->queue.count, Pre) ==>
+      @     0 <= i < scheduler->queue.count ==>
+      @     \base_addr(scheduler->queue.task[i]) !=
+      @         \base_addr(\at(scheduler->queue.task[j]->config, Pre));
+      @*/
+    /*@ assert configs_before: \forall integer i, j; 0 <= i < scheduler->queue.count ==>
+      @     0 <= j < \at(queue_place(&scheduler->queue, task), Pre) ==>
+      @     \base_addr(scheduler->queue.task[i]) !=
+      @         \base_addr(scheduler->queue.task[j]->config);
+      @*/
+    /*@ assert configs_down: \forall integer j;
+      @     \at(queue_place(&scheduler->queue, task), Pre) < j < scheduler->queue.count ==>
+      @     scheduler->queue.task[j]->config == \at(scheduler->queue.task[j - 1]->config, Pre);
+      @*/
+    /*@ assert configs_behind: \forall integer i, j; 0 <= i < scheduler->queue.count ==>
+      @     \at(queue_place(&scheduler->queue, task), Pre) < j < scheduler->queue.count ==>
+      @     \base_addr(scheduler->queue.task[i]) !=
+      @         \base_addr(scheduler->queue.task[j]->config);
+      @*/
+    //@ assert configs_apart: configs_apart(scheduler);
+    if (keel_task_is_realtime(task) && (scheduler->running != KEEL_INDEX_NONE) &&
+        (scheduler->running >= place)) {
+        scheduler->running++;
+    }
+    scheduler->wake_us = 0u;
+    return status;
+}
+
+/* Puts a task that was found fit into the queue, to be released a phase from now. */
 /*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
   @ requires \valid(task) && \valid_read(task->config) && config_valid(task->config);
   @ requires task_apart(scheduler, task) && !queue_holds(&scheduler->queue, task);
@@ -95,12 +224,14 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @ assigns scheduler->queue.count, scheduler->queue.realtime_count;
   @ assigns scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1];
   @ assigns scheduler->running, scheduler->wake_us;
-  @ assigns task->skipped, task->release_us, task->stats;
+  @ assigns task->skipped, task->release_us, STATS_FIELDS(task->stats);
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ ensures ok: \result == KEEL_OK;
   @ ensures count: scheduler->queue.count == \old(scheduler->queue.count) + 1;
-  @ ensures armed: task->release_us == \old(scheduler->clock.now_us) + \old(task->config->phase_us)
+  @ ensures armed: task->release_us == scheduler->clock.now_us + task->config->phase_us
   @     && task->skipped == 0 && stats_fresh(task->stats);
+  @ ensures declared: config_valid(task->config);
+  @ ensures waiting: \old(setup_armed(scheduler)) ==> setup_armed(scheduler);
   @ ensures wake: scheduler->wake_us == 0;
   @ ensures running: \old(scheduler->running) != KEEL_INDEX_NONE ==>
   @     scheduler->queue.task[scheduler->running] ==
@@ -108,22 +239,20 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @*/
 static keel_status_t insert(keel_scheduler_t *scheduler, keel_task_t *task)
 {
-    const uint32_t place = scheduler->queue.realtime_count;
-    const keel_status_t status = keel_queue_add(&scheduler->queue, task);
+    const keel_status_t status = enqueue(scheduler, task);
 
-    //@ assert checked: queue_checked(&scheduler->queue);
-    //@ assert scheduler_apart: scheduler_apart(scheduler);
-    //@ assert tasks_apart: tasks_apart(scheduler);
-    //@ assert configs_apart: configs_apart(scheduler);
-    /*@ assert apart: \forall integer j; 0 <= j < scheduler->queue.count ==>
-      @     \separated(task, scheduler->queue.task[j]->config);
+    /*@ assert apart: \forall integer i; 0 <= i < scheduler->queue.count ==>
+      @     scheduler->queue.task[i] != task ==> \separated(task, scheduler->queue.task[i]);
       @*/
-    if (keel_task_is_realtime(task) && (scheduler->running != KEEL_INDEX_NONE) &&
-        (scheduler->running >= place)) {
-        scheduler->running++;
-    }
-    scheduler->wake_us = 0u;
+    /*@ assert apart_declared: \forall integer i; 0 <= i < scheduler->queue.count ==>
+      @     \base_addr(task) != \base_addr(scheduler->queue.task[i]->config);
+      @*/
     keel_task_arm(task, scheduler->clock.now_us);
+    /*@ assert waiting: \at(setup_armed(scheduler), Pre) ==>
+      @     scheduler->stage == KEEL_STAGE_SETUP ==> \forall integer i;
+      @     0 <= i < scheduler->queue.count ==> scheduler->queue.task[i] != task ==>
+      @     scheduler->queue.task[i]->release_us == scheduler->queue.task[i]->config->phase_us;
+      @*/
     return status;
 }
 
@@ -193,6 +322,7 @@ static void shift_up(keel_scheduler_t *scheduler, uint32_t index)
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ ensures ok: \result == KEEL_OK;
   @ ensures gone: !queue_holds(&scheduler->queue, \old(scheduler->queue.task[index]));
+  @ ensures waiting: \old(setup_armed(scheduler)) ==> setup_armed(scheduler);
   @ ensures count: scheduler->queue.count == \old(scheduler->queue.count) - 1;
   @ ensures wake: scheduler->wake_us == 0;
   @ ensures cursor: \old(scheduler->cursor) < \old(scheduler->pass_end) &&
@@ -213,22 +343,6 @@ static keel_status_t take_out(keel_scheduler_t *scheduler, uint32_t index)
     shift_up(scheduler, index);
     scheduler->wake_us = 0u;
     status = keel_queue_remove(&scheduler->queue, index);
-    //@ assert checked: queue_checked(&scheduler->queue);
-    /*@ assert before: \forall integer i; 0 <= i < index ==>
-      @     \separated(scheduler, scheduler->queue.task[i]);
-      @*/
-    /*@ assert behind: \forall integer i; index <= i < scheduler->queue.count ==>
-      @     \separated(scheduler, scheduler->queue.task[i]);
-      @*/
-    /*@ assert config_before: \forall integer i; 0 <= i < index ==>
-      @     \separated(scheduler, scheduler->queue.task[i]->config);
-      @*/
-    /*@ assert config_behind: \forall integer i; index <= i < scheduler->queue.count ==>
-      @     \separated(scheduler, scheduler->queue.task[i]->config);
-      @*/
-    //@ assert scheduler_apart: scheduler_apart(scheduler);
-    //@ assert tasks_apart: tasks_apart(scheduler);
-    //@ assert configs_apart: configs_apart(scheduler);
     return status;
 }
 
@@ -246,54 +360,6 @@ keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, keel_task_t *ta
     return take_out(scheduler, index);
 }
 
-/* Sets the first release of every task. */
-/*@ requires \valid(scheduler) && scheduler_valid(scheduler);
-  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->skipped;
-  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->release_us;
-  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->stats;
-  @ SCHEDULER_STAYS_VALID(scheduler)
-  @ ensures release: \forall integer i; 0 <= i < scheduler->queue.count ==>
-  @     scheduler->queue.task[i]->release_us == scheduler->queue.task[i]->config->phase_us;
-  @ ensures kept: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
-  @     scheduler->clock.raw_us == \old(scheduler->clock.raw_us) &&
-  @     scheduler->queue.count == \old(scheduler->queue.count);
-  @*/
-static void arm_all(keel_scheduler_t *scheduler)
-{
-    /*@ loop invariant range: 0 <= i <= scheduler->queue.count;
-      @ loop invariant count: scheduler->queue.count == \at(scheduler->queue.count, Pre);
-      @ loop invariant realtime_count:
-      @     scheduler->queue.realtime_count == \at(scheduler->queue.realtime_count, Pre);
-      @ loop invariant state: scheduler_state(scheduler);
-      @ loop invariant now: scheduler->clock.now_us == \at(scheduler->clock.now_us, Pre);
-      @ loop invariant raw: scheduler->clock.raw_us == \at(scheduler->clock.raw_us, Pre);
-      @ loop invariant config: config_same{Pre, Here}(scheduler);
-      @ loop invariant priority: priority_same{Pre, Here}(scheduler);
-      @ loop invariant period: period_same{Pre, Here}(scheduler);
-      @ loop invariant budget: budget_same{Pre, Here}(scheduler);
-      @ loop invariant phase: phase_same{Pre, Here}(scheduler);
-      @ loop invariant run: run_same{Pre, Here}(scheduler);
-      @ loop invariant release: \forall integer j; 0 <= j < i ==>
-      @     scheduler->queue.task[j]->release_us == scheduler->queue.task[j]->config->phase_us;
-      @ loop assigns i, scheduler->queue.task[0 .. scheduler->queue.count - 1]->skipped,
-      @     scheduler->queue.task[0 .. scheduler->queue.count - 1]->release_us,
-      @     scheduler->queue.task[0 .. scheduler->queue.count - 1]->stats;
-      @ loop variant scheduler->queue.count - i;
-      @*/
-    for (uint32_t i = 0u; i < scheduler->queue.count; i++) {
-        keel_task_t *const task = scheduler->queue.task[i];
-
-        //@ assert apart_scheduler: \separated(scheduler, task);
-        /*@ assert apart: \forall integer j; 0 <= j < scheduler->queue.count ==>
-          @     \separated(task, scheduler->queue.task[j]->config);
-          @*/
-        /*@ assert apart_tasks: \forall integer k; 0 <= k < scheduler->queue.count ==> k != i ==>
-          @     \separated(task, scheduler->queue.task[k]);
-          @*/
-        keel_task_arm(task, 0u);
-    }
-}
-
 keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_us)
 {
     keel_admission_t admission;
@@ -307,14 +373,6 @@ keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_
         return status;
     }
     keel_clock_init(&scheduler->clock, raw_us);
-    //@ assert config: config_same{Pre, Here}(scheduler);
-    //@ assert priority: priority_same{Pre, Here}(scheduler);
-    //@ assert period: period_same{Pre, Here}(scheduler);
-    //@ assert budget: budget_same{Pre, Here}(scheduler);
-    //@ assert phase: phase_same{Pre, Here}(scheduler);
-    //@ assert run: run_same{Pre, Here}(scheduler);
-    //@ assert count: scheduler->queue.count == \at(scheduler->queue.count, Pre);
-    arm_all(scheduler);
     scheduler->stage = KEEL_STAGE_READY;
     return KEEL_OK;
 }
@@ -327,29 +385,10 @@ keel_status_t keel_scheduler_begin(keel_scheduler_t *scheduler, uint32_t raw_us)
         return KEEL_ERR_STATE;
     }
     status = keel_clock_advance(&scheduler->clock, raw_us);
-    //@ assert config: config_same{Pre, Here}(scheduler);
-    //@ assert priority: priority_same{Pre, Here}(scheduler);
-    //@ assert period: period_same{Pre, Here}(scheduler);
-    //@ assert budget: budget_same{Pre, Here}(scheduler);
-    //@ assert phase: phase_same{Pre, Here}(scheduler);
-    //@ assert run: run_same{Pre, Here}(scheduler);
-    //@ assert checked: queue_checked(&scheduler->queue);
-    //@ assert time: \at(scheduler->clock.now_us, Pre) <= scheduler->clock.now_us;
-    //@ assert worst: worst_same{Pre, Here}(scheduler);
-    /*@ assert slack: \forall integer i; 0 <= i < scheduler->queue.count ==>
-      @     fits_slack(scheduler, scheduler->queue.task[i], scheduler->clock.now_us) ==>
-      @     \at(fits_slack(scheduler, scheduler->queue.task[i], scheduler->clock.now_us), Pre);
-      @*/
-    /*@ assert wake_realtime: scheduler->clock.now_us < scheduler->wake_us ==>
-      @     wake_realtime(scheduler);
-      @*/
-    //@ assert promotion: promotion_same{Pre, Here}(scheduler);
-    //@ assert wake_others: scheduler->clock.now_us < scheduler->wake_us ==> wake_others(scheduler);
     if (status != KEEL_OK) {
         return status;
     }
     if (scheduler->clock.now_us < scheduler->wake_us) {
-        //@ assert others: others_wait(scheduler, scheduler->clock.now_us);
         return KEEL_OK;
     }
     scheduler->wake_us = 0u;
@@ -357,13 +396,6 @@ keel_status_t keel_scheduler_begin(keel_scheduler_t *scheduler, uint32_t raw_us)
     scheduler->cursor = 0u;
     scheduler->pass_end = (uint16_t)scheduler->queue.realtime_count;
     scheduler->ran = false;
-    //@ assert config: config_same{Pre, Here}(scheduler);
-    //@ assert priority: priority_same{Pre, Here}(scheduler);
-    //@ assert period: period_same{Pre, Here}(scheduler);
-    //@ assert budget: budget_same{Pre, Here}(scheduler);
-    //@ assert phase: phase_same{Pre, Here}(scheduler);
-    //@ assert run: run_same{Pre, Here}(scheduler);
-    //@ assert checked: queue_checked(&scheduler->queue);
     return KEEL_OK;
 }
 
@@ -392,20 +424,11 @@ static keel_task_t *dispatch(keel_scheduler_t *scheduler, uint16_t index, uint16
 {
     keel_task_t *const task = scheduler->queue.task[index];
 
-    /*@ assert apart: \forall integer j; 0 <= j < scheduler->queue.count ==>
-      @     \separated(task, scheduler->queue.task[j]->config);
-      @*/
     keel_task_advance(task, scheduler->clock.now_us);
     scheduler->cursor = cursor;
     scheduler->running = index;
     scheduler->stage = stage;
     scheduler->ran = true;
-    //@ assert config: config_same{Pre, Here}(scheduler);
-    //@ assert priority: priority_same{Pre, Here}(scheduler);
-    //@ assert period: period_same{Pre, Here}(scheduler);
-    //@ assert budget: budget_same{Pre, Here}(scheduler);
-    //@ assert phase: phase_same{Pre, Here}(scheduler);
-    //@ assert run: run_same{Pre, Here}(scheduler);
     return task;
 }
 
@@ -440,18 +463,6 @@ static void close_pass(keel_scheduler_t *scheduler)
     }
     scheduler->cursor = scheduler->pass_end;
     scheduler->stage = KEEL_STAGE_READY;
-    //@ assert config: config_same{Pre, Here}(scheduler);
-    //@ assert priority: priority_same{Pre, Here}(scheduler);
-    //@ assert period: period_same{Pre, Here}(scheduler);
-    //@ assert budget: budget_same{Pre, Here}(scheduler);
-    //@ assert phase: phase_same{Pre, Here}(scheduler);
-    //@ assert run: run_same{Pre, Here}(scheduler);
-    //@ assert worst: worst_same{Pre, Here}(scheduler);
-    /*@ assert slack: \forall integer i; 0 <= i < scheduler->queue.count ==>
-      @     fits_slack(scheduler, scheduler->queue.task[i], scheduler->clock.now_us) ==>
-      @     \at(fits_slack(scheduler, scheduler->queue.task[i], scheduler->clock.now_us), Pre);
-      @*/
-    //@ assert promotion: promotion_same{Pre, Here}(scheduler);
     /*@ assert wake_realtime: scheduler->clock.now_us < scheduler->wake_us ==>
       @     wake_realtime(scheduler);
       @*/
@@ -475,20 +486,13 @@ keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler)
     }
     slack_us = keel_decision_slack_us(&scheduler->queue, now_us);
     index = keel_decision_other(&scheduler->queue, now_us, slack_us, scheduler->config.guard_us);
-    /*@ assert fits: \forall integer i; 0 <= i < scheduler->queue.count ==>
-      @     (fits_slack(scheduler, scheduler->queue.task[i], now_us) <==>
-      @      scheduler->config.guard_us + task_worst(scheduler->queue.task[i]) <= slack_us);
-      @*/
     if (index < scheduler->queue.count) {
         const bool by_promotion = is_promoted(scheduler->queue.task[index], now_us);
 
         task = dispatch(scheduler, (uint16_t)index, scheduler->pass_end, KEEL_STAGE_OTHER);
-        //@ assert apart_scheduler: \separated(scheduler, task);
         if (by_promotion) {
             keel_stats_promote(&task->stats);
         }
-        //@ assert pass_end: scheduler->pass_end == \at(scheduler->pass_end, Pre);
-        //@ assert cursor: scheduler->cursor == scheduler->pass_end;
     } else {
         close_pass(scheduler);
     }
@@ -506,66 +510,32 @@ keel_status_t keel_scheduler_finish(keel_scheduler_t *scheduler, uint32_t raw_us
         return KEEL_ERR_STATE;
     }
     status = keel_clock_advance(&scheduler->clock, raw_us);
-    //@ assert config: config_same{Pre, Here}(scheduler);
-    //@ assert priority: priority_same{Pre, Here}(scheduler);
-    //@ assert period: period_same{Pre, Here}(scheduler);
-    //@ assert budget: budget_same{Pre, Here}(scheduler);
-    //@ assert phase: phase_same{Pre, Here}(scheduler);
-    //@ assert run: run_same{Pre, Here}(scheduler);
-    //@ assert checked: queue_checked(&scheduler->queue);
-    //@ assert longest: all_longest_same{Pre, Here}(scheduler);
     /* With a broken clock the pass ends here; the caller learns why. */
     scheduler->stage = ((status == KEEL_OK) && realtime) ? KEEL_STAGE_PASS : KEEL_STAGE_READY;
     scheduler->running = KEEL_INDEX_NONE;
     scheduler->busy_us += scheduler->clock.now_us - start_us;
+    /*@ assert releases: \forall integer k; 0 <= k < scheduler->queue.count ==>
+      @     release_same{Pre, Here}(scheduler, k);
+      @*/
     if ((status == KEEL_OK) && (index != KEEL_INDEX_NONE)) {
         keel_task_t *const task = scheduler->queue.task[index];
 
         //@ assert apart_scheduler: \separated(scheduler, task);
-        /*@ assert apart: \forall integer j; 0 <= j < scheduler->queue.count ==>
-          @     \separated(task, scheduler->queue.task[j]->config);
-          @*/
-        /*@ assert apart_tasks: \forall integer k; 0 <= k < scheduler->queue.count ==>
-          @     k != index ==> \separated(task, scheduler->queue.task[k]);
+        /*@ assert apart: \forall integer k; 0 <= k < scheduler->queue.count ==> k != index ==>
+          @     \separated(task, scheduler->queue.task[k]);
           @*/
         keel_stats_record(&task->stats, (uint32_t)(scheduler->clock.now_us - start_us),
                           task->config->budget_us);
-        //@ assert in_config: config_same{Pre, Here}(scheduler);
-        //@ assert in_priority: priority_same{Pre, Here}(scheduler);
-        //@ assert in_period: period_same{Pre, Here}(scheduler);
-        //@ assert in_budget: budget_same{Pre, Here}(scheduler);
-        //@ assert in_phase: phase_same{Pre, Here}(scheduler);
-        //@ assert in_run: run_same{Pre, Here}(scheduler);
-        //@ assert count: scheduler->queue.count == \at(scheduler->queue.count, Pre);
-        /*@ assert realtime_count:
-          @     scheduler->queue.realtime_count == \at(scheduler->queue.realtime_count, Pre);
-          @*/
-        //@ assert raw: scheduler->clock.raw_us == raw_us;
-        //@ assert now: scheduler->clock.now_us - start_us == task->stats.last_us;
-        //@ assert busy: scheduler->busy_us == \at(scheduler->busy_us, Pre) + task->stats.last_us;
-        /*@ assert limits: scheduler->config.guard_us == \at(scheduler->config.guard_us, Pre) &&
-          @     scheduler->config.utilisation_limit ==
-          @         \at(scheduler->config.utilisation_limit, Pre);
-          @*/
-        //@ assert state: scheduler_state(scheduler);
-        //@ assert in_checked: queue_checked(&scheduler->queue);
-        /*@ assert others: \forall integer k; 0 <= k < scheduler->queue.count ==> k != index ==>
-          @     longest_same{Pre, Here}(scheduler, k);
-          @*/
     }
-    //@ assert end_checked_config: queue_configs_valid(&scheduler->queue);
-    //@ assert end_config: config_same{Pre, Here}(scheduler);
-    //@ assert end_priority: priority_same{Pre, Here}(scheduler);
-    //@ assert end_period: period_same{Pre, Here}(scheduler);
-    //@ assert end_budget: budget_same{Pre, Here}(scheduler);
-    //@ assert end_phase: phase_same{Pre, Here}(scheduler);
-    //@ assert end_run: run_same{Pre, Here}(scheduler);
-    //@ assert end_checked: queue_checked(&scheduler->queue);
     return status;
 }
 
+/*@ requires \valid_read(scheduler) && clock_modelled(scheduler);
+  @ assigns \nothing;
+  @*/
 static uint32_t read_clock(const keel_scheduler_t *scheduler)
 {
+    //@ calls keel_any_clock;
     return scheduler->config.read_clock(scheduler->config.clock_context);
 }
 
@@ -585,11 +555,33 @@ keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler)
         return KEEL_ERR_NULL;
     }
     status = keel_scheduler_begin(scheduler, read_clock(scheduler));
-    while ((status == KEEL_OK) && (scheduler->stage == KEEL_STAGE_PASS)) {
+    if (status != KEEL_OK) {
+        return status;
+    }
+    /*@ loop invariant same: scheduler == running_scheduler && scheduler == \at(scheduler, Pre);
+      @ loop invariant memory: \valid(scheduler);
+      @ loop invariant valid: scheduler_valid(scheduler);
+      @ loop invariant uptime: in_uptime(scheduler);
+      @ loop invariant wake: wake_right(scheduler);
+      @ loop invariant clock: clock_modelled(scheduler);
+      @ loop invariant bodies: bodies_modelled(scheduler);
+      @ loop invariant stage: scheduler->stage == KEEL_STAGE_READY ||
+      @     scheduler->stage == KEEL_STAGE_PASS;
+      @ loop invariant status: status == KEEL_OK || status == KEEL_ERR_CLOCK;
+      @ loop invariant left: scheduler->stage == KEEL_STAGE_PASS ==>
+      @     uptime_left(scheduler, scheduler->pass_end - scheduler->cursor + 1);
+      @ loop invariant time: \at(scheduler->clock.now_us, Pre) <= scheduler->clock.now_us;
+      @ loop invariant busy: scheduler->busy_us <= scheduler->clock.now_us;
+      @ loop variant scheduler->pass_end - scheduler->cursor
+      @     + ((scheduler->stage == KEEL_STAGE_PASS) ? 1 : 0);
+      @*/
+    while (scheduler->stage == KEEL_STAGE_PASS) {
         const keel_task_t *const task = keel_scheduler_next(scheduler);
 
         if (task != NULL) {
+            //@ calls keel_any_body;
             task->config->run(task->config->context);
+            //@ assert awake: scheduler->wake_us == 0;
             status = keel_scheduler_finish(scheduler, read_clock(scheduler));
         }
     }

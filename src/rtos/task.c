@@ -31,11 +31,14 @@ keel_status_t keel_task_check(const keel_task_config_t *config)
 
 void keel_task_arm(keel_task_t *task, uint64_t start_us)
 {
-    static const keel_stats_t fresh = {0u, 0u, 0u, 0u, 0u, 0u};
-
     task->skipped = 0u;
     task->release_us = start_us + task->config->phase_us;
-    task->stats = fresh;
+    task->stats.total_us = 0u;
+    task->stats.runs = 0u;
+    task->stats.last_us = 0u;
+    task->stats.longest_us = 0u;
+    task->stats.overruns = 0u;
+    task->stats.promotions = 0u;
 }
 
 /*@ assigns \nothing;

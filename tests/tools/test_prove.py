@@ -271,6 +271,19 @@ class WpVerdict(TreeTest):
         broken["wp:functions"]["keel_box_put"]["rest"]["wp:main"]["valid"] = 1
         self.assert_fails(self.judge(wp_log(*GOOD), json.dumps(broken)), "do not trust")
 
+    def test_a_call_through_a_pointer_has_a_goal_for_each_path(self) -> None:
+        point = "[wp] [Qed] Goal typed_keel_box_put_call_point_any_body_s12 : Valid (1ms)"
+        log = wp_log(*GOOD, point, point)
+        report = json.loads(wp_report(5, 5))
+        counts = {"wp:main": {"total": 2, "valid": 2}}
+        report["wp:functions"]["keel_box_put"]["keel_box_put_call_point_any_body_s12"] = counts
+        result = self.judge(log, json.dumps(report))
+        self.assertEqual(result.problems, [])
+        self.assertIn("keel_box_put_call_point_any_body", [goal["name"] for goal in result.goals])
+        counts["wp:main"]["valid"] = 1
+        report["wp:global"]["wp:main"]["valid"] = 4
+        self.assertNotEqual(self.judge(log, json.dumps(report)).problems, [])
+
     def test_without_a_report_nothing_is_proved(self) -> None:
         self.assert_fails(self.judge(wp_log(*GOOD), ""), "wrote no report")
 
@@ -289,6 +302,9 @@ class WpVerdict(TreeTest):
         self.assert_fails(without, "1 loops, but 0 loop variants")
         log = wp_log(goal, variant, function="helper")
         self.assertEqual(wp.judge(target, log, wp_report(2, 2), self.root).problems, [])
+        parts = [variant.replace("decrease", f"decrease_part{number}") for number in (1, 2)]
+        log = wp_log(goal, *parts, function="helper")
+        self.assertEqual(wp.judge(target, log, wp_report(3, 3), self.root).problems, [])
 
 
 class WpRun(TreeTest):
@@ -302,7 +318,7 @@ class WpRun(TreeTest):
         target = wp.Target(self.unit, self.unit.source, "keel_box_put")
         command = self.prover().command(target, wp.QUICK, True, self.root / "r.json")
         provers = [word for word in command if word.startswith("-wp-prover")]
-        wanted = ["alt-ergo", "-alt-ergo,cvc4", "-cvc4,z3", "-z3,alt-ergo"]
+        wanted = ["alt-ergo", "-alt-ergo,cvc4", "-cvc4,alt-ergo"]
         self.assertEqual(provers, [f"-wp-prover={text}" for text in wanted])
         smoke = command[len(command) - command[::-1].index("-then") :]
         self.assertIn("-wp-smoke-tests", smoke)

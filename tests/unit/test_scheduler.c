@@ -301,10 +301,10 @@ static void SCH_009_start_sets_time_and_releases(void)
     board_init(0u);
     kernel.a.config.phase_us = 7u;
     kernel.o.config.phase_us = 1999u;
-    add(&kernel.a);
-    add(&kernel.o);
     kernel.a.task.skipped = 5u;
     kernel.a.task.release_us = 99u;
+    add(&kernel.a);
+    add(&kernel.o);
     start();
     TEST_ASSERT_EQUAL_UINT64(0u, kernel.scheduler.clock.now_us);
     TEST_ASSERT_EQUAL_UINT32(0xFFFFFF00u, kernel.scheduler.clock.raw_us);

@@ -21,6 +21,7 @@ MESSAGE = re.compile(
     r"(?P<level>Warning|[\w ]*[Ee]rror|Failure|Unimplemented|Not supported): ?(?P<text>.*)$"
 )
 ABORT = re.compile(r"^\[(?P<who>[\w:.-]+)\] (?P<text>.*(?:aborted|Unexpected|unsupported).*)$")
+CALL_POINT = re.compile(r"(_call_point_\w+)_s\d+$")
 ANNOTATED = re.compile(r"^\[rte:annot\] annotating function (\w+)$", re.MULTILINE)
 
 
@@ -69,7 +70,9 @@ class Log:
 
 def _note_goal(log: Log, match: re.Match[str]) -> Goal:
     """Record a goal line. A goal tried again by a later stage keeps its best status."""
-    goal = log.goals.setdefault(match["name"], Goal(match["name"]))
+    # A statement's number would change with every edit above it.
+    name = CALL_POINT.sub(r"\1", match["name"])
+    goal = log.goals.setdefault(name, Goal(name))
     status = match["status"] or "Unproved"
     if match["status"]:
         goal.attempts.append(f"{match['by']}: {status}")
@@ -110,34 +113,49 @@ def read_log(text: str) -> Log:
 
 @dataclass(frozen=True)
 class Totals:
-    """The numbers of the JSON report, smoke tests included, and the properties not proved."""
+    """The numbers of the JSON report, smoke tests included, and the properties not proved.
+
+    A call through a pointer has a goal for each path to it, all with one name: repeated counts
+    those that the log shows once.
+    """
 
     total: int
     valid: int
     open: tuple[str, ...]
+    repeated: int = 0
+    repeated_valid: int = 0
 
 
 def read_report(report: Mapping[str, Any]) -> Totals:
     """Read the JSON report. Anything but an explicit `valid` counts against a property."""
     overall = report.get("wp:global", {}).get("wp:main", {})
     unproved: list[str] = []
+    repeated = repeated_valid = 0
     for part in ("wp:axiomatics", "wp:functions"):
         for group in report.get(part, {}).values():
             for name, provers in group.items():
                 counts = provers.get("wp:main", {})
                 if name != "wp:section" and counts.get("valid", 0) != counts.get("total", 0):
                     unproved.append(name)
-    return Totals(int(overall.get("total", 0)), int(overall.get("valid", 0)), tuple(unproved))
+                if CALL_POINT.search(name):
+                    repeated += counts.get("total", 0) - 1
+                    repeated_valid += max(counts.get("valid", 0) - 1, 0)
+    return Totals(
+        int(overall.get("total", 0)), int(overall.get("valid", 0)), tuple(unproved),
+        repeated, repeated_valid,
+    )  # fmt: skip
 
 
 def disagreement(log: Log, totals: Totals) -> str:
     """In which number the log and the report differ, or ""."""
     counted = len(log.goals) + len(log.smoke)
     proved = log.proved + sum(log.smoke.values())
-    if counted != totals.total:
+    if counted + totals.repeated != totals.total:
         return f"log shows {counted} goals and smoke tests, its report {totals.total}"
-    if proved != totals.valid:
+    if proved + totals.repeated_valid != totals.valid:
         return f"log shows {proved} proved or passed, its report {totals.valid}"
+    if totals.open and log.proved == len(log.goals) and all(log.smoke.values()):
+        return f"log leaves nothing open, its report {', '.join(totals.open)}"
     if bool(totals.open) != (totals.valid != totals.total):
         return "report has totals that differ from its entries"
     return ""

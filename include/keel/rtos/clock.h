@@ -54,7 +54,7 @@ static inline uint32_t keel_clock_elapsed_us(uint32_t from_us, uint32_t to_us)
  * @param raw_us the counter now
  */
 /*@ requires \valid(clock);
-  @ assigns *clock;
+  @ assigns clock->now_us, clock->raw_us;
   @ ensures CLK_002: clock->now_us == 0 && clock->raw_us == raw_us;
   @*/
 static inline void keel_clock_init(keel_clock_t *clock, uint32_t raw_us)
@@ -73,7 +73,7 @@ static inline void keel_clock_init(keel_clock_t *clock, uint32_t raw_us)
  */
 /*@ requires \valid(clock);
   @ requires clock->now_us <= KEEL_CLOCK_TIME_LIMIT_US;
-  @ assigns *clock;
+  @ assigns clock->now_us, clock->raw_us;
   @ behavior backwards:
   @   assumes clock_elapsed(clock->raw_us, raw_us) >= KEEL_CLOCK_STEP_LIMIT_US;
   @   assigns \nothing;
@@ -82,7 +82,7 @@ static inline void keel_clock_init(keel_clock_t *clock, uint32_t raw_us)
   @                         clock->raw_us == \old(clock->raw_us);
   @ behavior forwards:
   @   assumes clock_elapsed(clock->raw_us, raw_us) < KEEL_CLOCK_STEP_LIMIT_US;
-  @   assigns *clock;
+  @   assigns clock->now_us, clock->raw_us;
   @   ensures CLK_003: clock->now_us == \old(clock->now_us)
   @                                     + clock_elapsed(\old(clock->raw_us), raw_us);
   @   ensures raw: clock->raw_us == raw_us;

@@ -51,10 +51,10 @@ typedef struct keel_queue {
   @ predicate queue_configs_valid(keel_queue_t *q) =
   @     \forall integer i; 0 <= i < q->count ==> \valid_read(q->task[i]->config);
   @
-  @ // The tasks and their declarations are memory apart from the queue.
+  @ // The tasks are memory apart from the queue, their declarations objects of their own.
   @ predicate queue_apart(keel_queue_t *q) =
   @     (\forall integer i; 0 <= i < q->count ==> \separated(q, q->task[i])) &&
-  @     (\forall integer i; 0 <= i < q->count ==> \separated(q, q->task[i]->config));
+  @     (\forall integer i; 0 <= i < q->count ==> \base_addr(q) != \base_addr(q->task[i]->config));
   @
   @ predicate queue_valid(keel_queue_t *q) =
   @     queue_counts(q) && queue_no_gaps(q) && queue_no_duplicates(q) && queue_tasks_valid(q) &&
@@ -120,7 +120,7 @@ uint32_t keel_queue_find(const keel_queue_t *queue, keel_task_t *task);
  */
 /*@ requires \valid(queue) && queue_valid(queue);
   @ requires task == \null || (\valid(task) && \valid_read(task->config) &&
-  @     \separated(queue, task) && \separated(queue, task->config));
+  @     \separated(queue, task) && \base_addr(queue) != \base_addr(task->config));
   @ assigns queue->count, queue->realtime_count, queue->task[0 .. KEEL_QUEUE_CAPACITY - 1];
   @ ensures QUE_005_counts: queue_counts(queue);
   @ ensures QUE_005_no_gaps: queue_no_gaps(queue);

@@ -106,20 +106,21 @@ typedef struct keel_scheduler {
   @     s->config.utilisation_limit <= KEEL_UTILISATION_FULL_PPM &&
   @     s->stage <= KEEL_STAGE_OTHER && (s->stage >= KEEL_STAGE_PASS ==> s->wake_us == 0);
   @
-  @ // Tasks and declarations are memory apart from the scheduler ...
+  @ // Tasks are memory apart from the scheduler, declarations objects of their own ...
   @ predicate scheduler_apart(keel_scheduler_t *s) =
   @     (\forall integer i; 0 <= i < s->queue.count ==> \separated(s, s->queue.task[i])) &&
-  @     (\forall integer i; 0 <= i < s->queue.count ==> \separated(s, s->queue.task[i]->config));
+  @     (\forall integer i; 0 <= i < s->queue.count ==>
+  @         \base_addr(s) != \base_addr(s->queue.task[i]->config));
   @
   @ // ... from each other ...
   @ predicate tasks_apart(keel_scheduler_t *s) =
   @     \forall integer i, j; 0 <= i < s->queue.count ==> 0 <= j < s->queue.count ==> i != j ==>
   @         \separated(s->queue.task[i], s->queue.task[j]);
   @
-  @ // ... and declarations, which may be shared, from all tasks.
+  @ // ... and no declaration, which tasks may share, lies in an object with a task.
   @ predicate configs_apart(keel_scheduler_t *s) =
   @     \forall integer i, j; 0 <= i < s->queue.count ==> 0 <= j < s->queue.count ==>
-  @         \separated(s->queue.task[i], s->queue.task[j]->config);
+  @         \base_addr(s->queue.task[i]) != \base_addr(s->queue.task[j]->config);
   @
   @ predicate scheduler_valid(keel_scheduler_t *s) =
   @     queue_counts(&s->queue) && queue_no_gaps(&s->queue) && queue_no_duplicates(&s->queue) &&
@@ -128,18 +129,25 @@ typedef struct keel_scheduler {
   @     queue_checked(&s->queue) && scheduler_apart(s) && tasks_apart(s) && configs_apart(s) &&
   @     scheduler_state(s);
   @
+  @ // Until the start no time has passed, and every task waits for its phase.
+  @ predicate setup_armed(keel_scheduler_t *s) =
+  @     s->stage == KEEL_STAGE_SETUP ==> s->clock.now_us == 0 &&
+  @         \forall integer i; 0 <= i < s->queue.count ==>
+  @             s->queue.task[i]->release_us == s->queue.task[i]->config->phase_us;
+  @
   @ // The theorems hold up to this uptime; beyond it the kernel is not proved.
   @ predicate in_uptime(keel_scheduler_t *s) = s->clock.now_us <= KEEL_CLOCK_TIME_LIMIT_US;
   @
   @ // A task that the scheduler does not hold yet, in memory of its own.
   @ predicate task_apart(keel_scheduler_t *s, keel_task_t *task) =
-  @     \separated(s, task) && \separated(s, task->config) && \separated(task, task->config) &&
+  @     \separated(s, task) && \base_addr(s) != \base_addr(task->config) &&
+  @     \base_addr(task) != \base_addr(task->config) &&
   @     (\forall integer i; 0 <= i < s->queue.count && s->queue.task[i] != task ==>
   @         \separated(s->queue.task[i], task)) &&
   @     (\forall integer i; 0 <= i < s->queue.count ==>
-  @         \separated(s->queue.task[i], task->config)) &&
+  @         \base_addr(s->queue.task[i]) != \base_addr(task->config)) &&
   @     (\forall integer i; 0 <= i < s->queue.count ==>
-  @         \separated(s->queue.task[i]->config, task));
+  @         \base_addr(task) != \base_addr(s->queue.task[i]->config));
   @
   @ // Whether a task fits the time to every real-time release: W + w <= S.
   @ predicate fits_slack(keel_scheduler_t *s, keel_task_t *task, integer now_us) =
@@ -233,6 +241,48 @@ typedef struct keel_scheduler {
   @                           s->queue.task[i]->config->period_us), L);
   @*/
 
+/* The scheduler that is running: any one. Nothing assigns it; it exists in proofs alone. */
+//@ ghost extern keel_scheduler_t *running_scheduler;
+
+/*
+ * What is assumed of the functions that the user supplies, as contracts of two that stand for any.
+ * They are declared for the proofs alone; nobody defines or calls them.
+ */
+/* Any clock: it writes nothing that the kernel reads. */
+/*@ assigns \nothing; */
+uint32_t keel_any_clock(void *context);
+
+/*@ predicate clock_modelled(keel_scheduler_t *s) = s->config.read_clock == &keel_any_clock;
+  @
+  @ // The room for a pass' readings of the clock below the uptime's limit: one opens the pass, one
+  @ // follows each real-time task that is left and one the last task.
+  @ predicate uptime_left(keel_scheduler_t *s, integer readings) =
+  @     s->clock.now_us + readings * KEEL_CLOCK_STEP_LIMIT_US <= KEEL_CLOCK_TIME_LIMIT_US;
+  @*/
+
+/* Any body: it may write all memory, but of the scheduler only through keel_scheduler_add and
+ * keel_scheduler_remove, which keep these. */
+/*@ requires \valid(running_scheduler) && scheduler_valid(running_scheduler);
+  @ requires in_uptime(running_scheduler) && stage_running(running_scheduler);
+  @ assigns *running_scheduler, { *task | keel_task_t *task; \true };
+  @ SCHEDULER_STAYS_VALID(running_scheduler)
+  @ ensures stage: running_scheduler->stage == \old(running_scheduler->stage);
+  @ ensures now: running_scheduler->clock.now_us == \old(running_scheduler->clock.now_us);
+  @ ensures busy: running_scheduler->busy_us == \old(running_scheduler->busy_us);
+  @ ensures pass: running_scheduler->pass_end - running_scheduler->cursor <=
+  @     \old(running_scheduler->pass_end - running_scheduler->cursor);
+  @ ensures clock: running_scheduler->config.read_clock ==
+  @     \old(running_scheduler->config.read_clock);
+  @ ensures bodies: \forall integer i; 0 <= i < running_scheduler->queue.count ==>
+  @     running_scheduler->queue.task[i]->config->run == &keel_any_body;
+  @*/
+void keel_any_body(void *context);
+
+/*@ predicate bodies_modelled(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < s->queue.count ==>
+  @         s->queue.task[i]->config->run == &keel_any_body;
+  @*/
+
 /**
  * Prepares a scheduler without tasks (requirement SCH-001).
  *
@@ -261,6 +311,7 @@ typedef struct keel_scheduler {
   @   assigns *scheduler;
   @   ensures ok: \result == KEEL_OK;
   @   ensures SCH_001_valid: scheduler_valid(scheduler);
+  @   ensures SCH_009_waiting: setup_armed(scheduler);
   @   ensures SCH_001_empty: scheduler->queue.count == 0 && scheduler->clock.now_us == 0 &&
   @       scheduler->busy_us == 0;
   @   ensures SCH_001_config: scheduler->config.guard_us == config->guard_us &&
@@ -323,6 +374,8 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @ ensures SCH_005_duplicate: scheduler != \null && task != \null &&
   @     \old(queue_holds(&scheduler->queue, task)) ==> \result != KEEL_OK;
   @ ensures SCH_006_valid: scheduler != \null ==> scheduler_valid(scheduler);
+  @ ensures SCH_009_waiting: scheduler != \null && \old(setup_armed(scheduler)) ==>
+  @     setup_armed(scheduler);
   @ ensures SCH_004_count: \result == KEEL_OK ==>
   @     scheduler->queue.count == \old(scheduler->queue.count) + 1;
   @ ensures SCH_004_armed: \result == KEEL_OK ==>
@@ -353,6 +406,8 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, keel_task_t *task)
   @ ensures SCH_008_unknown: scheduler != \null && task != \null &&
   @     \old(!queue_holds(&scheduler->queue, task)) ==> \result == KEEL_ERR_UNKNOWN_TASK;
   @ ensures SCH_006_valid: scheduler != \null ==> scheduler_valid(scheduler);
+  @ ensures SCH_009_waiting: scheduler != \null && \old(setup_armed(scheduler)) ==>
+  @     setup_armed(scheduler);
   @ ensures SCH_007_gone: \result == KEEL_OK ==> !queue_holds(&scheduler->queue, task);
   @ ensures SCH_007_count: \result == KEEL_OK ==>
   @     scheduler->queue.count == \old(scheduler->queue.count) - 1;
@@ -381,11 +436,8 @@ keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, keel_task_t *ta
  * @param raw_us    the clock now
  * @return KEEL_OK; KEEL_ERR_STATE when it was started before; what keel_scheduler_check says
  */
-/*@ requires \valid(scheduler) && scheduler_valid(scheduler);
-  @ assigns scheduler->clock, scheduler->stage;
-  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->skipped;
-  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->release_us;
-  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->stats;
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler) && setup_armed(scheduler);
+  @ assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->stage;
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ ensures SCH_010_state: \old(scheduler->stage) != KEEL_STAGE_SETUP ==>
   @     \result == KEEL_ERR_STATE;
@@ -414,8 +466,8 @@ keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_
  */
 /*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
   @ requires wake_right(scheduler);
-  @ assigns scheduler->clock, scheduler->wake_us, scheduler->stage, scheduler->cursor,
-  @     scheduler->pass_end, scheduler->ran;
+  @ assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->wake_us, scheduler->stage,
+  @     scheduler->cursor, scheduler->pass_end, scheduler->ran;
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ DECLARATIONS_STAY(scheduler)
   @ ensures SCH_011_releases: \forall integer k; 0 <= k < scheduler->queue.count ==>
@@ -425,12 +477,18 @@ keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_
   @   assumes scheduler->stage != KEEL_STAGE_READY;
   @   assigns \nothing;
   @   ensures SCH_013_state: \result == KEEL_ERR_STATE;
+  @   ensures SCH_013_same: scheduler->stage == \old(scheduler->stage) &&
+  @       scheduler->cursor == \old(scheduler->cursor) &&
+  @       scheduler->pass_end == \old(scheduler->pass_end) &&
+  @       scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @       scheduler->clock.raw_us == \old(scheduler->clock.raw_us);
   @ behavior backwards:
   @   assumes scheduler->stage == KEEL_STAGE_READY;
   @   assumes clock_elapsed(scheduler->clock.raw_us, raw_us) >= KEEL_CLOCK_STEP_LIMIT_US;
-  @   assigns scheduler->clock;
+  @   assigns scheduler->clock.now_us, scheduler->clock.raw_us;
   @   ensures SCH_013_clock: \result == KEEL_ERR_CLOCK;
-  @   ensures SCH_013_kept: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @   ensures SCH_013_kept: scheduler->stage == KEEL_STAGE_READY &&
+  @       scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
   @       scheduler->clock.raw_us == \old(scheduler->clock.raw_us);
   @ behavior forwards:
   @   assumes scheduler->stage == KEEL_STAGE_READY;
@@ -467,6 +525,8 @@ keel_status_t keel_scheduler_begin(keel_scheduler_t *scheduler, uint32_t raw_us)
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ DECLARATIONS_STAY(scheduler)
   @ ensures SCH_014_pass: scheduler->pass_end == \old(scheduler->pass_end);
+  @ ensures SCH_014_time: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @     scheduler->busy_us == \old(scheduler->busy_us);
   @ behavior closed:
   @   assumes scheduler->stage != KEEL_STAGE_PASS;
   @   ensures SCH_014_closed: \result == \null && scheduler->stage == \old(scheduler->stage);
@@ -529,14 +589,15 @@ keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler);
  */
 /*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
   @ requires scheduler->busy_us <= scheduler->clock.now_us;
-  @ assigns scheduler->clock, scheduler->busy_us, scheduler->stage, scheduler->running;
-  @ assigns scheduler->queue.task[0 .. scheduler->queue.count - 1]->stats;
+  @ assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->busy_us, scheduler->stage,
+  @     scheduler->running, STATS_FIELDS(scheduler->queue.task[scheduler->running]->stats);
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ DECLARATIONS_STAY(scheduler)
   @ ensures SCH_017_releases: \forall integer k; 0 <= k < scheduler->queue.count ==>
   @     release_same{Pre, Post}(scheduler, k);
   @ ensures SCH_017_pass: scheduler->cursor == \old(scheduler->cursor) &&
-  @     scheduler->pass_end == \old(scheduler->pass_end);
+  @     scheduler->pass_end == \old(scheduler->pass_end) &&
+  @     scheduler->wake_us == \old(scheduler->wake_us);
   @ ensures SCH_017_busy_bound: scheduler->busy_us <= scheduler->clock.now_us;
   @ behavior state:
   @   assumes !stage_running(scheduler);
@@ -585,6 +646,27 @@ keel_status_t keel_scheduler_finish(keel_scheduler_t *scheduler, uint32_t raw_us
  * @param scheduler the scheduler, or null
  * @return KEEL_ERR_NULL, or what keel_scheduler_start_at says
  */
+/*@ requires scheduler == \null || (\valid(scheduler) && scheduler_valid(scheduler) &&
+  @     setup_armed(scheduler) && clock_modelled(scheduler));
+  @ behavior null:
+  @   assumes scheduler == \null;
+  @   assigns \nothing;
+  @   ensures SCH_019_null: \result == KEEL_ERR_NULL;
+  @ behavior state:
+  @   assumes scheduler != \null && scheduler->stage != KEEL_STAGE_SETUP;
+  @   assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->stage;
+  @   ensures SCH_019_state: \result == KEEL_ERR_STATE;
+  @ behavior setup:
+  @   assumes scheduler != \null && scheduler->stage == KEEL_STAGE_SETUP;
+  @   assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->stage;
+  @   ensures SCH_019_valid: scheduler_valid(scheduler);
+  @   ensures SCH_019_started: \result == KEEL_OK <==> scheduler->stage == KEEL_STAGE_READY;
+  @   ensures SCH_019_admitted: \result == KEEL_OK ==>
+  @       \old(demand_admitted(&scheduler->queue, scheduler->config.guard_us)) &&
+  @       \old(gaps_admitted(&scheduler->queue, scheduler->config.guard_us));
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
 keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
 
 /**
@@ -595,6 +677,33 @@ keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
  * @return KEEL_OK; KEEL_ERR_NULL; KEEL_ERR_STATE before the start and from within a task;
  *         KEEL_ERR_CLOCK when the clock jumped backwards: see keel_scheduler_resync
  */
+/*@ requires scheduler == \null || (\valid(scheduler) && scheduler_valid(scheduler) &&
+  @     scheduler == running_scheduler && clock_modelled(scheduler) && bodies_modelled(scheduler));
+  @ requires scheduler != \null ==> wake_right(scheduler) &&
+  @     uptime_left(scheduler, scheduler->queue.realtime_count + 2) &&
+  @     scheduler->busy_us <= scheduler->clock.now_us;
+  @ behavior null:
+  @   assumes scheduler == \null;
+  @   ensures SCH_020_null: \result == KEEL_ERR_NULL;
+  @ behavior state:
+  @   assumes scheduler != \null && scheduler->stage != KEEL_STAGE_READY;
+  @   ensures SCH_020_state: \result == KEEL_ERR_STATE;
+  @   ensures SCH_020_kept: scheduler->stage == \old(scheduler->stage) &&
+  @       scheduler->cursor == \old(scheduler->cursor) &&
+  @       scheduler->pass_end == \old(scheduler->pass_end) &&
+  @       scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @       scheduler->clock.raw_us == \old(scheduler->clock.raw_us);
+  @ behavior ready:
+  @   assumes scheduler != \null && scheduler->stage == KEEL_STAGE_READY;
+  @   SCHEDULER_STAYS_VALID(scheduler)
+  @   ensures SCH_020_wake: wake_right(scheduler);
+  @   ensures SCH_020_result: \result == KEEL_OK || \result == KEEL_ERR_CLOCK;
+  @   ensures SCH_020_closed: scheduler->stage == KEEL_STAGE_READY;
+  @   ensures SCH_020_time: \old(scheduler->clock.now_us) <= scheduler->clock.now_us;
+  @   ensures SCH_020_busy: scheduler->busy_us <= scheduler->clock.now_us;
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
 keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler);
 
 /**
@@ -604,6 +713,24 @@ keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler);
  * @param scheduler a scheduler between two steps, or null
  * @return KEEL_OK; KEEL_ERR_NULL; KEEL_ERR_STATE before the start and from within a task
  */
+/*@ requires scheduler == \null || (\valid(scheduler) && scheduler_valid(scheduler) &&
+  @     clock_modelled(scheduler));
+  @ behavior null:
+  @   assumes scheduler == \null;
+  @   assigns \nothing;
+  @   ensures SCH_021_null: \result == KEEL_ERR_NULL;
+  @ behavior state:
+  @   assumes scheduler != \null && scheduler->stage != KEEL_STAGE_READY;
+  @   assigns \nothing;
+  @   ensures SCH_021_state: \result == KEEL_ERR_STATE;
+  @ behavior ready:
+  @   assumes scheduler != \null && scheduler->stage == KEEL_STAGE_READY;
+  @   assigns scheduler->clock.raw_us;
+  @   ensures SCH_021_taken: \result == KEEL_OK;
+  @   ensures SCH_021_valid: scheduler_valid(scheduler);
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
 keel_status_t keel_scheduler_resync(keel_scheduler_t *scheduler);
 
 #endif

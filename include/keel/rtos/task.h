@@ -111,7 +111,7 @@ keel_status_t keel_task_check(const keel_task_config_t *config);
  */
 /*@ requires \valid(task) && \valid_read(task->config) && \separated(task, task->config);
   @ requires start_us <= KEEL_CLOCK_TIME_LIMIT_US;
-  @ assigns task->skipped, task->release_us, task->stats;
+  @ assigns task->skipped, task->release_us, STATS_FIELDS(task->stats);
   @ ensures TSK_003_release: task->release_us == start_us + task->config->phase_us;
   @ ensures TSK_003_skipped: task->skipped == 0;
   @ ensures TSK_003_stats: stats_fresh(task->stats);

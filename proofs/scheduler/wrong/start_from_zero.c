@@ -145,16 +145,6 @@ keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, keel_task_t *ta
     return take_out(scheduler, index);
 }
 
-/* Sets the first release of every task. */
-static void arm_all(keel_scheduler_t *scheduler)
-{
-    for (uint32_t i = 0u; i < scheduler->queue.count; i++) {
-        keel_task_t *const task = scheduler->queue.task[i];
-
-        keel_task_arm(task, 0u);
-    }
-}
-
 keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_us)
 {
     keel_admission_t admission;
@@ -168,7 +158,6 @@ keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_
         return status;
     }
     keel_clock_init(&scheduler->clock, 0u);
-    arm_all(scheduler);
     scheduler->stage = KEEL_STAGE_READY;
     return KEEL_OK;
 }
@@ -303,7 +292,10 @@ keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler)
         return KEEL_ERR_NULL;
     }
     status = keel_scheduler_begin(scheduler, read_clock(scheduler));
-    while ((status == KEEL_OK) && (scheduler->stage == KEEL_STAGE_PASS)) {
+    if (status != KEEL_OK) {
+        return status;
+    }
+    while (scheduler->stage == KEEL_STAGE_PASS) {
         const keel_task_t *const task = keel_scheduler_next(scheduler);
 
         if (task != NULL) {
