@@ -13,7 +13,7 @@ ALL_TOOLS := prove test lint coverage bench fuzz
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
 
-.PHONY: help prove test demo bench lint coverage mutate fuzz trace status tools doctor clean python
+.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace status tools doctor clean python
 .NOTPARALLEL:
 
 help: ## this list
@@ -31,11 +31,14 @@ demo: python ## the paper's 21 tasks, one simulated minute on this host
 	gcc $(CFLAGS) -Iinclude -Iexamples/demo $(DEMO) -lm -o build/demo
 	@build/demo
 
-bench: python ## instructions per pass, code size and RAM (ARGS=--check: fail on a missed goal)
+bench: python ## instructions per pass and per step, code size and RAM (ARGS=--check: fail on a missed goal)
 	@python3 tools/bench.py $(ARGS)
 
 lint: python ## layout, MISRA C:2012 and the rules of the house (ARGS=--fix: lay out first)
 	@python3 tools/lint.py $(ARGS)
+
+campaign: python ## the voter's fault campaign and fig. 14: tables, JSON and plots in build/campaign
+	@python3 tools/campaign.py
 
 coverage: python ## lines, branches and MC/DC that the unit tests reach
 	@python3 tools/coverage.py

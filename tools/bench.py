@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measure what the scheduler costs: instructions per pass, code size, RAM.
+"""Measure what Keel costs: instructions per pass and per step, code size, RAM.
 
     python3 tools/bench.py            # measure, print tables, write build/bench/report.json
     python3 tools/bench.py --check    # the same; exit status 1 when a goal is missed
@@ -15,6 +15,10 @@ apart: waited (before the wake-up time), idle (no task can run; computes the wak
 and other (exactly one task, of that kind), several (more than one task).
 
 Code size and RAM are those of the Cortex-M7 build.
+
+The steps of the layers above (STEPS, tests/bench/bench_steps.c) are counted the same way. In their
+Cortex-M7 objects no function that a step reaches may have an instruction in double precision or
+call anything but the kernel: that is an error, not a missed goal.
 
 Exit status: 0 when everything was measured, 1 when something could not be (or, with --check, a goal
 is missed), 2 for a wrong command line.
@@ -46,6 +50,13 @@ ARM_FLAGS = ("-std=c99", "-O2", *TARGET_FLAGS, "-ffreestanding", "-ffunction-sec
 # The sizes of the task set, each with the queue capacity that it is built with.
 SETS = {8: 32, 21: 32, 64: 128, 128: 128}
 GOAL_SET = 21
+
+# Steps by their labels: what they are, the function, and the goal on the Cortex-M7.
+STEPS: dict[str, tuple[str, str, int]] = {
+    "filter": ("filter", "keel_filter_step", 30),
+    "pid": ("PID", "keel_pid_step", 110),
+}
+STEP_HARNESS = "tests/bench/bench_steps.c"
 
 KINDS = ("waited", "idle", "realtime", "other", "several")
 NO_TASK = ("waited", "idle")
@@ -143,9 +154,11 @@ def refuse_strangers(dump: Dump, layer: frozenset[str]) -> None:
             raise BenchError(f"{name} runs within a pass, but is neither the layer's nor ours")
 
 
-def sum_dumps(dumps: Iterable[Dump], layer: frozenset[str]) -> dict[str, Kind]:
+def sum_dumps(
+    dumps: Iterable[Dump], layer: frozenset[str], names: Iterable[str] = KINDS
+) -> dict[str, Kind]:
     """The passes by kind."""
-    kinds = {name: Kind() for name in KINDS}
+    kinds = {name: Kind() for name in names}
     for dump in dumps:
         if dump.kind not in kinds:
             raise BenchError(f"the harness names an unknown kind of pass: {dump.kind}")
@@ -179,16 +192,18 @@ def run(command: Sequence[str]) -> str:
     return done.stdout
 
 
-def layer_sources() -> list[str]:
-    """The C files of the layer, relative to the root."""
-    return sorted(str(path.relative_to(ROOT)) for path in (ROOT / LAYER).glob("*.c"))
+def layer_sources(layer: str = LAYER) -> list[str]:
+    """The C files of a layer, or of all below a folder, relative to the root."""
+    return sorted(str(path.relative_to(ROOT)) for path in (ROOT / layer).rglob("*.c"))
 
 
-def compile_layer(compiler: Sequence[str], flags: Sequence[str], folder: Path) -> list[str]:
+def compile_layer(
+    compiler: Sequence[str], flags: Sequence[str], folder: Path, layer: str = LAYER
+) -> list[str]:
     """One object per unit."""
     folder.mkdir(parents=True, exist_ok=True)
     objects = []
-    for source in layer_sources():
+    for source in layer_sources(layer):
         target = folder / f"{Path(source).stem}.o"
         run([*compiler, *flags, *INCLUDES, "-c", source, "-o", str(target)])
         objects.append(str(target))
@@ -219,16 +234,23 @@ def build_host(tools: Toolchain, capacity: int) -> Host:
     return Host(program, functions_of(tools.command("nm"), objects))
 
 
-def count(tools: Toolchain, host: Host, tasks: int) -> dict[str, Kind]:
-    """One simulation under callgrind."""
-    output = BUILD / f"callgrind-{tasks}.out"
+def callgrind(
+    tools: Toolchain, host: Host, name: str, arguments: Sequence[str], kinds: Iterable[str]
+) -> dict[str, Kind]:
+    """One run of a program under callgrind."""
+    output = BUILD / f"callgrind-{name}.out"
     output.unlink(missing_ok=True)
     options = ["--collect-atstart=no", "--combine-dumps=yes", "--compress-strings=no"]
     options += ["--compress-pos=no", f"--callgrind-out-file={output}"]
     valgrind = [*tools.command("valgrind"), "--tool=callgrind", *options]
-    run([*valgrind, str(host.program), str(tasks)])
+    run([*valgrind, str(host.program), *arguments])
     with output.open() as lines:
-        return sum_dumps(read_dumps(lines), host.layer)
+        return sum_dumps(read_dumps(lines), host.layer, kinds)
+
+
+def count(tools: Toolchain, host: Host, tasks: int) -> dict[str, Kind]:
+    """One simulation under callgrind."""
+    return callgrind(tools, host, str(tasks), [str(tasks)], KINDS)
 
 
 def measure_set(tools: Toolchain, host: Host, tasks: int) -> dict[str, Kind]:
@@ -289,6 +311,91 @@ def measure_target(tools: Toolchain) -> Target:
     )
 
 
+# --- Steps of the layers above -------------------------------------------------------------------
+
+FUNCTION = re.compile(r"^[0-9a-f]+ <([^>]+)>:$")
+CALL = re.compile(r"R_ARM_THM_(?:CALL|JUMP24)\s+(\S+)")
+INSTRUCTION = re.compile(r"^\s+[0-9a-f]+:\t")
+DOUBLE = re.compile(r"\bv\w+(?:\.\w+)*\.f64\b")
+
+
+@dataclass
+class Code:
+    """A function in an object file: what it calls, its instructions, those in double precision."""
+
+    calls: set[str] = field(default_factory=set)
+    instructions: int = 0
+    doubles: list[str] = field(default_factory=list)
+
+
+def read_code(listing: str) -> dict[str, Code]:
+    """The functions of a disassembly with relocations (objdump -dr)."""
+    found: dict[str, Code] = {}
+    code = Code()
+    for line in listing.splitlines():
+        if function := FUNCTION.match(line):
+            code = found.setdefault(function[1], Code())
+        elif call := CALL.search(line):
+            code.calls.add(call[1])
+        elif INSTRUCTION.match(line):
+            code.instructions += 1
+            if DOUBLE.search(line):
+                code.doubles.append(" ".join(line.split("\t")[2:]).strip())
+    return found
+
+
+def refuse_slow_code(code: Mapping[str, Code], step: str) -> None:
+    """No double precision and no library call in what a step reaches."""
+    waiting, seen = [step], set()
+    while waiting:
+        name = waiting.pop()
+        if name in seen:
+            continue
+        seen.add(name)
+        if name not in code:
+            raise BenchError(f"{step} reaches {name}, which is not the kernel's")
+        if code[name].doubles:
+            first = code[name].doubles[0]
+            raise BenchError(f"{step}: {name} computes in double precision: {first}")
+        waiting += code[name].calls
+
+
+def check_target_steps(tools: Toolchain) -> None:
+    """The Cortex-M7 objects of the steps."""
+    flags = [*ARM_FLAGS, "-Wdouble-promotion", "-Werror"]
+    gcc = tools.command("arm-none-eabi-gcc")
+    objects = compile_layer(gcc, flags, BUILD / "target-steps", "src")
+    dump = [*tools.command("arm-none-eabi-objdump"), "-dr"]
+    code = read_code(run([*dump, *objects]))
+    for _, step, _ in STEPS.values():
+        refuse_slow_code(code, step)
+
+
+def measure_steps(tools: Toolchain) -> dict[str, Kind]:
+    """Instructions of each step in a host build, counted twice."""
+    folder = BUILD / "host-steps"
+    gcc = tools.command("gcc")
+    objects = compile_layer(gcc, HOST_FLAGS, folder, "src")
+    program = folder / "bench_steps"
+    run([*gcc, *HOST_FLAGS, *INCLUDES, *objects, STEP_HARNESS, "-o", str(program)])
+    host = Host(program, functions_of(tools.command("nm"), objects))
+    first, second = (callgrind(tools, host, "steps", [], STEPS) for _ in range(2))
+    if first != second:
+        raise BenchError("two runs of the steps differ")
+    for name, kind in first.items():
+        if not kind.passes:
+            raise BenchError(f"no step of {name} was measured")
+    return first
+
+
+def print_steps(steps: Mapping[str, Kind]) -> None:
+    print("\nInstructions of a step, host build    mean   goal on the Cortex-M7 (not measured yet)")
+    for name, kind in steps.items():
+        label, _, goal = STEPS[name]
+        print(f"  {label:34}{kind.mean:7.1f}{goal:7}")
+    print("  On the Cortex-M7 none of them has double precision or calls a library.")
+
+
 # --- Goals and report ----------------------------------------------------------------------------
 
 
@@ -333,8 +440,9 @@ def set_report(kinds: Mapping[str, Kind]) -> dict[str, object]:
 
 
 def report_of(
-    tools: Toolchain, sets: Mapping[int, Mapping[str, Kind]], target: Target
-) -> dict[str, object]:
+    tools: Toolchain, sets: Mapping[int, Mapping[str, Kind]], target: Target,
+    steps: Mapping[str, Kind],
+) -> dict[str, object]:  # fmt: skip
     versions = {name: found.version for name, found in tools.versions("bench", "test").items()}
     used = ("gcc", "valgrind", "binutils", "arm-none-eabi-gcc")
     return {
@@ -344,6 +452,7 @@ def report_of(
         "target_flags": list(ARM_FLAGS),
         "capacity": {str(tasks): SETS[tasks] for tasks in sets},
         "sets": {str(tasks): set_report(kinds) for tasks, kinds in sets.items()},
+        "steps": {name: kind_report(kind) for name, kind in steps.items()},
         "for_scale": {name: list(pair) for name, pair in FOR_SCALE.items()},
         "target": {**asdict(target), "total_text": target.total, "per_task": target.per_task},
         "goals": [{**asdict(goal), "met": goal.met} for goal in goals_of(sets, target)],
@@ -414,20 +523,23 @@ def measure(tools: Toolchain) -> list[Goal]:
     hosts = {capacity: build_host(tools, capacity) for capacity in sorted(set(SETS.values()))}
     sets = {tasks: measure_set(tools, hosts[SETS[tasks]], tasks) for tasks in SETS}
     target = measure_target(tools)
+    check_target_steps(tools)
+    steps = measure_steps(tools)
     goals = goals_of(sets, target)
-    write_atomically(REPORT, json.dumps(report_of(tools, sets, target), indent=1) + "\n")
+    write_atomically(REPORT, json.dumps(report_of(tools, sets, target, steps), indent=1) + "\n")
     print("Instructions of a pass, host build, scheduler code only")
     for tasks, kinds in sets.items():
         print_set(tasks, kinds)
     print_scale()
     print_hot(sets[GOAL_SET])
     print_target(target)
+    print_steps(steps)
     print_goals(goals)
     return goals
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(description="Measure what the scheduler costs.")
+    parser = argparse.ArgumentParser(description="Measure what Keel costs.")
     parser.add_argument("--check", action="store_true", help="fail when a goal is missed")
     options = parser.parse_args(arguments)
     try:

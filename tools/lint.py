@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Check the text of the project: layout of the C code, MISRA C:2012, and the rules of the house.
+"""Check the text of the project: layout of C and C++, MISRA C:2012, and the rules of the house.
 
     python3 tools/lint.py           # every finding as file:line: reason
-    python3 tools/lint.py --fix     # lay out the C code first
+    python3 tools/lint.py --fix     # lay out the code first
 
-Layout is clang-format's, with .clang-format, for every C file. MISRA C:2012 is checked by Cppcheck
+Layout is clang-format's, with .clang-format, for all C and C++. MISRA C:2012 is checked by Cppcheck
 and its addon over src/ and the headers it includes, beside Cppcheck's own checks; what it finds
 stays in build/lint/cppcheck.sarif. A finding stands unless a deviation in
 specs/misra_deviations.toml covers it; deviations and marks that cover nothing are findings
@@ -65,6 +65,11 @@ class Text(NamedTuple):
         return self.path.endswith((".c", ".h"))
 
     @property
+    def has_layout(self) -> bool:
+        """Whether it is C or C++, which clang-format lays out."""
+        return self.is_c or self.path.endswith((".cpp", ".hpp"))
+
+    @property
     def is_kernel(self) -> bool:
         """Whether it is code that is proved and flown."""
         return self.is_c and self.path.startswith(("include/", "src/"))
@@ -108,7 +113,7 @@ def changed_lines(before: Sequence[str], after: Sequence[str]) -> Iterator[int]:
 
 def check_layout(tools: Toolchain, root: Path, texts: Sequence[Text]) -> Iterator[Finding]:
     for text in texts:
-        if text.is_c:
+        if text.has_layout:
             done = run([*clang_format(tools, root), text.path], root)
             if done.returncode != 0:
                 raise LintError(f"clang-format fails on {text.path}:\n{done.stderr.strip()}")
@@ -117,7 +122,7 @@ def check_layout(tools: Toolchain, root: Path, texts: Sequence[Text]) -> Iterato
 
 
 def fix_layout(tools: Toolchain, root: Path, texts: Sequence[Text]) -> None:
-    paths = [text.path for text in texts if text.is_c]
+    paths = [text.path for text in texts if text.has_layout]
     done = run([*clang_format(tools, root), "-i", *paths], root) if paths else None
     if done and done.returncode != 0:
         raise LintError(f"clang-format fails:\n{done.stderr.strip()}")
@@ -321,7 +326,7 @@ def check_words(text: Text) -> Iterator[Finding]:
 
 def check_length(text: Text) -> Iterator[Finding]:
     """At most 100 columns; clang-format leaves comments alone. Directives are one line each."""
-    if text.path.endswith((".c", ".h", ".py")):
+    if text.path.endswith((".c", ".h", ".cpp", ".hpp", ".py")):
         for number, line in enumerate(text.lines, 1):
             if len(line) > LINE_LIMIT and not DIRECTIVE.match(line):
                 yield Finding(text.path, number, f"{len(line)} columns, {LINE_LIMIT} at most")

@@ -5,9 +5,10 @@
     python3 tools/run_tests.py --filter unit/     # the suites whose name contains this
     python3 tools/run_tests.py --fuzz 60          # everything, and 60 seconds of fuzzing
 
-Suites: unit/<unit> (Unity), property/<size> (the scheduler against its reference model), machdep
-(Frama-C's data model against the compiler), tools/<tool> (unittest), fuzz (libFuzzer). The C
-suites are built with the address and undefined-behaviour sanitizers; where their libraries are
+Suites: unit/<unit> (Unity), property/<size> (the scheduler against its reference model),
+reference/<unit> (C++, an independent computation with Eigen in double precision), machdep
+(Frama-C's data model against the compiler), tools/<tool> (unittest), fuzz (libFuzzer). The C and
+C++ suites are built with the address and undefined-behaviour sanitizers; where their libraries are
 missing this is said, in the output and in the report.
 
 A suite that does not build, crashes, hangs, or runs no test counts as a failed test of its own
@@ -44,6 +45,7 @@ LINES_OF_A_CRASH = 12
 SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 WARNINGS = ["-Wall", "-Wextra", "-Werror", "-Wconversion"]
 FLAGS = ["-std=c99", "-O1", "-g", *WARNINGS, "-Iinclude"]
+CPP_FLAGS = ["-std=c++17", "-O1", "-g", *WARNINGS, "-Iinclude", "-Itests/reference"]
 
 # The property test runs with the queue's own capacity, and with one that it often fills.
 SMALL = "-DKEEL_QUEUE_CAPACITY=6u"
@@ -149,12 +151,13 @@ class Bench:
         return None if self._sanitizers is None else bool(self._sanitizers)
 
     def object(self, source: str, extra: Sequence[str] = ()) -> Path:
-        """Compile one source file, once a run."""
+        """Compile one source file, in C or (*.cpp) C++, once a run."""
         key = (source, *extra)
         if key not in self._objects:
             target = BUILD / f"{Path(source).stem}-{len(self._objects)}.o"
-            flags = [*FLAGS, *self.sanitizers, *extra]
-            build([*self.tools.command("gcc"), *flags, "-c", source, "-o", str(target)])
+            compiler, own = ("g++", CPP_FLAGS) if source.endswith(".cpp") else ("gcc", FLAGS)
+            flags = [*own, *self.sanitizers, *extra]
+            build([*self.tools.command(compiler), *flags, "-c", source, "-o", str(target)])
             self._objects[key] = target
         return self._objects[key]
 
@@ -165,11 +168,11 @@ class Bench:
         extra = ["-isystem", folder, "-w", "-DUNITY_USE_FLUSH_STDOUT"]
         return self.object(f"{folder}/unity.c", extra)
 
-    def program(self, name: str, objects: Sequence[Path]) -> Path:
+    def program(self, name: str, objects: Sequence[Path], linker: str = "gcc") -> Path:
         """Link a program."""
         target = BUILD / name.replace("/", "-")
         words = [str(item) for item in objects]
-        build([*self.tools.command("gcc"), *self.sanitizers, *words, "-o", str(target)])
+        build([*self.tools.command(linker), *self.sanitizers, *words, "-o", str(target)])
         return ROOT / target
 
 
@@ -215,6 +218,37 @@ def unit_suite(bench: Bench, name: str, source: str) -> Outcome:
     objects = [bench.object(item) for item in kernel_sources()]
     objects += [bench.unity(), bench.object(source, ["-isystem", folder])]
     return unity_outcome(name, run([bench.program(name, objects)]))
+
+
+# --- Reference tests -----------------------------------------------------------------------------
+
+REFERENCE_LINE = re.compile(r"^(PASS|FAIL) (\S+?)(?:: (.*))?$", re.MULTILINE)
+REFERENCE_SUMMARY = re.compile(r"^(\d+) passed, (\d+) failed\n*\Z", re.MULTILINE)
+
+
+def reference_outcome(name: str, source: str, ended: Ended) -> Outcome:
+    """Read what a reference program wrote: `PASS test` or `FAIL test: why` for each test, any
+    other lines, and last `N passed, N failed`. Its exit status is 0 exactly if none failed."""
+    outcome = Outcome()
+    for verdict, test, message in REFERENCE_LINE.findall(ended.output):
+        outcome.add(test, "" if verdict == "PASS" else f"{source}: {test}: {message or verdict}")
+    summary = REFERENCE_SUMMARY.search(ended.output)
+    told = (int(summary[1]), int(summary[2])) if summary else None
+    failed = len(outcome.failures)
+    counted = len(outcome.tests) == outcome.passed + failed  # No name twice.
+    good = told == (outcome.passed, failed) and ended.status == (1 if failed else 0)
+    if ended.timed_out or not counted or not good:
+        last = list(outcome.tests)[-1:] or ["the start"]
+        outcome.add(name, f"{name}: {ended.how}, after {last[0]}\n{ended.evidence}")
+    return outcome
+
+
+def reference_suite(bench: Bench, name: str, source: str) -> Outcome:
+    """Build and run one program of reference tests, with Eigen and all of the kernel."""
+    eigen = ["-isystem", bench.tools.command("eigen")[0]]
+    objects = [bench.object(item) for item in kernel_sources()]
+    objects.append(bench.object(source, eigen))
+    return reference_outcome(name, source, run([bench.program(name, objects, "g++")]))
 
 
 # --- Programs that are one test ------------------------------------------------------------------
@@ -338,6 +372,16 @@ def unit_suites() -> list[Suite]:
     return suites
 
 
+def reference_suites() -> list[Suite]:
+    """One for each file of reference tests."""
+    suites = []
+    for path in sorted((ROOT / "tests/reference").glob("test_*.cpp")):
+        name = f"reference/{path.stem.removeprefix('test_')}"
+        source = str(path.relative_to(ROOT))
+        suites.append(Suite(name, ("test",), partial(reference_suite, name=name, source=source)))
+    return suites
+
+
 def python_suites() -> list[Suite]:
     """One for each file of tests of the tools."""
     suites = []
@@ -358,7 +402,7 @@ def property_suites() -> list[Suite]:
 
 def all_suites(fuzz_seconds: int) -> list[Suite]:
     """Every suite, in the order in which they run: what fails fastest comes first."""
-    suites = [*unit_suites(), *property_suites()]
+    suites = [*unit_suites(), *reference_suites(), *property_suites()]
     suites.append(Suite("machdep", ("prove",), partial(machdep_suite, name="machdep")))
     suites += python_suites()
     if fuzz_seconds > 0:

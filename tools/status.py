@@ -53,7 +53,8 @@ def row(name: str, pairs: Sequence[tuple[int, int]]) -> str:
 def exceptions(units: Mapping[str, Any]) -> str:
     """The functions that an engine does not prove; each has its reason in proofs/units.toml."""
     kinds = {"Without a harness": ("cbmc", "without_harness"),
-             "Not proved by WP": ("wp", "not_proved_here")}  # fmt: skip
+             "Declared without a body": ("wp", "not_proved_here"),
+             "Left to CBMC alone": ("wp", "not_by_wp")}  # fmt: skip
     text = ""
     for what, (engine, key) in kinds.items():
         functions = [f"`{name}`" for unit in units.values() for name in unit[engine][key]]

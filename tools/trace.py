@@ -6,8 +6,8 @@
 
 A requirement is an entry of specs/requirements/*.sdoc, say QUE-003. The ACSL clauses that state
 it carry its id in their labels (QUE_003, QUE_003_count), and so do the assertions of the CBMC
-harnesses and the names of the unit tests that check it; a requirement may also list tests by name
-under TESTS, or the file of a test that checks far more. An orphan is
+harnesses and the names of the tests (tests/unit, tests/reference) that check it; a requirement may
+also list unit tests by name under TESTS, or the file of a test that checks far more. An orphan is
 
     a label, an assertion, a test or a comment of a header that names no requirement;
     a requirement without a clause, unless VERIFICATION says test (it then needs a test) or
@@ -33,6 +33,7 @@ KEYWORD = r"\b(?:ensures|lemma|assert|check|invariant)"
 CLAUSE = re.compile(rf"{KEYWORD}\s+({LABEL})\s*(?:\{{[^}}]*\}})?\s*:")
 ASSERTION = re.compile(rf'"({LABEL})[:"]')
 TEST = re.compile(r"\bRUN_TEST\((\w+)\)")
+REFERENCE = re.compile(rf'"({LABEL})"')
 MENTION = re.compile(r"\b[A-Z]{3,4}-\d{3}\b")
 FIELD = re.compile(r"^([A-Z]+): ?(.*)$", re.MULTILINE)
 
@@ -104,6 +105,7 @@ def join(root: Path) -> Trace:
     clauses = collect(root, CLAUSE, "include/**/*.h", "proofs/*/*.c")
     assertions = collect(root, ASSERTION, "proofs/*/*.[ch]")
     tests = collect(root, TEST, "tests/unit/*.c")
+    tests += collect(root, REFERENCE, "tests/reference/*.cpp")
     for kind, pairs in (("clauses", clauses), ("harnesses", assertions), ("tests", tests)):
         for name, where in pairs:
             uid = id_of(name)

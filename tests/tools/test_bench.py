@@ -144,6 +144,59 @@ class TargetTest(unittest.TestCase):
         self.assertEqual((target.per_task, target.total), (40, 150))
 
 
+# As objdump -dr writes it. The step calls its own helper and, in a tail call, another.
+LISTING = """\
+x.o:     file format elf32-littlearm
+
+00000000 <keel_step>:
+   0:\ted90 7a01 \tvldr\ts14, [r0, #4]
+   4:\tf7ff fffe \tbl\t0 <helper>
+\t\t\t4: R_ARM_THM_CALL\thelper
+   8:\tf7ff bffe \tb.w\t0 <keel_other>
+\t\t\t8: R_ARM_THM_JUMP24\tkeel_other
+
+00000000 <helper>:
+   0:\ted2d 8b02 \tvpush\t{d8}
+   4:\tee30 0a00 \tvadd.f32\ts0, s0, s0
+
+00000000 <keel_other>:
+   0:\t4770      \tbx\tlr
+"""
+
+
+class StepTest(unittest.TestCase):
+    def refused(self, old: str, new: str) -> str:
+        self.assertIn(old, LISTING)
+        with self.assertRaises(BenchError) as caught:
+            bench.refuse_slow_code(bench.read_code(LISTING.replace(old, new)), "keel_step")
+        return str(caught.exception)
+
+    def test_functions_are_read(self) -> None:
+        code = bench.read_code(LISTING)
+        self.assertEqual(list(code), ["keel_step", "helper", "keel_other"])
+        self.assertEqual(code["keel_step"].calls, {"helper", "keel_other"})
+        self.assertEqual([item.instructions for item in code.values()], [3, 2, 1])
+
+    def test_single_precision_and_own_calls_are_fine(self) -> None:
+        bench.refuse_slow_code(bench.read_code(LISTING), "keel_step")
+
+    def test_double_precision_is_refused_also_in_a_callee(self) -> None:
+        for wrong in ("vadd.f64\td0, d0, d0", "vcvt.f64.f32\td0, s0", "vcvt.f32.f64\ts0, d0"):
+            self.assertIn("helper", self.refused("vadd.f32\ts0, s0, s0", wrong))
+
+    def test_a_library_call_is_refused(self) -> None:
+        self.assertIn("sqrtf", self.refused("CALL\thelper", "CALL\tsqrtf"))
+        self.assertIn("__aeabi_dmul", self.refused("JUMP24\tkeel_other", "JUMP24\t__aeabi_dmul"))
+
+    def test_what_no_step_reaches_may_call(self) -> None:
+        more = LISTING + "\n00000000 <keel_init>:\n\t\t\t0: R_ARM_THM_CALL\tmemcpy\n"
+        bench.refuse_slow_code(bench.read_code(more), "keel_step")
+
+    def test_a_step_that_is_gone_is_an_error(self) -> None:
+        with self.assertRaisesRegex(BenchError, "keel_gone"):
+            bench.refuse_slow_code(bench.read_code(LISTING), "keel_gone")
+
+
 class GoalTest(unittest.TestCase):
     TARGET = Target({"a": 2048}, {}, {"task": 36, "slot": 4})
 

@@ -349,6 +349,12 @@ class ToolTest(unittest.TestCase):
         self.assertEqual(self.lint("--fix")[0], 0)
         self.assertEqual((self.root / "src/rtos/clock.c").read_text(), BARE)
 
+    def test_the_layout_of_reference_tests_is_checked(self) -> None:
+        self.write("tests/reference/test_x.cpp", "int main() { return 0;}\n")
+        status, lines = self.lint()
+        self.assertEqual(status, 1)
+        self.assertIn("tests/reference/test_x.cpp:1: not laid out", "\n".join(lines))
+
     def test_contracts_are_never_laid_out(self) -> None:
         contract = "/*@ requires   a>0  &&   \\true;\n  @   ensures   \\result  <=  a;\n  @*/\n"
         odd = BARE.replace("uint32_t keel", contract + "uint32_t keel")

@@ -27,9 +27,11 @@ from run_tests import (  # noqa: E402
     Suite,
     program_outcome,
     python_outcome,
+    reference_outcome,
     run,
     unity_outcome,
 )
+from toolchain import Toolchain  # noqa: E402
 
 PASSED = "t.c:1:QUE_001_a:PASS\n"
 FAILED = "t.c:9:QUE_002_b:FAIL: Expected 1 Was 2\n"
@@ -115,6 +117,61 @@ class Unity(unittest.TestCase):
     def test_lost_tests_count(self) -> None:
         outcome = unity_outcome("unit/t", Ended(0, PASSED + "2 Tests 0 Failures 0 Ignored\nOK\n"))
         self.assertEqual(len(outcome.failures), 1)
+
+
+class Reference(unittest.TestCase):
+    """What a C++ reference program wrote, and that one is built with Eigen and the kernel."""
+
+    def outcome(self, status: int, text: str) -> Outcome:
+        return reference_outcome("reference/x", "x.cpp", Ended(status, text))
+
+    def test_all_pass_among_other_lines(self) -> None:
+        outcome = self.outcome(0, "a table\nPASS FLT_001_a\nPASS FLT_002_b\n2 passed, 0 failed\n")
+        self.assertEqual((outcome.passed, outcome.failures), (2, []))
+        self.assertEqual(outcome.tests, {"FLT_001_a": "passed", "FLT_002_b": "passed"})
+
+    def test_a_failure_says_why(self) -> None:
+        outcome = self.outcome(1, "PASS a\nFAIL b: 2 > 1\n1 passed, 1 failed\n")
+        self.assertEqual((outcome.passed, outcome.failures), (1, ["x.cpp: b: 2 > 1"]))
+
+    def test_a_crash_counts_though_tests_passed(self) -> None:
+        outcome = self.outcome(-11, "PASS a\n")
+        self.assertEqual(outcome.passed, 1)
+        self.assertIn("crashed: SIGSEGV, after a", outcome.failures[0])
+
+    def test_totals_that_do_not_fit_count(self) -> None:
+        for status, text in (
+            (0, "PASS a\n2 passed, 0 failed\n"),
+            (0, "PASS a\n1 passed, 0 failed\nmore\n"),
+            (0, "PASS a\nPASS a\n2 passed, 0 failed\n"),
+            (0, "FAIL a: x\n0 passed, 1 failed\n"),
+            (1, "PASS a\n1 passed, 0 failed\n"),
+        ):
+            with self.subTest(text):
+                self.assertIn("reference/x", self.outcome(status, text).failures[-1])
+
+    def test_a_program_is_built_with_eigen_and_the_kernel(self) -> None:
+        code = (
+            "#include <Eigen/Dense>\n#include \"reference.hpp\"\n"
+            'extern "C" {\n#include "keel/rtos/load.h"\n}\n'
+            "int main()\n{\n    keel_load_t load{};\n    reference::Suite suite;\n"
+            "    keel_load_begin(&load, 3u, 4u);\n"
+            "    const Eigen::Vector2d both(double(load.start_us), double(load.busy_us));\n"
+            '    suite.within("norm", both.norm(), 5.0, 1e-15);\n'
+            '    suite.within("off", 1.0, 2.0, 0.5);\n'
+            '    suite.within("nan", both.norm() * NAN, 0.0, 1.0);\n'
+            "    return suite.end();\n}\n"
+        )
+        tools = Toolchain()
+        tools.ensure("test", say=lambda _: None)
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        (folder / "known.cpp").write_text(code)
+        with mock.patch.object(run_tests, "BUILD", folder):
+            outcome = run_tests.reference_suite(
+                Bench(tools), "reference/known", str(folder / "known.cpp")
+            )
+        self.assertEqual(outcome.tests, {"norm": "passed", "off": "failed", "nan": "failed"})
+        self.assertEqual(len(outcome.failures), 2)
 
 
 class Python(unittest.TestCase):

@@ -43,7 +43,7 @@ The end.
 def unit(goals: int, harnesses: int, properties: int, bodies: int) -> dict[str, Any]:
     """A unit of the report of which everything is proved."""
     return {
-        "wp": {"goals": goals, "proved": goals, "not_proved_here": {}},
+        "wp": {"goals": goals, "proved": goals, "not_proved_here": {}, "not_by_wp": {}},
         "cbmc": {
             "properties": properties,
             "without_harness": {},
@@ -120,10 +120,12 @@ class StatusTest(unittest.TestCase):
         report["units"]["clock"]["cbmc"]["without_harness"] = {"f": "why"}
         report["units"]["queue"]["cbmc"]["without_harness"] = {"g": "why"}
         report["units"]["queue"]["wp"]["not_proved_here"] = {"h": "why"}
+        report["units"]["queue"]["wp"]["not_by_wp"] = {"k": "why"}
         self.assertEqual(self.run_status(report)[0], 0)
         text = self.readme.read_text(encoding="utf-8")
         self.assertIn("Without a harness (reasons in `proofs/units.toml`): `f`, `g`.\n", text)
-        self.assertIn("Not proved by WP (reasons in `proofs/units.toml`): `h`.\n", text)
+        self.assertIn("Declared without a body (reasons in `proofs/units.toml`): `h`.\n", text)
+        self.assertIn("Left to CBMC alone (reasons in `proofs/units.toml`): `k`.\n", text)
 
     def test_partial_report_is_refused(self) -> None:
         self.refused(a_report() | {"partial": True}, "not of all units")

@@ -129,6 +129,17 @@ class TraceTest(unittest.TestCase):
         self.assertEqual(self.orphans(), [
             "tests/unit/test_more.c: WID_009_more: there is no requirement WID-009"])  # fmt: skip
 
+    def test_reference_test_without_requirement(self) -> None:
+        self.write("tests/reference/test_more.cpp", 'suite.check("WID_009_more", ok, "no");\n')
+        self.assertEqual(self.orphans(), [
+            "tests/reference/test_more.cpp: WID_009_more: there is no requirement WID-009"
+        ])  # fmt: skip
+
+    def test_a_reference_test_is_enough_for_a_clause(self) -> None:
+        self.change("proofs/widget/turn_harness.c", "WID_001_turns", "turns")
+        self.write("tests/reference/test_more.cpp", 'suite.check("WID_001_at_" + which, ok, "");\n')
+        self.assertEqual(self.orphans(), [])
+
     def test_requirement_without_clause(self) -> None:
         self.write("include/keel/widget.h", "/** Turns. */\n")
         self.assertEqual(self.orphans(), [

@@ -1,0 +1,198 @@
+/**
+ * @file filter.h
+ * @brief Two-pole Butterworth low-pass: what the derivative of eq. 4 is taken from.
+ *
+ * The filter is the bilinear transform of H(s) = 1 / (s^2 + sqrt(2) s + 1), with the cut-off
+ * prewarped, so that its gain there is 1/sqrt(2) whatever the sample rate. It is realised as a
+ * state-variable filter of two trapezoidal integrators (topology-preserving transform), the first
+ * one's state scaled by 1/sqrt(2), which makes both couplings equal:
+ *
+ *     g = tan(pi cutoff / rate),  D = 1 + sqrt(2) g + g^2
+ *     a = g^2 / D,  b = sqrt(2) g / D,  c = 2 / D - 1
+ *     d = x - s2,  h = b s1 + a d,  y = s2 + h           y is the output
+ *     s1 <- c s1 + b d,  s2 <- y + h
+ *
+ * A constant input x is a fixed point (s1 = 0, s2 = x), however the coefficients are rounded: the
+ * gain at 0 Hz is 1. With cut-offs far below the rate it loses fewer bits than the direct forms do:
+ * what rounding adds grows as 2^-24 / g, there as 2^-24 / g^2.
+ *
+ * The states are bounded by construction: an input that is not finite or beyond
+ * KEEL_FILTER_INPUT_LIMIT is refused, and so is one that would lead to states with more energy
+ * than the filter's limit. A refused input changes nothing. In exact arithmetic the second never
+ * happens: inputs up to M lead to |(s1, s2)| < 1.4 M (1 + g) at most (tested, with the l1 norms of
+ * the impulse responses), which is well below the limit for the greatest M.
+ *
+ * Single precision throughout. Sources must be compiled without contraction of products and sums
+ * (ISO C mode, -std=c99, as all builds of Keel do).
+ */
+#ifndef KEEL_FLIGHT_FILTER_H
+#define KEEL_FLIGHT_FILTER_H
+
+#include "keel/status.h"
+
+/** Sample rates, in Hz; the least is 2^-10. */
+#define KEEL_FILTER_RATE_MIN_HZ 0.0009765625f
+#define KEEL_FILTER_RATE_MAX_HZ 1.0e6f
+
+/** The least cut-off, as a part of the sample rate: 2^-20, below which single precision can no
+ * longer follow. */
+#define KEEL_FILTER_RATIO_MIN 9.5367431640625e-7f
+
+/** The greatest input, in the input's unit. */
+#define KEEL_FILTER_INPUT_LIMIT 1.0e6f
+
+/** What an output never exceeds, whatever the cut-off and the inputs: 2^47. In exact arithmetic
+ * inputs up to M lead to less than 2.5 M, and to less than 1.12 M with cut-offs up to a tenth of
+ * the rate. */
+#define KEEL_FILTER_OUTPUT_LIMIT 140737488355328.0f
+
+/** What a state never exceeds: with a cut-off up to a quarter of the rate 2^22, else 2^45. */
+#define KEEL_FILTER_LOW_STATE_LIMIT  4194304.0f
+#define KEEL_FILTER_HIGH_STATE_LIMIT 35184372088832.0f
+
+/** What an output never exceeds, whatever the inputs: eight times the limit of a state. In exact
+ * arithmetic inputs up to M lead to less than 2.5 M, and to less than 1.3 M with cut-offs up to a
+ * quarter of the rate. */
+#define KEEL_FILTER_LOW_OUTPUT_LIMIT  33554432.0f
+#define KEEL_FILTER_HIGH_OUTPUT_LIMIT 281474976710656.0f
+
+/** The squares of the states' limits. */
+#define KEEL_FILTER_LOW_ENERGY_LIMIT  17592186044416.0f
+#define KEEL_FILTER_HIGH_ENERGY_LIMIT 1237940039285380274899124224.0f
+
+/** A filter: its coefficients, its state and its last output. */
+typedef struct keel_filter {
+    float a;            /**< g^2 / D, from 0 to 1. */
+    float b;            /**< sqrt(2) g / D, from 0 to 0.415. */
+    float c;            /**< 2 / D - 1, from -1 to 1. */
+    float energy_limit; /**< What s1^2 + s2^2 never exceeds, one of the two above. */
+    float s1;           /**< First integrator (band-pass). */
+    float s2;           /**< Second integrator (low-pass). */
+    float output;       /**< The last output, in the input's unit. */
+} keel_filter_t;
+
+/*@ predicate filter_magnitude(float value, real most) =
+  @     \is_finite(value) && -most <= value <= most;
+  @
+  @ // Wider than what the coefficients are, and enough for all that follows.
+  @ predicate filter_coefficients(keel_filter_t filter) =
+  @     filter_magnitude(filter.a, 2) && filter_magnitude(filter.b, 2) &&
+  @     filter_magnitude(filter.c, 2);
+  @
+  @ predicate filter_low(keel_filter_t filter) =
+  @     \is_finite(filter.energy_limit) && filter.energy_limit == KEEL_FILTER_LOW_ENERGY_LIMIT &&
+  @     filter_magnitude(filter.s1, KEEL_FILTER_LOW_STATE_LIMIT) &&
+  @     filter_magnitude(filter.s2, KEEL_FILTER_LOW_STATE_LIMIT) &&
+  @     filter_magnitude(filter.output, KEEL_FILTER_LOW_OUTPUT_LIMIT);
+  @
+  @ predicate filter_high(keel_filter_t filter) =
+  @     \is_finite(filter.energy_limit) && filter.energy_limit == KEEL_FILTER_HIGH_ENERGY_LIMIT &&
+  @     filter_magnitude(filter.s1, KEEL_FILTER_HIGH_STATE_LIMIT) &&
+  @     filter_magnitude(filter.s2, KEEL_FILTER_HIGH_STATE_LIMIT) &&
+  @     filter_magnitude(filter.output, KEEL_FILTER_HIGH_OUTPUT_LIMIT);
+  @
+  @ predicate filter_bounded(keel_filter_t filter) = filter_low(filter) || filter_high(filter);
+  @
+  @ // What init establishes and every step keeps.
+  @ predicate filter_valid(keel_filter_t filter) =
+  @     filter_coefficients(filter) && filter_bounded(filter);
+  @
+  @ predicate filter_input(float value) = filter_magnitude(value, KEEL_FILTER_INPUT_LIMIT);
+  @
+  @ predicate filter_rate(float rate_hz) =
+  @     \is_finite(rate_hz) && KEEL_FILTER_RATE_MIN_HZ <= rate_hz <= KEEL_FILTER_RATE_MAX_HZ;
+  @
+  @ predicate filter_cutoff(float rate_hz, float cutoff_hz) =
+  @     \is_finite(cutoff_hz) && 2 * cutoff_hz < rate_hz &&
+  @     rate_hz * KEEL_FILTER_RATIO_MIN <= cutoff_hz; // both products are exact in the code
+  @*/
+
+/**
+ * Makes a filter, at rest at 0 (requirements FLT-001 to FLT-003).
+ *
+ * The tangent is computed here, by a rational approximation whose relative error is at most 2^-20
+ * (tested over its range): no library call, neither here nor in a step.
+ *
+ * @param filter    the filter
+ * @param rate_hz   how often it will be stepped, KEEL_FILTER_RATE_MIN_HZ to
+ *                  KEEL_FILTER_RATE_MAX_HZ, in Hz
+ * @param cutoff_hz the frequency at which the gain is 1/sqrt(2): less than half of rate_hz, and at
+ *                  least KEEL_FILTER_RATIO_MIN of it, in Hz
+ * @return KEEL_OK; KEEL_ERR_RATE or KEEL_ERR_CUTOFF when one is not as said, NaN included: then
+ *         nothing is changed
+ */
+/*@ requires \valid(filter);
+  @ assigns *filter;
+  @ behavior bad_rate:
+  @   assumes !filter_rate(rate_hz);
+  @   assigns \nothing;
+  @   ensures FLT_001_rate: \result == KEEL_ERR_RATE;
+  @ behavior bad_cutoff:
+  @   assumes filter_rate(rate_hz) && !filter_cutoff(rate_hz, cutoff_hz);
+  @   assigns \nothing;
+  @   ensures FLT_001_cutoff: \result == KEEL_ERR_CUTOFF;
+  @ behavior made:
+  @   assumes filter_rate(rate_hz) && filter_cutoff(rate_hz, cutoff_hz);
+  @   ensures FLT_001_ok: \result == KEEL_OK;
+  @   ensures FLT_002_coefficients: filter_coefficients(*filter);
+  @   ensures FLT_003_rest: filter->s1 == 0 && filter->s2 == 0 && filter->output == 0;
+  @   ensures FLT_003_valid: filter_valid(*filter);
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_filter_init(keel_filter_t *filter, float rate_hz, float cutoff_hz);
+
+/**
+ * Puts a filter to rest at a value, as if that had been its input for ever (requirement FLT-004).
+ *
+ * @param filter the filter
+ * @param value  the value, up to KEEL_FILTER_INPUT_LIMIT
+ * @return KEEL_OK, or KEEL_ERR_INPUT when the value is not finite or beyond the limit: then nothing
+ *         is changed
+ */
+/*@ requires \valid(filter);
+  @ requires filter_valid(*filter);
+  @ assigns filter->s1, filter->s2, filter->output;
+  @ ensures FLT_004_coefficients: filter_coefficients(*filter);
+  @ ensures FLT_004_low: \old(filter_low(*filter)) ==> filter_low(*filter);
+  @ ensures FLT_004_high: \old(filter_high(*filter)) ==> filter_high(*filter);
+  @ behavior rest:
+  @   assumes filter_input(value);
+  @   ensures FLT_004_ok: \result == KEEL_OK;
+  @   ensures FLT_004_rest: filter->s1 == 0 && filter->s2 == value && filter->output == value;
+  @ behavior refused:
+  @   assumes !filter_input(value);
+  @   assigns \nothing;
+  @   ensures FLT_004_refused: \result == KEEL_ERR_INPUT;
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_filter_reset(keel_filter_t *filter, float value);
+
+/**
+ * Filters one sample; the result is filter->output (requirements FLT-005 to FLT-009).
+ *
+ * @param filter the filter
+ * @param input  the sample, any bit pattern
+ * @return KEEL_OK; KEEL_ERR_INPUT when the input is not finite, beyond KEEL_FILTER_INPUT_LIMIT, or
+ *         would take the states beyond their energy limit: then nothing is changed, the output is
+ *         the last one
+ */
+/*@ requires \valid(filter);
+  @ requires filter_valid(*filter);
+  @ assigns filter->s1, filter->s2, filter->output;
+  @ ensures FLT_005_status: \result == KEEL_OK || \result == KEEL_ERR_INPUT;
+  @ ensures FLT_005_bounded: filter_valid(*filter);
+  @ ensures FLT_009_output: \result == KEEL_OK ==> filter->output ==
+  @     (float)(\old(filter->s2) + (float)((float)(filter->b * \old(filter->s1))
+  @         + (float)(filter->a * (float)(input - \old(filter->s2)))));
+  @ ensures FLT_009_s1: \result == KEEL_OK ==> filter->s1 ==
+  @     (float)((float)(filter->c * \old(filter->s1))
+  @         + (float)(filter->b * (float)(input - \old(filter->s2))));
+  @ ensures FLT_006_input: \result == KEEL_OK ==> filter_input(input);
+  @ ensures FLT_006_held: \result == KEEL_ERR_INPUT ==> filter->s1 == \old(filter->s1) &&
+  @     filter->s2 == \old(filter->s2) && filter->output == \old(filter->output);
+  @*/
+keel_status_t keel_filter_step(keel_filter_t *filter, float input);
+
+#endif

@@ -1,0 +1,349 @@
+/**
+ * @file voter.h
+ * @brief One channel of a weighted average voter over 2 to 4 redundant sensors (eq. 16 to 18).
+ *
+ * Sensors that measure the same quantity vote on it. Each pair's agreement, 0 to 1, falls with the
+ * distance of their samples; a sensor's weight is the mean of its agreements with the others, and
+ * the output the weighted mean. Whatever the samples are, NaN and infinities included, the output
+ * is finite and lies between the smallest and the largest sample that contributed to it.
+ *
+ * What the voter does where the formulas are silent:
+ *
+ *   - A sample that is missing, not finite, implausible, late or stale has weight 0, and the vote
+ *     says why. So has one that agrees with no other.
+ *   - Samples that all disagree (two or more are usable, all weights are 0), or none that is
+ *     usable: the last output is held; the vote says for how many samples and how long.
+ *   - Only one usable sample: it is the output, marked as confirmed by nobody.
+ *   - A sensor is latched as faulty, and takes part no more from the next vote on, when it was
+ *     condemned in latch_count consecutive votes. A vote condemns a sensor whose own sample is
+ *     unusable, and one that at least two others could have agreed with and none did. With fewer
+ *     than two others nobody knows who is wrong: such a vote neither counts nor clears.
+ *   - Three sensors that all disagree are all condemned, as the paper has it. When all are latched
+ *     the output is held until one is readmitted.
+ *   - Two equal faulty sensors outvote a healthy third. No voter over three can tell.
+ *   - A bias that keeps some agreement is neither removed nor latched; its influence on the output
+ *     is bounded (VOT-015).
+ *   - A latched sensor is readmitted on request only.
+ */
+#ifndef KEEL_MIDDLEWARE_VOTER_H
+#define KEEL_MIDDLEWARE_VOTER_H
+
+#include "keel/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** The most sensors that can vote. */
+#ifndef KEEL_VOTER_SENSORS
+#define KEEL_VOTER_SENSORS 4u
+#endif
+/** The smallest (2^-10) and the largest distance of full agreement, in the channel's unit. */
+#define KEEL_VOTER_AGREE_MIN 0.0009765625f
+#define KEEL_VOTER_AGREE_MAX 1.0e3f
+/** The largest magnitude of a plausible sample and of n a, in the channel's unit. */
+#define KEEL_VOTER_RANGE 1.0e6f
+
+/* What became of a sensor's sample in a vote: keel_vote_t, reason. */
+#define KEEL_VOTER_USED         0u /**< It contributed. */
+#define KEEL_VOTER_OUTVOTED     1u /**< Usable, but it agrees with no other usable sample. */
+#define KEEL_VOTER_LATCHED      2u /**< The sensor is latched as faulty. */
+#define KEEL_VOTER_MISSING      3u /**< The sensor gave none. */
+#define KEEL_VOTER_NOT_FINITE   4u /**< It is NaN or infinite. */
+#define KEEL_VOTER_OUT_OF_RANGE 5u /**< It lies outside the plausibility limits. */
+#define KEEL_VOTER_LATE         6u /**< It is older than max_age_us. */
+#define KEEL_VOTER_STALE        7u /**< It has not changed while all others have. */
+
+/* How the output of a vote came about: keel_vote_t, state. */
+#define KEEL_VOTER_MEAN     0u /**< The weighted mean of two samples or more. */
+#define KEEL_VOTER_SINGLE   1u /**< The only usable sample, confirmed by none. */
+#define KEEL_VOTER_DISAGREE 2u /**< Held: the usable samples all disagree. */
+#define KEEL_VOTER_NONE     3u /**< Held: no sample is usable. */
+
+/** How a channel votes. All lengths in the channel's own unit, say rad/s. */
+typedef struct keel_voter_config {
+    float agree;   /**< a of eq. 16: full agreement up to this distance; AGREE_MIN to AGREE_MAX. */
+    float cutoff;  /**< n of eq. 16: no agreement from n a on; above 1, n a at most RANGE. */
+    float lowest;  /**< The smallest plausible sample, at least -RANGE. */
+    float highest; /**< The largest plausible sample, at least the smallest, at most RANGE. */
+    float initial; /**< The output before the first vote that has one; plausible. */
+    uint32_t max_age_us;    /**< An older sample is late; at least 1. */
+    uint16_t latch_count;   /**< Condemned in so many consecutive votes: latched; at least 1. */
+    uint16_t stale_count;   /**< Unchanged in so many votes while all others move; 0: never. */
+    uint16_t density_limit; /**< The leaky count that latches; 0: never (as the paper). */
+    uint8_t sensors;        /**< N: how many sensors vote, 2 to KEEL_VOTER_SENSORS. */
+} keel_voter_config_t;
+
+/** One sensor's sample. The value may be any bit pattern. */
+typedef struct keel_voter_sample {
+    float value;     /**< In the channel's unit. */
+    uint32_t age_us; /**< How long ago it was taken, in us. */
+    bool present;    /**< Whether the sensor gave one; else value and age do not matter. */
+} keel_voter_sample_t;
+
+/** The result of a vote. The slots of sensors that do not exist are 0. */
+typedef struct keel_vote {
+    float output;                       /**< In the channel's unit. */
+    float weight[KEEL_VOTER_SENSORS];   /**< Eq. 17 with 1/(N - 1), 0 to 1. */
+    uint32_t held;                      /**< Consecutive votes without output; saturates. */
+    uint32_t held_us;                   /**< How long that is, in us; saturates. */
+    uint8_t reason[KEEL_VOTER_SENSORS]; /**< KEEL_VOTER_USED, or why the weight is 0. */
+    uint8_t state;                      /**< KEEL_VOTER_MEAN, ... */
+} keel_vote_t;
+
+/** What the voter remembers of a sensor. */
+typedef struct keel_voter_sensor {
+    float last;       /**< Its last finite sample; at first the initial output. */
+    uint16_t same;    /**< Votes in which it alone did not change; saturates. */
+    uint16_t null;    /**< Consecutive votes that condemned it; saturates. */
+    uint16_t density; /**< One up per vote that condemned it, one down per agreement. */
+    bool latched;     /**< Whether it is latched as faulty. */
+} keel_voter_sensor_t;
+
+/** A channel. Written by the functions below alone; all of it may be read. */
+typedef struct keel_voter {
+    keel_voter_config_t config;
+    float none; /**< n a: no agreement from here on. */
+    keel_voter_sensor_t sensor[KEEL_VOTER_SENSORS];
+    keel_vote_t vote; /**< The last one. */
+} keel_voter_t;
+
+/*@ predicate agreement_valid(keel_voter_config_t c) =
+  @     \is_finite(c.agree) && KEEL_VOTER_AGREE_MIN <= c.agree <= KEEL_VOTER_AGREE_MAX;
+  @ predicate cutoff_valid(keel_voter_config_t c) =
+  @     \is_finite(c.cutoff) && 1 < c.cutoff <= KEEL_VOTER_RANGE / KEEL_VOTER_AGREE_MIN &&
+  @     c.agree < (float)(c.cutoff * c.agree) <= KEEL_VOTER_RANGE;
+  @ predicate limits_valid(keel_voter_config_t c) =
+  @     \is_finite(c.lowest) && \is_finite(c.highest) &&
+  @     -KEEL_VOTER_RANGE <= c.lowest <= c.highest <= KEEL_VOTER_RANGE;
+  @ predicate initial_valid(keel_voter_config_t c) =
+  @     \is_finite(c.initial) && c.lowest <= c.initial <= c.highest;
+  @ predicate voter_config_valid(keel_voter_config_t c) =
+  @     2 <= c.sensors <= KEEL_VOTER_SENSORS && agreement_valid(c) && cutoff_valid(c) &&
+  @     limits_valid(c) && initial_valid(c) && c.max_age_us > 0 && c.latch_count > 0;
+  @
+  @ // What holds of a channel between any two calls.
+  @ predicate voter_valid(keel_voter_t *v) =
+  @     voter_config_valid(v->config) && v->none == (float)(v->config.cutoff * v->config.agree) &&
+  @     \is_finite(v->vote.output) && v->config.lowest <= v->vote.output <= v->config.highest &&
+  @     \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==> \is_finite(v->sensor[i].last);
+  @*/
+
+/**
+ * Checks a configuration (requirement VOT-001): the fields in their order, the first that is wrong
+ * gives the status.
+ *
+ * @param config the configuration; any bit pattern
+ * @return KEEL_OK; KEEL_ERR_SENSORS, KEEL_ERR_AGREEMENT (agree), KEEL_ERR_CUTOFF (cutoff),
+ *         KEEL_ERR_LIMITS (lowest, highest), KEEL_ERR_INITIAL, KEEL_ERR_AGE (max_age_us) or
+ *         KEEL_ERR_LATCH (latch_count): the field that is wrong
+ */
+/*@ requires \valid_read(config);
+  @ assigns \nothing;
+  @ ensures VOT_001_accepted: \result == KEEL_OK <==> voter_config_valid(*config);
+  @ ensures VOT_001_sensors: \result == KEEL_ERR_SENSORS <==>
+  @     !(2 <= config->sensors <= KEEL_VOTER_SENSORS);
+  @ ensures VOT_001_agreement: \result == KEEL_ERR_AGREEMENT ==> !agreement_valid(*config);
+  @ ensures VOT_001_cutoff: \result == KEEL_ERR_CUTOFF ==> !cutoff_valid(*config);
+  @ ensures VOT_001_limits: \result == KEEL_ERR_LIMITS ==> !limits_valid(*config);
+  @ ensures VOT_001_initial: \result == KEEL_ERR_INITIAL ==> !initial_valid(*config);
+  @ ensures VOT_001_age: \result == KEEL_ERR_AGE ==> config->max_age_us == 0;
+  @ ensures VOT_001_latch: \result == KEEL_ERR_LATCH ==> config->latch_count == 0;
+  @*/
+keel_status_t keel_voter_check(const keel_voter_config_t *config);
+
+/**
+ * Makes a channel ready for its first vote (requirement VOT-002). A copy of the configuration is
+ * kept.
+ *
+ * @param voter  the channel
+ * @param config how it votes
+ * @return KEEL_OK, or what keel_voter_check returns; the channel is not touched then
+ */
+/*@ requires \valid(voter) && \valid_read(config) && \separated(voter, config);
+  @ assigns *voter;
+  @ ensures VOT_002_refused: !voter_config_valid(*config) ==> \result != KEEL_OK;
+  @ ensures VOT_002_ready: voter_config_valid(*config) ==>
+  @     \result == KEEL_OK && voter_valid(voter);
+  @ ensures VOT_002_output: \result == KEEL_OK ==> voter->vote.output == config->initial;
+  @ ensures VOT_002_fresh: \result == KEEL_OK ==>
+  @     \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==>
+  @         !voter->sensor[i].latched && voter->sensor[i].null == 0 &&
+  @         voter->sensor[i].density == 0 && voter->sensor[i].same == 0;
+  @*/
+keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *config);
+
+/**
+ * The agreement of two samples (eq. 16, requirements VOT-003 and VOT-004): 1 up to the distance a,
+ * 0 from n a on, (n a - d)/(n a - a) between. In this form the quotient never exceeds 1, where
+ * that of eq. 16 does once it is rounded.
+ *
+ * @param distance d, the distance of the two, finite and not negative
+ * @param agree    a, KEEL_VOTER_AGREE_MIN to KEEL_VOTER_AGREE_MAX
+ * @param none     n a, above a, at most KEEL_VOTER_RANGE
+ * @return the agreement, 0 to 1; 0 from n a on only
+ */
+/*@ requires \is_finite(distance) && 0 <= distance;
+  @ requires \is_finite(agree) && KEEL_VOTER_AGREE_MIN <= agree <= KEEL_VOTER_AGREE_MAX;
+  @ requires \is_finite(none) && agree < none <= KEEL_VOTER_RANGE;
+  @ assigns \nothing;
+  @ ensures VOT_003_full: distance <= agree ==> \result == 1;
+  @ ensures VOT_003_none: distance >= none ==> \result == 0;
+  @ ensures VOT_003_some: distance < none ==> \result > 0;
+  @ ensures VOT_004: \is_finite(\result) && 0 <= \result <= 1;
+  @*/
+float keel_voter_agreement(float distance, float agree, float none);
+
+/*@ // A weight, or an agreement, that a quotient can do with: 0, or not below 2^-24 / 3.
+  @ predicate weight_valid(float w) = \is_finite(w) && (w == 0 || 0x1p-26 <= w <= 1);
+  @*/
+
+/**
+ * The weight of a sample (eq. 17, requirement VOT-006): the mean of its agreements with the others.
+ *
+ * @param agreement its agreements, each 0 or from 2^-24 to 1
+ * @param others    how many there are, N - 1: 1 to KEEL_VOTER_SENSORS - 1
+ * @return the weight, 0 to 1; 0 only when all agreements are
+ */
+/*@ requires 1 <= others < KEEL_VOTER_SENSORS && \valid_read(agreement + (0 .. others - 1));
+  @ requires \forall integer i; 0 <= i < others ==> \is_finite(agreement[i]) &&
+  @     (agreement[i] == 0 || 0x1p-24 <= agreement[i] <= 1);
+  @ assigns \nothing;
+  @ ensures VOT_006_range: weight_valid(\result);
+  @ ensures VOT_006_null: \result == 0 <==>
+  @     \forall integer i; 0 <= i < others ==> agreement[i] == 0;
+  @*/
+float keel_voter_weight(const float agreement[], uint32_t others);
+
+/**
+ * The weighted mean of samples (eq. 18, requirement VOT-005). Rounded, the quotient may leave the
+ * samples by a few units in the last place (VOT-016), so it is clamped to those that contribute.
+ *
+ * @param sample  the samples; those with a weight are finite, in magnitude at most
+ *                KEEL_VOTER_RANGE
+ * @param weight  their weights: 0, or 2^-26 to 1, not all of them 0
+ * @param sensors how many there are, 1 to KEEL_VOTER_SENSORS
+ * @return the mean, between the smallest and the largest sample with a weight
+ */
+/*@ requires 1 <= sensors <= KEEL_VOTER_SENSORS;
+  @ requires \valid_read(sample + (0 .. sensors - 1)) && \valid_read(weight + (0 .. sensors - 1));
+  @ requires \forall integer i; 0 <= i < sensors ==> weight_valid(weight[i]);
+  @ requires \forall integer i; 0 <= i < sensors && weight[i] > 0 ==>
+  @     \is_finite(sample[i].value) &&
+  @     -KEEL_VOTER_RANGE <= sample[i].value <= KEEL_VOTER_RANGE;
+  @ requires \exists integer i; 0 <= i < sensors && weight[i] > 0;
+  @ assigns \nothing;
+  @ ensures VOT_005_finite: \is_finite(\result);
+  @ ensures VOT_005_above: \exists integer i; 0 <= i < sensors && weight[i] > 0 &&
+  @     sample[i].value <= \result;
+  @ ensures VOT_005_below: \exists integer i; 0 <= i < sensors && weight[i] > 0 &&
+  @     \result <= sample[i].value;
+  @*/
+float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[],
+                         uint32_t sensors);
+
+/**
+ * Takes one vote (requirements VOT-005 to VOT-013). Its result is in voter->vote.
+ *
+ * @param voter      the channel, initialised
+ * @param sample     a sample per sensor, N of them, in the order of the sensors; any bit pattern
+ * @param elapsed_us the time since the last vote, in us: how long a held output lasts
+ */
+/*@ requires \valid(voter) && voter_valid(voter);
+  @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
+  @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
+  @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1], voter->vote;
+  @ ensures VOT_005_valid: voter_valid(voter);
+  @ ensures VOT_005_hull: voter->vote.state == KEEL_VOTER_MEAN ==>
+  @     (\exists integer i; 0 <= i < voter->config.sensors &&
+  @         voter->vote.reason[i] == KEEL_VOTER_USED && sample[i].value <= voter->vote.output) &&
+  @     (\exists integer i; 0 <= i < voter->config.sensors &&
+  @         voter->vote.reason[i] == KEEL_VOTER_USED && voter->vote.output <= sample[i].value);
+  @ ensures VOT_006_weights: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     0 <= voter->vote.weight[i] <= 1;
+  @ ensures VOT_006_reason: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     (voter->vote.weight[i] > 0 <==> voter->vote.reason[i] == KEEL_VOTER_USED);
+  @ ensures VOT_007_latched: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     (\old(voter->sensor[i].latched) <==> voter->vote.reason[i] == KEEL_VOTER_LATCHED);
+  @ ensures VOT_007_missing: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     (voter->vote.reason[i] == KEEL_VOTER_MISSING <==>
+  @         (!\old(voter->sensor[i].latched) && !sample[i].present));
+  @ ensures VOT_007_finite: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     (voter->vote.reason[i] == KEEL_VOTER_NOT_FINITE <==>
+  @         (!\old(voter->sensor[i].latched) && sample[i].present &&
+  @             !\is_finite(sample[i].value)));
+  @ ensures VOT_007_usable: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     (voter->vote.reason[i] <= KEEL_VOTER_OUTVOTED || voter->vote.reason[i] == KEEL_VOTER_STALE)
+  @         ==> (sample[i].present && \is_finite(sample[i].value) &&
+  @             voter->config.lowest <= sample[i].value <= voter->config.highest &&
+  @             sample[i].age_us <= voter->config.max_age_us);
+  @ ensures VOT_008_hold: voter->vote.state >= KEEL_VOTER_DISAGREE ==>
+  @     voter->vote.output == \old(voter->vote.output);
+  @ ensures VOT_008_held: voter->vote.held == ((voter->vote.state < KEEL_VOTER_DISAGREE) ? 0 :
+  @     ((\old(voter->vote.held) < UINT32_MAX) ? \old(voter->vote.held) + 1 : UINT32_MAX));
+  @ ensures VOT_008_held_us: voter->vote.held_us == ((voter->vote.state < KEEL_VOTER_DISAGREE) ? 0
+  @     : \min(\old(voter->vote.held_us) + elapsed_us, UINT32_MAX));
+  @ ensures VOT_009_single: voter->vote.state == KEEL_VOTER_SINGLE ==>
+  @     \exists integer i; 0 <= i < voter->config.sensors &&
+  @         voter->vote.reason[i] == KEEL_VOTER_USED && voter->vote.output == sample[i].value;
+  @ ensures VOT_010_count: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     !\old(voter->sensor[i].latched) ==>
+  @     (voter->sensor[i].null == 0 ||
+  @      voter->sensor[i].null == \old(voter->sensor[i].null) ||
+  @      voter->sensor[i].null == \old(voter->sensor[i].null) + 1);
+  @ ensures VOT_010_condemned: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     voter->vote.reason[i] >= KEEL_VOTER_MISSING ==> voter->sensor[i].null ==
+  @         ((\old(voter->sensor[i].null) < UINT16_MAX) ? \old(voter->sensor[i].null) + 1
+  @                                                    : UINT16_MAX);
+  @ ensures VOT_010_clear: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     voter->vote.reason[i] == KEEL_VOTER_USED ==> voter->sensor[i].null == 0;
+  @ ensures VOT_011_latch: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     !\old(voter->sensor[i].latched) ==>
+  @     (voter->sensor[i].latched <==>
+  @         (voter->sensor[i].null >= voter->config.latch_count ||
+  @          (voter->config.density_limit > 0 &&
+  @           voter->sensor[i].density >= voter->config.density_limit)));
+  @ ensures VOT_011_stays: \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==>
+  @     \old(voter->sensor[i].latched) ==> voter->sensor[i].latched;
+  @ ensures VOT_012_density: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     (voter->vote.reason[i] == KEEL_VOTER_USED ==> voter->sensor[i].density ==
+  @         ((\old(voter->sensor[i].density) > 0) ? \old(voter->sensor[i].density) - 1 : 0));
+  @ ensures VOT_013_stale: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     voter->vote.reason[i] == KEEL_VOTER_STALE ==>
+  @         (0 < voter->config.stale_count <= voter->sensor[i].same);
+  @*/
+void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us);
+
+/**
+ * Readmits a latched sensor (requirement VOT-014): it votes again from the next vote on, with all
+ * its counts at 0.
+ *
+ * @param voter  the channel
+ * @param sensor its index
+ * @return KEEL_OK; KEEL_ERR_SENSORS when there is no such sensor, KEEL_ERR_STATE when it is not
+ *         latched
+ */
+/*@ requires \valid(voter) && voter->config.sensors <= KEEL_VOTER_SENSORS;
+  @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1];
+  @ behavior unknown:
+  @   assumes sensor >= voter->config.sensors;
+  @   assigns \nothing;
+  @   ensures VOT_014_unknown: \result == KEEL_ERR_SENSORS;
+  @ behavior healthy:
+  @   assumes sensor < voter->config.sensors;
+  @   assumes !voter->sensor[sensor].latched;
+  @   assigns \nothing;
+  @   ensures VOT_014_healthy: \result == KEEL_ERR_STATE;
+  @ behavior latched:
+  @   assumes sensor < voter->config.sensors;
+  @   assumes voter->sensor[sensor].latched;
+  @   assigns voter->sensor[sensor];
+  @   ensures VOT_014_readmitted: \result == KEEL_OK && !voter->sensor[sensor].latched &&
+  @       voter->sensor[sensor].null == 0 && voter->sensor[sensor].density == 0 &&
+  @       voter->sensor[sensor].same == 0;
+  @   ensures VOT_014_last: voter->sensor[sensor].last == \old(voter->sensor[sensor].last);
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_voter_readmit(keel_voter_t *voter, uint32_t sensor);
+
+#endif

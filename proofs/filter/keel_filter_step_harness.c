@@ -1,0 +1,32 @@
+// cbmc: --external-sat-solver cadical
+// sources: src/flight/filter.c
+// covers: keel_filter_step is_sample
+//
+// Any valid filter, any bit pattern: one step of the induction that bounds the states.
+#include "../common/keel_flight_proof.h"
+
+void keel_filter_step_harness(void)
+{
+    const float input = nondet_float();
+    keel_filter_t filter;
+    keel_filter_t before;
+    keel_status_t status;
+
+    any_filter(&filter);
+    before = filter;
+
+    status = keel_filter_step(&filter, input);
+
+    __CPROVER_assert((status == KEEL_OK) || (status == KEEL_ERR_INPUT),
+                     "FLT_005_status: taken or refused");
+    __CPROVER_assert(filter_coefficients_here(&filter) && filter_bounded_here(&filter),
+                     "FLT_005_bounded: states and output in bounds");
+    if (status == KEEL_OK) {
+        __CPROVER_assert(filter_input_here(input), "FLT_006_input: what is taken is in range");
+        before.s1 = filter.s1;
+        before.s2 = filter.s2;
+        before.output = filter.output;
+    }
+    __CPROVER_assert(filter_same(&filter, &before),
+                     "FLT_006_held: a refusal changes nothing, a step no coefficient");
+}

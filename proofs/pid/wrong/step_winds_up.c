@@ -1,0 +1,167 @@
+// harness: keel_pid_step_harness
+// expect: PID_010_at_max
+//
+// The integral moves on while the output is at its upper limit.
+#include "keel/flight/pid.h"
+
+static bool is_gain(float gain)
+{
+    return (gain >= 0.0f) && (gain <= KEEL_PID_GAIN_LIMIT);
+}
+
+static bool are_gains(const keel_pid_gains_t *gains)
+{
+    return is_gain(gains->kp) && is_gain(gains->ki) && is_gain(gains->kd) && is_gain(gains->kff);
+}
+
+static bool is_limit(float value)
+{
+    return (value >= -KEEL_PID_OUTPUT_LIMIT) && (value <= KEEL_PID_OUTPUT_LIMIT);
+}
+
+static bool are_limits(const keel_pid_config_t *config)
+{
+    return is_limit(config->output_min) && is_limit(config->output_max) &&
+           is_limit(config->integral_min) && is_limit(config->integral_max) &&
+           (config->output_min < config->output_max) && (config->integral_min <= 0.0f) &&
+           (config->integral_max >= 0.0f);
+}
+
+static bool is_input(float value)
+{
+    return (value >= -KEEL_PID_INPUT_LIMIT) && (value <= KEEL_PID_INPUT_LIMIT);
+}
+
+static float clamp(float value, float least, float greatest)
+{
+    if (value > greatest) {
+        return greatest;
+    }
+    return (value < least) ? least : value;
+}
+
+/* All terms of eq. 4 but the integral. */
+static float direct_terms(const keel_pid_gains_t *gains, float setpoint, float error,
+                          float derivative)
+{
+    return ((gains->kp * error) + (gains->kff * setpoint)) + (gains->kd * derivative);
+}
+
+keel_status_t keel_pid_init(keel_pid_t *pid, const keel_pid_config_t *config)
+{
+    keel_filter_t filter;
+    keel_status_t status;
+
+    if (!are_gains(&config->gains)) {
+        return KEEL_ERR_GAIN;
+    }
+    if (!are_limits(config)) {
+        return KEEL_ERR_LIMITS;
+    }
+    status = keel_filter_init(&filter, config->rate_hz, config->cutoff_hz);
+    if (status != KEEL_OK) {
+        return status;
+    }
+    pid->config = *config;
+    pid->filter = filter;
+    pid->integral_gain = config->gains.ki / config->rate_hz;
+    keel_pid_reset(pid);
+    return KEEL_OK;
+}
+
+void keel_pid_reset(keel_pid_t *pid)
+{
+    pid->integral = 0.0f;
+    pid->setpoint = 0.0f;
+    pid->error = 0.0f;
+    pid->derivative = 0.0f;
+    pid->output = clamp(0.0f, pid->config.output_min, pid->config.output_max);
+    pid->saturation = KEEL_PID_FREE;
+    pid->started = false;
+}
+
+keel_status_t keel_pid_set_gains(keel_pid_t *pid, const keel_pid_gains_t *gains)
+{
+    float before;
+    float after;
+
+    if (!are_gains(gains)) {
+        return KEEL_ERR_GAIN;
+    }
+    before = direct_terms(&pid->config.gains, pid->setpoint, pid->error, pid->derivative);
+    after = direct_terms(gains, pid->setpoint, pid->error, pid->derivative);
+    pid->integral = clamp(pid->integral + (before - after), pid->config.integral_min,
+                          pid->config.integral_max);
+    pid->config.gains = *gains;
+    pid->integral_gain = gains->ki / pid->config.rate_hz;
+    return KEEL_OK;
+}
+
+/* Moves the low-pass on, and the derivative with it. The first error is where the low-pass starts
+ * from, as if it had been there for ever. */
+static keel_status_t differentiate(keel_pid_t *pid, float error)
+{
+    const float before = pid->started ? pid->filter.output : error;
+    const keel_status_t status = pid->started ? keel_filter_step(&pid->filter, error)
+                                              : keel_filter_reset(&pid->filter, error);
+
+    if (status == KEEL_OK) {
+        pid->derivative = (pid->filter.output - before) * pid->config.rate_hz;
+    }
+    return status;
+}
+
+static bool winds_up(const keel_pid_t *pid, float output, float moved)
+{
+    return ((output > pid->config.output_max) && (moved > pid->config.integral_max)) ||
+           ((output < pid->config.output_min) && (moved < pid->integral));
+}
+
+/* The output before it is limited. The integral moves, but not further in the direction in which
+ * the output is beyond a limit. */
+static float integrate(keel_pid_t *pid, float direct, float error)
+{
+    const float moved = clamp(pid->integral + (pid->integral_gain * error),
+                              pid->config.integral_min, pid->config.integral_max);
+    const float output = direct + moved;
+
+    if (winds_up(pid, output, moved)) {
+        return direct + pid->integral;
+    }
+    pid->integral = moved;
+    return output;
+}
+
+static void put_out(keel_pid_t *pid, float output)
+{
+    pid->saturation = KEEL_PID_FREE;
+    pid->output = output;
+    if (output > pid->config.output_max) {
+        pid->saturation = KEEL_PID_AT_MAX;
+        pid->output = pid->config.output_max;
+    }
+    if (output < pid->config.output_min) {
+        pid->saturation = KEEL_PID_AT_MIN;
+        pid->output = pid->config.output_min;
+    }
+}
+
+keel_status_t keel_pid_step(keel_pid_t *pid, float setpoint, float measurement)
+{
+    float error;
+    float direct;
+
+    if (!(is_input(setpoint) && is_input(measurement))) {
+        return KEEL_ERR_INPUT;
+    }
+    error = setpoint - measurement;
+    if (differentiate(pid, error) != KEEL_OK) {
+        return KEEL_ERR_INPUT;
+    }
+    direct = direct_terms(&pid->config.gains, setpoint, error, pid->derivative);
+    put_out(pid, integrate(pid, direct, error));
+    pid->setpoint = setpoint;
+    pid->error = error;
+    pid->started = true;
+    return KEEL_OK;
+}

@@ -1,0 +1,43 @@
+// cbmc: --unwind 7 --external-sat-solver cadical
+// sources: src/middleware/virtual_imu.c src/middleware/voter.c
+// covers: keel_virtual_imu_init
+#include "keel/middleware/virtual_imu.h"
+
+#include "../common/voter_proof.h"
+
+void keel_virtual_imu_init_harness(void)
+{
+    keel_virtual_imu_t imu;
+    keel_imu_config_t config;
+    keel_status_t status;
+
+    config.accelerometer = any_voter_config();
+    config.gyroscope = any_voter_config();
+    imu.used[0] = nondet_u8();
+    imu.channel[5].vote.held = nondet_u32();
+    imu.channel[0].config.agree = 0.25f;
+    const uint8_t used = imu.used[0];
+    const uint32_t held = imu.channel[5].vote.held;
+
+    status = keel_virtual_imu_init(&imu, &config);
+
+    if (status == KEEL_OK) {
+        __CPROVER_assert(agreement_valid_here(&config.accelerometer) &&
+                             limits_valid_here(&config.accelerometer) &&
+                             agreement_valid_here(&config.gyroscope) &&
+                             limits_valid_here(&config.gyroscope) &&
+                             (config.accelerometer.sensors == config.gyroscope.sensors),
+                         "IMU_001_refused: nothing invalid is accepted");
+        __CPROVER_assert((imu.channel[0].config.agree == config.accelerometer.agree) &&
+                             (imu.channel[2].config.lowest == config.accelerometer.lowest) &&
+                             (imu.channel[3].config.agree == config.gyroscope.agree) &&
+                             (imu.channel[5].config.lowest == config.gyroscope.lowest) &&
+                             (imu.channel[5].vote.held == 0u) && (imu.used[0] == 0u) &&
+                             (imu.latched[1] == 0u),
+                         "IMU_001_ready: each channel has its configuration");
+    } else {
+        __CPROVER_assert((imu.used[0] == used) && (imu.channel[5].vote.held == held) &&
+                             (imu.channel[0].config.agree == 0.25f),
+                         "IMU_001_unchanged: a refusal changes nothing");
+    }
+}

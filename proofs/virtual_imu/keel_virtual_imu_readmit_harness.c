@@ -1,0 +1,40 @@
+// cbmc: --unwind 7 --external-sat-solver cadical
+// sources: src/middleware/virtual_imu.c src/middleware/voter.c
+// defines: -DKEEL_VOTER_SENSORS=2u
+// covers: keel_virtual_imu_readmit
+#include "keel/middleware/virtual_imu.h"
+
+#include "../common/voter_proof.h"
+
+void keel_virtual_imu_readmit_harness(void)
+{
+    keel_virtual_imu_t imu;
+    const uint32_t unit = nondet_u32();
+    bool was = false;
+    bool is = false;
+    bool other = false;
+    keel_status_t status;
+
+    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+        imu.channel[k].config.sensors = 2u;
+        imu.channel[k].sensor[0] = any_sensor();
+        imu.channel[k].sensor[1] = any_sensor();
+        was = was || ((unit == 0u) && imu.channel[k].sensor[0].latched) ||
+              ((unit == 1u) && imu.channel[k].sensor[1].latched);
+    }
+    imu.latched[0] = nondet_u8();
+    imu.latched[1] = nondet_u8();
+    other = imu.channel[3].sensor[1].latched;
+
+    status = keel_virtual_imu_readmit(&imu, unit);
+
+    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+        is = is || ((unit == 0u) && imu.channel[k].sensor[0].latched) ||
+             ((unit == 1u) && imu.channel[k].sensor[1].latched);
+    }
+    __CPROVER_assert((status == KEEL_ERR_SENSORS) == (unit > 1u), "IMU_004_unknown: no such unit");
+    __CPROVER_assert((status == KEEL_OK) == was, "IMU_004_refused: none of its is latched");
+    __CPROVER_assert((status != KEEL_OK) || !is, "IMU_004_readmitted: all of its channels are");
+    __CPROVER_assert((unit == 1u) || (imu.channel[3].sensor[1].latched == other),
+                     "IMU_004_frame: the other unit stays");
+}

@@ -1,0 +1,85 @@
+// harness: keel_virtual_imu_step_harness
+// expect: IMU_003_latched
+//
+// The latches of one channel stand at the next one's bit.
+#include "keel/middleware/virtual_imu.h"
+
+keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu, const keel_imu_config_t *config)
+{
+    const keel_status_t accelerometer = keel_voter_check(&config->accelerometer);
+    const keel_status_t gyroscope = keel_voter_check(&config->gyroscope);
+
+    if (accelerometer != KEEL_OK) {
+        return accelerometer;
+    }
+    if (gyroscope != KEEL_OK) {
+        return gyroscope;
+    }
+    if (config->accelerometer.sensors != config->gyroscope.sensors) {
+        return KEEL_ERR_SENSORS;
+    }
+    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+        /* Both are valid, so this refuses nothing. */
+        (void)keel_voter_init(&imu->channel[k], (k < KEEL_IMU_ACCELEROMETER)
+                                                    ? &config->accelerometer
+                                                    : &config->gyroscope);
+    }
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        imu->used[i] = 0u;
+        imu->latched[i] = 0u;
+    }
+    return KEEL_OK;
+}
+
+/* Gathers the verdicts of all channels on one unit. */
+static void gather(keel_virtual_imu_t *imu, uint32_t unit)
+{
+    uint32_t used = 0u;
+    uint32_t latched = 0u;
+
+    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+        const keel_voter_t *const channel = &imu->channel[k];
+
+        used |= (channel->vote.reason[unit] == KEEL_VOTER_USED) ? (1u << k) : 0u;
+        latched |= channel->sensor[unit].latched ? (2u << k) : 0u;
+    }
+    imu->used[unit] = (uint8_t)used;
+    imu->latched[unit] = (uint8_t)latched;
+}
+
+void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_imu_sample_t sample[],
+                           uint32_t elapsed_us)
+{
+    const uint32_t units = imu->channel[0].config.sensors;
+    keel_voter_sample_t one[KEEL_VOTER_SENSORS];
+
+    for (uint32_t i = 0u; i < units; i++) {
+        one[i].age_us = sample[i].age_us;
+        one[i].present = sample[i].present;
+    }
+    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+        for (uint32_t i = 0u; i < units; i++) {
+            one[i].value = sample[i].value[k];
+        }
+        keel_voter_step(&imu->channel[k], one, elapsed_us);
+    }
+    for (uint32_t i = 0u; i < units; i++) {
+        gather(imu, i);
+    }
+}
+
+keel_status_t keel_virtual_imu_readmit(keel_virtual_imu_t *imu, uint32_t unit)
+{
+    keel_status_t status = KEEL_ERR_STATE;
+
+    if (unit >= imu->channel[0].config.sensors) {
+        return KEEL_ERR_SENSORS;
+    }
+    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+        if (keel_voter_readmit(&imu->channel[k], unit) == KEEL_OK) {
+            status = KEEL_OK;
+        }
+    }
+    imu->latched[unit] = 0u;
+    return status;
+}

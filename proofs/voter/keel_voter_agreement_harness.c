@@ -1,0 +1,30 @@
+// cbmc: --external-sat-solver cadical
+// sources: src/middleware/voter.c
+// covers: keel_voter_agreement
+//
+// Every a and n a that a configuration may give, every finite distance.
+#include "../common/voter_proof.h"
+
+void keel_voter_agreement_harness(void)
+{
+    const float agree = nondet_float();
+    const float none = nondet_float();
+    const float distance = nondet_float();
+    float s;
+
+    __CPROVER_assume((KEEL_VOTER_AGREE_MIN <= agree) && (agree <= KEEL_VOTER_AGREE_MAX));
+    __CPROVER_assume((agree < none) && (none <= KEEL_VOTER_RANGE));
+    __CPROVER_assume((0.0f <= distance) && finite_here(distance));
+
+    s = keel_voter_agreement(distance, agree, none);
+
+    __CPROVER_assert((s >= 0.0f) && (s <= 1.0f), "VOT_004: an agreement lies in [0, 1]");
+    if (distance <= agree) {
+        __CPROVER_assert(s == 1.0f, "VOT_003_full: 1 up to a");
+    } else if (distance >= none) {
+        __CPROVER_assert(s == 0.0f, "VOT_003_none: 0 from n a on");
+    } else {
+        __CPROVER_assert(s > 0.0f, "VOT_003_some: not 0 before n a");
+        __CPROVER_assert(s >= 0x1p-24f, "VOT_003_least: nor too small to divide by");
+    }
+}

@@ -1,0 +1,55 @@
+// cbmc: --unwind 5 --external-sat-solver cadical
+// sources: src/middleware/voter.c
+// covers: keel_voter_init
+#include "../common/voter_proof.h"
+
+void keel_voter_init_harness(void)
+{
+    keel_voter_t voter;
+    keel_voter_t before;
+    const keel_voter_config_t config = any_voter_config();
+    const uint32_t i = nondet_u32();
+    keel_status_t status;
+
+    any_voter(&voter, 1.0f, 3.0f);
+    before = voter;
+    __CPROVER_assume(i < SENSORS);
+
+    status = keel_voter_init(&voter, &config);
+
+    if (status == KEEL_OK) {
+        __CPROVER_assert(agreement_valid_here(&config) && limits_valid_here(&config) &&
+                             initial_valid_here(&config) && (config.latch_count > 0u),
+                         "VOT_002_refused: nothing invalid is accepted");
+        __CPROVER_assert((voter.config.agree == config.agree) &&
+                             (voter.config.cutoff == config.cutoff) &&
+                             (voter.config.lowest == config.lowest) &&
+                             (voter.config.highest == config.highest) &&
+                             (voter.config.initial == config.initial) &&
+                             (voter.config.max_age_us == config.max_age_us) &&
+                             (voter.config.latch_count == config.latch_count) &&
+                             (voter.config.stale_count == config.stale_count) &&
+                             (voter.config.density_limit == config.density_limit) &&
+                             (voter.config.sensors == config.sensors),
+                         "VOT_002_ready: the configuration is kept");
+        __CPROVER_assert((voter.none == (config.cutoff * config.agree)) &&
+                             (voter.none > voter.config.agree) && (voter.none <= KEEL_VOTER_RANGE),
+                         "VOT_002_ready: n a");
+        __CPROVER_assert((voter.vote.output == config.initial) && (voter.vote.held == 0u) &&
+                             (voter.vote.held_us == 0u) && (voter.vote.state == KEEL_VOTER_NONE),
+                         "VOT_002_output: the initial output");
+        __CPROVER_assert(!voter.sensor[i].latched && (voter.sensor[i].null == 0u) &&
+                             (voter.sensor[i].density == 0u) && (voter.sensor[i].same == 0u) &&
+                             (voter.sensor[i].last == config.initial) &&
+                             (voter.vote.weight[i] == 0.0f) && (voter.vote.reason[i] == 0u),
+                         "VOT_002_fresh: nothing is remembered");
+    } else {
+        __CPROVER_assert((voter.config.agree == before.config.agree) &&
+                             (voter.config.sensors == before.config.sensors) &&
+                             (voter.none == before.none) &&
+                             (voter.vote.output == before.vote.output) &&
+                             (voter.vote.state == before.vote.state) &&
+                             sensor_same(&voter.sensor[i], &before.sensor[i]),
+                         "VOT_002_unchanged: a refusal changes nothing");
+    }
+}

@@ -1,0 +1,128 @@
+/* Unit tests of keel/middleware/virtual_imu.h. Expected values are worked out by hand. */
+#include "keel/middleware/virtual_imu.h"
+#include "unity.h"
+
+#include <math.h>
+#include <string.h>
+
+static const keel_voter_config_t accelerometer = {.agree = 1.0f,
+                                                  .cutoff = 3.0f,
+                                                  .lowest = -160.0f,
+                                                  .highest = 160.0f,
+                                                  .initial = 0.0f,
+                                                  .max_age_us = 5000u,
+                                                  .latch_count = 2u,
+                                                  .sensors = 3u};
+static const keel_voter_config_t gyroscope = {.agree = 0.5f,
+                                              .cutoff = 3.0f,
+                                              .lowest = -35.0f,
+                                              .highest = 35.0f,
+                                              .initial = 0.0f,
+                                              .max_age_us = 5000u,
+                                              .latch_count = 2u,
+                                              .sensors = 3u};
+static keel_imu_config_t config;
+static keel_virtual_imu_t imu;
+static keel_imu_sample_t sample[3];
+
+void setUp(void)
+{
+    config.accelerometer = accelerometer;
+    config.gyroscope = gyroscope;
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_virtual_imu_init(&imu, &config));
+    for (uint32_t i = 0u; i < 3u; i++) {
+        sample[i].age_us = 0u;
+        sample[i].present = true;
+        for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+            sample[i].value[k] = (float)k;
+        }
+    }
+}
+
+void tearDown(void)
+{
+}
+
+static void refuses(keel_status_t why)
+{
+    keel_virtual_imu_t before;
+
+    memcpy(&before, &imu, sizeof before);
+    TEST_ASSERT_EQUAL(why, keel_virtual_imu_init(&imu, &config));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &imu, sizeof imu);
+}
+
+static void IMU_001_both_configurations_are_checked(void)
+{
+    config.accelerometer.latch_count = 0u;
+    refuses(KEEL_ERR_LATCH);
+    config.accelerometer = accelerometer;
+    config.gyroscope.agree = 0.0f;
+    refuses(KEEL_ERR_AGREEMENT);
+    config.gyroscope = gyroscope;
+    config.gyroscope.sensors = 2u;
+    refuses(KEEL_ERR_SENSORS);
+}
+
+static void IMU_002_each_channel_votes_with_its_configuration(void)
+{
+    sample[2].value[1] = 3.0f; /* 2 away: weight 1/2 with a = 1. */
+    sample[2].value[4] = 6.0f; /* 2 away: none with a = 0.5. */
+    keel_virtual_imu_step(&imu, sample, 1000u);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, imu.channel[0].vote.output);
+    TEST_ASSERT_EQUAL_FLOAT(1.5f, imu.channel[1].vote.output);
+    TEST_ASSERT_EQUAL_FLOAT(2.0f, imu.channel[2].vote.output);
+    TEST_ASSERT_EQUAL_FLOAT(3.0f, imu.channel[3].vote.output);
+    TEST_ASSERT_EQUAL_FLOAT(4.0f, imu.channel[4].vote.output);
+    TEST_ASSERT_EQUAL_FLOAT(5.0f, imu.channel[5].vote.output);
+}
+
+static void IMU_003_verdicts_per_unit(void)
+{
+    sample[2].value[4] = 6.0f;
+    keel_virtual_imu_step(&imu, sample, 1000u);
+    TEST_ASSERT_EQUAL_HEX8(KEEL_IMU_ALL, imu.used[0]);
+    TEST_ASSERT_EQUAL_HEX8(0x2Fu, imu.used[2]);
+    TEST_ASSERT_EQUAL_HEX8(0u, imu.latched[2]);
+    keel_virtual_imu_step(&imu, sample, 1000u);
+    TEST_ASSERT_EQUAL_HEX8(0x10u, imu.latched[2]);
+    TEST_ASSERT_EQUAL_HEX8(0u, imu.latched[1]);
+}
+
+static void IMU_003_a_silent_unit_loses_all_channels(void)
+{
+    sample[1].present = false;
+    keel_virtual_imu_step(&imu, sample, 1000u);
+    keel_virtual_imu_step(&imu, sample, 1000u);
+    TEST_ASSERT_EQUAL_HEX8(KEEL_IMU_ALL, imu.latched[1]);
+    TEST_ASSERT_EQUAL_HEX8(0u, imu.used[1]);
+    sample[1].present = true;
+    sample[0].age_us = 5001u; /* Late, and alone is the third. */
+    keel_virtual_imu_step(&imu, sample, 1000u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_VOTER_SINGLE, imu.channel[5].vote.state);
+    TEST_ASSERT_EQUAL_FLOAT(5.0f, imu.channel[5].vote.output);
+}
+
+static void IMU_004_readmits_a_unit(void)
+{
+    TEST_ASSERT_EQUAL(KEEL_ERR_SENSORS, keel_virtual_imu_readmit(&imu, 3u));
+    TEST_ASSERT_EQUAL(KEEL_ERR_STATE, keel_virtual_imu_readmit(&imu, 1u));
+    sample[1].value[0] = NAN;
+    keel_virtual_imu_step(&imu, sample, 1000u);
+    keel_virtual_imu_step(&imu, sample, 1000u);
+    TEST_ASSERT_EQUAL_HEX8(0x01u, imu.latched[1]);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_virtual_imu_readmit(&imu, 1u));
+    TEST_ASSERT_EQUAL_HEX8(0u, imu.latched[1]);
+    TEST_ASSERT_FALSE(imu.channel[0].sensor[1].latched);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(IMU_001_both_configurations_are_checked);
+    RUN_TEST(IMU_002_each_channel_votes_with_its_configuration);
+    RUN_TEST(IMU_003_verdicts_per_unit);
+    RUN_TEST(IMU_003_a_silent_unit_loses_all_channels);
+    RUN_TEST(IMU_004_readmits_a_unit);
+    return UNITY_END();
+}

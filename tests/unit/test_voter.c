@@ -1,0 +1,425 @@
+/* Unit tests of keel/middleware/voter.h. Expected values are worked out by hand: a = 1, n = 3, so
+ * an agreement is (3 - d) / 2 between the distances 1 and 3. */
+#include "keel/middleware/voter.h"
+#include "unity.h"
+
+#include <math.h>
+#include <string.h>
+
+static keel_voter_config_t config;
+static keel_voter_t voter;
+
+void setUp(void)
+{
+    const keel_voter_config_t usual = {.agree = 1.0f,
+                                       .cutoff = 3.0f,
+                                       .lowest = -100.0f,
+                                       .highest = 100.0f,
+                                       .initial = 7.0f,
+                                       .max_age_us = 1000u,
+                                       .latch_count = 3u,
+                                       .stale_count = 0u,
+                                       .density_limit = 0u,
+                                       .sensors = 3u};
+
+    config = usual;
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_voter_init(&voter, &config));
+}
+
+void tearDown(void)
+{
+}
+
+static void restart(void)
+{
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_voter_init(&voter, &config));
+}
+
+static void vote4(float a, float b, float c, float d)
+{
+    const keel_voter_sample_t sample[4] = {
+        {a, 0u, true}, {b, 0u, true}, {c, 0u, true}, {d, 0u, true}};
+
+    keel_voter_step(&voter, sample, 10u);
+}
+
+static void vote(float a, float b, float c)
+{
+    vote4(a, b, c, 0.0f);
+}
+
+static void expect(uint8_t state, float output)
+{
+    TEST_ASSERT_EQUAL_UINT8(state, voter.vote.state);
+    TEST_ASSERT_EQUAL_FLOAT(output, voter.vote.output);
+}
+
+static void expect_reasons(uint8_t a, uint8_t b, uint8_t c)
+{
+    TEST_ASSERT_EQUAL_UINT8(a, voter.vote.reason[0]);
+    TEST_ASSERT_EQUAL_UINT8(b, voter.vote.reason[1]);
+    TEST_ASSERT_EQUAL_UINT8(c, voter.vote.reason[2]);
+}
+
+static void expect_weights(float a, float b, float c)
+{
+    TEST_ASSERT_EQUAL_FLOAT(a, voter.vote.weight[0]);
+    TEST_ASSERT_EQUAL_FLOAT(b, voter.vote.weight[1]);
+    TEST_ASSERT_EQUAL_FLOAT(c, voter.vote.weight[2]);
+}
+
+static void refuses(keel_status_t why)
+{
+    keel_voter_t before;
+
+    memcpy(&before, &voter, sizeof before);
+    TEST_ASSERT_EQUAL(why, keel_voter_check(&config));
+    TEST_ASSERT_EQUAL(why, keel_voter_init(&voter, &config));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &voter, sizeof voter);
+}
+
+static void VOT_001_number_of_sensors(void)
+{
+    config.sensors = 1u;
+    refuses(KEEL_ERR_SENSORS);
+    config.sensors = 5u;
+    refuses(KEEL_ERR_SENSORS);
+    config.sensors = 2u;
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_voter_check(&config));
+    config.sensors = 4u;
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_voter_check(&config));
+}
+
+static void VOT_001_distance_of_agreement(void)
+{
+    config.agree = 0.0f;
+    refuses(KEEL_ERR_AGREEMENT);
+    config.agree = NAN;
+    refuses(KEEL_ERR_AGREEMENT);
+    config.agree = 1000.5f;
+    refuses(KEEL_ERR_AGREEMENT);
+    config.agree = KEEL_VOTER_AGREE_MIN;
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_voter_check(&config));
+}
+
+static void VOT_001_cutoff(void)
+{
+    config.cutoff = 1.0f;
+    refuses(KEEL_ERR_CUTOFF);
+    config.cutoff = INFINITY;
+    refuses(KEEL_ERR_CUTOFF);
+    config.cutoff = NAN;
+    refuses(KEEL_ERR_CUTOFF);
+    config.cutoff = 0.5f;
+    refuses(KEEL_ERR_CUTOFF);
+    config.cutoff = 1000001.0f; /* n a beyond the range */
+    refuses(KEEL_ERR_CUTOFF);
+    config.cutoff = 1000000.0f;
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_voter_check(&config));
+}
+
+static void VOT_001_limits(void)
+{
+    config.lowest = 101.0f;
+    refuses(KEEL_ERR_LIMITS);
+    config.lowest = -INFINITY;
+    refuses(KEEL_ERR_LIMITS);
+    config.lowest = -100.0f;
+    config.highest = 1000001.0f;
+    refuses(KEEL_ERR_LIMITS);
+}
+
+static void VOT_001_initial_age_and_latch(void)
+{
+    config.initial = 100.5f;
+    refuses(KEEL_ERR_INITIAL);
+    config.initial = -100.5f;
+    refuses(KEEL_ERR_INITIAL);
+    config.initial = 0.0f;
+    config.max_age_us = 0u;
+    refuses(KEEL_ERR_AGE);
+    config.max_age_us = 1u;
+    config.latch_count = 0u;
+    refuses(KEEL_ERR_LATCH);
+}
+
+static void VOT_002_starts_with_the_initial_output(void)
+{
+    TEST_ASSERT_EQUAL_FLOAT(7.0f, voter.vote.output);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_VOTER_NONE, voter.vote.state);
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        TEST_ASSERT_FALSE(voter.sensor[i].latched);
+        TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[i].null);
+    }
+}
+
+static void VOT_003_agreement(void)
+{
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, keel_voter_agreement(0.0f, 1.0f, 3.0f));
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, keel_voter_agreement(1.0f, 1.0f, 3.0f));
+    TEST_ASSERT_EQUAL_FLOAT(0.75f, keel_voter_agreement(1.5f, 1.0f, 3.0f));
+    TEST_ASSERT_EQUAL_FLOAT(0.25f, keel_voter_agreement(2.5f, 1.0f, 3.0f));
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, keel_voter_agreement(3.0f, 1.0f, 3.0f));
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, keel_voter_agreement(3.4e38f, 1.0f, 3.0f));
+}
+
+static void VOT_004_agreement_never_exceeds_one(void)
+{
+    /* One step above a: eq. 16 as it stands gives more than 1 for many a and n. */
+    for (float a = 0.1f; a < 10.0f; a *= 1.01f) {
+        const float s = keel_voter_agreement(a + (a * 0x1p-23f), a, 1.7f * a);
+
+        TEST_ASSERT_TRUE((s <= 1.0f) && (s > 0.99f));
+    }
+}
+
+static void VOT_005_mean_of_three(void)
+{
+    vote(1.0f, 1.5f, 2.0f); /* All within a: the plain mean. */
+    expect(KEEL_VOTER_MEAN, 1.5f);
+    expect_weights(1.0f, 1.0f, 1.0f);
+    /* d = 0, 2, 2: weights 3/4, 3/4, 1/2; mean (0 + 0 + 2 * 1/2) / 2. */
+    vote(0.0f, 0.0f, 2.0f);
+    expect(KEEL_VOTER_MEAN, 0.5f);
+    expect_weights(0.75f, 0.75f, 0.5f);
+}
+
+static void VOT_005_mean_of_equal_samples_is_their_value(void)
+{
+    vote(0.1f, 0.1f, 0.1f);
+    TEST_ASSERT_TRUE(voter.vote.output == 0.1f);
+}
+
+static void VOT_006_weights_of_two_and_four(void)
+{
+    config.sensors = 2u;
+    restart();
+    vote(0.0f, 2.0f, 0.0f); /* One agreement of 1/2. */
+    expect(KEEL_VOTER_MEAN, 1.0f);
+    expect_weights(0.5f, 0.5f, 0.0f);
+    config.sensors = 4u;
+    restart();
+    vote4(0.0f, 0.0f, 0.0f, 9.0f);
+    expect(KEEL_VOTER_MEAN, 0.0f);
+    expect_weights(2.0f / 3.0f, 2.0f / 3.0f, 2.0f / 3.0f);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, voter.vote.weight[3]);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_VOTER_OUTVOTED, voter.vote.reason[3]);
+}
+
+static void VOT_007_not_finite(void)
+{
+    vote(NAN, 1.0f, 2.0f);
+    expect_reasons(KEEL_VOTER_NOT_FINITE, KEEL_VOTER_USED, KEEL_VOTER_USED);
+    expect(KEEL_VOTER_MEAN, 1.5f);
+    vote(1.0f, INFINITY, 2.0f);
+    expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_NOT_FINITE, KEEL_VOTER_USED);
+    vote(1.0f, 2.0f, -INFINITY);
+    expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_NOT_FINITE);
+    expect(KEEL_VOTER_MEAN, 1.5f);
+}
+
+static void VOT_007_implausible(void)
+{
+    vote(100.5f, 99.0f, 100.0f);
+    expect_reasons(KEEL_VOTER_OUT_OF_RANGE, KEEL_VOTER_USED, KEEL_VOTER_USED);
+    expect(KEEL_VOTER_MEAN, 99.5f);
+    vote(-99.0f, -100.0f, -100.5f);
+    expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_OUT_OF_RANGE);
+}
+
+static void VOT_007_missing_and_late(void)
+{
+    keel_voter_sample_t sample[3] = {{1.0f, 1001u, true}, {NAN, 9u, false}, {2.0f, 1000u, true}};
+
+    keel_voter_step(&voter, sample, 10u);
+    expect_reasons(KEEL_VOTER_LATE, KEEL_VOTER_MISSING, KEEL_VOTER_USED);
+    expect(KEEL_VOTER_SINGLE, 2.0f);
+}
+
+static void VOT_008_all_disagree(void)
+{
+    vote(0.0f, 4.0f, 8.0f);
+    expect(KEEL_VOTER_DISAGREE, 7.0f);
+    expect_reasons(KEEL_VOTER_OUTVOTED, KEEL_VOTER_OUTVOTED, KEEL_VOTER_OUTVOTED);
+    TEST_ASSERT_EQUAL_UINT32(1u, voter.vote.held);
+    TEST_ASSERT_EQUAL_UINT32(10u, voter.vote.held_us);
+    vote(NAN, NAN, NAN);
+    expect(KEEL_VOTER_NONE, 7.0f);
+    TEST_ASSERT_EQUAL_UINT32(2u, voter.vote.held);
+    TEST_ASSERT_EQUAL_UINT32(20u, voter.vote.held_us);
+    vote(1.0f, 1.0f, 1.0f);
+    expect(KEEL_VOTER_MEAN, 1.0f);
+    TEST_ASSERT_EQUAL_UINT32(0u, voter.vote.held);
+    TEST_ASSERT_EQUAL_UINT32(0u, voter.vote.held_us);
+}
+
+static void VOT_008_counts_saturate(void)
+{
+    voter.vote.held = UINT32_MAX;
+    voter.vote.held_us = UINT32_MAX - 9u;
+    vote(0.0f, 4.0f, 8.0f);
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, voter.vote.held);
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, voter.vote.held_us);
+}
+
+static void VOT_009_one_left(void)
+{
+    vote(NAN, 200.0f, 3.0f);
+    expect(KEEL_VOTER_SINGLE, 3.0f);
+    expect_weights(0.0f, 0.0f, 1.0f);
+}
+
+static void VOT_010_two_that_disagree_are_not_condemned(void)
+{
+    for (uint32_t i = 0u; i < 9u; i++) {
+        vote(0.0f, 4.0f, NAN);
+        expect(KEEL_VOTER_DISAGREE, 7.0f);
+    }
+    TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[0].null);
+    TEST_ASSERT_FALSE(voter.sensor[0].latched);
+    TEST_ASSERT_FALSE(voter.sensor[1].latched);
+    TEST_ASSERT_TRUE(voter.sensor[2].latched);
+}
+
+static void VOT_010_one_agreement_clears(void)
+{
+    vote(0.0f, 0.0f, 9.0f);
+    vote(0.0f, 0.0f, 9.0f);
+    TEST_ASSERT_EQUAL_UINT16(2u, voter.sensor[2].null);
+    vote(0.0f, 0.0f, 2.5f);
+    TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[2].null);
+    TEST_ASSERT_FALSE(voter.sensor[2].latched);
+}
+
+static void VOT_011_latched_exactly_at_the_count(void)
+{
+    vote(0.0f, 0.0f, 9.0f);
+    vote(0.0f, 0.0f, 9.0f);
+    TEST_ASSERT_FALSE(voter.sensor[2].latched);
+    vote(0.0f, 0.0f, 9.0f);
+    TEST_ASSERT_TRUE(voter.sensor[2].latched);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_VOTER_OUTVOTED, voter.vote.reason[2]);
+    vote(0.0f, 1.0f, 0.5f); /* It agrees again, but is out. */
+    expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_LATCHED);
+    expect(KEEL_VOTER_MEAN, 0.5f);
+    TEST_ASSERT_EQUAL_UINT16(3u, voter.sensor[2].null);
+}
+
+static void VOT_011_all_three_latched(void)
+{
+    for (uint32_t i = 0u; i < 3u; i++) {
+        vote(0.0f, 4.0f, 8.0f);
+    }
+    vote(1.0f, 1.0f, 1.0f);
+    expect(KEEL_VOTER_NONE, 7.0f);
+    expect_reasons(KEEL_VOTER_LATCHED, KEEL_VOTER_LATCHED, KEEL_VOTER_LATCHED);
+}
+
+static void VOT_012_density_finds_what_agrees_now_and_then(void)
+{
+    config.density_limit = 4u;
+    restart();
+    for (uint32_t i = 0u; i < 3u; i++) { /* Two bad, one good: the leaky count rises by one. */
+        vote(0.0f, 0.0f, 9.0f);
+        vote(0.0f, 0.0f, 9.0f);
+        TEST_ASSERT_EQUAL(i == 2u, voter.sensor[2].latched);
+        vote(0.0f, 0.0f, 0.0f);
+    }
+    TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[0].density);
+}
+
+static void VOT_012_density_is_off_by_default(void)
+{
+    voter.sensor[2].density = UINT16_MAX;
+    vote(0.0f, 0.0f, 9.0f);
+    TEST_ASSERT_FALSE(voter.sensor[2].latched);
+    TEST_ASSERT_EQUAL_UINT16(UINT16_MAX, voter.sensor[2].density);
+}
+
+static void VOT_013_frozen_while_others_move(void)
+{
+    config.stale_count = 2u;
+    restart();
+    vote(0.0f, 0.0f, 0.5f);
+    vote(0.1f, 0.2f, 0.5f);
+    expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_USED);
+    vote(0.1f, 0.3f, 0.5f); /* The first does not move either: no evidence. */
+    TEST_ASSERT_EQUAL_UINT16(1u, voter.sensor[2].same);
+    vote(0.2f, 0.4f, 0.5f);
+    expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_STALE);
+    vote(0.3f, 0.5f, 0.6f); /* It moves again. */
+    expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_USED);
+}
+
+static void VOT_013_all_at_rest_is_not_frozen(void)
+{
+    config.stale_count = 1u;
+    restart();
+    for (uint32_t i = 0u; i < 5u; i++) {
+        vote(0.0f, 0.0f, 0.0f);
+    }
+    expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_USED);
+}
+
+static void VOT_014_readmission_on_request(void)
+{
+    keel_voter_t before;
+
+    TEST_ASSERT_EQUAL(KEEL_ERR_SENSORS, keel_voter_readmit(&voter, 3u));
+    TEST_ASSERT_EQUAL(KEEL_ERR_STATE, keel_voter_readmit(&voter, 2u));
+    for (uint32_t i = 0u; i < 3u; i++) {
+        vote(0.0f, 0.0f, 9.0f);
+    }
+    memcpy(&before, &voter, sizeof before);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_voter_readmit(&voter, 2u));
+    TEST_ASSERT_EQUAL_MEMORY(&before.sensor[0], &voter.sensor[0], 2u * sizeof before.sensor[0]);
+    vote(0.0f, 0.5f, 1.0f);
+    expect(KEEL_VOTER_MEAN, 0.5f);
+    TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[2].null);
+}
+
+static void VOT_015_influence_of_one_faulty_sensor(void)
+{
+    /* The worst case for n = 3: the healthy two at 0, the third at 2 a moves them by a / 2. */
+    float worst = 0.0f;
+
+    for (int32_t i = -400; i <= 400; i++) {
+        restart();
+        vote(0.0f, 0.0f, (float)i * 0.0125f);
+        worst = (fabsf(voter.vote.output) > worst) ? fabsf(voter.vote.output) : worst;
+    }
+    TEST_ASSERT_EQUAL_FLOAT(0.5f, worst);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(VOT_001_number_of_sensors);
+    RUN_TEST(VOT_001_distance_of_agreement);
+    RUN_TEST(VOT_001_cutoff);
+    RUN_TEST(VOT_001_limits);
+    RUN_TEST(VOT_001_initial_age_and_latch);
+    RUN_TEST(VOT_002_starts_with_the_initial_output);
+    RUN_TEST(VOT_003_agreement);
+    RUN_TEST(VOT_004_agreement_never_exceeds_one);
+    RUN_TEST(VOT_005_mean_of_three);
+    RUN_TEST(VOT_005_mean_of_equal_samples_is_their_value);
+    RUN_TEST(VOT_006_weights_of_two_and_four);
+    RUN_TEST(VOT_007_not_finite);
+    RUN_TEST(VOT_007_implausible);
+    RUN_TEST(VOT_007_missing_and_late);
+    RUN_TEST(VOT_008_all_disagree);
+    RUN_TEST(VOT_008_counts_saturate);
+    RUN_TEST(VOT_009_one_left);
+    RUN_TEST(VOT_010_two_that_disagree_are_not_condemned);
+    RUN_TEST(VOT_010_one_agreement_clears);
+    RUN_TEST(VOT_011_latched_exactly_at_the_count);
+    RUN_TEST(VOT_011_all_three_latched);
+    RUN_TEST(VOT_012_density_finds_what_agrees_now_and_then);
+    RUN_TEST(VOT_012_density_is_off_by_default);
+    RUN_TEST(VOT_013_frozen_while_others_move);
+    RUN_TEST(VOT_013_all_at_rest_is_not_frozen);
+    RUN_TEST(VOT_014_readmission_on_request);
+    RUN_TEST(VOT_015_influence_of_one_faulty_sensor);
+    return UNITY_END();
+}
