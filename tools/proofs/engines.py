@@ -44,7 +44,7 @@ def wp_key(
     return digest(
         {
             "kind": "wp", "stamp": dict(stamp), "options": prover.options(),
-            "selection": target.selection, "smoke": wp.SMOKE.seconds, "allowed": list(allowed),
+            "selection": target.selection, "smoke": wp.SMOKE.steps, "allowed": list(allowed),
             "text": wp.dependencies(target, root), "file": target.file.name,
         }
     )  # fmt: skip
