@@ -36,28 +36,28 @@ typedef struct keel_scb {
     volatile uint32_t CPACR;
 } keel_scb_t;
 
-#define SCB_BASE                0xE000ED00u
-#define SCB_AIRCR_SYSRESETREQ   BITS(2u, 1u)
-#define SCB_AIRCR_PRIGROUP      BITS(8u, 3u)
-#define SCB_AIRCR_VECTKEYSTAT   BITS(16u, 16u)
-#define SCB_AIRCR_KEY           0x05FAu /* What must be written to VECTKEYSTAT. */
-#define SCB_CCR_DIV_0_TRP       BITS(4u, 1u)
-#define SCB_CCR_STKALIGN        BITS(9u, 1u)
-#define SCB_CCR_DC              BITS(16u, 1u)
-#define SCB_CCR_IC              BITS(17u, 1u)
-#define SCB_SHCSR_MEMFAULTENA   BITS(16u, 1u)
-#define SCB_SHCSR_BUSFAULTENA   BITS(17u, 1u)
-#define SCB_SHCSR_USGFAULTENA   BITS(18u, 1u)
-#define SCB_CFSR_DACCVIOL       BITS(1u, 1u)
-#define SCB_CFSR_MSTKERR        BITS(4u, 1u)
-#define SCB_CFSR_MMARVALID      BITS(7u, 1u)
-#define SCB_CFSR_BFARVALID      BITS(15u, 1u)
-#define SCB_CFSR_UNDEFINSTR     BITS(16u, 1u)
-#define SCB_CFSR_DIVBYZERO      BITS(25u, 1u)
-#define SCB_HFSR_FORCED         BITS(30u, 1u)
-#define SCB_CCSIDR_NUMSETS      BITS(13u, 15u)
+#define SCB_BASE                 0xE000ED00u
+#define SCB_AIRCR_SYSRESETREQ    BITS(2u, 1u)
+#define SCB_AIRCR_PRIGROUP       BITS(8u, 3u)
+#define SCB_AIRCR_VECTKEYSTAT    BITS(16u, 16u)
+#define SCB_AIRCR_KEY            0x05FAu /* What must be written to VECTKEYSTAT. */
+#define SCB_CCR_DIV_0_TRP        BITS(4u, 1u)
+#define SCB_CCR_STKALIGN         BITS(9u, 1u)
+#define SCB_CCR_DC               BITS(16u, 1u)
+#define SCB_CCR_IC               BITS(17u, 1u)
+#define SCB_SHCSR_MEMFAULTENA    BITS(16u, 1u)
+#define SCB_SHCSR_BUSFAULTENA    BITS(17u, 1u)
+#define SCB_SHCSR_USGFAULTENA    BITS(18u, 1u)
+#define SCB_CFSR_DACCVIOL        BITS(1u, 1u)
+#define SCB_CFSR_MSTKERR         BITS(4u, 1u)
+#define SCB_CFSR_MMARVALID       BITS(7u, 1u)
+#define SCB_CFSR_BFARVALID       BITS(15u, 1u)
+#define SCB_CFSR_UNDEFINSTR      BITS(16u, 1u)
+#define SCB_CFSR_DIVBYZERO       BITS(25u, 1u)
+#define SCB_HFSR_FORCED          BITS(30u, 1u)
+#define SCB_CCSIDR_NUMSETS       BITS(13u, 15u)
 #define SCB_CCSIDR_ASSOCIATIVITY BITS(3u, 10u)
-#define SCB_CPACR_CP            BITS(20u, 4u) /* CP10 and CP11: the FPU. */
+#define SCB_CPACR_CP             BITS(20u, 4u) /* CP10 and CP11: the FPU. */
 
 /** Cache maintenance operations; write only. */
 typedef struct keel_cbp {
