@@ -6,8 +6,9 @@
 
 A requirement is an entry of specs/requirements/*.sdoc, say QUE-003. The ACSL clauses that state
 it carry its id in their labels (QUE_003, QUE_003_count), and so do the assertions of the CBMC
-harnesses and the names of the tests (tests/unit, tests/reference) that check it; a requirement may
-also list unit tests by name under TESTS, or the file of a test that checks far more. An orphan is
+harnesses and the names of the tests (tests/unit, tests/target, tests/reference) that check it; a
+requirement may also list unit tests by name under TESTS, or the file of a test that checks far
+more. An orphan is
 
     a label, an assertion, a test or a comment of a header that names no requirement;
     a requirement without a clause, unless VERIFICATION says test (it then needs a test) or
@@ -104,7 +105,7 @@ def join(root: Path) -> Trace:
         trace.requirements[entry.uid] = entry
     clauses = collect(root, CLAUSE, "include/**/*.h", "proofs/*/*.c")
     assertions = collect(root, ASSERTION, "proofs/*/*.[ch]")
-    tests = collect(root, TEST, "tests/unit/*.c")
+    tests = collect(root, TEST, "tests/unit/*.c", "tests/target/*.c")
     tests += collect(root, REFERENCE, "tests/reference/*.cpp")
     for kind, pairs in (("clauses", clauses), ("harnesses", assertions), ("tests", tests)):
         for name, where in pairs:
@@ -120,7 +121,7 @@ def join(root: Path) -> Trace:
     trace.harnesses = len({where for _, where in assertions if where.endswith(".c")})
     trace.tests = len(tests)
     known = {name for name, _ in tests}
-    known |= {path.relative_to(root).as_posix() for path in (root / "tests").glob("*/*.c")}
+    known |= {path.relative_to(root).as_posix() for path in (root / "tests").glob("*/*.*")}
     soundness = root / "specs/soundness.md"
     theorems = MENTION.findall(soundness.read_text(encoding="utf-8")) if soundness.exists() else []
     for entry in trace.requirements.values():

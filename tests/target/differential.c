@@ -49,7 +49,7 @@ static bool voter_made;
 static bool filter_made;
 static bool pid_made;
 
-/* --- Randomness -------------------------------------------------------------------------------- */
+/* --- Randomness ------------------------------------------------------------------------------- */
 
 static uint64_t any64(stream_t *s)
 {
@@ -100,7 +100,7 @@ static float mostly_between(stream_t *s, float low, float high)
     return (below(s, 16u) == 0u) ? any_float(s) : between(s, low, high);
 }
 
-/* --- Digest ------------------------------------------------------------------------------------ */
+/* --- Digest ----------------------------------------------------------------------------------- */
 
 static void digest(stream_t *s, uint64_t word)
 {
@@ -117,7 +117,7 @@ static void digest_float(stream_t *s, float value)
     digest(s, bits);
 }
 
-/* --- Units ------------------------------------------------------------------------------------- */
+/* --- Units ------------------------------------------------------------------------------------ */
 
 static void vector_queue(stream_t *s)
 {
@@ -283,7 +283,7 @@ static void vector_pid(stream_t *s)
     }
 }
 
-/* --- All of them ------------------------------------------------------------------------------- */
+/* --- All of them ------------------------------------------------------------------------------ */
 
 typedef struct unit {
     const char *name;

@@ -24,6 +24,9 @@
 #define SYST_RVR  0xE000E014u
 #define SYST_CVR  0xE000E018u
 
+#define COUNTER 0x40028018u
+#define BACKUP  0x60000000u
+
 #define ITCM_END   0x4000u
 #define DTCM_START 0x20000000u
 #define DTCM_END   0x20020000u
@@ -158,6 +161,19 @@ static void BRD_005_time_base_counts_microseconds(void)
     TEST_ASSERT_UINT32_WITHIN(2u, 800u, elapsed_us);
 }
 
+/* The counter can be set, so that nobody has to wait for 71 minutes. */
+static void BRD_005_time_base_wraps(void)
+{
+    uint32_t start_us;
+
+    WORD(COUNTER) = 0xFFFFFFF0u;
+    start_us = keel_board_clock_us(NULL);
+    while ((keel_board_clock_us(NULL) - start_us) < 100u) {
+    }
+    TEST_ASSERT_GREATER_OR_EQUAL_HEX32(0xFFFFFFF0u, start_us);
+    TEST_ASSERT_LESS_THAN_UINT32(200u, keel_board_clock_us(NULL));
+}
+
 static void BRD_006_no_fault_after_power_on(void)
 {
     TEST_ASSERT_NULL(keel_fault_last());
@@ -179,6 +195,24 @@ static void BRD_006_a_record_is_whole_or_not(void)
         byte[i] ^= 1u;
     }
     TEST_ASSERT_TRUE(keel_fault_is_whole(&record));
+}
+
+/* A record as a fault leaves it, where the linker script puts it. */
+static void BRD_006_safe_state_is_entered_once(void)
+{
+    keel_fault_record_t *const record = (keel_fault_record_t *)BACKUP;
+
+    memset(record, 0, sizeof *record);
+    record->count = 3u;
+    record->fresh = 1u;
+    TEST_ASSERT_FALSE(keel_fault_take()); /* Not sealed: half a record. */
+    keel_fault_seal(record);
+    TEST_ASSERT_TRUE(keel_fault_take());
+    TEST_ASSERT_FALSE(keel_fault_take());
+    TEST_ASSERT_EQUAL_PTR(record, keel_fault_last());
+    TEST_ASSERT_EQUAL_UINT32(3u, keel_fault_last()->count);
+    memset(record, 0, sizeof *record);
+    TEST_ASSERT_NULL(keel_fault_last());
 }
 
 static void BRD_007_stack_use_is_seen(void)
@@ -204,8 +238,10 @@ int main(void)
     RUN_TEST(BRD_004_attributes_of_a_region);
     RUN_TEST(BRD_004_tables_that_cannot_be);
     RUN_TEST(BRD_005_time_base_counts_microseconds);
+    RUN_TEST(BRD_005_time_base_wraps);
     RUN_TEST(BRD_006_no_fault_after_power_on);
     RUN_TEST(BRD_006_a_record_is_whole_or_not);
+    RUN_TEST(BRD_006_safe_state_is_entered_once);
     RUN_TEST(BRD_007_stack_use_is_seen);
     return UNITY_END();
 }
