@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import target  # noqa: E402
-from run_tests import Ended  # noqa: E402
+from run_tests import Ended, unity_outcome  # noqa: E402
 from target import FAULTS, Bench  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
@@ -193,7 +193,7 @@ class Emulated(unittest.TestCase):
     def test_a_program_that_hangs_is_killed(self) -> None:
         ended = self.program("tool-hang", "int main(void)\n{\n    for (;;) {\n    }\n}\n")
         self.assertTrue(ended.timed_out)
-        outcome = target.unity_outcome("unit/hang", ended)
+        outcome = unity_outcome("unit/hang", ended)
         self.assertEqual((outcome.passed, len(outcome.failures)), (0, 1))
 
     def test_a_test_that_fails_is_counted(self) -> None:
