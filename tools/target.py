@@ -124,7 +124,7 @@ CODE = 0xC0DE_0042
 TASK = "breaker"
 
 # Exceptions, and bits of the fault status (ARMv7-M Architecture Reference Manual, B1.5 and B3.2).
-MEMORY, BUS, USAGE, INTERRUPT_3 = 4, 5, 6, 19
+NMI, MEMORY, BUS, USAGE, INTERRUPT_3 = 2, 4, 5, 6, 19
 IACCVIOL, DACCVIOL, MSTKERR, MMARVALID = 1 << 0, 1 << 1, 1 << 4, 1 << 7
 PRECISERR, BFARVALID = 1 << 9, 1 << 15
 UNDEFINSTR, DIVBYZERO = 1 << 16, 1 << 25
@@ -155,6 +155,7 @@ FAULTS = {
     "write": Fault(MEMORY, DACCVIOL | MMARVALID, address=range(0x20_0000, 0x20_0001)),
     "stop": Fault(USAGE, UNDEFINSTR, code=CODE, function="keel_fault_stop"),
     "interrupt": Fault(INTERRUPT_3, 0),
+    "hang": Fault(NMI, 0),
 }
 
 WORD = re.compile(r"\b([a-z_0-9]+) (0x[0-9a-f]{8}|\d+)\b")

@@ -11,11 +11,13 @@
 #include "cortex_m7/core.h"
 #include "cortex_m7/fault.h"
 #include "keel/rtos/scheduler.h"
+#include "mps2_an500/watchdog.h"
 
-#define PERIOD_US 1000u
-#define BUDGET_US 100u
-#define GUARD_US  20u
-#define CODE      0xC0DE0042u
+#define PERIOD_US   1000u
+#define BUDGET_US   100u
+#define GUARD_US    20u
+#define WATCHDOG_US 5000u
+#define CODE        0xC0DE0042u
 
 /* Addresses that the board file and the linker script know. */
 #define NOWHERE   0x70000000u
@@ -51,6 +53,7 @@ BREAKS void fault_execute(void);
 BREAKS void fault_write(void);
 BREAKS void fault_stop(void);
 BREAKS void fault_interrupt(void);
+BREAKS void fault_hang(void);
 
 void fault_undefined(void)
 {
@@ -111,6 +114,15 @@ void fault_interrupt(void)
     WORD(NVIC_ISER) = 1u << 3u;
     WORD(NVIC_ISPR) = 1u << 3u;
     __asm volatile("dsb\n\tisb");
+}
+
+/* Never ends, and so never feeds. */
+void fault_hang(void)
+{
+    keel_watchdog_start(WATCHDOG_US);
+    for (;;) {
+        sink = hidden(0u);
+    }
 }
 
 static void body(void *context)

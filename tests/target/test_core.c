@@ -7,6 +7,7 @@
 #include "cortex_m7/mpu.h"
 #include "cortex_m7/startup.h"
 #include "keel/rtos/scheduler.h"
+#include "mps2_an500/watchdog.h"
 #include "unity.h"
 
 #include <string.h>
@@ -215,6 +216,19 @@ static void BRD_006_safe_state_is_entered_once(void)
     TEST_ASSERT_NULL(keel_fault_last());
 }
 
+/* Three times its limit; a watchdog that bites ends the program. */
+static void BRD_010_watchdog_is_fed(void)
+{
+    const uint32_t start_us = keel_board_clock_us(NULL);
+
+    keel_watchdog_start(500u);
+    while ((keel_board_clock_us(NULL) - start_us) < 1500u) {
+        keel_watchdog_feed();
+    }
+    keel_watchdog_stop();
+    TEST_ASSERT_NULL(keel_fault_last());
+}
+
 static void BRD_007_stack_use_is_seen(void)
 {
     const uint32_t before_b = keel_stack_used_b();
@@ -242,6 +256,7 @@ int main(void)
     RUN_TEST(BRD_006_no_fault_after_power_on);
     RUN_TEST(BRD_006_a_record_is_whole_or_not);
     RUN_TEST(BRD_006_safe_state_is_entered_once);
+    RUN_TEST(BRD_010_watchdog_is_fed);
     RUN_TEST(BRD_007_stack_use_is_seen);
     return UNITY_END();
 }
