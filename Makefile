@@ -18,7 +18,7 @@ DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
 .NOTPARALLEL:
 
 help: ## this list
-	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 18
+	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
 
 prove: python ## prove every contract and harness (UNIT=queue: one unit; ARGS=--update-goals)
 	@python3 tools/prove.py $(if $(UNIT),--unit $(UNIT)) $(ARGS)
