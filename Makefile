@@ -14,7 +14,7 @@ ALL_TOOLS := prove test lint coverage bench fuzz firmware target
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
 
-.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace status firmware test-target tools doctor clean python
+.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace status firmware tools doctor clean python
 .NOTPARALLEL:
 
 help: ## this list
@@ -57,6 +57,7 @@ trace: python ## requirement, clause, harness, test: fail when one stands alone
 status: python ## write what the last run of 'make prove' proved into README.md
 	@python3 tools/status.py
 
+.PHONY: test-target
 test-target: python ## the unit tests, faults, demo and host's results on an emulated Cortex-M7
 	@python3 tools/target.py $(ARGS)
 

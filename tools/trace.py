@@ -6,15 +6,16 @@
 
 A requirement is an entry of specs/requirements/*.sdoc, say QUE-003. The ACSL clauses that state
 it carry its id in their labels (QUE_003, QUE_003_count), and so do the assertions of the CBMC
-harnesses and the names of the tests (tests/unit, tests/target, tests/reference) that check it; a
-requirement may also list unit tests by name under TESTS, or the file of a test that checks far
-more. An orphan is
+harnesses and the names of the tests (tests/unit, tests/reference) that check it; a requirement may
+also list unit tests by name under TESTS, or the file of a test that checks far more. An orphan is
 
     a label, an assertion, a test or a comment of a header that names no requirement;
     a requirement without a clause, unless VERIFICATION says test (it then needs a test) or
         theorem (specs/soundness.md must then name it);
     a requirement with clauses which neither a harness nor a test names, unless it is a theorem;
     a test listed under TESTS that does not exist, a CLAUSES that is not what the files say.
+
+Tests that run on the target alone (tests/target) count as unit tests do.
 
 Exit status: 0 without orphans, 1 with, 2 for a wrong command line.
 """
@@ -105,8 +106,9 @@ def join(root: Path) -> Trace:
         trace.requirements[entry.uid] = entry
     clauses = collect(root, CLAUSE, "include/**/*.h", "proofs/*/*.c")
     assertions = collect(root, ASSERTION, "proofs/*/*.[ch]")
-    tests = collect(root, TEST, "tests/unit/*.c", "tests/target/*.c")
+    tests = collect(root, TEST, "tests/unit/*.c")
     tests += collect(root, REFERENCE, "tests/reference/*.cpp")
+    tests += collect(root, TEST, "tests/target/*.c")
     for kind, pairs in (("clauses", clauses), ("harnesses", assertions), ("tests", tests)):
         for name, where in pairs:
             uid = id_of(name)
