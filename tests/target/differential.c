@@ -21,6 +21,7 @@
 #define BLOCKS        50u
 #define VECTORS       2000u /* Of a block: 100 000 of each unit. */
 #define QUEUE_TASKS   (KEEL_QUEUE_CAPACITY + 4u)
+#define FILL_EVERY    256u
 #define SETUP_EVERY   64u                 /* A new configuration of voter, filter and PID. */
 #define DIGEST_SEED   0xCBF29CE484222325u /* FNV-1a. */
 #define DIGEST_PRIME  0x00000100000001B3u
@@ -45,6 +46,7 @@ static keel_task_config_t task_config[QUEUE_TASKS];
 static keel_voter_t voter;
 static keel_filter_t filter;
 static keel_pid_t pid;
+static uint32_t frozen; /* The sensor whose sample never changes, if there is such. */
 static bool voter_made;
 static bool filter_made;
 static bool pid_made;
@@ -100,6 +102,12 @@ static float mostly_between(stream_t *s, float low, float high)
     return (below(s, 16u) == 0u) ? any_float(s) : between(s, low, high);
 }
 
+/* From 1 up to limit, now and then 0. */
+static uint32_t rarely_zero(stream_t *s, uint32_t limit)
+{
+    return (below(s, 16u) == 0u) ? 0u : (1u + below(s, limit));
+}
+
 /* --- Digest ----------------------------------------------------------------------------------- */
 
 static void digest(stream_t *s, uint64_t word)
@@ -122,6 +130,8 @@ static void digest_float(stream_t *s, float value)
 static void vector_queue(stream_t *s)
 {
     const uint32_t choice = below(s, 16u);
+    /* Fills up and empties in turn, so that it is often full. */
+    const uint32_t adds = (((s->vector / FILL_EVERY) % 2u) == 0u) ? 12u : 4u;
     const uint32_t which = below(s, QUEUE_TASKS);
 
     if (s->vector == 0u) {
@@ -132,7 +142,7 @@ static void vector_queue(stream_t *s)
         }
         keel_queue_init(&queue);
     }
-    if (choice < 8u) {
+    if (choice < adds) {
         digest(s, (uint64_t)keel_queue_add(&queue, (which == 0u) ? NULL : &task[which]));
     } else if (choice < 14u) {
         digest(s, (uint64_t)keel_queue_remove(&queue, below(s, KEEL_QUEUE_CAPACITY)));
@@ -164,18 +174,20 @@ static void vector_priority(stream_t *s)
 
 static void setup_voter(stream_t *s)
 {
+    const float limit = mostly_between(s, 900.0f, 1000.0f);
     keel_voter_config_t config = {.agree = mostly_between(s, 0.001f, 4.0f),
                                   .cutoff = mostly_between(s, 1.01f, 6.0f),
-                                  .lowest = -1000.0f,
-                                  .highest = 1000.0f,
-                                  .initial = between(s, -2.0f, 2.0f),
-                                  .max_age_us = 1u + below(s, 5000u),
-                                  .latch_count = (uint16_t)(1u + below(s, 100u)),
+                                  .lowest = -limit,
+                                  .highest = limit,
+                                  .initial = mostly_between(s, -2.0f, 2.0f),
+                                  .max_age_us = rarely_zero(s, 5000u),
+                                  .latch_count = (uint16_t)rarely_zero(s, 100u),
                                   .stale_count = (uint16_t)below(s, 20u),
                                   .density_limit = (uint16_t)below(s, 200u),
-                                  .sensors = (uint8_t)(2u + below(s, 3u))};
+                                  .sensors = (uint8_t)rarely_zero(s, KEEL_VOTER_SENSORS)};
     const keel_status_t status = keel_voter_init(&voter, &config);
 
+    frozen = below(s, 2u * KEEL_VOTER_SENSORS); /* Half of the time no sensor. */
     voter_made = voter_made || (status == KEEL_OK);
     digest(s, (uint64_t)status);
 }
@@ -205,7 +217,7 @@ static void vector_voter(stream_t *s)
         setup_voter(s);
     }
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
-        sample[i].value = mostly_between(s, truth - 2.0f, truth + 2.0f);
+        sample[i].value = (i == frozen) ? 1.5f : mostly_between(s, truth - 2.0f, truth + 2.0f);
         sample[i].age_us = below(s, 1500u);
         sample[i].present = below(s, 32u) != 0u;
     }
@@ -240,6 +252,9 @@ static void vector_filter(stream_t *s)
     }
     if (filter_made) {
         digest(s, (uint64_t)keel_filter_step(&filter, mostly_between(s, -100.0f, 100.0f)));
+        if (below(s, 64u) == 0u) {
+            digest(s, (uint64_t)keel_filter_reset(&filter, mostly_between(s, -10.0f, 10.0f)));
+        }
         digest_filter(s, &filter);
     }
 }
@@ -263,6 +278,18 @@ static void setup_pid(stream_t *s)
     digest(s, (uint64_t)status);
 }
 
+static void change_pid(stream_t *s)
+{
+    const keel_pid_gains_t gains = {between(s, 0.0f, 10.0f), between(s, 0.0f, 10.0f),
+                                    mostly_between(s, 0.0f, 1.0f), between(s, 0.0f, 2.0f)};
+
+    if (below(s, 4u) == 0u) {
+        keel_pid_reset(&pid);
+    } else {
+        digest(s, (uint64_t)keel_pid_set_gains(&pid, &gains));
+    }
+}
+
 static void vector_pid(stream_t *s)
 {
     if ((s->vector % SETUP_EVERY) == 0u) {
@@ -277,8 +304,8 @@ static void vector_pid(stream_t *s)
         digest_float(s, pid.derivative);
         digest(s, (uint64_t)pid.saturation);
         digest_filter(s, &pid.filter);
-        if (below(s, 256u) == 0u) {
-            keel_pid_reset(&pid);
+        if (below(s, 64u) == 0u) {
+            change_pid(s);
         }
     }
 }
