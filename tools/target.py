@@ -235,8 +235,8 @@ DEMO_LINE = re.compile(
     re.MULTILINE,
 )
 # In ten seconds 5000 votes and steps; the unit that froze is latched in all six channels. The voted
-# values stay within the units' own spread (0.02) and what one faulty unit may move them, a / 2 = 0.05
-# (VOT-015).
+# values stay within the units' own spread (0.02) and what one faulty unit may move them, half of
+# a = 0.1 (VOT-015).
 FLIGHT_LINE = re.compile(
     r"^flight votes 5000 steps 5000 refused 0 worst (\d+) used 63 latched 0 used 63 latched 0 "
     r"used 0 latched 63$",

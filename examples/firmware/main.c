@@ -2,10 +2,10 @@
  * @file main.c
  * @brief The paper's 21 tasks on a board, for ten seconds of the board's own time.
  *
- * Two of the real-time tasks vote and control (flight.h); every body keeps the CPU busy for the rest
- * of the task's worst-case time of table 2. Its budget is a little more, because a run's measured
- * time includes the decision before it. At the end a table on the console tells how often each task
- * ran. What the kernel refuses ends as a fault does.
+ * Two of the real-time tasks vote and control (flight.h); every body keeps the CPU busy for the
+ * rest of the task's worst-case time of table 2. Its budget is a little more, because a run's
+ * measured time includes the decision before it. At the end a table on the console tells how often
+ * each task ran. What the kernel refuses ends as a fault does.
  */
 #include "board.h"
 #include "console.h"
