@@ -508,8 +508,10 @@ keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler)
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ DECLARATIONS_STAY(scheduler)
   @ ensures releases: \forall integer k; 0 <= k < scheduler->queue.count ==>
-  @     release_same{Pre, Post}(scheduler, k);
-  @ ensures longest: all_longest_same{Pre, Post}(scheduler);
+  @     scheduler->queue.task[k]->release_us == \old(scheduler->queue.task[k]->release_us);
+  @ ensures longest: \forall integer k; 0 <= k < scheduler->queue.count ==>
+  @     scheduler->queue.task[k]->stats.longest_us ==
+  @         \old(scheduler->queue.task[k]->stats.longest_us);
   @ ensures result: \result == ((clock_elapsed(\old(scheduler->clock.raw_us), raw_us) <
   @     KEEL_CLOCK_STEP_LIMIT_US) ? KEEL_OK : KEEL_ERR_CLOCK);
   @ ensures time: scheduler->clock.now_us == \old(scheduler->clock.now_us) +
@@ -540,12 +542,13 @@ static keel_status_t end_run(keel_scheduler_t *scheduler, uint32_t raw_us)
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ DECLARATIONS_STAY(scheduler)
   @ ensures releases: \forall integer k; 0 <= k < scheduler->queue.count ==>
-  @     release_same{Pre, Post}(scheduler, k);
+  @     scheduler->queue.task[k]->release_us == \old(scheduler->queue.task[k]->release_us);
   @ ensures last: scheduler->queue.task[index]->stats.last_us == ran_us;
   @ ensures longest: scheduler->queue.task[index]->stats.longest_us ==
   @     \max(\old(scheduler->queue.task[index]->stats.longest_us), ran_us);
-  @ ensures others: \forall integer k; 0 <= k < scheduler->queue.count ==>
-  @     k != index ==> longest_same{Pre, Post}(scheduler, k);
+  @ ensures others: \forall integer k; 0 <= k < scheduler->queue.count && k != index ==>
+  @     scheduler->queue.task[k]->stats.longest_us ==
+  @         \old(scheduler->queue.task[k]->stats.longest_us);
   @ ensures clock: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
   @     scheduler->clock.raw_us == \old(scheduler->clock.raw_us);
   @ ensures pass: scheduler->cursor == \old(scheduler->cursor) &&
@@ -576,21 +579,8 @@ keel_status_t keel_scheduler_finish(keel_scheduler_t *scheduler, uint32_t raw_us
         return KEEL_ERR_STATE;
     }
     status = end_run(scheduler, raw_us);
-    /*@ assert releases: \forall integer k; 0 <= k < scheduler->queue.count ==>
-      @     release_same{Pre, Here}(scheduler, k);
-      @*/
-    /*@ assert longest: \forall integer k; 0 <= k < scheduler->queue.count ==>
-      @     longest_same{Pre, Here}(scheduler, k);
-      @*/
     if ((status == KEEL_OK) && (index != KEEL_INDEX_NONE)) {
-        //@ assert of_index: longest_same{Pre, Here}(scheduler, index);
         record_run(scheduler, index, (uint32_t)(scheduler->clock.now_us - start_us));
-        /*@ assert recorded_releases: \forall integer k; 0 <= k < scheduler->queue.count ==>
-          @     release_same{Pre, Here}(scheduler, k);
-          @*/
-        /*@ assert others: \forall integer k; 0 <= k < scheduler->queue.count ==> k != index ==>
-          @     longest_same{Pre, Here}(scheduler, k);
-          @*/
     }
     return status;
 }
