@@ -1,0 +1,108 @@
+#include "stm32f767/serial.h"
+
+#define DIVISOR_MIN 16u
+#define DIVISOR_MAX 65535u
+#define TOLERANCE   50u /* 1 in 50: 2 %. */
+#define DIGITS      10u
+
+keel_bsp_status_t keel_serial_divisor(uint32_t clock_hz, uint32_t baud, uint32_t *divisor)
+{
+    const uint32_t nearest = (uint32_t)(((uint64_t)clock_hz + (baud / 2u)) / baud);
+    uint64_t made;
+    uint64_t off;
+
+    if ((nearest < DIVISOR_MIN) || (nearest > DIVISOR_MAX)) {
+        return KEEL_BSP_ARGUMENT;
+    }
+    made = (uint64_t)nearest * baud;
+    off = (made > clock_hz) ? (made - clock_hz) : (clock_hz - made);
+    if ((off * TOLERANCE) > clock_hz) {
+        return KEEL_BSP_ARGUMENT;
+    }
+    *divisor = nearest;
+    return KEEL_BSP_OK;
+}
+
+keel_bsp_status_t keel_serial_start(keel_serial_t *serial, keel_uart_t *uart, uint32_t clock_hz,
+                                    uint32_t baud)
+{
+    uint32_t divisor;
+
+    if (keel_serial_divisor(clock_hz, baud, &divisor) != KEEL_BSP_OK) {
+        return KEEL_BSP_ARGUMENT;
+    }
+    serial->uart = uart;
+    serial->head = 0u;
+    serial->tail = 0u;
+    serial->dropped = 0u;
+    uart->CR1 = 0u; /* The rate can only change while the line is off. */
+    uart->CR2 = 0u;
+    uart->CR3 = 0u;
+    uart->BRR = divisor;
+    uart->CR1 = UART_CR1_UE | UART_CR1_TE | UART_CR1_RE;
+    return KEEL_BSP_OK;
+}
+
+static void put(keel_serial_t *serial, uint8_t character)
+{
+    if ((serial->head - serial->tail) < KEEL_SERIAL_CAPACITY) {
+        serial->text[serial->head % KEEL_SERIAL_CAPACITY] = character;
+        serial->head++;
+    } else if (serial->dropped < UINT32_MAX) {
+        serial->dropped++;
+    } else {
+        /* The count stays at its maximum. */
+    }
+}
+
+void keel_serial_print(keel_serial_t *serial, const char *text)
+{
+    for (uint32_t i = 0u; text[i] != '\0'; i++) {
+        put(serial, (uint8_t)text[i]);
+    }
+}
+
+void keel_serial_number(keel_serial_t *serial, uint32_t value, uint32_t base, uint32_t width)
+{
+    static const char digit[] = "0123456789abcdef";
+    char text[DIGITS + 1u];
+    uint32_t first = DIGITS;
+    uint32_t rest = value;
+
+    text[DIGITS] = '\0';
+    do {
+        first--;
+        text[first] = digit[rest % base];
+        rest /= base;
+    } while (rest > 0u);
+    while ((first > 0u) && ((DIGITS - first) < width)) {
+        first--;
+        text[first] = (base == DIGITS) ? ' ' : '0';
+    }
+    keel_serial_print(serial, &text[first]);
+}
+
+static void send(keel_serial_t *serial)
+{
+    serial->uart->TDR = serial->text[serial->tail % KEEL_SERIAL_CAPACITY];
+    serial->tail++;
+}
+
+void keel_serial_pump(keel_serial_t *serial)
+{
+    if ((serial->head != serial->tail) && ((serial->uart->ISR & UART_ISR_TXE) != 0u)) {
+        send(serial);
+    }
+}
+
+keel_bsp_status_t keel_serial_flush(keel_serial_t *serial, const keel_wait_t *wait)
+{
+    while (serial->head != serial->tail) {
+        if (!keel_wait_for(&serial->uart->ISR, UART_ISR_TXE, UART_ISR_TXE, wait)) {
+            return KEEL_BSP_TIMEOUT;
+        }
+        send(serial);
+    }
+    return keel_wait_for(&serial->uart->ISR, UART_ISR_TC, UART_ISR_TC, wait) ? KEEL_BSP_OK
+                                                                             : KEEL_BSP_TIMEOUT;
+}
