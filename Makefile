@@ -8,16 +8,17 @@ export PYTHONUNBUFFERED := 1
 UNIT ?=
 SECONDS := 60
 ARGS ?=
+BOARD ?=
 
-ALL_TOOLS := prove test lint coverage bench fuzz
+ALL_TOOLS := prove test lint coverage bench fuzz firmware target
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
 
-.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace registers status tools doctor clean python
+.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace registers status firmware tools doctor clean python
 .NOTPARALLEL:
 
 help: ## this list
-	@sed -nE 's/^([a-z]+):[^#]*## (.*)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 18
+	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 18
 
 prove: python ## prove every contract and harness (UNIT=queue: one unit; ARGS=--update-goals)
 	@python3 tools/prove.py $(if $(UNIT),--unit $(UNIT)) $(ARGS)
@@ -58,6 +59,9 @@ registers: python ## hold the register headers against two independent register 
 
 status: python ## write what the last run of 'make prove' proved into README.md
 	@python3 tools/status.py
+
+firmware: python ## build a board's image (BOARD=mps2_an500; ARGS='--app FOLDER': another main)
+	@python3 tools/firmware.py "$(BOARD)" $(ARGS)
 
 tools: python ## install all tools now, rather than when they are needed
 	@python3 tools/toolchain.py ensure $(ALL_TOOLS)
