@@ -7,7 +7,7 @@ static uint32_t sum_skipped(const keel_scheduler_t *scheduler, bool *counting)
     uint32_t sum = 0u;
 
     *counting = true;
-    for (uint16_t i = 0u; i < scheduler->queue.realtime_count; i++) {
+    for (uint32_t i = 0u; i < scheduler->queue.realtime_count; i++) {
         const uint16_t skipped = scheduler->queue.task[i]->skipped;
 
         sum += skipped;
@@ -20,7 +20,7 @@ static bool all_in_time(const keel_scheduler_t *scheduler, uint64_t now_us)
 {
     bool in_time = true;
 
-    for (uint16_t i = 0u; i < scheduler->queue.realtime_count; i++) {
+    for (uint32_t i = 0u; i < scheduler->queue.realtime_count; i++) {
         const keel_task_t *const task = scheduler->queue.task[i];
 
         in_time = in_time && (now_us < (task->release_us + task->config->period_us));

@@ -13,7 +13,7 @@
 /** What the supervisor remembers of the real-time tasks between two looks. */
 typedef struct keel_supervisor {
     uint32_t skipped; /**< Whole periods that they missed together. */
-    uint16_t tasks;   /**< How many there were. */
+    uint32_t tasks;   /**< How many there were. */
 } keel_supervisor_t;
 
 /**

@@ -15,3 +15,14 @@ bool keel_wait_for(const volatile uint32_t *word, uint32_t mask, uint32_t value,
     }
     return reached;
 }
+
+bool keel_wait_us(uint32_t (*read)(void *context), void *context, uint32_t time_us, uint32_t looks)
+{
+    const uint32_t start_us = read(context);
+    bool passed = (time_us == 0u);
+
+    for (uint32_t look = 0u; (look < looks) && !passed; look++) {
+        passed = ((read(context) - start_us) >= time_us);
+    }
+    return passed;
+}

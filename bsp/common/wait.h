@@ -27,4 +27,15 @@ typedef struct keel_wait {
 bool keel_wait_for(const volatile uint32_t *word, uint32_t mask, uint32_t value,
                    const keel_wait_t *wait);
 
+/**
+ * Waits for a time, but not for ever should the clock stand still (requirement WAI-002).
+ *
+ * @param read    reads a counter of microseconds, which wraps at 2^32
+ * @param context handed to read
+ * @param time_us how long, below 2^31 us
+ * @param looks   how often the counter is read at most, after its first reading
+ * @return whether the time has passed
+ */
+bool keel_wait_us(uint32_t (*read)(void *context), void *context, uint32_t time_us, uint32_t looks);
+
 #endif

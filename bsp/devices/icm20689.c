@@ -12,15 +12,15 @@
 #define REG_PWR_MGMT_1    0x6Bu
 #define REG_WHO_AM_I      0x75u
 
-#define READ            0x80u /* Bit 7 of the address. */
-#define IDENTITY        0x98u
-#define DEVICE_RESET    0x80u
-#define DATA_READY      0x01u
-#define ALL_ONES        0xFFu
-#define SETTLE_US       1000u
-#define SAMPLE_BYTES    14u
-#define TRANSFER_BYTES  (SAMPLE_BYTES + 1u)
-#define SETTINGS        8u
+#define READ           0x80u /* Bit 7 of the address. */
+#define IDENTITY       0x98u
+#define DEVICE_RESET   0x80u
+#define DATA_READY     0x01u
+#define ALL_ONES       0xFFu
+#define SETTLE_US      1000u
+#define SAMPLE_BYTES   14u
+#define TRANSFER_BYTES (SAMPLE_BYTES + 1u)
+#define SETTINGS       8u
 
 /* A register with what it is set to. */
 typedef struct setting {
@@ -31,12 +31,12 @@ typedef struct setting {
 /* In this order: awake and on the gyroscope's clock first, the I2C interface off before the bus is
  * shared, data ready last. */
 static const setting_t setting[SETTINGS] = {
-    {REG_PWR_MGMT_1, 0x01u},   /* Best clock available. */
-    {REG_USER_CTRL, 0x10u},    /* No I2C. */
-    {REG_SMPLRT_DIV, 0x00u},   /* 1 kHz. */
-    {REG_CONFIG, 0x00u},       /* Gyroscope's low-pass at 250 Hz. */
-    {REG_GYRO_CONFIG, 0x18u},  /* 2000 degrees per second. */
-    {REG_ACCEL_CONFIG, 0x18u}, /* 16 g. */
+    {REG_PWR_MGMT_1, 0x01u},    /* Best clock available. */
+    {REG_USER_CTRL, 0x10u},     /* No I2C. */
+    {REG_SMPLRT_DIV, 0x00u},    /* 1 kHz. */
+    {REG_CONFIG, 0x00u},        /* Gyroscope's low-pass at 250 Hz. */
+    {REG_GYRO_CONFIG, 0x18u},   /* 2000 degrees per second. */
+    {REG_ACCEL_CONFIG, 0x18u},  /* 16 g. */
     {REG_ACCEL_CONFIG2, 0x01u}, /* Accelerometer's low-pass at 218 Hz. */
     {REG_INT_ENABLE, DATA_READY},
 };
@@ -46,8 +46,8 @@ static keel_bsp_status_t exchange(const keel_icm20689_t *sensor, const uint8_t *
                                   uint32_t length)
 {
     uint32_t done = 0u;
-    const keel_bsp_status_t status =
-        sensor->bus.exchange(sensor->bus.context, out, in, length, &done);
+    const keel_bsp_status_t status = sensor->bus.exchange(sensor->bus.context, out, in, length,
+                                                          &done);
 
     if (status != KEEL_BSP_OK) {
         return status;

@@ -118,21 +118,24 @@ static keel_clock_fault_t start_overdrive(keel_pwr_t *pwr, const keel_wait_t *wa
                : KEEL_CLOCK_OVERDRIVE_SWITCH;
 }
 
-/* Wait states before the clock rises. The accelerator is reset while it is off. */
-static keel_clock_fault_t start_flash(keel_flash_t *flash, const keel_wait_t *wait)
+static uint32_t latency(void)
 {
-    const uint32_t latency = FIELD(FLASH_ACR_LATENCY, keel_flash_wait_states(KEEL_CORE_HZ));
+    return FIELD(FLASH_ACR_LATENCY, keel_flash_wait_states(KEEL_CORE_HZ));
+}
 
-    keel_bits_put(&flash->ACR, FLASH_ACR_ARTEN | FLASH_ACR_LATENCY, latency);
+/* Wait states before the clock rises. The accelerator is reset while it is off. */
+static void start_flash(keel_flash_t *flash)
+{
+    keel_bits_put(&flash->ACR, FLASH_ACR_ARTEN | FLASH_ACR_LATENCY, latency());
     flash->ACR |= FLASH_ACR_ARTRST;
     keel_bits_put(&flash->ACR, FLASH_ACR_ARTRST, 0u);
     flash->ACR |= FLASH_ACR_ARTEN | FLASH_ACR_PRFTEN;
-    return keel_wait_for(&flash->ACR, FLASH_ACR_LATENCY, latency, wait) ? KEEL_CLOCK_OK
-                                                                        : KEEL_CLOCK_LATENCY;
 }
 
-static keel_clock_fault_t start_core(keel_rcc_t *rcc, const keel_wait_t *wait)
+static keel_clock_fault_t start_core(const keel_clock_registers_t *registers,
+                                     const keel_wait_t *wait)
 {
+    keel_rcc_t *const rcc = registers->rcc;
     const uint32_t apb1 = prescaler_code(keel_bus_divisor(KEEL_CORE_HZ, KEEL_APB1_LIMIT_HZ));
     const uint32_t apb2 = prescaler_code(keel_bus_divisor(KEEL_CORE_HZ, KEEL_APB2_LIMIT_HZ));
 
@@ -140,6 +143,9 @@ static keel_clock_fault_t start_core(keel_rcc_t *rcc, const keel_wait_t *wait)
                   FIELD(RCC_CFGR_PPRE1, apb1) | FIELD(RCC_CFGR_PPRE2, apb2));
     if (!keel_wait_for(&rcc->CR, RCC_CR_PLLRDY, RCC_CR_PLLRDY, wait)) {
         return KEEL_CLOCK_PLL;
+    }
+    if (!keel_wait_for(&registers->flash->ACR, FLASH_ACR_LATENCY, latency(), wait)) {
+        return KEEL_CLOCK_LATENCY;
     }
     if (!switch_core(rcc, SWITCH_PLL, wait)) {
         return KEEL_CLOCK_TO_PLL;
@@ -168,10 +174,8 @@ keel_clock_fault_t keel_clock_tree_start(const keel_clock_registers_t *registers
     if (fault == KEEL_CLOCK_OK) {
         rcc->PLLCFGR = keel_pll_word(&pll);
         rcc->CR |= RCC_CR_PLLON;
+        start_flash(registers->flash);
         fault = start_overdrive(registers->pwr, wait);
     }
-    if (fault == KEEL_CLOCK_OK) {
-        fault = start_flash(registers->flash, wait);
-    }
-    return (fault == KEEL_CLOCK_OK) ? start_core(rcc, wait) : fault;
+    return (fault == KEEL_CLOCK_OK) ? start_core(registers, wait) : fault;
 }

@@ -45,8 +45,8 @@ typedef enum keel_clock_fault {
     KEEL_CLOCK_HSE,              /**< The external oscillator does not start. */
     KEEL_CLOCK_OVERDRIVE,        /**< Over-drive is not ready. */
     KEEL_CLOCK_OVERDRIVE_SWITCH, /**< The regulator does not change to over-drive. */
-    KEEL_CLOCK_LATENCY,          /**< The flash does not take its wait states. */
     KEEL_CLOCK_PLL,              /**< The PLL does not lock. */
+    KEEL_CLOCK_LATENCY,          /**< The flash does not take its wait states. */
     KEEL_CLOCK_TO_PLL            /**< The core does not change to the PLL. */
 } keel_clock_fault_t;
 

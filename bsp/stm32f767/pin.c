@@ -1,12 +1,12 @@
 #include "stm32f767/pin.h"
 
-#define MODE_INPUT      0u
-#define MODE_OUTPUT     1u
-#define MODE_ALTERNATE  2u
-#define SPEED_HIGH      2u
-#define RESET_HALF      16u /* BSRR: the upper half clears. */
-#define PINS_PER_AFR    8u
-#define FUNCTION_BITS   4u
+#define MODE_INPUT     0u
+#define MODE_OUTPUT    1u
+#define MODE_ALTERNATE 2u
+#define SPEED_HIGH     2u
+#define RESET_HALF     16u /* BSRR: the upper half clears. */
+#define PINS_PER_AFR   8u
+#define FUNCTION_BITS  4u
 
 static void put_two_bits(volatile uint32_t *target, uint32_t number, uint32_t value)
 {
@@ -40,8 +40,8 @@ void keel_pin_input(keel_pin_t pin, keel_pull_t pull)
 void keel_pin_alternate(keel_pin_t pin, uint32_t function, keel_pull_t pull)
 {
     const uint32_t shift = FUNCTION_BITS * (pin.number % PINS_PER_AFR);
-    volatile uint32_t *const select =
-        (pin.number < PINS_PER_AFR) ? &pin.port->AFRL : &pin.port->AFRH;
+    volatile uint32_t *const select = (pin.number < PINS_PER_AFR) ? &pin.port->AFRL
+                                                                  : &pin.port->AFRH;
 
     keel_bits_put(select, BITS(shift, FUNCTION_BITS), function << shift);
     keel_bits_put(&pin.port->OTYPER, BITS(pin.number, 1u), 0u);

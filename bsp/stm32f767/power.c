@@ -24,7 +24,7 @@ keel_bsp_status_t keel_brownout_set(keel_flash_t *flash, keel_brownout_t level,
     flash->OPTKEYR = OPTION_KEY_2;
     keel_bits_put(&flash->OPTCR, FLASH_OPTCR_BOR_LEV, FIELD(FLASH_OPTCR_BOR_LEV, (uint32_t)level));
     flash->OPTCR |= FLASH_OPTCR_OPTSTRT;
-    done = keel_wait_for(&flash->SR, FLASH_SR_BSY, 0u, wait);
+    done = keel_wait_for(&flash->OPTCR, FLASH_OPTCR_OPTSTRT, 0u, wait);
     flash->OPTCR |= FLASH_OPTCR_OPTLOCK;
     if (!done) {
         return KEEL_BSP_TIMEOUT;

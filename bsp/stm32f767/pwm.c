@@ -2,8 +2,8 @@
 
 #include "stm32f767/time_base.h"
 
-#define TICK_HZ     1000000u
-#define PWM_MODE_1  6u /* Active while the counter is below the compare value. */
+#define TICK_HZ    1000000u
+#define PWM_MODE_1 6u /* Active while the counter is below the compare value. */
 
 /* With the main output off, OSSI keeps the outputs driven at their idle level, which CR2 leaves
  * low, rather than floating. */

@@ -3,7 +3,6 @@
 #define DIVISOR_MIN 16u
 #define DIVISOR_MAX 65535u
 #define TOLERANCE   50u /* 1 in 50: 2 %. */
-#define DIGITS      10u
 
 keel_bsp_status_t keel_serial_divisor(uint32_t clock_hz, uint32_t baud, uint32_t *divisor)
 {
@@ -43,43 +42,16 @@ keel_bsp_status_t keel_serial_start(keel_serial_t *serial, keel_uart_t *uart, ui
     return KEEL_BSP_OK;
 }
 
-static void put(keel_serial_t *serial, uint8_t character)
+void keel_serial_put(keel_serial_t *serial, char character)
 {
     if ((serial->head - serial->tail) < KEEL_SERIAL_CAPACITY) {
-        serial->text[serial->head % KEEL_SERIAL_CAPACITY] = character;
+        serial->text[serial->head % KEEL_SERIAL_CAPACITY] = (uint8_t)character;
         serial->head++;
     } else if (serial->dropped < UINT32_MAX) {
         serial->dropped++;
     } else {
         /* The count stays at its maximum. */
     }
-}
-
-void keel_serial_print(keel_serial_t *serial, const char *text)
-{
-    for (uint32_t i = 0u; text[i] != '\0'; i++) {
-        put(serial, (uint8_t)text[i]);
-    }
-}
-
-void keel_serial_number(keel_serial_t *serial, uint32_t value, uint32_t base, uint32_t width)
-{
-    static const char digit[] = "0123456789abcdef";
-    char text[DIGITS + 1u];
-    uint32_t first = DIGITS;
-    uint32_t rest = value;
-
-    text[DIGITS] = '\0';
-    do {
-        first--;
-        text[first] = digit[rest % base];
-        rest /= base;
-    } while (rest > 0u);
-    while ((first > 0u) && ((DIGITS - first) < width)) {
-        first--;
-        text[first] = (base == DIGITS) ? ' ' : '0';
-    }
-    keel_serial_print(serial, &text[first]);
 }
 
 static void send(keel_serial_t *serial)

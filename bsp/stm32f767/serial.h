@@ -20,10 +20,10 @@
 
 /** A console. The caller owns it; only the functions below write it. */
 typedef struct keel_serial {
-    keel_uart_t *uart;                 /**< The line. */
-    uint32_t head;                     /**< Characters put in, modulo 2^32. */
-    uint32_t tail;                     /**< Characters sent, modulo 2^32. */
-    uint32_t dropped;                  /**< Characters that found no room; stays at its maximum. */
+    keel_uart_t *uart;                  /**< The line. */
+    uint32_t head;                      /**< Characters put in, modulo 2^32. */
+    uint32_t tail;                      /**< Characters sent, modulo 2^32. */
+    uint32_t dropped;                   /**< Characters that found no room; stays at its maximum. */
     uint8_t text[KEEL_SERIAL_CAPACITY]; /**< The buffer. */
 } keel_serial_t;
 
@@ -51,33 +51,22 @@ keel_bsp_status_t keel_serial_start(keel_serial_t *serial, keel_uart_t *uart, ui
                                     uint32_t baud);
 
 /**
- * Puts text into the buffer; what does not fit is dropped and counted (requirement SER-003).
+ * Puts a character into the buffer; when it is full, it is dropped and counted (SER-003).
  *
- * @param serial the console
- * @param text   the text, with a zero at its end
+ * @param serial    the console
+ * @param character the character
  */
-void keel_serial_print(keel_serial_t *serial, const char *text);
+void keel_serial_put(keel_serial_t *serial, char character);
 
 /**
- * Puts an unsigned number into the buffer (requirement SER-004).
- *
- * @param serial the console
- * @param value  the number
- * @param base   10 or 16
- * @param width  the least number of characters, filled with zeros for base 16, else with blanks;
- *               0 to 10
- */
-void keel_serial_number(keel_serial_t *serial, uint32_t value, uint32_t base, uint32_t width);
-
-/**
- * Sends one character if there is one and the line is free; never waits (requirement SER-005).
+ * Sends one character if there is one and the line is free; never waits (requirement SER-004).
  *
  * @param serial the console
  */
 void keel_serial_pump(keel_serial_t *serial);
 
 /**
- * Sends all, for the end of a program and for faults (requirement SER-006).
+ * Sends all, for the end of a program and for faults (requirement SER-005).
  *
  * @param serial the console
  * @param wait   the bound for each character

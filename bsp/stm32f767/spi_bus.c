@@ -69,8 +69,7 @@ keel_bsp_status_t keel_spi_bus_exchange(void *context, const uint8_t *out, uint8
         }
     }
     /* The last bit is out before the device is deselected. */
-    if (!keel_wait_for(&device->spi->SR, SPI_SR_BSY, 0u, device->wait) &&
-        (status == KEEL_BSP_OK)) {
+    if (!keel_wait_for(&device->spi->SR, SPI_SR_BSY, 0u, device->wait) && (status == KEEL_BSP_OK)) {
         status = KEEL_BSP_TIMEOUT;
     }
     keel_pin_write(device->select, true);

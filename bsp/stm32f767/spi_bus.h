@@ -15,8 +15,8 @@
 
 /** A device on an SPI: the context of keel_spi_bus_exchange. */
 typedef struct keel_spi_device {
-    keel_spi_t *spi;       /**< The bus. */
-    keel_pin_t select;     /**< The device's chip select, active low. */
+    keel_spi_t *spi;         /**< The bus. */
+    keel_pin_t select;       /**< The device's chip select, active low. */
     const keel_wait_t *wait; /**< The bound of each wait. */
 } keel_spi_device_t;
 

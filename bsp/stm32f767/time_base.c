@@ -35,15 +35,3 @@ uint32_t keel_time_base_us(void *context)
 
     return tim->CNT;
 }
-
-keel_bsp_status_t keel_time_base_delay(keel_tim_t *tim, uint32_t time_us, uint32_t looks)
-{
-    const uint32_t start_us = tim->CNT;
-
-    for (uint32_t look = 0u; look < looks; look++) {
-        if ((tim->CNT - start_us) >= time_us) {
-            return KEEL_BSP_OK;
-        }
-    }
-    return KEEL_BSP_TIMEOUT;
-}

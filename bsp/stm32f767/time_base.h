@@ -37,14 +37,4 @@ keel_bsp_status_t keel_time_base_start(keel_tim_t *tim, uint32_t timer_hz);
  */
 uint32_t keel_time_base_us(void *context);
 
-/**
- * Waits, across the wrap too, but not for ever should the timer stand still (requirement TIB-004).
- *
- * @param tim     the timer
- * @param time_us how long, below 2^31 us
- * @param looks   how often the counter is read at most
- * @return KEEL_BSP_OK, or KEEL_BSP_TIMEOUT when the time had not passed after so many looks
- */
-keel_bsp_status_t keel_time_base_delay(keel_tim_t *tim, uint32_t time_us, uint32_t looks);
-
 #endif

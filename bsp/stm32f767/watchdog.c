@@ -24,8 +24,9 @@ keel_bsp_status_t keel_watchdog_plan(uint32_t timeout_us, keel_watchdog_plan_t *
         return KEEL_BSP_ARGUMENT;
     }
     plan->prescaler = prescaler;
-    plan->reload =
-        (uint32_t)((ticks + ((DIVISOR_MIN << prescaler) - 1u)) / (DIVISOR_MIN << prescaler)) - 1u;
+    plan->reload = (uint32_t)((ticks + ((DIVISOR_MIN << prescaler) - 1u)) /
+                              (DIVISOR_MIN << prescaler)) -
+                   1u;
     return KEEL_BSP_OK;
 }
 
