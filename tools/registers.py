@@ -14,7 +14,7 @@ fetched with their checksums and read as data:
 
 A fact without a counterpart is a difference, unless specs/registers.toml says with a reason why it
 has none, or what the database calls it. An entry there that nothing needs is a difference too.
-The signals of the boards' pins (bsp/*/pins.h) are compared as well.
+The signals of the boards' pins (bsp/*/pins.c) are compared as well.
 
 build/registers/report.json has every fact. Exit status: 0 without differences, 1 with, 2 for a
 wrong command line.
@@ -37,7 +37,7 @@ from toolchain import Toolchain, ToolchainError
 
 ROOT = Path(__file__).resolve().parents[1]
 HEADERS = ("bsp/cortex_m7/core.h", "bsp/stm32f767/registers/*.h")
-PINS = "bsp/*/pins.h"
+PINS = "bsp/*/pins.c"
 EXCEPTIONS = "specs/registers.toml"
 REPORT = Path("build/registers/report.json")
 

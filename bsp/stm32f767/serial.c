@@ -78,3 +78,17 @@ keel_bsp_status_t keel_serial_flush(keel_serial_t *serial, const keel_wait_t *wa
     return keel_wait_for(&serial->uart->ISR, UART_ISR_TC, UART_ISR_TC, wait) ? KEEL_BSP_OK
                                                                              : KEEL_BSP_TIMEOUT;
 }
+
+bool keel_serial_get(keel_serial_t *serial, char *character)
+{
+    const uint32_t state = serial->uart->ISR;
+
+    if ((state & UART_ISR_ORE) != 0u) {
+        serial->uart->ICR = UART_ICR_ORECF; /* Or the receiver would take nothing more. */
+    }
+    if ((state & UART_ISR_RXNE) == 0u) {
+        return false;
+    }
+    *character = (char)(uint8_t)serial->uart->RDR;
+    return true;
+}

@@ -74,4 +74,14 @@ void keel_serial_pump(keel_serial_t *serial);
  */
 keel_bsp_status_t keel_serial_flush(keel_serial_t *serial, const keel_wait_t *wait);
 
+/**
+ * Takes a character that came, if one did; never waits (requirement SER-006). After an overrun,
+ * when characters were lost, it goes on with the next.
+ *
+ * @param serial    the console
+ * @param character the character
+ * @return whether one came; else character is as it was
+ */
+bool keel_serial_get(keel_serial_t *serial, char *character);
+
 #endif

@@ -170,6 +170,29 @@ static void SER_005_it_waits_for_the_last_bit(void)
     TEST_ASSERT_EQUAL(KEEL_BSP_OK, keel_serial_flush(&serial, &wait));
 }
 
+static void SER_006_a_character_that_came(void)
+{
+    char character = '?';
+
+    TEST_ASSERT_FALSE(keel_serial_get(&serial, &character));
+    TEST_ASSERT_EQUAL('?', character);
+    uart.ISR = UART_ISR_RESET | UART_ISR_RXNE;
+    uart.RDR = 'k';
+    TEST_ASSERT_TRUE(keel_serial_get(&serial, &character));
+    TEST_ASSERT_EQUAL('k', character);
+    TEST_ASSERT_EQUAL_HEX32(0u, uart.ICR);
+}
+
+static void SER_006_an_overrun_does_not_end_it(void)
+{
+    char character = '?';
+
+    uart.ISR = UART_ISR_RESET | UART_ISR_RXNE | UART_ISR_ORE;
+    uart.RDR = 'k';
+    TEST_ASSERT_TRUE(keel_serial_get(&serial, &character));
+    TEST_ASSERT_EQUAL_HEX32(0x8u, uart.ICR);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -184,5 +207,7 @@ int main(void)
     RUN_TEST(SER_005_all_is_sent);
     RUN_TEST(SER_005_a_dead_line_ends_it);
     RUN_TEST(SER_005_it_waits_for_the_last_bit);
+    RUN_TEST(SER_006_a_character_that_came);
+    RUN_TEST(SER_006_an_overrun_does_not_end_it);
     return UNITY_END();
 }

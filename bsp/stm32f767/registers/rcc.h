@@ -63,6 +63,7 @@ typedef struct keel_rcc {
 #define RCC_AHB1ENR_GPIOEEN    BITS(4u, 1u)
 #define RCC_AHB1ENR_GPIOFEN    BITS(5u, 1u)
 #define RCC_AHB1ENR_GPIOGEN    BITS(6u, 1u)
+#define RCC_AHB1ENR_GPIOHEN    BITS(7u, 1u)
 #define RCC_AHB1ENR_BKPSRAMEN  BITS(18u, 1u)
 #define RCC_AHB1ENR_DTCMRAMEN  BITS(20u, 1u)
 #define RCC_APB1ENR_RESET      0x00000000u
