@@ -14,7 +14,7 @@ ALL_TOOLS := prove test lint coverage bench fuzz firmware target
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
 
-.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace registers status firmware tools doctor clean python
+.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace registers status firmware flash tools doctor clean python
 .NOTPARALLEL:
 
 help: ## this list
@@ -62,6 +62,9 @@ status: python ## write what the last run of 'make prove' proved into README.md
 
 firmware: python ## build a board's image (BOARD=mps2_an500; ARGS='--app FOLDER': another main)
 	@python3 tools/firmware.py "$(BOARD)" $(ARGS)
+
+flash: python ## write a board's image to the board (BOARD=nucleo_f767zi; ARGS='--tool st-flash')
+	@python3 tools/flash.py "$(BOARD)" $(ARGS)
 
 tools: python ## install all tools now, rather than when they are needed
 	@python3 tools/toolchain.py ensure $(ALL_TOOLS)

@@ -95,6 +95,7 @@ class Spec:
     folder: str = ""
     program: str = ""
     keep: tuple[str, ...] = ()
+    requirements: str = ""
     libraries: tuple[str, ...] = ()
     loader: str = ""
     library_path: tuple[str, ...] = ()
@@ -131,6 +132,8 @@ class Spec:
 
     def started(self, command: str) -> str:
         """The program behind a command of an unpacked tool, relative to its tree."""
+        if self.requirements:
+            return f"bin/{command}"
         return self.program or f"usr/bin/{command}"
 
     def admits(self, version: str) -> bool:
@@ -758,6 +761,27 @@ def unpack_wheel(tree: Tree, python: Sequence[str]) -> None:
     _write_starter(tree, spec.commands[0])
 
 
+def unpack_wheels(tree: Tree, python: Sequence[str]) -> None:
+    """A Python program with all that it runs on, each in one version with its checksum."""
+    spec = tree.spec
+    listed = TOOLS_DIR / spec.requirements
+    if sha256_of(listed) != spec.sha256:
+        raise ToolchainError(f"{spec.name}: {spec.requirements} is not what {LOCK_FILE.name} pins")
+    options = ["--require-hashes", "--no-deps", "--only-binary=:all:", "--target", str(tree.root)]
+    if tree.log.run([*python, "-m", "pip", "install", *options, "-r", str(listed)]) != 0:
+        raise ToolchainError(
+            f"{spec.name}: pip does not install {spec.requirements} (Linux on amd64 with Python "
+            f"3.11 is needed); pip says:{tree.log.tail()}"
+        )
+    tree.add_part(spec.requirements, spec.pin, "Python package index, pinned", listed)
+    for command in spec.commands:
+        target = tree.root / "bin" / command
+        target.parent.mkdir(exist_ok=True)
+        start = f'PYTHONPATH="$root" exec {shlex.join(python)} -m {spec.program} "$@"'
+        target.write_text(f"#!/bin/sh\nroot=${{0%/*}}/..\n{start}\n")
+        target.chmod(0o755)
+
+
 def unpack_crate(tree: Tree, cargo: Sequence[str]) -> None:
     """Parts of a Rust crate, as data; cargo fetches it, as it is configured here, and builds it not."""
     spec = tree.spec
@@ -1100,7 +1124,7 @@ class Toolchain:
     def _unpack(self, spec: Spec) -> Found:
         def fill(tree: Tree) -> None:
             if spec.kind == "wheel":
-                unpack_wheel(tree, self.command("pip"))
+                (unpack_wheels if spec.requirements else unpack_wheel)(tree, self.command("pip"))
                 return
             if spec.kind == "crate":
                 unpack_crate(tree, self.command("cargo"))
