@@ -20,12 +20,32 @@
 /* Kept over a reset; not cleared at the start. */
 static keel_fault_record_t keel_fault_record __attribute__((section(".backup")));
 
-static const keel_scheduler_t *watched;
-static volatile uint32_t stop_code;
+/* A word with its complement: a fault may come before memory is filled, when both are anything. */
+typedef struct checked_word {
+    volatile uint32_t value;
+    volatile uint32_t complement;
+} checked_word_t;
+
+static checked_word_t watched; /* The scheduler's address. */
+static checked_word_t stop_code;
+
+static void set_checked(checked_word_t *word, uint32_t value)
+{
+    word->value = value;
+    word->complement = ~value;
+}
+
+/* The word, or 0 if it was never set. */
+static uint32_t get_checked(const checked_word_t *word)
+{
+    const uint32_t value = word->value;
+
+    return (word->complement == ~value) ? value : 0u;
+}
 
 void keel_fault_watch(const keel_scheduler_t *scheduler)
 {
-    watched = scheduler;
+    set_checked(&watched, (uint32_t)scheduler);
 }
 
 static uint32_t check_of(const keel_fault_record_t *record)
@@ -69,7 +89,7 @@ bool keel_fault_take(void)
 /* The name of the task that runs, as far as a broken system can be believed. */
 static void note_task(char *to)
 {
-    const keel_scheduler_t *const scheduler = watched;
+    const keel_scheduler_t *const scheduler = (const keel_scheduler_t *)get_checked(&watched);
     const char *name = NULL;
 
     if ((scheduler != NULL) && (scheduler->running < KEEL_QUEUE_CAPACITY)) {
@@ -132,7 +152,7 @@ void keel_fault_finish(uint32_t sp, uint32_t exc_return, const uint32_t *registe
     record->count = before + 1u;
     record->fresh = 1u;
     record->number = SCB->ICSR & ICSR_VECTACTIVE;
-    record->code = stop_code;
+    record->code = get_checked(&stop_code);
     record->sp = sp;
     record->exc_return = exc_return;
     record->cfsr = SCB->CFSR;
@@ -167,7 +187,7 @@ __attribute__((naked)) void keel_fault_handler(void)
 
 void keel_fault_stop(uint32_t code)
 {
-    stop_code = code;
+    set_checked(&stop_code, code);
     __asm volatile("udf #0");
     for (;;) {
     }

@@ -8,7 +8,8 @@
 #define SCB ((keel_scb_t *)SCB_BASE)
 #define FPU ((keel_fpu_t *)FPU_BASE)
 
-#define CPACR_FULL 0xFu /* Full access to both halves of the FPU. */
+#define PAINT_ROOM_B 64u
+#define CPACR_FULL   0xFu /* Full access to both halves of the FPU. */
 
 int main(void);
 
@@ -26,10 +27,13 @@ static void fill(uint32_t *start, const uint32_t *end, uint32_t value)
     }
 }
 
-/* Up to where this very function's callers begin. */
+/* Up to what is in use, with room for the call that does it. */
 static void paint_stack(void)
 {
-    fill(keel_stack_bottom, (const uint32_t *)__builtin_frame_address(0) - 16, KEEL_STACK_PAINT);
+    uint32_t sp;
+
+    __asm volatile("mov %0, sp" : "=r"(sp));
+    fill(keel_stack_bottom, (const uint32_t *)(sp - PAINT_ROOM_B), KEEL_STACK_PAINT);
 }
 
 uint32_t keel_stack_used_b(void)

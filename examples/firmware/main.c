@@ -2,9 +2,9 @@
  * @file main.c
  * @brief The paper's 21 tasks on a board, for ten seconds of the board's own time.
  *
- * A task's body keeps the CPU busy for the task's worst-case time of table 2. Its budget is a little
- * more, because a run's measured time includes the decision before it. At the end a table on the
- * console tells how often each task ran. What the kernel refuses ends as a fault does.
+ * A task's body keeps the CPU busy for the task's worst-case time of table 2. Its budget is a
+ * little more, because a run's measured time includes the decision before it. At the end a table on
+ * the console tells how often each task ran. What the kernel refuses ends as a fault does.
  */
 #include "board.h"
 #include "console.h"
