@@ -15,9 +15,9 @@ bsp/<board>/flash.toml says what the board can be written with, the first being 
 The image must be whole: its checksum is the one in the build's report. It counts as written only
 when the tool has read it back and says so; an exit status alone is not believed.
 
-build/flash/report.json says what was written, with which tool, and how it was verified; a failed run
-leaves none. Exit status: 0 when the image was written and verified, 1 when not, 2 for a wrong command
-line or an unknown board.
+build/flash/report.json says what was written, with which tool, and how it was verified; a failed
+run leaves none. Exit status: 0 when the image was written and verified, 1 when not, 2 for a wrong
+command line or an unknown board.
 """
 
 from __future__ import annotations
@@ -44,8 +44,8 @@ LAST_LINES = 15
 
 CHECK = (
     "Check that the board is connected by USB, that the cable carries data and is at the connector "
-    "of the debug probe, that no other program uses the probe, and that you may: as root, or by the "
-    "udev rules that come with the tool."
+    "of the debug probe, that no other program uses the probe, and that you may: as root, or by "
+    "the udev rules that come with the tool."
 )
 ABSENT = re.compile(
     r"open failed|no device found|couldn't find any st-?link|no connected debug probes|"

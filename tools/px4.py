@@ -4,8 +4,8 @@
     python3 tools/px4.py pack IMAGE.bin OUT.px4 --board-id 50     # make a container
     python3 tools/px4.py upload FILE.px4 --port /dev/ttyACM0      # write it to a board
 
-A container is JSON: what the image is for, and the image itself, compressed with zlib and in base64.
-It holds no time, so that the same image makes the same container.
+A container is JSON: what the image is for, and the image itself, compressed with zlib and in
+base64. It holds no time, so that the same image makes the same container.
 
 The boot loader answers for some seconds after a reset or power-on: --wait says how long to look for
 it. A command is a byte, its arguments and 0x20; an answer is its data, 0x12 and a status, of which
@@ -257,9 +257,9 @@ def find(tools: Toolchain, name: str, wait_s: float) -> BootLoader:
             return loader
         if time.monotonic() >= deadline:
             raise Px4Error(
-                f"no boot loader within {wait_s:g} s ({last}). Check that the board is connected by "
-                "USB, that the cable carries data, that you may use the port (group dialout), and "
-                "reset the board or plug it in again: its boot loader answers for some 5 s only."
+                f"no boot loader within {wait_s:g} s ({last}). Check that the board is connected "
+                "by USB, that the cable carries data, that you may use the port (group dialout), "
+                "and reset the board or plug it in again: its boot loader answers for some 5 s."
             )
         time.sleep(0.05)
 

@@ -19,8 +19,8 @@ missing here. To the deepest path comes what the core stacks for an exception, w
 the FPU: no interrupt is enabled, so there is at most one, a fault, whose handler has a stack of its
 own.
 
-build/stack/<board>.json has the bound of each task and the deepest path of each stack. Exit status: 0
-when every bound holds, 1 when not, 2 for a wrong command line.
+build/stack/<board>.json has the bound of each task and the deepest path of each stack. Exit
+status: 0 when every bound holds, 1 when not, 2 for a wrong command line.
 """
 
 from __future__ import annotations
@@ -312,8 +312,8 @@ def check_reached(graph: Mapping[str, Function], reached: set[str], image: set[s
     names = {graph[title].name for title in reached}
     missing = sorted(image - names)
     if missing:
-        raise StackError(f"in the image, but nobody calls them: {', '.join(missing)}; a call through "
-                         f"a pointer or an entry is missing in {TABLE}")  # fmt: skip
+        raise StackError(f"in the image, but nobody calls them: {', '.join(missing)}; a call "
+                         f"through a pointer or an entry is missing in {TABLE}")  # fmt: skip
 
 
 @dataclass(frozen=True)

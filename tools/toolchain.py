@@ -783,7 +783,7 @@ def unpack_wheels(tree: Tree, python: Sequence[str]) -> None:
 
 
 def unpack_crate(tree: Tree, cargo: Sequence[str]) -> None:
-    """Parts of a Rust crate, as data; cargo fetches it, as it is configured here, and builds it not."""
+    """Parts of a Rust crate, as data; cargo fetches it, as it is configured here."""
     spec = tree.spec
     package = tree.scratch / "fetch"
     (package / "src").mkdir(parents=True)
@@ -799,7 +799,9 @@ def unpack_crate(tree: Tree, cargo: Sequence[str]) -> None:
     home = Path(os.environ.get("CARGO_HOME") or "~/.cargo").expanduser()
     archives = sorted(home.glob(f"registry/cache/*/{spec.package}-{spec.pin}.crate"))
     if not archives:
-        raise ToolchainError(f"{spec.name}: cargo left no {spec.package}-{spec.pin}.crate in {home}")
+        raise ToolchainError(
+            f"{spec.name}: cargo left no {spec.package}-{spec.pin}.crate in {home}"
+        )
     tree.check_pin(archives[0])
     tree.add_part(spec.package, spec.pin, "Rust package registry, pinned", archives[0])
     with tarfile.open(archives[0]) as tar:
@@ -1100,7 +1102,10 @@ class Toolchain:
             reason = "KEEL_NO_INSTALL=1 forbids to install"
         elif any(not spec.cached for spec in absent):
             reason = HostApt(self.cache.log).refusal()
-        elif any(spec.kind not in {"wheel", "crate"} for spec in absent) and not shutil.which("apt-get"):
+        elif (
+            any(spec.kind not in {"wheel", "crate"} for spec in absent)
+            and not shutil.which("apt-get")
+        ):  # fmt: skip
             reason = "this system has no apt-get"
         if reason:
             lines = [missing_line(spec, finder) for spec in absent]

@@ -28,19 +28,6 @@ typedef struct setting {
     uint8_t value;
 } setting_t;
 
-/* In this order: awake and on the gyroscope's clock first, the I2C interface off before the bus is
- * shared, data ready last. */
-static const setting_t setting[SETTINGS] = {
-    {REG_PWR_MGMT_1, 0x01u},    /* Best clock available. */
-    {REG_USER_CTRL, 0x10u},     /* No I2C. */
-    {REG_SMPLRT_DIV, 0x00u},    /* 1 kHz. */
-    {REG_CONFIG, 0x00u},        /* Gyroscope's low-pass at 250 Hz. */
-    {REG_GYRO_CONFIG, 0x18u},   /* 2000 degrees per second. */
-    {REG_ACCEL_CONFIG, 0x18u},  /* 16 g. */
-    {REG_ACCEL_CONFIG2, 0x01u}, /* Accelerometer's low-pass at 218 Hz. */
-    {REG_INT_ENABLE, DATA_READY},
-};
-
 /* One exchange in which all bytes must come. */
 static keel_bsp_status_t exchange(const keel_icm20689_t *sensor, const uint8_t *out, uint8_t *in,
                                   uint32_t length)
@@ -110,6 +97,18 @@ static keel_bsp_status_t apply(const keel_icm20689_t *sensor, setting_t wanted)
 
 keel_bsp_status_t keel_icm20689_start(const keel_icm20689_t *sensor)
 {
+    /* In this order: awake and on the gyroscope's clock first, the I2C interface off before the
+     * bus is shared, data ready last. */
+    static const setting_t setting[SETTINGS] = {
+        {REG_PWR_MGMT_1, 0x01u},    /* Best clock available. */
+        {REG_USER_CTRL, 0x10u},     /* No I2C. */
+        {REG_SMPLRT_DIV, 0x00u},    /* 1 kHz. */
+        {REG_CONFIG, 0x00u},        /* Gyroscope's low-pass at 250 Hz. */
+        {REG_GYRO_CONFIG, 0x18u},   /* 2000 degrees per second. */
+        {REG_ACCEL_CONFIG, 0x18u},  /* 16 g. */
+        {REG_ACCEL_CONFIG2, 0x01u}, /* Accelerometer's low-pass at 218 Hz. */
+        {REG_INT_ENABLE, DATA_READY},
+    };
     keel_bsp_status_t status = write_register(sensor, REG_PWR_MGMT_1, DEVICE_RESET);
 
     if (status == KEEL_BSP_OK) {
@@ -156,8 +155,9 @@ static bool is_stuck(const uint8_t *byte, uint32_t length)
 
 keel_bsp_status_t keel_icm20689_read(const keel_icm20689_t *sensor, keel_icm20689_sample_t *sample)
 {
-    const uint8_t out[TRANSFER_BYTES] = {REG_ACCEL_XOUT_H | READ};
-    uint8_t in[TRANSFER_BYTES] = {0u};
+    /* The rest of what is sent does not matter. */
+    static const uint8_t out[TRANSFER_BYTES] = {[0] = REG_ACCEL_XOUT_H | READ};
+    uint8_t in[TRANSFER_BYTES] = {[0] = 0u};
     const uint8_t *const data = &in[1];
     const keel_bsp_status_t status = exchange(sensor, out, in, TRANSFER_BYTES);
 

@@ -39,16 +39,31 @@ keel_bsp_status_t keel_pwm_start(keel_tim_t *tim, uint32_t timer_hz, uint32_t ra
 
 keel_bsp_status_t keel_pwm_set(keel_tim_t *tim, uint32_t channel, uint32_t pulse_us)
 {
-    volatile uint32_t *const compare[KEEL_PWM_CHANNELS] = {&tim->CCR1, &tim->CCR2, &tim->CCR3,
-                                                           &tim->CCR4};
     const bool in_range = (pulse_us >= KEEL_PWM_PULSE_MIN_US) &&
                           (pulse_us <= KEEL_PWM_PULSE_MAX_US);
+    keel_bsp_status_t status = KEEL_BSP_OK;
 
-    if ((channel >= KEEL_PWM_CHANNELS) || ((pulse_us != 0u) && !in_range)) {
+    if ((pulse_us != 0u) && !in_range) {
         return KEEL_BSP_ARGUMENT;
     }
-    *compare[channel] = pulse_us;
-    return KEEL_BSP_OK;
+    switch (channel) {
+    case 0u:
+        tim->CCR1 = pulse_us;
+        break;
+    case 1u:
+        tim->CCR2 = pulse_us;
+        break;
+    case 2u:
+        tim->CCR3 = pulse_us;
+        break;
+    case 3u:
+        tim->CCR4 = pulse_us;
+        break;
+    default:
+        status = KEEL_BSP_ARGUMENT;
+        break;
+    }
+    return status;
 }
 
 void keel_pwm_arm(keel_tim_t *tim)

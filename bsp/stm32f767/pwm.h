@@ -13,7 +13,6 @@
 
 #include <stdint.h>
 
-#define KEEL_PWM_CHANNELS     4u    /**< Outputs of a timer. */
 #define KEEL_PWM_PULSE_MIN_US 900u  /**< Shortest pulse, in us. */
 #define KEEL_PWM_PULSE_MAX_US 2100u /**< Longest pulse, in us. */
 #define KEEL_PWM_RATE_MIN_HZ  50u   /**< Lowest rate of pulses. */

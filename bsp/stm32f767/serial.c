@@ -6,7 +6,9 @@
 
 keel_bsp_status_t keel_serial_divisor(uint32_t clock_hz, uint32_t baud, uint32_t *divisor)
 {
-    const uint32_t nearest = (uint32_t)(((uint64_t)clock_hz + (baud / 2u)) / baud);
+    const uint64_t rate = baud;
+    const uint64_t rounded = (clock_hz + (rate / 2u)) / rate;
+    const uint32_t nearest = (uint32_t)rounded;
     uint64_t made;
     uint64_t off;
 

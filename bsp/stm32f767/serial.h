@@ -3,7 +3,7 @@
  * @brief A serial console: text goes into a buffer at once, and to the line when it takes it.
  *
  * Printing must not hold up real-time tasks: 100 characters at 115 200 baud take 8.7 ms. A task
- * therefore only fills the buffer, and the main loop moves a character on whenever the line is free.
+ * only fills the buffer, therefore, and the main loop moves a character on when the line is free.
  */
 #ifndef KEEL_BSP_STM32F767_SERIAL_H
 #define KEEL_BSP_STM32F767_SERIAL_H

@@ -35,7 +35,6 @@ keel_bsp_status_t keel_spi_start(keel_spi_t *spi, uint32_t clock_hz, uint32_t li
 /* The data register, a byte wide: a wider access would move two bytes at once (RM0410, 35.5.9). */
 static volatile uint8_t *data_byte(keel_spi_t *spi)
 {
-    /* MISRA deviation MD-101 */
     return (volatile uint8_t *)&spi->DR;
 }
 

@@ -8,25 +8,35 @@
 #define DIVISOR_MIN   4u
 #define SECOND_US     1000000u
 
+/* Ticks of the oscillator that one step of the counter takes. */
+static uint64_t step_ticks(uint32_t prescaler)
+{
+    return (uint64_t)DIVISOR_MIN << prescaler;
+}
+
+/* The longest time-out of a prescaler, in ticks. */
+static uint64_t most_ticks(uint32_t prescaler)
+{
+    return step_ticks(prescaler) * (RELOAD_MAX + 1u);
+}
+
 keel_bsp_status_t keel_watchdog_plan(uint32_t timeout_us, keel_watchdog_plan_t *plan)
 {
-    /* Ticks of the oscillator, rounded up. */
+    /* Rounded up. */
     const uint64_t ticks = (((uint64_t)timeout_us * KEEL_WATCHDOG_CLOCK_HZ) + (SECOND_US - 1u)) /
                            SECOND_US;
     uint32_t prescaler = 0u;
+    uint64_t steps;
 
-    while ((prescaler < PRESCALER_MAX) &&
-           (ticks > ((uint64_t)(RELOAD_MAX + 1u) * (DIVISOR_MIN << prescaler)))) {
+    while ((prescaler < PRESCALER_MAX) && (ticks > most_ticks(prescaler))) {
         prescaler++;
     }
-    if ((ticks < DIVISOR_MIN) ||
-        (ticks > ((uint64_t)(RELOAD_MAX + 1u) * (DIVISOR_MIN << prescaler)))) {
+    if ((ticks < DIVISOR_MIN) || (ticks > most_ticks(prescaler))) {
         return KEEL_BSP_ARGUMENT;
     }
+    steps = (ticks + (step_ticks(prescaler) - 1u)) / step_ticks(prescaler);
     plan->prescaler = prescaler;
-    plan->reload = (uint32_t)((ticks + ((DIVISOR_MIN << prescaler) - 1u)) /
-                              (DIVISOR_MIN << prescaler)) -
-                   1u;
+    plan->reload = (uint32_t)steps - 1u;
     return KEEL_BSP_OK;
 }
 

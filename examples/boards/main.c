@@ -3,14 +3,14 @@
  * @brief The paper's 21 tasks on a real board, until it is switched off.
  *
  * The background task of the inertial unit reads the sensor, if there is one; every other body, and
- * the rest of this one's time, keeps the CPU busy for the task's worst-case time of table 2. Budgets
- * are a little more, because a run's measured time includes the decision before it. A line on the
- * console tells every second how it goes. The watchdog is fed only while every real-time task meets
- * its releases. What the kernel refuses ends as a fault does.
+ * the rest of this one's time, keeps the CPU busy for the task's worst-case time of table 2.
+ * Budgets are a little more, because a run's measured time includes the decision before it. A line
+ * on the console tells every second how it goes. The watchdog is fed only while every real-time
+ * task meets its releases. What the kernel refuses ends as a fault does.
  *
- * Keys: p lets pulses of 1000 us out, o switches the outputs off, t prints a table of the tasks, and,
- * to see what follows: u an undefined instruction, n a null pointer, s a stack that overflows, h a
- * task that hangs.
+ * Keys: p lets pulses of 1000 us out, o switches the outputs off, t prints a table of the tasks;
+ * and, to see what follows: u an undefined instruction, n a null pointer, s a stack that overflows,
+ * h a task that hangs.
  */
 #include "board.h"
 #include "console.h"

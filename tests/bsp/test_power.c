@@ -1,4 +1,4 @@
-/* Unit tests of bsp/stm32f767/power.h. Expected register contents are from RM0410, 3.7.6 and 4.4. */
+/* Unit tests of bsp/stm32f767/power.h. Register contents are from RM0410, 3.7.6 and 4.4. */
 #include "stm32f767/power.h"
 #include "unity.h"
 

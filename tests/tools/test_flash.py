@@ -88,8 +88,8 @@ class FlashTest(unittest.TestCase):
         line = self.flash()
         self.assertRegex(line, "8 bytes at 0x08000000 written with openocd and verified")
         self.assertEqual(self.tools.ensured, ["flash-openocd"])
-        self.assertRegex(self.tools.ran[0], "-f board/st_nucleo_f7.cfg -c program .*keel.elf verify "
-                         "reset exit")  # fmt: skip
+        self.assertRegex(self.tools.ran[0], "-f board/st_nucleo_f7.cfg -c program .*keel.elf "
+                         "verify reset exit")  # fmt: skip
         report = json.loads((self.root / flash.REPORT).read_text())
         self.assertEqual(report["verified"], "** Verified OK")
         self.assertEqual(report["binary_sha256"], hashlib.sha256(b"12345678").hexdigest())

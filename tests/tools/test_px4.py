@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of tools/px4.py: the container, and uploads to a simulated boot loader at a pseudo-terminal.
+"""Tests of tools/px4.py: the container, and uploads to a simulated boot loader at a terminal.
 
     python3 tests/tools/test_px4.py
 

@@ -28,7 +28,7 @@ static void invalidate_data(void)
     barrier();
 }
 
-/* A cache that is on already, by a boot loader, is not invalidated: it may hold what memory lacks. */
+/* A cache that a boot loader left on is not invalidated: it may hold what memory lacks. */
 void keel_cache_start(void)
 {
     if ((SCB->CCR & SCB_CCR_IC) == 0u) {

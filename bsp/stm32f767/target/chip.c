@@ -48,8 +48,8 @@
  * takes some 50 ns: 15 ms, and a character takes 87 us. */
 static const keel_wait_t patience = {300000u, NULL, NULL};
 
-/* The guards come last: where regions overlap, the last one holds. Nothing lies behind the external
- * memory controller, and nothing may be read ahead from there. */
+/* The guards come last: where regions overlap, the last one holds. Nothing lies behind the
+ * external memory controller, and nothing may be read ahead from there. */
 const keel_mpu_region_t keel_board_regions[] = {
     {MEMORY_FLASH_BASE, 21u, KEEL_MPU_CODE},
     {MEMORY_ITCM_BASE, 14u, KEEL_MPU_CODE},
@@ -67,7 +67,7 @@ static const keel_scheduler_t *supervised;
 static uint32_t last_fed_us;
 static keel_spi_device_t sensor_device;
 
-/* --- Before memory is filled: nothing static but constants may be used. -------------------------*/
+/* Before memory is filled: nothing static but constants may be used. */
 
 /* Outputs low, and the memory for a record of a fault open, before anything else can go wrong. */
 void keel_board_early(void)
@@ -78,8 +78,6 @@ void keel_board_early(void)
     }
     (void)keel_backup_open(RCC, PWR, &patience);
 }
-
-/* --- Start --------------------------------------------------------------------------------------*/
 
 static void require(keel_bsp_status_t status)
 {
@@ -170,8 +168,6 @@ void keel_board_start(void)
     }
 }
 
-/* --- board.h ------------------------------------------------------------------------------------*/
-
 KEEL_REALTIME_CODE uint32_t keel_board_clock_us(void *context)
 {
     (void)context;
@@ -198,7 +194,10 @@ static void blink(keel_led_name_t name, uint32_t time_us) __attribute__((noretur
 
 static void blink(keel_led_name_t name, uint32_t time_us)
 {
-    for (bool on = true;; on = !on) {
+    bool on = false;
+
+    for (;;) {
+        on = !on;
         keel_chip_led(name, on);
         (void)keel_wait_us(keel_board_clock_us, NULL, time_us, DELAY_LOOKS);
     }
@@ -224,8 +223,6 @@ void keel_board_safe(void)
     (void)keel_serial_flush(&serial, &patience);
     blink(KEEL_LED_RED, BLINK_US);
 }
-
-/* --- What an application may use beyond it ------------------------------------------------------*/
 
 void keel_chip_led(keel_led_name_t name, bool on)
 {
