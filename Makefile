@@ -14,7 +14,7 @@ ALL_TOOLS := prove test lint coverage bench fuzz firmware target
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
 
-.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace registers status firmware stack flash tools doctor clean python
+.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace registers status firmware model stack flash tools doctor clean python
 .NOTPARALLEL:
 
 help: ## this list
@@ -66,6 +66,9 @@ test-target: python ## the unit tests, faults, demo and host's results on an emu
 
 firmware: python ## build a board's image (BOARD=mps2_an500; ARGS='--app FOLDER': another main)
 	@python3 tools/firmware.py "$(BOARD)" $(ARGS)
+
+model: python ## run a board's image on a model of its chip (BOARD=nucleo_f767zi; ARGS='--keys 1.5:t')
+	@python3 tools/model.py "$(BOARD)" $(ARGS)
 
 stack: python ## bound the stack of every task and of main in a board's image (BOARD=nucleo_f767zi)
 	@python3 tools/stack.py "$(BOARD)" $(ARGS)

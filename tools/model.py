@@ -126,6 +126,7 @@ class Board:
         self.sensor = Sensor(
             0x12 if broken == "other-sensor" else 0x98, there=broken != "sensor"
         )  # fmt: skip
+        self.step_us = 1  # By how much a reading of the time base moves time on.
         self.time_us = 0
         self.text = ""
         self.keys: list[tuple[int, str]] = []  # When, and which.
@@ -169,7 +170,7 @@ class Board:
         """What a register reads."""
         self.block(address)
         if address == TIM5 + 0x24:
-            self.tick(1)
+            self.tick(self.step_us)
             return (self.time_us - self.counter_from_us) & 0xFFFF_FFFF
         if address == self.console + 0x1C:
             due = bool(self.keys) and self.keys[0][0] <= self.time_us
@@ -297,7 +298,6 @@ class Machine:
         self.uc.hook_add(guarded, self._guard, begin=0, end=0xFF)
         self.uc.hook_add(guarded, self._guard, begin=DTCM, end=DTCM + 0x3FF)
         self.uc.hook_add(u.UC_HOOK_MEM_INVALID, self._unmapped)
-        self.uc.hook_add(u.UC_HOOK_INTR, self._interrupt)
 
     # What the processor meets.
 
@@ -339,14 +339,6 @@ class Machine:
         self.uc.emu_stop()
         return False
 
-    def _interrupt(self, _: object, number: int, data: object) -> None:
-        del data
-        if number != 1:  # 1: an undefined instruction.
-            self._stop(ModelError(f"the processor raises {number}"))
-            return
-        self.pending = (USAGE, 0x1_0000, 0)  # UNDEFINSTR.
-        self.uc.emu_stop()
-
     # Reset, faults, and the run.
 
     def word(self, address: int) -> int:
@@ -367,7 +359,9 @@ class Machine:
         number, status, address = pending
         r = self.r
         if self.board.exception:
-            raise ModelError(f"exception {number} in the handler of {self.board.exception}: lock-up")
+            raise ModelError(
+                f"exception {number} in the handler of {self.board.exception}: lock-up"
+            )
         names = (r.UC_ARM_REG_R0, r.UC_ARM_REG_R1, r.UC_ARM_REG_R2, r.UC_ARM_REG_R3,
                  r.UC_ARM_REG_R12, r.UC_ARM_REG_LR, r.UC_ARM_REG_PC, r.UC_ARM_REG_CPSR)  # fmt: skip
         values = [int(self.uc.reg_read(name)) & 0xFFFF_FFFF for name in names]
@@ -389,7 +383,9 @@ class Machine:
             try:
                 self.uc.emu_start(pc | 1, 0, count=SLICE)
             except self.u.UcError as error:
-                if not self.pending:
+                if error.errno == self.u.UC_ERR_INSN_INVALID:
+                    self.pending = (USAGE, 0x1_0000, 0)  # UNDEFINSTR.
+                elif not self.pending:
                     at = int(self.uc.reg_read(self.r.UC_ARM_REG_PC))
                     raise ModelError(f"at 0x{at:08x}: {error}") from error
             if self.error:
@@ -411,9 +407,9 @@ CONSOLES = {"nucleo_f767zi": (USART3, (3, 14)), "fmuv5": (UART7, (5, 2))}
 
 def simulate(
     tools: Toolchain, root: Path, name: str, seconds: float,
-    keys: Sequence[tuple[int, str]] = (), broken: str = "",
+    keys: Sequence[tuple[int, str]] = (), broken: str = "", step_us: int = 1,
 ) -> Board:  # fmt: skip
-    """Run a board's image; the board afterwards."""
+    """Run a board's image; the board afterwards. Longer steps make a shorter, coarser run."""
     if name not in CONSOLES:
         raise ModelError(f"no model of {name}; there are: {', '.join(CONSOLES)}")
     image = read_image(root, name)
@@ -424,6 +420,7 @@ def simulate(
     importlib.import_module("unicorn.arm_const")
     board = Board(*CONSOLES[name], broken)
     board.keys = sorted(keys)
+    board.step_us = step_us
     machine = Machine(unicorn, image.binary.read_bytes(), image.address, board)
     machine.run(int(seconds * 1e6))
     return board
