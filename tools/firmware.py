@@ -294,6 +294,10 @@ class Builder:
             self._objects[key] = target
         return self._objects[key]
 
+    def sources(self) -> dict[Path, str]:
+        """The source file of each object that was compiled."""
+        return {path: key[0] for key, path in self._objects.items()}
+
     def objects(self, names: Sequence[str], extra: Sequence[str] = ()) -> list[Path]:
         """Compile files and folders."""
         with ThreadPoolExecutor(2) as pool:
@@ -319,7 +323,8 @@ class Builder:
         run([*gcc, *flags, *words, "-lm", "-lc", "-lgcc", "-o", str(draft)], self.root)
         draft.rename(elf)
         objcopy = self.tools.command("arm-none-eabi-objcopy")
-        run([*objcopy, "-O", "binary", str(elf), str(binary)], self.root)
+        run([*objcopy, "-O", "binary", str(elf), str(draft)], self.root)
+        draft.rename(binary)
         return Image(elf, binary, map_file, whole)
 
 
@@ -554,8 +559,8 @@ def usage(board: Board, contents: Contents) -> dict[str, int]:
 def own_contents(builder: Builder, image: Image) -> dict[str, Contents]:
     """The contents of the objects, by source file."""
     reader = elf_file(builder.tools)
-    by_object = {path: key[0] for key, path in builder._objects.items()}
-    return {by_object[path]: read_contents(reader, path) for path in image.objects}
+    source = builder.sources()
+    return {source[path]: read_contents(reader, path) for path in image.objects}
 
 
 def examine(builder: Builder, image: Image) -> tuple[Contents, list[Check]]:
@@ -601,8 +606,7 @@ def report_of(
         },
         "sections": [asdict(section) for section in contents.sections],
         "sources": {
-            source: sha256(builder.root / source)
-            for source in sorted(key[0] for key in builder._objects)
+            source: sha256(builder.root / source) for source in sorted(builder.sources().values())
         },
         "checks": [asdict(check) for check in checks],
     }

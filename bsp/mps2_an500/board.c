@@ -46,10 +46,11 @@ const char keel_board_name[] = "mps2_an500";
 
 /* The guards come last: where regions overlap, the last one holds. */
 const keel_mpu_region_t keel_board_regions[] = {
+    {0x00000000u, 23u, KEEL_MPU_NONE}, /* Memory that the emulator has and the STM32F767 has not. */
     {0x00200000u, 21u, KEEL_MPU_CODE}, /* Flash. */
     {0x00000000u, 14u, KEEL_MPU_CODE}, /* ITCM. */
-    {0x20000000u, 19u, KEEL_MPU_DATA}, /* DTCM and SRAM. */
-    {0x60000000u, 24u, KEEL_MPU_DATA}, /* PSRAM, which stands for backup SRAM. */
+    {0x20000000u, 29u, KEEL_MPU_DATA}, /* DTCM and SRAM. */
+    {0x60000000u, 29u, KEEL_MPU_DATA}, /* PSRAM, which stands for backup SRAM. */
     {0x00000000u, LOG2_NULL_GUARD, KEEL_MPU_NONE},
     {0x20000000u, LOG2_STACK_GUARD, KEEL_MPU_NONE},
 };

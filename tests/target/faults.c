@@ -21,6 +21,7 @@
 
 /* Addresses that the board file and the linker script know. */
 #define NOWHERE   0x70000000u
+#define WILD      0x00100000u
 #define NULL_PAGE 0x00000010u
 #define FLASH     0x00200000u
 #define NVIC_ISPR 0xE000E200u
@@ -54,6 +55,7 @@ BREAKS void fault_write(void);
 BREAKS void fault_stop(void);
 BREAKS void fault_interrupt(void);
 BREAKS void fault_hang(void);
+BREAKS void fault_jump(void);
 
 void fault_undefined(void)
 {
@@ -96,6 +98,12 @@ void fault_execute(void)
     copy[0] = code[0];
     copy[1] = code[1];
     ((function_t)(hidden((uint32_t)copy) | 1u))();
+}
+
+/* Where there is neither flash nor ITCM. */
+void fault_jump(void)
+{
+    ((function_t)(hidden(WILD) | 1u))();
 }
 
 void fault_write(void)

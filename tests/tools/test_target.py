@@ -93,14 +93,31 @@ class Records(unittest.TestCase):
         self.assertEqual(len(self.judge("stack", status, inside, span=range(0))), 2)
 
 
+FLIGHT = (
+    "flight votes 5000 steps 5000 refused 0 worst 70000 used 63 latched 0 used 63 latched 0 "
+    "used 0 latched 63\n"
+)
 LINE = "task {}: period {} runs {} longest 9 skipped {} overruns {} promotions {}\n"
 
 
 class Demo(unittest.TestCase):
     """What the demo printed."""
 
-    def judge(self, *lines: str, end: str = "demo ended\n") -> list[str]:
-        return target.judge_demo({"IMU": 1000, "ADC": 1000000}, "".join([*lines, end]))
+    def judge(self, *lines: str, end: str = "demo ended\n", flight: str = FLIGHT) -> list[str]:
+        return target.judge_demo({"IMU": 1000, "ADC": 1000000}, "".join([*lines, flight, end]))
+
+    def test_votes_and_control(self) -> None:
+        lines = (LINE.format("IMU", 1000, 10000, 0, 0, 0), LINE.format("ADC", 1000000, 10, 0, 0, 0))
+        for old, new in (
+            ("worst 70000", "worst 70001"),
+            ("latched 63", "latched 62"),
+            ("refused 0", "refused 1"),
+            ("steps 5000", "steps 4999"),
+            (FLIGHT, ""),
+        ):
+            wrong = self.judge(*lines, flight=FLIGHT.replace(old, new))
+            self.assertEqual(len(wrong), 1, new)
+            self.assertIn("votes and control", wrong[0])
 
     def test_each_task_ran_once_per_period(self) -> None:
         lines = (LINE.format("IMU", 1000, 10000, 0, 0, 0), LINE.format("ADC", 1000000, 10, 0, 0, 0))
