@@ -14,7 +14,8 @@ fetched with their checksums and read as data:
 
 A fact without a counterpart is a difference, unless specs/registers.toml says with a reason why it
 has none, or what the database calls it. An entry there that nothing needs is a difference too.
-The signals of the boards' pins (bsp/*/pins.c) are compared as well.
+The signals of the boards' pins (bsp/*/pins.c) and what the boards' files say of memories and
+interrupts (bsp/*/board.toml) are compared as well.
 
 build/registers/report.json has every fact. Exit status: 0 without differences, 1 with, 2 for a
 wrong command line.
@@ -484,6 +485,32 @@ def compare_pins(root: Path, metapac: Metapac, result: Comparison) -> None:
                 result.differences.append(f"{where}: {name}: stm32-metapac has no such function")
 
 
+VECTORS = re.compile(r"KEEL_BOARD_INTERRUPTS=(\d+)u?")
+
+
+def compare_boards(root: Path, databases: Databases, result: Comparison) -> None:
+    """The boards' files: how many interrupts the vector table has, and where the memories lie."""
+    wanted = {"stm32ral": databases.irq, "stm32-metapac": databases.metapac.interrupts}
+    for path in sorted(root.glob("bsp/*/board.toml")):
+        board = tomllib.loads(path.read_text(encoding="utf-8"))
+        if "bsp/stm32f767" not in board["sources"]:
+            continue
+        where = path.relative_to(root).as_posix()
+        number = VECTORS.search(" ".join(board["defines"]))
+        fact = Fact("interrupt", "KEEL_BOARD_INTERRUPTS", where, "vectors", "",
+                    (int(number[1]) if number else 0,))  # fmt: skip
+        found: list[tuple[str, tuple[int, ...]]] = [
+            (name, (max(numbers.values()) + 1,)) for name, numbers in wanted.items()
+        ]
+        result.check(fact, found, False)
+        for region in board["region"]:
+            known = {name: (base, size) for name, base, size in databases.metapac.memories}
+            if region["name"] in known:
+                values = (int(region["origin"]), int(region["size"]))
+                fact = Fact("memory", f"region {region['name']}", where, "", "", values)
+                result.check(fact, [("stm32-metapac", known[region["name"]])], False)
+
+
 def compare(tools: Toolchain, root: Path, databases: Databases) -> Comparison:
     """Compare everything."""
     paths = sorted(path for pattern in HEADERS for path in root.glob(pattern))
@@ -499,6 +526,7 @@ def compare(tools: Toolchain, root: Path, databases: Databases) -> Comparison:
         found = list(databases.find(fact, exceptions, owners))
         result.check(fact, found, not found and exceptions.excuses(fact.name))
     compare_pins(root, databases.metapac, result)
+    compare_boards(root, databases, result)
     for name in exceptions.unused():
         result.differences.append(f"{EXCEPTIONS}: {name}: nothing needs this entry")
     return result

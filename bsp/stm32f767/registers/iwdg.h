@@ -16,9 +16,7 @@ typedef struct keel_iwdg {
 } keel_iwdg_t;
 
 #define IWDG_BASE      0x40003000u
-#define IWDG_PR_PR     BITS(0u, 3u)
 #define IWDG_RLR_RESET 0x00000FFFu
-#define IWDG_RLR_RL    BITS(0u, 12u)
 #define IWDG_SR_PVU    BITS(0u, 1u)
 #define IWDG_SR_RVU    BITS(1u, 1u)
 

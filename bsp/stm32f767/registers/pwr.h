@@ -21,9 +21,6 @@ typedef struct keel_pwr {
 #define PWR_CR1_ODEN     BITS(16u, 1u)
 #define PWR_CR1_ODSWEN   BITS(17u, 1u)
 #define PWR_CSR1_RESET   0x00000000u
-#define PWR_CSR1_BRR     BITS(3u, 1u)
-#define PWR_CSR1_BRE     BITS(9u, 1u)
-#define PWR_CSR1_VOSRDY  BITS(14u, 1u)
 #define PWR_CSR1_ODRDY   BITS(16u, 1u)
 #define PWR_CSR1_ODSWRDY BITS(17u, 1u)
 

@@ -34,7 +34,6 @@ typedef struct keel_tim {
 #define TIM5_BASE       0x40000C00u
 #define TIM_CR1_RESET   0x00000000u
 #define TIM_CR1_CEN     BITS(0u, 1u)
-#define TIM_CR1_URS     BITS(2u, 1u)
 #define TIM_CR1_ARPE    BITS(7u, 1u)
 #define TIM_EGR_UG      BITS(0u, 1u)
 #define TIM_CCMR1_OC1PE BITS(3u, 1u)
@@ -50,7 +49,6 @@ typedef struct keel_tim {
 #define TIM_CCER_CC3E   BITS(8u, 1u)
 #define TIM_CCER_CC4E   BITS(12u, 1u)
 #define TIM_BDTR_OSSI   BITS(10u, 1u)
-#define TIM_BDTR_OSSR   BITS(11u, 1u)
 #define TIM_BDTR_MOE    BITS(15u, 1u)
 
 #endif

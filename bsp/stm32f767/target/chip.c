@@ -37,6 +37,7 @@
 #define LOG2_NULL_GUARD  8u
 #define LOG2_STACK_GUARD 10u
 #define LOG2_HALF_GIB    29u
+#define LOG2_BELOW_FLASH 27u
 #define DELAY_LOOKS      100000000u /* Far more than a delay takes, but not for ever. */
 
 #define GPIO_CLOCKS                                                                                \
@@ -48,9 +49,10 @@
  * takes some 50 ns: 15 ms, and a character takes 87 us. */
 static const keel_wait_t patience = {300000u, NULL, NULL};
 
-/* The guards come last: where regions overlap, the last one holds. Nothing lies behind the
- * external memory controller, and nothing may be read ahead from there. */
+/* The guards come last: where regions overlap, the last one holds. Code lies in flash and in ITCM
+ * alone. Nothing lies behind the external memory controller, and nothing may be read ahead there. */
 const keel_mpu_region_t keel_board_regions[] = {
+    {MEMORY_ITCM_BASE, LOG2_BELOW_FLASH, KEEL_MPU_NONE},
     {MEMORY_FLASH_BASE, 21u, KEEL_MPU_CODE},
     {MEMORY_ITCM_BASE, 14u, KEEL_MPU_CODE},
     {MEMORY_DTCM_BASE, 19u, KEEL_MPU_DATA}, /* And SRAM, which follows it. */
