@@ -53,12 +53,14 @@ BLOCKS = {
 RESETS = {
     RCC: 0x83, RCC + 4: 0x2400_3010, RCC + 0x30: 0x0010_0000, RCC + 0x74: 0x0E00_0000,
     PWR: 0xC000, USART3 + 0x1C: 0xC0, UART7 + 0x1C: 0xC0, SPI1 + 4: 0x700, SPI1 + 8: 2,
-    IWDG + 8: 0xFFF, FLASHR + 0x14: 0xFFFF_AAFD, GPIOA: 0xA800_0000, GPIOA + 0x400: 0x280,
+    IWDG + 8: 0xFFF, FLASHR + 0x14: 0xFFFF_AAF1, GPIOA: 0xA800_0000, GPIOA + 0x400: 0x280,
     SCB + 0x80: 0x0FE0_0019 | 127 << 13,  # 128 sets of 4 ways of 32 bytes.
     SCB + 0x90: 0x800,
 }  # fmt: skip
 
-NMI, HARD, MEMORY, BUS, USAGE = 2, 3, 4, 5, 6
+OPTION_KEYS = [0x0819_2A3B, 0x4C5D_6E7F]
+
+MEMORY, BUS, USAGE = 4, 5, 6
 SLICE = 500_000  # Instructions without a reading of the clock after which time moves on by itself.
 SLICE_US = 2_000
 EXC_RETURN = 0xFFFF_FFF9
@@ -136,12 +138,15 @@ class Board:
         self.armed_us: list[tuple[int, bool]] = []
         self.exception = 0
         self.words: dict[int, int] = {}
+        self.options = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
+        self.unlocking: list[int] = []
         self.reset()
 
     def reset(self) -> None:
         """The registers as a reset leaves them."""
         flags = (1 << 29) if self.starved else (1 << 28) if self.resets else 0x0E00_0000
         self.words = {**RESETS, RCC + 0x74: flags}
+        self.words[FLASHR + 0x14] = self.options
         self.reset_wanted = False
         self.starved = False
         self.exception = 0
@@ -189,7 +194,7 @@ class Board:
         self.words[address] = value
         handler: Callable[[int, int], None] | None = {
             RCC: self._rcc, PWR: self._pwr, IWDG: self._iwdg, SPI1: self._spi, TIM1: self._tim1,
-            TIM5: self._tim5, self.console: self._uart, SCB: self._scb,
+            TIM5: self._tim5, self.console: self._uart, SCB: self._scb, FLASHR: self._flash,
         }.get(base)  # fmt: skip
         if handler:
             handler(address - base, value)
@@ -234,6 +239,21 @@ class Board:
     def _pwr(self, offset: int, value: int) -> None:
         if offset == 0 and self.broken != "overdrive":
             self.words[PWR + 4] = self.words.get(PWR + 4, 0) | value & 0x3_0000
+
+    def _flash(self, offset: int, value: int) -> None:
+        """Option bytes are programmed at once, if they were unlocked."""
+        if offset == 8:
+            self.unlocking.append(value)
+            if self.unlocking == OPTION_KEYS:
+                self.words[FLASHR + 0x14] &= ~1
+        elif offset == 0x14:
+            if self.unlocking != OPTION_KEYS:
+                raise ModelError("option bytes are written while they are locked")
+            if value & 2:
+                self.options = (value & ~2) | 1
+            if value & 1:
+                self.unlocking = []
+            self.words[FLASHR + 0x14] = value & ~2
 
     def _iwdg(self, offset: int, value: int) -> None:
         if offset == 0 and value == 0xAAAA:
@@ -408,6 +428,7 @@ CONSOLES = {"nucleo_f767zi": (USART3, (3, 14)), "fmuv5": (UART7, (5, 2))}
 def simulate(
     tools: Toolchain, root: Path, name: str, seconds: float,
     keys: Sequence[tuple[int, str]] = (), broken: str = "", step_us: int = 1,
+    options: int = RESETS[FLASHR + 0x14],
 ) -> Board:  # fmt: skip
     """Run a board's image; the board afterwards. Longer steps make a shorter, coarser run."""
     if name not in CONSOLES:
@@ -421,6 +442,7 @@ def simulate(
     board = Board(*CONSOLES[name], broken)
     board.keys = sorted(keys)
     board.step_us = step_us
+    board.options = options
     machine = Machine(unicorn, image.binary.read_bytes(), image.address, board)
     machine.run(int(seconds * 1e6))
     return board

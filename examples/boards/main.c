@@ -24,6 +24,7 @@
 #define GUARD_US        20u /* The scheduler's guard W. */
 #define DECISION_US     15u /* What a decision among 21 tasks may take. */
 #define REPORT_EVERY_US 1000000u
+#define OFFER_US        2000000u
 #define PULSE_US        1000u /* No throttle. */
 #define IMU_TASK        10u   /* Of table 2: background IMU. */
 #define STATE_TASK      20u   /* Of table 2: state machine. */
@@ -275,12 +276,34 @@ static void print_start(void)
     keel_console_text("\n");
 }
 
+/* The level lies in the option bytes, so it is set by hand, once for a board, and before the watchdog
+ * runs, which would bite meanwhile. */
+static void offer_brownout(void)
+{
+    const uint32_t start_us = keel_board_clock_us(NULL);
+    char key = '\0';
+
+    if (keel_chip_brownout_is_set()) {
+        return;
+    }
+    keel_console_text("brown-out reset is below 2.7 V: b within 2 s sets 2.7 V for good\n");
+    while ((key != 'b') && ((keel_board_clock_us(NULL) - start_us) < OFFER_US)) {
+        keel_chip_turn();
+        (void)keel_chip_get(&key);
+    }
+    if (key == 'b') {
+        print_number("brown-out status ", (uint64_t)keel_chip_brownout_set());
+        keel_console_text("\n");
+    }
+}
+
 int main(void)
 {
     keel_load_t window;
     char key;
 
     print_start();
+    offer_brownout();
     imu.there = (keel_icm20689_read(keel_chip_sensor(), &imu.last) == KEEL_BSP_OK);
     keel_chip_led(KEEL_LED_BLUE, imu.there);
     keel_fault_watch(&scheduler);

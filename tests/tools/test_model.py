@@ -63,7 +63,9 @@ class ImageTest(unittest.TestCase):
 
     def test_every_task_meets_its_releases_within_its_bound_of_stack(self) -> None:
         board = self.run_image(0.35, keys="t", step_us=1)
-        rows = re.findall(r"task .*: period (\d+) runs (\d+) .* skipped 0 .* promotions 0", board.text)
+        rows = re.findall(
+            r"task .*: period (\d+) runs (\d+) .* skipped 0 .* promotions 0", board.text
+        )
         self.assertEqual(len(rows), 21)
         # The tasks start behind the sensor, 0.13 s after the reset; the key comes at 0.16 s.
         fast = [int(runs) for period, runs in rows if period == "1000"]
@@ -73,6 +75,19 @@ class ImageTest(unittest.TestCase):
         stacks = stack.measure(self.tools, ROOT, "nucleo_f767zi")["stacks"]
         assert isinstance(stacks, dict)
         self.assertLessEqual(int(used[1]), stacks["main"]["bound"] - stack.EXCEPTION_FRAME_B)
+
+    def test_the_brown_out_level_is_set_by_hand_and_once(self) -> None:
+        delivered = 0xFFFF_AAFD
+        board = model.simulate(
+            self.tools, ROOT, "nucleo_f767zi", 0.3, [(200_000, "b")], step_us=4, options=delivered
+        )
+        self.assertIn("b within 2 s sets 2.7 V for good\r\nbrown-out status 0", board.text)
+        self.assertEqual(board.options, 0xFFFF_AAF1)  # The level, and nothing else.
+        board = model.simulate(
+            self.tools, ROOT, "nucleo_f767zi", 0.3, [], step_us=4, options=delivered
+        )
+        self.assertEqual(board.options, delivered)
+        self.assertNotIn("brown-out", self.run_image().text)
 
     def test_outputs_are_armed_by_hand_and_off_after_a_fault(self) -> None:
         board = self.run_image(keys="pu")

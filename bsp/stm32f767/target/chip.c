@@ -266,6 +266,19 @@ keel_bsp_status_t keel_chip_sensor_start(void)
     return keel_icm20689_start(keel_chip_sensor());
 }
 
+bool keel_chip_brownout_is_set(void)
+{
+    return keel_brownout_level(FLASH) == KEEL_BROWNOUT_2V7;
+}
+
+keel_bsp_status_t keel_chip_brownout_set(void)
+{
+    /* A look takes 50 ns at least. */
+    static const keel_wait_t option_patience = {40000000u, NULL, NULL};
+
+    return keel_brownout_set(FLASH, KEEL_BROWNOUT_2V7, &option_patience);
+}
+
 void keel_chip_watchdog_start(const keel_scheduler_t *scheduler)
 {
     supervised = scheduler;

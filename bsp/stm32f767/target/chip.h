@@ -94,6 +94,17 @@ keel_bsp_status_t keel_chip_sensor_start(void);
 /** The inertial sensor, after keel_chip_sensor_start. */
 const keel_icm20689_t *keel_chip_sensor(void);
 
+/** Whether the brown-out level is 2.7 V, below which the flash is too slow for the core's clock. */
+bool keel_chip_brownout_is_set(void);
+
+/**
+ * Sets the brown-out level to 2.7 V for good, in the option bytes. Takes up to 2 s, so the watchdog
+ * must not run yet.
+ *
+ * @return as keel_brownout_set
+ */
+keel_bsp_status_t keel_chip_brownout_set(void);
+
 /**
  * Starts the watchdog; from then on keel_chip_turn must be called every 50 ms at least.
  *
