@@ -10,7 +10,8 @@ SECONDS := 60
 ARGS ?=
 BOARD ?=
 
-ALL_TOOLS := prove test lint coverage bench fuzz firmware target
+ALL_TOOLS := prove test lint coverage bench fuzz firmware target registers model \
+             flash-openocd flash-pyocd flash-st-flash flash-px4
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
 
