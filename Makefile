@@ -10,11 +10,12 @@ SECONDS := 60
 ARGS ?=
 BOARD ?=
 
-ALL_TOOLS := prove test lint coverage bench fuzz firmware target
+ALL_TOOLS := prove test lint coverage bench fuzz firmware target registers model \
+             flash-openocd flash-pyocd flash-st-flash flash-px4
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
 
-.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace status firmware tools doctor clean python
+.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace registers status firmware model stack flash tools doctor clean python
 .NOTPARALLEL:
 
 help: ## this list
@@ -54,6 +55,9 @@ fuzz: python ## fuzz the scheduler against its reference model (SECONDS=60)
 trace: python ## requirement, clause, harness, test: fail when one stands alone
 	@python3 tools/trace.py $(ARGS)
 
+registers: python ## hold the register headers against two independent register databases
+	@python3 tools/registers.py
+
 status: python ## write what the last run of 'make prove' proved into README.md
 	@python3 tools/status.py
 
@@ -63,6 +67,15 @@ test-target: python ## the unit tests, faults, demo and host's results on an emu
 
 firmware: python ## build a board's image (BOARD=mps2_an500; ARGS='--app FOLDER': another main)
 	@python3 tools/firmware.py "$(BOARD)" $(ARGS)
+
+model: python ## run a board's image on a model of its chip (BOARD=nucleo_f767zi; ARGS='--keys 1.5:t')
+	@python3 tools/model.py "$(BOARD)" $(ARGS)
+
+stack: python ## bound the stack of every task and of main in a board's image (BOARD=nucleo_f767zi)
+	@python3 tools/stack.py "$(BOARD)" $(ARGS)
+
+flash: python ## write a board's image to the board (BOARD=nucleo_f767zi; ARGS='--tool st-flash')
+	@python3 tools/flash.py "$(BOARD)" $(ARGS)
 
 tools: python ## install all tools now, rather than when they are needed
 	@python3 tools/toolchain.py ensure $(ALL_TOOLS)

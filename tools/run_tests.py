@@ -5,11 +5,12 @@
     python3 tools/run_tests.py --filter unit/     # the suites whose name contains this
     python3 tools/run_tests.py --fuzz 60          # everything, and 60 seconds of fuzzing
 
-Suites: unit/<unit> (Unity), property/<size> (the scheduler against its reference model),
-reference/<unit> (C++, an independent computation with Eigen in double precision), machdep
-(Frama-C's data model against the compiler), tools/<tool> (unittest), fuzz (libFuzzer). The C and
-C++ suites are built with the address and undefined-behaviour sanitizers; where their libraries are
-missing this is said, in the output and in the report.
+Suites: unit/<unit> (Unity), bsp/<driver> (Unity, on simulated hardware), property/<size> (the
+scheduler against its reference model), reference/<unit> (C++, an independent computation with
+Eigen in double precision), machdep (Frama-C's data model against the compiler), tools/<tool>
+(unittest), fuzz (libFuzzer). The C and C++ suites are built with the address and
+undefined-behaviour sanitizers; where their libraries are missing this is said, in the output and
+in the report.
 
 A suite that does not build, crashes, hangs, or runs no test counts as a failed test of its own
 name. build/test/report.json holds the verdicts; an unfinished run leaves none.
@@ -44,7 +45,10 @@ LINES_OF_A_CRASH = 12
 
 SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 WARNINGS = ["-Wall", "-Wextra", "-Werror", "-Wconversion"]
-FLAGS = ["-std=c99", "-O1", "-g", *WARNINGS, "-Iinclude"]
+FLAGS = ["-std=c99", "-O1", "-g", *WARNINGS, "-Iinclude", "-Ibsp"]
+
+# The drivers that run on simulated hardware; what only a target can build lies in other folders.
+DRIVERS = ("bsp/common/*.c", "bsp/devices/*.c", "bsp/stm32f767/*.c")
 CPP_FLAGS = ["-std=c++17", "-O1", "-g", *WARNINGS, "-Iinclude", "-Itests/reference"]
 
 # The property test runs with the queue's own capacity, and with one that it often fills.
@@ -188,6 +192,12 @@ def kernel_sources() -> list[str]:
     return sorted(str(path.relative_to(ROOT)) for path in (ROOT / "src").rglob("*.c"))
 
 
+def driver_sources() -> list[str]:
+    """The drivers' source files, and the kernel's, which one of them looks at."""
+    own = [str(path.relative_to(ROOT)) for glob in DRIVERS for path in sorted(ROOT.glob(glob))]
+    return [*kernel_sources(), *own]
+
+
 # --- Unit tests ----------------------------------------------------------------------------------
 
 UNITY_LINE = re.compile(r"^(.+?):(\d+):(\w+):(PASS|FAIL|IGNORE)(?::? ?(.*))?$")
@@ -215,7 +225,8 @@ def unity_outcome(name: str, ended: Ended) -> Outcome:
 def unit_suite(bench: Bench, name: str, source: str) -> Outcome:
     """Build and run the unit tests of one file."""
     folder = bench.tools.command("unity")[0]
-    objects = [bench.object(item) for item in kernel_sources()]
+    sources = driver_sources() if name.startswith("bsp/") else kernel_sources()
+    objects = [bench.object(item) for item in sources]
     objects += [bench.unity(), bench.object(source, ["-isystem", folder])]
     return unity_outcome(name, run([bench.program(name, objects)]))
 
@@ -366,8 +377,10 @@ class Suite:
 def unit_suites() -> list[Suite]:
     """One for each file of unit tests."""
     suites = []
-    for path in sorted((ROOT / "tests/unit").glob("test_*.c")):
-        name, source = f"unit/{path.stem.removeprefix('test_')}", str(path.relative_to(ROOT))
+    folders = ("tests/unit", "tests/bsp")
+    for path in (path for name in folders for path in sorted((ROOT / name).glob("test_*.c"))):
+        name = f"{path.parent.name}/{path.stem.removeprefix('test_')}"
+        source = str(path.relative_to(ROOT))
         suites.append(Suite(name, ("test",), partial(unit_suite, name=name, source=source)))
     return suites
 

@@ -94,6 +94,8 @@ class Spec:
     archive: str = ""
     folder: str = ""
     program: str = ""
+    keep: tuple[str, ...] = ()
+    requirements: str = ""
     libraries: tuple[str, ...] = ()
     loader: str = ""
     library_path: tuple[str, ...] = ()
@@ -112,6 +114,8 @@ class Spec:
             return f"Debian package {' '.join(self.packages)}"
         if self.kind == "wheel":
             return f"{self.package} {self.pin} of the Python package index"
+        if self.kind == "crate":
+            return f"{self.package} {self.pin} of the Rust package registry"
         if self.cached:
             return f"{self.package} {self.pin} of Debian {self.suite}"
         return "made from the others"
@@ -119,7 +123,7 @@ class Spec:
     @property
     def cached(self) -> bool:
         """True when the tool is unpacked into the cache rather than installed on the host."""
-        return self.kind in {"deb", "source", "wheel"}
+        return self.kind in {"deb", "source", "wheel", "crate"}
 
     @property
     def derived(self) -> bool:
@@ -128,6 +132,8 @@ class Spec:
 
     def started(self, command: str) -> str:
         """The program behind a command of an unpacked tool, relative to its tree."""
+        if self.requirements:
+            return f"bin/{command}"
         return self.program or f"usr/bin/{command}"
 
     def admits(self, version: str) -> bool:
@@ -755,6 +761,60 @@ def unpack_wheel(tree: Tree, python: Sequence[str]) -> None:
     _write_starter(tree, spec.commands[0])
 
 
+def unpack_wheels(tree: Tree, python: Sequence[str]) -> None:
+    """A Python program with all that it runs on, each in one version with its checksum."""
+    spec = tree.spec
+    listed = TOOLS_DIR / spec.requirements
+    if sha256_of(listed) != spec.sha256:
+        raise ToolchainError(f"{spec.name}: {spec.requirements} is not what {LOCK_FILE.name} pins")
+    options = ["--require-hashes", "--no-deps", "--only-binary=:all:", "--target", str(tree.root)]
+    if tree.log.run([*python, "-m", "pip", "install", *options, "-r", str(listed)]) != 0:
+        raise ToolchainError(
+            f"{spec.name}: pip does not install {spec.requirements} (Linux on amd64 with Python "
+            f"3.11 is needed); pip says:{tree.log.tail()}"
+        )
+    tree.add_part(spec.requirements, spec.pin, "Python package index, pinned", listed)
+    for command in spec.commands:
+        target = tree.root / "bin" / command
+        target.parent.mkdir(exist_ok=True)
+        start = f'PYTHONPATH="$root" exec {shlex.join(python)} -m {spec.program} "$@"'
+        target.write_text(f"#!/bin/sh\nroot=${{0%/*}}/..\n{start}\n")
+        target.chmod(0o755)
+
+
+def unpack_crate(tree: Tree, cargo: Sequence[str]) -> None:
+    """Parts of a Rust crate, as data; cargo fetches it, as it is configured here."""
+    spec = tree.spec
+    package = tree.scratch / "fetch"
+    (package / "src").mkdir(parents=True)
+    (package / "src" / "lib.rs").touch()
+    (package / "Cargo.toml").write_text(
+        '[package]\nname = "fetch"\nversion = "0.0.0"\nedition = "2018"\n[dependencies]\n'
+        f'{spec.package} = {{ version = "={spec.pin}", default-features = false }}\n'
+    )
+    if tree.log.run([*cargo, "fetch"], package) != 0:
+        raise ToolchainError(
+            f"{spec.name}: cargo does not get {spec.package} {spec.pin}; it says:{tree.log.tail()}"
+        )
+    home = Path(os.environ.get("CARGO_HOME") or "~/.cargo").expanduser()
+    archives = sorted(home.glob(f"registry/cache/*/{spec.package}-{spec.pin}.crate"))
+    if not archives:
+        raise ToolchainError(
+            f"{spec.name}: cargo left no {spec.package}-{spec.pin}.crate in {home}"
+        )
+    tree.check_pin(archives[0])
+    tree.add_part(spec.package, spec.pin, "Rust package registry, pinned", archives[0])
+    with tarfile.open(archives[0]) as tar:
+        for member in tar:
+            inner = member.name.partition("/")[2]
+            if member.isfile() and inner.startswith((spec.file, *spec.keep)):
+                stream = tar.extractfile(member)
+                assert stream is not None
+                target = tree.root / inner
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.write_bytes(stream.read())
+
+
 # --- The cache -----------------------------------------------------------------------------------
 
 
@@ -1042,7 +1102,10 @@ class Toolchain:
             reason = "KEEL_NO_INSTALL=1 forbids to install"
         elif any(not spec.cached for spec in absent):
             reason = HostApt(self.cache.log).refusal()
-        elif any(spec.kind != "wheel" for spec in absent) and not shutil.which("apt-get"):
+        elif (
+            any(spec.kind not in {"wheel", "crate"} for spec in absent)
+            and not shutil.which("apt-get")
+        ):  # fmt: skip
             reason = "this system has no apt-get"
         if reason:
             lines = [missing_line(spec, finder) for spec in absent]
@@ -1066,7 +1129,10 @@ class Toolchain:
     def _unpack(self, spec: Spec) -> Found:
         def fill(tree: Tree) -> None:
             if spec.kind == "wheel":
-                unpack_wheel(tree, self.command("pip"))
+                (unpack_wheels if spec.requirements else unpack_wheel)(tree, self.command("pip"))
+                return
+            if spec.kind == "crate":
+                unpack_crate(tree, self.command("cargo"))
                 return
             kind = "deb-src" if spec.kind == "source" else "deb"
             suite = Suite(spec.suite, kind, tree.scratch / "apt", self.cache.log)

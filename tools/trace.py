@@ -6,8 +6,9 @@
 
 A requirement is an entry of specs/requirements/*.sdoc, say QUE-003. The ACSL clauses that state
 it carry its id in their labels (QUE_003, QUE_003_count), and so do the assertions of the CBMC
-harnesses and the names of the tests (tests/unit, tests/reference) that check it; a requirement may
-also list unit tests by name under TESTS, or the file of a test that checks far more. An orphan is
+harnesses and the names of the tests (tests/unit, tests/bsp, tests/reference) that check it; a
+requirement may also list unit tests by name under TESTS, or the file of a test that checks far
+more. An orphan is
 
     a label, an assertion, a test or a comment of a header that names no requirement;
     a requirement without a clause, unless VERIFICATION says test (it then needs a test) or
@@ -106,7 +107,7 @@ def join(root: Path) -> Trace:
         trace.requirements[entry.uid] = entry
     clauses = collect(root, CLAUSE, "include/**/*.h", "proofs/*/*.c")
     assertions = collect(root, ASSERTION, "proofs/*/*.[ch]")
-    tests = collect(root, TEST, "tests/unit/*.c")
+    tests = collect(root, TEST, "tests/unit/*.c", "tests/bsp/*.c")
     tests += collect(root, REFERENCE, "tests/reference/*.cpp")
     tests += collect(root, TEST, "tests/target/*.c")
     for kind, pairs in (("clauses", clauses), ("harnesses", assertions), ("tests", tests)):
@@ -116,7 +117,7 @@ def join(root: Path) -> Trace:
                 getattr(trace.requirements[uid], kind).append(name)
             elif uid:
                 trace.orphans.append(f"{where}: {name}: there is no requirement {uid}")
-    for uid, where in collect(root, MENTION, "include/**/*.h"):
+    for uid, where in collect(root, MENTION, "include/**/*.h", "bsp/**/*.h"):
         if uid not in trace.requirements:
             trace.orphans.append(f"{where}: there is no requirement {uid}")
     trace.clauses = len({name for name, _ in clauses})

@@ -9,10 +9,10 @@
 #include <stdint.h>
 
 /** The mask of a field of up to 31 bits. */
-#define BITS(position, width) (((1u << (width)) - 1u) << (position))
+#define BITS(position, width) ((((uint32_t)1u << (width)) - 1u) << (position))
 
 /** The lowest bit of a mask, by which a value is shifted to its field's place. */
-#define BITS_LOWEST(mask) ((mask) & (0u - (mask)))
+#define BITS_LOWEST(mask) ((mask) & (~(mask) + 1u))
 
 /** A value at the place of its field; it must not be wider than the field. */
 #define FIELD(mask, value) ((mask) & ((value) * BITS_LOWEST(mask)))

@@ -1,0 +1,50 @@
+#include "common/supervisor.h"
+
+/* The periods that the real-time tasks missed; a counter at its end counts no more, so that a
+ * task there can never be seen to meet its releases again. */
+static uint32_t sum_skipped(const keel_scheduler_t *scheduler, bool *counting)
+{
+    uint32_t sum = 0u;
+
+    *counting = true;
+    for (uint32_t i = 0u; i < scheduler->queue.realtime_count; i++) {
+        const uint16_t skipped = scheduler->queue.task[i]->skipped;
+
+        sum += skipped;
+        *counting = *counting && (skipped < UINT16_MAX);
+    }
+    return sum;
+}
+
+static bool all_in_time(const keel_scheduler_t *scheduler, uint64_t now_us)
+{
+    bool in_time = true;
+
+    for (uint32_t i = 0u; i < scheduler->queue.realtime_count; i++) {
+        const keel_task_t *const task = scheduler->queue.task[i];
+
+        in_time = in_time && (now_us < (task->release_us + task->config->period_us));
+    }
+    return in_time;
+}
+
+void keel_supervisor_start(keel_supervisor_t *supervisor, const keel_scheduler_t *scheduler)
+{
+    bool counting;
+
+    supervisor->skipped = sum_skipped(scheduler, &counting);
+    supervisor->tasks = scheduler->queue.realtime_count;
+}
+
+bool keel_supervisor_met(keel_supervisor_t *supervisor, const keel_scheduler_t *scheduler,
+                         uint64_t now_us)
+{
+    bool counting;
+    const uint32_t skipped = sum_skipped(scheduler, &counting);
+    const bool same = (skipped == supervisor->skipped) && counting;
+    const bool all_there = (scheduler->queue.realtime_count >= supervisor->tasks) &&
+                           (supervisor->tasks > 0u);
+
+    supervisor->skipped = skipped;
+    return same && all_there && all_in_time(scheduler, now_us);
+}

@@ -1,0 +1,32 @@
+/* A flight controller after the Pixhawk standard FMUv5. */
+#include "board.h"
+#include "stm32f767/target/chip.h"
+
+const char keel_board_name[] = "fmuv5";
+
+/* What else is at the sensors' bus: ICM-20602, the BMI055's gyroscope and accelerometer, and the
+ * connector for a memory. */
+static const keel_pin_t others[] = {KEEL_PIN(F, 3u), KEEL_PIN(F, 4u), KEEL_PIN(G, 10u),
+                                    KEEL_PIN(H, 5u)};
+
+static const keel_pin_t sensor_power = KEEL_PIN(E, 3u);
+
+const keel_board_pins_t keel_board_pins = {
+    .oscillator = {16000000u, false},
+    .console = (keel_uart_t *)UART7_BASE,
+    .console_clock = RCC_APB1ENR_UART7EN,
+    .console_tx = KEEL_ALTERNATE(E, 8u, 8u, UART7, TX), /* The debug connector. */
+    .console_rx = KEEL_ALTERNATE(F, 6u, 8u, UART7, RX),
+    .led = {[KEEL_LED_RED] = {KEEL_PIN(B, 1u), true},
+            [KEEL_LED_GREEN] = {KEEL_PIN(C, 6u), true},
+            [KEEL_LED_BLUE] = {KEEL_PIN(C, 7u), true}},
+    .pwm = {KEEL_ALTERNATE(E, 9u, 1u, TIM1, CH1), KEEL_ALTERNATE(E, 11u, 1u, TIM1, CH2),
+            KEEL_ALTERNATE(A, 10u, 1u, TIM1, CH3), KEEL_ALTERNATE(E, 14u, 1u, TIM1, CH4)},
+    .sck = KEEL_ALTERNATE(G, 11u, 5u, SPI1, SCK),
+    .miso = KEEL_ALTERNATE(A, 6u, 5u, SPI1, MISO),
+    .mosi = KEEL_ALTERNATE(D, 7u, 5u, SPI1, MOSI),
+    .sensor_select = KEEL_PIN(F, 2u),
+    .deselect = others,
+    .deselect_count = 4u,
+    .power = &sensor_power,
+};

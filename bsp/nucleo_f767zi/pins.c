@@ -1,0 +1,29 @@
+/* ST Nucleo-F767ZI (user manual UM1974). The sensor, if any, is at the Arduino connector. */
+#include "board.h"
+#include "stm32f767/target/chip.h"
+
+#include <stddef.h>
+
+const char keel_board_name[] = "nucleo_f767zi";
+
+const keel_board_pins_t keel_board_pins = {
+    .oscillator = {8000000u, true}, /* From the ST-LINK. */
+    .console = (keel_uart_t *)USART3_BASE,
+    .console_clock = RCC_APB1ENR_USART3EN,
+    .console_tx = KEEL_ALTERNATE(D, 8u, 7u, USART3, TX), /* The ST-LINK's virtual port. */
+    .console_rx = KEEL_ALTERNATE(D, 9u, 7u, USART3, RX),
+    .led = {[KEEL_LED_RED] = {KEEL_PIN(B, 14u), false},  /* LD3. */
+            [KEEL_LED_GREEN] = {KEEL_PIN(B, 0u), false}, /* LD1. */
+            [KEEL_LED_BLUE] = {KEEL_PIN(B, 7u), false}}, /* LD2. */
+    .pwm = {KEEL_ALTERNATE(E, 9u, 1u, TIM1, CH1),        /* D6. */
+            KEEL_ALTERNATE(E, 11u, 1u, TIM1, CH2),       /* D5. */
+            KEEL_ALTERNATE(E, 13u, 1u, TIM1, CH3),       /* D3. */
+            KEEL_ALTERNATE(E, 14u, 1u, TIM1, CH4)},      /* D38, CN10. */
+    .sck = KEEL_ALTERNATE(A, 5u, 5u, SPI1, SCK),         /* D13. */
+    .miso = KEEL_ALTERNATE(A, 6u, 5u, SPI1, MISO),       /* D12. */
+    .mosi = KEEL_ALTERNATE(A, 7u, 5u, SPI1, MOSI),       /* D11; JP6 off, it is Ethernet's too. */
+    .sensor_select = KEEL_PIN(D, 14u),                   /* D10. */
+    .deselect = NULL,
+    .deselect_count = 0u,
+    .power = NULL,
+};

@@ -1,0 +1,51 @@
+#include "stm32f767/pin.h"
+
+#define MODE_INPUT     0u
+#define MODE_OUTPUT    1u
+#define MODE_ALTERNATE 2u
+#define SPEED_HIGH     2u
+#define RESET_HALF     16u /* BSRR: the upper half clears. */
+#define PINS_PER_AFR   8u
+#define FUNCTION_BITS  4u
+
+static void put_two_bits(volatile uint32_t *target, uint32_t number, uint32_t value)
+{
+    keel_bits_put(target, BITS(2u * number, 2u), value << (2u * number));
+}
+
+void keel_pin_write(keel_pin_t pin, bool high)
+{
+    pin.port->BSRR = 1u << (pin.number + (high ? 0u : RESET_HALF));
+}
+
+bool keel_pin_read(keel_pin_t pin)
+{
+    return ((pin.port->IDR >> pin.number) & 1u) != 0u;
+}
+
+void keel_pin_output(keel_pin_t pin, keel_drive_t drive, bool high)
+{
+    keel_pin_write(pin, high);
+    keel_bits_put(&pin.port->OTYPER, BITS(pin.number, 1u), (uint32_t)drive << pin.number);
+    put_two_bits(&pin.port->PUPDR, pin.number, (uint32_t)KEEL_PULL_NONE);
+    put_two_bits(&pin.port->MODER, pin.number, MODE_OUTPUT);
+}
+
+void keel_pin_input(keel_pin_t pin, keel_pull_t pull)
+{
+    put_two_bits(&pin.port->PUPDR, pin.number, (uint32_t)pull);
+    put_two_bits(&pin.port->MODER, pin.number, MODE_INPUT);
+}
+
+void keel_pin_alternate(keel_pin_t pin, uint32_t function, keel_pull_t pull)
+{
+    const uint32_t shift = FUNCTION_BITS * (pin.number % PINS_PER_AFR);
+    volatile uint32_t *const select = (pin.number < PINS_PER_AFR) ? &pin.port->AFRL
+                                                                  : &pin.port->AFRH;
+
+    keel_bits_put(select, BITS(shift, FUNCTION_BITS), function << shift);
+    keel_bits_put(&pin.port->OTYPER, BITS(pin.number, 1u), 0u);
+    put_two_bits(&pin.port->OSPEEDR, pin.number, SPEED_HIGH);
+    put_two_bits(&pin.port->PUPDR, pin.number, (uint32_t)pull);
+    put_two_bits(&pin.port->MODER, pin.number, MODE_ALTERNATE);
+}

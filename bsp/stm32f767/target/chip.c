@@ -1,0 +1,316 @@
+/* The STM32F767 as a board: board.h, and what the start-up code asks of a board. */
+#include "stm32f767/target/chip.h"
+
+#include "board.h"
+#include "common/supervisor.h"
+#include "console.h"
+#include "cortex_m7/fault.h"
+#include "cortex_m7/startup.h"
+#include "stm32f767/power.h"
+#include "stm32f767/pwm.h"
+#include "stm32f767/registers/dbgmcu.h"
+#include "stm32f767/registers/memory.h"
+#include "stm32f767/serial.h"
+#include "stm32f767/spi_bus.h"
+#include "stm32f767/target/cache.h"
+#include "stm32f767/time_base.h"
+#include "stm32f767/watchdog.h"
+
+#define RCC             ((keel_rcc_t *)RCC_BASE)
+#define PWR             ((keel_pwr_t *)PWR_BASE)
+#define FLASH           ((keel_flash_t *)FLASH_BASE)
+#define TIM1            ((keel_tim_t *)TIM1_BASE)
+#define TIM5            ((keel_tim_t *)TIM5_BASE)
+#define SPI1            ((keel_spi_t *)SPI1_BASE)
+#define IWDG            ((keel_iwdg_t *)IWDG_BASE)
+#define DBGMCU          ((keel_dbgmcu_t *)DBGMCU_BASE)
+#define PINS            (&keel_board_pins)
+#define ELEMENTS(array) (sizeof(array) / sizeof((array)[0]))
+
+#define HSI_HZ           16000000u /* The internal oscillator, when the clocks did not start. */
+#define BAUD             115200u
+#define PWM_RATE_HZ      400u
+#define WATCHDOG_US      50000u
+#define FEED_EVERY_US    5000u
+#define POWER_ON_US      20000u /* The sensor is up 11 ms after its supply. */
+#define BLINK_US         100000u
+#define LOG2_NULL_GUARD  8u
+#define LOG2_STACK_GUARD 10u
+#define LOG2_HALF_GIB    29u
+#define LOG2_BELOW_FLASH 27u
+#define DELAY_LOOKS      100000000u /* Far more than a delay takes, but not for ever. */
+
+#define GPIO_CLOCKS                                                                                \
+    (RCC_AHB1ENR_GPIOAEN | RCC_AHB1ENR_GPIOBEN | RCC_AHB1ENR_GPIOCEN | RCC_AHB1ENR_GPIODEN |       \
+     RCC_AHB1ENR_GPIOEEN | RCC_AHB1ENR_GPIOFEN | RCC_AHB1ENR_GPIOGEN | RCC_AHB1ENR_GPIOHEN)
+
+/* The core is at 16 MHz until the clocks run, so a look takes half a microsecond at least: 150 ms
+ * for a crystal, which needs some milliseconds. Later the core is faster and a look at a peripheral
+ * takes some 50 ns: 15 ms, and a character takes 87 us. */
+static const keel_wait_t patience = {300000u, NULL, NULL};
+
+/* The guards come last: where regions overlap, the last one holds. Code lies in flash and in ITCM
+ * alone. Nothing lies behind the external memory controller, and nothing may be read ahead there. */
+const keel_mpu_region_t keel_board_regions[] = {
+    {MEMORY_ITCM_BASE, LOG2_BELOW_FLASH, KEEL_MPU_NONE},
+    {MEMORY_FLASH_BASE, 21u, KEEL_MPU_CODE},
+    {MEMORY_ITCM_BASE, 14u, KEEL_MPU_CODE},
+    {MEMORY_DTCM_BASE, 19u, KEEL_MPU_DATA}, /* And SRAM, which follows it. */
+    {0x60000000u, LOG2_HALF_GIB, KEEL_MPU_NONE},
+    {0x80000000u, LOG2_HALF_GIB, KEEL_MPU_NONE},
+    {MEMORY_ITCM_BASE, LOG2_NULL_GUARD, KEEL_MPU_NONE},
+    {MEMORY_DTCM_BASE, LOG2_STACK_GUARD, KEEL_MPU_NONE},
+};
+const uint32_t keel_board_region_count = ELEMENTS(keel_board_regions);
+
+static keel_serial_t serial;
+static keel_supervisor_t supervisor;
+static const keel_scheduler_t *supervised;
+static uint32_t last_fed_us;
+static keel_spi_device_t sensor_device;
+
+/* Before memory is filled: nothing static but constants may be used. */
+
+/* Outputs low, and the memory for a record of a fault open, before anything else can go wrong. */
+void keel_board_early(void)
+{
+    RCC->AHB1ENR |= GPIO_CLOCKS;
+    for (uint32_t i = 0u; i < KEEL_PWM_OUTPUTS; i++) {
+        keel_pin_output(PINS->pwm[i].pin, KEEL_DRIVE_PUSH_PULL, false);
+    }
+    (void)keel_backup_open(RCC, PWR, &patience);
+}
+
+static void require(keel_bsp_status_t status)
+{
+    if (status != KEEL_BSP_OK) {
+        keel_fault_stop(KEEL_FAULT_START | (uint32_t)status);
+    }
+}
+
+static void give(keel_alternate_t to, keel_pull_t pull)
+{
+    keel_pin_alternate(to.pin, to.function, pull);
+}
+
+static void start_leds(void)
+{
+    for (uint32_t i = 0u; i < KEEL_LEDS; i++) {
+        const keel_led_t *const led = &PINS->led[i];
+
+        keel_pin_output(led->pin, led->active_low ? KEEL_DRIVE_OPEN_DRAIN : KEEL_DRIVE_PUSH_PULL,
+                        led->active_low);
+    }
+}
+
+static void start_console(uint32_t clock_hz)
+{
+    RCC->APB1ENR |= PINS->console_clock;
+    give(PINS->console_tx, KEEL_PULL_UP);
+    give(PINS->console_rx, KEEL_PULL_UP);
+    require(keel_serial_start(&serial, PINS->console, clock_hz, BAUD));
+}
+
+/* The timer first, with its outputs low, then the pins. */
+static void start_outputs(uint32_t timer_hz)
+{
+    RCC->APB2ENR |= RCC_APB2ENR_TIM1EN;
+    require(keel_pwm_start(TIM1, timer_hz, PWM_RATE_HZ));
+    for (uint32_t i = 0u; i < KEEL_PWM_OUTPUTS; i++) {
+        give(PINS->pwm[i], KEEL_PULL_DOWN);
+    }
+}
+
+/* Whether the watchdog made this reset; the flags are cleared for the next. */
+static bool watchdog_reset(void)
+{
+    const bool found = (RCC->CSR & RCC_CSR_IWDGRSTF) != 0u;
+
+    RCC->CSR |= RCC_CSR_RMVF;
+    return found;
+}
+
+/* A debugger that halts the core halts the watchdog, the time and the outputs as well. */
+static void freeze_with_the_core(void)
+{
+    DBGMCU->APB1_FZ |= DBGMCU_APB1_FZ_DBG_IWDG_STOP | DBGMCU_APB1_FZ_DBG_TIM5_STOP;
+    DBGMCU->APB2_FZ |= DBGMCU_APB2_FZ_DBG_TIM1_STOP;
+}
+
+/* Without the oscillator the board still tells why, on the internal one; and the record is written
+ * but once, or reset would follow reset. */
+void keel_board_start(void)
+{
+    const keel_clock_registers_t registers = {RCC, PWR, FLASH};
+    const keel_clock_fault_t fault = keel_clock_tree_start(&registers, &keel_board_pins.oscillator,
+                                                           &patience);
+    const bool good = (fault == KEEL_CLOCK_OK);
+    const uint32_t core_hz = good ? KEEL_CORE_HZ : HSI_HZ;
+    const uint32_t apb1 = good ? keel_bus_divisor(core_hz, KEEL_APB1_LIMIT_HZ) : 1u;
+    const uint32_t apb2 = good ? keel_bus_divisor(core_hz, KEEL_APB2_LIMIT_HZ) : 1u;
+    const bool starved = watchdog_reset();
+    const keel_fault_record_t *const record = keel_fault_last();
+    const bool told = (record != NULL) && (record->fresh == 1u);
+
+    if (!good) { /* The buses as the reset left them. */
+        keel_bits_put(&RCC->CFGR, RCC_CFGR_HPRE | RCC_CFGR_PPRE1 | RCC_CFGR_PPRE2, 0u);
+    }
+    keel_cache_start();
+    freeze_with_the_core();
+    RCC->APB1ENR |= RCC_APB1ENR_TIM5EN;
+    require(keel_time_base_start(TIM5, keel_timer_hz(core_hz, apb1)));
+    start_leds();
+    start_console(core_hz / apb1);
+    start_outputs(keel_timer_hz(core_hz, apb2));
+    if (!good && !told) {
+        keel_fault_stop(KEEL_FAULT_CLOCK | (uint32_t)fault);
+    }
+    if (starved && !told) {
+        keel_fault_stop(KEEL_FAULT_WATCHDOG);
+    }
+}
+
+KEEL_REALTIME_CODE uint32_t keel_board_clock_us(void *context)
+{
+    (void)context;
+    return TIM5->CNT;
+}
+
+void keel_board_put(char c)
+{
+    if (c == '\n') {
+        keel_serial_put(&serial, '\r'); /* What terminals expect. */
+    }
+    keel_serial_put(&serial, c);
+}
+
+/* May be called with anything broken: stores alone. Without its clock the timer takes none, but
+ * then its pins are not its own yet. */
+void keel_board_outputs_off(void)
+{
+    keel_pwm_off(TIM1);
+}
+
+/* Shines slowly for an end, quickly for the safe state. */
+static void blink(keel_led_name_t name, uint32_t time_us) __attribute__((noreturn));
+
+static void blink(keel_led_name_t name, uint32_t time_us)
+{
+    bool on = false;
+
+    for (;;) {
+        on = !on;
+        keel_chip_led(name, on);
+        (void)keel_wait_us(keel_board_clock_us, NULL, time_us, DELAY_LOOKS);
+    }
+}
+
+void keel_board_end(int status)
+{
+    keel_board_outputs_off();
+    keel_console_text("stack: ");
+    keel_console_number(keel_stack_used_b());
+    keel_console_text((status == 0) ? " bytes used; ended\n"
+                                    : " bytes used; ended with a failure\n");
+    (void)keel_serial_flush(&serial, &patience);
+    blink((status == 0) ? KEEL_LED_GREEN : KEEL_LED_RED, 10u * BLINK_US);
+}
+
+void keel_board_safe(void)
+{
+    keel_board_outputs_off();
+    keel_console_text("safe state: ");
+    keel_fault_print();
+    keel_console_text("outputs are off; reset to start again\n");
+    (void)keel_serial_flush(&serial, &patience);
+    blink(KEEL_LED_RED, BLINK_US);
+}
+
+void keel_chip_led(keel_led_name_t name, bool on)
+{
+    const keel_led_t *const led = &PINS->led[name];
+
+    keel_pin_write(led->pin, on != led->active_low);
+}
+
+static keel_bsp_status_t delay(void *context, uint32_t time_us)
+{
+    (void)context;
+    return keel_wait_us(keel_board_clock_us, NULL, time_us, DELAY_LOOKS) ? KEEL_BSP_OK
+                                                                         : KEEL_BSP_TIMEOUT;
+}
+
+const keel_icm20689_t *keel_chip_sensor(void)
+{
+    static const keel_icm20689_t sensor = {{keel_spi_bus_exchange, &sensor_device}, delay, NULL};
+
+    return &sensor;
+}
+
+keel_bsp_status_t keel_chip_sensor_start(void)
+{
+    if (PINS->power != NULL) {
+        keel_pin_output(*PINS->power, KEEL_DRIVE_PUSH_PULL, true);
+    }
+    for (uint32_t i = 0u; i < PINS->deselect_count; i++) {
+        keel_pin_output(PINS->deselect[i], KEEL_DRIVE_PUSH_PULL, true);
+    }
+    sensor_device = (keel_spi_device_t){SPI1, PINS->sensor_select, &patience};
+    keel_pin_output(sensor_device.select, KEEL_DRIVE_PUSH_PULL, true);
+    give(PINS->sck, KEEL_PULL_UP);  /* Mode 3: the clock rests high. */
+    give(PINS->miso, KEEL_PULL_UP); /* Without a sensor all ones are read. */
+    give(PINS->mosi, KEEL_PULL_NONE);
+    RCC->APB2ENR |= RCC_APB2ENR_SPI1EN;
+    require(keel_spi_start(SPI1, KEEL_APB2_LIMIT_HZ, KEEL_ICM20689_BUS_LIMIT_HZ));
+    (void)delay(NULL, POWER_ON_US);
+    return keel_icm20689_start(keel_chip_sensor());
+}
+
+bool keel_chip_brownout_is_set(void)
+{
+    return keel_brownout_level(FLASH) == KEEL_BROWNOUT_2V7;
+}
+
+keel_bsp_status_t keel_chip_brownout_set(void)
+{
+    /* A look takes 50 ns at least. */
+    static const keel_wait_t option_patience = {40000000u, NULL, NULL};
+
+    return keel_brownout_set(FLASH, KEEL_BROWNOUT_2V7, &option_patience);
+}
+
+void keel_chip_watchdog_start(const keel_scheduler_t *scheduler)
+{
+    supervised = scheduler;
+    keel_supervisor_start(&supervisor, scheduler);
+    last_fed_us = keel_board_clock_us(NULL);
+    require(keel_watchdog_start(IWDG, WATCHDOG_US, &patience));
+}
+
+void keel_chip_turn(void)
+{
+    const uint32_t now_us = keel_board_clock_us(NULL);
+
+    keel_serial_pump(&serial);
+    if ((supervised != NULL) && ((now_us - last_fed_us) >= FEED_EVERY_US)) {
+        last_fed_us = now_us;
+        if (keel_supervisor_met(&supervisor, supervised, supervised->clock.now_us)) {
+            keel_watchdog_feed(IWDG);
+        }
+    }
+}
+
+bool keel_chip_get(char *character)
+{
+    return keel_serial_get(&serial, character);
+}
+
+keel_bsp_status_t keel_chip_pulse(uint32_t channel, uint32_t pulse_us)
+{
+    return keel_pwm_set(TIM1, channel, pulse_us);
+}
+
+void keel_chip_arm(void)
+{
+    keel_pwm_arm(TIM1);
+}

@@ -1,0 +1,141 @@
+/**
+ * @file chip.h
+ * @brief The STM32F767 on a board: what a board says about itself, and what an application may use
+ *        beyond board.h.
+ */
+#ifndef KEEL_BSP_STM32F767_TARGET_CHIP_H
+#define KEEL_BSP_STM32F767_TARGET_CHIP_H
+
+#include "devices/icm20689.h"
+#include "keel/rtos/scheduler.h"
+#include "stm32f767/clock_tree.h"
+#include "stm32f767/pin.h"
+#include "stm32f767/registers/uart.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define KEEL_LEDS        3u
+#define KEEL_PWM_OUTPUTS 4u
+
+/* What keel_fault_stop records. */
+#define KEEL_FAULT_CLOCK    0xB0A20100u /**< Plus a keel_clock_fault_t. */
+#define KEEL_FAULT_WATCHDOG 0xB0A20200u /**< The watchdog was not fed in time. */
+#define KEEL_FAULT_START    0xB0A20300u /**< A driver refused what the board says. */
+
+/** A port by its letter. */
+#define KEEL_PORT(letter) ((keel_gpio_t *)GPIO##letter##_BASE)
+
+/** A pin. */
+#define KEEL_PIN(letter, number) {KEEL_PORT(letter), (number)}
+
+/**
+ * A pin with its alternate function. Peripheral and signal are for the reader, and for
+ * tools/registers.py, which holds them against a database.
+ */
+#define KEEL_ALTERNATE(letter, number, function, peripheral, signal)                               \
+    {KEEL_PIN(letter, number), (function)}
+
+/** A pin that is given to a peripheral. */
+typedef struct keel_alternate {
+    keel_pin_t pin;
+    uint32_t function; /**< Number of the alternate function. */
+} keel_alternate_t;
+
+/** A light. */
+typedef struct keel_led {
+    keel_pin_t pin;
+    bool active_low; /**< It shines when the pin is low; the pin is then an open drain. */
+} keel_led_t;
+
+/** The lights of both boards. */
+typedef enum keel_led_name {
+    KEEL_LED_RED = 0,
+    KEEL_LED_GREEN = 1,
+    KEEL_LED_BLUE = 2
+} keel_led_name_t;
+
+/** What a board says about itself. */
+typedef struct keel_board_pins {
+    keel_oscillator_t oscillator;
+    keel_uart_t *console;
+    uint32_t console_clock; /**< The console's bit in APB1ENR. */
+    keel_alternate_t console_tx;
+    keel_alternate_t console_rx;
+    keel_led_t led[KEEL_LEDS];              /**< By keel_led_name_t. */
+    keel_alternate_t pwm[KEEL_PWM_OUTPUTS]; /**< Channels 1 to 4 of timer 1. */
+    keel_alternate_t sck;                   /**< SPI 1, with the sensor. */
+    keel_alternate_t miso;
+    keel_alternate_t mosi;
+    keel_pin_t sensor_select;
+    const keel_pin_t *deselect; /**< Other devices on the bus, which must stay silent. */
+    uint32_t deselect_count;
+    const keel_pin_t *power; /**< High switches the sensors' supply on; null: none. */
+} keel_board_pins_t;
+
+/** Board: its description. */
+extern const keel_board_pins_t keel_board_pins;
+
+/**
+ * Sets a light.
+ *
+ * @param name which
+ * @param on   whether it shines
+ */
+void keel_chip_led(keel_led_name_t name, bool on);
+
+/**
+ * Starts the inertial sensor; takes some 110 ms.
+ *
+ * @return as keel_icm20689_start, or KEEL_BSP_ARGUMENT when the bus cannot be slow enough
+ */
+keel_bsp_status_t keel_chip_sensor_start(void);
+
+/** The inertial sensor, after keel_chip_sensor_start. */
+const keel_icm20689_t *keel_chip_sensor(void);
+
+/** Whether the brown-out level is 2.7 V, below which the flash is too slow for the core's clock. */
+bool keel_chip_brownout_is_set(void);
+
+/**
+ * Sets the brown-out level to 2.7 V for good, in the option bytes. Takes up to 2 s, so the watchdog
+ * must not run yet.
+ *
+ * @return as keel_brownout_set
+ */
+keel_bsp_status_t keel_chip_brownout_set(void);
+
+/**
+ * Starts the watchdog; from then on keel_chip_turn must be called every 50 ms at least.
+ *
+ * @param scheduler the scheduler whose real-time tasks are to meet their releases; started
+ */
+void keel_chip_watchdog_start(const keel_scheduler_t *scheduler);
+
+/**
+ * To be called in every turn of the main loop: moves the console on, and feeds the watchdog if all
+ * real-time tasks met their releases.
+ */
+void keel_chip_turn(void);
+
+/**
+ * A character from the console.
+ *
+ * @param character the character
+ * @return whether one came
+ */
+bool keel_chip_get(char *character);
+
+/**
+ * Sets the pulse of an output; it comes out once the outputs are armed.
+ *
+ * @param channel  0 to 3
+ * @param pulse_us 0, or 900 to 2100 us
+ * @return KEEL_BSP_OK, or KEEL_BSP_ARGUMENT
+ */
+keel_bsp_status_t keel_chip_pulse(uint32_t channel, uint32_t pulse_us);
+
+/** Lets the pulses out; keel_board_outputs_off ends them. */
+void keel_chip_arm(void);
+
+#endif

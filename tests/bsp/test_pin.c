@@ -1,0 +1,100 @@
+/* Unit tests of bsp/stm32f767/pin.h. Expected register contents are from RM0410, 6.4. */
+#include "stm32f767/pin.h"
+#include "unity.h"
+
+#include <string.h>
+
+static keel_gpio_t port;
+static const keel_pin_t pin0 = {&port, 0u};
+static const keel_pin_t pin7 = {&port, 7u};
+static const keel_pin_t pin8 = {&port, 8u};
+static const keel_pin_t pin15 = {&port, 15u};
+
+void setUp(void)
+{
+    memset(&port, 0, sizeof port);
+}
+
+void tearDown(void)
+{
+}
+
+static void PIN_001_a_level_is_one_store(void)
+{
+    keel_pin_write(pin7, true);
+    TEST_ASSERT_EQUAL_HEX32(0x00000080u, port.BSRR);
+    keel_pin_write(pin7, false);
+    TEST_ASSERT_EQUAL_HEX32(0x00800000u, port.BSRR);
+    keel_pin_write(pin15, false);
+    TEST_ASSERT_EQUAL_HEX32(0x80000000u, port.BSRR);
+    TEST_ASSERT_EQUAL_HEX32(0u, port.ODR);
+}
+
+static void PIN_002_reads_its_own_bit(void)
+{
+    port.IDR = 0x00008001u;
+    TEST_ASSERT_TRUE(keel_pin_read(pin0));
+    TEST_ASSERT_FALSE(keel_pin_read(pin7));
+    TEST_ASSERT_TRUE(keel_pin_read(pin15));
+}
+
+static void PIN_003_an_output_leaves_its_neighbours(void)
+{
+    port.MODER = 0xFFFFFFFFu;
+    port.PUPDR = 0x55555555u;
+    port.OTYPER = 0x0000FFFFu;
+    keel_pin_output(pin7, KEEL_DRIVE_PUSH_PULL, true);
+    TEST_ASSERT_EQUAL_HEX32(0xFFFF7FFFu, port.MODER);
+    TEST_ASSERT_EQUAL_HEX32(0x55551555u, port.PUPDR);
+    TEST_ASSERT_EQUAL_HEX32(0x0000FF7Fu, port.OTYPER);
+    TEST_ASSERT_EQUAL_HEX32(0x00000080u, port.BSRR);
+}
+
+static void PIN_003_an_open_drain(void)
+{
+    keel_pin_output(pin15, KEEL_DRIVE_OPEN_DRAIN, false);
+    TEST_ASSERT_EQUAL_HEX32(0x40000000u, port.MODER);
+    TEST_ASSERT_EQUAL_HEX32(0x00008000u, port.OTYPER);
+    TEST_ASSERT_EQUAL_HEX32(0x80000000u, port.BSRR);
+}
+
+static void PIN_004_an_input(void)
+{
+    port.MODER = 0xFFFFFFFFu;
+    keel_pin_input(pin8, KEEL_PULL_UP);
+    TEST_ASSERT_EQUAL_HEX32(0xFFFCFFFFu, port.MODER);
+    TEST_ASSERT_EQUAL_HEX32(0x00010000u, port.PUPDR);
+    keel_pin_input(pin8, KEEL_PULL_DOWN);
+    TEST_ASSERT_EQUAL_HEX32(0x00020000u, port.PUPDR);
+    keel_pin_input(pin8, KEEL_PULL_NONE);
+    TEST_ASSERT_EQUAL_HEX32(0u, port.PUPDR);
+}
+
+static void PIN_005_alternate_functions_of_both_halves(void)
+{
+    port.AFRH = 0xFFFFFFFFu;
+    port.OTYPER = 0x00000100u;
+    keel_pin_alternate(pin8, 7u, KEEL_PULL_UP);
+    TEST_ASSERT_EQUAL_HEX32(0xFFFFFFF7u, port.AFRH);
+    TEST_ASSERT_EQUAL_HEX32(0u, port.AFRL);
+    TEST_ASSERT_EQUAL_HEX32(0x00020000u, port.MODER);
+    TEST_ASSERT_EQUAL_HEX32(0x00020000u, port.OSPEEDR);
+    TEST_ASSERT_EQUAL_HEX32(0x00010000u, port.PUPDR);
+    TEST_ASSERT_EQUAL_HEX32(0u, port.OTYPER);
+    keel_pin_alternate(pin7, 5u, KEEL_PULL_NONE);
+    TEST_ASSERT_EQUAL_HEX32(0x50000000u, port.AFRL);
+    TEST_ASSERT_EQUAL_HEX32(0xFFFFFFF7u, port.AFRH);
+    TEST_ASSERT_EQUAL_HEX32(0x00028000u, port.MODER);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(PIN_001_a_level_is_one_store);
+    RUN_TEST(PIN_002_reads_its_own_bit);
+    RUN_TEST(PIN_003_an_output_leaves_its_neighbours);
+    RUN_TEST(PIN_003_an_open_drain);
+    RUN_TEST(PIN_004_an_input);
+    RUN_TEST(PIN_005_alternate_functions_of_both_halves);
+    return UNITY_END();
+}

@@ -1,0 +1,152 @@
+/* Unit tests of bsp/common/supervisor.h with a real scheduler on a simulated clock. */
+#include "common/supervisor.h"
+#include "unity.h"
+
+#include <string.h>
+
+static uint32_t ticks;
+static keel_scheduler_t scheduler;
+static keel_task_t fast, slow, other;
+static keel_supervisor_t supervisor;
+
+static uint32_t read_clock(void *context)
+{
+    (void)context;
+    return ticks;
+}
+
+static void work(void *context)
+{
+    (void)context;
+    ticks += 10u;
+}
+
+static const keel_task_config_t fast_config = {.name = "fast",
+                                               .run = work,
+                                               .period_us = 1000u,
+                                               .budget_us = 10u,
+                                               .priority = KEEL_PRIORITY_REALTIME};
+static const keel_task_config_t slow_config = {.name = "slow",
+                                               .run = work,
+                                               .period_us = 4000u,
+                                               .budget_us = 10u,
+                                               .priority = KEEL_PRIORITY_REALTIME};
+static const keel_task_config_t other_config = {.name = "other",
+                                                .run = work,
+                                                .period_us = 1000u,
+                                                .budget_us = 10u,
+                                                .priority = KEEL_PRIORITY_LOW};
+
+static void add(keel_task_t *task, const keel_task_config_t *config)
+{
+    task->config = config;
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_add(&scheduler, task));
+}
+
+void setUp(void)
+{
+    const keel_scheduler_config_t config = {read_clock, NULL, 10u, KEEL_UTILISATION_FULL_PPM};
+
+    ticks = 0u;
+    memset(&scheduler, 0, sizeof scheduler);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_init(&scheduler, &config));
+    add(&fast, &fast_config);
+    add(&slow, &slow_config);
+    add(&other, &other_config);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_start(&scheduler));
+    keel_supervisor_start(&supervisor, &scheduler);
+}
+
+void tearDown(void)
+{
+}
+
+static void step_at(uint32_t now_us)
+{
+    ticks = now_us;
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_step(&scheduler));
+}
+
+static bool met(void)
+{
+    return keel_supervisor_met(&supervisor, &scheduler, scheduler.clock.now_us);
+}
+
+static void SUP_001_the_past_before_the_start_does_not_count(void)
+{
+    step_at(0u);
+    step_at(5500u); /* Four periods missed. */
+    keel_supervisor_start(&supervisor, &scheduler);
+    step_at(6000u);
+    TEST_ASSERT_TRUE(met());
+}
+
+static void SUP_002_a_scheduler_in_time_is_seen_so(void)
+{
+    for (uint32_t now_us = 0u; now_us < 20000u; now_us += 500u) {
+        step_at(now_us);
+        TEST_ASSERT_TRUE(met());
+    }
+}
+
+static void SUP_003_a_missed_period_is_seen_once(void)
+{
+    step_at(0u);
+    TEST_ASSERT_TRUE(met());
+    step_at(2500u); /* The release at 1 ms was missed. */
+    TEST_ASSERT_FALSE(met());
+    step_at(3000u);
+    TEST_ASSERT_TRUE(met());
+}
+
+static void SUP_003_a_counter_at_its_end_is_never_in_time(void)
+{
+    step_at(0u);
+    fast.skipped = UINT16_MAX;
+    TEST_ASSERT_FALSE(met());
+    TEST_ASSERT_FALSE(met());
+}
+
+static void SUP_003_others_may_miss_theirs(void)
+{
+    step_at(0u);
+    other.skipped = 5u;
+    TEST_ASSERT_TRUE(met());
+}
+
+static void SUP_004_a_task_that_waits_beyond_its_deadline(void)
+{
+    step_at(0u);
+    /* The fast task's next release is at 1 ms, its deadline at 2 ms. */
+    TEST_ASSERT_TRUE(keel_supervisor_met(&supervisor, &scheduler, 1999u));
+    TEST_ASSERT_FALSE(keel_supervisor_met(&supervisor, &scheduler, 2000u));
+}
+
+static void SUP_005_a_task_that_went_away(void)
+{
+    step_at(0u);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_remove(&scheduler, &slow));
+    TEST_ASSERT_FALSE(met());
+}
+
+static void SUP_005_no_task_at_all_is_not_in_time(void)
+{
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_remove(&scheduler, &slow));
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_remove(&scheduler, &fast));
+    keel_supervisor_start(&supervisor, &scheduler);
+    TEST_ASSERT_FALSE(met());
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(SUP_001_the_past_before_the_start_does_not_count);
+    RUN_TEST(SUP_002_a_scheduler_in_time_is_seen_so);
+    RUN_TEST(SUP_003_a_missed_period_is_seen_once);
+    RUN_TEST(SUP_003_a_counter_at_its_end_is_never_in_time);
+    RUN_TEST(SUP_003_others_may_miss_theirs);
+    RUN_TEST(SUP_004_a_task_that_waits_beyond_its_deadline);
+    RUN_TEST(SUP_005_a_task_that_went_away);
+    RUN_TEST(SUP_005_no_task_at_all_is_not_in_time);
+    return UNITY_END();
+}

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""The images of the real boards on the model of their chip, and what the model itself refuses.
+
+    python3 tests/tools/test_model.py
+
+The images are built first; each run is some tenths of a second of the board's time.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+import sys
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import firmware  # noqa: E402
+import model  # noqa: E402
+import stack  # noqa: E402
+from model import PWR, RCC, Board, ModelError  # noqa: E402
+from toolchain import Toolchain  # noqa: E402
+
+
+class ImageTest(unittest.TestCase):
+    """Every fault ends in the safe state, with the outputs off and its record told."""
+
+    tools: Toolchain
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.tools = Toolchain()
+        cls.tools.ensure("firmware", "model")
+        for board in model.CONSOLES:
+            with contextlib.redirect_stdout(io.StringIO()):
+                firmware.build(cls.tools, board, [])
+
+    def run_image(
+        self, seconds: float = 0.2, keys: str = "", board: str = "nucleo_f767zi",
+        broken: str = "", step_us: int = 4,
+    ) -> Board:  # fmt: skip
+        """Run an image; keys come a millisecond apart from 0.16 s on."""
+        pressed = [(160_000 + 1000 * i, key) for i, key in enumerate(keys)]
+        return model.simulate(self.tools, ROOT, board, seconds, pressed, broken, step_us)
+
+    def safe(self, board: Board, *parts: str) -> None:
+        self.assertRegex(board.text, "(?s)safe state: fault 1 .*outputs are off")
+        for part in parts:
+            self.assertIn(part, board.text)
+        self.assertFalse(board.armed_us[-1][1])
+
+    def test_both_boards_start_and_read_their_sensor(self) -> None:
+        for name in model.CONSOLES:
+            board = self.run_image(board=name)
+            self.assertIn(f"Keel on {name}: 21 tasks\r\nsensor status 0\r\n", board.text)
+            # A thousand samples a second from 0.13 s on, when the sensor was started.
+            self.assertGreater(board.sensor.samples, 50)
+            self.assertEqual(board.resets, 0)
+            self.assertNotIn(True, [on for _, on in board.armed_us])
+
+    def test_every_task_meets_its_releases_within_its_bound_of_stack(self) -> None:
+        board = self.run_image(0.35, keys="t", step_us=1)
+        rows = re.findall(
+            r"task .*: period (\d+) runs (\d+) .* skipped 0 .* promotions 0", board.text
+        )
+        self.assertEqual(len(rows), 21)
+        # The tasks start behind the sensor, 0.13 s after the reset; the key comes at 0.16 s.
+        fast = [int(runs) for period, runs in rows if period == "1000"]
+        self.assertTrue(all(28 <= runs <= 36 for runs in fast), rows)
+        used = re.search(r"stack used (\d+) bytes", board.text)
+        assert used is not None
+        stacks = stack.measure(self.tools, ROOT, "nucleo_f767zi")["stacks"]
+        assert isinstance(stacks, dict)
+        self.assertLessEqual(int(used[1]), stacks["main"]["bound"] - stack.EXCEPTION_FRAME_B)
+
+    def test_the_brown_out_level_is_set_by_hand_and_once(self) -> None:
+        delivered = 0xFFFF_AAFD
+        board = model.simulate(
+            self.tools, ROOT, "nucleo_f767zi", 0.3, [(200_000, "b")], step_us=4, options=delivered
+        )
+        self.assertIn("b within 2 s sets 2.7 V for good\r\nbrown-out status 0", board.text)
+        self.assertEqual(board.options, 0xFFFF_AAF1)  # The level, and nothing else.
+        board = model.simulate(
+            self.tools, ROOT, "nucleo_f767zi", 0.3, [], step_us=4, options=delivered
+        )
+        self.assertEqual(board.options, delivered)
+        self.assertNotIn("brown-out", self.run_image().text)
+
+    def test_outputs_are_armed_by_hand_and_off_after_a_fault(self) -> None:
+        board = self.run_image(keys="pu")
+        self.assertEqual([on for _, on in board.armed_us], [False, True, False])
+        self.safe(board, "exception 6", "cfsr 0x00010000", "stacked pc 0x0800")
+
+    def test_a_null_pointer_meets_the_guard(self) -> None:
+        self.safe(self.run_image(keys="n"), "exception 4", "cfsr 0x00000082 ", "mmfar 0x00000000")
+
+    def test_a_stack_that_overflows_meets_the_guard(self) -> None:
+        self.safe(self.run_image(keys="s"), "exception 4", "cfsr 0x00000082 ", "mmfar 0x200003ff")
+
+    def test_a_task_that_hangs_starves_the_watchdog(self) -> None:
+        board = self.run_image(0.45, keys="h")
+        self.safe(board, "code 0xb0a20200")
+        self.assertEqual(board.resets, 2)  # The watchdog's, and the one behind the record.
+
+    def test_clocks_that_do_not_start_are_told(self) -> None:
+        for broken, code in (("hse", 6), ("overdrive", 7), ("pll", 9)):
+            board = self.run_image(0.05, board="fmuv5", broken=broken)
+            self.safe(board, f"code 0xb0a2010{code}")
+            self.assertEqual(board.resets, 1, broken)
+
+    def test_without_its_sensor_a_board_runs_all_the_same(self) -> None:
+        self.assertIn("sensor status 5", self.run_image(broken="sensor").text)
+        self.assertIn("sensor status 6", self.run_image(broken="other-sensor").text)
+
+
+class BoardTest(unittest.TestCase):
+    """The model's own rules."""
+
+    def setUp(self) -> None:
+        self.board = Board(model.USART3, (3, 14))
+        self.board.write(RCC, 0x0005_0083)  # The oscillator, by a clock from outside.
+        self.board.write(RCC + 4, 0x2940_3604)
+        self.board.write(RCC, self.board.read(RCC) | 1 << 24)
+        self.board.write(PWR, 0x3_C000)
+        self.board.write(model.FLASHR, 7)
+
+    def test_a_right_change_to_the_pll(self) -> None:
+        self.board.write(RCC + 8, 0x9402)
+        self.assertEqual(self.board.read(RCC + 8), 0x940A)
+
+    def refuses(self, address: int, value: int, reason: str) -> None:
+        self.board.words[address] = value
+        with self.assertRaisesRegex(ModelError, reason):
+            self.board.write(RCC + 8, 0x9402)
+
+    def test_a_change_that_is_not_allowed(self) -> None:
+        self.refuses(model.FLASHR, 6, "too few wait states")
+        self.refuses(PWR + 4, 0x1_0000, "over-drive is not on")
+        self.refuses(RCC, 0x0107_0083, "has not locked")
+
+    def test_a_wrong_frequency(self) -> None:
+        self.refuses(RCC + 4, 0x2940_3608, "at 108 MHz")
+
+    def test_buses_that_are_too_fast(self) -> None:
+        with self.assertRaisesRegex(ModelError, "a bus would be too fast"):
+            self.board.write(RCC + 8, 0x0002)
+
+    def test_factors_may_not_change_while_the_pll_runs(self) -> None:
+        with self.assertRaisesRegex(ModelError, "factors are changed"):
+            self.board.write(RCC + 4, 0x2940_3608)
+
+    def test_what_is_not_there(self) -> None:
+        with self.assertRaisesRegex(ModelError, "0x40001000 is no register"):
+            self.board.read(0x4000_1000)
+
+    def test_the_watchdog(self) -> None:
+        for address, value in ((0, 0xCCCC), (0, 0x5555), (4, 0), (8, 399), (0, 0xAAAA)):
+            self.board.write(model.IWDG + address, value)
+        self.board.tick(50_000)
+        self.assertFalse(self.board.reset_wanted)
+        self.board.tick(1)
+        self.assertTrue(self.board.reset_wanted)
+
+    def test_an_unknown_board(self) -> None:
+        with contextlib.redirect_stderr(io.StringIO()) as err:
+            self.assertEqual(model.main(["mps2_an500"]), 1)
+        self.assertIn("no model of mps2_an500", err.getvalue())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""The register headers against the register databases, and that a slip in a header is noticed.
+
+    python3 tests/tools/test_registers.py
+
+Needs the group "registers" of the toolchain: two crates, fetched once with their checksums.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import registers  # noqa: E402
+from registers import Comparison, Databases  # noqa: E402
+from toolchain import Toolchain  # noqa: E402
+
+RCC = "bsp/stm32f767/registers/rcc.h"
+UART = "bsp/stm32f767/registers/uart.h"
+
+
+class RegistersTest(unittest.TestCase):
+    tools: Toolchain
+    databases: Databases
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.tools = Toolchain()
+        cls.tools.ensure("registers")
+        places = [Path(cls.tools.command(name)[0]) for name in ("stm32ral", "stm32-metapac")]
+        cls.databases = Databases(*places)
+
+    def setUp(self) -> None:
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        shutil.copytree(ROOT / "bsp", self.root / "bsp")
+        (self.root / "specs").mkdir()
+        shutil.copy(ROOT / registers.EXCEPTIONS, self.root / registers.EXCEPTIONS)
+
+    def compare(self) -> Comparison:
+        return registers.compare(self.tools, self.root, self.databases)
+
+    def change(self, path: str, old: str, new: str) -> None:
+        text = re.sub(r" +", " ", (self.root / path).read_text())  # However it is laid out.
+        self.assertEqual(text.count(old), 1, old)
+        (self.root / path).write_text(text.replace(old, new))
+
+    def finds(self, *parts: str) -> None:
+        """Some difference holds all these texts."""
+        differences = self.compare().differences
+        found = [line for line in differences if all(part in line for part in parts)]
+        self.assertTrue(found, differences)
+
+    def test_the_headers_agree_with_the_databases(self) -> None:
+        result = self.compare()
+        self.assertEqual(result.differences, [])
+        # The headers are really read: there are this many facts and more, of every kind.
+        self.assertGreater(len(result.facts), 400)
+        for kind in ("base", "register", "field", "reset", "interrupt", "memory"):
+            self.assertGreater(result.compared[kind], 0, kind)
+
+    def test_a_wrong_base_is_found_in_both_databases(self) -> None:
+        self.change(UART, "0x40004800u", "0x40004400u")
+        self.finds("USART3_BASE", "0x40004400", "stm32ral has 0x40004800")
+        self.finds("USART3_BASE", "0x40004400", "stm32-metapac has 0x40004800")
+
+    def test_a_wrong_offset_is_found(self) -> None:
+        self.change(RCC, "volatile uint32_t reserved1[2];", "volatile uint32_t reserved1[3];")
+        self.finds("RCC.APB1ENR", "0x40023844", "stm32ral has 0x40023840")
+
+    def test_a_wrong_position_and_a_wrong_width_are_found(self) -> None:
+        self.change(RCC, "RCC_CR_HSEON BITS(16u, 1u)", "RCC_CR_HSEON BITS(17u, 1u)")
+        self.finds("RCC_CR_HSEON", "0x11 0x1", "stm32ral RCC has 0x10 0x1")
+        self.change(RCC, "RCC_PLLCFGR_PLLN BITS(6u, 9u)", "RCC_PLLCFGR_PLLN BITS(6u, 8u)")
+        self.finds("RCC_PLLCFGR_PLLN", "0x6 0x8", "stm32-metapac RCC has 0x6 0x9")
+
+    def test_a_wrong_reset_value_is_found(self) -> None:
+        self.change(RCC, "0x24003010u", "0x24003011u")
+        self.finds("RCC_PLLCFGR_RESET", "has 0x24003010")
+        self.change("bsp/stm32f767/registers/gpio.h", "0xA8000000u", "0xA8000001u")
+        self.finds("GPIOA_MODER_RESET", "has 0xa8000000")
+
+    def test_a_wrong_interrupt_is_found(self) -> None:
+        self.change(UART, "UART7_IRQ 82u", "UART7_IRQ 83u")
+        self.finds("UART7_IRQ", "0x53", "has 0x52")
+
+    def test_a_wrong_pin_is_found(self) -> None:
+        self.change(
+            "bsp/nucleo_f767zi/pins.c", "(D, 8u, 7u, USART3, TX)", "(D, 8u, 8u, USART3, TX)"
+        )
+        self.finds("PD8 AF8 USART3_TX", "no such function")
+
+    def test_a_boards_file_that_is_wrong_is_found(self) -> None:
+        path = "bsp/fmuv5/board.toml"
+        self.change(path, "KEEL_BOARD_INTERRUPTS=110u", "KEEL_BOARD_INTERRUPTS=98u")
+        self.finds(path, "KEEL_BOARD_INTERRUPTS", "0x62", "has 0x6e")
+        self.change(path, "size = 0x60000", "size = 0x80000")
+        self.finds(path, "region SRAM", "0x20020000 0x60000")
+
+    def test_a_wrong_memory_is_found(self) -> None:
+        self.change("bsp/stm32f767/registers/memory.h", "0x00060000u", "0x00080000u")
+        self.finds("MEMORY_SRAM_SIZE", "0x80000", "has 0x60000")
+
+    def test_a_fact_without_a_counterpart_is_a_difference(self) -> None:
+        self.change(RCC, "#define RCC_CR_HSION ", "#define RCC_CR_HSIXX BITS(0u, 1u)\n"
+                    "#define RCC_CR_HSION ")  # fmt: skip
+        self.finds("RCC_CR_HSIXX", "no counterpart")
+
+    def test_an_entry_without_use_is_a_difference(self) -> None:
+        path = self.root / registers.EXCEPTIONS
+        path.write_text(path.read_text() + '[[absent]]\nfact = "RCC.NONE"\nreason = "None."\n')
+        self.finds("RCC.NONE", "nothing needs this entry")
+
+    def test_a_mask_with_a_gap_is_refused(self) -> None:
+        self.change(RCC, "RCC_CR_PLLON BITS(24u, 1u)", "RCC_CR_PLLON (5u << 24u)")
+        with self.assertRaisesRegex(registers.RegistersError, "RCC_CR_PLLON: not one run"):
+            self.compare()
+
+
+if __name__ == "__main__":
+    unittest.main()

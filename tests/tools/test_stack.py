@@ -1,0 +1,267 @@
+#!/usr/bin/env python3
+"""Tests of tools/stack.py on small call graphs whose deepest paths are known.
+
+python3 tests/tools/test_stack.py
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import stack  # noqa: E402
+from stack import Bounds, Code, Entry, Function, StackError, Table  # noqa: E402
+
+
+def node(title: str, frame: str = "") -> str:
+    """A function as the compiler writes it; without a frame, one that it only calls."""
+    name = title.rpartition(":")[2]
+    if not frame:
+        return f'node: {{ title: "{title}" label: "{name}\\nx.h:1:1" shape : ellipse }}'
+    return f'node: {{ title: "{title}" label: "{name}\\nx.c:1:1\\n{frame}\\n0 dynamic objects" }}'
+
+
+def edge(source: str, target: str) -> str:
+    return f'edge: {{ sourcename: "{source}" targetname: "{target}" label: "x.c:2:2" }}'
+
+
+def graph_of(*lines: str) -> dict[str, Function]:
+    graph: dict[str, Function] = {}
+    stack.parse("\n".join(lines), graph, "x.c")
+    return graph
+
+
+# reset -> main -> (left -> deep) or right; left is the shorter frame, but deeper below.
+DIAMOND = (
+    node("reset", "8 bytes (static)"), node("main", "16 bytes (static)"), edge("reset", "main"),
+    node("x.c:left", "8 bytes (static)"), edge("main", "x.c:left"),
+    node("x.c:right", "40 bytes (static)"), edge("main", "x.c:right"),
+    node("deep"), edge("x.c:left", "deep"),
+)  # fmt: skip
+DEEP = node("deep", "64 bytes (static)")
+SIZES = {"main": 1024}
+RESET = Entry("reset", 0, "main")
+
+
+class GraphTest(unittest.TestCase):
+    def test_frames_and_calls(self) -> None:
+        graph = graph_of(*DIAMOND, DEEP)
+        self.assertEqual(graph["main"].frame, 16)
+        self.assertEqual(graph["main"].calls, {"x.c:left", "x.c:right"})
+        self.assertEqual((graph["x.c:left"].name, graph["x.c:left"].file), ("left", "x.c"))
+        self.assertEqual(graph["deep"].frame, 64)
+
+    def test_the_deepest_path_not_the_widest_frame(self) -> None:
+        path = Bounds(graph_of(*DIAMOND, DEEP)).of("reset")
+        self.assertEqual(path.bytes, 8 + 16 + 8 + 64)
+        self.assertEqual(path.functions, ("reset", "main", "x.c:left", "deep"))
+
+    def test_recursion_is_an_error(self) -> None:
+        graph = graph_of(*DIAMOND, DEEP, edge("deep", "main"))
+        with self.assertRaisesRegex(StackError, "recursion: main -> x.c:left -> deep -> main"):
+            Bounds(graph).of("reset")
+
+    def test_a_function_that_calls_itself_is_an_error(self) -> None:
+        graph = graph_of(node("a", "8 bytes (static)"), edge("a", "a"))
+        with self.assertRaisesRegex(StackError, "recursion: a -> a"):
+            Bounds(graph).of("a")
+
+    def test_a_frame_without_a_bound_is_an_error(self) -> None:
+        with self.assertRaisesRegex(StackError, "the frame of a has no bound .dynamic"):
+            graph_of(node("a", "8 bytes (dynamic)"))
+        self.assertEqual(graph_of(node("a", "8 bytes (dynamic,bounded)"))["a"].frame, 8)
+
+    def test_a_function_defined_twice_is_an_error(self) -> None:
+        with self.assertRaisesRegex(StackError, "a is defined twice"):
+            graph_of(node("a", "8 bytes (static)"), node("a", "8 bytes (static)"))
+
+    def test_an_unknown_function_is_an_error(self) -> None:
+        with self.assertRaisesRegex(StackError, "deep: its frame is not known"):
+            Bounds(graph_of(*DIAMOND)).of("reset")
+
+
+LISTING = """
+08000100 <deep>:
+ 8000100:\tstmdb\tsp!, {r4, r5, r6, r7, r8, r9, sl, lr}
+ 8000104:\tvpush\t{d8-d9}
+ 8000108:\tsub\tsp, #12
+ 800010a:\tstr.w\tlr, [sp, #-4]!
+ 800010e:\tbl\t8000200 <deeper>
+ 8000112:\tbls.n\t8000120 <deep+0x20>
+ 8000114:\tbl\t8000300 <__other_veneer>
+ 8000118:\tldr\tr5, [sp, #32]
+ 800011a:\tldmia.w\tsp!, {r4, r5, r6, r7, r8, r9, sl, pc}
+
+08000200 <deeper>:
+ 8000200:\tpush\t{r4-r6, lr}
+ 8000202:\tbx\tlr
+"""
+
+
+class CodeTest(unittest.TestCase):
+    def test_every_push_is_counted(self) -> None:
+        code = stack.read_code(LISTING)
+        self.assertEqual(code["deep"].pushed, 8 * 4 + 2 * 8 + 12 + 4)
+        self.assertEqual(code["deeper"].pushed, 16)
+
+    def test_calls_are_found_also_through_a_veneer(self) -> None:
+        self.assertEqual(stack.read_code(LISTING)["deep"].calls, {"deeper", "other"})
+
+    def test_single_registers_of_the_fpu(self) -> None:
+        self.assertEqual(stack.taken("f", "vpush", "{s16-s19}"), 16)
+
+    def test_a_frame_of_a_size_in_a_register_is_an_error(self) -> None:
+        with self.assertRaisesRegex(StackError, "f: the frame has no bound"):
+            stack.taken("f", "sub.w", "sp, sp, r3")
+
+    def test_a_library_function_gets_its_frame_and_calls(self) -> None:
+        graph = graph_of(*DIAMOND)
+        code = {**{name: Code() for name in ("reset", "main", "left", "right", "other")},
+                **stack.read_code(LISTING)}  # fmt: skip
+        self.assertEqual(stack.complete(graph, code), ["deep", "deeper", "other"])
+        self.assertEqual(Bounds(graph).of("reset").bytes, 8 + 16 + 8 + 64 + 16)
+
+    def test_functions_of_an_image(self) -> None:
+        symbols = (
+            "08000100 g     F .text\t00000018 deep\n"
+            "08000200 g     F .text\t00000004 .hidden deeper\n"
+            "00000b40 l     F .itcm\t00000008 __deep_veneer\n"
+            "08000300 g     O .text\t00000004 table\n"
+        )
+        self.assertEqual(list(stack.functions_of(symbols)), ["deep", "deeper"])
+
+
+class AnalysisTest(unittest.TestCase):
+    def analyse(
+        self, *lines: str, table: Table | None = None, more: tuple[str, ...] = ()
+    ) -> tuple[int, dict[str, int]]:
+        graph = graph_of(*DIAMOND, DEEP, *lines)
+        names = [function.name for function in graph.values()]
+        code = {name: Code() for name in (*names, *more)}
+        stacks, tasks, _ = stack.analyse(graph, code, table or Table((), {}, (RESET,)), SIZES)
+        return stacks[0].bytes, {name: path.bytes for name, path in tasks.items()}
+
+    def test_the_exceptions_frame_is_added(self) -> None:
+        # Eight registers, sixteen of the FPU with two words more, and one that aligns them.
+        self.assertEqual(self.analyse()[0], 96 + 32 + 72 + 4)
+
+    def test_an_indirect_call_without_an_entry_is_an_error(self) -> None:
+        with self.assertRaisesRegex(StackError, "main calls through a pointer"):
+            self.analyse(edge("main", "__indirect_call"))
+
+    def test_an_indirect_call_takes_the_deepest_target(self) -> None:
+        table = Table(("work",), {"main": ("clock", "tasks")}, (RESET,))
+        bytes_, tasks = self.analyse(
+            edge("main", "__indirect_call"), node("clock", "4 bytes (static)"),
+            node("y.c:work", "100 bytes (static)"), edge("y.c:work", "deep"), table=table,
+        )  # fmt: skip
+        self.assertEqual(bytes_, 8 + 16 + 100 + 64 + 108)
+        self.assertEqual(tasks, {"work": 164})
+
+    def test_a_clone_calls_what_its_original_calls(self) -> None:
+        table = Table((), {"f": ("g",)}, (RESET,))
+        bytes_, _ = self.analyse(
+            node("x.c:f.constprop.0", "8 bytes (static)"), edge("main", "x.c:f.constprop.0"),
+            edge("x.c:f.constprop.0", "__indirect_call"), node("g", "200 bytes (static)"),
+            table=table,
+        )  # fmt: skip
+        self.assertEqual(bytes_, 8 + 16 + 8 + 200 + 108)
+
+    def test_targets_that_are_not_there_are_an_error(self) -> None:
+        table = Table((), {"main": ("gone",)}, (RESET,))
+        with self.assertRaisesRegex(StackError, "none of what .* is in the image"):
+            self.analyse(edge("main", "__indirect_call"), table=table)
+
+    def test_recursion_through_a_pointer_is_an_error(self) -> None:
+        table = Table((), {"deep": ("main",)}, (RESET,))
+        with self.assertRaisesRegex(StackError, "recursion"):
+            self.analyse(edge("deep", "__indirect_call"), table=table)
+
+    def test_a_function_that_nobody_calls_is_an_error(self) -> None:
+        with self.assertRaisesRegex(StackError, "nobody calls them: forgotten"):
+            self.analyse(node("forgotten", "4 bytes (static)"))
+
+    def test_what_the_linker_left_out_does_not_count(self) -> None:
+        graph = graph_of(*DIAMOND, DEEP, node("out", "900 bytes (static)"), edge("main", "out"))
+        code = {name: Code() for name in ("reset", "main", "left", "right", "deep")}
+        stacks, _, _ = stack.analyse(graph, code, Table((), {}, (RESET,)), SIZES)
+        self.assertEqual(stacks[0].bytes, 96 + 108)
+
+    def test_an_entry_begins_with_what_is_there_already(self) -> None:
+        table = Table((), {}, (RESET, Entry("handler", 32, "fault")))
+        graph = graph_of(*DIAMOND, DEEP, node("handler", "40 bytes (static)"))
+        code = {function.name: Code() for function in graph.values()}
+        stacks, _, _ = stack.analyse(graph, code, table, {"main": 1024, "fault": 64})
+        self.assertEqual(
+            [(item.name, item.bytes) for item in stacks], [("main", 204), ("fault", 72)]
+        )
+
+    def test_a_stack_without_an_entry_is_an_error(self) -> None:
+        with self.assertRaisesRegex(StackError, "no entry of this image on the stack main"):
+            self.analyse(table=Table((), {}, (Entry("other", 0, "main"),)))
+
+
+class FilesTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+
+    def table(self, text: str) -> Table:
+        path = self.root / "stack.toml"
+        path.write_text(text)
+        return stack.read_table(path)
+
+    def test_the_projects_table_can_be_read(self) -> None:
+        table = stack.read_table(ROOT / stack.TABLE)
+        self.assertIn("keel_scheduler_step", table.indirect)
+        self.assertEqual({entry.stack for entry in table.entries}, {"main", "fault"})
+
+    def test_bad_tables_are_refused(self) -> None:
+        entry = '[[entry]]\nfunction = "reset"\n'
+        bad = {
+            "": "no entry",
+            entry + "[other]": "unknown key other",
+            "tasks = [": "stack.toml: ",
+            entry + '[[indirect]]\ncaller = "a"\ncalls = ["b"]': "a: caller, calls and reason",
+            entry
+            + '[[indirect]]\ncaller = "a"\ncalls = []\nreason = "r"\n' * 2: "a has two entries",
+            '[[entry]]\nname = "reset"': "function",
+        }
+        for text, reason in bad.items():
+            with self.assertRaisesRegex(StackError, reason):
+                self.table(text)
+
+    def test_no_image_says_what_to_run(self) -> None:
+        with self.assertRaisesRegex(StackError, "run: make firmware BOARD=some"):
+            stack.read_graph(self.root, "some")
+
+    def test_too_little_room_fails_and_is_reported(self) -> None:
+        report = {
+            "board": "some", "functions": 3, "tasks": {"work": {"bound": 10, "path": ["work"]}},
+            "stacks": {"main": {"size": 100, "bound": 101, "path": ["reset", "x.c:work"]}},
+        }  # fmt: skip
+        with contextlib.redirect_stdout(io.StringIO()) as out:
+            self.assertEqual(stack.conclude(report, self.root), 1)
+        self.assertIn("101 of 100 bytes: reset > work", out.getvalue())
+        self.assertIn("TOO LITTLE ROOM: main", out.getvalue())
+        self.assertEqual(json.loads((self.root / stack.REPORT / "some.json").read_text()), report)
+
+    def test_sizes_of_the_stacks(self) -> None:
+        symbols = (
+            "20000400 B keel_stack_bottom\n20004400 B keel_stack_top\n"
+            "20004800 B keel_fault_stack_top\n"
+        )
+        self.assertEqual(stack.stack_sizes(symbols), {"main": 0x4000, "fault": 0x400})
+        with self.assertRaisesRegex(StackError, "no symbol 'keel_stack_top'"):
+            stack.stack_sizes("")
+
+
+if __name__ == "__main__":
+    unittest.main()
