@@ -1,0 +1,66 @@
+"""The timing tools.
+
+    python3 tools/with_packages.py timing -m timing analyze specs/tasksets/urpilot.toml
+
+Exit status: 0 when all is well, 1 when a set is not schedulable, a table is stale or an experiment
+fails, 2 for a wrong command line or a bad file.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from timing.analysis import analyse
+from timing.output import console, write_json
+from timing.report import plot_responses, plot_utilisation, print_analysis, verdict
+from timing.taskset import TaskSetError, read
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = Path("build/timing")
+
+
+def run_analyze(options: argparse.Namespace) -> int:
+    """Analyse a task set."""
+    tasks = read(options.taskset)
+    analysis = analyse(tasks)
+    out = console()
+    print_analysis(analysis, out)
+    folder = ROOT / BUILD / tasks.name
+    plot_utilisation(analysis, folder / "utilisation.svg")
+    plot_responses(analysis, folder / "responses.svg")
+    write_json(folder / "analysis.json", analysis.report())
+    print(f"written: {BUILD / tasks.name}/analysis.json, utilisation.svg, responses.svg")
+    for row in analysis.chains:
+        if row.advisory and not row.within:
+            print(f"advice: path {row.name} exceeds its limits by eq. 5 to 7")
+    print(verdict(analysis))
+    return 0 if analysis.schedulable else 1
+
+
+def arguments_parser() -> argparse.ArgumentParser:
+    """The command line."""
+    parser = argparse.ArgumentParser(prog="timing", description="Timing tools.")
+    commands = parser.add_subparsers(dest="command", required=True)
+    analyze = commands.add_parser("analyze", help="analyse a task set")
+    analyze.add_argument("taskset", type=Path)
+    analyze.set_defaults(run=run_analyze)
+    return parser
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Entry point."""
+    options = arguments_parser().parse_args(arguments)
+    try:
+        status: int = options.run(options)
+    except TaskSetError as error:
+        print(error, file=sys.stderr)
+        print(f"{options.command}: {len(error.problems)} problems in the task set", file=sys.stderr)
+        return 2
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())
