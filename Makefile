@@ -7,12 +7,16 @@ export PYTHONUNBUFFERED := 1
 
 UNIT ?=
 SECONDS := 60
+TASKSET ?= specs/tasksets/urpilot.toml
 ARGS ?=
 
 ALL_TOOLS := prove test lint coverage bench fuzz
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
 
+TIMING := python3 tools/with_packages.py timing -m timing
+
+.PHONY: analyze tables fuzztasks timing
 .PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace status tools doctor clean python
 .NOTPARALLEL:
 
@@ -27,6 +31,7 @@ test: python ## build and run all tests (ARGS='--filter unit/': some of them)
 
 demo: python ## the paper's 21 tasks, one simulated minute on this host
 	@python3 tools/toolchain.py ensure test
+	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/demo
 	@mkdir -p build
 	gcc $(CFLAGS) -Iinclude -Iexamples/demo $(DEMO) -lm -o build/demo
 	@build/demo
@@ -36,6 +41,15 @@ bench: python ## instructions per pass and per step, code size and RAM (ARGS=--c
 
 lint: python ## layout, MISRA C:2012 and the rules of the house (ARGS=--fix: lay out first)
 	@python3 tools/lint.py $(ARGS)
+
+analyze: python ## does a task set hold? (TASKSET=file.toml, ARGS=--phases, ARGS=--synthesize)
+	@$(TIMING) analyze "$(TASKSET)" $(ARGS)
+
+tables: python ## regenerate the C task table from the paper's task set
+	@$(TIMING) table specs/tasksets/urpilot.toml examples/demo
+
+fuzztasks: python ## 100 000 broken task-set files, each of which must be read or refused in words
+	@python3 tools/with_packages.py timing tests/timing/fuzz_taskset.py 100000
 
 campaign: python ## the voter's fault campaign and fig. 14: tables, JSON and plots in build/campaign
 	@python3 tools/campaign.py

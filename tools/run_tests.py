@@ -8,8 +8,8 @@
 Suites: unit/<unit> (Unity), property/<size> (the scheduler against its reference model),
 reference/<unit> (C++, an independent computation with Eigen in double precision), machdep
 (Frama-C's data model against the compiler), tools/<tool> (unittest), timing/<part> (pytest), fuzz
-(libFuzzer). The C and C++ suites are built with the address and undefined-behaviour sanitizers; where their libraries are
-missing this is said, in the output and in the report.
+(libFuzzer). The C and C++ suites are built with the address and undefined-behaviour sanitizers;
+where their libraries are missing this is said, in the output and in the report.
 
 A suite that does not build, crashes, hangs, or runs no test counts as a failed test of its own
 name. build/test/report.json holds the verdicts; an unfinished run leaves none.

@@ -20,7 +20,8 @@ from timing.taskset import TaskSet, TaskSetError, parse
 ROOT = Path(__file__).resolve().parents[2]
 SEED_FILE = ROOT / "specs/tasksets/urpilot.toml"
 WORDS = (
-    "[[task]]", "[[chain]]", "[task]", "[scheduler]", "[a.b]", '"""', "'''", "{", "}", "[", "]", "=",
+    "[[task]]", "[[chain]]", "[task]", "[scheduler]", "[a.b]", '"""', "'''", "{", "}", "[", "]",
+    "=",
     "name", "period_us", "budget_us", "phase_us", "class", '"real-time"', '"low"', "priority",
     "realtime", "true", "false", "0", "-1", "1", "2147483647", "2147483648", "9" * 30, "9" * 5000,
     "1e308", "nan", "inf", "1979-05-27", "07:32:00", "0x7f", '"\\u0000"', "\0", "\t", "\r\n", "\n",
@@ -34,7 +35,7 @@ def replace_number(text: str, draw: random.Random) -> str:
     numbered = [index for index, line in enumerate(lines) if " = " in line]
     index = draw.choice(numbered) if numbered else 0
     key = lines[index].split(" = ")[0]
-    lines[index] = f"{key} = {draw.choice((0, 1, 7, 999, 10**draw.randrange(12), 2**31 - 1))}"
+    lines[index] = f"{key} = {draw.choice((0, 1, 7, 999, 10 ** draw.randrange(12), 2**31 - 1))}"
     return "\n".join(lines)
 
 

@@ -13,6 +13,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from timing import ctable
 from timing.analysis import analyse
 from timing.output import console, write_json
 from timing.report import plot_responses, plot_utilisation, print_analysis, verdict
@@ -40,6 +41,22 @@ def run_analyze(options: argparse.Namespace) -> int:
     return 0 if analysis.schedulable else 1
 
 
+def run_table(options: argparse.Namespace) -> int:
+    """Write the C table of a task set, or see whether it is what it would be."""
+    tasks = read(options.taskset)
+    files = ctable.table(tasks, options.taskset.name)
+    if not options.check:
+        changed = ctable.write(files, options.folder)
+        print(f"table: {options.folder}: {', '.join(changed) or 'nothing'} changed")
+        return 0
+    wrong = ctable.stale(files, options.folder)
+    for name in wrong:
+        print(f"{options.folder / name}:1: stale: not what {options.taskset} gives; "
+              "`make tables` regenerates it", file=sys.stderr)  # fmt: skip
+    print(f"table: {options.folder}: {f'{len(wrong)} stale files' if wrong else 'up to date'}")
+    return 1 if wrong else 0
+
+
 def arguments_parser() -> argparse.ArgumentParser:
     """The command line."""
     parser = argparse.ArgumentParser(prog="timing", description="Timing tools.")
@@ -47,6 +64,11 @@ def arguments_parser() -> argparse.ArgumentParser:
     analyze = commands.add_parser("analyze", help="analyse a task set")
     analyze.add_argument("taskset", type=Path)
     analyze.set_defaults(run=run_analyze)
+    table = commands.add_parser("table", help="write the C task table")
+    table.add_argument("taskset", type=Path)
+    table.add_argument("folder", type=Path)
+    table.add_argument("--check", action="store_true", help="only see whether it is stale")
+    table.set_defaults(run=run_table)
     return parser
 
 

@@ -133,9 +133,9 @@ def realtime_rows(tasks: TaskSet, found: keel.Bounds) -> list[RealtimeRow]:
     unguarded = textbook.fixed_priority(tasks.realtime, outside)
     guarded = textbook.fixed_priority(tasks.realtime, 0)
     return [
-        RealtimeRow(task.label, task.name, task.period, task.budget, *times,
+        RealtimeRow(task.label, task.name, task.period, task.budget, without, within,
                     found.realtime_guarded[task.name], found.realtime_promotion[task.name])
-        for task, *times in zip(tasks.realtime, unguarded, guarded, strict=True)
+        for task, without, within in zip(tasks.realtime, unguarded, guarded, strict=True)
     ]  # fmt: skip
 
 
@@ -189,13 +189,15 @@ def chain_rows(tasks: TaskSet, found: keel.Bounds) -> list[ChainRow]:
 
 
 def admission_reasons(tasks: TaskSet) -> Iterator[str]:
-    """Why keel_scheduler_start would refuse the set (requirement ADM-003), budgets as declared."""
+    """Why keel_scheduler_start would refuse the set (ADM-003), budgets as declared."""
     guard = tasks.costs.guard_us
     demand = sum(keel.declared(tasks, task) for task in tasks.realtime)
     for task in tasks.realtime:
         if demand + 2 * guard > task.period:
-            yield (f"the kernel refuses it: real-time budgets and twice the guard, "
-                   f"{demand + 2 * guard} us, exceed the period of {task.name}, {task.period} us")  # fmt: skip
+            yield (
+                f"the kernel refuses it: real-time budgets and twice the guard, "
+                f"{demand + 2 * guard} us, exceed the period of {task.name}, {task.period} us"
+            )
         gap = task.period - keel.declared(tasks, task)
         for other in tasks.others:
             need = keel.declared(tasks, other) + guard
@@ -225,8 +227,10 @@ def reasons(tasks: TaskSet, found: keel.Bounds, chains: list[ChainRow]) -> Itera
                "deadlines and be promoted")  # fmt: skip
     for chain in chains:
         if not (chain.within or chain.advisory):
-            yield (f"path {chain.name}: E = {chain.reaction} us of {chain.reaction_limit} us, "
-                   f"F = {chain.freshness} us of {chain.freshness_limit} us (eq. 5 to 7)")  # fmt: skip
+            yield (
+                f"path {chain.name}: E = {chain.reaction} us of {chain.reaction_limit} us, "
+                f"F = {chain.freshness} us of {chain.freshness_limit} us (eq. 5 to 7)"
+            )
 
 
 def analyse(tasks: TaskSet) -> Analysis:

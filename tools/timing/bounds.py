@@ -13,6 +13,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 
 from timing.taskset import Task
 
@@ -143,7 +144,7 @@ def reaction(path: Sequence[Task]) -> int:
     producer, consumer = path[0], path[1]
     first = consumer.period if consumer.period < producer.period else producer.period
     total = first + producer.budget
-    for producer, consumer in zip(path[1:], path[2:], strict=False):
+    for producer, consumer in pairwise(path[1:]):
         if consumer.period < producer.period:
             total += consumer.period
         else:
@@ -162,7 +163,7 @@ def freshness(path: Sequence[Task]) -> int:
         total = 2 * producer.period
     else:
         total = producer.period + consumer.budget
-    for producer, consumer in zip(path[1:], path[2:], strict=False):
+    for producer, consumer in pairwise(path[1:]):
         total += producer.period + consumer.budget
     return total
 

@@ -1,18 +1,18 @@
 """Bounds for Keel's own scheduler, the scheduler's costs included.
 
 They hold for every phase and every execution time up to the budget, given the costs that the task
-set declares: p (a pass that looks at the tasks), d (a dispatch), W (the guard). CONTRIBUTING.md and
-the functions below say why. tests/timing compares them with simulations by the kernel's own code.
+set declares: p (a pass that looks at the tasks), d (a dispatch), W (the guard). tests/timing
+compares them with simulations by the kernel's own code. Why they hold:
 
-1. A real-time task waits for what is left of the pass that had looked at it just before its release,
-   and for the tasks before it in the next pass: each other real-time task once, one other task at
-   most, and two passes. With the guard, and as long as nobody is promoted, another task has always
-   ended before a release comes.
+1. A real-time task waits for what is left of the pass that had looked at it just before its
+   release, and for the tasks before it in the next pass: each other real-time task once, one other
+   task at most, and two passes. With the guard, and as long as nobody is promoted, another task
+   has always ended before a release comes.
 2. A task that is not real-time waits, from its release on, only while (a) real-time tasks run,
    (b) tasks of no lower dynamic priority run, (c) the time to the next real-time release is below
-   W + w, or (d) a task started before ends. Dynamic priorities are bounded by responses, responses by
-   dynamic priorities. Bounds that agree with each other, all within the periods, hold together: the
-   first response to break its bound would do so while all others keep theirs, which its bound
+   W + w, or (d) a task started before ends. Dynamic priorities are bounded by responses, responses
+   by dynamic priorities. Bounds that agree with each other, all within the periods, hold together:
+   the first response to break its bound would do so while all others keep theirs, which its bound
    excludes. No task's age then comes near its promotion.
 3. A promoted task waits for promoted tasks only, one in a pass, each with all real-time tasks. This
    needs neither slack nor the assumption of 2.

@@ -11,7 +11,8 @@ KEY = re.compile(r"""[ \t]*("(?:\\.|[^"\\\n])*"|'[^'\n]*'|[A-Za-z0-9_-]+)[ \t]*"
 BLANK = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)+")
 # What a value is made of. Strings and comments may hold brackets and line ends of their own.
 TOKEN = re.compile(
-    r'''"{3}(?:\\.|[^\\])*?"{3,5}|'{3}.*?'{3,5}|"(?:\\.|[^"\\\n])*"|'[^'\n]*'|\#[^\n]*|[][{}\n]|.''',
+    r""""{3}(?:\\.|[^\\])*?"{3,5}|'{3}.*?'{3,5}|"""
+    r""""(?:\\.|[^"\\\n])*"|'[^'\n]*'|\#[^\n]*|[][{}\n]|.""",
     re.DOTALL,
 )
 

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 from rich import box
 from rich.console import Console
 from rich.table import Table
-
 from toolchain import write_atomically
 
 if TYPE_CHECKING:
@@ -35,11 +34,13 @@ def shown(cell: Cell) -> str:
     return f"{cell:.3f}" if isinstance(cell, float) else str(cell)
 
 
-def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Cell]], left: int = 1) -> Table:
+def table(
+    title: str, columns: Sequence[str], rows: Sequence[Sequence[Cell]], left: int = 1
+) -> Table:
     """A table; the first columns (as many as left says) hold words, the others numbers."""
     result = Table(title=title, box=box.SIMPLE_HEAD, title_justify="left", title_style="bold")
     for number, name in enumerate(columns):
-        result.add_column(name, justify="left" if number < left else "right")
+        result.add_column(name, justify="left" if number < left else "right", no_wrap=True)
     for row in rows:
         result.add_row(*map(shown, row))
     return result

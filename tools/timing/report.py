@@ -16,6 +16,26 @@ PUBLISHED_LABELS = {
     "total_utilisation": "total",
 }
 
+NOTE_BOUNDS = (
+    "Eq. 8, its hyperbolic form and eq. 11 assume preemption, which Keel does not have: they are\n"
+    "shown as the paper's, not as sufficient here."
+)
+NOTE_PUBLISHED = (
+    "The printed figures do not follow from the table: C / T of its rows adds up to the computed "
+    "ones (eq. 10's own\nsentence even names the EDF tasks, for which eq. 12 stands).\n"
+)
+NOTE_REALTIME = (
+    "Textbook: non-preemptive fixed priorities in queue order, the scheduler free of cost. Keel: "
+    "its FCFS pass serves each\ntask once in turn, so all share one bound, with passes, dispatches "
+    "and (last column) one promoted task in it."
+)
+NOTE_CHAINS = (
+    "Eq. 5 to 7 take each task to respond at once and to use the sample that arrives; the sum of "
+    "T + R bounds the reaction\nto an event that just missed its sample, for any phases. Eq. 7 is "
+    "defined for two tasks; each further one is taken\nto add its producer's period and its own "
+    "budget.\n"
+)
+
 
 def load_row(load: ClassLoad) -> list[Cell]:
     """A row of the table of utilisations."""
@@ -31,10 +51,16 @@ def print_utilisation(analysis: Analysis, out: Console) -> None:
     """Utilisation by class, against eq. 8 and 11, and beside what was printed."""
     rows = [load_row(load) for load in analysis.classes]
     rows += [load_row(load) for load in (analysis.realtime, analysis.others, analysis.total)]
-    columns = ["class", "tasks", "U", "U <= Liu-Layland (eq. 8)", "hyperbolic <= 2", "U <= 1 (eq. 11)"]
+    columns = [
+        "class",
+        "tasks",
+        "U",
+        "U <= Liu-Layland (eq. 8)",
+        "hyperbolic <= 2",
+        "U <= 1 (eq. 11)",
+    ]
     out.print(table("Utilisation", columns, rows))
-    out.print("Eq. 8, its hyperbolic form and eq. 11 assume preemption, which Keel does not have: "
-              "necessary or telling, not sufficient here.")  # fmt: skip
+    out.print(NOTE_BOUNDS)
     out.print(f"Total {100.0 * analysis.total.utilisation:.2f} %: {analysis.load_zone}.\n")
     if analysis.published:
         computed = [analysis.realtime, analysis.others, analysis.total]
@@ -42,10 +68,11 @@ def print_utilisation(analysis: Analysis, out: Console) -> None:
             [label, float(analysis.published[key] or 0.0), load.utilisation]
             for (key, label), load in zip(PUBLISHED_LABELS.items(), computed, strict=True)
         ]
-        out.print(table("Printed in the paper, and from its own table", ["", "printed", "computed"], rows))
+        out.print(
+            table("Printed in the paper, and from its own table", ["", "printed", "computed"], rows)
+        )
         if any(abs(float(str(row[1])) - float(str(row[2]))) > 0.011 for row in rows):
-            out.print("The printed figures do not follow from the table: C / T of its own rows adds up "
-                      "to the computed ones.\n")  # fmt: skip
+            out.print(NOTE_PUBLISHED)
 
 
 def print_realtime(analysis: Analysis, out: Console) -> None:
@@ -58,14 +85,14 @@ def print_realtime(analysis: Analysis, out: Console) -> None:
     columns = ["", "real-time task", "T = D", "C", "textbook, no guard", "textbook, guard",
                "Keel, guard", "Keel, promotion"]  # fmt: skip
     out.print(table("Worst response times, us", columns, rows, 2))
-    out.print("Textbook: non-preemptive fixed priorities in queue order, the scheduler free of cost. "
-              "Keel: its FCFS pass serves\neach task once in turn, so all share one bound, which has "
-              "passes, dispatches and (last column) one promoted task in it.")  # fmt: skip
+    out.print(NOTE_REALTIME)
     excluded = "cannot happen: every other task responds within its period"
     text = excluded if analysis.promotion_excluded else "cannot be excluded: the last column counts"
     out.print(f"Promotion {text}.\n")
     found = analysis.jeffay
-    verdict = "holds" if found.holds else ("fails" if found.decided else "too many points to decide")
+    verdict = (
+        "holds" if found.holds else ("fails" if found.decided else "too many points to decide")
+    )
     where = "" if found.slack is None else (
         f", least slack {found.slack} us at L = {found.interval} us, blocked by {found.blocker}"
     )  # fmt: skip
@@ -83,8 +110,10 @@ def print_others(analysis: Analysis, out: Console) -> None:
                "then done by"]  # fmt: skip
     out.print(table("Tasks that are not real-time, us from the release", columns, rows, 3))
     if analysis.gaps.shortest is not None:
-        out.print(f"Shortest real-time gap: {analysis.gaps.shortest} us when all fall due together; "
-                  f"the kernel's admission asks for {analysis.gaps.admission} us.")  # fmt: skip
+        out.print(
+            f"Shortest real-time gap: {analysis.gaps.shortest} us, when all fall due together; "
+            f"admission looks at one task at a time: {analysis.gaps.admission} us."
+        )
     out.print(f"Hyperperiod: {analysis.hyperperiod} us.\n")
 
 
@@ -106,9 +135,7 @@ def print_chains(analysis: Analysis, out: Console) -> None:
     ]  # fmt: skip
     columns = ["path", "tasks", "E (eq. 5, 6)", "limit", "F (eq. 7)", "limit", "", "sum of T + R"]
     out.print(table("Paths from sensor to actuator, us", columns, rows, 2))
-    out.print("Eq. 5 to 7 take each task to respond at once and use the sample that arrives; the sum of "
-              "T + R bounds the reaction to\nan event that just missed its sample, for any phases. Eq. 7 is "
-              "defined for two tasks; see freshness() for more.\n")  # fmt: skip
+    out.print(NOTE_CHAINS)
 
 
 def print_analysis(analysis: Analysis, out: Console) -> None:
@@ -122,7 +149,9 @@ def print_analysis(analysis: Analysis, out: Console) -> None:
 def verdict(analysis: Analysis) -> str:
     """The last line."""
     if analysis.schedulable:
-        return f"{analysis.name}: schedulable; every task meets its deadline, every path its limits."
+        return (
+            f"{analysis.name}: schedulable; every task meets its deadline, every path its limits."
+        )
     more = len(analysis.reasons) - 1
     rest = f" ({more} more)" if more else ""
     return f"{analysis.name}: NOT schedulable: {analysis.reasons[0]}{rest}"

@@ -46,6 +46,9 @@ class Costs(Strict):
     utilisation_limit_percent: Percent = 100.0
 
 
+DEFAULT_COSTS = Costs()
+
+
 class Published(Strict):
     """What a publication printed about the set."""
 
@@ -85,7 +88,7 @@ class RawTaskSet(Strict):
     """A file."""
 
     name: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,31}$")]
-    scheduler: Costs = Costs()
+    scheduler: Costs = DEFAULT_COSTS
     published: Published | None = None
     task: Annotated[list[RawTask], Field(min_length=1, max_length=QUEUE_CAPACITY)]
     chain: Annotated[list[Chain], Field(max_length=64)] = []
@@ -126,7 +129,7 @@ class TaskSet:
     name: str
     tasks: tuple[Task, ...]
     chains: tuple[Chain, ...] = ()
-    costs: Costs = Costs()
+    costs: Costs = DEFAULT_COSTS
     published: Published | None = None
 
     @property
@@ -203,13 +206,9 @@ class Reader:
         """An element of an array, by its name if it has one."""
         kind = str(path[-1])
         items = self.data.get(kind) if len(path) == 1 else None
-        name = items[index].get("name") if self.is_table(items, index) else None
+        entry = items[index] if isinstance(items, list) and index < len(items) else None
+        name = entry.get("name") if isinstance(entry, dict) else None
         return f'{kind} "{name[:40]}"' if isinstance(name, str) else f"{kind} number {index + 1}"
-
-    @staticmethod
-    def is_table(items: Any, index: int) -> bool:
-        """Whether an array has a table there."""
-        return isinstance(items, list) and index < len(items) and isinstance(items[index], dict)
 
     def fail_if_wrong(self) -> None:
         """Stop when something is wrong."""
@@ -227,8 +226,10 @@ class Reader:
             what = re.sub(r" \(at .*\)$", "", str(error))
             self.problems.append(Problem(self.file, line, "file", f"expected TOML: {what}"))
         except (RecursionError, ValueError) as error:
-            # tomllib lets these through: brackets nested too deeply, numbers of thousands of digits.
-            what = "nested too deeply" if isinstance(error, RecursionError) else "not a usable number"
+            # What tomllib lets through: deeply nested brackets, numbers of thousands of digits.
+            what = (
+                "nested too deeply" if isinstance(error, RecursionError) else "not a usable number"
+            )
             self.problems.append(Problem(self.file, 1, "file", f"expected TOML: {what}"))
         self.fail_if_wrong()
         self.lines = line_index(self.text)
