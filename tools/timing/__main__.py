@@ -15,9 +15,11 @@ from pathlib import Path
 
 from timing import ctable
 from timing.analysis import analyse
-from timing.output import console, write_json
+from timing.output import Cell, console, table, write_json
+from timing.phases import spread, without_phases
 from timing.report import plot_responses, plot_utilisation, print_analysis, verdict
-from timing.taskset import TaskSetError, read
+from timing.synthesis import SynthesisError, print_synthesis, synthesize
+from timing.taskset import TaskSet, TaskSetError, read
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path("build/timing")
@@ -26,6 +28,10 @@ BUILD = Path("build/timing")
 def run_analyze(options: argparse.Namespace) -> int:
     """Analyse a task set."""
     tasks = read(options.taskset)
+    if options.synthesize:
+        return run_synthesis(tasks)
+    if options.phases:
+        return run_phases(tasks)
     analysis = analyse(tasks)
     out = console()
     print_analysis(analysis, out)
@@ -39,6 +45,40 @@ def run_analyze(options: argparse.Namespace) -> int:
             print(f"advice: path {row.name} exceeds its limits by eq. 5 to 7")
     print(verdict(analysis))
     return 0 if analysis.schedulable else 1
+
+
+def run_synthesis(tasks: TaskSet) -> int:
+    """Find periods from the limits of the paths."""
+    try:
+        found = synthesize(tasks)
+    except SynthesisError as error:
+        print(f"{tasks.name}: no synthesis: {error}")
+        return 1
+    print_synthesis(found, console())
+    folder = ROOT / BUILD / tasks.name
+    periods = {task.name: task.period for task in found.after.tasks}
+    report = {"periods_us": periods, "spare_us": found.spare_us, **found.analysis.report()}
+    write_json(folder / "synthesis.json", report)
+    print(f"written: {BUILD / tasks.name}/synthesis.json")
+    print(f"synthesis: {verdict(found.analysis)}")
+    return 0 if found.analysis.schedulable else 1
+
+
+def run_phases(tasks: TaskSet) -> int:
+    """Find phases with which tasks do not collide."""
+    found, crowded = spread(without_phases(tasks))
+    rows: list[list[Cell]] = [
+        [task.label, task.name, task.period, task.phase] for task in found.tasks
+    ]
+    console().print(table("Phases, us", ["", "task", "T", "phase_us"], rows, 2))
+    report = {"phases_us": {task.name: task.phase for task in found.tasks}, "crowded": crowded}
+    write_json(ROOT / BUILD / tasks.name / "phases.json", report)
+    print(f"written: {BUILD / tasks.name}/phases.json")
+    if crowded:
+        print(f"phases: no room apart from the others for {', '.join(crowded)}")
+        return 1
+    print("phases: with these no two tasks ever want the processor at the same time.")
+    return 0
 
 
 def run_table(options: argparse.Namespace) -> int:
@@ -63,12 +103,15 @@ def arguments_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True)
     analyze = commands.add_parser("analyze", help="analyse a task set")
     analyze.add_argument("taskset", type=Path)
+    what = analyze.add_mutually_exclusive_group()
+    what.add_argument("--synthesize", action="store_true", help="find periods from the limits")
+    what.add_argument("--phases", action="store_true", help="find phases without collisions")
     analyze.set_defaults(run=run_analyze)
-    table = commands.add_parser("table", help="write the C task table")
-    table.add_argument("taskset", type=Path)
-    table.add_argument("folder", type=Path)
-    table.add_argument("--check", action="store_true", help="only see whether it is stale")
-    table.set_defaults(run=run_table)
+    tables = commands.add_parser("table", help="write the C task table")
+    tables.add_argument("taskset", type=Path)
+    tables.add_argument("folder", type=Path)
+    tables.add_argument("--check", action="store_true", help="only see whether it is stale")
+    tables.set_defaults(run=run_table)
     return parser
 
 
