@@ -45,6 +45,9 @@ lint: python ## layout, MISRA C:2012 and the rules of the house (ARGS=--fix: lay
 analyze: python ## does a task set hold? (TASKSET=file.toml, ARGS=--phases, ARGS=--synthesize)
 	@$(TIMING) analyze "$(TASKSET)" $(ARGS)
 
+timing: python ## the paper's evaluation on the virtual board: tables, JSON and plots in build/timing
+	@$(TIMING) experiments specs/tasksets/urpilot.toml
+
 tables: python ## regenerate the C task table from the paper's task set
 	@$(TIMING) table specs/tasksets/urpilot.toml examples/demo
 

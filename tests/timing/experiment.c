@@ -51,12 +51,12 @@ typedef struct actor {
     uint64_t work_ns;
     uint64_t spike_run, spike_ns;
     uint64_t runs, late;
-    uint64_t due_us;              /* The release that its next run serves. */
-    uint64_t first_ns, last_ns;   /* Starts. */
-    uint64_t longest_gap_ns;      /* Between two starts. */
-    uint64_t worst_ns;            /* Response. */
-    double squares;               /* Of the deviations of its first periods. */
-    uint64_t deviations, span_ns; /* How many, and how long they are together. */
+    uint64_t due_us;            /* The release that its next run serves. */
+    uint64_t first_ns, last_ns; /* Starts. */
+    uint64_t longest_gap_ns;    /* Between two starts. */
+    uint64_t worst_ns;          /* Response. */
+    double squares;             /* Of the deviations of its first periods. */
+    uint64_t deviations;        /* How many periods these are. */
 } actor_t;
 
 /* A path: what each task of it last handed on is the time at which its sample was taken. */
@@ -173,7 +173,6 @@ static void note_start(experiment_t *e, actor_t *actor, uint64_t now_ns)
         if (actor->deviations < SAMPLES) {
             actor->squares += off * off;
             actor->deviations++;
-            actor->span_ns += gap_ns;
         }
         if (gap_ns > actor->longest_gap_ns) {
             actor->longest_gap_ns = gap_ns;
@@ -284,9 +283,9 @@ static void print_actor(const actor_t *actor)
                  actor->runs, actor->deviations, sqrt(actor->squares / count),
                  (actor->runs > 1u) ? ((double)whole_ns / (double)(actor->runs - 1u)) : 0.0,
                  actor->worst_ns, actor->late);
-    (void)printf("\"span\": %" PRIu64 ", \"gap\": %" PRIu64 ", \"last\": %" PRIu64
+    (void)printf("\"due\": %" PRIu64 ", \"gap\": %" PRIu64 ", \"last\": %" PRIu64
                  ", \"skipped\": %u, \"overruns\": %u, \"promotions\": %u}",
-                 actor->span_ns, actor->longest_gap_ns, actor->last_ns,
+                 actor->due_us * HOST_NS_PER_US, actor->longest_gap_ns, actor->last_ns,
                  (unsigned)actor->task.skipped, (unsigned)stats->overruns,
                  (unsigned)stats->promotions);
 }

@@ -78,7 +78,7 @@ class TaskOutcome:
     mean: float
     worst: float
     late: int
-    span: float
+    due: float
     gap: float
     last: float
     skipped: int
@@ -110,7 +110,7 @@ class Result:
 
 def read_task(raw: dict[str, Any]) -> TaskOutcome:
     """A task's outcome; the program counts in ns."""
-    in_ns = ("sigma", "mean", "worst", "span", "gap", "last")
+    in_ns = ("sigma", "mean", "worst", "due", "gap", "last")
     return TaskOutcome(
         **{key: value / 1000 if key in in_ns else value for key, value in raw.items()}
     )

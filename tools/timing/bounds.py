@@ -17,8 +17,11 @@ from itertools import pairwise
 
 from timing.taskset import Task
 
-# A fixed point that is not reached in so many steps is given up, and counts as not found.
-STEPS = 100_000
+# What is not reached in so many steps is given up, and counts as not found: no file may keep the
+# analyser busy for long.
+POINTS = 100_000  # Of Jeffay's condition.
+STEPS = 2000  # Of a fixed point.
+RUNS = 200  # Of a task in one busy period.
 
 
 def utilisation(tasks: Sequence[Task]) -> Fraction:
@@ -63,7 +66,7 @@ def jeffay(tasks: Sequence[Task]) -> Jeffay:
     queue = [(task.period, task.budget, task.period) for task in tasks]
     heapq.heapify(queue)
     demand = 0
-    for _ in range(STEPS):
+    for _ in range(POINTS):
         point = queue[0][0]
         interval = point + 1
         while queue[0][0] == point:
@@ -115,7 +118,7 @@ def response(task: Task, higher: Sequence[Task], blocking: int) -> int | None:
         return None
     limit = 1 << 40
     busy = fixed_point(blocking + task.budget, limit, [*above, own], blocking, closed=False)
-    if busy is None or -(-busy // task.period) > STEPS:
+    if busy is None or -(-busy // task.period) > RUNS:
         return None
     worst = 0
     for number in range(-(-busy // task.period)):

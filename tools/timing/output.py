@@ -23,8 +23,8 @@ Cell = str | int | float | None
 
 def console() -> Console:
     """A console that is wide enough for our tables, also in a log."""
-    width = shutil.get_terminal_size((120, 40)).columns
-    return Console(width=max(width, 120), highlight=False)
+    width = shutil.get_terminal_size((160, 40)).columns
+    return Console(width=max(width, 160), highlight=False)
 
 
 def shown(cell: Cell) -> str:
