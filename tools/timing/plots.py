@@ -36,7 +36,7 @@ def plot_classes(tasks: TaskSet, results: Deviations, path: Path) -> None:
         axes.hlines(goal, place - 0.4, place + 0.4, color="black", linewidth=1.0, label=label)
     axes.set_xticks(range(len(SIGMA_GOALS)), list(SIGMA_GOALS))
     axes.set(yscale="log", ylabel="% of the period", title="Fig. 12: mean deviation by class")
-    axes.legend(fontsize=8, ncols=4)
+    figure.legend(loc="outside lower center", fontsize=8, ncols=7)
     write_svg(path, figure)
 
 
@@ -52,7 +52,7 @@ def plot_tasks(tasks: TaskSet, results: Deviations, path: Path) -> None:
         axes.plot(places, values, mark, label=variant, markersize=5)
     axes.set_xticks(places, [task.label for task in tasks.tasks], fontsize=8)
     axes.set(yscale="log", ylabel="% of the period", title="Period deviation by task (eq. 15)")
-    axes.legend(fontsize=8, ncols=6)
+    figure.legend(loc="outside lower center", fontsize=8, ncols=6)
     write_svg(path, figure)
 
 

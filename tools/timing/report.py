@@ -174,7 +174,7 @@ def plot_utilisation(analysis: Analysis, path: Path) -> None:
         axes.text(value, 0.55, label, rotation=90, ha="right", va="bottom", fontsize=8)
     axes.set(xlim=(0.0, max(1.05, 1.05 * left)), ylim=(-0.5, 1.0),
              title=f"{analysis.name}: utilisation {left:.4f}")  # fmt: skip
-    axes.legend(loc="lower right", ncols=3, fontsize=8)
+    figure.legend(loc="outside lower center", ncols=5, fontsize=8)
     write_svg(path, figure)
 
 
