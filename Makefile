@@ -10,7 +10,7 @@ SECONDS := 60
 TASKSET ?= specs/tasksets/urpilot.toml
 ARGS ?=
 
-ALL_TOOLS := prove test lint coverage bench fuzz
+ALL_TOOLS := prove test lint coverage bench fuzz timing
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
 

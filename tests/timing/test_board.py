@@ -28,8 +28,9 @@ FREE = Costs(guard_us=0, pass_us=0, dispatch_us=0)
 
 @pytest.fixture(scope="module")
 def program() -> Path:
-    """The virtual board."""
-    return board.build(Toolchain(), "experiment-test")
+    """The virtual board, with sanitizers."""
+    extra = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+    return board.build(Toolchain(), "experiment-sanitized", extra)
 
 
 @pytest.fixture(scope="module")

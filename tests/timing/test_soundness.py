@@ -113,6 +113,34 @@ def test_what_is_called_safe_is_not_broken(program: Path) -> None:
     assert seen.safe > SETS / 25 and seen.broken > SETS / 100 and seen.tight > 0.9, seen
 
 
+def understated(tasks: TaskSet) -> list[Experiment]:
+    """The kernel with declared budgets that are far too small."""
+    budgets = {task.name: max(1, task.budget // 3) for task in tasks.tasks}
+    return [replace(plan, budgets=budgets) for plan in with_kernel(tasks)]
+
+
+def test_under_overload_the_bounds_behind_promotion_hold(program: Path) -> None:
+    """They rest neither on utilisation, nor on admission, nor on budgets that are kept."""
+    sets = [random_set(number, 0.6 + 0.2 * (number % 5)) for number in range(SETS // 4)]
+    compared = overloads = 0
+    for tasks, results in simulated(program, sets, understated):
+        bounds = keel.bounds(tasks)
+        overloads += sum(task.utilisation for task in tasks.tasks) > 1.0
+        for result in results:
+            for task in tasks.realtime if result.status == 0 else ():
+                bound = bounds.realtime_promotion[task.name]
+                if bound <= task.period:
+                    assert result.tasks[task.name].worst <= bound, (tasks, task.name)
+                    compared += 1
+            for task in tasks.others if result.status == 0 else ():
+                limit = bounds.others[task.name].promoted_response
+                if limit is not None:
+                    assert result.tasks[task.name].worst <= limit, (tasks, task.name)
+                    compared += 1
+    print(f"{compared} compared, {overloads} sets above 100 %")
+    assert compared > SETS / 10 and overloads > SETS / 100
+
+
 def plain_edf(tasks: TaskSet) -> list[Experiment]:
     """Plain EDF without costs, all tasks alike."""
     return [

@@ -18,7 +18,17 @@ from timing.taskset import Task, TaskSet
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path("build/timing")
 TURN_NS = 200  # A turn of the main loop that does nothing: 30 instructions and the loop.
-FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-I.", "-Iinclude", "-Itests/timing")
+FLAGS = (
+    "-std=c99",
+    "-O2",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-Wconversion",
+    "-I.",
+    "-Iinclude",
+    "-Itests/timing",
+)
 
 
 class BoardError(Exception):
@@ -129,7 +139,7 @@ def read_result(line: str, experiment: Experiment) -> Result:
     return Result(**raw)
 
 
-def build(tools: Toolchain, name: str = "experiment") -> Path:
+def build(tools: Toolchain, name: str = "experiment", extra: Sequence[str] = ()) -> Path:
     """Build the program."""
     (ROOT / BUILD).mkdir(parents=True, exist_ok=True)
     sources = sorted(
@@ -138,7 +148,7 @@ def build(tools: Toolchain, name: str = "experiment") -> Path:
         for path in (ROOT / folder).glob("*.c")
     )
     program = ROOT / BUILD / name
-    command = [*tools.command("gcc"), *FLAGS, *sources, "-lm", "-o", str(program)]
+    command = [*tools.command("gcc"), *FLAGS, *extra, *sources, "-lm", "-o", str(program)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise BoardError(f"the virtual board does not build:\n{done.stderr}")

@@ -241,7 +241,8 @@ class Reader:
             raw = RawTaskSet.model_validate(self.data)
         except ValidationError as error:
             for found in error.errors(include_url=False, include_context=False):
-                self.blame(tuple(found["loc"]), expectation(found["msg"], found["input"]))
+                place: KeyPath = tuple(found["loc"])
+                self.blame(place, expectation(place, found["msg"], found["input"]))
             self.fail_if_wrong()
             raise
         tasks = tuple(self.task(entry, number) for number, entry in enumerate(raw.task))
@@ -293,14 +294,23 @@ class Reader:
                 self.blame(place, "expected each task at most once")
 
 
-def expectation(message: str, given: Any) -> str:
+TABLES: dict[str | int, type[Strict]] = {
+    "scheduler": Costs, "published": Published, "task": RawTask, "chain": Chain
+}  # fmt: skip
+
+
+def keys_at(place: KeyPath) -> list[str]:
+    """The keys that a table may have, given the path of one that it has not."""
+    model = TABLES[place[0]] if len(place) > 1 else RawTaskSet
+    return [field.alias or name for name, field in model.model_fields.items()]
+
+
+def expectation(place: KeyPath, message: str, given: Any) -> str:
     """pydantic's message in the form of ours, with what was there instead."""
-    text = {
-        "Field required": "expected: this key is missing",
-        "Extra inputs are not permitted": "unknown key; expected one of the documented keys",
-    }.get(message)
-    if text:
-        return text
+    if message == "Field required":
+        return "expected: this key is missing"
+    if message == "Extra inputs are not permitted":
+        return f"unknown key; expected one of {', '.join(keys_at(place))}"
     shown = repr(given)
     shown = shown if len(shown) <= 40 else f"{shown[:37]}..."
     return f"{re.sub('^[A-Z][a-z]+ should', 'expected to', message)}, found {shown}"
