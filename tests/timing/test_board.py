@@ -6,8 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from timing import board
+from timing import board, keel
 from timing.board import BoardError, Experiment, Result
+from timing.bounds import fixed_priority
 from timing.experiments import (
     Findings,
     class_sigma,
@@ -71,6 +72,19 @@ def test_keel_by_hand(program: Path) -> None:
     assert {name: outcome.runs for name, outcome in result.tasks.items()} == {
         "R": 40, "H": 10, "L": 10,
     }  # fmt: skip
+
+
+def test_a_pass_is_not_a_priority_order(program: Path, urpilot: TaskSet) -> None:
+    """Why the textbook's 140 us for τ11 is no bound here. τ12 is released at 990 and runs to 1027;
+    τ18, released at 1010, is served in the same pass, to 1110. τ11, released at 1000, was looked
+    at before: it runs in the next pass and ends at 1167, 167 after its release."""
+    phases = {"τ11": 0, "τ12": 990, "τ18": 1010}
+    realtime = [replace(task, phase=phases[task.label]) for task in urpilot.realtime]
+    tasks = TaskSet("rt", tuple(realtime), (), FREE)
+    result = run(program, Experiment(tasks, duration_us=10_000, turn_ns=0))
+    assert result.tasks["Background IMU"].worst == 167
+    assert fixed_priority(tasks.realtime, 0)[0] == 140
+    assert keel.realtime_bound(tasks, 0) == 177 + keel.TICK
 
 
 def test_without_guard_by_hand(program: Path) -> None:

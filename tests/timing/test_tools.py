@@ -99,7 +99,7 @@ def test_exit_status_and_first_reason(
     assert main(["analyze", str(path)]) == status
     output = capsys.readouterr()
     if status == 2:
-        assert output.err.startswith(f"{path}:134: task")
+        assert output.err.startswith(f"{path}:139: task")
     else:
         assert told in output.out.splitlines()[-1]
 

@@ -191,8 +191,9 @@ def compared(tasks: TaskSet, results: Deviations) -> str:
 
 
 REASON_COLLISION = (
-    "all first releases fall together, so a task waits for runs whose length varies by half; "
-    "phases remove it"
+    "released together, a task starts when those before it end, and their times vary by half. "
+    "τ12 behind τ11 alone deviates by sqrt(2) 28.5 us / sqrt(12) = 11.6 us, 0.58 % of its period, "
+    "under any scheduler that runs τ11 first. Phases remove it"
 )
 
 

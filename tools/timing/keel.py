@@ -31,7 +31,7 @@ from timing.taskset import PRIORITY_MAX, Task, TaskSet
 INSTANTS = 256  # More release instants than this are bounded by a count, not looked at.
 ROUNDS = 200
 EFFORT = 50_000  # Steps of all fixed points together; beyond them no bound counts as found.
-TICK = 1  # The resolution of the clock, and the main loop around a step.
+TICK = 1  # The resolution of the clock; a turn of the main loop around a step must be shorter.
 LIMIT = 1 << 40
 
 

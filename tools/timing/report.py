@@ -27,7 +27,8 @@ NOTE_PUBLISHED = (
 NOTE_REALTIME = (
     "Textbook: non-preemptive fixed priorities in queue order, the scheduler free of cost. Keel: "
     "its FCFS pass serves each\ntask once in turn, so all share one bound, with passes, dispatches "
-    "and (last column) one promoted task in it."
+    "and (last column) one promoted task in it. A task\nthat falls due just after the pass has "
+    "looked at it waits for all the others: no order of priorities describes that.\n"
 )
 NOTE_CHAINS = (
     "Eq. 5 to 7 take each task to respond at once and to use the sample that arrives; the sum of "
