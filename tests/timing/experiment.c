@@ -4,7 +4,7 @@
  *
  * Input, one order a line; times in us, costs in ns:
  *
- *     policy keel|edf|unguarded|paper
+ *     policy keel|edf|unguarded|paper|literal|ungated
  *     model constant|uniform|heavy|either
  *     costs TURN PASS DISPATCH
  *     set SEED DURATION FIRST GUARD SKIP   the counter's first reading; SKIP 0 makes every turn
@@ -186,7 +186,9 @@ static void note_start(experiment_t *e, actor_t *actor, uint64_t now_ns)
 
 static void note_end(actor_t *actor, uint64_t now_ns)
 {
-    const uint64_t response_ns = now_ns - (actor->due_us * HOST_NS_PER_US);
+    const uint64_t due_ns = actor->due_us * HOST_NS_PER_US;
+    /* A rival may run what is not due. */
+    const uint64_t response_ns = (now_ns > due_ns) ? (now_ns - due_ns) : 0u;
     const uint64_t deadline_ns = (uint64_t)actor->config.period_us * HOST_NS_PER_US;
 
     if (response_ns > actor->worst_ns) {
@@ -331,10 +333,9 @@ static bool order_policy(experiment_t *e, const char *words)
     static const struct {
         const char *name;
         rival_step_t step;
-    } policies[] = {{"keel\n", keel_scheduler_step},
-                    {"edf\n", rival_edf_step},
-                    {"unguarded\n", rival_unguarded_step},
-                    {"paper\n", rival_paper_step}};
+    } policies[] = {{"keel\n", keel_scheduler_step},       {"edf\n", rival_edf_step},
+                    {"unguarded\n", rival_unguarded_step}, {"paper\n", rival_paper_step},
+                    {"literal\n", rival_literal_step},     {"ungated\n", rival_ungated_step}};
 
     for (size_t i = 0u; i < (sizeof policies / sizeof policies[0]); i++) {
         if (strcmp(words, policies[i].name) == 0) {

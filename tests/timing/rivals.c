@@ -113,29 +113,60 @@ keel_status_t rival_unguarded_step(keel_scheduler_t *scheduler)
     return pass(scheduler, choose_unguarded);
 }
 
-/* Eq. 3, without a maximum. */
+#define EQ3_ONE 65536u /* Eq. 3 is real-valued: here in units of 2^-16. */
+
+/* Eq. 3, without a maximum; a release is one period after the last execution, le. */
 static uint64_t eq3(const keel_task_t *task, uint64_t now_us)
 {
-    const uint64_t age_us = (now_us - task->release_us) + task->config->period_us;
+    const uint64_t age_us = (now_us + task->config->period_us) - task->release_us;
 
-    return 1u + ((task->config->priority * age_us) / task->config->period_us);
+    return EQ3_ONE + ((EQ3_ONE * task->config->priority * age_us) / task->config->period_us);
 }
 
-static uint32_t choose_fitting(const keel_scheduler_t *scheduler, uint64_t now_us)
+/* w: the longest run so far, or the declared budget if that is longer. */
+static uint64_t worst_us(const keel_task_t *task)
+{
+    const uint32_t budget_us = task->config->budget_us;
+    const uint32_t longest_us = task->stats.longest_us;
+
+    return (longest_us > budget_us) ? longest_us : budget_us;
+}
+
+/* Whether eq. 3 gives a task more than 0. */
+typedef bool (*eligible_t)(const keel_scheduler_t *scheduler, const keel_task_t *task,
+                           uint64_t now_us);
+
+static bool fits(const keel_scheduler_t *scheduler, const keel_task_t *task, uint64_t now_us)
+{
+    const uint64_t slack_us = keel_decision_slack_us(&scheduler->queue, now_us);
+
+    return (scheduler->config.guard_us + worst_us(task)) <= slack_us;
+}
+
+static bool due_and_fits(const keel_scheduler_t *scheduler, const keel_task_t *task,
+                         uint64_t now_us)
+{
+    return (task->release_us <= now_us) && fits(scheduler, task, now_us);
+}
+
+/* Its own time to the release, none when it is due, against its own w. */
+static bool due_and_fits_itself(const keel_scheduler_t *scheduler, const keel_task_t *task,
+                                uint64_t now_us)
+{
+    (void)scheduler;
+    return (task->release_us <= now_us) && (worst_us(task) == 0u);
+}
+
+static uint32_t choose(const keel_scheduler_t *scheduler, uint64_t now_us, eligible_t eligible)
 {
     const keel_queue_t *const queue = &scheduler->queue;
-    const uint64_t slack_us = keel_decision_slack_us(queue, now_us);
     uint64_t highest = 0u;
     uint32_t best = queue->count;
 
     for (uint32_t i = queue->realtime_count; i < queue->count; i++) {
         const keel_task_t *const task = queue->task[i];
-        const uint32_t budget_us = task->config->budget_us;
-        const uint32_t longest_us = task->stats.longest_us;
-        const uint64_t worst_us = (longest_us > budget_us) ? longest_us : budget_us;
-        const bool fits = (scheduler->config.guard_us + worst_us) <= slack_us;
 
-        if ((task->release_us <= now_us) && fits && (eq3(task, now_us) > highest)) {
+        if (eligible(scheduler, task, now_us) && (eq3(task, now_us) > highest)) {
             highest = eq3(task, now_us);
             best = i;
         }
@@ -143,7 +174,37 @@ static uint32_t choose_fitting(const keel_scheduler_t *scheduler, uint64_t now_u
     return best;
 }
 
+static uint32_t choose_fitting(const keel_scheduler_t *scheduler, uint64_t now_us)
+{
+    return choose(scheduler, now_us, due_and_fits);
+}
+
 keel_status_t rival_paper_step(keel_scheduler_t *scheduler)
 {
     return pass(scheduler, choose_fitting);
+}
+
+static uint32_t choose_literal(const keel_scheduler_t *scheduler, uint64_t now_us)
+{
+    return choose(scheduler, now_us, due_and_fits_itself);
+}
+
+keel_status_t rival_literal_step(keel_scheduler_t *scheduler)
+{
+    return pass(scheduler, choose_literal);
+}
+
+static uint32_t choose_ungated(const keel_scheduler_t *scheduler, uint64_t now_us)
+{
+    const uint32_t best = choose(scheduler, now_us, fits);
+
+    if (best < scheduler->queue.count) {
+        scheduler->queue.task[best]->release_us = now_us; /* le is now. */
+    }
+    return best;
+}
+
+keel_status_t rival_ungated_step(keel_scheduler_t *scheduler)
+{
+    return pass(scheduler, choose_ungated);
 }

@@ -21,4 +21,11 @@ keel_status_t rival_unguarded_step(keel_scheduler_t *scheduler);
  * among the released tasks that fit the slack to the next real-time release, never any other. */
 keel_status_t rival_paper_step(keel_scheduler_t *scheduler);
 
+/** The paper's eq. 3 to the letter, with the task's own t_r: a task that is due never fits. */
+keel_status_t rival_literal_step(keel_scheduler_t *scheduler);
+
+/** The paper's eq. 3 without a release: the highest dynamic priority runs, due or not, if it fits
+ * the slack; the task's next period begins when it starts. */
+keel_status_t rival_ungated_step(keel_scheduler_t *scheduler);
+
 #endif

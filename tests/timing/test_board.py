@@ -110,6 +110,19 @@ def test_the_papers_rule_starves_what_never_fits(program: Path) -> None:
     assert kept.tasks["L"].overruns == 1 and kept.tasks["L"].skipped == 6 * 14
 
 
+def test_eq_3_to_the_letter_runs_nothing_but_real_time_tasks(program: Path) -> None:
+    result = run(program, Experiment(SMALL, "literal", duration_us=4000, turn_ns=0))
+    assert [result.tasks[name].runs for name in "RLH"] == [40, 0, 0]
+
+
+def test_eq_3_without_releases_runs_tasks_too_often(program: Path) -> None:
+    """Behind each of R's runs 80 us are left. H has the higher priority at 20, 220 and 320 (1 + 4
+    age / 400 against L's 1 + age / 400), and runs once more where 50 us are left, which L does not
+    fit; L, with 2.3 against H's 1.7, runs at 120. Both should run once in these 400 us."""
+    result = run(program, Experiment(SMALL, "ungated", duration_us=400, turn_ns=0))
+    assert [result.tasks[name].runs for name in "RLH"] == [4, 1, 6]
+
+
 def test_costs_by_hand(program: Path) -> None:
     """A turn 0.5, a pass 5, a dispatch 2: R starts 7 after its release in a lone pass, ends at 27.
     H is in the same pass: from 29 to 59. L fits from 100 on, behind R."""

@@ -487,6 +487,32 @@ def clock(tasks: TaskSet, runner: Runner, out: Console, findings: Findings) -> N
     out.print(f"One simulated hour: {seconds:.1f} s of real time, {runs} runs of tasks.\n")
 
 
+# --- Readings of eq. 3 ---------------------------------------------------------------------------
+
+READINGS = {
+    "keel": "Keel: released tasks that fit the slack to the real-time release, or are promoted",
+    "literal": "eq. 3 to the letter: the task's own t_r, which is not above 0 when it is due",
+    "ungated": "slack to the real-time release, but no wait for a task's own release",
+    "paper": "slack to the real-time release, released tasks only: works until one long run",
+}
+READING_US = 20 * SECOND
+
+
+def readings(tasks: TaskSet, runner: Runner, out: Console, findings: Findings) -> None:
+    """What eq. 3 does, read in each of the ways that its text allows."""
+    plain = without_phases(tasks)
+    plans = {name: Experiment(plain, name, duration_us=READING_US) for name in READINGS}
+    rows: list[list[Cell]] = []
+    for name, result in runner.run("eq. 3", plans).items():
+        often = [result.tasks[task.name].runs / (READING_US / task.period) for task in plain.others]
+        load = (100_000 - result.idle_mean_us) / 1000
+        rows.append([READINGS[name], sum(value == 0 for value in often), min(often), max(often),
+                     load])  # fmt: skip
+    columns = ["eq. 3 read as", "others that never run", "runs a period, least", "most", "load, %"]
+    out.print(table("Readings of eq. 3, constant WCET", columns, rows))
+    findings.report["readings"] = [dict(zip(columns, row, strict=True)) for row in rows]
+
+
 # --- Where the paper cannot be right -------------------------------------------------------------
 
 SIMULATED = (
@@ -550,6 +576,7 @@ def run_experiments(tasks: TaskSet, program: Path, out: Console) -> tuple[
     show_paths(tasks, results, out, findings)
     show_realtime(tasks, results, out, findings)
     show_contradictions(tasks, out, findings)
+    readings(tasks, runner, out, findings)
     overload(tasks, runner, out, findings)
     clock(tasks, runner, out, findings)
     show_goals(findings.goals, out)
