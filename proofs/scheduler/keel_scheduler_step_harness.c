@@ -1,4 +1,4 @@
-// cbmc: --unwind 4 --unwindset is_known.0:9,is_known_realtime.0:9 --external-sat-solver cadical
+// cbmc: --unwind 3 --unwindset is_known.0:9,is_known_realtime.0:9 --external-sat-solver cadical
 // sources: src/rtos/scheduler.c src/rtos/queue.c src/rtos/task.c src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
 // covers: keel_scheduler_step read_clock
 // defines: -DKEEL_QUEUE_CAPACITY=2u

@@ -499,33 +499,88 @@ keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler)
     return task;
 }
 
+/* Ends the run of a task: takes the time and counts it as busy; the pass goes on after a real-time
+ * task, unless the clock is broken, which the caller learns. */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
+  @ requires scheduler->busy_us <= scheduler->clock.now_us && stage_running(scheduler);
+  @ assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->busy_us, scheduler->stage,
+  @     scheduler->running;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ DECLARATIONS_STAY(scheduler)
+  @ ensures releases: \forall integer k; 0 <= k < scheduler->queue.count ==>
+  @     scheduler->queue.task[k]->release_us == \old(scheduler->queue.task[k]->release_us);
+  @ ensures longest: \forall integer k; 0 <= k < scheduler->queue.count ==>
+  @     scheduler->queue.task[k]->stats.longest_us ==
+  @         \old(scheduler->queue.task[k]->stats.longest_us);
+  @ ensures result: \result == ((clock_elapsed(\old(scheduler->clock.raw_us), raw_us) <
+  @     KEEL_CLOCK_STEP_LIMIT_US) ? KEEL_OK : KEEL_ERR_CLOCK);
+  @ ensures time: scheduler->clock.now_us == \old(scheduler->clock.now_us) +
+  @     ((\result == KEEL_OK) ? clock_elapsed(\old(scheduler->clock.raw_us), raw_us) : 0);
+  @ ensures raw: \result == KEEL_OK ==> scheduler->clock.raw_us == raw_us;
+  @ ensures busy: scheduler->busy_us == \old(scheduler->busy_us) +
+  @     scheduler->clock.now_us - \old(scheduler->clock.now_us);
+  @ ensures stage: scheduler->stage == ((\result == KEEL_OK &&
+  @     \old(scheduler->stage) == KEEL_STAGE_REALTIME) ? KEEL_STAGE_PASS : KEEL_STAGE_READY);
+  @ ensures running: scheduler->running == KEEL_INDEX_NONE;
+  @*/
+static keel_status_t end_run(keel_scheduler_t *scheduler, uint32_t raw_us)
+{
+    const uint64_t start_us = scheduler->clock.now_us;
+    const bool realtime = scheduler->stage == KEEL_STAGE_REALTIME;
+    const keel_status_t status = keel_clock_advance(&scheduler->clock, raw_us);
+
+    scheduler->stage = ((status == KEEL_OK) && realtime) ? KEEL_STAGE_PASS : KEEL_STAGE_READY;
+    scheduler->running = KEEL_INDEX_NONE;
+    scheduler->busy_us += scheduler->clock.now_us - start_us;
+    return status;
+}
+
+/* Records in the statistics of the task at an index how long it ran. */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler);
+  @ requires index < scheduler->queue.count;
+  @ assigns STATS_FIELDS(scheduler->queue.task[index]->stats);
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ DECLARATIONS_STAY(scheduler)
+  @ ensures releases: \forall integer k; 0 <= k < scheduler->queue.count ==>
+  @     scheduler->queue.task[k]->release_us == \old(scheduler->queue.task[k]->release_us);
+  @ ensures last: scheduler->queue.task[index]->stats.last_us == ran_us;
+  @ ensures longest: scheduler->queue.task[index]->stats.longest_us ==
+  @     \max(\old(scheduler->queue.task[index]->stats.longest_us), ran_us);
+  @ ensures others: \forall integer k; 0 <= k < scheduler->queue.count && k != index ==>
+  @     scheduler->queue.task[k]->stats.longest_us ==
+  @         \old(scheduler->queue.task[k]->stats.longest_us);
+  @ ensures clock: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @     scheduler->clock.raw_us == \old(scheduler->clock.raw_us);
+  @ ensures pass: scheduler->cursor == \old(scheduler->cursor) &&
+  @     scheduler->pass_end == \old(scheduler->pass_end) &&
+  @     scheduler->wake_us == \old(scheduler->wake_us);
+  @ ensures state: scheduler->stage == \old(scheduler->stage) &&
+  @     scheduler->running == \old(scheduler->running) &&
+  @     scheduler->busy_us == \old(scheduler->busy_us);
+  @*/
+static void record_run(const keel_scheduler_t *scheduler, uint32_t index, uint32_t ran_us)
+{
+    keel_task_t *const task = scheduler->queue.task[index];
+
+    //@ assert apart_scheduler: \separated(scheduler, task);
+    /*@ assert apart: \forall integer k; 0 <= k < scheduler->queue.count ==> k != index ==>
+      @     \separated(task, scheduler->queue.task[k]);
+      @*/
+    keel_stats_record(&task->stats, ran_us, task->config->budget_us);
+}
+
 keel_status_t keel_scheduler_finish(keel_scheduler_t *scheduler, uint32_t raw_us)
 {
     const uint64_t start_us = scheduler->clock.now_us;
     const uint16_t index = scheduler->running;
-    const bool realtime = scheduler->stage == KEEL_STAGE_REALTIME;
     keel_status_t status;
 
-    if (!realtime && (scheduler->stage != KEEL_STAGE_OTHER)) {
+    if ((scheduler->stage != KEEL_STAGE_REALTIME) && (scheduler->stage != KEEL_STAGE_OTHER)) {
         return KEEL_ERR_STATE;
     }
-    status = keel_clock_advance(&scheduler->clock, raw_us);
-    /* With a broken clock the pass ends here; the caller learns why. */
-    scheduler->stage = ((status == KEEL_OK) && realtime) ? KEEL_STAGE_PASS : KEEL_STAGE_READY;
-    scheduler->running = KEEL_INDEX_NONE;
-    scheduler->busy_us += scheduler->clock.now_us - start_us;
-    /*@ assert releases: \forall integer k; 0 <= k < scheduler->queue.count ==>
-      @     release_same{Pre, Here}(scheduler, k);
-      @*/
+    status = end_run(scheduler, raw_us);
     if ((status == KEEL_OK) && (index != KEEL_INDEX_NONE)) {
-        keel_task_t *const task = scheduler->queue.task[index];
-
-        //@ assert apart_scheduler: \separated(scheduler, task);
-        /*@ assert apart: \forall integer k; 0 <= k < scheduler->queue.count ==> k != index ==>
-          @     \separated(task, scheduler->queue.task[k]);
-          @*/
-        keel_stats_record(&task->stats, (uint32_t)(scheduler->clock.now_us - start_us),
-                          task->config->budget_us);
+        record_run(scheduler, index, (uint32_t)(scheduler->clock.now_us - start_us));
     }
     return status;
 }

@@ -216,11 +216,16 @@ class GoalTest(unittest.TestCase):
             "1 of 4 goals missed: instructions, no task 26.0 > 25", bench.verdict(self.goals(26, 1))
         )
 
-    def status(self, goals: list[Goal], *arguments: str) -> int:
+    def status(self, goals: list[Goal], *arguments: str, over: tuple[str, ...] = ()) -> int:
         quiet = contextlib.redirect_stdout(io.StringIO())
-        with quiet, mock.patch.object(bench, "measure", return_value=goals):
+        on_target = mock.patch.object(bench.bench_target, "add", return_value=[*over])
+        with quiet, on_target, mock.patch.object(bench, "measure", return_value=goals):
             with mock.patch.object(Toolchain, "ensure"):
                 return bench.main(arguments)
+
+    def test_a_budget_that_is_exceeded_fails(self) -> None:
+        self.assertEqual(self.status(self.goals(25, 1), over=("filter step",)), 1)
+        self.assertEqual(self.status(self.goals(25, 1), "--check", over=("filter step",)), 1)
 
     def test_a_missed_goal_fails_a_check_only(self) -> None:
         self.assertEqual(self.status(self.goals(26, 1)), 0)

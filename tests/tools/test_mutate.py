@@ -187,7 +187,8 @@ class Limits(unittest.TestCase):
                 (Path(folder) / f"{name}.json").write_text(json.dumps(answer), encoding="utf-8")
             goals = [{"prover": "Qed"}, {"prover": "Alt-Ergo 2.0.0"}, {"prover": "CVC4 1.8"}]
             stages = mutation.limits(wp.Result(goals=goals), Path(folder))
-        self.assertEqual(stages, (wp.Stage("alt-ergo", 2), wp.Stage("cvc4", 12)))
+        names = ("alt-ergo", "cvc4")
+        self.assertEqual(stages, (wp.Stage(names, 12), wp.Stage(names, 12, pruning=True)))
 
 
 @unittest.skipUnless(shutil.which("gcc"), "needs gcc")

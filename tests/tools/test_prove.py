@@ -33,7 +33,18 @@ from proofs.project import ProjectError, Unit, closure, find_units  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
 from toolchain import Toolchain, ToolchainError  # noqa: E402
 
-from proofs import cbmc, csource, driver, engines, harness, rules, settings, wp, wplog  # noqa: E402
+from proofs import (  # noqa: E402
+    cbmc,
+    csource,
+    driver,
+    engines,
+    harness,
+    rules,
+    settings,
+    wp,
+    wplog,
+    wrong,
+)
 
 HEADER = """\
 #ifndef KEEL_RTOS_BOX_H
@@ -78,14 +89,12 @@ void keel_box_put_harness(void)
 }
 """
 WRONG = """\
-// harness: keel_box_put_harness
-// expect: BOX_001
-#include "keel/rtos/box.h"
-
-void keel_box_put(int *box, int value)
-{
-    *box = 0;
-}
+# It forgets the value.
+harness = "keel_box_put_harness"
+expect = ["BOX_001"]
+[[replace]]
+old = "*box = value;"
+new = "*box = 0;"
 """
 
 
@@ -96,7 +105,7 @@ def make_tree(root: Path) -> Unit:
         "include/keel/rtos/box.h": HEADER,
         "src/rtos/box.c": SOURCE,
         "proofs/box/keel_box_put_harness.c": HARNESS,
-        "proofs/box/wrong/zero.c": WRONG,
+        "proofs/box/wrong/zero.toml": WRONG,
     }
     for name, text in files.items():
         path = root / name
@@ -314,11 +323,11 @@ class WpRun(TreeTest):
         (self.root / "m.ml").write_text("", encoding="utf-8")
         return wp.Wp(frama_c, runner, self.root, self.root, cache)
 
-    def test_each_stage_uses_its_own_prover_only(self) -> None:
+    def test_each_stage_uses_its_own_provers_only(self) -> None:
         target = wp.Target(self.unit, self.unit.source, "keel_box_put")
         command = self.prover().command(target, wp.QUICK, True, self.root / "r.json")
         provers = [word for word in command if word.startswith("-wp-prover")]
-        wanted = ["alt-ergo", "-alt-ergo,cvc4", "-cvc4,alt-ergo"]
+        wanted = ["alt-ergo,cvc4", "-alt-ergo,cvc4"]
         self.assertEqual(provers, [f"-wp-prover={text}" for text in wanted])
         smoke = command[len(command) - command[::-1].index("-then") :]
         self.assertIn("-wp-smoke-tests", smoke)
@@ -332,7 +341,7 @@ class WpRun(TreeTest):
         answers = {
             "valid": {"verdict": "valid", "time": 3.0},
             "long": {"verdict": "timeout", "time": 2.0},
-            "smoke": {"verdict": "timeout", "time": 1.0},
+            "smoke": {"verdict": "stepout", "steps": 100000},
             "unknown": {"verdict": "unknown"},
         }
         for name, answer in answers.items():
@@ -383,8 +392,17 @@ class Keys(TreeTest):
         return {name for name in after if before[name] != after[name]}
 
     def test_a_body_matters_to_its_function_and_to_cbmc(self) -> None:
-        changed = self.changed_by("src/rtos/box.c", "*box = value;", "*box = value + 0;")
-        self.assertEqual(changed, {"keel_box_put", "keel_box_put_harness"})
+        changed = self.changed_by("src/rtos/box.c", "*box = value;", "*box = value;;")
+        self.assertEqual(changed, {"keel_box_put", "keel_box_put_harness", "zero"})
+
+    def test_a_wrong_body_that_has_gone_stale_has_no_key(self) -> None:
+        with self.assertRaisesRegex(ProjectError, "zero.toml: stale"):
+            self.changed_by("src/rtos/box.c", "*box = value;", "*box = value + 0;")
+
+    def test_a_replacement_matters_to_its_wrong_body_alone(self) -> None:
+        file = "proofs/box/wrong/zero.toml"
+        self.assertEqual(self.changed_by(file, "= 0;", "= 1;"), {"zero"})
+        self.assertEqual(self.changed_by(file, "# It forgets", "# Oh, it forgets"), set())
 
     def test_a_contract_matters_to_wp_alone(self) -> None:
         changed = self.changed_by("include/keel/rtos/box.h", "BOX_001: *box", "BOX_002: *box")
@@ -397,9 +415,9 @@ class Keys(TreeTest):
     def test_directives_matter(self) -> None:
         harness_file = "proofs/box/keel_box_put_harness.c"
         changed = self.changed_by(harness_file, "--unwind 3", "--unwind 4")
-        self.assertEqual(changed, {"keel_box_put_harness", "zero.c"})
+        self.assertEqual(changed, {"keel_box_put_harness", "zero"})
         self.assertEqual(
-            self.changed_by("proofs/box/wrong/zero.c", "BOX_001", "BOX_002"), {"zero.c"}
+            self.changed_by("proofs/box/wrong/zero.toml", "BOX_001", "BOX_002"), {"zero"}
         )
 
     def test_a_missing_include_is_an_error(self) -> None:
@@ -584,22 +602,22 @@ class CbmcVerdict(TreeTest):
         self.assertEqual(self.problems(output), ["ignoring forall"])
 
     def test_a_wrong_body_that_passes_is_a_failure(self) -> None:
-        wrong = harness.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
+        body = wrong.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
         passes = cbmc.read_answer(cbmc_output(ASSERTED))
-        [problem] = cbmc.refutation_problems(passes, wrong, "zero.c")
+        [problem] = cbmc.refutation_problems(passes, body)
         self.assertIn("does not refute this wrong body", problem)
 
     def test_a_wrong_body_must_fail_at_its_assertion(self) -> None:
-        wrong = harness.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
+        body = wrong.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
         other = cbmc.read_answer(cbmc_output(item("h.assertion.2", "FAILURE", "BOX_002: x")))
-        [problem] = cbmc.refutation_problems(other, wrong, "zero.c")
+        [problem] = cbmc.refutation_problems(other, body)
         self.assertIn("not at BOX_001", problem)
         right = cbmc.read_answer(cbmc_output(item("h.assertion.1", "FAILURE", "BOX_001: x")))
-        self.assertEqual(cbmc.refutation_problems(right, wrong, "zero.c"), [])
+        self.assertEqual(cbmc.refutation_problems(right, body), [])
 
     def test_a_run_that_breaks_off_refutes_nothing(self) -> None:
-        wrong = harness.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
-        self.assertEqual(len(cbmc.refutation_problems(cbmc.read_answer("[{"), wrong, "zero.c")), 1)
+        body = wrong.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
+        self.assertEqual(len(cbmc.refutation_problems(cbmc.read_answer("[{"), body)), 1)
 
     def test_only_the_expected_assertions_are_asked_for(self) -> None:
         listing = json.dumps([{"properties": [
@@ -682,12 +700,124 @@ class Harnesses(TreeTest):
         read = self.read("// sources: copy.c\n" + HARNESS)
         self.assertIn("does not link src/rtos/box.c", harness.text_problems(read)[0])
 
-    def test_a_wrong_body_names_harness_and_assertion(self) -> None:
+
+class WrongBodies(TreeTest):
+    def read(self, text: str) -> wrong.WrongBody:
         path = self.unit.wrong_bodies[0]
-        self.assertEqual(harness.read_wrong_body(self.unit, path).expect, ("BOX_001",))
-        path.write_text(WRONG.replace("// expect: BOX_001\n", ""), encoding="utf-8")
-        with self.assertRaises(ProjectError):
-            harness.read_wrong_body(self.unit, path)
+        path.write_text(text, encoding="utf-8")
+        return wrong.read_wrong_body(self.unit, path)
+
+    def jobs(self) -> list[driver.Job]:
+        checker = cbmc.Cbmc(["goto-cc"], ["cbmc"], Runner({}, self.root), self.root, self.root)
+        return engines.cbmc_jobs([self.unit], checker, self.root, {})
+
+    def assert_refused(self, text: str, why: str) -> None:
+        with self.assertRaisesRegex(ProjectError, f"^proofs/box/wrong/zero.toml: .*{why}"):
+            self.read(text).text()
+
+    def test_it_is_the_source_with_the_text_replaced(self) -> None:
+        read = self.read(WRONG)
+        self.assertEqual((read.name, read.harness), ("zero", "keel_box_put_harness"))
+        self.assertEqual((read.expect, read.file), (("BOX_001",), self.unit.source))
+        self.assertEqual(read.text(), SOURCE.replace("*box = value;", "*box = 0;"))
+
+    def test_replacements_are_made_in_their_order(self) -> None:
+        more = '[[replace]]\nold = "    *box = 0;\\n"\nnew = ""\n'
+        self.assertEqual(self.read(WRONG + more).text(), SOURCE.replace("    *box = value;\n", ""))
+
+    def test_a_text_that_is_gone_is_an_error(self) -> None:
+        self.assert_refused(WRONG.replace("value;", "worth;"), "box.c: .*worth.* occurs 0 times")
+
+    def test_a_text_that_occurs_twice_is_an_error(self) -> None:
+        self.assert_refused(WRONG.replace("*box = value;", "*box"), "occurs 2 times, and must")
+
+    def test_a_function_narrows_the_search(self) -> None:
+        twice = WRONG.replace("*box = value;", "int")
+        inside = twice + 'function = "helper"\n'
+        self.assertIn("    *box = 0; i = 0;", self.read(inside).text())
+        self.assert_refused(twice + 'function = "keel_box_put"\n', "0 times in keel_box_put")
+        self.assert_refused(twice + 'function = "gone"\n', "there is no function gone")
+
+    def test_what_is_missing_or_unknown_is_an_error(self) -> None:
+        cases = {
+            WRONG.replace("expect", "expects"): "unknown key expects; known: expect, file",
+            WRONG + 'count = "1"\n': "unknown key count; known: function, new, old",
+            WRONG.replace('expect = ["BOX_001"]\n', ""): "`expect` must",
+            WRONG.replace('["BOX_001"]', "[]"): "`expect` must",
+            WRONG.replace('["BOX_001"]', "[1]"): "`expect` must",
+            WRONG.replace('harness = "keel_box_put_harness"\n', ""): "`harness` must",
+            WRONG.replace('old = "*box = value;"', 'old = ""'): "`old` must",
+            WRONG.replace('new = "*box = 0;"\n', ""): "`new` must",
+            WRONG.partition("[[")[0]: "needs a .*replace",
+            WRONG.replace("[[replace]]", "[replace]"): "needs a .*replace",
+            WRONG.replace("[[replace]]", 'file = "gone.c"\n[[replace]]'): "no file gone.c",
+            WRONG.replace("[[replace]]", 'file = "/etc/passwd"\n[[replace]]'): "no file /etc",
+            WRONG.replace("[[replace]]", "[["): "line 4",
+        }
+        for text, why in cases.items():
+            with self.subTest(why):
+                self.assert_refused(text, why)
+
+    def test_a_harness_that_is_not_there_is_an_error(self) -> None:
+        self.read(WRONG.replace("put_harness", "get_harness"))
+        with self.assertRaisesRegex(ProjectError, "zero.toml: there is no harness keel_box_get"):
+            self.jobs()
+
+    def test_a_file_that_the_harness_does_not_see_is_an_error(self) -> None:
+        (self.root / "src" / "rtos" / "sail.c").write_text(SOURCE, encoding="utf-8")
+        self.read(WRONG.replace("[[replace]]", 'file = "src/rtos/sail.c"\n[[replace]]'))
+        with self.assertRaisesRegex(ProjectError, "zero.toml: keel_box_put_harness does not"):
+            [job.key() for job in self.jobs()]
+
+    def test_a_whole_copy_is_refused(self) -> None:
+        (self.unit.folder / "wrong" / "copy.c").write_text(SOURCE, encoding="utf-8")
+        with self.assertRaisesRegex(ProjectError, "wrong/copy.c: a wrong body is a .toml file"):
+            find_units(self.root)["box"].wrong_bodies  # noqa: B018
+
+    def built(self, text: str) -> list[str]:
+        """The words of the compiler's commands for a wrong body."""
+        tools = FakeTools(self.root)
+        tools.play()
+        runner = Runner(tools.environment(), self.root)
+        scratch = self.root / "scratch"
+        checker = cbmc.Cbmc(tools.goto_cc(), tools.command("cbmc"), runner, self.root, scratch)
+        body = self.read(text)
+        binary, complaint = checker.build(
+            harness.read_harness(self.unit, self.unit.harnesses[0]), "zero", body
+        )
+        self.assertEqual(complaint, "")
+        return [word for path in sorted(binary.parent.glob("*.gb"))
+                for word in path.read_text(encoding="utf-8").split()]  # fmt: skip
+
+    def test_a_wrong_source_is_compiled_in_place_of_the_right_one(self) -> None:
+        words = self.built(WRONG)
+        made = "build/prove/wrong/box/zero/src/rtos/box.c"
+        self.assertIn(made, words)
+        self.assertNotIn("src/rtos/box.c", words)
+        self.assertIn("*box = 0;", (self.root / made).read_text(encoding="utf-8"))
+        self.assertEqual(self.unit.source.read_text(encoding="utf-8"), SOURCE)
+
+    def inline(self) -> None:
+        self.unit.source.unlink()
+        body = "static inline void keel_box_put(int *box, int value)\n{\n    *box = value;\n}\n"
+        text = HEADER.replace("void keel_box_put(int *box, int value);\n", body)
+        self.unit.header.write_text(text, encoding="utf-8")
+
+    def test_a_wrong_header_comes_before_the_right_one(self) -> None:
+        self.inline()
+        words = self.built(WRONG)
+        tree = self.root / "build/prove/wrong/box/zero/include"
+        self.assertLess(words.index(f"-I{tree}"), words.index("-Iinclude"))
+        text = (tree / "keel/rtos/box.h").read_text(encoding="utf-8")
+        self.assertIn("*box = 0;", text)
+
+    def test_a_header_may_be_named(self) -> None:
+        text = WRONG.replace("[[replace]]", 'file = "include/keel/rtos/box.h"\n[[replace]]')
+        text = text.replace("*box = value;", "int *box").replace("*box = 0;", "long *box")
+        words = self.built(text)
+        self.assertIn("src/rtos/box.c", words)
+        made = self.root / "build/prove/wrong/box/zero/include/keel/rtos/box.h"
+        self.assertIn("long *box", made.read_text(encoding="utf-8"))
 
 
 FAKE = """\
@@ -715,7 +845,7 @@ elif name == "goto-cc":
     open(arguments[arguments.index("-o") + 1], "w").write(" ".join(arguments))
 elif name == "cbmc":
     print(json.dumps(play["cover" if "--cover" in arguments else
-                     "wrong" if any("zero.c" in a for a in arguments) else "cbmc"]))
+                     "wrong" if any("-zero/" in a for a in arguments) else "cbmc"]))
 """
 GOALS = {
     "helper": {"assigns": "Valid", "loop_variant_decrease": "Valid"},
@@ -759,7 +889,7 @@ class WholeRun(TreeTest):
     def setUp(self) -> None:
         super().setUp()
         self.tools = FakeTools(self.root)
-        (self.unit.folder / "wrong" / "zero.c").unlink()
+        (self.unit.folder / "wrong" / "zero.toml").unlink()
         self.play()
         names = [f"{f}_{g}\n" for f, goals in GOALS.items() for g in goals]
         self.unit.goal_list.write_text("".join(sorted(names)), encoding="utf-8")
@@ -819,10 +949,19 @@ class WholeRun(TreeTest):
         self.failing("goals.txt is missing", "proved 5 of 5 goals (WP 4, CBMC 1)")
 
     def test_a_wrong_body_that_passes_fails(self) -> None:
-        path = self.unit.folder / "wrong" / "zero.c"
+        path = self.unit.folder / "wrong" / "zero.toml"
         path.write_text(WRONG, encoding="utf-8")
         self.play(wrong=json.loads(cbmc_output(ASSERTED)))
         self.failing("does not refute", "proved 5 of 5 goals (WP 4, CBMC 1)")
+
+    def test_a_wrong_body_that_fails_is_refuted(self) -> None:
+        path = self.unit.folder / "wrong" / "zero.toml"
+        path.write_text(WRONG, encoding="utf-8")
+        self.play(wrong=json.loads(cbmc_output(ASSERTED | {"status": "FAILURE"})))
+        status, output, report = self.prove()
+        self.assertEqual(status, 0, output)
+        negative = report["units"]["box"]["cbmc"]["negative"]
+        self.assertEqual((negative["bodies"], negative["refuted"]), (1, 1))
 
     def test_a_function_that_only_frama_c_sees_fails(self) -> None:
         text = SOURCE.replace("static int helper", "static int MACRO(helper")

@@ -13,9 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from . import harness as harnesses
-from .harness import Harness, WrongBody
+from .cache import write_atomically
+from .harness import Harness
 from .jobs import Finished, Runner
 from .project import closure
+from .wrong import WrongBody
 
 CHECKS = (
     "--unwinding-assertions", "--bounds-check", "--pointer-check", "--pointer-overflow-check",
@@ -235,14 +237,13 @@ class Cbmc:
     def refute(self, wrong: WrongBody, harness: Harness) -> Result:
         """Show that a harness notices a wrong body, by the assertions that it should."""
         start = time.monotonic()
-        shown = wrong.path.relative_to(self._root)
         result = Result()
-        binary, complaint = self.build(harness, f"{harness.name}-{wrong.path.stem}", wrong.path)
+        binary, complaint = self.build(harness, f"{harness.name}-{wrong.name}", wrong)
         if complaint:
-            result.problems.append(f"{shown}: {complaint}")
+            result.problems.append(f"{wrong.shown}: {complaint}")
         else:
             answer = self.check(harness, binary, self._selection(harness, binary, wrong.expect))
-            result.problems += refutation_problems(answer, wrong, str(shown))
+            result.problems += refutation_problems(answer, wrong)
             if result.problems:
                 other = self.check(harness, binary, ["--stop-on-fail"]).first_failure
                 result.problems[0] += f"; what fails is: {other or 'nothing'}"
@@ -261,24 +262,22 @@ class Cbmc:
         return selection(done.output, expect)
 
     def build(
-        self, harness: Harness, name: str, replacement: Path | None = None
+        self, harness: Harness, name: str, wrong: WrongBody | None = None
     ) -> tuple[Path, str]:
         """Compile and link; the binary, and the compiler's complaint if there is one.
 
-        A replacement takes the place of the unit's source, or, if it is a header, of its header.
+        A wrong body takes the place of the file that it changes, be it a source or a header.
         """
         folder = self._scratch / "cbmc" / name
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         include = ["-Iinclude"]
         sources = list(harness.sources)
-        if replacement and replacement.suffix == ".h":
-            shadow = folder / "include" / harness.unit.header.relative_to(self._root / "include")
-            shadow.parent.mkdir(parents=True)
-            shutil.copyfile(replacement, shadow)
-            include.insert(0, f"-I{folder / 'include'}")
-        elif replacement:
-            sources = [replacement if path == harness.unit.source else path for path in sources]
+        if wrong:
+            tree = self._write(wrong)
+            include.insert(0, f"-I{tree / 'include'}")
+            changed = tree / wrong.file.relative_to(self._root)
+            sources = [changed if path == wrong.file else path for path in sources]
         objects: list[str] = []
         for number, source in enumerate([*sources, harness.path]):
             shown = source.relative_to(self._root) if source.is_relative_to(self._root) else source
@@ -295,6 +294,12 @@ class Cbmc:
             f"goto-cc: {done.output.strip()}" if done.status != 0 or done.output.strip() else ""
         )
         return binary, complaint
+
+    def _write(self, wrong: WrongBody) -> Path:
+        """Write the file with the fault in it; the folder in which it has its usual place."""
+        tree = self._root / "build" / "prove" / "wrong" / wrong.unit.name / wrong.name
+        write_atomically(tree / wrong.file.relative_to(self._root), wrong.text())
+        return tree
 
     def _measure(self, harness: Harness, binary: Path, result: Result) -> None:
         """Find out what the harness reaches."""
@@ -331,8 +336,9 @@ def selection(listing: str, expect: Sequence[str]) -> list[str]:
     ]
 
 
-def refutation_problems(answer: Answer, wrong: WrongBody, shown: str) -> list[str]:
+def refutation_problems(answer: Answer, wrong: WrongBody) -> list[str]:
     """Why a wrong body does not count as refuted; nothing if it does."""
+    shown = wrong.shown
     if not answer.complete:
         return [f"{shown}: CBMC did not finish: {' '.join(answer.warnings)}"]
     failed = [item["description"] for item in answer.properties if item["status"] == "FAILURE"]
@@ -346,10 +352,6 @@ def refutation_problems(answer: Answer, wrong: WrongBody, shown: str) -> list[st
     ]
 
 
-def dependencies(harness: Harness, root: Path, replacement: Path | None = None) -> list[Path]:
+def dependencies(harness: Harness, root: Path) -> list[Path]:
     """All files of the project that a harness's verdict depends on."""
-    sources = list(harness.sources)
-    if replacement and replacement.suffix == ".c":
-        sources = [path for path in sources if path != harness.unit.source]
-    files = [harness.path, *sources, harness.unit.header, *([replacement] if replacement else [])]
-    return closure(root, files)
+    return closure(root, [harness.path, *harness.sources, harness.unit.header])

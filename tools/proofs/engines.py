@@ -10,9 +10,10 @@ from typing import Any
 from . import cbmc, csource, wp
 from .cache import digest
 from .driver import Job
-from .harness import Harness, WrongBody, read_harness, read_wrong_body
+from .harness import Harness, read_harness
 from .project import ProjectError, Unit, closure
 from .settings import Exceptions
+from .wrong import WrongBody, read_wrong_body
 
 
 def wp_jobs(
@@ -43,7 +44,7 @@ def wp_key(
     return digest(
         {
             "kind": "wp", "stamp": dict(stamp), "options": prover.options(),
-            "selection": target.selection, "smoke": wp.SMOKE.seconds, "allowed": list(allowed),
+            "selection": target.selection, "smoke": wp.SMOKE.steps, "allowed": list(allowed),
             "text": wp.dependencies(target, root), "file": target.file.name,
         }
     )  # fmt: skip
@@ -90,7 +91,7 @@ def cbmc_jobs(
         for path in unit.wrong_bodies:
             wrong = read_wrong_body(unit, path)
             if wrong.harness not in harnesses:
-                raise ProjectError(f"{path.relative_to(root)}: there is no harness {wrong.harness}")
+                raise ProjectError(f"{wrong.shown}: there is no harness {wrong.harness}")
             jobs.append(_wrong_job(wrong, harnesses[wrong.harness], checker, root, stamp))
     return jobs
 
@@ -102,14 +103,21 @@ def cbmc_key(
     """What the verdict of a harness depends on, on the unit or on a wrong body.
 
     Contracts are comments to CBMC. Directives count as they were read, not as they stand there now.
+    So do a wrong body's replacements, by what they make of the file as it is now.
     """
     texts = {
         str(path.relative_to(root)): csource.essence(path.read_text(encoding="utf-8"))
-        for path in cbmc.dependencies(harness, root, wrong.path if wrong else None)
+        for path in cbmc.dependencies(harness, root)
     }
+    expected: tuple[object, ...] = ()
+    if wrong:
+        place = str(wrong.file.relative_to(root))
+        if place not in texts:
+            raise ProjectError(f"{wrong.shown}: {wrong.harness} does not depend on {place}")
+        texts[place] = csource.essence(wrong.text())
+        expected = (wrong.name, wrong.expect, place)
     sources = [str(path.relative_to(root)) for path in harness.sources]
     directives = [harness.name, harness.options, sources, harness.covers, harness.defines]
-    expected = [wrong.path.name, wrong.expect] if wrong else []
     return digest(
         {"kind": "cbmc", "stamp": dict(stamp), "options": checker.options(), "texts": texts,
          "directives": directives, "expected": expected}
@@ -131,4 +139,4 @@ def _wrong_job(
         return checker.refute(wrong, harness).as_dict()
 
     key = functools.partial(cbmc_key, harness, checker, root, stamp, wrong)
-    return Job(wrong.unit.name, "negative", wrong.path.name, key, execute)
+    return Job(wrong.unit.name, "negative", wrong.name, key, execute)

@@ -1,17 +1,12 @@
-"""Reads CBMC harnesses and wrong bodies: their directives, and what their text must satisfy.
+"""Reads CBMC harnesses: their directives, and what their text must satisfy.
 
-Directives stand in the first comment lines of a file:
+Directives stand in the first comment lines of a harness:
 
     // cbmc: --unwind 33 --external-sat-solver cadical   options of the search, from OPTIONS
     // sources: src/rtos/queue.c              what is linked; default: the unit's source
     // covers: keel_queue_add open_slot       functions that must be reached everywhere
     // defines: -DKEEL_QUEUE_CAPACITY=8u      for a smaller model, shown in the report
     // timeout: 900                           seconds
-
-and in a file of wrong/:
-
-    // harness: keel_queue_add_harness        the harness that must refute it
-    // expect: QUE_006                        part of each assertion that must fail
 
 The function that a harness proves is in its name: keel_queue_add_harness, or, for one of several
 cases, keel_queue_add__full_harness.
@@ -28,7 +23,8 @@ from . import csource
 from .project import ProjectError, Unit
 
 HARNESS_KEYS = frozenset("cbmc sources covers defines timeout entry".split())
-WRONG_KEYS = frozenset("harness expect".split())
+# What is meant as a directive, but is none of a harness.
+STRAY_KEYS = frozenset("harness expect source cover wp".split())
 DIRECTIVE = re.compile(r"^// ?(\w+): *(.*?)\s*$")
 
 # Options that choose how CBMC searches. None of them makes it overlook anything: unwinding too
@@ -46,16 +42,16 @@ SOLVERS = frozenset(
 )
 
 
-def directives(path: Path, known: frozenset[str]) -> dict[str, list[str]]:
-    """The directives of a file; each may be given on several lines."""
+def directives(path: Path) -> dict[str, list[str]]:
+    """The directives of a harness; each may be given on several lines."""
     found: dict[str, list[str]] = {}
     for line in path.read_text(encoding="utf-8").splitlines():
         if not line.startswith("//"):
             break
         match = DIRECTIVE.match(line)
-        if match and match[1] in known:
+        if match and match[1] in HARNESS_KEYS:
             found.setdefault(match[1], []).append(match[2])
-        elif match and match[1] in HARNESS_KEYS | WRONG_KEYS | {"source", "cover", "wp"}:
+        elif match and match[1] in STRAY_KEYS:
             raise ProjectError(f"{path}: the directive {match[1]} does not belong here")
     return found
 
@@ -113,7 +109,7 @@ class Harness:
 
 def read_harness(unit: Unit, path: Path) -> Harness:
     """Read a harness's directives."""
-    given = directives(path, HARNESS_KEYS)
+    given = directives(path)
     defines = tuple(" ".join(given.get("defines", [])).split())
     if any(not word.startswith("-D") for word in defines):
         raise ProjectError(f"{path}: `defines` takes -DNAME=VALUE only")
@@ -152,21 +148,3 @@ def text_problems(harness: Harness) -> list[str]:
     if harness.function not in harness.covers:
         problems.append(f"{place}: `covers` must name {harness.function}")
     return problems
-
-
-@dataclass(frozen=True)
-class WrongBody:
-    """A wrong body of a unit, and the harness that must refute it."""
-
-    unit: Unit
-    path: Path
-    harness: str
-    expect: tuple[str, ...]
-
-
-def read_wrong_body(unit: Unit, path: Path) -> WrongBody:
-    """Read a wrong body's directives."""
-    given = directives(path, WRONG_KEYS)
-    if len(given.get("harness", [])) != 1 or not given.get("expect"):
-        raise ProjectError(f"{path}: needs one `// harness:` and an `// expect:`")
-    return WrongBody(unit, path, given["harness"][0], tuple(given["expect"]))

@@ -317,20 +317,16 @@ class Trial:
 
 
 def limits(result: wp.Result, answers: Path) -> tuple[wp.Stage, ...]:
-    """A stage for each prover that a proof needed, with a multiple of the time that it needed."""
+    """Passes with the provers that a proof needed, and a multiple of the time that it needed."""
     needed = {goal["prover"].split(" ")[0] for goal in result.goals} & set(PROVERS)
-    times = dict.fromkeys(needed, 0.0)
+    longest = 0.0
     for path in answers.glob("*.json"):
         answer = json.loads(path.read_text(encoding="utf-8"))
-        prover = str(answer["prover"]).split(":")[0]
-        if answer["verdict"] == "valid" and prover in times:
-            times[prover] = max(times[prover], float(answer.get("time", 0.0)))
-    stages = [
-        wp.Stage(name, min(max(SHORTEST, math.ceil(PATIENCE * times[prover])), LONGEST))
-        for prover, name in PROVERS.items()
-        if prover in times
-    ]
-    return tuple(stages) or (wp.Stage("alt-ergo", SHORTEST),)
+        if answer["verdict"] == "valid" and str(answer["prover"]).split(":")[0] in needed:
+            longest = max(longest, float(answer.get("time", 0.0)))
+    seconds = min(max(SHORTEST, math.ceil(PATIENCE * longest)), LONGEST)
+    names = tuple(name for prover, name in PROVERS.items() if prover in needed) or ("alt-ergo",)
+    return wp.Stage(names, seconds), wp.Stage(names, seconds, pruning=True)
 
 
 def count(verdicts: Sequence[Verdict], status: str) -> int:

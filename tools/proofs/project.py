@@ -56,8 +56,12 @@ class Unit:
 
     @cached_property
     def wrong_bodies(self) -> list[Path]:
-        """Bodies that the harnesses must refute."""
-        return sorted((self.folder / "wrong").glob("*.[ch]"))
+        """Wrong bodies, which the harnesses must refute."""
+        files = sorted((self.folder / "wrong").glob("*"))
+        for path in files:
+            if path.suffix != ".toml":
+                raise ProjectError(f"{path.relative_to(self.root)}: a wrong body is a .toml file")
+        return files
 
     @property
     def own_files(self) -> list[Path]:

@@ -1,0 +1,127 @@
+/**
+ * @file main.c
+ * @brief The paper's 21 tasks on a board, for ten seconds of the board's own time.
+ *
+ * Two of the real-time tasks vote and control (flight.h); every body keeps the CPU busy for the
+ * rest of the task's worst-case time of table 2. Its budget is a little more, because a run's
+ * measured time includes the decision before it. At the end a table on the console tells how often
+ * each task ran. What the kernel refuses ends as a fault does.
+ */
+#include "board.h"
+#include "console.h"
+#include "cortex_m7/fault.h"
+#include "flight.h"
+#include "keel/rtos/scheduler.h"
+#include "urpilot_tasks.h"
+
+/* Ends before the releases at 10 s: all periods divide it, so each task has run 10 s / T times. */
+#define DEMO_LENGTH_US   9999500u
+#define DEMO_GUARD_US    20u /* The scheduler's guard W. */
+#define DEMO_DECISION_US 15u /* What a decision among 21 tasks may take. */
+
+/* Rows of table 2. */
+#define FOREGROUND_IMU     11u
+#define ANGLE_RATE_CONTROL 17u
+
+/* What keel_fault_stop records. */
+#define FAULT_SETUP 0xDE300001u
+#define FAULT_STEP  0xDE300002u
+
+typedef struct demo_task {
+    keel_task_config_t config;
+    keel_task_t task;
+    uint32_t wcet_us;
+    void (*work)(void); /* Null for a task that only takes its time. */
+} demo_task_t;
+
+static keel_scheduler_t scheduler KEEL_REALTIME_ZERO;
+static demo_task_t demo_task[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
+
+KEEL_REALTIME_CODE static void demo_body(void *context)
+{
+    const demo_task_t *const self = context;
+    const uint32_t start_us = keel_board_clock_us(NULL);
+
+    if (self->work != NULL) {
+        self->work();
+    }
+    while ((keel_board_clock_us(NULL) - start_us) < self->wcet_us) {
+    }
+}
+
+static void require(keel_status_t status, uint32_t code)
+{
+    if (status != KEEL_OK) {
+        keel_fault_stop(code);
+    }
+}
+
+static void demo_start(void)
+{
+    const keel_scheduler_config_t config = {.read_clock = keel_board_clock_us,
+                                            .guard_us = DEMO_GUARD_US,
+                                            .utilisation_limit = KEEL_UTILISATION_FULL_PPM};
+
+    require(keel_scheduler_init(&scheduler, &config), FAULT_SETUP);
+    for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
+        const urpilot_task_t *const row = &urpilot_task[i];
+        demo_task_t *const self = &demo_task[i];
+
+        self->wcet_us = row->wcet_us;
+        self->config = (keel_task_config_t){.name = row->name,
+                                            .run = demo_body,
+                                            .context = self,
+                                            .period_us = row->period_us,
+                                            .budget_us = row->wcet_us + DEMO_DECISION_US,
+                                            .priority = row->priority};
+        self->task.config = &self->config;
+        require(keel_scheduler_add(&scheduler, &self->task), FAULT_SETUP);
+    }
+    require(flight_init(), FAULT_SETUP);
+    demo_task[FOREGROUND_IMU].work = flight_vote;
+    demo_task[ANGLE_RATE_CONTROL].work = flight_control;
+    require(keel_scheduler_start(&scheduler), FAULT_SETUP);
+}
+
+static void print_number(const char *label, uint64_t value)
+{
+    keel_console_text(label);
+    keel_console_number(value);
+}
+
+/* One line for each task, which tools/target.py reads. */
+static void demo_print(void)
+{
+    for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
+        const demo_task_t *const self = &demo_task[i];
+
+        keel_console_text("task ");
+        keel_console_text(self->config.name);
+        print_number(": period ", self->config.period_us);
+        print_number(" runs ", self->task.stats.runs);
+        print_number(" longest ", self->task.stats.longest_us);
+        print_number(" skipped ", self->task.skipped);
+        print_number(" overruns ", self->task.stats.overruns);
+        print_number(" promotions ", self->task.stats.promotions);
+        keel_console_text("\n");
+    }
+    print_number("time ", scheduler.clock.now_us);
+    print_number(" us, busy ", scheduler.busy_us);
+    keel_console_text(" us\n");
+}
+
+int main(void)
+{
+    keel_console_text("Keel on ");
+    keel_console_text(keel_board_name);
+    keel_console_text(": 21 tasks, 10 s\n");
+    keel_fault_watch(&scheduler);
+    demo_start();
+    while (scheduler.clock.now_us < DEMO_LENGTH_US) {
+        require(keel_scheduler_step(&scheduler), FAULT_STEP);
+    }
+    demo_print();
+    flight_print();
+    keel_console_text("demo ended\n");
+    return 0;
+}

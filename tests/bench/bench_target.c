@@ -1,0 +1,359 @@
+/**
+ * @file bench_target.c
+ * @brief Counts the instructions of passes and steps on the emulated Cortex-M7. Started by
+ *        tools/bench_target.py, which has the emulator take 1024 ns for each instruction.
+ *
+ * The board's counter then moves by 25.6 ticks of 25 MHz for each, so a difference of two readings,
+ * rounded, is exactly the number of instructions between them. What the reading and the call take
+ * is measured with a function of one instruction, and taken off.
+ *
+ * The passes are those of bench_scheduler.c: the tasks of table 2 on a virtual clock, 100 ms of
+ * polling, one pass every 5 us. The clock and the tasks' bodies are assembly of known length, which
+ * is taken off: what is printed is the kernel's own, with the compiler's library that it calls.
+ */
+#include "board.h"
+#include "console.h"
+#include "keel/flight/pid.h"
+#include "keel/middleware/virtual_imu.h"
+#include "keel/rtos/scheduler.h"
+#include "urpilot_tasks.h"
+
+#include <string.h>
+
+#define SIMULATED_US       100000u
+#define POLL_US            5u
+#define GUARD_US           20u
+#define STEPS              1000u
+#define CLOCK_INSTRUCTIONS 5u  /* Of bench_clock. */
+#define BODY_INSTRUCTIONS  10u /* Of bench_body. */
+#define TICK_NS            40u
+#define INSTRUCTION_NS     1024u
+#define UNITS              3u
+#define PRESCALE           (*(volatile uint32_t *)0x4002801Cu)
+
+typedef void (*function_t)(void);
+
+/* What the assembly below reads and writes, by the offsets of its members. */
+typedef struct virtual_clock {
+    uint32_t now_us;
+    uint32_t reads;
+} virtual_clock_t;
+
+typedef struct virtual_body {
+    virtual_clock_t *clock;
+    uint32_t wcet_us;
+    uint32_t *runs;
+} virtual_body_t;
+
+typedef struct kind {
+    const char *name;
+    uint32_t passes;
+    uint32_t instructions;
+    uint32_t longest;
+} kind_t;
+
+enum {
+    WAITED,
+    IDLE,
+    REALTIME,
+    OTHER,
+    SEVERAL,
+    KINDS
+};
+
+static kind_t kind[KINDS] = {{"waited", 0u, 0u, 0u},
+                             {"idle", 0u, 0u, 0u},
+                             {"realtime", 0u, 0u, 0u},
+                             {"other", 0u, 0u, 0u},
+                             {"several", 0u, 0u, 0u}};
+
+static virtual_clock_t virtual_clock KEEL_REALTIME_ZERO;
+static keel_scheduler_t scheduler KEEL_REALTIME_ZERO;
+static keel_task_t task[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
+static keel_task_config_t config[URPILOT_TASK_COUNT];
+static virtual_body_t body[URPILOT_TASK_COUNT];
+static uint32_t ran_realtime;
+static uint32_t ran_other;
+static uint32_t overhead; /* Instructions of a measurement of nothing. */
+static bool bad;
+
+uint32_t bench_clock(void *context);
+void bench_body(void *context);
+void bench_nothing(void);
+uint64_t bench_call(function_t function, const void *first, uint32_t second, uint32_t third);
+
+__attribute__((naked, noinline)) uint32_t bench_clock(void *context)
+{
+    (void)context;
+    __asm volatile("ldr r1, [r0, #4]\n\t"
+                   "adds r1, #1\n\t"
+                   "str r1, [r0, #4]\n\t"
+                   "ldr r0, [r0]\n\t"
+                   "bx lr");
+}
+
+__attribute__((naked, noinline)) void bench_body(void *context)
+{
+    (void)context;
+    __asm volatile("ldr r1, [r0]\n\t"
+                   "ldr r2, [r1]\n\t"
+                   "ldr r3, [r0, #4]\n\t"
+                   "adds r2, r2, r3\n\t"
+                   "str r2, [r1]\n\t"
+                   "ldr r1, [r0, #8]\n\t"
+                   "ldr r2, [r1]\n\t"
+                   "adds r2, #1\n\t"
+                   "str r2, [r1]\n\t"
+                   "bx lr");
+}
+
+__attribute__((naked, noinline)) void bench_nothing(void)
+{
+    __asm volatile("bx lr");
+}
+
+/* Calls a function with up to three arguments (the later two also as floats); gives the ticks that
+   passed, and above them what the function returned. */
+__attribute__((naked, noinline)) uint64_t bench_call(function_t function, const void *first,
+                                                     uint32_t second, uint32_t third)
+{
+    (void)function;
+    (void)first;
+    (void)second;
+    (void)third;
+    __asm volatile("push {r3-r7, lr}\n\t"
+                   "mov r4, r0\n\t"
+                   "mov r0, r1\n\t"
+                   "mov r1, r2\n\t"
+                   "mov r2, r3\n\t"
+                   "vmov s0, r1\n\t"
+                   "vmov s1, r2\n\t"
+                   "ldr r6, =0x40028018\n\t"
+                   "ldr r5, [r6]\n\t"
+                   "blx r4\n\t"
+                   "ldr r2, [r6]\n\t"
+                   "mov r1, r0\n\t"
+                   "subs r0, r2, r5\n\t"
+                   "pop {r3-r7, pc}\n\t"
+                   ".ltorg");
+}
+
+static void require(bool condition)
+{
+    bad = bad || !condition;
+}
+
+/* Ticks as instructions, rounded. */
+static uint32_t instructions_of(uint32_t ticks)
+{
+    return (uint32_t)((((uint64_t)ticks * TICK_NS) + (INSTRUCTION_NS / 2u)) / INSTRUCTION_NS);
+}
+
+static uint32_t bits_of(float value)
+{
+    uint32_t bits;
+
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/* The instructions of one call; its status must be KEEL_OK if there is one. */
+static uint32_t measure(function_t function, const void *first, uint32_t second, uint32_t third,
+                        bool has_status)
+{
+    const uint64_t both = bench_call(function, first, second, third);
+
+    require(!has_status || ((both >> 32) == (uint64_t)KEEL_OK));
+    return instructions_of((uint32_t)both) - overhead;
+}
+
+static void add(kind_t *to, uint32_t instructions)
+{
+    to->passes++;
+    to->instructions += instructions;
+    to->longest = (instructions > to->longest) ? instructions : to->longest;
+}
+
+static void print(const kind_t *of)
+{
+    keel_console_text("bench ");
+    keel_console_text(of->name);
+    keel_console_text(" passes ");
+    keel_console_number(of->passes);
+    keel_console_text(" instructions ");
+    keel_console_number(of->instructions);
+    keel_console_text(" longest ");
+    keel_console_number(of->longest);
+    keel_console_text("\n");
+}
+
+/* --- Passes ----------------------------------------------------------------------------------- */
+
+static void setup_scheduler(void)
+{
+    const keel_scheduler_config_t settings = {.read_clock = bench_clock,
+                                              .clock_context = &virtual_clock,
+                                              .guard_us = GUARD_US,
+                                              .utilisation_limit = KEEL_UTILISATION_FULL_PPM};
+
+    require(keel_scheduler_init(&scheduler, &settings) == KEEL_OK);
+    for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
+        const urpilot_task_t *const row = &urpilot_task[i];
+        const bool realtime = row->priority == KEEL_PRIORITY_REALTIME;
+
+        body[i] = (virtual_body_t){&virtual_clock, row->wcet_us,
+                                   realtime ? &ran_realtime : &ran_other};
+        config[i] = (keel_task_config_t){.name = row->name,
+                                         .run = bench_body,
+                                         .context = &body[i],
+                                         .period_us = row->period_us,
+                                         .budget_us = row->wcet_us,
+                                         .priority = row->priority};
+        task[i].config = &config[i];
+        require(keel_scheduler_add(&scheduler, &task[i]) == KEEL_OK);
+    }
+    require(keel_scheduler_start(&scheduler) == KEEL_OK);
+}
+
+static kind_t *kind_of(bool waits)
+{
+    const uint32_t ran = ran_realtime + ran_other;
+
+    if (ran == 0u) {
+        return waits ? &kind[WAITED] : &kind[IDLE];
+    }
+    if (ran > 1u) {
+        return &kind[SEVERAL];
+    }
+    return (ran_realtime == 1u) ? &kind[REALTIME] : &kind[OTHER];
+}
+
+static void bench_pass(void)
+{
+    const bool waits = virtual_clock.now_us < scheduler.wake_us;
+    uint32_t instructions;
+
+    ran_realtime = 0u;
+    ran_other = 0u;
+    virtual_clock.reads = 0u;
+    instructions = measure((function_t)keel_scheduler_step, &scheduler, 0u, 0u, true);
+    instructions -= CLOCK_INSTRUCTIONS * virtual_clock.reads;
+    instructions -= BODY_INSTRUCTIONS * (ran_realtime + ran_other);
+    add(kind_of(waits), instructions);
+}
+
+static void bench_passes(void)
+{
+    setup_scheduler();
+    while (virtual_clock.now_us < SIMULATED_US) {
+        bench_pass();
+        virtual_clock.now_us += POLL_US;
+    }
+    for (uint32_t i = 0u; i < KINDS; i++) {
+        print(&kind[i]);
+    }
+}
+
+/* --- Steps ------------------------------------------------------------------------------------ */
+
+/* A signal that keeps moving, within 0 to 1, as in bench_steps.c. */
+static float signal_at(uint32_t n)
+{
+    return (float)((n * 37u) % 101u) / 101.0f;
+}
+
+static void bench_filter(void)
+{
+    static keel_filter_t filter KEEL_REALTIME_ZERO;
+    kind_t steps = {"filter", 0u, 0u, 0u};
+
+    require(keel_filter_init(&filter, 1000.0f, 80.0f) == KEEL_OK);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        add(&steps,
+            measure((function_t)keel_filter_step, &filter, bits_of(signal_at(n)), 0u, true));
+    }
+    print(&steps);
+}
+
+static void bench_pid(void)
+{
+    static keel_pid_t pid KEEL_REALTIME_ZERO;
+    const keel_pid_config_t settings = {.gains = {2.0f, 5.0f, 0.02f, 0.5f},
+                                        .rate_hz = 1000.0f,
+                                        .cutoff_hz = 80.0f,
+                                        .output_min = -100.0f,
+                                        .output_max = 100.0f,
+                                        .integral_min = -10.0f,
+                                        .integral_max = 10.0f};
+    kind_t steps = {"pid", 0u, 0u, 0u};
+
+    require(keel_pid_init(&pid, &settings) == KEEL_OK);
+    require(keel_pid_step(&pid, 0.5f, 0.5f) == KEEL_OK);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        add(&steps,
+            measure((function_t)keel_pid_step, &pid, bits_of(0.5f), bits_of(signal_at(n)), true));
+    }
+    print(&steps);
+}
+
+/* Three units that differ a little, so that all agreements are computed. */
+static void bench_vote(void)
+{
+    static keel_virtual_imu_t imu KEEL_REALTIME_ZERO;
+    static keel_imu_sample_t sample[UNITS];
+    const keel_voter_config_t voter = {.agree = 0.1f,
+                                       .cutoff = 3.0f,
+                                       .lowest = -100.0f,
+                                       .highest = 100.0f,
+                                       .initial = 0.0f,
+                                       .max_age_us = 2000u,
+                                       .latch_count = 100u,
+                                       .stale_count = 100u,
+                                       .density_limit = 0u,
+                                       .sensors = UNITS};
+    const keel_imu_config_t settings = {voter, voter};
+    kind_t steps = {"vote", 0u, 0u, 0u};
+
+    require(keel_virtual_imu_init(&imu, &settings) == KEEL_OK);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        for (uint32_t unit = 0u; unit < UNITS; unit++) {
+            for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+                sample[unit].value[k] = signal_at(n + k) + (0.12f * (float)unit);
+            }
+            sample[unit].age_us = 100u;
+            sample[unit].present = true;
+        }
+        add(&steps,
+            measure((function_t)keel_virtual_imu_step, &imu, (uint32_t)sample, 1000u, false));
+        require(imu.channel[0].vote.state == KEEL_VOTER_MEAN);
+    }
+    print(&steps);
+}
+
+/* What is known: nothing at all, and the two pieces of assembly. */
+static void bench_known(void)
+{
+    virtual_body_t first = {&virtual_clock, 0u, &ran_other};
+    kind_t known = {"known", 0u, 0u, 0u};
+
+    overhead = instructions_of((uint32_t)bench_call(bench_nothing, NULL, 0u, 0u)) - 1u;
+    add(&known, measure(bench_nothing, NULL, 0u, 0u, false));
+    require(known.instructions == 1u);
+    add(&known, measure((function_t)bench_clock, &virtual_clock, 0u, 0u, false));
+    require(known.instructions == (1u + CLOCK_INSTRUCTIONS));
+    add(&known, measure((function_t)bench_body, &first, 0u, 0u, false));
+    require(known.instructions == (1u + CLOCK_INSTRUCTIONS + BODY_INSTRUCTIONS));
+    print(&known);
+}
+
+int main(void)
+{
+    PRESCALE = 0u; /* All of the 25 MHz. */
+    bench_known();
+    bench_passes();
+    bench_filter();
+    bench_pid();
+    bench_vote();
+    keel_console_text(bad ? "bench failed\n" : "bench ended\n");
+    return bad ? 1 : 0;
+}

@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""Tests of tools/bench_target.py: what it reads, and when a budget is exceeded. That an instruction
+is counted as one is checked by the image itself, against assembly of known length.
+
+    python3 tests/tools/test_bench_target.py
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import bench_target  # noqa: E402
+from bench_target import BenchTargetError, Budget, Figure  # noqa: E402
+from toolchain import Toolchain  # noqa: E402
+
+OUTPUT = """\
+bench known passes 3 instructions 16 longest 10
+bench waited passes 10 instructions 300 longest 31
+bench idle passes 2 instructions 1200 longest 700
+bench realtime passes 4 instructions 2000 longest 532
+bench other passes 1 instructions 1000 longest 1000
+bench several passes 1 instructions 2909 longest 2909
+bench filter passes 1000 instructions 35000 longest 35
+bench pid passes 1000 instructions 116000 longest 116
+bench vote passes 1000 instructions 4035011 longest 4046
+bench ended
+"""
+FIGURES = {
+    "no_task": Figure(12, 1500, 700),
+    "one_task": Figure(5, 3000, 1000),
+    "vote": Figure(1000, 4035011, 4046),
+    "filter": Figure(1000, 35000, 35),
+    "pid": Figure(1000, 116000, 116),
+}
+GOOD = """\
+# About the budget.
+tolerance_percent = 5
+
+[instructions]
+no_task = 125
+one_task = 600
+vote = 4036
+filter = 35
+pid = 116
+"""
+
+
+class Reading(unittest.TestCase):
+    """What the image prints."""
+
+    def test_the_kinds_of_a_figure_are_taken_together(self) -> None:
+        kinds = bench_target.read_figures(OUTPUT)
+        self.assertEqual(bench_target.together(kinds, ("waited", "idle")), FIGURES["no_task"])
+        self.assertEqual(FIGURES["no_task"].mean, 125.0)
+
+    def test_a_kind_without_passes(self) -> None:
+        kinds = bench_target.read_figures(OUTPUT.replace("passes 2 ", "passes 0 "))
+        with self.assertRaisesRegex(BenchTargetError, "of the kind idle"):
+            bench_target.together(kinds, ("waited", "idle"))
+
+    def test_an_image_that_did_not_end_well(self) -> None:
+        with self.assertRaisesRegex(BenchTargetError, "bench failed"):
+            bench_target.read_figures(OUTPUT.replace("bench ended", "bench failed"))
+
+
+class Budgets(unittest.TestCase):
+    """The budget file, and what is above it."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.file = Path(temporary.name) / "budget.toml"
+
+    def read(self, text: str) -> Budget:
+        self.file.write_text(text)
+        return bench_target.read_budget(self.file)
+
+    def test_the_tolerance_is_five_percent(self) -> None:
+        self.assertAlmostEqual(self.read(GOOD).limit("filter"), 36.75)
+
+    def test_nothing_is_above_its_budget(self) -> None:
+        self.assertEqual(bench_target.exceeded(FIGURES, self.read(GOOD)), [])
+
+    def test_up_to_the_tolerance_is_good(self) -> None:
+        budget = self.read(GOOD)
+        just = {**FIGURES, "pid": Figure(10, 1218, 122)}  # 121.8 = 116 * 1.05
+        above = {**FIGURES, "pid": Figure(10, 1219, 122)}
+        self.assertEqual(bench_target.exceeded(just, budget), [])
+        self.assertEqual(
+            bench_target.exceeded(above, budget), ["PID step, its filter included 121.9 > 121.8"]
+        )
+
+    def test_files_that_are_refused(self) -> None:
+        for old, new, reason in (
+            ("pid = 116\n", "", "pid is missing"),
+            ("pid = 116\n", "pid = 116\nmixer = 3\n", "mixer is missing or no figure"),
+            ("pid = 116\n", "pid = 0\n", "a number above 0"),
+            ("pid = 116\n", "pid = 'little'\n", "a number above 0"),
+            ("tolerance_percent = 5\n", "", "holds tolerance_percent"),
+            ("[instructions]", "[instructions", "budget.toml: "),
+        ):
+            with self.assertRaises(BenchTargetError) as caught:
+                self.read(GOOD.replace(old, new))
+            self.assertIn(reason, str(caught.exception))
+
+    def test_accepting_writes_the_figures_and_keeps_the_rest(self) -> None:
+        self.file.write_text(GOOD)
+        bench_target.accept(self.file, FIGURES)
+        self.assertTrue(self.file.read_text().startswith("# About the budget.\n"))
+        budget = bench_target.read_budget(self.file)
+        self.assertEqual(
+            budget.instructions,
+            {"no_task": 125.0, "one_task": 600.0, "vote": 4035.0, "filter": 35.0, "pid": 116.0},
+        )
+
+
+class Report(Budgets):
+    """The target's part of the report."""
+
+    def add(self, figures: dict[str, Figure] | Exception) -> list[str]:
+        self.report = self.file.with_name("report.json")
+        self.report.write_text(json.dumps({"sets": {"21": {"no_task": {"mean": 33.5}}}}))
+        self.file.write_text(GOOD)
+        effect = {"side_effect": figures} if isinstance(figures, Exception) else {
+            "return_value": figures}  # fmt: skip
+        self.said = io.StringIO()
+        with (
+            contextlib.redirect_stdout(self.said),
+            mock.patch.object(bench_target, "measure", **effect),
+            mock.patch.object(bench_target, "BUDGET", self.file),
+        ):
+            tools = Toolchain()
+            tools.ensure("target", say=lambda _: None)
+            return bench_target.add(tools, self.report)
+
+    def test_figures_join_the_hosts(self) -> None:
+        self.assertEqual(self.add(FIGURES), [])
+        report = json.loads(self.report.read_text())
+        self.assertEqual(report["cortex_m7"]["figures"]["filter"]["mean"], 35.0)
+        self.assertEqual(report["sets"]["21"]["no_task"]["mean"], 33.5)
+        self.assertRegex(self.said.getvalue(), r"pass, no task +33\.5 +125\.0 \( +700\) +125\.0")
+
+    def test_what_is_over_its_budget_is_told(self) -> None:
+        over = self.add({**FIGURES, "filter": Figure(1000, 40000, 40)})
+        self.assertEqual(over, ["filter step 40.0 > 36.8"])
+        self.assertEqual(json.loads(self.report.read_text())["cortex_m7"]["over_budget"], over)
+
+    def test_an_error_leaves_no_report(self) -> None:
+        with self.assertRaisesRegex(BenchTargetError, "broken"):
+            self.add(BenchTargetError("broken"))
+        self.assertFalse(self.report.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,198 @@
+"""What passes and steps cost on the Cortex-M7: instructions, counted on the emulated machine.
+
+Part of tools/bench.py. The image (tests/bench/bench_target.c) runs twice and must print the same
+both times. Its figures stand beside the host's in a table and, as cortex_m7, in the report; each is
+held against its budget in tests/bench/budget.toml.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import target  # noqa: E402
+from firmware import FirmwareError  # noqa: E402
+from toolchain import Toolchain, write_atomically  # noqa: E402
+
+ROOT = Path(__file__).resolve().parents[1]
+BUDGET = ROOT / "tests/bench/budget.toml"
+SOURCES = ("tests/bench/bench_target.c", "examples/demo/urpilot_tasks.c")
+SHIFT = 10  # An instruction takes 1024 ns: more than a tick of the counter, which so sees each one.
+LINE = re.compile(r"^bench (\w+) passes (\d+) instructions (\d+) longest (\d+)$", re.MULTILINE)
+TIMEOUT_S = 120.0
+GOAL_TASKS = "21"
+
+# The figures: what they are, the kinds of passes that they are the mean of, the goal if any, and
+# where the report has the host's figure.
+FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
+    "no_task": ("pass, no task", ("waited", "idle"), 25, ("sets", GOAL_TASKS, "no_task")),
+    "one_task": ("pass, one task of 21", ("realtime", "other"), 200,
+                 ("sets", GOAL_TASKS, "one_task")),
+    "vote": ("vote of 3 units x 6 channels", ("vote",), None, ()),
+    "filter": ("filter step", ("filter",), 30, ("steps", "filter")),
+    "pid": ("PID step, its filter included", ("pid",), 110, ("steps", "pid")),
+}  # fmt: skip
+
+
+class BenchTargetError(Exception):
+    """Something could not be measured, or the budget cannot be read."""
+
+
+@dataclass(frozen=True)
+class Figure:
+    """What was counted of one kind."""
+
+    passes: int
+    instructions: int
+    longest: int
+
+    @property
+    def mean(self) -> float:
+        return self.instructions / self.passes if self.passes else 0.0
+
+
+def read_figures(output: str) -> dict[str, Figure]:
+    """What the image printed, by kind of pass."""
+    if "\nbench ended\n" not in output:
+        last = output.strip().splitlines()[-1:] or ["nothing"]
+        raise BenchTargetError(f"the target's bench did not end well; last it said: {last[0]}")
+    return {name: Figure(*map(int, words)) for name, *words in LINE.findall(output)}
+
+
+def together(kinds: Mapping[str, Figure], names: Sequence[str]) -> Figure:
+    """Several kinds as one."""
+    if missing := [name for name in names if not kinds.get(name, Figure(0, 0, 0)).passes]:
+        raise BenchTargetError(f"no pass was measured of the kind {missing[0]}")
+    found = [kinds[name] for name in names]
+    return Figure(
+        sum(item.passes for item in found),
+        sum(item.instructions for item in found),
+        max(item.longest for item in found),
+    )
+
+
+def measure(tools: Toolchain) -> dict[str, Figure]:
+    """Build, run twice, compare."""
+    bench = target.Bench(tools)
+    image = bench.builder.link("bench", bench.builder.objects(SOURCES))
+    outputs = []
+    for _ in range(2):
+        ended = bench.run(image, TIMEOUT_S, SHIFT)
+        if ended.status != 0 or ended.timed_out:
+            raise BenchTargetError(f"the target's bench: {ended.how}\n{ended.evidence}")
+        outputs.append(ended.output)
+    if outputs[0] != outputs[1]:
+        raise BenchTargetError("two runs on the emulated machine differ")
+    kinds = read_figures(outputs[0])
+    return {name: together(kinds, parts) for name, (_, parts, _, _) in FIGURES.items()}
+
+
+@dataclass(frozen=True)
+class Budget:
+    """The budget file."""
+
+    tolerance_percent: float
+    instructions: dict[str, float]
+
+    def limit(self, name: str) -> float:
+        return self.instructions[name] * (1.0 + self.tolerance_percent / 100.0)
+
+
+def read_budget(path: Path) -> Budget:
+    """Read and check the budget: exactly the figures that there are."""
+    where = path.name
+    try:
+        raw = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, tomllib.TOMLDecodeError) as error:
+        raise BenchTargetError(f"{where}: {error}") from error
+    tolerance, values = raw.get("tolerance_percent"), raw.get("instructions")
+    if set(raw) != {"tolerance_percent", "instructions"} or not isinstance(values, dict):
+        raise BenchTargetError(f"{where}: holds tolerance_percent and [instructions], no more")
+    if odd := sorted(set(values) ^ set(FIGURES)):
+        raise BenchTargetError(f"{where}: {odd[0]} is missing or no figure")
+    numbers = [tolerance, *values.values()]
+    if not all(isinstance(item, int | float) and 0 < item < 1e9 for item in numbers):
+        raise BenchTargetError(f"{where}: every value is a number above 0")
+    return Budget(float(str(tolerance)), {name: float(value) for name, value in values.items()})
+
+
+def accept(path: Path, figures: Mapping[str, Figure]) -> None:
+    """Write what was measured into the budget, and leave the rest of the file."""
+    text = path.read_text(encoding="utf-8")
+    for name, figure in figures.items():
+        text, count = re.subn(rf"(?m)^{name} = .*$", f"{name} = {figure.mean:.1f}", text)
+        if count != 1:
+            raise BenchTargetError(f"{path.name}: {name} stands {count} times on a line of its own")
+    write_atomically(path, text)
+
+
+def exceeded(figures: Mapping[str, Figure], budget: Budget) -> list[str]:
+    """The figures that are above their budget by more than the tolerance."""
+    return [
+        f"{FIGURES[name][0]} {figure.mean:.1f} > {budget.limit(name):.1f}"
+        for name, figure in figures.items()
+        if figure.mean > budget.limit(name)
+    ]
+
+
+def host_mean(report: Mapping[str, object], path: Sequence[str]) -> float | None:
+    """The host's figure in the report of tools/bench.py."""
+    item: object = report
+    for key in path:
+        item = item.get(key) if isinstance(item, Mapping) else None
+    mean = item.get("mean") if path and isinstance(item, Mapping) else None
+    return float(mean) if isinstance(mean, int | float) else None
+
+
+def print_table(
+    report: Mapping[str, object], figures: Mapping[str, Figure], budget: Budget
+) -> None:
+    print("\nInstructions, mean (longest)         host  Cortex-M7             budget   goal")
+    for name, (label, _, goal, path) in FIGURES.items():
+        host = host_mean(report, path)
+        shown = f"{host:9.1f}" if host is not None else f"{'-':>9}"
+        figure = figures[name]
+        met = "-" if goal is None else f"{goal} {'met' if figure.mean <= goal else 'MISSED'}"
+        print(f"  {label:30}{shown}{figure.mean:11.1f} ({figure.longest:5})"
+              f"{budget.instructions[name]:11.1f}   {met}")  # fmt: skip
+
+
+def add(tools: Toolchain, report_file: Path, accepting: bool = False) -> list[str]:
+    """Measure on the target, add it to the report of the host's figures, print both. Gives the
+    figures above their budgets."""
+    tools.ensure("target")
+    try:
+        figures = measure(tools)
+        if accepting:
+            accept(BUDGET, figures)
+        budget = read_budget(BUDGET)
+    except (BenchTargetError, FirmwareError) as error:
+        report_file.unlink(missing_ok=True)  # Half a report must not look whole.
+        raise BenchTargetError(str(error)) from error
+    report = json.loads(report_file.read_text())
+    over = exceeded(figures, budget)
+    report["cortex_m7"] = {
+        "emulator": tools.versions("target")["qemu"].version,
+        "figures": {
+            name: {
+                "passes": figure.passes,
+                "instructions": figure.instructions,
+                "mean": round(figure.mean, 2),
+                "longest": figure.longest,
+                "budget": budget.instructions[name],
+                "goal": FIGURES[name][2],
+            }
+            for name, figure in figures.items()
+        },
+        "over_budget": over,
+    }
+    write_atomically(report_file, json.dumps(report, indent=1) + "\n")
+    print_table(report, figures, budget)
+    return over
