@@ -78,6 +78,7 @@ test-target: python ## the unit tests, faults, demo and host's results on an emu
 	@python3 tools/target.py $(ARGS)
 
 firmware: python ## build a board's image (BOARD=mps2_an500; ARGS='--app FOLDER': another main)
+	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/demo
 	@python3 tools/firmware.py "$(BOARD)" $(ARGS)
 
 tools: python ## install all tools now, rather than when they are needed

@@ -80,8 +80,8 @@ def test_promotion_wait_by_hand() -> None:
     [
         ("budget_us = 355", "budget_us = 355", 0, "urpilot: schedulable"),
         ("budget_us = 355", "budget_us = 930", 1,
-         "NOT schedulable: the kernel refuses it: GPS needs 956 us with the guard, and "
-         "Background IMU leaves 937 us"),
+         "NOT schedulable: the kernel refuses it: GPS needs 962 us with the guard, and "
+         "Background IMU leaves 931 us"),
         ("budget_us = 83", "budget_us = 900", 1,
          "NOT schedulable: the kernel refuses it: real-time budgets and twice the guard"),
         ("reaction_limit_us = 10000", "reaction_limit_us = 3102", 1,
@@ -170,7 +170,7 @@ def test_the_compiled_table_is_the_task_set(urpilot: TaskSet, tmp_path: Path) ->
         [tmp_path / "print"], capture_output=True, text=True, check=True
     ).stdout.splitlines()
     assert lines[:-1] == [
-        f"{task.name}|{task.priority}|{task.period}|{task.budget}|{task.budget + 6}|{task.phase}"
+        f"{task.name}|{task.priority}|{task.period}|{task.budget}|{task.budget + 12}|{task.phase}"
         for task in tasks.tasks
     ]
     assert lines[-1] == "13 20"

@@ -17,12 +17,13 @@ from rich.console import Console
 
 from timing import bounds as textbook
 from timing import keel
-from timing.board import Experiment, Result, run_batch
+from timing.board import TURN_NS, Experiment, Result, run_batch
 from timing.output import Cell, table
 from timing.phases import spread, without_phases
 from timing.taskset import TaskSet
 
 SECOND = 1_000_000
+PASS_US = 5  # The goals are stated for this cost; the analyser counts with the task set's worst.
 SAMPLES = 1000
 LONG_US = 1001 * SECOND + SECOND // 2  # 1000 periods of the slowest task.
 MODELS = ("constant", "uniform", "heavy")
@@ -88,6 +89,11 @@ class Runner:
 # --- Period deviation: table 2 and fig. 12 -------------------------------------------------------
 
 
+def at_goal_cost(tasks: TaskSet) -> TaskSet:
+    """The set with the pass that the goals are stated for."""
+    return replace(tasks, costs=tasks.costs.model_copy(update={"pass_us": PASS_US}))
+
+
 def by_rate(tasks: TaskSet) -> TaskSet:
     """The set queued by period, so that equal priorities favour the faster task."""
     return replace(tasks, tasks=tuple(sorted(tasks.tasks, key=lambda task: task.period)))
@@ -100,7 +106,7 @@ class Variant:
     name: str
     policy: str
     tasks: TaskSet
-    turn_ns: int = 200
+    turn_ns: int = TURN_NS
 
 
 def variants(tasks: TaskSet) -> list[Variant]:
@@ -156,6 +162,11 @@ def show_deviation(tasks: TaskSet, results: Deviations, out: Console, findings: 
          *(sigma(tasks, results[name, GOAL_MODEL], task.name) for name in names)]
         for task in tasks.tasks
     ]  # fmt: skip
+    costs = tasks.costs
+    out.print(
+        f"A pass costs {costs.pass_us} us, a dispatch {costs.dispatch_us} us, an idle turn "
+        f"{TURN_NS} ns; the guard is {costs.guard_us} us.\n"
+    )
     columns = ["", "task", "class", "T, ms", "paper", *names]
     title = f"Period deviation (eq. 15, {SAMPLES} periods), % of the period, times in 50 % to 100 %"
     out.print(table(title, columns, rows, 3))
@@ -568,6 +579,7 @@ def run_experiments(tasks: TaskSet, program: Path, out: Console) -> tuple[
     Findings, Deviations
 ]:  # fmt: skip
     """Everything; tables go to the console."""
+    tasks = at_goal_cost(tasks)
     findings = Findings()
     runner = Runner(program, out)
     results = deviation(tasks, runner)
