@@ -12,9 +12,10 @@ import random
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from timing.output import write_json
 from timing.taskset import TaskSet, TaskSetError, parse
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -133,6 +134,8 @@ def main() -> int:
     began = time.monotonic()
     tally = fuzz(files, lambda _: None)
     seconds = time.monotonic() - began
+    report = {"files": files, **asdict(tally), "seconds": round(seconds, 1)}
+    write_json(ROOT / "build/timing/fuzz.json", report)
     print(f"fuzz: {files} files, {tally.accepted} accepted and {tally.refused} refused in words, "
           f"no traceback ({seconds:.0f} s)")  # fmt: skip
     return 0

@@ -50,6 +50,8 @@ def run_analyze(options: argparse.Namespace) -> int:
     for row in analysis.chains:
         if row.advisory and not row.within:
             print(f"advice: path {row.name} exceeds its limits by eq. 5 to 7")
+    for reason in analysis.reasons[1:]:
+        print(f"also: {reason}")
     print(verdict(analysis))
     return 0 if analysis.schedulable else 1
 
