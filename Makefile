@@ -7,14 +7,17 @@ export PYTHONUNBUFFERED := 1
 
 UNIT ?=
 SECONDS := 60
+TASKSET ?= specs/tasksets/urpilot.toml
 ARGS ?=
 BOARD ?=
 
 ALL_TOOLS := prove test lint coverage bench fuzz firmware target registers model \
-             flash-openocd flash-pyocd flash-st-flash flash-px4
+             flash-openocd flash-pyocd flash-st-flash flash-px4 timing
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
+TIMING := python3 tools/with_packages.py timing -m timing
 
+.PHONY: analyze tables fuzztasks timing
 .PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace registers status firmware model stack flash tools doctor clean python
 .NOTPARALLEL:
 
@@ -29,6 +32,7 @@ test: python ## build and run all tests (ARGS='--filter unit/': some of them)
 
 demo: python ## the paper's 21 tasks, one simulated minute on this host
 	@python3 tools/toolchain.py ensure test
+	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/demo
 	@mkdir -p build
 	gcc $(CFLAGS) -Iinclude -Iexamples/demo $(DEMO) -lm -o build/demo
 	@build/demo
@@ -38,6 +42,18 @@ bench: python ## instructions per pass and per step, code size and RAM; over the
 
 lint: python ## layout, MISRA C:2012 and the rules of the house (ARGS=--fix: lay out first)
 	@python3 tools/lint.py $(ARGS)
+
+analyze: python ## does a task set hold? (TASKSET=file.toml, ARGS=--phases, ARGS=--synthesize)
+	@$(TIMING) analyze "$(TASKSET)" $(ARGS)
+
+timing: python ## the paper's evaluation on the virtual board: tables, JSON and plots in build/timing
+	@$(TIMING) experiments specs/tasksets/urpilot.toml
+
+tables: python ## regenerate the C task table from the paper's task set
+	@$(TIMING) table specs/tasksets/urpilot.toml examples/demo
+
+fuzztasks: python ## 100 000 broken task-set files, each of which must be read or refused in words
+	@python3 tools/with_packages.py timing tests/timing/fuzz_taskset.py 100000
 
 campaign: python ## the voter's fault campaign and fig. 14: tables, JSON and plots in build/campaign
 	@python3 tools/campaign.py
@@ -66,6 +82,7 @@ test-target: python ## the unit tests, faults, demo and host's results on an emu
 	@python3 tools/target.py $(ARGS)
 
 firmware: python ## build a board's image (BOARD=mps2_an500; ARGS='--app FOLDER': another main)
+	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/demo
 	@python3 tools/firmware.py "$(BOARD)" $(ARGS)
 
 model: python ## run a board's image on a model of its chip (BOARD=nucleo_f767zi; ARGS='--keys 1.5:t')

@@ -8,9 +8,9 @@
 Suites: unit/<unit> (Unity), bsp/<driver> (Unity, on simulated hardware), property/<size> (the
 scheduler against its reference model), reference/<unit> (C++, an independent computation with
 Eigen in double precision), machdep (Frama-C's data model against the compiler), tools/<tool>
-(unittest), fuzz (libFuzzer). The C and C++ suites are built with the address and
-undefined-behaviour sanitizers; where their libraries are missing this is said, in the output and
-in the report.
+(unittest), timing/<part> (pytest), fuzz (libFuzzer). The C and C++ suites are built with the
+address and undefined-behaviour sanitizers; where their libraries are missing this is said, in the
+output and in the report.
 
 A suite that does not build, crashes, hangs, or runs no test counts as a failed test of its own
 name. build/test/report.json holds the verdicts; an unfinished run leaves none.
@@ -32,6 +32,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
+from xml.etree import ElementTree
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tools"))
@@ -41,6 +42,7 @@ from toolchain import Toolchain, ToolchainError  # noqa: E402
 BUILD = Path("build/test")
 REPORT = BUILD / "report.json"
 SUITE_TIMEOUT_S = 120
+PYTEST_TIMEOUT_S = 300
 LINES_OF_A_CRASH = 12
 
 SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
@@ -362,6 +364,29 @@ def python_suite(_: Bench, name: str, source: Path) -> Outcome:
     return python_outcome(name, run([sys.executable, "-m", "unittest", "discover", *where]))
 
 
+def pytest_outcome(name: str, report: Path, ended: Ended) -> Outcome:
+    """Read pytest's report. A skipped test is a failed one: it tested nothing."""
+    outcome = Outcome()
+    cases = ElementTree.parse(report).iter("testcase") if report.is_file() else ()
+    for case in cases:
+        test = f"{case.get('classname')}.{case.get('name')}"
+        wrong = [part for part in case if part.tag in ("failure", "error", "skipped")]
+        told = "; ".join(f"{part.tag}: {part.get('message', '')}" for part in wrong)
+        outcome.add(test, f"{test}: {told}" if wrong else "")
+    if ended.timed_out or ended.status != (1 if outcome.failures else 0) or not outcome.tests:
+        outcome.add(name, f"{name}: {ended.how}\n{ended.evidence}")
+    return outcome
+
+
+def pytest_suite(_: Bench, name: str, source: Path) -> Outcome:
+    """Run the tests of one Python file that needs packages."""
+    report = ROOT / BUILD / f"{name.replace('/', '-')}.xml"
+    report.unlink(missing_ok=True)
+    program = ["timing", "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}"]
+    ended = run([sys.executable, "tools/with_packages.py", *program, source], PYTEST_TIMEOUT_S)
+    return pytest_outcome(name, report, ended)
+
+
 # --- All of them ---------------------------------------------------------------------------------
 
 
@@ -404,6 +429,15 @@ def python_suites() -> list[Suite]:
     return suites
 
 
+def pytest_suites() -> list[Suite]:
+    """One for each file of tests of the timing tools."""
+    suites = []
+    for path in sorted((ROOT / "tests/timing").glob("test_*.py")):
+        name = f"timing/{path.stem.removeprefix('test_')}"
+        suites.append(Suite(name, ("timing",), partial(pytest_suite, name=name, source=path)))
+    return suites
+
+
 def property_suites() -> list[Suite]:
     """One for each capacity of the queue."""
     suites = []
@@ -417,7 +451,7 @@ def all_suites(fuzz_seconds: int) -> list[Suite]:
     """Every suite, in the order in which they run: what fails fastest comes first."""
     suites = [*unit_suites(), *reference_suites(), *property_suites()]
     suites.append(Suite("machdep", ("prove",), partial(machdep_suite, name="machdep")))
-    suites += python_suites()
+    suites += [*python_suites(), *pytest_suites()]
     if fuzz_seconds > 0:
         run_it = partial(fuzz_suite, name="fuzz", seconds=fuzz_seconds)
         suites.append(Suite("fuzz", ("fuzz",), run_it))

@@ -29,6 +29,7 @@ import json
 import re
 import sys
 import time
+import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -244,12 +245,12 @@ FLIGHT_LINE = re.compile(
     re.MULTILINE,
 )
 WORST_MILLIONTHS = 70_000
-TABLE_ROW = re.compile(r'^\s*\{"(.+)", KEEL_PRIORITY_\w+, (\d+)u \* MS, \d+u\},$', re.MULTILINE)
+TASK_SET = "specs/tasksets/urpilot.toml"
 
 
 def demo_periods(text: str) -> dict[str, int]:
-    """The tasks of table 2 with their periods in us, from the table's source."""
-    return {name: 1000 * int(ms) for name, ms in TABLE_ROW.findall(text)}
+    """The tasks of table 2 with their periods in us, from the task set."""
+    return {task["name"]: task["period_us"] for task in tomllib.loads(text)["task"]}
 
 
 def judge_demo(periods: Mapping[str, int], output: str) -> list[str]:
@@ -278,7 +279,7 @@ def demo_suite(bench: Bench, name: str) -> Outcome:
     """The board's own application, for ten simulated seconds."""
     image = bench.builder.link("demo", bench.builder.objects(bench.board.application))
     firmware.examine(bench.builder, image)
-    periods = demo_periods((bench.root / "examples/demo/urpilot_tasks.c").read_text())
+    periods = demo_periods((bench.root / TASK_SET).read_text(encoding="utf-8"))
     ended = bench.run(image, LONG_TIMEOUT_S)
     wrong = judge_demo(periods, ended.output)
     if len(periods) != 21:

@@ -116,6 +116,8 @@ class Spec:
             return f"{self.package} {self.pin} of the Python package index"
         if self.kind == "crate":
             return f"{self.package} {self.pin} of the Rust package registry"
+        if self.kind == "packages":
+            return f"Python packages of {self.path}"
         if self.cached:
             return f"{self.package} {self.pin} of Debian {self.suite}"
         return "made from the others"
@@ -123,7 +125,7 @@ class Spec:
     @property
     def cached(self) -> bool:
         """True when the tool is unpacked into the cache rather than installed on the host."""
-        return self.kind in {"deb", "source", "wheel", "crate"}
+        return self.kind in {"deb", "source", "wheel", "crate", "packages"}
 
     @property
     def derived(self) -> bool:
@@ -815,6 +817,18 @@ def unpack_crate(tree: Tree, cargo: Sequence[str]) -> None:
                 target.write_bytes(stream.read())
 
 
+def install_packages(tree: Tree, python: Sequence[str]) -> None:
+    """Python packages that a requirements file pins, for the Python that runs this program."""
+    spec = tree.spec
+    requirements = TOOLS_DIR.parent / spec.path
+    tree.check_pin(requirements)
+    tree.add_part(spec.path, spec.pin, "Python package index, pinned", requirements)
+    options = ["--require-hashes", "--no-deps", "--only-binary=:all:", "--no-compile"]
+    where = ["--target", str(tree.root), "-r", str(requirements)]
+    if tree.log.run([*python, "-m", "pip", "install", *options, *where]) != 0:
+        raise ToolchainError(f"{spec.name}: pip does not install {spec.path}:{tree.log.tail()}")
+
+
 # --- The cache -----------------------------------------------------------------------------------
 
 
@@ -862,7 +876,9 @@ class Cache:
 
     def tree(self, spec: Spec) -> Path:
         """Where an unpacked tool lies; the name holds its pin, so that two clones may differ."""
-        return self.folder / "tools" / f"{spec.name}-{spec.pin}-{spec.sha256[:12]}"
+        # Packages are built for one version of Python.
+        tag = f"-{sys.implementation.cache_tag}" if spec.kind == "packages" else ""
+        return self.folder / "tools" / f"{spec.name}-{spec.pin}-{spec.sha256[:12]}{tag}"
 
     def manifest(self, spec: Spec) -> list[dict[str, str]]:
         """Which files the tree was unpacked from; empty when there is no whole tree."""
@@ -993,7 +1009,8 @@ class Toolchain:
     def _findings_file(self) -> Path:
         """One file per clone and state of its lock and code, so that clones do not interfere."""
         state = hashlib.sha256()
-        state.update(f"{self.lock.digest} {TOOLS_DIR}".encode())
+        python = sys.implementation.cache_tag
+        state.update(f"{self.lock.digest} {TOOLS_DIR} {python}".encode())
         state.update(Path(__file__).read_bytes())
         state.update(MACHDEP_FILE.read_bytes() if MACHDEP_FILE.is_file() else b"")
         return self.cache.folder / "found" / f"{state.hexdigest()[:24]}.json"
@@ -1102,10 +1119,7 @@ class Toolchain:
             reason = "KEEL_NO_INSTALL=1 forbids to install"
         elif any(not spec.cached for spec in absent):
             reason = HostApt(self.cache.log).refusal()
-        elif (
-            any(spec.kind not in {"wheel", "crate"} for spec in absent)
-            and not shutil.which("apt-get")
-        ):  # fmt: skip
+        elif not without_apt(absent) and not shutil.which("apt-get"):
             reason = "this system has no apt-get"
         if reason:
             lines = [missing_line(spec, finder) for spec in absent]
@@ -1128,6 +1142,9 @@ class Toolchain:
 
     def _unpack(self, spec: Spec) -> Found:
         def fill(tree: Tree) -> None:
+            if spec.kind == "packages":
+                install_packages(tree, self.command("pip"))
+                return
             if spec.kind == "wheel":
                 (unpack_wheels if spec.requirements else unpack_wheel)(tree, self.command("pip"))
                 return
@@ -1185,6 +1202,11 @@ class Toolchain:
         if status != 0 or "Cortex-M7" not in output:
             raise ToolchainError(f"frama-c does not load {MACHDEP_FILE.name}:\n{output.strip()}")
         return found(spec, MACHDEP, "made", MACHDEP_FILE)
+
+
+def without_apt(specs: Iterable[Spec]) -> bool:
+    """Whether pip and cargo can bring them, without Debian's package manager."""
+    return all(spec.kind in ("wheel", "packages", "crate") for spec in specs)
 
 
 def missing_line(spec: Spec, finder: Finder) -> str:

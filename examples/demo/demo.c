@@ -24,7 +24,6 @@
 
 #define DEMO_LENGTH_US  60000000u                /* One minute. */
 #define DEMO_WINDOW_US  100000u                  /* Load is also measured in windows, as in V-C. */
-#define DEMO_GUARD_US   20u                      /* The scheduler's guard W. */
 #define DEMO_POLL_US    5u                       /* One turn of the main loop. */
 #define DEMO_POLL_MAX   1000000u                 /* A slower loop is a typing error. */
 #define DEMO_FIRST_TICK (UINT32_MAX - 30000000u) /* The counter at the start. */
@@ -33,7 +32,8 @@
 /* A task with all that the demo watches about it. */
 typedef struct demo_task {
     keel_scheduler_t *scheduler;
-    uint32_t *ticks; /* The counter, which the body moves on. */
+    uint32_t *ticks;  /* The counter, which the body moves on. */
+    uint32_t wcet_us; /* What each run takes. */
     keel_task_config_t config;
     keel_task_t task;
     keel_deviation_t deviation;
@@ -66,11 +66,11 @@ static void demo_body(void *context)
     if ((start_us - release_us) > self->latest_us) {
         self->latest_us = start_us - release_us;
     }
-    if ((start_us + self->config.budget_us) > (release_us + period_us)) {
+    if ((start_us + self->wcet_us) > (release_us + period_us)) {
         self->missed++;
     }
     (void)keel_deviation_add(&self->deviation, start_us, period_us);
-    *self->ticks += self->config.budget_us;
+    *self->ticks += self->wcet_us;
 }
 
 static keel_status_t demo_add(demo_t *demo, uint32_t i)
@@ -78,13 +78,14 @@ static keel_status_t demo_add(demo_t *demo, uint32_t i)
     const urpilot_task_t *const row = &urpilot_task[i];
     demo_task_t *const self = &demo->task[i];
 
-    *self = (demo_task_t){.scheduler = &demo->scheduler, .ticks = &demo->ticks};
+    *self = (demo_task_t){
+        .scheduler = &demo->scheduler, .ticks = &demo->ticks, .wcet_us = row->wcet_us};
     self->config = (keel_task_config_t){.name = row->name,
                                         .run = demo_body,
                                         .context = self,
                                         .period_us = row->period_us,
-                                        .budget_us = row->wcet_us,
-                                        .phase_us = 0u,
+                                        .budget_us = row->budget_us,
+                                        .phase_us = row->phase_us,
                                         .priority = row->priority};
     self->task.config = &self->config;
     return keel_scheduler_add(&demo->scheduler, &self->task);
@@ -94,7 +95,7 @@ static keel_status_t demo_start(demo_t *demo, uint32_t poll_us)
 {
     const keel_scheduler_config_t config = {.read_clock = demo_clock,
                                             .clock_context = &demo->ticks,
-                                            .guard_us = DEMO_GUARD_US,
+                                            .guard_us = URPILOT_GUARD_US,
                                             .utilisation_limit = KEEL_UTILISATION_FULL_PPM};
     keel_status_t status = keel_scheduler_init(&demo->scheduler, &config);
 
@@ -185,7 +186,7 @@ static void demo_print_tasks(const demo_t *demo)
         printf("21 tasks (table 2), guard %u us, one turn of the loop %u us, times in us but for "
                "the period in ms.\nlatest: from a release to the start of its run; sigma: eq. 15, "
                "also in %% of the period.\n\n",
-               (unsigned)DEMO_GUARD_US, (unsigned)demo->poll_us);
+               (unsigned)URPILOT_GUARD_US, (unsigned)demo->poll_us);
     (void)printf("%-26s %-11s %5s %6s %6s %5s %5s %6s %8s %6s %5s %5s %5s %5s\n", "task", "class",
                  "T", "runs", "wanted", "mean", "long", "latest", "sigma", "%", "late", "skip",
                  "over", "promo");

@@ -26,6 +26,7 @@ from run_tests import (  # noqa: E402
     Outcome,
     Suite,
     program_outcome,
+    pytest_outcome,
     python_outcome,
     reference_outcome,
     run,
@@ -198,6 +199,34 @@ class Python(unittest.TestCase):
     def test_a_crash_is_a_failure(self) -> None:
         outcome = python_outcome("tools/y", Ended(-9, ".."))
         self.assertIn("SIGKILL", outcome.failures[0])
+
+
+class Pytest(unittest.TestCase):
+    """What pytest reported."""
+
+    def outcome(self, cases: str, status: int) -> Outcome:
+        """The outcome of a report with these cases."""
+        folder = self.enterContext(tempfile.TemporaryDirectory())
+        report = Path(folder) / "report.xml"
+        report.write_text(f"<testsuites><testsuite>{cases}</testsuite></testsuites>")
+        return pytest_outcome("timing/y", report, Ended(status, ""))
+
+    def test_all_pass(self) -> None:
+        outcome = self.outcome('<testcase classname="t" name="a"/>', 0)
+        self.assertEqual((outcome.passed, outcome.failures), (1, []))
+
+    def test_failures_and_skipped_tests_are_named(self) -> None:
+        outcome = self.outcome(
+            '<testcase classname="t" name="a"><failure message="1 is 2"/></testcase>'
+            '<testcase classname="t" name="b"><skipped message="later"/></testcase>', 1,
+        )  # fmt: skip
+        self.assertEqual(outcome.failures, ["t.a: failure: 1 is 2", "t.b: skipped: later"])
+
+    def test_no_report_and_a_status_that_does_not_fit_are_failures(self) -> None:
+        missing = pytest_outcome("timing/y", Path("nowhere.xml"), Ended(2, "usage"))
+        self.assertIn("timing/y: exit status 2", missing.failures[0])
+        crashed = self.outcome('<testcase classname="t" name="a"/>', -11)
+        self.assertIn("SIGSEGV", crashed.failures[0])
 
 
 class Everything(unittest.TestCase):

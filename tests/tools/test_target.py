@@ -154,7 +154,7 @@ class Demo(unittest.TestCase):
         self.assertEqual(self.judge(*lines, end=""), ["it did not come to its end"])
 
     def test_the_table_is_read(self) -> None:
-        periods = target.demo_periods((ROOT / "examples/demo/urpilot_tasks.c").read_text())
+        periods = target.demo_periods((ROOT / target.TASK_SET).read_text(encoding="utf-8"))
         self.assertEqual(len(periods), 21)
         self.assertEqual(periods["Background IMU"], 1000)
         self.assertEqual(periods["ADC"], 1000000)

@@ -255,6 +255,32 @@ class Unpacking(Sandbox):
             self.store.unpack(self.spec, fill, Finder(self.cache))
         self.assertEqual(self.trees(), [])
 
+    def packages(self, digest: str) -> Spec:
+        """A set of packages whose requirements file has this digest."""
+        path = os.path.relpath(self.folder / "packages.txt", ROOT)
+        return Spec("z-packages", "packages", path=path, file="z/version", pin="1", sha256=digest,
+                    version=r"(\d\.\d)", at_least="1", below="2")  # fmt: skip
+
+    def test_packages_are_installed_as_their_file_pins_them(self) -> None:
+        file = self.folder / "packages.txt"
+        file.write_text("z==1.5 --hash=sha256:0\n")
+        pip = self.folder / "pip"  # Called as a Python: -m pip install OPTIONS --target ROOT ...
+        pip.write_text(
+            '#!/bin/sh\nwhile [ "$1" != --target ]; do\n  case "$1" in --require-hashes) pinned=1;;'
+            ' esac\n  shift\ndone\n[ "$pinned" ] && /bin/mkdir "$2/z" && echo 1.5 >"$2/z/version"\n'
+        )
+        pip.chmod(0o755)
+
+        def fill(tree: Tree) -> None:
+            toolchain.install_packages(tree, [str(pip)])
+
+        spec = self.packages(toolchain.sha256_of(file))
+        found = self.store.unpack(spec, fill, Finder(self.cache))
+        self.assertEqual((found.version, found.origin), ("1.5", "cache"))
+        self.assertIn(sys.implementation.cache_tag, found.commands["z-packages"])
+        with self.assertRaisesRegex(ToolchainError, "is not the pinned file"):
+            self.store.unpack(self.packages("0" * 64), fill, Finder(self.cache))
+
     def test_a_tool_that_does_not_work_is_not_kept(self) -> None:
         with self.assertRaisesRegex(ToolchainError, "does not work: .*version 5.0"):
             self.store.unpack(self.spec, lambda tree: self.fill(tree, "5.0"), Finder(self.cache))
@@ -383,8 +409,13 @@ class TheLockFile(Sandbox):
         for spec in Lock.read().tools.values():
             if spec.cached:
                 self.assertRegex(spec.sha256, r"^[0-9a-f]{64}$", spec.name)
-                self.assertTrue(spec.pin and spec.package, spec.name)
-            elif not spec.derived:
+                self.assertTrue(spec.pin and (spec.package or spec.path), spec.name)
+            if spec.kind == "packages":
+                self.assertEqual(spec.sha256, toolchain.sha256_of(ROOT / spec.path), spec.path)
+                text = (ROOT / spec.path).read_text()
+                lines = [line for line in text.splitlines() if re.match(r"[a-z]", line)]
+                self.assertTrue(lines and all("==" in line for line in lines), spec.path)
+            if not spec.cached and not spec.derived:
                 self.assertTrue(spec.at_least and spec.below and spec.packages, spec.name)
 
     def test_no_registry_is_named(self) -> None:

@@ -1,0 +1,146 @@
+"""The textbook tests, against examples with known answers."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from timing.analysis import analyse
+from timing.bounds import (
+    conventional,
+    fixed_priority,
+    freshness,
+    hyperbolic,
+    hyperperiod,
+    jeffay,
+    liu_layland,
+    reaction,
+    response,
+    utilisation,
+)  # fmt: skip
+from timing.taskset import Task, TaskSet, read
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def urpilot() -> TaskSet:
+    """The paper's table 2."""
+    return read(ROOT / "specs/tasksets/urpilot.toml")
+
+
+def tasks_of(*pairs: tuple[int, int]) -> list[Task]:
+    """Tasks from (C, T)."""
+    return [
+        Task(f"t{i}", f"t{i}", "low", period, budget) for i, (budget, period) in enumerate(pairs)
+    ]
+
+
+def test_liu_layland_bound() -> None:
+    """Liu and Layland 1973: 0.83 for two tasks, ln 2 for many; 0.7798 and 0.7047 by hand."""
+    assert liu_layland(1) == 1.0
+    assert round(liu_layland(2), 3) == 0.828
+    assert round(liu_layland(3), 4) == 0.7798
+    assert round(liu_layland(21), 4) == 0.7047
+    assert round(liu_layland(10**6), 4) == 0.6931
+
+
+def test_hyperbolic_bound_is_exact_for_two_tasks_at_its_edge() -> None:
+    """Bini and Buttazzo 2003: U1 = 1/3 and U2 = 1/2 lie on the bound, above Liu and Layland's."""
+    pair = tasks_of((1, 3), (1, 2))
+    assert hyperbolic(pair) == pytest.approx(2.0)
+    assert float(utilisation(pair)) > liu_layland(2)
+
+
+def test_response_times_of_can_messages() -> None:
+    """Davis, Burns, Bril and Lukkien 2007, "CAN schedulability analysis: refuted, revisited and
+    revised", section 3: A, B, C of 1 ms each with periods 2.5, 3.5 and 3.5 ms. The original
+    analysis finds 3 ms for C, but its second message of the busy period takes 3.5 ms."""
+    messages = tasks_of((1000, 2500), (1000, 3500), (1000, 3500))
+    assert fixed_priority(messages, 0) == [2000, 3000, 3500]
+
+
+def test_a_single_task_responds_after_its_blocking() -> None:
+    (task,) = tasks_of((10, 100))
+    assert response(task, [], 35) == 45
+    assert response(task, tasks_of((90, 100)), 0) is None
+
+
+def test_jeffay_by_hand() -> None:
+    """(C, T) = (1, 3), (2, 4), (2, 12): at L = 4 the demand is C of the longest, 2, and one run of
+    the first, 1: slack 1. At L = 5: 2 + 1 + 2, slack 0. At L = 7: 2 + 2 + 2, slack 1; at 9:
+    2 + 2 + 4, slack 1; at 10: 2 + 3 + 4, slack 1. Utilisation 1/3 + 1/2 + 1/6 is 1: it holds."""
+    found = jeffay(tasks_of((1, 3), (2, 4), (2, 12)))
+    assert (found.holds, found.slack, found.interval, found.blocker) == (True, 0, 5, "t2")
+
+
+def test_jeffay_refuses_a_long_blocker_at_any_utilisation() -> None:
+    """A task longer than another's period less its budget can always be in its way."""
+    edge = jeffay(tasks_of((1, 4), (4, 10_000)))
+    assert (edge.holds, edge.slack, edge.interval, edge.blocker) == (True, 0, 5, "t1")
+    worse = jeffay(tasks_of((1, 4), (5, 10_000)))
+    assert (worse.holds, worse.slack, worse.interval, worse.blocker) == (False, -1, 5, "t1")
+
+
+def test_jeffay_gives_up_in_words_rather_than_for_ever() -> None:
+    found = jeffay(tasks_of((1, 2), (2**30, 2**31 - 1)))
+    assert not found.holds
+
+
+def test_jeffay_of_table_2(urpilot: TaskSet) -> None:
+    """By hand: at L = 1001 us GPS, 355, and one run of the background IMU, 57: 589 are left."""
+    found = jeffay(urpilot.tasks)
+    assert found.holds and (found.slack, found.interval, found.blocker) == (589, 1001, "GPS")
+
+
+def test_realtime_response_times_of_table_2(urpilot: TaskSet) -> None:
+    """By hand: 355 + 57, + 37, + 83 without a guard; 57 + 83, and 57 + 37 + 83 twice with one."""
+    analysis = analyse(urpilot)
+    assert [row.unguarded for row in analysis.realtime_rows] == [412, 449, 532]
+    assert [row.guarded for row in analysis.realtime_rows] == [140, 177, 177]
+
+
+def test_utilisation_of_table_2(urpilot: TaskSet) -> None:
+    """The paper's review: 0.117 real-time, 0.108368 for the others, 22.54 % in all."""
+    assert utilisation(urpilot.realtime) == Fraction(117, 1000)
+    assert utilisation(urpilot.others) == Fraction(108368, 1_000_000)
+    assert hyperperiod(urpilot.tasks) == 1_000_000
+
+
+@pytest.mark.parametrize(
+    ("labels", "limit"),
+    [
+        ("τ11 τ12 τ18", 3103),
+        ("τ11 τ12 τ19 τ18", 5103),
+        ("τ8 τ9 τ19 τ18", 14362),
+        ("τ8 τ9 τ17 τ20 τ19 τ18", 44372),
+        ("τ15 τ16 τ21 τ19 τ18", 33991),
+    ],
+)
+def test_reaction_of_paths_of_table_2(urpilot: TaskSet, labels: str, limit: int) -> None:
+    """Worked out by hand from eq. 5 and 6."""
+    by_label = {task.label: task for task in urpilot.tasks}
+    path = [by_label[label] for label in labels.split()]
+    assert reaction(path) == limit
+    assert any(
+        [task.label for task in urpilot.path(chain)] == labels.split() for chain in urpilot.chains
+    )
+
+
+def test_eq_5_to_7_by_hand() -> None:
+    slow, fast = tasks_of((3, 100), (2, 10))
+    assert reaction([slow, fast]) == 10 + 3  # T^C < T^P: T^C + C^P.
+    assert reaction([fast, slow]) == 10 + 2  # Otherwise T^P + C^P.
+    assert freshness([slow, fast]) == 200  # 2 T^P.
+    assert freshness([fast, slow]) == 10 + 3  # T^P + C^C.
+    assert reaction([slow, fast, slow]) == 13 + (10 - 2 + 3)
+    assert conventional([slow, fast], [7, 5]) == 122
+    assert conventional([slow, fast], [7, None]) is None
+
+
+def test_the_verdict_on_table_2(urpilot: TaskSet) -> None:
+    analysis = analyse(urpilot)
+    assert analysis.schedulable and analysis.promotion_excluded
+    advice = [row.name for row in analysis.chains if not row.within]
+    assert advice == ["Magnetometer, position", "Radio, state machine"]

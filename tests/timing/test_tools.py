@@ -1,0 +1,226 @@
+"""The analyser as a whole: command line, C table, synthesis, phases, kernel's limits, fuzzing."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from fuzz_taskset import fuzz
+from timing import ctable, keel, taskset
+from timing.__main__ import main
+from timing.analysis import analyse
+from timing.phases import needs, spread
+from timing.report import plot_responses, plot_utilisation, verdict
+from timing.synthesis import LADDER, SynthesisError, keeps_limits, synthesize, with_periods
+from timing.taskset import Task, TaskSet, parse, read
+from toolchain import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
+URPILOT = ROOT / "specs/tasksets/urpilot.toml"
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Reports go to a folder of the test's own."""
+    monkeypatch.setattr("timing.__main__.ROOT", tmp_path)
+
+
+@pytest.fixture(scope="module")
+def urpilot() -> TaskSet:
+    """The paper's table 2."""
+    return read(URPILOT)
+
+
+def changed(tmp_path: Path, old: str, new: str) -> Path:
+    """A copy of the shipped set with one change."""
+    text = URPILOT.read_text(encoding="utf-8")
+    assert old in text
+    path = tmp_path / "changed.toml"
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    return path
+
+
+# --- Limits shared with the kernel ---------------------------------------------------------------
+
+
+def defined(header: str, name: str) -> int:
+    """The number that a header defines."""
+    text = (ROOT / "include/keel/rtos" / header).read_text(encoding="utf-8")
+    match = re.search(rf"#define +{name} +(0x[0-9A-F]+|\d+)u", text)
+    assert match is not None
+    return int(match[1], 0)
+
+
+def test_limits_are_the_kernels() -> None:
+    assert defined("priority.h", "KEEL_PERIOD_LIMIT_US") == taskset.PERIOD_LIMIT_US
+    assert defined("queue.h", "KEEL_QUEUE_CAPACITY") == taskset.QUEUE_CAPACITY
+    assert defined("priority.h", "KEEL_PRIORITY_REALTIME") == taskset.PRIORITY_MAX
+    for name, symbol in ctable.PRIORITIES.items():
+        assert defined("priority.h", symbol) == taskset.CLASSES[name]
+
+
+def test_promotion_wait_by_hand() -> None:
+    """priority.h: low after 15 periods of age, high after 3.75; a release is at age 1."""
+    assert keel.promotion_wait(Task("a", "a", "low", 20_000, 1)) == 280_000
+    assert keel.promotion_wait(Task("a", "a", "high", 2_000, 1)) == 5_500
+    assert keel.promotion_wait(Task("a", "a", "high", 3, 1)) == 12 - 3  # 11.25, rounded up.
+
+
+# --- Verdicts ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "status", "told"),
+    [
+        ("budget_us = 355", "budget_us = 355", 0, "urpilot: schedulable"),
+        ("budget_us = 355", "budget_us = 930", 1,
+         "NOT schedulable: the kernel refuses it: GPS needs 962 us with the guard, and "
+         "Background IMU leaves 931 us"),
+        ("budget_us = 83", "budget_us = 900", 1,
+         "NOT schedulable: the kernel refuses it: real-time budgets and twice the guard"),
+        ("reaction_limit_us = 10000", "reaction_limit_us = 3102", 1,
+         "NOT schedulable: path IMU, rate: E = 3103 us of 3102 us"),
+        ("budget_us = 71", "budget_us = 700", 1, "NOT schedulable: tasks that are not real-time"),
+        ("period_us = 2000\nbudget_us = 71", "period_us = 80\nbudget_us = 72", 1,
+         "NOT schedulable: utilisation is 108.99 %, above 100 % (eq. 11)"),
+        ("budget_us = 355", "budget_us = 0", 2, ""),
+    ],
+)  # fmt: skip
+def test_exit_status_and_first_reason(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, status: int, told: str
+) -> None:
+    path = changed(tmp_path, old, new)
+    assert main(["analyze", str(path)]) == status
+    output = capsys.readouterr()
+    if status == 2:
+        assert output.err.startswith(f"{path}:139: task")
+    else:
+        assert told in output.out.splitlines()[-1]
+
+
+def test_the_report_and_the_plots(urpilot: TaskSet, tmp_path: Path) -> None:
+    analysis = analyse(urpilot)
+    report = json.loads(json.dumps(analysis.report()))
+    assert report["schedulable"] and report["jeffay"]["slack"] == 589
+    plot_utilisation(analysis, tmp_path / "u.svg")
+    plot_responses(analysis, tmp_path / "r.svg")
+    first = (tmp_path / "r.svg").read_bytes()
+    plot_responses(analysis, tmp_path / "r.svg")
+    assert (tmp_path / "r.svg").read_bytes() == first and b"Angle rate control" in first
+    assert b"real-time" in (tmp_path / "u.svg").read_bytes()
+
+
+def use(tasks: TaskSet) -> None:
+    """What a user does with a set."""
+    verdict(analyse(tasks))
+    ctable.table(tasks, "fuzzed.toml")
+
+
+def test_whatever_is_accepted_can_be_analysed() -> None:
+    """KEEL_FUZZ_FILES sets how many files are tried."""
+    files = int(os.environ.get("KEEL_FUZZ_FILES", "1000"))
+    assert fuzz(files, use, first=1_000_000).accepted > files / 10
+
+
+# --- The C table ---------------------------------------------------------------------------------
+
+
+def test_the_committed_table_is_not_stale(urpilot: TaskSet) -> None:
+    files = ctable.table(urpilot, URPILOT.name)
+    assert not ctable.stale(files, ROOT / "examples/demo")
+
+
+def test_a_stale_table_fails_and_is_regenerated(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    arguments = ["table", str(URPILOT), str(tmp_path)]
+    assert main(arguments) == 0
+    assert main([*arguments, "--check"]) == 0
+    source = tmp_path / "urpilot_tasks.c"
+    source.write_text(source.read_text().replace("355u", "354u"))
+    assert main([*arguments, "--check"]) == 1
+    assert f"{source}:1: stale" in capsys.readouterr().err
+    assert main(arguments) == 0
+    assert main([*arguments, "--check"]) == 0
+
+
+def test_the_compiled_table_is_the_task_set(urpilot: TaskSet, tmp_path: Path) -> None:
+    """Read back from a program, with a phase and every class."""
+    tasks = parse(URPILOT.read_text(encoding="utf-8").replace(
+        "budget_us = 355", "budget_us = 355\nphase_us = 1234"))  # fmt: skip
+    ctable.write(ctable.table(tasks, "set.toml"), tmp_path)
+    (tmp_path / "print.c").write_text(
+        '#include "urpilot_tasks.h"\n#include <stdio.h>\nint main(void)\n{\n'
+        "    for (unsigned i = 0u; i < URPILOT_TASK_COUNT; i++) {\n"
+        "        const urpilot_task_t *const t = &urpilot_task[i];\n"
+        '        printf("%s|%u|%u|%u|%u|%u\\n", t->name, t->priority, t->period_us, t->wcet_us,\n'
+        "               t->budget_us, t->phase_us);\n    }\n"
+        '    printf("%d %d\\n", (int)URPILOT_GPS, (int)URPILOT_GUARD_US);\n    return 0;\n}\n'
+    )
+    command = [*Toolchain().command("gcc"), "-std=c99", "-Wall", "-Wextra", "-Werror"]
+    command += [f"-I{ROOT / 'include'}", f"-I{tmp_path}", "print.c", "urpilot_tasks.c"]
+    subprocess.run([*command, "-o", "print"], cwd=tmp_path, check=True)
+    lines = subprocess.run(
+        [tmp_path / "print"], capture_output=True, text=True, check=True
+    ).stdout.splitlines()
+    assert lines[:-1] == [
+        f"{task.name}|{task.priority}|{task.period}|{task.budget}|{task.budget + 12}|{task.phase}"
+        for task in tasks.tasks
+    ]
+    assert lines[-1] == "13 20"
+
+
+# --- Synthesis and phases ------------------------------------------------------------------------
+
+
+def test_synthesis_keeps_every_limit_and_no_period_could_be_longer(urpilot: TaskSet) -> None:
+    found = synthesize(urpilot)
+    assert found.analysis.schedulable and keeps_limits(found.after)
+    total = sum(task.utilisation for task in found.after.tasks)
+    assert total < sum(task.utilisation for task in urpilot.tasks)
+    judged = {name for chain in found.after.chains if not chain.advisory for name in chain.path}
+    for name in judged:
+        rung = LADDER.index(found.after.named(name).period)
+        assert not keeps_limits(with_periods(found.after, {name: LADDER[rung + 1]})), name
+
+
+def test_synthesis_says_when_there_is_nothing_to_find(urpilot: TaskSet) -> None:
+    with pytest.raises(SynthesisError, match="no path"):
+        synthesize(TaskSet("x", urpilot.tasks))
+    text = URPILOT.read_text(encoding="utf-8")
+    tight = parse(text.replace("reaction_limit_us = 10000", "reaction_limit_us = 100"))
+    with pytest.raises(SynthesisError, match="even the shortest"):
+        synthesize(tight)
+
+
+def test_phases_keep_every_pair_apart(urpilot: TaskSet) -> None:
+    """By looking at every release of a hyperperiod, not at the congruence that found them."""
+    found, crowded = spread(urpilot)
+    assert not crowded
+    releases = sorted(
+        (task.phase + number * task.period, task.name)
+        for task in found.tasks
+        for number in range(1_000_000 // task.period)
+    )
+    for (first, name), (second, follower) in pairwise(releases):
+        apart = needs(found, found.named(name), found.named(follower))
+        assert second - first >= apart, (name, follower)
+
+
+def test_no_room_for_phases_is_told() -> None:
+    """Each needs 30, 6 for the scheduler and 6 for the pass after it: three are 126 of 100 us."""
+    full = TaskSet("full", tuple(Task(f"t{i}", f"t{i}", "real-time", 100, 30) for i in range(3)))
+    assert spread(full)[1] == ["t2"]
+
+
+def test_the_program_ends_in_words_for_a_wrong_command_line() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "timing", "analyze"], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2 and "usage" in done.stderr

@@ -1,0 +1,1 @@
+"""The timing tools: a schedulability analyser, and experiments on the virtual board."""

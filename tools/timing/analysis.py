@@ -1,0 +1,260 @@
+"""The analysis of a task set: every test, and a verdict with the first reason."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from timing import bounds as textbook
+from timing import keel
+from timing.taskset import CLASSES, Task, TaskSet
+
+LOAD_TARGET = 40.0  # Percent; section IV-C of the paper.
+LOAD_ALARM = (65.0, 75.0)
+
+
+@dataclass(frozen=True)
+class ClassLoad:
+    """The utilisation of a class, beside its bounds."""
+
+    name: str
+    tasks: int
+    utilisation: float
+    liu_layland: float
+    hyperbolic: float  # Must not exceed 2.
+
+
+@dataclass(frozen=True)
+class RealtimeRow:
+    """Response times of a real-time task."""
+
+    label: str
+    name: str
+    period: int
+    budget: int
+    unguarded: int | None  # Textbook: fixed priorities, blocked by the longest other task.
+    guarded: int | None  # Textbook: blocked by real-time tasks alone.
+    bound: int  # Keel, costs included, nobody promoted.
+    bound_promotion: int  # Keel, and one promoted task is in the way.
+
+
+@dataclass(frozen=True)
+class OtherRow:
+    """A task that is not real-time."""
+
+    label: str
+    name: str
+    class_name: str
+    period: int
+    budget: int
+    fits: str  # Whether the budget fits the real-time gaps.
+    bound: int | None
+    promotion_wait: int
+    promoted_bound: int | None
+
+
+@dataclass(frozen=True)
+class ChainRow:
+    """A path against its limits."""
+
+    name: str
+    path: list[str]
+    reaction: int
+    reaction_limit: int
+    freshness: int
+    freshness_limit: int
+    conventional: int | None
+    advisory: bool
+
+    @property
+    def within(self) -> bool:
+        """Whether eq. 5 to 7 are within the limits."""
+        return self.reaction <= self.reaction_limit and self.freshness <= self.freshness_limit
+
+
+@dataclass(frozen=True)
+class Gaps:
+    """What is left between real-time releases."""
+
+    shortest: int | None  # When all real-time tasks fall due together; None: no real-time task.
+    admission: int | None  # The kernel's rule: shortest T - C of one real-time task.
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """Everything that is reported."""
+
+    name: str
+    classes: list[ClassLoad]
+    realtime: ClassLoad
+    others: ClassLoad
+    total: ClassLoad
+    published: dict[str, float | None] | None
+    jeffay: textbook.Jeffay
+    realtime_rows: list[RealtimeRow]
+    other_rows: list[OtherRow]
+    promotion_excluded: bool
+    gaps: Gaps
+    chains: list[ChainRow]
+    hyperperiod: int
+    reasons: list[str]
+
+    @property
+    def schedulable(self) -> bool:
+        """The verdict."""
+        return not self.reasons
+
+    @property
+    def load_zone(self) -> str:
+        """Where the utilisation stands between target and alarm."""
+        percent = 100.0 * self.total.utilisation
+        if percent <= LOAD_TARGET:
+            return f"{LOAD_TARGET - percent:.1f} points below the target of {LOAD_TARGET:.0f} %"
+        if percent < LOAD_ALARM[0]:
+            return f"above the target of {LOAD_TARGET:.0f} %, below the alarm"
+        return f"in or above the alarm zone of {LOAD_ALARM[0]:.0f} to {LOAD_ALARM[1]:.0f} %"
+
+    def report(self) -> dict[str, Any]:
+        """For JSON."""
+        verdict = {"schedulable": self.schedulable, "load": self.load_zone}
+        return {**verdict, **asdict(self)}
+
+
+def class_load(name: str, tasks: list[Task]) -> ClassLoad:
+    """The utilisation of some tasks."""
+    return ClassLoad(name, len(tasks), float(textbook.utilisation(tasks)),
+                     textbook.liu_layland(len(tasks)), textbook.hyperbolic(tasks))  # fmt: skip
+
+
+def realtime_rows(tasks: TaskSet, found: keel.Bounds) -> list[RealtimeRow]:
+    """Response times of the real-time tasks."""
+    outside = max((task.budget for task in tasks.others), default=0)
+    unguarded = textbook.fixed_priority(tasks.realtime, outside)
+    guarded = textbook.fixed_priority(tasks.realtime, 0)
+    return [
+        RealtimeRow(task.label, task.name, task.period, task.budget, without, within,
+                    found.realtime_guarded[task.name], found.realtime_promotion[task.name])
+        for task, without, within in zip(tasks.realtime, unguarded, guarded, strict=True)
+    ]  # fmt: skip
+
+
+def gaps_of(tasks: TaskSet) -> Gaps:
+    """The gaps between real-time releases."""
+    if not tasks.realtime:
+        return Gaps(None, None)
+    budgets = sum(task.budget for task in tasks.realtime)
+    shortest = min(task.period for task in tasks.realtime) - budgets
+    return Gaps(max(shortest, 0), min(task.period - task.budget for task in tasks.realtime))
+
+
+def fits(tasks: TaskSet, task: Task, gaps: Gaps) -> str:
+    """Whether a budget fits the gaps, the guard included."""
+    if gaps.shortest is None or gaps.admission is None:
+        return "always"
+    need = tasks.costs.guard_us + keel.declared(tasks, task)
+    if need <= gaps.shortest:
+        return "always"
+    return "when real-time tasks do not collide" if need <= gaps.admission else "never"
+
+
+def other_rows(tasks: TaskSet, found: keel.Bounds) -> list[OtherRow]:
+    """The tasks that are not real-time."""
+    gaps = gaps_of(tasks)
+    rows = []
+    for task in tasks.others:
+        bound = found.others[task.name]
+        rows.append(
+            OtherRow(task.label, task.name, task.class_name, task.period, task.budget,
+                     fits(tasks, task, gaps), bound.response, bound.promotion_wait,
+                     bound.promoted_response)
+        )  # fmt: skip
+    return rows
+
+
+def chain_rows(tasks: TaskSet, found: keel.Bounds) -> list[ChainRow]:
+    """The chains."""
+    responses: dict[str, int | None] = dict(found.realtime)
+    responses |= {name: bound.response for name, bound in found.others.items()}
+    rows = []
+    for chain in tasks.chains:
+        path = tasks.path(chain)
+        rows.append(
+            ChainRow(chain.name, [task.label for task in path], textbook.reaction(path),
+                     chain.reaction_limit_us, textbook.freshness(path), chain.freshness_limit_us,
+                     textbook.conventional(path, [responses[task.name] for task in path]),
+                     chain.advisory)
+        )  # fmt: skip
+    return rows
+
+
+def admission_reasons(tasks: TaskSet) -> Iterator[str]:
+    """Why keel_scheduler_start would refuse the set (ADM-003), budgets as declared."""
+    guard = tasks.costs.guard_us
+    demand = sum(keel.declared(tasks, task) for task in tasks.realtime)
+    for task in tasks.realtime:
+        if demand + 2 * guard > task.period:
+            yield (
+                f"the kernel refuses it: real-time budgets and twice the guard, "
+                f"{demand + 2 * guard} us, exceed the period of {task.name}, {task.period} us"
+            )
+        gap = task.period - keel.declared(tasks, task)
+        for other in tasks.others:
+            need = keel.declared(tasks, other) + guard
+            if need > gap:
+                yield (f"the kernel refuses it: {other.name} needs {need} us with the guard, and "
+                       f"{task.name} leaves {max(gap, 0)} us")  # fmt: skip
+    # As the kernel counts: in parts per million, each task rounded up.
+    ppm = sum(-(-keel.declared(tasks, task) * 1_000_000 // task.period) for task in tasks.tasks)
+    limit = tasks.costs.utilisation_limit_percent
+    if ppm > int(limit * 10_000):
+        yield (f"the kernel refuses it: utilisation with the scheduler's own time, "
+               f"{ppm / 10_000:.2f} %, exceeds the limit of {limit:.2f} %")  # fmt: skip
+
+
+def reasons(tasks: TaskSet, found: keel.Bounds, chains: list[ChainRow]) -> Iterator[str]:
+    """Why the set is not schedulable, most basic first."""
+    total = textbook.utilisation(tasks.tasks)
+    if total > 1:
+        yield f"utilisation is {100.0 * float(total):.2f} %, above 100 % (eq. 11)"
+    yield from admission_reasons(tasks)
+    for task in tasks.realtime:
+        bound = found.realtime[task.name]
+        if bound > task.period:
+            yield f"{task.name} may respond after {bound} us, its deadline is {task.period} us"
+    if not found.promotion_excluded:
+        yield ("tasks that are not real-time have no bound within their periods: they may miss "
+               "deadlines and be promoted")  # fmt: skip
+    for chain in chains:
+        if not (chain.within or chain.advisory):
+            yield (
+                f"path {chain.name}: E = {chain.reaction} us of {chain.reaction_limit} us, "
+                f"F = {chain.freshness} us of {chain.freshness_limit} us (eq. 5 to 7)"
+            )
+
+
+def analyse(tasks: TaskSet) -> Analysis:
+    """Every test of a task set."""
+    found = keel.bounds(tasks)
+    chains = chain_rows(tasks, found)
+    published = tasks.published.model_dump() if tasks.published else None
+    return Analysis(
+        name=tasks.name,
+        classes=[
+            class_load(name, members)
+            for name in CLASSES
+            if (members := [task for task in tasks.tasks if task.class_name == name])
+        ],
+        realtime=class_load("real-time (FCFS)", tasks.realtime),
+        others=class_load("others (EDF)", tasks.others),
+        total=class_load("all", list(tasks.tasks)),
+        published=published,
+        jeffay=textbook.jeffay(tasks.tasks),
+        realtime_rows=realtime_rows(tasks, found),
+        other_rows=other_rows(tasks, found),
+        promotion_excluded=found.promotion_excluded,
+        gaps=gaps_of(tasks),
+        chains=chains,
+        hyperperiod=textbook.hyperperiod(tasks.tasks),
+        reasons=list(reasons(tasks, found, chains)),
+    )

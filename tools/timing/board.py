@@ -1,0 +1,176 @@
+"""The virtual board: builds its program, gives it orders, reads what happened."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from toolchain import Toolchain
+
+from timing import keel
+from timing.taskset import Task, TaskSet
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = Path("build/timing")
+TURN_NS = 200  # A turn of the main loop that does nothing: 30 instructions and the loop.
+FLAGS = (
+    "-std=c99",
+    "-O2",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-Wconversion",
+    "-I.",
+    "-Iinclude",
+    "-Itests/timing",
+)
+
+
+class BoardError(Exception):
+    """The program could not be built, or did not understand."""
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """One run. Work is what a task's longest run takes; budgets are what is declared."""
+
+    tasks: TaskSet
+    policy: str = "keel"
+    model: str = "constant"
+    seed: int = 1
+    duration_us: int = 1_000_000
+    first_us: int = 0
+    turn_ns: int = TURN_NS
+    skip_idle: bool = True
+    work: dict[str, int] = field(default_factory=dict)  # Where it is not the task's budget.
+    budgets: dict[str, int] = field(default_factory=dict)  # Where not keel.declared.
+    spike: tuple[str, int, int] | None = None  # Task, number of the run, its time.
+
+    def orders(self) -> str:
+        """The experiment as the program reads it."""
+        costs = self.tasks.costs
+        lines = [
+            f"policy {self.policy}",
+            f"model {self.model}",
+            f"costs {self.turn_ns} {costs.pass_us * 1000} {costs.dispatch_us * 1000}",
+            f"set {self.seed} {self.duration_us} {self.first_us} {costs.guard_us} "
+            f"{int(self.skip_idle)}",
+        ]
+        lines += [self.task(task) for task in self.tasks.tasks]
+        number = {task.name: index for index, task in enumerate(self.tasks.tasks)}
+        if self.spike:
+            name, run, time = self.spike
+            lines.append(f"spike {number[name]} {run} {time}")
+        for chain in self.tasks.chains:
+            path = " ".join(str(number[name]) for name in chain.path)
+            lines.append(f"chain {len(chain.path)} {path}")
+        return "\n".join([*lines, "run", ""])
+
+    def task(self, task: Task) -> str:
+        """The order for a task."""
+        budget = self.budgets.get(task.name, keel.declared(self.tasks, task))
+        work = self.work.get(task.name, task.budget)
+        return f"task {task.priority} {task.period} {budget} {work} {task.phase}"
+
+
+@dataclass(frozen=True)
+class TaskOutcome:
+    """What a task did; times in us."""
+
+    runs: int
+    samples: int
+    sigma: float
+    mean: float
+    worst: float
+    late: int
+    due: float
+    gap: float
+    last: float
+    skipped: int
+    overruns: int
+    promotions: int
+
+
+@dataclass(frozen=True)
+class ChainOutcome:
+    """What was observed on a path, us."""
+
+    outputs: int
+    reaction: float
+    freshness: float
+
+
+@dataclass(frozen=True)
+class Result:
+    """What happened in a run."""
+
+    status: int
+    fingerprint: str
+    passes: int
+    idle_mean_us: float
+    idle_least_us: int
+    tasks: dict[str, TaskOutcome]
+    chains: dict[str, ChainOutcome]
+
+
+def read_task(raw: dict[str, Any]) -> TaskOutcome:
+    """A task's outcome; the program counts in ns."""
+    in_ns = ("sigma", "mean", "worst", "due", "gap", "last")
+    return TaskOutcome(
+        **{key: value / 1000 if key in in_ns else value for key, value in raw.items()}
+    )
+
+
+def read_result(line: str, experiment: Experiment) -> Result:
+    """A line of the program's output."""
+    raw = json.loads(line)
+    names = [task.name for task in experiment.tasks.tasks]
+    raw["tasks"] = {name: read_task(item) for name, item in zip(names, raw["tasks"], strict=True)}
+    chains = [chain.name for chain in experiment.tasks.chains]
+    raw["chains"] = {
+        name: ChainOutcome(item["outputs"], item["reaction"] / 1000, item["freshness"] / 1000)
+        for name, item in zip(chains, raw["chains"], strict=True)
+    }
+    return Result(**raw)
+
+
+def build(tools: Toolchain, name: str = "experiment", extra: Sequence[str] = ()) -> Path:
+    """Build the program."""
+    (ROOT / BUILD).mkdir(parents=True, exist_ok=True)
+    sources = sorted(
+        str(path.relative_to(ROOT))
+        for folder in ("src/rtos", "bsp/host", "tests/timing")
+        for path in (ROOT / folder).glob("*.c")
+    )
+    program = ROOT / BUILD / name
+    command = [*tools.command("gcc"), *FLAGS, *extra, *sources, "-lm", "-o", str(program)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise BoardError(f"the virtual board does not build:\n{done.stderr}")
+    return program
+
+
+def run_batch(program: Path, experiments: Sequence[Experiment], timeout_s: float) -> list[Result]:
+    """Run experiments one after another in one process."""
+    orders = "".join(experiment.orders() for experiment in experiments)
+    done = subprocess.run(
+        [str(program)], input=orders, capture_output=True, text=True, timeout=timeout_s, check=False
+    )
+    lines = done.stdout.splitlines()
+    if done.returncode != 0 or len(lines) != len(experiments):
+        raise BoardError(f"the virtual board fails: {done.stderr or done.returncode}")
+    return [read_result(*pair) for pair in zip(lines, experiments, strict=True)]
+
+
+def run_all(
+    program: Path, experiments: Iterable[Experiment], jobs: int = 2, timeout_s: float = 300.0
+) -> list[Result]:
+    """Run experiments side by side; results in their order."""
+    with ThreadPoolExecutor(jobs) as pool:
+        waiting = [pool.submit(run_batch, program, [item], timeout_s) for item in experiments]
+        return [result for future in waiting for result in future.result()]

@@ -1,0 +1,113 @@
+"""Where in a TOML file each key stands. tomllib reads values but does not say where they were."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+Path = tuple[str | int, ...]
+
+KEY = re.compile(r"""[ \t]*("(?:\\.|[^"\\\n])*"|'[^'\n]*'|[A-Za-z0-9_-]+)[ \t]*""")
+BLANK = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)+")
+# What a value is made of. Strings and comments may hold brackets and line ends of their own.
+TOKEN = re.compile(
+    r""""{3}(?:\\.|[^\\])*?"{3,5}|'{3}.*?'{3,5}|"""
+    r""""(?:\\.|[^"\\\n])*"|'[^'\n]*'|\#[^\n]*|[][{}\n]|.""",
+    re.DOTALL,
+)
+
+
+def bare(key: str) -> str:
+    """A key without its quotes. Escapes in keys stay as written: no key of ours has any."""
+    return key[1:-1] if key[0] in "\"'" else key
+
+
+class Scanner:
+    """Walks over a valid TOML text, statement by statement."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.position = 0
+        self.tables: dict[Path, int] = {}  # Arrays of tables: how many elements so far.
+        self.lines: dict[Path, int] = {}
+
+    def keys(self) -> Path:
+        """A key, dotted or not."""
+        parts: list[str] = []
+        while match := KEY.match(self.text, self.position):
+            parts.append(bare(match[1]))
+            self.position = match.end()
+            if not self.text.startswith(".", self.position):
+                break
+            self.position += 1
+        return tuple(parts)
+
+    def skip_value(self) -> None:
+        """Move behind a value: to the end of a line outside all brackets."""
+        depth = 0
+        while self.position < len(self.text):
+            match = TOKEN.match(self.text, self.position)
+            assert match is not None
+            self.position = match.end()
+            depth += {"[": 1, "{": 1, "]": -1, "}": -1}.get(match[0], 0)
+            if match[0] == "\n" and depth <= 0:
+                return
+
+    def note(self, path: Path, position: int) -> None:
+        """Remember the line of a path, and of the tables it lies in if they are new."""
+        line = self.text.count("\n", 0, position) + 1
+        for length in range(1, len(path) + 1):
+            self.lines.setdefault(path[:length], line)
+
+    def full(self, keys: Path) -> Path:
+        """The path of a header: an array of tables means its last element."""
+        path: Path = ()
+        for key in keys:
+            path = (*path, key)
+            if path in self.tables:
+                path = (*path, self.tables[path] - 1)
+        return path
+
+    def header(self) -> Path:
+        """A header: the path of the table that it opens."""
+        start = self.position
+        double = self.text.startswith("[[", start)
+        self.position += 2 if double else 1
+        keys = self.keys()
+        if double and keys:
+            path = (*self.full(keys[:-1]), keys[-1])
+            self.tables[path] = self.tables.get(path, 0) + 1
+        path = self.full(keys)
+        self.note(path, start)
+        self.skip_value()
+        return path
+
+    def statements(self) -> Iterator[tuple[Path, int]]:
+        """Every key with its whole path and its position."""
+        table: Path = ()
+        while self.position < len(self.text):
+            if match := BLANK.match(self.text, self.position):
+                self.position = match.end()
+            elif self.text.startswith("[", self.position):
+                table = self.header()
+            else:
+                start = self.position
+                keys = self.keys()
+                self.skip_value()
+                yield (*table, *keys), start
+
+
+def line_index(text: str) -> dict[Path, int]:
+    """The line of every key and table of a text that tomllib accepts."""
+    scanner = Scanner(text)
+    for path, position in scanner.statements():
+        scanner.note(path, position)
+    return scanner.lines
+
+
+def line_of(lines: dict[Path, int], path: Path) -> int:
+    """The line of a path, or of the nearest table around it that has one; at least 1."""
+    for length in range(len(path), 0, -1):
+        if path[:length] in lines:
+            return lines[path[:length]]
+    return 1
