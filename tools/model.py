@@ -15,8 +15,8 @@ that nothing writes to what is not there.
 What it cannot tell: anything about time. Its clock moves on by a microsecond with each reading of
 the time base, so code between two readings takes none. Caches and wait states have no effect.
 
-build/model/<board>.json says what happened. Exit status: 0 when the run went to its end and the board
-printed what it is, 1 when not, 2 for a wrong command line.
+build/model/<board>.json says what happened. Exit status: 0 when the run went to its end and the
+board printed what it is, 1 when not, 2 for a wrong command line.
 """
 
 from __future__ import annotations
