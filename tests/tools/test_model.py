@@ -164,6 +164,13 @@ class BoardTest(unittest.TestCase):
         self.board.tick(1)
         self.assertTrue(self.board.reset_wanted)
 
+    def test_a_watchdog_that_was_not_started_or_unlocked(self) -> None:
+        self.board.write(model.IWDG, 0xAAAA)
+        self.board.tick(10_000_000)
+        self.assertFalse(self.board.reset_wanted)
+        with self.assertRaisesRegex(ModelError, "while they are locked"):
+            self.board.write(model.IWDG + 8, 399)
+
     def test_an_unknown_board(self) -> None:
         with contextlib.redirect_stderr(io.StringIO()) as err:
             self.assertEqual(model.main(["mps2_an500"]), 1)
