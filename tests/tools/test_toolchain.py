@@ -315,7 +315,7 @@ class Crates(Sandbox):
 
     def crate(self, sha256: str = "") -> Lock:
         cargo = {**system("cargo", "1.70", "2"), "version": r"cargo (\d+\.\d+)"}
-        regs = {
+        regs: dict[str, object] = {
             "kind": "crate", "file": "Cargo.toml", "version": r'version = "(\d+\.\d+)',
             "at_least": "1.2", "below": "1.3", "package": "regs", "pin": "1.2.0",
             "sha256": sha256 or toolchain.sha256_of(self.archive), "keep": ["src/a/"],

@@ -176,8 +176,10 @@ KEEL_REALTIME_CODE uint32_t keel_board_clock_us(void *context)
     return TIM5->CNT;
 }
 
+/* Also moves the console on, for applications that do not call keel_chip_turn. */
 void keel_board_put(char c)
 {
+    keel_serial_pump(&serial);
     if (c == '\n') {
         keel_serial_put(&serial, '\r'); /* What terminals expect. */
     }
