@@ -15,8 +15,8 @@ that nothing writes to what is not there.
 What it cannot tell: anything about time. Its clock moves on by a microsecond with each reading of
 the time base, so code between two readings takes none. Caches and wait states have no effect.
 
-build/model/<board>.json says what happened. Exit status: 0 when the run went to its end and the board
-printed what it is, 1 when not, 2 for a wrong command line.
+build/model/<board>.json says what happened. Exit status: 0 when the run went to its end and the
+board printed what it is, 1 when not, 2 for a wrong command line.
 """
 
 from __future__ import annotations
@@ -256,11 +256,13 @@ class Board:
             self.words[FLASHR + 0x14] = value & ~2
 
     def _iwdg(self, offset: int, value: int) -> None:
-        if offset == 0 and value == 0xAAAA:
-            self.fed_us = self.time_us
-        if offset == 0 and value == 0xAAAA or offset == 0 and value == 0xCCCC:
+        """A key starts it, feeds it, or lets its registers be written until the next one."""
+        if offset in (4, 8) and self.words.get(IWDG) != 0x5555:
+            raise ModelError("the watchdog's registers are written while they are locked")
+        if offset == 0 and (value == 0xCCCC or (value == 0xAAAA and self.watchdog_us)):
             divisor = 4 << self.words.get(IWDG + 4, 0)
             self.watchdog_us = (self.words[IWDG + 8] + 1) * divisor * 1000 // 32
+            self.fed_us = self.time_us
 
     def _spi(self, offset: int, value: int) -> None:
         if offset == 0xC:

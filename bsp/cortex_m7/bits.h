@@ -40,4 +40,17 @@ static inline void keel_bits_put(volatile uint32_t *target, uint32_t mask, uint3
     *target = (*target & ~mask) | (value & mask);
 }
 
+/**
+ * Sets bits that switch something on, and reads them back: what is switched on may be used only
+ * after that (for a peripheral's clock, RM0410, 5.2.12).
+ *
+ * @param target the register
+ * @param mask   the bits
+ */
+static inline void keel_bits_enable(volatile uint32_t *target, uint32_t mask)
+{
+    *target |= mask;
+    (void)*target;
+}
+
 #endif

@@ -94,6 +94,8 @@ static keel_clock_fault_t stop_clocks(keel_rcc_t *rcc, const keel_wait_t *wait)
         return KEEL_CLOCK_PLL_STOP;
     }
     keel_bits_put(&rcc->CR, RCC_CR_HSEON, 0u);
+    keel_bits_put(&rcc->DCKCFGR1, RCC_DCKCFGR1_TIMPRE, 0u);
+    keel_bits_put(&rcc->DCKCFGR2, RCC_DCKCFGR2_USART3SEL | RCC_DCKCFGR2_UART7SEL, 0u);
     return keel_wait_for(&rcc->CR, RCC_CR_HSERDY, 0u, wait) ? KEEL_CLOCK_OK : KEEL_CLOCK_HSE_STOP;
 }
 
@@ -165,7 +167,7 @@ keel_clock_fault_t keel_clock_tree_start(const keel_clock_registers_t *registers
     if (keel_pll_plan(oscillator->hz, KEEL_CORE_HZ, &pll) != KEEL_BSP_OK) {
         return KEEL_CLOCK_PLAN;
     }
-    rcc->APB1ENR |= RCC_APB1ENR_PWREN;
+    keel_bits_enable(&rcc->APB1ENR, RCC_APB1ENR_PWREN);
     fault = stop_clocks(rcc, wait);
     if (fault == KEEL_CLOCK_OK) {
         keel_bits_put(&registers->pwr->CR1, PWR_CR1_VOS, FIELD(PWR_CR1_VOS, SCALE_1));

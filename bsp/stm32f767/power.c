@@ -34,9 +34,9 @@ keel_bsp_status_t keel_brownout_set(keel_flash_t *flash, keel_brownout_t level,
 
 keel_bsp_status_t keel_backup_open(keel_rcc_t *rcc, keel_pwr_t *pwr, const keel_wait_t *wait)
 {
-    rcc->APB1ENR |= RCC_APB1ENR_PWREN;
+    keel_bits_enable(&rcc->APB1ENR, RCC_APB1ENR_PWREN);
     pwr->CR1 |= PWR_CR1_DBP;
-    rcc->AHB1ENR |= RCC_AHB1ENR_BKPSRAMEN;
+    keel_bits_enable(&rcc->AHB1ENR, RCC_AHB1ENR_BKPSRAMEN);
     return keel_wait_for(&pwr->CR1, PWR_CR1_DBP, PWR_CR1_DBP, wait) ? KEEL_BSP_OK
                                                                     : KEEL_BSP_TIMEOUT;
 }

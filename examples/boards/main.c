@@ -276,8 +276,8 @@ static void print_start(void)
     keel_console_text("\n");
 }
 
-/* The level lies in the option bytes, so it is set by hand, once for a board, and before the watchdog
- * runs, which would bite meanwhile. */
+/* The level lies in the option bytes, so it is set by hand, once for a board, and before the
+ * watchdog runs, which would bite meanwhile. */
 static void offer_brownout(void)
 {
     const uint32_t start_us = keel_board_clock_us(NULL);

@@ -181,6 +181,9 @@ static void running(const keel_oscillator_t *oscillator, uint32_t control, uint3
     /* Scale 1, over-drive on and switched to. */
     TEST_ASSERT_EQUAL_HEX32(0x0003C000u, pwr.CR1);
     TEST_ASSERT_EQUAL_HEX32(0x10000000u, rcc.APB1ENR);
+    /* Timers at twice their bus, serial lines on their bus. */
+    TEST_ASSERT_EQUAL_HEX32(0u, rcc.DCKCFGR1);
+    TEST_ASSERT_EQUAL_HEX32(0u, rcc.DCKCFGR2);
 }
 
 static void CLT_006_from_reset_with_a_clock_from_outside(void)
@@ -202,6 +205,8 @@ static void leave_running(void)
     pwr.CR1 = 0x0003C000u;
     pwr.CSR1 = 0x00034000u;
     flash.ACR = 0x00000307u;
+    rcc.DCKCFGR1 = 0x01000000u; /* Timers at four times their bus. */
+    rcc.DCKCFGR2 = 0x00001010u; /* USART3 and UART7 on the core's clock. */
 }
 
 static void CLT_006_whatever_ran_before(void)

@@ -87,6 +87,13 @@ static void PIN_005_alternate_functions_of_both_halves(void)
     TEST_ASSERT_EQUAL_HEX32(0x00028000u, port.MODER);
 }
 
+static void PIN_005_an_alternate_function_is_no_open_drain(void)
+{
+    port.OTYPER = 0x00000001u;
+    keel_pin_alternate(pin0, 1u, KEEL_PULL_NONE);
+    TEST_ASSERT_EQUAL_HEX32(0u, port.OTYPER);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -96,5 +103,6 @@ int main(void)
     RUN_TEST(PIN_003_an_open_drain);
     RUN_TEST(PIN_004_an_input);
     RUN_TEST(PIN_005_alternate_functions_of_both_halves);
+    RUN_TEST(PIN_005_an_alternate_function_is_no_open_drain);
     return UNITY_END();
 }

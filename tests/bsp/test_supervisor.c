@@ -137,6 +137,14 @@ static void SUP_005_no_task_at_all_is_not_in_time(void)
     TEST_ASSERT_FALSE(met());
 }
 
+static void SUP_002_a_single_task_is_enough(void)
+{
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_remove(&scheduler, &slow));
+    keel_supervisor_start(&supervisor, &scheduler);
+    step_at(0u);
+    TEST_ASSERT_TRUE(met());
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -148,5 +156,6 @@ int main(void)
     RUN_TEST(SUP_004_a_task_that_waits_beyond_its_deadline);
     RUN_TEST(SUP_005_a_task_that_went_away);
     RUN_TEST(SUP_005_no_task_at_all_is_not_in_time);
+    RUN_TEST(SUP_002_a_single_task_is_enough);
     return UNITY_END();
 }

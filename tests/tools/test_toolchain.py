@@ -17,6 +17,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tarfile
 import tempfile
 import unittest
 from pathlib import Path
@@ -317,6 +318,57 @@ class Unpacking(Sandbox):
     def test_a_cache_with_white_space_is_refused(self) -> None:
         tools = Toolchain(self.folder / "a b", self.lock(z=system("z")))
         self.assertIn("no white space", self.refusal(tools))
+
+
+class Crates(Sandbox):
+    """A crate is data: cargo fetches it, only the wanted parts of the pinned archive are kept."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        home = self.folder / "cargo-home"
+        self.enterContext(mock.patch.dict(os.environ, {"CARGO_HOME": str(home)}))
+        self.fetched = home / "registry/cache/index-1234/regs-1.2.0.crate"
+        self.fetched.parent.mkdir(parents=True)
+        self.archive = self.folder / "regs-1.2.0.crate"
+        with tarfile.open(self.archive, "w:gz") as tar:
+            for name, text in (("Cargo.toml", 'version = "1.2.0"'), ("src/a/x.rs", "a"),
+                               ("src/b/y.rs", "b"), ("../out.rs", "outside")):  # fmt: skip
+                data = io.BytesIO(text.encode())
+                member = tarfile.TarInfo(f"regs-1.2.0/{name}")
+                member.size = len(text)
+                tar.addfile(member, data)
+        self.script("cargo", f"echo cargo 1.80.0; cp {self.archive} {self.fetched}")
+
+    def crate(self, sha256: str = "") -> Lock:
+        cargo = {**system("cargo", "1.70", "2"), "version": r"cargo (\d+\.\d+)"}
+        regs: dict[str, object] = {
+            "kind": "crate", "file": "Cargo.toml", "version": r'version = "(\d+\.\d+)',
+            "at_least": "1.2", "below": "1.3", "package": "regs", "pin": "1.2.0",
+            "sha256": sha256 or toolchain.sha256_of(self.archive), "keep": ["src/a/"],
+        }  # fmt: skip
+        return self.lock(cargo=cargo, regs=regs)
+
+    def test_the_wanted_parts_are_kept(self) -> None:
+        tools = Toolchain(self.cache, self.crate())
+        tools.ensure("g", say=quiet)
+        folder = Path(tools.command("regs")[0])
+        files = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.*"))
+        self.assertEqual(files, ["Cargo.toml", "manifest.json", "src/a/x.rs"])
+
+    def test_another_archive_is_refused(self) -> None:
+        message = self.refusal(Toolchain(self.cache, self.crate("0" * 64)))
+        self.assertIn("regs-1.2.0.crate is not the pinned file", message)
+        self.assertFalse(list(self.cache.glob("tools/regs*")))
+
+    def test_a_fetch_that_fails_says_so(self) -> None:
+        self.script("cargo", 'test "$1" = fetch && exit 1; echo cargo 1.80.0')
+        message = self.refusal(Toolchain(self.cache, self.crate()))
+        self.assertIn("cargo does not get regs 1.2.0", message)
+
+    def test_a_fetch_that_leaves_nothing_says_so(self) -> None:
+        self.script("cargo", "echo cargo 1.80.0")
+        message = self.refusal(Toolchain(self.cache, self.crate()))
+        self.assertIn("cargo left no regs-1.2.0.crate", message)
 
 
 class OtherSuites(Sandbox):

@@ -50,7 +50,7 @@
 static const keel_wait_t patience = {300000u, NULL, NULL};
 
 /* The guards come last: where regions overlap, the last one holds. Code lies in flash and in ITCM
- * alone. Nothing lies behind the external memory controller, and nothing may be read ahead there. */
+ * alone. Nothing lies behind the external memory controller, nothing may be read ahead there. */
 const keel_mpu_region_t keel_board_regions[] = {
     {MEMORY_ITCM_BASE, LOG2_BELOW_FLASH, KEEL_MPU_NONE},
     {MEMORY_FLASH_BASE, 21u, KEEL_MPU_CODE},
@@ -74,7 +74,7 @@ static keel_spi_device_t sensor_device;
 /* Outputs low, and the memory for a record of a fault open, before anything else can go wrong. */
 void keel_board_early(void)
 {
-    RCC->AHB1ENR |= GPIO_CLOCKS;
+    keel_bits_enable(&RCC->AHB1ENR, GPIO_CLOCKS);
     for (uint32_t i = 0u; i < KEEL_PWM_OUTPUTS; i++) {
         keel_pin_output(PINS->pwm[i].pin, KEEL_DRIVE_PUSH_PULL, false);
     }
@@ -105,7 +105,7 @@ static void start_leds(void)
 
 static void start_console(uint32_t clock_hz)
 {
-    RCC->APB1ENR |= PINS->console_clock;
+    keel_bits_enable(&RCC->APB1ENR, PINS->console_clock);
     give(PINS->console_tx, KEEL_PULL_UP);
     give(PINS->console_rx, KEEL_PULL_UP);
     require(keel_serial_start(&serial, PINS->console, clock_hz, BAUD));
@@ -114,7 +114,7 @@ static void start_console(uint32_t clock_hz)
 /* The timer first, with its outputs low, then the pins. */
 static void start_outputs(uint32_t timer_hz)
 {
-    RCC->APB2ENR |= RCC_APB2ENR_TIM1EN;
+    keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_TIM1EN);
     require(keel_pwm_start(TIM1, timer_hz, PWM_RATE_HZ));
     for (uint32_t i = 0u; i < KEEL_PWM_OUTPUTS; i++) {
         give(PINS->pwm[i], KEEL_PULL_DOWN);
@@ -157,7 +157,7 @@ void keel_board_start(void)
     }
     keel_cache_start();
     freeze_with_the_core();
-    RCC->APB1ENR |= RCC_APB1ENR_TIM5EN;
+    keel_bits_enable(&RCC->APB1ENR, RCC_APB1ENR_TIM5EN);
     require(keel_time_base_start(TIM5, keel_timer_hz(core_hz, apb1)));
     start_leds();
     start_console(core_hz / apb1);
@@ -176,8 +176,10 @@ KEEL_REALTIME_CODE uint32_t keel_board_clock_us(void *context)
     return TIM5->CNT;
 }
 
+/* Also moves the console on, for applications that do not call keel_chip_turn. */
 void keel_board_put(char c)
 {
+    keel_serial_pump(&serial);
     if (c == '\n') {
         keel_serial_put(&serial, '\r'); /* What terminals expect. */
     }
@@ -260,7 +262,7 @@ keel_bsp_status_t keel_chip_sensor_start(void)
     give(PINS->sck, KEEL_PULL_UP);  /* Mode 3: the clock rests high. */
     give(PINS->miso, KEEL_PULL_UP); /* Without a sensor all ones are read. */
     give(PINS->mosi, KEEL_PULL_NONE);
-    RCC->APB2ENR |= RCC_APB2ENR_SPI1EN;
+    keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_SPI1EN);
     require(keel_spi_start(SPI1, KEEL_APB2_LIMIT_HZ, KEEL_ICM20689_BUS_LIMIT_HZ));
     (void)delay(NULL, POWER_ON_US);
     return keel_icm20689_start(keel_chip_sensor());
