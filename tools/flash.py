@@ -69,6 +69,7 @@ class Image:
     elf: Path
     binary: Path
     address: int
+    room: int  # Bytes of flash from that address on.
 
 
 @dataclass(frozen=True)
@@ -119,7 +120,7 @@ def read_image(root: Path, board: str) -> Image:
         report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
         image = Image(
             folder / report["elf"]["file"], folder / report["binary"]["file"],
-            int(report["load_address"]),
+            int(report["load_address"]), int(report["regions"]["FLASH"]["size"]),
         )  # fmt: skip
         sums = (report["elf"]["sha256"], report["binary"]["sha256"])
         same = (sha256(image.elf), sha256(image.binary)) == sums
@@ -193,13 +194,14 @@ def run_step(step: Step) -> str:
 
 
 def write_px4(
-    tools: Toolchain, board: Mapping[str, object], image: Image, port: str, wait_s: float
+    tools: Toolchain, name: str, board: Mapping[str, object], image: Image, port: str, wait_s: float
 ) -> str:
     """Make the container and send it to the boot loader."""
     board_id = board["board_id"]
     assert isinstance(board_id, int)
     path = image.binary.with_suffix(".px4")
-    px4.write_container(px4.Container(board_id, image.binary.read_bytes()), path)
+    container = px4.Container(board_id, image.binary.read_bytes(), f"Keel on {name}", image.room)
+    px4.write_container(container, path)
     print(f"{path.name}: container for board id {board_id}", flush=True)
     px4.upload(tools, path, port, wait_s, px4.tell)
     return "checksum of the flash by the boot loader"
@@ -220,7 +222,7 @@ def flash(
     image = read_image(root, name)
     tools.ensure(f"flash-{chosen}")
     if chosen == "px4":
-        proof = write_px4(tools, board, image, port, wait_s)
+        proof = write_px4(tools, name, board, image, port, wait_s)
     else:
         proofs = [run_step(step) for step in STEPS[chosen](tools, board, image)]
         proof = " ".join(filter(None, proofs))

@@ -66,6 +66,7 @@ class Container:
     board_id: int
     image: bytes
     description: str = ""
+    room: int = 0  # Bytes of flash behind the boot loader; 0: not known.
 
     @property
     def padded(self) -> bytes:
@@ -84,6 +85,7 @@ class Container:
             "git_identity": "",
             "build_time": 0,
             "image_size": len(self.image),
+            "image_maxsize": self.room or len(self.image),
             "image": base64.b64encode(zlib.compress(self.image, 9)).decode(),
         }
         return json.dumps(content, indent=1) + "\n"
@@ -96,7 +98,8 @@ class Container:
             if raw["magic"] != MAGIC:
                 raise Px4Error(f"{path}: the magic word is {raw['magic']!r}, not {MAGIC!r}")
             image = zlib.decompress(base64.b64decode(raw["image"], validate=True))
-            found = cls(int(raw["board_id"]), image, str(raw.get("description", "")))
+            room = int(raw.get("image_maxsize", 0))
+            found = cls(int(raw["board_id"]), image, str(raw.get("description", "")), room)
             size = int(raw["image_size"])
         except (OSError, ValueError, KeyError, TypeError, zlib.error, binascii.Error) as error:
             raise Px4Error(f"{path}: no container: {type(error).__name__}: {error}") from error

@@ -68,7 +68,9 @@ class FlashTest(unittest.TestCase):
     def image(self, board: str, address: int) -> None:
         folder = self.root / flash.FIRMWARE / board
         folder.mkdir(parents=True)
-        report: dict[str, object] = {"load_address": address}
+        report: dict[str, object] = {
+            "load_address": address, "regions": {"FLASH": {"size": 0x1F8000}},
+        }  # fmt: skip
         for kind, name, data in (("elf", "keel.elf", b"elf"), ("binary", "keel.bin", b"12345678")):
             (folder / name).write_bytes(data)
             report[kind] = {"file": name, "sha256": hashlib.sha256(data).hexdigest()}
@@ -137,6 +139,7 @@ class FlashTest(unittest.TestCase):
         self.assertRegex(line, "0x08008000 written with px4 and verified .checksum")
         container = px4.Container.read(upload.call_args.args[1])
         self.assertEqual((container.board_id, container.image), (50, b"12345678"))
+        self.assertEqual(container.room, 2064384)
 
     def test_a_boot_loader_that_fails(self) -> None:
         with (

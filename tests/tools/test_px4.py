@@ -153,14 +153,15 @@ class ContainerTest(unittest.TestCase):
         self.assertEqual(raw["magic"], "PX4FWv1")
         self.assertEqual(raw["board_id"], 50)
         self.assertEqual(raw["image_size"], 1283)
+        self.assertEqual(raw["image_maxsize"], 1283)  # Uploaders want a number.
         self.assertEqual(zlib.decompress(base64.b64decode(raw["image"])), IMAGE)
 
     def test_the_same_image_makes_the_same_container(self) -> None:
         self.assertEqual(Container(50, IMAGE).text(), Container(50, IMAGE).text())
 
     def test_round_trip(self) -> None:
-        px4.write_container(Container(50, IMAGE, "Keel"), self.path)
-        self.assertEqual(Container.read(self.path), Container(50, IMAGE, "Keel"))
+        px4.write_container(Container(50, IMAGE, "Keel", 4096), self.path)
+        self.assertEqual(Container.read(self.path), Container(50, IMAGE, "Keel", 4096))
 
     def test_whole_words_with_ones(self) -> None:
         self.assertEqual(Container(50, b"\x01\x02\x03\x04\x05").padded[4:], b"\x05\xff\xff\xff")
