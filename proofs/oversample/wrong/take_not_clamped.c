@@ -4,6 +4,8 @@
 // The rounded mean may leave the samples.
 #include "keel/middleware/oversample.h"
 
+#include "keel/middleware/range.h"
+
 #include <stdbool.h>
 
 /* Nothing is in the sum. */
@@ -30,14 +32,11 @@ keel_status_t keel_oversample_init(keel_oversample_t *oversample, uint16_t facto
 
 keel_status_t keel_oversample_add(keel_oversample_t *oversample, float value)
 {
-    /* False for NaN, too. */
-    const bool good = (value >= -KEEL_OVERSAMPLE_RANGE) && (value <= KEEL_OVERSAMPLE_RANGE);
-
     if (oversample->runs == UINT16_MAX) {
         return KEEL_ERR_FULL;
     }
     oversample->runs++;
-    if (!good) {
+    if (!keel_range_contains(value, -KEEL_OVERSAMPLE_RANGE, KEEL_OVERSAMPLE_RANGE)) {
         return KEEL_ERR_VALUE;
     }
     oversample->sum += value;
@@ -59,10 +58,7 @@ keel_status_t keel_oversample_take(keel_oversample_t *oversample, float *mean)
     const bool some = oversample->count > 0u;
 
     if (some) {
-        const float exact = oversample->sum / (float)oversample->count;
-        const float above = exact;
-
-        *mean = (above < oversample->most) ? above : oversample->most;
+        *mean = oversample->sum / (float)oversample->count;
     }
     oversample->missed = add_excess(oversample->missed, oversample->factor, oversample->runs);
     oversample->extra = add_excess(oversample->extra, oversample->runs, oversample->factor);

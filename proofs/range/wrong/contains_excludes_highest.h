@@ -1,0 +1,50 @@
+// harness: keel_range_contains_harness
+// expect: RNG_001
+//
+// The upper end is left out.
+/**
+ * @file range.h
+ * @brief Whether a float lies in a range, and the float of a range that is next to it.
+ *
+ * The one place where Keel tells numbers from NaN and infinities. Every comparison with NaN is
+ * false, so that NaN lies in no range; clamped, it becomes the lower end. The functions are inline
+ * because they stand in the hot paths of the voter, the filter and the controller.
+ */
+#ifndef KEEL_MIDDLEWARE_RANGE_H
+#define KEEL_MIDDLEWARE_RANGE_H
+
+#include <stdbool.h>
+
+/** The largest finite float: a value is finite when it lies between this and its negative. */
+#define KEEL_RANGE_LARGEST 0x1.fffffep+127f
+
+/**
+ * Whether a value lies in a range, its ends included (requirement RNG-001).
+ *
+ * @param value   any bit pattern
+ * @param lowest  the lower end, finite
+ * @param highest the upper end, finite
+ * @return false for NaN, too
+ */
+static inline bool keel_range_contains(float value, float lowest, float highest)
+{
+    return (value >= lowest) && (value < highest);
+}
+
+/**
+ * The value of a range that is next to a given one (requirement RNG-002).
+ *
+ * @param value   any bit pattern
+ * @param lowest  the lower end, finite
+ * @param highest the upper end, finite, not below the lower
+ * @return the value itself when it lies in the range, else the end that is next to it; the lower
+ *         end for NaN
+ */
+static inline float keel_range_clamp(float value, float lowest, float highest)
+{
+    const float above = (value > lowest) ? value : lowest;
+
+    return (above < highest) ? above : highest;
+}
+
+#endif
