@@ -59,6 +59,16 @@ class Unit:
         """Bodies that the harnesses must refute."""
         return sorted((self.folder / "wrong").glob("*.[ch]"))
 
+    @cached_property
+    def statements(self) -> list[Path]:
+        """Bounds of rounding errors, for Gappa."""
+        return sorted(self.folder.glob("*.g"))
+
+    @cached_property
+    def wrong_statements(self) -> list[Path]:
+        """Bounds that Gappa must not prove."""
+        return sorted((self.folder / "wrong").glob("*.g"))
+
     @property
     def own_files(self) -> list[Path]:
         """Header and source."""
