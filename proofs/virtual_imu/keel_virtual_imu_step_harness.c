@@ -1,7 +1,7 @@
 // cbmc: --unwind 7 --external-sat-solver cadical
 // sources: src/middleware/virtual_imu.c src/middleware/voter.c
 // defines: -DKEEL_VOTER_SENSORS=2u
-// covers: keel_virtual_imu_step gather
+// covers: keel_virtual_imu_step note
 //
 // Any unit may be absent, late or latched; the values are fixed, another for each channel, as here
 // it counts which sample goes where. How a channel votes: keel_voter_step's harnesses.

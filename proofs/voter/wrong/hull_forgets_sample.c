@@ -1,0 +1,353 @@
+// harness: keel_voter_step__any_harness
+// expect: precondition: keel_voter_mean
+//
+// The last sample passes for the largest.
+#include "keel/middleware/voter.h"
+
+#include "keel/middleware/range.h"
+
+static bool is_above(float none, float agree)
+{
+    return (none > agree) && (none <= KEEL_VOTER_RANGE);
+}
+
+static bool is_cutoff_valid(const keel_voter_config_t *config)
+{
+    /* The factor first: its product with a is then finite. */
+    return keel_range_contains(config->cutoff, 1.0f, KEEL_VOTER_RANGE / KEEL_VOTER_AGREE_MIN) &&
+           is_above((config->cutoff * config->agree), config->agree);
+}
+
+keel_status_t keel_voter_check(const keel_voter_config_t *config)
+{
+    if ((config->sensors < 2u) || (config->sensors > KEEL_VOTER_SENSORS)) {
+        return KEEL_ERR_SENSORS;
+    }
+    if (!keel_range_contains(config->agree, KEEL_VOTER_AGREE_MIN, KEEL_VOTER_AGREE_MAX)) {
+        return KEEL_ERR_AGREEMENT;
+    }
+    if (!is_cutoff_valid(config)) {
+        return KEEL_ERR_CUTOFF;
+    }
+    if (!keel_range_contains(config->lowest, -KEEL_VOTER_RANGE, KEEL_VOTER_RANGE) ||
+        !keel_range_contains(config->highest, config->lowest, KEEL_VOTER_RANGE)) {
+        return KEEL_ERR_LIMITS;
+    }
+    if (!keel_range_contains(config->initial, config->lowest, config->highest)) {
+        return KEEL_ERR_INITIAL;
+    }
+    if (config->max_age_us == 0u) {
+        return KEEL_ERR_AGE;
+    }
+    return (config->latch_count == 0u) ? KEEL_ERR_LATCH : KEEL_OK;
+}
+
+keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *config)
+{
+    const keel_status_t status = keel_voter_check(config);
+
+    if (status != KEEL_OK) {
+        return status;
+    }
+    voter->config = *config;
+    voter->none = config->cutoff * config->agree;
+    voter->vote.output = config->initial;
+    voter->vote.held = 0u;
+    voter->vote.held_us = 0u;
+    voter->vote.state = KEEL_VOTER_NONE;
+    voter->vote.contributing = 0u;
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        voter->sensor[i].last = config->initial;
+        voter->sensor[i].same = 0u;
+        voter->sensor[i].null = 0u;
+        voter->sensor[i].density = 0u;
+        voter->sensor[i].latched = false;
+        voter->vote.weight[i] = 0.0f;
+        voter->vote.reason[i] = KEEL_VOTER_USED;
+    }
+    return KEEL_OK;
+}
+
+float keel_voter_agreement(float distance, float agree, float none)
+{
+    if (distance <= agree) {
+        return 1.0f;
+    }
+    return (distance >= none) ? 0.0f : ((none - distance) / (none - agree));
+}
+
+float keel_voter_weight(const float agreement[], uint32_t others)
+{
+    float total = 0.0f;
+
+    for (uint32_t i = 0u; i < others; i++) {
+        total += agreement[i];
+    }
+    return total / (float)others;
+}
+
+float keel_voter_mean(float sum, float weights, float least, float most)
+{
+    return keel_range_clamp(sum / weights, least, most);
+}
+
+float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[], uint32_t sensors)
+{
+    float sum = 0.0f;
+    float weights = 0.0f;
+    float least = KEEL_VOTER_RANGE;
+    float most = -KEEL_VOTER_RANGE;
+
+    for (uint32_t i = 0u; i < sensors; i++) {
+        if (weight[i] > 0.0f) {
+            const float value = sample[i].value;
+
+            sum += weight[i] * value;
+            weights += weight[i];
+            least = (value < least) ? value : least;
+            most = (value > most) ? value : most;
+        }
+    }
+    return keel_voter_mean(sum, weights, least, most);
+}
+
+static uint16_t one_more(uint16_t value)
+{
+    return (value < UINT16_MAX) ? (uint16_t)(value + 1u) : value;
+}
+
+/* What the usable samples of a vote have in common. */
+typedef struct survey {
+    uint32_t usable; /* How many there are. */
+    float sum;       /* Of their values. */
+    float least;     /* The smallest; KEEL_VOTER_RANGE when there is none. */
+    float most;      /* The largest; -KEEL_VOTER_RANGE when there is none. */
+} survey_t;
+
+/* Why a sample cannot be used, staleness aside, or KEEL_VOTER_USED (VOT-007). */
+static uint8_t inspect(const keel_voter_config_t *config, const keel_voter_sensor_t *sensor,
+                       const keel_voter_sample_t *sample)
+{
+    if (sensor->latched) {
+        return KEEL_VOTER_LATCHED;
+    }
+    if (!sample->present) {
+        return KEEL_VOTER_MISSING;
+    }
+    if (!keel_range_contains(sample->value, config->lowest, config->highest)) {
+        return keel_range_contains(sample->value, -KEEL_RANGE_LARGEST, KEEL_RANGE_LARGEST)
+                   ? KEEL_VOTER_OUT_OF_RANGE
+                   : KEEL_VOTER_NOT_FINITE;
+    }
+    return (sample->age_us > config->max_age_us) ? KEEL_VOTER_LATE : KEEL_VOTER_USED;
+}
+
+/* Excludes what has not changed for too long; how many are then no longer usable (VOT-013). */
+static uint32_t exclude_stale(keel_voter_t *voter)
+{
+    uint32_t excluded = 0u;
+
+    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
+        if ((voter->vote.reason[i] == KEEL_VOTER_USED) && (voter->config.stale_count > 0u) &&
+            (voter->sensor[i].same >= voter->config.stale_count)) {
+            voter->vote.reason[i] = KEEL_VOTER_STALE;
+            excluded++;
+        }
+    }
+    return excluded;
+}
+
+/* Looks at every sample: whether it is usable, and whether it has changed. The votes in which a
+ * sensor alone did not change are counted (VOT-013). That all others changed is asked for, so that
+ * one sensor gone wild does not make the others, at rest, look stale. */
+static survey_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    const keel_voter_config_t config = voter->config;
+    survey_t survey = {0u, 0.0f, KEEL_VOTER_RANGE, -KEEL_VOTER_RANGE};
+    uint32_t moved = 0u;
+    uint32_t resting = 0u;
+    uint32_t last_resting = 0u;
+
+    for (uint32_t i = 0u; i < config.sensors; i++) {
+        keel_voter_sensor_t *const sensor = &voter->sensor[i];
+        const float value = sample[i].value;
+        const uint8_t reason = inspect(&config, sensor, &sample[i]);
+
+        voter->vote.reason[i] = reason;
+        if (reason == KEEL_VOTER_USED) {
+            survey.usable++;
+            survey.sum += value;
+            survey.least = (value < survey.least) ? value : survey.least;
+            survey.most = value;
+        }
+        if ((reason == KEEL_VOTER_USED) || (reason >= KEEL_VOTER_OUT_OF_RANGE)) {
+            if (value != sensor->last) {
+                sensor->last = value;
+                sensor->same = 0u;
+                moved++;
+            } else {
+                resting++;
+                last_resting = i;
+            }
+        }
+    }
+    if (resting > 0u) {
+        if ((resting == 1u) && (moved > 0u)) {
+            voter->sensor[last_resting].same = one_more(voter->sensor[last_resting].same);
+        }
+        survey.usable -= exclude_stale(voter);
+    }
+    return survey;
+}
+
+/* The agreement of two usable samples. */
+static float compare(const keel_voter_t *voter, float x, float y)
+{
+    return keel_voter_agreement((x > y) ? (x - y) : (y - x), voter->config.agree, voter->none);
+}
+
+/* The weights of usable samples. One that is alone has nobody to agree with. */
+static void weigh(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t usable)
+{
+    keel_vote_t *const vote = &voter->vote;
+    const uint32_t sensors = voter->config.sensors;
+    float agreement[KEEL_VOTER_SENSORS][KEEL_VOTER_SENSORS - 1u];
+
+    for (uint32_t i = 0u; i < sensors; i++) {
+        for (uint32_t j = i + 1u; j < sensors; j++) {
+            const bool both = (vote->reason[i] == KEEL_VOTER_USED) &&
+                              (vote->reason[j] == KEEL_VOTER_USED);
+            const float s = both ? compare(voter, sample[i].value, sample[j].value) : 0.0f;
+
+            agreement[i][j - 1u] = s;
+            agreement[j][i] = s;
+        }
+    }
+    for (uint32_t i = 0u; i < sensors; i++) {
+        const bool alone = (usable == 1u) && (vote->reason[i] == KEEL_VOTER_USED);
+
+        vote->weight[i] = alone ? 1.0f : keel_voter_weight(agreement[i], sensors - 1u);
+    }
+}
+
+/* A usable sample without weight was outvoted; how many contribute. */
+static uint8_t find_outvoted(keel_voter_t *voter)
+{
+    uint8_t contributing = 0u;
+
+    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
+        if (voter->vote.weight[i] > 0.0f) {
+            contributing++;
+        } else if (voter->vote.reason[i] == KEEL_VOTER_USED) {
+            voter->vote.reason[i] = KEEL_VOTER_OUTVOTED;
+        } else {
+            /* Unusable, and the reason says why. */
+        }
+    }
+    return contributing;
+}
+
+static uint32_t add_saturated(uint32_t a, uint32_t b)
+{
+    return (a <= (UINT32_MAX - b)) ? (a + b) : UINT32_MAX;
+}
+
+/* The output, or another vote without one (VOT-008). */
+static void conclude(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t usable,
+                     uint32_t elapsed_us)
+{
+    keel_vote_t *const vote = &voter->vote;
+
+    vote->contributing = find_outvoted(voter);
+    if (vote->contributing > 0u) {
+        vote->state = (usable == 1u) ? KEEL_VOTER_SINGLE : KEEL_VOTER_MEAN;
+        vote->output = keel_voter_combine(sample, vote->weight, voter->config.sensors);
+        vote->held = 0u;
+        vote->held_us = 0u;
+    } else {
+        vote->state = (usable > 0u) ? KEEL_VOTER_DISAGREE : KEEL_VOTER_NONE;
+        vote->held = add_saturated(vote->held, 1u);
+        vote->held_us = add_saturated(vote->held_us, elapsed_us);
+    }
+}
+
+/* A vote to which a sensor contributed (VOT-010, VOT-012). */
+static void clear(keel_voter_sensor_t *sensor)
+{
+    sensor->null = 0u;
+    if (sensor->density > 0u) {
+        sensor->density--;
+    }
+}
+
+/* A vote that condemns a sensor (VOT-010 to VOT-012). */
+static void condemn(const keel_voter_config_t *config, keel_voter_sensor_t *sensor)
+{
+    sensor->null = one_more(sensor->null);
+    sensor->density = one_more(sensor->density);
+    sensor->latched = (sensor->null >= config->latch_count) ||
+                      ((config->density_limit > 0u) && (sensor->density >= config->density_limit));
+}
+
+/* What a vote means for each sensor that was not latched before. */
+static void judge(keel_voter_t *voter, uint32_t usable)
+{
+    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
+        const uint8_t reason = voter->vote.reason[i];
+
+        if (reason == KEEL_VOTER_USED) {
+            clear(&voter->sensor[i]);
+        } else if ((reason >= KEEL_VOTER_MISSING) ||
+                   ((reason == KEEL_VOTER_OUTVOTED) && (usable > 2u))) {
+            condemn(&voter->config, &voter->sensor[i]);
+        } else {
+            /* Latched already, or one of two that disagree: nobody knows which is wrong. */
+        }
+    }
+}
+
+/* All sensors are usable and within a of each other: every weight is 1 (eq. 16, 17), so that the
+ * mean of eq. 18 is the plain one. What weigh, conclude and judge would come to, sooner. */
+static void agree_all(keel_voter_t *voter, const survey_t *survey)
+{
+    keel_vote_t *const vote = &voter->vote;
+
+    vote->state = KEEL_VOTER_MEAN;
+    vote->contributing = voter->config.sensors;
+    vote->output = keel_voter_mean(survey->sum, (float)survey->usable, survey->least, survey->most);
+    vote->held = 0u;
+    vote->held_us = 0u;
+    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
+        vote->weight[i] = 1.0f;
+        clear(&voter->sensor[i]);
+    }
+}
+
+void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us)
+{
+    const survey_t survey = inspect_all(voter, sample);
+
+    if ((survey.usable == voter->config.sensors) &&
+        ((survey.most - survey.least) <= voter->config.agree)) {
+        agree_all(voter, &survey);
+    } else {
+        weigh(voter, sample, survey.usable);
+        conclude(voter, sample, survey.usable, elapsed_us);
+        judge(voter, survey.usable);
+    }
+}
+
+keel_status_t keel_voter_readmit(keel_voter_t *voter, uint32_t sensor)
+{
+    if (sensor >= voter->config.sensors) {
+        return KEEL_ERR_SENSORS;
+    }
+    if (!voter->sensor[sensor].latched) {
+        return KEEL_ERR_STATE;
+    }
+    voter->sensor[sensor].latched = false;
+    voter->sensor[sensor].null = 0u;
+    voter->sensor[sensor].density = 0u;
+    voter->sensor[sensor].same = 0u;
+    return KEEL_OK;
+}
