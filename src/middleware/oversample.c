@@ -8,7 +8,9 @@
 /*@ requires \valid(oversample);
   @ assigns oversample->sum, oversample->least, oversample->most, oversample->count,
   @         oversample->runs;
-  @ ensures oversample->count == 0 && oversample->runs == 0;
+  @ ensures oversample->count == 0 && oversample->runs == 0 && oversample->sum == 0;
+  @ ensures oversample->least == KEEL_OVERSAMPLE_RANGE;
+  @ ensures oversample->most == -KEEL_OVERSAMPLE_RANGE;
   @*/
 static void begin(keel_oversample_t *oversample)
 {
