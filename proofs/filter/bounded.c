@@ -2,8 +2,9 @@
 /**
  * The filter's states are bounded for bounded inputs (requirement FLT-008), over the reals.
  *
- * Put G = sqrt(2) g, so that D = 1 + G + G^2/2, and let p be the mean of s1 before and after a step,
- * q its output y. A step is that of the trapezoidal rule, both sides times D > 0 (FLT_008_first to FLT_008_third):
+ * Put G = sqrt(2) g, so that D = 1 + G + G^2/2, and let p be the mean of s1 before and after a
+ * step, q its output y. A step is that of the trapezoidal rule, both sides times D > 0
+ * (FLT_008_first to FLT_008_third):
  *
  *     s1' - p = p - s1 = G u,  s2' - q = q - s2 = G v    with u = (x - 2 p - q)/2, v = p
  *

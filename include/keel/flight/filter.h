@@ -19,7 +19,7 @@
  * The states are bounded by construction: an input that is not finite or beyond
  * KEEL_FILTER_INPUT_LIMIT is refused, and so is one that would lead to states with more energy
  * than the filter's limit. A refused input changes nothing. In exact arithmetic the second never
- * happens: inputs up to M lead to |(s1, s2)| < 1.45 M (1 + g) at most (FLT-008, proved there), which
+ * happens: inputs up to M lead to |(s1, s2)| < 1.45 M (1 + g) at most (requirement FLT-008), which
  * is well below the limit for the greatest M.
  *
  * Single precision throughout. Sources must be compiled without contraction of products and sums
