@@ -1,5 +1,5 @@
-// harness: keel_voter_step__any_harness
-// expect: precondition: keel_voter_mean
+// harness: keel_voter_step__exact_harness
+// expect: VOT_006_weight
 //
 // The last sample passes for the largest.
 #include "keel/middleware/voter.h"
