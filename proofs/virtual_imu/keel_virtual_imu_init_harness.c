@@ -9,6 +9,7 @@ void keel_virtual_imu_init_harness(void)
 {
     keel_virtual_imu_t imu;
     keel_imu_config_t config;
+    keel_status_t expected;
     keel_status_t status;
 
     config.accelerometer = any_voter_config();
@@ -19,7 +20,17 @@ void keel_virtual_imu_init_harness(void)
     const uint8_t used = imu.used[0];
     const uint32_t held = imu.channel[5].vote.held;
 
+    expected = keel_voter_check(&config.accelerometer);
+    if (expected == KEEL_OK) {
+        expected = keel_voter_check(&config.gyroscope);
+    }
+    if ((expected == KEEL_OK) && (config.accelerometer.sensors != config.gyroscope.sensors)) {
+        expected = KEEL_ERR_SENSORS;
+    }
+
     status = keel_virtual_imu_init(&imu, &config);
+
+    __CPROVER_assert(status == expected, "IMU_001_status: the first reason to refuse, or none");
 
     if (status == KEEL_OK) {
         __CPROVER_assert(agreement_valid_here(&config.accelerometer) &&
