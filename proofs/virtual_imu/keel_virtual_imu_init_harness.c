@@ -9,9 +9,11 @@ void keel_virtual_imu_init_harness(void)
 {
     keel_virtual_imu_t imu;
     keel_imu_config_t config;
+    const uint32_t i = nondet_u32();
     keel_status_t expected;
     keel_status_t status;
 
+    __CPROVER_assume(i < SENSORS);
     config.accelerometer = any_voter_config();
     config.gyroscope = any_voter_config();
     imu.used[0] = nondet_u8();
@@ -43,8 +45,8 @@ void keel_virtual_imu_init_harness(void)
                              (imu.channel[2].config.lowest == config.accelerometer.lowest) &&
                              (imu.channel[3].config.agree == config.gyroscope.agree) &&
                              (imu.channel[5].config.lowest == config.gyroscope.lowest) &&
-                             (imu.channel[5].vote.held == 0u) && (imu.used[0] == 0u) &&
-                             (imu.latched[1] == 0u),
+                             (imu.channel[5].vote.held == 0u) && (imu.used[i] == 0u) &&
+                             (imu.latched[i] == 0u),
                          "IMU_001_ready: each channel has its configuration");
     } else {
         __CPROVER_assert((imu.used[0] == used) && (imu.channel[5].vote.held == held) &&
