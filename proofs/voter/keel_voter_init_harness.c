@@ -17,6 +17,8 @@ void keel_voter_init_harness(void)
 
     status = keel_voter_init(&voter, &config);
 
+    __CPROVER_assert(status == keel_voter_check(&config),
+                     "VOT_002_refused: for the reason that the check gives");
     if (status == KEEL_OK) {
         __CPROVER_assert(agreement_valid_here(&config) && limits_valid_here(&config) &&
                              initial_valid_here(&config) && (config.latch_count > 0u),
