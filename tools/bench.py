@@ -60,6 +60,8 @@ GOAL_SET = 21
 STEPS: dict[str, tuple[str, str, int]] = {
     "filter": ("filter", "keel_filter_step", 30),
     "pid": ("PID", "keel_pid_step", 110),
+    "imu": ("virtual IMU, 3 x 6, all agree", "keel_virtual_imu_step", 900),
+    "imu_worst": ("virtual IMU, 3 x 6, one outvoted", "keel_virtual_imu_step", 900),
 }
 STEP_HARNESS = "tests/bench/bench_steps.c"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prove Keel: every contract with Frama-C/WP, every harness with CBMC.
+"""Prove Keel: every contract with Frama-C/WP, every harness with CBMC, rounding with Gappa.
 
     python3 tools/prove.py                    # everything
     python3 tools/prove.py --unit queue       # one unit
@@ -25,12 +25,14 @@ from proofs.project import ROOT, ProjectError, find_units  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
 from toolchain import Toolchain, ToolchainError  # noqa: E402
 
+ENGINES = ("wp", "cbmc", "gappa")
+
 
 def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Namespace:
     """The command line; a unit that does not exist is named, with those that do."""
-    parser = argparse.ArgumentParser(description="Prove Keel with Frama-C/WP and CBMC.")
+    parser = argparse.ArgumentParser(description="Prove Keel with Frama-C/WP, CBMC and Gappa.")
     parser.add_argument("--unit", nargs="+", metavar="U", help="only these units")
-    parser.add_argument("--engine", choices=("wp", "cbmc"), help="only this engine")
+    parser.add_argument("--engine", choices=ENGINES, help="only this engine")
     parser.add_argument("--update-goals", action="store_true", help="rewrite proofs/UNIT/goals.txt")
     parser.add_argument("-j", dest="width", type=int, default=min(2, os.cpu_count() or 1),
                         metavar="N", help="jobs side by side (default %(default)s)")  # fmt: skip
@@ -57,7 +59,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         choice = Choice(
             units=tuple(units[name] for name in options.unit or units),
             partial=bool(options.unit or options.engine),
-            engines=(options.engine,) if options.engine else ("wp", "cbmc"),
+            engines=(options.engine,) if options.engine else ENGINES,
             width=options.width, cached=not options.no_cache, quick=options.quick,
             update_goals=options.update_goals,
         )  # fmt: skip

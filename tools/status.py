@@ -23,8 +23,8 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- status -->\n", "<!-- /status -->\n"
 HEAD = """\
-| unit | WP goals proved | CBMC harnesses | CBMC properties proved | wrong bodies refuted |
-|---|---|---|---|---|
+| unit | WP goals proved | CBMC harnesses | CBMC properties | Gappa goals | wrong variants refuted |
+|---|---|---|---|---|---|
 """
 
 
@@ -33,14 +33,16 @@ class StatusError(Exception):
 
 
 def numbers(unit: Mapping[str, Any]) -> list[tuple[int, int]]:
-    """Of a unit: goals, harnesses, properties, wrong bodies, each as (good, all)."""
-    wp, cbmc = unit["wp"], unit["cbmc"]
+    """Of a unit: goals, harnesses, properties, bounds, wrong variants, each as (good, all)."""
+    wp, cbmc, gappa = unit["wp"], unit["cbmc"], unit["gappa"]
     harnesses = cbmc["harnesses"].values()
+    bodies, bounds = cbmc["negative"], gappa["negative"]
     return [
         (wp["proved"], wp["goals"]),
         (sum(harness["sound"] for harness in harnesses), len(harnesses)),
         (cbmc["proved"], cbmc["properties"]),
-        (cbmc["negative"]["refuted"], cbmc["negative"]["bodies"]),
+        (gappa["proved"], gappa["goals"]),
+        (bodies["refuted"] + bounds["refused"], bodies["bodies"] + bounds["bounds"]),
     ]
 
 

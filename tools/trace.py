@@ -34,6 +34,7 @@ ROOT = Path(__file__).resolve().parents[1]
 LABEL = r"[A-Z]{3,4}_\d{3}(?:_\w+)?"
 KEYWORD = r"\b(?:ensures|lemma|assert|check|invariant)"
 CLAUSE = re.compile(rf"{KEYWORD}\s+({LABEL})\s*(?:\{{[^}}]*\}})?\s*:")
+BOUND = re.compile(rf"\|({LABEL})\| <= ")
 ASSERTION = re.compile(rf'"({LABEL})[:"]')
 TEST = re.compile(r"\bRUN_TEST\((\w+)\)")
 REFERENCE = re.compile(rf'"({LABEL})"')
@@ -106,6 +107,7 @@ def join(root: Path) -> Trace:
             trace.orphans.append(f"{entry.uid}: two requirements have this id")
         trace.requirements[entry.uid] = entry
     clauses = collect(root, CLAUSE, "include/**/*.h", "proofs/*/*.c")
+    clauses += collect(root, BOUND, "proofs/*/*.g")
     assertions = collect(root, ASSERTION, "proofs/*/*.[ch]")
     tests = collect(root, TEST, "tests/unit/*.c", "tests/bsp/*.c")
     tests += collect(root, REFERENCE, "tests/reference/*.cpp")

@@ -23,7 +23,9 @@ static bool valid_here(const keel_oversample_t *o)
 {
     return (o->factor > 0u) && (o->count <= o->runs) && ((-0x1p30f * (float)o->count) <= o->sum) &&
            (o->sum <= (0x1p30f * (float)o->count)) && in_range(o->least) && in_range(o->most) &&
-           ((o->count == 0u) || (o->least <= o->most));
+           ((o->count > 0u)
+                ? (o->least <= o->most)
+                : ((o->least == KEEL_OVERSAMPLE_RANGE) && (o->most == -KEEL_OVERSAMPLE_RANGE)));
 }
 
 static keel_oversample_t any_oversample(void)

@@ -40,6 +40,19 @@ static bool initial_valid_here(const keel_voter_config_t *c)
     return finite_here(c->initial) && (c->lowest <= c->initial) && (c->initial <= c->highest);
 }
 
+/* voter_healthy */
+static bool healthy_here(const keel_voter_config_t *c, const keel_voter_sensor_t *s)
+{
+    return (s->null < c->latch_count) &&
+           ((c->density_limit == 0u) || (s->density < c->density_limit));
+}
+
+/* n a of a valid configuration */
+static bool none_valid_here(float agree, float none)
+{
+    return (agree < none) && (none <= KEEL_VOTER_RANGE);
+}
+
 static keel_voter_config_t any_voter_config(void)
 {
     keel_voter_config_t c;
@@ -90,9 +103,12 @@ static void any_voter(keel_voter_t *voter, float agree, float none)
     voter->vote.held = nondet_u32();
     voter->vote.held_us = nondet_u32();
     voter->vote.state = nondet_u8();
+    voter->vote.contributing = nondet_u8();
     for (uint32_t i = 0u; i < SENSORS; i++) {
         voter->sensor[i] = any_sensor();
         __CPROVER_assume(finite_here(voter->sensor[i].last));
+        __CPROVER_assume(voter->sensor[i].latched ||
+                         healthy_here(&voter->config, &voter->sensor[i]));
         voter->vote.weight[i] = nondet_float();
         voter->vote.reason[i] = nondet_u8();
     }
@@ -130,42 +146,6 @@ static uint8_t reason_of(const keel_voter_config_t *config, const keel_voter_sen
         return KEEL_VOTER_STALE;
     }
     return KEEL_VOTER_USED;
-}
-
-/* Samples for a vote as a whole: NaN, infinities, implausible ones of either sign, and plausible
- * ones whose distances are 0, within a, between a and n a, n a, and beyond (a = 1, n = 3). The
- * solver goes through their quotients case by case. What holds of all floats is proved of
- * agreement, weight and mean one by one. */
-static float any_plausible(void)
-{
-    const uint32_t choice = nondet_u32() & 3u;
-
-    return (choice == 0u) ? 0.0f : ((choice == 1u) ? 0.5f : ((choice == 2u) ? 2.0f : 3.5f));
-}
-
-static float any_exemplar(void)
-{
-    const uint32_t choice = nondet_u32() & 7u;
-    const float none = nondet_float();
-
-    __CPROVER_assume(none != none);
-    if (choice >= 4u) {
-        return any_plausible();
-    }
-    return (choice == 0u) ? none
-                          : ((choice == 1u) ? __builtin_inff() : ((choice == 2u) ? 5.0f : -5.0f));
-}
-
-/* Narrows a channel and its samples so. */
-static void narrow_voter(keel_voter_t *voter, keel_voter_sample_t sample[SENSORS])
-{
-    voter->config.lowest = -4.0f;
-    voter->config.highest = 3.75f;
-    voter->vote.output = any_plausible();
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        voter->sensor[i].last = any_plausible();
-        sample[i].value = any_exemplar();
-    }
 }
 
 #endif

@@ -17,8 +17,12 @@ void keel_oversample_add_harness(void)
     __CPROVER_assert(valid_here(&o), "OVS_002_valid: it stays valid");
     __CPROVER_assert(o.runs == ((before.runs < UINT16_MAX) ? (before.runs + 1) : UINT16_MAX),
                      "OVS_002_runs: the run is counted");
-    __CPROVER_assert((status == KEEL_OK) == (in_range(value) && (before.runs < UINT16_MAX)),
+    __CPROVER_assert((status == KEEL_ERR_FULL) == (before.runs == UINT16_MAX),
+                     "OVS_003_full: no more than 65535 runs");
+    __CPROVER_assert((status == KEEL_ERR_VALUE) == (!in_range(value) && (before.runs < UINT16_MAX)),
                      "OVS_003_value: just the samples in range are taken");
+    __CPROVER_assert((status == KEEL_OK) || (status == KEEL_ERR_FULL) || (status == KEEL_ERR_VALUE),
+                     "OVS_003_status: there is no other reason");
     if (status == KEEL_OK) {
         __CPROVER_assert(((uint32_t)o.count == (before.count + 1u)) &&
                              (o.sum == (before.sum + value)),

@@ -1,6 +1,6 @@
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/pid.c src/flight/filter.c
-// covers: keel_pid_reset clamp
+// covers: keel_pid_reset
 #include "../common/keel_pid_proof.h"
 
 void keel_pid_reset_harness(void)

@@ -1,6 +1,6 @@
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/pid.c src/flight/filter.c
-// covers: keel_pid_set_gains direct_terms are_gains is_gain clamp
+// covers: keel_pid_set_gains direct_terms are_gains is_gain
 #include "../common/keel_pid_proof.h"
 
 void keel_pid_set_gains_harness(void)

@@ -1,6 +1,6 @@
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/pid.c src/flight/filter.c
-// covers: keel_pid_step differentiate integrate winds_up put_out direct_terms clamp is_input
+// covers: keel_pid_step differentiate winds_up put_out limit_reached direct_terms is_input
 //
 // Any valid controller, any bit pattern for both inputs: one step of the induction that keeps the
 // output and the integral within their limits.

@@ -9,8 +9,11 @@ void keel_virtual_imu_init_harness(void)
 {
     keel_virtual_imu_t imu;
     keel_imu_config_t config;
+    const uint32_t i = nondet_u32();
+    keel_status_t expected;
     keel_status_t status;
 
+    __CPROVER_assume(i < SENSORS);
     config.accelerometer = any_voter_config();
     config.gyroscope = any_voter_config();
     imu.used[0] = nondet_u8();
@@ -19,7 +22,17 @@ void keel_virtual_imu_init_harness(void)
     const uint8_t used = imu.used[0];
     const uint32_t held = imu.channel[5].vote.held;
 
+    expected = keel_voter_check(&config.accelerometer);
+    if (expected == KEEL_OK) {
+        expected = keel_voter_check(&config.gyroscope);
+    }
+    if ((expected == KEEL_OK) && (config.accelerometer.sensors != config.gyroscope.sensors)) {
+        expected = KEEL_ERR_SENSORS;
+    }
+
     status = keel_virtual_imu_init(&imu, &config);
+
+    __CPROVER_assert(status == expected, "IMU_001_status: the first reason to refuse, or none");
 
     if (status == KEEL_OK) {
         __CPROVER_assert(agreement_valid_here(&config.accelerometer) &&
@@ -32,8 +45,8 @@ void keel_virtual_imu_init_harness(void)
                              (imu.channel[2].config.lowest == config.accelerometer.lowest) &&
                              (imu.channel[3].config.agree == config.gyroscope.agree) &&
                              (imu.channel[5].config.lowest == config.gyroscope.lowest) &&
-                             (imu.channel[5].vote.held == 0u) && (imu.used[0] == 0u) &&
-                             (imu.latched[1] == 0u),
+                             (imu.channel[5].vote.held == 0u) && (imu.used[i] == 0u) &&
+                             (imu.latched[i] == 0u),
                          "IMU_001_ready: each channel has its configuration");
     } else {
         __CPROVER_assert((imu.used[0] == used) && (imu.channel[5].vote.held == held) &&

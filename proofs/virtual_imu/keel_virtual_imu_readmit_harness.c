@@ -13,6 +13,7 @@ void keel_virtual_imu_readmit_harness(void)
     bool was = false;
     bool is = false;
     bool other = false;
+    uint8_t before;
     keel_status_t status;
 
     for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
@@ -25,6 +26,7 @@ void keel_virtual_imu_readmit_harness(void)
     imu.latched[0] = nondet_u8();
     imu.latched[1] = nondet_u8();
     other = imu.channel[3].sensor[1].latched;
+    before = imu.latched[0];
 
     status = keel_virtual_imu_readmit(&imu, unit);
 
@@ -35,6 +37,9 @@ void keel_virtual_imu_readmit_harness(void)
     __CPROVER_assert((status == KEEL_ERR_SENSORS) == (unit > 1u), "IMU_004_unknown: no such unit");
     __CPROVER_assert((status == KEEL_OK) == was, "IMU_004_refused: none of its is latched");
     __CPROVER_assert((status != KEEL_OK) || !is, "IMU_004_readmitted: all of its channels are");
+    __CPROVER_assert(((unit != 0u) || (imu.latched[0] == 0u)) &&
+                         ((unit != 1u) || ((imu.latched[1] == 0u) && (imu.latched[0] == before))),
+                     "IMU_004_noted: no channel of it is latched, and others stay");
     __CPROVER_assert((unit == 1u) || (imu.channel[3].sensor[1].latched == other),
                      "IMU_004_frame: the other unit stays");
 }

@@ -1,7 +1,7 @@
 // cbmc: --unwind 7 --external-sat-solver cadical
 // sources: src/middleware/virtual_imu.c src/middleware/voter.c
 // defines: -DKEEL_VOTER_SENSORS=2u
-// covers: keel_virtual_imu_step gather
+// covers: keel_virtual_imu_step note
 //
 // Any unit may be absent, late or latched; the values are fixed, another for each channel, as here
 // it counts which sample goes where. How a channel votes: keel_voter_step's harnesses.
@@ -13,6 +13,7 @@ void keel_virtual_imu_step_harness(void)
 {
     keel_virtual_imu_t imu;
     keel_imu_sample_t sample[2];
+    bool was[KEEL_IMU_CHANNELS][2];
 
     for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
         const keel_voter_config_t config = {1.0f, 3.0f, -9.0f, 9.0f, 0.0f, 5u, 2u, 0u, 0u, 2u};
@@ -26,7 +27,8 @@ void keel_virtual_imu_step_harness(void)
             const keel_voter_sensor_t fresh = {0.0f, 0u, 0u, 0u, false};
 
             imu.channel[k].sensor[i] = fresh;
-            imu.channel[k].sensor[i].latched = nondet_bool();
+            was[k][i] = nondet_bool();
+            imu.channel[k].sensor[i].latched = was[k][i];
             sample[i].value[k] = (float)k;
         }
     }
@@ -52,6 +54,9 @@ void keel_virtual_imu_step_harness(void)
                                  (imu.channel[k].vote.reason[i] == KEEL_VOTER_LATCHED) ||
                                  (imu.channel[k].vote.reason[i] == KEEL_VOTER_MISSING),
                              "IMU_002_absent: an absent unit has no channel");
+            __CPROVER_assert((imu.channel[k].vote.reason[i] == KEEL_VOTER_LATE) ==
+                                 (!was[k][i] && sample[i].present && (sample[i].age_us > 5u)),
+                             "IMU_002_late: a unit's age is that of all its channels");
         }
     }
 }

@@ -35,6 +35,17 @@
   @     v == c * (1 - t) && 0 <= v && w == e * (1 + t * p) && 0 <= w ==>
   @     u * (p + t * p) - e * (1 + t * p) <= 2 * c * (1 + p + t * p);
   @
+  @ // The same as rounded (VOT-017): agreements ph and qh that are off by at most d. r and s are
+  @ // what VOT_017_bound leaves of the products.
+  @ lemma VOT_017_bound: \forall real a, b, x, d, v, w;
+  @     v == (b - a) * (d + x) && 0 <= v && w == (b + a) * (d - x) && 0 <= w ==> a * x <= b * d;
+  @
+  @ lemma VOT_017_perturbed: \forall real c, u, e, p, q, ph, qh, d, r, s;
+  @     u * (p + q) - e * (1 + q) <= 2 * c * (1 + p + q) &&
+  @     r == (u + 2 * c) * d - (u - 2 * c) * (ph - p) && 0 <= r &&
+  @     s == (u + 2 * c + e) * d - (u - 2 * c - e) * (qh - q) && 0 <= s ==>
+  @     u * (ph + qh) - e * (1 + qh) <= 2 * c * (1 + ph + qh) + (2 * u + 4 * c + e) * d;
+  @
   @ // A c for n = 3.
   @ lemma VOT_015_three: (3 + 2 * 0.5) * (3 + 2 * 0.5) <= 4 * 0.5 * (3 * 3 - 1);
   @*/

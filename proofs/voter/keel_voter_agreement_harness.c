@@ -3,7 +3,7 @@
 // covers: keel_voter_agreement
 //
 // Every a and n a that a configuration may give, every finite distance.
-#include "../common/voter_proof.h"
+#include "../common/voter_contracts.h"
 
 void keel_voter_agreement_harness(void)
 {
@@ -12,9 +12,7 @@ void keel_voter_agreement_harness(void)
     const float distance = nondet_float();
     float s;
 
-    __CPROVER_assume((KEEL_VOTER_AGREE_MIN <= agree) && (agree <= KEEL_VOTER_AGREE_MAX));
-    __CPROVER_assume((agree < none) && (none <= KEEL_VOTER_RANGE));
-    __CPROVER_assume((0.0f <= distance) && finite_here(distance));
+    __CPROVER_assume(keel_voter_agreement_may(distance, agree, none));
 
     s = keel_voter_agreement(distance, agree, none);
 
@@ -25,6 +23,7 @@ void keel_voter_agreement_harness(void)
         __CPROVER_assert(s == 0.0f, "VOT_003_none: 0 from n a on");
     } else {
         __CPROVER_assert(s > 0.0f, "VOT_003_some: not 0 before n a");
-        __CPROVER_assert(s >= 0x1p-24f, "VOT_003_least: nor too small to divide by");
     }
+    __CPROVER_assert(keel_voter_agreement_does(s, distance, agree, none),
+                     "VOT_003_least: nor too small to divide by");
 }

@@ -1,6 +1,6 @@
 // cbmc: --external-sat-solver cadical
 // sources: src/middleware/voter.c
-// covers: keel_voter_check is_cutoff_valid is_above is_within
+// covers: keel_voter_check is_cutoff_valid is_above
 #include "../common/voter_proof.h"
 
 void keel_voter_check_harness(void)

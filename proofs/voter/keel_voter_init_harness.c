@@ -17,6 +17,8 @@ void keel_voter_init_harness(void)
 
     status = keel_voter_init(&voter, &config);
 
+    __CPROVER_assert(status == keel_voter_check(&config),
+                     "VOT_002_refused: for the reason that the check gives");
     if (status == KEEL_OK) {
         __CPROVER_assert(agreement_valid_here(&config) && limits_valid_here(&config) &&
                              initial_valid_here(&config) && (config.latch_count > 0u),
@@ -36,13 +38,16 @@ void keel_voter_init_harness(void)
                              (voter.none > voter.config.agree) && (voter.none <= KEEL_VOTER_RANGE),
                          "VOT_002_ready: n a");
         __CPROVER_assert((voter.vote.output == config.initial) && (voter.vote.held == 0u) &&
-                             (voter.vote.held_us == 0u) && (voter.vote.state == KEEL_VOTER_NONE),
+                             (voter.vote.held_us == 0u) && (voter.vote.state == KEEL_VOTER_NONE) &&
+                             (voter.vote.contributing == 0u),
                          "VOT_002_output: the initial output");
         __CPROVER_assert(!voter.sensor[i].latched && (voter.sensor[i].null == 0u) &&
                              (voter.sensor[i].density == 0u) && (voter.sensor[i].same == 0u) &&
                              (voter.sensor[i].last == config.initial) &&
                              (voter.vote.weight[i] == 0.0f) && (voter.vote.reason[i] == 0u),
                          "VOT_002_fresh: nothing is remembered");
+        __CPROVER_assert(healthy_here(&voter.config, &voter.sensor[i]),
+                         "VOT_002_healthy: below its counts");
     } else {
         __CPROVER_assert((voter.config.agree == before.config.agree) &&
                              (voter.config.sensors == before.config.sensors) &&

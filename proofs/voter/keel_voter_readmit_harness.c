@@ -30,6 +30,8 @@ void keel_voter_readmit_harness(void)
         __CPROVER_assert(voter.sensor[sensor].last == before.sensor[sensor].last,
                          "VOT_014_last: what it last said is kept");
     }
+    __CPROVER_assert(voter.sensor[i].latched || healthy_here(&voter.config, &voter.sensor[i]),
+                     "VOT_014_healthy: below its counts, or latched");
     __CPROVER_assert(((status == KEEL_OK) && (i == sensor)) ||
                          sensor_same(&voter.sensor[i], &before.sensor[i]),
                      "VOT_014_frame: other sensors, and all in a refusal, stay");

@@ -1,10 +1,20 @@
-# The rounding of eq. 18 in single precision for N = 3 (requirement VOT-016).
+# goals: 6
+# rounds: proofs/common/voter_mean.h mean_of_three
 #
-# Each weighted sample carries the errors of its product and of at most two additions (the first
-# addition, to 0, is exact), the sum of the weights those of two additions, and the quotient its
-# own: relative errors e of at most 2^-24 each, unless a product is subnormal (excluded in the requirement).
-# The exact mean of the magnitudes is at most X, so the mean differs by at most X times the factor's
-# distance from 1. A unit in the last place of X is more than 2^-24 X, so that is below seven of them.
-f = (1 + p) * (1 + s1) * (1 + s2) * (1 + q) / ((1 + w1) * (1 + w2)) - 1;
-{ |p| <= 0x1p-24 /\ |s1| <= 0x1p-24 /\ |s2| <= 0x1p-24 /\ |q| <= 0x1p-24 /\
-  |w1| <= 0x1p-24 /\ |w2| <= 0x1p-24 -> |f| <= 0x6.0001p-24 }
+# The rounding of eq. 18 in single precision for three sensors (requirement VOT-016).
+#
+# Each operation of mean_of_three is exact but for a factor 1 + e, |e| <= 2^-24 (specs/soundness.md).
+# A weighted sample gathers the factors of its product, of the additions that follow and of the
+# quotient; a weight those of its additions, by which the quotient is divided. There is a goal for
+# each way that a sample and a weight can go.
+VOT_016_p0_v1 = (1 + p0) * (1 + s1) * (1 + s2) * (1 + q) / ((1 + v1) * (1 + v2)) - 1;
+VOT_016_p0_v2 = (1 + p0) * (1 + s1) * (1 + s2) * (1 + q) / (1 + v2) - 1;
+VOT_016_p1_v1 = (1 + p1) * (1 + s1) * (1 + s2) * (1 + q) / ((1 + v1) * (1 + v2)) - 1;
+VOT_016_p1_v2 = (1 + p1) * (1 + s1) * (1 + s2) * (1 + q) / (1 + v2) - 1;
+VOT_016_p2_v1 = (1 + p2) * (1 + s2) * (1 + q) / ((1 + v1) * (1 + v2)) - 1;
+VOT_016_p2_v2 = (1 + p2) * (1 + s2) * (1 + q) / (1 + v2) - 1;
+{ |p0| <= 0x1p-24 /\ |p1| <= 0x1p-24 /\ |p2| <= 0x1p-24 /\ |s1| <= 0x1p-24 /\ |s2| <= 0x1p-24 /\
+  |v1| <= 0x1p-24 /\ |v2| <= 0x1p-24 /\ |q| <= 0x1p-24
+  -> |VOT_016_p0_v1| <= 0x6.0001p-24 /\ |VOT_016_p0_v2| <= 0x6.0001p-24 /\
+     |VOT_016_p1_v1| <= 0x6.0001p-24 /\ |VOT_016_p1_v2| <= 0x6.0001p-24 /\
+     |VOT_016_p2_v1| <= 0x6.0001p-24 /\ |VOT_016_p2_v2| <= 0x6.0001p-24 }

@@ -1,5 +1,7 @@
 #include "keel/flight/filter.h"
 
+#include "keel/middleware/range.h"
+
 #include <stdbool.h>
 
 /*@ assigns \nothing;
@@ -7,7 +9,7 @@
   @*/
 static bool is_sample(float value)
 {
-    return (value >= -KEEL_FILTER_INPUT_LIMIT) && (value <= KEEL_FILTER_INPUT_LIMIT);
+    return keel_range_contains(value, -KEEL_FILTER_INPUT_LIMIT, KEEL_FILTER_INPUT_LIMIT);
 }
 
 /* tan(pi ratio) for a ratio up to 1/4: the continued fraction of the tangent to its fifth term,
@@ -41,7 +43,7 @@ static void set_coefficients(keel_filter_t *filter, float ratio)
 
 keel_status_t keel_filter_init(keel_filter_t *filter, float rate_hz, float cutoff_hz)
 {
-    if (!((rate_hz >= KEEL_FILTER_RATE_MIN_HZ) && (rate_hz <= KEEL_FILTER_RATE_MAX_HZ))) {
+    if (!keel_range_contains(rate_hz, KEEL_FILTER_RATE_MIN_HZ, KEEL_FILTER_RATE_MAX_HZ)) {
         return KEEL_ERR_RATE;
     }
     if (!((cutoff_hz >= (rate_hz * KEEL_FILTER_RATIO_MIN)) && (cutoff_hz < (rate_hz * 0.5f)))) {

@@ -1,11 +1,13 @@
 #include "keel/flight/pid.h"
 
+#include "keel/middleware/range.h"
+
 /*@ assigns \nothing;
   @ ensures \result <==> pid_gain(gain);
   @*/
 static bool is_gain(float gain)
 {
-    return (gain >= 0.0f) && (gain <= KEEL_PID_GAIN_LIMIT);
+    return keel_range_contains(gain, 0.0f, KEEL_PID_GAIN_LIMIT);
 }
 
 /*@ requires \valid_read(gains);
@@ -22,7 +24,7 @@ static bool are_gains(const keel_pid_gains_t *gains)
   @*/
 static bool is_limit(float value)
 {
-    return (value >= -KEEL_PID_OUTPUT_LIMIT) && (value <= KEEL_PID_OUTPUT_LIMIT);
+    return keel_range_contains(value, -KEEL_PID_OUTPUT_LIMIT, KEEL_PID_OUTPUT_LIMIT);
 }
 
 /*@ requires \valid_read(config);
@@ -42,22 +44,7 @@ static bool are_limits(const keel_pid_config_t *config)
   @*/
 static bool is_input(float value)
 {
-    return (value >= -KEEL_PID_INPUT_LIMIT) && (value <= KEEL_PID_INPUT_LIMIT);
-}
-
-/*@ requires \is_finite(value) && \is_finite(least) && \is_finite(greatest) && least <= greatest;
-  @ assigns \nothing;
-  @ ensures pid_within(\result, least, greatest);
-  @ ensures least <= value <= greatest ==> \result == value;
-  @ ensures value < least ==> \result == least;
-  @ ensures value > greatest ==> \result == greatest;
-  @*/
-static float clamp(float value, float least, float greatest)
-{
-    if (value > greatest) {
-        return greatest;
-    }
-    return (value < least) ? least : value;
+    return keel_range_contains(value, -KEEL_PID_INPUT_LIMIT, KEEL_PID_INPUT_LIMIT);
 }
 
 /* All terms of eq. 4 but the integral. */
@@ -95,7 +82,7 @@ void keel_pid_reset(keel_pid_t *pid)
     pid->setpoint = 0.0f;
     pid->error = 0.0f;
     pid->derivative = 0.0f;
-    pid->output = clamp(0.0f, pid->config.output_min, pid->config.output_max);
+    pid->output = keel_range_clamp(0.0f, pid->config.output_min, pid->config.output_max);
     pid->saturation = KEEL_PID_FREE;
     pid->started = false;
 }
@@ -110,8 +97,8 @@ keel_status_t keel_pid_set_gains(keel_pid_t *pid, const keel_pid_gains_t *gains)
     }
     before = direct_terms(&pid->config.gains, pid->setpoint, pid->error, pid->derivative);
     after = direct_terms(gains, pid->setpoint, pid->error, pid->derivative);
-    pid->integral = clamp(pid->integral + (before - after), pid->config.integral_min,
-                          pid->config.integral_max);
+    pid->integral = keel_range_clamp(pid->integral + (before - after), pid->config.integral_min,
+                                     pid->config.integral_max);
     pid->config.gains = *gains;
     pid->integral_gain = gains->ki / pid->config.rate_hz;
     return KEEL_OK;
@@ -131,51 +118,53 @@ static keel_status_t differentiate(keel_pid_t *pid, float error)
     return status;
 }
 
-/*@ requires \valid_read(pid) && pid_limits(pid->config);
-  @ requires \is_finite(output) && \is_finite(moved) && \is_finite(pid->integral);
+/*@ requires \valid_read(config) && \is_finite(output) && pid_limits(*config);
   @ assigns \nothing;
-  @ ensures \result <==> (output > pid->config.output_max && moved > pid->integral) ||
-  @     (output < pid->config.output_min && moved < pid->integral);
+  @ ensures \result == KEEL_PID_AT_MAX <==> output > config->output_max;
+  @ ensures \result == KEEL_PID_AT_MIN <==> output < config->output_min;
+  @ ensures \result == KEEL_PID_FREE <==>
+  @     pid_within(output, config->output_min, config->output_max);
   @*/
-static bool winds_up(const keel_pid_t *pid, float output, float moved)
+static keel_pid_saturation_t limit_reached(const keel_pid_config_t *config, float output)
 {
-    return ((output > pid->config.output_max) && (moved > pid->integral)) ||
-           ((output < pid->config.output_min) && (moved < pid->integral));
-}
-
-/* The output before it is limited. The integral moves, but not further in the direction in which
- * the output is beyond a limit. */
-static float integrate(keel_pid_t *pid, float direct, float error)
-{
-    const float moved = clamp(pid->integral + (pid->integral_gain * error),
-                              pid->config.integral_min, pid->config.integral_max);
-    const float output = direct + moved;
-
-    if (winds_up(pid, output, moved)) {
-        return direct + pid->integral;
+    if (output > config->output_max) {
+        return KEEL_PID_AT_MAX;
     }
-    pid->integral = moved;
-    return output;
+    return (output < config->output_min) ? KEEL_PID_AT_MIN : KEEL_PID_FREE;
 }
 
-/*@ requires \valid(pid) && \is_finite(output) && pid_limits(pid->config);
-  @ assigns pid->saturation, pid->output;
-  @ ensures pid_within(pid->output, pid->config.output_min, pid->config.output_max);
-  @ ensures pid->saturation == KEEL_PID_AT_MAX ==> pid->output == pid->config.output_max;
-  @ ensures pid->saturation == KEEL_PID_AT_MIN ==> pid->output == pid->config.output_min;
-  @ ensures pid->saturation == KEEL_PID_FREE ==> pid->output == output;
+/*@ requires \is_finite(from) && \is_finite(to);
+  @ assigns \nothing;
+  @ ensures \result <==> (at == KEEL_PID_AT_MAX && to > from) ||
+  @     (at == KEEL_PID_AT_MIN && to < from);
   @*/
-static void put_out(keel_pid_t *pid, float output)
+static bool winds_up(keel_pid_saturation_t at, float from, float to)
 {
-    pid->saturation = KEEL_PID_FREE;
+    return ((at == KEEL_PID_AT_MAX) && (to > from)) || ((at == KEEL_PID_AT_MIN) && (to < from));
+}
+
+/* The integral moves, but not further in the direction in which the output is beyond a limit. */
+static void put_out(keel_pid_t *pid, float direct, float error)
+{
+    const float moved = keel_range_clamp(pid->integral + (pid->integral_gain * error),
+                                         pid->config.integral_min, pid->config.integral_max);
+    float output = direct + moved;
+    keel_pid_saturation_t at = limit_reached(&pid->config, output);
+
+    if (winds_up(at, pid->integral, moved)) {
+        output = direct + pid->integral;
+        at = limit_reached(&pid->config, output);
+    } else {
+        pid->integral = moved;
+    }
+    pid->saturation = at;
     pid->output = output;
-    if (output > pid->config.output_max) {
-        pid->saturation = KEEL_PID_AT_MAX;
+    if (at == KEEL_PID_AT_MAX) {
         pid->output = pid->config.output_max;
-    }
-    if (output < pid->config.output_min) {
-        pid->saturation = KEEL_PID_AT_MIN;
+    } else if (at == KEEL_PID_AT_MIN) {
         pid->output = pid->config.output_min;
+    } else {
+        /* As it is. */
     }
 }
 
@@ -192,7 +181,7 @@ keel_status_t keel_pid_step(keel_pid_t *pid, float setpoint, float measurement)
         return KEEL_ERR_INPUT;
     }
     direct = direct_terms(&pid->config.gains, setpoint, error, pid->derivative);
-    put_out(pid, integrate(pid, direct, error));
+    put_out(pid, direct, error);
     pid->setpoint = setpoint;
     pid->error = error;
     pid->started = true;

@@ -1,12 +1,16 @@
 #include "keel/middleware/oversample.h"
 
+#include "keel/middleware/range.h"
+
 #include <stdbool.h>
 
 /* Nothing is in the sum. */
 /*@ requires \valid(oversample);
   @ assigns oversample->sum, oversample->least, oversample->most, oversample->count,
   @         oversample->runs;
-  @ ensures oversample->count == 0 && oversample->runs == 0;
+  @ ensures oversample->count == 0 && oversample->runs == 0 && oversample->sum == 0;
+  @ ensures oversample->least == KEEL_OVERSAMPLE_RANGE;
+  @ ensures oversample->most == -KEEL_OVERSAMPLE_RANGE;
   @*/
 static void begin(keel_oversample_t *oversample)
 {
@@ -31,14 +35,11 @@ keel_status_t keel_oversample_init(keel_oversample_t *oversample, uint16_t facto
 
 keel_status_t keel_oversample_add(keel_oversample_t *oversample, float value)
 {
-    /* False for NaN, too. */
-    const bool good = (value >= -KEEL_OVERSAMPLE_RANGE) && (value <= KEEL_OVERSAMPLE_RANGE);
-
     if (oversample->runs == UINT16_MAX) {
         return KEEL_ERR_FULL;
     }
     oversample->runs++;
-    if (!good) {
+    if (!keel_range_contains(value, -KEEL_OVERSAMPLE_RANGE, KEEL_OVERSAMPLE_RANGE)) {
         return KEEL_ERR_VALUE;
     }
     oversample->sum += value;
@@ -63,10 +64,8 @@ keel_status_t keel_oversample_take(keel_oversample_t *oversample, float *mean)
     const bool some = oversample->count > 0u;
 
     if (some) {
-        const float exact = oversample->sum / (float)oversample->count;
-        const float above = (exact > oversample->least) ? exact : oversample->least;
-
-        *mean = (above < oversample->most) ? above : oversample->most;
+        *mean = keel_range_clamp(oversample->sum / (float)oversample->count, oversample->least,
+                                 oversample->most);
     }
     oversample->missed = add_excess(oversample->missed, oversample->factor, oversample->runs);
     oversample->extra = add_excess(oversample->extra, oversample->runs, oversample->factor);

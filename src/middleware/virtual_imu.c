@@ -27,20 +27,22 @@ keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu, const keel_imu_conf
     return KEEL_OK;
 }
 
-/* Gathers the verdicts of all channels on one unit. */
-static void gather(keel_virtual_imu_t *imu, uint32_t unit)
+/* Notes the verdicts of a channel's last vote. Of a sensor that contributed there is none. */
+static void note(keel_virtual_imu_t *imu, uint32_t channel)
 {
-    uint32_t used = 0u;
-    uint32_t latched = 0u;
+    const keel_voter_t *const voter = &imu->channel[channel];
+    const uint32_t bit = 1u << channel;
 
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
-        const keel_voter_t *const channel = &imu->channel[k];
-
-        used |= (channel->vote.reason[unit] == KEEL_VOTER_USED) ? (1u << k) : 0u;
-        latched |= channel->sensor[unit].latched ? (1u << k) : 0u;
+    if (voter->vote.contributing < voter->config.sensors) {
+        for (uint32_t i = 0u; i < voter->config.sensors; i++) {
+            if (voter->vote.reason[i] != KEEL_VOTER_USED) {
+                imu->used[i] = (uint8_t)(imu->used[i] & ~bit);
+            }
+            if (voter->sensor[i].latched) {
+                imu->latched[i] = (uint8_t)(imu->latched[i] | bit);
+            }
+        }
     }
-    imu->used[unit] = (uint8_t)used;
-    imu->latched[unit] = (uint8_t)latched;
 }
 
 void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_imu_sample_t sample[],
@@ -52,15 +54,15 @@ void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_imu_sample_t samp
     for (uint32_t i = 0u; i < units; i++) {
         one[i].age_us = sample[i].age_us;
         one[i].present = sample[i].present;
+        imu->used[i] = KEEL_IMU_ALL;
+        imu->latched[i] = 0u;
     }
     for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
         for (uint32_t i = 0u; i < units; i++) {
             one[i].value = sample[i].value[k];
         }
         keel_voter_step(&imu->channel[k], one, elapsed_us);
-    }
-    for (uint32_t i = 0u; i < units; i++) {
-        gather(imu, i);
+        note(imu, k);
     }
 }
 

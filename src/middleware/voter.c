@@ -1,13 +1,6 @@
 #include "keel/middleware/voter.h"
 
-/* The largest finite float. */
-#define LARGEST 0x1.fffffep+127f
-
-/* Comparisons with NaN are false, so this is false for NaN, too. */
-static bool is_within(float value, float lowest, float highest)
-{
-    return (value >= lowest) && (value <= highest);
-}
+#include "keel/middleware/range.h"
 
 static bool is_above(float none, float agree)
 {
@@ -17,7 +10,7 @@ static bool is_above(float none, float agree)
 static bool is_cutoff_valid(const keel_voter_config_t *config)
 {
     /* The factor first: its product with a is then finite. */
-    return is_within(config->cutoff, 1.0f, KEEL_VOTER_RANGE / KEEL_VOTER_AGREE_MIN) &&
+    return keel_range_contains(config->cutoff, 1.0f, KEEL_VOTER_RANGE / KEEL_VOTER_AGREE_MIN) &&
            is_above((config->cutoff * config->agree), config->agree);
 }
 
@@ -26,17 +19,17 @@ keel_status_t keel_voter_check(const keel_voter_config_t *config)
     if ((config->sensors < 2u) || (config->sensors > KEEL_VOTER_SENSORS)) {
         return KEEL_ERR_SENSORS;
     }
-    if (!is_within(config->agree, KEEL_VOTER_AGREE_MIN, KEEL_VOTER_AGREE_MAX)) {
+    if (!keel_range_contains(config->agree, KEEL_VOTER_AGREE_MIN, KEEL_VOTER_AGREE_MAX)) {
         return KEEL_ERR_AGREEMENT;
     }
     if (!is_cutoff_valid(config)) {
         return KEEL_ERR_CUTOFF;
     }
-    if (!is_within(config->lowest, -KEEL_VOTER_RANGE, KEEL_VOTER_RANGE) ||
-        !is_within(config->highest, config->lowest, KEEL_VOTER_RANGE)) {
+    if (!keel_range_contains(config->lowest, -KEEL_VOTER_RANGE, KEEL_VOTER_RANGE) ||
+        !keel_range_contains(config->highest, config->lowest, KEEL_VOTER_RANGE)) {
         return KEEL_ERR_LIMITS;
     }
-    if (!is_within(config->initial, config->lowest, config->highest)) {
+    if (!keel_range_contains(config->initial, config->lowest, config->highest)) {
         return KEEL_ERR_INITIAL;
     }
     if (config->max_age_us == 0u) {
@@ -58,6 +51,7 @@ keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *co
     voter->vote.held = 0u;
     voter->vote.held_us = 0u;
     voter->vote.state = KEEL_VOTER_NONE;
+    voter->vote.contributing = 0u;
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         voter->sensor[i].last = config->initial;
         voter->sensor[i].same = 0u;
@@ -88,13 +82,17 @@ float keel_voter_weight(const float agreement[], uint32_t others)
     return total / (float)others;
 }
 
+float keel_voter_mean(float sum, float weights, float least, float most)
+{
+    return keel_range_clamp(sum / weights, least, most);
+}
+
 float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[], uint32_t sensors)
 {
     float sum = 0.0f;
     float weights = 0.0f;
     float least = KEEL_VOTER_RANGE;
     float most = -KEEL_VOTER_RANGE;
-    float mean;
 
     for (uint32_t i = 0u; i < sensors; i++) {
         if (weight[i] > 0.0f) {
@@ -106,9 +104,7 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
             most = (value > most) ? value : most;
         }
     }
-    mean = sum / weights;
-    mean = (mean > least) ? mean : least;
-    return (mean < most) ? mean : most;
+    return keel_voter_mean(sum, weights, least, most);
 }
 
 /*@ assigns \nothing;
@@ -119,40 +115,15 @@ static uint16_t one_more(uint16_t value)
     return (value < UINT16_MAX) ? (uint16_t)(value + 1u) : value;
 }
 
-/* Whether a sample can be compared with others at all. */
-static bool is_readable(const keel_voter_sensor_t *sensor, const keel_voter_sample_t *sample)
-{
-    return !sensor->latched && sample->present && is_within(sample->value, -LARGEST, LARGEST);
-}
+/* What the usable samples of a vote have in common. */
+typedef struct survey {
+    uint32_t usable; /* How many there are. */
+    float sum;       /* Of their values. */
+    float least;     /* The smallest; KEEL_VOTER_RANGE when there is none. */
+    float most;      /* The largest; -KEEL_VOTER_RANGE when there is none. */
+} survey_t;
 
-/* Counts the votes in which a sensor alone did not change (VOT-013). That all others changed is
- * asked for, so that one sensor gone wild does not make the others, at rest, look stale. */
-static void watch_changes(keel_voter_t *voter, const keel_voter_sample_t sample[])
-{
-    uint32_t readable = 0u;
-    uint32_t moved = 0u;
-    uint32_t unmoved = 0u;
-
-    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
-        keel_voter_sensor_t *const sensor = &voter->sensor[i];
-
-        if (is_readable(sensor, &sample[i])) {
-            readable++;
-            if (sample[i].value != sensor->last) {
-                moved++;
-                sensor->last = sample[i].value;
-                sensor->same = 0u;
-            } else {
-                unmoved = i;
-            }
-        }
-    }
-    if ((moved > 0u) && ((moved + 1u) == readable)) {
-        voter->sensor[unmoved].same = one_more(voter->sensor[unmoved].same);
-    }
-}
-
-/* Why a sample cannot be used, or KEEL_VOTER_USED (VOT-007). */
+/* Why a sample cannot be used, staleness aside, or KEEL_VOTER_USED (VOT-007). */
 static uint8_t inspect(const keel_voter_config_t *config, const keel_voter_sensor_t *sensor,
                        const keel_voter_sample_t *sample)
 {
@@ -162,33 +133,70 @@ static uint8_t inspect(const keel_voter_config_t *config, const keel_voter_senso
     if (!sample->present) {
         return KEEL_VOTER_MISSING;
     }
-    if (!is_within(sample->value, -LARGEST, LARGEST)) {
-        return KEEL_VOTER_NOT_FINITE;
+    if (!keel_range_contains(sample->value, config->lowest, config->highest)) {
+        return keel_range_contains(sample->value, -KEEL_RANGE_LARGEST, KEEL_RANGE_LARGEST)
+                   ? KEEL_VOTER_OUT_OF_RANGE
+                   : KEEL_VOTER_NOT_FINITE;
     }
-    if (!is_within(sample->value, config->lowest, config->highest)) {
-        return KEEL_VOTER_OUT_OF_RANGE;
-    }
-    if (sample->age_us > config->max_age_us) {
-        return KEEL_VOTER_LATE;
-    }
-    return ((config->stale_count > 0u) && (sensor->same >= config->stale_count)) ? KEEL_VOTER_STALE
-                                                                                 : KEEL_VOTER_USED;
+    return (sample->age_us > config->max_age_us) ? KEEL_VOTER_LATE : KEEL_VOTER_USED;
 }
 
-/* Looks at every sample; how many are usable. */
-static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sample[])
+/* Excludes what has not changed for too long; how many are then no longer usable (VOT-013). */
+static uint32_t exclude_stale(keel_voter_t *voter)
 {
-    uint32_t usable = 0u;
+    uint32_t excluded = 0u;
 
     for (uint32_t i = 0u; i < voter->config.sensors; i++) {
-        const uint8_t reason = inspect(&voter->config, &voter->sensor[i], &sample[i]);
+        if ((voter->vote.reason[i] == KEEL_VOTER_USED) && (voter->config.stale_count > 0u) &&
+            (voter->sensor[i].same >= voter->config.stale_count)) {
+            voter->vote.reason[i] = KEEL_VOTER_STALE;
+            excluded++;
+        }
+    }
+    return excluded;
+}
+
+/* Looks at every sample: whether it is usable, and whether it has changed. The votes in which a
+ * sensor alone did not change are counted (VOT-013). That all others changed is asked for, so that
+ * one sensor gone wild does not make the others, at rest, look stale. */
+static survey_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    const keel_voter_config_t config = voter->config;
+    survey_t survey = {0u, 0.0f, KEEL_VOTER_RANGE, -KEEL_VOTER_RANGE};
+    uint32_t moved = 0u;
+    uint32_t resting = 0u;
+    uint32_t last_resting = 0u;
+
+    for (uint32_t i = 0u; i < config.sensors; i++) {
+        keel_voter_sensor_t *const sensor = &voter->sensor[i];
+        const float value = sample[i].value;
+        const uint8_t reason = inspect(&config, sensor, &sample[i]);
 
         voter->vote.reason[i] = reason;
         if (reason == KEEL_VOTER_USED) {
-            usable++;
+            survey.usable++;
+            survey.sum += value;
+            survey.least = (value < survey.least) ? value : survey.least;
+            survey.most = (value > survey.most) ? value : survey.most;
+        }
+        if ((reason == KEEL_VOTER_USED) || (reason >= KEEL_VOTER_OUT_OF_RANGE)) {
+            if (value != sensor->last) {
+                sensor->last = value;
+                sensor->same = 0u;
+                moved++;
+            } else {
+                resting++;
+                last_resting = i;
+            }
         }
     }
-    return usable;
+    if (resting > 0u) {
+        if ((resting == 1u) && (moved > 0u)) {
+            voter->sensor[last_resting].same = one_more(voter->sensor[last_resting].same);
+        }
+        survey.usable -= exclude_stale(voter);
+    }
+    return survey;
 }
 
 /* The agreement of two usable samples. */
@@ -222,9 +230,9 @@ static void weigh(keel_voter_t *voter, const keel_voter_sample_t sample[], uint3
 }
 
 /* A usable sample without weight was outvoted; how many contribute. */
-static uint32_t find_outvoted(keel_voter_t *voter)
+static uint8_t find_outvoted(keel_voter_t *voter)
 {
-    uint32_t contributing = 0u;
+    uint8_t contributing = 0u;
 
     for (uint32_t i = 0u; i < voter->config.sensors; i++) {
         if (voter->vote.weight[i] > 0.0f) {
@@ -252,7 +260,8 @@ static void conclude(keel_voter_t *voter, const keel_voter_sample_t sample[], ui
 {
     keel_vote_t *const vote = &voter->vote;
 
-    if (find_outvoted(voter) > 0u) {
+    vote->contributing = find_outvoted(voter);
+    if (vote->contributing > 0u) {
         vote->state = (usable == 1u) ? KEEL_VOTER_SINGLE : KEEL_VOTER_MEAN;
         vote->output = keel_voter_combine(sample, vote->weight, voter->config.sensors);
         vote->held = 0u;
@@ -264,54 +273,81 @@ static void conclude(keel_voter_t *voter, const keel_voter_sample_t sample[], ui
     }
 }
 
-/* What a vote means for a sensor that is not latched (VOT-010 to VOT-012). */
+/* A vote to which a sensor contributed (VOT-010, VOT-012). */
+/*@ requires \valid(sensor);
+  @ assigns sensor->null, sensor->density;
+  @ ensures clear: sensor->null == 0;
+  @ ensures leak: sensor->density == \max(\old(sensor->density) - 1, 0);
+  @*/
+static void clear(keel_voter_sensor_t *sensor)
+{
+    sensor->null = 0u;
+    if (sensor->density > 0u) {
+        sensor->density--;
+    }
+}
+
+/* A vote that condemns a sensor (VOT-010 to VOT-012). */
 /*@ requires \valid_read(config) && \valid(sensor) && \separated(config, sensor);
   @ assigns sensor->null, sensor->density, sensor->latched;
+  @ ensures count: sensor->null == \min(\old(sensor->null) + 1, UINT16_MAX);
+  @ ensures fill: sensor->density == \min(\old(sensor->density) + 1, UINT16_MAX);
   @ ensures latch: sensor->latched <==> (sensor->null >= config->latch_count ||
   @     (config->density_limit > 0 && sensor->density >= config->density_limit));
-  @ behavior good:
-  @   assumes reason == KEEL_VOTER_USED;
-  @   ensures clear: sensor->null == 0;
-  @   ensures leak: sensor->density == \max(\old(sensor->density) - 1, 0);
-  @ behavior condemned:
-  @   assumes reason != KEEL_VOTER_USED && (reason != KEEL_VOTER_OUTVOTED || usable > 2);
-  @   ensures count: sensor->null == \min(\old(sensor->null) + 1, UINT16_MAX);
-  @   ensures fill: sensor->density == \min(\old(sensor->density) + 1, UINT16_MAX);
-  @ behavior undecided:
-  @   assumes reason == KEEL_VOTER_OUTVOTED && usable <= 2;
-  @   ensures keep: sensor->null == \old(sensor->null) &&
-  @                 sensor->density == \old(sensor->density);
-  @ complete behaviors;
-  @ disjoint behaviors;
   @*/
-static void judge(const keel_voter_config_t *config, keel_voter_sensor_t *sensor, uint8_t reason,
-                  uint32_t usable)
+static void condemn(const keel_voter_config_t *config, keel_voter_sensor_t *sensor)
 {
-    if (reason == KEEL_VOTER_USED) {
-        sensor->null = 0u;
-        sensor->density = (sensor->density > 0u) ? (uint16_t)(sensor->density - 1u) : 0u;
-    } else if ((reason != KEEL_VOTER_OUTVOTED) || (usable > 2u)) {
-        sensor->null = one_more(sensor->null);
-        sensor->density = one_more(sensor->density);
-    } else {
-        /* Two that disagree: nobody knows which of them is wrong. */
-    }
+    sensor->null = one_more(sensor->null);
+    sensor->density = one_more(sensor->density);
     sensor->latched = (sensor->null >= config->latch_count) ||
                       ((config->density_limit > 0u) && (sensor->density >= config->density_limit));
 }
 
+/* What a vote means for each sensor that was not latched before. */
+static void judge(keel_voter_t *voter, uint32_t usable)
+{
+    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
+        const uint8_t reason = voter->vote.reason[i];
+
+        if (reason == KEEL_VOTER_USED) {
+            clear(&voter->sensor[i]);
+        } else if ((reason >= KEEL_VOTER_MISSING) ||
+                   ((reason == KEEL_VOTER_OUTVOTED) && (usable > 2u))) {
+            condemn(&voter->config, &voter->sensor[i]);
+        } else {
+            /* Latched already, or one of two that disagree: nobody knows which is wrong. */
+        }
+    }
+}
+
+/* All sensors are usable and within a of each other: every weight is 1 (eq. 16, 17), so that the
+ * mean of eq. 18 is the plain one. What weigh, conclude and judge would come to, sooner. */
+static void agree_all(keel_voter_t *voter, const survey_t *survey)
+{
+    keel_vote_t *const vote = &voter->vote;
+
+    vote->state = KEEL_VOTER_MEAN;
+    vote->contributing = voter->config.sensors;
+    vote->output = keel_voter_mean(survey->sum, (float)survey->usable, survey->least, survey->most);
+    vote->held = 0u;
+    vote->held_us = 0u;
+    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
+        vote->weight[i] = 1.0f;
+        clear(&voter->sensor[i]);
+    }
+}
+
 void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us)
 {
-    uint32_t usable;
+    const survey_t survey = inspect_all(voter, sample);
 
-    watch_changes(voter, sample);
-    usable = inspect_all(voter, sample);
-    weigh(voter, sample, usable);
-    conclude(voter, sample, usable, elapsed_us);
-    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
-        if (!voter->sensor[i].latched) {
-            judge(&voter->config, &voter->sensor[i], voter->vote.reason[i], usable);
-        }
+    if ((survey.usable == voter->config.sensors) &&
+        ((survey.most - survey.least) <= voter->config.agree)) {
+        agree_all(voter, &survey);
+    } else {
+        weigh(voter, sample, survey.usable);
+        conclude(voter, sample, survey.usable, elapsed_us);
+        judge(voter, survey.usable);
     }
 }
 

@@ -7,6 +7,7 @@
  * is labelled with its name and the number of steps.
  */
 #include "keel/flight/pid.h"
+#include "keel/middleware/virtual_imu.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -14,10 +15,12 @@
 #include <valgrind/callgrind.h>
 
 #define STEPS      1000u
+#define UNITS      3u
 #define LABEL_SIZE 64u
 
 static keel_filter_t bench_filter;
 static keel_pid_t bench_pid;
+static keel_virtual_imu_t bench_imu;
 
 static void bench_require(int condition, const char *what)
 {
@@ -80,9 +83,51 @@ static void bench_run_pid(void)
     bench_dump("pid");
 }
 
+/* Samples that keep moving: of all units within the distance of full agreement, or with the last
+ * unit's beyond that of none. */
+static void bench_fill(keel_imu_sample_t sample[UNITS], uint32_t n, float offset)
+{
+    for (uint32_t i = 0u; i < UNITS; i++) {
+        sample[i].age_us = 100u;
+        sample[i].present = true;
+        for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+            sample[i].value[k] = (0.2f * bench_signal((3u * n) + (7u * i) + k)) +
+                                 ((i == (UNITS - 1u)) ? offset : 0.0f);
+        }
+    }
+}
+
+static void bench_run_imu(const char *name, float offset, uint8_t contributing)
+{
+    const keel_voter_config_t voter = {.agree = 0.25f,
+                                       .cutoff = 3.0f,
+                                       .lowest = -160.0f,
+                                       .highest = 160.0f,
+                                       .max_age_us = 10000u,
+                                       .latch_count = UINT16_MAX,
+                                       .stale_count = 50u,
+                                       .sensors = UNITS};
+    const keel_imu_config_t config = {voter, voter};
+    keel_imu_sample_t sample[UNITS];
+
+    bench_require(keel_virtual_imu_init(&bench_imu, &config) == KEEL_OK, "virtual IMU");
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        bench_fill(sample, n, offset);
+        CALLGRIND_TOGGLE_COLLECT;
+        keel_virtual_imu_step(&bench_imu, sample, 1000u);
+        CALLGRIND_TOGGLE_COLLECT;
+        for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+            bench_require(bench_imu.channel[k].vote.contributing == contributing, "vote");
+        }
+    }
+    bench_dump(name);
+}
+
 int main(void)
 {
     bench_run_filter();
     bench_run_pid();
+    bench_run_imu("imu", 0.0f, UNITS);
+    bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;
 }

@@ -51,7 +51,7 @@ Channels truth(double t)
     return x;
 }
 
-keel_voter_config_t configuration(int kind)
+keel_voter_config_t configuration(int kind, std::uint16_t density_limit)
 {
     keel_voter_config_t config = {};
 
@@ -62,6 +62,7 @@ keel_voter_config_t configuration(int kind)
     config.max_age_us = 5000u;
     config.latch_count = 100u;
     config.stale_count = 100u;
+    config.density_limit = density_limit;
     config.sensors = units;
     return config;
 }
@@ -88,6 +89,8 @@ void spoil(keel_imu_sample_t &sample, const std::string &fault, int i,
             value += static_cast<float>(a * i / rate_hz);
         } else if (fault == "spike 50a") {
             value += (i % 100 == 0) ? static_cast<float>(50.0 * a) : 0.0f;
+        } else if (fault == "49 of 50 bad") {
+            value += (i % 50 != 0) ? static_cast<float>(10.0 * a) : 0.0f;
         } else if (fault == "noise burst") {
             value += (i < rate_hz / 2) ? static_cast<float>(20.0 * a * normal(generator)) : 0.0f;
         } else if (fault == "non-finite") {
@@ -127,9 +130,11 @@ struct Flight {
     std::string trace;  /* Time and the errors of the angles, with and without the voter. */
 };
 
-Flight fly(const std::string &fault, int unit, double start_s, bool traced)
+Flight fly(const std::string &fault, int unit, double start_s, std::uint16_t density_limit,
+           bool traced)
 {
-    const keel_imu_config_t config = {configuration(0), configuration(1)};
+    const keel_imu_config_t config = {configuration(0, density_limit),
+                                      configuration(1, density_limit)};
     const int start = static_cast<int>(start_s * rate_hz);
     const bool two = fault.rfind("two", 0) == 0;
     std::mt19937_64 generator(static_cast<std::uint64_t>(unit) * 1000u + start);
@@ -213,27 +218,31 @@ Flight fly(const std::string &fault, int unit, double start_s, bool traced)
 
 int main()
 {
-    const std::vector<std::string> faults = {"stuck",     "bias 2a",      "bias 10a",   "drift a/s",
-                                             "spike 50a", "noise burst",  "non-finite", "silence",
-                                             "late",      "two equal 10a"};
+    const std::vector<std::string> faults = {
+        "stuck",       "bias 2a",    "bias 10a", "drift a/s", "spike 50a",    "49 of 50 bad",
+        "noise burst", "non-finite", "silence",  "late",      "two equal 10a"};
     const char *separator = "";
 
     std::printf("{\"bound\": 0.5, \"flights\": [");
-    for (const std::string &fault : faults) {
-        for (int unit = 0; unit < units; unit++) {
-            for (const double start_s : {1.0, 2.7, 5.3, 8.0}) {
-                const Flight f = fly(fault, unit, start_s, false);
+    for (const std::uint16_t density_limit : {0, 100}) {
+        for (const std::string &fault : faults) {
+            for (int unit = 0; unit < units; unit++) {
+                for (const double start_s : {1.0, 2.7, 5.3, 8.0}) {
+                    const Flight f = fly(fault, unit, start_s, density_limit, false);
 
-                std::printf("%s\n  {\"fault\": \"%s\", \"unit\": %d, \"start_s\": %.1f, "
-                            "\"first_latch_s\": %.3f, \"all_latched_s\": %.3f, "
-                            "\"healthy_latched\": %s, \"worst_a\": %.4f}",
-                            separator, fault.c_str(), unit + 1, start_s, f.first_latch_s,
-                            f.all_latched_s, f.healthy_latched ? "true" : "false", f.worst);
-                separator = ",";
+                    std::printf("%s\n  {\"density_limit\": %u, \"fault\": \"%s\", \"unit\": %d, "
+                                "\"start_s\": %.1f, "
+                                "\"first_latch_s\": %.3f, \"all_latched_s\": %.3f, "
+                                "\"healthy_latched\": %s, \"worst_a\": %.4f}",
+                                separator, static_cast<unsigned>(density_limit), fault.c_str(),
+                                unit + 1, start_s, f.first_latch_s, f.all_latched_s,
+                                f.healthy_latched ? "true" : "false", f.worst);
+                    separator = ",";
+                }
             }
         }
     }
-    const Flight f = fly("stuck", 2, 8.0, true);
+    const Flight f = fly("stuck", 2, 8.0, 0u, true);
 
     std::printf("],\n \"figure14\": {\"first_latch_s\": %.3f, \"all_latched_s\": %.3f, "
                 "\"trace\": [\n    %s]}}\n",

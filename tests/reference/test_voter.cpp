@@ -120,11 +120,17 @@ static bool influence_is_bounded(bool wild)
         const Real output = voter.vote.output;
         const Real excess = std::fmax(output - std::fmax(x, y),
                                       static_cast<Real>(std::fmin(x, y)) - output);
-        /* A weight has at most seven roundings, which move the mean by their double over the
-         * spread n a; the mean itself has six. Distances are rounded relative to n a's scale. */
-        const Real room = 7 * u * (std::fabs(x) + n * a) + 16 * u * n * a / (n - 1);
+        /* VOT-017, with the n that the channel has: its n a is rounded. */
+        const Real n_ = voter.none / static_cast<Real>(a);
+        const Real c = influence(n_);
+        const bool three = voter.vote.weight[at] > 0.0f;
+        const Real largest = std::fmax(std::fmax(std::fabs(x), std::fabs(y)),
+                                       three ? std::fabs(z) : 0.0f);
+        const Real room = u *
+                          ((4.01L * n_ * (n_ + 2 * c + 0.5L) / (n_ - 1) + 1.01L * (n_ + 1)) * a +
+                           6.01L * largest);
 
-        if (!(excess <= influence(n) * a + room)) {
+        if (!(excess <= c * a + room)) {
             return false;
         }
     }
@@ -166,8 +172,8 @@ int main()
                 "c(3) is not 1/2");
     suite.check("VOT_003_agreement_of_eq_16", agrees_with_eq16(), "differs from eq. 16");
     suite.check("VOT_016_mean_of_eq_18", mean_is_rounded_as_proved(), "beyond the bound");
-    suite.check("VOT_015_third_nearby", influence_is_bounded(false), "beyond c a");
-    suite.check("VOT_015_third_any_bits", influence_is_bounded(true), "beyond c a");
+    suite.check("VOT_017_third_nearby", influence_is_bounded(false), "beyond c a");
+    suite.check("VOT_017_third_any_bits", influence_is_bounded(true), "beyond c a");
     suite.check("VOT_005_any_bits", any_bit_pattern_gives_a_plausible_output(),
                 "an output that is not plausible");
     return suite.end();

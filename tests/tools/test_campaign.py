@@ -35,6 +35,12 @@ class Table(unittest.TestCase):
         self.assertTrue(lines[1].endswith("within"))
         self.assertTrue(lines[2].endswith("EXCEEDED"))
 
+    def test_flights_are_told_apart_by_the_density_rule(self) -> None:
+        flights = [{**flight("stuck", 0.1, 0.1), "density_limit": limit} for limit in (0, 100, 0)]
+        groups = campaign.by_limit(flights)
+        self.assertEqual([0, 100], list(groups))
+        self.assertEqual([2, 1], [len(group) for group in groups.values()])
+
     def test_two_faulty_units_have_no_bound(self) -> None:
         lines = campaign.table(campaign.by_fault([flight("two equal", -1.0, 10.0)]), 0.5)
         self.assertTrue(lines[1].endswith("outvotes the healthy one"))

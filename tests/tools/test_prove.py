@@ -695,6 +695,33 @@ class Harnesses(TreeTest):
             with self.subTest(text):
                 self.assertEqual(len(harness.text_problems(self.read(text))), 1)
 
+    def test_a_stand_in_has_the_contract_that_is_proved(self) -> None:
+        own = HARNESS.replace("keel_box_put", "keel_box_get").replace(
+            "    int box;", "    __CPROVER_assume(keel_box_get_may(1));"
+        ).replace("box == 7", "keel_box_get_does(7)")  # fmt: skip
+        (self.unit.folder / "keel_box_get_harness.c").write_text(own, encoding="utf-8")
+        stand_in = """
+int keel_box_get_stand_in(int box)
+{
+    __CPROVER_assert(keel_box_get_may(box), "precondition");
+    __CPROVER_assume(keel_box_get_does(box));
+}
+"""
+        text = HARNESS.replace("// covers", "// replaces: keel_box_get\n// covers") + stand_in
+        path = self.unit.folder / "keel_box_put_harness.c"
+
+        def problems(text: str) -> list[str]:
+            path.write_text(text, encoding="utf-8")
+            return harness.text_problems(harness.read_harness(self.unit, path))
+
+        self.assertEqual(problems(text), [])
+        self.assertIn("stand_in lacks", problems(text.replace("assert(keel", "assume(keel"))[0])
+        self.assertIn("is to prove", problems(text.replace("s: keel_box_put", "s: keel_box_get "
+                                                           "keel_box_put"))[0])  # fmt: skip
+        own = own.replace("keel_box_get_may(1)", "true")
+        (self.unit.folder / "keel_box_get_harness.c").write_text(own, encoding="utf-8")
+        self.assertIn("get_harness lacks __CPROVER_assume(", problems(text)[0])
+
     def test_the_very_source_must_be_linked(self) -> None:
         (self.root / "copy.c").write_text(SOURCE, encoding="utf-8")
         read = self.read("// sources: copy.c\n" + HARNESS)
@@ -911,7 +938,7 @@ class WholeRun(TreeTest):
     def test_a_proof(self) -> None:
         status, output, report = self.prove()
         self.assertEqual(status, 0, output)
-        self.assertEqual(output.splitlines()[-1], "proved 5 of 5 goals (WP 4, CBMC 1)")
+        self.assertEqual(output.splitlines()[-1], "proved 5 of 5 goals (WP 4, CBMC 1, Gappa 0)")
         self.assertEqual((report["verdict"], report["goals"], report["proved"]), ("proved", 5, 5))
         self.assertNotIn("partial", report)
         assertion = report["units"]["box"]["cbmc"]["harnesses"]["keel_box_put_harness"][
@@ -933,11 +960,12 @@ class WholeRun(TreeTest):
     def test_an_unproved_goal_fails_each_time(self) -> None:
         goals = {**GOALS, "keel_box_put": {"ensures_BOX_001": "Timeout", "assigns": "Valid"}}
         self.play(goals=goals)
-        self.failing("keel_box_put_ensures_BOX_001 is not", "proved 4 of 5 goals (WP 3, CBMC 1)")
+        last = "proved 4 of 5 goals (WP 3, CBMC 1, Gappa 0)"
+        self.failing("keel_box_put_ensures_BOX_001 is not", last)
 
     def test_a_vanished_goal_fails(self) -> None:
         self.play(goals={**GOALS, "keel_box_put": {"assigns": "Valid"}})
-        self.failing("BOX_001 is listed, but", "proved 4 of 5 goals (WP 3, CBMC 1)")
+        self.failing("BOX_001 is listed, but", "proved 4 of 5 goals (WP 3, CBMC 1, Gappa 0)")
 
     def test_goals_can_be_accepted(self) -> None:
         self.play(goals={**GOALS, "keel_box_put": {"assigns": "Valid"}})
@@ -946,13 +974,13 @@ class WholeRun(TreeTest):
 
     def test_a_missing_list_fails(self) -> None:
         self.unit.goal_list.unlink()
-        self.failing("goals.txt is missing", "proved 5 of 5 goals (WP 4, CBMC 1)")
+        self.failing("goals.txt is missing", "proved 5 of 5 goals (WP 4, CBMC 1, Gappa 0)")
 
     def test_a_wrong_body_that_passes_fails(self) -> None:
         path = self.unit.folder / "wrong" / "zero.toml"
         path.write_text(WRONG, encoding="utf-8")
         self.play(wrong=json.loads(cbmc_output(ASSERTED)))
-        self.failing("does not refute", "proved 5 of 5 goals (WP 4, CBMC 1)")
+        self.failing("does not refute", "proved 5 of 5 goals (WP 4, CBMC 1, Gappa 0)")
 
     def test_a_wrong_body_that_fails_is_refuted(self) -> None:
         path = self.unit.folder / "wrong" / "zero.toml"

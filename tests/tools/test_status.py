@@ -27,11 +27,11 @@ TABLE = """\
 # Title
 
 <!-- status -->
-| unit | WP goals proved | CBMC harnesses | CBMC properties proved | wrong bodies refuted |
-|---|---|---|---|---|
-| `clock` | 48 | 1 | 53 | 0 |
-| `queue` | 282 | 2 | 1189 | 3 |
-| all | 330 | 3 | 1242 | 3 |
+| unit | WP goals proved | CBMC harnesses | CBMC properties | Gappa goals | wrong variants refuted |
+|---|---|---|---|---|---|
+| `clock` | 48 | 1 | 53 | 0 | 0 |
+| `queue` | 282 | 2 | 1189 | 6 | 4 |
+| all | 330 | 3 | 1242 | 6 | 4 |
 
 Every goal and every property is proved.
 <!-- /status -->
@@ -40,7 +40,9 @@ The end.
 """
 
 
-def unit(goals: int, harnesses: int, properties: int, bodies: int) -> dict[str, Any]:
+def unit(
+    goals: int, harnesses: int, properties: int, bodies: int, bounds: int = 0
+) -> dict[str, Any]:
     """A unit of the report of which everything is proved."""
     return {
         "wp": {"goals": goals, "proved": goals, "not_proved_here": {}, "not_by_wp": {}},
@@ -51,12 +53,16 @@ def unit(goals: int, harnesses: int, properties: int, bodies: int) -> dict[str, 
             "negative": {"bodies": bodies, "refuted": bodies},
             "harnesses": {str(number): {"sound": True} for number in range(harnesses)},
         },
+        "gappa": {
+            "goals": bounds, "proved": bounds,
+            "negative": {"bounds": min(bounds, 1), "refused": min(bounds, 1)},
+        },
     }
 
 
 def a_report() -> dict[str, Any]:
     """A report of which everything is proved."""
-    units = {"clock": unit(48, 1, 53, 0), "queue": unit(282, 2, 1189, 3)}
+    units = {"clock": unit(48, 1, 53, 0), "queue": unit(282, 2, 1189, 3, 6)}
     return {"verdict": "proved", "problems": [], "units": units}
 
 
@@ -105,12 +111,13 @@ class StatusTest(unittest.TestCase):
         queue["cbmc"]["harnesses"]["1"]["sound"] = False
         queue["cbmc"]["proved"] = 1188
         queue["cbmc"]["negative"]["refuted"] = 2
+        queue["gappa"]["proved"] = 5
         self.assertEqual(self.run_status(report)[0], 0)
         text = self.readme.read_text(encoding="utf-8")
-        row = "| **280 of 282** | **1 of 2** | **1188 of 1189** | **2 of 3** |\n"
+        row = "| **280 of 282** | **1 of 2** | **1188 of 1189** | **5 of 6** | **3 of 4** |\n"
         self.assertIn(f"| `queue` {row}", text)
-        self.assertIn("| `clock` | 48 | 1 | 53 | 0 |\n", text)
-        row = "| **328 of 330** | **2 of 3** | **1241 of 1242** | **2 of 3** |\n"
+        self.assertIn("| `clock` | 48 | 1 | 53 | 0 | 0 |\n", text)
+        row = "| **328 of 330** | **2 of 3** | **1241 of 1242** | **5 of 6** | **3 of 4** |\n"
         self.assertIn(f"| all {row}", text)
         self.assertIn("**Not everything is proved**: 2 problems.\n", text)
         self.assertNotIn("Every goal", text)

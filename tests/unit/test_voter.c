@@ -190,6 +190,34 @@ static void VOT_005_mean_of_equal_samples_is_their_value(void)
     TEST_ASSERT_TRUE(voter.vote.output == 0.1f);
 }
 
+static void VOT_005_mean_is_clamped_to_its_samples(void)
+{
+    TEST_ASSERT_EQUAL_FLOAT(2.0f, keel_voter_mean(6.0f, 3.0f, 1.0f, 3.0f));
+    TEST_ASSERT_EQUAL_FLOAT(2.5f, keel_voter_mean(6.0f, 3.0f, 2.5f, 3.0f));
+    TEST_ASSERT_EQUAL_FLOAT(1.5f, keel_voter_mean(6.0f, 3.0f, 1.0f, 1.5f));
+}
+
+/* Just within a of each other, and just not: the weights tell. */
+static void VOT_006_all_agree_up_to_a(void)
+{
+    vote(0.0f, 0.5f, 1.0f);
+    expect(KEEL_VOTER_MEAN, 0.5f);
+    expect_weights(1.0f, 1.0f, 1.0f);
+    vote(0.0f, 0.5f, 1.25f); /* d = 1.25: agreement 7/8, weight (1 + 7/8)/2. */
+    expect_weights(0.9375f, 1.0f, 0.9375f);
+}
+
+static void VOT_006_counts_what_contributes(void)
+{
+    TEST_ASSERT_EQUAL_UINT8(0u, voter.vote.contributing);
+    vote(1.0f, 1.5f, 2.0f);
+    TEST_ASSERT_EQUAL_UINT8(3u, voter.vote.contributing);
+    vote(1.0f, 1.5f, 50.0f);
+    TEST_ASSERT_EQUAL_UINT8(2u, voter.vote.contributing);
+    vote(1.0f, 20.0f, 50.0f);
+    TEST_ASSERT_EQUAL_UINT8(0u, voter.vote.contributing);
+}
+
 static void VOT_006_weights_of_two_and_four(void)
 {
     config.sensors = 2u;
@@ -404,6 +432,9 @@ int main(void)
     RUN_TEST(VOT_004_agreement_never_exceeds_one);
     RUN_TEST(VOT_005_mean_of_three);
     RUN_TEST(VOT_005_mean_of_equal_samples_is_their_value);
+    RUN_TEST(VOT_005_mean_is_clamped_to_its_samples);
+    RUN_TEST(VOT_006_all_agree_up_to_a);
+    RUN_TEST(VOT_006_counts_what_contributes);
     RUN_TEST(VOT_006_weights_of_two_and_four);
     RUN_TEST(VOT_007_not_finite);
     RUN_TEST(VOT_007_implausible);

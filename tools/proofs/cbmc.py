@@ -42,6 +42,7 @@ class Result:
 
     properties: list[dict[str, str]] = field(default_factory=list)
     defines: list[str] = field(default_factory=list)
+    replaces: list[str] = field(default_factory=list)
     covered: int = 0
     blocks: int = 0
     problems: list[str] = field(default_factory=list)
@@ -219,7 +220,9 @@ class Cbmc:
         """Prove a harness and measure what it reaches."""
         start = time.monotonic()
         problems = harnesses.text_problems(harness)
-        result = Result(problems=problems, defines=list(harness.defines))
+        result = Result(
+            problems=problems, defines=list(harness.defines), replaces=list(harness.replaces)
+        )
         binary, complaint = self.build(harness, harness.name)
         if complaint:
             result.problems.append(complaint)
@@ -293,7 +296,20 @@ class Cbmc:
         complaint = (
             f"goto-cc: {done.output.strip()}" if done.status != 0 or done.output.strip() else ""
         )
-        return binary, complaint
+        if complaint or not harness.replaces:
+            return binary, complaint
+        return self._with_stand_ins(harness, binary)
+
+    def _with_stand_ins(self, harness: Harness, binary: Path) -> tuple[Path, str]:
+        """The binary with calls of stand-ins in the place of those of the replaced functions."""
+        replaced = binary.with_name("replaced.gb")
+        instrument = str(Path(self._goto_cc[0]).with_name("goto-instrument"))
+        calls = [word for name in harness.replaces
+                 for word in ("--replace-calls", f"{name}:{name}_stand_in")]  # fmt: skip
+        done = self._runner.run([instrument, *calls, str(binary), str(replaced)])
+        if done.status != 0 or "warning" in done.output.lower():
+            return replaced, f"goto-instrument: {done.output.strip()}"
+        return replaced, ""
 
     def _write(self, wrong: WrongBody) -> Path:
         """Write the file with the fault in it; the folder in which it has its usual place."""

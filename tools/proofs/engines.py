@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from . import cbmc, csource, wp
+from . import cbmc, csource, gappa, wp
 from .cache import digest
 from .driver import Job
 from .harness import Harness, read_harness
@@ -117,11 +117,39 @@ def cbmc_key(
         texts[place] = csource.essence(wrong.text())
         expected = (wrong.name, wrong.expect, place)
     sources = [str(path.relative_to(root)) for path in harness.sources]
-    directives = [harness.name, harness.options, sources, harness.covers, harness.defines]
+    directives = [harness.name, harness.options, sources, harness.covers, harness.defines,
+                  harness.replaces]
     return digest(
         {"kind": "cbmc", "stamp": dict(stamp), "options": checker.options(), "texts": texts,
          "directives": directives, "expected": expected}
     )  # fmt: skip
+
+
+def gappa_jobs(
+    units: Iterable[Unit], prover: gappa.Gappa, root: Path, stamp: Mapping[str, str]
+) -> list[Job]:
+    """A job for each file of bounds, and for each wrong one, of the units."""
+
+    def key(path: Path) -> str:
+        texts = {str(file.relative_to(root)): file.read_text(encoding="utf-8")
+                 for file in prover.dependencies(path)}  # fmt: skip
+        return digest({"kind": "gappa", "stamp": dict(stamp), "texts": texts})
+
+    jobs = []
+    for unit in units:
+        for kind, paths, judge in (
+            ("gappa", unit.statements, prover.prove),
+            ("gappa-negative", unit.wrong_statements, prover.refute),
+        ):
+            for path in paths:
+
+                def execute(
+                    path: Path = path, judge: Callable[[Path], gappa.Result] = judge
+                ) -> dict[str, Any]:
+                    return judge(path).as_dict()
+
+                jobs.append(Job(unit.name, kind, path.name, functools.partial(key, path), execute))
+    return jobs
 
 
 def _harness_job(harness: Harness, checker: cbmc.Cbmc, root: Path, stamp: Mapping[str, str]) -> Job:

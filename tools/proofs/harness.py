@@ -7,6 +7,11 @@ Directives stand in the first comment lines of a harness:
     // covers: keel_queue_add open_slot       functions that must be reached everywhere
     // defines: -DKEEL_QUEUE_CAPACITY=8u      for a smaller model, shown in the report
     // timeout: 900                           seconds
+    // replaces: keel_voter_mean              functions that their contracts stand in for
+
+Where the harness calls a replaced function F, the harness's own F_stand_in is called: it asserts
+F_may(...) and returns anything that F_does(...) allows, while F_harness assumes the one and
+asserts the other of F itself. So what is proved holds of every function with F's contract.
 
 The function that a harness proves is in its name: keel_queue_add_harness, or, for one of several
 cases, keel_queue_add__full_harness.
@@ -20,9 +25,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import csource
-from .project import ProjectError, Unit
+from .project import ProjectError, Unit, closure
 
-HARNESS_KEYS = frozenset("cbmc sources covers defines timeout entry".split())
+HARNESS_KEYS = frozenset("cbmc sources covers defines timeout entry replaces".split())
 # What is meant as a directive, but is none of a harness.
 STRAY_KEYS = frozenset("harness expect source cover wp".split())
 DIRECTIVE = re.compile(r"^// ?(\w+): *(.*?)\s*$")
@@ -95,6 +100,7 @@ class Harness:
     covers: tuple[str, ...]
     defines: tuple[str, ...]
     timeout: float
+    replaces: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -126,6 +132,7 @@ def read_harness(unit: Unit, path: Path) -> Harness:
         options=tuple(search_options(path, given.get("cbmc", []))),
         covers=tuple(" ".join(given.get("covers", [])).split()),
         timeout=float(given.get("timeout", ["900"])[0]),
+        replaces=tuple(" ".join(given.get("replaces", [])).split()),
     )  # fmt: skip
 
 
@@ -147,4 +154,26 @@ def text_problems(harness: Harness) -> list[str]:
         )
     if harness.function not in harness.covers:
         problems.append(f"{place}: `covers` must name {harness.function}")
+    return problems + replacement_problems(harness)
+
+
+def replacement_problems(harness: Harness) -> list[str]:
+    """Why what a harness proves with stand-ins does not hold of the functions themselves."""
+    place = harness.path.relative_to(harness.unit.root)
+    files = closure(harness.unit.root, [harness.path])
+    texts = [path.read_text(encoding="utf-8") for path in files]
+    problems = []
+    for name in harness.replaces:
+        if name == harness.function or name in harness.covers:
+            problems.append(f"{place}: replaces {name}, which it is to prove")
+        stand_in = "".join(csource.body_of(text, f"{name}_stand_in") for text in texts)
+        own = harness.unit.folder / f"{name}_harness.c"
+        proof = csource.body_of(own.read_text(), own.stem) if own.is_file() else ""
+        for body, where, before, after in (
+            (stand_in, f"{name}_stand_in", "assert", "assume"),
+            (proof, own.stem, "assume", "assert"),
+        ):
+            wanted = (f"__CPROVER_{before}({name}_may(", f"__CPROVER_{after}({name}_does(")
+            problems += [f"{place}: {where} lacks {text}...)" for text in wanted
+                         if text not in body]  # fmt: skip
     return problems

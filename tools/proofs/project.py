@@ -57,11 +57,21 @@ class Unit:
     @cached_property
     def wrong_bodies(self) -> list[Path]:
         """Wrong bodies, which the harnesses must refute."""
-        files = sorted((self.folder / "wrong").glob("*"))
+        files = sorted(set((self.folder / "wrong").glob("*")) - set(self.wrong_statements))
         for path in files:
             if path.suffix != ".toml":
                 raise ProjectError(f"{path.relative_to(self.root)}: a wrong body is a .toml file")
         return files
+
+    @cached_property
+    def statements(self) -> list[Path]:
+        """Bounds of rounding errors, for Gappa."""
+        return sorted(self.folder.glob("*.g"))
+
+    @cached_property
+    def wrong_statements(self) -> list[Path]:
+        """Bounds that Gappa must not prove."""
+        return sorted((self.folder / "wrong").glob("*.g"))
 
     @property
     def own_files(self) -> list[Path]:

@@ -27,6 +27,8 @@ class UnitResult:
     accepted: list[str] = field(default_factory=list)
     harnesses: dict[str, dict[str, Any]] = field(default_factory=dict)
     negative: dict[str, bool] = field(default_factory=dict)
+    bounds: list[dict[str, str]] = field(default_factory=list)
+    wrong_bounds: dict[str, bool] = field(default_factory=dict)
     problems: list[str] = field(default_factory=list)
 
     @property
@@ -52,6 +54,16 @@ class UnitResult:
         """Properties proved."""
         return self._sum("proved")
 
+    @property
+    def gappa_total(self) -> int:
+        """Bounds of rounding errors."""
+        return len(self.bounds)
+
+    @property
+    def gappa_proved(self) -> int:
+        """Bounds proved."""
+        return sum(bound["status"] == "Valid" for bound in self.bounds)
+
     def add(self, outcome: Outcome) -> None:
         """Take in a job's result."""
         job, result = outcome.job, outcome.result
@@ -62,6 +74,10 @@ class UnitResult:
             self.accepted += [text for text in result["allowed"] if text not in self.accepted]
         elif job.kind == "cbmc":
             self.harnesses[job.name] = _harness(result, not outcome.problems)
+        elif job.kind == "gappa":
+            self.bounds += result["goals"]
+        elif job.kind == "gappa-negative":
+            self.wrong_bounds[job.name] = not outcome.problems
         else:
             self.negative[job.name] = not outcome.problems
 
@@ -79,6 +95,7 @@ def _harness(result: Mapping[str, Any], sound: bool) -> dict[str, Any]:
             if cbmc.ASSERTION.search(item["name"])
         ],
         "defines": result["defines"],
+        "replaces": result["replaces"],
         "coverage": {"blocks": result["blocks"], "reached": result["covered"]},
     }
 
@@ -112,14 +129,24 @@ class Gathered:
         return sum(unit.cbmc_proved for unit in self.units.values())
 
     @property
+    def gappa_total(self) -> int:
+        """Gappa's goals."""
+        return sum(unit.gappa_total for unit in self.units.values())
+
+    @property
+    def gappa_proved(self) -> int:
+        """Gappa's goals that are proved."""
+        return sum(unit.gappa_proved for unit in self.units.values())
+
+    @property
     def total(self) -> int:
         """All goals."""
-        return self.wp_total + self.cbmc_total
+        return self.wp_total + self.cbmc_total + self.gappa_total
 
     @property
     def proved(self) -> int:
         """All goals that are proved."""
-        return self.wp_proved + self.cbmc_proved
+        return self.wp_proved + self.cbmc_proved + self.gappa_proved
 
     @property
     def all_problems(self) -> list[str]:
@@ -137,6 +164,8 @@ KINDS = {
     "wp": ("WP", "goals"),
     "cbmc": ("CBMC", "properties"),
     "negative": ("CBMC", "wrong bodies refuted"),
+    "gappa": ("Gappa", "goals"),
+    "gappa-negative": ("Gappa", "wrong bounds refused"),
 }
 
 
@@ -166,7 +195,7 @@ class Console:
     @staticmethod
     def _numbers(outcome: Outcome) -> tuple[int, int]:
         result = outcome.result
-        if outcome.job.kind == "wp":
+        if outcome.job.kind in ("wp", "gappa"):
             return sum(goal["status"] == "Valid" for goal in result["goals"]), len(result["goals"])
         if outcome.job.kind == "cbmc":
             properties = result["properties"]
@@ -178,7 +207,7 @@ class Console:
         engine, what = KINDS[job.kind]
         time = f"{seconds:.0f} s" if seconds else "known"
         numbers = f"{proved:>4} of {total:>4} {what}"
-        print(f"{job.unit:<10} {engine:<4} {name:<38} {numbers}  {time}", flush=True)
+        print(f"{job.unit:<10} {engine:<5} {name:<37} {numbers}  {time}", flush=True)
 
 
 def closing_lines(gathered: Gathered) -> list[str]:
@@ -188,7 +217,9 @@ def closing_lines(gathered: Gathered) -> list[str]:
         if unit.exceptions.not_by_wp and "wp" in gathered.engines:
             left = len(unit.exceptions.not_by_wp)
             lines.append(f"{name}: {left} functions are left to CBMC alone, see proofs/units.toml")
-    engines = f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}"
+    engines = (
+        f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}, Gappa {gathered.gappa_proved}"
+    )
     return [*lines, f"proved {gathered.proved} of {gathered.total} goals ({engines})"]
 
 
@@ -242,6 +273,17 @@ def _unit(result: UnitResult, engines: Sequence[str]) -> dict[str, Any]:
             },
             "without_harness": exceptions.no_harness,
             "harnesses": harnesses,
+        }
+    if "gappa" in engines:
+        entry["gappa"] = {
+            "goals": result.gappa_total,
+            "proved": result.gappa_proved,
+            "negative": {
+                "bounds": len(result.wrong_bounds),
+                "refused": sum(result.wrong_bounds.values()),
+                "list": result.wrong_bounds,
+            },
+            "goal_list": result.bounds,
         }
     return entry
 

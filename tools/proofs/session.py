@@ -13,7 +13,7 @@ from pathlib import Path
 
 from toolchain import Found, Toolchain
 
-from . import cbmc, csource, driver, engines, report, rules, wp
+from . import cbmc, csource, driver, engines, gappa, report, rules, wp
 from .cache import Cache, write_atomically
 from .jobs import Runner
 from .project import Unit, closure, find_units
@@ -112,6 +112,9 @@ class Session:
                 self._tools.goto_cc(), self._tools.command("cbmc"), runner, self._root, scratch
             )
             jobs += engines.cbmc_jobs(choice.units, checker, self._root, stamp)
+        if "gappa" in choice.engines:
+            bounds = gappa.Gappa(self._tools.command("gappa"), runner, self._root, scratch)
+            jobs += engines.gappa_jobs(choice.units, bounds, self._root, stamp)
         cache = Cache(self._build / "cache" if choice.cached else None)
         times = driver.Times(self._build / "times.json")
         console = report.Console(jobs)

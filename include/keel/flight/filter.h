@@ -19,8 +19,8 @@
  * The states are bounded by construction: an input that is not finite or beyond
  * KEEL_FILTER_INPUT_LIMIT is refused, and so is one that would lead to states with more energy
  * than the filter's limit. A refused input changes nothing. In exact arithmetic the second never
- * happens: inputs up to M lead to |(s1, s2)| < 1.4 M (1 + g) at most (tested, with the l1 norms of
- * the impulse responses), which is well below the limit for the greatest M.
+ * happens: inputs up to M lead to |(s1, s2)| < 1.45 M (1 + g) at most (requirement FLT-008), which
+ * is well below the limit for the greatest M.
  *
  * Single precision throughout. Sources must be compiled without contraction of products and sums
  * (ISO C mode, -std=c99, as all builds of Keel do).

@@ -158,7 +158,10 @@ keel_status_t keel_pid_init(keel_pid_t *pid, const keel_pid_config_t *config);
   @     pid->derivative == 0 && pid->saturation == KEEL_PID_FREE && !pid->started;
   @ ensures PID_003_output: pid->output == ((pid->config.output_max < 0) ? pid->config.output_max
   @     : (pid->config.output_min > 0) ? pid->config.output_min : 0);
-  @ ensures PID_003_bounded: pid_bounded(*pid);
+  @ ensures PID_003_integral: pid_within(pid->integral, pid->config.integral_min,
+  @     pid->config.integral_max);
+  @ ensures PID_003_bounded: pid_within(pid->output, pid->config.output_min,
+  @     pid->config.output_max);
   @ ensures PID_003_remembers: pid_remembers(*pid);
   @*/
 void keel_pid_reset(keel_pid_t *pid);

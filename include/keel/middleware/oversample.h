@@ -34,7 +34,8 @@ typedef struct keel_oversample {
   @     \is_finite(o->most) && -0x1p30 * o->count <= o->sum <= 0x1p30 * o->count &&
   @     -KEEL_OVERSAMPLE_RANGE <= o->least <= KEEL_OVERSAMPLE_RANGE &&
   @     -KEEL_OVERSAMPLE_RANGE <= o->most <= KEEL_OVERSAMPLE_RANGE &&
-  @     (o->count > 0 ==> o->least <= o->most);
+  @     (o->count > 0 ==> o->least <= o->most) &&
+  @     (o->count == 0 ==> o->least == KEEL_OVERSAMPLE_RANGE && o->most == -KEEL_OVERSAMPLE_RANGE);
   @*/
 
 /**
@@ -77,8 +78,12 @@ keel_status_t keel_oversample_init(keel_oversample_t *oversample, uint16_t facto
   @     oversample->count == \old(oversample->count) + 1;
   @ ensures OVS_003_refused: \result != KEEL_OK ==>
   @     oversample->count == \old(oversample->count) && oversample->sum == \old(oversample->sum);
-  @ ensures OVS_003_value: \result == KEEL_OK ==> \is_finite(value) &&
-  @     -KEEL_OVERSAMPLE_RANGE <= value <= KEEL_OVERSAMPLE_RANGE;
+  @ ensures OVS_003_full: \result == KEEL_ERR_FULL <==> \old(oversample->runs) == UINT16_MAX;
+  @ ensures OVS_003_value: \result == KEEL_ERR_VALUE <==>
+  @     \old(oversample->runs) < UINT16_MAX && !(\is_finite(value) &&
+  @     -KEEL_OVERSAMPLE_RANGE <= value <= KEEL_OVERSAMPLE_RANGE);
+  @ ensures OVS_003_status: \result == KEEL_OK || \result == KEEL_ERR_FULL ||
+  @     \result == KEEL_ERR_VALUE;
   @*/
 keel_status_t keel_oversample_add(keel_oversample_t *oversample, float value);
 

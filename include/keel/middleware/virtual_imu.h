@@ -95,6 +95,7 @@ void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_imu_sample_t samp
   @     \result == KEEL_ERR_SENSORS;
   @ ensures IMU_004_readmitted: \result == KEEL_OK ==> \forall integer k;
   @     0 <= k < KEEL_IMU_CHANNELS ==> !imu->channel[k].sensor[unit].latched;
+  @ ensures IMU_004_noted: unit < imu->channel[0].config.sensors ==> imu->latched[unit] == 0;
   @*/
 keel_status_t keel_virtual_imu_readmit(keel_virtual_imu_t *imu, uint32_t unit);
 

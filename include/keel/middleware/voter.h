@@ -88,6 +88,7 @@ typedef struct keel_vote {
     uint32_t held_us;                   /**< How long that is, in us; saturates. */
     uint8_t reason[KEEL_VOTER_SENSORS]; /**< KEEL_VOTER_USED, or why the weight is 0. */
     uint8_t state;                      /**< KEEL_VOTER_MEAN, ... */
+    uint8_t contributing;               /**< How many sensors contributed. */
 } keel_vote_t;
 
 /** What the voter remembers of a sensor. */
@@ -121,11 +122,16 @@ typedef struct keel_voter {
   @     2 <= c.sensors <= KEEL_VOTER_SENSORS && agreement_valid(c) && cutoff_valid(c) &&
   @     limits_valid(c) && initial_valid(c) && c.max_age_us > 0 && c.latch_count > 0;
   @
+  @ // A sensor below its counts: the vote that takes it there latches it.
+  @ predicate voter_healthy(keel_voter_config_t c, keel_voter_sensor_t s) =
+  @     s.null < c.latch_count && (c.density_limit > 0 ==> s.density < c.density_limit);
+  @
   @ // What holds of a channel between any two calls.
   @ predicate voter_valid(keel_voter_t *v) =
   @     voter_config_valid(v->config) && v->none == (float)(v->config.cutoff * v->config.agree) &&
   @     \is_finite(v->vote.output) && v->config.lowest <= v->vote.output <= v->config.highest &&
-  @     \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==> \is_finite(v->sensor[i].last);
+  @     \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==> \is_finite(v->sensor[i].last) &&
+  @         (!v->sensor[i].latched ==> voter_healthy(v->config, v->sensor[i]));
   @*/
 
 /**
@@ -215,6 +221,25 @@ float keel_voter_agreement(float distance, float agree, float none);
 float keel_voter_weight(const float agreement[], uint32_t others);
 
 /**
+ * The quotient of eq. 18, clamped to the samples it is of (requirement VOT-005): rounded, it may
+ * leave them by a few units in the last place (VOT-016).
+ *
+ * @param sum     of the products of weights and samples
+ * @param weights the sum of the weights, at least 2^-26
+ * @param least   the smallest sample
+ * @param most    the largest sample
+ * @return the mean, from least to most
+ */
+/*@ requires \is_finite(sum) && -4 * KEEL_VOTER_RANGE <= sum <= 4 * KEEL_VOTER_RANGE;
+  @ requires \is_finite(weights) && 0x1p-26 <= weights <= 4;
+  @ requires \is_finite(least) && \is_finite(most);
+  @ requires -KEEL_VOTER_RANGE <= least <= most <= KEEL_VOTER_RANGE;
+  @ assigns \nothing;
+  @ ensures VOT_005_mean: \is_finite(\result) && least <= \result <= most;
+  @*/
+float keel_voter_mean(float sum, float weights, float least, float most);
+
+/**
  * The weighted mean of samples (eq. 18, requirement VOT-005). Rounded, the quotient may leave the
  * samples by a few units in the last place (VOT-016), so it is clamped to those that contribute.
  *
@@ -262,6 +287,8 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
   @     0 <= voter->vote.weight[i] <= 1;
   @ ensures VOT_006_reason: \forall integer i; 0 <= i < voter->config.sensors ==>
   @     (voter->vote.weight[i] > 0 <==> voter->vote.reason[i] == KEEL_VOTER_USED);
+  @ ensures VOT_006_contributing: voter->vote.contributing == \numof(0, voter->config.sensors - 1,
+  @     \lambda integer i; voter->vote.reason[i] == KEEL_VOTER_USED);
   @ ensures VOT_007_latched: \forall integer i; 0 <= i < voter->config.sensors ==>
   @     (\old(voter->sensor[i].latched) <==> voter->vote.reason[i] == KEEL_VOTER_LATCHED);
   @ ensures VOT_007_missing: \forall integer i; 0 <= i < voter->config.sensors ==>

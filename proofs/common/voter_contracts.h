@@ -1,0 +1,111 @@
+/**
+ * @file voter_contracts.h
+ * @brief The contracts of the voter's parts, for CBMC: what their own harnesses prove, and what
+ *        stands in for them where a whole vote is proved.
+ *
+ * Each part has a precondition and a postcondition, one text for both uses. Its own harness assumes
+ * the one, calls the part and asserts the other. A stand-in asserts the one and returns anything
+ * that satisfies the other.
+ */
+#ifndef VOTER_CONTRACTS_H
+#define VOTER_CONTRACTS_H
+
+#include "voter_proof.h"
+
+static bool keel_voter_agreement_may(float distance, float agree, float none)
+{
+    return (KEEL_VOTER_AGREE_MIN <= agree) && (agree <= KEEL_VOTER_AGREE_MAX) &&
+           none_valid_here(agree, none) && (0.0f <= distance) && finite_here(distance);
+}
+
+/* 2^-24 is the least that is not 0: too small a weight could not be divided by. */
+static bool agreement_range(float s)
+{
+    return (s == 0.0f) || ((0x1p-24f <= s) && (s <= 1.0f));
+}
+
+static bool keel_voter_agreement_does(float s, float distance, float agree, float none)
+{
+    return agreement_range(s) && ((distance > agree) || (s == 1.0f)) &&
+           ((distance >= none) == (s == 0.0f));
+}
+
+static bool keel_voter_weight_may(const float agreement[], uint32_t others)
+{
+    bool may = (1u <= others) && (others < SENSORS);
+
+    for (uint32_t i = 0u; i < (SENSORS - 1u); i++) {
+        may = may && ((i >= others) || agreement_range(agreement[i]));
+    }
+    return may;
+}
+
+static bool weight_range(float w)
+{
+    return (w == 0.0f) || ((0x1p-26f <= w) && (w <= 1.0f));
+}
+
+static bool keel_voter_weight_does(float w, const float agreement[], uint32_t others)
+{
+    bool null = true;
+
+    for (uint32_t i = 0u; i < (SENSORS - 1u); i++) {
+        null = null && ((i >= others) || (agreement[i] == 0.0f));
+    }
+    return weight_range(w) && ((w == 0.0f) == null);
+}
+
+static bool keel_voter_mean_may(float sum, float weights, float least, float most)
+{
+    return (-4.0f * KEEL_VOTER_RANGE <= sum) && (sum <= 4.0f * KEEL_VOTER_RANGE) &&
+           (0x1p-26f <= weights) && (weights <= 4.0f) && (-KEEL_VOTER_RANGE <= least) &&
+           (least <= most) && (most <= KEEL_VOTER_RANGE);
+}
+
+static bool keel_voter_mean_does(float mean, float least, float most)
+{
+    return (least <= mean) && (mean <= most);
+}
+
+static bool keel_voter_combine_may(const keel_voter_sample_t sample[], const float weight[],
+                                   uint32_t sensors)
+{
+    bool may = (1u <= sensors) && (sensors <= SENSORS);
+    bool some = false;
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        if (i < sensors) {
+            may = may && weight_range(weight[i]) &&
+                  ((weight[i] == 0.0f) || ((-KEEL_VOTER_RANGE <= sample[i].value) &&
+                                           (sample[i].value <= KEEL_VOTER_RANGE)));
+            some = some || (weight[i] > 0.0f);
+        }
+    }
+    return may && some;
+}
+
+/* Whether a sample that has a weight does not lie above a value. */
+static bool combine_above(float mean, const keel_voter_sample_t sample[], const float weight[],
+                          uint32_t sensors)
+{
+    bool above = false;
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        above = above || ((i < sensors) && (weight[i] > 0.0f) && (sample[i].value <= mean));
+    }
+    return above;
+}
+
+/* Whether a value lies among the samples that have a weight. */
+static bool keel_voter_combine_does(float mean, const keel_voter_sample_t sample[],
+                                    const float weight[], uint32_t sensors)
+{
+    bool below = false;
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        below = below || ((i < sensors) && (weight[i] > 0.0f) && (mean <= sample[i].value));
+    }
+    return finite_here(mean) && combine_above(mean, sample, weight, sensors) && below;
+}
+
+#endif

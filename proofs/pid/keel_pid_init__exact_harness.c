@@ -1,0 +1,25 @@
+// cbmc: --external-sat-solver cadical
+// sources: src/flight/pid.c src/flight/filter.c
+// covers: keel_pid_init
+//
+// ki T, in numbers whose quotient is exact: at 4 Hz. Two gains are bad, and one cut-off.
+#include "../common/keel_pid_proof.h"
+
+void keel_pid_init__exact_harness(void)
+{
+    const int ki = (int)(nondet_u8() & 15u) - 2;
+    const bool limits = nondet_bool();
+    const bool cutoff = nondet_bool();
+    const keel_pid_config_t config = {.gains = {1.0f, (float)ki, 0.0f, 0.0f},
+                                      .rate_hz = 4.0f,
+                                      .cutoff_hz = cutoff ? 1.0f : 2.0f,
+                                      .output_min = -1.0f,
+                                      .output_max = limits ? 1.0f : -1.0f};
+    keel_pid_t pid = any_pid_at_all();
+    const keel_status_t status = keel_pid_init(&pid, &config);
+
+    __CPROVER_assert((status == KEEL_OK) == ((ki >= 0) && limits && cutoff),
+                     "PID_002_ok: taken when all is good");
+    __CPROVER_assert((status != KEEL_OK) || ((pid.integral_gain * 4.0f) == (float)ki),
+                     "PID_002_integral_gain: ki over the rate");
+}

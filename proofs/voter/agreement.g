@@ -1,0 +1,13 @@
+# goals: 1
+#
+# The rounding of an agreement (requirement VOT-017) between a and n a, in units of n a/(n a - a).
+#
+# r is the distance in units of n a, from 0 to 1. keel_voter_agreement divides n a - d by n a - a:
+# d itself (d1), the difference (e1), the divisor (v1) and the quotient (q) are rounded.
+r = (1 + z) / 2;
+factor = (1 + e1) * (1 + q) / (1 + v1);
+VOT_017_agreement = (1 - r * (1 + d1)) * factor - (1 - r);
+{ |z| <= 0x1p+0 /\ |d1| <= 0x1p-24 /\ |e1| <= 0x1p-24 /\ |v1| <= 0x1p-24 /\ |q| <= 0x1p-24
+  -> |VOT_017_agreement| <= 0x4.0001p-24 }
+# The error of the factor counts for what is left of the range, that of the distance for the rest.
+VOT_017_agreement -> (1 - r) * (factor - 1) - r * d1 * factor { 1 + v1 <> 0 };

@@ -1,0 +1,71 @@
+// cbmc: --unwind 5 --external-sat-solver cadical
+// sources: src/middleware/voter.c
+// defines: -DKEEL_VOTER_SENSORS=3u
+// replaces: keel_voter_mean
+// covers: keel_voter_step compare weigh find_outvoted conclude agree_all keel_voter_agreement
+// covers: keel_voter_weight keel_voter_combine
+//
+// Eq. 16 to 18 in numbers: a = 1, n = 3, two or three sensors of which each may be absent, samples
+// in halves from 0 to 3.5. Agreements are then quarters, weights eighths, and all sums exact.
+#include "../common/voter_stand_ins.h"
+
+/* The agreement of two samples, given in halves, in quarters. */
+static uint32_t quarters(uint32_t x, uint32_t y)
+{
+    const uint32_t distance = (x > y) ? (x - y) : (y - x);
+
+    return (distance <= 2u) ? 4u : ((distance >= 6u) ? 0u : (6u - distance));
+}
+
+void keel_voter_step__exact_harness(void)
+{
+    const bool three = nondet_bool();
+    keel_voter_t voter;
+    keel_voter_sample_t sample[SENSORS];
+    uint32_t half[SENSORS];
+    uint32_t eighths[SENSORS] = {0u};
+    uint32_t usable = 0u;
+    uint32_t sum = 0u;
+    uint32_t weights = 0u;
+
+    any_voter(&voter, 1.0f, 3.0f);
+    voter.config.sensors = three ? 3u : 2u;
+    voter.config.lowest = -1.0f;
+    voter.config.highest = 4.0f;
+    voter.config.stale_count = 0u;
+    __CPROVER_assume((voter.vote.output >= -1.0f) && (voter.vote.output <= 4.0f));
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        half[i] = nondet_u8() & 7u;
+        sample[i].value = 0.5f * (float)half[i];
+        sample[i].age_us = 0u;
+        sample[i].present = nondet_bool();
+        voter.sensor[i].latched = false;
+        __CPROVER_assume(healthy_here(&voter.config, &voter.sensor[i]));
+        usable += ((i < voter.config.sensors) && sample[i].present) ? 1u : 0u;
+    }
+
+    keel_voter_step(&voter, sample, 0u);
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        if ((i < voter.config.sensors) && sample[i].present) {
+            for (uint32_t j = 0u; j < SENSORS; j++) {
+                if ((j != i) && (j < voter.config.sensors) && sample[j].present) {
+                    eighths[i] += quarters(half[i], half[j]) * (three ? 1u : 2u);
+                }
+            }
+            eighths[i] = (usable == 1u) ? 8u : eighths[i];
+            weights += eighths[i];
+            sum += eighths[i] * half[i];
+            __CPROVER_assert((voter.vote.weight[i] * 8.0f) == (float)eighths[i],
+                             "VOT_006_weight: the mean of its agreements");
+            __CPROVER_assert(voter.vote.reason[i] ==
+                                 ((eighths[i] > 0u) ? KEEL_VOTER_USED : KEEL_VOTER_OUTVOTED),
+                             "VOT_006_outvoted: a usable sample without agreement is outvoted");
+        }
+    }
+    if (weights > 0u) {
+        __CPROVER_assert((stand_in_sum * 16.0f) == (float)sum, "VOT_005_sum: of eq. 18");
+        __CPROVER_assert((stand_in_weights * 8.0f) == (float)weights,
+                         "VOT_005_weights: and its weights");
+    }
+}
