@@ -17,7 +17,8 @@ instructions. An error is: an indirect call without an entry, a function without
 without a bound, recursion, and a function of the image that nothing reaches, since then a call is
 missing here. To the deepest path comes what the core stacks for an exception, with the registers of
 the FPU: no interrupt is enabled, so there is at most one, a fault, whose handler has a stack of its
-own.
+own. Where the application ran on the emulated board (make test-target) since the image was built,
+its painted stack must not have been deeper than the bound.
 
 build/stack/<board>.json has the bound of each task and the deepest path of each stack. Exit
 status: 0 when every bound holds, 1 when not, 2 for a wrong command line.
@@ -41,6 +42,7 @@ ROOT = Path(__file__).resolve().parents[1]
 FIRMWARE = "build/firmware"
 TABLE = "specs/stack.toml"
 REPORT = "build/stack"
+PAINTED = "build/test-target/report.json"
 INDIRECT = "__indirect_call"
 TASKS = "tasks"
 
@@ -386,6 +388,19 @@ def functions_of(symbols: str) -> Iterator[str]:
             yield name
 
 
+def painted(root: Path, board: str, elf: Path) -> int | None:
+    """How deep the painted stack of this application was when it last ran on the emulated board;
+    None when it did not run there, or before the image was built."""
+    path = root / PAINTED
+    try:
+        report = json.loads(path.read_text(encoding="utf-8"))
+        used = report["painted_stack"]["used"].get("demo")
+        fresh = path.stat().st_mtime >= elf.stat().st_mtime
+    except (OSError, ValueError, KeyError, AttributeError, TypeError):
+        return None
+    return int(used) if used is not None and fresh and report.get("board") == board else None
+
+
 def measure(tools: Toolchain, root: Path, board: str) -> dict[str, object]:
     """Analyse a board's image; the report."""
     graph, elf = read_graph(root, board)
@@ -404,6 +419,7 @@ def measure(tools: Toolchain, root: Path, board: str) -> dict[str, object]:
         "tasks": {name: {"bound": path.bytes, "path": list(path.functions)}
                   for name, path in tasks.items()},
         "frames_from_instructions": library,
+        "painted": painted(root, board, elf),
         "functions": len(code),
     }  # fmt: skip
 
@@ -423,6 +439,13 @@ def conclude(report: Mapping[str, object], root: Path) -> int:
     write_atomically(path, json.dumps(report, indent=1) + "\n")
     short = [name for name, stack in stacks.items() if stack["bound"] > stack["size"]]
     verdict = f"TOO LITTLE ROOM: {', '.join(short)}" if short else "every stack has room"
+    deepest = report.get("painted")
+    if isinstance(deepest, int):  # No exception came while it ran.
+        limit = stacks["main"]["bound"] - EXCEPTION_FRAME_B
+        print(f"  painted stack on the emulated board: {deepest} of the {limit} bytes bounded")
+        if deepest > limit:
+            short.append("main")
+            verdict = "THE BOUND IS WRONG: the painted stack was deeper"
     print(f"stack: {report['functions']} functions of {report['board']}, {len(tasks)} bodies of "
           f"tasks: {verdict}.")  # fmt: skip
     return 1 if short else 0

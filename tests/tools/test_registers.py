@@ -86,10 +86,6 @@ class RegistersTest(unittest.TestCase):
         self.change("bsp/stm32f767/registers/gpio.h", "0xA8000000u", "0xA8000001u")
         self.finds("GPIOA_MODER_RESET", "has 0xa8000000")
 
-    def test_a_wrong_interrupt_is_found(self) -> None:
-        self.change(UART, "UART7_IRQ 82u", "UART7_IRQ 83u")
-        self.finds("UART7_IRQ", "0x53", "has 0x52")
-
     def test_a_wrong_pin_is_found(self) -> None:
         self.change(
             "bsp/nucleo_f767zi/pins.c", "(D, 8u, 7u, USART3, TX)", "(D, 8u, 8u, USART3, TX)"

@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import io
 import json
+import os
 import sys
 import tempfile
 import unittest
@@ -252,6 +253,28 @@ class FilesTest(unittest.TestCase):
         self.assertIn("101 of 100 bytes: reset > work", out.getvalue())
         self.assertIn("TOO LITTLE ROOM: main", out.getvalue())
         self.assertEqual(json.loads((self.root / stack.REPORT / "some.json").read_text()), report)
+
+    def test_a_painted_stack_below_and_above_the_bound(self) -> None:
+        report = {
+            "board": "some", "functions": 3, "tasks": {}, "painted": 92,
+            "stacks": {"main": {"size": 500, "bound": 200, "path": ["reset"]}},
+        }  # fmt: skip
+        with contextlib.redirect_stdout(io.StringIO()) as out:
+            self.assertEqual(stack.conclude(report, self.root), 0)
+            self.assertEqual(stack.conclude({**report, "painted": 93}, self.root), 1)
+        self.assertIn("92 of the 92 bytes bounded", out.getvalue())
+        self.assertIn("THE BOUND IS WRONG", out.getvalue())
+
+    def test_only_a_run_of_this_image_counts(self) -> None:
+        elf, path = self.root / "keel.elf", self.root / stack.PAINTED
+        elf.touch()
+        self.assertIsNone(stack.painted(self.root, "some", elf))
+        path.parent.mkdir(parents=True)
+        path.write_text(json.dumps({"board": "some", "painted_stack": {"used": {"demo": 256}}}))
+        self.assertEqual(stack.painted(self.root, "some", elf), 256)
+        self.assertIsNone(stack.painted(self.root, "other", elf))
+        os.utime(path, (0, 0))
+        self.assertIsNone(stack.painted(self.root, "some", elf))
 
     def test_sizes_of_the_stacks(self) -> None:
         symbols = (

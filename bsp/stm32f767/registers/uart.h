@@ -33,7 +33,5 @@ typedef struct keel_uart {
 #define UART_ISR_TC    BITS(6u, 1u)
 #define UART_ISR_TXE   BITS(7u, 1u)
 #define UART_ICR_ORECF BITS(3u, 1u)
-#define USART3_IRQ     39u
-#define UART7_IRQ      82u
 
 #endif
