@@ -4,125 +4,445 @@
  * budgets, a real-time task starts at most the sum of the other real-time budgets plus the guard W
  * after its release. It holds for any admitted set, and for runs of any length.
  *
- * The function below is the life of an admitted set as the kernel's contracts describe it: each
- * statement bears the clause of scheduler.h that it restates, and specs/soundness.md says what
- * joins the two. The world is a function that takes as long as it likes, up to a limit:
+ * The function `isolation` is the life of a scheduler: it is started, and then begin, next and
+ * finish are called for as long as one likes, each where the scheduler's stage asks for it, as
+ * keel_scheduler_step does. They are the kernel's own functions, of which the proof knows their
+ * contracts in scheduler.h and nothing else. The world is a clock, read at most so long after it
+ * was last read:
  *
- *   - a step begins at most W after the last clock reading;
- *   - a real-time task takes at most its budget;
- *   - another task takes at most its budget, and at most W more for the decision before it.
+ *   - W, when a pass begins;
+ *   - its budget, when a real-time task has run;
+ *   - W and its worst-case time, when another task has run.
  *
- * sum[j] is the sum of the first j budgets, total the sum of all. Between steps task j is late by
- * at most total - sum[j + 1], the budgets of the tasks behind it, because only those have run
- * since the pass looked at it. That is the invariant of the outer loop.
+ * sum[j] is the sum of the first j real-time budgets, sum[n] that of all. Between passes task j is
+ * late by at most sum[n] - sum[j + 1], the budgets of the tasks behind it, because only those have
+ * run since the pass looked at it. That, and what becomes of it within a pass, is the invariant of
+ * the loop in `isolation`; a function for each stage shows that one call of the kernel keeps it.
  */
-#include "keel/rtos/clock.h"
-#include "keel/rtos/priority.h"
-#include "keel/rtos/queue.h"
+#include "keel/rtos/scheduler.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
-/* More than a step can take, so that the uptime stays in its limit. */
-#define STEP_ROOM_US 0x1400000000u
-
-/*@ // The world: something takes time, at most limit_us.
+/*@ // The world: the clock is read, at most limit_us after its last reading (A-14: and soon enough
+  @ // to tell the time between the two).
   @ assigns \nothing;
-  @ ensures \result <= limit_us;
+  @ ensures within: clock_elapsed(raw_us, \result) <= limit_us;
+  @ ensures known: clock_elapsed(raw_us, \result) < KEEL_CLOCK_STEP_LIMIT_US;
   @*/
-uint64_t elapse(uint64_t limit_us);
+uint32_t read_within(uint32_t raw_us, uint64_t limit_us);
 
-/*@ // The time to the earliest release (DEC-002), of releases that all lie ahead.
-  @ requires n <= KEEL_QUEUE_CAPACITY && \valid_read(release_us + (0 .. n - 1));
-  @ assigns \nothing;
-  @ ensures bound: \forall integer j; 0 <= j < n ==>
-  @     release_us[j] > now_us ==> \result <= release_us[j] - now_us;
-  @ ensures due: \forall integer j; 0 <= j < n ==> release_us[j] <= now_us ==> \result == 0;
+/*@ // sum holds the sums of the real-time budgets, which never fall.
+  @ predicate budgets_summed(keel_scheduler_t *s, int64_t *sum) =
+  @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
+  @         sum[j + 1] == sum[j] + s->queue.task[j]->config->budget_us;
+  @
+  @ predicate sums_rise(int64_t *sum, integer n) =
+  @     \forall integer j, k; 0 <= j <= k <= n ==> sum[j] <= sum[k];
+  @
+  @ // ADM-004: every real-time period holds all real-time budgets and the guard twice.
+  @ predicate periods_hold(keel_scheduler_t *s, int64_t *sum) =
+  @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
+  @         sum[s->queue.realtime_count] + 2 * s->config.guard_us
+  @             <= s->queue.task[j]->config->period_us;
+  @
+  @ // How late the tasks from one index to another are: at most limit_us less the budgets up to
+  @ // and with their own.
+  @ predicate late(keel_scheduler_t *s, int64_t *sum, integer from, integer to,
+  @                integer limit_us) =
+  @     \forall integer j; from <= j < to ==>
+  @         s->clock.now_us - s->queue.task[j]->release_us <= limit_us - sum[j + 1];
+  @
+  @ // The same of those that the pass has looked at, and of those that it has yet to, when it has
+  @ // come to an index.
+  @ predicate late_before(keel_scheduler_t *s, int64_t *sum, integer index) =
+  @     late(s, sum, 0, s->cursor, sum[index]);
+  @
+  @ predicate late_behind(keel_scheduler_t *s, int64_t *sum, integer index) =
+  @     late(s, sum, s->cursor, s->queue.realtime_count,
+  @          s->config.guard_us + sum[index] + sum[s->queue.realtime_count]);
+  @
+  @ // Every real-time release lies so far ahead that the task at an index ends before it.
+  @ predicate room(keel_scheduler_t *s, integer index) =
+  @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
+  @         s->clock.now_us + s->config.guard_us + task_worst(s->queue.task[index])
+  @             <= s->queue.task[j]->release_us;
+  @
+  @ // The pass is one over all real-time tasks.
+  @ predicate pass_whole(keel_scheduler_t *s) = s->pass_end == s->queue.realtime_count;
+  @
+  @ // Whether a task that is not real-time has waited so long that it is promoted.
+  @ predicate promotion_due(keel_scheduler_t *s) =
+  @     \exists integer i; s->queue.realtime_count <= i < s->queue.count &&
+  @         released(s->queue.task[i], s->clock.now_us) &&
+  @         promoted(s->queue.task[i], s->clock.now_us);
   @*/
-static uint64_t slack(uint32_t n, const uint64_t *release_us, uint64_t now_us)
+
+/* clang-format off: the formatter does not know these clauses. */
+/* What every function below asks for ... */
+#define SET_GIVEN(s, sum)                                                                          \
+    requires memory : \valid(s) && scheduler_valid(s) && in_uptime(s);                             \
+    requires wake : wake_right(s);                                                                 \
+    requires busy : (s)->busy_us <= (s)->clock.now_us;                                             \
+    requires summed : budgets_summed(s, sum);                                                      \
+    requires rise : sum[0] == 0 && sums_rise(sum, (s)->queue.realtime_count);                      \
+    requires hold : periods_hold(s, sum);
+
+/* ... and keeps. */
+#define SET_STAYS(s, sum)                                                                          \
+    SCHEDULER_STAYS_VALID(s)                                                                       \
+    ensures wake : wake_right(s);                                                                  \
+    ensures busy : (s)->busy_us <= (s)->clock.now_us;                                              \
+    ensures counts : (s)->queue.realtime_count == \old((s)->queue.realtime_count);                 \
+    ensures summed : budgets_summed(s, sum);                                                       \
+    ensures hold : periods_hold(s, sum);
+/* clang-format on */
+
+/* Adds up the real-time budgets. */
+/*@ requires memory: \valid_read(s) && scheduler_valid(s);
+  @ requires room: \valid(sum + (0 .. KEEL_QUEUE_CAPACITY));
+  @ assigns sum[0 .. KEEL_QUEUE_CAPACITY];
+  @ ensures summed: budgets_summed(s, sum);
+  @ ensures rise: sum[0] == 0 && sums_rise(sum, s->queue.realtime_count);
+  @ ensures demand: sum[s->queue.realtime_count] ==
+  @     realtime_demand(&s->queue, s->queue.count);
+  @*/
+static void add_up(const keel_scheduler_t *s, int64_t *sum)
 {
-    uint64_t slack_us = UINT64_MAX;
+    const uint32_t n = s->queue.realtime_count;
 
-    /*@ loop invariant range: 0 <= i <= n;
-      @ loop invariant bound: \forall integer j; 0 <= j < i ==>
-      @     release_us[j] > now_us ==> slack_us <= release_us[j] - now_us;
-      @ loop invariant due: \forall integer j; 0 <= j < i ==>
-      @     release_us[j] <= now_us ==> slack_us == 0;
-      @ loop assigns i, slack_us;
-      @ loop variant n - i;
+    sum[0] = 0;
+    /*@ loop invariant range: 0 <= j <= n;
+      @ loop invariant first: sum[0] == 0;
+      @ loop invariant summed: \forall integer i; 0 <= i < j ==>
+      @     sum[i + 1] == sum[i] + s->queue.task[i]->config->budget_us;
+      @ loop invariant rise: sums_rise(sum, j);
+      @ loop invariant bound: sum[j] <= j * UINT32_MAX;
+      @ loop invariant demand: sum[j] == realtime_demand(&s->queue, j);
+      @ loop assigns j, sum[0 .. KEEL_QUEUE_CAPACITY];
+      @ loop variant n - j;
       @*/
-    for (uint32_t i = 0u; i < n; i++) {
-        const uint64_t time_us = (release_us[i] > now_us) ? (release_us[i] - now_us) : 0u;
-
-        if (time_us < slack_us) {
-            slack_us = time_us;
-        }
+    for (uint32_t j = 0u; j < n; j++) {
+        sum[j + 1u] = sum[j] + (int64_t)s->queue.task[j]->config->budget_us;
+        //@ assert next: realtime_demand(&s->queue, j + 1) == sum[j + 1];
     }
-    return slack_us;
+    /*@ loop invariant range: n <= i <= s->queue.count;
+      @ loop invariant demand: sum[n] == realtime_demand(&s->queue, i);
+      @ loop assigns i;
+      @ loop variant s->queue.count - i;
+      @*/
+    for (uint32_t i = n; i < s->queue.count; i++) {
+        //@ assert other: !realtime(s->queue.task[i]);
+        //@ assert next: realtime_demand(&s->queue, i + 1) == realtime_demand(&s->queue, i);
+    }
 }
 
-/*@ predicate prefix_sums(uint64_t *sum, uint32_t *budget_us, integer n) =
-  @     \forall integer j; 0 <= j < n ==> sum[j + 1] == sum[j] + budget_us[j];
-  @
-  @ predicate rising(uint64_t *sum, integer n) =
-  @     \forall integer j, k; 0 <= j <= k <= n ==> sum[j] <= sum[k];
+/* Starts the scheduler: from then on what is asked for below holds. */
+/*@ requires memory: \valid(s) && scheduler_valid(s) && setup_armed(s);
+  @ requires fresh: s->wake_us == 0 && s->busy_us == 0;
+  @ requires summed: budgets_summed(s, sum);
+  @ requires rise: sum[0] == 0 && sums_rise(sum, s->queue.realtime_count);
+  @ requires demand: sum[s->queue.realtime_count] ==
+  @     realtime_demand(&s->queue, s->queue.count);
+  @ assigns s->clock.now_us, s->clock.raw_us, s->stage;
+  @ SCHEDULER_STAYS_VALID(s)
+  @ ensures wake: wake_right(s);
+  @ ensures busy: s->busy_us <= s->clock.now_us;
+  @ ensures summed: budgets_summed(s, sum);
+  @ ensures hold: \result == KEEL_OK ==> periods_hold(s, sum);
+  @ ensures ready: \result == KEEL_OK ==> s->stage == KEEL_STAGE_READY;
+  @ ensures late: \result == KEEL_OK ==>
+  @     late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
   @*/
-
-/*@ requires set: 0 < n <= KEEL_QUEUE_CAPACITY && guard_us < KEEL_PERIOD_LIMIT_US;
-  @ requires memory: \valid_read(period_us + (0 .. n - 1)) && \valid_read(budget_us + (0 .. n - 1));
-  @ requires memory_release: \valid(release_us + (0 .. n - 1)) && \valid_read(sum + (0 .. n));
-  @ requires apart: \separated(release_us + (0 .. n - 1), sum + (0 .. n));
-  @ requires sums: sum[0] == 0 && prefix_sums(sum, budget_us, n) && rising(sum, n);
-  @ // TSK-002: every budget is above 0.
-  @ requires budgets: \forall integer j; 0 <= j < n ==> budget_us[j] > 0;
-  @ requires total: sum[n] <= UINT32_MAX;
-  @ // ADM-004: every real-time period holds all real-time budgets and the guard twice.
-  @ requires admitted: \forall integer j; 0 <= j < n ==> sum[n] + 2 * guard_us <= period_us[j];
-  @ // SCH-009: nothing is late at the start.
-  @ requires start: \forall integer j; 0 <= j < n ==> release_us[j] >= 0;
-  @ assigns release_us[0 .. n - 1];
-  @*/
-void isolation(uint32_t n, const uint32_t *period_us, const uint32_t *budget_us,
-               uint64_t *release_us, const uint64_t *sum, uint32_t guard_us, uint64_t steps)
+static keel_status_t start(keel_scheduler_t *s, const int64_t *sum, uint32_t raw_us)
 {
-    const uint64_t total = sum[n];
-    uint64_t now_us = 0u;
+    (void)sum;
+    return keel_scheduler_start_at(s, raw_us);
+}
 
-    /*@ loop invariant late: \forall integer j; 0 <= j < n ==>
-      @     now_us - release_us[j] <= total - sum[j + 1];
-      @ loop assigns step, now_us, release_us[0 .. n - 1];
-      @ loop variant steps - step;
+/* Between passes: a pass begins, or nothing is due. */
+/*@ SET_GIVEN(s, sum)
+  @ requires ready: s->stage == KEEL_STAGE_READY;
+  @ requires late: late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
+  @ assigns s->clock.now_us, s->clock.raw_us, s->wake_us, s->stage, s->cursor, s->pass_end, s->ran;
+  @ SET_STAYS(s, sum)
+  @ ensures stage: s->stage == KEEL_STAGE_READY || s->stage == KEEL_STAGE_PASS;
+  @ ensures late: s->stage == KEEL_STAGE_READY ==>
+  @     late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
+  @ ensures whole: s->stage == KEEL_STAGE_PASS ==> pass_whole(s);
+  @ ensures before: s->stage == KEEL_STAGE_PASS ==> late_before(s, sum, s->cursor);
+  @ ensures behind: s->stage == KEEL_STAGE_PASS ==> late_behind(s, sum, s->cursor);
+  @*/
+static void open_pass(keel_scheduler_t *s, const int64_t *sum)
+{
+    const uint32_t raw_us = read_within(s->clock.raw_us, s->config.guard_us);
+    const keel_status_t status = keel_scheduler_begin(s, raw_us);
+
+    (void)sum;
+    (void)status;
+    /*@ assert releases: \forall integer k; 0 <= k < s->queue.count ==>
+      @     s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
       @*/
-    for (uint64_t step = 0u; step < steps; step++) {
-        uint64_t slack_us;
-        uint64_t worst_us;
+    /*@ assert periods: \forall integer k; 0 <= k < s->queue.count ==>
+      @     s->queue.task[k]->config->period_us == \at(s->queue.task[k]->config->period_us, Pre);
+      @*/
+    /*@ assert budgets: \forall integer k; 0 <= k < s->queue.count ==>
+      @     s->queue.task[k]->config->budget_us == \at(s->queue.task[k]->config->budget_us, Pre);
+      @*/
+    //@ assert time: s->clock.now_us <= \at(s->clock.now_us, Pre) + s->config.guard_us;
+    /*@ assert idle: s->stage == KEEL_STAGE_READY ==>
+      @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
+      @         s->clock.now_us < s->queue.task[j]->release_us;
+      @*/
+}
 
-        if (now_us > (KEEL_CLOCK_TIME_LIMIT_US - STEP_ROOM_US)) {
+/* Whether the next task that is not real-time is served by promotion: as promotion is the highest
+ * priority (SCH-016), it is just when one is due to be promoted. */
+/*@ requires memory: \valid_read(s) && scheduler_valid(s) && in_uptime(s);
+  @ assigns \nothing;
+  @ ensures \result <==> promotion_due(s);
+  @*/
+static bool is_promotion_due(const keel_scheduler_t *s)
+{
+    const uint64_t now_us = s->clock.now_us;
+
+    /*@ loop invariant range: s->queue.realtime_count <= i <= s->queue.count;
+      @ loop invariant none: \forall integer k; s->queue.realtime_count <= k < i ==>
+      @     !(released(s->queue.task[k], now_us) && promoted(s->queue.task[k], now_us));
+      @ loop assigns i;
+      @ loop variant s->queue.count - i;
+      @*/
+    for (uint32_t i = s->queue.realtime_count; i < s->queue.count; i++) {
+        const keel_task_t *const task = s->queue.task[i];
+
+        //@ assert checked: config_valid(s->queue.task[i]->config);
+        if ((task->release_us <= now_us) &&
+            keel_priority_promoted(task->config->priority,
+                                   (now_us - task->release_us) + task->config->period_us,
+                                   task->config->period_us)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* In a pass: a task starts, or the pass ends. */
+/*@ SET_GIVEN(s, sum)
+  @ requires pass: s->stage == KEEL_STAGE_PASS && pass_whole(s);
+  @ requires before: late_before(s, sum, s->cursor);
+  @ requires behind: late_behind(s, sum, s->cursor);
+  @ SET_STAYS(s, sum)
+  @ ensures memory: \valid(s);
+  @ ensures rise: sum[0] == 0 && sums_rise(sum, s->queue.realtime_count);
+  @ ensures stage: s->stage == KEEL_STAGE_READY || stage_running(s);
+  @ ensures whole: pass_whole(s);
+  @ ensures ready: s->stage == KEEL_STAGE_READY ==>
+  @     late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
+  @ ensures realtime: s->stage == KEEL_STAGE_REALTIME ==>
+  @     s->cursor == s->running + 1 <= s->queue.realtime_count;
+  @ ensures bound: s->stage == KEEL_STAGE_REALTIME ==>
+  @     s->clock.now_us - \at(s->queue.task[\at(s->running, Post)]->release_us, Pre) <=
+  @         sum[s->queue.realtime_count] - s->queue.task[s->running]->config->budget_us
+  @         + s->config.guard_us;
+  @ ensures before: s->stage == KEEL_STAGE_REALTIME ==> late_before(s, sum, s->running);
+  @ ensures behind: s->stage == KEEL_STAGE_REALTIME ==> late_behind(s, sum, s->running);
+  @ ensures other: s->stage == KEEL_STAGE_OTHER ==> s->running < s->queue.count;
+  @ ensures room: s->stage == KEEL_STAGE_OTHER ==> !\old(promotion_due(s)) ==>
+  @     room(s, s->running);
+  @*/
+static void decide(keel_scheduler_t *s, const int64_t *sum)
+{
+    const keel_task_t *const task = keel_scheduler_next(s);
+
+    (void)sum;
+    /*@ assert first: s->stage == KEEL_STAGE_REALTIME ==>
+      @     \forall integer j; \at(s->cursor, Pre) <= j < s->running ==>
+      @         s->clock.now_us < \at(s->queue.task[j]->release_us, Pre);
+      @*/
+    /*@ assert none: s->stage != KEEL_STAGE_REALTIME ==>
+      @     \forall integer j; \at(s->cursor, Pre) <= j < s->queue.realtime_count ==>
+      @         s->clock.now_us < \at(s->queue.task[j]->release_us, Pre);
+      @*/
+    /*@ assert unique: task != \null ==>
+      @     \forall integer k; 0 <= k < s->queue.count ==> k != s->running ==>
+      @         s->queue.task[k] != task;
+      @*/
+    /*@ assert releases: task != \null ==>
+      @     \forall integer k; 0 <= k < s->queue.count ==> k != s->running ==>
+      @         s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
+      @*/
+    /*@ assert releases_null: task == \null ==>
+      @     \forall integer k; 0 <= k < s->queue.count ==>
+      @         s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
+      @*/
+    /*@ assert late: s->stage == KEEL_STAGE_REALTIME ==>
+      @     s->clock.now_us - \at(s->queue.task[\at(s->running, Here)]->release_us, Pre) <=
+      @         s->config.guard_us + sum[s->running] + sum[s->queue.realtime_count]
+      @         - sum[s->running + 1];
+      @*/
+    /*@ assert on_time: s->stage == KEEL_STAGE_REALTIME ==>
+      @     task->release_us == \at(s->queue.task[\at(s->running, Here)]->release_us, Pre)
+      @         + task->config->period_us;
+      @*/
+    /*@ assert fits: s->stage == KEEL_STAGE_OTHER ==> !\at(promotion_due(s), Pre) ==>
+      @     \at(fits_slack(s, s->queue.task[\at(s->running, Here)], s->clock.now_us), Pre);
+      @*/
+}
+
+/* A real-time task runs: the pass goes on behind it. */
+/*@ SET_GIVEN(s, sum)
+  @ requires stage: s->stage == KEEL_STAGE_REALTIME && pass_whole(s);
+  @ requires running: s->cursor == s->running + 1 <= s->queue.realtime_count;
+  @ requires before: late_before(s, sum, s->running);
+  @ requires behind: late_behind(s, sum, s->running);
+  @ assigns s->clock.now_us, s->clock.raw_us, s->busy_us, s->stage, s->running,
+  @     STATS_FIELDS(s->queue.task[s->running]->stats);
+  @ SET_STAYS(s, sum)
+  @ ensures pass: s->stage == KEEL_STAGE_PASS && pass_whole(s);
+  @ ensures before: late_before(s, sum, s->cursor);
+  @ ensures behind: late_behind(s, sum, s->cursor);
+  @*/
+static void run_realtime(keel_scheduler_t *s, const int64_t *sum)
+{
+    const keel_task_t *const task = s->queue.task[s->running];
+    const uint32_t raw_us = read_within(s->clock.raw_us, task->config->budget_us);
+    keel_status_t status;
+
+    //@ assert apart_scheduler: \separated(s, s->queue.task[s->running]);
+    /*@ assert apart: \forall integer k; 0 <= k < s->queue.count ==> k != s->running ==>
+      @     \separated(s->queue.task[s->running], s->queue.task[k]);
+      @*/
+    status = keel_scheduler_finish(s, raw_us);
+    (void)sum;
+    (void)status;
+    /*@ assert release: s->queue.task[\at(s->running, Pre)]->release_us ==
+      @     \at(s->queue.task[s->running]->release_us, Pre);
+      @*/
+    /*@ assert releases_others: \forall integer k; 0 <= k < s->queue.count ==>
+      @     k != \at(s->running, Pre) ==>
+      @     s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
+      @*/
+    /*@ assert releases: \forall integer k; 0 <= k < s->queue.count ==>
+      @     s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
+      @*/
+    /*@ assert periods: \forall integer k; 0 <= k < s->queue.count ==>
+      @     s->queue.task[k]->config->period_us == \at(s->queue.task[k]->config->period_us, Pre);
+      @*/
+    /*@ assert budgets: \forall integer k; 0 <= k < s->queue.count ==>
+      @     s->queue.task[k]->config->budget_us == \at(s->queue.task[k]->config->budget_us, Pre);
+      @*/
+    /*@ assert time: s->clock.now_us + sum[\at(s->running, Pre)] <=
+      @     \at(s->clock.now_us, Pre) + sum[s->cursor];
+      @*/
+}
+
+/* Another task runs: the pass is over before any real-time task is due. */
+/*@ SET_GIVEN(s, sum)
+  @ requires stage: s->stage == KEEL_STAGE_OTHER && s->running < s->queue.count;
+  @ requires room: room(s, s->running);
+  @ assigns s->clock.now_us, s->clock.raw_us, s->busy_us, s->stage, s->running,
+  @     STATS_FIELDS(s->queue.task[s->running]->stats);
+  @ SET_STAYS(s, sum)
+  @ ensures ready: s->stage == KEEL_STAGE_READY;
+  @ ensures late: late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
+  @*/
+static void run_other(keel_scheduler_t *s, const int64_t *sum)
+{
+    const keel_task_t *const task = s->queue.task[s->running];
+    const uint32_t longest_us = task->stats.longest_us;
+    const uint32_t budget_us = task->config->budget_us;
+    const uint64_t worst_us = (longest_us > budget_us) ? longest_us : budget_us;
+    const uint32_t raw_us = read_within(s->clock.raw_us, s->config.guard_us + worst_us);
+    keel_status_t status;
+
+    //@ assert apart_scheduler: \separated(s, s->queue.task[s->running]);
+    /*@ assert apart: \forall integer k; 0 <= k < s->queue.count ==> k != s->running ==>
+      @     \separated(s->queue.task[s->running], s->queue.task[k]);
+      @*/
+    status = keel_scheduler_finish(s, raw_us);
+    (void)sum;
+    (void)status;
+    /*@ assert release: s->queue.task[\at(s->running, Pre)]->release_us ==
+      @     \at(s->queue.task[s->running]->release_us, Pre);
+      @*/
+    /*@ assert releases_others: \forall integer k; 0 <= k < s->queue.count ==>
+      @     k != \at(s->running, Pre) ==>
+      @     s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
+      @*/
+    /*@ assert releases: \forall integer k; 0 <= k < s->queue.count ==>
+      @     s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
+      @*/
+    /*@ assert periods: \forall integer k; 0 <= k < s->queue.count ==>
+      @     s->queue.task[k]->config->period_us == \at(s->queue.task[k]->config->period_us, Pre);
+      @*/
+    /*@ assert budgets: \forall integer k; 0 <= k < s->queue.count ==>
+      @     s->queue.task[k]->config->budget_us == \at(s->queue.task[k]->config->budget_us, Pre);
+      @*/
+    /*@ assert time: s->clock.now_us <= \at(s->clock.now_us
+      @     + s->config.guard_us + task_worst(s->queue.task[s->running]), Pre);
+      @*/
+}
+
+/*@ // As keel_scheduler_init and keel_scheduler_add leave it.
+  @ requires memory: \valid(s) && scheduler_valid(s) && setup_armed(s);
+  @ requires fresh: s->wake_us == 0 && s->busy_us == 0;
+  @*/
+void isolation(keel_scheduler_t *s, uint32_t raw_us, uint64_t moves)
+{
+    int64_t sum[KEEL_QUEUE_CAPACITY + 1u];
+
+    add_up(s, sum);
+    if (start(s, sum, raw_us) != KEEL_OK) {
+        return;
+    }
+    /*@ loop invariant memory: \valid(s) && scheduler_valid(s);
+      @ loop invariant wake: wake_right(s);
+      @ loop invariant busy: s->busy_us <= s->clock.now_us;
+      @ loop invariant summed: budgets_summed(s, &sum[0]);
+      @ loop invariant rise: sum[0] == 0 && sums_rise(&sum[0], s->queue.realtime_count);
+      @ loop invariant hold: periods_hold(s, &sum[0]);
+      @ loop invariant stage: KEEL_STAGE_READY <= s->stage <= KEEL_STAGE_OTHER;
+      @ loop invariant ready: s->stage == KEEL_STAGE_READY ==>
+      @     late(s, &sum[0], 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
+      @ loop invariant whole: s->stage == KEEL_STAGE_PASS || s->stage == KEEL_STAGE_REALTIME ==>
+      @     pass_whole(s);
+      @ loop invariant before: s->stage == KEEL_STAGE_PASS ==>
+      @     late_before(s, &sum[0], s->cursor);
+      @ loop invariant behind: s->stage == KEEL_STAGE_PASS ==>
+      @     late_behind(s, &sum[0], s->cursor);
+      @ loop invariant running: s->stage == KEEL_STAGE_REALTIME ==>
+      @     s->cursor == s->running + 1 <= s->queue.realtime_count;
+      @ loop invariant running_before: s->stage == KEEL_STAGE_REALTIME ==>
+      @     late_before(s, &sum[0], s->running);
+      @ loop invariant running_behind: s->stage == KEEL_STAGE_REALTIME ==>
+      @     late_behind(s, &sum[0], s->running);
+      @ loop invariant other: s->stage == KEEL_STAGE_OTHER ==>
+      @     s->running < s->queue.count && room(s, s->running);
+      @ loop variant moves - move;
+      @*/
+    for (uint64_t move = 0u; move < moves; move++) {
+        if (s->clock.now_us > (KEEL_CLOCK_TIME_LIMIT_US - KEEL_CLOCK_STEP_LIMIT_US)) {
             return;
         }
-        now_us += elapse(guard_us); /* SCH-011: the pass begins. */
-        /*@ loop invariant range: 0 <= c <= n;
-          @ loop invariant uptime:
-          @     now_us <= KEEL_CLOCK_TIME_LIMIT_US - STEP_ROOM_US + guard_us + sum[c];
-          @ loop invariant served: \forall integer j; 0 <= j < c ==>
-          @     now_us - release_us[j] <= sum[c] - sum[j + 1];
-          @ loop invariant unserved: \forall integer j; c <= j < n ==>
-          @     now_us - release_us[j] <= guard_us + sum[c] + total - sum[j + 1];
-          @ loop assigns c, now_us, release_us[0 .. n - 1];
-          @ loop variant n - c;
-          @*/
-        for (uint32_t c = 0u; c < n; c++) {
-            if (release_us[c] <= now_us) { /* SCH-015: due, and the first from the cursor on. */
-                //@ assert ISO_001: now_us - release_us[c] <= total - budget_us[c] + guard_us;
-                //@ assert on_time: now_us < release_us[c] + period_us[c];
-                release_us[c] += period_us[c];  /* SCH-014: the next release on the grid. */
-                now_us += elapse(budget_us[c]); /* SCH-017: it ran. */
+        if (s->stage == KEEL_STAGE_READY) {
+            open_pass(s, sum);
+        } else if (s->stage == KEEL_STAGE_REALTIME) {
+            run_realtime(s, sum);
+        } else if (s->stage == KEEL_STAGE_OTHER) {
+            run_other(s, sum);
+        } else {
+            const bool by_promotion = is_promotion_due(s);
+
+            decide(s, sum);
+            /*@ assert ISO_001: s->stage == KEEL_STAGE_REALTIME ==>
+              @     s->clock.now_us -
+              @         \at(s->queue.task[\at(s->running, Here)]->release_us, LoopCurrent) <=
+              @     sum[s->queue.realtime_count] - s->queue.task[s->running]->config->budget_us
+              @         + s->config.guard_us;
+              @*/
+            if ((s->stage == KEEL_STAGE_OTHER) && by_promotion) {
+                return;
             }
-        }
-        /* SCH-016: another task runs only if it fits the slack. */
-        slack_us = slack(n, release_us, now_us);
-        worst_us = elapse(UINT32_MAX);
-        if ((worst_us > 0u) && ((guard_us + worst_us) <= slack_us)) {
-            now_us += elapse(guard_us + worst_us);
         }
     }
 }
