@@ -35,7 +35,9 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "no_task": ("pass, no task", ("waited", "idle"), 25, ("sets", GOAL_TASKS, "no_task")),
     "one_task": ("pass, one task of 21", ("realtime", "other"), 200,
                  ("sets", GOAL_TASKS, "one_task")),
-    "vote": ("vote of 3 units x 6 channels", ("vote",), None, ()),
+    "imu": ("virtual IMU, 3 x 6, all agree", ("imu",), 900, ("steps", "imu")),
+    "imu_worst": ("virtual IMU, 3 x 6, one outvoted", ("imu_worst",), 900,
+                  ("steps", "imu_worst")),
     "filter": ("filter step", ("filter",), 30, ("steps", "filter")),
     "pid": ("PID step, its filter included", ("pid",), 110, ("steps", "pid")),
 }  # fmt: skip

@@ -296,36 +296,42 @@ static void bench_pid(void)
     print(&steps);
 }
 
-/* Three units that differ a little, so that all agreements are computed. */
-static void bench_vote(void)
+/* Three units that differ a little, the last by an offset more: as in bench_steps.c. */
+static void fill(keel_imu_sample_t sample[UNITS], uint32_t n, float offset)
+{
+    for (uint32_t i = 0u; i < UNITS; i++) {
+        sample[i].age_us = 100u;
+        sample[i].present = true;
+        for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+            sample[i].value[k] = (0.2f * signal_at((3u * n) + (7u * i) + k)) +
+                                 ((i == (UNITS - 1u)) ? offset : 0.0f);
+        }
+    }
+}
+
+static void bench_imu(const char *name, float offset, uint8_t contributing)
 {
     static keel_virtual_imu_t imu KEEL_REALTIME_ZERO;
     static keel_imu_sample_t sample[UNITS];
-    const keel_voter_config_t voter = {.agree = 0.1f,
+    const keel_voter_config_t voter = {.agree = 0.25f,
                                        .cutoff = 3.0f,
-                                       .lowest = -100.0f,
-                                       .highest = 100.0f,
-                                       .initial = 0.0f,
-                                       .max_age_us = 2000u,
-                                       .latch_count = 100u,
-                                       .stale_count = 100u,
-                                       .density_limit = 0u,
+                                       .lowest = -160.0f,
+                                       .highest = 160.0f,
+                                       .max_age_us = 10000u,
+                                       .latch_count = UINT16_MAX,
+                                       .stale_count = 50u,
                                        .sensors = UNITS};
     const keel_imu_config_t settings = {voter, voter};
-    kind_t steps = {"vote", 0u, 0u, 0u};
+    kind_t steps = {name, 0u, 0u, 0u};
 
     require(keel_virtual_imu_init(&imu, &settings) == KEEL_OK);
     for (uint32_t n = 0u; n < STEPS; n++) {
-        for (uint32_t unit = 0u; unit < UNITS; unit++) {
-            for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
-                sample[unit].value[k] = signal_at(n + k) + (0.12f * (float)unit);
-            }
-            sample[unit].age_us = 100u;
-            sample[unit].present = true;
-        }
+        fill(sample, n, offset);
         add(&steps,
             measure((function_t)keel_virtual_imu_step, &imu, (uint32_t)sample, 1000u, false));
-        require(imu.channel[0].vote.state == KEEL_VOTER_MEAN);
+        for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+            require(imu.channel[k].vote.contributing == contributing);
+        }
     }
     print(&steps);
 }
@@ -353,7 +359,8 @@ int main(void)
     bench_passes();
     bench_filter();
     bench_pid();
-    bench_vote();
+    bench_imu("imu", 0.0f, UNITS);
+    bench_imu("imu_worst", 10.0f, UNITS - 1u);
     keel_console_text(bad ? "bench failed\n" : "bench ended\n");
     return bad ? 1 : 0;
 }

@@ -32,13 +32,15 @@ bench other passes 1 instructions 1000 longest 1000
 bench several passes 1 instructions 2909 longest 2909
 bench filter passes 1000 instructions 35000 longest 35
 bench pid passes 1000 instructions 116000 longest 116
-bench vote passes 1000 instructions 4035011 longest 4046
+bench imu passes 1000 instructions 1456300 longest 1509
+bench imu_worst passes 1000 instructions 4035011 longest 4046
 bench ended
 """
 FIGURES = {
     "no_task": Figure(12, 1500, 700),
     "one_task": Figure(5, 3000, 1000),
-    "vote": Figure(1000, 4035011, 4046),
+    "imu": Figure(1000, 1456300, 1509),
+    "imu_worst": Figure(1000, 4035011, 4046),
     "filter": Figure(1000, 35000, 35),
     "pid": Figure(1000, 116000, 116),
 }
@@ -49,7 +51,8 @@ tolerance_percent = 5
 [instructions]
 no_task = 125
 one_task = 600
-vote = 4036
+imu = 1457
+imu_worst = 4036
 filter = 35
 pid = 116
 """
@@ -120,7 +123,8 @@ class Budgets(unittest.TestCase):
         budget = bench_target.read_budget(self.file)
         self.assertEqual(
             budget.instructions,
-            {"no_task": 125.0, "one_task": 600.0, "vote": 4035.0, "filter": 35.0, "pid": 116.0},
+            {"no_task": 125.0, "one_task": 600.0, "imu": 1456.3, "imu_worst": 4035.0,
+             "filter": 35.0, "pid": 116.0},
         )
 
 
