@@ -6,7 +6,7 @@
 // covers: keel_voter_weight keel_voter_combine
 //
 // Eq. 16 to 18 in numbers: a = 1, n = 3, two or three sensors of which each may be absent, samples
-// in halves from 0 to 3.5. Agreements are then quarters, weights eighths, and all sums exact.
+// in halves from -2 to 1.5. Agreements are then quarters, weights eighths, and all sums exact.
 #include "../common/voter_stand_ins.h"
 
 /* The agreement of two samples, given in halves, in quarters. */
@@ -25,18 +25,18 @@ void keel_voter_step__exact_harness(void)
     uint32_t half[SENSORS];
     uint32_t eighths[SENSORS] = {0u};
     uint32_t usable = 0u;
-    uint32_t sum = 0u;
+    int32_t sum = 0;
     uint32_t weights = 0u;
 
     any_voter(&voter, 1.0f, 3.0f);
     voter.config.sensors = three ? 3u : 2u;
-    voter.config.lowest = -1.0f;
-    voter.config.highest = 4.0f;
+    voter.config.lowest = -3.0f;
+    voter.config.highest = 2.0f;
     voter.config.stale_count = 0u;
-    __CPROVER_assume((voter.vote.output >= -1.0f) && (voter.vote.output <= 4.0f));
+    __CPROVER_assume((voter.vote.output >= -3.0f) && (voter.vote.output <= 2.0f));
     for (uint32_t i = 0u; i < SENSORS; i++) {
         half[i] = nondet_u8() & 7u;
-        sample[i].value = 0.5f * (float)half[i];
+        sample[i].value = 0.5f * ((float)half[i] - 4.0f);
         sample[i].age_us = 0u;
         sample[i].present = nondet_bool();
         voter.sensor[i].latched = false;
@@ -55,7 +55,7 @@ void keel_voter_step__exact_harness(void)
             }
             eighths[i] = (usable == 1u) ? 8u : eighths[i];
             weights += eighths[i];
-            sum += eighths[i] * half[i];
+            sum += (int32_t)eighths[i] * ((int32_t)half[i] - 4);
             __CPROVER_assert((voter.vote.weight[i] * 8.0f) == (float)eighths[i],
                              "VOT_006_weight: the mean of its agreements");
             __CPROVER_assert(voter.vote.reason[i] ==
