@@ -176,6 +176,15 @@ def test_the_compiled_table_is_the_task_set(urpilot: TaskSet, tmp_path: Path) ->
     assert lines[-1] == "13 20"
 
 
+@pytest.mark.parametrize("program", ["boards/main.c", "demo/demo.c", "firmware/main.c"])
+def test_what_was_analysed_is_what_runs(program: str) -> None:
+    """No application declares a period, budget, phase, priority or guard of its own."""
+    text = (ROOT / "examples" / program).read_text(encoding="utf-8")
+    for field in ("period_us", "budget_us", "phase_us", "priority"):
+        assert re.findall(rf"\.{field} = ([^,}}]+)", text) == [f"row->{field}"], field
+    assert set(re.findall(r"\.guard_us = ([^,}]+)", text)) == {"URPILOT_GUARD_US"}
+
+
 # --- Synthesis and phases ------------------------------------------------------------------------
 
 
