@@ -174,8 +174,7 @@ def other_rows(tasks: TaskSet, found: keel.Bounds) -> list[OtherRow]:
 
 def chain_rows(tasks: TaskSet, found: keel.Bounds) -> list[ChainRow]:
     """The chains."""
-    responses: dict[str, int | None] = dict(found.realtime)
-    responses |= {name: bound.response for name, bound in found.others.items()}
+    responses = keel.responses_of(found)
     rows = []
     for chain in tasks.chains:
         path = tasks.path(chain)

@@ -25,8 +25,8 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from timing.bounds import STEPS
-from timing.taskset import PRIORITY_MAX, Task, TaskSet
+from timing.bounds import STEPS, conventional
+from timing.taskset import PRIORITY_MAX, Chain, Task, TaskSet
 
 INSTANTS = 256  # More release instants than this are bounded by a count, not looked at.
 ROUNDS = 200
@@ -261,3 +261,15 @@ def bounds(tasks: TaskSet) -> Bounds:
         others=others,
         promotion_excluded=excluded,
     )
+
+
+def responses_of(found: Bounds) -> dict[str, int | None]:
+    """The bound of every task's response."""
+    return {**found.realtime, **{name: bound.response for name, bound in found.others.items()}}
+
+
+def path_bound(tasks: TaskSet, chain: Chain) -> int | None:
+    """The sum of T + R over a path, with the bounds found here."""
+    responses = responses_of(bounds(tasks))
+    path = tasks.path(chain)
+    return conventional(path, [responses[task.name] for task in path])
