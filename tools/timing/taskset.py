@@ -23,6 +23,14 @@ CLASSES = {"low": 1, "medium": 2, "medium-high": 3, "high": 4, "real-time": PRIO
 REALTIME = "real-time"
 SIZE_LIMIT = 1 << 20
 
+# Names that the C table (ctable.py) takes: of its own macros, of the macros of stdint.h, which it
+# includes, and of the kernel.
+TABLE_NAMES = frozenset({"TASK_COUNT", "GUARD_US", "TASKS_H"})
+STDINT_NAME = re.compile(
+    r"(U?INT(_?(FAST|LEAST))?\d+|U?INT(PTR|MAX)|PTRDIFF|SIZE|SIG_ATOMIC|WCHAR|WINT)_(MIN|MAX|C)"
+)
+KERNEL = "keel"
+
 Time = Annotated[int, Field(ge=1, lt=PERIOD_LIMIT_US)]
 Cost = Annotated[int, Field(ge=0, lt=1_000_000)]
 Percent = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
@@ -275,7 +283,17 @@ class Reader:
         return names[raw.priority or PRIORITY_MAX]
 
     def check_names(self, raw: RawTaskSet) -> None:
-        """No name twice, also not as part of a C identifier."""
+        """No name twice, also not as part of a C identifier, and none that the C table takes."""
+        if raw.name.split("_")[0] == KERNEL:
+            self.blame(("name",), f'expected a name that does not begin with "{KERNEL}", as the '
+                       "kernel's do in C")  # fmt: skip
+        for number, task in enumerate(raw.task):
+            symbol = symbol_of(task.name)
+            whole = f"{raw.name.upper()}_{symbol}"
+            if symbol in TABLE_NAMES or STDINT_NAME.fullmatch(whole):
+                owner = "the C table's" if symbol in TABLE_NAMES else "stdint.h's"
+                self.blame(("task", number, "name"),
+                           f"expected a name other than {owner} own: it becomes {whole}")  # fmt: skip
         seen: dict[tuple[str, str], int] = {}
         for number, task in enumerate(raw.task):
             for kind, text in (("name", symbol_of(task.name)), ("label", task.label or "")):
