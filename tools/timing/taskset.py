@@ -217,8 +217,10 @@ class Reader:
         items = self.data.get(kind) if len(path) == 1 else None
         entry = items[index] if isinstance(items, list) and index < len(items) else None
         name = entry.get("name") if isinstance(entry, dict) else None
+        if not isinstance(name, str):
+            return f"{kind} number {index + 1}"
         # Quoted as in JSON: a name that is refused may hold line ends.
-        return f"{kind} {dumps(name[:40], ensure_ascii=False)}" if isinstance(name, str) else f"{kind} number {index + 1}"
+        return f"{kind} {dumps(name[:40], ensure_ascii=False)}"
 
     def fail_if_wrong(self) -> None:
         """Stop when something is wrong."""
@@ -292,8 +294,8 @@ class Reader:
             whole = f"{raw.name.upper()}_{symbol}"
             if symbol in TABLE_NAMES or STDINT_NAME.fullmatch(whole):
                 owner = "the C table's" if symbol in TABLE_NAMES else "stdint.h's"
-                self.blame(("task", number, "name"),
-                           f"expected a name other than {owner} own: it becomes {whole}")  # fmt: skip
+                expected = f"expected a name other than {owner} own: it becomes {whole}"
+                self.blame(("task", number, "name"), expected)
         seen: dict[tuple[str, str], int] = {}
         for number, task in enumerate(raw.task):
             for kind, text in (("name", symbol_of(task.name)), ("label", task.label or "")):
