@@ -100,7 +100,8 @@ def test_exit_status_and_first_reason(
     assert main(["analyze", str(path)]) == status
     output = capsys.readouterr()
     if status == 2:
-        assert output.err.startswith(f"{path}:139: task")
+        line = path.read_text(encoding="utf-8").split("budget_us = 0\n")[0].count("\n") + 1
+        assert output.err.startswith(f'{path}:{line}: task "GPS": budget_us')
     else:
         assert told in output.out.splitlines()[-1]
 

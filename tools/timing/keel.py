@@ -1,8 +1,11 @@
 """Bounds for Keel's own scheduler, the scheduler's costs included.
 
-They hold for every phase and every execution time up to the budget, given the costs that the task
-set declares: p (a pass that looks at the tasks), d (a dispatch), W (the guard). tests/timing
-compares them with simulations by the kernel's own code. Why they hold:
+They hold for every execution time up to the budget, given the costs that the task set declares: p
+(a pass that looks at the tasks), d (a dispatch), W (the guard). Those of real-time tasks (1) and
+behind a promotion (3) hold for every phase. Those of other tasks (2), and with them that nobody is
+promoted, hold for every phase of the other tasks, but for the real-time phases that the set gives:
+Tails looks at the very releases, unless they are too many. tests/timing compares the bounds with
+simulations by the kernel's own code. Why they hold:
 
 1. A real-time task waits for what is left of the pass that had looked at it just before its
    release, and for the tasks before it in the next pass: each other real-time task once, one other

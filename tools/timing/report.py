@@ -32,7 +32,7 @@ NOTE_REALTIME = (
 )
 NOTE_CHAINS = (
     "Eq. 5 to 7 take each task to respond at once and to use the sample that arrives; the sum of "
-    "T + R bounds the reaction\nto an event that just missed its sample, for any phases. Eq. 7 is "
+    "T + R bounds the reaction\nto an event that just missed its sample. Eq. 7 is "
     "defined for two tasks; each further one is taken\nto add its producer's period and its own "
     "budget.\n"
 )
