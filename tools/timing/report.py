@@ -139,7 +139,7 @@ def print_chains(analysis: Analysis, out: Console) -> None:
         for row in analysis.chains
     ]  # fmt: skip
     columns = ["path", "tasks", "E (eq. 5, 6)", "limit", "F (eq. 7)", "limit", "", "sum of T + R",
-               "limit of E"]
+               "limit of E"]  # fmt: skip
     out.print(table("Paths from sensor to actuator, us", columns, rows, 2))
     out.print(NOTE_CHAINS)
 
