@@ -4,9 +4,9 @@
  *
  * The background task of the inertial unit reads the sensor, if there is one; every other body, and
  * the rest of this one's time, keeps the CPU busy for the task's worst-case time of table 2.
- * Budgets are a little more, because a run's measured time includes the decision before it. A line
- * on the console tells every second how it goes. The watchdog is fed only while every real-time
- * task meets its releases. What the kernel refuses ends as a fault does.
+ * Periods, budgets, phases and the guard are those that `make analyze` analyses. A line on the
+ * console tells every second how it goes. The watchdog is fed only while every real-time task meets
+ * its releases. What the kernel refuses ends as a fault does.
  *
  * Keys: p lets pulses of 1000 us out, o switches the outputs off, t prints a table of the tasks;
  * and, to see what follows: u an undefined instruction, n a null pointer, s a stack that overflows,
@@ -21,13 +21,9 @@
 #include "stm32f767/target/chip.h"
 #include "urpilot_tasks.h"
 
-#define GUARD_US        20u /* The scheduler's guard W. */
-#define DECISION_US     15u /* What a decision among 21 tasks may take. */
 #define REPORT_EVERY_US 1000000u
 #define OFFER_US        2000000u
 #define PULSE_US        1000u /* No throttle. */
-#define IMU_TASK        10u   /* Of table 2: background IMU. */
-#define STATE_TASK      20u   /* Of table 2: state machine. */
 #define BLINK_RUNS      25u   /* 25 runs of 20 ms. */
 
 /* What keel_fault_stop records. */
@@ -101,16 +97,16 @@ static void require(keel_status_t status, uint32_t code)
 
 static keel_task_fn_t body_of(uint32_t i)
 {
-    if (i == IMU_TASK) {
+    if (i == (uint32_t)URPILOT_BACKGROUND_IMU) {
         return imu_body;
     }
-    return (i == STATE_TASK) ? state_body : body;
+    return (i == (uint32_t)URPILOT_STATE_MACHINE) ? state_body : body;
 }
 
 static void start(void)
 {
     const keel_scheduler_config_t config = {.read_clock = keel_board_clock_us,
-                                            .guard_us = GUARD_US,
+                                            .guard_us = URPILOT_GUARD_US,
                                             .utilisation_limit = KEEL_UTILISATION_FULL_PPM};
 
     require(keel_scheduler_init(&scheduler, &config), FAULT_SETUP);
@@ -123,7 +119,8 @@ static void start(void)
                                             .run = body_of(i),
                                             .context = self,
                                             .period_us = row->period_us,
-                                            .budget_us = row->wcet_us + DECISION_US,
+                                            .budget_us = row->budget_us,
+                                            .phase_us = row->phase_us,
                                             .priority = row->priority};
         self->task.config = &self->config;
         require(keel_scheduler_add(&scheduler, &self->task), FAULT_SETUP);

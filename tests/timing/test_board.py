@@ -6,20 +6,28 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 from timing import board, keel
 from timing.board import BoardError, Experiment, Result
 from timing.bounds import fixed_priority
 from timing.experiments import (
+    COLLISION_CEILINGS,
+    SIGMA_GOALS,
     Findings,
+    Runner,
+    Seen,
     at_goal_cost,
     class_sigma,
     counted,
     drift,
+    excuse,
+    judge_paths,
     overload_bound,
     overload_plans,
     overloaded,
     paper_class_sigma,
     silent,
+    turn_ceiling,
 )  # fmt: skip
 from timing.taskset import Chain, Costs, Task, TaskSet, read
 from toolchain import Toolchain
@@ -225,6 +233,38 @@ def test_a_missed_goal_without_a_reason_fails() -> None:
     assert not findings.unexplained
     findings.goal("c", "1", "2", False)
     assert [goal.name for goal in findings.unexplained] == ["c"]
+
+
+def test_a_refused_run_is_no_result(program: Path) -> None:
+    """Declared: 80 of 100 for R leaves no gap for L. Without a run every deviation would be 0."""
+    refused = Experiment(SMALL, budgets={"R": 80})
+    with pytest.raises(BoardError, match="ended with status"):
+        board.run_batch(program, [refused], 10.0)
+    with pytest.raises(BoardError, match="ended with status"):
+        Runner(program, Console(quiet=True)).run("test", {"refused": refused})
+    (told,) = board.run_batch(program, [refused], 10.0, refusals=True)
+    assert told.status != 0 and told.tasks["R"].runs == 0
+
+
+def test_a_path_beyond_its_limits_fails_unless_they_are_advice(urpilot: TaskSet) -> None:
+    seen = {chain.name: Seen(1.0, 1.0) for chain in urpilot.chains}
+    seen["Radio, state machine"] = Seen(25_001.0, 1.0)
+    seen["Magnetometer, position"] = Seen(1.0, 45_001.0)
+    findings = Findings()
+    judge_paths(urpilot, seen, findings)
+    assert [goal.met for goal in findings.goals] == [True, True, False]
+    assert not findings.unexplained
+    for beyond in (Seen(10_001.0, 1.0), Seen(1.0, 20_001.0)):
+        findings = Findings()
+        judge_paths(urpilot, {**seen, "IMU, rate": beyond}, findings)
+        assert len(findings.unexplained) == 2  # The limits, and the sum of T + R below them.
+
+
+def test_an_excuse_has_a_ceiling(urpilot: TaskSet) -> None:
+    assert excuse("known", 0.5, 0.5) == "known" and excuse("known", 0.51, 0.5) == ""
+    assert set(COLLISION_CEILINGS) == set(SIGMA_GOALS)
+    # A start is at most a turn late: 5 us of 1000, 2000 and 2000 us.
+    assert turn_ceiling(urpilot, 5000) == pytest.approx((0.5 + 0.25 + 0.25) / 3)
 
 
 def test_orders_that_make_no_sense_are_refused(program: Path) -> None:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from timing.analysis import analyse
+from timing.analysis import Gaps, analyse, gaps_of
 from timing.bounds import (
     conventional,
     fixed_priority,
@@ -19,7 +20,8 @@ from timing.bounds import (
     response,
     utilisation,
 )  # fmt: skip
-from timing.taskset import Task, TaskSet, read
+from timing.report import verdict
+from timing.taskset import Costs, Task, TaskSet, read
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -144,3 +146,62 @@ def test_the_verdict_on_table_2(urpilot: TaskSet) -> None:
     assert analysis.schedulable and analysis.promotion_excluded
     advice = [row.name for row in analysis.chains if not row.within]
     assert advice == ["Magnetometer, position", "Radio, state machine"]
+
+
+COSTS = Costs(guard_us=3, pass_us=2, dispatch_us=1)  # A budget C is declared as C + 3.
+
+
+def gap_set(*realtime: Task) -> TaskSet:
+    """Real-time tasks, and others that need 11, 13 and 93 with the guard."""
+    others = [Task(f"o{c}", f"o{c}", "low", 10_000, c) for c in (5, 7, 87)]
+    return TaskSet("gaps", (*realtime, *others), (), COSTS)
+
+
+def test_gaps_by_hand() -> None:
+    """A (T = 40, declared 10) and B (T = 60, declared 20), in 120 us.
+
+    Together at 0: 0 to 30, then 40 to 50, 60 to 80, 80 to 90: gaps of 10, 10, 0 and 30. With B 25
+    later: 0 to 10, 25 to 45 (A due at 40) to 55, 80 to 90 (B due at 85) to 110: gaps of 15, 25 and
+    10. min T less all budgets would be 10 and 10.
+    """
+    first, second = Task("A", "A", "real-time", 40, 7), Task("B", "B", "real-time", 60, 17)
+    together, apart = gap_set(first, second), gap_set(first, replace(second, phase=25))
+    assert gaps_of(together) == Gaps(10, 30, 30)
+    assert gaps_of(apart) == Gaps(10, 25, 30)
+    assert [row.fits for row in analyse(together).other_rows] == ["some", "some", "none"]
+
+
+def test_phases_keep_gaps_apart() -> None:
+    """Declared 10 of 40 each, at 0 and 20: two gaps of 10, though the two budgets leave 20."""
+    pair = [Task(f"t{phase}", f"t{phase}", "real-time", 40, 7, phase) for phase in (0, 20)]
+    assert gaps_of(gap_set(*pair)) == Gaps(10, 10, 30)
+    wide = [Task("w", "w", "real-time", 40, 7)]
+    assert [row.fits for row in analyse(gap_set(*wide)).other_rows] == ["every", "every", "none"]
+
+
+def test_a_gap_is_never_claimed_without_a_look_at_the_releases() -> None:
+    """Periods without a common divisor have their releases arbitrarily close together."""
+    odd = gap_set(Task("A", "A", "real-time", 997, 7), Task("B", "B", "real-time", 1009, 7))
+    assert gaps_of(odd) == Gaps(None, None, 987)
+    assert {row.fits for row in analyse(odd).other_rows} == {"not known"}
+    assert {row.fits for row in analyse(gap_set()).other_rows} == {"always"}
+    full = gap_set(Task("A", "A", "real-time", 40, 37))
+    assert gaps_of(full) == Gaps(0, 0, 0)
+
+
+def test_what_is_beyond_the_sum_of_periods_and_responses_is_told(urpilot: TaskSet) -> None:
+    """The magnetometer's periods alone, 10 + 20 + 2 + 2 ms, exceed its 25 ms; eq. 5 and 6 do not
+    see that. Rate control has 5 ms of periods, and no bound is above its 10 ms."""
+    analysis = analyse(urpilot)
+    report = analysis.report()
+    chains = {row["name"]: row for row in report["chains"]}
+    assert (chains["IMU, rate"]["within"], chains["IMU, rate"]["conventional_within"]) == (
+        True, True,
+    )  # fmt: skip
+    assert (chains["Magnetometer"]["within"], chains["Magnetometer"]["conventional_within"]) == (
+        True, False,
+    )  # fmt: skip
+    assert not chains["Radio, state machine"]["within"]
+    assert any("path Magnetometer: the sum of T + R" in line for line in report["advice"])
+    assert not any("IMU" in line for line in report["advice"])
+    assert "by eq. 5 to 7" in verdict(analysis)

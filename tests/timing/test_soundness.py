@@ -43,7 +43,8 @@ def simulated(
 
     def run(chunk: Sequence[TaskSet]) -> list[tuple[TaskSet, list[Result]]]:
         plans = [plan(tasks) for tasks in chunk]
-        results = iter(board.run_batch(program, [item for items in plans for item in items], 120.0))
+        orders = [item for items in plans for item in items]
+        results = iter(board.run_batch(program, orders, 120.0, refusals=True))
         pairs = zip(chunk, plans, strict=True)
         return [(tasks, [next(results) for _ in items]) for tasks, items in pairs]
 

@@ -123,16 +123,47 @@ def test_an_error_names_file_line_field_and_what_was_expected(
     assert told in problems(old, new)
 
 
+def test_no_name_is_given_twice_however_short() -> None:
+    """CPython shares strings of one character: two such names are one object."""
+    for name, again in (("A", "A"), ("A", "a"), ("Gyro", "Gyro")):
+        text = SMALL.replace('"Gyro"', f'"{name}"').replace('"Telemetry"', f'"{again}"')
+        with pytest.raises(TaskSetError) as caught:
+            parse(text, "s.toml")
+        expected = f'expected another than that of "{name}" (as a C identifier)'
+        assert f's.toml:13: task "{again}": name: {expected}' in str(caught.value)
+    text = SMALL.replace('class = "real-time"', 'class = "real-time"\nlabel = "a"')
+    with pytest.raises(TaskSetError, match='label: expected another than that of "Gyro"'):
+        parse(text.replace("priority = 1", 'priority = 1\nlabel = "a"'))
+
+
 def test_every_problem_is_told_in_the_order_of_lines() -> None:
     lines = problems("period_us = 1000\nbudget_us = 50", "period_us = 0\nbudget_us = -1")
     assert [line.split(":")[1] for line in lines] == ["9", "10"]
 
 
-@pytest.mark.parametrize("text", ["a = " + "[" * 5000, "a = " + "9" * 5000, "\0", "", "["])
+def in_task(line: str) -> str:
+    """A text whose task has this line."""
+    return f'[[task]]\nname = "A"\n{line}\n'
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a = " + "[" * 5000, "a = " + "9" * 5000, "\0", "", "[",
+        in_task("period_us = 0x" + "f" * 4000), in_task("period_us" + ".a" * 4000 + " = 1"),
+        in_task("period_us = " + "[" * 150 + "]" * 150), in_task('"a' + "b" * 4000 + '" = 1'),
+    ],
+)  # fmt: skip
 def test_hostile_texts_are_refused_in_words(text: str) -> None:
     with pytest.raises(TaskSetError) as caught:
         parse(text)
     assert "expected" in str(caught.value)
+    assert all(len(line) < 400 for line in str(caught.value).splitlines())
+
+
+def test_a_key_of_many_parts_costs_no_memory_for_each_of_them() -> None:
+    """Kept with all that it lies in, a key of n parts would take n^2 / 2."""
+    assert len(line_index("a" + ".b" * 4000 + " = 1")) < 100
 
 
 def test_files_that_cannot_be_read_are_refused_in_words(tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -18,7 +19,7 @@ from timing.analysis import analyse
 from timing.phases import needs, spread
 from timing.report import plot_responses, plot_utilisation, verdict
 from timing.synthesis import LADDER, SynthesisError, keeps_limits, synthesize, with_periods
-from timing.taskset import Task, TaskSet, parse, read
+from timing.taskset import Task, TaskSet, TaskSetError, parse, read
 from toolchain import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -99,7 +100,8 @@ def test_exit_status_and_first_reason(
     assert main(["analyze", str(path)]) == status
     output = capsys.readouterr()
     if status == 2:
-        assert output.err.startswith(f"{path}:139: task")
+        line = path.read_text(encoding="utf-8").split("budget_us = 0\n")[0].count("\n") + 1
+        assert output.err.startswith(f'{path}:{line}: task "GPS": budget_us')
     else:
         assert told in output.out.splitlines()[-1]
 
@@ -176,6 +178,32 @@ def test_the_compiled_table_is_the_task_set(urpilot: TaskSet, tmp_path: Path) ->
     assert lines[-1] == "13 20"
 
 
+@pytest.mark.parametrize("program", ["boards/main.c", "demo/demo.c", "firmware/main.c"])
+def test_what_was_analysed_is_what_runs(program: str) -> None:
+    """No application declares a period, budget, phase, priority or guard of its own."""
+    text = (ROOT / "examples" / program).read_text(encoding="utf-8")
+    for field in ("period_us", "budget_us", "phase_us", "priority"):
+        assert re.findall(rf"\.{field} = ([^,}}]+)", text) == [f"row->{field}"], field
+    assert set(re.findall(r"\.guard_us = ([^,}]+)", text)) == {"URPILOT_GUARD_US"}
+
+
+def test_names_that_the_table_takes_are_refused() -> None:
+    """Each macro of the header has its name there, as would a task's enumerator."""
+    taken = set(re.findall(r"\{upper\}_([A-Z_]+)", ctable.HEADER + ctable.SOURCE))
+    assert taken == taskset.TABLE_NAMES
+    text = URPILOT.read_text(encoding="utf-8")
+    for name in ("Task count", "guard us", "Tasks-h"):
+        with pytest.raises(TaskSetError, match=f'"{name}": name: expected a name other than'):
+            parse(text.replace('name = "GPS"', f'name = "{name}"'))
+    for set_name, name in (("int8", "Max"), ("uint_fast16", "max"), ("size", "max")):
+        changed_set = text.replace('name = "urpilot"', f'name = "{set_name}"')
+        with pytest.raises(TaskSetError, match="stdint.h"):
+            parse(changed_set.replace('name = "GPS"', f'name = "{name}"'))
+    for set_name in ("keel", "keel_priority"):
+        with pytest.raises(TaskSetError, match="name: expected a name that does not begin"):
+            parse(text.replace('name = "urpilot"', f'name = "{set_name}"'))
+
+
 # --- Synthesis and phases ------------------------------------------------------------------------
 
 
@@ -188,6 +216,17 @@ def test_synthesis_keeps_every_limit_and_no_period_could_be_longer(urpilot: Task
     for name in judged:
         rung = LADDER.index(found.after.named(name).period)
         assert not keeps_limits(with_periods(found.after, {name: LADDER[rung + 1]})), name
+
+
+def test_synthesis_never_slows_a_task_beside_the_paths(urpilot: TaskSet) -> None:
+    """One that is faster than every task of the paths keeps its period."""
+    base = min(task.period for task in synthesize(urpilot).after.tasks)
+    fast = Task("Fast", "fast", "low", base - 1, 1)
+    found = synthesize(replace(urpilot, tasks=(*urpilot.tasks, fast)))
+    assert found.after.named("Fast").period == base - 1
+    judged = {name for chain in urpilot.chains if not chain.advisory for name in chain.path}
+    for task in urpilot.tasks:
+        assert task.name in judged or found.after.named(task.name).period <= task.period
 
 
 def test_synthesis_says_when_there_is_nothing_to_find(urpilot: TaskSet) -> None:

@@ -48,7 +48,7 @@ class OtherRow:
     class_name: str
     period: int
     budget: int
-    fits: str  # Whether the budget fits the real-time gaps.
+    fits: str  # Which real-time gaps take the declared budget and the guard.
     bound: int | None
     promotion_wait: int
     promoted_bound: int | None
@@ -72,12 +72,26 @@ class ChainRow:
         """Whether eq. 5 to 7 are within the limits."""
         return self.reaction <= self.reaction_limit and self.freshness <= self.freshness_limit
 
+    @property
+    def conventional_within(self) -> bool:
+        """Whether the sum of T + R, which counts missed samples, keeps the limit."""
+        return self.conventional is not None and self.conventional <= self.reaction_limit
+
+    def report(self) -> dict[str, Any]:
+        """For JSON: the row and its verdicts."""
+        verdicts = {"within": self.within, "conventional_within": self.conventional_within}
+        return {**asdict(self), **verdicts}
+
 
 @dataclass(frozen=True)
 class Gaps:
-    """What is left between real-time releases."""
+    """Between the end of real-time tasks that take their declared budgets and the next release.
 
-    shortest: int | None  # When all real-time tasks fall due together; None: no real-time task.
+    With the phases of the set. None: no real-time task, or too many releases to look at.
+    """
+
+    shortest: int | None
+    longest: int | None
     admission: int | None  # The kernel's rule: shortest T - C of one real-time task.
 
 
@@ -115,10 +129,25 @@ class Analysis:
             return f"above the target of {LOAD_TARGET:.0f} %, below the alarm"
         return f"in or above the alarm zone of {LOAD_ALARM[0]:.0f} to {LOAD_ALARM[1]:.0f} %"
 
+    @property
+    def advice(self) -> list[str]:
+        """What is wrong with paths, but not judged."""
+        found = []
+        for row in self.chains:
+            if row.advisory and not row.within:
+                found.append(f"path {row.name} exceeds its limits by eq. 5 to 7")
+            if not row.conventional_within:
+                total = "no bound" if row.conventional is None else f"{row.conventional} us"
+                found.append(
+                    f"path {row.name}: the sum of T + R is {total}, its reaction limit "
+                    f"{row.reaction_limit} us: an event that just misses its sample may take longer"
+                )
+        return found
+
     def report(self) -> dict[str, Any]:
         """For JSON."""
-        verdict = {"schedulable": self.schedulable, "load": self.load_zone}
-        return {**verdict, **asdict(self)}
+        verdict = {"schedulable": self.schedulable, "load": self.load_zone, "advice": self.advice}
+        return {**verdict, **asdict(self), "chains": [row.report() for row in self.chains]}
 
 
 def class_load(name: str, tasks: list[Task]) -> ClassLoad:
@@ -140,22 +169,40 @@ def realtime_rows(tasks: TaskSet, found: keel.Bounds) -> list[RealtimeRow]:
 
 
 def gaps_of(tasks: TaskSet) -> Gaps:
-    """The gaps between real-time releases."""
+    """The gaps between real-time tasks, from every release of a common period."""
     if not tasks.realtime:
-        return Gaps(None, None)
-    budgets = sum(task.budget for task in tasks.realtime)
-    shortest = min(task.period for task in tasks.realtime) - budgets
-    return Gaps(max(shortest, 0), min(task.period - task.budget for task in tasks.realtime))
+        return Gaps(None, None, None)
+    admission = max(0, min(task.period - keel.declared(tasks, task) for task in tasks.realtime))
+    tails = keel.Tails(tasks.realtime)
+    if not tails.instants:
+        return Gaps(None, None, admission)
+    gaps: list[int] = []
+    end = 0  # Of all work released so far.
+    for turn in range(2):  # The first leaves the backlog that every later one begins with.
+        gaps.clear()
+        for index, at in enumerate(tails.instants):
+            following = (*tails.instants, tails.instants[0] + tails.cycle)[index + 1]
+            work = sum(
+                keel.declared(tasks, task)
+                for task in tasks.realtime
+                if (at - task.phase) % task.period == 0
+            )
+            end = max(end, turn * tails.cycle + at) + work
+            gaps.append(max(0, turn * tails.cycle + following - end))
+    open_gaps = [gap for gap in gaps if gap] or [0]
+    return Gaps(min(open_gaps), max(open_gaps), admission)
 
 
 def fits(tasks: TaskSet, task: Task, gaps: Gaps) -> str:
-    """Whether a budget fits the gaps, the guard included."""
-    if gaps.shortest is None or gaps.admission is None:
+    """Which gaps take a declared budget and the guard."""
+    if not tasks.realtime:
         return "always"
+    if gaps.shortest is None or gaps.longest is None:
+        return "not known"
     need = tasks.costs.guard_us + keel.declared(tasks, task)
     if need <= gaps.shortest:
-        return "always"
-    return "when real-time tasks do not collide" if need <= gaps.admission else "never"
+        return "every"
+    return "some" if need <= gaps.longest else "none"
 
 
 def other_rows(tasks: TaskSet, found: keel.Bounds) -> list[OtherRow]:
@@ -174,8 +221,7 @@ def other_rows(tasks: TaskSet, found: keel.Bounds) -> list[OtherRow]:
 
 def chain_rows(tasks: TaskSet, found: keel.Bounds) -> list[ChainRow]:
     """The chains."""
-    responses: dict[str, int | None] = dict(found.realtime)
-    responses |= {name: bound.response for name, bound in found.others.items()}
+    responses = keel.responses_of(found)
     rows = []
     for chain in tasks.chains:
         path = tasks.path(chain)

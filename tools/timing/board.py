@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import json
 import subprocess
-from collections.abc import Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -155,8 +154,14 @@ def build(tools: Toolchain, name: str = "experiment", extra: Sequence[str] = ())
     return program
 
 
-def run_batch(program: Path, experiments: Sequence[Experiment], timeout_s: float) -> list[Result]:
-    """Run experiments one after another in one process."""
+def run_batch(
+    program: Path, experiments: Sequence[Experiment], timeout_s: float, refusals: bool = False
+) -> list[Result]:
+    """Run experiments one after another in one process.
+
+    A run that the kernel refused or ended is an error, as nothing or little was measured in it,
+    unless the caller looks at the status itself (refusals).
+    """
     orders = "".join(experiment.orders() for experiment in experiments)
     done = subprocess.run(
         [str(program)], input=orders, capture_output=True, text=True, timeout=timeout_s, check=False
@@ -164,13 +169,10 @@ def run_batch(program: Path, experiments: Sequence[Experiment], timeout_s: float
     lines = done.stdout.splitlines()
     if done.returncode != 0 or len(lines) != len(experiments):
         raise BoardError(f"the virtual board fails: {done.stderr or done.returncode}")
-    return [read_result(*pair) for pair in zip(lines, experiments, strict=True)]
-
-
-def run_all(
-    program: Path, experiments: Iterable[Experiment], jobs: int = 2, timeout_s: float = 300.0
-) -> list[Result]:
-    """Run experiments side by side; results in their order."""
-    with ThreadPoolExecutor(jobs) as pool:
-        waiting = [pool.submit(run_batch, program, [item], timeout_s) for item in experiments]
-        return [result for future in waiting for result in future.result()]
+    results = [read_result(*pair) for pair in zip(lines, experiments, strict=True)]
+    for result, experiment in zip(results, experiments, strict=True):
+        if result.status != 0 and not refusals:
+            raise BoardError(f"a run of {experiment.tasks.name} ({experiment.policy}, "
+                             f"{experiment.model}) ended with status {result.status} of "
+                             "include/keel/status.h: it is no result")  # fmt: skip
+    return results

@@ -209,12 +209,33 @@ REASON_COLLISION = (
     "under any scheduler that runs τ11 first. Phases remove it"
 )
 
+# What the collisions explain, percent of the period: a fifth above what was measured when this
+# reason was found. Not derived from anything: beyond it something else must have changed.
+COLLISION_CEILINGS = {"low": 0.6, "medium": 1.9, "medium-high": 0.46, "high": 3.4,
+                      "real-time": 0.53}  # fmt: skip
+REASON_TURN = (
+    "a loop that looks every 5 us cannot start a task every 1000 us more exactly; Keel's idle "
+    "turn is a clock reading and a comparison"
+)
+
+
+def excuse(reason: str, value: float, ceiling: float) -> str:
+    """The reason, as far as it reaches."""
+    return reason if value <= ceiling else ""
+
+
+def turn_ceiling(tasks: TaskSet, turn_ns: int) -> float:
+    """The mean of eq. 15 of real-time tasks that start up to a turn late: at most a turn of T."""
+    return sum(turn_ns / 10 / task.period for task in tasks.realtime) / len(tasks.realtime)
+
 
 def judge_deviation(tasks: TaskSet, results: Deviations, findings: Findings) -> None:
     """The goals for eq. 15, and that nothing drifts."""
     for class_name, limit in SIGMA_GOALS.items():
-        for name, reason in (("phases", ""), ("Keel", REASON_COLLISION)):
+        for name in ("phases", "Keel"):
             value = class_sigma(tasks, results[name, GOAL_MODEL], class_name)
+            ceiling = COLLISION_CEILINGS[class_name] if name == "Keel" else 0.0
+            reason = excuse(REASON_COLLISION, value, ceiling)
             findings.goal(f"deviation, {class_name}, {name}", f"below {limit} %",
                           f"{value:.4f} %", value < limit, reason)  # fmt: skip
     for name in ("phases", "RT phases"):
@@ -225,8 +246,7 @@ def judge_deviation(tasks: TaskSet, results: Deviations, findings: Findings) -> 
     findings.goal(
         "deviation, real-time, phases, 5 us turn",
         f"below {REALTIME_SIGMA_GOAL} %", f"{value:.4f} %", value < REALTIME_SIGMA_GOAL,
-        "a loop that looks every 5 us cannot start a task every 1000 us more exactly; Keel's idle "
-        "turn is a clock reading and a comparison",
+        excuse(REASON_TURN, value, turn_ceiling(tasks, 5000)),
     )  # fmt: skip
     worst = max(
         drift(variant.tasks, results[variant.name, model])
@@ -266,8 +286,9 @@ def show_load(tasks: TaskSet, results: Deviations, out: Console, findings: Findi
             idle = result.idle_mean_us
             rows.append([f"{name}, {model}", idle, (100_000 - idle) / 1000, most])
     columns = ["", "idle of 100 000 us", "load, %", "highest load of a window, %"]
-    out.print(table("CPU load (eq. 13, 14), the scheduler's own time included", columns, rows))
+    out.print(table("CPU load (eq. 13, 14), passes that run a task included", columns, rows))
     total = 100.0 * float(textbook.utilisation(tasks.tasks))
+    out.print("Passes that run nothing count as idle, as the kernel counts them.")
     out.print(f"Table 2's budgets alone are {total:.2f} %; the paper's load means that its tasks "
               "took two thirds of them on average.\n")  # fmt: skip
     findings.report["load"] = rows
@@ -276,17 +297,23 @@ def show_load(tasks: TaskSet, results: Deviations, out: Console, findings: Findi
 # --- Fig. 10: reaction and freshness -------------------------------------------------------------
 
 
+@dataclass(frozen=True)
+class Seen:
+    """The longest that was observed on a path, us."""
+
+    reaction: float
+    freshness: float
+
+
+REASON_ADVICE = "these limits are advice: it is not known whether the paper has these paths"
+
+
 def show_paths(tasks: TaskSet, results: Deviations, out: Console, findings: Findings) -> None:
     """Observed against predicted against limits."""
-    found = keel.bounds(tasks)
-    responses: dict[str, int | None] = dict(found.realtime)
-    responses |= {name: bound.response for name, bound in found.others.items()}
     rows: list[list[Cell]] = []
-    bounded = True
-    within = True
+    worst: dict[str, Seen] = {}
     for chain in tasks.chains:
         path = tasks.path(chain)
-        limit = textbook.conventional(path, [responses[task.name] for task in path])
         seen = {
             name: [results[name, model].chains[chain.name] for model in ("constant", GOAL_MODEL)]
             for name in ("Keel", "phases")
@@ -296,19 +323,34 @@ def show_paths(tasks: TaskSet, results: Deviations, out: Console, findings: Find
         rows.append([chain.name, react["Keel"], react["phases"], textbook.reaction(path),
                      chain.reaction_limit_us, fresh["Keel"], fresh["phases"],
                      textbook.freshness(path), chain.freshness_limit_us])  # fmt: skip
-        bounded &= limit is not None and max(*react.values(), *fresh.values()) <= limit
-        within &= max(react.values()) <= chain.reaction_limit_us
-        within &= max(fresh.values()) <= chain.freshness_limit_us
+        worst[chain.name] = Seen(max(react.values()), max(fresh.values()))
     columns = ["path", "E seen", "E, phases", "E, eq. 5, 6", "limit", "F seen", "F, phases",
                "F, eq. 7", "limit"]  # fmt: skip
     out.print(table("Fig. 10: reaction and freshness, us", columns, rows))
     out.print("Seen: from the start of the run that takes a sample to the end of the first (E) or "
               "any (F) run of the last task\nthat acts on it.\n")  # fmt: skip
     findings.report["paths"] = rows
-    findings.goal("paths", "observed within the sum of T + R", "all" if bounded else "NOT all",
-                  bounded)  # fmt: skip
-    findings.goal("paths", "observed within the paper's limits", "all" if within else "not all",
-                  within, "the paths beyond their limits are advice")  # fmt: skip
+    judge_paths(tasks, worst, findings)
+
+
+def judge_paths(tasks: TaskSet, worst: dict[str, Seen], findings: Findings) -> None:
+    """What was observed, against the sum of T + R, against limits, and against advice."""
+    beyond_bound = []
+    beyond: dict[bool, list[str]] = {False: [], True: []}  # By whether the limits are advice.
+    for chain in tasks.chains:
+        seen = worst[chain.name]
+        limit = keel.path_bound(tasks, chain)
+        if limit is None or max(seen.reaction, seen.freshness) > limit:
+            beyond_bound.append(chain.name)
+        if seen.reaction > chain.reaction_limit_us or seen.freshness > chain.freshness_limit_us:
+            beyond[chain.advisory].append(chain.name)
+    for wanted, found, reason in (
+        ("observed within the sum of T + R", beyond_bound, ""),
+        ("observed within the paper's limits", beyond[False], ""),
+        ("observed within the limits that are advice", beyond[True], REASON_ADVICE),
+    ):
+        measured = f"beyond: {'; '.join(found)}" if found else "all"
+        findings.goal("paths", wanted, measured, not found, reason)
 
 
 # --- Real-time response --------------------------------------------------------------------------
@@ -438,9 +480,11 @@ def overload(tasks: TaskSet, runner: Runner, out: Console, findings: Findings) -
                      " ".join(silent(plan, result)) or "none",
                      "yes" if counted(plan, result) else "NO"])  # fmt: skip
         judge_overload(name, plan, result, findings)
-    columns = ["overload", "RT worst, us", "bound, us", "RT skipped", "others skipped", "overruns",
-               "promotions", "longest gap, T", "starved", "all counted"]  # fmt: skip
+    columns = ["overload", "RT worst, us", "bound with it, us", "RT skipped", "others skipped",
+               "overruns", "promotions", "longest gap, T", "starved", "all counted"]  # fmt: skip
     out.print(table("Overload", columns, rows))
+    out.print("The bound is that of a pass with the overload's longest run in it, not the one for "
+              "runs that keep their budgets.\n")  # fmt: skip
     findings.report["overload"] = [dict(zip(columns, row, strict=True)) for row in rows]
 
 
@@ -454,7 +498,8 @@ def judge_overload(name: str, plan: Experiment, result: Result, findings: Findin
     worst = max(result.tasks[task.name].worst for task in plan.tasks.realtime)
     bound = overload_bound(plan)
     shortest = min(task.period for task in plan.tasks.realtime)
-    findings.goal(f"{name}: real-time", f"within {bound} us", f"{worst:.1f} us", worst <= bound)
+    findings.goal(f"{name}: real-time", f"within {bound} us, the overrun in it",
+                  f"{worst:.1f} us", worst <= bound)  # fmt: skip
     if bound > shortest:
         missed = sum(result.tasks[task.name].skipped for task in plan.tasks.realtime)
         findings.goal(
@@ -538,8 +583,7 @@ SIMULATED = (
 def show_contradictions(tasks: TaskSet, out: Console, findings: Findings) -> None:
     """The paper's figures that its own table excludes."""
     found = keel.bounds(tasks)
-    responses: dict[str, int | None] = dict(found.realtime)
-    responses |= {name: bound.response for name, bound in found.others.items()}
+    responses = keel.responses_of(found)
     rows: list[list[Cell]] = []
     for task in tasks.tasks:
         response = responses[task.name]

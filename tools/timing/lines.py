@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 Path = tuple[str | int, ...]
 
+DEEPEST = 8  # No key of ours lies deeper; one of a hostile file would take n^2 of memory.
 KEY = re.compile(r"""[ \t]*("(?:\\.|[^"\\\n])*"|'[^'\n]*'|[A-Za-z0-9_-]+)[ \t]*""")
 BLANK = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)+")
 # What a value is made of. Strings and comments may hold brackets and line ends of their own.
@@ -56,7 +57,7 @@ class Scanner:
     def note(self, path: Path, position: int) -> None:
         """Remember the line of a path, and of the tables it lies in if they are new."""
         line = self.text.count("\n", 0, position) + 1
-        for length in range(1, len(path) + 1):
+        for length in range(1, min(len(path), DEEPEST) + 1):
             self.lines.setdefault(path[:length], line)
 
     def full(self, keys: Path) -> Path:

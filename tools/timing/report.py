@@ -32,7 +32,7 @@ NOTE_REALTIME = (
 )
 NOTE_CHAINS = (
     "Eq. 5 to 7 take each task to respond at once and to use the sample that arrives; the sum of "
-    "T + R bounds the reaction\nto an event that just missed its sample, for any phases. Eq. 7 is "
+    "T + R bounds the reaction\nto an event that just missed its sample. Eq. 7 is "
     "defined for two tasks; each further one is taken\nto add its producer's period and its own "
     "budget.\n"
 )
@@ -107,14 +107,17 @@ def print_others(analysis: Analysis, out: Console) -> None:
          row.promotion_wait, row.promoted_bound]
         for row in analysis.other_rows
     ]  # fmt: skip
-    columns = ["", "task", "class", "T = D", "C", "fits the gaps", "response <=", "promoted after",
+    columns = ["", "task", "class", "T = D", "C", "gaps it fits", "response <=", "promoted after",
                "then done by"]  # fmt: skip
     out.print(table("Tasks that are not real-time, us from the release", columns, rows, 3))
     if analysis.gaps.shortest is not None:
         out.print(
-            f"Shortest real-time gap: {analysis.gaps.shortest} us, when all fall due together; "
-            f"admission looks at one task at a time: {analysis.gaps.admission} us."
+            "Gaps between real-time tasks that take their declared budgets, with the phases of the "
+            f"set: {analysis.gaps.shortest} to {analysis.gaps.longest} us; admission looks at one "
+            f"task at a time: {analysis.gaps.admission} us."
         )
+    elif analysis.realtime_rows:
+        out.print("Real-time tasks have too many releases in a common period to look at every gap.")
     out.print(f"Hyperperiod: {analysis.hyperperiod} us.\n")
 
 
@@ -131,10 +134,12 @@ def print_chains(analysis: Analysis, out: Console) -> None:
         return
     rows: list[list[Cell]] = [
         [row.name, " ".join(row.path), row.reaction, row.reaction_limit, row.freshness,
-         row.freshness_limit, chain_verdict(row), row.conventional]
+         row.freshness_limit, chain_verdict(row), row.conventional,
+         "within" if row.conventional_within else "exceeds (advice)"]
         for row in analysis.chains
     ]  # fmt: skip
-    columns = ["path", "tasks", "E (eq. 5, 6)", "limit", "F (eq. 7)", "limit", "", "sum of T + R"]
+    columns = ["path", "tasks", "E (eq. 5, 6)", "limit", "F (eq. 7)", "limit", "", "sum of T + R",
+               "limit of E"]  # fmt: skip
     out.print(table("Paths from sensor to actuator, us", columns, rows, 2))
     out.print(NOTE_CHAINS)
 
@@ -151,7 +156,8 @@ def verdict(analysis: Analysis) -> str:
     """The last line."""
     if analysis.schedulable:
         return (
-            f"{analysis.name}: schedulable; every task meets its deadline, every path its limits."
+            f"{analysis.name}: schedulable; every task meets its deadline, every judged path its "
+            "limits by eq. 5 to 7."
         )
     more = len(analysis.reasons) - 1
     rest = f" ({more} more)" if more else ""

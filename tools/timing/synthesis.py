@@ -11,7 +11,7 @@ within its reaction limit, which is the conventional bound but for the response 
 own periods do not keep this for the magnetometer and the radio.)
 
 Tasks beside the paths keep their periods, rounded down to multiples of the shortest period found,
-as the paper does.
+as the paper does; those with shorter periods keep them as they are.
 """
 
 from __future__ import annotations
@@ -117,7 +117,7 @@ def synthesize(tasks: TaskSet) -> Synthesis:
     base = min(periods.values())
     for task in tasks.tasks:
         if task.name not in periods:
-            periods[task.name] = max(base, task.period // base * base)
+            periods[task.name] = task.period // base * base or task.period
     found = with_periods(tasks, periods)
     analysis = analyse(found)
     return Synthesis(tasks, found, analysis, spare(found) if analysis.schedulable else 0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import tomllib
 from dataclasses import dataclass
+from json import dumps
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -14,13 +15,21 @@ from timing.lines import Path as KeyPath
 from timing.lines import line_index, line_of
 
 # The kernel's own limits: priority.h (KEEL_PERIOD_LIMIT_US, KEEL_PRIORITY_*), queue.h
-# (KEEL_QUEUE_CAPACITY). tests/tools/test_timing_kernel.py compares them with the headers.
+# (KEEL_QUEUE_CAPACITY). tests/timing/test_tools.py compares them with the headers.
 PERIOD_LIMIT_US = 2**31
 QUEUE_CAPACITY = 32
 PRIORITY_MAX = 16
 CLASSES = {"low": 1, "medium": 2, "medium-high": 3, "high": 4, "real-time": PRIORITY_MAX}
 REALTIME = "real-time"
 SIZE_LIMIT = 1 << 20
+
+# Names that the C table (ctable.py) takes: of its own macros, of the macros of stdint.h, which it
+# includes, and of the kernel.
+TABLE_NAMES = frozenset({"TASK_COUNT", "GUARD_US", "TASKS_H"})
+STDINT_NAME = re.compile(
+    r"(U?INT(_?(FAST|LEAST))?\d+|U?INT(PTR|MAX)|PTRDIFF|SIZE|SIG_ATOMIC|WCHAR|WINT)_(MIN|MAX|C)"
+)
+KERNEL = "keel"
 
 Time = Annotated[int, Field(ge=1, lt=PERIOD_LIMIT_US)]
 Cost = Annotated[int, Field(ge=0, lt=1_000_000)]
@@ -199,7 +208,7 @@ class Reader:
             if isinstance(part, int):
                 words.append(self.item(path[:number], part))
             elif not (number + 1 < len(path) and isinstance(path[number + 1], int)):
-                words.append(part)
+                words.append(part if len(part) <= 40 else f"{part[:37]}...")
         return ": ".join(words) or "file"
 
     def item(self, path: KeyPath, index: int) -> str:
@@ -208,7 +217,10 @@ class Reader:
         items = self.data.get(kind) if len(path) == 1 else None
         entry = items[index] if isinstance(items, list) and index < len(items) else None
         name = entry.get("name") if isinstance(entry, dict) else None
-        return f'{kind} "{name[:40]}"' if isinstance(name, str) else f"{kind} number {index + 1}"
+        if not isinstance(name, str):
+            return f"{kind} number {index + 1}"
+        # Quoted as in JSON: a name that is refused may hold line ends.
+        return f"{kind} {dumps(name[:40], ensure_ascii=False)}"
 
     def fail_if_wrong(self) -> None:
         """Stop when something is wrong."""
@@ -273,13 +285,24 @@ class Reader:
         return names[raw.priority or PRIORITY_MAX]
 
     def check_names(self, raw: RawTaskSet) -> None:
-        """No name twice, also not as part of a C identifier."""
-        seen: dict[tuple[str, str], str] = {}
+        """No name twice, also not as part of a C identifier, and none that the C table takes."""
+        if raw.name.split("_")[0] == KERNEL:
+            self.blame(("name",), f'expected a name that does not begin with "{KERNEL}", as the '
+                       "kernel's do in C")  # fmt: skip
+        for number, task in enumerate(raw.task):
+            symbol = symbol_of(task.name)
+            whole = f"{raw.name.upper()}_{symbol}"
+            if symbol in TABLE_NAMES or STDINT_NAME.fullmatch(whole):
+                owner = "the C table's" if symbol in TABLE_NAMES else "stdint.h's"
+                expected = f"expected a name other than {owner} own: it becomes {whole}"
+                self.blame(("task", number, "name"), expected)
+        seen: dict[tuple[str, str], int] = {}
         for number, task in enumerate(raw.task):
             for kind, text in (("name", symbol_of(task.name)), ("label", task.label or "")):
-                first = seen.setdefault((kind, text), task.name) if text else None
-                if first is not None and first is not task.name:
-                    expected = f'expected another than that of "{first}" (as a C identifier)'
+                first = seen.setdefault((kind, text), number) if text else number
+                if first != number:
+                    taken = raw.task[first].name
+                    expected = f'expected another than that of "{taken}" (as a C identifier)'
                     self.blame(("task", number, kind), expected)
 
     def check_chains(self, raw: RawTaskSet) -> None:
@@ -311,9 +334,19 @@ def expectation(place: KeyPath, message: str, given: Any) -> str:
         return "expected: this key is missing"
     if message == "Extra inputs are not permitted":
         return f"unknown key; expected one of {', '.join(keys_at(place))}"
-    shown = repr(given)
-    shown = shown if len(shown) <= 40 else f"{shown[:37]}..."
-    return f"{re.sub('^[A-Z][a-z]+ should', 'expected to', message)}, found {shown}"
+    return f"{re.sub('^[A-Z][a-z]+ should', 'expected to', message)}, found {shown(given)}"
+
+
+def shown(given: Any) -> str:
+    """What was found, in few words: nested tables and long numbers have no repr of any length."""
+    if isinstance(given, dict):
+        return "a table"
+    if isinstance(given, list):
+        return "an array"
+    if isinstance(given, int) and given.bit_length() > 128:
+        return f"a number of {given.bit_length()} bits"
+    text = repr(given)
+    return text if len(text) <= 40 else f"{text[:37]}..."
 
 
 def parse(text: str, file: str = "task set") -> TaskSet:
