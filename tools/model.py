@@ -185,7 +185,7 @@ class Board:
         if address == SPI1 + 0xC:
             self.words[SPI1 + 8] &= ~1
         if address == SCB + 4:
-            return self.exception
+            return self.exception | (0x800 if self.exception else 0)  # RETTOBASE.
         return self.words.get(address, 0)
 
     def write(self, address: int, value: int) -> None:

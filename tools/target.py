@@ -143,6 +143,7 @@ class Fault:
     code: int = 0
     function: str = ""  # where it happened, if not in fault_<kind>; "-" when nowhere
     stacked: bool = True
+    task: str = TASK
 
 
 FAULTS = {
@@ -159,6 +160,8 @@ FAULTS = {
     "stop": Fault(USAGE, UNDEFINSTR, code=CODE, function="keel_fault_stop"),
     "interrupt": Fault(INTERRUPT_3, 0),
     "hang": Fault(NMI, 0),
+    "lost_task": Fault(USAGE, UNDEFINSTR, task="-"),
+    "lost_name": Fault(USAGE, UNDEFINSTR, task="-"),
 }
 
 WORD = re.compile(r"\b([a-z_0-9]+) (0x[0-9a-f]{8}|\d+)\b")
@@ -188,7 +191,7 @@ def judge_fault(fault: Fault, found: Mapping[str, str], span: range) -> list[str
         f"{name} is {found.get(name)}, not {want}"
         for name, want in (
             ("fault", "1"), ("exception", str(fault.exception)), ("code", f"0x{fault.code:08x}"),
-            ("task", TASK), ("stacked", "yes" if fault.stacked else "no"),
+            ("task", fault.task), ("stacked", "yes" if fault.stacked else "no"),
         )
         if found.get(name) != want
     ]  # fmt: skip

@@ -56,6 +56,8 @@ BREAKS void fault_stop(void);
 BREAKS void fault_interrupt(void);
 BREAKS void fault_hang(void);
 BREAKS void fault_jump(void);
+BREAKS void fault_lost_task(void);
+BREAKS void fault_lost_name(void);
 
 void fault_undefined(void)
 {
@@ -104,6 +106,23 @@ void fault_execute(void)
 void fault_jump(void)
 {
     ((function_t)(hidden(WILD) | 1u))();
+}
+
+/* The record's task is looked up by pointers that may be what is broken. */
+void fault_lost_task(void)
+{
+    scheduler.queue.task[scheduler.running] = (keel_task_t *)hidden(NOWHERE);
+    __asm volatile("udf #2");
+}
+
+void fault_lost_name(void)
+{
+    static keel_task_config_t broken;
+
+    broken = *scheduler.queue.task[scheduler.running]->config;
+    broken.name = (const char *)hidden(NOWHERE);
+    scheduler.queue.task[scheduler.running]->config = &broken;
+    __asm volatile("udf #2");
 }
 
 void fault_write(void)
