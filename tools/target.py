@@ -156,6 +156,7 @@ FAULTS = {
     "null": Fault(MEMORY, DACCVIOL | MMARVALID, address=range(0x10, 0x11)),
     "execute": Fault(MEMORY, IACCVIOL, function="-"),
     "jump": Fault(MEMORY, IACCVIOL, function="-"),
+    "jump_far": Fault(MEMORY, IACCVIOL, function="-"),
     "write": Fault(MEMORY, DACCVIOL | MMARVALID, address=range(0x20_0000, 0x20_0001)),
     "stop": Fault(USAGE, UNDEFINSTR, code=CODE, function="keel_fault_stop"),
     "interrupt": Fault(INTERRUPT_3, 0),
