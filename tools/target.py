@@ -33,6 +33,7 @@ import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from hashlib import sha256
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -74,6 +75,7 @@ class Bench:
     root: Path = ROOT
     stacks: dict[str, int] = field(default_factory=dict)  # by image, in bytes
     stack_size: int = 0
+    demo_sha256: str = ""
 
     def __post_init__(self) -> None:
         self.board = read_board(self.root, BOARD)
@@ -283,6 +285,7 @@ def demo_suite(bench: Bench, name: str) -> Outcome:
     """The board's own application, for ten simulated seconds."""
     image = bench.builder.link("demo", bench.builder.objects(bench.board.application))
     firmware.examine(bench.builder, image)
+    bench.demo_sha256 = sha256(image.elf.read_bytes()).hexdigest()
     periods = demo_periods((bench.root / TASK_SET).read_text(encoding="utf-8"))
     ended = bench.run(image, LONG_TIMEOUT_S)
     wrong = judge_demo(periods, ended.output)
@@ -423,7 +426,11 @@ def write_report(bench: Bench, outcomes: Mapping[str, Outcome], chosen: str) -> 
         "flags": bench.builder.flags,
         "nanoseconds_per_instruction": 1 << SHIFT,
         "vectors_per_unit": VECTORS,
-        "painted_stack": {"size": bench.stack_size, "used": bench.stacks},
+        "painted_stack": {
+            "size": bench.stack_size,
+            "used": bench.stacks,
+            "demo_sha256": bench.demo_sha256,
+        },
         "suites": {
             name: {
                 "passed": outcome.passed,

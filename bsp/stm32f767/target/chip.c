@@ -72,7 +72,7 @@ static const keel_scheduler_t *supervised;
 static uint32_t last_fed_us;
 static keel_spi_device_t sensor_device;
 
-/* Before memory is filled: nothing static but constants may be used. */
+/* Before memory is filled, but for ITCM: nothing static but constants may be used. */
 
 /* Outputs low, and the memory for a record of a fault open, before anything else can go wrong. */
 void keel_board_early(void)
@@ -245,7 +245,7 @@ static keel_bsp_status_t delay(void *context, uint32_t time_us)
                                                                          : KEEL_BSP_TIMEOUT;
 }
 
-const keel_icm20689_t *keel_chip_sensor(void)
+KEEL_REALTIME_CODE const keel_icm20689_t *keel_chip_sensor(void)
 {
     static const keel_icm20689_t sensor = {{keel_spi_bus_exchange, &sensor_device}, delay, NULL};
 
