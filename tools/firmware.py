@@ -53,7 +53,10 @@ FLAGS = (
     "-std=c99", "-O2", "-g", "-ffreestanding", "-ffunction-sections", "-fdata-sections",
     "-fno-common", "-ffp-contract=off", "-fstack-usage", "-fcallgraph-info=su,da",
 )  # fmt: skip
-LINK_FLAGS = ("-nostartfiles", "-static", "-Wl,--gc-sections", "-Wl,--fatal-warnings")
+LINK_FLAGS = (
+    "-nostartfiles", "-static", "-Wl,--gc-sections", "-Wl,--fatal-warnings",
+    "-Wl,--orphan-handling=error",
+)  # fmt: skip
 COMMON_INCLUDE = ("include", "bsp")
 TIMEOUT_S = 300
 

@@ -44,10 +44,11 @@ NOISE = b"\xa5\x5a\x3c\xc3"
 # Bases of the peripherals (RM0410, table 1).
 TIM5, IWDG, USART3, PWR, UART7 = 0x4000_0C00, 0x4000_3000, 0x4000_4800, 0x4000_7000, 0x4000_7800
 TIM1, SPI1, GPIOA, RCC, FLASHR = 0x4001_0000, 0x4001_3000, 0x4002_0000, 0x4002_3800, 0x4002_3C00
-SCB, DBGMCU = 0xE000_ED00, 0xE004_2000
+SYSTICK, NVIC, SCB, DBGMCU = 0xE000_E010, 0xE000_E100, 0xE000_ED00, 0xE004_2000
 BLOCKS = {
     TIM5: 0x54, IWDG: 0x14, USART3: 0x2C, PWR: 0x10, UART7: 0x2C, TIM1: 0x68, SPI1: 0x24,
-    RCC: 0x98, FLASHR: 0x1C, SCB: 0x2A4, DBGMCU: 0x10,
+    RCC: 0x98, FLASHR: 0x1C, SCB: 0x2A4, DBGMCU: 0x10, SYSTICK: 0x10,
+    NVIC: 0x200,
     **{GPIOA + 0x400 * port: 0x2C for port in range(11)},
 }  # fmt: skip
 RESETS = {
@@ -185,7 +186,7 @@ class Board:
         if address == SPI1 + 0xC:
             self.words[SPI1 + 8] &= ~1
         if address == SCB + 4:
-            return self.exception
+            return self.exception | (0x800 if self.exception else 0)  # RETTOBASE.
         return self.words.get(address, 0)
 
     def write(self, address: int, value: int) -> None:

@@ -34,6 +34,7 @@ import sys
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from hashlib import sha256
 from pathlib import Path
 
 from toolchain import Toolchain, ToolchainError, write_atomically
@@ -389,16 +390,16 @@ def functions_of(symbols: str) -> Iterator[str]:
 
 
 def painted(root: Path, board: str, elf: Path) -> int | None:
-    """How deep the painted stack of this application was when it last ran on the emulated board;
-    None when it did not run there, or before the image was built."""
+    """How deep the painted stack of this very image was when it last ran on the emulated board;
+    None when it did not run there."""
     path = root / PAINTED
     try:
         report = json.loads(path.read_text(encoding="utf-8"))
         used = report["painted_stack"]["used"].get("demo")
-        fresh = path.stat().st_mtime >= elf.stat().st_mtime
+        same = report["painted_stack"]["demo_sha256"] == sha256(elf.read_bytes()).hexdigest()
     except (OSError, ValueError, KeyError, AttributeError, TypeError):
         return None
-    return int(used) if used is not None and fresh and report.get("board") == board else None
+    return int(used) if used is not None and same and report.get("board") == board else None
 
 
 def measure(tools: Toolchain, root: Path, board: str) -> dict[str, object]:
@@ -440,6 +441,8 @@ def conclude(report: Mapping[str, object], root: Path) -> int:
     short = [name for name, stack in stacks.items() if stack["bound"] > stack["size"]]
     verdict = f"TOO LITTLE ROOM: {', '.join(short)}" if short else "every stack has room"
     deepest = report.get("painted")
+    if deepest is None:
+        print("  painted stack: not compared, for this image did not run on the emulated board")
     if isinstance(deepest, int):  # No exception came while it ran.
         limit = stacks["main"]["bound"] - EXCEPTION_FRAME_B
         print(f"  painted stack on the emulated board: {deepest} of the {limit} bytes bounded")

@@ -33,6 +33,7 @@ import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from hashlib import sha256
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -74,6 +75,7 @@ class Bench:
     root: Path = ROOT
     stacks: dict[str, int] = field(default_factory=dict)  # by image, in bytes
     stack_size: int = 0
+    demo_sha256: str = ""
 
     def __post_init__(self) -> None:
         self.board = read_board(self.root, BOARD)
@@ -143,6 +145,7 @@ class Fault:
     code: int = 0
     function: str = ""  # where it happened, if not in fault_<kind>; "-" when nowhere
     stacked: bool = True
+    task: str = TASK
 
 
 FAULTS = {
@@ -155,10 +158,13 @@ FAULTS = {
     "null": Fault(MEMORY, DACCVIOL | MMARVALID, address=range(0x10, 0x11)),
     "execute": Fault(MEMORY, IACCVIOL, function="-"),
     "jump": Fault(MEMORY, IACCVIOL, function="-"),
+    "jump_far": Fault(MEMORY, IACCVIOL, function="-"),
     "write": Fault(MEMORY, DACCVIOL | MMARVALID, address=range(0x20_0000, 0x20_0001)),
     "stop": Fault(USAGE, UNDEFINSTR, code=CODE, function="keel_fault_stop"),
     "interrupt": Fault(INTERRUPT_3, 0),
     "hang": Fault(NMI, 0),
+    "lost_task": Fault(USAGE, UNDEFINSTR, task="-"),
+    "lost_name": Fault(USAGE, UNDEFINSTR, task="-"),
 }
 
 WORD = re.compile(r"\b([a-z_0-9]+) (0x[0-9a-f]{8}|\d+)\b")
@@ -188,7 +194,7 @@ def judge_fault(fault: Fault, found: Mapping[str, str], span: range) -> list[str
         f"{name} is {found.get(name)}, not {want}"
         for name, want in (
             ("fault", "1"), ("exception", str(fault.exception)), ("code", f"0x{fault.code:08x}"),
-            ("task", TASK), ("stacked", "yes" if fault.stacked else "no"),
+            ("task", fault.task), ("stacked", "yes" if fault.stacked else "no"),
         )
         if found.get(name) != want
     ]  # fmt: skip
@@ -279,6 +285,7 @@ def demo_suite(bench: Bench, name: str) -> Outcome:
     """The board's own application, for ten simulated seconds."""
     image = bench.builder.link("demo", bench.builder.objects(bench.board.application))
     firmware.examine(bench.builder, image)
+    bench.demo_sha256 = sha256(image.elf.read_bytes()).hexdigest()
     periods = demo_periods((bench.root / TASK_SET).read_text(encoding="utf-8"))
     ended = bench.run(image, LONG_TIMEOUT_S)
     wrong = judge_demo(periods, ended.output)
@@ -419,7 +426,11 @@ def write_report(bench: Bench, outcomes: Mapping[str, Outcome], chosen: str) -> 
         "flags": bench.builder.flags,
         "nanoseconds_per_instruction": 1 << SHIFT,
         "vectors_per_unit": VECTORS,
-        "painted_stack": {"size": bench.stack_size, "used": bench.stacks},
+        "painted_stack": {
+            "size": bench.stack_size,
+            "used": bench.stacks,
+            "demo_sha256": bench.demo_sha256,
+        },
         "suites": {
             name: {
                 "passed": outcome.passed,

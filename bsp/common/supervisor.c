@@ -1,5 +1,9 @@
 #include "common/supervisor.h"
 
+#define WEIGHT_MISSED 2u  /* Of a look that found something missed; a good one takes 1 away. */
+#define WEIGHT_LIMIT  6u  /* From here on good looks do not count. */
+#define WEIGHT_MAX    12u /* Well above the limit, or a good look now and then would be enough. */
+
 /* The periods that the real-time tasks missed; a counter at its end counts no more, so that a
  * task there can never be seen to meet its releases again. */
 static uint32_t sum_skipped(const keel_scheduler_t *scheduler, bool *counting)
@@ -34,6 +38,20 @@ void keel_supervisor_start(keel_supervisor_t *supervisor, const keel_scheduler_t
 
     supervisor->skipped = sum_skipped(scheduler, &counting);
     supervisor->tasks = scheduler->queue.realtime_count;
+    supervisor->weight = 0u;
+}
+
+/* Good looks between misses must not hide them: more than one miss in three adds up. */
+static void weigh(keel_supervisor_t *supervisor, bool good)
+{
+    if (!good) {
+        supervisor->weight += WEIGHT_MISSED;
+        supervisor->weight = (supervisor->weight > WEIGHT_MAX) ? WEIGHT_MAX : supervisor->weight;
+    } else if (supervisor->weight > 0u) {
+        supervisor->weight--;
+    } else {
+        /* All was well before, too. */
+    }
 }
 
 bool keel_supervisor_met(keel_supervisor_t *supervisor, const keel_scheduler_t *scheduler,
@@ -45,6 +63,9 @@ bool keel_supervisor_met(keel_supervisor_t *supervisor, const keel_scheduler_t *
     const bool all_there = (scheduler->queue.realtime_count >= supervisor->tasks) &&
                            (supervisor->tasks > 0u);
 
+    const bool good = same && all_there && all_in_time(scheduler, now_us);
+
     supervisor->skipped = skipped;
-    return same && all_there && all_in_time(scheduler, now_us);
+    weigh(supervisor, good);
+    return good && (supervisor->weight < WEIGHT_LIMIT);
 }

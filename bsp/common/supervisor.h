@@ -14,6 +14,7 @@
 typedef struct keel_supervisor {
     uint32_t skipped; /**< Whole periods that they missed together. */
     uint32_t tasks;   /**< How many there were. */
+    uint32_t weight;  /**< 2 for each failed look less 1 for each good one, 0 to 12. */
 } keel_supervisor_t;
 
 /**
@@ -26,7 +27,8 @@ void keel_supervisor_start(keel_supervisor_t *supervisor, const keel_scheduler_t
 
 /**
  * Whether every real-time task met its releases since the last look (SUP-002 to SUP-005): none
- * missed a whole period, none is waiting beyond its deadline, and none went away.
+ * missed a whole period, none is waiting beyond its deadline, and none went away; and whether
+ * misses were no more than one look in three before, or are long enough ago.
  *
  * @param supervisor the supervisor
  * @param scheduler  the scheduler, between two steps

@@ -14,6 +14,8 @@
 #define EXC_RETURN_PSP  4u      /* Bit of EXC_RETURN: the process stack was in use. */
 #define STATUS_UNSTACK  0x3838u /* CFSR: stacking or unstacking failed, in memory or on the bus. */
 #define ICSR_VECTACTIVE 0x1FFu
+#define ICSR_RETTOBASE  BITS(11u, 1u) /* No other exception is active. */
+#define WORD_B          4u
 #define CHECK_SEED      0x811C9DC5u /* FNV-1a. */
 #define CHECK_PRIME     0x01000193u
 
@@ -86,23 +88,61 @@ bool keel_fault_take(void)
     return fresh;
 }
 
-/* The name of the task that runs, as far as a broken system can be believed. */
-static void note_task(char *to)
+static bool lies_in(uint32_t address, uint32_t size_b, const uint32_t *start, const uint32_t *end)
+{
+    return (address >= (uint32_t)start) && (address < (uint32_t)end) &&
+           (size_b <= ((uint32_t)end - address));
+}
+
+/* Whether reading there cannot fault: constants in flash, stack and data in DTCM, data in SRAM. */
+static bool is_readable(const void *object, uint32_t size_b)
+{
+    const uint32_t address = (uint32_t)object;
+
+    return lies_in(address, size_b, keel_vectors, keel_data_load) ||
+           lies_in(address, size_b, keel_stack_bottom, keel_dtcm_bss_end) ||
+           lies_in(address, size_b, keel_data_start, keel_bss_end);
+}
+
+/* The same for a structure, whose words must be aligned. */
+static bool is_sound(const void *structure, uint32_t size_b)
+{
+    return (((uint32_t)structure % WORD_B) == 0u) && is_readable(structure, size_b);
+}
+
+/* The name of the task that runs, as far as a broken system can be believed; or null. */
+static const char *running_name(void)
 {
     const keel_scheduler_t *const scheduler = (const keel_scheduler_t *)get_checked(&watched);
-    const char *name = NULL;
+    const keel_task_t *task;
 
-    if ((scheduler != NULL) && (scheduler->running < KEEL_QUEUE_CAPACITY)) {
-        const keel_task_t *const task = scheduler->queue.task[scheduler->running];
-
-        name = ((task != NULL) && (task->config != NULL)) ? task->config->name : NULL;
+    if (!is_sound(scheduler, sizeof *scheduler) || (scheduler->running >= KEEL_QUEUE_CAPACITY)) {
+        return NULL;
     }
-    for (uint32_t i = 0u; i < KEEL_FAULT_NAME_SIZE; i++) {
-        const bool more = (name != NULL) && (i < (KEEL_FAULT_NAME_SIZE - 1u)) && (*name != '\0');
+    task = scheduler->queue.task[scheduler->running];
+    if (!is_sound(task, sizeof *task) || !is_sound(task->config, sizeof *task->config)) {
+        return NULL;
+    }
+    return task->config->name;
+}
 
-        to[i] = more ? *name : '\0';
+/* The name is read as a whole before the record changes, which is whole already. */
+static void note_task(keel_fault_record_t *record)
+{
+    char copy[KEEL_FAULT_NAME_SIZE];
+    const char *name = running_name();
+
+    for (uint32_t i = 0u; i < KEEL_FAULT_NAME_SIZE; i++) {
+        const bool more = (i < (KEEL_FAULT_NAME_SIZE - 1u)) && is_readable(name, 1u) &&
+                          (*name != '\0');
+
+        copy[i] = more ? *name : '\0';
         name = more ? &name[1] : NULL;
     }
+    for (uint32_t i = 0u; i < KEEL_FAULT_NAME_SIZE; i++) {
+        record->task[i] = copy[i];
+    }
+    keel_fault_seal(record);
 }
 
 /* The registers that the core stacked, unless stacking them is what failed. */
@@ -145,9 +185,14 @@ void keel_fault_finish(uint32_t sp, uint32_t exc_return, const uint32_t *registe
 void keel_fault_finish(uint32_t sp, uint32_t exc_return, const uint32_t *registers)
 {
     keel_fault_record_t *const record = &keel_fault_record;
-    const uint32_t before = keel_fault_is_whole(record) ? record->count : 0u;
+    uint32_t before;
 
+    /* Nothing before this, not even a look at the record: its memory may be what faults. */
     keel_board_outputs_off();
+    if ((SCB->ICSR & ICSR_RETTOBASE) == 0u) { /* A fault in this handler: the record is as it is. */
+        reset();
+    }
+    before = keel_fault_is_whole(record) ? record->count : 0u;
     record->magic = 0u;
     record->count = before + 1u;
     record->fresh = 1u;
@@ -163,8 +208,11 @@ void keel_fault_finish(uint32_t sp, uint32_t exc_return, const uint32_t *registe
     for (uint32_t i = 0u; i < KEEL_FAULT_REGISTERS; i++) {
         record->r4_to_r11[i] = registers[i];
     }
-    note_task(record->task);
+    for (uint32_t i = 0u; i < KEEL_FAULT_NAME_SIZE; i++) {
+        record->task[i] = '\0';
+    }
     keel_fault_seal(record);
+    note_task(record);
     reset();
 }
 

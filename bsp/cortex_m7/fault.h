@@ -60,7 +60,7 @@ const keel_fault_record_t *keel_fault_last(void);
 /**
  * Whether the safe state has to be entered; true once for each fault.
  *
- * So a pilot's next reset or power cycle starts the application again; the record stays.
+ * So a pilot's next reset starts the application again; the record stays until power goes.
  */
 bool keel_fault_take(void);
 

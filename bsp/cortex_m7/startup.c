@@ -7,6 +7,15 @@
 
 #define SCB ((keel_scb_t *)SCB_BASE)
 #define FPU ((keel_fpu_t *)FPU_BASE)
+#define MPU ((keel_mpu_t *)MPU_BASE)
+
+/* What the core has at the same place on every ARMv7-M (Architecture Reference Manual, B3.3, B3.4
+ * and B3.2.4). */
+#define SYSTICK_CTRL      (*(volatile uint32_t *)0xE000E010u)
+#define NVIC_DISABLE      ((volatile uint32_t *)0xE000E180u) /* ICER. */
+#define NVIC_FORGET       ((volatile uint32_t *)0xE000E280u) /* ICPR. */
+#define NVIC_WORDS        ((KEEL_BOARD_INTERRUPTS + 31u) / 32u)
+#define ICSR_FORGET       (BITS(25u, 1u) | BITS(27u, 1u)) /* PENDSTCLR, PENDSVCLR. */
 
 #define PAINT_ROOM_B 64u
 #define CPACR_FULL   0xFu /* Full access to both halves of the FPU. */
@@ -46,9 +55,31 @@ uint32_t keel_stack_used_b(void)
     return (uint32_t)keel_stack_top - (uint32_t)lowest;
 }
 
-static void fill_memory(void)
+/* As a reset leaves them, whatever a boot loader did: every interrupt would be a fault here, and its
+ * regions of memory are not Keel's. */
+static void stop_leftovers(void)
+{
+    __asm volatile("cpsid i" ::: "memory");
+    MPU->CTRL = 0u;
+    SYSTICK_CTRL = 0u;
+    for (uint32_t i = 0u; i < NVIC_WORDS; i++) {
+        NVIC_DISABLE[i] = UINT32_MAX;
+        NVIC_FORGET[i] = UINT32_MAX;
+    }
+    SCB->ICSR = ICSR_FORGET;
+    /* Masked exceptions would all be hard faults. */
+    __asm volatile("dsb\n\tisb\n\tmsr basepri, %0\n\tcpsie f\n\tcpsie i" ::"r"(0u) : "memory");
+}
+
+/* Before anything else that the boards do: their first steps call what lies there. */
+static void fill_itcm(void)
 {
     copy(keel_itcm_load, keel_itcm_start, keel_itcm_end);
+    __asm volatile("dsb\n\tisb" ::: "memory");
+}
+
+static void fill_memory(void)
+{
     copy(keel_dtcm_load, keel_dtcm_start, keel_dtcm_end);
     copy(keel_data_load, keel_data_start, keel_data_end);
     fill(keel_dtcm_bss_start, keel_dtcm_bss_end, 0u);
@@ -74,8 +105,10 @@ static void start_faults(void)
 
 void keel_reset(void)
 {
+    stop_leftovers();
     start_fpu();
     start_faults();
+    fill_itcm();
     keel_board_early();
     paint_stack();
     fill_memory();

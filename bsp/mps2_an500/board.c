@@ -46,7 +46,7 @@ const char keel_board_name[] = "mps2_an500";
 
 /* The guards come last: where regions overlap, the last one holds. */
 const keel_mpu_region_t keel_board_regions[] = {
-    {0x00000000u, 23u, KEEL_MPU_NONE}, /* Memory that the emulator has and the STM32F767 has not. */
+    {0x00000000u, 29u, KEEL_MPU_NONE}, /* Below RAM, but for the next two. */
     {0x00200000u, 21u, KEEL_MPU_CODE}, /* Flash. */
     {0x00000000u, 14u, KEEL_MPU_CODE}, /* ITCM. */
     {0x20000000u, 29u, KEEL_MPU_DATA}, /* DTCM and SRAM. */

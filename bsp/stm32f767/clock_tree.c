@@ -150,6 +150,8 @@ static keel_clock_fault_t start_core(const keel_clock_registers_t *registers,
         return KEEL_CLOCK_LATENCY;
     }
     if (!switch_core(rcc, SWITCH_PLL, wait)) {
+        /* It must not change later on, when all is set up for the internal oscillator. */
+        (void)switch_core(rcc, SWITCH_HSI, wait);
         return KEEL_CLOCK_TO_PLL;
     }
     rcc->CR |= RCC_CR_CSSON;

@@ -2,6 +2,7 @@
 
 #define CODE_MAX   7u
 #define BYTE_FRAME 7u /* Eight bits, less one. */
+#define FIFO_BYTES 4u
 
 keel_bsp_status_t keel_spi_divisor(uint32_t clock_hz, uint32_t limit_hz, uint32_t *code)
 {
@@ -53,6 +54,21 @@ static keel_bsp_status_t exchange_byte(const keel_spi_device_t *device, uint8_t 
     return ((spi->SR & (SPI_SR_OVR | SPI_SR_MODF)) == 0u) ? KEEL_BSP_OK : KEEL_BSP_BUS;
 }
 
+/* Whatever of a failed exchange is still on its way must not become the next one's: the bus off, its
+ * receive FIFO emptied, and on again (RM0410, 35.5.9). The status read after the data ends an
+ * overrun; a mode fault has switched the master off, which writing CR1 ends. */
+static void recover(keel_spi_t *spi)
+{
+    spi->CR1 &= ~SPI_CR1_SPE;
+    for (uint32_t i = 0u; (i < FIFO_BYTES) && ((spi->SR & SPI_SR_RXNE) != 0u); i++) {
+        (void)*data_byte(spi);
+    }
+    (void)*data_byte(spi);
+    (void)spi->SR;
+    spi->CR1 |= SPI_CR1_MSTR;
+    spi->CR1 |= SPI_CR1_SPE;
+}
+
 keel_bsp_status_t keel_spi_bus_exchange(void *context, const uint8_t *out, uint8_t *in,
                                         uint32_t length, uint32_t *done)
 {
@@ -67,11 +83,15 @@ keel_bsp_status_t keel_spi_bus_exchange(void *context, const uint8_t *out, uint8
             exchanged++;
         }
     }
-    /* The last bit is out before the device is deselected. */
-    if (!keel_wait_for(&device->spi->SR, SPI_SR_BSY, 0u, device->wait) && (status == KEEL_BSP_OK)) {
+    /* The last bit is out before the device is deselected; a bus that failed is not waited for. */
+    if ((status == KEEL_BSP_OK) &&
+        !keel_wait_for(&device->spi->SR, SPI_SR_BSY, 0u, device->wait)) {
         status = KEEL_BSP_TIMEOUT;
     }
     keel_pin_write(device->select, true);
+    if (status != KEEL_BSP_OK) {
+        recover(device->spi);
+    }
     *done = exchanged;
     return status;
 }

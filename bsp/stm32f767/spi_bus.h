@@ -17,7 +17,7 @@
 typedef struct keel_spi_device {
     keel_spi_t *spi;         /**< The bus. */
     keel_pin_t select;       /**< The device's chip select, active low. */
-    const keel_wait_t *wait; /**< The bound of each wait. */
+    const keel_wait_t *wait; /**< The bound of each wait, a byte's time at least. */
 } keel_spi_device_t;
 
 /**
@@ -41,7 +41,8 @@ keel_bsp_status_t keel_spi_divisor(uint32_t clock_hz, uint32_t limit_hz, uint32_
 keel_bsp_status_t keel_spi_start(keel_spi_t *spi, uint32_t clock_hz, uint32_t limit_hz);
 
 /**
- * Exchanges bytes with a device; it is deselected again however it went (SPI-003 to SPI-005).
+ * Exchanges bytes with a device; it is deselected again however it went, and the bus is made ready
+ * for the next exchange (SPI-003 to SPI-006).
  * As keel_bus_t's exchange; context is a keel_spi_device_t.
  */
 keel_bsp_status_t keel_spi_bus_exchange(void *context, const uint8_t *out, uint8_t *in,

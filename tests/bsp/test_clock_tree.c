@@ -220,7 +220,7 @@ static void CLT_006_whatever_ran_before(void)
 static void fails(keel_clock_fault_t fault)
 {
     TEST_ASSERT_EQUAL(fault, keel_clock_tree_start(&registers, &nucleo, &wait));
-    TEST_ASSERT_EQUAL_HEX32(0u, rcc.CFGR & 0xCu); /* On the internal oscillator. */
+    TEST_ASSERT_EQUAL_HEX32(0u, rcc.CFGR & 0xFu); /* On the internal oscillator, and to stay. */
 }
 
 static void CLT_007_an_oscillator_of_no_use(void)

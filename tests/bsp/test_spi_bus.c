@@ -15,12 +15,15 @@ static uint32_t silent_from; /* From this byte on nothing comes back. */
 static uint32_t overrun_at;  /* This byte overruns. */
 static bool full;            /* The transmit buffer never empties. */
 static bool busy;            /* The bus never becomes idle. */
+static bool lost;            /* A failure switches the master off, as a mode fault does. */
+static uint32_t looks;       /* Between how many looks time passed. */
 static uint32_t selected;    /* Bytes during which the device was selected. */
 
 /* The hardware between two looks: the driver waits for room first, then for the answer. */
 static void advance(void *context)
 {
     (void)context;
+    looks++;
     if (full) {
         spi.SR &= ~SPI_SR_TXE;
     } else if ((spi.SR & (SPI_SR_TXE | SPI_SR_RXNE)) != SPI_SR_TXE) {
@@ -33,6 +36,7 @@ static void advance(void *context)
         count++;
     } else {
         /* Nothing comes. */
+        spi.CR1 &= lost ? ~(SPI_CR1_SPE | SPI_CR1_MSTR) : UINT32_MAX;
     }
     if (busy) {
         spi.SR |= SPI_SR_BSY;
@@ -55,6 +59,8 @@ void setUp(void)
     overrun_at = UINT32_MAX;
     full = false;
     busy = false;
+    lost = false;
+    looks = 0u;
 }
 
 void tearDown(void)
@@ -172,6 +178,28 @@ static void SPI_005_a_mode_fault_is_an_error_of_the_bus(void)
     deselected();
 }
 
+static void SPI_006_nothing_more_is_waited_for(void)
+{
+    silent_from = 0u;
+    busy = true;
+    TEST_ASSERT_EQUAL(KEEL_BSP_TIMEOUT, exchange());
+    /* The buffer is empty at once; then four looks for the answer, three times with time between. */
+    TEST_ASSERT_EQUAL_UINT32(3u, looks);
+}
+
+static void SPI_006_the_bus_is_a_master_and_on_again(void)
+{
+    TEST_ASSERT_EQUAL(KEEL_BSP_OK, keel_spi_start(&spi, 108000000u, 8000000u));
+    silent_from = 1u;
+    lost = true;
+    TEST_ASSERT_EQUAL(KEEL_BSP_TIMEOUT, exchange());
+    TEST_ASSERT_EQUAL_HEX32(0x0000035Fu, spi.CR1);
+    silent_from = UINT32_MAX;
+    spi.SR = SPI_SR_RESET;
+    TEST_ASSERT_EQUAL(KEEL_BSP_OK, exchange());
+    TEST_ASSERT_EQUAL_UINT32(4u, done);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -184,5 +212,7 @@ int main(void)
     RUN_TEST(SPI_004_a_bus_that_never_becomes_idle);
     RUN_TEST(SPI_005_an_overrun_is_an_error_of_the_bus);
     RUN_TEST(SPI_005_a_mode_fault_is_an_error_of_the_bus);
+    RUN_TEST(SPI_006_nothing_more_is_waited_for);
+    RUN_TEST(SPI_006_the_bus_is_a_master_and_on_again);
     return UNITY_END();
 }

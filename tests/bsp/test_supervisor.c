@@ -107,6 +107,54 @@ static void SUP_003_a_counter_at_its_end_is_never_in_time(void)
     TEST_ASSERT_FALSE(met());
 }
 
+/* One look every 4 ms; the releases between were met or missed. */
+static bool look(uint32_t number, bool good)
+{
+    const uint32_t begin_us = number * 4000u;
+
+    for (uint32_t at_us = good ? 0u : 3000u; at_us < 4000u; at_us += 1000u) {
+        step_at(begin_us + at_us);
+        step_at(begin_us + at_us + 100u); /* The slow task, when both were due. */
+    }
+    return met();
+}
+
+static void SUP_003_good_looks_between_misses_do_not_hide_them(void)
+{
+    uint32_t fed = 0u;
+
+    for (uint32_t i = 0u; i < 100u; i++) {
+        fed += look(i, (i % 5u) == 0u) ? 1u : 0u;
+    }
+    TEST_ASSERT_EQUAL_UINT32(1u, fed); /* The very first, before anything was missed. */
+}
+
+static void SUP_003_every_other_look_adds_up(void)
+{
+    /* Weights after each pair: 2 then 1, 3 then 2, 4 then 3, 5 then 4, 6 then 5, 7 then 6. */
+    for (uint32_t i = 0u; i < 12u; i++) {
+        TEST_ASSERT_EQUAL(((i % 2u) == 1u) && (i < 11u), look(i, (i % 2u) == 1u));
+    }
+}
+
+static void SUP_003_one_miss_in_three_is_borne(void)
+{
+    for (uint32_t i = 0u; i < 300u; i++) {
+        TEST_ASSERT_EQUAL((i % 3u) != 0u, look(i, (i % 3u) != 0u));
+    }
+}
+
+static void SUP_003_a_bad_time_is_forgotten(void)
+{
+    for (uint32_t i = 0u; i < 20u; i++) {
+        TEST_ASSERT_FALSE(look(i, false));
+    }
+    /* From 12 down to 6 in six looks, below it with the seventh. */
+    for (uint32_t i = 20u; i < 30u; i++) {
+        TEST_ASSERT_EQUAL(i >= 26u, look(i, true));
+    }
+}
+
 static void SUP_003_others_may_miss_theirs(void)
 {
     step_at(0u);
@@ -152,6 +200,10 @@ int main(void)
     RUN_TEST(SUP_002_a_scheduler_in_time_is_seen_so);
     RUN_TEST(SUP_003_a_missed_period_is_seen_once);
     RUN_TEST(SUP_003_a_counter_at_its_end_is_never_in_time);
+    RUN_TEST(SUP_003_good_looks_between_misses_do_not_hide_them);
+    RUN_TEST(SUP_003_every_other_look_adds_up);
+    RUN_TEST(SUP_003_one_miss_in_three_is_borne);
+    RUN_TEST(SUP_003_a_bad_time_is_forgotten);
     RUN_TEST(SUP_003_others_may_miss_theirs);
     RUN_TEST(SUP_004_a_task_that_waits_beyond_its_deadline);
     RUN_TEST(SUP_005_a_task_that_went_away);

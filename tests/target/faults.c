@@ -22,6 +22,7 @@
 /* Addresses that the board file and the linker script know. */
 #define NOWHERE   0x70000000u
 #define WILD      0x00100000u
+#define WILD_FAR  0x08300000u /* Behind the STM32F767's flash. */
 #define NULL_PAGE 0x00000010u
 #define FLASH     0x00200000u
 #define NVIC_ISPR 0xE000E200u
@@ -56,6 +57,9 @@ BREAKS void fault_stop(void);
 BREAKS void fault_interrupt(void);
 BREAKS void fault_hang(void);
 BREAKS void fault_jump(void);
+BREAKS void fault_jump_far(void);
+BREAKS void fault_lost_task(void);
+BREAKS void fault_lost_name(void);
 
 void fault_undefined(void)
 {
@@ -104,6 +108,28 @@ void fault_execute(void)
 void fault_jump(void)
 {
     ((function_t)(hidden(WILD) | 1u))();
+}
+
+void fault_jump_far(void)
+{
+    ((function_t)(hidden(WILD_FAR) | 1u))();
+}
+
+/* The record's task is looked up by pointers that may be what is broken. */
+void fault_lost_task(void)
+{
+    scheduler.queue.task[scheduler.running] = (keel_task_t *)hidden(NOWHERE);
+    __asm volatile("udf #2");
+}
+
+void fault_lost_name(void)
+{
+    static keel_task_config_t broken;
+
+    broken = *scheduler.queue.task[scheduler.running]->config;
+    broken.name = (const char *)hidden(NOWHERE);
+    scheduler.queue.task[scheduler.running]->config = &broken;
+    __asm volatile("udf #2");
 }
 
 void fault_write(void)

@@ -52,6 +52,14 @@ class ImageTest(unittest.TestCase):
             self.assertIn(part, board.text)
         self.assertFalse(board.armed_us[-1][1])
 
+    def test_nothing_of_a_boot_loader_is_left(self) -> None:
+        words = self.run_image(0.01).words
+        self.assertEqual(words[model.SYSTICK], 0)
+        for word in range(4):  # 110 interrupts, disabled and not pending.
+            self.assertEqual(words[model.NVIC + 0x80 + 4 * word], 0xFFFF_FFFF)
+            self.assertEqual(words[model.NVIC + 0x180 + 4 * word], 0xFFFF_FFFF)
+        self.assertEqual(words[model.SCB + 4], 1 << 25 | 1 << 27)
+
     def test_both_boards_start_and_read_their_sensor(self) -> None:
         for name in model.CONSOLES:
             board = self.run_image(board=name)

@@ -7,6 +7,7 @@ python3 tests/tools/test_stack.py
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import io
 import json
 import os
@@ -267,14 +268,26 @@ class FilesTest(unittest.TestCase):
 
     def test_only_a_run_of_this_image_counts(self) -> None:
         elf, path = self.root / "keel.elf", self.root / stack.PAINTED
-        elf.touch()
+        elf.write_bytes(b"image")
         self.assertIsNone(stack.painted(self.root, "some", elf))
         path.parent.mkdir(parents=True)
-        path.write_text(json.dumps({"board": "some", "painted_stack": {"used": {"demo": 256}}}))
+        digest = hashlib.sha256(b"image").hexdigest()
+        ran = {"used": {"demo": 256}, "demo_sha256": digest}
+        path.write_text(json.dumps({"board": "some", "painted_stack": ran}))
+        os.utime(path, (0, 0))  # Linked again since, to the same bits.
         self.assertEqual(stack.painted(self.root, "some", elf), 256)
         self.assertIsNone(stack.painted(self.root, "other", elf))
-        os.utime(path, (0, 0))
+        elf.write_bytes(b"another image")
         self.assertIsNone(stack.painted(self.root, "some", elf))
+
+    def test_a_stack_that_was_not_compared_is_told(self) -> None:
+        report = {
+            "board": "some", "functions": 3, "tasks": {}, "painted": None,
+            "stacks": {"main": {"size": 500, "bound": 200, "path": ["reset"]}},
+        }  # fmt: skip
+        with contextlib.redirect_stdout(io.StringIO()) as out:
+            self.assertEqual(stack.conclude(report, self.root), 0)
+        self.assertIn("not compared", out.getvalue())
 
     def test_sizes_of_the_stacks(self) -> None:
         symbols = (

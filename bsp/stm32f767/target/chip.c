@@ -37,7 +37,6 @@
 #define LOG2_NULL_GUARD  8u
 #define LOG2_STACK_GUARD 10u
 #define LOG2_HALF_GIB    29u
-#define LOG2_BELOW_FLASH 27u
 #define DELAY_LOOKS      100000000u /* Far more than a delay takes, but not for ever. */
 
 #define GPIO_CLOCKS                                                                                \
@@ -49,10 +48,14 @@
  * takes some 50 ns: 15 ms, and a character takes 87 us. */
 static const keel_wait_t patience = {300000u, NULL, NULL};
 
+/* For a byte of the sensor, which takes 1.2 us at 6.75 MHz: 20 us at some 50 ns a look. A look takes
+ * more than the 3 ns at which this would be too short. */
+static const keel_wait_t byte_patience = {400u, NULL, NULL};
+
 /* The guards come last: where regions overlap, the last one holds. Code lies in flash and in ITCM
  * alone. Nothing lies behind the external memory controller, nothing may be read ahead there. */
 const keel_mpu_region_t keel_board_regions[] = {
-    {MEMORY_ITCM_BASE, LOG2_BELOW_FLASH, KEEL_MPU_NONE},
+    {MEMORY_ITCM_BASE, LOG2_HALF_GIB, KEEL_MPU_NONE}, /* Below RAM, but for the next two. */
     {MEMORY_FLASH_BASE, 21u, KEEL_MPU_CODE},
     {MEMORY_ITCM_BASE, 14u, KEEL_MPU_CODE},
     {MEMORY_DTCM_BASE, 19u, KEEL_MPU_DATA}, /* And SRAM, which follows it. */
@@ -69,7 +72,7 @@ static const keel_scheduler_t *supervised;
 static uint32_t last_fed_us;
 static keel_spi_device_t sensor_device;
 
-/* Before memory is filled: nothing static but constants may be used. */
+/* Before memory is filled, but for ITCM: nothing static but constants may be used. */
 
 /* Outputs low, and the memory for a record of a fault open, before anything else can go wrong. */
 void keel_board_early(void)
@@ -242,7 +245,7 @@ static keel_bsp_status_t delay(void *context, uint32_t time_us)
                                                                          : KEEL_BSP_TIMEOUT;
 }
 
-const keel_icm20689_t *keel_chip_sensor(void)
+KEEL_REALTIME_CODE const keel_icm20689_t *keel_chip_sensor(void)
 {
     static const keel_icm20689_t sensor = {{keel_spi_bus_exchange, &sensor_device}, delay, NULL};
 
@@ -257,7 +260,7 @@ keel_bsp_status_t keel_chip_sensor_start(void)
     for (uint32_t i = 0u; i < PINS->deselect_count; i++) {
         keel_pin_output(PINS->deselect[i], KEEL_DRIVE_PUSH_PULL, true);
     }
-    sensor_device = (keel_spi_device_t){SPI1, PINS->sensor_select, &patience};
+    sensor_device = (keel_spi_device_t){SPI1, PINS->sensor_select, &byte_patience};
     keel_pin_output(sensor_device.select, KEEL_DRIVE_PUSH_PULL, true);
     give(PINS->sck, KEEL_PULL_UP);  /* Mode 3: the clock rests high. */
     give(PINS->miso, KEEL_PULL_UP); /* Without a sensor all ones are read. */
