@@ -42,7 +42,7 @@ void keel_supervisor_start(keel_supervisor_t *supervisor, const keel_scheduler_t
 }
 
 /* Good looks between misses must not hide them: more than one miss in three adds up. */
-static void weigh(keel_supervisor_t *supervisor, bool good)
+static void note_look(keel_supervisor_t *supervisor, bool good)
 {
     if (!good) {
         supervisor->weight += WEIGHT_MISSED;
@@ -66,6 +66,6 @@ bool keel_supervisor_met(keel_supervisor_t *supervisor, const keel_scheduler_t *
     const bool good = same && all_there && all_in_time(scheduler, now_us);
 
     supervisor->skipped = skipped;
-    weigh(supervisor, good);
+    note_look(supervisor, good);
     return good && (supervisor->weight < WEIGHT_LIMIT);
 }

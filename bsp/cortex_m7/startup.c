@@ -11,11 +11,11 @@
 
 /* What the core has at the same place on every ARMv7-M (Architecture Reference Manual, B3.3, B3.4
  * and B3.2.4). */
-#define SYSTICK_CTRL      (*(volatile uint32_t *)0xE000E010u)
-#define NVIC_DISABLE      ((volatile uint32_t *)0xE000E180u) /* ICER. */
-#define NVIC_FORGET       ((volatile uint32_t *)0xE000E280u) /* ICPR. */
-#define NVIC_WORDS        ((KEEL_BOARD_INTERRUPTS + 31u) / 32u)
-#define ICSR_FORGET       (BITS(25u, 1u) | BITS(27u, 1u)) /* PENDSTCLR, PENDSVCLR. */
+#define SYSTICK_CTRL (*(volatile uint32_t *)0xE000E010u)
+#define NVIC_DISABLE ((volatile uint32_t *)0xE000E180u) /* ICER. */
+#define NVIC_FORGET  ((volatile uint32_t *)0xE000E280u) /* ICPR. */
+#define NVIC_WORDS   ((KEEL_BOARD_INTERRUPTS + 31u) / 32u)
+#define ICSR_FORGET  (BITS(25u, 1u) | BITS(27u, 1u)) /* PENDSTCLR, PENDSVCLR. */
 
 #define PAINT_ROOM_B 64u
 #define CPACR_FULL   0xFu /* Full access to both halves of the FPU. */
@@ -55,8 +55,8 @@ uint32_t keel_stack_used_b(void)
     return (uint32_t)keel_stack_top - (uint32_t)lowest;
 }
 
-/* As a reset leaves them, whatever a boot loader did: every interrupt would be a fault here, and its
- * regions of memory are not Keel's. */
+/* As a reset leaves them, whatever a boot loader did: every interrupt would be a fault here, and
+ * its regions of memory are not Keel's. */
 static void stop_leftovers(void)
 {
     __asm volatile("cpsid i" ::: "memory");

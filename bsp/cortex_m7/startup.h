@@ -19,7 +19,7 @@ void keel_reset(void) __attribute__((noreturn));
 /** The most that the main stack was used since the reset, in bytes. */
 uint32_t keel_stack_used_b(void);
 
-/** Board: its first steps after the reset. ITCM is filled, no other memory is; keeps to its stack. */
+/** Board: its first steps. ITCM is filled, no other memory is; keeps to its stack. */
 void keel_board_early(void);
 
 /** Board: clocks, time base, console; memory is filled, the FPU and the MPU are on. */

@@ -54,8 +54,8 @@ static keel_bsp_status_t exchange_byte(const keel_spi_device_t *device, uint8_t 
     return ((spi->SR & (SPI_SR_OVR | SPI_SR_MODF)) == 0u) ? KEEL_BSP_OK : KEEL_BSP_BUS;
 }
 
-/* Whatever of a failed exchange is still on its way must not become the next one's: the bus off, its
- * receive FIFO emptied, and on again (RM0410, 35.5.9). The status read after the data ends an
+/* Whatever of a failed exchange is still on its way must not become the next one's: the bus off,
+ * its receive FIFO emptied, and on again (RM0410, 35.5.9). The status read after the data ends an
  * overrun; a mode fault has switched the master off, which writing CR1 ends. */
 static void recover(keel_spi_t *spi)
 {
@@ -84,8 +84,7 @@ keel_bsp_status_t keel_spi_bus_exchange(void *context, const uint8_t *out, uint8
         }
     }
     /* The last bit is out before the device is deselected; a bus that failed is not waited for. */
-    if ((status == KEEL_BSP_OK) &&
-        !keel_wait_for(&device->spi->SR, SPI_SR_BSY, 0u, device->wait)) {
+    if ((status == KEEL_BSP_OK) && !keel_wait_for(&device->spi->SR, SPI_SR_BSY, 0u, device->wait)) {
         status = KEEL_BSP_TIMEOUT;
     }
     keel_pin_write(device->select, true);

@@ -183,7 +183,7 @@ static void SPI_006_nothing_more_is_waited_for(void)
     silent_from = 0u;
     busy = true;
     TEST_ASSERT_EQUAL(KEEL_BSP_TIMEOUT, exchange());
-    /* The buffer is empty at once; then four looks for the answer, three times with time between. */
+    /* The buffer is empty at once; then four looks for the answer, with time between them. */
     TEST_ASSERT_EQUAL_UINT32(3u, looks);
 }
 

@@ -48,8 +48,8 @@
  * takes some 50 ns: 15 ms, and a character takes 87 us. */
 static const keel_wait_t patience = {300000u, NULL, NULL};
 
-/* For a byte of the sensor, which takes 1.2 us at 6.75 MHz: 20 us at some 50 ns a look. A look takes
- * more than the 3 ns at which this would be too short. */
+/* For a byte of the sensor, which takes 1.2 us at 6.75 MHz: 20 us at some 50 ns a look. Too short
+ * only if a look took less than 3 ns, which is less than a cycle. */
 static const keel_wait_t byte_patience = {400u, NULL, NULL};
 
 /* The guards come last: where regions overlap, the last one holds. Code lies in flash and in ITCM
