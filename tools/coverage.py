@@ -228,7 +228,7 @@ class Measurement:
         for path in sorted((ROOT / "tests/unit").glob("test_*.c")):
             test = self.compile(str(path.relative_to(ROOT)), [*INSTRUMENT, *system])
             program = str(BUILD / path.stem)
-            linked = [*common, test, "-o", program]
+            linked = [*common, test, "-lm", "-o", program]
             output_of([*self.tools.command("clang-19"), *INSTRUMENT, *linked])
             self.programs.append(program)
         if not self.programs:
