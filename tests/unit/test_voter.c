@@ -389,6 +389,18 @@ static void VOT_013_all_at_rest_is_not_frozen(void)
     expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_USED);
 }
 
+static void VOT_013_alone_is_not_frozen(void)
+{
+    const keel_voter_sample_t sample[3] = {{0.5f, 0u, true}, {0.0f, 0u, false}, {0.0f, 0u, false}};
+
+    config.stale_count = 1u;
+    restart();
+    for (uint32_t i = 0u; i < 3u; i++) {
+        keel_voter_step(&voter, sample, 10u);
+    }
+    expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_MISSING, KEEL_VOTER_MISSING);
+}
+
 static void VOT_014_readmission_on_request(void)
 {
     keel_voter_t before;
@@ -450,6 +462,7 @@ int main(void)
     RUN_TEST(VOT_012_density_is_off_by_default);
     RUN_TEST(VOT_013_frozen_while_others_move);
     RUN_TEST(VOT_013_all_at_rest_is_not_frozen);
+    RUN_TEST(VOT_013_alone_is_not_frozen);
     RUN_TEST(VOT_014_readmission_on_request);
     RUN_TEST(VOT_015_influence_of_one_faulty_sensor);
     return UNITY_END();
