@@ -103,7 +103,7 @@ keel_bsp_status_t keel_icm20689_start(const keel_icm20689_t *sensor)
         {REG_PWR_MGMT_1, 0x01u},    /* Best clock available. */
         {REG_USER_CTRL, 0x10u},     /* No I2C. */
         {REG_SMPLRT_DIV, 0x00u},    /* 1 kHz. */
-        {REG_CONFIG, 0x00u},        /* Gyroscope's low-pass at 250 Hz. */
+        {REG_CONFIG, 0x01u},        /* Low-pass at 176 Hz; 0 would sample at 8 kHz. */
         {REG_GYRO_CONFIG, 0x18u},   /* 2000 degrees per second. */
         {REG_ACCEL_CONFIG, 0x18u},  /* 16 g. */
         {REG_ACCEL_CONFIG2, 0x01u}, /* Accelerometer's low-pass at 218 Hz. */

@@ -2,8 +2,8 @@
  * @file icm20689.h
  * @brief The inertial sensor ICM-20689 (TDK InvenSense, DS-000143) on an SPI bus.
  *
- * Full scale is 2000 degrees per second and 16 g, samples come at 1 kHz, low-pass at 250 Hz
- * (gyroscope, delay 0.97 ms) and 218 Hz (accelerometer).
+ * Full scale is 2000 degrees per second and 16 g, samples come at 1 kHz, low-pass at 176 Hz
+ * (gyroscope) and 218 Hz (accelerometer).
  */
 #ifndef KEEL_BSP_DEVICES_ICM20689_H
 #define KEEL_BSP_DEVICES_ICM20689_H

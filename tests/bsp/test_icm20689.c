@@ -141,7 +141,7 @@ static void ICM_003_it_is_configured(void)
     TEST_ASSERT_EQUAL_HEX8(0x01u, sensor.value[0x6B]); /* Awake, best clock. */
     TEST_ASSERT_EQUAL_HEX8(0x10u, sensor.value[0x6A]); /* No I2C. */
     TEST_ASSERT_EQUAL_HEX8(0x00u, sensor.value[0x19]); /* 1 kHz / (1 + 0). */
-    TEST_ASSERT_EQUAL_HEX8(0x00u, sensor.value[0x1A]); /* 250 Hz. */
+    TEST_ASSERT_EQUAL_HEX8(0x01u, sensor.value[0x1A]); /* 176 Hz, at 1 kHz; with 0 it is 8 kHz. */
     TEST_ASSERT_EQUAL_HEX8(0x18u, sensor.value[0x1B]); /* 2000 degrees per second. */
     TEST_ASSERT_EQUAL_HEX8(0x18u, sensor.value[0x1C]); /* 16 g. */
     TEST_ASSERT_EQUAL_HEX8(0x01u, sensor.value[0x1D]); /* 218 Hz. */
