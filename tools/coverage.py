@@ -28,7 +28,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from toolchain import Toolchain, ToolchainError  # noqa: E402
+from toolchain import Toolchain, ToolchainError, write_atomically  # noqa: E402
 
 BUILD = ROOT / "build/coverage"
 REPORT = BUILD / "report.json"
@@ -311,9 +311,7 @@ def write_report(
         "excluded": [asdict(gap) for gap in excluded],
         "unused_exclusions": [asdict(item) for item in unused],
     }
-    draft = REPORT.with_suffix(".tmp")
-    draft.write_text(json.dumps(report, indent=1) + "\n")
-    draft.replace(REPORT)
+    write_atomically(REPORT, json.dumps(report, indent=1) + "\n")
 
 
 def judge(files: dict[str, FileCoverage], exclusions: Sequence[Exclusion]) -> int:

@@ -34,7 +34,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from toolchain import Toolchain, ToolchainError
+from toolchain import Toolchain, ToolchainError, write_atomically
 
 ROOT = Path(__file__).resolve().parents[1]
 HEADERS = ("bsp/cortex_m7/core.h", "bsp/stm32f767/registers/*.h")
@@ -534,13 +534,9 @@ def compare(tools: Toolchain, root: Path, databases: Databases) -> Comparison:
 
 def write_report(root: Path, result: Comparison) -> None:
     """Write the report in one go."""
-    path = root / REPORT
-    path.parent.mkdir(parents=True, exist_ok=True)
-    draft = path.with_suffix(".tmp")
     content = {"compared": result.compared, "without_counterpart": result.excused,
                "differences": result.differences, "facts": result.facts}  # fmt: skip
-    draft.write_text(json.dumps(content, indent=1) + "\n")
-    draft.replace(path)
+    write_atomically(root / REPORT, json.dumps(content, indent=1) + "\n")
 
 
 def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:

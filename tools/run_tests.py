@@ -32,12 +32,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from toolchain import Toolchain, ToolchainError  # noqa: E402
+from toolchain import Toolchain, ToolchainError, write_atomically  # noqa: E402
 
 BUILD = Path("build/test")
 REPORT = BUILD / "report.json"
@@ -83,6 +84,16 @@ class Outcome:
             self.failures.append(failure)
         else:
             self.passed += 1
+
+    def as_dict(self) -> dict[str, Any]:
+        """For the report."""
+        return {
+            "passed": self.passed,
+            "failed": len(self.failures),
+            "seconds": round(self.seconds, 1),
+            "tests": self.tests,
+            "failures": self.failures,
+        }
 
 
 @dataclass(frozen=True)
@@ -490,26 +501,10 @@ def write_report(bench: Bench, outcomes: dict[str, Outcome], chosen: str) -> tup
         "failed": failed,
         "filter": chosen,
         "sanitizers": bench.sanitized,
-        "suites": {
-            name: {
-                "passed": outcome.passed,
-                "failed": len(outcome.failures),
-                "seconds": round(outcome.seconds, 1),
-                "tests": outcome.tests,
-                "failures": outcome.failures,
-            }
-            for name, outcome in outcomes.items()
-        },
+        "suites": {name: outcome.as_dict() for name, outcome in outcomes.items()},
     }
     write_atomically(ROOT / REPORT, json.dumps(report, indent=1) + "\n")
     return passed, failed
-
-
-def write_atomically(path: Path, text: str) -> None:
-    """Write a file so that nobody ever sees half of it."""
-    draft = path.with_suffix(".tmp")
-    draft.write_text(text)
-    draft.replace(path)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

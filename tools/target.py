@@ -431,16 +431,7 @@ def write_report(bench: Bench, outcomes: Mapping[str, Outcome], chosen: str) -> 
             "used": bench.stacks,
             "demo_sha256": bench.demo_sha256,
         },
-        "suites": {
-            name: {
-                "passed": outcome.passed,
-                "failed": len(outcome.failures),
-                "seconds": round(outcome.seconds, 1),
-                "tests": outcome.tests,
-                "failures": outcome.failures,
-            }
-            for name, outcome in outcomes.items()
-        },
+        "suites": {name: outcome.as_dict() for name, outcome in outcomes.items()},
     }
     write_atomically(bench.root / REPORT, json.dumps(report, indent=1) + "\n")
     return passed, failed
