@@ -4,6 +4,7 @@
 //
 // Bounded to queues of at most 2 tasks: the function never looks at one.
 #include "../common/keel_scheduler_proof.h"
+#include "../common/step_contracts.h"
 
 #define MOST 2u
 
@@ -24,7 +25,11 @@ void keel_scheduler_begin_harness(void)
     before = scheduler;
     task_before = *proof_task[t];
 
+    __CPROVER_assume(keel_scheduler_begin_may(&scheduler));
     status = keel_scheduler_begin(&scheduler, raw_us);
+
+    __CPROVER_assert(keel_scheduler_begin_does(status, &before, &scheduler),
+                     "SCH_020_part: as the step takes it to do");
 
     assert_scheduler_valid(&scheduler);
     __CPROVER_assert((status == KEEL_ERR_STATE) == (before.stage != KEEL_STAGE_READY),

@@ -4,6 +4,7 @@
 //
 // Bounded to queues of at most 3 tasks, of which it touches one.
 #include "../common/keel_scheduler_proof.h"
+#include "../common/step_contracts.h"
 
 #define MOST 3u
 
@@ -26,7 +27,11 @@ void keel_scheduler_finish_harness(void)
     before = scheduler;
     task_before = *proof_task[t];
 
+    __CPROVER_assume(keel_scheduler_finish_may(&scheduler));
     status = keel_scheduler_finish(&scheduler, raw_us);
+
+    __CPROVER_assert(keel_scheduler_finish_does(status, &before, &scheduler),
+                     "SCH_020_part: as the step takes it to do");
 
     assert_scheduler_valid(&scheduler);
     __CPROVER_assert((status == KEEL_ERR_STATE) == !running, "SCH_018_state: no task runs");

@@ -8,6 +8,7 @@
 // as a slot that may be empty hides from the solver how small the numbers are. The contract under
 // WP has no such bound, and the decisions have harnesses of their own at the shipped capacity.
 #include "../common/keel_scheduler_proof.h"
+#include "../common/step_contracts.h"
 
 #define REALTIME 2u
 #define MOST     4u
@@ -67,7 +68,11 @@ void keel_scheduler_next_harness(void)
         }
     }
 
+    __CPROVER_assume(keel_scheduler_next_may(&scheduler));
     task = keel_scheduler_next(&scheduler);
+
+    __CPROVER_assert(keel_scheduler_next_does(task, &before, &scheduler),
+                     "SCH_020_part: as the step takes it to do");
 
     assert_scheduler_valid(&scheduler);
     if (before.stage != KEEL_STAGE_PASS) {
