@@ -3,11 +3,11 @@
 // replaces: keel_scheduler_begin keel_scheduler_next keel_scheduler_finish
 // covers: keel_scheduler_step read_clock
 //
-// What joins the theorems to the step: it is begin, then for each task that next hands out its body
-// and finish, until the pass ends, each at the stage that it asks for and each with a reading of the
-// clock made for it; and it does nothing to the scheduler by itself. Begin, next and finish are
-// whatever their contracts allow (step_contracts.h), and a body may shorten the pass. The pass is as
-// long as the shipped capacity allows.
+// What joins the theorems to the step: it is begin, then for each task that next hands out its
+// body and finish, until the pass ends, each at the stage that it asks for and each with a reading
+// of the clock made for it; and it does nothing to the scheduler by itself. Begin, next and finish
+// are whatever their contracts allow (step_contracts.h), and a body may shorten the pass, which is
+// as long as the shipped capacity allows.
 #include "../common/keel_scheduler_proof.h"
 #include "../common/step_contracts.h"
 
