@@ -254,6 +254,14 @@ static void note_window(experiment_t *e, keel_load_t *window)
     }
 }
 
+/* Until when turns may be skipped: a window closes at the first turn that reaches its end. */
+static uint64_t skip_until_ns(const keel_load_t *window, uint64_t end_ns)
+{
+    const uint64_t close_ns = (window->start_us + WINDOW_US) * HOST_NS_PER_US;
+
+    return (close_ns < end_ns) ? close_ns : end_ns;
+}
+
 static keel_status_t run(experiment_t *e)
 {
     const uint64_t end_ns = e->duration_us * HOST_NS_PER_US;
@@ -265,7 +273,7 @@ static keel_status_t run(experiment_t *e)
         status = e->step(&e->scheduler);
         note_window(e, &window);
         if (e->skip) {
-            host_board_idle(&e->board, end_ns);
+            host_board_idle(&e->board, skip_until_ns(&window, end_ns));
         }
         host_board_turn(&e->board);
     }

@@ -18,7 +18,7 @@ from sets import random_set
 from timing import board, keel
 from timing.analysis import admission_reasons, analyse
 from timing.board import Experiment, Result
-from timing.bounds import fixed_priority, jeffay
+from timing.bounds import fixed_priority, hyperperiod, jeffay
 from timing.phases import spread
 from timing.taskset import Task, TaskSet
 from toolchain import Toolchain
@@ -206,3 +206,33 @@ def test_phases_keep_tasks_apart(program: Path) -> None:
             for task in tasks.tasks:
                 # One more us: the loop turns every half one, and the clock counts whole ones.
                 assert result.tasks[task.name].worst <= keel.declared(tasks, task) + 1.0, tasks
+            hold(tasks, keel.bounds(tasks), result, Seen())
+
+
+def meet(tasks: TaskSet) -> bool:
+    """Whether tasks collide, from every release of two common periods."""
+    length = 2 * hyperperiod(tasks.tasks)
+    releases = sorted(
+        (release, index)
+        for index, task in enumerate(tasks.tasks)
+        for release in range(task.phase, length + task.period, task.period)
+    )
+    return any(
+        second - first < keel.needs(tasks, tasks.tasks[one], tasks.tasks[two])
+        for number, (first, one) in enumerate(releases)
+        for second, two in releases[number + 1 : number + 1 + len(tasks.tasks)]
+    )
+
+
+def test_collisions_are_those_of_the_releases() -> None:
+    """The congruence against a look at every release, with phases that were found and moved."""
+    seen = {True: 0, False: 0}
+    for number in range(min(SETS, 1000)):
+        tasks = random_set(number, 0.15)
+        if number % 2:
+            tasks = spread(tasks)[0]
+        if hyperperiod(tasks.tasks) > 10_000:
+            continue
+        assert bool(keel.collisions(tasks)) == meet(tasks), tasks
+        seen[meet(tasks)] += 1
+    assert min(seen.values()) > min(SETS, 1000) / 50, seen

@@ -37,6 +37,8 @@ class RealtimeRow:
     guarded: int | None  # Textbook: blocked by real-time tasks alone.
     bound: int  # Keel, costs included, nobody promoted.
     bound_promotion: int  # Keel, and one promoted task is in the way.
+    bound_apart: int | None  # Keel, with the phases of the set; None where tasks collide.
+    response: int  # The one that counts.
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,9 @@ class OtherRow:
     period: int
     budget: int
     fits: str  # Which real-time gaps take the declared budget and the guard.
-    bound: int | None
+    bound: int | None  # Whatever the phases of the tasks that are not real-time.
+    bound_apart: int | None  # With the phases of the set; None where tasks collide.
+    response: int | None  # The one that counts.
     promotion_wait: int
     promoted_bound: int | None
 
@@ -109,6 +113,7 @@ class Analysis:
     realtime_rows: list[RealtimeRow]
     other_rows: list[OtherRow]
     promotion_excluded: bool
+    collisions: list[tuple[str, str]]  # Labels of tasks that may want the processor together.
     gaps: Gaps
     chains: list[ChainRow]
     hyperperiod: int
@@ -163,7 +168,8 @@ def realtime_rows(tasks: TaskSet, found: keel.Bounds) -> list[RealtimeRow]:
     guarded = textbook.fixed_priority(tasks.realtime, 0)
     return [
         RealtimeRow(task.label, task.name, task.period, task.budget, without, within,
-                    found.realtime_guarded[task.name], found.realtime_promotion[task.name])
+                    found.realtime_guarded[task.name], found.realtime_promotion[task.name],
+                    (found.apart or {}).get(task.name), found.realtime[task.name])
         for task, without, within in zip(tasks.realtime, unguarded, guarded, strict=True)
     ]  # fmt: skip
 
@@ -213,7 +219,8 @@ def other_rows(tasks: TaskSet, found: keel.Bounds) -> list[OtherRow]:
         bound = found.others[task.name]
         rows.append(
             OtherRow(task.label, task.name, task.class_name, task.period, task.budget,
-                     fits(tasks, task, gaps), bound.response, bound.promotion_wait,
+                     fits(tasks, task, gaps), bound.any_phase,
+                     (found.apart or {}).get(task.name), bound.response, bound.promotion_wait,
                      bound.promoted_response)
         )  # fmt: skip
     return rows
@@ -299,6 +306,7 @@ def analyse(tasks: TaskSet) -> Analysis:
         realtime_rows=realtime_rows(tasks, found),
         other_rows=other_rows(tasks, found),
         promotion_excluded=found.promotion_excluded,
+        collisions=[(one.label, two.label) for one, two in keel.collisions(tasks)],
         gaps=gaps_of(tasks),
         chains=chains,
         hyperperiod=textbook.hyperperiod(tasks.tasks),

@@ -27,7 +27,7 @@ NOTE_PUBLISHED = (
 NOTE_REALTIME = (
     "Textbook: non-preemptive fixed priorities in queue order, the scheduler free of cost. Keel: "
     "its FCFS pass serves each\ntask once in turn, so all share one bound, with passes, dispatches "
-    "and (last column) one promoted task in it. A task\nthat falls due just after the pass has "
+    "and (promotion) one promoted task in it. A task\nthat falls due just after the pass has "
     "looked at it waits for all the others: no order of priorities describes that.\n"
 )
 NOTE_CHAINS = (
@@ -80,15 +80,15 @@ def print_realtime(analysis: Analysis, out: Console) -> None:
     """Real-time response times and Jeffay's condition."""
     rows: list[list[Cell]] = [
         [row.label, row.name, row.period, row.budget, row.unguarded, row.guarded, row.bound,
-         row.bound_promotion]
+         row.bound_promotion, row.bound_apart]
         for row in analysis.realtime_rows
     ]  # fmt: skip
     columns = ["", "real-time task", "T = D", "C", "textbook, no guard", "textbook, guard",
-               "Keel, guard", "Keel, promotion"]  # fmt: skip
+               "Keel, guard", "Keel, promotion", "with these phases"]  # fmt: skip
     out.print(table("Worst response times, us", columns, rows, 2))
     out.print(NOTE_REALTIME)
     excluded = "cannot happen: every other task responds within its period"
-    text = excluded if analysis.promotion_excluded else "cannot be excluded: the last column counts"
+    text = excluded if analysis.promotion_excluded else "cannot be excluded: its column counts"
     out.print(f"Promotion {text}.\n")
     found = analysis.jeffay
     verdict = (
@@ -104,11 +104,11 @@ def print_others(analysis: Analysis, out: Console) -> None:
     """The other tasks: gaps, bounds, promotion."""
     rows: list[list[Cell]] = [
         [row.label, row.name, row.class_name, row.period, row.budget, row.fits, row.bound,
-         row.promotion_wait, row.promoted_bound]
+         row.bound_apart, row.promotion_wait, row.promoted_bound]
         for row in analysis.other_rows
     ]  # fmt: skip
-    columns = ["", "task", "class", "T = D", "C", "gaps it fits", "response <=", "promoted after",
-               "then done by"]  # fmt: skip
+    columns = ["", "task", "class", "T = D", "C", "gaps it fits", "response <=",
+               "with these phases", "promoted after", "then done by"]  # fmt: skip
     out.print(table("Tasks that are not real-time, us from the release", columns, rows, 3))
     if analysis.gaps.shortest is not None:
         out.print(
@@ -119,6 +119,25 @@ def print_others(analysis: Analysis, out: Console) -> None:
     elif analysis.realtime_rows:
         out.print("Real-time tasks have too many releases in a common period to look at every gap.")
     out.print(f"Hyperperiod: {analysis.hyperperiod} us.\n")
+
+
+def print_collisions(analysis: Analysis, out: Console) -> None:
+    """Whether the phases keep tasks apart."""
+    if not analysis.collisions:
+        out.print(
+            "With these phases no two tasks ever want the processor at the same time, so none waits\n"
+            "for another: the responses under 'with these phases' count. They rest on every phase "
+            "and\nbudget; the other columns do not rest on the phases of tasks that are not "
+            "real-time.\n"
+        )
+        return
+    realtime = {row.label for row in analysis.realtime_rows}
+    pairs = [f"{one} and {two}" for one, two in analysis.collisions if {one, two} <= realtime]
+    out.print(
+        f"{len(analysis.collisions)} pairs of tasks may want the processor at the same time, of "
+        f"real-time tasks: {', '.join(pairs) or 'none'}.\n`make analyze ARGS=--phases` looks for "
+        "phases with which none do.\n"
+    )
 
 
 def chain_verdict(row: ChainRow) -> str:
@@ -149,6 +168,7 @@ def print_analysis(analysis: Analysis, out: Console) -> None:
     print_utilisation(analysis, out)
     print_realtime(analysis, out)
     print_others(analysis, out)
+    print_collisions(analysis, out)
     print_chains(analysis, out)
 
 
@@ -188,10 +208,9 @@ def plot_utilisation(analysis: Analysis, path: Path) -> None:
 def bars(analysis: Analysis) -> Iterator[tuple[str, int | None, int]]:
     """Every task's name, bound and deadline."""
     for realtime in analysis.realtime_rows:
-        bound = realtime.bound if analysis.promotion_excluded else realtime.bound_promotion
-        yield f"{realtime.label} {realtime.name}", bound, realtime.period
+        yield f"{realtime.label} {realtime.name}", realtime.response, realtime.period
     for other in analysis.other_rows:
-        yield f"{other.label} {other.name}", other.bound or other.promoted_bound, other.period
+        yield f"{other.label} {other.name}", other.response or other.promoted_bound, other.period
 
 
 def plot_responses(analysis: Analysis, path: Path) -> None:
