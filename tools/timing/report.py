@@ -125,9 +125,9 @@ def print_collisions(analysis: Analysis, out: Console) -> None:
     """Whether the phases keep tasks apart."""
     if not analysis.collisions:
         out.print(
-            "With these phases no two tasks ever want the processor at the same time, so none waits\n"
-            "for another: the responses under 'with these phases' count. They rest on every phase "
-            "and\nbudget; the other columns do not rest on the phases of tasks that are not "
+            "With these phases no two tasks ever want the processor at the same time, so none\n"
+            "waits for another: the responses under 'with these phases' count. They rest on every "
+            "phase\nand budget; the other columns do not rest on the phases of tasks that are not "
             "real-time.\n"
         )
         return
