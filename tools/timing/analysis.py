@@ -69,6 +69,8 @@ class ChainRow:
     freshness: int
     freshness_limit: int
     conventional: int | None
+    followed: int | None
+    safe: int | None  # The least of these two bounds.
     advisory: bool
 
     @property
@@ -77,13 +79,13 @@ class ChainRow:
         return self.reaction <= self.reaction_limit and self.freshness <= self.freshness_limit
 
     @property
-    def conventional_within(self) -> bool:
-        """Whether the sum of T + R, which counts missed samples, keeps the limit."""
-        return self.conventional is not None and self.conventional <= self.reaction_limit
+    def safe_within(self) -> bool:
+        """Whether the safe bound, which counts missed samples, keeps the limits."""
+        return self.safe is not None and self.safe <= min(self.reaction_limit, self.freshness_limit)
 
     def report(self) -> dict[str, Any]:
         """For JSON: the row and its verdicts."""
-        verdicts = {"within": self.within, "conventional_within": self.conventional_within}
+        verdicts = {"within": self.within, "safe_within": self.safe_within}
         return {**asdict(self), **verdicts}
 
 
@@ -141,11 +143,12 @@ class Analysis:
         for row in self.chains:
             if row.advisory and not row.within:
                 found.append(f"path {row.name} exceeds its limits by eq. 5 to 7")
-            if not row.conventional_within:
-                total = "no bound" if row.conventional is None else f"{row.conventional} us"
+            if not row.safe_within:
+                limit = min(row.reaction_limit, row.freshness_limit)
+                bound = "there is no safe bound" if row.safe is None else f"up to {row.safe} us"
                 found.append(
-                    f"path {row.name}: the sum of T + R is {total}, its reaction limit "
-                    f"{row.reaction_limit} us: an event that just misses its sample may take longer"
+                    f"path {row.name} may take longer than its limit of {limit} us from an event "
+                    f"that just misses its sample: {bound}"
                 )
         return found
 
@@ -228,15 +231,14 @@ def other_rows(tasks: TaskSet, found: keel.Bounds) -> list[OtherRow]:
 
 def chain_rows(tasks: TaskSet, found: keel.Bounds) -> list[ChainRow]:
     """The chains."""
-    responses = keel.responses_of(found)
     rows = []
     for chain in tasks.chains:
         path = tasks.path(chain)
+        bound = keel.path_bound(tasks, chain, found)
         rows.append(
             ChainRow(chain.name, [task.label for task in path], textbook.reaction(path),
                      chain.reaction_limit_us, textbook.freshness(path), chain.freshness_limit_us,
-                     textbook.conventional(path, [responses[task.name] for task in path]),
-                     chain.advisory)
+                     bound.total, bound.followed, bound.least, chain.advisory)
         )  # fmt: skip
     return rows
 

@@ -23,7 +23,8 @@ hold:
 4. Where no two tasks collide, nobody waits: whoever is released finds the run before it ended, the
    pass behind that run over, and the next real-time release as far away as the guard asks for. The
    first turn of the loop from the release on runs it. By induction over the releases, which lie on
-   a grid. Two periodic tasks i and j keep apart for ever exactly if (phase_j - phase_i) mod
+   a grid. So each sample's way along a path is known: a run reads what was released before it. Two
+   periodic tasks i and j keep apart for ever exactly if (phase_j - phase_i) mod
    gcd(T_i, T_j) is at least what i needs before j, and at most the gcd less what j needs before i.
 """
 
@@ -40,6 +41,7 @@ from timing.taskset import PRIORITY_MAX, Chain, Task, TaskSet
 
 INSTANTS = 256  # More release instants than this are bounded by a count, not looked at.
 ROUNDS = 200
+SAMPLES = 1000  # Of a path, in the common period of its tasks; more are not followed.
 EFFORT = 50_000  # Steps of all fixed points together; beyond them no bound counts as found.
 TICK = 1  # The resolution of the clock; a turn of the main loop around a step must be shorter.
 LIMIT = 1 << 40
@@ -312,8 +314,58 @@ def responses_of(found: Bounds) -> dict[str, int | None]:
     return {**found.realtime, **{name: bound.response for name, bound in found.others.items()}}
 
 
-def path_bound(tasks: TaskSet, chain: Chain) -> int | None:
-    """The sum of T + R over a path, with the bounds found here."""
-    responses = responses_of(bounds(tasks))
+# --- Paths ---------------------------------------------------------------------------------------
+
+
+def next_release(task: Task, time: int) -> int:
+    """The first release after that time."""
+    number = max(0, (time - task.phase) // task.period + 1)
+    return task.phase + number * task.period
+
+
+def followed(path: Sequence[Task], response: int) -> int | None:
+    """The longest reaction of a path whose tasks never collide, to an event that just misses its
+    sample: from the release of the run that misses it, over that of the next one, to the end of the
+    first run of the last task that knows of it, given the last task's response."""
+    first = path[0]
+    samples = math.lcm(*(task.period for task in path)) // first.period
+    if samples > SAMPLES:
+        return None
+    start = next_release(first, sum(task.period for task in path))  # All have begun by then.
+    longest = 0
+    for missed in range(start, start + samples * first.period, first.period):
+        release = missed + first.period
+        for task in path[1:]:
+            release = next_release(task, release)
+        longest = max(longest, release + response - missed)
+    return longest
+
+
+@dataclass(frozen=True)
+class PathBound:
+    """Bounds of a path's reaction to an event that just misses its sample, and so of how old a
+    value gets until it is replaced."""
+
+    total: int | None  # The sum of T + R.
+    followed: int | None  # With the phases of the set; None where tasks collide.
+
+    @property
+    def least(self) -> int | None:
+        """The one that counts."""
+        return min((item for item in (self.total, self.followed) if item is not None), default=None)
+
+
+def path_bound(tasks: TaskSet, chain: Chain, found: Bounds) -> PathBound:
+    """The bounds of a path, given those of the tasks."""
+    responses = responses_of(found)
     path = tasks.path(chain)
-    return conventional(path, [responses[task.name] for task in path])
+    last = (found.apart or {}).get(path[-1].name)
+    # A task that may be late may skip a period as well: then T + R says nothing.
+    in_time = [
+        worst if (worst := responses[task.name]) is not None and worst <= task.period else None
+        for task in path
+    ]
+    return PathBound(
+        conventional(path, in_time),
+        followed(path, last) if last is not None else None,
+    )
