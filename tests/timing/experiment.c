@@ -7,7 +7,8 @@
  *     policy keel|edf|unguarded|paper|literal|ungated
  *     model constant|uniform|heavy|either
  *     costs TURN PASS DISPATCH
- *     set SEED DURATION FIRST GUARD SKIP   the counter's first reading; SKIP 0 makes every turn
+ *     set SEED DURATION FIRST GUARD LIMIT SKIP   the counter's first reading; the limit of
+ *                                          utilisation, in ppm; SKIP 0 makes every turn
  *     task PRIORITY PERIOD BUDGET WORK PHASE   BUDGET is declared, WORK is the longest run
  *     spike TASK RUN WORK                      one run that takes so long
  *     chain N TASK ... TASK                    a path from a sensor to an actuator
@@ -78,7 +79,7 @@ struct experiment {
     model_t model;
     uint64_t random;
     uint64_t duration_us;
-    uint32_t first_us, guard_us;
+    uint32_t first_us, guard_us, utilisation_limit;
     bool skip;
     uint32_t actors, chains;
     actor_t actor[KEEL_QUEUE_CAPACITY];
@@ -230,7 +231,7 @@ static keel_status_t set_up(experiment_t *e)
     const keel_scheduler_config_t config = {.read_clock = host_board_read,
                                             .clock_context = &e->board,
                                             .guard_us = e->guard_us,
-                                            .utilisation_limit = KEEL_UTILISATION_FULL_PPM};
+                                            .utilisation_limit = e->utilisation_limit};
     keel_status_t status = keel_scheduler_init(&e->scheduler, &config);
 
     host_board_init(&e->board, &e->scheduler, &e->costs, e->first_us);
@@ -387,8 +388,8 @@ static bool order_set(experiment_t *e, const char *words)
     uint64_t seed;
     unsigned skip;
 
-    if (sscanf(words, "%" SCNu64 " %" SCNu64 " %" SCNu32 " %" SCNu32 " %u", &seed, &e->duration_us,
-               &e->first_us, &e->guard_us, &skip) != 5) {
+    if (sscanf(words, "%" SCNu64 " %" SCNu64 " %" SCNu32 " %" SCNu32 " %" SCNu32 " %u", &seed,
+               &e->duration_us, &e->first_us, &e->guard_us, &e->utilisation_limit, &skip) != 6) {
         return false;
     }
     e->random = (seed * 0x9E3779B97F4A7C15u) | 1u;

@@ -29,7 +29,8 @@ def random_set(number: int, load: float, free: bool = False) -> TaskSet:
     costs = Costs(guard_us=0, pass_us=0, dispatch_us=0)
     if not free:
         costs = Costs(guard_us=draw.randrange(6), pass_us=draw.randrange(4),
-                      dispatch_us=draw.randrange(3))  # fmt: skip
+                      dispatch_us=draw.randrange(3),
+                      utilisation_limit_percent=draw.choice((100.0, 100.0, 69.3)))  # fmt: skip
     return TaskSet(f"set{number}", tuple(tasks), (), costs)
 
 

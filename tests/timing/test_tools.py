@@ -156,15 +156,25 @@ def test_a_stale_table_fails_and_is_regenerated(
 def test_the_compiled_table_is_the_task_set(urpilot: TaskSet, tmp_path: Path) -> None:
     """Read back from a program, with a phase and every class."""
     tasks = parse(URPILOT.read_text(encoding="utf-8").replace(
-        "phase_us = 1142", "phase_us = 1234"))  # fmt: skip
+        "phase_us = 1142", "phase_us = 1234").replace("100.0", "69.3"))  # fmt: skip
     ctable.write(ctable.table(tasks, "set.toml"), tmp_path)
     (tmp_path / "print.c").write_text(
-        '#include "urpilot_tasks.h"\n#include <stdio.h>\nint main(void)\n{\n'
+        '#include "urpilot_tasks.h"\n#include <stdio.h>\n'
+        "static uint32_t ticks(void *c)\n{\n    return (uint32_t)(c != NULL);\n}\n"
+        "static void body(void *c)\n{\n    (void)c;\n}\n"
+        "int main(void)\n{\n"
+        "    int here = 0;\n"
+        "    const keel_scheduler_config_t s = urpilot_scheduler_config(ticks, &here);\n"
         "    for (unsigned i = 0u; i < URPILOT_TASK_COUNT; i++) {\n"
         "        const urpilot_task_t *const t = &urpilot_task[i];\n"
-        '        printf("%s|%u|%u|%u|%u|%u\\n", t->name, t->priority, t->period_us, t->wcet_us,\n'
-        "               t->budget_us, t->phase_us);\n    }\n"
-        '    printf("%d %d\\n", (int)URPILOT_GPS, (int)URPILOT_GUARD_US);\n    return 0;\n}\n'
+        "        const keel_task_config_t c = urpilot_task_config(i, body, &here);\n"
+        '        printf("%s|%u|%u|%u|%u|%u|", t->name, t->priority, t->period_us, t->wcet_us,\n'
+        "               t->budget_us, t->phase_us);\n"
+        '        printf("%s|%u|%u|%u|%u|%d\\n", c.name, c.priority, c.period_us, c.budget_us,\n'
+        "               c.phase_us, (c.run == body) && (c.context == &here));\n    }\n"
+        '    printf("%d %u %u %d\\n", (int)URPILOT_GPS, s.guard_us, s.utilisation_limit,\n'
+        "           (s.read_clock == ticks) && (s.clock_context == &here));\n"
+        "    return 0;\n}\n"
     )
     command = [*Toolchain().command("gcc"), "-std=c99", "-Wall", "-Wextra", "-Werror"]
     command += [f"-I{ROOT / 'include'}", f"-I{tmp_path}", "print.c", "urpilot_tasks.c"]
@@ -173,19 +183,20 @@ def test_the_compiled_table_is_the_task_set(urpilot: TaskSet, tmp_path: Path) ->
         [tmp_path / "print"], capture_output=True, text=True, check=True
     ).stdout.splitlines()
     assert lines[:-1] == [
-        f"{task.name}|{task.priority}|{task.period}|{task.budget}|{task.budget + 12}|{task.phase}"
+        f"{task.name}|{task.priority}|{task.period}|{task.budget}|{task.budget + 12}|{task.phase}|"
+        f"{task.name}|{task.priority}|{task.period}|{task.budget + 12}|{task.phase}|1"
         for task in tasks.tasks
     ]
-    assert lines[-1] == "13 20"
+    assert lines[-1] == "13 20 693000 1"
 
 
 @pytest.mark.parametrize("program", ["boards/main.c", "demo/demo.c", "firmware/main.c"])
 def test_what_was_analysed_is_what_runs(program: str) -> None:
-    """No application declares a period, budget, phase, priority or guard of its own."""
+    """No application sets anything of a declaration or of the scheduler's settings itself."""
     text = (ROOT / "examples" / program).read_text(encoding="utf-8")
-    for field in ("period_us", "budget_us", "phase_us", "priority"):
-        assert re.findall(rf"\.{field} = ([^,}}]+)", text) == [f"row->{field}"], field
-    assert set(re.findall(r"\.guard_us = ([^,}]+)", text)) == {"URPILOT_GUARD_US"}
+    fields = "period_us|budget_us|phase_us|priority|guard_us|utilisation_limit"
+    assert not re.findall(rf"(?:\.|->)(?:{fields}) = ", text)
+    assert text.count("urpilot_task_config(") == text.count("urpilot_scheduler_config(") == 1
 
 
 def test_names_that_the_table_takes_are_refused() -> None:
@@ -193,7 +204,7 @@ def test_names_that_the_table_takes_are_refused() -> None:
     taken = set(re.findall(r"\{upper\}_([A-Z_]+)", ctable.HEADER + ctable.SOURCE))
     assert taken == taskset.TABLE_NAMES
     text = URPILOT.read_text(encoding="utf-8")
-    for name in ("Task count", "guard us", "Tasks-h"):
+    for name in ("Task count", "guard us", "Utilisation limit", "Tasks-h"):
         with pytest.raises(TaskSetError, match=f'"{name}": name: expected a name other than'):
             parse(text.replace('name = "GPS"', f'name = "{name}"'))
     for set_name, name in (("int8", "Max"), ("uint_fast16", "max"), ("size", "max")):
