@@ -61,12 +61,9 @@ enum {
     KINDS
 };
 
-static kind_t kind[KINDS] = {{"waited", 0u, 0u, 0u},
-                             {"idle", 0u, 0u, 0u},
-                             {"realtime", 0u, 0u, 0u},
-                             {"other", 0u, 0u, 0u},
-                             {"several", 0u, 0u, 0u},
-                             {"four", 0u, 0u, 0u}};
+static kind_t kind[KINDS] = {{"waited", 0u, 0u, 0u},   {"idle", 0u, 0u, 0u},
+                             {"realtime", 0u, 0u, 0u}, {"other", 0u, 0u, 0u},
+                             {"several", 0u, 0u, 0u},  {"four", 0u, 0u, 0u}};
 
 static virtual_clock_t virtual_clock KEEL_REALTIME_ZERO;
 static keel_scheduler_t scheduler KEEL_REALTIME_ZERO;

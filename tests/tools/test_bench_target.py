@@ -128,9 +128,16 @@ class Budgets(unittest.TestCase):
         budget = bench_target.read_budget(self.file)
         self.assertEqual(
             budget.instructions,
-            {"no_task": 125.0, "one_task": 600.0, "several_tasks": 1500.0,
-             "four_tasks": 2900.0, "imu": 1456.3, "imu_worst": 4035.0,
-             "filter": 35.0, "pid": 116.0},
+            {
+                "no_task": 125.0,
+                "one_task": 600.0,
+                "several_tasks": 1500.0,
+                "four_tasks": 2900.0,
+                "imu": 1456.3,
+                "imu_worst": 4035.0,
+                "filter": 35.0,
+                "pid": 116.0,
+            },
         )
 
 
