@@ -214,6 +214,10 @@ def compared(tasks: TaskSet, results: Deviations) -> str:
     )
 
 
+IN_EVERY_ORDER = "in every order"
+BEHIND = "behind the classes above"
+
+
 @dataclass(frozen=True)
 class Together:
     """A class whose tasks are released together with all others, percent of the period."""
@@ -228,9 +232,9 @@ class Together:
     def excluded(self) -> str:
         """Who must miss the goal."""
         if self.alone is not None and self.alone > self.goal:
-            return "in every order"
+            return IN_EVERY_ORDER
         if self.behind is not None and self.behind > self.goal:
-            return "behind the classes above"
+            return BEHIND
         return "no"
 
     @property
@@ -252,11 +256,10 @@ def together(tasks: TaskSet, results: Deviations) -> list[Together]:
 NOTE_TOGETHER = (
     "Least: what any scheduler leaves that preempts nothing, starts a due task whenever the "
     "processor is free, and serves tasks\nreleased together in one fixed order: each run ahead "
-    "adds C^2 / 24 us^2 to the mean square of the deviation (tools/timing/\norders.py). So no "
-    "order keeps the real-time goal, and every other goal is kept only by a class that is served "
-    "before classes\nof higher priority. What Keel deviates beyond that comes from the order of "
-    "the queue among equals, and from its guard.\n1000 periods scatter by 2 to 3 % around the "
-    "expected value. Phases remove the collisions, and all of this.\n"
+    "adds C^2 / 24 us^2 to the mean square of the deviation (tools/timing/\norders.py). What Keel "
+    "deviates beyond that comes from the order of the queue among equals, and from its guard. "
+    "1000 periods\nscatter by 2 to 3 % around the expected value. Phases remove the collisions, "
+    "and all of this."
 )
 
 
@@ -273,6 +276,10 @@ def show_together(tasks: TaskSet, results: Deviations, out: Console, findings: F
     title = "All released together: mean deviation by class, % of the period, times in 50 % to"
     out.print(table(f"{title} 100 %", columns, rows))
     out.print(NOTE_TOGETHER)
+    never = ", ".join(item.name for item in found if item.excluded == IN_EVERY_ORDER)
+    behind = ", ".join(item.name for item in found if item.excluded == BEHIND)
+    out.print(f"So no order keeps the goal of: {never or 'none'}; only an order that serves the class "
+              f"before classes of\nhigher priority that of: {behind or 'none'}.\n")  # fmt: skip
     out.print(compared(tasks, results))
     findings.report["together"] = [dict(zip(columns, row, strict=True)) for row in rows]
     open_goals = [item.name for item in found if not item.explained]
@@ -408,6 +415,9 @@ def show_paths(tasks: TaskSet, results: Deviations, out: Console, findings: Find
               "they begin with the sample.\n")  # fmt: skip
     findings.report["paths"] = rows
     findings.report["events"] = events
+    beyond = [row[0] for row in events if float(row[3] or 0.0) > float(row[4] or 0.0)]
+    findings.goal("paths, no phases", "observed within the safe bound",
+                  f"beyond: {beyond}" if beyond else "all", not beyond)  # fmt: skip
     judge_paths(tasks, worst, findings)
 
 
