@@ -278,8 +278,10 @@ def show_together(tasks: TaskSet, results: Deviations, out: Console, findings: F
     out.print(NOTE_TOGETHER)
     never = ", ".join(item.name for item in found if item.excluded == IN_EVERY_ORDER)
     behind = ", ".join(item.name for item in found if item.excluded == BEHIND)
-    out.print(f"So no order keeps the goal of: {never or 'none'}; only an order that serves the class "
-              f"before classes of\nhigher priority that of: {behind or 'none'}.\n")  # fmt: skip
+    out.print(
+        f"So no order keeps the goal of: {never or 'none'}; only an order that serves the class\n"
+        f"before classes of higher priority that of: {behind or 'none'}.\n"
+    )
     out.print(compared(tasks, results))
     findings.report["together"] = [dict(zip(columns, row, strict=True)) for row in rows]
     open_goals = [item.name for item in found if not item.explained]
