@@ -35,6 +35,9 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "no_task": ("pass, no task", ("waited", "idle"), 25, ("sets", GOAL_TASKS, "no_task")),
     "one_task": ("pass, one task of 21", ("realtime", "other"), 200,
                  ("sets", GOAL_TASKS, "one_task")),
+    # What a pass costs that the analyser counts with (specs/tasksets/urpilot.toml).
+    "several_tasks": ("pass, two or three tasks", ("several",), None, ()),
+    "four_tasks": ("pass, four tasks", ("four",), None, ()),
     "imu": ("virtual IMU, 3 x 6, all agree", ("imu",), 900, ("steps", "imu")),
     "imu_worst": ("virtual IMU, 3 x 6, one outvoted", ("imu_worst",), 900,
                   ("steps", "imu_worst")),

@@ -105,23 +105,14 @@ static keel_task_fn_t body_of(uint32_t i)
 
 static void start(void)
 {
-    const keel_scheduler_config_t config = {.read_clock = keel_board_clock_us,
-                                            .guard_us = URPILOT_GUARD_US,
-                                            .utilisation_limit = KEEL_UTILISATION_FULL_PPM};
+    const keel_scheduler_config_t config = urpilot_scheduler_config(keel_board_clock_us, NULL);
 
     require(keel_scheduler_init(&scheduler, &config), FAULT_SETUP);
     for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
-        const urpilot_task_t *const row = &urpilot_task[i];
         demo_task_t *const self = &demo_task[i];
 
-        self->wcet_us = row->wcet_us;
-        self->config = (keel_task_config_t){.name = row->name,
-                                            .run = body_of(i),
-                                            .context = self,
-                                            .period_us = row->period_us,
-                                            .budget_us = row->budget_us,
-                                            .phase_us = row->phase_us,
-                                            .priority = row->priority};
+        self->wcet_us = urpilot_task[i].wcet_us;
+        self->config = urpilot_task_config(i, body_of(i), self);
         self->task.config = &self->config;
         require(keel_scheduler_add(&scheduler, &self->task), FAULT_SETUP);
     }

@@ -75,28 +75,18 @@ static void demo_body(void *context)
 
 static keel_status_t demo_add(demo_t *demo, uint32_t i)
 {
-    const urpilot_task_t *const row = &urpilot_task[i];
     demo_task_t *const self = &demo->task[i];
 
     *self = (demo_task_t){
-        .scheduler = &demo->scheduler, .ticks = &demo->ticks, .wcet_us = row->wcet_us};
-    self->config = (keel_task_config_t){.name = row->name,
-                                        .run = demo_body,
-                                        .context = self,
-                                        .period_us = row->period_us,
-                                        .budget_us = row->budget_us,
-                                        .phase_us = row->phase_us,
-                                        .priority = row->priority};
+        .scheduler = &demo->scheduler, .ticks = &demo->ticks, .wcet_us = urpilot_task[i].wcet_us};
+    self->config = urpilot_task_config(i, demo_body, self);
     self->task.config = &self->config;
     return keel_scheduler_add(&demo->scheduler, &self->task);
 }
 
 static keel_status_t demo_start(demo_t *demo, uint32_t poll_us)
 {
-    const keel_scheduler_config_t config = {.read_clock = demo_clock,
-                                            .clock_context = &demo->ticks,
-                                            .guard_us = URPILOT_GUARD_US,
-                                            .utilisation_limit = KEEL_UTILISATION_FULL_PPM};
+    const keel_scheduler_config_t config = urpilot_scheduler_config(demo_clock, &demo->ticks);
     keel_status_t status = keel_scheduler_init(&demo->scheduler, &config);
 
     demo->ticks = DEMO_FIRST_TICK;

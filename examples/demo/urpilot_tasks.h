@@ -7,10 +7,13 @@
 #ifndef URPILOT_TASKS_H
 #define URPILOT_TASKS_H
 
+#include "keel/rtos/scheduler.h"
+
 #include <stdint.h>
 
-#define URPILOT_TASK_COUNT 21u
-#define URPILOT_GUARD_US   20u /**< The guard W that the analysis assumes. */
+#define URPILOT_TASK_COUNT        21u
+#define URPILOT_GUARD_US          20u      /**< The guard W that the analysis assumes. */
+#define URPILOT_UTILISATION_LIMIT 1000000u /**< What the analysis admits, in ppm. */
 
 /** The rows by name, in the order of the queue. */
 typedef enum urpilot_index {
@@ -49,5 +52,24 @@ typedef struct urpilot_task {
 
 /** The tasks. */
 extern const urpilot_task_t urpilot_task[URPILOT_TASK_COUNT];
+
+/**
+ * The declaration of a task as it was analysed.
+ *
+ * @param row     which task, below URPILOT_TASK_COUNT
+ * @param run     its body
+ * @param context handed to the body; may be null
+ * @return the declaration; must not change while the task is in a queue
+ */
+keel_task_config_t urpilot_task_config(uint32_t row, keel_task_fn_t run, void *context);
+
+/**
+ * The scheduler's settings as they were analysed.
+ *
+ * @param read_clock    reads the time base, in us
+ * @param clock_context handed to read_clock; may be null
+ * @return the settings for keel_scheduler_init
+ */
+keel_scheduler_config_t urpilot_scheduler_config(keel_clock_fn_t read_clock, void *clock_context);
 
 #endif

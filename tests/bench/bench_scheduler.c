@@ -19,7 +19,6 @@
 
 #define SIMULATED_US 100000u /* How long polling is simulated. */
 #define POLL_US      5u      /* What one turn of the main loop takes, the tasks apart. */
-#define GUARD_US     20u     /* The scheduler's guard W. */
 #define PASSES_MAX   (SIMULATED_US / POLL_US + 1u)
 #define SUBSET_COUNT 8u
 #define LABEL_SIZE   64u
@@ -88,30 +87,24 @@ static uint32_t bench_row(uint32_t i, uint32_t n)
 
 static void bench_add(uint32_t i, uint32_t n)
 {
-    const urpilot_task_t *row = &urpilot_task[bench_row(i, n)];
+    const uint32_t table_row = bench_row(i, n);
+    const urpilot_task_t *row = &urpilot_task[table_row];
     const bool realtime = row->priority == KEEL_PRIORITY_REALTIME;
     /* As many copies of table 2 as the set holds, each as much slower. */
     const uint32_t stretch = (n + URPILOT_TASK_COUNT - 1u) / URPILOT_TASK_COUNT;
 
     bench_bodies[i] = (bench_body_t){&bench, row->wcet_us,
                                      realtime ? &bench.ran_realtime : &bench.ran_other};
-    bench_configs[i] = (keel_task_config_t){.name = row->name,
-                                            .run = bench_run,
-                                            .context = &bench_bodies[i],
-                                            .period_us = row->period_us * stretch,
-                                            .budget_us = row->wcet_us,
-                                            .phase_us = 0u,
-                                            .priority = row->priority};
+    bench_configs[i] = urpilot_task_config(table_row, bench_run, &bench_bodies[i]);
+    bench_configs[i].period_us *= stretch;
+    bench_configs[i].phase_us = 0u; /* All released together: the longest passes. */
     bench_tasks[i] = (keel_task_t){.config = &bench_configs[i]};
     bench_require(keel_scheduler_add(&bench.scheduler, &bench_tasks[i]) == KEEL_OK, "add refuses");
 }
 
 static void bench_begin(uint32_t n)
 {
-    const keel_scheduler_config_t config = {.read_clock = bench_clock,
-                                            .clock_context = &bench,
-                                            .guard_us = GUARD_US,
-                                            .utilisation_limit = KEEL_UTILISATION_FULL_PPM};
+    const keel_scheduler_config_t config = urpilot_scheduler_config(bench_clock, &bench);
 
     (void)memset(&bench, 0, sizeof(bench));
     bench_require(keel_scheduler_init(&bench.scheduler, &config) == KEEL_OK, "init refuses");

@@ -7,7 +7,8 @@
  *     policy keel|edf|unguarded|paper|literal|ungated
  *     model constant|uniform|heavy|either
  *     costs TURN PASS DISPATCH
- *     set SEED DURATION FIRST GUARD SKIP   the counter's first reading; SKIP 0 makes every turn
+ *     set SEED DURATION FIRST GUARD LIMIT SKIP   the counter's first reading; the limit of
+ *                                          utilisation, in ppm; SKIP 0 makes every turn
  *     task PRIORITY PERIOD BUDGET WORK PHASE   BUDGET is declared, WORK is the longest run
  *     spike TASK RUN WORK                      one run that takes so long
  *     chain N TASK ... TASK                    a path from a sensor to an actuator
@@ -67,6 +68,7 @@ typedef struct chain {
     uint64_t latest; /* The sample behind the actuator's present value. */
     uint64_t outputs;
     uint64_t reaction_ns, freshness_ns;
+    uint64_t event_ns; /* From an event that just misses its sample; see chain_actuate. */
 } chain_t;
 
 struct experiment {
@@ -77,7 +79,7 @@ struct experiment {
     model_t model;
     uint64_t random;
     uint64_t duration_us;
-    uint32_t first_us, guard_us;
+    uint32_t first_us, guard_us, utilisation_limit;
     bool skip;
     uint32_t actors, chains;
     actor_t actor[KEEL_QUEUE_CAPACITY];
@@ -134,10 +136,16 @@ static void chain_begin(chain_t *chain, uint32_t number, uint64_t now_ns)
     }
 }
 
+/* An event right after the latest sample that was acted on shows in the next one at the earliest.
+   So that sample's age at its replacement is both how long the path takes to react to such an
+   event, and how old the actuator's value becomes. */
 static void chain_actuate(chain_t *chain, uint64_t sample_ns, uint64_t now_ns)
 {
     const uint64_t age_ns = now_ns - sample_ns;
 
+    if ((chain->latest != NO_SAMPLE) && ((now_ns - chain->latest) > chain->event_ns)) {
+        chain->event_ns = now_ns - chain->latest;
+    }
     if (age_ns > chain->freshness_ns) {
         chain->freshness_ns = age_ns;
     }
@@ -223,7 +231,7 @@ static keel_status_t set_up(experiment_t *e)
     const keel_scheduler_config_t config = {.read_clock = host_board_read,
                                             .clock_context = &e->board,
                                             .guard_us = e->guard_us,
-                                            .utilisation_limit = KEEL_UTILISATION_FULL_PPM};
+                                            .utilisation_limit = e->utilisation_limit};
     keel_status_t status = keel_scheduler_init(&e->scheduler, &config);
 
     host_board_init(&e->board, &e->scheduler, &e->costs, e->first_us);
@@ -254,6 +262,14 @@ static void note_window(experiment_t *e, keel_load_t *window)
     }
 }
 
+/* Until when turns may be skipped: a window closes at the first turn that reaches its end. */
+static uint64_t skip_until_ns(const keel_load_t *window, uint64_t end_ns)
+{
+    const uint64_t close_ns = (window->start_us + WINDOW_US) * HOST_NS_PER_US;
+
+    return (close_ns < end_ns) ? close_ns : end_ns;
+}
+
 static keel_status_t run(experiment_t *e)
 {
     const uint64_t end_ns = e->duration_us * HOST_NS_PER_US;
@@ -265,7 +281,7 @@ static keel_status_t run(experiment_t *e)
         status = e->step(&e->scheduler);
         note_window(e, &window);
         if (e->skip) {
-            host_board_idle(&e->board, end_ns);
+            host_board_idle(&e->board, skip_until_ns(&window, end_ns));
         }
         host_board_turn(&e->board);
     }
@@ -295,8 +311,8 @@ static void print_actor(const actor_t *actor)
 static void print_chain(const chain_t *chain)
 {
     (void)printf("{\"outputs\": %" PRIu64 ", \"reaction\": %" PRIu64 ", \"freshness\": %" PRIu64
-                 "}",
-                 chain->outputs, chain->reaction_ns, chain->freshness_ns);
+                 ", \"event\": %" PRIu64 "}",
+                 chain->outputs, chain->reaction_ns, chain->freshness_ns, chain->event_ns);
 }
 
 static void print_result(const experiment_t *e, keel_status_t status)
@@ -372,8 +388,8 @@ static bool order_set(experiment_t *e, const char *words)
     uint64_t seed;
     unsigned skip;
 
-    if (sscanf(words, "%" SCNu64 " %" SCNu64 " %" SCNu32 " %" SCNu32 " %u", &seed, &e->duration_us,
-               &e->first_us, &e->guard_us, &skip) != 5) {
+    if (sscanf(words, "%" SCNu64 " %" SCNu64 " %" SCNu32 " %" SCNu32 " %" SCNu32 " %u", &seed,
+               &e->duration_us, &e->first_us, &e->guard_us, &e->utilisation_limit, &skip) != 6) {
         return false;
     }
     e->random = (seed * 0x9E3779B97F4A7C15u) | 1u;

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import random
+from dataclasses import replace
 
-from timing.taskset import CLASSES, Costs, Task, TaskSet
+from timing.taskset import CLASSES, Chain, Costs, Task, TaskSet
 
 PERIODS = (50, 60, 80, 100, 120, 150, 200, 240, 300, 400, 500, 600, 1000)
 
@@ -28,5 +29,18 @@ def random_set(number: int, load: float, free: bool = False) -> TaskSet:
     costs = Costs(guard_us=0, pass_us=0, dispatch_us=0)
     if not free:
         costs = Costs(guard_us=draw.randrange(6), pass_us=draw.randrange(4),
-                      dispatch_us=draw.randrange(3))  # fmt: skip
+                      dispatch_us=draw.randrange(3),
+                      utilisation_limit_percent=draw.choice((100.0, 100.0, 69.3)))  # fmt: skip
     return TaskSet(f"set{number}", tuple(tasks), (), costs)
+
+
+def with_chains(tasks: TaskSet, number: int) -> TaskSet:
+    """The set with two paths of that number, each through 2 to 4 of its tasks in any order."""
+    draw = random.Random(number)
+    names = [task.name for task in tasks.tasks]
+    chains = tuple(
+        Chain(name=name, path=draw.sample(names, draw.randrange(2, min(4, len(names)) + 1)),
+              reaction_limit_us=1, freshness_limit_us=1)
+        for name in ("first", "second")
+    )  # fmt: skip
+    return replace(tasks, chains=chains)

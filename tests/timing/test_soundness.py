@@ -14,11 +14,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
-from sets import random_set
+from sets import random_set, with_chains
 from timing import board, keel
 from timing.analysis import admission_reasons, analyse
 from timing.board import Experiment, Result
-from timing.bounds import fixed_priority, jeffay
+from timing.bounds import fixed_priority, freshness, hyperperiod, jeffay, reaction
 from timing.phases import spread
 from timing.taskset import Task, TaskSet
 from toolchain import Toolchain
@@ -142,6 +142,56 @@ def test_under_overload_the_bounds_behind_promotion_hold(program: Path) -> None:
     assert compared > SETS / 10 and overloads > SETS / 100
 
 
+@dataclass
+class Paths:
+    """How the paths of the simulation stand against what is said of them."""
+
+    bounded: int = 0
+    followed: int = 0
+    tight: float = 0.0  # The observed reaction that came nearest to its bound.
+    sample_beyond_e: int = 0  # Reaction to a sample, above eq. 5 and 6.
+    event_beyond_e: int = 0  # Reaction to an event that just misses its sample.
+    output_beyond_f: int = 0  # Age of a sample at an output, above eq. 7.
+    value_beyond_f: int = 0  # Age of a value until it is replaced.
+
+
+def hold_paths(tasks: TaskSet, found: keel.Bounds, results: list[Result], seen: Paths) -> None:
+    """No path that has a safe bound exceeds it."""
+    for chain in tasks.chains:
+        bound = keel.path_bound(tasks, chain, found)
+        outcomes = [result.chains[chain.name] for result in results]
+        if bound.least is None:
+            continue
+        sample = max(outcome.reaction for outcome in outcomes)
+        output = max(outcome.freshness for outcome in outcomes)
+        event = max(outcome.event for outcome in outcomes)
+        assert max(sample, output, event) <= bound.least, (tasks, chain)
+        path = tasks.path(chain)
+        seen.bounded += 1
+        seen.followed += bound.followed is not None
+        seen.tight = max(seen.tight, event / bound.least)
+        seen.sample_beyond_e += sample > reaction(path)
+        seen.event_beyond_e += event > reaction(path)
+        seen.output_beyond_f += output > freshness(path)
+        seen.value_beyond_f += event > freshness(path)
+
+
+def test_no_path_exceeds_its_safe_bound(program: Path) -> None:
+    """Eq. 5 to 7 are exceeded, which is why they are called no bounds: how often is printed."""
+    sets = []
+    for number in range(SETS // 2):
+        tasks = random_set(number, LOADS[number % 4])
+        sets.append(with_chains(spread(tasks)[0] if number % 2 else tasks, number))
+    seen = Paths()
+    for tasks, results in simulated(program, sets, with_kernel):
+        if not any(admission_reasons(tasks)):
+            hold_paths(tasks, keel.bounds(tasks), results, seen)
+    print(seen)
+    assert seen.bounded > SETS / 10 and seen.followed > SETS / 50 and seen.tight > 0.9, seen
+    assert seen.sample_beyond_e and seen.event_beyond_e, seen
+    assert seen.output_beyond_f and seen.value_beyond_f, seen
+
+
 def plain_edf(tasks: TaskSet) -> list[Experiment]:
     """Plain EDF without costs, all tasks alike."""
     return [
@@ -206,3 +256,33 @@ def test_phases_keep_tasks_apart(program: Path) -> None:
             for task in tasks.tasks:
                 # One more us: the loop turns every half one, and the clock counts whole ones.
                 assert result.tasks[task.name].worst <= keel.declared(tasks, task) + 1.0, tasks
+            hold(tasks, keel.bounds(tasks), result, Seen())
+
+
+def meet(tasks: TaskSet) -> bool:
+    """Whether tasks collide, from every release of two common periods."""
+    length = 2 * hyperperiod(tasks.tasks)
+    releases = sorted(
+        (release, index)
+        for index, task in enumerate(tasks.tasks)
+        for release in range(task.phase, length + task.period, task.period)
+    )
+    return any(
+        second - first < keel.needs(tasks, tasks.tasks[one], tasks.tasks[two])
+        for number, (first, one) in enumerate(releases)
+        for second, two in releases[number + 1 : number + 1 + len(tasks.tasks)]
+    )
+
+
+def test_collisions_are_those_of_the_releases() -> None:
+    """The congruence against a look at every release, with phases that were found and moved."""
+    seen = {True: 0, False: 0}
+    for number in range(min(SETS, 1000)):
+        tasks = random_set(number, 0.15)
+        if number % 2:
+            tasks = spread(tasks)[0]
+        if hyperperiod(tasks.tasks) > 10_000:
+            continue
+        assert bool(keel.collisions(tasks)) == meet(tasks), tasks
+        seen[meet(tasks)] += 1
+    assert min(seen.values()) > min(SETS, 1000) / 50, seen

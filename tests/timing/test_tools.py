@@ -16,7 +16,8 @@ from fuzz_taskset import fuzz
 from timing import ctable, keel, taskset
 from timing.__main__ import main
 from timing.analysis import analyse
-from timing.phases import needs, spread
+from timing.bounds import hyperperiod
+from timing.phases import spread, without_phases
 from timing.report import plot_responses, plot_utilisation, verdict
 from timing.synthesis import LADDER, SynthesisError, keeps_limits, synthesize, with_periods
 from timing.taskset import Task, TaskSet, TaskSetError, parse, read
@@ -88,7 +89,7 @@ def test_promotion_wait_by_hand() -> None:
         ("reaction_limit_us = 10000", "reaction_limit_us = 3102", 1,
          "NOT schedulable: path IMU, rate: E = 3103 us of 3102 us"),
         ("budget_us = 71", "budget_us = 700", 1, "NOT schedulable: tasks that are not real-time"),
-        ("period_us = 2000\nbudget_us = 71", "period_us = 80\nbudget_us = 72", 1,
+        ("period_us = 2000\nbudget_us = 71\nphase_us = 249", "period_us = 80\nbudget_us = 72", 1,
          "NOT schedulable: utilisation is 108.99 %, above 100 % (eq. 11)"),
         ("budget_us = 355", "budget_us = 0", 2, ""),
     ],
@@ -155,15 +156,25 @@ def test_a_stale_table_fails_and_is_regenerated(
 def test_the_compiled_table_is_the_task_set(urpilot: TaskSet, tmp_path: Path) -> None:
     """Read back from a program, with a phase and every class."""
     tasks = parse(URPILOT.read_text(encoding="utf-8").replace(
-        "budget_us = 355", "budget_us = 355\nphase_us = 1234"))  # fmt: skip
+        "phase_us = 1142", "phase_us = 1234").replace("100.0", "69.3"))  # fmt: skip
     ctable.write(ctable.table(tasks, "set.toml"), tmp_path)
     (tmp_path / "print.c").write_text(
-        '#include "urpilot_tasks.h"\n#include <stdio.h>\nint main(void)\n{\n'
+        '#include "urpilot_tasks.h"\n#include <stdio.h>\n'
+        "static uint32_t ticks(void *c)\n{\n    return (uint32_t)(c != NULL);\n}\n"
+        "static void body(void *c)\n{\n    (void)c;\n}\n"
+        "int main(void)\n{\n"
+        "    int here = 0;\n"
+        "    const keel_scheduler_config_t s = urpilot_scheduler_config(ticks, &here);\n"
         "    for (unsigned i = 0u; i < URPILOT_TASK_COUNT; i++) {\n"
         "        const urpilot_task_t *const t = &urpilot_task[i];\n"
-        '        printf("%s|%u|%u|%u|%u|%u\\n", t->name, t->priority, t->period_us, t->wcet_us,\n'
-        "               t->budget_us, t->phase_us);\n    }\n"
-        '    printf("%d %d\\n", (int)URPILOT_GPS, (int)URPILOT_GUARD_US);\n    return 0;\n}\n'
+        "        const keel_task_config_t c = urpilot_task_config(i, body, &here);\n"
+        '        printf("%s|%u|%u|%u|%u|%u|", t->name, t->priority, t->period_us, t->wcet_us,\n'
+        "               t->budget_us, t->phase_us);\n"
+        '        printf("%s|%u|%u|%u|%u|%d\\n", c.name, c.priority, c.period_us, c.budget_us,\n'
+        "               c.phase_us, (c.run == body) && (c.context == &here));\n    }\n"
+        '    printf("%d %u %u %d\\n", (int)URPILOT_GPS, s.guard_us, s.utilisation_limit,\n'
+        "           (s.read_clock == ticks) && (s.clock_context == &here));\n"
+        "    return 0;\n}\n"
     )
     command = [*Toolchain().command("gcc"), "-std=c99", "-Wall", "-Wextra", "-Werror"]
     command += [f"-I{ROOT / 'include'}", f"-I{tmp_path}", "print.c", "urpilot_tasks.c"]
@@ -172,19 +183,20 @@ def test_the_compiled_table_is_the_task_set(urpilot: TaskSet, tmp_path: Path) ->
         [tmp_path / "print"], capture_output=True, text=True, check=True
     ).stdout.splitlines()
     assert lines[:-1] == [
-        f"{task.name}|{task.priority}|{task.period}|{task.budget}|{task.budget + 12}|{task.phase}"
+        f"{task.name}|{task.priority}|{task.period}|{task.budget}|{task.budget + 12}|{task.phase}|"
+        f"{task.name}|{task.priority}|{task.period}|{task.budget + 12}|{task.phase}|1"
         for task in tasks.tasks
     ]
-    assert lines[-1] == "13 20"
+    assert lines[-1] == "13 20 693000 1"
 
 
 @pytest.mark.parametrize("program", ["boards/main.c", "demo/demo.c", "firmware/main.c"])
 def test_what_was_analysed_is_what_runs(program: str) -> None:
-    """No application declares a period, budget, phase, priority or guard of its own."""
+    """No application sets anything of a declaration or of the scheduler's settings itself."""
     text = (ROOT / "examples" / program).read_text(encoding="utf-8")
-    for field in ("period_us", "budget_us", "phase_us", "priority"):
-        assert re.findall(rf"\.{field} = ([^,}}]+)", text) == [f"row->{field}"], field
-    assert set(re.findall(r"\.guard_us = ([^,}]+)", text)) == {"URPILOT_GUARD_US"}
+    fields = "period_us|budget_us|phase_us|priority|guard_us|utilisation_limit"
+    assert not re.findall(rf"(?:\.|->)(?:{fields}) = ", text)
+    assert text.count("urpilot_task_config(") == text.count("urpilot_scheduler_config(") == 1
 
 
 def test_names_that_the_table_takes_are_refused() -> None:
@@ -192,7 +204,7 @@ def test_names_that_the_table_takes_are_refused() -> None:
     taken = set(re.findall(r"\{upper\}_([A-Z_]+)", ctable.HEADER + ctable.SOURCE))
     assert taken == taskset.TABLE_NAMES
     text = URPILOT.read_text(encoding="utf-8")
-    for name in ("Task count", "guard us", "Tasks-h"):
+    for name in ("Task count", "guard us", "Utilisation limit", "Tasks-h"):
         with pytest.raises(TaskSetError, match=f'"{name}": name: expected a name other than'):
             parse(text.replace('name = "GPS"', f'name = "{name}"'))
     for set_name, name in (("int8", "Max"), ("uint_fast16", "max"), ("size", "max")):
@@ -238,18 +250,74 @@ def test_synthesis_says_when_there_is_nothing_to_find(urpilot: TaskSet) -> None:
         synthesize(tight)
 
 
-def test_phases_keep_every_pair_apart(urpilot: TaskSet) -> None:
-    """By looking at every release of a hyperperiod, not at the congruence that found them."""
-    found, crowded = spread(urpilot)
-    assert not crowded
+def crowded_releases(tasks: TaskSet) -> set[frozenset[str]]:
+    """The neighbours that collide, by looking at every release of two hyperperiods, not at the
+    congruence that found the phases."""
+    length = 2 * hyperperiod(tasks.tasks)
     releases = sorted(
-        (task.phase + number * task.period, task.name)
-        for task in found.tasks
-        for number in range(1_000_000 // task.period)
+        (release, task.label)
+        for task in tasks.tasks
+        for release in range(task.phase, length, task.period)
     )
-    for (first, name), (second, follower) in pairwise(releases):
-        apart = needs(found, found.named(name), found.named(follower))
-        assert second - first >= apart, (name, follower)
+    by_label = {task.label: task for task in tasks.tasks}
+    return {
+        frozenset((one, two))
+        for (first, one), (second, two) in pairwise(releases)
+        if second - first < keel.needs(tasks, by_label[one], by_label[two])
+    }
+
+
+def test_the_shipped_phases_are_those_that_the_analyser_finds(urpilot: TaskSet) -> None:
+    """So the comment in the file, which says so, holds for its periods, budgets and costs."""
+    assert spread(without_phases(urpilot)) == (urpilot, [])
+
+
+def test_the_shipped_phases_keep_every_pair_apart(urpilot: TaskSet) -> None:
+    assert not crowded_releases(urpilot) and not keel.collisions(urpilot)
+
+
+REALTIME = {"τ11", "τ12", "τ18"}
+
+
+def realtime_collisions(tasks: TaskSet) -> set[frozenset[str]]:
+    """The real-time tasks that collide, if only these run: from their windows in 2000 us."""
+    assert {task.label for task in tasks.realtime} == REALTIME
+    used: dict[int, str] = {}
+    found = set()
+    for task in tasks.realtime:
+        for release in range(task.phase, task.phase + 2000, task.period):
+            for at in range(release, release + keel.declared(tasks, task)):
+                if used.setdefault(at % 2000, task.label) != task.label:
+                    found.add(frozenset((task.label, used[at % 2000])))
+    return found
+
+
+def test_the_realtime_tasks_that_ship_do_not_collide(urpilot: TaskSet) -> None:
+    """τ11 every 1000 us, τ12 and τ18 every 2000 us, are apart as they fly; all at once they are
+    not, nor is any of them when it is moved into another's time."""
+    assert not realtime_collisions(urpilot)
+    assert {label for pair in realtime_collisions(without_phases(urpilot)) for label in pair} == (
+        REALTIME
+    )
+    # τ11 takes 69 us, τ12 49 and τ18 95, the scheduler's time included.
+    for label, phase, other in (("τ12", 1068, "τ11"), ("τ18", 129, "τ12"), ("τ18", 906, "τ11")):
+        moved = tuple(
+            replace(task, phase=phase) if task.label == label else task for task in urpilot.tasks
+        )
+        pairs = realtime_collisions(replace(urpilot, tasks=moved))
+        assert pairs == {frozenset((label, other))}
+
+
+def test_the_analyser_tells_of_collisions(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["analyze", str(URPILOT)]) == 0
+    assert "no two tasks ever want the processor at the same time" in capsys.readouterr().out
+    # Of τ12: the rest of the file stays as it is.
+    assert main(["analyze", str(changed(tmp_path, "phase_us = 81\n", ""))]) == 0
+    assert "of real-time tasks: τ11 and τ12." in capsys.readouterr().out
+    report = json.loads((tmp_path / "build/timing/urpilot/analysis.json").read_text())
+    assert ["τ11", "τ12"] in report["collisions"]
 
 
 def test_no_room_for_phases_is_told() -> None:

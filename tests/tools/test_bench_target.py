@@ -29,7 +29,8 @@ bench waited passes 10 instructions 300 longest 31
 bench idle passes 2 instructions 1200 longest 700
 bench realtime passes 4 instructions 2000 longest 532
 bench other passes 1 instructions 1000 longest 1000
-bench several passes 1 instructions 2909 longest 2909
+bench several passes 30 instructions 45000 longest 1700
+bench four passes 2 instructions 5800 longest 2909
 bench filter passes 1000 instructions 35000 longest 35
 bench pid passes 1000 instructions 116000 longest 116
 bench imu passes 1000 instructions 1456300 longest 1509
@@ -39,6 +40,8 @@ bench ended
 FIGURES = {
     "no_task": Figure(12, 1500, 700),
     "one_task": Figure(5, 3000, 1000),
+    "several_tasks": Figure(30, 45000, 1700),
+    "four_tasks": Figure(2, 5800, 2909),
     "imu": Figure(1000, 1456300, 1509),
     "imu_worst": Figure(1000, 4035011, 4046),
     "filter": Figure(1000, 35000, 35),
@@ -51,6 +54,8 @@ tolerance_percent = 5
 [instructions]
 no_task = 125
 one_task = 600
+several_tasks = 1500
+four_tasks = 2900
 imu = 1457
 imu_worst = 4036
 filter = 35
@@ -123,8 +128,16 @@ class Budgets(unittest.TestCase):
         budget = bench_target.read_budget(self.file)
         self.assertEqual(
             budget.instructions,
-            {"no_task": 125.0, "one_task": 600.0, "imu": 1456.3, "imu_worst": 4035.0,
-             "filter": 35.0, "pid": 116.0},
+            {
+                "no_task": 125.0,
+                "one_task": 600.0,
+                "several_tasks": 1500.0,
+                "four_tasks": 2900.0,
+                "imu": 1456.3,
+                "imu_worst": 4035.0,
+                "filter": 35.0,
+                "pid": 116.0,
+            },
         )
 
 

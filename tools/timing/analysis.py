@@ -37,6 +37,8 @@ class RealtimeRow:
     guarded: int | None  # Textbook: blocked by real-time tasks alone.
     bound: int  # Keel, costs included, nobody promoted.
     bound_promotion: int  # Keel, and one promoted task is in the way.
+    bound_apart: int | None  # Keel, with the phases of the set; None where tasks collide.
+    response: int  # The one that counts.
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,9 @@ class OtherRow:
     period: int
     budget: int
     fits: str  # Which real-time gaps take the declared budget and the guard.
-    bound: int | None
+    bound: int | None  # Whatever the phases of the tasks that are not real-time.
+    bound_apart: int | None  # With the phases of the set; None where tasks collide.
+    response: int | None  # The one that counts.
     promotion_wait: int
     promoted_bound: int | None
 
@@ -65,6 +69,8 @@ class ChainRow:
     freshness: int
     freshness_limit: int
     conventional: int | None
+    followed: int | None
+    safe: int | None  # The least of these two bounds.
     advisory: bool
 
     @property
@@ -73,13 +79,13 @@ class ChainRow:
         return self.reaction <= self.reaction_limit and self.freshness <= self.freshness_limit
 
     @property
-    def conventional_within(self) -> bool:
-        """Whether the sum of T + R, which counts missed samples, keeps the limit."""
-        return self.conventional is not None and self.conventional <= self.reaction_limit
+    def safe_within(self) -> bool:
+        """Whether the safe bound, which counts missed samples, keeps the limits."""
+        return self.safe is not None and self.safe <= min(self.reaction_limit, self.freshness_limit)
 
     def report(self) -> dict[str, Any]:
         """For JSON: the row and its verdicts."""
-        verdicts = {"within": self.within, "conventional_within": self.conventional_within}
+        verdicts = {"within": self.within, "safe_within": self.safe_within}
         return {**asdict(self), **verdicts}
 
 
@@ -109,6 +115,7 @@ class Analysis:
     realtime_rows: list[RealtimeRow]
     other_rows: list[OtherRow]
     promotion_excluded: bool
+    collisions: list[tuple[str, str]]  # Labels of tasks that may want the processor together.
     gaps: Gaps
     chains: list[ChainRow]
     hyperperiod: int
@@ -136,11 +143,12 @@ class Analysis:
         for row in self.chains:
             if row.advisory and not row.within:
                 found.append(f"path {row.name} exceeds its limits by eq. 5 to 7")
-            if not row.conventional_within:
-                total = "no bound" if row.conventional is None else f"{row.conventional} us"
+            if not row.safe_within:
+                limit = min(row.reaction_limit, row.freshness_limit)
+                bound = "there is no safe bound" if row.safe is None else f"up to {row.safe} us"
                 found.append(
-                    f"path {row.name}: the sum of T + R is {total}, its reaction limit "
-                    f"{row.reaction_limit} us: an event that just misses its sample may take longer"
+                    f"path {row.name} may take longer than its limit of {limit} us from an event "
+                    f"that just misses its sample: {bound}"
                 )
         return found
 
@@ -163,7 +171,8 @@ def realtime_rows(tasks: TaskSet, found: keel.Bounds) -> list[RealtimeRow]:
     guarded = textbook.fixed_priority(tasks.realtime, 0)
     return [
         RealtimeRow(task.label, task.name, task.period, task.budget, without, within,
-                    found.realtime_guarded[task.name], found.realtime_promotion[task.name])
+                    found.realtime_guarded[task.name], found.realtime_promotion[task.name],
+                    (found.apart or {}).get(task.name), found.realtime[task.name])
         for task, without, within in zip(tasks.realtime, unguarded, guarded, strict=True)
     ]  # fmt: skip
 
@@ -213,7 +222,8 @@ def other_rows(tasks: TaskSet, found: keel.Bounds) -> list[OtherRow]:
         bound = found.others[task.name]
         rows.append(
             OtherRow(task.label, task.name, task.class_name, task.period, task.budget,
-                     fits(tasks, task, gaps), bound.response, bound.promotion_wait,
+                     fits(tasks, task, gaps), bound.any_phase,
+                     (found.apart or {}).get(task.name), bound.response, bound.promotion_wait,
                      bound.promoted_response)
         )  # fmt: skip
     return rows
@@ -221,15 +231,14 @@ def other_rows(tasks: TaskSet, found: keel.Bounds) -> list[OtherRow]:
 
 def chain_rows(tasks: TaskSet, found: keel.Bounds) -> list[ChainRow]:
     """The chains."""
-    responses = keel.responses_of(found)
     rows = []
     for chain in tasks.chains:
         path = tasks.path(chain)
+        bound = keel.path_bound(tasks, chain, found)
         rows.append(
             ChainRow(chain.name, [task.label for task in path], textbook.reaction(path),
                      chain.reaction_limit_us, textbook.freshness(path), chain.freshness_limit_us,
-                     textbook.conventional(path, [responses[task.name] for task in path]),
-                     chain.advisory)
+                     bound.total, bound.followed, bound.least, chain.advisory)
         )  # fmt: skip
     return rows
 
@@ -252,10 +261,10 @@ def admission_reasons(tasks: TaskSet) -> Iterator[str]:
                        f"{task.name} leaves {max(gap, 0)} us")  # fmt: skip
     # As the kernel counts: in parts per million, each task rounded up.
     ppm = sum(-(-keel.declared(tasks, task) * 1_000_000 // task.period) for task in tasks.tasks)
-    limit = tasks.costs.utilisation_limit_percent
-    if ppm > int(limit * 10_000):
+    limit = tasks.costs.utilisation_limit
+    if ppm > limit:
         yield (f"the kernel refuses it: utilisation with the scheduler's own time, "
-               f"{ppm / 10_000:.2f} %, exceeds the limit of {limit:.2f} %")  # fmt: skip
+               f"{ppm / 10_000:.2f} %, exceeds the limit of {limit / 10_000:.2f} %")  # fmt: skip
 
 
 def reasons(tasks: TaskSet, found: keel.Bounds, chains: list[ChainRow]) -> Iterator[str]:
@@ -299,6 +308,7 @@ def analyse(tasks: TaskSet) -> Analysis:
         realtime_rows=realtime_rows(tasks, found),
         other_rows=other_rows(tasks, found),
         promotion_excluded=found.promotion_excluded,
+        collisions=[(one.label, two.label) for one, two in keel.collisions(tasks)],
         gaps=gaps_of(tasks),
         chains=chains,
         hyperperiod=textbook.hyperperiod(tasks.tasks),

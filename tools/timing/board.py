@@ -58,7 +58,7 @@ class Experiment:
             f"model {self.model}",
             f"costs {self.turn_ns} {costs.pass_us * 1000} {costs.dispatch_us * 1000}",
             f"set {self.seed} {self.duration_us} {self.first_us} {costs.guard_us} "
-            f"{int(self.skip_idle)}",
+            f"{costs.utilisation_limit} {int(self.skip_idle)}",
         ]
         lines += [self.task(task) for task in self.tasks.tasks]
         number = {task.name: index for index, task in enumerate(self.tasks.tasks)}
@@ -97,11 +97,12 @@ class TaskOutcome:
 
 @dataclass(frozen=True)
 class ChainOutcome:
-    """What was observed on a path, us."""
+    """What was observed on a path, us: the longest."""
 
     outputs: int
-    reaction: float
-    freshness: float
+    reaction: float  # From a sample to the first output that acts on it.
+    freshness: float  # From a sample to any output that acts on it.
+    event: float  # From an event that just misses its sample to the first output that knows of it.
 
 
 @dataclass(frozen=True)
@@ -132,9 +133,10 @@ def read_result(line: str, experiment: Experiment) -> Result:
     raw["tasks"] = {name: read_task(item) for name, item in zip(names, raw["tasks"], strict=True)}
     chains = [chain.name for chain in experiment.tasks.chains]
     raw["chains"] = {
-        name: ChainOutcome(item["outputs"], item["reaction"] / 1000, item["freshness"] / 1000)
+        name: ChainOutcome(item["outputs"], item["reaction"] / 1000, item["freshness"] / 1000,
+                           item["event"] / 1000)
         for name, item in zip(chains, raw["chains"], strict=True)
-    }
+    }  # fmt: skip
     return Result(**raw)
 
 

@@ -4,8 +4,9 @@ They hold for every execution time up to the budget, given the costs that the ta
 (a pass that looks at the tasks), d (a dispatch), W (the guard). Those of real-time tasks (1) and
 behind a promotion (3) hold for every phase. Those of other tasks (2), and with them that nobody is
 promoted, hold for every phase of the other tasks, but for the real-time phases that the set gives:
-Tails looks at the very releases, unless they are too many. tests/timing compares the bounds with
-simulations by the kernel's own code. Why they hold:
+Tails looks at the very releases, unless they are too many. Those of (4) hold for the phases of the
+set alone. tests/timing compares the bounds with simulations by the kernel's own code. Why they
+hold:
 
 1. A real-time task waits for what is left of the pass that had looked at it just before its
    release, and for the tasks before it in the next pass: each other real-time task once, one other
@@ -19,6 +20,12 @@ simulations by the kernel's own code. Why they hold:
    excludes. No task's age then comes near its promotion.
 3. A promoted task waits for promoted tasks only, one in a pass, each with all real-time tasks. This
    needs neither slack nor the assumption of 2.
+4. Where no two tasks collide, nobody waits: whoever is released finds the run before it ended, the
+   pass behind that run over, and the next real-time release as far away as the guard asks for. The
+   first turn of the loop from the release on runs it. By induction over the releases, which lie on
+   a grid. So each sample's way along a path is known: a run reads what was released before it. Two
+   periodic tasks i and j keep apart for ever exactly if (phase_j - phase_i) mod
+   gcd(T_i, T_j) is at least what i needs before j, and at most the gcd less what j needs before i.
 """
 
 from __future__ import annotations
@@ -27,12 +34,14 @@ import math
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 from timing.bounds import STEPS, conventional
 from timing.taskset import PRIORITY_MAX, Chain, Task, TaskSet
 
 INSTANTS = 256  # More release instants than this are bounded by a count, not looked at.
 ROUNDS = 200
+SAMPLES = 1000  # Of a path, in the common period of its tasks; more are not followed.
 EFFORT = 50_000  # Steps of all fixed points together; beyond them no bound counts as found.
 TICK = 1  # The resolution of the clock; a turn of the main loop around a step must be shorter.
 LIMIT = 1 << 40
@@ -43,6 +52,7 @@ class OtherBound:
     """A task that is not real-time."""
 
     response: int | None  # From its release to its end; None: no bound below its period.
+    any_phase: int | None  # The same by (2) alone, should the other tasks' phases be others.
     promotion_wait: int  # From its release to its promotion.
     promoted_response: int | None  # From its release to its end if it has to be promoted.
 
@@ -56,6 +66,7 @@ class Bounds:
     realtime_promotion: dict[str, int]
     others: dict[str, OtherBound]
     promotion_excluded: bool
+    apart: dict[str, int] | None  # Every task's response by (4); None where tasks collide.
 
 
 def declared(tasks: TaskSet, task: Task) -> int:
@@ -79,6 +90,32 @@ def promotion_blocking(tasks: TaskSet) -> int:
 def promotion_wait(task: Task) -> int:
     """From a release to the promotion: the age (max - 1) T / sp, rounded up, less the period."""
     return -(-(PRIORITY_MAX - 1) * task.period // task.priority) - task.period
+
+
+# --- When no two tasks collide -------------------------------------------------------------------
+
+
+def needs(tasks: TaskSet, task: Task, follower: Task) -> int:
+    """From a task's release to that of a follower who must not notice it."""
+    costs = tasks.costs
+    # Its run, and the pass after it that finds nothing to do.
+    own = declared(tasks, task) + costs.pass_us + TICK
+    if follower.realtime and not task.realtime:
+        return max(own, costs.guard_us + declared(tasks, task) + TICK)
+    return own
+
+
+def collide(tasks: TaskSet, first: Task, second: Task) -> bool:
+    """Whether one of two tasks is ever released before the other is done."""
+    cycle = math.gcd(first.period, second.period)
+    distance = (second.phase - first.phase) % cycle
+    return not needs(tasks, first, second) <= distance <= cycle - needs(tasks, second, first)
+
+
+def collisions(tasks: TaskSet) -> list[tuple[Task, Task]]:
+    """The pairs that collide; a task that is released before it is done itself is one with it."""
+    late = [(task, task) for task in tasks.tasks if needs(tasks, task, task) > task.period]
+    return late + [pair for pair in combinations(tasks.tasks, 2) if collide(tasks, *pair)]
 
 
 # --- When a task does not fit --------------------------------------------------------------------
@@ -247,22 +284,28 @@ def bounds(tasks: TaskSet) -> Bounds:
     realtime_fits = all(guarded <= task.period for task in tasks.realtime)
     none: dict[str, int | None] = {task.name: None for task in tasks.others}
     responses = Others(tasks, guarded).responses() if realtime_fits else none
-    excluded = all(response is not None for response in responses.values())
+    apart = None
+    if not collisions(tasks):
+        apart = {task.name: declared(tasks, task) + TICK for task in tasks.tasks}
+    excluded = apart is not None or all(response is not None for response in responses.values())
     others = {
         task.name: OtherBound(
-            responses[task.name] if excluded else None,
+            apart[task.name] if apart else responses[task.name],
+            responses[task.name],
             promotion_wait(task),
             promoted_response(tasks, task),
         )
         for task in tasks.others
     }
     names = [task.name for task in tasks.realtime]
+    whatever = dict.fromkeys(names, guarded if excluded else promoted)
     return Bounds(
-        realtime=dict.fromkeys(names, guarded if excluded else promoted),
+        realtime={name: apart[name] for name in names} if apart else whatever,
         realtime_guarded=dict.fromkeys(names, guarded),
         realtime_promotion=dict.fromkeys(names, promoted),
         others=others,
         promotion_excluded=excluded,
+        apart=apart,
     )
 
 
@@ -271,8 +314,58 @@ def responses_of(found: Bounds) -> dict[str, int | None]:
     return {**found.realtime, **{name: bound.response for name, bound in found.others.items()}}
 
 
-def path_bound(tasks: TaskSet, chain: Chain) -> int | None:
-    """The sum of T + R over a path, with the bounds found here."""
-    responses = responses_of(bounds(tasks))
+# --- Paths ---------------------------------------------------------------------------------------
+
+
+def next_release(task: Task, time: int) -> int:
+    """The first release after that time."""
+    number = max(0, (time - task.phase) // task.period + 1)
+    return task.phase + number * task.period
+
+
+def followed(path: Sequence[Task], response: int) -> int | None:
+    """The longest reaction of a path whose tasks never collide, to an event that just misses its
+    sample: from the release of the run that misses it, over that of the next one, to the end of the
+    first run of the last task that knows of it, given the last task's response."""
+    first = path[0]
+    samples = math.lcm(*(task.period for task in path)) // first.period
+    if samples > SAMPLES:
+        return None
+    start = next_release(first, sum(task.period for task in path))  # All have begun by then.
+    longest = 0
+    for missed in range(start, start + samples * first.period, first.period):
+        release = missed + first.period
+        for task in path[1:]:
+            release = next_release(task, release)
+        longest = max(longest, release + response - missed)
+    return longest
+
+
+@dataclass(frozen=True)
+class PathBound:
+    """Bounds of a path's reaction to an event that just misses its sample, and so of how old a
+    value gets until it is replaced."""
+
+    total: int | None  # The sum of T + R.
+    followed: int | None  # With the phases of the set; None where tasks collide.
+
+    @property
+    def least(self) -> int | None:
+        """The one that counts."""
+        return min((item for item in (self.total, self.followed) if item is not None), default=None)
+
+
+def path_bound(tasks: TaskSet, chain: Chain, found: Bounds) -> PathBound:
+    """The bounds of a path, given those of the tasks."""
+    responses = responses_of(found)
     path = tasks.path(chain)
-    return conventional(path, [responses[task.name] for task in path])
+    last = (found.apart or {}).get(path[-1].name)
+    # A task that may be late may skip a period as well: then T + R says nothing.
+    in_time = [
+        worst if (worst := responses[task.name]) is not None and worst <= task.period else None
+        for task in path
+    ]
+    return PathBound(
+        conventional(path, in_time),
+        followed(path, last) if last is not None else None,
+    )

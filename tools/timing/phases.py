@@ -1,8 +1,7 @@
-"""Release phases with which no two tasks ever want the processor at the same time.
+"""Release phases with which no two tasks ever want the processor at the same time (keel.collide).
 
-Two periodic tasks i and j keep apart for ever exactly if (phase_j - phase_i) mod gcd(T_i, T_j) is
-at least what i needs before j, and at most the gcd less what j needs before i. Tasks are placed
-one after the other, real-time first in queue order, then by period; each at its first free phase.
+Tasks are placed one after the other, real-time first in queue order, then by period; each at its
+first free phase.
 """
 
 from __future__ import annotations
@@ -11,18 +10,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from timing import keel
+from timing.keel import needs
 from timing.taskset import Task, TaskSet
-
-
-def needs(tasks: TaskSet, task: Task, follower: Task) -> int:
-    """From a task's release to that of a follower who must not notice it."""
-    costs = tasks.costs
-    # Its run, and the pass after it that finds nothing to do.
-    own = keel.declared(tasks, task) + costs.pass_us + keel.TICK
-    if follower.realtime and not task.realtime:
-        return max(own, costs.guard_us + keel.declared(tasks, task) + keel.TICK)
-    return own
 
 
 def next_free(tasks: TaskSet, task: Task, other: Task, phase: int) -> int | None:
@@ -59,11 +48,10 @@ def without_phases(tasks: TaskSet) -> TaskSet:
     return replace(tasks, tasks=tuple(replace(task, phase=0) for task in tasks.tasks))
 
 
-def spread(tasks: TaskSet, realtime_only: bool = False) -> tuple[TaskSet, list[str]]:
+def spread(tasks: TaskSet) -> tuple[TaskSet, list[str]]:
     """The set with phases, and the names of the tasks for which there was no room."""
-    chosen = tasks.realtime if realtime_only else list(tasks.tasks)
     order = sorted(
-        chosen, key=lambda task: (not task.realtime, 0 if task.realtime else task.period)
+        tasks.tasks, key=lambda task: (not task.realtime, 0 if task.realtime else task.period)
     )
     placed: list[Task] = []
     crowded: list[str] = []

@@ -15,7 +15,7 @@ from timing.experiments import (
 from timing.output import new_figure, write_svg
 from timing.taskset import TaskSet
 
-SHOWN = ("Keel", "RT phases", "phases", "unguarded", "EDF")
+SHOWN = ("Keel", "RT phases", "no phases", "unguarded", "EDF")
 FLOOR = 1e-4  # Percent; a logarithmic scale has no 0.
 
 
@@ -62,7 +62,7 @@ def plot_paths(rows: list[list[str | int | float | None]], path: Path) -> None:
     names = [str(row[0]) for row in rows]
     for number, (title, first) in enumerate((("Reaction", 1), ("Freshness", 5))):
         axes = figure.add_subplot(2, 1, number + 1)
-        labels = ("observed", "observed, phases", "predicted (eq. 5 to 7)", "constraint")
+        labels = ("observed", "observed, no phases", "predicted (eq. 5 to 7)", "constraint")
         for column, label in enumerate(labels):
             values = [float(row[first + column] or 0.0) / 1000 for row in rows]
             axes.bar([place + 0.2 * (column - 1.5) for place in range(len(rows))], values, 0.2,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from rich.console import Console
@@ -27,14 +27,16 @@ NOTE_PUBLISHED = (
 NOTE_REALTIME = (
     "Textbook: non-preemptive fixed priorities in queue order, the scheduler free of cost. Keel: "
     "its FCFS pass serves each\ntask once in turn, so all share one bound, with passes, dispatches "
-    "and (last column) one promoted task in it. A task\nthat falls due just after the pass has "
+    "and (promotion) one promoted task in it. A task\nthat falls due just after the pass has "
     "looked at it waits for all the others: no order of priorities describes that.\n"
 )
 NOTE_CHAINS = (
-    "Eq. 5 to 7 take each task to respond at once and to use the sample that arrives; the sum of "
-    "T + R bounds the reaction\nto an event that just missed its sample. Eq. 7 is "
-    "defined for two tasks; each further one is taken\nto add its producer's period and its own "
-    "budget.\n"
+    "Eq. 5 to 7 are no bounds: they take each task to respond at once and to use the sample that "
+    "arrives, and tasks do\nexceed them. Safe are the sum of T + R and, with phases that keep all "
+    "tasks apart, what following each sample gives:\nfrom an event that just misses its sample to "
+    "the end of the run that acts on it, which is also how old a value gets\nuntil it is replaced. "
+    "Eq. 7 is defined for two tasks; each further one is taken to add its producer's period and "
+    "its\nown budget.\n"
 )
 
 
@@ -80,15 +82,15 @@ def print_realtime(analysis: Analysis, out: Console) -> None:
     """Real-time response times and Jeffay's condition."""
     rows: list[list[Cell]] = [
         [row.label, row.name, row.period, row.budget, row.unguarded, row.guarded, row.bound,
-         row.bound_promotion]
+         row.bound_promotion, row.bound_apart]
         for row in analysis.realtime_rows
     ]  # fmt: skip
     columns = ["", "real-time task", "T = D", "C", "textbook, no guard", "textbook, guard",
-               "Keel, guard", "Keel, promotion"]  # fmt: skip
+               "Keel, guard", "Keel, promotion", "with these phases"]  # fmt: skip
     out.print(table("Worst response times, us", columns, rows, 2))
     out.print(NOTE_REALTIME)
     excluded = "cannot happen: every other task responds within its period"
-    text = excluded if analysis.promotion_excluded else "cannot be excluded: the last column counts"
+    text = excluded if analysis.promotion_excluded else "cannot be excluded: its column counts"
     out.print(f"Promotion {text}.\n")
     found = analysis.jeffay
     verdict = (
@@ -104,11 +106,11 @@ def print_others(analysis: Analysis, out: Console) -> None:
     """The other tasks: gaps, bounds, promotion."""
     rows: list[list[Cell]] = [
         [row.label, row.name, row.class_name, row.period, row.budget, row.fits, row.bound,
-         row.promotion_wait, row.promoted_bound]
+         row.bound_apart, row.promotion_wait, row.promoted_bound]
         for row in analysis.other_rows
     ]  # fmt: skip
-    columns = ["", "task", "class", "T = D", "C", "gaps it fits", "response <=", "promoted after",
-               "then done by"]  # fmt: skip
+    columns = ["", "task", "class", "T = D", "C", "gaps it fits", "response <=",
+               "with these phases", "promoted after", "then done by"]  # fmt: skip
     out.print(table("Tasks that are not real-time, us from the release", columns, rows, 3))
     if analysis.gaps.shortest is not None:
         out.print(
@@ -119,6 +121,25 @@ def print_others(analysis: Analysis, out: Console) -> None:
     elif analysis.realtime_rows:
         out.print("Real-time tasks have too many releases in a common period to look at every gap.")
     out.print(f"Hyperperiod: {analysis.hyperperiod} us.\n")
+
+
+def print_collisions(analysis: Analysis, out: Console) -> None:
+    """Whether the phases keep tasks apart."""
+    if not analysis.collisions:
+        out.print(
+            "With these phases no two tasks ever want the processor at the same time, so none\n"
+            "waits for another: the responses under 'with these phases' count. They rest on every "
+            "phase\nand budget; the other columns do not rest on the phases of tasks that are not "
+            "real-time.\n"
+        )
+        return
+    realtime = {row.label for row in analysis.realtime_rows}
+    pairs = [f"{one} and {two}" for one, two in analysis.collisions if {one, two} <= realtime]
+    out.print(
+        f"{len(analysis.collisions)} pairs of tasks may want the processor at the same time, of "
+        f"real-time tasks: {', '.join(pairs) or 'none'}.\n`make analyze ARGS=--phases` looks for "
+        "phases with which none do.\n"
+    )
 
 
 def chain_verdict(row: ChainRow) -> str:
@@ -134,12 +155,12 @@ def print_chains(analysis: Analysis, out: Console) -> None:
         return
     rows: list[list[Cell]] = [
         [row.name, " ".join(row.path), row.reaction, row.reaction_limit, row.freshness,
-         row.freshness_limit, chain_verdict(row), row.conventional,
-         "within" if row.conventional_within else "exceeds (advice)"]
+         row.freshness_limit, chain_verdict(row), row.conventional, row.followed,
+         "safe" if row.safe_within else "NOT safe"]
         for row in analysis.chains
     ]  # fmt: skip
-    columns = ["path", "tasks", "E (eq. 5, 6)", "limit", "F (eq. 7)", "limit", "", "sum of T + R",
-               "limit of E"]  # fmt: skip
+    columns = ["path", "tasks", "E (eq. 5, 6)", "limit", "F (eq. 7)", "limit", "", "T + R",
+               "with phases", "both limits"]  # fmt: skip
     out.print(table("Paths from sensor to actuator, us", columns, rows, 2))
     out.print(NOTE_CHAINS)
 
@@ -149,15 +170,29 @@ def print_analysis(analysis: Analysis, out: Console) -> None:
     print_utilisation(analysis, out)
     print_realtime(analysis, out)
     print_others(analysis, out)
+    print_collisions(analysis, out)
     print_chains(analysis, out)
+
+
+def paths_verdict(chains: Sequence[ChainRow]) -> str:
+    """What is known of the judged paths when all keep their limits by eq. 5 to 7."""
+    unsafe = [row.name for row in chains if not row.safe_within]
+    if not chains:
+        return "no path is judged"
+    if not unsafe:
+        return f"{len(chains)} judged paths keep their limits, by eq. 5 to 7 and by a safe bound"
+    return (
+        f"{len(chains)} judged paths keep their limits by eq. 5 to 7, which are no bounds; by a "
+        f"safe bound {len(unsafe)} do NOT: {'; '.join(unsafe)}"
+    )
 
 
 def verdict(analysis: Analysis) -> str:
     """The last line."""
     if analysis.schedulable:
+        judged = [row for row in analysis.chains if not row.advisory]
         return (
-            f"{analysis.name}: schedulable; every task meets its deadline, every judged path its "
-            "limits by eq. 5 to 7."
+            f"{analysis.name}: schedulable: every task meets its deadline; {paths_verdict(judged)}."
         )
     more = len(analysis.reasons) - 1
     rest = f" ({more} more)" if more else ""
@@ -188,10 +223,9 @@ def plot_utilisation(analysis: Analysis, path: Path) -> None:
 def bars(analysis: Analysis) -> Iterator[tuple[str, int | None, int]]:
     """Every task's name, bound and deadline."""
     for realtime in analysis.realtime_rows:
-        bound = realtime.bound if analysis.promotion_excluded else realtime.bound_promotion
-        yield f"{realtime.label} {realtime.name}", bound, realtime.period
+        yield f"{realtime.label} {realtime.name}", realtime.response, realtime.period
     for other in analysis.other_rows:
-        yield f"{other.label} {other.name}", other.bound or other.promoted_bound, other.period
+        yield f"{other.label} {other.name}", other.response or other.promoted_bound, other.period
 
 
 def plot_responses(analysis: Analysis, path: Path) -> None:
