@@ -8,6 +8,44 @@
 
 #define MOST 2u
 
+/* Whether real-time tasks' periods hold all their budgets and 2 W (ADM-004). */
+static bool periods_hold(const keel_scheduler_t *scheduler)
+{
+    uint64_t demand_us = 2u * (uint64_t)scheduler->config.guard_us;
+    bool hold = true;
+
+    for (uint32_t j = 0u; j <= MOST; j++) {
+        if (j < scheduler->queue.realtime_count) {
+            demand_us += scheduler->queue.task[j]->config->budget_us;
+        }
+    }
+    for (uint32_t j = 0u; j <= MOST; j++) {
+        hold = hold && ((j >= scheduler->queue.realtime_count) ||
+                        (demand_us <= scheduler->queue.task[j]->config->period_us));
+    }
+    return hold;
+}
+
+/* Whether every other budget and W fit the time that each real-time task leaves (ADM-004). */
+static bool budgets_fit(const keel_scheduler_t *scheduler)
+{
+    bool fit = true;
+
+    for (uint32_t r = 0u; r <= MOST; r++) {
+        for (uint32_t o = 0u; o <= MOST; o++) {
+            if ((r < scheduler->queue.realtime_count) && (scheduler->queue.realtime_count <= o) &&
+                (o < scheduler->queue.count)) {
+                const keel_task_config_t *const realtime = scheduler->queue.task[r]->config;
+                const keel_task_config_t *const other = scheduler->queue.task[o]->config;
+
+                fit = fit && (((uint64_t)other->budget_us + scheduler->config.guard_us +
+                               realtime->budget_us) <= realtime->period_us);
+            }
+        }
+    }
+    return fit;
+}
+
 void keel_scheduler_add_harness(void)
 {
     keel_scheduler_t scheduler;
@@ -57,6 +95,8 @@ void keel_scheduler_add_harness(void)
         __CPROVER_assert(status == KEEL_ERR_NULL, "SCH_005_null: an argument is missing");
     } else {
         __CPROVER_assert((status != KEEL_OK) || valid, "SCH_005_checked: only a valid declaration");
+        __CPROVER_assert(valid || (status == keel_task_check(task->config)),
+                         "SCH_005_checked: refused for the reason that the check names");
         __CPROVER_assert(!queued || !valid || (status == KEEL_ERR_DUPLICATE),
                          "SCH_005_duplicate: queued already");
         __CPROVER_assert(queued || !valid || (before.queue.count < CAPACITY) ||
@@ -74,6 +114,10 @@ void keel_scheduler_add_harness(void)
         __CPROVER_assert(scheduler.queue.count == (before.queue.count + 1u),
                          "SCH_004_count: one task more");
         __CPROVER_assert(scheduler.queue.task[place] == task, "SCH_004_place: last of its class");
+        __CPROVER_assert((before.stage == KEEL_STAGE_SETUP) || periods_hold(&scheduler),
+                         "SCH_004_periods: after the start the periods hold the demand of all");
+        __CPROVER_assert((before.stage == KEEL_STAGE_SETUP) || budgets_fit(&scheduler),
+                         "SCH_004_fits: after the start the budgets fit the gaps");
         __CPROVER_assert((i >= place) || (scheduler.queue.task[i] == before.queue.task[i]),
                          "SCH_006_pass: the tasks of the pass stay where they are");
         __CPROVER_assert((task->release_us == (scheduler.clock.now_us + task->config->phase_us)) &&
@@ -100,6 +144,7 @@ void keel_scheduler_add_harness(void)
     __CPROVER_assert((scheduler.cursor == before.cursor) &&
                          (scheduler.pass_end == before.pass_end) &&
                          (scheduler.stage == before.stage) &&
+                         (scheduler.busy_us == before.busy_us) &&
                          clock_same(&scheduler.clock, &before.clock),
-                     "SCH_006_pass: the pass goes on as it was");
+                     "SCH_006_pass: the pass and the time go on as they were");
 }

@@ -53,6 +53,23 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
   @     demand_admitted(&scheduler->queue, scheduler->config.guard_us);
   @ ensures gaps: \result == KEEL_OK ==>
   @     gaps_admitted(&scheduler->queue, scheduler->config.guard_us);
+  @ ensures limits: admission->guard_us == scheduler->config.guard_us &&
+  @     admission->utilisation_limit == scheduler->config.utilisation_limit;
+  @ ensures totals: \result == KEEL_OK ==> admission->realtime_demand_us ==
+  @         realtime_demand(&scheduler->queue, scheduler->queue.count) &&
+  @     admission->utilisation == total_utilisation(&scheduler->queue, scheduler->queue.count);
+  @ ensures some: \result == KEEL_OK ==> 0 < scheduler->queue.realtime_count ==>
+  @     admission->realtime_demand_us > 0;
+  @ ensures shortest_period: \result == KEEL_OK ==>
+  @     \forall integer i; 0 <= i < scheduler->queue.realtime_count ==>
+  @         admission->shortest_realtime_us <= scheduler->queue.task[i]->config->period_us;
+  @ ensures shortest_gap: \result == KEEL_OK ==>
+  @     \forall integer i; 0 <= i < scheduler->queue.realtime_count ==>
+  @         admission->shortest_gap_us <= \max(0, scheduler->queue.task[i]->config->period_us
+  @             - scheduler->queue.task[i]->config->budget_us);
+  @ ensures longest_other: \result == KEEL_OK ==>
+  @     \forall integer j; scheduler->queue.realtime_count <= j < scheduler->queue.count ==>
+  @         admission->longest_other_us >= scheduler->queue.task[j]->config->budget_us;
   @*/
 static keel_status_t admit_queue(const keel_scheduler_t *scheduler, keel_admission_t *admission)
 {
@@ -74,6 +91,19 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @ requires scheduler->queue.count < KEEL_QUEUE_CAPACITY;
   @ requires \valid_read(config) && config_valid(config);
   @ assigns \nothing;
+  @ ensures periods: \result == KEEL_OK ==>
+  @     periods_hold_with(&scheduler->queue, config, scheduler->config.guard_us);
+  @ ensures period: \result == KEEL_OK ==>
+  @     period_holds_all(&scheduler->queue, config, scheduler->config.guard_us);
+  @ ensures gaps: \result == KEEL_OK ==>
+  @     gaps_admitted(&scheduler->queue, scheduler->config.guard_us);
+  @ ensures fits: \result == KEEL_OK ==>
+  @     fits_gaps(&scheduler->queue, config, scheduler->config.guard_us);
+  @ ensures leaves: \result == KEEL_OK ==>
+  @     leaves_gaps(&scheduler->queue, config, scheduler->config.guard_us);
+  @ ensures utilisation: \result == KEEL_OK ==>
+  @     total_utilisation(&scheduler->queue, scheduler->queue.count) + utilisation(config) <=
+  @         scheduler->config.utilisation_limit;
   @*/
 static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
                                     const keel_task_config_t *config)
@@ -233,6 +263,11 @@ static keel_status_t enqueue(keel_scheduler_t *scheduler, keel_task_t *task)
   @ ensures declared: config_valid(task->config);
   @ ensures waiting: \old(setup_armed(scheduler)) ==> setup_armed(scheduler);
   @ ensures wake: scheduler->wake_us == 0;
+  @ ensures stage: scheduler->stage == \old(scheduler->stage);
+  @ ensures now: scheduler->clock.now_us == \old(scheduler->clock.now_us);
+  @ ensures busy: scheduler->busy_us == \old(scheduler->busy_us);
+  @ ensures pass: scheduler->pass_end == \old(scheduler->pass_end) &&
+  @     scheduler->cursor == \old(scheduler->cursor);
   @ ensures running: \old(scheduler->running) != KEEL_INDEX_NONE ==>
   @     scheduler->queue.task[scheduler->running] ==
   @         \old(scheduler->queue.task[scheduler->running]);
@@ -335,6 +370,8 @@ static void shift_up(keel_scheduler_t *scheduler, uint32_t index)
   @         \old(scheduler->queue.task[scheduler->running]);
   @ ensures forgotten: \old(scheduler->running) == index ==>
   @     scheduler->running == KEEL_INDEX_NONE;
+  @ ensures pass: scheduler->pass_end - scheduler->cursor <=
+  @     \old(scheduler->pass_end - scheduler->cursor);
   @*/
 static keel_status_t take_out(keel_scheduler_t *scheduler, uint32_t index)
 {

@@ -176,6 +176,27 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, const keel_task_
   @     \forall integer i, j; 0 <= i < q->realtime_count <= j < q->count ==>
   @         q->task[j]->config->budget_us + guard_us
   @             <= q->task[i]->config->period_us - q->task[i]->config->budget_us;
+  @
+  @ // The same of the tasks of the queue and one more: the periods hold the demand of all ...
+  @ predicate periods_hold_with(keel_queue_t *q, keel_task_config_t *c, integer guard_us) =
+  @     \forall integer i; 0 <= i < q->realtime_count ==>
+  @         realtime_demand(q, q->count) + realtime_budget(c) + 2 * guard_us
+  @             <= q->task[i]->config->period_us;
+  @
+  @ predicate period_holds_all(keel_queue_t *q, keel_task_config_t *c, integer guard_us) =
+  @     c->priority == KEEL_PRIORITY_REALTIME ==>
+  @         realtime_demand(q, q->count) + c->budget_us + 2 * guard_us <= c->period_us;
+  @
+  @ // ... and the budgets fit the gaps.
+  @ predicate fits_gaps(keel_queue_t *q, keel_task_config_t *c, integer guard_us) =
+  @     c->priority != KEEL_PRIORITY_REALTIME ==>
+  @         \forall integer i; 0 <= i < q->realtime_count ==> c->budget_us + guard_us
+  @             <= q->task[i]->config->period_us - q->task[i]->config->budget_us;
+  @
+  @ predicate leaves_gaps(keel_queue_t *q, keel_task_config_t *c, integer guard_us) =
+  @     c->priority == KEEL_PRIORITY_REALTIME ==>
+  @         \forall integer j; q->realtime_count <= j < q->count ==>
+  @             q->task[j]->config->budget_us + guard_us <= c->period_us - c->budget_us;
   @*/
 
 /**
@@ -205,6 +226,20 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, const keel_task_
   @ ensures ADM_004_gaps: \result == KEEL_OK ==> gaps_admitted(queue, admission->guard_us);
   @ ensures ADM_004_utilisation: \result == KEEL_OK ==>
   @     total_utilisation(queue, queue->count) <= admission->utilisation_limit;
+  @ ensures ADM_004_totals: \result == KEEL_OK ==>
+  @     admission->realtime_demand_us == realtime_demand(queue, queue->count) &&
+  @     admission->utilisation == total_utilisation(queue, queue->count);
+  @ ensures ADM_004_some: \result == KEEL_OK ==> 0 < queue->realtime_count ==>
+  @     admission->realtime_demand_us > 0;
+  @ ensures ADM_004_period: \result == KEEL_OK ==>
+  @     \forall integer i; 0 <= i < queue->realtime_count ==>
+  @         admission->shortest_realtime_us <= queue->task[i]->config->period_us;
+  @ ensures ADM_004_gap: \result == KEEL_OK ==>
+  @     \forall integer i; 0 <= i < queue->realtime_count ==> admission->shortest_gap_us <=
+  @         \max(0, queue->task[i]->config->period_us - queue->task[i]->config->budget_us);
+  @ ensures ADM_004_other: \result == KEEL_OK ==>
+  @     \forall integer j; queue->realtime_count <= j < queue->count ==>
+  @         admission->longest_other_us >= queue->task[j]->config->budget_us;
   @*/
 keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue_t *queue);
 

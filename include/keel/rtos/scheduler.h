@@ -368,7 +368,8 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @ requires task == \null || \valid(task);
   @ requires task != \null ==> task->config == \null || \valid_read(task->config);
   @ requires scheduler != \null && task != \null ==> task_apart(scheduler, task);
-  @ assigns *scheduler, task->skipped, task->release_us, task->stats;
+  @ assigns scheduler->queue, scheduler->wake_us, scheduler->running;
+  @ assigns task->skipped, task->release_us, task->stats;
   @ ensures SCH_005_null: scheduler == \null || task == \null ==> \result == KEEL_ERR_NULL;
   @ ensures SCH_005_checked: \result == KEEL_OK ==> config_valid(task->config);
   @ ensures SCH_005_duplicate: scheduler != \null && task != \null &&
@@ -382,6 +383,27 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @     task->release_us == \old(scheduler->clock.now_us) + task->config->phase_us &&
   @     task->skipped == 0 && stats_fresh(task->stats);
   @ ensures SCH_004_wake: \result == KEEL_OK ==> scheduler->wake_us == 0;
+  @ ensures SCH_004_periods: \result == KEEL_OK && \old(scheduler->stage) != KEEL_STAGE_SETUP ==>
+  @     \old(periods_hold_with(&scheduler->queue, task->config, scheduler->config.guard_us));
+  @ ensures SCH_004_period: \result == KEEL_OK && \old(scheduler->stage) != KEEL_STAGE_SETUP ==>
+  @     \old(period_holds_all(&scheduler->queue, task->config, scheduler->config.guard_us));
+  @ ensures SCH_004_gaps: \result == KEEL_OK && \old(scheduler->stage) != KEEL_STAGE_SETUP ==>
+  @     \old(gaps_admitted(&scheduler->queue, scheduler->config.guard_us));
+  @ ensures SCH_004_fits: \result == KEEL_OK && \old(scheduler->stage) != KEEL_STAGE_SETUP ==>
+  @     \old(fits_gaps(&scheduler->queue, task->config, scheduler->config.guard_us));
+  @ ensures SCH_004_leaves: \result == KEEL_OK && \old(scheduler->stage) != KEEL_STAGE_SETUP ==>
+  @     \old(leaves_gaps(&scheduler->queue, task->config, scheduler->config.guard_us));
+  @ ensures SCH_004_utilisation:
+  @     \result == KEEL_OK && \old(scheduler->stage) != KEEL_STAGE_SETUP ==>
+  @     \old(total_utilisation(&scheduler->queue, scheduler->queue.count) +
+  @          utilisation(task->config)) <= scheduler->config.utilisation_limit;
+  @ ensures SCH_006_stage: scheduler != \null ==> scheduler->stage == \old(scheduler->stage);
+  @ ensures SCH_006_now: scheduler != \null ==>
+  @     scheduler->clock.now_us == \old(scheduler->clock.now_us);
+  @ ensures SCH_006_busy: scheduler != \null ==>
+  @     scheduler->busy_us == \old(scheduler->busy_us);
+  @ ensures SCH_006_clock: scheduler != \null ==>
+  @     scheduler->config.read_clock == \old(scheduler->config.read_clock);
   @ ensures SCH_006_pass: scheduler != \null ==>
   @     scheduler->pass_end == \old(scheduler->pass_end) &&
   @     scheduler->cursor == \old(scheduler->cursor);
@@ -412,6 +434,15 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, keel_task_t *task)
   @ ensures SCH_007_count: \result == KEEL_OK ==>
   @     scheduler->queue.count == \old(scheduler->queue.count) - 1;
   @ ensures SCH_007_wake: \result == KEEL_OK ==> scheduler->wake_us == 0;
+  @ ensures SCH_006_stage: scheduler != \null ==> scheduler->stage == \old(scheduler->stage);
+  @ ensures SCH_006_now: scheduler != \null ==>
+  @     scheduler->clock.now_us == \old(scheduler->clock.now_us);
+  @ ensures SCH_006_busy: scheduler != \null ==>
+  @     scheduler->busy_us == \old(scheduler->busy_us);
+  @ ensures SCH_006_clock: scheduler != \null ==>
+  @     scheduler->config.read_clock == \old(scheduler->config.read_clock);
+  @ ensures SCH_006_pass: scheduler != \null ==> scheduler->pass_end - scheduler->cursor <=
+  @     \old(scheduler->pass_end - scheduler->cursor);
   @ ensures SCH_006_cursor: \result == KEEL_OK &&
   @     0 <= \old(scheduler->cursor) < \old(scheduler->pass_end) &&
   @     \old(scheduler->queue.task[scheduler->cursor]) != task ==>
