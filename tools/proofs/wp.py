@@ -59,8 +59,9 @@ THOROUGH = (
     Stage(("alt-ergo", "cvc4"), 20, pruning=True),
     Stage(("alt-ergo", "cvc4", "z3"), 100),
 )
-# A contradiction shows early. Steps are counted alike on every machine; the seconds only guard.
-SMOKE = Stage(("cvc4",), 10, steps=100_000)
+# A contradiction shows early: seeded ones were found with 50 000 steps wherever they were with
+# 100 000. Steps are counted alike on every machine; the seconds only guard.
+SMOKE = Stage(("cvc4",), 10, steps=50_000)
 
 VARIANT = re.compile(r"(.*_loop_variant(?:_\d+)?_decrease)(?:_part\d+)?$")
 CLAUSE = re.compile(r"\b(?:ensures|invariant|assert|requires|lemma)\s+(\w+)\s*:")
