@@ -4,21 +4,8 @@
 //
 // Totals, guard and budgets have their full width. Bounded to periods up to 2^3 us, or budgets of
 // up to 2^3: the utilisation divides. The contract under WP has no such bound.
+#include "../common/admission_contracts.h"
 #include "../common/keel_proof.h"
-#include "keel/rtos/admission.h"
-
-static bool demand_met(const keel_admission_t *totals)
-{
-    return (totals->realtime_demand_us == 0u) ||
-           ((totals->realtime_demand_us + totals->guard_us + totals->guard_us) <=
-            totals->shortest_realtime_us);
-}
-
-static bool gap_met(const keel_admission_t *totals)
-{
-    return (totals->longest_other_us == 0u) ||
-           ((totals->longest_other_us + totals->guard_us) <= totals->shortest_gap_us);
-}
 
 void keel_admission_admit_harness(void)
 {
@@ -44,25 +31,13 @@ void keel_admission_admit_harness(void)
                      (totals.utilisation <= totals.utilisation_limit));
     __CPROVER_assume(demand_met(&totals) && gap_met(&totals));
     before = totals;
-    with = totals;
-    if (is_realtime(proof_task[0])) {
-        const uint64_t gap_us = (config->period_us > config->budget_us)
-                                    ? ((uint64_t)config->period_us - config->budget_us)
-                                    : 0u;
-
-        with.realtime_demand_us += config->budget_us;
-        if (config->period_us < with.shortest_realtime_us) {
-            with.shortest_realtime_us = config->period_us;
-        }
-        if (gap_us < with.shortest_gap_us) {
-            with.shortest_gap_us = gap_us;
-        }
-    } else if (config->budget_us > with.longest_other_us) {
-        with.longest_other_us = config->budget_us;
-    }
+    with = totals_with(&totals, config);
+    __CPROVER_assume(keel_admission_admit_may(&totals, config));
 
     status = keel_admission_admit(&totals, config);
 
+    __CPROVER_assert(keel_admission_admit_does(status, &before, &totals, config),
+                     "ADM_004_part: as a whole queue takes it to do");
     __CPROVER_assert((status == KEEL_ERR_REALTIME_DEMAND) == !demand_met(&with),
                      "ADM_003_demand: a period would not hold all real-time budgets and 2 W");
     __CPROVER_assert((status == KEEL_ERR_BUDGET_GAP) == (demand_met(&with) && !gap_met(&with)),

@@ -289,6 +289,47 @@ static void decide(keel_scheduler_t *s, const int64_t *sum)
       @*/
 }
 
+/* The running task runs for at most so long: time goes on, and no release or declaration changes. */
+/*@ requires memory: \valid(s) && scheduler_valid(s) && in_uptime(s) && wake_right(s);
+  @ requires busy: s->busy_us <= s->clock.now_us;
+  @ requires running: stage_running(s) && s->running < s->queue.count;
+  @ assigns s->clock.now_us, s->clock.raw_us, s->busy_us, s->stage, s->running,
+  @     STATS_FIELDS(s->queue.task[s->running]->stats);
+  @ SCHEDULER_STAYS_VALID(s)
+  @ DECLARATIONS_STAY(s)
+  @ ensures wake: wake_right(s);
+  @ ensures busy: s->busy_us <= s->clock.now_us;
+  @ ensures stage: s->stage ==
+  @     ((\old(s->stage) == KEEL_STAGE_REALTIME) ? KEEL_STAGE_PASS : KEEL_STAGE_READY);
+  @ ensures pass: s->cursor == \old(s->cursor) && s->pass_end == \old(s->pass_end);
+  @ ensures time: \old(s->clock.now_us) <= s->clock.now_us <= \old(s->clock.now_us) + limit_us;
+  @ ensures releases: \forall integer k; 0 <= k < s->queue.count ==>
+  @     s->queue.task[k]->release_us == \old(s->queue.task[k]->release_us);
+  @ ensures periods: \forall integer k; 0 <= k < s->queue.count ==>
+  @     s->queue.task[k]->config->period_us == \old(s->queue.task[k]->config->period_us);
+  @ ensures budgets: \forall integer k; 0 <= k < s->queue.count ==>
+  @     s->queue.task[k]->config->budget_us == \old(s->queue.task[k]->config->budget_us);
+  @*/
+static void run_at_most(keel_scheduler_t *s, uint64_t limit_us)
+{
+    const uint32_t raw_us = read_within(s->clock.raw_us, limit_us);
+    keel_status_t status;
+
+    //@ assert apart_scheduler: \separated(s, s->queue.task[s->running]);
+    /*@ assert apart: \forall integer k; 0 <= k < s->queue.count ==> k != s->running ==>
+      @     \separated(s->queue.task[s->running], s->queue.task[k]);
+      @*/
+    status = keel_scheduler_finish(s, raw_us);
+    (void)status;
+    /*@ assert release: s->queue.task[\at(s->running, Pre)]->release_us ==
+      @     \at(s->queue.task[s->running]->release_us, Pre);
+      @*/
+    /*@ assert releases_others: \forall integer k; 0 <= k < s->queue.count ==>
+      @     k != \at(s->running, Pre) ==>
+      @     s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
+      @*/
+}
+
 /* A real-time task runs: the pass goes on behind it. */
 /*@ SET_GIVEN(s, sum)
   @ requires stage: s->stage == KEEL_STAGE_REALTIME && pass_whole(s);
@@ -304,33 +345,8 @@ static void decide(keel_scheduler_t *s, const int64_t *sum)
   @*/
 static void run_realtime(keel_scheduler_t *s, const int64_t *sum)
 {
-    const keel_task_t *const task = s->queue.task[s->running];
-    const uint32_t raw_us = read_within(s->clock.raw_us, task->config->budget_us);
-    keel_status_t status;
-
-    //@ assert apart_scheduler: \separated(s, s->queue.task[s->running]);
-    /*@ assert apart: \forall integer k; 0 <= k < s->queue.count ==> k != s->running ==>
-      @     \separated(s->queue.task[s->running], s->queue.task[k]);
-      @*/
-    status = keel_scheduler_finish(s, raw_us);
     (void)sum;
-    (void)status;
-    /*@ assert release: s->queue.task[\at(s->running, Pre)]->release_us ==
-      @     \at(s->queue.task[s->running]->release_us, Pre);
-      @*/
-    /*@ assert releases_others: \forall integer k; 0 <= k < s->queue.count ==>
-      @     k != \at(s->running, Pre) ==>
-      @     s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
-      @*/
-    /*@ assert releases: \forall integer k; 0 <= k < s->queue.count ==>
-      @     s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
-      @*/
-    /*@ assert periods: \forall integer k; 0 <= k < s->queue.count ==>
-      @     s->queue.task[k]->config->period_us == \at(s->queue.task[k]->config->period_us, Pre);
-      @*/
-    /*@ assert budgets: \forall integer k; 0 <= k < s->queue.count ==>
-      @     s->queue.task[k]->config->budget_us == \at(s->queue.task[k]->config->budget_us, Pre);
-      @*/
+    run_at_most(s, s->queue.task[s->running]->config->budget_us);
     /*@ assert time: s->clock.now_us + sum[\at(s->running, Pre)] <=
       @     \at(s->clock.now_us, Pre) + sum[s->cursor];
       @*/
@@ -352,32 +368,9 @@ static void run_other(keel_scheduler_t *s, const int64_t *sum)
     const uint32_t longest_us = task->stats.longest_us;
     const uint32_t budget_us = task->config->budget_us;
     const uint64_t worst_us = (longest_us > budget_us) ? longest_us : budget_us;
-    const uint32_t raw_us = read_within(s->clock.raw_us, s->config.guard_us + worst_us);
-    keel_status_t status;
 
-    //@ assert apart_scheduler: \separated(s, s->queue.task[s->running]);
-    /*@ assert apart: \forall integer k; 0 <= k < s->queue.count ==> k != s->running ==>
-      @     \separated(s->queue.task[s->running], s->queue.task[k]);
-      @*/
-    status = keel_scheduler_finish(s, raw_us);
     (void)sum;
-    (void)status;
-    /*@ assert release: s->queue.task[\at(s->running, Pre)]->release_us ==
-      @     \at(s->queue.task[s->running]->release_us, Pre);
-      @*/
-    /*@ assert releases_others: \forall integer k; 0 <= k < s->queue.count ==>
-      @     k != \at(s->running, Pre) ==>
-      @     s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
-      @*/
-    /*@ assert releases: \forall integer k; 0 <= k < s->queue.count ==>
-      @     s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
-      @*/
-    /*@ assert periods: \forall integer k; 0 <= k < s->queue.count ==>
-      @     s->queue.task[k]->config->period_us == \at(s->queue.task[k]->config->period_us, Pre);
-      @*/
-    /*@ assert budgets: \forall integer k; 0 <= k < s->queue.count ==>
-      @     s->queue.task[k]->config->budget_us == \at(s->queue.task[k]->config->budget_us, Pre);
-      @*/
+    run_at_most(s, s->config.guard_us + worst_us);
     /*@ assert time: s->clock.now_us <= \at(s->clock.now_us
       @     + s->config.guard_us + task_worst(s->queue.task[s->running]), Pre);
       @*/
