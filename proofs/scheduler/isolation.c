@@ -289,7 +289,7 @@ static void decide(keel_scheduler_t *s, const int64_t *sum)
       @*/
 }
 
-/* The running task runs for at most so long: time goes on, and no release or declaration changes. */
+/* The running task runs for at most so long: time goes on; releases and declarations stay. */
 /*@ requires memory: \valid(s) && scheduler_valid(s) && in_uptime(s) && wake_right(s);
   @ requires busy: s->busy_us <= s->clock.now_us;
   @ requires running: stage_running(s) && s->running < s->queue.count;
