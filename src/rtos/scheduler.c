@@ -492,6 +492,11 @@ static bool is_promoted(const keel_task_t *task, uint64_t now_us)
   @ ensures wake: wake_right(scheduler);
   @ ensures stage: scheduler->stage == KEEL_STAGE_READY;
   @ ensures cursor: scheduler->cursor == scheduler->pass_end;
+  @ ensures bound: !scheduler->ran ==> \forall integer i; 0 <= i < scheduler->queue.count ==>
+  @     scheduler->wake_us <= next_event(scheduler->queue.task[i], scheduler->clock.now_us);
+  @ ensures exact: !scheduler->ran ==> scheduler->wake_us == KEEL_TIME_NEVER_US ||
+  @     (\exists integer i; 0 <= i < scheduler->queue.count && scheduler->wake_us ==
+  @         next_event(scheduler->queue.task[i], scheduler->clock.now_us));
   @*/
 static void close_pass(keel_scheduler_t *scheduler)
 {

@@ -605,6 +605,13 @@ keel_status_t keel_scheduler_begin(keel_scheduler_t *scheduler, uint32_t raw_us)
   @       \forall integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
   @           !\old(may_run(scheduler, scheduler->queue.task[i], scheduler->clock.now_us));
   @   ensures SCH_012_wake: wake_right(scheduler);
+  @   ensures SCH_012_bound: \result == \null && !\old(scheduler->ran) ==>
+  @       \forall integer i; 0 <= i < scheduler->queue.count ==> scheduler->wake_us <=
+  @           next_event(scheduler->queue.task[i], scheduler->clock.now_us);
+  @   ensures SCH_012_exact: \result == \null && !\old(scheduler->ran) ==>
+  @       scheduler->wake_us == KEEL_TIME_NEVER_US ||
+  @       (\exists integer i; 0 <= i < scheduler->queue.count && scheduler->wake_us ==
+  @           next_event(scheduler->queue.task[i], scheduler->clock.now_us));
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
