@@ -60,8 +60,9 @@ THOROUGH = (
     Stage(("alt-ergo", "cvc4", "z3"), 100),
 )
 # A contradiction shows early: seeded ones were found with 50 000 steps wherever they were with
-# 100 000. Steps are counted alike on every machine; the seconds only guard.
-SMOKE = Stage(("cvc4",), 10, steps=50_000)
+# 100 000. WP proves calls through pointers again in this pass, which takes 56 000. Steps are counted
+# alike on every machine; the seconds only guard.
+SMOKE = Stage(("cvc4",), 10, steps=75_000)
 
 VARIANT = re.compile(r"(.*_loop_variant(?:_\d+)?_decrease)(?:_part\d+)?$")
 CLAUSE = re.compile(r"\b(?:ensures|invariant|assert|requires|lemma)\s+(\w+)\s*:")
