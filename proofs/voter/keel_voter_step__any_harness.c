@@ -1,8 +1,8 @@
 // cbmc: --unwind 5 --external-sat-solver cadical
 // sources: src/middleware/voter.c
 // replaces: keel_voter_agreement keel_voter_weight keel_voter_mean keel_voter_combine
-// covers: keel_voter_step inspect inspect_all exclude_stale compare weigh find_outvoted conclude
-// covers: agree_all clear condemn judge one_more add_saturated
+// covers: keel_voter_step inspect inspect_all exclude_stale compare_all judge conclude clear
+// covers: condemn one_more add_saturated is_unanimous
 //
 // A whole vote: every valid channel of 2 to 4 sensors, every bit pattern of the samples. Agreement,
 // weight and mean are whatever their contracts allow (voter_stand_ins.h).
@@ -117,6 +117,20 @@ static void check_output(const keel_voter_t *voter, const keel_voter_t *before,
                      "VOT_008_held_us: and their time");
 }
 
+/* Whether all samples had weight 1, and nothing is counted against any sensor. */
+static bool all_agreed(const keel_voter_t *voter)
+{
+    bool agreed = true;
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        agreed = agreed &&
+                 ((i >= voter->config.sensors) ||
+                  ((voter->vote.weight[i] == 1.0f) && (voter->sensor[i].same == 0u) &&
+                   (voter->sensor[i].null == 0u) && (voter->sensor[i].density == 0u)));
+    }
+    return agreed;
+}
+
 void keel_voter_step__any_harness(void)
 {
     const float agree = nondet_float();
@@ -172,6 +186,10 @@ void keel_voter_step__any_harness(void)
                          "VOT_005_healthy: below its counts, or latched");
     }
     check_output(&voter, &before, sample, usables, elapsed_us);
+    __CPROVER_assert(voter.unanimous == all_agreed(&voter),
+                     "VOT_018_next: whether the next vote may be taken for less");
+    __CPROVER_assert(!voter.unanimous || unanimous_here(&voter),
+                     "VOT_018_valid: nothing is counted then");
     __CPROVER_assert((voter.none == none) && (voter.config.agree == agree) &&
                          (voter.config.sensors == before.config.sensors),
                      "VOT_005_config: the configuration stays");
