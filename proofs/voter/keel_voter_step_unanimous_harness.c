@@ -1,10 +1,10 @@
 // cbmc: --unwind 5 --external-sat-solver cadical
 // sources: src/middleware/voter.c
-// replaces: keel_voter_mean
+// replaces: keel_voter_mean keel_voter_within
 // covers: keel_voter_step_unanimous is_at_rest
 //
 // Every valid channel of 2 to 4 sensors, every bit pattern of the samples' values and of their
-// oldest age. The mean is whatever its contract allows (voter_stand_ins.h).
+// oldest age. The mean, and what is within a, are as their contracts allow (voter_stand_ins.h).
 #include "../common/voter_stand_ins.h"
 
 /* What the samples are before the vote. */
@@ -17,7 +17,7 @@ typedef struct facts {
 
 static facts_t facts_of(const keel_voter_t *voter, const keel_voter_sample_t sample[SENSORS])
 {
-    facts_t facts = {KEEL_VOTER_RANGE, -KEEL_VOTER_RANGE, 0u, 0u};
+    facts_t facts = {sample[0].value, sample[0].value, 0u, 0u};
 
     for (uint32_t i = 0u; i < SENSORS; i++) {
         const float value = sample[i].value;
@@ -26,8 +26,10 @@ static facts_t facts_of(const keel_voter_t *voter, const keel_voter_sample_t sam
             (value <= voter->config.highest)) {
             facts.plausible++;
             facts.resting += (value == voter->sensor[i].last) ? 1u : 0u;
-            facts.least = (value < facts.least) ? value : facts.least;
-            facts.most = (value > facts.most) ? value : facts.most;
+        }
+        if ((0u < i) && (i < voter->config.sensors)) {
+            facts.least = (facts.least > value) ? value : facts.least;
+            facts.most = (facts.most > value) ? facts.most : value;
         }
     }
     return facts;
@@ -67,7 +69,8 @@ void keel_voter_step_unanimous_harness(void)
     keel_voter_t before;
     keel_voter_sample_t sample[SENSORS];
     facts_t facts;
-    bool expected;
+    bool plausible;
+    bool together;
     bool taken;
 
     __CPROVER_assume(none_valid_here(agree, none));
@@ -75,14 +78,18 @@ void keel_voter_step_unanimous_harness(void)
     any_samples(sample);
     before = voter;
     facts = facts_of(&before, sample);
-    expected = before.unanimous && (oldest_us <= before.config.max_age_us) &&
-               (facts.plausible == before.config.sensors) &&
-               ((facts.resting == before.config.sensors) ||
-                ((facts.resting == 0u) && ((facts.most - facts.least) <= agree)));
+    plausible = before.unanimous && (oldest_us <= before.config.max_age_us) &&
+                (facts.plausible == before.config.sensors);
+    together = plausible &&
+               ((facts.resting == 0u) || (facts.resting == before.config.sensors));
 
     taken = keel_voter_step_unanimous(&voter, sample, oldest_us);
 
-    __CPROVER_assert(taken == expected, "VOT_018_taken: taken just when it is unanimous");
+    __CPROVER_assert(!together || ((stand_in_least == facts.least) &&
+                                   (stand_in_most == facts.most) && (stand_in_agree == agree)),
+                     "VOT_018_within: the smallest and the largest are compared");
+    __CPROVER_assert(taken == (together && stand_in_within),
+                     "VOT_018_taken: taken just when it is unanimous");
     for (uint32_t i = 0u; i < SENSORS; i++) {
         const bool stored = taken && (i < before.config.sensors);
 

@@ -88,6 +88,11 @@ float keel_voter_mean(float sum, float weights, float least, float most)
     return keel_range_clamp(sum / weights, least, most);
 }
 
+bool keel_voter_within(float least, float most, float agree)
+{
+    return (most - least) <= agree;
+}
+
 float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[], uint32_t sensors)
 {
     float sum = 0.0f;
@@ -324,15 +329,23 @@ void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], ui
     voter->unanimous = is_unanimous(voter);
 }
 
-/* Whether no sample has changed. */
+/* Whether the others have not changed either, as the first has not, and all agree: the samples are
+ * those of the last vote. */
 static bool is_at_rest(const keel_voter_t *voter, const keel_voter_sample_t sample[])
 {
-    bool rests = true;
+    float least = sample[0].value;
+    float most = least;
 
-    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
-        rests = rests && (sample[i].value == voter->sensor[i].last);
+    for (uint32_t i = 1u; i < voter->config.sensors; i++) {
+        const float value = sample[i].value;
+
+        if (value != voter->sensor[i].last) {
+            return false;
+        }
+        least = (least > value) ? value : least;
+        most = (most > value) ? most : value;
     }
-    return rests;
+    return keel_voter_within(least, most, voter->config.agree);
 }
 
 bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sample[],
@@ -349,7 +362,7 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
         return false;
     }
     if (first == voter->sensor[0].last) {
-        return is_at_rest(voter, sample); /* The last vote once more, if so. */
+        return is_at_rest(voter, sample);
     }
     if (!(first >= lowest)) {
         return false;
@@ -363,7 +376,8 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
         least = (least > value) ? value : least;
         most = (most > value) ? most : value;
     }
-    if ((most > voter->config.highest) || ((most - least) > voter->config.agree)) {
+    if ((most > voter->config.highest) ||
+        !keel_voter_within(least, most, voter->config.agree)) {
         return false;
     }
     voter->sensor[0].last = first;

@@ -256,6 +256,22 @@ float keel_voter_weight(const float agreement[], uint32_t others);
 float keel_voter_mean(float sum, float weights, float least, float most);
 
 /**
+ * Whether samples lie within a of each other (requirement VOT-018). It is enough to look at the
+ * smallest and the largest: no pair's distance, rounded, exceeds theirs.
+ *
+ * @param least the smallest sample
+ * @param most  the largest sample
+ * @param agree a, KEEL_VOTER_AGREE_MIN to KEEL_VOTER_AGREE_MAX
+ */
+/*@ requires \is_finite(least) && \is_finite(most);
+  @ requires -KEEL_VOTER_RANGE <= least <= most <= KEEL_VOTER_RANGE;
+  @ requires \is_finite(agree) && KEEL_VOTER_AGREE_MIN <= agree <= KEEL_VOTER_AGREE_MAX;
+  @ assigns \nothing;
+  @ ensures VOT_018_within: \result <==> (float)(most - least) <= agree;
+  @*/
+bool keel_voter_within(float least, float most, float agree);
+
+/**
  * The weighted mean of samples (eq. 18, requirement VOT-005). Rounded, the quotient may leave the
  * samples by a few units in the last place (VOT-016), so it is clamped to those that contribute.
  *
@@ -380,11 +396,11 @@ void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], ui
   @          voter->config.lowest <= sample[i].value <= voter->config.highest) &&
   @      ((\forall integer i; 0 <= i < voter->config.sensors ==>
   @           sample[i].value == \old(voter->sensor[i].last)) ||
-  @       ((\forall integer i; 0 <= i < voter->config.sensors ==>
-  @            sample[i].value != \old(voter->sensor[i].last)) &&
-  @        (\forall integer i, j; 0 <= i < j < voter->config.sensors ==>
-  @            -voter->config.agree <= (float)(sample[i].value - sample[j].value) <=
-  @                voter->config.agree))));
+  @       (\forall integer i; 0 <= i < voter->config.sensors ==>
+  @           sample[i].value != \old(voter->sensor[i].last))) &&
+  @      (\forall integer i, j; 0 <= i < j < voter->config.sensors ==>
+  @          -voter->config.agree <= (float)(sample[i].value - sample[j].value) <=
+  @              voter->config.agree));
   @ ensures VOT_018_last: \result ==> \forall integer i; 0 <= i < voter->config.sensors ==>
   @     voter->sensor[i].last == sample[i].value;
   @ ensures VOT_018_hull: \result ==>
