@@ -3,8 +3,9 @@
 // defines: -DKEEL_VOTER_SENSORS=2u
 // covers: keel_virtual_imu_step note
 //
-// Any unit may be absent, late or latched, any channel's last vote unanimous; the values are fixed, another for each channel, as here
-// it counts which sample goes where. How a channel votes: keel_voter_step's harnesses.
+// Any unit may be absent, late or latched, any channel's last vote unanimous; the values are fixed,
+// another for each channel, as here it counts which sample goes where. How a channel votes:
+// keel_voter_step's harnesses.
 #include "keel/middleware/virtual_imu.h"
 
 #include "../common/voter_proof.h"

@@ -123,10 +123,9 @@ static bool all_agreed(const keel_voter_t *voter)
     bool agreed = true;
 
     for (uint32_t i = 0u; i < SENSORS; i++) {
-        agreed = agreed &&
-                 ((i >= voter->config.sensors) ||
-                  ((voter->vote.weight[i] == 1.0f) && (voter->sensor[i].same == 0u) &&
-                   (voter->sensor[i].null == 0u) && (voter->sensor[i].density == 0u)));
+        agreed = agreed && ((i >= voter->config.sensors) ||
+                            ((voter->vote.weight[i] == 1.0f) && (voter->sensor[i].same == 0u) &&
+                             (voter->sensor[i].null == 0u) && (voter->sensor[i].density == 0u)));
     }
     return agreed;
 }

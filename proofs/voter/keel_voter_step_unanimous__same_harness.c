@@ -30,8 +30,7 @@ void keel_voter_step_unanimous__same_harness(void)
         sample[i].age_us = 0u;
         sample[i].present = true;
         voter.sensor[i].last = any_half();
-        moved = moved ||
-                ((i < voter.config.sensors) && (sample[i].value != voter.sensor[i].last));
+        moved = moved || ((i < voter.config.sensors) && (sample[i].value != voter.sensor[i].last));
     }
     __CPROVER_assume(!voter.unanimous || unanimous_here(&voter));
     whole = voter;

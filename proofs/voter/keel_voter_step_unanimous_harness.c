@@ -80,8 +80,7 @@ void keel_voter_step_unanimous_harness(void)
     facts = facts_of(&before, sample);
     plausible = before.unanimous && (oldest_us <= before.config.max_age_us) &&
                 (facts.plausible == before.config.sensors);
-    together = plausible &&
-               ((facts.resting == 0u) || (facts.resting == before.config.sensors));
+    together = plausible && ((facts.resting == 0u) || (facts.resting == before.config.sensors));
 
     taken = keel_voter_step_unanimous(&voter, sample, oldest_us);
 
@@ -93,8 +92,7 @@ void keel_voter_step_unanimous_harness(void)
     for (uint32_t i = 0u; i < SENSORS; i++) {
         const bool stored = taken && (i < before.config.sensors);
 
-        __CPROVER_assert(voter.sensor[i].last ==
-                             (stored ? sample[i].value : before.sensor[i].last),
+        __CPROVER_assert(voter.sensor[i].last == (stored ? sample[i].value : before.sensor[i].last),
                          "VOT_018_last: the samples are kept, if so");
     }
     __CPROVER_assert(taken || (voter.vote.output == before.vote.output),

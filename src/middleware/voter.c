@@ -376,8 +376,7 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
         least = (least > value) ? value : least;
         most = (most > value) ? most : value;
     }
-    if ((most > voter->config.highest) ||
-        !keel_voter_within(least, most, voter->config.agree)) {
+    if ((most > voter->config.highest) || !keel_voter_within(least, most, voter->config.agree)) {
         return false;
     }
     voter->sensor[0].last = first;
