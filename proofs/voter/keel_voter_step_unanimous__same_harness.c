@@ -4,8 +4,8 @@
 // covers: keel_voter_step_unanimous is_at_rest is_unanimous keel_voter_within
 //
 // The shorter way and the whole vote, from the same state with the same samples, come to the same:
-// a = 1, two to four sensors, samples in halves from -2 to 1.5. What the mean is of is compared in
-// place of the mean.
+// a = 1, two to four sensors, samples in halves from -2 to 1.5 of which those from -1.5 to 1 are
+// plausible. What the mean is of is compared in place of the mean.
 #include "../common/voter_stand_ins.h"
 
 static float any_half(void)
@@ -23,8 +23,8 @@ void keel_voter_step_unanimous__same_harness(void)
     float weights;
 
     any_voter(&voter, 1.0f, 3.0f);
-    voter.config.lowest = -3.0f;
-    voter.config.highest = 2.0f;
+    voter.config.lowest = -1.5f;
+    voter.config.highest = 1.0f;
     for (uint32_t i = 0u; i < SENSORS; i++) {
         sample[i].value = any_half();
         sample[i].age_us = 0u;
