@@ -374,10 +374,10 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
 void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us);
 
 /**
- * Takes a vote if it is as unanimous as the last one (requirement VOT-018), at about a third of what
- * keel_voter_step costs: when all samples are plausible and none is late, all lie within a of each
- * other, and all have changed or none. With all weights 1 the mean of eq. 18 is the plain one. Else
- * nothing changes, and the vote is left to keel_voter_step.
+ * Takes a vote if it is as unanimous as the last one (requirement VOT-018), at about a third of
+ * what keel_voter_step costs: when all samples are plausible and none is late, all lie within a of
+ * each other, and all have changed or none. With all weights 1 the mean of eq. 18 is the plain one.
+ * Else nothing changes, and the vote is left to keel_voter_step.
  *
  * @param voter     the channel, initialised
  * @param sample    a sample per sensor, N of them, all present; their values any bit pattern
