@@ -191,17 +191,22 @@ static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sampl
     return usable;
 }
 
-/* The agreements of each sample with the others, 0 where one of the two is not usable. */
+/* Each sample's agreements with the others, in the order of the sensors. */
+typedef struct agreements {
+    float of[KEEL_VOTER_SENSORS][KEEL_VOTER_SENSORS - 1u];
+} agreements_t;
+
+/* Compares each pair; the agreement is 0 where one of the two is not usable. */
 static void compare_all(const keel_voter_t *voter, const keel_voter_sample_t sample[],
-                        float agreement[][KEEL_VOTER_SENSORS - 1u])
+                        agreements_t *agreement)
 {
     const uint8_t *const reason = voter->vote.reason;
     const uint32_t sensors = voter->config.sensors;
     const float agree = voter->config.agree;
     const float none = voter->none;
 
-    for (uint32_t i = 0u; i < sensors; i++) {
-        for (uint32_t j = i + 1u; j < sensors; j++) {
+    for (uint32_t j = 1u; j < sensors; j++) {
+        for (uint32_t i = 0u; i < j; i++) {
             float s = 0.0f;
 
             if ((reason[i] == KEEL_VOTER_USED) && (reason[j] == KEEL_VOTER_USED)) {
@@ -210,8 +215,8 @@ static void compare_all(const keel_voter_t *voter, const keel_voter_sample_t sam
 
                 s = keel_voter_agreement((x > y) ? (x - y) : (y - x), agree, none);
             }
-            agreement[i][j - 1u] = s;
-            agreement[j][i] = s;
+            agreement->of[i][j - 1u] = s;
+            agreement->of[j][i] = s;
         }
     }
 }
@@ -236,7 +241,7 @@ static void conclude(keel_voter_t *voter, const keel_voter_sample_t sample[], ui
         vote->held = 0u;
         vote->held_us = 0u;
     } else {
-        vote->state = (usable > 0u) ? KEEL_VOTER_DISAGREE : KEEL_VOTER_NONE;
+        vote->state = (usable == 0u) ? KEEL_VOTER_NONE : KEEL_VOTER_DISAGREE;
         vote->held = add_saturated(vote->held, 1u);
         vote->held_us = add_saturated(vote->held_us, elapsed_us);
     }
@@ -274,7 +279,7 @@ static void condemn(const keel_voter_config_t *config, keel_voter_sensor_t *sens
 
 /* Weighs each usable sample, and tells what the vote means for each sensor. A sample that is alone
  * has nobody to agree with; one without weight was outvoted. */
-static void judge(keel_voter_t *voter, float agreement[][KEEL_VOTER_SENSORS - 1u], uint32_t usable)
+static void judge(keel_voter_t *voter, const agreements_t *agreement, uint32_t usable)
 {
     keel_vote_t *const vote = &voter->vote;
     const uint32_t sensors = voter->config.sensors;
@@ -284,7 +289,7 @@ static void judge(keel_voter_t *voter, float agreement[][KEEL_VOTER_SENSORS - 1u
         float weight = 0.0f;
 
         if (vote->reason[i] == KEEL_VOTER_USED) {
-            weight = (usable == 1u) ? 1.0f : keel_voter_weight(agreement[i], sensors - 1u);
+            weight = (usable == 1u) ? 1.0f : keel_voter_weight(agreement->of[i], sensors - 1u);
             if (weight <= 0.0f) {
                 vote->reason[i] = KEEL_VOTER_OUTVOTED;
             }
@@ -320,11 +325,11 @@ static bool is_unanimous(const keel_voter_t *voter)
 
 void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us)
 {
-    float agreement[KEEL_VOTER_SENSORS][KEEL_VOTER_SENSORS - 1u];
     const uint32_t usable = inspect_all(voter, sample);
+    agreements_t agreement;
 
-    compare_all(voter, sample, agreement);
-    judge(voter, agreement, usable);
+    compare_all(voter, sample, &agreement);
+    judge(voter, &agreement, usable);
     conclude(voter, sample, usable, elapsed_us);
     voter->unanimous = is_unanimous(voter);
 }
