@@ -5,8 +5,8 @@
 // covers: keel_voter_step inspect inspect_all exclude_stale compare_all judge conclude clear
 // covers: condemn one_more add_saturated is_unanimous
 //
-// A whole vote of two sensors, in three slots: what keel_voter_step__any_harness.c proves for two to
-// four, once more for these, in a few seconds. Most faults show here.
+// A whole vote of two sensors, in three slots: what keel_voter_step__any_harness.c proves for two
+// to four, once more for these, in a few seconds. Most faults show here.
 #include "../common/voter_stand_ins.h"
 #include "../common/voter_vote.h"
 
