@@ -67,6 +67,17 @@ static bool keel_voter_mean_does(float mean, float least, float most)
     return (least <= mean) && (mean <= most);
 }
 
+static bool keel_voter_within_may(float least, float most, float agree)
+{
+    return (-KEEL_VOTER_RANGE <= least) && (least <= most) && (most <= KEEL_VOTER_RANGE) &&
+           (KEEL_VOTER_AGREE_MIN <= agree) && (agree <= KEEL_VOTER_AGREE_MAX);
+}
+
+static bool keel_voter_within_does(bool within, float least, float most, float agree)
+{
+    return within == ((most - least) <= agree);
+}
+
 static bool keel_voter_combine_may(const keel_voter_sample_t sample[], const float weight[],
                                    uint32_t sensors)
 {

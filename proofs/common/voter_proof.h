@@ -88,6 +88,30 @@ static bool sensor_same(const keel_voter_sensor_t *a, const keel_voter_sensor_t 
            (a->density == b->density) && (a->latched == b->latched);
 }
 
+/* voter_unanimous */
+static bool unanimous_here(const keel_voter_t *v)
+{
+    bool clean = true;
+    bool above = false;
+    bool below = false;
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        if (i < v->config.sensors) {
+            const keel_voter_sensor_t *const s = &v->sensor[i];
+
+            clean = clean && !s->latched && (s->same == 0u) && (s->null == 0u) &&
+                    (s->density == 0u) && (v->vote.weight[i] == 1.0f) &&
+                    (v->vote.reason[i] == KEEL_VOTER_USED) && (v->config.lowest <= s->last) &&
+                    (s->last <= v->config.highest);
+            above = above || (s->last <= v->vote.output);
+            below = below || (v->vote.output <= s->last);
+        }
+    }
+    return clean && above && below && (v->vote.state == KEEL_VOTER_MEAN) &&
+           (v->vote.contributing == v->config.sensors) && (v->vote.held == 0u) &&
+           (v->vote.held_us == 0u);
+}
+
 /* Any valid channel (voter_valid) with this a and n a. The cut-off n matters through n a only. */
 static void any_voter(keel_voter_t *voter, float agree, float none)
 {
@@ -112,6 +136,8 @@ static void any_voter(keel_voter_t *voter, float agree, float none)
         voter->vote.weight[i] = nondet_float();
         voter->vote.reason[i] = nondet_u8();
     }
+    voter->unanimous = nondet_bool();
+    __CPROVER_assume(!voter->unanimous || unanimous_here(voter));
 }
 
 static void any_samples(keel_voter_sample_t sample[SENSORS])

@@ -46,6 +46,25 @@ float keel_voter_mean_stand_in(float sum, float weights, float least, float most
     return mean;
 }
 
+/* What was asked of whom, and the answer: two circuits that subtract are hard to find equal. */
+static float stand_in_least;
+static float stand_in_most;
+static float stand_in_agree;
+static bool stand_in_within;
+
+bool keel_voter_within_stand_in(float least, float most, float agree)
+{
+    const bool within = nondet_bool();
+
+    stand_in_least = least;
+    stand_in_most = most;
+    stand_in_agree = agree;
+    stand_in_within = within;
+    __CPROVER_assert(keel_voter_within_may(least, most, agree), "precondition: keel_voter_within");
+    __CPROVER_assume(keel_voter_within_does(within, least, most, agree));
+    return within;
+}
+
 float keel_voter_combine_stand_in(const keel_voter_sample_t sample[], const float weight[],
                                   uint32_t sensors)
 {

@@ -44,7 +44,8 @@ void keel_voter_init_harness(void)
         __CPROVER_assert(!voter.sensor[i].latched && (voter.sensor[i].null == 0u) &&
                              (voter.sensor[i].density == 0u) && (voter.sensor[i].same == 0u) &&
                              (voter.sensor[i].last == config.initial) &&
-                             (voter.vote.weight[i] == 0.0f) && (voter.vote.reason[i] == 0u),
+                             (voter.vote.weight[i] == 0.0f) && (voter.vote.reason[i] == 0u) &&
+                             !voter.unanimous,
                          "VOT_002_fresh: nothing is remembered");
         __CPROVER_assert(healthy_here(&voter.config, &voter.sensor[i]),
                          "VOT_002_healthy: below its counts");
@@ -54,6 +55,7 @@ void keel_voter_init_harness(void)
                              (voter.none == before.none) &&
                              (voter.vote.output == before.vote.output) &&
                              (voter.vote.state == before.vote.state) &&
+                             (voter.unanimous == before.unanimous) &&
                              sensor_same(&voter.sensor[i], &before.sensor[i]),
                          "VOT_002_unchanged: a refusal changes nothing");
     }

@@ -32,6 +32,8 @@ void keel_voter_readmit_harness(void)
     }
     __CPROVER_assert(voter.sensor[i].latched || healthy_here(&voter.config, &voter.sensor[i]),
                      "VOT_014_healthy: below its counts, or latched");
+    __CPROVER_assert(!voter.unanimous || unanimous_here(&voter),
+                     "VOT_014_unanimous: no vote with a latched sensor was");
     __CPROVER_assert(((status == KEEL_OK) && (i == sensor)) ||
                          sensor_same(&voter.sensor[i], &before.sensor[i]),
                      "VOT_014_frame: other sensors, and all in a refusal, stay");

@@ -2,8 +2,8 @@
 // sources: src/middleware/voter.c
 // defines: -DKEEL_VOTER_SENSORS=3u
 // replaces: keel_voter_mean
-// covers: keel_voter_step compare weigh find_outvoted conclude agree_all keel_voter_agreement
-// covers: keel_voter_weight keel_voter_combine
+// covers: keel_voter_step compare_all judge conclude keel_voter_agreement keel_voter_weight
+// covers: keel_voter_combine
 //
 // Eq. 16 to 18 in numbers: a = 1, n = 3, two or three sensors of which each may be absent, samples
 // in halves from -2 to 1.5. Agreements are then quarters, weights eighths, and all sums exact.

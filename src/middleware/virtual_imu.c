@@ -33,14 +33,10 @@ static void note(keel_virtual_imu_t *imu, uint32_t channel)
     const keel_voter_t *const voter = &imu->channel[channel];
     const uint32_t bit = 1u << channel;
 
-    if (voter->vote.contributing < voter->config.sensors) {
-        for (uint32_t i = 0u; i < voter->config.sensors; i++) {
-            if (voter->vote.reason[i] != KEEL_VOTER_USED) {
-                imu->used[i] = (uint8_t)(imu->used[i] & ~bit);
-            }
-            if (voter->sensor[i].latched) {
-                imu->latched[i] = (uint8_t)(imu->latched[i] | bit);
-            }
+    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
+        if (voter->vote.reason[i] != KEEL_VOTER_USED) {
+            imu->used[i] = (uint8_t)(imu->used[i] & ~bit);
+            imu->latched[i] = (uint8_t)(imu->latched[i] | (voter->sensor[i].latched ? bit : 0u));
         }
     }
 }
@@ -50,10 +46,14 @@ void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_imu_sample_t samp
 {
     const uint32_t units = imu->channel[0].config.sensors;
     keel_voter_sample_t one[KEEL_VOTER_SENSORS];
+    uint32_t oldest_us = 0u;
+    bool complete = true;
 
     for (uint32_t i = 0u; i < units; i++) {
         one[i].age_us = sample[i].age_us;
         one[i].present = sample[i].present;
+        oldest_us = (sample[i].age_us > oldest_us) ? sample[i].age_us : oldest_us;
+        complete = complete && sample[i].present;
         imu->used[i] = KEEL_IMU_ALL;
         imu->latched[i] = 0u;
     }
@@ -61,8 +61,10 @@ void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_imu_sample_t samp
         for (uint32_t i = 0u; i < units; i++) {
             one[i].value = sample[i].value[k];
         }
-        keel_voter_step(&imu->channel[k], one, elapsed_us);
-        note(imu, k);
+        if (!complete || !keel_voter_step_unanimous(&imu->channel[k], one, oldest_us)) {
+            keel_voter_step(&imu->channel[k], one, elapsed_us);
+            note(imu, k);
+        }
     }
 }
 

@@ -47,6 +47,7 @@ keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *co
     }
     voter->config = *config;
     voter->none = config->cutoff * config->agree;
+    voter->unanimous = false;
     voter->vote.output = config->initial;
     voter->vote.held = 0u;
     voter->vote.held_us = 0u;
@@ -87,6 +88,11 @@ float keel_voter_mean(float sum, float weights, float least, float most)
     return keel_range_clamp(sum / weights, least, most);
 }
 
+bool keel_voter_within(float least, float most, float agree)
+{
+    return (most - least) <= agree;
+}
+
 float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[], uint32_t sensors)
 {
     float sum = 0.0f;
@@ -114,14 +120,6 @@ static uint16_t one_more(uint16_t value)
 {
     return (value < UINT16_MAX) ? (uint16_t)(value + 1u) : value;
 }
-
-/* What the usable samples of a vote have in common. */
-typedef struct survey {
-    uint32_t usable; /* How many there are. */
-    float sum;       /* Of their values. */
-    float least;     /* The smallest; KEEL_VOTER_RANGE when there is none. */
-    float most;      /* The largest; -KEEL_VOTER_RANGE when there is none. */
-} survey_t;
 
 /* Why a sample cannot be used, staleness aside, or KEEL_VOTER_USED (VOT-007). */
 static uint8_t inspect(const keel_voter_config_t *config, const keel_voter_sensor_t *sensor,
@@ -156,32 +154,26 @@ static uint32_t exclude_stale(keel_voter_t *voter)
     return excluded;
 }
 
-/* Looks at every sample: whether it is usable, and whether it has changed. The votes in which a
- * sensor alone did not change are counted (VOT-013). That all others changed is asked for, so that
- * one sensor gone wild does not make the others, at rest, look stale. */
-static survey_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sample[])
+/* Looks at every sample: whether it is usable, and whether it has changed; how many are usable. The
+ * votes in which a sensor alone did not change are counted (VOT-013). That all others changed is
+ * asked for, so that one sensor gone wild does not make the others, at rest, look stale. */
+static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sample[])
 {
     const keel_voter_config_t config = voter->config;
-    survey_t survey = {0u, 0.0f, KEEL_VOTER_RANGE, -KEEL_VOTER_RANGE};
+    uint32_t usable = 0u;
     uint32_t moved = 0u;
     uint32_t resting = 0u;
     uint32_t last_resting = 0u;
 
     for (uint32_t i = 0u; i < config.sensors; i++) {
         keel_voter_sensor_t *const sensor = &voter->sensor[i];
-        const float value = sample[i].value;
         const uint8_t reason = inspect(&config, sensor, &sample[i]);
 
         voter->vote.reason[i] = reason;
-        if (reason == KEEL_VOTER_USED) {
-            survey.usable++;
-            survey.sum += value;
-            survey.least = (value < survey.least) ? value : survey.least;
-            survey.most = (value > survey.most) ? value : survey.most;
-        }
+        usable += (reason == KEEL_VOTER_USED) ? 1u : 0u;
         if ((reason == KEEL_VOTER_USED) || (reason >= KEEL_VOTER_OUT_OF_RANGE)) {
-            if (value != sensor->last) {
-                sensor->last = value;
+            if (sample[i].value != sensor->last) {
+                sensor->last = sample[i].value;
                 sensor->same = 0u;
                 moved++;
             } else {
@@ -194,56 +186,39 @@ static survey_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sampl
         if ((resting == 1u) && (moved > 0u)) {
             voter->sensor[last_resting].same = one_more(voter->sensor[last_resting].same);
         }
-        survey.usable -= exclude_stale(voter);
+        usable -= exclude_stale(voter);
     }
-    return survey;
+    return usable;
 }
 
-/* The agreement of two usable samples. */
-static float compare(const keel_voter_t *voter, float x, float y)
-{
-    return keel_voter_agreement((x > y) ? (x - y) : (y - x), voter->config.agree, voter->none);
-}
+/* Each sample's agreements with the others, in the order of the sensors. */
+typedef struct agreements {
+    float of[KEEL_VOTER_SENSORS][KEEL_VOTER_SENSORS - 1u];
+} agreements_t;
 
-/* The weights of usable samples. One that is alone has nobody to agree with. */
-static void weigh(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t usable)
+/* Compares each pair; the agreement is 0 where one of the two is not usable. */
+static void compare_all(const keel_voter_t *voter, const keel_voter_sample_t sample[],
+                        agreements_t *agreement)
 {
-    keel_vote_t *const vote = &voter->vote;
+    const uint8_t *const reason = voter->vote.reason;
     const uint32_t sensors = voter->config.sensors;
-    float agreement[KEEL_VOTER_SENSORS][KEEL_VOTER_SENSORS - 1u];
+    const float agree = voter->config.agree;
+    const float none = voter->none;
 
-    for (uint32_t i = 0u; i < sensors; i++) {
-        for (uint32_t j = i + 1u; j < sensors; j++) {
-            const bool both = (vote->reason[i] == KEEL_VOTER_USED) &&
-                              (vote->reason[j] == KEEL_VOTER_USED);
-            const float s = both ? compare(voter, sample[i].value, sample[j].value) : 0.0f;
+    for (uint32_t j = 1u; j < sensors; j++) {
+        for (uint32_t i = 0u; i < j; i++) {
+            float s = 0.0f;
 
-            agreement[i][j - 1u] = s;
-            agreement[j][i] = s;
+            if ((reason[i] == KEEL_VOTER_USED) && (reason[j] == KEEL_VOTER_USED)) {
+                const float x = sample[i].value;
+                const float y = sample[j].value;
+
+                s = keel_voter_agreement((x > y) ? (x - y) : (y - x), agree, none);
+            }
+            agreement->of[i][j - 1u] = s;
+            agreement->of[j][i] = s;
         }
     }
-    for (uint32_t i = 0u; i < sensors; i++) {
-        const bool alone = (usable == 1u) && (vote->reason[i] == KEEL_VOTER_USED);
-
-        vote->weight[i] = alone ? 1.0f : keel_voter_weight(agreement[i], sensors - 1u);
-    }
-}
-
-/* A usable sample without weight was outvoted; how many contribute. */
-static uint8_t find_outvoted(keel_voter_t *voter)
-{
-    uint8_t contributing = 0u;
-
-    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
-        if (voter->vote.weight[i] > 0.0f) {
-            contributing++;
-        } else if (voter->vote.reason[i] == KEEL_VOTER_USED) {
-            voter->vote.reason[i] = KEEL_VOTER_OUTVOTED;
-        } else {
-            /* Unusable, and the reason says why. */
-        }
-    }
-    return contributing;
 }
 
 /*@ assigns \nothing;
@@ -260,14 +235,13 @@ static void conclude(keel_voter_t *voter, const keel_voter_sample_t sample[], ui
 {
     keel_vote_t *const vote = &voter->vote;
 
-    vote->contributing = find_outvoted(voter);
     if (vote->contributing > 0u) {
         vote->state = (usable == 1u) ? KEEL_VOTER_SINGLE : KEEL_VOTER_MEAN;
         vote->output = keel_voter_combine(sample, vote->weight, voter->config.sensors);
         vote->held = 0u;
         vote->held_us = 0u;
     } else {
-        vote->state = (usable > 0u) ? KEEL_VOTER_DISAGREE : KEEL_VOTER_NONE;
+        vote->state = (usable == 0u) ? KEEL_VOTER_NONE : KEEL_VOTER_DISAGREE;
         vote->held = add_saturated(vote->held, 1u);
         vote->held_us = add_saturated(vote->held_us, elapsed_us);
     }
@@ -303,52 +277,120 @@ static void condemn(const keel_voter_config_t *config, keel_voter_sensor_t *sens
                       ((config->density_limit > 0u) && (sensor->density >= config->density_limit));
 }
 
-/* What a vote means for each sensor that was not latched before. */
-static void judge(keel_voter_t *voter, uint32_t usable)
+/* Weighs each usable sample, and tells what the vote means for each sensor. A sample that is alone
+ * has nobody to agree with; one without weight was outvoted. */
+static void judge(keel_voter_t *voter, const agreements_t *agreement, uint32_t usable)
 {
-    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
-        const uint8_t reason = voter->vote.reason[i];
+    keel_vote_t *const vote = &voter->vote;
+    const uint32_t sensors = voter->config.sensors;
+    uint8_t contributing = 0u;
 
-        if (reason == KEEL_VOTER_USED) {
+    for (uint32_t i = 0u; i < sensors; i++) {
+        float weight = 0.0f;
+
+        if (vote->reason[i] == KEEL_VOTER_USED) {
+            weight = (usable == 1u) ? 1.0f : keel_voter_weight(agreement->of[i], sensors - 1u);
+            if (weight <= 0.0f) {
+                vote->reason[i] = KEEL_VOTER_OUTVOTED;
+            }
+        }
+        vote->weight[i] = weight;
+        if (vote->reason[i] == KEEL_VOTER_USED) {
+            contributing++;
             clear(&voter->sensor[i]);
-        } else if ((reason >= KEEL_VOTER_MISSING) ||
-                   ((reason == KEEL_VOTER_OUTVOTED) && (usable > 2u))) {
+        } else if ((vote->reason[i] >= KEEL_VOTER_MISSING) ||
+                   ((vote->reason[i] == KEEL_VOTER_OUTVOTED) && (usable > 2u))) {
             condemn(&voter->config, &voter->sensor[i]);
         } else {
             /* Latched already, or one of two that disagree: nobody knows which is wrong. */
         }
     }
+    vote->contributing = contributing;
 }
 
-/* All sensors are usable and within a of each other: every weight is 1 (eq. 16, 17), so that the
- * mean of eq. 18 is the plain one. What weigh, conclude and judge would come to, sooner. */
-static void agree_all(keel_voter_t *voter, const survey_t *survey)
+/* Whether all agreed fully, and nothing is counted against any. */
+static bool is_unanimous(const keel_voter_t *voter)
 {
-    keel_vote_t *const vote = &voter->vote;
+    const uint32_t sensors = voter->config.sensors;
+    bool unanimous = voter->vote.contributing == sensors;
 
-    vote->state = KEEL_VOTER_MEAN;
-    vote->contributing = voter->config.sensors;
-    vote->output = keel_voter_mean(survey->sum, (float)survey->usable, survey->least, survey->most);
-    vote->held = 0u;
-    vote->held_us = 0u;
-    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
-        vote->weight[i] = 1.0f;
-        clear(&voter->sensor[i]);
+    for (uint32_t i = 0u; unanimous && (i < sensors); i++) {
+        const keel_voter_sensor_t *const sensor = &voter->sensor[i];
+
+        unanimous = (voter->vote.weight[i] >= 1.0f) && (sensor->same == 0u) &&
+                    (sensor->density == 0u);
     }
+    return unanimous;
 }
 
 void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us)
 {
-    const survey_t survey = inspect_all(voter, sample);
+    const uint32_t usable = inspect_all(voter, sample);
+    agreements_t agreement;
 
-    if ((survey.usable == voter->config.sensors) &&
-        ((survey.most - survey.least) <= voter->config.agree)) {
-        agree_all(voter, &survey);
-    } else {
-        weigh(voter, sample, survey.usable);
-        conclude(voter, sample, survey.usable, elapsed_us);
-        judge(voter, survey.usable);
+    compare_all(voter, sample, &agreement);
+    judge(voter, &agreement, usable);
+    conclude(voter, sample, usable, elapsed_us);
+    voter->unanimous = is_unanimous(voter);
+}
+
+/* Whether the others have not changed either, as the first has not, and all agree: the samples are
+ * those of the last vote. */
+static bool is_at_rest(const keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    float least = sample[0].value;
+    float most = least;
+
+    for (uint32_t i = 1u; i < voter->config.sensors; i++) {
+        const float value = sample[i].value;
+
+        if (value != voter->sensor[i].last) {
+            return false;
+        }
+        least = (least > value) ? value : least;
+        most = (most > value) ? most : value;
     }
+    return keel_voter_within(least, most, voter->config.agree);
+}
+
+bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sample[],
+                               uint32_t oldest_us)
+{
+    const uint32_t sensors = voter->config.sensors;
+    const float lowest = voter->config.lowest;
+    const float first = sample[0].value;
+    float least = first;
+    float most = first;
+    float sum = first;
+
+    if (!voter->unanimous || (oldest_us > voter->config.max_age_us)) {
+        return false;
+    }
+    if (first == voter->sensor[0].last) {
+        return is_at_rest(voter, sample);
+    }
+    if (!(first >= lowest)) {
+        return false;
+    }
+    for (uint32_t i = 1u; i < sensors; i++) {
+        const float value = sample[i].value;
+
+        if (!(value >= lowest) || (value == voter->sensor[i].last)) {
+            return false; /* NaN, too, is not at least the lowest. */
+        }
+        least = (least > value) ? value : least;
+        most = (most > value) ? most : value;
+    }
+    if ((most > voter->config.highest) || !keel_voter_within(least, most, voter->config.agree)) {
+        return false;
+    }
+    voter->sensor[0].last = first;
+    for (uint32_t i = 1u; i < sensors; i++) {
+        sum += sample[i].value;
+        voter->sensor[i].last = sample[i].value;
+    }
+    voter->vote.output = keel_voter_mean(sum, (float)sensors, least, most);
+    return true;
 }
 
 keel_status_t keel_voter_readmit(keel_voter_t *voter, uint32_t sensor)

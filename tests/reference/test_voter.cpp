@@ -164,6 +164,58 @@ static bool any_bit_pattern_gives_a_plausible_output()
     return true;
 }
 
+/* VOT-018: the same output, bit for bit, and the same verdicts; at least a quarter is taken. */
+static bool unanimous_is_the_whole_vote()
+{
+    int taken = 0;
+    int asked = 0;
+
+    for (int round = 0; round < 2000; round++) {
+        const float a = uniform(0.01f, 100.0f);
+        keel_voter_config_t config = usual(a, uniform(1.1f, 9.0f));
+        keel_voter_t voter;
+
+        config.sensors = static_cast<std::uint8_t>(2u + (generator() % 3u));
+        config.stale_count = 2u;
+        if (keel_voter_init(&voter, &config) != KEEL_OK) {
+            return false;
+        }
+        for (int i = 0; i < 100; i++) {
+            const float truth = uniform(-950.0f, 950.0f);
+            const bool rests = generator() % 8u == 0u;
+            keel_voter_sample_t sample[KEEL_VOTER_SENSORS];
+            keel_voter_t whole = voter;
+
+            for (std::uint32_t k = 0; k < config.sensors; k++) {
+                sample[k] = {truth + uniform(-0.52f, 0.52f) * a, 0u, true};
+                sample[k].value = rests ? voter.sensor[k].last : sample[k].value;
+            }
+            keel_voter_step(&whole, sample, 10u);
+            asked++;
+            if (!keel_voter_step_unanimous(&voter, sample, 0u)) {
+                voter = whole;
+                continue;
+            }
+            taken++;
+            if (std::memcmp(&voter.vote.output, &whole.vote.output, sizeof(float)) != 0 ||
+                voter.vote.state != whole.vote.state || !whole.unanimous) {
+                return false;
+            }
+            for (std::uint32_t k = 0; k < config.sensors; k++) {
+                if (voter.vote.weight[k] != whole.vote.weight[k] ||
+                    voter.vote.reason[k] != whole.vote.reason[k] ||
+                    voter.sensor[k].last != whole.sensor[k].last ||
+                    voter.sensor[k].same != whole.sensor[k].same ||
+                    voter.sensor[k].null != whole.sensor[k].null ||
+                    voter.sensor[k].density != whole.sensor[k].density) {
+                    return false;
+                }
+            }
+        }
+    }
+    return 4 * taken >= asked;
+}
+
 int main()
 {
     reference::Suite suite;
@@ -176,5 +228,7 @@ int main()
     suite.check("VOT_017_third_any_bits", influence_is_bounded(true), "beyond c a");
     suite.check("VOT_005_any_bits", any_bit_pattern_gives_a_plausible_output(),
                 "an output that is not plausible");
+    suite.check("VOT_018_same_as_the_whole_vote", unanimous_is_the_whole_vote(),
+                "another result, or hardly ever taken");
     return suite.end();
 }

@@ -212,6 +212,8 @@ static void vector_voter(stream_t *s)
 {
     keel_voter_sample_t sample[KEEL_VOTER_SENSORS];
     const float truth = between(s, -10.0f, 10.0f);
+    uint32_t oldest_us = 0u;
+    bool complete = true;
 
     if ((s->vector % SETUP_EVERY) == 0u) {
         setup_voter(s);
@@ -220,9 +222,13 @@ static void vector_voter(stream_t *s)
         sample[i].value = (i == frozen) ? 1.5f : mostly_between(s, truth - 2.0f, truth + 2.0f);
         sample[i].age_us = below(s, 1500u);
         sample[i].present = below(s, 32u) != 0u;
+        oldest_us = (sample[i].age_us > oldest_us) ? sample[i].age_us : oldest_us;
+        complete = complete && sample[i].present;
     }
     if (voter_made) {
-        keel_voter_step(&voter, sample, any32(s));
+        if (!complete || !keel_voter_step_unanimous(&voter, sample, oldest_us)) {
+            keel_voter_step(&voter, sample, any32(s));
+        }
         if (below(s, 32u) == 0u) {
             digest(s, (uint64_t)keel_voter_readmit(&voter, below(s, KEEL_VOTER_SENSORS + 1u)));
         }

@@ -77,6 +77,32 @@ static void IMU_002_each_channel_votes_with_its_configuration(void)
     TEST_ASSERT_EQUAL_FLOAT(5.0f, imu.channel[5].vote.output);
 }
 
+/* The second vote of each channel is a unanimous one; then a unit is late, then absent. */
+static void IMU_002_unanimous_votes_and_others(void)
+{
+    keel_virtual_imu_step(&imu, sample, 1000u);
+    sample[0].value[2] = 2.25f;
+    sample[1].value[2] = 2.5f;
+    sample[2].value[2] = 2.75f;
+    keel_virtual_imu_step(&imu, sample, 1000u);
+    TEST_ASSERT_EQUAL_FLOAT(2.5f, imu.channel[2].vote.output);
+    TEST_ASSERT_EQUAL_FLOAT(5.0f, imu.channel[5].vote.output);
+    TEST_ASSERT_EQUAL_HEX8(KEEL_IMU_ALL, imu.used[2]);
+    sample[0].age_us = 5001u; /* Not the oldest in order: the others are as old as may be. */
+    sample[2].age_us = 5000u;
+    keel_virtual_imu_step(&imu, sample, 1000u);
+    TEST_ASSERT_EQUAL_HEX8(0u, imu.used[0]);
+    TEST_ASSERT_EQUAL_HEX8(KEEL_IMU_ALL, imu.used[2]);
+    TEST_ASSERT_EQUAL_FLOAT(2.625f, imu.channel[2].vote.output);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_virtual_imu_init(&imu, &config));
+    sample[0].age_us = 0u;
+    keel_virtual_imu_step(&imu, sample, 1000u);
+    sample[0].present = false;
+    keel_virtual_imu_step(&imu, sample, 1000u);
+    TEST_ASSERT_EQUAL_HEX8(0u, imu.used[0]);
+    TEST_ASSERT_EQUAL_FLOAT(2.625f, imu.channel[2].vote.output);
+}
+
 static void IMU_003_verdicts_per_unit(void)
 {
     sample[2].value[4] = 6.0f;
@@ -121,6 +147,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(IMU_001_both_configurations_are_checked);
     RUN_TEST(IMU_002_each_channel_votes_with_its_configuration);
+    RUN_TEST(IMU_002_unanimous_votes_and_others);
     RUN_TEST(IMU_003_verdicts_per_unit);
     RUN_TEST(IMU_003_a_silent_unit_loses_all_channels);
     RUN_TEST(IMU_004_readmits_a_unit);

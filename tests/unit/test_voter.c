@@ -418,6 +418,84 @@ static void VOT_014_readmission_on_request(void)
     TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[2].null);
 }
 
+static bool unanimous(float a, float b, float c, uint32_t oldest_us)
+{
+    const keel_voter_sample_t sample[3] = {{a, 0u, true}, {b, 0u, true}, {c, 0u, true}};
+
+    return keel_voter_step_unanimous(&voter, sample, oldest_us);
+}
+
+static void is_refused(float a, float b, float c, uint32_t oldest_us)
+{
+    keel_voter_t before;
+
+    memcpy(&before, &voter, sizeof before);
+    TEST_ASSERT_FALSE(unanimous(a, b, c, oldest_us));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &voter, sizeof voter);
+}
+
+static void VOT_018_unanimous(void)
+{
+    is_refused(1.0f, 1.5f, 2.0f, 0u); /* There was no vote before. */
+    vote(1.0f, 1.5f, 2.0f);
+    TEST_ASSERT_TRUE(unanimous(2.0f, 1.75f, 2.25f, 1000u));
+    expect(KEEL_VOTER_MEAN, 2.0f);
+    expect_weights(1.0f, 1.0f, 1.0f);
+    TEST_ASSERT_TRUE(unanimous(2.0f, 1.75f, 2.25f, 0u)); /* All at rest. */
+    expect(KEEL_VOTER_MEAN, 2.0f);
+    TEST_ASSERT_TRUE(unanimous(3.0f, 2.0f, 2.5f, 0u)); /* Just within a. */
+    expect(KEEL_VOTER_MEAN, 2.5f);
+    TEST_ASSERT_EQUAL_FLOAT(2.0f, voter.sensor[1].last);
+}
+
+static void VOT_018_leaves_the_others(void)
+{
+    vote(1.0f, 1.5f, 2.0f);
+    is_refused(2.0f, 1.75f, 2.25f, 1001u); /* late */
+    is_refused(1.0f, 1.75f, 2.25f, 0u);    /* The first rests alone, */
+    is_refused(1.25f, 1.5f, 2.25f, 0u);    /* the second, */
+    is_refused(1.0f, 1.5f, 2.25f, 0u);     /* all but the last. */
+    is_refused(2.0f, 1.75f, 3.0f, 0u);     /* Just beyond a. */
+    is_refused(NAN, 1.75f, 2.25f, 0u);     /* not finite */
+    is_refused(2.0f, NAN, 2.25f, 0u);
+    is_refused(2.0f, 1.75f, INFINITY, 0u);
+    is_refused(-100.25f, -100.5f, -100.25f, 0u); /* implausible */
+    is_refused(-99.75f, -100.5f, -99.75f, 0u);
+    is_refused(100.25f, 100.5f, 100.25f, 0u);
+}
+
+/* A weight of 15/16, an old count, a leaky one: the vote that follows is a whole one. */
+static void VOT_018_not_after_a_doubt(void)
+{
+    vote(0.0f, 0.5f, 1.25f);
+    is_refused(1.0f, 1.5f, 2.0f, 0u);
+    vote(1.0f, 1.5f, 9.0f);
+    is_refused(1.0f, 1.5f, 2.0f, 0u);
+    vote(0.0f, 0.5f, 1.0f); /* It agrees again: the leaky count is 0. */
+    TEST_ASSERT_TRUE(unanimous(1.0f, 1.5f, 2.0f, 0u));
+    vote(1.0f, 1.5f, 9.0f);
+    vote(0.5f, 1.0f, 9.0f);
+    vote(0.0f, 0.5f, 1.0f); /* The leaky count is 1. */
+    is_refused(1.0f, 1.5f, 2.0f, 0u);
+    restart();
+    vote(1.0f, 1.5f, 2.0f);
+    vote(1.25f, 1.5f, 2.25f); /* The second rests alone. */
+    is_refused(1.0f, 1.25f, 2.0f, 0u);
+}
+
+/* What was within a when it was voted on by weights only, as a distance just above a has agreement
+ * 1 once it is rounded: not taken for unanimous though nothing moves. */
+static void VOT_018_at_rest_just_beyond_a(void)
+{
+    const float beyond = nextafterf(1.0f, 2.0f);
+
+    config.cutoff = 100000.0f;
+    restart();
+    vote(0.0f, 0.5f, beyond);
+    expect_weights(1.0f, 1.0f, 1.0f);
+    is_refused(0.0f, 0.5f, beyond, 0u);
+}
+
 static void VOT_015_influence_of_one_faulty_sensor(void)
 {
     /* The worst case for n = 3: the healthy two at 0, the third at 2 a moves them by a / 2. */
@@ -465,5 +543,9 @@ int main(void)
     RUN_TEST(VOT_013_alone_is_not_frozen);
     RUN_TEST(VOT_014_readmission_on_request);
     RUN_TEST(VOT_015_influence_of_one_faulty_sensor);
+    RUN_TEST(VOT_018_unanimous);
+    RUN_TEST(VOT_018_leaves_the_others);
+    RUN_TEST(VOT_018_not_after_a_doubt);
+    RUN_TEST(VOT_018_at_rest_just_beyond_a);
     return UNITY_END();
 }

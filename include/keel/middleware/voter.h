@@ -24,6 +24,9 @@
  *   - A bias that keeps some agreement is neither removed nor latched; its influence on the output
  *     is bounded (VOT-015).
  *   - A latched sensor is readmitted on request only.
+ *
+ * keel_voter_step takes any vote. keel_voter_step_unanimous, tried first, takes the usual one for
+ * less: the virtual unit (virtual_imu.h) does so.
  */
 #ifndef KEEL_MIDDLEWARE_VOTER_H
 #define KEEL_MIDDLEWARE_VOTER_H
@@ -106,6 +109,7 @@ typedef struct keel_voter {
     float none; /**< n a: no agreement from here on. */
     keel_voter_sensor_t sensor[KEEL_VOTER_SENSORS];
     keel_vote_t vote; /**< The last one. */
+    bool unanimous;   /**< All weights were 1 in it, and nothing is counted against any sensor. */
 } keel_voter_t;
 
 /*@ predicate agreement_valid(keel_voter_config_t c) =
@@ -126,10 +130,22 @@ typedef struct keel_voter {
   @ predicate voter_healthy(keel_voter_config_t c, keel_voter_sensor_t s) =
   @     s.null < c.latch_count && (c.density_limit > 0 ==> s.density < c.density_limit);
   @
+  @ // The last vote was the mean of all samples with weight 1, and nothing is counted against any.
+  @ predicate voter_unanimous(keel_voter_t *v) =
+  @     v->vote.state == KEEL_VOTER_MEAN && v->vote.contributing == v->config.sensors &&
+  @     v->vote.held == 0 && v->vote.held_us == 0 &&
+  @     (\forall integer i; 0 <= i < v->config.sensors ==> !v->sensor[i].latched &&
+  @         v->sensor[i].same == 0 && v->sensor[i].null == 0 && v->sensor[i].density == 0 &&
+  @         v->vote.weight[i] == 1 && v->vote.reason[i] == KEEL_VOTER_USED &&
+  @         v->config.lowest <= v->sensor[i].last <= v->config.highest) &&
+  @     (\exists integer i; 0 <= i < v->config.sensors && v->sensor[i].last <= v->vote.output) &&
+  @     (\exists integer i; 0 <= i < v->config.sensors && v->vote.output <= v->sensor[i].last);
+  @
   @ // What holds of a channel between any two calls.
   @ predicate voter_valid(keel_voter_t *v) =
   @     voter_config_valid(v->config) && v->none == (float)(v->config.cutoff * v->config.agree) &&
   @     \is_finite(v->vote.output) && v->config.lowest <= v->vote.output <= v->config.highest &&
+  @     (v->unanimous ==> voter_unanimous(v)) &&
   @     \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==> \is_finite(v->sensor[i].last) &&
   @         (!v->sensor[i].latched ==> voter_healthy(v->config, v->sensor[i]));
   @*/
@@ -240,6 +256,23 @@ float keel_voter_weight(const float agreement[], uint32_t others);
 float keel_voter_mean(float sum, float weights, float least, float most);
 
 /**
+ * Whether samples lie within a of each other (requirement VOT-018). It is enough to look at the
+ * smallest and the largest: no pair's distance, rounded, exceeds theirs.
+ *
+ * @param least the smallest sample
+ * @param most  the largest sample
+ * @param agree a, KEEL_VOTER_AGREE_MIN to KEEL_VOTER_AGREE_MAX
+ * @return whether they do
+ */
+/*@ requires \is_finite(least) && \is_finite(most);
+  @ requires -KEEL_VOTER_RANGE <= least <= most <= KEEL_VOTER_RANGE;
+  @ requires \is_finite(agree) && KEEL_VOTER_AGREE_MIN <= agree <= KEEL_VOTER_AGREE_MAX;
+  @ assigns \nothing;
+  @ ensures VOT_018_within: \result <==> (float)(most - least) <= agree;
+  @*/
+bool keel_voter_within(float least, float most, float agree);
+
+/**
  * The weighted mean of samples (eq. 18, requirement VOT-005). Rounded, the quotient may leave the
  * samples by a few units in the last place (VOT-016), so it is clamped to those that contribute.
  *
@@ -339,6 +372,49 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
   @         (0 < voter->config.stale_count <= voter->sensor[i].same);
   @*/
 void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us);
+
+/**
+ * Takes a vote if it is as unanimous as the last one (requirement VOT-018), at about a third of
+ * what keel_voter_step costs: when all samples are plausible and none is late, all lie within a of
+ * each other, and all have changed or none. With all weights 1 the mean of eq. 18 is the plain one.
+ * Else nothing changes, and the vote is left to keel_voter_step.
+ *
+ * @param voter     the channel, initialised
+ * @param sample    a sample per sensor, N of them, all present; their values any bit pattern
+ * @param oldest_us the age of the oldest, in us; that of each sample is not read
+ * @return whether the vote was taken; its result is in voter->vote then
+ */
+/*@ requires \valid(voter) && voter_valid(voter);
+  @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
+  @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
+  @ requires \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     sample[i].present && sample[i].age_us <= oldest_us;
+  @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last, voter->vote.output;
+  @ ensures VOT_018_valid: voter_valid(voter);
+  @ ensures VOT_018_taken: \result <==>
+  @     (\old(voter->unanimous) && oldest_us <= voter->config.max_age_us &&
+  @      (\forall integer i; 0 <= i < voter->config.sensors ==> \is_finite(sample[i].value) &&
+  @          voter->config.lowest <= sample[i].value <= voter->config.highest) &&
+  @      ((\forall integer i; 0 <= i < voter->config.sensors ==>
+  @           sample[i].value == \old(voter->sensor[i].last)) ||
+  @       (\forall integer i; 0 <= i < voter->config.sensors ==>
+  @           sample[i].value != \old(voter->sensor[i].last))) &&
+  @      (\forall integer i, j; 0 <= i < j < voter->config.sensors ==>
+  @          -voter->config.agree <= (float)(sample[i].value - sample[j].value) <=
+  @              voter->config.agree));
+  @ ensures VOT_018_last: \result ==> \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     voter->sensor[i].last == sample[i].value;
+  @ ensures VOT_018_hull: \result ==>
+  @     (\exists integer i; 0 <= i < voter->config.sensors &&
+  @         sample[i].value <= voter->vote.output) &&
+  @     (\exists integer i; 0 <= i < voter->config.sensors &&
+  @         voter->vote.output <= sample[i].value);
+  @ ensures VOT_018_refused: !\result ==> voter->vote.output == \old(voter->vote.output) &&
+  @     \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==>
+  @         voter->sensor[i].last == \old(voter->sensor[i].last);
+  @*/
+bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sample[],
+                               uint32_t oldest_us);
 
 /**
  * Readmits a latched sensor (requirement VOT-014): it votes again from the next vote on, with all
