@@ -60,7 +60,7 @@ THOROUGH = (
     Stage(("alt-ergo", "cvc4", "z3"), 100),
 )
 # A contradiction shows early: seeded ones were found with 50 000 steps wherever they were with
-# 100 000. WP proves calls through pointers again in this pass, which takes 56 000. Steps are counted
+# 100 000. WP proves calls through pointers once more in this pass, which takes 56 000. Steps count
 # alike on every machine; the seconds only guard.
 SMOKE = Stage(("cvc4",), 10, steps=75_000)
 
