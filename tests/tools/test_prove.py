@@ -19,6 +19,7 @@ import tempfile
 import time
 import unittest
 from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -28,7 +29,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import prove  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
-from proofs.jobs import Runner  # noqa: E402
+from proofs.jobs import Runner, in_pool  # noqa: E402
 from proofs.project import ProjectError, Unit, closure, find_units  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
 from toolchain import Toolchain, ToolchainError  # noqa: E402
@@ -1004,6 +1005,45 @@ class WholeRun(TreeTest):
             with mock.patch.object(self.tools, "frama_c", side_effect=KeyError):
                 self.prove()
         self.assertFalse(self.report_file.exists())
+
+
+class Jobs(unittest.TestCase):
+    def test_an_interrupt_while_tasks_are_handed_in_stops_those_that_run(self) -> None:
+        runner = mock.Mock()
+        handed_in: list[Callable[[], int]] = []
+
+        def submit(_pool: object, task: Callable[[], int]) -> Future[int]:
+            if handed_in:
+                raise KeyboardInterrupt
+            handed_in.append(task)
+            return Future()
+
+        with (
+            mock.patch.object(ThreadPoolExecutor, "submit", submit),
+            self.assertRaises(KeyboardInterrupt),
+        ):
+            list(in_pool([lambda: 1, lambda: 2], 2, runner))
+        runner.stop.assert_called_once()
+
+    def test_an_interrupt_while_a_program_runs_ends_the_program(self) -> None:
+        runner = Runner(dict(os.environ), Path("/"))
+        started: list[subprocess.Popen[str]] = []
+
+        def interrupt(process: subprocess.Popen[str], **_: object) -> None:
+            started.append(process)
+            raise KeyboardInterrupt
+
+        with (
+            mock.patch.object(subprocess.Popen, "communicate", interrupt),
+            self.assertRaises(KeyboardInterrupt),
+        ):
+            runner.run(["sleep", "60"])
+        try:
+            self.assertEqual(started[0].wait(timeout=10), -signal.SIGKILL)
+        finally:
+            started[0].kill()
+            assert started[0].stdout
+            started[0].stdout.close()
 
 
 INTERRUPTED = """\

@@ -53,6 +53,9 @@ class Runner:
             self._kill(process)
             output, _ = process.communicate()
             return Finished(-1, output, timed_out=True)
+        except BaseException:
+            self._kill(process)
+            raise
         finally:
             with self._lock:
                 self._running.discard(process)
@@ -125,15 +128,19 @@ def in_pool(
 ) -> Iterator[tuple[int, T]]:
     """Run tasks, `width` at a time, in their order; yield index and result as each finishes."""
     pool = ThreadPoolExecutor(max_workers=width)
-    futures: dict[Future[T], int] = {pool.submit(task): i for i, task in enumerate(tasks)}
-    waiting = set(futures)
+    futures: dict[Future[T], int] = {}
+    waiting: set[Future[T]] = set()
     try:
+        for index, task in enumerate(tasks):
+            futures[pool.submit(task)] = index
+        waiting = set(futures)
         while waiting:
             # A timeout lets Ctrl-C through.
             done, waiting = wait(waiting, timeout=0.5, return_when=FIRST_COMPLETED)
             for future in done:
                 yield futures[future], future.result()
     finally:
-        if waiting:
+        # A task may be running, and be interrupted, before the last is handed in.
+        if waiting or len(futures) < len(tasks):
             runner.stop()
         pool.shutdown(wait=True, cancel_futures=True)
