@@ -133,9 +133,12 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @ ensures running: \old(scheduler->running) != KEEL_INDEX_NONE ==>
   @     scheduler->queue.task[scheduler->running] ==
   @         \old(scheduler->queue.task[scheduler->running]);
-  @ ensures waiting: \old(setup_armed(scheduler)) ==> scheduler->stage == KEEL_STAGE_SETUP ==>
-  @     \forall integer i; 0 <= i < scheduler->queue.count ==> scheduler->queue.task[i] != task ==>
-  @     scheduler->queue.task[i]->release_us == scheduler->queue.task[i]->config->phase_us;
+  @ ensures release: task->release_us == \old(task->release_us);
+  @ ensures phase: task->config->phase_us == \old(task->config->phase_us);
+  @ ensures stats: task->stats == \old(task->stats);
+  @ ensures waiting: \old(setup_armed(scheduler)) ==>
+  @     \old(task->release_us == scheduler->clock.now_us + task->config->phase_us) ==>
+  @     setup_armed(scheduler);
   @*/
 static keel_status_t enqueue(keel_scheduler_t *scheduler, keel_task_t *task)
 {
@@ -145,13 +148,17 @@ static keel_status_t enqueue(keel_scheduler_t *scheduler, keel_task_t *task)
     /*@ assert placed:
       @     scheduler->queue.task[\at(queue_place(&scheduler->queue, task), Pre)] == task;
       @*/
-    /*@ assert checked_before: \forall integer i;
-      @     0 <= i < \at(queue_place(&scheduler->queue, task), Pre) ==>
-      @     config_valid(scheduler->queue.task[i]->config);
+    /*@ assert origin: \forall integer i; 0 <= i < scheduler->queue.count ==>
+      @     scheduler->queue.task[i] == task || (\exists integer j;
+      @         0 <= j < \at(scheduler->queue.count, Pre) &&
+      @         scheduler->queue.task[i] == \at(scheduler->queue.task[j], Pre));
       @*/
-    /*@ assert checked_behind: \forall integer i;
-      @     \at(queue_place(&scheduler->queue, task), Pre) < i < scheduler->queue.count ==>
-      @     config_valid(scheduler->queue.task[i]->config);
+    /*@ assert declared: \forall integer j; 0 <= j < \at(scheduler->queue.count, Pre) ==>
+      @     \at(\at(scheduler->queue.task[j], Pre)->config, Here) ==
+      @         \at(scheduler->queue.task[j]->config, Pre);
+      @*/
+    /*@ assert checked_old: \forall integer j; 0 <= j < \at(scheduler->queue.count, Pre) ==>
+      @     config_valid(\at(scheduler->queue.task[j]->config, Pre));
       @*/
     //@ assert checked: queue_checked(&scheduler->queue);
     /*@ assert running_before:
@@ -164,79 +171,13 @@ static keel_status_t enqueue(keel_scheduler_t *scheduler, keel_task_t *task)
       @     scheduler->queue.task[scheduler->running + 1] ==
       @         \at(scheduler->queue.task[scheduler->running], Pre);
       @*/
-    /*@ assert before: \forall integer i, j; 0 <= j < \at(scheduler->queue.count, Pre) ==>
-      @     0 <= i < \at(queue_place(&scheduler->queue, task), Pre) ==> i != j ==>
-      @     \separated(scheduler->queue.task[i], \at(scheduler->queue.task[j], Pre));
-      @*/
-    /*@ assert behind: \forall integer i, j; 0 <= j < \at(scheduler->queue.count, Pre) ==>
-      @     \at(queue_place(&scheduler->queue, task), Pre) < i < scheduler->queue.count ==>
-      @     i - 1 != j ==>
-      @     \separated(scheduler->queue.task[i], \at(scheduler->queue.task[j], Pre));
-      @*/
-    /*@ assert waiting_before: \at(setup_armed(scheduler), Pre) ==>
+    /*@ assert waiting: \at(setup_armed(scheduler), Pre) ==>
       @     scheduler->stage == KEEL_STAGE_SETUP ==> \forall integer i;
-      @     0 <= i < \at(queue_place(&scheduler->queue, task), Pre) ==>
+      @     0 <= i < scheduler->queue.count ==> scheduler->queue.task[i] != task ==>
       @     scheduler->queue.task[i]->release_us == scheduler->queue.task[i]->config->phase_us;
-      @*/
-    /*@ assert waiting_behind: \at(setup_armed(scheduler), Pre) ==>
-      @     scheduler->stage == KEEL_STAGE_SETUP ==> \forall integer i;
-      @     \at(queue_place(&scheduler->queue, task), Pre) < i < scheduler->queue.count ==>
-      @     scheduler->queue.task[i]->release_us == scheduler->queue.task[i]->config->phase_us;
-      @*/
-    /*@ assert apart_before: \forall integer i;
-      @     0 <= i < \at(queue_place(&scheduler->queue, task), Pre) ==>
-      @     \separated(scheduler, scheduler->queue.task[i]);
-      @*/
-    /*@ assert apart_behind: \forall integer i;
-      @     \at(queue_place(&scheduler->queue, task), Pre) < i < scheduler->queue.count ==>
-      @     \separated(scheduler, scheduler->queue.task[i]);
-      @*/
-    /*@ assert apart_configs: \forall integer i; 0 <= i < scheduler->queue.count ==>
-      @     \base_addr(scheduler) != \base_addr(scheduler->queue.task[i]->config);
       @*/
     //@ assert apart: scheduler_apart(scheduler);
-    /*@ assert new_apart: \forall integer i; 0 <= i < scheduler->queue.count ==>
-      @     i != \at(queue_place(&scheduler->queue, task), Pre) ==>
-      @     \separated(task, scheduler->queue.task[i]);
-      @*/
     //@ assert tasks_apart: tasks_apart(scheduler);
-    /*@ assert declared_before: \forall integer i, j;
-      @     0 <= j < \at(scheduler->queue.count, Pre) ==>
-      @     0 <= i < \at(queue_place(&scheduler->queue, task), Pre) ==>
-      @     \base_addr(scheduler->queue.task[i]) !=
-      @         \base_addr(\at(scheduler->queue.task[j]->config, Pre));
-      @*/
-    /*@ assert declared_behind: \forall integer i, j;
-      @     0 <= j < \at(scheduler->queue.count, Pre) ==>
-      @     \at(queue_place(&scheduler->queue, task), Pre) < i < scheduler->queue.count ==>
-      @     \base_addr(scheduler->queue.task[i]) !=
-      @         \base_addr(\at(scheduler->queue.task[j]->config, Pre));
-      @*/
-    /*@ assert new_declared: \forall integer i; 0 <= i < scheduler->queue.count ==>
-      @     \base_addr(task) != \base_addr(scheduler->queue.task[i]->config);
-      @*/
-    /*@ assert declared_new: \forall integer i; 0 <= i < scheduler->queue.count ==>
-      @     \base_addr(scheduler->queue.task[i]) != \base_addr(task->config);
-      @*/
-    /*@ assert declared_old: \forall integer i, j; 0 <= j < \at(scheduler->queue.count, Pre) ==>
-      @     0 <= i < scheduler->queue.count ==>
-      @     \base_addr(scheduler->queue.task[i]) !=
-      @         \base_addr(\at(scheduler->queue.task[j]->config, Pre));
-      @*/
-    /*@ assert configs_before: \forall integer i, j; 0 <= i < scheduler->queue.count ==>
-      @     0 <= j < \at(queue_place(&scheduler->queue, task), Pre) ==>
-      @     \base_addr(scheduler->queue.task[i]) !=
-      @         \base_addr(scheduler->queue.task[j]->config);
-      @*/
-    /*@ assert configs_down: \forall integer j;
-      @     \at(queue_place(&scheduler->queue, task), Pre) < j < scheduler->queue.count ==>
-      @     scheduler->queue.task[j]->config == \at(scheduler->queue.task[j - 1]->config, Pre);
-      @*/
-    /*@ assert configs_behind: \forall integer i, j; 0 <= i < scheduler->queue.count ==>
-      @     \at(queue_place(&scheduler->queue, task), Pre) < j < scheduler->queue.count ==>
-      @     \base_addr(scheduler->queue.task[i]) !=
-      @         \base_addr(scheduler->queue.task[j]->config);
-      @*/
     //@ assert configs_apart: configs_apart(scheduler);
     if (keel_task_is_realtime(task) && (scheduler->running != KEEL_INDEX_NONE) &&
         (scheduler->running >= place)) {
@@ -258,8 +199,9 @@ static keel_status_t enqueue(keel_scheduler_t *scheduler, keel_task_t *task)
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ ensures ok: \result == KEEL_OK;
   @ ensures count: scheduler->queue.count == \old(scheduler->queue.count) + 1;
-  @ ensures armed: task->release_us == scheduler->clock.now_us + task->config->phase_us
-  @     && task->skipped == 0 && stats_fresh(task->stats);
+  @ ensures armed: task->release_us == scheduler->clock.now_us + task->config->phase_us;
+  @ ensures skipped: task->skipped == 0;
+  @ ensures fresh: stats_fresh(task->stats);
   @ ensures declared: config_valid(task->config);
   @ ensures waiting: \old(setup_armed(scheduler)) ==> setup_armed(scheduler);
   @ ensures wake: scheduler->wake_us == 0;
@@ -274,21 +216,19 @@ static keel_status_t enqueue(keel_scheduler_t *scheduler, keel_task_t *task)
   @*/
 static keel_status_t insert(keel_scheduler_t *scheduler, keel_task_t *task)
 {
-    const keel_status_t status = enqueue(scheduler, task);
-
-    /*@ assert apart: \forall integer i; 0 <= i < scheduler->queue.count ==>
-      @     scheduler->queue.task[i] != task ==> \separated(task, scheduler->queue.task[i]);
-      @*/
-    /*@ assert apart_declared: \forall integer i; 0 <= i < scheduler->queue.count ==>
-      @     \base_addr(task) != \base_addr(scheduler->queue.task[i]->config);
-      @*/
     keel_task_arm(task, scheduler->clock.now_us);
-    /*@ assert waiting: \at(setup_armed(scheduler), Pre) ==>
-      @     scheduler->stage == KEEL_STAGE_SETUP ==> \forall integer i;
-      @     0 <= i < scheduler->queue.count ==> scheduler->queue.task[i] != task ==>
-      @     scheduler->queue.task[i]->release_us == scheduler->queue.task[i]->config->phase_us;
-      @*/
-    return status;
+    //@ assert no_gaps: queue_no_gaps(&scheduler->queue);
+    //@ assert configs: queue_configs_valid(&scheduler->queue);
+    //@ assert realtime: queue_realtime_first(&scheduler->queue);
+    //@ assert others: queue_others_last(&scheduler->queue);
+    //@ assert checked: queue_checked(&scheduler->queue);
+    //@ assert apart: scheduler_apart(scheduler) && task_apart(scheduler, task);
+    //@ assert tasks_apart: tasks_apart(scheduler);
+    //@ assert configs_apart: configs_apart(scheduler);
+    //@ assert state: scheduler_state(scheduler);
+    //@ assert declared: config_valid(task->config);
+    //@ assert waiting: \at(setup_armed(scheduler), Pre) ==> setup_armed(scheduler);
+    return enqueue(scheduler, task);
 }
 
 keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, keel_task_t *task)
@@ -380,6 +320,14 @@ static keel_status_t take_out(keel_scheduler_t *scheduler, uint32_t index)
     shift_up(scheduler, index);
     scheduler->wake_us = 0u;
     status = keel_queue_remove(&scheduler->queue, index);
+    /*@ assert origin: \forall integer i; 0 <= i < scheduler->queue.count ==> \exists integer j;
+      @     0 <= j < \at(scheduler->queue.count, Pre) &&
+      @     scheduler->queue.task[i] == \at(scheduler->queue.task[j], Pre);
+      @*/
+    /*@ assert declared: \forall integer j; 0 <= j < \at(scheduler->queue.count, Pre) ==>
+      @     \at(\at(scheduler->queue.task[j], Pre)->config, Here) ==
+      @         \at(scheduler->queue.task[j]->config, Pre);
+      @*/
     return status;
 }
 

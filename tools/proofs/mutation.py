@@ -29,6 +29,7 @@ PROVERS = {"Alt-Ergo": "alt-ergo", "CVC4": "cvc4", "Z3": "z3"}
 PATIENCE = 3.0
 SHORTEST, LONGEST = 2, 30
 IMPATIENT = 20.0
+LAST_PATIENCE = 10.0
 NO_ANSWER = "no answer"
 
 
@@ -287,7 +288,7 @@ class Trial:
     def _limit(self, harness: Harness) -> float:
         """How long a harness may take: some mutants are much harder than the original."""
         usual = self._times.of("cbmc", self._unit.name, harness.name)
-        return min(harness.timeout, max(IMPATIENT, PATIENCE * (usual or harness.timeout)))
+        return min(harness.timeout, max(IMPATIENT, LAST_PATIENCE * (usual or harness.timeout)))
 
     def _harness_files(self, mutant: Mutant, unit: Unit) -> list[Path]:
         """The harnesses that reach the function, its own first."""
