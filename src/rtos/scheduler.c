@@ -475,6 +475,11 @@ keel_task_t *keel_scheduler_next(keel_scheduler_t *scheduler)
         return dispatch(scheduler, (uint16_t)index, (uint16_t)(index + 1u), KEEL_STAGE_REALTIME);
     }
     slack_us = keel_decision_slack_us(&scheduler->queue, now_us);
+    /*@ assert slack: \forall integer i;
+      @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
+      @     (may_run(scheduler, scheduler->queue.task[i], now_us) <==>
+      @      eligible(scheduler->queue.task[i], now_us, slack_us, scheduler->config.guard_us));
+      @*/
     index = keel_decision_other(&scheduler->queue, now_us, slack_us, scheduler->config.guard_us);
     if (index < scheduler->queue.count) {
         const bool by_promotion = is_promoted(scheduler->queue.task[index], now_us);
