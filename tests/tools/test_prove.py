@@ -1047,8 +1047,10 @@ class Jobs(unittest.TestCase):
             started[0].stdout.close()
 
 
+# Ctrl-C is heard whoever runs the tests: what is started in the background may ignore it.
 INTERRUPTED = """\
-import sys
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
 sys.path[:0] = [{tools!r}, {tests!r}]
 from pathlib import Path
 import test_prove as t
