@@ -29,7 +29,7 @@ PROVERS = {"Alt-Ergo": "alt-ergo", "CVC4": "cvc4", "Z3": "z3"}
 PATIENCE = 3.0
 SHORTEST, LONGEST = 2, 30
 IMPATIENT = 20.0
-LAST_PATIENCE = 10.0
+LAST_PATIENCE = 10.0  # for the attempt after which a mutant is said to survive
 NO_ANSWER = "no answer"
 
 

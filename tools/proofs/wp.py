@@ -65,8 +65,8 @@ THOROUGH = (
     Stage(("alt-ergo", "cvc4", "z3"), 100),
 )
 # A contradiction shows early: seeded ones were found with 50 000 steps wherever they were with
-# 75 000, which take five times as long. WP proves calls through pointers once more in this pass,
-# which takes 56 000. Steps count alike on every machine; the seconds only guard.
+# 75 000. WP proves calls through pointers once more in this pass, which takes 56 000. Steps count
+# alike on every machine; the seconds only guard.
 SMOKE = Stage(("cvc4",), 10, steps=60_000)
 
 VARIANT = re.compile(r"(.*_loop_variant(?:_\d+)?_decrease)(?:_part\d+)?$")
