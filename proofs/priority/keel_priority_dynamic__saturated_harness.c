@@ -1,6 +1,6 @@
 // cbmc: --unwind 2 --external-sat-solver cadical
 // sources: src/rtos/priority.c
-// covers: keel_priority_dynamic keel_priority_promoted saturation
+// covers: keel_priority_dynamic keel_priority_promoted saturation quotient
 //
 // For all ages, periods and priorities: dp is the maximum once sp * age reaches 15 T.
 #include "../common/keel_proof.h"

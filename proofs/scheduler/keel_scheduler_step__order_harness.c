@@ -1,7 +1,7 @@
 // cbmc: --unwind 35 --external-sat-solver cadical
 // sources: src/rtos/scheduler.c
 // replaces: keel_scheduler_begin keel_scheduler_next keel_scheduler_finish
-// covers: keel_scheduler_step read_clock
+// covers: keel_scheduler_step keel_scheduler_run_pass read_clock
 //
 // What joins the theorems to the step: it is begin, then for each task that next hands out its
 // body and finish, until the pass ends, each at the stage that it asks for and each with a reading

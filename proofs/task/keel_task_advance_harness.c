@@ -26,9 +26,6 @@ void keel_task_advance_harness(void)
     period_us = config_before.period_us;
     __CPROVER_assume((0u < period_us) && (period_us < KEEL_PERIOD_LIMIT_US));
     __CPROVER_assume((task->release_us <= now_us) && (now_us <= KEEL_CLOCK_TIME_LIMIT_US));
-#ifdef LATE_BITS
-    __CPROVER_assume(now_us - task->release_us < (1ull << LATE_BITS));
-#endif
 
     keel_task_advance(proof_task[0], now_us);
 

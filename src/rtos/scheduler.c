@@ -597,17 +597,10 @@ keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler)
     return keel_scheduler_start_at(scheduler, read_clock(scheduler));
 }
 
-keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler)
+keel_status_t keel_scheduler_run_pass(keel_scheduler_t *scheduler)
 {
-    keel_status_t status;
+    keel_status_t status = KEEL_OK;
 
-    if (scheduler == NULL) {
-        return KEEL_ERR_NULL;
-    }
-    status = keel_scheduler_begin(scheduler, read_clock(scheduler));
-    if (status != KEEL_OK) {
-        return status;
-    }
     /*@ loop invariant same: scheduler == running_scheduler && scheduler == \at(scheduler, Pre);
       @ loop invariant memory: \valid(scheduler);
       @ loop invariant valid: scheduler_valid(scheduler);
@@ -636,6 +629,20 @@ keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler)
         }
     }
     return status;
+}
+
+keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler)
+{
+    keel_status_t status;
+
+    if (scheduler == NULL) {
+        return KEEL_ERR_NULL;
+    }
+    status = keel_scheduler_begin(scheduler, read_clock(scheduler));
+    if ((status != KEEL_OK) || (scheduler->stage != KEEL_STAGE_PASS)) {
+        return status;
+    }
+    return keel_scheduler_run_pass(scheduler);
 }
 
 keel_status_t keel_scheduler_resync(keel_scheduler_t *scheduler)

@@ -54,9 +54,11 @@ static uint16_t add_saturating(uint16_t value, uint64_t more)
 void keel_task_advance(keel_task_t *task, uint64_t now_us)
 {
     const uint32_t period_us = task->config->period_us;
-    const uint64_t missed = (now_us - task->release_us) / period_us;
+    const uint64_t late_us = now_us - task->release_us;
+    /* On the target a division of 64 bits is a call, which a task that is on time does without. */
+    const uint64_t missed = (late_us < period_us) ? 0u : (late_us / period_us);
 
-    //@ assert floor: missed * period_us <= now_us - task->release_us < (missed + 1) * period_us;
+    //@ assert floor: missed * period_us <= late_us < (missed + 1) * period_us;
     task->release_us += (missed + 1u) * period_us;
     task->skipped = add_saturating(task->skipped, missed);
 }

@@ -631,6 +631,30 @@ static void SCH_017_begin_next_finish_make_a_step(void)
     TEST_ASSERT_EQUAL_UINT64(60u, s->busy_us);
 }
 
+static void SCH_023_without_a_pass_nothing_runs(void)
+{
+    board_init(0u);
+    add(&kernel.a);
+    start();
+    remember();
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_run_pass(&kernel.scheduler));
+    unchanged();
+    ran("");
+}
+
+static void SCH_023_begin_and_run_pass_make_a_step(void)
+{
+    board_init(0u);
+    add(&kernel.a);
+    add(&kernel.b);
+    add(&kernel.o);
+    start();
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_begin(&kernel.scheduler, 0u));
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_run_pass(&kernel.scheduler));
+    ran("ABO");
+    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_READY, kernel.scheduler.stage);
+}
+
 static void SCH_018_finish_refuses_when_nothing_runs(void)
 {
     keel_scheduler_t *const s = &kernel.scheduler;
@@ -1322,6 +1346,8 @@ int main(void)
     RUN_TEST(SCH_014_next_gives_null_unless_a_pass_is_open);
     RUN_TEST(SCH_017_finish_records_the_run);
     RUN_TEST(SCH_017_begin_next_finish_make_a_step);
+    RUN_TEST(SCH_023_without_a_pass_nothing_runs);
+    RUN_TEST(SCH_023_begin_and_run_pass_make_a_step);
     RUN_TEST(SCH_018_finish_refuses_when_nothing_runs);
     RUN_TEST(SCH_018_broken_clock_ends_the_pass);
     RUN_TEST(SCH_012_an_idle_step_reads_the_clock_alone);

@@ -37,9 +37,9 @@ DIRECTIVE = re.compile(r"^// ?(\w+): *(.*?)\s*$")
 OPTIONS = {
     "--unwind": True, "--unwindset": True, "--object-bits": True, "--external-sat-solver": True,
     "--sat-solver": True, "--z3": False, "--bitwuzla": False, "--cvc5": False, "--smt2": False,
-    "--slice-formula": False, "--no-simplify": False, "--arrays-uf-always": False,
-    "--arrays-uf-never": False, "--refine": False, "--max-field-sensitivity-array-size": True,
-    "--no-array-field-sensitivity": False,
+    "--no-sat-preprocessor": False, "--slice-formula": False, "--no-simplify": False,
+    "--arrays-uf-always": False, "--arrays-uf-never": False, "--refine": False,
+    "--max-field-sensitivity-array-size": True, "--no-array-field-sensitivity": False,
 }  # fmt: skip
 # Those that choose a solver, which the coverage run (many easy questions) does without.
 SOLVERS = frozenset(

@@ -13,13 +13,14 @@
  *
  * A step is made of three smaller operations, which never call a task: begin opens the pass, next
  * decides and hands out the task to run, finish takes its statistics. They are public because the
- * proofs speak of them, and for those who want a loop of their own.
+ * proofs speak of them, and for those who want a loop of their own. Run_pass is what follows begin
+ * in a step, apart from it so that a step that waits is spared the cost.
  *
  * A task may add and remove tasks, itself included, while it runs. It calls nothing else of the
  * scheduler; a step from within a task is refused.
  *
- * The pieces begin, next, finish, start_at and check take a scheduler that is not null; the
- * functions that only call them refuse a null one.
+ * The pieces begin, next, finish, run_pass, start_at and check take a scheduler that is not null;
+ * the functions that only call them refuse a null one.
  */
 #ifndef KEEL_RTOS_SCHEDULER_H
 #define KEEL_RTOS_SCHEDULER_H
@@ -706,6 +707,29 @@ keel_status_t keel_scheduler_finish(keel_scheduler_t *scheduler, uint32_t raw_us
   @ disjoint behaviors;
   @*/
 keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
+
+/**
+ * Runs the pass that keel_scheduler_begin has opened to its end (requirement SCH-023): next, the
+ * body and finish in turn. Does nothing when none is open.
+ *
+ * @param scheduler a started scheduler, not from within a task
+ * @return KEEL_OK, or KEEL_ERR_CLOCK when the clock jumped backwards: see keel_scheduler_resync
+ */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
+  @ requires scheduler == running_scheduler && clock_modelled(scheduler) &&
+  @     bodies_modelled(scheduler);
+  @ requires wake_right(scheduler) && scheduler->busy_us <= scheduler->clock.now_us;
+  @ requires scheduler->stage == KEEL_STAGE_READY || scheduler->stage == KEEL_STAGE_PASS;
+  @ requires scheduler->stage == KEEL_STAGE_PASS ==>
+  @     uptime_left(scheduler, scheduler->pass_end - scheduler->cursor + 1);
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures SCH_023_wake: wake_right(scheduler);
+  @ ensures SCH_023_result: \result == KEEL_OK || \result == KEEL_ERR_CLOCK;
+  @ ensures SCH_023_closed: scheduler->stage == KEEL_STAGE_READY;
+  @ ensures SCH_023_time: \old(scheduler->clock.now_us) <= scheduler->clock.now_us;
+  @ ensures SCH_023_busy: scheduler->busy_us <= scheduler->clock.now_us;
+  @*/
+keel_status_t keel_scheduler_run_pass(keel_scheduler_t *scheduler);
 
 /**
  * One step: a pass over the tasks, if any can be due (requirement SCH-020). To be called for ever,
