@@ -129,7 +129,7 @@ def in_pool(
     """Run tasks, `width` at a time, in their order; yield index and result as each finishes."""
     pool = ThreadPoolExecutor(max_workers=width)
     futures: dict[Future[T], int] = {}
-    waiting: set[Future[T]] = set()
+    complete = False
     try:
         for index, task in enumerate(tasks):
             futures[pool.submit(task)] = index
@@ -139,8 +139,8 @@ def in_pool(
             done, waiting = wait(waiting, timeout=0.5, return_when=FIRST_COMPLETED)
             for future in done:
                 yield futures[future], future.result()
+        complete = True
     finally:
-        # A task may be running, and be interrupted, before the last is handed in.
-        if waiting or len(futures) < len(tasks):
+        if not complete:
             runner.stop()
         pool.shutdown(wait=True, cancel_futures=True)
