@@ -19,7 +19,7 @@ bool keel_priority_promoted(uint32_t sp, uint64_t age_us, uint32_t period_us)
 }
 
 /* The quotient, in 32 bits where they hold the dividend: on the target a division of 64 bits is a
- * call, of some hundred instructions. */
+ * call, of fifty instructions or more. */
 /*@ requires 0 < divisor;
   @ requires dividend / divisor <= UINT32_MAX;
   @ assigns \nothing;
