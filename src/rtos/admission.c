@@ -20,44 +20,44 @@ static uint64_t minimum(uint64_t a, uint64_t b)
     return (a < b) ? a : b;
 }
 
-/*@ requires \valid_read(config) && period_valid(config->period_us);
+/*@ requires period_valid(period_us);
   @ assigns \nothing;
-  @ ensures \result == utilisation(config);
+  @ ensures \result == utilisation(period_us, budget_us);
   @*/
-static uint64_t utilisation_of(const keel_task_config_t *config)
+static uint64_t utilisation_of(uint32_t period_us, uint32_t budget_us)
 {
-    const uint64_t scaled = (uint64_t)config->budget_us * KEEL_UTILISATION_FULL_PPM;
+    const uint64_t scaled = (uint64_t)budget_us * KEEL_UTILISATION_FULL_PPM;
 
-    return (scaled + (config->period_us - 1u)) / config->period_us;
+    return (scaled + (period_us - 1u)) / period_us;
 }
 
-/*@ requires \valid_read(config);
-  @ assigns \nothing;
-  @ ensures \result == \max(0, config->period_us - config->budget_us);
+/*@ assigns \nothing;
+  @ ensures \result == \max(0, period_us - budget_us);
   @*/
-static uint64_t gap_of(const keel_task_config_t *config)
+static uint64_t gap_of(uint32_t period_us, uint32_t budget_us)
 {
-    return (config->budget_us < config->period_us) ? (config->period_us - config->budget_us) : 0u;
+    return (budget_us < period_us) ? (period_us - budget_us) : 0u;
 }
 
-keel_status_t keel_admission_admit(keel_admission_t *admission, const keel_task_config_t *config)
+keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priority,
+                                   uint32_t period_us, uint32_t budget_us)
 {
-    const uint64_t utilisation = admission->utilisation + utilisation_of(config);
+    const uint64_t utilisation = admission->utilisation + utilisation_of(period_us, budget_us);
     uint64_t demand_us = admission->realtime_demand_us;
-    uint64_t period_us = admission->shortest_realtime_us;
+    uint64_t shortest_us = admission->shortest_realtime_us;
     uint64_t gap_us = admission->shortest_gap_us;
     uint64_t other_us = admission->longest_other_us;
 
-    if (config->priority == KEEL_PRIORITY_REALTIME) {
-        demand_us += config->budget_us;
-        period_us = minimum(period_us, config->period_us);
-        gap_us = minimum(gap_us, gap_of(config));
-    } else if (config->budget_us > other_us) {
-        other_us = config->budget_us;
+    if (priority == KEEL_PRIORITY_REALTIME) {
+        demand_us += budget_us;
+        shortest_us = minimum(shortest_us, period_us);
+        gap_us = minimum(gap_us, gap_of(period_us, budget_us));
+    } else if (budget_us > other_us) {
+        other_us = budget_us;
     } else {
         /* A longer budget was admitted before: no limit changes. */
     }
-    if ((demand_us > 0u) && ((demand_us + (2u * admission->guard_us)) > period_us)) {
+    if ((demand_us > 0u) && ((demand_us + (2u * admission->guard_us)) > shortest_us)) {
         return KEEL_ERR_REALTIME_DEMAND;
     }
     if ((other_us > 0u) && ((other_us + admission->guard_us) > gap_us)) {
@@ -68,7 +68,7 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, const keel_task_
     }
     admission->utilisation = utilisation;
     admission->realtime_demand_us = demand_us;
-    admission->shortest_realtime_us = period_us;
+    admission->shortest_realtime_us = shortest_us;
     admission->shortest_gap_us = gap_us;
     admission->longest_other_us = other_us;
     admission->tasks++;
@@ -78,26 +78,26 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, const keel_task_
 keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue_t *queue)
 {
     /*@ loop invariant range: 0 <= i <= queue->count;
-      @ loop invariant tasks: admission->tasks == i;
+      @ loop invariant totals: totals_of(*admission, queue, i);
       @ loop invariant valid: admission_valid(*admission);
       @ loop invariant limits: admission->guard_us == \at(admission->guard_us, Pre) &&
       @     admission->utilisation_limit == \at(admission->utilisation_limit, Pre);
-      @ loop invariant demand: admission->realtime_demand_us == realtime_demand(queue, i);
-      @ loop invariant utilisation: admission->utilisation == total_utilisation(queue, i);
       @ loop invariant periods: \forall integer j; 0 <= j < i && j < queue->realtime_count ==>
-      @     admission->shortest_realtime_us <= queue->task[j]->config->period_us;
+      @     admission->shortest_realtime_us <= queue->period_us[queue->order[j]];
       @ loop invariant gaps: \forall integer j; 0 <= j < i && j < queue->realtime_count ==>
-      @     admission->shortest_gap_us <=
-      @         \max(0, queue->task[j]->config->period_us - queue->task[j]->config->budget_us);
+      @     admission->shortest_gap_us <= \max(0,
+      @         queue->period_us[queue->order[j]] - queue->budget_us[queue->order[j]]);
       @ loop invariant others: \forall integer j; queue->realtime_count <= j < i ==>
-      @     admission->longest_other_us >= queue->task[j]->config->budget_us;
+      @     admission->longest_other_us >= queue->budget_us[queue->order[j]];
       @ loop invariant some: 0 < i && 0 < queue->realtime_count ==>
       @     admission->realtime_demand_us > 0;
       @ loop assigns i, *admission;
       @ loop variant queue->count - i;
       @*/
     for (uint32_t i = 0u; i < queue->count; i++) {
-        const keel_status_t status = keel_admission_admit(admission, queue->task[i]->config);
+        const uint32_t slot = queue->order[i];
+        const keel_status_t status = keel_admission_admit(
+            admission, queue->priority[slot], queue->period_us[slot], queue->budget_us[slot]);
 
         if (status != KEEL_OK) {
             return status;
