@@ -283,6 +283,19 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
         return NULL;
     }
     remember(scheduler, realtime_us, choice.earliest_us);
+    /*@ assert same: \forall integer k; 0 <= k < scheduler->queue.count ==>
+      @     left_alone{Pre, Here}(scheduler, k);
+      @*/
+    /*@ assert next: \forall integer k; 0 <= k < scheduler->queue.count ==>
+      @     grid_next(&scheduler->queue, scheduler->queue.order[k], scheduler->clock.now_us) ==
+      @     \at(grid_next(&scheduler->queue, scheduler->queue.order[k],
+      @                   scheduler->clock.now_us), Pre);
+      @*/
+    /*@ assert missed: \forall integer k; 0 <= k < scheduler->queue.count ==>
+      @     grid_missed(&scheduler->queue, scheduler->queue.order[k], scheduler->clock.now_us) ==
+      @     \at(grid_missed(&scheduler->queue, scheduler->queue.order[k],
+      @                     scheduler->clock.now_us), Pre);
+      @*/
     return serve_other(scheduler, choice.position, choice.priority == KEEL_PRIORITY_REALTIME);
 }
 
@@ -327,10 +340,19 @@ static keel_status_t end_run(keel_scheduler_t *scheduler, uint32_t raw_us)
   @ ensures recorded: stats_recorded{Pre, Post}(
   @     &scheduler->queue.stats[scheduler->queue.order[position]], ran_us,
   @     scheduler->queue.budget_us[scheduler->queue.order[position]]);
-  @ ensures others: \forall integer k; 0 <= k < scheduler->queue.count ==> k != position ==>
-  @     stats_same{Pre, Post}(&scheduler->queue.stats[scheduler->queue.order[k]]);
+  @ ensures others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @     x != scheduler->queue.order[position] ==>
+  @     stats_same{Pre, Post}(&scheduler->queue.stats[x]);
   @ ensures releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
   @     scheduler->queue.release_us[x] == \old(scheduler->queue.release_us[x]);
+  @ ensures clock: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @     scheduler->clock.raw_us == \old(scheduler->clock.raw_us);
+  @ ensures pass: scheduler->cursor == \old(scheduler->cursor) &&
+  @     scheduler->pass_end == \old(scheduler->pass_end) &&
+  @     scheduler->wake_us == \old(scheduler->wake_us);
+  @ ensures state: scheduler->stage == \old(scheduler->stage) &&
+  @     scheduler->running == \old(scheduler->running) &&
+  @     scheduler->busy_us == \old(scheduler->busy_us);
   @*/
 static void record_run(keel_scheduler_t *scheduler, uint32_t position, uint32_t ran_us)
 {
@@ -385,6 +407,7 @@ static keel_status_t run_task(keel_scheduler_t *scheduler, const keel_task_confi
     //@ assert awake: scheduler->wake_us == 0;
     //@ calls keel_any_clock;
     raw_us = scheduler->config.read_clock(scheduler->config.clock_context);
+    //@ assert elapsed: 0 <= clock_elapsed(scheduler->clock.raw_us, raw_us);
     return keel_pass_finish(scheduler, raw_us);
 }
 
@@ -413,6 +436,12 @@ keel_status_t keel_pass_run(keel_scheduler_t *scheduler)
     while (scheduler->stage == KEEL_STAGE_PASS) {
         const keel_task_config_t *const task = keel_pass_next(scheduler);
 
+        /*@ assert ahead: scheduler->stage == KEEL_STAGE_REALTIME ==>
+          @     \at(scheduler->cursor, LoopCurrent) < scheduler->cursor;
+          @*/
+        /*@ assert behind: scheduler->stage == KEEL_STAGE_OTHER ==>
+          @     scheduler->cursor == scheduler->pass_end;
+          @*/
         if (task != NULL) {
             status = run_task(scheduler, task);
         }
