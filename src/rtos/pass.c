@@ -443,7 +443,13 @@ keel_status_t keel_pass_run(keel_scheduler_t *scheduler)
           @     scheduler->cursor == scheduler->pass_end;
           @*/
         if (task != NULL) {
+            //@ assert room: uptime_left(scheduler, 1);
             status = run_task(scheduler, task);
+            //@ assert uptime: in_uptime(scheduler);
+            /*@ assert left: scheduler->stage == KEEL_STAGE_PASS ==>
+              @     scheduler->pass_end - scheduler->cursor <
+              @     \at(scheduler->pass_end - scheduler->cursor, LoopCurrent);
+              @*/
         }
     }
     return status;

@@ -54,6 +54,8 @@ uint32_t keel_queue_find(const keel_queue_t *queue, const keel_task_config_t *ta
   @ ensures skipped: queue->skipped[\result] == 0;
   @ ensures stats: stats_fresh(queue->stats[\result]);
   @ ensures order: order_same{Pre, Post}(queue, 0, KEEL_QUEUE_CAPACITY);
+  @ ensures others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != \result ==>
+  @     slot_same{Pre, Post}(queue, x) && counts_same{Pre, Post}(queue, x);
   @*/
 static uint8_t fill_slot(keel_queue_t *queue, const keel_task_config_t *task, uint64_t release_us)
 {
@@ -152,6 +154,8 @@ static uint8_t close_place(keel_queue_t *queue, uint32_t place)
   @ ensures behind: order_down{Pre, Post}(queue,
   @     \old(queue_place(queue, queue->priority[slot])) + 1, queue->count);
   @ ensures free: order_same{Pre, Post}(queue, queue->count, KEEL_QUEUE_CAPACITY);
+  @ ensures others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
+  @     queue->task[x] == \old(queue->task[x]);
   @*/
 static void enqueue(keel_queue_t *queue, uint8_t slot, const keel_task_config_t *task)
 {
@@ -212,6 +216,12 @@ void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_
 
     //@ assert fresh: slot_fresh(queue, slot);
     enqueue(queue, slot, task);
+    /*@ assert others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
+      @     slot_same{Pre, Here}(queue, x);
+      @*/
+    /*@ assert counts: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
+      @     counts_same{Pre, Here}(queue, x);
+      @*/
 }
 
 void keel_queue_remove(keel_queue_t *queue, uint32_t position)

@@ -114,7 +114,7 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @ requires \valid_read(task) && \separated(scheduler, task) && addable(scheduler, task);
   @ assigns scheduler->queue.count, scheduler->queue.realtime_count,
   @     scheduler->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @ assigns QUEUE_SLOT(&scheduler->queue, scheduler->queue.order[scheduler->queue.count]);
+  @ assigns QUEUE_SLOT(&scheduler->queue, 0 .. KEEL_QUEUE_CAPACITY - 1);
   @ assigns scheduler->running, scheduler->wake_us, scheduler->earliest_realtime_us,
   @     scheduler->earliest_other_us;
   @ SCHEDULER_STAYS_VALID(scheduler)
@@ -123,6 +123,10 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @     \old(scheduler->queue.order[scheduler->queue.count]), task);
   @ ensures fresh: slot_fresh(&scheduler->queue,
   @     \old(scheduler->queue.order[scheduler->queue.count]));
+  @ ensures others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @     x != \old(scheduler->queue.order[scheduler->queue.count]) ==>
+  @     slot_same{Pre, Post}(&scheduler->queue, x) &&
+  @     counts_same{Pre, Post}(&scheduler->queue, x);
   @ ensures release:
   @     scheduler->queue.release_us[\old(scheduler->queue.order[scheduler->queue.count])] ==
   @     scheduler->clock.now_us + task->phase_us;
@@ -134,22 +138,15 @@ static void insert(keel_scheduler_t *scheduler, const keel_task_config_t *task)
     const uint16_t place = scheduler->queue.realtime_count;
 
     keel_queue_add(&scheduler->queue, task, scheduler->clock.now_us + task->phase_us);
-    //@ assert slot: \at(scheduler->queue.order[scheduler->queue.count], Pre) < KEEL_QUEUE_CAPACITY;
     //@ assert running: scheduler->running == \at(scheduler->running, Pre);
-    //@ assert cursor: scheduler->cursor == \at(scheduler->cursor, Pre);
-    //@ assert pass_end: scheduler->pass_end == \at(scheduler->pass_end, Pre);
-    //@ assert stage: scheduler->stage == \at(scheduler->stage, Pre);
-    //@ assert wake: scheduler->wake_us == \at(scheduler->wake_us, Pre);
     //@ assert state: scheduler_state(scheduler);
-    /*@ assert release: scheduler->queue.release_us[
-      @     \at(scheduler->queue.order[scheduler->queue.count], Pre)] ==
-      @     scheduler->clock.now_us + task->phase_us;
-      @*/
     if ((task->priority == KEEL_PRIORITY_REALTIME) && (scheduler->running != KEEL_POSITION_NONE) &&
         (scheduler->running >= place)) {
         scheduler->running++;
     }
-    //@ assert fresh: slot_fresh(&scheduler->queue, \at(scheduler->queue.order[scheduler->queue.count], Pre));
+    /*@ assert fresh: slot_fresh(&scheduler->queue,
+      @     \at(scheduler->queue.order[scheduler->queue.count], Pre));
+      @*/
     scheduler->earliest_realtime_us = 0u;
     scheduler->earliest_other_us = 0u;
     scheduler->wake_us = 0u;
