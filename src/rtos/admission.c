@@ -75,22 +75,133 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priorit
     return KEEL_OK;
 }
 
+/* Provers do no induction: that totals only get worse from task to task, and that the rules on the
+ * totals are those on the tasks, is carried by ghost loops. */
+
+/*@ ghost
+/@ requires \valid_read(queue) && 0 < n <= KEEL_QUEUE_CAPACITY;
+ @ assigns \nothing;
+ @ ensures demand: realtime_demand(queue, n) == realtime_demand(queue, n - 1) +
+ @     realtime_budget(queue->priority[queue->order[n - 1]], queue->budget_us[queue->order[n - 1]]);
+ @ ensures period: shortest_realtime(queue, n) == with_period(shortest_realtime(queue, n - 1),
+ @     queue->priority[queue->order[n - 1]], queue->period_us[queue->order[n - 1]]);
+ @ ensures gap: shortest_gap(queue, n) == with_gap(shortest_gap(queue, n - 1),
+ @     queue->priority[queue->order[n - 1]], queue->period_us[queue->order[n - 1]],
+ @     queue->budget_us[queue->order[n - 1]]);
+ @ ensures other: longest_other(queue, n) == with_other(longest_other(queue, n - 1),
+ @     queue->priority[queue->order[n - 1]], queue->budget_us[queue->order[n - 1]]);
+ @ ensures utilisation: total_utilisation(queue, n) == total_utilisation(queue, n - 1) +
+ @     utilisation(queue->period_us[queue->order[n - 1]], queue->budget_us[queue->order[n - 1]]);
+ @/
+static void totals_step(const keel_queue_t *queue, uint32_t n)
+{
+}
+*/
+
+/*@ ghost
+/@ requires \valid_read(queue) && queue_counts(queue) && queue_slots(queue);
+ @ requires queue_periods(queue) && tasks <= queue->count;
+ @ assigns \nothing;
+ @ ensures demand: realtime_demand(queue, tasks) <= realtime_demand(queue, queue->count);
+ @ ensures period: shortest_realtime(queue, queue->count) <= shortest_realtime(queue, tasks);
+ @ ensures gap: shortest_gap(queue, queue->count) <= shortest_gap(queue, tasks);
+ @ ensures other: longest_other(queue, tasks) <= longest_other(queue, queue->count);
+ @ ensures utilisation:
+ @     total_utilisation(queue, tasks) <= total_utilisation(queue, queue->count);
+ @/
+static void totals_worsen(const keel_queue_t *queue, uint32_t tasks)
+{
+    /@ loop invariant range: tasks <= n <= queue->count;
+     @ loop invariant demand: realtime_demand(queue, tasks) <= realtime_demand(queue, n);
+     @ loop invariant period: shortest_realtime(queue, n) <= shortest_realtime(queue, tasks);
+     @ loop invariant gap: shortest_gap(queue, n) <= shortest_gap(queue, tasks);
+     @ loop invariant other: longest_other(queue, tasks) <= longest_other(queue, n);
+     @ loop invariant utilisation:
+     @     total_utilisation(queue, tasks) <= total_utilisation(queue, n);
+     @ loop assigns n;
+     @ loop variant queue->count - n;
+     @/
+    for (uint32_t n = tasks; n < queue->count; n++) {
+        totals_step(queue, n + 1u);
+    }
+}
+*/
+
+/*@ ghost
+/@ requires \valid_read(queue) && queue_counts(queue) && queue_slots(queue);
+ @ requires queue_realtime_first(queue) && queue_others_last(queue);
+ @ requires queue_periods(queue) && queue_budgets(queue);
+ @ assigns \nothing;
+ @ ensures told: demand_holds(queue, queue->count, guard_us) <==>
+ @     demand_admitted(queue, guard_us);
+ @/
+static void demand_is_told(const keel_queue_t *queue, uint64_t guard_us)
+{
+    /@ loop invariant range: 0 <= n <= queue->count;
+     @ loop invariant some: 0 < n && 0 < queue->realtime_count ==> 0 < realtime_demand(queue, n);
+     @ loop invariant none: shortest_realtime(queue, n) == UINT64_MAX ==>
+     @     realtime_demand(queue, n) == 0;
+     @ loop invariant positive: 0 <= realtime_demand(queue, n);
+     @ loop invariant periods: \forall integer i; 0 <= i < n && i < queue->realtime_count ==>
+     @     shortest_realtime(queue, n) <= queue->period_us[queue->order[i]];
+     @ loop invariant shortest: demand_admitted(queue, guard_us) ==>
+     @     shortest_realtime(queue, n) == UINT64_MAX ||
+     @     realtime_demand(queue, queue->count) + 2 * guard_us <= shortest_realtime(queue, n);
+     @ loop assigns n;
+     @ loop variant queue->count - n;
+     @/
+    for (uint32_t n = 0u; n < queue->count; n++) {
+        totals_step(queue, n + 1u);
+    }
+}
+*/
+
+/*@ ghost
+/@ requires \valid_read(queue) && queue_counts(queue) && queue_slots(queue);
+ @ requires queue_realtime_first(queue) && queue_others_last(queue);
+ @ requires queue_periods(queue) && queue_budgets(queue);
+ @ requires guard_us < KEEL_PERIOD_LIMIT_US;
+ @ assigns \nothing;
+ @ ensures told: gap_holds(queue, queue->count, guard_us) <==> gaps_admitted(queue, guard_us);
+ @/
+static void gaps_are_told(const keel_queue_t *queue, uint64_t guard_us)
+{
+    /@ loop invariant range: 0 <= n <= queue->count;
+     @ loop invariant none: n <= queue->realtime_count ==> longest_other(queue, n) == 0;
+     @ loop invariant bound: 0 <= longest_other(queue, n) <= UINT32_MAX;
+     @ loop invariant gaps: \forall integer i; 0 <= i < n && i < queue->realtime_count ==>
+     @     shortest_gap(queue, n) <=
+     @         \max(0, queue->period_us[queue->order[i]] - queue->budget_us[queue->order[i]]);
+     @ loop invariant others: \forall integer i; queue->realtime_count <= i < n ==>
+     @     queue->budget_us[queue->order[i]] <= longest_other(queue, n);
+     @ loop invariant shortest: gaps_admitted(queue, guard_us) ==>
+     @     shortest_gap(queue, n) == UINT64_MAX ||
+     @     \forall integer i; queue->realtime_count <= i < queue->count ==>
+     @         queue->budget_us[queue->order[i]] + guard_us <= shortest_gap(queue, n);
+     @ loop invariant rule: gaps_admitted(queue, guard_us) ==> gap_holds(queue, n, guard_us);
+     @ loop assigns n;
+     @ loop variant queue->count - n;
+     @/
+    for (uint32_t n = 0u; n < queue->count; n++) {
+        totals_step(queue, n + 1u);
+    }
+}
+*/
+
 keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue_t *queue)
 {
+    //@ ghost demand_is_told(queue, admission->guard_us);
+    //@ ghost gaps_are_told(queue, admission->guard_us);
     /*@ loop invariant range: 0 <= i <= queue->count;
-      @ loop invariant totals: totals_of(*admission, queue, i);
+      @ loop invariant tasks: admission->tasks == i;
+      @ loop invariant demand: admission->realtime_demand_us == realtime_demand(queue, i);
+      @ loop invariant utilisation: admission->utilisation == total_utilisation(queue, i);
+      @ loop invariant period: admission->shortest_realtime_us == shortest_realtime(queue, i);
+      @ loop invariant gap: admission->shortest_gap_us == shortest_gap(queue, i);
+      @ loop invariant other: admission->longest_other_us == longest_other(queue, i);
       @ loop invariant valid: admission_valid(*admission);
       @ loop invariant limits: admission->guard_us == \at(admission->guard_us, Pre) &&
       @     admission->utilisation_limit == \at(admission->utilisation_limit, Pre);
-      @ loop invariant periods: \forall integer j; 0 <= j < i && j < queue->realtime_count ==>
-      @     admission->shortest_realtime_us <= queue->period_us[queue->order[j]];
-      @ loop invariant gaps: \forall integer j; 0 <= j < i && j < queue->realtime_count ==>
-      @     admission->shortest_gap_us <= \max(0,
-      @         queue->period_us[queue->order[j]] - queue->budget_us[queue->order[j]]);
-      @ loop invariant others: \forall integer j; queue->realtime_count <= j < i ==>
-      @     admission->longest_other_us >= queue->budget_us[queue->order[j]];
-      @ loop invariant some: 0 < i && 0 < queue->realtime_count ==>
-      @     admission->realtime_demand_us > 0;
       @ loop assigns i, *admission;
       @ loop variant queue->count - i;
       @*/
@@ -100,6 +211,7 @@ keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue
             admission, queue->priority[slot], queue->period_us[slot], queue->budget_us[slot]);
 
         if (status != KEEL_OK) {
+            //@ ghost totals_worsen(queue, i + 1u);
             return status;
         }
     }
