@@ -17,8 +17,8 @@
 
 typedef struct actor {
     keel_task_config_t config; /* Its address is the task. */
-    uint32_t cost_us;  /* How long it runs. */
-    void (*act)(void); /* What it does halfway, or null. */
+    uint32_t cost_us;          /* How long it runs. */
+    void (*act)(void);         /* What it does halfway, or null. */
     char name;
 } actor_t;
 
@@ -108,16 +108,16 @@ static inline void board_init(uint32_t guard_us)
 }
 
 /* The checks below name the line of the test that made them, not their own. */
-#define add(actor)      succeeds(keel_scheduler_add(&scheduler, &(actor)->config), __LINE__)
-#define discard(actor)  succeeds(keel_scheduler_remove(&scheduler, &(actor)->config), __LINE__)
-#define start()         succeeds(keel_scheduler_start(&scheduler), __LINE__)
-#define step()          succeeds(keel_scheduler_step(&scheduler), __LINE__)
-#define step_at(now)    succeeds(step_when(now), __LINE__)
-#define report(actor)   report_at(actor, __LINE__)
-#define unknown(actor)  unknown_at(actor, __LINE__)
-#define took(actor, n)  took_at(actor, n, __LINE__)
-#define ran(names)      ran_at(names, __LINE__)
-#define unchanged()     unchanged_at(__LINE__)
+#define add(actor)     succeeds(keel_scheduler_add(&scheduler, &(actor)->config), __LINE__)
+#define discard(actor) succeeds(keel_scheduler_remove(&scheduler, &(actor)->config), __LINE__)
+#define start()        succeeds(keel_scheduler_start(&scheduler), __LINE__)
+#define step()         succeeds(keel_scheduler_step(&scheduler), __LINE__)
+#define step_at(now)   succeeds(step_when(now), __LINE__)
+#define report(actor)  report_at(actor, __LINE__)
+#define unknown(actor) unknown_at(actor, __LINE__)
+#define took(actor, n) took_at(actor, n, __LINE__)
+#define ran(names)     ran_at(names, __LINE__)
+#define unchanged()    unchanged_at(__LINE__)
 
 static inline void succeeds(keel_status_t status, int line)
 {

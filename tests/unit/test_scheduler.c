@@ -138,8 +138,8 @@ static void SCH_004_a_task_added_again_begins_anew(void)
     board_init(0u);
     add(&p);
     start();
-    p.cost_us = 61u;    /* An overrun. */
-    step_at(100000u);   /* Promoted, 50 periods late. */
+    p.cost_us = 61u;  /* An overrun. */
+    step_at(100000u); /* Promoted, 50 periods late. */
     ran("P");
     TEST_ASSERT_EQUAL_UINT16(50u, report(&p).skipped);
     discard(&p);
@@ -325,11 +325,11 @@ static void starts_up_to(void (*set_up)(void), actor_t *actor, claim_t good, cla
     start();
 }
 
-static const claim_t demand[2] = {{1000u, 970u}, {1000u, 971u}}; /* 10 + 970 + 2 * 10 = 1000 */
-static const claim_t short_period[2] = {{60u, 30u}, {59u, 30u}}; /* 10 + 30 + 2 * 10 = 60 */
+static const claim_t demand[2] = {{1000u, 970u}, {1000u, 971u}};  /* 10 + 970 + 2 * 10 = 1000 */
+static const claim_t short_period[2] = {{60u, 30u}, {59u, 30u}};  /* 10 + 30 + 2 * 10 = 60 */
 static const claim_t gap[2] = {{100000u, 980u}, {100000u, 981u}}; /* 980 + 10 = 990 */
-static const claim_t gap_left[2] = {{100u, 30u}, {100u, 31u}}; /* 60 + 10 = 100 - 30 */
-static const claim_t tenth[2] = {{2000u, 180u}, {2000u, 181u}}; /* 1 % + 9 % */
+static const claim_t gap_left[2] = {{100u, 30u}, {100u, 31u}};    /* 60 + 10 = 100 - 30 */
+static const claim_t tenth[2] = {{2000u, 180u}, {2000u, 181u}};   /* 1 % + 9 % */
 static const claim_t tenth_of[2] = {{2000u, 180u}, {1999u, 180u}};
 
 static void SCH_004_add_after_the_start_accepts_all_that_can_be_scheduled(void)
@@ -404,8 +404,7 @@ static void SCH_008_remove_refuses_null_and_strangers(void)
     remember();
     TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_remove(NULL, &a.config));
     TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_remove(&scheduler, NULL));
-    TEST_ASSERT_EQUAL(KEEL_ERR_UNKNOWN_TASK,
-                      keel_scheduler_remove(&scheduler, &b.config));
+    TEST_ASSERT_EQUAL(KEEL_ERR_UNKNOWN_TASK, keel_scheduler_remove(&scheduler, &b.config));
     unchanged();
 }
 
