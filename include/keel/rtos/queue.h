@@ -113,7 +113,7 @@ typedef struct keel_queue {
   @ predicate counts_same{L, M}(keel_queue_t *q, integer x) =
   @     \at(q->skipped[x], M) == \at(q->skipped[x], L) &&
   @     \at(q->stats[x].promotions, M) == \at(q->stats[x].promotions, L) &&
-  @     stats_same{L, M}(&q->stats[x]);
+  @     stats_same{L, M}(\at(&q->stats[x], L));
   @
   @ // The whole periods that a task in slot x has missed, and the point of its grid behind now.
   @ logic integer grid_missed(keel_queue_t *q, integer x, integer now_us) =
