@@ -55,7 +55,9 @@ uint32_t keel_queue_find(const keel_queue_t *queue, const keel_task_config_t *ta
   @ ensures stats: stats_fresh(queue->stats[\result]);
   @ ensures order: order_same{Pre, Post}(queue, 0, KEEL_QUEUE_CAPACITY);
   @ ensures others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != \result ==>
-  @     slot_same{Pre, Post}(queue, x) && counts_same{Pre, Post}(queue, x);
+  @     slot_same{Pre, Post}(queue, x);
+  @ ensures counts: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != \result ==>
+  @     counts_same{Pre, Post}(queue, x);
   @*/
 static uint8_t fill_slot(keel_queue_t *queue, const keel_task_config_t *task, uint64_t release_us)
 {
@@ -74,6 +76,15 @@ static uint8_t fill_slot(keel_queue_t *queue, const keel_task_config_t *task, ui
     queue->stats[slot].overruns = 0u;
     queue->stats[slot].promotions = 0u;
     //@ assert order: order_same{Pre, Here}(queue, 0, KEEL_QUEUE_CAPACITY);
+    /*@ assert releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
+      @     queue->release_us[x] == \at(queue->release_us[x], Pre);
+      @*/
+    /*@ assert periods: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
+      @     queue->period_us[x] == \at(queue->period_us[x], Pre);
+      @*/
+    /*@ assert budgets: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
+      @     queue->budget_us[x] == \at(queue->budget_us[x], Pre);
+      @*/
     return slot;
 }
 
@@ -216,11 +227,8 @@ void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_
 
     //@ assert fresh: slot_fresh(queue, slot);
     enqueue(queue, slot, task);
-    /*@ assert others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
-      @     slot_same{Pre, Here}(queue, x);
-      @*/
-    /*@ assert counts: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
-      @     counts_same{Pre, Here}(queue, x);
+    /*@ assert priorities: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
+      @     queue->priority[x] == \at(queue->priority[x], Pre);
       @*/
 }
 

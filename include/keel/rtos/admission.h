@@ -216,6 +216,15 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priorit
   @     demand_holds(q, n, guard_us) && gap_holds(q, n, guard_us) &&
   @     utilisation_holds(q, n, limit);
   @
+  @ // Why the first n tasks are refused: the first rule that they break.
+  @ predicate set_refused(keel_queue_t *q, integer n, integer guard_us, integer limit,
+  @                       integer status) =
+  @     (status == KEEL_ERR_REALTIME_DEMAND && !demand_holds(q, n, guard_us)) ||
+  @     (status == KEEL_ERR_BUDGET_GAP && demand_holds(q, n, guard_us) &&
+  @      !gap_holds(q, n, guard_us)) ||
+  @     (status == KEEL_ERR_UTILISATION && demand_holds(q, n, guard_us) &&
+  @      gap_holds(q, n, guard_us) && !utilisation_holds(q, n, limit));
+  @
   @ // The rules for all tasks of a queue and one more.
   @ predicate demand_holds_with(keel_queue_t *q, integer priority, integer period_us,
   @                             integer budget_us, integer guard_us) =
@@ -264,18 +273,8 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priorit
   @ ensures ADM_004_range: admission->tasks <= queue->count;
   @ ensures ADM_004_totals: totals_of(*admission, queue, admission->tasks);
   @ ensures ADM_004_all: \result == KEEL_OK <==> admission->tasks == queue->count;
-  @ ensures ADM_004_offender_demand: \result == KEEL_ERR_REALTIME_DEMAND <==>
-  @     admission->tasks < queue->count &&
-  @     !demand_holds(queue, admission->tasks + 1, admission->guard_us);
-  @ ensures ADM_004_offender_gap: \result == KEEL_ERR_BUDGET_GAP <==>
-  @     admission->tasks < queue->count &&
-  @     demand_holds(queue, admission->tasks + 1, admission->guard_us) &&
-  @     !gap_holds(queue, admission->tasks + 1, admission->guard_us);
-  @ ensures ADM_004_offender_utilisation: \result == KEEL_ERR_UTILISATION <==>
-  @     admission->tasks < queue->count &&
-  @     demand_holds(queue, admission->tasks + 1, admission->guard_us) &&
-  @     gap_holds(queue, admission->tasks + 1, admission->guard_us) &&
-  @     !utilisation_holds(queue, admission->tasks + 1, admission->utilisation_limit);
+  @ ensures ADM_004_offender: \result != KEEL_OK ==> set_refused(queue, admission->tasks + 1,
+  @     admission->guard_us, admission->utilisation_limit, \result);
   @ ensures ADM_004_complete: \result == KEEL_OK <==> set_holds(queue, queue->count,
   @     admission->guard_us, admission->utilisation_limit);
   @ ensures ADM_004_told: \result == KEEL_OK <==>

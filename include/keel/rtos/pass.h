@@ -129,8 +129,8 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
     }
     scheduler->wake_us = 0u;
     scheduler->stage = KEEL_STAGE_PASS;
-    scheduler->cursor = 0u;
-    scheduler->pass_end = scheduler->queue.realtime_count;
+    scheduler->cursor = 0;
+    scheduler->pass_end = (int16_t)scheduler->queue.realtime_count;
     return KEEL_OK;
 }
 

@@ -222,8 +222,9 @@ uint32_t keel_queue_find(const keel_queue_t *queue, const keel_task_config_t *ta
   @ ensures QUE_003_copied: slot_copied(queue, \old(queue->order[queue->count]), task);
   @ ensures QUE_003_fresh: slot_fresh(queue, \old(queue->order[queue->count]));
   @ ensures QUE_003_others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
-  @     x != \old(queue->order[queue->count]) ==>
-  @     slot_same{Pre, Post}(queue, x) && counts_same{Pre, Post}(queue, x);
+  @     x != \old(queue->order[queue->count]) ==> slot_same{Pre, Post}(queue, x);
+  @ ensures QUE_003_counts: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @     x != \old(queue->order[queue->count]) ==> counts_same{Pre, Post}(queue, x);
   @ ensures QUE_003_release: queue->release_us[\old(queue->order[queue->count])] == release_us;
   @*/
 void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_t release_us);
