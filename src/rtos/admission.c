@@ -100,16 +100,13 @@ static void totals_step(const keel_queue_t *queue, uint32_t n)
 
 /*@ ghost
 /@ requires \valid_read(queue) && queue_counts(queue) && queue_slots(queue);
- @ requires queue_periods(queue) && tasks <= queue->count;
+ @ requires queue_periods(queue) && 0 < tasks <= queue->count;
  @ assigns \nothing;
- @ ensures demand: realtime_demand(queue, tasks) <= realtime_demand(queue, queue->count);
- @ ensures period: shortest_realtime(queue, queue->count) <= shortest_realtime(queue, tasks);
- @ ensures gap: shortest_gap(queue, queue->count) <= shortest_gap(queue, tasks);
- @ ensures other: longest_other(queue, tasks) <= longest_other(queue, queue->count);
- @ ensures utilisation:
- @     total_utilisation(queue, tasks) <= total_utilisation(queue, queue->count);
+ @ ensures broken: !set_holds(queue, tasks, guard_us, limit) ==>
+ @     !set_holds(queue, queue->count, guard_us, limit);
  @/
-static void totals_worsen(const keel_queue_t *queue, uint32_t tasks)
+static void totals_worsen(const keel_queue_t *queue, uint32_t tasks, uint64_t guard_us,
+                          uint64_t limit)
 {
     /@ loop invariant range: tasks <= n <= queue->count;
      @ loop invariant demand: realtime_demand(queue, tasks) <= realtime_demand(queue, n);
@@ -188,17 +185,46 @@ static void gaps_are_told(const keel_queue_t *queue, uint64_t guard_us)
 }
 */
 
+/* Admits the task at a position, to the totals of those before it. */
+/*@ requires \valid(admission) && \valid_read(queue) && \separated(admission, queue);
+  @ requires position < KEEL_QUEUE_CAPACITY && queue->order[position] < KEEL_QUEUE_CAPACITY;
+  @ requires period_valid(queue->period_us[queue->order[position]]);
+  @ requires 0 < queue->budget_us[queue->order[position]];
+  @ requires admission_valid(*admission) && totals_of(*admission, queue, position);
+  @ assigns *admission;
+  @ ensures valid: admission_valid(*admission);
+  @ ensures limits: admission->guard_us == \old(admission->guard_us) &&
+  @     admission->utilisation_limit == \old(admission->utilisation_limit);
+  @ ensures admitted: \result == KEEL_OK ==> totals_of(*admission, queue, position + 1);
+  @ ensures refused: \result != KEEL_OK ==> totals_of(*admission, queue, position);
+  @ ensures demand: \result == KEEL_ERR_REALTIME_DEMAND <==>
+  @     !demand_holds(queue, position + 1, admission->guard_us);
+  @ ensures gap: \result == KEEL_ERR_BUDGET_GAP <==>
+  @     demand_holds(queue, position + 1, admission->guard_us) &&
+  @     !gap_holds(queue, position + 1, admission->guard_us);
+  @ ensures utilisation: \result == KEEL_ERR_UTILISATION <==>
+  @     demand_holds(queue, position + 1, admission->guard_us) &&
+  @     gap_holds(queue, position + 1, admission->guard_us) &&
+  @     !utilisation_holds(queue, position + 1, admission->utilisation_limit);
+  @ ensures ok: \result == KEEL_OK <==> set_holds(queue, position + 1, admission->guard_us,
+  @     admission->utilisation_limit);
+  @*/
+static keel_status_t admit_at(keel_admission_t *admission, const keel_queue_t *queue,
+                              uint32_t position)
+{
+    const uint32_t slot = queue->order[position];
+
+    //@ ghost totals_step(queue, position + 1u);
+    return keel_admission_admit(admission, queue->priority[slot], queue->period_us[slot],
+                                queue->budget_us[slot]);
+}
+
 keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue_t *queue)
 {
     //@ ghost demand_is_told(queue, admission->guard_us);
     //@ ghost gaps_are_told(queue, admission->guard_us);
     /*@ loop invariant range: 0 <= i <= queue->count;
-      @ loop invariant tasks: admission->tasks == i;
-      @ loop invariant demand: admission->realtime_demand_us == realtime_demand(queue, i);
-      @ loop invariant utilisation: admission->utilisation == total_utilisation(queue, i);
-      @ loop invariant period: admission->shortest_realtime_us == shortest_realtime(queue, i);
-      @ loop invariant gap: admission->shortest_gap_us == shortest_gap(queue, i);
-      @ loop invariant other: admission->longest_other_us == longest_other(queue, i);
+      @ loop invariant totals: totals_of(*admission, queue, i);
       @ loop invariant valid: admission_valid(*admission);
       @ loop invariant limits: admission->guard_us == \at(admission->guard_us, Pre) &&
       @     admission->utilisation_limit == \at(admission->utilisation_limit, Pre);
@@ -206,14 +232,16 @@ keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue
       @ loop variant queue->count - i;
       @*/
     for (uint32_t i = 0u; i < queue->count; i++) {
-        const uint32_t slot = queue->order[i];
-        const keel_status_t status = keel_admission_admit(
-            admission, queue->priority[slot], queue->period_us[slot], queue->budget_us[slot]);
+        const keel_status_t status = admit_at(admission, queue, i);
 
         if (status != KEEL_OK) {
-            //@ ghost totals_worsen(queue, i + 1u);
+            //@ ghost totals_worsen(queue, i + 1u, admission->guard_us, admission->utilisation_limit);
+            /*@ assert broken: admission->tasks == i && !set_holds(queue, queue->count,
+              @     admission->guard_us, admission->utilisation_limit); */
             return status;
         }
     }
+    /*@ assert kept: admission->tasks == queue->count && set_holds(queue, queue->count,
+      @     admission->guard_us, admission->utilisation_limit); */
     return KEEL_OK;
 }
