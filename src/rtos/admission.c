@@ -100,13 +100,16 @@ static void totals_step(const keel_queue_t *queue, uint32_t n)
 
 /*@ ghost
 /@ requires \valid_read(queue) && queue_counts(queue) && queue_slots(queue);
- @ requires queue_periods(queue) && 0 < tasks <= queue->count;
+ @ requires queue_periods(queue) && tasks <= queue->count;
  @ assigns \nothing;
- @ ensures broken: !set_holds(queue, tasks, guard_us, limit) ==>
- @     !set_holds(queue, queue->count, guard_us, limit);
+ @ ensures demand: realtime_demand(queue, tasks) <= realtime_demand(queue, queue->count);
+ @ ensures period: shortest_realtime(queue, queue->count) <= shortest_realtime(queue, tasks);
+ @ ensures gap: shortest_gap(queue, queue->count) <= shortest_gap(queue, tasks);
+ @ ensures other: longest_other(queue, tasks) <= longest_other(queue, queue->count);
+ @ ensures utilisation:
+ @     total_utilisation(queue, tasks) <= total_utilisation(queue, queue->count);
  @/
-static void totals_worsen(const keel_queue_t *queue, uint32_t tasks, uint64_t guard_us,
-                          uint64_t limit)
+static void totals_worsen(const keel_queue_t *queue, uint32_t tasks)
 {
     /@ loop invariant range: tasks <= n <= queue->count;
      @ loop invariant demand: realtime_demand(queue, tasks) <= realtime_demand(queue, n);
@@ -121,6 +124,24 @@ static void totals_worsen(const keel_queue_t *queue, uint32_t tasks, uint64_t gu
     for (uint32_t n = tasks; n < queue->count; n++) {
         totals_step(queue, n + 1u);
     }
+}
+*/
+
+/*@ ghost
+/@ requires \valid_read(queue) && queue_counts(queue) && queue_slots(queue);
+ @ requires queue_periods(queue) && tasks <= queue->count;
+ @ requires 0 <= realtime_demand(queue, tasks) && 0 <= longest_other(queue, tasks);
+ @ assigns \nothing;
+ @ ensures demand: demand_holds(queue, queue->count, guard_us) ==>
+ @     demand_holds(queue, tasks, guard_us);
+ @ ensures gap: gap_holds(queue, queue->count, guard_us) ==> gap_holds(queue, tasks, guard_us);
+ @ ensures utilisation: utilisation_holds(queue, queue->count, limit) ==>
+ @     utilisation_holds(queue, tasks, limit);
+ @/
+static void rules_stay_broken(const keel_queue_t *queue, uint32_t tasks, uint64_t guard_us,
+                              uint64_t limit)
+{
+    totals_worsen(queue, tasks);
 }
 */
 
@@ -197,15 +218,10 @@ static void gaps_are_told(const keel_queue_t *queue, uint64_t guard_us)
   @     admission->utilisation_limit == \old(admission->utilisation_limit);
   @ ensures admitted: \result == KEEL_OK ==> totals_of(*admission, queue, position + 1);
   @ ensures refused: \result != KEEL_OK ==> totals_of(*admission, queue, position);
-  @ ensures demand: \result == KEEL_ERR_REALTIME_DEMAND <==>
-  @     !demand_holds(queue, position + 1, admission->guard_us);
-  @ ensures gap: \result == KEEL_ERR_BUDGET_GAP <==>
-  @     demand_holds(queue, position + 1, admission->guard_us) &&
-  @     !gap_holds(queue, position + 1, admission->guard_us);
-  @ ensures utilisation: \result == KEEL_ERR_UTILISATION <==>
-  @     demand_holds(queue, position + 1, admission->guard_us) &&
-  @     gap_holds(queue, position + 1, admission->guard_us) &&
-  @     !utilisation_holds(queue, position + 1, admission->utilisation_limit);
+  @ ensures rule: \result != KEEL_OK ==> set_refused(queue, position + 1,
+  @     admission->guard_us, admission->utilisation_limit, \result);
+  @ ensures positive: 0 <= realtime_demand(queue, position + 1) &&
+  @     0 <= longest_other(queue, position + 1);
   @ ensures ok: \result == KEEL_OK <==> set_holds(queue, position + 1, admission->guard_us,
   @     admission->utilisation_limit);
   @*/
@@ -235,13 +251,18 @@ keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue
         const keel_status_t status = admit_at(admission, queue, i);
 
         if (status != KEEL_OK) {
-            //@ ghost totals_worsen(queue, i + 1u, admission->guard_us, admission->utilisation_limit);
-            /*@ assert broken: admission->tasks == i && !set_holds(queue, queue->count,
-              @     admission->guard_us, admission->utilisation_limit); */
+            //@ assert tasks: admission->tasks == i;
+            //@ ghost uint64_t guard_us = admission->guard_us;
+            //@ ghost uint64_t limit = admission->utilisation_limit;
+            //@ ghost rules_stay_broken(queue, i + 1u, guard_us, limit);
+            /*@ assert broken: !set_holds(queue, queue->count, admission->guard_us,
+              @     admission->utilisation_limit);
+              @*/
             return status;
         }
     }
-    /*@ assert kept: admission->tasks == queue->count && set_holds(queue, queue->count,
-      @     admission->guard_us, admission->utilisation_limit); */
+    /*@ assert kept: set_holds(queue, queue->count, admission->guard_us,
+      @     admission->utilisation_limit);
+      @*/
     return KEEL_OK;
 }

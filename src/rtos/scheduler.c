@@ -100,7 +100,7 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @ requires \valid_read(task) && \separated(scheduler, task) && addable(scheduler, task);
   @ assigns scheduler->queue.count, scheduler->queue.realtime_count,
   @     scheduler->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @ assigns QUEUE_SLOT(&scheduler->queue, 0 .. KEEL_QUEUE_CAPACITY - 1);
+  @ assigns QUEUE_SLOT(&scheduler->queue, scheduler->queue.order[scheduler->queue.count]);
   @ assigns scheduler->running, scheduler->wake_us, scheduler->earliest_realtime_us,
   @     scheduler->earliest_other_us;
   @ SCHEDULER_STAYS_VALID(scheduler)
@@ -109,12 +109,6 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @     \old(scheduler->queue.order[scheduler->queue.count]), task);
   @ ensures fresh: slot_fresh(&scheduler->queue,
   @     \old(scheduler->queue.order[scheduler->queue.count]));
-  @ ensures others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
-  @     x != \old(scheduler->queue.order[scheduler->queue.count]) ==>
-  @     slot_same{Pre, Post}(&scheduler->queue, x);
-  @ ensures counts: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
-  @     x != \old(scheduler->queue.order[scheduler->queue.count]) ==>
-  @     counts_same{Pre, Post}(&scheduler->queue, x);
   @ ensures release:
   @     scheduler->queue.release_us[\old(scheduler->queue.order[scheduler->queue.count])] ==
   @     scheduler->clock.now_us + task->phase_us;
@@ -126,6 +120,13 @@ static void insert(keel_scheduler_t *scheduler, const keel_task_config_t *task)
     const int16_t place = (int16_t)scheduler->queue.realtime_count;
 
     keel_queue_add(&scheduler->queue, task, scheduler->clock.now_us + task->phase_us);
+    /*@ assert slot: 0 <= \at(scheduler->queue.order[scheduler->queue.count], Pre) <
+      @     KEEL_QUEUE_CAPACITY;
+      @*/
+    //@ assert guard: scheduler->config.guard_us == \at(scheduler->config.guard_us, Pre);
+    /*@ assert limit: scheduler->config.utilisation_limit ==
+      @     \at(scheduler->config.utilisation_limit, Pre);
+      @*/
     if ((task->priority == KEEL_PRIORITY_REALTIME) && (scheduler->running >= place)) {
         scheduler->running++;
     }

@@ -128,6 +128,12 @@ void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
   @ ensures ADM_002_valid: admission_valid(*admission);
   @ ensures ADM_002_limits: admission->guard_us == \old(admission->guard_us) &&
   @     admission->utilisation_limit == \old(admission->utilisation_limit);
+  @ ensures ADM_002_kept: \result != KEEL_OK ==> admission->tasks == \old(admission->tasks) &&
+  @     admission->utilisation == \old(admission->utilisation) &&
+  @     admission->realtime_demand_us == \old(admission->realtime_demand_us) &&
+  @     admission->shortest_realtime_us == \old(admission->shortest_realtime_us) &&
+  @     admission->shortest_gap_us == \old(admission->shortest_gap_us) &&
+  @     admission->longest_other_us == \old(admission->longest_other_us);
   @ behavior demand:
   @   assumes !demand_fits(*admission, priority, period_us, budget_us);
   @   assigns \nothing;

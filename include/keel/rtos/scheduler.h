@@ -114,7 +114,7 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @ requires scheduler != \null && task != \null ==> \separated(scheduler, task);
   @ assigns scheduler->queue.count, scheduler->queue.realtime_count,
   @     scheduler->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @ assigns QUEUE_SLOT(&scheduler->queue, 0 .. KEEL_QUEUE_CAPACITY - 1);
+  @ assigns QUEUE_SLOT(&scheduler->queue, scheduler->queue.order[scheduler->queue.count]);
   @ assigns scheduler->running, scheduler->wake_us, scheduler->earliest_realtime_us,
   @     scheduler->earliest_other_us;
   @ behavior null:
@@ -153,12 +153,6 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @       \old(scheduler->queue.order[scheduler->queue.count]), task);
   @   ensures SCH_004_fresh: slot_fresh(&scheduler->queue,
   @       \old(scheduler->queue.order[scheduler->queue.count]));
-  @   ensures SCH_004_others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
-  @       x != \old(scheduler->queue.order[scheduler->queue.count]) ==>
-  @       slot_same{Pre, Post}(&scheduler->queue, x);
-  @   ensures SCH_004_counts: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
-  @       x != \old(scheduler->queue.order[scheduler->queue.count]) ==>
-  @       counts_same{Pre, Post}(&scheduler->queue, x);
   @   ensures SCH_004_release:
   @       scheduler->queue.release_us[\old(scheduler->queue.order[scheduler->queue.count])] ==
   @       scheduler->clock.now_us + task->phase_us;
