@@ -218,6 +218,7 @@ static void gaps_are_told(const keel_queue_t *queue, uint64_t guard_us)
   @     admission->utilisation_limit == \old(admission->utilisation_limit);
   @ ensures admitted: \result == KEEL_OK ==> totals_of(*admission, queue, position + 1);
   @ ensures refused: \result != KEEL_OK ==> totals_of(*admission, queue, position);
+  @ ensures tasks: \result != KEEL_OK ==> admission->tasks == position;
   @ ensures rule: \result != KEEL_OK ==> set_refused(queue, position + 1,
   @     admission->guard_us, admission->utilisation_limit, \result);
   @ ensures positive: 0 <= realtime_demand(queue, position + 1) &&

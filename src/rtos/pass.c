@@ -266,6 +266,7 @@ static void close_pass(keel_scheduler_t *scheduler, uint64_t realtime_us, uint64
 const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
 {
     uint64_t realtime_us;
+    const keel_task_config_t *task;
     keel_choice_t choice;
     uint32_t position;
 
@@ -296,7 +297,11 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
       @     \at(grid_missed(&scheduler->queue, scheduler->queue.order[k],
       @                     scheduler->clock.now_us), Pre);
       @*/
-    return serve_other(scheduler, choice.position, choice.priority == KEEL_PRIORITY_REALTIME);
+    task = serve_other(scheduler, choice.position, choice.priority == KEEL_PRIORITY_REALTIME);
+    /*@ assert others: \forall integer k; 0 <= k < scheduler->queue.count ==>
+      @     k != scheduler->running ==> left_alone{Pre, Here}(scheduler, k);
+      @*/
+    return task;
 }
 
 /* Ends the run of a task: takes the time and counts it as busy; the pass goes on after a real-time
@@ -371,6 +376,9 @@ keel_status_t keel_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us)
         return KEEL_ERR_STATE;
     }
     status = end_run(scheduler, raw_us);
+    /*@ assert unrecorded: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+      @     stats_same{Pre, Here}(&scheduler->queue.stats[x]);
+      @*/
     if ((status == KEEL_OK) && (position != KEEL_POSITION_NONE)) {
         const uint32_t ran_us = (uint32_t)(scheduler->clock.now_us - start_us);
 
@@ -436,13 +444,16 @@ keel_status_t keel_pass_run(keel_scheduler_t *scheduler)
       @     + ((scheduler->stage == KEEL_STAGE_PASS) ? 1 : 0);
       @*/
     while (scheduler->stage == KEEL_STAGE_PASS) {
-        const keel_task_config_t *const task = keel_pass_next(scheduler);
+        const keel_task_config_t *task;
 
-        /*@ assert ahead: scheduler->stage == KEEL_STAGE_REALTIME ==>
-          @     \at(scheduler->cursor, LoopCurrent) < scheduler->cursor;
+        //@ assert ahead: scheduler->cursor <= scheduler->pass_end;
+        //@ assert reading: uptime_left(scheduler, 1);
+        task = keel_pass_next(scheduler);
+        /*@ assert moved: scheduler->cursor <= scheduler->pass_end &&
+          @     \at(scheduler->cursor, LoopCurrent) <= scheduler->cursor;
           @*/
-        /*@ assert behind: scheduler->stage == KEEL_STAGE_OTHER ==>
-          @     scheduler->cursor == scheduler->pass_end;
+        /*@ assert realtime: scheduler->stage == KEEL_STAGE_REALTIME ==>
+          @     \at(scheduler->cursor, LoopCurrent) < scheduler->cursor;
           @*/
         if (task != NULL) {
             //@ assert room: uptime_left(scheduler, 1);
@@ -453,6 +464,9 @@ keel_status_t keel_pass_run(keel_scheduler_t *scheduler)
               @     \at(scheduler->pass_end - scheduler->cursor, LoopCurrent);
               @*/
         }
+        /*@ assert shrunk: scheduler->pass_end - scheduler->cursor <=
+          @     \at(scheduler->pass_end - scheduler->cursor, LoopCurrent);
+          @*/
     }
     return status;
 }

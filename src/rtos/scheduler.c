@@ -47,8 +47,9 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
   @ ensures range: admission->tasks <= scheduler->queue.count;
   @ ensures totals: totals_of(*admission, &scheduler->queue, admission->tasks);
   @ ensures all: \result == KEEL_OK <==> admission->tasks == scheduler->queue.count;
-  @ ensures offender: \result != KEEL_OK ==> set_refused(&scheduler->queue, admission->tasks + 1,
-  @     scheduler->config.guard_us, scheduler->config.utilisation_limit, \result);
+  @ ensures offender: \result != KEEL_OK ==>
+  @     scheduler_refused(scheduler, admission->tasks + 1, \result);
+  @ ensures before: scheduler_holds_of(scheduler, admission->tasks);
   @ ensures complete: \result == KEEL_OK <==> scheduler_holds(scheduler);
   @ ensures demand: \result == KEEL_OK ==>
   @     demand_admitted(&scheduler->queue, scheduler->config.guard_us);

@@ -160,6 +160,7 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @   ensures SCH_014_closed: \result == \null;
   @ behavior open:
   @   assumes scheduler->stage == KEEL_STAGE_PASS;
+  @   ensures SCH_015_ahead: \old(scheduler->cursor) <= scheduler->cursor;
   @   ensures SCH_014_stage: (\result == \null && scheduler->stage == KEEL_STAGE_READY) ||
   @       (\result != \null && stage_running(scheduler));
   @   ensures SCH_014_task: \result != \null ==> scheduler->running < scheduler->queue.count &&

@@ -89,11 +89,10 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
   @ assigns *admitted;
   @ ensures SCH_003_range: *admitted <= scheduler->queue.count;
   @ ensures SCH_003_all: \result == KEEL_OK <==> *admitted == scheduler->queue.count;
-  @ ensures SCH_003_complete: \result == KEEL_OK <==> scheduler_holds(scheduler);
-  @ ensures SCH_003_before: set_holds(&scheduler->queue, *admitted, scheduler->config.guard_us,
-  @     scheduler->config.utilisation_limit);
-  @ ensures SCH_003_offender: \result != KEEL_OK ==> set_refused(&scheduler->queue, *admitted + 1,
-  @     scheduler->config.guard_us, scheduler->config.utilisation_limit, \result);
+  @ ensures SCH_003_complete: \result == KEEL_OK <==> \old(scheduler_holds(scheduler));
+  @ ensures SCH_003_before: \at(scheduler_holds_of(scheduler, \at(*admitted, Post)), Pre);
+  @ ensures SCH_003_offender: \result != KEEL_OK ==>
+  @     \at(scheduler_refused(scheduler, \at(*admitted, Post) + 1, \at(\result, Post)), Pre);
   @*/
 keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *admitted);
 

@@ -186,8 +186,14 @@ typedef struct keel_task_report {
   @     config_valid(task) && !queue_holds(&s->queue, task) &&
   @     s->queue.count < KEEL_QUEUE_CAPACITY;
   @
-  @ predicate scheduler_holds(keel_scheduler_t *s) = set_holds(&s->queue, s->queue.count,
-  @     s->config.guard_us, s->config.utilisation_limit);
+  @ // Whether the first n tasks keep the rules of admission, and the first rule that they break.
+  @ predicate scheduler_holds_of(keel_scheduler_t *s, integer n) =
+  @     set_holds(&s->queue, n, s->config.guard_us, s->config.utilisation_limit);
+  @
+  @ predicate scheduler_refused(keel_scheduler_t *s, integer n, integer status) =
+  @     set_refused(&s->queue, n, s->config.guard_us, s->config.utilisation_limit, status);
+  @
+  @ predicate scheduler_holds(keel_scheduler_t *s) = scheduler_holds_of(s, s->queue.count);
   @
   @ // Whether one more task breaks a rule of admission.
   @ predicate demand_allows(keel_scheduler_t *s, keel_task_config_t *task) =
