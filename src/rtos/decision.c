@@ -89,6 +89,7 @@ static bool fits(const keel_queue_t *queue, uint32_t slot, uint32_t room_us)
 
 keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, uint32_t room_us)
 {
+    const uint32_t last = queue->count;
     keel_choice_t choice = {KEEL_TIME_NEVER_US, 0u, 0u};
 
     /*@ loop invariant range: queue->realtime_count <= i <= queue->count;
@@ -109,7 +110,7 @@ keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, ui
       @ loop assigns i, choice;
       @ loop variant queue->count - i;
       @*/
-    for (uint32_t i = queue->realtime_count; i < queue->count; i++) {
+    for (uint32_t i = queue->realtime_count; i < last; i++) {
         const uint32_t slot = queue->order[i];
         const uint64_t release_us = queue->release_us[slot];
 

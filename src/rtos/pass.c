@@ -40,79 +40,108 @@ static const keel_task_config_t *dispatch(keel_scheduler_t *scheduler, uint32_t 
     return scheduler->queue.task[slot];
 }
 
-/* The position of the first due real-time task that the pass has yet to look at, or its end; then
- * the earliest real-time release is known. */
-/*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
-  @ assigns scheduler->earliest_realtime_us;
-  @ ensures bound: realtime_bound(scheduler);
-  @ ensures exact: realtime_exact(scheduler);
+/* The position of the first due real-time task that the pass has yet to look at, or its end. Looks
+ * at none of them while the earliest of their releases lies ahead. */
+/*@ requires \valid_read(scheduler) && scheduler_valid(scheduler);
+  @ assigns \nothing;
   @ ensures range: scheduler->cursor <= \result <= scheduler->pass_end;
   @ ensures due: \result < scheduler->pass_end ==> due(scheduler, \result);
   @ ensures first: \forall integer i; scheduler->cursor <= i < \result ==> !due(scheduler, i);
-  @ ensures earliest: \result == scheduler->pass_end ==> is_earliest(&scheduler->queue, 0,
-  @     scheduler->queue.realtime_count, scheduler->earliest_realtime_us);
-  @ ensures releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
-  @     scheduler->queue.release_us[x] == \old(scheduler->queue.release_us[x]);
   @*/
-static uint32_t find_realtime(keel_scheduler_t *scheduler)
+static uint32_t find_realtime(const keel_scheduler_t *scheduler)
 {
-    const uint64_t now_us = scheduler->clock.now_us;
-    uint32_t position = scheduler->pass_end;
-
-    if (scheduler->earliest_realtime_us <= now_us) {
-        position = keel_decision_realtime(&scheduler->queue, scheduler->cursor,
-                                          scheduler->pass_end, now_us);
-        if (position == scheduler->pass_end) {
-            scheduler->earliest_realtime_us = keel_decision_earliest_us(&scheduler->queue);
-        }
+    if (scheduler->clock.now_us < scheduler->earliest_realtime_us) {
+        return scheduler->pass_end;
     }
-    return position;
+    return keel_decision_realtime(&scheduler->queue, scheduler->cursor, scheduler->pass_end,
+                                  scheduler->clock.now_us);
+}
+
+/*@ requires \valid_read(scheduler) && scheduler_valid(scheduler);
+  @ assigns \nothing;
+  @ ensures is_earliest(&scheduler->queue, 0, scheduler->queue.realtime_count, \result);
+  @*/
+static uint64_t find_earliest_realtime(const keel_scheduler_t *scheduler)
+{
+    if (scheduler->clock.now_us < scheduler->earliest_realtime_us) {
+        return scheduler->earliest_realtime_us;
+    }
+    return keel_decision_earliest_us(&scheduler->queue);
 }
 
 /* Which other task runs now that no real-time task is due. Looks at none of them while the earliest
  * of their releases lies ahead. */
-/*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
-  @ requires is_earliest(&scheduler->queue, 0, scheduler->queue.realtime_count,
-  @     scheduler->earliest_realtime_us);
-  @ assigns scheduler->earliest_other_us;
-  @ ensures bound: other_bound(scheduler);
+/*@ requires \valid_read(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
+  @ requires is_earliest(&scheduler->queue, 0, scheduler->queue.realtime_count, realtime_us);
+  @ assigns \nothing;
+  @ ensures range: \result.priority <= KEEL_PRIORITY_REALTIME;
+  @ ensures bound: \forall integer i;
+  @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
+  @     \result.earliest_us <= scheduler->queue.release_us[scheduler->queue.order[i]];
+  @ ensures known: \result.earliest_us == scheduler->earliest_other_us ||
+  @     is_earliest(&scheduler->queue, scheduler->queue.realtime_count, scheduler->queue.count,
+  @                 \result.earliest_us);
   @ ensures chosen: \result.priority > 0 ==>
   @     scheduler->queue.realtime_count <= \result.position < scheduler->queue.count;
-  @ ensures may: \result.priority > 0 ==> \old(other_may_run(scheduler, \result.position));
+  @ ensures may: \result.priority > 0 ==> other_may_run(scheduler, \result.position);
   @ ensures priority: \result.priority > 0 ==>
-  @     \result.priority == \old(priority_at(scheduler, \result.position));
-  @ ensures highest: \result.priority > 0 ==> \forall integer i;
+  @     \result.priority == priority_at(scheduler, \result.position);
+  @ ensures highest: \forall integer i;
   @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
-  @     \old(other_may_run(scheduler, i)) ==> \old(priority_at(scheduler, i)) <= \result.priority;
+  @     other_may_run(scheduler, i) ==> priority_at(scheduler, i) <= \result.priority;
   @ ensures first: \result.priority > 0 ==> \forall integer i;
   @     scheduler->queue.realtime_count <= i < \result.position ==>
-  @     \old(other_may_run(scheduler, i)) ==> \old(priority_at(scheduler, i)) < \result.priority;
+  @     other_may_run(scheduler, i) ==> priority_at(scheduler, i) < \result.priority;
   @ ensures none: \result.priority == 0 ==> \forall integer i;
   @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
-  @     !\old(other_may_run(scheduler, i));
-  @ ensures releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
-  @     scheduler->queue.release_us[x] == \old(scheduler->queue.release_us[x]);
+  @     !other_may_run(scheduler, i);
   @*/
-static keel_choice_t choose_other(keel_scheduler_t *scheduler)
+static keel_choice_t choose_other(const keel_scheduler_t *scheduler, uint64_t realtime_us)
 {
     const uint64_t now_us = scheduler->clock.now_us;
-    keel_choice_t choice = {0u, 0u, 0u};
+    const keel_choice_t none = {scheduler->earliest_other_us, 0u, 0u};
     uint32_t room_us;
 
     if (now_us < scheduler->earliest_other_us) {
-        return choice;
+        return none;
     }
-    room_us = keel_decision_room_us(scheduler->earliest_realtime_us, now_us,
-                                    scheduler->config.guard_us);
+    room_us = keel_decision_room_us(realtime_us, now_us, scheduler->config.guard_us);
+    /*@ assert least: \forall integer j; 0 <= j < scheduler->queue.realtime_count ==>
+      @     ((realtime_us > now_us) ? realtime_us - now_us : 0) <=
+      @         time_to(&scheduler->queue, scheduler->queue.order[j], now_us);
+      @*/
+    /*@ assert reached: realtime_us == KEEL_TIME_NEVER_US ||
+      @     \exists integer j; 0 <= j < scheduler->queue.realtime_count &&
+      @     ((realtime_us > now_us) ? realtime_us - now_us : 0) ==
+      @         time_to(&scheduler->queue, scheduler->queue.order[j], now_us);
+      @*/
     /*@ assert room: \forall integer i;
       @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
       @     (fits_slack(&scheduler->queue, scheduler->queue.order[i], now_us,
       @                 scheduler->config.guard_us) <==>
       @      task_worst(&scheduler->queue, scheduler->queue.order[i]) <= room_us);
       @*/
-    choice = keel_decision_other(&scheduler->queue, now_us, room_us);
-    scheduler->earliest_other_us = choice.earliest_us;
-    return choice;
+    return keel_decision_other(&scheduler->queue, now_us, room_us);
+}
+
+/* Remembers the earliest releases that a decision has found. */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler);
+  @ requires is_earliest(&scheduler->queue, 0, scheduler->queue.realtime_count, realtime_us);
+  @ requires \forall integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
+  @     other_us <= scheduler->queue.release_us[scheduler->queue.order[i]];
+  @ assigns scheduler->earliest_realtime_us, scheduler->earliest_other_us;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures realtime: scheduler->earliest_realtime_us == realtime_us;
+  @ ensures other: scheduler->earliest_other_us == other_us;
+  @ ensures releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @     scheduler->queue.release_us[x] == \old(scheduler->queue.release_us[x]);
+  @ ensures time: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @     scheduler->wake_us == \old(scheduler->wake_us);
+  @*/
+static void remember(keel_scheduler_t *scheduler, uint64_t realtime_us, uint64_t other_us)
+{
+    scheduler->earliest_realtime_us = realtime_us;
+    scheduler->earliest_other_us = other_us;
 }
 
 /* Takes the chosen task into service, and counts its promotion. */
@@ -152,12 +181,42 @@ static const keel_task_config_t *serve_other(keel_scheduler_t *scheduler, uint32
     return dispatch(scheduler, position, scheduler->pass_end, KEEL_STAGE_OTHER);
 }
 
+/* Until when nothing can run that may not run now: an other task's release or promotion, or the
+ * earliest real-time release. */
+/*@ requires \valid_read(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
+  @ requires \forall integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
+  @     other_us <= scheduler->queue.release_us[scheduler->queue.order[i]];
+  @ assigns \nothing;
+  @ ensures realtime: \result <= realtime_us;
+  @ ensures others: \forall integer i;
+  @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> \result <=
+  @     next_event(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us);
+  @ ensures exact: \result == realtime_us || \result == other_us ||
+  @     \exists integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count &&
+  @         \result == next_event(&scheduler->queue, scheduler->queue.order[i],
+  @                               scheduler->clock.now_us);
+  @*/
+static uint64_t find_wake(const keel_scheduler_t *scheduler, uint64_t realtime_us,
+                          uint64_t other_us)
+{
+    uint64_t wake_us = other_us;
+
+    if (wake_us <= scheduler->clock.now_us) {
+        wake_us = keel_decision_event_us(&scheduler->queue, scheduler->clock.now_us);
+    }
+    return (realtime_us < wake_us) ? realtime_us : wake_us;
+}
+
 /* Ends a pass in which nothing is left to run, and sets the wake-up time. */
 /*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
   @ requires scheduler->stage == KEEL_STAGE_PASS;
+  @ requires is_earliest(&scheduler->queue, 0, scheduler->queue.realtime_count, realtime_us);
+  @ requires \forall integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
+  @     other_us <= scheduler->queue.release_us[scheduler->queue.order[i]];
   @ requires \forall integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
   @     !other_may_run(scheduler, i);
-  @ assigns scheduler->wake_us, scheduler->cursor, scheduler->stage;
+  @ assigns scheduler->earliest_realtime_us, scheduler->earliest_other_us, scheduler->wake_us,
+  @     scheduler->cursor, scheduler->stage;
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ ensures wake: wake_right(scheduler);
   @ ensures stage: scheduler->stage == KEEL_STAGE_READY && scheduler->cursor == scheduler->pass_end;
@@ -165,32 +224,48 @@ static const keel_task_config_t *serve_other(keel_scheduler_t *scheduler, uint32
   @ ensures others: \forall integer i;
   @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> scheduler->wake_us <=
   @     next_event(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us);
-  @ ensures exact: scheduler->wake_us == scheduler->earliest_realtime_us ||
-  @     scheduler->wake_us == scheduler->earliest_other_us ||
+  @ ensures exact: scheduler->wake_us == realtime_us || scheduler->wake_us == other_us ||
   @     \exists integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count &&
   @         scheduler->wake_us == next_event(&scheduler->queue, scheduler->queue.order[i],
   @                                          scheduler->clock.now_us);
+  @ ensures known: scheduler->earliest_realtime_us == realtime_us &&
+  @     scheduler->earliest_other_us == other_us;
   @ ensures releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
   @     scheduler->queue.release_us[x] == \old(scheduler->queue.release_us[x]);
   @*/
-static void close_pass(keel_scheduler_t *scheduler)
+static void close_pass(keel_scheduler_t *scheduler, uint64_t realtime_us, uint64_t other_us)
 {
-    const uint64_t now_us = scheduler->clock.now_us;
-    uint64_t wake_us = scheduler->earliest_other_us;
+    const uint64_t wake_us = find_wake(scheduler, realtime_us, other_us);
 
-    if (wake_us <= now_us) {
-        wake_us = keel_decision_event_us(&scheduler->queue, now_us);
-    }
-    if (scheduler->earliest_realtime_us < wake_us) {
-        wake_us = scheduler->earliest_realtime_us;
-    }
+    remember(scheduler, realtime_us, other_us);
     scheduler->wake_us = wake_us;
     scheduler->cursor = scheduler->pass_end;
     scheduler->stage = KEEL_STAGE_READY;
+    /*@ assert releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+      @     scheduler->queue.release_us[x] == \at(scheduler->queue.release_us[x], Pre);
+      @*/
+    /*@ assert times: \forall integer j; 0 <= j < scheduler->queue.realtime_count ==>
+      @     time_to(&scheduler->queue, scheduler->queue.order[j], scheduler->clock.now_us) ==
+      @     \at(time_to(&scheduler->queue, scheduler->queue.order[j], scheduler->clock.now_us),
+      @         Pre);
+      @*/
+    /*@ assert misfits: \forall integer i;
+      @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> due(scheduler, i) ==>
+      @     !\at(fits_slack(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us,
+      @                     scheduler->config.guard_us), Pre);
+      @*/
+    /*@ assert misfit: \forall integer i;
+      @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> due(scheduler, i) ==>
+      @     !fits_slack(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us,
+      @                 scheduler->config.guard_us);
+      @*/
+    //@ assert realtime: wake_realtime(scheduler);
+    //@ assert others: wake_others(scheduler);
 }
 
 const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
 {
+    uint64_t realtime_us;
     keel_choice_t choice;
     uint32_t position;
 
@@ -201,14 +276,26 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
     if (position < scheduler->pass_end) {
         return dispatch(scheduler, position, (uint16_t)(position + 1u), KEEL_STAGE_REALTIME);
     }
-    choice = choose_other(scheduler);
-    /*@ assert releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
-      @     scheduler->queue.release_us[x] == \at(scheduler->queue.release_us[x], Pre);
-      @*/
+    realtime_us = find_earliest_realtime(scheduler);
+    choice = choose_other(scheduler, realtime_us);
     if (choice.priority == 0u) {
-        close_pass(scheduler);
+        close_pass(scheduler, realtime_us, choice.earliest_us);
         return NULL;
     }
+    remember(scheduler, realtime_us, choice.earliest_us);
+    /*@ assert same: \forall integer k; 0 <= k < scheduler->queue.count ==>
+      @     left_alone{Pre, Here}(scheduler, k);
+      @*/
+    /*@ assert next: \forall integer k; 0 <= k < scheduler->queue.count ==>
+      @     grid_next(&scheduler->queue, scheduler->queue.order[k], scheduler->clock.now_us) ==
+      @     \at(grid_next(&scheduler->queue, scheduler->queue.order[k],
+      @                   scheduler->clock.now_us), Pre);
+      @*/
+    /*@ assert missed: \forall integer k; 0 <= k < scheduler->queue.count ==>
+      @     grid_missed(&scheduler->queue, scheduler->queue.order[k], scheduler->clock.now_us) ==
+      @     \at(grid_missed(&scheduler->queue, scheduler->queue.order[k],
+      @                     scheduler->clock.now_us), Pre);
+      @*/
     return serve_other(scheduler, choice.position, choice.priority == KEEL_PRIORITY_REALTIME);
 }
 
@@ -253,10 +340,19 @@ static keel_status_t end_run(keel_scheduler_t *scheduler, uint32_t raw_us)
   @ ensures recorded: stats_recorded{Pre, Post}(
   @     &scheduler->queue.stats[scheduler->queue.order[position]], ran_us,
   @     scheduler->queue.budget_us[scheduler->queue.order[position]]);
-  @ ensures others: \forall integer k; 0 <= k < scheduler->queue.count ==> k != position ==>
-  @     stats_same{Pre, Post}(&scheduler->queue.stats[scheduler->queue.order[k]]);
+  @ ensures others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @     x != scheduler->queue.order[position] ==>
+  @     stats_same{Pre, Post}(&scheduler->queue.stats[x]);
   @ ensures releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
   @     scheduler->queue.release_us[x] == \old(scheduler->queue.release_us[x]);
+  @ ensures clock: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @     scheduler->clock.raw_us == \old(scheduler->clock.raw_us);
+  @ ensures pass: scheduler->cursor == \old(scheduler->cursor) &&
+  @     scheduler->pass_end == \old(scheduler->pass_end) &&
+  @     scheduler->wake_us == \old(scheduler->wake_us);
+  @ ensures state: scheduler->stage == \old(scheduler->stage) &&
+  @     scheduler->running == \old(scheduler->running) &&
+  @     scheduler->busy_us == \old(scheduler->busy_us);
   @*/
 static void record_run(keel_scheduler_t *scheduler, uint32_t position, uint32_t ran_us)
 {
@@ -311,6 +407,7 @@ static keel_status_t run_task(keel_scheduler_t *scheduler, const keel_task_confi
     //@ assert awake: scheduler->wake_us == 0;
     //@ calls keel_any_clock;
     raw_us = scheduler->config.read_clock(scheduler->config.clock_context);
+    //@ assert elapsed: 0 <= clock_elapsed(scheduler->clock.raw_us, raw_us);
     return keel_pass_finish(scheduler, raw_us);
 }
 
@@ -339,6 +436,12 @@ keel_status_t keel_pass_run(keel_scheduler_t *scheduler)
     while (scheduler->stage == KEEL_STAGE_PASS) {
         const keel_task_config_t *const task = keel_pass_next(scheduler);
 
+        /*@ assert ahead: scheduler->stage == KEEL_STAGE_REALTIME ==>
+          @     \at(scheduler->cursor, LoopCurrent) < scheduler->cursor;
+          @*/
+        /*@ assert behind: scheduler->stage == KEEL_STAGE_OTHER ==>
+          @     scheduler->cursor == scheduler->pass_end;
+          @*/
         if (task != NULL) {
             status = run_task(scheduler, task);
         }

@@ -208,7 +208,10 @@ static void enqueue(keel_queue_t *queue, uint8_t slot, const keel_task_config_t 
 
 void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_t release_us)
 {
-    enqueue(queue, fill_slot(queue, task, release_us), task);
+    const uint8_t slot = fill_slot(queue, task, release_us);
+
+    //@ assert fresh: slot_fresh(queue, slot);
+    enqueue(queue, slot, task);
 }
 
 void keel_queue_remove(keel_queue_t *queue, uint32_t position)

@@ -114,44 +114,42 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @ requires \valid_read(task) && \separated(scheduler, task) && addable(scheduler, task);
   @ assigns scheduler->queue.count, scheduler->queue.realtime_count,
   @     scheduler->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @ assigns QUEUE_SLOT(scheduler->queue, scheduler->queue.order[scheduler->queue.count]);
+  @ assigns QUEUE_SLOT(&scheduler->queue, scheduler->queue.order[scheduler->queue.count]);
   @ assigns scheduler->running, scheduler->wake_us, scheduler->earliest_realtime_us,
   @     scheduler->earliest_other_us;
   @ SCHEDULER_STAYS_VALID(scheduler)
-  @ ensures count: scheduler->queue.count == \old(scheduler->queue.count) + 1;
-  @ ensures realtime: scheduler->queue.realtime_count == \old(scheduler->queue.realtime_count)
-  @     + ((task->priority == KEEL_PRIORITY_REALTIME) ? 1 : 0);
-  @ ensures place: scheduler->queue.order[\old(queue_place(&scheduler->queue, task->priority))] ==
-  @     \old(scheduler->queue.order[scheduler->queue.count]);
-  @ ensures before: order_same{Pre, Post}(&scheduler->queue, 0,
-  @     \old(queue_place(&scheduler->queue, task->priority)));
-  @ ensures behind: order_down{Pre, Post}(&scheduler->queue,
-  @     \old(queue_place(&scheduler->queue, task->priority)) + 1, scheduler->queue.count);
-  @ ensures task:
-  @     scheduler->queue.task[\old(scheduler->queue.order[scheduler->queue.count])] == task;
-  @ ensures copied: copied(&scheduler->queue,
+  @ ensures order: order_joined{Pre, Post}(&scheduler->queue, task->priority);
+  @ ensures copied: slot_copied(&scheduler->queue,
   @     \old(scheduler->queue.order[scheduler->queue.count]), task);
+  @ ensures fresh: slot_fresh(&scheduler->queue,
+  @     \old(scheduler->queue.order[scheduler->queue.count]));
   @ ensures release:
   @     scheduler->queue.release_us[\old(scheduler->queue.order[scheduler->queue.count])] ==
   @     scheduler->clock.now_us + task->phase_us;
-  @ ensures stats: slot_fresh(&scheduler->queue,
-  @     \old(scheduler->queue.order[scheduler->queue.count]));
-  @ ensures wake: scheduler->wake_us == 0 && scheduler->earliest_realtime_us == 0 &&
-  @     scheduler->earliest_other_us == 0;
-  @ ensures running: scheduler->running == \old(scheduler->running) +
-  @     ((task->priority == KEEL_PRIORITY_REALTIME &&
-  @       \old(scheduler->queue.realtime_count) <= \old(scheduler->running) <
-  @           KEEL_POSITION_NONE) ? 1 : 0);
+  @ ensures wake: nothing_known(scheduler);
+  @ ensures running: running_joined{Pre, Post}(scheduler, task->priority);
   @*/
 static void insert(keel_scheduler_t *scheduler, const keel_task_config_t *task)
 {
     const uint16_t place = scheduler->queue.realtime_count;
 
     keel_queue_add(&scheduler->queue, task, scheduler->clock.now_us + task->phase_us);
+    //@ assert slot: \at(scheduler->queue.order[scheduler->queue.count], Pre) < KEEL_QUEUE_CAPACITY;
+    //@ assert running: scheduler->running == \at(scheduler->running, Pre);
+    //@ assert cursor: scheduler->cursor == \at(scheduler->cursor, Pre);
+    //@ assert pass_end: scheduler->pass_end == \at(scheduler->pass_end, Pre);
+    //@ assert stage: scheduler->stage == \at(scheduler->stage, Pre);
+    //@ assert wake: scheduler->wake_us == \at(scheduler->wake_us, Pre);
+    //@ assert state: scheduler_state(scheduler);
+    /*@ assert release: scheduler->queue.release_us[
+      @     \at(scheduler->queue.order[scheduler->queue.count], Pre)] ==
+      @     scheduler->clock.now_us + task->phase_us;
+      @*/
     if ((task->priority == KEEL_PRIORITY_REALTIME) && (scheduler->running != KEEL_POSITION_NONE) &&
         (scheduler->running >= place)) {
         scheduler->running++;
     }
+    //@ assert fresh: slot_fresh(&scheduler->queue, \at(scheduler->queue.order[scheduler->queue.count], Pre));
     scheduler->earliest_realtime_us = 0u;
     scheduler->earliest_other_us = 0u;
     scheduler->wake_us = 0u;
@@ -188,13 +186,7 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, const keel_task_co
 /*@ requires \valid(scheduler) && scheduler_state(scheduler);
   @ requires position < scheduler->queue.count && queue_counts(&scheduler->queue);
   @ assigns scheduler->cursor, scheduler->pass_end, scheduler->running;
-  @ ensures cursor: scheduler->cursor == \old(scheduler->cursor)
-  @     - ((position < \old(scheduler->cursor)) ? 1 : 0);
-  @ ensures pass_end: scheduler->pass_end == \old(scheduler->pass_end)
-  @     - ((position < \old(scheduler->pass_end)) ? 1 : 0);
-  @ ensures running: scheduler->running == ((position == \old(scheduler->running))
-  @     ? KEEL_POSITION_NONE : \old(scheduler->running) -
-  @         ((position < \old(scheduler->running) < KEEL_POSITION_NONE) ? 1 : 0));
+  @ ensures pass: pass_left{Pre, Post}(scheduler, position);
   @*/
 static void shift_up(keel_scheduler_t *scheduler, uint32_t position)
 {
@@ -224,20 +216,9 @@ static void shift_up(keel_scheduler_t *scheduler, uint32_t position)
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ ensures gone: !queue_holds(&scheduler->queue,
   @     \old(scheduler->queue.task[scheduler->queue.order[position]]));
-  @ ensures count: scheduler->queue.count == \old(scheduler->queue.count) - 1;
-  @ ensures realtime: scheduler->queue.realtime_count == \old(scheduler->queue.realtime_count)
-  @     - ((position < \old(scheduler->queue.realtime_count)) ? 1 : 0);
-  @ ensures before: order_same{Pre, Post}(&scheduler->queue, 0, position);
-  @ ensures behind: order_up{Pre, Post}(&scheduler->queue, position, scheduler->queue.count);
-  @ ensures wake: scheduler->wake_us == 0 && scheduler->earliest_realtime_us == 0 &&
-  @     scheduler->earliest_other_us == 0;
-  @ ensures cursor: scheduler->cursor == \old(scheduler->cursor)
-  @     - ((position < \old(scheduler->cursor)) ? 1 : 0);
-  @ ensures pass_end: scheduler->pass_end == \old(scheduler->pass_end)
-  @     - ((position < \old(scheduler->pass_end)) ? 1 : 0);
-  @ ensures running: scheduler->running == ((position == \old(scheduler->running))
-  @     ? KEEL_POSITION_NONE : \old(scheduler->running) -
-  @         ((position < \old(scheduler->running) < KEEL_POSITION_NONE) ? 1 : 0));
+  @ ensures order: order_left{Pre, Post}(&scheduler->queue, position);
+  @ ensures pass: pass_left{Pre, Post}(scheduler, position);
+  @ ensures wake: nothing_known(scheduler);
   @*/
 static void take_out(keel_scheduler_t *scheduler, uint32_t position)
 {

@@ -151,6 +151,9 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @     scheduler->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1].promotions;
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ ensures SCH_012_wake: wake_right(scheduler);
+  @ ensures SCH_014_pass: scheduler->pass_end == \old(scheduler->pass_end);
+  @ ensures SCH_014_time: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @     scheduler->busy_us == \old(scheduler->busy_us);
   @ behavior closed:
   @   assumes scheduler->stage != KEEL_STAGE_PASS;
   @   assigns \nothing;
@@ -234,9 +237,14 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler);
   @ requires scheduler->busy_us <= scheduler->clock.now_us;
   @ assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->busy_us, scheduler->stage,
   @     scheduler->running;
-  @ assigns STATS_RUN(scheduler->queue.stats[scheduler->queue.order[scheduler->running]]);
+  @ assigns STATS_RUN(scheduler->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1]);
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ ensures SCH_017_busy_bound: scheduler->busy_us <= scheduler->clock.now_us;
+  @ ensures SCH_017_pass: scheduler->cursor == \old(scheduler->cursor) &&
+  @     scheduler->pass_end == \old(scheduler->pass_end) &&
+  @     scheduler->wake_us == \old(scheduler->wake_us);
+  @ ensures SCH_017_releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @     scheduler->queue.release_us[x] == \old(scheduler->queue.release_us[x]);
   @ behavior state:
   @   assumes !stage_running(scheduler);
   @   assigns \nothing;
@@ -246,6 +254,8 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler);
   @   assumes clock_elapsed(scheduler->clock.raw_us, raw_us) >= KEEL_CLOCK_STEP_LIMIT_US;
   @   assigns scheduler->stage, scheduler->running;
   @   ensures SCH_018_clock: \result == KEEL_ERR_CLOCK;
+  @   ensures SCH_018_time: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @       scheduler->busy_us == \old(scheduler->busy_us);
   @   ensures SCH_018_ends: scheduler->stage == KEEL_STAGE_READY &&
   @       scheduler->running == KEEL_POSITION_NONE;
   @ behavior forwards:
@@ -265,9 +275,10 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler);
   @           &scheduler->queue.stats[scheduler->queue.order[\old(scheduler->running)]],
   @           clock_elapsed(\old(scheduler->clock.raw_us), raw_us),
   @           scheduler->queue.budget_us[scheduler->queue.order[\old(scheduler->running)]]);
-  @   ensures SCH_017_others: \forall integer k; 0 <= k < scheduler->queue.count ==>
-  @       k != \old(scheduler->running) ==>
-  @       stats_same{Pre, Post}(&scheduler->queue.stats[scheduler->queue.order[k]]);
+  @   ensures SCH_017_others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @       \old(scheduler->running) == KEEL_POSITION_NONE ||
+  @       x != scheduler->queue.order[\old(scheduler->running)] ==>
+  @       stats_same{Pre, Post}(&scheduler->queue.stats[x]);
   @ complete behaviors;
   @ disjoint behaviors;
   @*/

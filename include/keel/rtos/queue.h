@@ -102,14 +102,6 @@ typedef struct keel_queue {
   @ predicate order_up{L, M}(keel_queue_t *q, integer first, integer last) =
   @     \forall integer i; first <= i < last ==> \at(q->order[i], M) == \at(q->order[i + 1], L);
   @
-  @ // What scheduling reads of a declaration, copied into slot x, and a slot's fresh statistics.
-  @ predicate copied(keel_queue_t *q, integer x, keel_task_config_t *task) =
-  @     q->period_us[x] == task->period_us && q->budget_us[x] == task->budget_us &&
-  @     q->priority[x] == task->priority;
-  @
-  @ predicate slot_fresh(keel_queue_t *q, integer x) =
-  @     q->skipped[x] == 0 && stats_fresh(q->stats[x]);
-  @
   @ // The whole periods that a task in slot x has missed, and the point of its grid behind now.
   @ logic integer grid_missed(keel_queue_t *q, integer x, integer now_us) =
   @     (now_us - q->release_us[x]) / q->period_us[x];
@@ -120,6 +112,35 @@ typedef struct keel_queue {
   @ // Where add puts a task: behind the last of its class.
   @ logic integer queue_place(keel_queue_t *q, integer priority) =
   @     (priority == KEEL_PRIORITY_REALTIME) ? q->realtime_count : q->count;
+  @
+  @ // From state L to M a task of this priority has joined the order at its place, in the first
+  @ // free slot.
+  @ predicate order_joined{L, M}(keel_queue_t *q, integer priority) =
+  @     \at(q->count, M) == \at(q->count, L) + 1 &&
+  @     \at(q->realtime_count, M) == \at(q->realtime_count, L)
+  @         + ((priority == KEEL_PRIORITY_REALTIME) ? 1 : 0) &&
+  @     \at(q->order[\at(queue_place(q, priority), L)], M) == \at(q->order[q->count], L) &&
+  @     order_same{L, M}(q, 0, \at(queue_place(q, priority), L)) &&
+  @     order_down{L, M}(q, \at(queue_place(q, priority), L) + 1, \at(q->count, M)) &&
+  @     order_same{L, M}(q, \at(q->count, M), KEEL_QUEUE_CAPACITY);
+  @
+  @ // From state L to M the task at position i has left the order; its slot is the first free one.
+  @ predicate order_left{L, M}(keel_queue_t *q, integer i) =
+  @     \at(q->count, M) == \at(q->count, L) - 1 &&
+  @     \at(q->realtime_count, M) == \at(q->realtime_count, L)
+  @         - ((i < \at(q->realtime_count, L)) ? 1 : 0) &&
+  @     order_same{L, M}(q, 0, i) && order_up{L, M}(q, i, \at(q->count, M)) &&
+  @     \at(q->order[q->count], M) == \at(q->order[i], L) &&
+  @     order_same{L, M}(q, \at(q->count, L), KEEL_QUEUE_CAPACITY);
+  @
+  @ // Slot x holds a task that was just added: what scheduling reads of its declaration, ...
+  @ predicate slot_copied(keel_queue_t *q, integer x, keel_task_config_t *task) =
+  @     q->task[x] == task && q->period_us[x] == task->period_us &&
+  @     q->budget_us[x] == task->budget_us && q->priority[x] == task->priority;
+  @
+  @ // ... and fresh statistics.
+  @ predicate slot_fresh(keel_queue_t *q, integer x) =
+  @     q->skipped[x] == 0 && stats_fresh(q->stats[x]);
   @*/
 
 /* clang-format off: the formatter does not know these clauses. */
@@ -172,7 +193,7 @@ uint32_t keel_queue_find(const keel_queue_t *queue, const keel_task_config_t *ta
 
 /**
  * Adds a task behind the last of its class: copies what scheduling reads of its declaration, sets
- * its first release and clears its statistics (requirements QUE-003 and QUE-006).
+ * its first release and clears its statistics (requirement QUE-003).
  *
  * @param queue      a valid queue with a free slot, without the task
  * @param task       the task, whose declaration keel_task_check accepts; it must outlive its stay
@@ -184,26 +205,16 @@ uint32_t keel_queue_find(const keel_queue_t *queue, const keel_task_config_t *ta
   @ assigns queue->count, queue->realtime_count, queue->order[0 .. KEEL_QUEUE_CAPACITY - 1];
   @ assigns QUEUE_SLOT(queue, queue->order[queue->count]);
   @ QUEUE_STAYS_VALID(queue)
-  @ ensures QUE_003_count: queue->count == \old(queue->count) + 1;
-  @ ensures QUE_003_realtime: queue->realtime_count == \old(queue->realtime_count)
-  @     + ((task->priority == KEEL_PRIORITY_REALTIME) ? 1 : 0);
-  @ ensures QUE_003_place: queue->order[\old(queue_place(queue, task->priority))] ==
-  @     \old(queue->order[queue->count]);
-  @ ensures QUE_003_task: queue->task[\old(queue->order[queue->count])] == task;
-  @ ensures QUE_003_copied: copied(queue, \old(queue->order[queue->count]), task);
+  @ ensures QUE_003_order: order_joined{Pre, Post}(queue, task->priority);
+  @ ensures QUE_003_copied: slot_copied(queue, \old(queue->order[queue->count]), task);
+  @ ensures QUE_003_fresh: slot_fresh(queue, \old(queue->order[queue->count]));
   @ ensures QUE_003_release: queue->release_us[\old(queue->order[queue->count])] == release_us;
-  @ ensures QUE_003_stats: slot_fresh(queue, \old(queue->order[queue->count]));
-  @ ensures QUE_006_before: order_same{Pre, Post}(queue, 0,
-  @     \old(queue_place(queue, task->priority)));
-  @ ensures QUE_006_behind: order_down{Pre, Post}(queue,
-  @     \old(queue_place(queue, task->priority)) + 1, queue->count);
-  @ ensures QUE_006_free: order_same{Pre, Post}(queue, queue->count, KEEL_QUEUE_CAPACITY);
   @*/
 void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_t release_us);
 
 /**
- * Takes the task at a position out of the queue; those behind it move up by one (requirements
- * QUE-007 and QUE-008).
+ * Takes the task at a position out of the queue; those behind it move up by one (requirement
+ * QUE-007).
  *
  * @param queue    a valid queue
  * @param position of a task in the order, below queue->count
@@ -213,14 +224,8 @@ void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_
   @ assigns queue->task[queue->order[position]];
   @ QUEUE_STAYS_VALID(queue)
   @ ensures QUE_007_gone: !queue_holds(queue, \old(queue->task[queue->order[position]]));
-  @ ensures QUE_007_count: queue->count == \old(queue->count) - 1;
-  @ ensures QUE_007_realtime: queue->realtime_count == \old(queue->realtime_count)
-  @     - ((position < \old(queue->realtime_count)) ? 1 : 0);
-  @ ensures QUE_007_freed: queue->order[queue->count] == \old(queue->order[position]) &&
-  @     queue->task[\old(queue->order[position])] == \null;
-  @ ensures QUE_008_before: order_same{Pre, Post}(queue, 0, position);
-  @ ensures QUE_008_behind: order_up{Pre, Post}(queue, position, queue->count);
-  @ ensures QUE_008_free: order_same{Pre, Post}(queue, queue->count + 1, KEEL_QUEUE_CAPACITY);
+  @ ensures QUE_007_order: order_left{Pre, Post}(queue, position);
+  @ ensures QUE_007_freed: queue->task[\old(queue->order[position])] == \null;
   @*/
 void keel_queue_remove(keel_queue_t *queue, uint32_t position);
 

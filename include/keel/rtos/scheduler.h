@@ -107,32 +107,6 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
   @*/
 keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *admitted);
 
-/*@ // What adding asks for besides admission.
-  @ predicate addable(keel_scheduler_t *s, keel_task_config_t *task) =
-  @     config_valid(task) && !queue_holds(&s->queue, task) &&
-  @     s->queue.count < KEEL_QUEUE_CAPACITY;
-  @
-  @ predicate scheduler_holds(keel_scheduler_t *s) = set_holds(&s->queue, s->queue.count,
-  @     s->config.guard_us, s->config.utilisation_limit);
-  @
-  @ // Whether one more task breaks a rule of admission.
-  @ predicate demand_allows(keel_scheduler_t *s, keel_task_config_t *task) =
-  @     demand_holds_with(&s->queue, task->priority, task->period_us, task->budget_us,
-  @                       s->config.guard_us);
-  @
-  @ predicate gap_allows(keel_scheduler_t *s, keel_task_config_t *task) =
-  @     gap_holds_with(&s->queue, task->priority, task->period_us, task->budget_us,
-  @                    s->config.guard_us);
-  @
-  @ predicate utilisation_allows(keel_scheduler_t *s, keel_task_config_t *task) =
-  @     utilisation_holds_with(&s->queue, task->period_us, task->budget_us,
-  @                            s->config.utilisation_limit);
-  @
-  @ predicate admits(keel_scheduler_t *s, keel_task_config_t *task) =
-  @     s->stage == KEEL_STAGE_SETUP || (scheduler_holds(s) && demand_allows(s, task) &&
-  @         gap_allows(s, task) && utilisation_allows(s, task));
-  @*/
-
 /**
  * Adds a task (requirement SCH-004). Before the start it is only checked by itself; afterwards it
  * is also admitted with the rest of the set, and its first release is its phase from now. It may
@@ -191,37 +165,21 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @   assumes admits(scheduler, task);
   @   assigns scheduler->queue.count, scheduler->queue.realtime_count,
   @       scheduler->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @   assigns QUEUE_SLOT(scheduler->queue, scheduler->queue.order[scheduler->queue.count]);
+  @   assigns QUEUE_SLOT(&scheduler->queue, scheduler->queue.order[scheduler->queue.count]);
   @   assigns scheduler->running, scheduler->wake_us, scheduler->earliest_realtime_us,
   @       scheduler->earliest_other_us;
   @   ensures ok: \result == KEEL_OK;
   @   SCHEDULER_STAYS_VALID(scheduler)
-  @   ensures SCH_004_count: scheduler->queue.count == \old(scheduler->queue.count) + 1;
-  @   ensures SCH_004_realtime: scheduler->queue.realtime_count ==
-  @       \old(scheduler->queue.realtime_count)
-  @       + ((task->priority == KEEL_PRIORITY_REALTIME) ? 1 : 0);
-  @   ensures SCH_004_place:
-  @       scheduler->queue.order[\old(queue_place(&scheduler->queue, task->priority))] ==
-  @       \old(scheduler->queue.order[scheduler->queue.count]);
-  @   ensures SCH_004_before: order_same{Pre, Post}(&scheduler->queue, 0,
-  @       \old(queue_place(&scheduler->queue, task->priority)));
-  @   ensures SCH_004_behind: order_down{Pre, Post}(&scheduler->queue,
-  @       \old(queue_place(&scheduler->queue, task->priority)) + 1, scheduler->queue.count);
-  @   ensures SCH_004_task:
-  @       scheduler->queue.task[\old(scheduler->queue.order[scheduler->queue.count])] == task;
-  @   ensures SCH_004_copied: copied(&scheduler->queue,
+  @   ensures SCH_004_order: order_joined{Pre, Post}(&scheduler->queue, task->priority);
+  @   ensures SCH_004_copied: slot_copied(&scheduler->queue,
   @       \old(scheduler->queue.order[scheduler->queue.count]), task);
+  @   ensures SCH_004_fresh: slot_fresh(&scheduler->queue,
+  @       \old(scheduler->queue.order[scheduler->queue.count]));
   @   ensures SCH_004_release:
   @       scheduler->queue.release_us[\old(scheduler->queue.order[scheduler->queue.count])] ==
   @       scheduler->clock.now_us + task->phase_us;
-  @   ensures SCH_004_stats: slot_fresh(&scheduler->queue,
-  @       \old(scheduler->queue.order[scheduler->queue.count]));
-  @   ensures SCH_004_wake: scheduler->wake_us == 0 && scheduler->earliest_realtime_us == 0 &&
-  @       scheduler->earliest_other_us == 0;
-  @   ensures SCH_004_running: scheduler->running == \old(scheduler->running) +
-  @       ((task->priority == KEEL_PRIORITY_REALTIME &&
-  @         \old(scheduler->queue.realtime_count) <= \old(scheduler->running) <
-  @             KEEL_POSITION_NONE) ? 1 : 0);
+  @   ensures SCH_004_wake: nothing_known(scheduler);
+  @   ensures SCH_004_running: running_joined{Pre, Post}(scheduler, task->priority);
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
@@ -254,33 +212,18 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, const keel_task_co
   @   ensures ok: \result == KEEL_OK;
   @   SCHEDULER_STAYS_VALID(scheduler)
   @   ensures SCH_007_gone: !queue_holds(&scheduler->queue, task);
-  @   ensures SCH_007_count: scheduler->queue.count == \old(scheduler->queue.count) - 1;
   @   ensures SCH_007_tasks: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
   @       \old(scheduler->queue.task[x]) != task ==>
   @       scheduler->queue.task[x] == \old(scheduler->queue.task[x]);
   @   ensures SCH_007_order: \forall integer i; 0 <= i < \old(scheduler->queue.count) ==>
   @       \old(scheduler->queue.task[scheduler->queue.order[i]]) == task ==>
-  @       order_same{Pre, Post}(&scheduler->queue, 0, i) &&
-  @       order_up{Pre, Post}(&scheduler->queue, i, scheduler->queue.count);
-  @   ensures SCH_007_realtime: \forall integer i; 0 <= i < \old(scheduler->queue.count) ==>
-  @       \old(scheduler->queue.task[scheduler->queue.order[i]]) == task ==>
-  @       scheduler->queue.realtime_count == \old(scheduler->queue.realtime_count)
-  @           - ((i < \old(scheduler->queue.realtime_count)) ? 1 : 0);
-  @   ensures SCH_007_wake: scheduler->wake_us == 0 && scheduler->earliest_realtime_us == 0 &&
-  @       scheduler->earliest_other_us == 0;
+  @       order_left{Pre, Post}(&scheduler->queue, i);
   @   ensures SCH_007_pass: \forall integer i; 0 <= i < \old(scheduler->queue.count) ==>
   @       \old(scheduler->queue.task[scheduler->queue.order[i]]) == task ==>
-  @       scheduler->cursor == \old(scheduler->cursor)
-  @           - ((i < \old(scheduler->cursor)) ? 1 : 0) &&
-  @       scheduler->pass_end == \old(scheduler->pass_end)
-  @           - ((i < \old(scheduler->pass_end)) ? 1 : 0);
+  @       pass_left{Pre, Post}(scheduler, i);
+  @   ensures SCH_007_wake: nothing_known(scheduler);
   @   ensures SCH_007_shrinks: scheduler->pass_end - scheduler->cursor <=
   @       \old(scheduler->pass_end - scheduler->cursor);
-  @   ensures SCH_007_running: \forall integer i; 0 <= i < \old(scheduler->queue.count) ==>
-  @       \old(scheduler->queue.task[scheduler->queue.order[i]]) == task ==>
-  @       scheduler->running == ((i == \old(scheduler->running)) ? KEEL_POSITION_NONE :
-  @           \old(scheduler->running) -
-  @           ((i < \old(scheduler->running) < KEEL_POSITION_NONE) ? 1 : 0));
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
@@ -429,13 +372,6 @@ keel_status_t keel_scheduler_resync(keel_scheduler_t *scheduler);
   @*/
 const keel_task_config_t *keel_scheduler_task(const keel_scheduler_t *scheduler,
                                               uint32_t position);
-
-/** What is known of a task while it is queued. */
-typedef struct keel_task_report {
-    uint64_t release_us; /**< The next release to serve, on the task's grid, in us. */
-    uint16_t skipped;    /**< Whole periods passed unserved; stays at UINT16_MAX. */
-    keel_stats_t stats;  /**< How its runs went. */
-} keel_task_report_t;
 
 /**
  * Copies out what is known of a task (requirement SCH-025). May be called at any time.

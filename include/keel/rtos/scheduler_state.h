@@ -58,6 +58,13 @@ typedef struct keel_scheduler {
     keel_queue_t queue;             /**< The tasks. */
 } keel_scheduler_t;
 
+/** What is known of a task while it is queued. */
+typedef struct keel_task_report {
+    uint64_t release_us; /**< The next release to serve, on the task's grid, in us. */
+    uint16_t skipped;    /**< Whole periods passed unserved; stays at UINT16_MAX. */
+    keel_stats_t stats;  /**< How its runs went. */
+} keel_task_report_t;
+
 /*@ predicate stage_running(keel_scheduler_t *s) =
   @     s->stage == KEEL_STAGE_REALTIME || s->stage == KEEL_STAGE_OTHER;
   @
@@ -148,6 +155,50 @@ typedef struct keel_scheduler {
   @
   @ predicate wake_right(keel_scheduler_t *s) =
   @     s->clock.now_us < s->wake_us ==> wake_realtime(s) && wake_others(s);
+  @*/
+
+/*@ // Nothing is known of the releases, and the next step decides anew.
+  @ predicate nothing_known(keel_scheduler_t *s) =
+  @     s->wake_us == 0 && s->earliest_realtime_us == 0 && s->earliest_other_us == 0;
+  @
+  @ // The running task's position when a task of this priority joins the queue ...
+  @ predicate running_joined{L, M}(keel_scheduler_t *s, integer priority) =
+  @     \at(s->running, M) == \at(s->running, L) +
+  @         ((priority == KEEL_PRIORITY_REALTIME &&
+  @           \at(s->queue.realtime_count, L) <= \at(s->running, L) < KEEL_POSITION_NONE)
+  @             ? 1 : 0);
+  @
+  @ // ... and the positions of a pass when the task at position i leaves it.
+  @ predicate pass_left{L, M}(keel_scheduler_t *s, integer i) =
+  @     \at(s->cursor, M) == \at(s->cursor, L) - ((i < \at(s->cursor, L)) ? 1 : 0) &&
+  @     \at(s->pass_end, M) == \at(s->pass_end, L) - ((i < \at(s->pass_end, L)) ? 1 : 0) &&
+  @     \at(s->running, M) == ((i == \at(s->running, L)) ? KEEL_POSITION_NONE :
+  @         \at(s->running, L) - ((i < \at(s->running, L) < KEEL_POSITION_NONE) ? 1 : 0));
+  @
+  @ // What adding asks for besides admission.
+  @ predicate addable(keel_scheduler_t *s, keel_task_config_t *task) =
+  @     config_valid(task) && !queue_holds(&s->queue, task) &&
+  @     s->queue.count < KEEL_QUEUE_CAPACITY;
+  @
+  @ predicate scheduler_holds(keel_scheduler_t *s) = set_holds(&s->queue, s->queue.count,
+  @     s->config.guard_us, s->config.utilisation_limit);
+  @
+  @ // Whether one more task breaks a rule of admission.
+  @ predicate demand_allows(keel_scheduler_t *s, keel_task_config_t *task) =
+  @     demand_holds_with(&s->queue, task->priority, task->period_us, task->budget_us,
+  @                       s->config.guard_us);
+  @
+  @ predicate gap_allows(keel_scheduler_t *s, keel_task_config_t *task) =
+  @     gap_holds_with(&s->queue, task->priority, task->period_us, task->budget_us,
+  @                    s->config.guard_us);
+  @
+  @ predicate utilisation_allows(keel_scheduler_t *s, keel_task_config_t *task) =
+  @     utilisation_holds_with(&s->queue, task->period_us, task->budget_us,
+  @                            s->config.utilisation_limit);
+  @
+  @ predicate admits(keel_scheduler_t *s, keel_task_config_t *task) =
+  @     s->stage == KEEL_STAGE_SETUP || (scheduler_holds(s) && demand_allows(s, task) &&
+  @         gap_allows(s, task) && utilisation_allows(s, task));
   @*/
 
 /* clang-format off: the formatter does not know these clauses. */
