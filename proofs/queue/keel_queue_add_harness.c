@@ -1,4 +1,4 @@
-// cbmc: --unwind 34 --external-sat-solver cadical
+// cbmc: --unwind 34
 // sources: src/rtos/queue.c
 // covers: keel_queue_add fill_slot open_place enqueue
 #include "../common/keel_proof.h"
@@ -27,25 +27,25 @@ void keel_queue_add_harness(void)
     keel_queue_add(&queue, &proof_task, release_us);
 
     ASSERT_QUEUE_VALID(&queue, "QUE_005");
-    __CPROVER_assert(queue.count == (before.count + 1u), "QUE_003_count: one task more");
+    __CPROVER_assert(queue.count == (before.count + 1u), "QUE_003_order: one task more");
     __CPROVER_assert(queue.realtime_count == (before.realtime_count + (realtime ? 1u : 0u)),
-                     "QUE_003_realtime: one real-time task more if it is one");
-    __CPROVER_assert(queue.order[place] == slot, "QUE_003_place: last of its class, a free slot");
+                     "QUE_003_order: one real-time task more if it is one");
+    __CPROVER_assert(queue.order[place] == slot, "QUE_003_order: last of its class, a free slot");
     __CPROVER_assert((i >= place) || (queue.order[i] == before.order[i]),
-                     "QUE_006_before: the slots before it stay");
+                     "QUE_003_order: the slots before it stay");
     __CPROVER_assert((i <= place) || (i >= queue.count) || (queue.order[i] == before.order[i - 1u]),
-                     "QUE_006_behind: those behind it move down by one");
+                     "QUE_003_order: those behind it move down by one");
     __CPROVER_assert((i < queue.count) || (queue.order[i] == before.order[i]),
-                     "QUE_006_free: the free ones stay");
+                     "QUE_003_order: the free ones stay");
     if (i == slot) {
-        __CPROVER_assert(queue.task[i] == &proof_task, "QUE_003_task: the slot is the task's");
+        __CPROVER_assert(queue.task[i] == &proof_task, "QUE_003_copied: the slot is the task's");
         __CPROVER_assert((queue.period_us[i] == proof_task.period_us) &&
                              (queue.budget_us[i] == proof_task.budget_us) &&
                              (queue.priority[i] == proof_task.priority),
                          "QUE_003_copied: with what is declared");
         __CPROVER_assert(queue.release_us[i] == release_us, "QUE_003_release: its first release");
         __CPROVER_assert((queue.skipped[i] == 0u) && stats_fresh(&queue.stats[i]),
-                         "QUE_003_stats: and nothing counted");
+                         "QUE_003_fresh: with nothing counted");
     } else {
         __CPROVER_assert((queue.task[i] == before.task[i]) && slot_same(&queue, &before, i),
                          "QUE_003_frame: no other slot is written");

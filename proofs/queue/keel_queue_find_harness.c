@@ -1,4 +1,4 @@
-// cbmc: --unwind 34 --external-sat-solver cadical
+// cbmc: --unwind 34
 // sources: src/rtos/queue.c
 // covers: keel_queue_find
 #include "../common/keel_proof.h"

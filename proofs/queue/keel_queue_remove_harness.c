@@ -1,4 +1,4 @@
-// cbmc: --unwind 34 --external-sat-solver cadical
+// cbmc: --unwind 34
 // sources: src/rtos/queue.c
 // covers: keel_queue_remove close_place
 #include "../common/keel_proof.h"
@@ -20,19 +20,19 @@ void keel_queue_remove_harness(void)
 
     ASSERT_QUEUE_VALID(&queue, "QUE_005");
     __CPROVER_assert(queue.task[i] != &proof_task, "QUE_007_gone: the task is queued no more");
-    __CPROVER_assert(queue.count == (before.count - 1u), "QUE_007_count: one task less");
+    __CPROVER_assert(queue.count == (before.count - 1u), "QUE_007_order: one task less");
     __CPROVER_assert(queue.realtime_count == (before.realtime_count -
                                               ((position < before.realtime_count) ? 1u : 0u)),
-                     "QUE_007_realtime: one real-time task less if it was one");
+                     "QUE_007_order: one real-time task less if it was one");
     __CPROVER_assert((queue.order[queue.count] == slot) && (queue.task[slot] == NULL),
                      "QUE_007_freed: its slot is the first free one");
     __CPROVER_assert((i >= position) || (queue.order[i] == before.order[i]),
-                     "QUE_008_before: the slots before it stay");
+                     "QUE_007_order: the slots before it stay");
     __CPROVER_assert((i < position) || (i >= queue.count) ||
                          (queue.order[i] == before.order[i + 1u]),
-                     "QUE_008_behind: those behind it move up by one");
+                     "QUE_007_order: those behind it move up by one");
     __CPROVER_assert((i <= queue.count) || (queue.order[i] == before.order[i]),
-                     "QUE_008_free: the free ones stay");
+                     "QUE_007_order: the free ones stay");
     __CPROVER_assert((i == slot) || (queue.task[i] == before.task[i]),
                      "QUE_007_frame: no other slot is freed");
     __CPROVER_assert(slot_same(&queue, &before, i), "QUE_007_frame: what is in a slot stays");
