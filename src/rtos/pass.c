@@ -10,7 +10,7 @@
 /* Takes the task at a position into service: its next release, and what finish has to know. */
 /*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
   @ requires position < scheduler->queue.count && due(scheduler, position);
-  @ requires scheduler->stage == KEEL_STAGE_PASS && cursor <= scheduler->pass_end;
+  @ requires scheduler->stage == KEEL_STAGE_PASS && 0 <= cursor <= scheduler->pass_end;
   @ requires stage == KEEL_STAGE_REALTIME || stage == KEEL_STAGE_OTHER;
   @ assigns scheduler->cursor, scheduler->running, scheduler->stage,
   @     scheduler->queue.skipped[scheduler->queue.order[position]],
@@ -26,7 +26,7 @@
   @     left_alone{Pre, Post}(scheduler, k);
   @*/
 static const keel_task_config_t *dispatch(keel_scheduler_t *scheduler, uint32_t position,
-                                          uint16_t cursor, uint16_t stage)
+                                          int16_t cursor, int16_t stage)
 {
     const uint32_t slot = scheduler->queue.order[position];
 
@@ -35,7 +35,7 @@ static const keel_task_config_t *dispatch(keel_scheduler_t *scheduler, uint32_t 
       @     left_alone{Pre, Here}(scheduler, k);
       @*/
     scheduler->cursor = cursor;
-    scheduler->running = (uint16_t)position;
+    scheduler->running = (int16_t)position;
     scheduler->stage = stage;
     return scheduler->queue.task[slot];
 }
@@ -51,10 +51,10 @@ static const keel_task_config_t *dispatch(keel_scheduler_t *scheduler, uint32_t 
 static uint32_t find_realtime(const keel_scheduler_t *scheduler)
 {
     if (scheduler->clock.now_us < scheduler->earliest_realtime_us) {
-        return scheduler->pass_end;
+        return (uint32_t)scheduler->pass_end;
     }
-    return keel_decision_realtime(&scheduler->queue, scheduler->cursor, scheduler->pass_end,
-                                  scheduler->clock.now_us);
+    return keel_decision_realtime(&scheduler->queue, (uint32_t)scheduler->cursor,
+                                  (uint32_t)scheduler->pass_end, scheduler->clock.now_us);
 }
 
 /*@ requires \valid_read(scheduler) && scheduler_valid(scheduler);
@@ -273,8 +273,8 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
         return NULL;
     }
     position = find_realtime(scheduler);
-    if (position < scheduler->pass_end) {
-        return dispatch(scheduler, position, (uint16_t)(position + 1u), KEEL_STAGE_REALTIME);
+    if (position < (uint32_t)scheduler->pass_end) {
+        return dispatch(scheduler, position, (int16_t)(position + 1u), KEEL_STAGE_REALTIME);
     }
     realtime_us = find_earliest_realtime(scheduler);
     choice = choose_other(scheduler, realtime_us);
@@ -364,7 +364,7 @@ static void record_run(keel_scheduler_t *scheduler, uint32_t position, uint32_t 
 keel_status_t keel_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us)
 {
     const uint64_t start_us = scheduler->clock.now_us;
-    const uint16_t position = scheduler->running;
+    const int16_t position = scheduler->running;
     keel_status_t status;
 
     if ((scheduler->stage != KEEL_STAGE_REALTIME) && (scheduler->stage != KEEL_STAGE_OTHER)) {
@@ -372,7 +372,9 @@ keel_status_t keel_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us)
     }
     status = end_run(scheduler, raw_us);
     if ((status == KEEL_OK) && (position != KEEL_POSITION_NONE)) {
-        record_run(scheduler, position, (uint32_t)(scheduler->clock.now_us - start_us));
+        const uint32_t ran_us = (uint32_t)(scheduler->clock.now_us - start_us);
+
+        record_run(scheduler, (uint32_t)position, ran_us);
     }
     return status;
 }
@@ -443,7 +445,13 @@ keel_status_t keel_pass_run(keel_scheduler_t *scheduler)
           @     scheduler->cursor == scheduler->pass_end;
           @*/
         if (task != NULL) {
+            //@ assert room: uptime_left(scheduler, 1);
             status = run_task(scheduler, task);
+            //@ assert uptime: in_uptime(scheduler);
+            /*@ assert left: scheduler->stage == KEEL_STAGE_PASS ==>
+              @     scheduler->pass_end - scheduler->cursor <
+              @     \at(scheduler->pass_end - scheduler->cursor, LoopCurrent);
+              @*/
         }
     }
     return status;

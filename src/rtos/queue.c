@@ -54,6 +54,10 @@ uint32_t keel_queue_find(const keel_queue_t *queue, const keel_task_config_t *ta
   @ ensures skipped: queue->skipped[\result] == 0;
   @ ensures stats: stats_fresh(queue->stats[\result]);
   @ ensures order: order_same{Pre, Post}(queue, 0, KEEL_QUEUE_CAPACITY);
+  @ ensures others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != \result ==>
+  @     slot_same{Pre, Post}(queue, x);
+  @ ensures counts: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != \result ==>
+  @     counts_same{Pre, Post}(queue, x);
   @*/
 static uint8_t fill_slot(keel_queue_t *queue, const keel_task_config_t *task, uint64_t release_us)
 {
@@ -72,6 +76,15 @@ static uint8_t fill_slot(keel_queue_t *queue, const keel_task_config_t *task, ui
     queue->stats[slot].overruns = 0u;
     queue->stats[slot].promotions = 0u;
     //@ assert order: order_same{Pre, Here}(queue, 0, KEEL_QUEUE_CAPACITY);
+    /*@ assert releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
+      @     queue->release_us[x] == \at(queue->release_us[x], Pre);
+      @*/
+    /*@ assert periods: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
+      @     queue->period_us[x] == \at(queue->period_us[x], Pre);
+      @*/
+    /*@ assert budgets: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
+      @     queue->budget_us[x] == \at(queue->budget_us[x], Pre);
+      @*/
     return slot;
 }
 
@@ -152,6 +165,8 @@ static uint8_t close_place(keel_queue_t *queue, uint32_t place)
   @ ensures behind: order_down{Pre, Post}(queue,
   @     \old(queue_place(queue, queue->priority[slot])) + 1, queue->count);
   @ ensures free: order_same{Pre, Post}(queue, queue->count, KEEL_QUEUE_CAPACITY);
+  @ ensures others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
+  @     queue->task[x] == \old(queue->task[x]);
   @*/
 static void enqueue(keel_queue_t *queue, uint8_t slot, const keel_task_config_t *task)
 {
@@ -212,6 +227,9 @@ void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_
 
     //@ assert fresh: slot_fresh(queue, slot);
     enqueue(queue, slot, task);
+    /*@ assert priorities: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==> x != slot ==>
+      @     queue->priority[x] == \at(queue->priority[x], Pre);
+      @*/
 }
 
 void keel_queue_remove(keel_queue_t *queue, uint32_t position)

@@ -31,8 +31,8 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
     scheduler->earliest_realtime_us = 0u;
     scheduler->earliest_other_us = 0u;
     scheduler->stage = KEEL_STAGE_SETUP;
-    scheduler->cursor = 0u;
-    scheduler->pass_end = 0u;
+    scheduler->cursor = 0;
+    scheduler->pass_end = 0;
     scheduler->running = KEEL_POSITION_NONE;
     return KEEL_OK;
 }
@@ -47,19 +47,8 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
   @ ensures range: admission->tasks <= scheduler->queue.count;
   @ ensures totals: totals_of(*admission, &scheduler->queue, admission->tasks);
   @ ensures all: \result == KEEL_OK <==> admission->tasks == scheduler->queue.count;
-  @ ensures offender_demand: \result == KEEL_ERR_REALTIME_DEMAND <==>
-  @     admission->tasks < scheduler->queue.count &&
-  @     !demand_holds(&scheduler->queue, admission->tasks + 1, scheduler->config.guard_us);
-  @ ensures offender_gap: \result == KEEL_ERR_BUDGET_GAP <==>
-  @     admission->tasks < scheduler->queue.count &&
-  @     demand_holds(&scheduler->queue, admission->tasks + 1, scheduler->config.guard_us) &&
-  @     !gap_holds(&scheduler->queue, admission->tasks + 1, scheduler->config.guard_us);
-  @ ensures offender_utilisation: \result == KEEL_ERR_UTILISATION <==>
-  @     admission->tasks < scheduler->queue.count &&
-  @     demand_holds(&scheduler->queue, admission->tasks + 1, scheduler->config.guard_us) &&
-  @     gap_holds(&scheduler->queue, admission->tasks + 1, scheduler->config.guard_us) &&
-  @     !utilisation_holds(&scheduler->queue, admission->tasks + 1,
-  @                        scheduler->config.utilisation_limit);
+  @ ensures offender: \result != KEEL_OK ==> set_refused(&scheduler->queue, admission->tasks + 1,
+  @     scheduler->config.guard_us, scheduler->config.utilisation_limit, \result);
   @ ensures complete: \result == KEEL_OK <==> scheduler_holds(scheduler);
   @ ensures demand: \result == KEEL_OK ==>
   @     demand_admitted(&scheduler->queue, scheduler->config.guard_us);
@@ -89,12 +78,9 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @ ensures all: \result == KEEL_OK <==> (scheduler_holds(scheduler) &&
   @     demand_allows(scheduler, task) && gap_allows(scheduler, task) &&
   @     utilisation_allows(scheduler, task));
-  @ ensures reason: \result == KEEL_OK || \result == KEEL_ERR_REALTIME_DEMAND ||
-  @     \result == KEEL_ERR_BUDGET_GAP || \result == KEEL_ERR_UTILISATION;
-  @ ensures demand: scheduler_holds(scheduler) ==>
-  @     (\result == KEEL_ERR_REALTIME_DEMAND <==> !demand_allows(scheduler, task));
-  @ ensures gap: scheduler_holds(scheduler) ==> (\result == KEEL_ERR_BUDGET_GAP <==>
-  @     demand_allows(scheduler, task) && !gap_allows(scheduler, task));
+  @ ensures reason: \result == KEEL_OK || admission_status(\result);
+  @ ensures rule: \result != KEEL_OK ==> scheduler_holds(scheduler) ==>
+  @     refuses(scheduler, task, \result);
   @*/
 static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
                                     const keel_task_config_t *task)
@@ -114,7 +100,7 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @ requires \valid_read(task) && \separated(scheduler, task) && addable(scheduler, task);
   @ assigns scheduler->queue.count, scheduler->queue.realtime_count,
   @     scheduler->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @ assigns QUEUE_SLOT(&scheduler->queue, scheduler->queue.order[scheduler->queue.count]);
+  @ assigns QUEUE_SLOT(&scheduler->queue, 0 .. KEEL_QUEUE_CAPACITY - 1);
   @ assigns scheduler->running, scheduler->wake_us, scheduler->earliest_realtime_us,
   @     scheduler->earliest_other_us;
   @ SCHEDULER_STAYS_VALID(scheduler)
@@ -123,6 +109,12 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @     \old(scheduler->queue.order[scheduler->queue.count]), task);
   @ ensures fresh: slot_fresh(&scheduler->queue,
   @     \old(scheduler->queue.order[scheduler->queue.count]));
+  @ ensures others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @     x != \old(scheduler->queue.order[scheduler->queue.count]) ==>
+  @     slot_same{Pre, Post}(&scheduler->queue, x);
+  @ ensures counts: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @     x != \old(scheduler->queue.order[scheduler->queue.count]) ==>
+  @     counts_same{Pre, Post}(&scheduler->queue, x);
   @ ensures release:
   @     scheduler->queue.release_us[\old(scheduler->queue.order[scheduler->queue.count])] ==
   @     scheduler->clock.now_us + task->phase_us;
@@ -131,25 +123,15 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @*/
 static void insert(keel_scheduler_t *scheduler, const keel_task_config_t *task)
 {
-    const uint16_t place = scheduler->queue.realtime_count;
+    const int16_t place = (int16_t)scheduler->queue.realtime_count;
 
     keel_queue_add(&scheduler->queue, task, scheduler->clock.now_us + task->phase_us);
-    //@ assert slot: \at(scheduler->queue.order[scheduler->queue.count], Pre) < KEEL_QUEUE_CAPACITY;
-    //@ assert running: scheduler->running == \at(scheduler->running, Pre);
-    //@ assert cursor: scheduler->cursor == \at(scheduler->cursor, Pre);
-    //@ assert pass_end: scheduler->pass_end == \at(scheduler->pass_end, Pre);
-    //@ assert stage: scheduler->stage == \at(scheduler->stage, Pre);
-    //@ assert wake: scheduler->wake_us == \at(scheduler->wake_us, Pre);
-    //@ assert state: scheduler_state(scheduler);
-    /*@ assert release: scheduler->queue.release_us[
-      @     \at(scheduler->queue.order[scheduler->queue.count], Pre)] ==
-      @     scheduler->clock.now_us + task->phase_us;
-      @*/
-    if ((task->priority == KEEL_PRIORITY_REALTIME) && (scheduler->running != KEEL_POSITION_NONE) &&
-        (scheduler->running >= place)) {
+    if ((task->priority == KEEL_PRIORITY_REALTIME) && (scheduler->running >= place)) {
         scheduler->running++;
     }
-    //@ assert fresh: slot_fresh(&scheduler->queue, \at(scheduler->queue.order[scheduler->queue.count], Pre));
+    /*@ assert fresh: slot_fresh(&scheduler->queue,
+      @     \at(scheduler->queue.order[scheduler->queue.count], Pre));
+      @*/
     scheduler->earliest_realtime_us = 0u;
     scheduler->earliest_other_us = 0u;
     scheduler->wake_us = 0u;
@@ -190,15 +172,17 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, const keel_task_co
   @*/
 static void shift_up(keel_scheduler_t *scheduler, uint32_t position)
 {
-    if (position < scheduler->cursor) {
+    const int16_t gone = (int16_t)position;
+
+    if (gone < scheduler->cursor) {
         scheduler->cursor--;
     }
-    if (position < scheduler->pass_end) {
+    if (gone < scheduler->pass_end) {
         scheduler->pass_end--;
     }
-    if (scheduler->running == position) {
+    if (scheduler->running == gone) {
         scheduler->running = KEEL_POSITION_NONE;
-    } else if ((scheduler->running != KEEL_POSITION_NONE) && (scheduler->running > position)) {
+    } else if (scheduler->running > gone) {
         scheduler->running--;
     } else {
         /* The running task stands before the gap, or there is none. */

@@ -141,6 +141,19 @@ class CSource(unittest.TestCase):
         body = "{ for (;;) { while (x) { } do { } while (y); } }"
         self.assertEqual(csource.loops(body), 3)
 
+    def test_ghost_functions_are_proved_and_their_loops_must_end(self) -> None:
+        text = (
+            "/*@ ghost\n/@ ensures \\true; @/\nstatic void lemma(int n)\n{\n"
+            "    /@ loop variant n; @/\n    while (n > 0) {\n        n--;\n    }\n}\n*/\n"
+            "int f(void)\n{\n    //@ ghost lemma(1);\n    return 1;\n}\n"
+        )
+        opened = csource.with_ghosts(text)
+        self.assertEqual([f.name for f in csource.defined(text)], ["f"])
+        self.assertEqual([f.name for f in csource.proved(text)], ["lemma", "f"])
+        self.assertEqual([f.line for f in csource.proved(text)], [3, 11])
+        self.assertEqual(csource.loops(csource.body_of(opened, "lemma")), 1)
+        self.assertEqual(len(opened), len(text))
+
     def test_other_bodies_are_removed(self) -> None:
         text = csource.without_other_bodies(SOURCE, frozenset(["keel_box_put"]))
         self.assertNotIn("while", text)

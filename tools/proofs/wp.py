@@ -148,7 +148,7 @@ def targets(unit: Unit) -> Iterator[Target]:
 def _targets_of(unit: Unit, main: Path, files: Sequence[Path]) -> Iterator[Target]:
     texts = [path.read_text(encoding="utf-8") for path in files]
     for text in texts:
-        for function in csource.defined(text):
+        for function in csource.proved(text):
             yield Target(unit, main, function.name)
     lemmas = tuple(name for text in texts for name in csource.lemmas(text))
     if lemmas:
@@ -369,7 +369,8 @@ def _loops(target: Target, log: wplog.Log) -> list[str]:
     if not target.function:
         return []
     for path in (target.file, *target.unit.own_files):
-        body = csource.body_of(path.read_text(encoding="utf-8"), target.function)
+        text = csource.with_ghosts(path.read_text(encoding="utf-8"))
+        body = csource.body_of(text, target.function)
         if body:
             loops = csource.loops(body)
             named = (VARIANT.match(goal.name) for goal in log.goals.values())
@@ -411,7 +412,7 @@ def _regions(text: str, function: str | None) -> Iterator[tuple[int, int, int]]:
         yield 0, lines, 1
         return
     first = 0
-    for found in csource.functions(text):
+    for found in csource.functions(csource.with_ghosts(text)):
         last = text.count("\n", 0, found.body[1]) + 1 if found.body else found.line
         if found.name == function:
             yield first, last, found.line

@@ -165,7 +165,11 @@ void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
 keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priority,
                                    uint32_t period_us, uint32_t budget_us);
 
-/*@ // The totals of the first n tasks of a queue: the sum of the real-time budgets, ...
+/*@ // What admission asks of the order: that each of its tasks has a slot.
+  @ predicate queue_slots(keel_queue_t *q) =
+  @     \forall integer i; 0 <= i < q->count ==> q->order[i] < KEEL_QUEUE_CAPACITY;
+  @
+  @ // The totals of the first n tasks of a queue: the sum of the real-time budgets, ...
   @ logic integer realtime_demand(keel_queue_t *q, integer n) =
   @     (n <= 0) ? 0 : realtime_demand(q, n - 1) +
   @         realtime_budget(q->priority[q->order[n - 1]], q->budget_us[q->order[n - 1]]);
@@ -212,6 +216,15 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priorit
   @     demand_holds(q, n, guard_us) && gap_holds(q, n, guard_us) &&
   @     utilisation_holds(q, n, limit);
   @
+  @ // Why the first n tasks are refused: the first rule that they break.
+  @ predicate set_refused(keel_queue_t *q, integer n, integer guard_us, integer limit,
+  @                       integer status) =
+  @     (status == KEEL_ERR_REALTIME_DEMAND && !demand_holds(q, n, guard_us)) ||
+  @     (status == KEEL_ERR_BUDGET_GAP && demand_holds(q, n, guard_us) &&
+  @      !gap_holds(q, n, guard_us)) ||
+  @     (status == KEEL_ERR_UTILISATION && demand_holds(q, n, guard_us) &&
+  @      gap_holds(q, n, guard_us) && !utilisation_holds(q, n, limit));
+  @
   @ // The rules for all tasks of a queue and one more.
   @ predicate demand_holds_with(keel_queue_t *q, integer priority, integer period_us,
   @                             integer budget_us, integer guard_us) =
@@ -249,7 +262,9 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priorit
  *         admission->tasks is refused
  */
 /*@ requires \valid(admission) && \valid_read(queue) && \separated(admission, queue);
-  @ requires queue_valid(queue);
+  @ requires queue_counts(queue) && queue_slots(queue);
+  @ requires queue_realtime_first(queue) && queue_others_last(queue);
+  @ requires queue_periods(queue) && queue_budgets(queue);
   @ requires admission_valid(*admission) && totals_of(*admission, queue, 0);
   @ assigns *admission;
   @ ensures ADM_004_valid: admission_valid(*admission);
@@ -258,25 +273,14 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priorit
   @ ensures ADM_004_range: admission->tasks <= queue->count;
   @ ensures ADM_004_totals: totals_of(*admission, queue, admission->tasks);
   @ ensures ADM_004_all: \result == KEEL_OK <==> admission->tasks == queue->count;
-  @ ensures ADM_004_offender_demand: \result == KEEL_ERR_REALTIME_DEMAND <==>
-  @     admission->tasks < queue->count &&
-  @     !demand_holds(queue, admission->tasks + 1, admission->guard_us);
-  @ ensures ADM_004_offender_gap: \result == KEEL_ERR_BUDGET_GAP <==>
-  @     admission->tasks < queue->count &&
-  @     demand_holds(queue, admission->tasks + 1, admission->guard_us) &&
-  @     !gap_holds(queue, admission->tasks + 1, admission->guard_us);
-  @ ensures ADM_004_offender_utilisation: \result == KEEL_ERR_UTILISATION <==>
-  @     admission->tasks < queue->count &&
-  @     demand_holds(queue, admission->tasks + 1, admission->guard_us) &&
-  @     gap_holds(queue, admission->tasks + 1, admission->guard_us) &&
-  @     !utilisation_holds(queue, admission->tasks + 1, admission->utilisation_limit);
+  @ ensures ADM_004_offender: \result != KEEL_OK ==> set_refused(queue, admission->tasks + 1,
+  @     admission->guard_us, admission->utilisation_limit, \result);
   @ ensures ADM_004_complete: \result == KEEL_OK <==> set_holds(queue, queue->count,
   @     admission->guard_us, admission->utilisation_limit);
-  @ ensures ADM_004_demand: \result == KEEL_OK ==>
-  @     demand_admitted(queue, admission->guard_us);
-  @ ensures ADM_004_gaps: \result == KEEL_OK ==> gaps_admitted(queue, admission->guard_us);
-  @ ensures ADM_004_utilisation: \result == KEEL_OK ==>
-  @     total_utilisation(queue, queue->count) <= admission->utilisation_limit;
+  @ ensures ADM_004_told: \result == KEEL_OK <==>
+  @     demand_admitted(queue, admission->guard_us) &&
+  @     gaps_admitted(queue, admission->guard_us) &&
+  @     utilisation_holds(queue, queue->count, admission->utilisation_limit);
   @*/
 keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue_t *queue);
 

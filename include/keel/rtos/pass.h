@@ -129,8 +129,8 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
     }
     scheduler->wake_us = 0u;
     scheduler->stage = KEEL_STAGE_PASS;
-    scheduler->cursor = 0u;
-    scheduler->pass_end = scheduler->queue.realtime_count;
+    scheduler->cursor = 0;
+    scheduler->pass_end = (int16_t)scheduler->queue.realtime_count;
     return KEEL_OK;
 }
 
@@ -252,10 +252,12 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler);
   @ behavior backwards:
   @   assumes stage_running(scheduler);
   @   assumes clock_elapsed(scheduler->clock.raw_us, raw_us) >= KEEL_CLOCK_STEP_LIMIT_US;
-  @   assigns scheduler->stage, scheduler->running;
   @   ensures SCH_018_clock: \result == KEEL_ERR_CLOCK;
   @   ensures SCH_018_time: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @       scheduler->clock.raw_us == \old(scheduler->clock.raw_us) &&
   @       scheduler->busy_us == \old(scheduler->busy_us);
+  @   ensures SCH_018_unrecorded: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @       stats_same{Pre, Post}(&scheduler->queue.stats[x]);
   @   ensures SCH_018_ends: scheduler->stage == KEEL_STAGE_READY &&
   @       scheduler->running == KEEL_POSITION_NONE;
   @ behavior forwards:

@@ -102,6 +102,19 @@ typedef struct keel_queue {
   @ predicate order_up{L, M}(keel_queue_t *q, integer first, integer last) =
   @     \forall integer i; first <= i < last ==> \at(q->order[i], M) == \at(q->order[i + 1], L);
   @
+  @ // What is kept of the task in slot x is the same in states L and M.
+  @ predicate slot_same{L, M}(keel_queue_t *q, integer x) =
+  @     \at(q->task[x], M) == \at(q->task[x], L) &&
+  @     \at(q->release_us[x], M) == \at(q->release_us[x], L) &&
+  @     \at(q->period_us[x], M) == \at(q->period_us[x], L) &&
+  @     \at(q->budget_us[x], M) == \at(q->budget_us[x], L) &&
+  @     \at(q->priority[x], M) == \at(q->priority[x], L);
+  @
+  @ predicate counts_same{L, M}(keel_queue_t *q, integer x) =
+  @     \at(q->skipped[x], M) == \at(q->skipped[x], L) &&
+  @     \at(q->stats[x].promotions, M) == \at(q->stats[x].promotions, L) &&
+  @     stats_same{L, M}(\at(&q->stats[x], L));
+  @
   @ // The whole periods that a task in slot x has missed, and the point of its grid behind now.
   @ logic integer grid_missed(keel_queue_t *q, integer x, integer now_us) =
   @     (now_us - q->release_us[x]) / q->period_us[x];
@@ -155,7 +168,7 @@ typedef struct keel_queue {
     ensures QUE_005_periods : queue_periods(q);                                                    \
     ensures QUE_005_budgets : queue_budgets(q);
 
-/* All that is kept of the task in a slot. */
+/* All that is kept of the task in a slot, or in each of a range of them. */
 #define QUEUE_SLOT(q, x)                                                                           \
     (q)->task[x], (q)->release_us[x], (q)->period_us[x], (q)->budget_us[x], (q)->priority[x],      \
         (q)->skipped[x], STATS_FIELDS((q)->stats[x])
@@ -203,11 +216,15 @@ uint32_t keel_queue_find(const keel_queue_t *queue, const keel_task_config_t *ta
   @ requires \valid_read(task) && \separated(queue, task) && config_valid(task);
   @ requires !queue_holds(queue, task);
   @ assigns queue->count, queue->realtime_count, queue->order[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @ assigns QUEUE_SLOT(queue, queue->order[queue->count]);
+  @ assigns QUEUE_SLOT(queue, 0 .. KEEL_QUEUE_CAPACITY - 1);
   @ QUEUE_STAYS_VALID(queue)
   @ ensures QUE_003_order: order_joined{Pre, Post}(queue, task->priority);
   @ ensures QUE_003_copied: slot_copied(queue, \old(queue->order[queue->count]), task);
   @ ensures QUE_003_fresh: slot_fresh(queue, \old(queue->order[queue->count]));
+  @ ensures QUE_003_others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @     x != \old(queue->order[queue->count]) ==> slot_same{Pre, Post}(queue, x);
+  @ ensures QUE_003_counts: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @     x != \old(queue->order[queue->count]) ==> counts_same{Pre, Post}(queue, x);
   @ ensures QUE_003_release: queue->release_us[\old(queue->order[queue->count])] == release_us;
   @*/
 void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_t release_us);

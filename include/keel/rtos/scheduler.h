@@ -89,21 +89,11 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
   @ assigns *admitted;
   @ ensures SCH_003_range: *admitted <= scheduler->queue.count;
   @ ensures SCH_003_all: \result == KEEL_OK <==> *admitted == scheduler->queue.count;
-  @ ensures SCH_003_complete: \result == KEEL_OK <==> set_holds(&scheduler->queue,
-  @     scheduler->queue.count, scheduler->config.guard_us, scheduler->config.utilisation_limit);
+  @ ensures SCH_003_complete: \result == KEEL_OK <==> scheduler_holds(scheduler);
   @ ensures SCH_003_before: set_holds(&scheduler->queue, *admitted, scheduler->config.guard_us,
   @     scheduler->config.utilisation_limit);
-  @ ensures SCH_003_demand: \result == KEEL_ERR_REALTIME_DEMAND <==>
-  @     *admitted < scheduler->queue.count &&
-  @     !demand_holds(&scheduler->queue, *admitted + 1, scheduler->config.guard_us);
-  @ ensures SCH_003_gap: \result == KEEL_ERR_BUDGET_GAP <==>
-  @     *admitted < scheduler->queue.count &&
-  @     demand_holds(&scheduler->queue, *admitted + 1, scheduler->config.guard_us) &&
-  @     !gap_holds(&scheduler->queue, *admitted + 1, scheduler->config.guard_us);
-  @ ensures SCH_003_utilisation: \result == KEEL_ERR_UTILISATION <==>
-  @     *admitted < scheduler->queue.count &&
-  @     demand_holds(&scheduler->queue, *admitted + 1, scheduler->config.guard_us) &&
-  @     gap_holds(&scheduler->queue, *admitted + 1, scheduler->config.guard_us);
+  @ ensures SCH_003_offender: \result != KEEL_OK ==> set_refused(&scheduler->queue, *admitted + 1,
+  @     scheduler->config.guard_us, scheduler->config.utilisation_limit, \result);
   @*/
 keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *admitted);
 
@@ -122,6 +112,11 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @     in_uptime(scheduler));
   @ requires task == \null || \valid_read(task);
   @ requires scheduler != \null && task != \null ==> \separated(scheduler, task);
+  @ assigns scheduler->queue.count, scheduler->queue.realtime_count,
+  @     scheduler->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ assigns QUEUE_SLOT(&scheduler->queue, 0 .. KEEL_QUEUE_CAPACITY - 1);
+  @ assigns scheduler->running, scheduler->wake_us, scheduler->earliest_realtime_us,
+  @     scheduler->earliest_other_us;
   @ behavior null:
   @   assumes scheduler == \null || task == \null || task->run == \null;
   @   assigns \nothing;
@@ -130,15 +125,7 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @   assumes scheduler != \null && task != \null && task->run != \null;
   @   assumes !config_valid(task);
   @   assigns \nothing;
-  @   ensures SCH_005_period: \result == KEEL_ERR_PERIOD <==> !period_valid(task->period_us);
-  @   ensures SCH_005_phase: \result == KEEL_ERR_PHASE <==>
-  @       period_valid(task->period_us) && task->phase_us >= task->period_us;
-  @   ensures SCH_005_budget: \result == KEEL_ERR_BUDGET_ZERO <==>
-  @       period_valid(task->period_us) && task->phase_us < task->period_us &&
-  @       task->budget_us == 0;
-  @   ensures SCH_005_priority: \result == KEEL_ERR_PRIORITY <==>
-  @       period_valid(task->period_us) && task->phase_us < task->period_us &&
-  @       task->budget_us > 0;
+  @   ensures SCH_005_invalid: config_refused(task, \result);
   @ behavior duplicate:
   @   assumes scheduler != \null && task != \null && config_valid(task);
   @   assumes queue_holds(&scheduler->queue, task);
@@ -154,20 +141,11 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @   assumes scheduler != \null && task != \null && addable(scheduler, task);
   @   assumes !admits(scheduler, task);
   @   assigns \nothing;
-  @   ensures SCH_005_refused: \result == KEEL_ERR_REALTIME_DEMAND ||
-  @       \result == KEEL_ERR_BUDGET_GAP || \result == KEEL_ERR_UTILISATION;
-  @   ensures SCH_005_demand: scheduler_holds(scheduler) ==>
-  @       (\result == KEEL_ERR_REALTIME_DEMAND <==> !demand_allows(scheduler, task));
-  @   ensures SCH_005_gap: scheduler_holds(scheduler) ==> (\result == KEEL_ERR_BUDGET_GAP <==>
-  @       demand_allows(scheduler, task) && !gap_allows(scheduler, task));
+  @   ensures SCH_005_refused: admission_status(\result);
+  @   ensures SCH_005_rule: scheduler_holds(scheduler) ==> refuses(scheduler, task, \result);
   @ behavior added:
   @   assumes scheduler != \null && task != \null && addable(scheduler, task);
   @   assumes admits(scheduler, task);
-  @   assigns scheduler->queue.count, scheduler->queue.realtime_count,
-  @       scheduler->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @   assigns QUEUE_SLOT(&scheduler->queue, scheduler->queue.order[scheduler->queue.count]);
-  @   assigns scheduler->running, scheduler->wake_us, scheduler->earliest_realtime_us,
-  @       scheduler->earliest_other_us;
   @   ensures ok: \result == KEEL_OK;
   @   SCHEDULER_STAYS_VALID(scheduler)
   @   ensures SCH_004_order: order_joined{Pre, Post}(&scheduler->queue, task->priority);
@@ -175,6 +153,12 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @       \old(scheduler->queue.order[scheduler->queue.count]), task);
   @   ensures SCH_004_fresh: slot_fresh(&scheduler->queue,
   @       \old(scheduler->queue.order[scheduler->queue.count]));
+  @   ensures SCH_004_others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @       x != \old(scheduler->queue.order[scheduler->queue.count]) ==>
+  @       slot_same{Pre, Post}(&scheduler->queue, x);
+  @   ensures SCH_004_counts: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @       x != \old(scheduler->queue.order[scheduler->queue.count]) ==>
+  @       counts_same{Pre, Post}(&scheduler->queue, x);
   @   ensures SCH_004_release:
   @       scheduler->queue.release_us[\old(scheduler->queue.order[scheduler->queue.count])] ==
   @       scheduler->clock.now_us + task->phase_us;
@@ -194,6 +178,11 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, const keel_task_co
  * @return KEEL_OK, KEEL_ERR_NULL, or KEEL_ERR_UNKNOWN_TASK when it is not in the queue
  */
 /*@ requires scheduler == \null || (\valid(scheduler) && scheduler_valid(scheduler));
+  @ assigns scheduler->queue.count, scheduler->queue.realtime_count,
+  @     scheduler->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1],
+  @     scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ assigns scheduler->cursor, scheduler->pass_end, scheduler->running, scheduler->wake_us,
+  @     scheduler->earliest_realtime_us, scheduler->earliest_other_us;
   @ behavior null:
   @   assumes scheduler == \null || task == \null;
   @   assigns \nothing;
@@ -204,11 +193,6 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, const keel_task_co
   @   ensures SCH_008_unknown: \result == KEEL_ERR_UNKNOWN_TASK;
   @ behavior removed:
   @   assumes scheduler != \null && task != \null && queue_holds(&scheduler->queue, task);
-  @   assigns scheduler->queue.count, scheduler->queue.realtime_count,
-  @       scheduler->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1],
-  @       scheduler->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @   assigns scheduler->cursor, scheduler->pass_end, scheduler->running, scheduler->wake_us,
-  @       scheduler->earliest_realtime_us, scheduler->earliest_other_us;
   @   ensures ok: \result == KEEL_OK;
   @   SCHEDULER_STAYS_VALID(scheduler)
   @   ensures SCH_007_gone: !queue_holds(&scheduler->queue, task);
@@ -238,6 +222,8 @@ keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, const keel_task
  * @return KEEL_OK; KEEL_ERR_STATE when it was started before; what keel_scheduler_check says
  */
 /*@ requires \valid(scheduler) && scheduler_valid(scheduler);
+  @ assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->stage,
+  @     scheduler->earliest_realtime_us;
   @ behavior state:
   @   assumes scheduler->stage != KEEL_STAGE_SETUP;
   @   assigns \nothing;
@@ -245,18 +231,15 @@ keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, const keel_task
   @ behavior refused:
   @   assumes scheduler->stage == KEEL_STAGE_SETUP && !scheduler_holds(scheduler);
   @   assigns \nothing;
-  @   ensures SCH_010_refused: \result == KEEL_ERR_REALTIME_DEMAND ||
-  @       \result == KEEL_ERR_BUDGET_GAP || \result == KEEL_ERR_UTILISATION;
+  @   ensures SCH_010_refused: admission_status(\result);
   @ behavior started:
   @   assumes scheduler->stage == KEEL_STAGE_SETUP && scheduler_holds(scheduler);
-  @   assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->stage,
-  @       scheduler->earliest_realtime_us;
   @   ensures ok: \result == KEEL_OK;
   @   SCHEDULER_STAYS_VALID(scheduler)
   @   ensures SCH_009_stage: scheduler->stage == KEEL_STAGE_READY;
   @   ensures SCH_009_clock: scheduler->clock.now_us == 0 && scheduler->clock.raw_us == raw_us;
-  @   ensures SCH_009_demand: demand_admitted(&scheduler->queue, scheduler->config.guard_us);
-  @   ensures SCH_009_gaps: gaps_admitted(&scheduler->queue, scheduler->config.guard_us);
+  @   ensures SCH_009_demand: \old(demand_admitted(&scheduler->queue, scheduler->config.guard_us));
+  @   ensures SCH_009_gaps: \old(gaps_admitted(&scheduler->queue, scheduler->config.guard_us));
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
@@ -270,6 +253,8 @@ keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_
  */
 /*@ requires scheduler == \null || (\valid(scheduler) && scheduler_valid(scheduler) &&
   @     clock_modelled(scheduler));
+  @ assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->stage,
+  @     scheduler->earliest_realtime_us;
   @ behavior null:
   @   assumes scheduler == \null;
   @   assigns \nothing;
@@ -283,8 +268,6 @@ keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_
   @ behavior started:
   @   assumes scheduler != \null;
   @   assumes scheduler->stage == KEEL_STAGE_SETUP && scheduler_holds(scheduler);
-  @   assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->stage,
-  @       scheduler->earliest_realtime_us;
   @   ensures ok: \result == KEEL_OK;
   @   ensures SCH_019_valid: scheduler_valid(scheduler);
   @   ensures SCH_019_stage: scheduler->stage == KEEL_STAGE_READY && scheduler->clock.now_us == 0;
@@ -306,6 +289,7 @@ keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
   @ requires scheduler != \null ==> wake_right(scheduler) &&
   @     uptime_left(scheduler, scheduler->queue.realtime_count + 2) &&
   @     scheduler->busy_us <= scheduler->clock.now_us;
+  @ assigns *scheduler;
   @ behavior null:
   @   assumes scheduler == \null;
   @   assigns \nothing;
@@ -316,7 +300,6 @@ keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
   @   ensures SCH_020_state: \result == KEEL_ERR_STATE;
   @ behavior ready:
   @   assumes scheduler != \null && scheduler->stage == KEEL_STAGE_READY;
-  @   assigns *scheduler;
   @   SCHEDULER_STAYS_VALID(scheduler)
   @   ensures SCH_020_wake: wake_right(scheduler);
   @   ensures SCH_020_result: \result == KEEL_OK || \result == KEEL_ERR_CLOCK;
@@ -337,6 +320,7 @@ keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler);
  */
 /*@ requires scheduler == \null || (\valid(scheduler) && scheduler_valid(scheduler) &&
   @     clock_modelled(scheduler));
+  @ assigns scheduler->clock.raw_us;
   @ behavior null:
   @   assumes scheduler == \null;
   @   assigns \nothing;
@@ -347,7 +331,6 @@ keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler);
   @   ensures SCH_021_state: \result == KEEL_ERR_STATE;
   @ behavior ready:
   @   assumes scheduler != \null && scheduler->stage == KEEL_STAGE_READY;
-  @   assigns scheduler->clock.raw_us;
   @   ensures SCH_021_taken: \result == KEEL_OK;
   @   ensures SCH_021_valid: scheduler_valid(scheduler);
   @ complete behaviors;

@@ -27,14 +27,14 @@ typedef struct keel_scheduler_config {
 } keel_scheduler_config_t;
 
 /* What the scheduler is doing. Plain numbers: an enumeration's size differs between compilers. */
-#define KEEL_STAGE_SETUP    0u /**< Tasks are being added; not started. */
-#define KEEL_STAGE_READY    1u /**< Between two passes. */
-#define KEEL_STAGE_PASS     2u /**< In a pass, about to decide. */
-#define KEEL_STAGE_REALTIME 3u /**< A real-time task is running. */
-#define KEEL_STAGE_OTHER    4u /**< Another task is running. */
+#define KEEL_STAGE_SETUP    0 /**< Tasks are being added; not started. */
+#define KEEL_STAGE_READY    1 /**< Between two passes. */
+#define KEEL_STAGE_PASS     2 /**< In a pass, about to decide. */
+#define KEEL_STAGE_REALTIME 3 /**< A real-time task is running. */
+#define KEEL_STAGE_OTHER    4 /**< Another task is running. */
 
 /** The position that no task has. */
-#define KEEL_POSITION_NONE UINT16_MAX
+#define KEEL_POSITION_NONE (-1)
 
 /**
  * A scheduler with its tasks. Its caller owns the memory; read it freely, only the functions of
@@ -43,6 +43,8 @@ typedef struct keel_scheduler_config {
  * The two earliest releases are bounds that a pass need not look behind: 0 means that nothing is
  * known, and adding and removing a task leave it so. A task that is taken into service moves its
  * release on, so a bound survives it; who finds a bound passed looks at all tasks and renews it.
+ *
+ * What a pass keeps of itself is signed, which nothing else is here: provers know memory by its type.
  */
 typedef struct keel_scheduler {
     keel_clock_t clock;             /**< The time of the last clock reading. */
@@ -51,10 +53,10 @@ typedef struct keel_scheduler {
     uint64_t earliest_realtime_us;  /**< No real-time release before; while ahead, just then. */
     uint64_t earliest_other_us;     /**< No release of another task before, in us. */
     keel_scheduler_config_t config; /**< As given to keel_scheduler_init. */
-    uint16_t cursor;                /**< In a pass: the next position that FCFS looks at. */
-    uint16_t pass_end;              /**< In a pass: where its real-time tasks end. */
-    uint16_t running;               /**< The running task's position, or KEEL_POSITION_NONE. */
-    uint16_t stage;                 /**< One of KEEL_STAGE_*. */
+    int16_t cursor;                 /**< In a pass: the next position that FCFS looks at. */
+    int16_t pass_end;               /**< In a pass: where its real-time tasks end. */
+    int16_t running;                /**< The running task's position, or KEEL_POSITION_NONE. */
+    int16_t stage;                  /**< One of KEEL_STAGE_*. */
     keel_queue_t queue;             /**< The tasks. */
 } keel_scheduler_t;
 
@@ -71,11 +73,12 @@ typedef struct keel_task_report {
   @ // In a pass the cursor lies within the pass, the pass within the real-time tasks; the running
   @ // task is in the queue; the configuration is as keel_scheduler_init accepted it.
   @ predicate scheduler_state(keel_scheduler_t *s) =
-  @     s->cursor <= s->pass_end <= s->queue.realtime_count &&
-  @     (s->running == KEEL_POSITION_NONE || s->running < s->queue.count) &&
+  @     0 <= s->cursor <= s->pass_end <= s->queue.realtime_count &&
+  @     KEEL_POSITION_NONE <= s->running < s->queue.count &&
   @     s->config.guard_us < KEEL_PERIOD_LIMIT_US &&
   @     s->config.utilisation_limit <= KEEL_UTILISATION_FULL_PPM &&
-  @     s->stage <= KEEL_STAGE_OTHER && (s->stage >= KEEL_STAGE_PASS ==> s->wake_us == 0);
+  @     KEEL_STAGE_SETUP <= s->stage <= KEEL_STAGE_OTHER &&
+  @     (s->stage >= KEEL_STAGE_PASS ==> s->wake_us == 0);
   @
   @ // What is remembered of the releases: bounds ...
   @ predicate realtime_bound(keel_scheduler_t *s) =
@@ -157,7 +160,11 @@ typedef struct keel_task_report {
   @     s->clock.now_us < s->wake_us ==> wake_realtime(s) && wake_others(s);
   @*/
 
-/*@ // Nothing is known of the releases, and the next step decides anew.
+/*@ // What refuses a set of tasks: a rule of admission.
+  @ predicate admission_status(integer status) = status == KEEL_ERR_REALTIME_DEMAND ||
+  @     status == KEEL_ERR_BUDGET_GAP || status == KEEL_ERR_UTILISATION;
+  @
+  @ // Nothing is known of the releases, and the next step decides anew.
   @ predicate nothing_known(keel_scheduler_t *s) =
   @     s->wake_us == 0 && s->earliest_realtime_us == 0 && s->earliest_other_us == 0;
   @
@@ -165,15 +172,14 @@ typedef struct keel_task_report {
   @ predicate running_joined{L, M}(keel_scheduler_t *s, integer priority) =
   @     \at(s->running, M) == \at(s->running, L) +
   @         ((priority == KEEL_PRIORITY_REALTIME &&
-  @           \at(s->queue.realtime_count, L) <= \at(s->running, L) < KEEL_POSITION_NONE)
-  @             ? 1 : 0);
+  @           \at(s->queue.realtime_count, L) <= \at(s->running, L)) ? 1 : 0);
   @
   @ // ... and the positions of a pass when the task at position i leaves it.
   @ predicate pass_left{L, M}(keel_scheduler_t *s, integer i) =
   @     \at(s->cursor, M) == \at(s->cursor, L) - ((i < \at(s->cursor, L)) ? 1 : 0) &&
   @     \at(s->pass_end, M) == \at(s->pass_end, L) - ((i < \at(s->pass_end, L)) ? 1 : 0) &&
   @     \at(s->running, M) == ((i == \at(s->running, L)) ? KEEL_POSITION_NONE :
-  @         \at(s->running, L) - ((i < \at(s->running, L) < KEEL_POSITION_NONE) ? 1 : 0));
+  @         \at(s->running, L) - ((i < \at(s->running, L)) ? 1 : 0));
   @
   @ // What adding asks for besides admission.
   @ predicate addable(keel_scheduler_t *s, keel_task_config_t *task) =
@@ -195,6 +201,13 @@ typedef struct keel_task_report {
   @ predicate utilisation_allows(keel_scheduler_t *s, keel_task_config_t *task) =
   @     utilisation_holds_with(&s->queue, task->period_us, task->budget_us,
   @                            s->config.utilisation_limit);
+  @
+  @ // The first rule of admission that it breaks.
+  @ predicate refuses(keel_scheduler_t *s, keel_task_config_t *task, integer status) =
+  @     (status == KEEL_ERR_REALTIME_DEMAND && !demand_allows(s, task)) ||
+  @     (status == KEEL_ERR_BUDGET_GAP && demand_allows(s, task) && !gap_allows(s, task)) ||
+  @     (status == KEEL_ERR_UTILISATION && demand_allows(s, task) && gap_allows(s, task) &&
+  @      !utilisation_allows(s, task));
   @
   @ predicate admits(keel_scheduler_t *s, keel_task_config_t *task) =
   @     s->stage == KEEL_STAGE_SETUP || (scheduler_holds(s) && demand_allows(s, task) &&
