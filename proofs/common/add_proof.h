@@ -42,7 +42,7 @@ static void assert_added(const keel_scheduler_t *scheduler, const keel_scheduler
     expected.queue.release_us[slot] = before->clock.now_us + proof_task.phase_us;
     __CPROVER_assert(scheduler->queue.release_us[slot] == expected.queue.release_us[slot],
                      "SCH_004_release: its first release is a phase from now");
-    if (realtime && (before->running != KEEL_POSITION_NONE) && (place <= before->running)) {
+    if (realtime && ((int16_t)place <= before->running)) {
         expected.running++;
     }
     __CPROVER_assert(scheduler->running == expected.running,

@@ -28,6 +28,7 @@
 bool nondet_bool(void);
 uint8_t nondet_u8(void);
 uint16_t nondet_u16(void);
+int16_t nondet_s16(void);
 uint32_t nondet_u32(void);
 uint64_t nondet_u64(void);
 keel_stats_t nondet_stats(void);

@@ -44,12 +44,12 @@ static void any_state(keel_scheduler_t *scheduler)
     __CPROVER_assume(scheduler->clock.now_us <= KEEL_CLOCK_TIME_LIMIT_US);
     scheduler->busy_us = nondet_u64();
     __CPROVER_assume(scheduler->busy_us <= scheduler->clock.now_us);
-    scheduler->stage = (uint16_t)any_below(KEEL_STAGE_OTHER + 1u);
+    scheduler->stage = (int16_t)any_below((uint32_t)KEEL_STAGE_OTHER + 1u);
     scheduler->wake_us = (scheduler->stage < KEEL_STAGE_PASS) ? nondet_u64() : 0u;
-    scheduler->pass_end = (uint16_t)any_below(queue->realtime_count + 1u);
-    scheduler->cursor = (uint16_t)any_below(scheduler->pass_end + 1u);
-    scheduler->running = nondet_u16();
-    __CPROVER_assume((scheduler->running == KEEL_POSITION_NONE) ||
+    scheduler->pass_end = (int16_t)any_below(queue->realtime_count + 1u);
+    scheduler->cursor = (int16_t)any_below((uint32_t)scheduler->pass_end + 1u);
+    scheduler->running = nondet_s16();
+    __CPROVER_assume((KEEL_POSITION_NONE <= scheduler->running) &&
                      (scheduler->running < queue->count));
     scheduler->earliest_realtime_us = nondet_u64();
     scheduler->earliest_other_us = nondet_u64();
@@ -92,16 +92,16 @@ static void narrow_tasks(keel_queue_t *queue, uint32_t bits)
         const uint64_t at_k_us = (s)->queue.release_us[(s)->queue.order[at_k]];                    \
                                                                                                    \
         ASSERT_QUEUE_VALID(&(s)->queue, "SCH_006");                                                \
-        __CPROVER_assert(((s)->cursor <= (s)->pass_end) &&                                         \
+        __CPROVER_assert((0 <= (s)->cursor) && ((s)->cursor <= (s)->pass_end) &&                   \
                              ((s)->pass_end <= (s)->queue.realtime_count),                         \
                          "SCH_006_state: the pass lies within the real-time tasks");               \
-        __CPROVER_assert(((s)->running == KEEL_POSITION_NONE) ||                                   \
+        __CPROVER_assert((KEEL_POSITION_NONE <= (s)->running) &&                                   \
                              ((s)->running < (s)->queue.count),                                    \
                          "SCH_006_state: the running task is in the queue");                       \
         __CPROVER_assert(((s)->config.guard_us < KEEL_PERIOD_LIMIT_US) &&                          \
                              ((s)->config.utilisation_limit <= KEEL_UTILISATION_FULL_PPM),         \
                          "SCH_006_state: the configuration is in its range");                      \
-        __CPROVER_assert(((s)->stage <= KEEL_STAGE_OTHER) &&                                       \
+        __CPROVER_assert((KEEL_STAGE_SETUP <= (s)->stage) && ((s)->stage <= KEEL_STAGE_OTHER) &&   \
                              (((s)->stage < KEEL_STAGE_PASS) || ((s)->wake_us == 0u)),             \
                          "SCH_006_state: the stage is one, nothing waits in a pass");              \
         __CPROVER_assert((at_k >= (s)->queue.realtime_count) ||                                    \

@@ -13,7 +13,8 @@
 
 static bool keel_pass_next_may(const keel_scheduler_t *scheduler)
 {
-    return (scheduler != NULL) && (scheduler->cursor <= scheduler->pass_end);
+    return (scheduler != NULL) && (0 <= scheduler->cursor) &&
+           (scheduler->cursor <= scheduler->pass_end);
 }
 
 /* As seen at a position at which the task is due before the call, or not. */
@@ -30,7 +31,7 @@ static bool keel_pass_next_does(const keel_task_config_t *task, const keel_sched
     }
     if (after->stage == KEEL_STAGE_REALTIME) {
         return (task != NULL) && (before->cursor <= after->running) &&
-               (after->running < before->pass_end) && (after->cursor == (after->running + 1u)) &&
+               (after->running < before->pass_end) && (after->cursor == (after->running + 1)) &&
                (!in_pass || !due || (after->running <= i)) && ((i != after->running) || due);
     }
     return (after->stage == ((task != NULL) ? KEEL_STAGE_OTHER : KEEL_STAGE_READY)) &&
@@ -60,7 +61,7 @@ static bool keel_pass_run_may(const keel_scheduler_t *scheduler)
 {
     return (scheduler != NULL) &&
            ((scheduler->stage == KEEL_STAGE_READY) || (scheduler->stage == KEEL_STAGE_PASS)) &&
-           (scheduler->cursor <= scheduler->pass_end) &&
+           (0 <= scheduler->cursor) && (scheduler->cursor <= scheduler->pass_end) &&
            (scheduler->pass_end <= scheduler->queue.realtime_count) &&
            (scheduler->queue.realtime_count <= KEEL_QUEUE_CAPACITY);
 }

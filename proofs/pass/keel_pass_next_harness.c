@@ -86,7 +86,7 @@ static void assert_served(const keel_scheduler_t *scheduler, const keel_schedule
     } else {
         __CPROVER_assert((before->cursor <= scheduler->running) &&
                              (scheduler->running < before->pass_end) &&
-                             (scheduler->cursor == (scheduler->running + 1u)),
+                             (scheduler->cursor == (scheduler->running + 1)),
                          "SCH_015_realtime: the pass goes on behind it");
         __CPROVER_assert((i < before->cursor) || (i >= scheduler->running) || !is_due(before, i),
                          "SCH_015_first: none of the pass before it is due");
@@ -163,7 +163,7 @@ void keel_pass_next_harness(void)
         __CPROVER_assert((task == NULL) && scheduler_same(&scheduler, &before, rival),
                          "SCH_014_closed: with no pass open nothing runs, nothing changes");
     } else if (task != NULL) {
-        __CPROVER_assert((scheduler.running < scheduler.queue.count) &&
+        __CPROVER_assert((0 <= scheduler.running) && (scheduler.running < scheduler.queue.count) &&
                              (task == scheduler.queue.task[scheduler.queue.order[scheduler.running]]),
                          "SCH_014_task: it is the task that runs");
         assert_served(&scheduler, &before, slack_us);

@@ -40,10 +40,10 @@ static bool is_as_left(void)
 /* One who may change the scheduler does. */
 static void change(void)
 {
-    scheduler.stage = nondet_u16();
-    scheduler.cursor = nondet_u16();
-    scheduler.pass_end = nondet_u16();
-    scheduler.running = nondet_u16();
+    scheduler.stage = nondet_s16();
+    scheduler.cursor = nondet_s16();
+    scheduler.pass_end = nondet_s16();
+    scheduler.running = nondet_s16();
     scheduler.wake_us = nondet_u64();
     scheduler.busy_us = nondet_u64();
     scheduler.clock.now_us = nondet_u64();
@@ -95,7 +95,8 @@ static void body(void *context)
     __CPROVER_assert((context == &body_context) && is_as_left() && (moment == HANDED_OUT),
                      "SCH_023_sequence: the body of the task handed out follows, with its context");
     change();
-    __CPROVER_assume((scheduler.stage == before.stage) && (scheduler.cursor <= before.cursor) &&
+    __CPROVER_assume((scheduler.stage == before.stage) && (0 <= scheduler.cursor) &&
+                     (scheduler.cursor <= before.cursor) &&
                      (scheduler.cursor <= scheduler.pass_end) &&
                      ((scheduler.pass_end - scheduler.cursor) <=
                       (before.pass_end - before.cursor)));
@@ -138,6 +139,7 @@ void keel_pass_run_harness(void)
     scheduler.queue.realtime_count = nondet_u8();
     scheduler.config.read_clock = counted_clock;
     change();
+    __CPROVER_assume(keel_pass_run_may(&scheduler));
     followed = any_below(CAPACITY);
     due = nondet_bool();
     is_open = scheduler.stage == KEEL_STAGE_PASS;
@@ -145,7 +147,6 @@ void keel_pass_run_harness(void)
     moment = is_open ? IN_PASS : OVER;
     expected = KEEL_OK;
 
-    __CPROVER_assume(keel_pass_run_may(&scheduler));
     status = keel_pass_run(&scheduler);
 
     __CPROVER_assert(keel_pass_run_does(status, &scheduler),

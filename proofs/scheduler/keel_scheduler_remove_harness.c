@@ -31,6 +31,7 @@ void keel_scheduler_remove_harness(void)
     __CPROVER_assert((status == KEEL_OK) == (!null && known), "SCH_007_ok: a queued task goes");
     if (status == KEEL_OK) {
         const uint32_t slot = before.queue.order[place];
+        const int16_t gone = (int16_t)place;
 
         __CPROVER_assert(scheduler.queue.task[i] != task, "SCH_007_gone: it is queued no more");
         expected.queue.count--;
@@ -43,11 +44,11 @@ void keel_scheduler_remove_harness(void)
                      ? before.queue.order[(i + 1u) % CAPACITY]
                      : ((i == expected.queue.count) ? slot : before.queue.order[i])),
             "SCH_007_order: those behind it move up by one, its slot is the first free one");
-        expected.cursor -= (place < before.cursor) ? 1u : 0u;
-        expected.pass_end -= (place < before.pass_end) ? 1u : 0u;
-        if (before.running == place) {
+        expected.cursor -= (gone < before.cursor) ? 1 : 0;
+        expected.pass_end -= (gone < before.pass_end) ? 1 : 0;
+        if (gone == before.running) {
             expected.running = KEEL_POSITION_NONE;
-        } else if ((before.running != KEEL_POSITION_NONE) && (place < before.running)) {
+        } else if (gone < before.running) {
             expected.running--;
         }
         __CPROVER_assert((scheduler.cursor == expected.cursor) &&

@@ -50,13 +50,13 @@ keel_status_t keel_pass_run_stand_in(keel_scheduler_t *given)
                      "SCH_020_sequence: the pass follows begin, which alone has written");
     passes++;
     expected_status = nondet_bool() ? KEEL_OK : KEEL_ERR_CLOCK;
-    given->stage = nondet_u16();
+    given->stage = nondet_s16();
     given->clock.now_us = nondet_u64();
     given->clock.raw_us = nondet_u32();
     given->wake_us = nondet_u64();
     given->busy_us = nondet_u64();
-    given->cursor = nondet_u16();
-    given->running = nondet_u16();
+    given->cursor = nondet_s16();
+    given->running = nondet_s16();
     __CPROVER_assume(keel_pass_run_does(expected_status, given));
     expected = *given;
     return expected_status;
