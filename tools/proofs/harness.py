@@ -167,11 +167,12 @@ def replacement_problems(harness: Harness) -> list[str]:
         if name == harness.function or name in harness.covers:
             problems.append(f"{place}: replaces {name}, which it is to prove")
         stand_in = "".join(csource.body_of(text, f"{name}_stand_in") for text in texts)
-        own = harness.unit.folder / f"{name}_harness.c"
-        proof = csource.body_of(own.read_text(), own.stem) if own.is_file() else ""
+        entry = f"{name}_harness"
+        own = sorted(harness.unit.folder.parent.glob(f"*/{entry}.c"))
+        proof = "".join(csource.body_of(path.read_text(), entry) for path in own)
         for body, where, before, after in (
             (stand_in, f"{name}_stand_in", "assert", "assume"),
-            (proof, own.stem, "assume", "assert"),
+            (proof, entry, "assume", "assert"),
         ):
             wanted = (f"__CPROVER_{before}({name}_may(", f"__CPROVER_{after}({name}_does(")
             problems += [f"{place}: {where} lacks {text}...)" for text in wanted
