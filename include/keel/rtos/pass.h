@@ -69,6 +69,14 @@ void keel_any_body(void *context);
   @     s->clock.now_us + readings * KEEL_CLOCK_STEP_LIMIT_US <= KEEL_CLOCK_TIME_LIMIT_US;
   @*/
 
+/*@ // What beginning a step writes is the same in states L and M.
+  @ predicate begun_nothing{L, M}(keel_scheduler_t *s) =
+  @     \at(s->clock.now_us, M) == \at(s->clock.now_us, L) &&
+  @     \at(s->clock.raw_us, M) == \at(s->clock.raw_us, L) &&
+  @     \at(s->wake_us, M) == \at(s->wake_us, L) && \at(s->stage, M) == \at(s->stage, L) &&
+  @     \at(s->cursor, M) == \at(s->cursor, L) && \at(s->pass_end, M) == \at(s->pass_end, L);
+  @*/
+
 /**
  * Begins a step: takes the time, and opens a pass unless nothing can be due (requirement SCH-011).
  * Inline, as a step that waits does little else.
@@ -84,6 +92,7 @@ void keel_any_body(void *context);
   @     scheduler->cursor, scheduler->pass_end;
   @ SCHEDULER_STAYS_VALID(scheduler)
   @ ensures SCH_012_wake: wake_right(scheduler);
+  @ ensures SCH_013_kept: \result != KEEL_OK ==> begun_nothing{Pre, Post}(scheduler);
   @ behavior state:
   @   assumes scheduler->stage != KEEL_STAGE_READY;
   @   assigns \nothing;

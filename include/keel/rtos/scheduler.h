@@ -217,6 +217,11 @@ keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, const keel_task
 /*@ requires \valid(scheduler) && scheduler_valid(scheduler);
   @ assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->stage,
   @     scheduler->earliest_realtime_us;
+  @ ensures SCH_010_kept: \result != KEEL_OK ==>
+  @     scheduler->stage == \old(scheduler->stage) &&
+  @     scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @     scheduler->clock.raw_us == \old(scheduler->clock.raw_us) &&
+  @     scheduler->earliest_realtime_us == \old(scheduler->earliest_realtime_us);
   @ behavior state:
   @   assumes scheduler->stage != KEEL_STAGE_SETUP;
   @   assigns \nothing;
@@ -255,9 +260,13 @@ keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_
   @ behavior refused:
   @   assumes scheduler != \null;
   @   assumes scheduler->stage != KEEL_STAGE_SETUP || !scheduler_holds(scheduler);
-  @   assigns \nothing;
   @   ensures SCH_019_refused: \result != KEEL_OK;
-  @   ensures SCH_019_state: \result == KEEL_ERR_STATE <==> scheduler->stage != KEEL_STAGE_SETUP;
+  @   ensures SCH_019_state: \result == KEEL_ERR_STATE <==>
+  @       \old(scheduler->stage) != KEEL_STAGE_SETUP;
+  @   ensures SCH_019_kept: scheduler->stage == \old(scheduler->stage) &&
+  @       scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @       scheduler->clock.raw_us == \old(scheduler->clock.raw_us) &&
+  @       scheduler->earliest_realtime_us == \old(scheduler->earliest_realtime_us);
   @ behavior started:
   @   assumes scheduler != \null;
   @   assumes scheduler->stage == KEEL_STAGE_SETUP && scheduler_holds(scheduler);
@@ -289,8 +298,10 @@ keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
   @   ensures SCH_020_null: \result == KEEL_ERR_NULL;
   @ behavior state:
   @   assumes scheduler != \null && scheduler->stage != KEEL_STAGE_READY;
-  @   assigns \nothing;
+  @   assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->wake_us,
+  @       scheduler->stage, scheduler->cursor, scheduler->pass_end;
   @   ensures SCH_020_state: \result == KEEL_ERR_STATE;
+  @   ensures SCH_020_kept: begun_nothing{Pre, Post}(scheduler);
   @ behavior ready:
   @   assumes scheduler != \null && scheduler->stage == KEEL_STAGE_READY;
   @   SCHEDULER_STAYS_VALID(scheduler)
