@@ -7,7 +7,8 @@
 
 Exit status: 0 when all is proved and the goals are those of proofs/UNIT/goals.txt, 1 when not, 2
 for a wrong command line. build/prove/report.json has the details; there is none while a run is
-not over. A verdict is kept in build/prove/cache under all that it depends on, and only success is.
+not over. A verdict is kept in the user's cache (KEEL_CACHE) under all that it depends on, and only
+success is: another clone of the same text has it, too.
 """
 
 from __future__ import annotations
@@ -36,7 +37,8 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--update-goals", action="store_true", help="rewrite proofs/UNIT/goals.txt")
     parser.add_argument("-j", dest="width", type=int, default=min(2, os.cpu_count() or 1),
                         metavar="N", help="jobs side by side (default %(default)s)")  # fmt: skip
-    parser.add_argument("--no-cache", action="store_true", help="prove everything afresh")
+    parser.add_argument("--fresh", action="store_true",
+                        help="prove everything, whatever verdicts are known")  # fmt: skip
     parser.add_argument("--quick", action="store_true",
                         help="give up early on what provers do not prove at once")  # fmt: skip
     options = parser.parse_args(arguments)
@@ -60,8 +62,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             units=tuple(units[name] for name in options.unit or units),
             partial=bool(options.unit or options.engine),
             engines=(options.engine,) if options.engine else ENGINES,
-            width=options.width, cached=not options.no_cache, quick=options.quick,
-            update_goals=options.update_goals,
+            width=options.width, verdicts=tools.cache.folder / "verdicts",
+            fresh=options.fresh, quick=options.quick, update_goals=options.update_goals,
         )  # fmt: skip
         return Session(ROOT, tools, choice).run()
     except (ProjectError, ToolchainError) as error:

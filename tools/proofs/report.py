@@ -25,6 +25,7 @@ class UnitResult:
     listed: list[str] = field(default_factory=list)
     smoke: int = 0
     accepted: list[str] = field(default_factory=list)
+    stale: list[str] = field(default_factory=list)
     harnesses: dict[str, dict[str, Any]] = field(default_factory=dict)
     negative: dict[str, bool] = field(default_factory=dict)
     bounds: list[dict[str, str]] = field(default_factory=list)
@@ -71,6 +72,7 @@ class UnitResult:
         if job.kind == "wp":
             self.goals += result["goals"]
             self.smoke += result["smoke"]
+            self.stale += result["stale"]
             self.accepted += [text for text in result["allowed"] if text not in self.accepted]
         elif job.kind == "cbmc":
             self.harnesses[job.name] = _harness(result, not outcome.problems)
@@ -107,6 +109,15 @@ class Gathered:
     units: dict[str, UnitResult]
     engines: Sequence[str]
     problems: list[str] = field(default_factory=list)
+    # Verdicts that were known, and those that were had now.
+    known: int = 0
+    fresh: int = 0
+
+    def add(self, outcome: Outcome) -> None:
+        """Take in a job's result."""
+        self.units[outcome.job.unit].add(outcome)
+        self.known += outcome.cached
+        self.fresh += not outcome.cached
 
     @property
     def wp_total(self) -> int:
@@ -185,6 +196,8 @@ class Console:
             self._line(job, job.name, proved, total, seconds)
         for text in outcome.problems:
             print(f"    FAILED {text}", flush=True)
+        for text in () if outcome.cached else outcome.result.get("stale", ()):
+            print(f"    note   {text}", flush=True)
         kind = (job.unit, job.kind)
         before = self._sums.get(kind, (0, 0, 0.0))
         self._sums[kind] = (before[0] + proved, before[1] + total, before[2] + seconds)
@@ -217,6 +230,9 @@ def closing_lines(gathered: Gathered) -> list[str]:
         if unit.exceptions.not_by_wp and "wp" in gathered.engines:
             left = len(unit.exceptions.not_by_wp)
             lines.append(f"{name}: {left} functions are left to CBMC alone, see proofs/units.toml")
+    if stale := sum(len(unit.stale) for unit in gathered.units.values()):
+        lines.append(f"{stale} goals have a better prover than is recorded: run --update-goals")
+    lines.append(f"verdicts: {gathered.known} known before, {gathered.fresh} had now")
     engines = (
         f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}, Gappa {gathered.gappa_proved}"
     )
@@ -237,6 +253,7 @@ def content(
     return report | {
         "goals": gathered.total,
         "proved": gathered.proved,
+        "verdicts": {"known": gathered.known, "fresh": gathered.fresh},
         "problems": gathered.all_problems,
         "units": {name: _unit(result, gathered.engines) for name, result in gathered.units.items()},
         "tools": {name: _tool(found) for name, found in tools.items()},
@@ -253,6 +270,7 @@ def _unit(result: UnitResult, engines: Sequence[str]) -> dict[str, Any]:
             "proved": result.wp_proved,
             "smoke_tests": result.smoke,
             "accepted_warnings": {text: exceptions.warnings[text] for text in result.accepted},
+            "stale_provers": result.stale,
             "not_proved_here": exceptions.no_body,
             "not_by_wp": exceptions.not_by_wp,
             "goal_list": sorted(result.goals, key=lambda goal: goal["name"]),

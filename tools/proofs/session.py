@@ -15,6 +15,7 @@ from toolchain import Found, Toolchain
 
 from . import cbmc, csource, driver, engines, gappa, report, rules, wp
 from .cache import Cache, write_atomically
+from .goals import as_text, read_goals, short_name
 from .jobs import Runner
 from .project import Unit, closure, find_units
 from .settings import Exceptions, read_exceptions
@@ -28,9 +29,11 @@ class Choice:
     partial: bool
     engines: tuple[str, ...]
     width: int
-    cached: bool
-    quick: bool
-    update_goals: bool
+    # Where verdicts are kept, for all clones of the user.
+    verdicts: Path
+    fresh: bool = False
+    quick: bool = False
+    update_goals: bool = False
 
 
 def tool_stamp(tools: dict[str, Found]) -> dict[str, str]:
@@ -51,7 +54,8 @@ def own_digest() -> str:
     """SHA-256 over the driver's source: another driver may judge differently."""
     folder = Path(__file__).resolve().parent
     state = hashlib.sha256()
-    for path in sorted([*folder.glob("*.py"), folder.parent / "toolchain.py"]):
+    own = [*folder.glob("*.py"), *folder.glob("*.ml"), folder.parent / "toolchain.py"]
+    for path in sorted(own):
         if path.stem not in ("mutants", "mutation"):
             state.update(path.read_bytes())
     return state.hexdigest()
@@ -115,12 +119,13 @@ class Session:
         if "gappa" in choice.engines:
             bounds = gappa.Gappa(self._tools.command("gappa"), runner, self._root, scratch)
             jobs += engines.gappa_jobs(choice.units, bounds, self._root, stamp)
-        cache = Cache(self._build / "cache" if choice.cached else None)
+        cache = Cache(choice.verdicts, choice.fresh)
         times = driver.Times(self._build / "times.json")
         console = report.Console(jobs)
         for outcome in driver.run_jobs(jobs, cache, runner, choice.width, times, console.done):
-            gathered.units[outcome.job.unit].add(outcome)
+            gathered.add(outcome)
         times.save()
+        cache.prune()
         self._apply_rules(gathered)
         return gathered
 
@@ -131,7 +136,7 @@ class Session:
         choice = self._choice
         prover = wp.Wp(
             self._tools.frama_c(), runner, self._root, scratch,
-            prover_answers(self._root, stamp) if choice.cached else None,
+            None if choice.fresh else prover_answers(self._root, stamp),
         )  # fmt: skip
         known = frozenset(
             function.name
@@ -181,18 +186,24 @@ class Session:
         if self._choice.update_goals:
             self._update_goal_list(result, seen, path)
         if path.is_file():
-            result.listed = path.read_text(encoding="utf-8").split()
+            result.listed = read_goals(path, shown).names
             result.problems += rules.compare_goals(result.listed, seen, shown)
         else:
             result.problems.append(f"{shown} is missing: review the goals, run --update-goals")
 
     def _update_goal_list(self, result: report.UnitResult, seen: Sequence[str], path: Path) -> None:
-        """Rewrite the list, unless the run itself is in doubt."""
-        shown = path.relative_to(self._root)
+        """Rewrite the list, unless the run itself is in doubt.
+
+        A goal that is not proved, in this run, keeps the prover that it had.
+        """
+        shown = str(path.relative_to(self._root))
         if any("WP" in text for text in result.problems):
             print(f"{result.unit.name:<10} {shown} left alone: the run failed")
             return
-        text = "".join(f"{name}\n" for name in sorted(set(seen)))
+        provers = read_goals(path, shown).provers | {
+            goal["name"]: short_name(goal["prover"]) for goal in result.goals if goal["prover"]
+        }
+        text = as_text(seen, provers)
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
             write_atomically(path, text)
             print(f"{result.unit.name:<10} {shown} rewritten: review the difference")
