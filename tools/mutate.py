@@ -26,13 +26,13 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from proofs.cache import Cache, write_atomically  # noqa: E402
-from proofs.driver import Times  # noqa: E402
 from proofs.jobs import end_as_by_ctrl_c, in_pool  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
 from proofs.mutation import Tools, Trees, Trial, Verdict  # noqa: E402
-from proofs.project import ProjectError, Unit, find_units  # noqa: E402
+from proofs.project import RECORDED_TIMES, ProjectError, Unit, find_units  # noqa: E402
 from proofs.session import own_digest, prover_answers, tool_stamp  # noqa: E402
 from proofs.settings import read_exceptions  # noqa: E402
+from proofs.times import Times  # noqa: E402
 from toolchain import TARGET_FLAGS, Toolchain, ToolchainError  # noqa: E402
 
 from proofs import mutation  # noqa: E402
@@ -119,7 +119,7 @@ def measure(unit: Unit, options: argparse.Namespace, toolchain: Toolchain) -> in
     tools = tools_for(toolchain, unit.root, scratch)
     trees = Trees(unit.root, scratch, options.jobs)
     exceptions = read_exceptions(unit.root / "proofs" / "units.toml", list(find_units(unit.root)))
-    times = Times(unit.root / "build" / "prove" / "times.json")
+    times = Times(unit.root / "build/prove/times.json", unit.root / RECORDED_TIMES)
     trial = Trial(
         unit, tools, trees, engines, options.engine == "both", cache, stamp,
         exceptions[unit.name], times,

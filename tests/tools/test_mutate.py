@@ -23,11 +23,11 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import mutate  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
-from proofs.driver import Times  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
 from proofs.mutation import Tools, Trees, Trial, Verdict  # noqa: E402
 from proofs.project import ProjectError, Unit  # noqa: E402
 from proofs.settings import Exceptions  # noqa: E402
+from proofs.times import Times  # noqa: E402
 
 from proofs import mutation, targets, wp  # noqa: E402
 

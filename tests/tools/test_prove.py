@@ -32,6 +32,7 @@ from proofs.cache import Cache  # noqa: E402
 from proofs.jobs import Runner, in_pool  # noqa: E402
 from proofs.project import ProjectError, Unit, closure, find_units  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
+from proofs.times import Times  # noqa: E402
 from toolchain import Toolchain, ToolchainError  # noqa: E402
 
 from proofs import (  # noqa: E402
@@ -453,7 +454,7 @@ class Jobs(unittest.TestCase):
         keys = iter([key, key, changed or key])
         job = driver.Job("box", "wp", "f", lambda: next(keys), execute)
         runner = Runner({}, self.folder)
-        times = driver.Times(self.folder / "times.json")
+        times = Times(self.folder / "times.json")
         cache = Cache(self.folder / "cache")
         [outcome] = driver.run_jobs([job], cache, runner, 1, times, lambda _: None)
         return len(executed), outcome
@@ -495,7 +496,7 @@ class Jobs(unittest.TestCase):
             return driver.Job("b", "wp", name, lambda: name, execute)
 
         jobs = [job("short"), job("long"), job("new")]
-        times = driver.Times(self.folder / "times.json")
+        times = Times(self.folder / "times.json")
         driver.run_jobs(jobs, Cache(None), Runner({}, self.folder), 1, times, lambda _: None)
         self.assertEqual(order, ["new", "long", "short"])
 
@@ -936,10 +937,13 @@ class WholeRunCase(TreeTest):
         parts = {"goals": GOALS, "cbmc": json.loads(cbmc_output(ASSERTED)), "cover": COVERED}
         self.tools.play(**(parts | changes))
 
-    def prove(self, update: bool = False, partial: bool = False) -> tuple[int, str, dict[str, Any]]:
+    def prove(
+        self, update: bool = False, partial: bool = False, **more: Any
+    ) -> tuple[int, str, dict[str, Any]]:
+        """A run: its status, its output, and its report."""
         unit = find_units(self.root)["box"]
         choice = Choice((unit,), partial, ("wp", "cbmc"), 2, self.verdict_folder, self.fresh,
-                        update_goals=update)  # fmt: skip
+                        update_goals=update, **more)  # fmt: skip
         output = io.StringIO()
         with contextlib.redirect_stdout(output):
             tools: Any = self.tools

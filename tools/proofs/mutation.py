@@ -15,12 +15,12 @@ from typing import Any
 
 from . import cbmc, engines, targets, wp
 from .cache import Cache, digest
-from .driver import Times
 from .harness import Harness, read_harness
 from .jobs import Runner
 from .mutants import Mutant
 from .project import ProjectError, Unit, closure
 from .settings import Exceptions
+from .times import Times
 
 Identity = tuple[str, str, str, int]
 

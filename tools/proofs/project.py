@@ -9,6 +9,8 @@ from pathlib import Path
 from . import csource
 
 ROOT = Path(__file__).resolve().parents[2]
+# How long each job took where it was recorded, in seconds.
+RECORDED_TIMES = "proofs/times.json"
 
 
 class ProjectError(Exception):

@@ -13,6 +13,7 @@ from . import cbmc
 from .driver import Job, Outcome
 from .project import Unit
 from .settings import Exceptions
+from .times import Forecast, Times, estimates
 
 
 @dataclass
@@ -112,6 +113,8 @@ class Gathered:
     # Verdicts that were known, and those that were had now.
     known: int = 0
     fresh: int = 0
+    # What the report of a shard has besides; it says nothing about the whole.
+    shard: dict[str, Any] = field(default_factory=dict)
 
     def add(self, outcome: Outcome) -> None:
         """Take in a job's result."""
@@ -168,6 +171,8 @@ class Gathered:
     @property
     def success(self) -> bool:
         """True when all is proved, and there is something to prove."""
+        if self.shard:
+            return not self.all_problems
         return not self.all_problems and 0 < self.total == self.proved
 
 
@@ -183,7 +188,9 @@ KINDS = {
 class Console:
     """Tells people how far the run is: a line for each job that ran, and for each unit."""
 
-    def __init__(self, jobs: Sequence[Job]) -> None:
+    def __init__(self, jobs: Sequence[Job], times: Times, width: int) -> None:
+        expected = estimates([job.label for job in jobs], times.seconds)
+        self._forecast = Forecast(expected, width)
         self._waiting = [(job.unit, job.kind) for job in jobs]
         self._sums: dict[tuple[str, str], tuple[int, int, float]] = {}
 
@@ -192,8 +199,12 @@ class Console:
         job = outcome.job
         proved, total = self._numbers(outcome)
         seconds = 0.0 if outcome.cached else float(outcome.result["seconds"])
+        if outcome.cached:
+            self._forecast.known(job.label)
+        else:
+            self._forecast.done(job.label, seconds)
         if not outcome.cached and total:
-            self._line(job, job.name, proved, total, seconds)
+            self._line(job, job.name, proved, total, seconds, self._forecast.text())
         for text in outcome.problems:
             print(f"    FAILED {text}", flush=True)
         for text in () if outcome.cached else outcome.result.get("stale", ()):
@@ -216,11 +227,14 @@ class Console:
         return int(not outcome.problems), 1
 
     @staticmethod
-    def _line(job: Job, name: str, proved: int, total: int, seconds: float) -> None:
+    def _line(
+        job: Job, name: str, proved: int, total: int, seconds: float, left: str = ""
+    ) -> None:
         engine, what = KINDS[job.kind]
         time = f"{seconds:.0f} s" if seconds else "known"
         numbers = f"{proved:>4} of {total:>4} {what}"
-        print(f"{job.unit:<10} {engine:<5} {name:<37} {numbers}  {time}", flush=True)
+        text = f"{job.unit:<10} {engine:<5} {name:<37} {numbers}  {time:<7}{left}"
+        print(text.rstrip(), flush=True)
 
 
 def closing_lines(gathered: Gathered) -> list[str]:
@@ -236,6 +250,8 @@ def closing_lines(gathered: Gathered) -> list[str]:
     engines = (
         f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}, Gappa {gathered.gappa_proved}"
     )
+    if gathered.shard:
+        lines.append(f"shard {gathered.shard['shard']}: see --join for the verdict on the whole")
     return [*lines, f"proved {gathered.proved} of {gathered.total} goals ({engines})"]
 
 
@@ -248,8 +264,9 @@ def content(
 ) -> dict[str, Any]:
     """The report."""
     report: dict[str, Any] = {"verdict": "proved" if gathered.success else "failed"}
-    if partial:
+    if partial or gathered.shard:
         report["partial"] = True
+    report |= gathered.shard
     return report | {
         "goals": gathered.total,
         "proved": gathered.proved,
