@@ -12,6 +12,7 @@ import sys
 import unittest
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
@@ -56,7 +57,17 @@ class Lists(TreeTest):
 class Judgement(TreeTest):
     def judge(self, log: str, report: str, recorded: dict[str, str]) -> targets.Result:
         target = targets.Target(self.unit, self.unit.source, PUT)
-        return verdict.judge(target, log, report, self.root, (), recorded)
+        return verdict.judge(target, log, report, self.root, (), recorded, frozenset([2]))
+
+    def test_what_only_a_search_for_dead_branches_proves_is_not_recorded(self) -> None:
+        running = "[wp] Running WP plugin..."
+        tried = "[wp] [Alt-Ergo 2.0.0] Goal typed_keel_box_put_assigns : Timeout (2s)"
+        early = self.judge(wp_log(running, *GOOD), wp_report(3, 3), {})
+        self.assertEqual(early.unrecorded, [])
+        late = wp_log(running, GOOD[0], tried, running, *GOOD[1:])
+        self.assertEqual(self.judge(late, wp_report(3, 3), {}).unrecorded, [f"{PUT}_assigns"])
+        later = wp_log(running, GOOD[0], tried, running, tried, running, *GOOD[1:])
+        self.assertEqual(self.judge(later, wp_report(3, 3), {}).unrecorded, [])
 
     def test_another_prover_than_the_recorded_one_is_told(self) -> None:
         recorded = {f"{PUT}_assigns": "cvc4", f"{PUT}_ensures_BOX_001": "qed"}
@@ -153,6 +164,18 @@ class Recording(WholeRunCase):
         text = self.unit.goal_list.read_text(encoding="utf-8")
         self.assertIn("keel_box_put_assigns alt-ergo\n", text)
         self.assertEqual(self.prove()[0], 0)
+
+    def test_a_prover_that_would_be_asked_in_vain_is_dropped(self) -> None:
+        self.unit.goal_list.write_text(f"{PUT}_assigns alt-ergo\n", encoding="utf-8")
+
+        def late(*arguments: Any) -> targets.Result:
+            result = verdict.judge(*arguments)
+            result.unrecorded = [f"{PUT}_assigns"]
+            return result
+
+        with mock.patch.object(wp, "judge", late):
+            self.prove(update=True)
+        self.assertIn(f"{PUT}_assigns\n", self.unit.goal_list.read_text(encoding="utf-8"))
 
     def test_a_goal_that_is_not_proved_keeps_its_prover(self) -> None:
         broken: dict[str, Any] = {**GOALS, PUT: {"ensures_BOX_001": "Timeout", "assigns": "Valid"}}

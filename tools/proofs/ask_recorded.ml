@@ -33,8 +33,8 @@ let prover_of vc =
   | Some prover -> Some prover
   | None -> Hashtbl.find_opt recorded (without_statement goal)
 
-let ask name =
-  let goals = Wp.VC.generate_kf (Globals.Functions.find_by_name name) in
+let ask kf =
+  let goals = Wp.VC.generate_kf kf in
   let before = Wp.Wp_parameters.Provers.get () in
   List.iter
     (fun prover ->
@@ -53,7 +53,9 @@ let main () =
     let channel = open_in (Sys.getenv "KEEL_RECORDED") in
     let name = read channel in
     close_in channel;
-    ask name
+    match Globals.Functions.find_by_name name with
+    | kf -> ask kf
+    | exception Not_found -> ()
   end
 
 let () = Db.Main.extend main

@@ -246,6 +246,8 @@ class Session:
         provers = read_goals(path, shown).provers | {
             goal["name"]: short_name(goal["prover"]) for goal in result.goals if goal["prover"]
         }
+        for name in result.unrecorded:
+            provers.pop(name, None)
         text = as_text(seen, provers)
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
             write_atomically(path, text)

@@ -49,6 +49,8 @@ class Result:
     problems: list[str] = field(default_factory=list)
     # Goals whose recorded prover did not prove them: that costs time, and nothing else.
     stale: list[str] = field(default_factory=list)
+    # Goals whose prover is not to be recorded.
+    unrecorded: list[str] = field(default_factory=list)
     seconds: float = 0.0
 
     @property

@@ -24,9 +24,12 @@ HARMLESS = {
 
 def judge(
     target: Target, output: str, report: str, root: Path, allowed: Sequence[str] = (),
-    recorded: Mapping[str, str] | None = None,
+    recorded: Mapping[str, str] | None = None, pruned: frozenset[int] = frozenset(),
 ) -> Result:  # fmt: skip
-    """What a run of WP shows, from its output and its JSON report."""
+    """What a run of WP shows, from its output and its JSON report.
+
+    `pruned` are the passes that search for branches that cannot be taken.
+    """
     log = wplog.read_log(output)
     result = Result(smoke=sum(log.smoke.values()))
     result.goals = [
@@ -38,6 +41,8 @@ def judge(
     result.problems += _unproved(target, log, root)
     result.problems += loop_problems(target, log)
     result.stale = _stale(log, recorded or {})
+    # Their prover would be asked in vain in the pass for recorded provers, which does not search.
+    result.unrecorded = [goal.name for goal in log.goals.values() if goal.passes in pruned]
     return result
 
 

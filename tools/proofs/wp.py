@@ -143,7 +143,8 @@ class Wp:
         done = self._runner.run(command, extra=extra)
         self._drop_failures(target)
         written = report.read_text(encoding="utf-8") if report.is_file() else ""
-        return judge(target, done.output, written, self._root, allowed, recorded)
+        pruned = frozenset(number for number, stage in enumerate(stages, 1) if stage.pruning)
+        return judge(target, done.output, written, self._root, allowed, recorded, pruned)
 
     def _recorded_file(self, target: Target, recorded: Mapping[str, str]) -> Path | None:
         """The function and its goals with their provers, for ask_recorded.ml; None without any.
@@ -169,7 +170,7 @@ class Wp:
 
         def enough(line: str) -> bool:
             nonlocal passes
-            passes += line.startswith("[wp] Running WP plugin")
+            passes += line.startswith(wplog.PASS)
             goal = wplog.GOAL.match(line)
             return passes == len(stages) and goal is not None and goal["status"] != "Valid"
 
