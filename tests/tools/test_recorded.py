@@ -17,7 +17,7 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from proofs.jobs import Runner  # noqa: E402
+from proofs.jobs import Finished, Runner  # noqa: E402
 from proofs.project import ProjectError  # noqa: E402
 from test_prove import GOALS, GOOD, TreeTest, WholeRunCase, wp_log, wp_report  # noqa: E402
 
@@ -125,6 +125,19 @@ class Asking(TreeTest):
 
     def test_a_lemma_is_tried_by_its_prover_alone(self) -> None:
         self.assertEqual(self.asked({"lemma_BOX_two": "cvc4"}), ["cvc4"])
+
+    def test_lemmas_of_several_provers_have_a_pass_each(self) -> None:
+        names = ("BOX_one", "BOX_two", "BOX_three")
+        lemmas = targets.Target(self.unit, self.unit.source, None, names)
+        recorded = {f"lemma_{name}": "cvc4" for name in names} | {"lemma_BOX_two": "z3"}
+        run = mock.Mock(return_value=Finished(0, ""))
+        with mock.patch.object(Runner, "run", run):
+            self.prover._prove_lemmas(lemmas, (), recorded)
+        [command] = run.call_args.args
+        chosen = [command[i + 1] for i, word in enumerate(command) if word == "-wp-prop"]
+        self.assertEqual(chosen, ["BOX_one,BOX_three", "BOX_two"])
+        provers = [word for word in command if word.startswith("-wp-prover=")]
+        self.assertEqual(provers, ["-wp-prover=cvc4", "-wp-prover=-cvc4,z3"])
 
     def test_a_lemma_whose_prover_fails_is_tried_by_all(self) -> None:
         self.assertEqual(self.asked({"lemma_BOX_two": "z3"}), ["z3", "alt-ergo,cvc4,z3"])

@@ -64,7 +64,7 @@ THOROUGH = (
     Stage(("alt-ergo", "cvc4", "z3"), 100),
 )
 # A prover that is recorded for a goal proved it, if on a faster machine.
-RECORDED_SECONDS = 20
+RECORDED_SECONDS = 30
 # A contradiction shows early: seeded ones were found with 50 000 steps wherever they were with
 # 75 000. WP proves calls through pointers once more in this pass, which takes 56 000. Steps count
 # alike on every machine; the seconds only guard.
@@ -124,26 +124,44 @@ class Wp:
     def _prove_lemmas(
         self, target: Target, allowed: Sequence[str], recorded: Mapping[str, str]
     ) -> Result | None:
-        """Lemmas by the provers that are recorded for them; None if it is not for all of them."""
-        names = {recorded.get(f"lemma_{name}", "") for name in target.lemmas}
-        if target.function or "" in names or names == {QED}:
+        """Lemmas, each by the prover that is recorded for it; None if it is not for all of them."""
+        groups: dict[str, list[str]] = {}
+        for name in target.lemmas:
+            groups.setdefault(recorded.get(f"lemma_{name}", QED), []).append(name)
+        if target.function or QED in groups:
             return None
-        stages = [Stage(tuple(sorted(names - {QED})), RECORDED_SECONDS)]
-        return self._run(target, stages, False, allowed, recorded)
+        passes = [
+            (Stage((prover,), RECORDED_SECONDS), ["-wp-prop", ",".join(names)])
+            for prover, names in sorted(groups.items())
+        ]
+        report = self._report_of(target)
+        return self._judged(target, self._words(target, passes, report), report, allowed, recorded)
 
     def _run(
         self, target: Target, stages: Sequence[Stage], smoke: bool, allowed: Sequence[str],
         recorded: Mapping[str, str],
     ) -> Result:  # fmt: skip
-        report = self._scratch / f"{target.identity}.json"
-        report.unlink(missing_ok=True)
+        report = self._report_of(target)
         file = self._recorded_file(target, recorded)
         extra = {"KEEL_RECORDED": str(file)} if file else None
         command = self.command(target, stages, smoke, report, file is not None)
+        pruned = frozenset(number for number, stage in enumerate(stages, 1) if stage.pruning)
+        return self._judged(target, command, report, allowed, recorded, pruned, extra)
+
+    def _report_of(self, target: Target) -> Path:
+        """Where WP is to write its report; none is there yet."""
+        report = self._scratch / f"{target.identity}.json"
+        report.unlink(missing_ok=True)
+        return report
+
+    def _judged(
+        self, target: Target, command: Sequence[str], report: Path, allowed: Sequence[str],
+        recorded: Mapping[str, str], pruned: frozenset[int] = frozenset(),
+        extra: dict[str, str] | None = None,
+    ) -> Result:  # fmt: skip
         done = self._runner.run(command, extra=extra)
         self._drop_failures(target)
         written = report.read_text(encoding="utf-8") if report.is_file() else ""
-        pruned = frozenset(number for number, stage in enumerate(stages, 1) if stage.pruning)
         return judge(target, done.output, written, self._root, allowed, recorded, pruned)
 
     def _recorded_file(self, target: Target, recorded: Mapping[str, str]) -> Path | None:
@@ -192,19 +210,28 @@ class Wp:
         Lemmas are not filtered by WP in that way; they get all provers in one stage, and have no
         code that a smoke test could look at.
         """
-        command = [*self._own_options(target.identity), self._shown(target.file)]
-        command += self._cache_options(target)
-        if recorded and target.function:
-            command += self._recorded_pass(target.identity, target.function)
-        before: tuple[str, ...] = ()
         smoke = smoke and target.function is not None
         passes = [*stages, SMOKE] if smoke else list(stages)
         if target.function is None:
             names = dict.fromkeys(name for stage in stages for name in stage.provers)
             passes = [Stage(tuple(names), max(stage.seconds for stage in stages))]
-        for number, stage in enumerate(passes):
+        first: list[str] = []
+        if recorded and target.function:
+            first = self._recorded_pass(target.identity, target.function)
+        selected = [(stage, target.selection) for stage in passes]
+        return self._words(target, selected, report, first, smoke)
+
+    def _words(
+        self, target: Target, passes: Sequence[tuple[Stage, list[str]]], report: Path,
+        first: Sequence[str] = (), smoke: bool = False,
+    ) -> list[str]:  # fmt: skip
+        """The command line of these passes, each over its selection of goals."""
+        command = [*self._own_options(target.identity), self._shown(target.file)]
+        command += [*self._cache_options(target), *first]
+        before: tuple[str, ...] = ()
+        for number, (stage, selection) in enumerate(passes):
             command += ["-then"] if number else []
-            command += ["-wp", "-wp-rte", "-wp-status-invalid", *target.selection, "-wp-par", "2"]
+            command += ["-wp", "-wp-rte", "-wp-status-invalid", *selection, "-wp-par", "2"]
             command += stage.options(before)
             before = stage.provers
         if smoke:
