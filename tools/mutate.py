@@ -26,13 +26,13 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from proofs.cache import Cache, write_atomically  # noqa: E402
-from proofs.driver import Times  # noqa: E402
 from proofs.jobs import end_as_by_ctrl_c, in_pool  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
 from proofs.mutation import Tools, Trees, Trial, Verdict  # noqa: E402
-from proofs.project import ProjectError, Unit, find_units  # noqa: E402
+from proofs.project import RECORDED_TIMES, ProjectError, Unit, find_units  # noqa: E402
 from proofs.session import own_digest, prover_answers, tool_stamp  # noqa: E402
 from proofs.settings import read_exceptions  # noqa: E402
+from proofs.times import Times  # noqa: E402
 from toolchain import TARGET_FLAGS, Toolchain, ToolchainError  # noqa: E402
 
 from proofs import mutation  # noqa: E402
@@ -54,7 +54,7 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--max-seconds", type=float, default=float("inf"), metavar="S",
                         help="start no mutant after this time")  # fmt: skip
     parser.add_argument("--list", action="store_true", help="print the mutants, try none")
-    parser.add_argument("--no-cache", action="store_true", help="try every mutant afresh")
+    parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")
     options = parser.parse_args(arguments)
     if options.unit not in names:
         parser.error(f"no such unit: {options.unit} (there are: {', '.join(names)})")
@@ -75,6 +75,7 @@ def tools_for(toolchain: Toolchain, root: Path, scratch: Path) -> Tools:
     return Tools(
         frama_c=toolchain.frama_c(), goto_cc=toolchain.goto_cc(), cbmc=toolchain.command("cbmc"),
         compiler=compiler, scratch=scratch, answers=prover_answers(root, stamp),
+        verdicts=toolchain.cache.folder / "verdicts",
         environment={**os.environ, **toolchain.environment(), "TMPDIR": str(scratch)},
     )  # fmt: skip
 
@@ -114,11 +115,11 @@ def measure(unit: Unit, options: argparse.Namespace, toolchain: Toolchain) -> in
     scratch = Path(tempfile.mkdtemp(prefix="keel-mutate-"))
     engines = ENGINES[options.engine]
     stamp = {**tool_stamp(toolchain.versions("prove")), "driver": own_digest()}
-    cache = Cache(None if options.no_cache else build / "cache")
+    cache = Cache(build / "cache", options.fresh)
     tools = tools_for(toolchain, unit.root, scratch)
     trees = Trees(unit.root, scratch, options.jobs)
     exceptions = read_exceptions(unit.root / "proofs" / "units.toml", list(find_units(unit.root)))
-    times = Times(unit.root / "build" / "prove" / "times.json")
+    times = Times(unit.root / "build/prove/times.json", unit.root / RECORDED_TIMES)
     trial = Trial(
         unit, tools, trees, engines, options.engine == "both", cache, stamp,
         exceptions[unit.name], times,

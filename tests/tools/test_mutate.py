@@ -23,13 +23,13 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import mutate  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
-from proofs.driver import Times  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
 from proofs.mutation import Tools, Trees, Trial, Verdict  # noqa: E402
 from proofs.project import ProjectError, Unit  # noqa: E402
 from proofs.settings import Exceptions  # noqa: E402
+from proofs.times import Times  # noqa: E402
 
-from proofs import mutation, wp  # noqa: E402
+from proofs import mutation, targets, wp  # noqa: E402
 
 HEADER = """\
 #include <stdbool.h>
@@ -186,7 +186,7 @@ class Limits(unittest.TestCase):
                 answer = {"prover": prover, "verdict": "valid", "time": seconds}
                 (Path(folder) / f"{name}.json").write_text(json.dumps(answer), encoding="utf-8")
             goals = [{"prover": "Qed"}, {"prover": "Alt-Ergo 2.0.0"}, {"prover": "CVC4 1.8"}]
-            stages = mutation.limits(wp.Result(goals=goals), Path(folder))
+            stages = mutation.limits(targets.Result(goals=goals), Path(folder))
         names = ("alt-ergo", "cvc4")
         self.assertEqual(stages, (wp.Stage(names, 12), wp.Stage(names, 12, pruning=True)))
 
@@ -206,7 +206,8 @@ class Trials(unittest.TestCase):
         header.write_text(HEADER, encoding="utf-8")
         self.unit = Unit(self.root, "rtos", "box")
         environment = {"PATH": os.environ["PATH"]}
-        tools = Tools((), (), (), ("gcc",), environment, scratch, scratch / "answers")
+        tools = Tools((), (), (), ("gcc",), environment, scratch, scratch / "answers",
+                      scratch / "verdicts")  # fmt: skip
         trees = Trees(self.root, scratch, 1)
         self.trial = Trial(self.unit, tools, trees, (), False, Cache(None), {}, Exceptions(),
                            Times(scratch / "times.json"))  # fmt: skip

@@ -13,14 +13,14 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from . import cbmc, engines, wp
+from . import cbmc, engines, targets, wp
 from .cache import Cache, digest
-from .driver import Times
 from .harness import Harness, read_harness
 from .jobs import Runner
 from .mutants import Mutant
 from .project import ProjectError, Unit, closure
 from .settings import Exceptions
+from .times import Times
 
 Identity = tuple[str, str, str, int]
 
@@ -111,6 +111,7 @@ class Tools:
     environment: Mapping[str, str]
     scratch: Path
     answers: Path
+    verdicts: Path
 
 
 class Trial:
@@ -133,7 +134,7 @@ class Trial:
         self._times = times
         self._allowed = list(exceptions.warnings)
         self._baseline = threading.Lock()
-        self._proved = Cache(unit.root / "build" / "prove" / "cache")
+        self._proved = Cache(tools.verdicts)
         self._sound: dict[str, bool] = {}
         self._stages: dict[str, tuple[wp.Stage, ...]] = {}
         self._harnesses = [read_harness(unit, path) for path in unit.harnesses]
@@ -164,8 +165,8 @@ class Trial:
             return self._stages[function]
 
     @staticmethod
-    def _target(unit: Unit, function: str) -> wp.Target:
-        return next(item for item in wp.targets(unit) if item.function == function)
+    def _target(unit: Unit, function: str) -> targets.Target:
+        return next(item for item in targets.targets(unit) if item.function == function)
 
     def try_mutant(self, mutant: Mutant) -> Verdict:
         """Which engine notices the mutant, if any."""
@@ -237,7 +238,7 @@ class Trial:
 
     def _assembly(self, unit: Unit, runner: Runner) -> str | None:
         """The optimised assembly of a unit; None if it does not compile."""
-        file = wp.translation_unit(unit)
+        file = targets.translation_unit(unit)
         keep = ("-fkeep-inline-functions", "-fkeep-static-functions")
         options = [
             "-O2",
@@ -317,7 +318,7 @@ class Trial:
         return f"killed: {problem}" if problem else "survived"
 
 
-def limits(result: wp.Result, answers: Path) -> tuple[wp.Stage, ...]:
+def limits(result: targets.Result, answers: Path) -> tuple[wp.Stage, ...]:
     """Passes with the provers that a proof needed, and a multiple of the time that it needed."""
     needed = {goal["prover"].split(" ")[0] for goal in result.goals} & set(PROVERS)
     longest = 0.0

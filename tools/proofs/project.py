@@ -10,6 +10,8 @@ from . import csource
 
 ROOT = Path(__file__).resolve().parents[2]
 STATE = "_state.h"
+# How long each job took where it was recorded, in seconds.
+RECORDED_TIMES = "proofs/times.json"
 
 
 class ProjectError(Exception):
