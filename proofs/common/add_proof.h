@@ -53,7 +53,8 @@ static void assert_added(const keel_scheduler_t *scheduler, const keel_scheduler
     __CPROVER_assert((scheduler->wake_us == 0u) && (scheduler->earliest_realtime_us == 0u) &&
                          (scheduler->earliest_other_us == 0u),
                      "SCH_004_wake: nothing is known of the releases");
-    __CPROVER_assert(scheduler_same(scheduler, &expected, i), "SCH_004_frame: nothing else is written");
+    __CPROVER_assert(scheduler_same(scheduler, &expected, i),
+                     "SCH_004_frame: nothing else is written");
 }
 
 #endif

@@ -62,9 +62,9 @@ static keel_status_t verdict_on_all(const keel_scheduler_t *scheduler, uint32_t 
         const uint32_t x = slot_at(i);
 
         if ((status == KEEL_OK) && (i < scheduler->queue.count)) {
-            const totals_t with =
-                totals_and(*totals, scheduler->queue.priority[x], scheduler->queue.period_us[x],
-                           scheduler->queue.budget_us[x]);
+            const totals_t with = totals_and(*totals, scheduler->queue.priority[x],
+                                             scheduler->queue.period_us[x],
+                                             scheduler->queue.budget_us[x]);
 
             status = verdict(&with, &scheduler->config);
             if (status == KEEL_OK) {

@@ -113,9 +113,9 @@ static void any_queue(keel_queue_t *queue, uint32_t of_interest)
         queue->task[x] = NULL;
         if (i < queue->count) {
             queue->task[x] = (i == of_interest) ? &proof_task : &proof_config[x];
-            __CPROVER_assume(
-                (queue->priority[x] == KEEL_PRIORITY_REALTIME) ||
-                ((1u <= queue->priority[x]) && (queue->priority[x] <= KEEL_PRIORITY_HIGH)));
+            __CPROVER_assume((queue->priority[x] == KEEL_PRIORITY_REALTIME) ||
+                             ((1u <= queue->priority[x]) &&
+                              (queue->priority[x] <= KEEL_PRIORITY_HIGH)));
             __CPROVER_assume((queue->priority[x] == KEEL_PRIORITY_REALTIME) ==
                              (i < queue->realtime_count));
             __CPROVER_assume((0u < queue->period_us[x]) &&

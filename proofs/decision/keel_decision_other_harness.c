@@ -43,9 +43,8 @@ void keel_decision_other_harness(void)
     __CPROVER_assert(!is_other(&queue, i) ||
                          (choice.earliest_us <= queue.release_us[queue.order[i]]),
                      "DEC_003_earliest: no other task is released before it");
-    __CPROVER_assert(
-        is_some_release(&queue, queue.realtime_count, queue.count, choice.earliest_us),
-        "DEC_003_earliest: it is another task's release, or never");
+    __CPROVER_assert(is_some_release(&queue, queue.realtime_count, queue.count, choice.earliest_us),
+                     "DEC_003_earliest: it is another task's release, or never");
     if (choice.priority > 0u) {
         __CPROVER_assert(is_other(&queue, choice.position) &&
                              ((i != choice.position) || (choice.priority == priority)),

@@ -15,7 +15,7 @@ void keel_decision_room_us_harness(void)
 
     room_us = keel_decision_room_us(earliest_us, now_us, guard_us);
 
-    __CPROVER_assert((worst_us == 0u) || ((worst_us <= room_us) ==
-                                          (((uint64_t)guard_us + worst_us) <= slack_us)),
+    __CPROVER_assert((worst_us == 0u) ||
+                         ((worst_us <= room_us) == (((uint64_t)guard_us + worst_us) <= slack_us)),
                      "DEC_005_room: a task fits the room exactly when W + w fits the slack");
 }

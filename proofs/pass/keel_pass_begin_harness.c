@@ -46,7 +46,8 @@ void keel_pass_begin_harness(void)
                              "SCH_011_idle: no pass opens only when nothing is due");
         }
     }
-    __CPROVER_assert(scheduler_same(&scheduler, &expected, i),
-                     "SCH_011_open: a pass over all real-time tasks opens from the wake-up time on, "
-                     "and nothing else is written");
+    __CPROVER_assert(
+        scheduler_same(&scheduler, &expected, i),
+        "SCH_011_open: a pass over all real-time tasks opens from the wake-up time on, "
+        "and nothing else is written");
 }

@@ -76,8 +76,7 @@ void keel_pass_finish_harness(void)
                              "SCH_017_recorded: its run is recorded");
         }
     }
-    __CPROVER_assert((scheduler.stage == expected.stage) &&
-                         (scheduler.running == expected.running),
+    __CPROVER_assert((scheduler.stage == expected.stage) && (scheduler.running == expected.running),
                      "SCH_017_stage: after a real-time task the pass goes on");
     __CPROVER_assert(scheduler_same(&scheduler, &expected, x),
                      "SCH_017_others: nothing else is written, of no other task");

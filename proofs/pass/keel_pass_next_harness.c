@@ -79,7 +79,8 @@ static void assert_served(const keel_scheduler_t *scheduler, const keel_schedule
         __CPROVER_assert(priority > 0u, "SCH_016_fits: it fits the slack, or is promoted");
         __CPROVER_assert(may_run_with(before, i, slack_us) <= priority,
                          "SCH_016_highest: none that may run has a higher dynamic priority");
-        __CPROVER_assert((i >= scheduler->running) || (may_run_with(before, i, slack_us) < priority),
+        __CPROVER_assert((i >= scheduler->running) ||
+                             (may_run_with(before, i, slack_us) < priority),
                          "SCH_016_first: nor one before it the same");
         expected.earliest_realtime_us = scheduler->earliest_realtime_us;
         expected.earliest_other_us = scheduler->earliest_other_us;
@@ -164,7 +165,8 @@ void keel_pass_next_harness(void)
                          "SCH_014_closed: with no pass open nothing runs, nothing changes");
     } else if (task != NULL) {
         __CPROVER_assert((0 <= scheduler.running) && (scheduler.running < scheduler.queue.count) &&
-                             (task == scheduler.queue.task[scheduler.queue.order[scheduler.running]]),
+                             (task ==
+                              scheduler.queue.task[scheduler.queue.order[scheduler.running]]),
                          "SCH_014_task: it is the task that runs");
         assert_served(&scheduler, &before, slack_us);
     } else {

@@ -151,8 +151,9 @@ void keel_pass_run_harness(void)
 
     __CPROVER_assert(keel_pass_run_does(status, &scheduler),
                      "SCH_023_closed: the pass is closed, refused by the clock alone");
-    __CPROVER_assert((moment == OVER) && is_as_left() && (clock_readings == 0u),
-                     "SCH_023_sequence: it ends with the pass, only its parts change the scheduler");
+    __CPROVER_assert(
+        (moment == OVER) && is_as_left() && (clock_readings == 0u),
+        "SCH_023_sequence: it ends with the pass, only its parts change the scheduler");
     __CPROVER_assert(status == expected, "SCH_023_result: that of the last finish");
     __CPROVER_assert(runs <= 1u, "SCH_023_once: no real-time task runs twice in a pass");
     __CPROVER_assert((status != KEEL_OK) || !must_run || (followed == GONE) || (runs == 1u),

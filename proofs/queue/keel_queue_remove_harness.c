@@ -21,8 +21,8 @@ void keel_queue_remove_harness(void)
     ASSERT_QUEUE_VALID(&queue, "QUE_005");
     __CPROVER_assert(queue.task[i] != &proof_task, "QUE_007_gone: the task is queued no more");
     __CPROVER_assert(queue.count == (before.count - 1u), "QUE_007_order: one task less");
-    __CPROVER_assert(queue.realtime_count == (before.realtime_count -
-                                              ((position < before.realtime_count) ? 1u : 0u)),
+    __CPROVER_assert(queue.realtime_count ==
+                         (before.realtime_count - ((position < before.realtime_count) ? 1u : 0u)),
                      "QUE_007_order: one real-time task less if it was one");
     __CPROVER_assert((queue.order[queue.count] == slot) && (queue.task[slot] == NULL),
                      "QUE_007_freed: its slot is the first free one");

@@ -30,7 +30,8 @@ void keel_scheduler_add_harness(void)
     __CPROVER_assume(config_is_valid_here(&proof_task));
     expected = verdict_on_all(&scheduler, &offender, &totals);
     if (expected == KEEL_OK) {
-        totals = totals_and(totals, proof_task.priority, proof_task.period_us, proof_task.budget_us);
+        totals = totals_and(totals, proof_task.priority, proof_task.period_us,
+                            proof_task.budget_us);
         expected = verdict(&totals, &scheduler.config);
     }
     before = scheduler;

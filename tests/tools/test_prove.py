@@ -734,6 +734,12 @@ int keel_box_get_stand_in(int box)
             return harness.text_problems(harness.read_harness(self.unit, path))
 
         self.assertEqual(problems(text), [])
+        elsewhere = self.unit.folder.with_name("crate")
+        elsewhere.mkdir()
+        (self.unit.folder / "keel_box_get_harness.c").rename(elsewhere / "keel_box_get_harness.c")
+        self.assertEqual(problems(text), [])
+        (elsewhere / "keel_box_get_harness.c").unlink()
+        self.assertIn("get_harness lacks __CPROVER_assume(", problems(text)[0])
         self.assertIn("stand_in lacks", problems(text.replace("assert(keel", "assume(keel"))[0])
         self.assertIn("is to prove", problems(text.replace("s: keel_box_put", "s: keel_box_get "
                                                            "keel_box_put"))[0])  # fmt: skip
