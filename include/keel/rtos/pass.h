@@ -100,7 +100,6 @@ void keel_any_body(void *context);
   @ behavior backwards:
   @   assumes scheduler->stage == KEEL_STAGE_READY;
   @   assumes clock_elapsed(scheduler->clock.raw_us, raw_us) >= KEEL_CLOCK_STEP_LIMIT_US;
-  @   assigns \nothing;
   @   ensures SCH_013_clock: \result == KEEL_ERR_CLOCK;
   @ behavior forwards:
   @   assumes scheduler->stage == KEEL_STAGE_READY;
@@ -133,6 +132,21 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
     if (status != KEEL_OK) {
         return status;
     }
+    /*@ assert releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+      @     scheduler->queue.release_us[x] == \at(scheduler->queue.release_us[x], Pre);
+      @*/
+    /*@ assert sooner: \forall integer j; 0 <= j < scheduler->queue.realtime_count ==>
+      @     time_to(&scheduler->queue, scheduler->queue.order[j], scheduler->clock.now_us) <=
+      @     \at(time_to(&scheduler->queue, scheduler->queue.order[j], scheduler->clock.now_us),
+      @         Pre);
+      @*/
+    /*@ assert misfit: \forall integer i;
+      @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
+      @     !\at(fits_slack(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us,
+      @                     scheduler->config.guard_us), Pre) ==>
+      @     !fits_slack(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us,
+      @                 scheduler->config.guard_us);
+      @*/
     if (scheduler->clock.now_us < scheduler->wake_us) {
         return KEEL_OK;
     }
