@@ -34,7 +34,6 @@ static keel_scheduler_t scheduler;
 static keel_scheduler_t scheduler_before;
 
 static actor_t a, b, c, d, o, p;
-static actor_t crowd[KEEL_QUEUE_CAPACITY];
 static board_t board;
 
 /* A reading of the counter some time later: it wraps. */

@@ -1,6 +1,8 @@
 /* Unit tests of keel/rtos/scheduler.h on a virtual board. Schedules are worked out by hand. */
 #include "board.h"
 
+static actor_t crowd[KEEL_QUEUE_CAPACITY];
+
 void setUp(void)
 {
     board_reset(0u);
