@@ -45,17 +45,6 @@ uint64_t keel_decision_earliest_us(const keel_queue_t *queue)
     return earliest_us;
 }
 
-uint32_t keel_decision_room_us(uint64_t earliest_us, uint64_t now_us, uint32_t guard_us)
-{
-    uint64_t room_us;
-
-    if ((earliest_us <= now_us) || ((earliest_us - now_us) <= guard_us)) {
-        return 0u;
-    }
-    room_us = (earliest_us - now_us) - guard_us;
-    return (room_us < UINT32_MAX) ? (uint32_t)room_us : UINT32_MAX;
-}
-
 /* The dynamic priority of a released task. Mostly it is less than a period late, and then sp * late
  * is mostly below T: no division. */
 /*@ requires \valid_read(queue) && slot < KEEL_QUEUE_CAPACITY;
@@ -148,8 +137,7 @@ uint64_t keel_decision_event_us(const keel_queue_t *queue, uint64_t now_us)
         uint64_t at_us = queue->release_us[slot];
 
         if (at_us <= now_us) {
-            at_us += keel_priority_promotion_age_us(queue->priority[slot],
-                                                    queue->period_us[slot]) -
+            at_us += keel_priority_promotion_age_us(queue->priority[slot], queue->period_us[slot]) -
                      queue->period_us[slot];
         }
         if (at_us < event_us) {

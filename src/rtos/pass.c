@@ -10,7 +10,7 @@
 /* Takes the task at a position into service: its next release, and what finish has to know. */
 /*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
   @ requires position < scheduler->queue.count && due(scheduler, position);
-  @ requires scheduler->stage == KEEL_STAGE_PASS && 0 <= cursor <= scheduler->pass_end;
+  @ requires scheduler->stage == KEEL_STAGE_PASS && cursor <= scheduler->pass_end;
   @ requires stage == KEEL_STAGE_REALTIME || stage == KEEL_STAGE_OTHER;
   @ assigns scheduler->cursor, scheduler->running, scheduler->stage,
   @     scheduler->queue.skipped[scheduler->queue.order[position]],
@@ -26,7 +26,7 @@
   @     left_alone{Pre, Post}(scheduler, k);
   @*/
 static const keel_task_config_t *dispatch(keel_scheduler_t *scheduler, uint32_t position,
-                                          int16_t cursor, int16_t stage)
+                                          uint32_t cursor, int16_t stage)
 {
     const uint32_t slot = scheduler->queue.order[position];
 
@@ -34,7 +34,7 @@ static const keel_task_config_t *dispatch(keel_scheduler_t *scheduler, uint32_t 
     /*@ assert others: \forall integer k; 0 <= k < scheduler->queue.count ==> k != position ==>
       @     left_alone{Pre, Here}(scheduler, k);
       @*/
-    scheduler->cursor = cursor;
+    scheduler->cursor = (int16_t)cursor;
     scheduler->running = (int16_t)position;
     scheduler->stage = stage;
     return scheduler->queue.task[slot];
@@ -178,7 +178,7 @@ static const keel_task_config_t *serve_other(keel_scheduler_t *scheduler, uint32
       @     promotions_at(scheduler, k) == \at(promotions_at(scheduler, k), Pre);
       @*/
     //@ assert state: scheduler_state(scheduler);
-    return dispatch(scheduler, position, scheduler->pass_end, KEEL_STAGE_OTHER);
+    return dispatch(scheduler, position, (uint32_t)scheduler->pass_end, KEEL_STAGE_OTHER);
 }
 
 /* Until when nothing can run that may not run now: an other task's release or promotion, or the
@@ -275,7 +275,7 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
     }
     position = find_realtime(scheduler);
     if (position < (uint32_t)scheduler->pass_end) {
-        return dispatch(scheduler, position, (int16_t)(position + 1u), KEEL_STAGE_REALTIME);
+        return dispatch(scheduler, position, position + 1u, KEEL_STAGE_REALTIME);
     }
     realtime_us = find_earliest_realtime(scheduler);
     choice = choose_other(scheduler, realtime_us);

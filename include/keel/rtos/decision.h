@@ -102,7 +102,8 @@ uint64_t keel_decision_earliest_us(const keel_queue_t *queue);
 
 /**
  * The room for another task: the longest worst-case time w with which W + w <= S, S being the
- * time to the earliest real-time release (requirement DEC-005).
+ * time to the earliest real-time release (requirement DEC-005). Inline, as it is a part of every
+ * choice and smaller than a call.
  *
  * @param earliest_us the earliest real-time release, in us
  * @param now_us      the time, in us
@@ -114,7 +115,17 @@ uint64_t keel_decision_earliest_us(const keel_queue_t *queue);
   @     (w <= \result <==>
   @      guard_us + w <= ((earliest_us > now_us) ? earliest_us - now_us : 0));
   @*/
-uint32_t keel_decision_room_us(uint64_t earliest_us, uint64_t now_us, uint32_t guard_us);
+static inline uint32_t keel_decision_room_us(uint64_t earliest_us, uint64_t now_us,
+                                             uint32_t guard_us)
+{
+    uint64_t room_us;
+
+    if ((earliest_us <= now_us) || ((earliest_us - now_us) <= guard_us)) {
+        return 0u;
+    }
+    room_us = (earliest_us - now_us) - guard_us;
+    return (room_us < UINT32_MAX) ? (uint32_t)room_us : UINT32_MAX;
+}
 
 /** Which of the tasks that are not real-time runs, and when the next of them is released. */
 typedef struct keel_choice {

@@ -311,8 +311,8 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler);
 keel_status_t keel_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us);
 
 /**
- * Runs the pass that keel_pass_begin has opened to its end (requirement SCH-023): next, the body and
- * finish in turn. Does nothing when none is open.
+ * Runs the pass that keel_pass_begin has opened to its end (requirement SCH-023): next, the body
+ * and finish in turn. Does nothing when none is open.
  *
  * @param scheduler a started scheduler, not from within a task
  * @return KEEL_OK, or KEEL_ERR_CLOCK when the clock jumped backwards: see keel_scheduler_resync

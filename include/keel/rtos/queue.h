@@ -40,16 +40,16 @@
  * changes is not. Provers know memory by its type, and need no further reason.
  */
 typedef struct keel_queue {
-    uint8_t count;                           /**< Tasks in the queue. */
-    uint8_t realtime_count;                  /**< How many of them, at the front, are real-time. */
-    uint8_t order[KEEL_QUEUE_CAPACITY];      /**< All slots: in queue order, then free ones. */
-    uint8_t priority[KEEL_QUEUE_CAPACITY];   /**< By slot: the static priority. */
-    uint16_t skipped[KEEL_QUEUE_CAPACITY];   /**< Whole periods passed unserved; saturates. */
-    uint32_t period_us[KEEL_QUEUE_CAPACITY]; /**< The period T, in us. */
-    uint32_t budget_us[KEEL_QUEUE_CAPACITY]; /**< The declared worst-case execution time, in us. */
-    uint64_t release_us[KEEL_QUEUE_CAPACITY];              /**< The next release to serve, in us. */
-    keel_stats_t stats[KEEL_QUEUE_CAPACITY];               /**< How its runs went. */
-    const keel_task_config_t *task[KEEL_QUEUE_CAPACITY];   /**< Its declaration; null: free. */
+    uint8_t count;                            /**< Tasks in the queue. */
+    uint8_t realtime_count;                   /**< How many of them, at the front, are real-time. */
+    uint8_t order[KEEL_QUEUE_CAPACITY];       /**< All slots: in queue order, then free ones. */
+    uint8_t priority[KEEL_QUEUE_CAPACITY];    /**< By slot: the static priority. */
+    uint16_t skipped[KEEL_QUEUE_CAPACITY];    /**< Whole periods passed unserved; saturates. */
+    uint32_t period_us[KEEL_QUEUE_CAPACITY];  /**< The period T, in us. */
+    uint32_t budget_us[KEEL_QUEUE_CAPACITY];  /**< The declared worst-case execution time, in us. */
+    uint64_t release_us[KEEL_QUEUE_CAPACITY]; /**< The next release to serve, in us. */
+    keel_stats_t stats[KEEL_QUEUE_CAPACITY];  /**< How its runs went. */
+    const keel_task_config_t *task[KEEL_QUEUE_CAPACITY]; /**< Its declaration; null: free. */
 } keel_queue_t;
 
 /*@ predicate queue_counts(keel_queue_t *q) =

@@ -357,8 +357,7 @@ keel_status_t keel_scheduler_resync(keel_scheduler_t *scheduler);
   @ ensures SCH_024_task: \result != \null ==>
   @     \result == scheduler->queue.task[scheduler->queue.order[position]];
   @*/
-const keel_task_config_t *keel_scheduler_task(const keel_scheduler_t *scheduler,
-                                              uint32_t position);
+const keel_task_config_t *keel_scheduler_task(const keel_scheduler_t *scheduler, uint32_t position);
 
 /**
  * Copies out what is known of a task (requirement SCH-025). May be called at any time.

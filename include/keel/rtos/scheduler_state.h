@@ -44,7 +44,8 @@ typedef struct keel_scheduler_config {
  * known, and adding and removing a task leave it so. A task that is taken into service moves its
  * release on, so a bound survives it; who finds a bound passed looks at all tasks and renews it.
  *
- * What a pass keeps of itself is signed, which nothing else is here: provers know memory by its type.
+ * What a pass keeps of itself is signed, which nothing else is here: provers know memory by its
+ * type.
  */
 typedef struct keel_scheduler {
     keel_clock_t clock;             /**< The time of the last clock reading. */
@@ -141,8 +142,8 @@ typedef struct keel_task_report {
   @     (\forall integer i; s->queue.realtime_count <= i < s->queue.count ==>
   @         !other_may_run(s, i));
   @
-  @ // Why the task at a position, not a real-time one, cannot run before wake_us: it is not released
-  @ // before, or does not fit the slack, which only shrinks, and is not promoted before.
+  @ // Why the task at a position, not a real-time one, cannot run before wake_us: it is not
+  @ // released before, or does not fit the slack, which only shrinks, and is not promoted before.
   @ predicate waits(keel_scheduler_t *s, integer i) =
   @     s->wake_us <= s->queue.release_us[s->queue.order[i]] ||
   @     (s->wake_us <= promotion(&s->queue, s->queue.order[i]) &&
