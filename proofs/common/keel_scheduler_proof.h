@@ -142,28 +142,29 @@ static bool scheduler_same(const keel_scheduler_t *a, const keel_scheduler_t *b,
     return state_same(a, b) && queue_same(&a->queue, &b->queue, x);
 }
 
-/* The slack: the time to the earliest real-time release (time_to, fits_slack). */
-static uint64_t slack_of(const keel_scheduler_t *scheduler)
+/* The earliest real-time release; never if there is none. */
+static uint64_t earliest_of(const keel_scheduler_t *scheduler)
 {
-    uint64_t slack_us = KEEL_TIME_NEVER_US;
+    uint64_t earliest_us = KEEL_TIME_NEVER_US;
 
     for (uint32_t i = 0u; i < CAPACITY; i++) {
         const uint64_t release_us = scheduler->queue.release_us[slot_at(i)];
-        const uint64_t time_us = (release_us > scheduler->clock.now_us)
-                                     ? (release_us - scheduler->clock.now_us)
-                                     : 0u;
 
-        if ((i < scheduler->queue.realtime_count) && (time_us < slack_us)) {
-            slack_us = time_us;
+        if ((i < scheduler->queue.realtime_count) && (release_us < earliest_us)) {
+            earliest_us = release_us;
         }
     }
-    return slack_us;
+    return earliest_us;
 }
 
-static bool fits_slack(const keel_scheduler_t *scheduler, uint32_t x, uint64_t slack_us)
+/* Whether W + w fits the slack, the time to the earliest real-time release (fits_slack, time_to). */
+static bool fits_slack(const keel_scheduler_t *scheduler, uint32_t x, uint64_t earliest_us)
 {
-    return (slack_us == KEEL_TIME_NEVER_US) ||
-           (((uint64_t)scheduler->config.guard_us + task_worst(&scheduler->queue, x)) <= slack_us);
+    const uint64_t needed_us = (uint64_t)scheduler->config.guard_us +
+                               task_worst(&scheduler->queue, x);
+
+    return (earliest_us == KEEL_TIME_NEVER_US) ||
+           ((scheduler->clock.now_us + needed_us) <= earliest_us);
 }
 
 static bool is_due(const keel_scheduler_t *scheduler, uint32_t i)
@@ -173,7 +174,7 @@ static bool is_due(const keel_scheduler_t *scheduler, uint32_t i)
 
 /* With what dynamic priority the task at a position competes, if no real-time task is due: 0 when it
  * may not run (other_may_run, priority_at). */
-static uint32_t may_run_with(const keel_scheduler_t *scheduler, uint32_t i, uint64_t slack_us)
+static uint32_t may_run_with(const keel_scheduler_t *scheduler, uint32_t i, uint64_t earliest_us)
 {
     const uint32_t x = scheduler->queue.order[i];
     uint32_t priority;
@@ -182,13 +183,14 @@ static uint32_t may_run_with(const keel_scheduler_t *scheduler, uint32_t i, uint
         return 0u;
     }
     priority = task_priority(&scheduler->queue, x, scheduler->clock.now_us);
-    return ((priority == KEEL_PRIORITY_REALTIME) || fits_slack(scheduler, x, slack_us)) ? priority
-                                                                                        : 0u;
+    return ((priority == KEEL_PRIORITY_REALTIME) || fits_slack(scheduler, x, earliest_us))
+               ? priority
+               : 0u;
 }
 
 /* The claim that wake_us makes while it lies ahead, of the task at a position (wake_realtime,
  * wake_others, waits). */
-static bool wake_is_right(const keel_scheduler_t *scheduler, uint32_t i, uint64_t slack_us)
+static bool wake_is_right(const keel_scheduler_t *scheduler, uint32_t i, uint64_t earliest_us)
 {
     const uint32_t x = scheduler->queue.order[i];
 
@@ -196,7 +198,7 @@ static bool wake_is_right(const keel_scheduler_t *scheduler, uint32_t i, uint64_
         (scheduler->wake_us <= scheduler->queue.release_us[x])) {
         return true;
     }
-    return (i >= scheduler->queue.realtime_count) && !fits_slack(scheduler, x, slack_us) &&
+    return (i >= scheduler->queue.realtime_count) && !fits_slack(scheduler, x, earliest_us) &&
            is_up_to_promotion(&scheduler->queue, x, scheduler->wake_us);
 }
 

@@ -9,12 +9,14 @@ void keel_pass_begin_harness(void)
     const uint32_t i = any_below(CAPACITY);
     const uint32_t raw_us = nondet_u32();
     uint64_t step_us;
+    uint64_t earliest_us;
     keel_scheduler_t before;
     keel_scheduler_t expected;
     keel_status_t status;
 
     any_scheduler(&scheduler, CAPACITY);
-    __CPROVER_assume(wake_is_right(&scheduler, i, slack_of(&scheduler)));
+    earliest_us = earliest_of(&scheduler);
+    __CPROVER_assume(wake_is_right(&scheduler, i, earliest_us));
     step_us = elapsed(scheduler.clock.raw_us, raw_us);
     before = scheduler;
     expected = scheduler;
@@ -22,7 +24,7 @@ void keel_pass_begin_harness(void)
     status = keel_pass_begin(&scheduler, raw_us);
 
     ASSERT_SCHEDULER_VALID(&scheduler);
-    __CPROVER_assert(wake_is_right(&scheduler, i, slack_of(&scheduler)),
+    __CPROVER_assert(wake_is_right(&scheduler, i, earliest_us),
                      "SCH_012_wake: the wake-up time is still right");
     __CPROVER_assert((status == KEEL_ERR_STATE) == (before.stage != KEEL_STAGE_READY),
                      "SCH_013_state: not started, or in a pass");
@@ -42,7 +44,7 @@ void keel_pass_begin_harness(void)
             expected.pass_end = before.queue.realtime_count;
         } else {
             __CPROVER_assert(!((i < scheduler.queue.realtime_count) && is_due(&scheduler, i)) &&
-                                 (may_run_with(&scheduler, i, slack_of(&scheduler)) == 0u),
+                                 (may_run_with(&scheduler, i, earliest_us) == 0u),
                              "SCH_011_idle: no pass opens only when nothing is due");
         }
     }

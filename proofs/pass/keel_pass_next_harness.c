@@ -57,11 +57,11 @@ void keel_queue_advance_stand_in(keel_queue_t *queue, uint32_t slot, uint64_t no
 
 /* What a task that is served leaves as it was: all but who runs, its release and its promotions. */
 static void assert_served(const keel_scheduler_t *scheduler, const keel_scheduler_t *before,
-                          uint64_t slack_us)
+                          uint64_t earliest_us)
 {
     const uint32_t i = rival;
     const uint32_t slot = scheduler->queue.order[scheduler->running];
-    const uint32_t priority = may_run_with(before, scheduler->running, slack_us);
+    const uint32_t priority = may_run_with(before, scheduler->running, earliest_us);
     const bool is_promoted = (scheduler->stage == KEEL_STAGE_OTHER) && (priority == 16u);
     keel_scheduler_t expected = *before;
 
@@ -77,10 +77,10 @@ static void assert_served(const keel_scheduler_t *scheduler, const keel_schedule
                              (scheduler->cursor == before->pass_end),
                          "SCH_016_class: as the one other task of the pass");
         __CPROVER_assert(priority > 0u, "SCH_016_fits: it fits the slack, or is promoted");
-        __CPROVER_assert(may_run_with(before, i, slack_us) <= priority,
+        __CPROVER_assert(may_run_with(before, i, earliest_us) <= priority,
                          "SCH_016_highest: none that may run has a higher dynamic priority");
         __CPROVER_assert((i >= scheduler->running) ||
-                             (may_run_with(before, i, slack_us) < priority),
+                             (may_run_with(before, i, earliest_us) < priority),
                          "SCH_016_first: nor one before it the same");
         expected.earliest_realtime_us = scheduler->earliest_realtime_us;
         expected.earliest_other_us = scheduler->earliest_other_us;
@@ -109,13 +109,13 @@ static void assert_served(const keel_scheduler_t *scheduler, const keel_schedule
 
 /* What a pass that closes leaves as it was: all but what is known of the releases. */
 static void assert_closed(const keel_scheduler_t *scheduler, const keel_scheduler_t *before,
-                          uint64_t slack_us)
+                          uint64_t earliest_us)
 {
     const uint32_t i = rival;
     const uint32_t x = before->queue.order[i];
     keel_scheduler_t expected = *before;
 
-    __CPROVER_assert(may_run_with(before, i, slack_us) == 0u, "SCH_016_none: no other may run");
+    __CPROVER_assert(may_run_with(before, i, earliest_us) == 0u, "SCH_016_none: no other may run");
     __CPROVER_assert((i >= scheduler->queue.realtime_count) ||
                          (scheduler->wake_us <= scheduler->queue.release_us[x]),
                      "SCH_012_realtime: no real-time task is released before the wake-up time");
@@ -139,7 +139,7 @@ static void assert_closed(const keel_scheduler_t *scheduler, const keel_schedule
 void keel_pass_next_harness(void)
 {
     keel_scheduler_t scheduler;
-    uint64_t slack_us;
+    uint64_t earliest_us;
     bool due;
     keel_scheduler_t before;
     const keel_task_config_t *task;
@@ -147,9 +147,9 @@ void keel_pass_next_harness(void)
     rival = any_below(CAPACITY);
     any_scheduler(&scheduler, CAPACITY);
     __CPROVER_assume(scheduler.clock.now_us < ((uint64_t)1u << 59));
-    slack_us = slack_of(&scheduler);
+    earliest_us = earliest_of(&scheduler);
     due = is_due(&scheduler, rival);
-    __CPROVER_assume(wake_is_right(&scheduler, rival, slack_us));
+    __CPROVER_assume(wake_is_right(&scheduler, rival, earliest_us));
     before = scheduler;
 
     __CPROVER_assume(keel_pass_next_may(&scheduler));
@@ -158,7 +158,8 @@ void keel_pass_next_harness(void)
     __CPROVER_assert(keel_pass_next_does(task, &before, &scheduler, rival, due),
                      "SCH_023_part: as the pass takes it to do");
     ASSERT_SCHEDULER_VALID(&scheduler);
-    __CPROVER_assert(wake_is_right(&scheduler, rival, slack_of(&scheduler)),
+    /* Of a real-time task's release nothing is claimed once it has moved on: then wake_us is 0. */
+    __CPROVER_assert(wake_is_right(&scheduler, rival, earliest_us),
                      "SCH_012_wake: the wake-up time is right");
     if (before.stage != KEEL_STAGE_PASS) {
         __CPROVER_assert((task == NULL) && scheduler_same(&scheduler, &before, rival),
@@ -168,10 +169,10 @@ void keel_pass_next_harness(void)
                              (task ==
                               scheduler.queue.task[scheduler.queue.order[scheduler.running]]),
                          "SCH_014_task: it is the task that runs");
-        assert_served(&scheduler, &before, slack_us);
+        assert_served(&scheduler, &before, earliest_us);
     } else {
         __CPROVER_assert(scheduler.stage == KEEL_STAGE_READY, "SCH_014_stage: the pass is over");
-        assert_closed(&scheduler, &before, slack_us);
+        assert_closed(&scheduler, &before, earliest_us);
     }
     __CPROVER_assert((before.stage != KEEL_STAGE_PASS) ||
                          (scheduler.stage == KEEL_STAGE_REALTIME) || (rival < before.cursor) ||
