@@ -201,6 +201,9 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @   ensures SCH_015_first: scheduler->stage == KEEL_STAGE_REALTIME ==>
   @       \forall integer i; \old(scheduler->cursor) <= i < scheduler->running ==>
   @           !\old(due(scheduler, i));
+  @   ensures SCH_015_bounds: scheduler->stage == KEEL_STAGE_REALTIME ==>
+  @       scheduler->earliest_realtime_us == \old(scheduler->earliest_realtime_us) &&
+  @       scheduler->earliest_other_us == \old(scheduler->earliest_other_us);
   @   ensures SCH_015_none: scheduler->stage != KEEL_STAGE_REALTIME ==>
   @       scheduler->cursor == scheduler->pass_end &&
   @       \forall integer i; \old(scheduler->cursor) <= i < scheduler->pass_end ==>

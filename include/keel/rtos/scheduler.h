@@ -60,14 +60,14 @@
   @   ensures ok: \result == KEEL_OK;
   @   ensures SCH_001_valid: scheduler_valid(scheduler);
   @   ensures SCH_001_empty: scheduler->queue.count == 0 && scheduler->clock.now_us == 0 &&
-  @       scheduler->busy_us == 0;
+  @       scheduler->clock.raw_us == 0 && scheduler->busy_us == 0;
+  @   ensures SCH_001_bounds: nothing_known(scheduler);
   @   ensures SCH_001_config: scheduler->config.guard_us == config->guard_us &&
   @       scheduler->config.utilisation_limit == config->utilisation_limit &&
   @       scheduler->config.read_clock == config->read_clock &&
   @       scheduler->config.clock_context == config->clock_context;
-  @   ensures SCH_001_stage: scheduler->stage == KEEL_STAGE_SETUP && scheduler->wake_us == 0 &&
-  @       scheduler->cursor == 0 && scheduler->pass_end == 0 &&
-  @       scheduler->running == KEEL_POSITION_NONE;
+  @   ensures SCH_001_stage: scheduler->stage == KEEL_STAGE_SETUP && scheduler->cursor == 0 &&
+  @       scheduler->pass_end == 0 && scheduler->running == KEEL_POSITION_NONE;
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
@@ -217,11 +217,7 @@ keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, const keel_task
 /*@ requires \valid(scheduler) && scheduler_valid(scheduler);
   @ assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->stage,
   @     scheduler->earliest_realtime_us;
-  @ ensures SCH_010_kept: \result != KEEL_OK ==>
-  @     scheduler->stage == \old(scheduler->stage) &&
-  @     scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
-  @     scheduler->clock.raw_us == \old(scheduler->clock.raw_us) &&
-  @     scheduler->earliest_realtime_us == \old(scheduler->earliest_realtime_us);
+  @ ensures SCH_010_kept: \result != KEEL_OK ==> started_nothing{Pre, Post}(scheduler);
   @ behavior state:
   @   assumes scheduler->stage != KEEL_STAGE_SETUP;
   @   assigns \nothing;
@@ -263,10 +259,7 @@ keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_
   @   ensures SCH_019_refused: \result != KEEL_OK;
   @   ensures SCH_019_state: \result == KEEL_ERR_STATE <==>
   @       \old(scheduler->stage) != KEEL_STAGE_SETUP;
-  @   ensures SCH_019_kept: scheduler->stage == \old(scheduler->stage) &&
-  @       scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
-  @       scheduler->clock.raw_us == \old(scheduler->clock.raw_us) &&
-  @       scheduler->earliest_realtime_us == \old(scheduler->earliest_realtime_us);
+  @   ensures SCH_019_kept: started_nothing{Pre, Post}(scheduler);
   @ behavior started:
   @   assumes scheduler != \null;
   @   assumes scheduler->stage == KEEL_STAGE_SETUP && scheduler_holds(scheduler);

@@ -169,6 +169,13 @@ typedef struct keel_task_report {
   @ predicate nothing_known(keel_scheduler_t *s) =
   @     s->wake_us == 0 && s->earliest_realtime_us == 0 && s->earliest_other_us == 0;
   @
+  @ // What starting writes is the same in states L and M.
+  @ predicate started_nothing{L, M}(keel_scheduler_t *s) =
+  @     \at(s->stage, M) == \at(s->stage, L) &&
+  @     \at(s->clock.now_us, M) == \at(s->clock.now_us, L) &&
+  @     \at(s->clock.raw_us, M) == \at(s->clock.raw_us, L) &&
+  @     \at(s->earliest_realtime_us, M) == \at(s->earliest_realtime_us, L);
+  @
   @ // The running task's position when a task of this priority joins the queue ...
   @ predicate running_joined{L, M}(keel_scheduler_t *s, integer priority) =
   @     \at(s->running, M) == \at(s->running, L) +
