@@ -1,5 +1,6 @@
-// cbmc: --unwind 34
+// cbmc: --unwind 34 --external-sat-solver cadical
 // sources: src/rtos/queue.c
+// defines: -DKEEL_QUEUE_CAPACITY=4u
 // covers: keel_queue_advance add_saturating
 //
 // A task that is less than a period late, with numbers of their full width.

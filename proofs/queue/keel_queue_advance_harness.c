@@ -1,5 +1,6 @@
-// cbmc: --unwind 34
+// cbmc: --unwind 34 --external-sat-solver cadical
 // sources: src/rtos/queue.c
+// defines: -DKEEL_QUEUE_CAPACITY=4u
 // covers: keel_queue_advance add_saturating
 //
 // Bounded to periods up to 2^4 us, and up to 2^8 us of lateness, where the solver comes to the end
