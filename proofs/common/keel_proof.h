@@ -125,6 +125,24 @@ static void any_queue(keel_queue_t *queue, uint32_t of_interest)
     }
 }
 
+/* Replaces the periods and budgets of a queue by numbers of so many bits, for functions that multiply
+ * or divide: the solver sees at once that the bits above are 0. */
+static void narrow_tasks(keel_queue_t *queue, uint32_t bits)
+{
+    for (uint32_t x = 0u; x < CAPACITY; x++) {
+        queue->period_us[x] = any_bits(bits) + 1u;
+        queue->budget_us[x] = any_bits(bits) + 1u;
+    }
+}
+
+/* The same of the releases. */
+static void narrow_releases(keel_queue_t *queue, uint32_t bits)
+{
+    for (uint32_t x = 0u; x < CAPACITY; x++) {
+        queue->release_us[x] = any_bits64(bits);
+    }
+}
+
 /* Makes any order of the slots that is there any order of all (queue_order): each slot has a
  * position. For functions that look at few slots. */
 static void any_order(keel_queue_t *queue)

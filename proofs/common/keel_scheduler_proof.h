@@ -75,16 +75,6 @@ static void any_scheduler(keel_scheduler_t *scheduler, uint32_t of_interest)
     any_state(scheduler);
 }
 
-/* Replaces the numbers of a queue by small ones, as the utilisation divides: periods and budgets of
- * so many bits. */
-static void narrow_tasks(keel_queue_t *queue, uint32_t bits)
-{
-    for (uint32_t x = 0u; x < CAPACITY; x++) {
-        queue->period_us[x] = any_bits(bits) + 1u;
-        queue->budget_us[x] = any_bits(bits) + 1u;
-    }
-}
-
 /* Asserts that a scheduler is valid (scheduler_valid), at arbitrary positions. */
 #define ASSERT_SCHEDULER_VALID(s)                                                                  \
     do {                                                                                           \

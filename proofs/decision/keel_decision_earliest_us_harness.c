@@ -1,6 +1,10 @@
 // cbmc: --unwind 34
 // sources: src/rtos/decision.c src/rtos/priority.c
 // covers: keel_decision_earliest_us
+// defines: -DKEEL_QUEUE_CAPACITY=8u
+//
+// Bounded to a capacity of 8 tasks, with which the solver comes to an end in a minute; the contract
+// under WP has no bound.
 #include "../common/decision_contracts.h"
 
 void keel_decision_earliest_us_harness(void)

@@ -2,10 +2,11 @@
 // sources: src/rtos/decision.c src/rtos/priority.c
 // replaces: keel_priority_promotion_age_us
 // covers: keel_decision_event_us
-// defines: -DKEEL_QUEUE_CAPACITY=8u
+// defines: -DKEEL_QUEUE_CAPACITY=4u
 //
-// Bounded to a capacity of 8 tasks, with numbers of their full width: the age of promotion is what
-// its contract says (priority_contracts.h). The contract under WP has no such bound.
+// Bounded to a capacity of 4 tasks, periods of 6 bits and times of 10: the age of promotion, of which its
+// contract stands in (priority_contracts.h), is asked for each of them. The contract under WP has no
+// such bound.
 #include "../common/decision_contracts.h"
 #include "../common/priority_contracts.h"
 
@@ -22,13 +23,15 @@ uint64_t keel_priority_promotion_age_us_stand_in(uint32_t sp, uint32_t period_us
 void keel_decision_event_us_harness(void)
 {
     keel_queue_t queue;
-    const uint64_t now_us = nondet_u64();
+    const uint64_t now_us = any_bits64(10u);
     const uint32_t i = any_below(CAPACITY);
     bool met = false;
     uint64_t event_us;
     keel_queue_t before;
 
     any_queue(&queue, CAPACITY);
+    narrow_tasks(&queue, 6u);
+    narrow_releases(&queue, 10u);
     before = queue;
 
     __CPROVER_assume(keel_decision_event_us_may(&queue, now_us));

@@ -2,11 +2,11 @@
 // sources: src/rtos/decision.c src/rtos/priority.c
 // replaces: keel_priority_dynamic
 // covers: keel_decision_other priority_of fits
-// defines: -DKEEL_QUEUE_CAPACITY=8u
+// defines: -DKEEL_QUEUE_CAPACITY=4u
 //
-// Bounded to a capacity of 8 tasks, with numbers of their full width but for times, which are below
-// 2^59 us: eq. 3 is what its contract says (priority_contracts.h). The contract under WP has no such
-// bound.
+// Bounded to a capacity of 4 tasks, periods and budgets of 6 bits and times of 10: eq. 3, of which its
+// contract stands in (priority_contracts.h), is evaluated for each of them. The contract under WP has
+// no such bound.
 #include "../common/decision_contracts.h"
 #include "../common/priority_contracts.h"
 
@@ -23,7 +23,7 @@ uint32_t keel_priority_dynamic_stand_in(uint32_t sp, uint64_t age_us, uint32_t p
 void keel_decision_other_harness(void)
 {
     keel_queue_t queue;
-    const uint64_t now_us = any_bits64(59u);
+    const uint64_t now_us = any_bits64(10u);
     const uint32_t room_us = nondet_u32();
     const uint32_t i = any_below(CAPACITY);
     uint32_t priority;
@@ -31,6 +31,8 @@ void keel_decision_other_harness(void)
     keel_queue_t before;
 
     any_queue(&queue, CAPACITY);
+    narrow_tasks(&queue, 6u);
+    narrow_releases(&queue, 10u);
     before = queue;
 
     __CPROVER_assume(keel_decision_other_may(&queue, now_us));

@@ -1,6 +1,10 @@
 // cbmc: --unwind 34
 // sources: src/rtos/pass.c src/rtos/queue.c src/rtos/decision.c src/rtos/priority.c src/rtos/load.c
 // covers: keel_pass_finish end_run record_run keel_stats_record
+// defines: -DKEEL_QUEUE_CAPACITY=4u
+//
+// Bounded to a capacity of 4 tasks, with which the solver comes to an end in a minute; the contract
+// under WP has no bound.
 #include "../common/keel_scheduler_proof.h"
 #include "../common/step_contracts.h"
 

@@ -3,9 +3,9 @@
 // replaces: keel_decision_other keel_decision_event_us keel_queue_advance
 // covers: keel_pass_next dispatch find_realtime find_earliest_realtime choose_other
 // covers: remember serve_other find_wake close_pass keel_stats_promote
-// defines: -DKEEL_QUEUE_CAPACITY=4u
+// defines: -DKEEL_QUEUE_CAPACITY=3u
 //
-// Bounded to a capacity of 4 tasks, periods and budgets of 4 bits and times of 8, as eq. 3 is evaluated
+// Bounded to a capacity of 3 tasks, periods and budgets of 4 bits and times of 8, as eq. 3 is evaluated
 // for each of them; the functions that divide, or choose among many, are what their contracts say
 // (decision_contracts.h, queue_contracts.h). The contract under WP has no such bound, and says alone
 // that the wake-up time stays right (SCH_012_wake).
@@ -148,9 +148,7 @@ void keel_pass_next_harness(void)
     rival = any_below(CAPACITY);
     any_queue(&scheduler.queue, CAPACITY);
     narrow_tasks(&scheduler.queue, 4u);
-    for (uint32_t x = 0u; x < CAPACITY; x++) {
-        scheduler.queue.release_us[x] = any_bits64(8u);
-    }
+    narrow_releases(&scheduler.queue, 8u);
     any_state(&scheduler);
     __CPROVER_assume(scheduler.clock.now_us < 256u);
     earliest_us = earliest_of(&scheduler);

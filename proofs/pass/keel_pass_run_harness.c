@@ -2,6 +2,7 @@
 // sources: src/rtos/pass.c
 // replaces: keel_pass_next keel_pass_finish
 // covers: keel_pass_run run_task
+// defines: -DKEEL_QUEUE_CAPACITY=8u
 //
 // A pass is, for each task that next hands out, its body and finish, until it ends: each at the stage
 // that it asks for, with a reading of the clock made for it, and with nothing done to the scheduler
@@ -9,6 +10,8 @@
 // is whatever adding and removing tasks do to a pass, which is as long as the shipped capacity
 // allows. One arbitrary real-time task is followed through it, by its position: if it is due, and
 // nobody removes it, it runs, once, and none before it in the queue runs later.
+// Bounded to a capacity of 8 tasks, with which the solver comes to an end in a minute; the contract
+// under WP has no bound.
 #include "../common/keel_scheduler_proof.h"
 #include "../common/step_contracts.h"
 

@@ -7,7 +7,7 @@
  * The function `isolation` is the life of a scheduler: it is started, and then begin, next and
  * finish are called for as long as one likes, each where the scheduler's stage asks for it, as
  * keel_scheduler_step does. They are the kernel's own functions, of which the proof knows their
- * contracts in scheduler.h and nothing else. The world is a clock, read at most so long after it
+ * contracts in pass.h and scheduler.h and nothing else. The world is a clock, read at most so long after it
  * was last read:
  *
  *   - W, when a pass begins;
@@ -35,7 +35,7 @@ uint32_t read_within(uint32_t raw_us, uint64_t limit_us);
 /*@ // sum holds the sums of the real-time budgets, which never fall.
   @ predicate budgets_summed(keel_scheduler_t *s, int64_t *sum) =
   @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
-  @         sum[j + 1] == sum[j] + s->queue.task[j]->config->budget_us;
+  @         sum[j + 1] == sum[j] + s->queue.budget_us[s->queue.order[j]];
   @
   @ predicate sums_rise(int64_t *sum, integer n) =
   @     \forall integer j, k; 0 <= j <= k <= n ==> sum[j] <= sum[k];
@@ -44,14 +44,14 @@ uint32_t read_within(uint32_t raw_us, uint64_t limit_us);
   @ predicate periods_hold(keel_scheduler_t *s, int64_t *sum) =
   @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
   @         sum[s->queue.realtime_count] + 2 * s->config.guard_us
-  @             <= s->queue.task[j]->config->period_us;
+  @             <= s->queue.period_us[s->queue.order[j]];
   @
   @ // How late the tasks from one index to another are: at most limit_us less the budgets up to
   @ // and with their own.
   @ predicate late(keel_scheduler_t *s, int64_t *sum, integer from, integer to,
   @                integer limit_us) =
   @     \forall integer j; from <= j < to ==>
-  @         s->clock.now_us - s->queue.task[j]->release_us <= limit_us - sum[j + 1];
+  @         s->clock.now_us - s->queue.release_us[s->queue.order[j]] <= limit_us - sum[j + 1];
   @
   @ // The same of those that the pass has looked at, and of those that it has yet to, when it has
   @ // come to an index.
@@ -65,8 +65,8 @@ uint32_t read_within(uint32_t raw_us, uint64_t limit_us);
   @ // Every real-time release lies so far ahead that the task at an index ends before it.
   @ predicate room(keel_scheduler_t *s, integer index) =
   @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
-  @         s->clock.now_us + s->config.guard_us + task_worst(s->queue.task[index])
-  @             <= s->queue.task[j]->release_us;
+  @         s->clock.now_us + s->config.guard_us + task_worst(&s->queue, s->queue.order[index])
+  @             <= s->queue.release_us[s->queue.order[j]];
   @
   @ // The pass is one over all real-time tasks.
   @ predicate pass_whole(keel_scheduler_t *s) = s->pass_end == s->queue.realtime_count;
@@ -74,8 +74,7 @@ uint32_t read_within(uint32_t raw_us, uint64_t limit_us);
   @ // Whether a task that is not real-time has waited so long that it is promoted.
   @ predicate promotion_due(keel_scheduler_t *s) =
   @     \exists integer i; s->queue.realtime_count <= i < s->queue.count &&
-  @         released(s->queue.task[i], s->clock.now_us) &&
-  @         promoted(s->queue.task[i], s->clock.now_us);
+  @         due(s, i) && promoted(&s->queue, s->queue.order[i], s->clock.now_us);
   @*/
 
 /* clang-format off: the formatter does not know these clauses. */
@@ -115,7 +114,7 @@ static void add_up(const keel_scheduler_t *s, int64_t *sum)
     /*@ loop invariant range: 0 <= j <= n;
       @ loop invariant first: sum[0] == 0;
       @ loop invariant summed: \forall integer i; 0 <= i < j ==>
-      @     sum[i + 1] == sum[i] + s->queue.task[i]->config->budget_us;
+      @     sum[i + 1] == sum[i] + s->queue.budget_us[s->queue.order[i]];
       @ loop invariant rise: sums_rise(sum, j);
       @ loop invariant bound: sum[j] <= j * UINT32_MAX;
       @ loop invariant demand: sum[j] == realtime_demand(&s->queue, j);
@@ -123,7 +122,7 @@ static void add_up(const keel_scheduler_t *s, int64_t *sum)
       @ loop variant n - j;
       @*/
     for (uint32_t j = 0u; j < n; j++) {
-        sum[j + 1u] = sum[j] + (int64_t)s->queue.task[j]->config->budget_us;
+        sum[j + 1u] = sum[j] + (int64_t)s->queue.budget_us[s->queue.order[j]];
         //@ assert next: realtime_demand(&s->queue, j + 1) == sum[j + 1];
     }
     /*@ loop invariant range: n <= i <= s->queue.count;
@@ -132,19 +131,19 @@ static void add_up(const keel_scheduler_t *s, int64_t *sum)
       @ loop variant s->queue.count - i;
       @*/
     for (uint32_t i = n; i < s->queue.count; i++) {
-        //@ assert other: !realtime(s->queue.task[i]);
+        //@ assert other: s->queue.priority[s->queue.order[i]] != KEEL_PRIORITY_REALTIME;
         //@ assert next: realtime_demand(&s->queue, i + 1) == realtime_demand(&s->queue, i);
     }
 }
 
 /* Starts the scheduler: from then on what is asked for below holds. */
-/*@ requires memory: \valid(s) && scheduler_valid(s) && setup_armed(s);
+/*@ requires memory: \valid(s) && scheduler_valid(s) && setup_unmoved(s);
   @ requires fresh: s->wake_us == 0 && s->busy_us == 0;
   @ requires summed: budgets_summed(s, sum);
   @ requires rise: sum[0] == 0 && sums_rise(sum, s->queue.realtime_count);
   @ requires demand: sum[s->queue.realtime_count] ==
   @     realtime_demand(&s->queue, s->queue.count);
-  @ assigns s->clock.now_us, s->clock.raw_us, s->stage;
+  @ assigns s->clock.now_us, s->clock.raw_us, s->stage, s->earliest_realtime_us;
   @ SCHEDULER_STAYS_VALID(s)
   @ ensures wake: wake_right(s);
   @ ensures busy: s->busy_us <= s->clock.now_us;
@@ -164,7 +163,7 @@ static keel_status_t start(keel_scheduler_t *s, const int64_t *sum, uint32_t raw
 /*@ SET_GIVEN(s, sum)
   @ requires ready: s->stage == KEEL_STAGE_READY;
   @ requires late: late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
-  @ assigns s->clock.now_us, s->clock.raw_us, s->wake_us, s->stage, s->cursor, s->pass_end, s->ran;
+  @ assigns s->clock.now_us, s->clock.raw_us, s->wake_us, s->stage, s->cursor, s->pass_end;
   @ SET_STAYS(s, sum)
   @ ensures stage: s->stage == KEEL_STAGE_READY || s->stage == KEEL_STAGE_PASS;
   @ ensures late: s->stage == KEEL_STAGE_READY ==>
@@ -176,23 +175,26 @@ static keel_status_t start(keel_scheduler_t *s, const int64_t *sum, uint32_t raw
 static void open_pass(keel_scheduler_t *s, const int64_t *sum)
 {
     const uint32_t raw_us = read_within(s->clock.raw_us, s->config.guard_us);
-    const keel_status_t status = keel_scheduler_begin(s, raw_us);
+    const keel_status_t status = keel_pass_begin(s, raw_us);
 
     (void)sum;
     (void)status;
     /*@ assert releases: \forall integer k; 0 <= k < s->queue.count ==>
-      @     s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
+      @     s->queue.release_us[s->queue.order[k]] ==
+      @         \at(s->queue.release_us[s->queue.order[k]], Pre);
       @*/
     /*@ assert periods: \forall integer k; 0 <= k < s->queue.count ==>
-      @     s->queue.task[k]->config->period_us == \at(s->queue.task[k]->config->period_us, Pre);
+      @     s->queue.period_us[s->queue.order[k]] ==
+      @         \at(s->queue.period_us[s->queue.order[k]], Pre);
       @*/
     /*@ assert budgets: \forall integer k; 0 <= k < s->queue.count ==>
-      @     s->queue.task[k]->config->budget_us == \at(s->queue.task[k]->config->budget_us, Pre);
+      @     s->queue.budget_us[s->queue.order[k]] ==
+      @         \at(s->queue.budget_us[s->queue.order[k]], Pre);
       @*/
     //@ assert time: s->clock.now_us <= \at(s->clock.now_us, Pre) + s->config.guard_us;
     /*@ assert idle: s->stage == KEEL_STAGE_READY ==>
       @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
-      @         s->clock.now_us < s->queue.task[j]->release_us;
+      @         s->clock.now_us < s->queue.release_us[s->queue.order[j]];
       @*/
 }
 
@@ -208,18 +210,18 @@ static bool is_promotion_due(const keel_scheduler_t *s)
 
     /*@ loop invariant range: s->queue.realtime_count <= i <= s->queue.count;
       @ loop invariant none: \forall integer k; s->queue.realtime_count <= k < i ==>
-      @     !(released(s->queue.task[k], now_us) && promoted(s->queue.task[k], now_us));
+      @     !(due(s, k) && promoted(&s->queue, s->queue.order[k], now_us));
       @ loop assigns i;
       @ loop variant s->queue.count - i;
       @*/
     for (uint32_t i = s->queue.realtime_count; i < s->queue.count; i++) {
-        const keel_task_t *const task = s->queue.task[i];
+        const uint32_t slot = s->queue.order[i];
+        const uint64_t release_us = s->queue.release_us[slot];
+        const uint32_t period_us = s->queue.period_us[slot];
 
-        //@ assert checked: config_valid(s->queue.task[i]->config);
-        if ((task->release_us <= now_us) &&
-            keel_priority_promoted(task->config->priority,
-                                   (now_us - task->release_us) + task->config->period_us,
-                                   task->config->period_us)) {
+        if ((release_us <= now_us) &&
+            keel_priority_promoted(s->queue.priority[slot], (now_us - release_us) + period_us,
+                                   period_us)) {
             return true;
         }
     }
@@ -231,6 +233,10 @@ static bool is_promotion_due(const keel_scheduler_t *s)
   @ requires pass: s->stage == KEEL_STAGE_PASS && pass_whole(s);
   @ requires before: late_before(s, sum, s->cursor);
   @ requires behind: late_behind(s, sum, s->cursor);
+  @ assigns s->wake_us, s->stage, s->cursor, s->running, s->earliest_realtime_us,
+  @     s->earliest_other_us, s->queue.skipped[0 .. KEEL_QUEUE_CAPACITY - 1],
+  @     s->queue.release_us[0 .. KEEL_QUEUE_CAPACITY - 1],
+  @     s->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1].promotions;
   @ SET_STAYS(s, sum)
   @ ensures memory: \valid(s);
   @ ensures rise: sum[0] == 0 && sums_rise(sum, s->queue.realtime_count);
@@ -241,8 +247,8 @@ static bool is_promotion_due(const keel_scheduler_t *s)
   @ ensures realtime: s->stage == KEEL_STAGE_REALTIME ==>
   @     s->cursor == s->running + 1 <= s->queue.realtime_count;
   @ ensures bound: s->stage == KEEL_STAGE_REALTIME ==>
-  @     s->clock.now_us - \at(s->queue.task[\at(s->running, Post)]->release_us, Pre) <=
-  @         sum[s->queue.realtime_count] - s->queue.task[s->running]->config->budget_us
+  @     s->clock.now_us - \at(s->queue.release_us[s->queue.order[\at(s->running, Post)]], Pre) <=
+  @         sum[s->queue.realtime_count] - s->queue.budget_us[s->queue.order[s->running]]
   @         + s->config.guard_us;
   @ ensures before: s->stage == KEEL_STAGE_REALTIME ==> late_before(s, sum, s->running);
   @ ensures behind: s->stage == KEEL_STAGE_REALTIME ==> late_behind(s, sum, s->running);
@@ -252,40 +258,44 @@ static bool is_promotion_due(const keel_scheduler_t *s)
   @*/
 static void decide(keel_scheduler_t *s, const int64_t *sum)
 {
-    const keel_task_t *const task = keel_scheduler_next(s);
+    const keel_task_config_t *const task = keel_pass_next(s);
 
     (void)sum;
     /*@ assert first: s->stage == KEEL_STAGE_REALTIME ==>
       @     \forall integer j; \at(s->cursor, Pre) <= j < s->running ==>
-      @         s->clock.now_us < \at(s->queue.task[j]->release_us, Pre);
+      @         s->clock.now_us < \at(s->queue.release_us[s->queue.order[j]], Pre);
       @*/
     /*@ assert none: s->stage != KEEL_STAGE_REALTIME ==>
       @     \forall integer j; \at(s->cursor, Pre) <= j < s->queue.realtime_count ==>
-      @         s->clock.now_us < \at(s->queue.task[j]->release_us, Pre);
-      @*/
-    /*@ assert unique: task != \null ==>
-      @     \forall integer k; 0 <= k < s->queue.count ==> k != s->running ==>
-      @         s->queue.task[k] != task;
+      @         s->clock.now_us < \at(s->queue.release_us[s->queue.order[j]], Pre);
       @*/
     /*@ assert releases: task != \null ==>
       @     \forall integer k; 0 <= k < s->queue.count ==> k != s->running ==>
-      @         s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
+      @         s->queue.release_us[s->queue.order[k]] ==
+      @             \at(s->queue.release_us[s->queue.order[k]], Pre);
       @*/
     /*@ assert releases_null: task == \null ==>
       @     \forall integer k; 0 <= k < s->queue.count ==>
-      @         s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
+      @         s->queue.release_us[s->queue.order[k]] ==
+      @             \at(s->queue.release_us[s->queue.order[k]], Pre);
       @*/
     /*@ assert late: s->stage == KEEL_STAGE_REALTIME ==>
-      @     s->clock.now_us - \at(s->queue.task[\at(s->running, Here)]->release_us, Pre) <=
+      @     s->clock.now_us - \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], Pre) <=
       @         s->config.guard_us + sum[s->running] + sum[s->queue.realtime_count]
       @         - sum[s->running + 1];
       @*/
+    /*@ assert none_missed: s->stage == KEEL_STAGE_REALTIME ==>
+      @     \at(grid_missed(&s->queue, s->queue.order[\at(s->running, Here)], s->clock.now_us), Pre)
+      @     == 0;
+      @*/
     /*@ assert on_time: s->stage == KEEL_STAGE_REALTIME ==>
-      @     task->release_us == \at(s->queue.task[\at(s->running, Here)]->release_us, Pre)
-      @         + task->config->period_us;
+      @     s->queue.release_us[s->queue.order[s->running]] ==
+      @         \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], Pre)
+      @         + s->queue.period_us[s->queue.order[s->running]];
       @*/
     /*@ assert fits: s->stage == KEEL_STAGE_OTHER ==> !\at(promotion_due(s), Pre) ==>
-      @     \at(fits_slack(s, s->queue.task[\at(s->running, Here)], s->clock.now_us), Pre);
+      @     \at(fits_slack(&s->queue, s->queue.order[\at(s->running, Here)], s->clock.now_us,
+      @                    s->config.guard_us), Pre);
       @*/
 }
 
@@ -294,9 +304,8 @@ static void decide(keel_scheduler_t *s, const int64_t *sum)
   @ requires busy: s->busy_us <= s->clock.now_us;
   @ requires running: stage_running(s) && s->running < s->queue.count;
   @ assigns s->clock.now_us, s->clock.raw_us, s->busy_us, s->stage, s->running,
-  @     STATS_FIELDS(s->queue.task[s->running]->stats);
+  @     STATS_RUN(s->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1]);
   @ SCHEDULER_STAYS_VALID(s)
-  @ DECLARATIONS_STAY(s)
   @ ensures wake: wake_right(s);
   @ ensures busy: s->busy_us <= s->clock.now_us;
   @ ensures stage: s->stage ==
@@ -304,29 +313,27 @@ static void decide(keel_scheduler_t *s, const int64_t *sum)
   @ ensures pass: s->cursor == \old(s->cursor) && s->pass_end == \old(s->pass_end);
   @ ensures time: \old(s->clock.now_us) <= s->clock.now_us <= \old(s->clock.now_us) + limit_us;
   @ ensures releases: \forall integer k; 0 <= k < s->queue.count ==>
-  @     s->queue.task[k]->release_us == \old(s->queue.task[k]->release_us);
+  @     s->queue.release_us[s->queue.order[k]] == \old(s->queue.release_us[s->queue.order[k]]);
+  @ ensures guard: s->config.guard_us == \old(s->config.guard_us);
   @ ensures periods: \forall integer k; 0 <= k < s->queue.count ==>
-  @     s->queue.task[k]->config->period_us == \old(s->queue.task[k]->config->period_us);
+  @     s->queue.period_us[s->queue.order[k]] == \old(s->queue.period_us[s->queue.order[k]]);
   @ ensures budgets: \forall integer k; 0 <= k < s->queue.count ==>
-  @     s->queue.task[k]->config->budget_us == \old(s->queue.task[k]->config->budget_us);
+  @     s->queue.budget_us[s->queue.order[k]] == \old(s->queue.budget_us[s->queue.order[k]]);
   @*/
 static void run_at_most(keel_scheduler_t *s, uint64_t limit_us)
 {
     const uint32_t raw_us = read_within(s->clock.raw_us, limit_us);
     keel_status_t status;
 
-    //@ assert apart_scheduler: \separated(s, s->queue.task[s->running]);
-    /*@ assert apart: \forall integer k; 0 <= k < s->queue.count ==> k != s->running ==>
-      @     \separated(s->queue.task[s->running], s->queue.task[k]);
-      @*/
-    status = keel_scheduler_finish(s, raw_us);
+    status = keel_pass_finish(s, raw_us);
     (void)status;
-    /*@ assert release: s->queue.task[\at(s->running, Pre)]->release_us ==
-      @     \at(s->queue.task[s->running]->release_us, Pre);
+    /*@ assert release: s->queue.release_us[s->queue.order[\at(s->running, Pre)]] ==
+      @     \at(s->queue.release_us[s->queue.order[s->running]], Pre);
       @*/
     /*@ assert releases_others: \forall integer k; 0 <= k < s->queue.count ==>
       @     k != \at(s->running, Pre) ==>
-      @     s->queue.task[k]->release_us == \at(s->queue.task[k]->release_us, Pre);
+      @     s->queue.release_us[s->queue.order[k]] ==
+      @         \at(s->queue.release_us[s->queue.order[k]], Pre);
       @*/
 }
 
@@ -337,7 +344,7 @@ static void run_at_most(keel_scheduler_t *s, uint64_t limit_us)
   @ requires before: late_before(s, sum, s->running);
   @ requires behind: late_behind(s, sum, s->running);
   @ assigns s->clock.now_us, s->clock.raw_us, s->busy_us, s->stage, s->running,
-  @     STATS_FIELDS(s->queue.task[s->running]->stats);
+  @     STATS_RUN(s->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1]);
   @ SET_STAYS(s, sum)
   @ ensures pass: s->stage == KEEL_STAGE_PASS && pass_whole(s);
   @ ensures before: late_before(s, sum, s->cursor);
@@ -346,7 +353,7 @@ static void run_at_most(keel_scheduler_t *s, uint64_t limit_us)
 static void run_realtime(keel_scheduler_t *s, const int64_t *sum)
 {
     (void)sum;
-    run_at_most(s, s->queue.task[s->running]->config->budget_us);
+    run_at_most(s, s->queue.budget_us[s->queue.order[s->running]]);
     /*@ assert time: s->clock.now_us + sum[\at(s->running, Pre)] <=
       @     \at(s->clock.now_us, Pre) + sum[s->cursor];
       @*/
@@ -357,27 +364,27 @@ static void run_realtime(keel_scheduler_t *s, const int64_t *sum)
   @ requires stage: s->stage == KEEL_STAGE_OTHER && s->running < s->queue.count;
   @ requires room: room(s, s->running);
   @ assigns s->clock.now_us, s->clock.raw_us, s->busy_us, s->stage, s->running,
-  @     STATS_FIELDS(s->queue.task[s->running]->stats);
+  @     STATS_RUN(s->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1]);
   @ SET_STAYS(s, sum)
   @ ensures ready: s->stage == KEEL_STAGE_READY;
   @ ensures late: late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
   @*/
 static void run_other(keel_scheduler_t *s, const int64_t *sum)
 {
-    const keel_task_t *const task = s->queue.task[s->running];
-    const uint32_t longest_us = task->stats.longest_us;
-    const uint32_t budget_us = task->config->budget_us;
+    const uint32_t slot = s->queue.order[s->running];
+    const uint32_t longest_us = s->queue.stats[slot].longest_us;
+    const uint32_t budget_us = s->queue.budget_us[slot];
     const uint64_t worst_us = (longest_us > budget_us) ? longest_us : budget_us;
 
     (void)sum;
     run_at_most(s, s->config.guard_us + worst_us);
     /*@ assert time: s->clock.now_us <= \at(s->clock.now_us
-      @     + s->config.guard_us + task_worst(s->queue.task[s->running]), Pre);
+      @     + s->config.guard_us + task_worst(&s->queue, s->queue.order[s->running]), Pre);
       @*/
 }
 
 /*@ // As keel_scheduler_init and keel_scheduler_add leave it.
-  @ requires memory: \valid(s) && scheduler_valid(s) && setup_armed(s);
+  @ requires memory: \valid(s) && scheduler_valid(s) && setup_unmoved(s);
   @ requires fresh: s->wake_us == 0 && s->busy_us == 0;
   @*/
 void isolation(keel_scheduler_t *s, uint32_t raw_us, uint64_t moves)
@@ -429,8 +436,8 @@ void isolation(keel_scheduler_t *s, uint32_t raw_us, uint64_t moves)
             decide(s, sum);
             /*@ assert ISO_001: s->stage == KEEL_STAGE_REALTIME ==>
               @     s->clock.now_us -
-              @         \at(s->queue.task[\at(s->running, Here)]->release_us, LoopCurrent) <=
-              @     sum[s->queue.realtime_count] - s->queue.task[s->running]->config->budget_us
+              @         \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], LoopCurrent) <=
+              @     sum[s->queue.realtime_count] - s->queue.budget_us[s->queue.order[s->running]]
               @         + s->config.guard_us;
               @*/
             if ((s->stage == KEEL_STAGE_OTHER) && by_promotion) {

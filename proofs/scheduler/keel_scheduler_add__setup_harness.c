@@ -1,9 +1,12 @@
 // cbmc: --unwind 34
 // sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
 // covers: keel_scheduler_add insert
+// defines: -DKEEL_QUEUE_CAPACITY=4u
 //
 // Before the start, where adding asks for no admission; with all numbers of their full width. The
 // task stands in the queue already, or does not, and its declaration is any.
+// Bounded to a capacity of 4 tasks, with which the solver comes to an end in a minute; the contract
+// under WP has no bound.
 #include "../common/add_proof.h"
 
 void keel_scheduler_add__setup_harness(void)

@@ -1,6 +1,10 @@
 // cbmc: --unwind 34
 // sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
 // covers: keel_scheduler_remove take_out shift_up
+// defines: -DKEEL_QUEUE_CAPACITY=8u
+//
+// Bounded to a capacity of 8 tasks, with which the solver comes to an end in a minute; the contract
+// under WP has no bound.
 #include "../common/keel_scheduler_proof.h"
 
 void keel_scheduler_remove_harness(void)

@@ -322,6 +322,7 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
   @ ensures stage: scheduler->stage == ((\result == KEEL_OK &&
   @     \old(scheduler->stage) == KEEL_STAGE_REALTIME) ? KEEL_STAGE_PASS : KEEL_STAGE_READY);
   @ ensures running: scheduler->running == KEEL_POSITION_NONE;
+  @ ensures declared: declared_same{Pre, Post}(scheduler);
   @ ensures releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
   @     scheduler->queue.release_us[x] == \old(scheduler->queue.release_us[x]);
   @*/
@@ -350,6 +351,7 @@ static keel_status_t end_run(keel_scheduler_t *scheduler, uint32_t raw_us)
   @     stats_same{Pre, Post}(&scheduler->queue.stats[x]);
   @ ensures releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
   @     scheduler->queue.release_us[x] == \old(scheduler->queue.release_us[x]);
+  @ ensures declared: declared_same{Pre, Post}(scheduler);
   @ ensures clock: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
   @     scheduler->clock.raw_us == \old(scheduler->clock.raw_us);
   @ ensures pass: scheduler->cursor == \old(scheduler->cursor) &&

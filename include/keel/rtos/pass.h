@@ -194,7 +194,13 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @       moved_on{Pre, Post}(scheduler, scheduler->running);
   @   ensures SCH_014_release: \result != \null ==> !due(scheduler, scheduler->running);
   @   ensures SCH_014_others: \forall integer k; 0 <= k < scheduler->queue.count ==>
-  @       \result == \null || k != scheduler->running ==> left_alone{Pre, Post}(scheduler, k);
+  @       \result == \null || k != scheduler->running ==>
+  @       scheduler->queue.release_us[scheduler->queue.order[k]] ==
+  @           \old(scheduler->queue.release_us[scheduler->queue.order[k]]);
+  @   ensures SCH_014_uncounted: \forall integer k; 0 <= k < scheduler->queue.count ==>
+  @       \result == \null || k != scheduler->running ==>
+  @       scheduler->queue.skipped[scheduler->queue.order[k]] ==
+  @           \old(scheduler->queue.skipped[scheduler->queue.order[k]]);
   @   ensures SCH_015_realtime: scheduler->stage == KEEL_STAGE_REALTIME ==>
   @       \old(scheduler->cursor) <= scheduler->running < scheduler->pass_end &&
   @       scheduler->cursor == scheduler->running + 1;
@@ -270,6 +276,7 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler);
   @ ensures SCH_017_pass: scheduler->cursor == \old(scheduler->cursor) &&
   @     scheduler->pass_end == \old(scheduler->pass_end) &&
   @     scheduler->wake_us == \old(scheduler->wake_us);
+  @ ensures SCH_017_declared: declared_same{Pre, Post}(scheduler);
   @ ensures SCH_017_releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
   @     scheduler->queue.release_us[x] == \old(scheduler->queue.release_us[x]);
   @ behavior state:

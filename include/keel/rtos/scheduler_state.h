@@ -133,6 +133,14 @@ typedef struct keel_task_report {
   @     \at(s->queue.skipped[s->queue.order[i]], M) ==
   @         \at(s->queue.skipped[s->queue.order[i]], L);
   @
+  @ // What scheduling reads of the declarations, and the guard, is the same in states L and M.
+  @ predicate declared_same{L, M}(keel_scheduler_t *s) =
+  @     (\forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @         \at(s->queue.period_us[x], M) == \at(s->queue.period_us[x], L)) &&
+  @     (\forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+  @         \at(s->queue.budget_us[x], M) == \at(s->queue.budget_us[x], L)) &&
+  @     \at(s->config.guard_us, M) == \at(s->config.guard_us, L);
+  @
   @ logic integer promotions_at(keel_scheduler_t *s, integer i) =
   @     s->queue.stats[s->queue.order[i]].promotions;
   @
