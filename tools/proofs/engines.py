@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from . import cbmc, csource, gappa, wp
+from . import cbmc, csource, frames, gappa, wp
 from .cache import digest
 from .driver import Job
 from .harness import Harness, read_harness
@@ -25,8 +25,7 @@ def wp_jobs(
     for unit in units:
         allowed = list(exceptions[unit.name].warnings)
         for target in wp.targets(unit):
-            if target.function in exceptions[unit.name].not_by_wp:
-                continue
+            target = frames.restricted(target, exceptions[unit.name])
 
             def execute(target: wp.Target = target, allowed: list[str] = allowed) -> dict[str, Any]:
                 return prover.prove(target, stages, allowed=allowed).as_dict()

@@ -216,7 +216,10 @@ def closing_lines(gathered: Gathered) -> list[str]:
     for name, unit in gathered.units.items():
         if unit.exceptions.not_by_wp and "wp" in gathered.engines:
             left = len(unit.exceptions.not_by_wp)
-            lines.append(f"{name}: {left} functions are left to CBMC alone, see proofs/units.toml")
+            lines.append(
+                f"{name}: the postconditions of {left} functions are left to CBMC,"
+                " see proofs/units.toml"
+            )
     engines = (
         f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}, Gappa {gathered.gappa_proved}"
     )
@@ -255,6 +258,7 @@ def _unit(result: UnitResult, engines: Sequence[str]) -> dict[str, Any]:
             "accepted_warnings": {text: exceptions.warnings[text] for text in result.accepted},
             "not_proved_here": exceptions.no_body,
             "not_by_wp": exceptions.not_by_wp,
+            "by_cbmc": exceptions.by_cbmc,
             "goal_list": sorted(result.goals, key=lambda goal: goal["name"]),
         }
     if "cbmc" in engines:
