@@ -55,7 +55,7 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
                         help="start no mutant after this time")  # fmt: skip
     parser.add_argument("--list", action="store_true", help="print the mutants, try none")
     parser.add_argument("--quick", action="store_true",
-                        help="give WP short limits only; what it leaves open is not killed")  # fmt: skip
+                        help="short limits for WP; what they leave open is not killed")  # fmt: skip
     parser.add_argument("--no-cache", action="store_true", help="try every mutant afresh")
     options = parser.parse_args(arguments)
     if options.unit not in names:

@@ -4,9 +4,10 @@ STA-001 (specs/requirements/status.sdoc) lists the exceptions, a line for each:
 
     - OVS_003_refused keel_oversample_add, KEEL_ERR_VALUE: the run is counted
 
-with the label of a clause or an assertion about the function that says so. Every other function that
-returns a status must be shown to leave all as it was: it assigns nothing at all, or has a behaviour
-that does not, or its contract or a harness of its own has a label that ends in _kept or _unchanged.
+with the label of a clause or an assertion about the function that says so. Every other function
+that returns a status must be shown to leave all as it was: it assigns nothing at all, or has a
+behaviour that does not, or its contract or a harness of its own has a label that ends in _kept or
+_unchanged.
 """
 
 from __future__ import annotations
@@ -49,11 +50,13 @@ def problems(root: Path) -> list[str]:
         return []
     listed = {match[2]: match[1] for match in EXCEPTION.finditer(path.read_text(encoding="utf-8"))}
     stated = {name: evidence(root, name, contract) for name, contract in fallible(root)}
-    found = [f"STA-001: there is no {name} that returns a status" for name in set(listed) - set(stated)]
+    unknown = set(listed) - set(stated)
+    found = [f"STA-001: there is no {name} that returns a status" for name in unknown]
     for name, text in stated.items():
         if name in listed:
             if not re.search(rf"\b{listed[name]}\b", text):
-                found.append(f"STA-001: {name}: {listed[name]} is neither in its contract nor asserted")
+                label = listed[name]
+                found.append(f"STA-001: {name}: {label} is neither in its contract nor asserted")
         elif not KEPT.search(text):
             found.append(f"STA-001: {name}: nothing says that its refusals change nothing")
     return sorted(found)

@@ -1,6 +1,6 @@
 /**
  * @file unchanged.h
- * @brief Whether an object is what it was, bit for bit: for what a refusal must not change (STA-001).
+ * @brief Whether an object is what it was, bit for bit: what a refusal must not change (STA-001).
  */
 #ifndef UNCHANGED_H
 #define UNCHANGED_H

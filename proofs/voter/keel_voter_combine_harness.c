@@ -3,8 +3,8 @@
 // replaces: keel_voter_mean
 // covers: keel_voter_combine
 //
-// Every weight that keel_voter_weight may give, every bit pattern of the samples without weight. The
-// quotient is whatever its contract allows.
+// Every weight that keel_voter_weight may give, every bit pattern of the samples without weight.
+// The quotient is whatever its contract allows.
 #include "../common/voter_stand_ins.h"
 
 void keel_voter_combine_harness(void)

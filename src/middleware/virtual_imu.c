@@ -54,8 +54,8 @@ static void note(keel_virtual_imu_t *imu, uint32_t channel)
     for (uint32_t i = 0u; i < voter->config.sensors; i++) {
         if (voter->vote.reason[i] != KEEL_VOTER_USED) {
             imu->used[i] = (uint8_t)(imu->used[i] & ~bit);
-            imu->latched[i] =
-                (uint8_t)((imu->latched[i] | (voter->sensor[i].latched ? bit : 0u)) & 0xFFu);
+            imu->latched[i] = (uint8_t)((imu->latched[i] | (voter->sensor[i].latched ? bit : 0u)) &
+                                        0xFFu);
         }
     }
 }

@@ -3,8 +3,8 @@
 
     python3 tests/tools/test_frames.py
 
-What WP leaves to CBMC is named and asserted; assertions are fixed; nothing defined stands unused; what
-changes in a refusal is listed. No prover is run.
+What WP leaves to CBMC is named and asserted; assertions are fixed; nothing defined stands unused;
+what changes in a refusal is listed. No prover is run.
 """
 
 from __future__ import annotations
@@ -209,7 +209,8 @@ class Unused(Tree):
 
     def test_a_use_by_what_is_unused_itself_does_not_count(self) -> None:
         text = HEADER.replace("box_small(value)", "value < BOX_LIMIT")
-        more = "  @ predicate box_tiny(int x) = box_small(x) && box_tiny(x);\n  @*/\n/*@ requires \\v"
+        tiny = "  @ predicate box_tiny(int x) = box_small(x) && box_tiny(x);\n"
+        more = tiny + "  @*/\n/*@ requires \\v"
         self.write("include/keel/rtos/box.h", text.replace("  @*/\n/*@ requires \\v", more))
         names = [problem.split()[1] for problem in unused.problems(self.root)]
         self.assertEqual(names, ["box_small", "box_tiny"])
@@ -239,7 +240,8 @@ class Refusals(Tree):
         self.assertIn("keel_box_put: nothing says that its refusals change nothing", problem)
 
     def test_a_behaviour_that_assigns_nothing_says_so(self) -> None:
-        text = HEADER.replace("  @ ensures BOX_001", "  @ behavior b: assigns \\nothing;\n  @ ensures B")
+        behaviour = "  @ behavior b: assigns \\nothing;\n  @ ensures B"
+        text = HEADER.replace("  @ ensures BOX_001", behaviour)
         self.write("include/keel/rtos/box.h", text)
         self.assertEqual(refusals.problems(self.root), [])
 

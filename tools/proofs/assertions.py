@@ -1,7 +1,7 @@
 """Fixes the assertions of CBMC's harnesses in the repository, as goals.txt does WP's goals.
 
-proofs/UNIT/assertions.txt has a line for each: the harness and the assertion's text. One that vanishes,
-or a whole harness, is a failure until a person has accepted it with --update-goals.
+proofs/UNIT/assertions.txt has a line for each: the harness and the assertion's text. One that
+vanishes, or a whole harness, is a failure until a person has accepted it with --update-goals.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ def list_of(unit: Unit) -> Path:
 
 
 def lines(harnesses: Mapping[str, Mapping[str, Any]]) -> list[str]:
-    """The assertions of harnesses as they are reported, sorted; equal ones as often as there are."""
+    """The assertions of harnesses as they are reported, sorted; equal ones each time."""
     return sorted(
         f"{name} {assertion['description']}"
         for name, harness in harnesses.items()

@@ -8,8 +8,8 @@
     warnings = [{ text = "part of a message of Frama-C", reason = "…" }]
 
 Of a function under not_by_wp WP proves all but the postconditions, and that no result of floats
-overflows (frames.py); by_cbmc names what else WP does not prove of it. An exception without a reason,
-or that nothing needs any more, is an error.
+overflows (frames.py); by_cbmc names what else WP does not prove of it. An exception without a
+reason, or that nothing needs any more, is an error.
 """
 
 from __future__ import annotations

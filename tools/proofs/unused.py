@@ -1,7 +1,7 @@
 """Finds what contracts define and nothing uses: it looks like a guarantee, and is none.
 
-A predicate, a logic function or a macro counts as used when a clause uses it, or a definition that is
-itself used, or the code. Lemmas are left alone: provers use them without naming them.
+A predicate, a logic function or a macro counts as used when a clause uses it, or a definition that
+is itself used, or the code. Lemmas are left alone: provers use them without naming them.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ def _macros(root: Path, proved: dict[Path, str]) -> list[str]:
 
 
 def _without_notes(text: str) -> str:
-    """The text without comments, but with annotations: to name a macro in prose is not to use it."""
+    """The text without comments, but with annotations: to be named in prose is no use."""
 
     def replace(match: re.Match[str]) -> str:
         comment = match.group("comment")
