@@ -21,8 +21,9 @@
  *   - Three sensors that all disagree are all condemned, as the paper has it. When all are latched
  *     the output is held until one is readmitted.
  *   - Two equal faulty sensors outvote a healthy third. No voter over three can tell.
- *   - A bias that keeps some agreement is neither removed nor latched; its influence on the output
- *     is bounded (VOT-015).
+ *   - A bias that keeps some agreement is neither removed nor latched. While the other two of three
+ *     are within a of each other, its influence on the output is bounded (VOT-015); farther apart
+ *     they agree less, and it moves the output farther.
  *   - A latched sensor is readmitted on request only.
  *
  * keel_voter_step takes any vote. keel_voter_step_unanimous, tried first, takes the usual one for
