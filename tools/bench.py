@@ -56,6 +56,9 @@ ARM_FLAGS = ("-std=c99", "-O2", *TARGET_FLAGS, "-ffreestanding", "-ffunction-sec
 SETS = {8: 32, 21: 32, 64: 128, 128: 128}
 GOAL_SET = 21
 
+# What a task takes of the scheduler's memory is the difference of these two, the first as shipped.
+CAPACITIES = (32, 64)
+
 # Steps by their labels: what they are, the function, and the goal on the Cortex-M7.
 STEPS: dict[str, tuple[str, str, int]] = {
     "filter": ("filter", "keel_filter_step", 30),
@@ -288,7 +291,7 @@ class Target:
 
     @property
     def per_task(self) -> int:
-        return self.sizes["task"] + self.sizes["slot"]
+        return self.sizes["task"]
 
 
 def read_sizes(text: str) -> dict[str, tuple[int, int]]:
@@ -303,18 +306,33 @@ def read_symbols(text: str) -> dict[str, int]:
     return {name: int(size, 16) for size, name in found}
 
 
+def measure_sizes(tools: Toolchain, folder: Path, capacity: int) -> dict[str, int]:
+    """The sizes of the objects of tests/bench/sizes.c for one capacity of the queue."""
+    probe = str(folder / "sizes.o.probe")
+    flags = [*ARM_FLAGS, "-fno-common", f"-DKEEL_QUEUE_CAPACITY={capacity}u"]
+    gcc = tools.command("arm-none-eabi-gcc")
+    run([*gcc, *flags, *INCLUDES, "-c", "tests/bench/sizes.c", "-o", probe])
+    return read_symbols(run([*tools.command("arm-none-eabi-nm"), "-S", probe]))
+
+
+def size_of_task(less: int, more: int) -> int:
+    """What a task takes of a scheduler, from its sizes for both CAPACITIES."""
+    size, rest = divmod(more - less, CAPACITIES[1] - CAPACITIES[0])
+    if rest or size <= 0:
+        raise BenchError(f"a scheduler of {less} bytes does not grow to {more} by whole tasks")
+    return size
+
+
 def measure_target(tools: Toolchain) -> Target:
     folder = BUILD / "target"
     gcc = tools.command("arm-none-eabi-gcc")
     objects = compile_layer(gcc, ARM_FLAGS, folder)
     sizes = read_sizes(run([*tools.command("arm-none-eabi-size"), *objects]))
-    probe = str(folder / "sizes.o.probe")
-    run([*gcc, *ARM_FLAGS, "-fno-common", *INCLUDES, "-c", "tests/bench/sizes.c", "-o", probe])
-    symbols = read_symbols(run([*tools.command("arm-none-eabi-nm"), "-S", probe]))
+    symbols = [measure_sizes(tools, folder, capacity) for capacity in CAPACITIES]
     return Target(
         {name: text for name, (text, _) in sizes.items()},
         {name: data for name, (_, data) in sizes.items() if data},
-        symbols,
+        {**symbols[0], "task": size_of_task(symbols[0]["scheduler"], symbols[1]["scheduler"])},
     )
 
 
@@ -507,8 +525,9 @@ def print_target(target: Target) -> None:
     print(f"  {'sum':28}{target.total:8}")
     print(f"Writable data of the layer: {sum(target.data.values())} bytes")
     sizes = target.sizes
-    print(f"RAM per task: {target.per_task} bytes ({sizes['task']} and a slot of {sizes['slot']})")
-    print(f"The scheduler itself, its queue of 32 included: {sizes['scheduler']} bytes")
+    print(f"RAM per task: {target.per_task} bytes; its declaration, which may be constant, takes "
+          f"{sizes['config']}")
+    print(f"The scheduler, its queue of {CAPACITIES[0]} included: {sizes['scheduler']} bytes")
 
 
 def print_goals(goals: Sequence[Goal]) -> None:

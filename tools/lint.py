@@ -389,7 +389,8 @@ def check_guard(text: Text) -> Iterator[Finding]:
 # units below it only; units of one rank do not know each other.
 LAYERS = ("rtos", "middleware", "flight")
 RTOS_UNITS = (
-    ("clock", "priority", "load"), ("task",), ("queue",), ("admission", "decision"), ("scheduler",)
+    ("clock", "priority", "load"), ("task",), ("queue",), ("admission", "decision"),
+    ("scheduler_state",), ("pass",), ("scheduler",)
 )  # fmt: skip
 RTOS_RANK = {name: rank for rank, names in enumerate(RTOS_UNITS) for name in names}
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
@@ -434,8 +435,26 @@ def check_includes(text: Text) -> Iterator[Finding]:
                 yield Finding(text.path, number, reason)
 
 
+DECLARATION = re.compile(r"\bkeel_task_config_t\b(?!\s*\*)")
+APART = re.compile(
+    r"^static (const )?keel_task_config_t \w+[\[ ;]"  # An object of its own, or a table.
+    r"|^(static )?keel_task_config_t \w+\("  # A function that gives one.
+    r"|\(keel_task_config_t\)\{"  # A value, which is copied into one.
+)
+
+
+def check_declarations(text: Text) -> Iterator[Finding]:
+    """Examples show what the kernel asks for: a declaration outlives its task's stay, and lies
+    outside of the scheduler. As an object of a file it does; in a structure it may not."""
+    if text.path.startswith("examples/") and text.is_c:
+        for number, line in enumerate(text.lines, 1):
+            if DECLARATION.search(line) and not APART.search(line):
+                yield Finding(text.path, number, "the declaration of a task is no static object")
+
+
 HOUSE_CHECKS: tuple[Callable[[Text], Iterator[Finding]], ...] = (
     check_words, check_length, check_unproved, check_prover, check_guard, check_includes,
+    check_declarations,
 )  # fmt: skip
 
 

@@ -26,13 +26,13 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from proofs.cache import Cache, write_atomically  # noqa: E402
-from proofs.driver import Times  # noqa: E402
 from proofs.jobs import end_as_by_ctrl_c, in_pool  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
 from proofs.mutation import Tools, Trees, Trial, Verdict  # noqa: E402
-from proofs.project import ProjectError, Unit, find_units  # noqa: E402
+from proofs.project import RECORDED_TIMES, ProjectError, Unit, find_units  # noqa: E402
 from proofs.session import own_digest, prover_answers, tool_stamp  # noqa: E402
 from proofs.settings import read_exceptions  # noqa: E402
+from proofs.times import Times  # noqa: E402
 from toolchain import TARGET_FLAGS, Toolchain, ToolchainError  # noqa: E402
 
 from proofs import mutation  # noqa: E402
@@ -56,7 +56,7 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--list", action="store_true", help="print the mutants, try none")
     parser.add_argument("--quick", action="store_true",
                         help="short limits for WP; what they leave open is not killed")  # fmt: skip
-    parser.add_argument("--no-cache", action="store_true", help="try every mutant afresh")
+    parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")
     options = parser.parse_args(arguments)
     if options.unit not in names:
         parser.error(f"no such unit: {options.unit} (there are: {', '.join(names)})")
@@ -77,6 +77,7 @@ def tools_for(toolchain: Toolchain, root: Path, scratch: Path) -> Tools:
     return Tools(
         frama_c=toolchain.frama_c(), goto_cc=toolchain.goto_cc(), cbmc=toolchain.command("cbmc"),
         compiler=compiler, scratch=scratch, answers=prover_answers(root, stamp),
+        verdicts=toolchain.cache.folder / "verdicts",
         environment={**os.environ, **toolchain.environment(), "TMPDIR": str(scratch)},
     )  # fmt: skip
 
@@ -116,11 +117,11 @@ def measure(unit: Unit, options: argparse.Namespace, toolchain: Toolchain) -> in
     scratch = Path(tempfile.mkdtemp(prefix="keel-mutate-"))
     engines = ENGINES[options.engine]
     stamp = {**tool_stamp(toolchain.versions("prove")), "driver": own_digest()}
-    cache = Cache(None if options.no_cache else build / "cache")
+    cache = Cache(build / "cache", options.fresh)
     tools = tools_for(toolchain, unit.root, scratch)
     trees = Trees(unit.root, scratch, options.jobs)
     exceptions = read_exceptions(unit.root / "proofs" / "units.toml", list(find_units(unit.root)))
-    times = Times(unit.root / "build" / "prove" / "times.json")
+    times = Times(unit.root / "build/prove/times.json", unit.root / RECORDED_TIMES)
     trial = Trial(
         unit, tools, trees, engines, options.engine == "both", cache, stamp,
         exceptions[unit.name], times, patient=not options.quick,

@@ -4,10 +4,13 @@
     python3 tools/prove.py                    # everything
     python3 tools/prove.py --unit queue       # one unit
     python3 tools/prove.py --update-goals     # accept the goals as they are now, after review
+    python3 tools/prove.py --shard 2/4        # a quarter of it: build/prove/shard-2-of-4.json
+    python3 tools/prove.py --join FILE...     # the verdict on the whole, from all four reports
 
 Exit status: 0 when all is proved and the goals are those of proofs/UNIT/goals.txt, 1 when not, 2
 for a wrong command line. build/prove/report.json has the details; there is none while a run is
-not over. A verdict is kept in build/prove/cache under all that it depends on, and only success is.
+not over. A verdict is kept in the user's cache (KEEL_CACHE) under all that it depends on, and only
+success is: another clone of the same text has it, too.
 """
 
 from __future__ import annotations
@@ -23,9 +26,18 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from proofs.jobs import end_as_by_ctrl_c  # noqa: E402
 from proofs.project import ROOT, ProjectError, find_units  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
+from proofs.shards import Shard, read_shard  # noqa: E402
 from toolchain import Toolchain, ToolchainError  # noqa: E402
 
 ENGINES = ("wp", "cbmc", "gappa")
+
+
+def shard(text: str) -> Shard:
+    """The shard that the command line names."""
+    try:
+        return read_shard(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Namespace:
@@ -36,10 +48,19 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--update-goals", action="store_true", help="rewrite proofs/UNIT/goals.txt")
     parser.add_argument("-j", dest="width", type=int, default=min(2, os.cpu_count() or 1),
                         metavar="N", help="jobs side by side (default %(default)s)")  # fmt: skip
-    parser.add_argument("--no-cache", action="store_true", help="prove everything afresh")
+    parser.add_argument("--fresh", action="store_true",
+                        help="prove everything, whatever verdicts are known")  # fmt: skip
     parser.add_argument("--quick", action="store_true",
                         help="give up early on what provers do not prove at once")  # fmt: skip
+    parser.add_argument("--shard", type=shard, metavar="N/M", help="only this part of the jobs")
+    parser.add_argument("--join", nargs="+", type=Path, metavar="FILE",
+                        help="prove nothing: take what the reports of all shards say")  # fmt: skip
     options = parser.parse_args(arguments)
+    selected = options.unit or options.engine or options.quick
+    if options.shard and (selected or options.join or options.update_goals):
+        parser.error("--shard is a part of a whole run, and goes with --fresh and -j only")
+    if options.join and (selected or options.fresh):
+        parser.error("--join takes a whole run together, and goes with --update-goals only")
     unknown = [name for name in options.unit or () if name not in names]
     if unknown:
         parser.error(f"no such unit: {', '.join(unknown)} (there are: {', '.join(names)})")
@@ -60,8 +81,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             units=tuple(units[name] for name in options.unit or units),
             partial=bool(options.unit or options.engine),
             engines=(options.engine,) if options.engine else ENGINES,
-            width=options.width, cached=not options.no_cache, quick=options.quick,
-            update_goals=options.update_goals,
+            width=options.width, verdicts=tools.cache.folder / "verdicts",
+            fresh=options.fresh, quick=options.quick, update_goals=options.update_goals,
+            shard=options.shard, join=tuple(path.resolve() for path in options.join or ()),
         )  # fmt: skip
         return Session(ROOT, tools, choice).run()
     except (ProjectError, ToolchainError) as error:

@@ -163,6 +163,7 @@ FAULTS = {
     "stop": Fault(USAGE, UNDEFINSTR, code=CODE, function="keel_fault_stop"),
     "interrupt": Fault(INTERRUPT_3, 0),
     "hang": Fault(NMI, 0),
+    "lost_slot": Fault(USAGE, UNDEFINSTR, task="-"),
     "lost_task": Fault(USAGE, UNDEFINSTR, task="-"),
     "lost_name": Fault(USAGE, UNDEFINSTR, task="-"),
 }

@@ -12,7 +12,7 @@ static uint32_t sum_skipped(const keel_scheduler_t *scheduler, bool *counting)
 
     *counting = true;
     for (uint32_t i = 0u; i < scheduler->queue.realtime_count; i++) {
-        const uint16_t skipped = scheduler->queue.task[i]->skipped;
+        const uint16_t skipped = scheduler->queue.skipped[scheduler->queue.order[i]];
 
         sum += skipped;
         *counting = *counting && (skipped < UINT16_MAX);
@@ -25,9 +25,10 @@ static bool all_in_time(const keel_scheduler_t *scheduler, uint64_t now_us)
     bool in_time = true;
 
     for (uint32_t i = 0u; i < scheduler->queue.realtime_count; i++) {
-        const keel_task_t *const task = scheduler->queue.task[i];
+        const uint32_t slot = scheduler->queue.order[i];
+        const uint64_t release_us = scheduler->queue.release_us[slot];
 
-        in_time = in_time && (now_us < (task->release_us + task->config->period_us));
+        in_time = in_time && (now_us < (release_us + scheduler->queue.period_us[slot]));
     }
     return in_time;
 }

@@ -114,16 +114,18 @@ static bool is_sound(const void *structure, uint32_t size_b)
 static const char *running_name(void)
 {
     const keel_scheduler_t *const scheduler = (const keel_scheduler_t *)get_checked(&watched);
-    const keel_task_t *task;
+    const keel_task_config_t *task;
+    uint32_t slot;
 
     if (!is_sound(scheduler, sizeof *scheduler) || (scheduler->running >= KEEL_QUEUE_CAPACITY)) {
         return NULL;
     }
-    task = scheduler->queue.task[scheduler->running];
-    if (!is_sound(task, sizeof *task) || !is_sound(task->config, sizeof *task->config)) {
+    slot = scheduler->queue.order[scheduler->running];
+    if (slot >= KEEL_QUEUE_CAPACITY) {
         return NULL;
     }
-    return task->config->name;
+    task = scheduler->queue.task[slot];
+    return is_sound(task, sizeof *task) ? task->name : NULL;
 }
 
 /* The name is read as a whole before the record changes, which is whole already. */

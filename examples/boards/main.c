@@ -30,12 +30,6 @@
 #define FAULT_SETUP 0xDE300001u
 #define FAULT_STEP  0xDE300002u
 
-typedef struct demo_task {
-    keel_task_config_t config;
-    keel_task_t task;
-    uint32_t wcet_us;
-} demo_task_t;
-
 /* What the background task of the inertial unit saw. */
 typedef struct imu {
     bool there;
@@ -45,26 +39,33 @@ typedef struct imu {
 } imu_t;
 
 static keel_scheduler_t scheduler KEEL_REALTIME_ZERO;
-static demo_task_t demo_task[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
+
+/* The tasks: the scheduler knows each by the address of its declaration, and reads it when it runs
+ * the task. */
+static keel_task_config_t declaration[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
+
+/* How long each task's body works: the context of its body. */
+static uint32_t wcet_us[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
+
 static imu_t imu KEEL_REALTIME_ZERO;
 static bool hang;
 
-KEEL_REALTIME_CODE static void work_until(uint32_t start_us, uint32_t wcet_us)
+KEEL_REALTIME_CODE static void work_until(uint32_t start_us, uint32_t length_us)
 {
-    while ((keel_board_clock_us(NULL) - start_us) < wcet_us) {
+    while ((keel_board_clock_us(NULL) - start_us) < length_us) {
     }
 }
 
 KEEL_REALTIME_CODE static void body(void *context)
 {
-    const demo_task_t *const self = context;
+    const uint32_t *const length_us = context;
 
-    work_until(keel_board_clock_us(NULL), self->wcet_us);
+    work_until(keel_board_clock_us(NULL), *length_us);
 }
 
 KEEL_REALTIME_CODE static void imu_body(void *context)
 {
-    const demo_task_t *const self = context;
+    const uint32_t *const length_us = context;
     const uint32_t start_us = keel_board_clock_us(NULL);
 
     while (hang) {
@@ -76,16 +77,18 @@ KEEL_REALTIME_CODE static void imu_body(void *context)
             imu.failures++;
         }
     }
-    work_until(start_us, self->wcet_us);
+    work_until(start_us, *length_us);
 }
 
 static void state_body(void *context)
 {
-    const demo_task_t *const self = context;
+    static uint32_t runs;
+    const uint32_t *const length_us = context;
     const uint32_t start_us = keel_board_clock_us(NULL);
 
-    keel_chip_led(KEEL_LED_GREEN, (self->task.stats.runs % (2u * BLINK_RUNS)) < BLINK_RUNS);
-    work_until(start_us, self->wcet_us);
+    keel_chip_led(KEEL_LED_GREEN, (runs % (2u * BLINK_RUNS)) < BLINK_RUNS);
+    runs++;
+    work_until(start_us, *length_us);
 }
 
 static void require(keel_status_t status, uint32_t code)
@@ -109,12 +112,9 @@ static void start(void)
 
     require(keel_scheduler_init(&scheduler, &config), FAULT_SETUP);
     for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
-        demo_task_t *const self = &demo_task[i];
-
-        self->wcet_us = urpilot_task[i].wcet_us;
-        self->config = urpilot_task_config(i, body_of(i), self);
-        self->task.config = &self->config;
-        require(keel_scheduler_add(&scheduler, &self->task), FAULT_SETUP);
+        wcet_us[i] = urpilot_task[i].wcet_us;
+        declaration[i] = urpilot_task_config(i, body_of(i), &wcet_us[i]);
+        require(keel_scheduler_add(&scheduler, &declaration[i]), FAULT_SETUP);
     }
     require(keel_scheduler_start(&scheduler), FAULT_SETUP);
 }
@@ -148,6 +148,15 @@ static void print_imu(void)
     }
 }
 
+/* What the scheduler knows of a task. */
+static keel_task_report_t report_of(uint32_t i)
+{
+    keel_task_report_t report = {0};
+
+    (void)keel_scheduler_report(&scheduler, &declaration[i], &report);
+    return report;
+}
+
 /* One line: time, load, and what went wrong since the start. */
 static void print_report(keel_load_t *window)
 {
@@ -156,9 +165,11 @@ static void print_report(keel_load_t *window)
     uint64_t promotions = 0u;
 
     for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
-        skipped += demo_task[i].task.skipped;
-        overruns += demo_task[i].task.stats.overruns;
-        promotions += demo_task[i].task.stats.promotions;
+        const keel_task_report_t report = report_of(i);
+
+        skipped += report.skipped;
+        overruns += report.stats.overruns;
+        promotions += report.stats.promotions;
     }
     print_number("t ", scheduler.clock.now_us / REPORT_EVERY_US);
     print_number(" s load ",
@@ -174,16 +185,16 @@ static void print_report(keel_load_t *window)
 static void print_table(void)
 {
     for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
-        const keel_task_t *const task = &demo_task[i].task;
+        const keel_task_report_t report = report_of(i);
 
         keel_console_text("task ");
-        keel_console_text(task->config->name);
-        print_number(": period ", task->config->period_us);
-        print_number(" runs ", task->stats.runs);
-        print_number(" longest ", task->stats.longest_us);
-        print_number(" skipped ", task->skipped);
-        print_number(" overruns ", task->stats.overruns);
-        print_number(" promotions ", task->stats.promotions);
+        keel_console_text(declaration[i].name);
+        print_number(": period ", declaration[i].period_us);
+        print_number(" runs ", report.stats.runs);
+        print_number(" longest ", report.stats.longest_us);
+        print_number(" skipped ", report.skipped);
+        print_number(" overruns ", report.stats.overruns);
+        print_number(" promotions ", report.stats.promotions);
         keel_console_text("\n");
     }
     print_number("stack used ", keel_stack_used_b());

@@ -29,13 +29,12 @@
 #define DEMO_FIRST_TICK (UINT32_MAX - 30000000u) /* The counter at the start. */
 #define EXIT_USAGE      2
 
-/* A task with all that the demo watches about it. */
+/* What the demo watches about a task: the context of its body. */
 typedef struct demo_task {
-    keel_scheduler_t *scheduler;
+    const keel_task_config_t *declaration;
+    const keel_scheduler_t *scheduler;
     uint32_t *ticks;  /* The counter, which the body moves on. */
     uint32_t wcet_us; /* What each run takes. */
-    keel_task_config_t config;
-    keel_task_t task;
     keel_deviation_t deviation;
     uint64_t latest_us; /* The longest time from a release to the start of its run. */
     uint32_t missed;    /* Runs that ended behind their deadline. */
@@ -49,19 +48,32 @@ typedef struct demo {
     demo_task_t task[URPILOT_TASK_COUNT];
 } demo_t;
 
+/* The tasks: the scheduler knows each by the address of its declaration, which lies outside of the
+ * scheduler and does not change while the task is in its queue. */
+static keel_task_config_t declaration[URPILOT_TASK_COUNT];
+
 static uint32_t demo_clock(void *context)
 {
     return *(const uint32_t *)context;
+}
+
+/* What the scheduler knows of a task. */
+static keel_task_report_t demo_report(const demo_task_t *self)
+{
+    keel_task_report_t report = {0};
+
+    (void)keel_scheduler_report(self->scheduler, self->declaration, &report);
+    return report;
 }
 
 /* The body of every task: works for its worst-case time, and notes when it started and ended. */
 static void demo_body(void *context)
 {
     demo_task_t *const self = context;
-    const uint32_t period_us = self->config.period_us;
+    const uint32_t period_us = self->declaration->period_us;
     const uint64_t start_us = self->scheduler->clock.now_us;
     /* The kernel has moved the release on to the next one already. */
-    const uint64_t release_us = self->task.release_us - period_us;
+    const uint64_t release_us = demo_report(self).release_us - period_us;
 
     if ((start_us - release_us) > self->latest_us) {
         self->latest_us = start_us - release_us;
@@ -77,11 +89,12 @@ static keel_status_t demo_add(demo_t *demo, uint32_t i)
 {
     demo_task_t *const self = &demo->task[i];
 
-    *self = (demo_task_t){
-        .scheduler = &demo->scheduler, .ticks = &demo->ticks, .wcet_us = urpilot_task[i].wcet_us};
-    self->config = urpilot_task_config(i, demo_body, self);
-    self->task.config = &self->config;
-    return keel_scheduler_add(&demo->scheduler, &self->task);
+    *self = (demo_task_t){.declaration = &declaration[i],
+                          .scheduler = &demo->scheduler,
+                          .ticks = &demo->ticks,
+                          .wcet_us = urpilot_task[i].wcet_us};
+    declaration[i] = urpilot_task_config(i, demo_body, self);
+    return keel_scheduler_add(&demo->scheduler, &declaration[i]);
 }
 
 static keel_status_t demo_start(demo_t *demo, uint32_t poll_us)
@@ -146,27 +159,30 @@ static const char *demo_class(uint32_t priority)
 /* How often a task has to run: all periods of table 2 divide a minute. */
 static uint32_t demo_expected(const demo_task_t *self)
 {
-    return DEMO_LENGTH_US / self->config.period_us;
+    return DEMO_LENGTH_US / self->declaration->period_us;
 }
 
 static bool demo_in_time(const demo_task_t *self)
 {
-    return (self->task.stats.runs == demo_expected(self)) && (self->task.skipped == 0u) &&
+    const keel_task_report_t report = demo_report(self);
+
+    return (report.stats.runs == demo_expected(self)) && (report.skipped == 0u) &&
            (self->missed == 0u);
 }
 
 static void demo_print_task(const demo_task_t *self)
 {
-    const keel_stats_t *const stats = &self->task.stats;
+    const keel_task_config_t *const task = self->declaration;
+    const keel_task_report_t report = demo_report(self);
+    const keel_stats_t *const stats = &report.stats;
     const double sigma_us = sqrt((double)keel_deviation_variance_us2(&self->deviation));
 
-    (void)printf("%-26s %-11s %5u %6u %6u %5u %5u %6u %8.2f %6.2f %5u %5u %5u %5u\n",
-                 self->config.name, demo_class(self->config.priority),
-                 (unsigned)(self->config.period_us / 1000u), (unsigned)stats->runs,
-                 (unsigned)demo_expected(self), (unsigned)keel_stats_mean_us(stats),
-                 (unsigned)stats->longest_us, (unsigned)self->latest_us, sigma_us,
-                 (sigma_us * 100.0) / (double)self->config.period_us, (unsigned)self->missed,
-                 (unsigned)self->task.skipped, (unsigned)stats->overruns,
+    (void)printf("%-26s %-11s %5u %6u %6u %5u %5u %6u %8.2f %6.2f %5u %5u %5u %5u\n", task->name,
+                 demo_class(task->priority), (unsigned)(task->period_us / 1000u),
+                 (unsigned)stats->runs, (unsigned)demo_expected(self),
+                 (unsigned)keel_stats_mean_us(stats), (unsigned)stats->longest_us,
+                 (unsigned)self->latest_us, sigma_us, (sigma_us * 100.0) / (double)task->period_us,
+                 (unsigned)self->missed, (unsigned)report.skipped, (unsigned)stats->overruns,
                  (unsigned)stats->promotions);
 }
 
@@ -209,7 +225,7 @@ static bool demo_print_verdict(const demo_t *demo)
 
     for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
         bad += demo_in_time(&demo->task[i]) ? 0u : 1u;
-        runs += demo->task[i].task.stats.runs;
+        runs += demo_report(&demo->task[i]).stats.runs;
     }
     if (bad > 0u) {
         (void)printf("FAILED: %u of 21 tasks did not run once per period and in time.\n",

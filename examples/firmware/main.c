@@ -22,19 +22,22 @@
 #define FAULT_SETUP 0xDE300001u
 #define FAULT_STEP  0xDE300002u
 
-typedef struct demo_task {
-    keel_task_config_t config;
-    keel_task_t task;
+/* What a body needs to know. */
+typedef struct demo_work {
     uint32_t wcet_us;
     void (*work)(void); /* Null for a task that only takes its time. */
-} demo_task_t;
+} demo_work_t;
 
 static keel_scheduler_t scheduler KEEL_REALTIME_ZERO;
-static demo_task_t demo_task[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
+static demo_work_t demo_work[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
+
+/* The tasks: the scheduler knows each by the address of its declaration, and reads it when it runs
+ * the task. */
+static keel_task_config_t declaration[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
 
 KEEL_REALTIME_CODE static void demo_body(void *context)
 {
-    const demo_task_t *const self = context;
+    const demo_work_t *const self = context;
     const uint32_t start_us = keel_board_clock_us(NULL);
 
     if (self->work != NULL) {
@@ -55,18 +58,15 @@ static void demo_start(void)
 {
     const keel_scheduler_config_t config = urpilot_scheduler_config(keel_board_clock_us, NULL);
 
+    require(flight_init(), FAULT_SETUP);
+    demo_work[URPILOT_FOREGROUND_IMU].work = flight_vote;
+    demo_work[URPILOT_ANGLE_RATE_CONTROL].work = flight_control;
     require(keel_scheduler_init(&scheduler, &config), FAULT_SETUP);
     for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
-        demo_task_t *const self = &demo_task[i];
-
-        self->wcet_us = urpilot_task[i].wcet_us;
-        self->config = urpilot_task_config(i, demo_body, self);
-        self->task.config = &self->config;
-        require(keel_scheduler_add(&scheduler, &self->task), FAULT_SETUP);
+        demo_work[i].wcet_us = urpilot_task[i].wcet_us;
+        declaration[i] = urpilot_task_config(i, demo_body, &demo_work[i]);
+        require(keel_scheduler_add(&scheduler, &declaration[i]), FAULT_SETUP);
     }
-    require(flight_init(), FAULT_SETUP);
-    demo_task[URPILOT_FOREGROUND_IMU].work = flight_vote;
-    demo_task[URPILOT_ANGLE_RATE_CONTROL].work = flight_control;
     require(keel_scheduler_start(&scheduler), FAULT_SETUP);
 }
 
@@ -80,16 +80,17 @@ static void print_number(const char *label, uint64_t value)
 static void demo_print(void)
 {
     for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
-        const demo_task_t *const self = &demo_task[i];
+        keel_task_report_t report = {0};
 
+        (void)keel_scheduler_report(&scheduler, &declaration[i], &report);
         keel_console_text("task ");
-        keel_console_text(self->config.name);
-        print_number(": period ", self->config.period_us);
-        print_number(" runs ", self->task.stats.runs);
-        print_number(" longest ", self->task.stats.longest_us);
-        print_number(" skipped ", self->task.skipped);
-        print_number(" overruns ", self->task.stats.overruns);
-        print_number(" promotions ", self->task.stats.promotions);
+        keel_console_text(declaration[i].name);
+        print_number(": period ", declaration[i].period_us);
+        print_number(" runs ", report.stats.runs);
+        print_number(" longest ", report.stats.longest_us);
+        print_number(" skipped ", report.skipped);
+        print_number(" overruns ", report.stats.overruns);
+        print_number(" promotions ", report.stats.promotions);
         keel_console_text("\n");
     }
     print_number("time ", scheduler.clock.now_us);

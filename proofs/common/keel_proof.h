@@ -1,15 +1,16 @@
 /**
  * @file keel_proof.h
- * @brief What the CBMC harnesses share: arbitrary values, and arbitrary states that are valid.
+ * @brief What the CBMC harnesses share: arbitrary values, and any valid queue.
  *
  * A harness assumes its function's precondition by building a state that satisfies it, with
  * nothing else decided; it calls the function once and asserts the contract's clauses, each under
- * the clause's label. What holds for all indices is asserted at one arbitrary index.
+ * the clause's label. What holds for all indices is asserted at one arbitrary index, and what a
+ * function may write is compared with a copy of the state before as a whole.
  *
- * Task i stands in slot i of the queue here. Nothing is lost by that: the kernel
- * compares tasks for equality only, so every valid queue is this one up to the names of its tasks.
- * Two tasks with equal declarations stand for two tasks that share one, as the kernel never writes
- * declarations.
+ * Two things are decided without loss. Handles are compared and no more, so any names for them
+ * will do: of one task the harness decides whether it is in the queue, and where. Slots are alike,
+ * so one order of them stands for all; it is one in which no slot's number is its position, as a
+ * function that took one for the other would not be noticed else. WP proves it for every order.
  */
 #ifndef KEEL_PROOF_H
 #define KEEL_PROOF_H
@@ -25,11 +26,13 @@
 
 /* Arbitrary values. */
 bool nondet_bool(void);
+uint8_t nondet_u8(void);
 uint16_t nondet_u16(void);
+int16_t nondet_s16(void);
 uint32_t nondet_u32(void);
 uint64_t nondet_u64(void);
 keel_stats_t nondet_stats(void);
-keel_task_t nondet_task(void);
+keel_queue_t nondet_queue(void);
 keel_task_config_t nondet_config(void);
 
 static uint32_t any_below(uint32_t limit)
@@ -61,31 +64,23 @@ static uint32_t any_period(void)
     return period_us;
 }
 
-/* As many tasks as a queue holds, and a newcomer. */
-#define TASKS    (CAPACITY + 1u)
-#define NEWCOMER CAPACITY
-
-/* Each an object of its own, not an array's element: a pointer to any of them is then a choice of
- * objects to the solver, without a division by an element's size. */
-static keel_task_config_t *proof_config[TASKS];
-static keel_task_t *proof_task[TASKS];
+/* The declarations of the tasks in a queue, by slot, and that of the task which a harness is about:
+ * it may stand in the queue in place of another. */
+static keel_task_config_t proof_config[CAPACITY];
+static keel_task_config_t proof_task;
 
 static void idle_body(void *context)
 {
     (void)context;
 }
 
-/* Any declaration of the given class; the body and the context are never looked into. */
-static void any_config(keel_task_config_t *config, bool realtime)
+/* Any declaration; the body and the context are never looked into. */
+static void any_config(keel_task_config_t *config)
 {
     *config = nondet_config();
     config->name = NULL;
-    config->run = idle_body;
+    config->run = nondet_bool() ? idle_body : NULL;
     config->context = NULL;
-    if (realtime) {
-        config->priority = KEEL_PRIORITY_REALTIME;
-    }
-    __CPROVER_assume(realtime == (config->priority == KEEL_PRIORITY_REALTIME));
 }
 
 /* What keel_task_check accepts (config_valid). */
@@ -98,88 +93,48 @@ static bool config_is_valid_here(const keel_task_config_t *config)
             (config->priority == KEEL_PRIORITY_REALTIME));
 }
 
-/* Any task, with a declaration of the given class. */
-static void any_task(uint32_t index, bool realtime)
+/* The slot at a position: each has one, and none its own number, if 5 divides no capacity. */
+static uint32_t slot_at(uint32_t position)
 {
-    proof_config[index] = __CPROVER_allocate(sizeof(keel_task_config_t), 0);
-    any_config(proof_config[index], realtime);
-    proof_task[index] = __CPROVER_allocate(sizeof(keel_task_t), 0);
-    *proof_task[index] = nondet_task();
-    proof_task[index]->config = proof_config[index];
+    return ((5u * position) + 7u) % CAPACITY;
 }
 
-/* Any valid queue of at most so many tasks, 0 to count - 1 in this order. The newcomer is in none.
- * The queue's capacity is the shipped one whatever the number of tasks. */
-static void any_queue_of(keel_queue_t *queue, uint32_t most)
+/* Any valid queue. Position of_interest holds the task that the harness is about, if it is within
+ * the queue. */
+static void any_queue(keel_queue_t *queue, uint32_t of_interest)
 {
-    queue->count = any_below(most + 1u);
-    queue->realtime_count = any_below(queue->count + 1u);
+    *queue = nondet_queue();
+    __CPROVER_assume(queue->count <= CAPACITY);
+    __CPROVER_assume(queue->realtime_count <= queue->count);
     for (uint32_t i = 0u; i < CAPACITY; i++) {
-        queue->task[i] = NULL;
-    }
-    for (uint32_t i = 0u; i < most; i++) {
-        any_task(i, i < queue->realtime_count);
+        const uint32_t x = slot_at(i);
+
+        queue->order[i] = (uint8_t)x;
+        queue->task[x] = NULL;
         if (i < queue->count) {
-            queue->task[i] = proof_task[i];
+            queue->task[x] = (i == of_interest) ? &proof_task : &proof_config[x];
+            __CPROVER_assume((queue->priority[x] == KEEL_PRIORITY_REALTIME) ||
+                             ((1u <= queue->priority[x]) &&
+                              (queue->priority[x] <= KEEL_PRIORITY_HIGH)));
+            __CPROVER_assume((queue->priority[x] == KEEL_PRIORITY_REALTIME) ==
+                             (i < queue->realtime_count));
+            __CPROVER_assume((0u < queue->period_us[x]) &&
+                             (queue->period_us[x] < KEEL_PERIOD_LIMIT_US));
+            __CPROVER_assume(0u < queue->budget_us[x]);
         }
     }
-    any_task(NEWCOMER, nondet_bool());
 }
 
-/* A valid queue of just so many tasks. With no slot in doubt the solver sees which tasks a loop
- * reads, and how small their numbers are. */
-static void queue_of(keel_queue_t *queue, uint32_t realtime_count, uint32_t count)
+/* Makes any order of the slots that is there any order of all (queue_order): each slot has a
+ * position. For functions that look at few slots. */
+static void any_order(keel_queue_t *queue)
 {
-    queue->count = count;
-    queue->realtime_count = realtime_count;
-    for (uint32_t i = 0u; i < CAPACITY; i++) {
-        queue->task[i] = NULL;
+    for (uint32_t x = 0u; x < CAPACITY; x++) {
+        queue->order[x] = (uint8_t)any_below(CAPACITY);
     }
-    for (uint32_t i = 0u; i < count; i++) {
-        any_task(i, i < realtime_count);
-        queue->task[i] = proof_task[i];
+    for (uint32_t x = 0u; x < CAPACITY; x++) {
+        __CPROVER_assume(queue->order[any_below(CAPACITY)] == x);
     }
-    any_task(NEWCOMER, nondet_bool());
-}
-
-/* Any valid queue. */
-static void any_queue(keel_queue_t *queue)
-{
-    any_queue_of(queue, CAPACITY);
-}
-
-/* Assumes that the declarations of the first tasks and the newcomer's have passed
- * keel_task_check (queue_checked). */
-static void assume_checked(uint32_t most)
-{
-    for (uint32_t i = 0u; i < most; i++) {
-        __CPROVER_assume(config_is_valid_here(proof_config[i]));
-    }
-    __CPROVER_assume(config_is_valid_here(proof_config[NEWCOMER]));
-}
-
-/* Replaces the first tasks' numbers, the newcomer's too, by small ones that pass keel_task_check:
- * periods, phases, budgets and runs of so many bits, releases of release_bits. For harnesses whose
- * function divides: the solver comes to the end of a division of small numbers only. */
-static void narrow_task(uint32_t index, uint32_t bits, uint32_t release_bits)
-{
-    keel_task_config_t *const config = proof_config[index];
-
-    config->period_us = any_bits(bits) + 1u;
-    config->phase_us = any_below(config->period_us);
-    config->budget_us = any_bits(bits) + 1u;
-    config->priority = (config->priority == KEEL_PRIORITY_REALTIME) ? KEEL_PRIORITY_REALTIME
-                                                                    : (any_bits(2u) + 1u);
-    proof_task[index]->release_us = any_bits64(release_bits);
-    proof_task[index]->stats.longest_us = any_bits(bits);
-}
-
-static void narrow_tasks(uint32_t most, uint32_t bits, uint32_t release_bits)
-{
-    for (uint32_t i = 0u; i < most; i++) {
-        narrow_task(i, bits, release_bits);
-    }
-    narrow_task(NEWCOMER, bits, release_bits);
 }
 
 /* Eq. 3 without a division: one more for each of the 15 multiples of T that sp * age reaches. */
@@ -195,55 +150,39 @@ static uint32_t dynamic_priority(uint32_t sp, uint64_t age_us, uint32_t period_u
     return priority;
 }
 
-static bool is_realtime(const keel_task_t *task)
-{
-    return task->config->priority == KEEL_PRIORITY_REALTIME;
-}
-
-/* The same, found by comparing pointers: reading through one that may be any of many is dear. */
-static bool is_known_realtime(const keel_task_t *task)
-{
-    bool realtime = false;
-
-    for (uint32_t i = 0u; i < TASKS; i++) {
-        realtime = realtime || ((proof_task[i] != NULL) && (task == proof_task[i]) &&
-                                (proof_config[i]->priority == KEEL_PRIORITY_REALTIME));
-    }
-    return realtime;
-}
-
-static bool is_known(const keel_task_t *task)
-{
-    bool known = false;
-
-    for (uint32_t i = 0u; i < TASKS; i++) {
-        known = known || (task == proof_task[i]);
-    }
-    return (task != NULL) && known;
-}
-
-/* Asserts that a queue is valid (queue_valid), at two arbitrary indices. */
-static void assert_queue_valid(const keel_queue_t *queue)
-{
-    const uint32_t i = any_below(CAPACITY);
-    const uint32_t j = any_below(CAPACITY);
-    const keel_task_t *const task = queue->task[i];
-
-    __CPROVER_assert((queue->realtime_count <= queue->count) && (queue->count <= CAPACITY),
-                     "QUE_005_counts: the counts are in order and in range");
-    __CPROVER_assert((i < queue->count) == (task != NULL),
-                     "QUE_005_no_gaps: slots below count hold tasks, the others none");
-    if (i < queue->count) {
-        __CPROVER_assert((j >= queue->count) || (i == j) || (task != queue->task[j]),
-                         "QUE_005_no_duplicates: no task is queued twice");
-        __CPROVER_assert(is_known(task),
-                         "QUE_005_tasks: what is queued is a task, apart from the queue");
-        __CPROVER_assert((i >= queue->realtime_count) || is_known_realtime(task),
-                         "QUE_005_realtime: the first realtime_count tasks are real-time");
-        __CPROVER_assert((i < queue->realtime_count) || !is_known_realtime(task),
-                         "QUE_005_others: the tasks behind them are not");
-    }
-}
+/* Asserts that a queue is valid (queue_valid) under the ids of a unit, at two arbitrary positions;
+ * for duplicates these are slots, which is the same where the other parts hold. */
+#define ASSERT_QUEUE_VALID(queue, id)                                                              \
+    do {                                                                                           \
+        const uint32_t at_i = any_below(CAPACITY);                                                 \
+        const uint32_t at_j = any_below(CAPACITY);                                                 \
+        const uint32_t x_i = (queue)->order[at_i];                                                 \
+        const uint32_t x_j = (queue)->order[at_j];                                                 \
+                                                                                                   \
+        __CPROVER_assert(((queue)->realtime_count <= (queue)->count) &&                            \
+                             ((queue)->count <= CAPACITY),                                         \
+                         id "_counts: the counts are in order and in range");                      \
+        __CPROVER_assert((x_i < CAPACITY) && ((at_i == at_j) || (x_i != x_j)),                     \
+                         id "_order: every slot stands in the order, once");                       \
+        __CPROVER_assert((at_i < (queue)->count) == ((queue)->task[x_i] != NULL),                  \
+                         id "_no_gaps: the slots before count hold tasks, the others none");       \
+        __CPROVER_assert((at_i == at_j) || ((queue)->task[at_i] == NULL) ||                        \
+                             ((queue)->task[at_i] != (queue)->task[at_j]),                         \
+                         id "_no_duplicates: no two slots hold the same task");                    \
+        if (at_i < (queue)->count) {                                                               \
+            __CPROVER_assert((at_i >= (queue)->realtime_count) ||                                  \
+                                 ((queue)->priority[x_i] == KEEL_PRIORITY_REALTIME),               \
+                             id "_realtime: the first realtime_count tasks are real-time");        \
+            __CPROVER_assert((at_i < (queue)->realtime_count) ||                                   \
+                                 ((1u <= (queue)->priority[x_i]) &&                                \
+                                  ((queue)->priority[x_i] <= KEEL_PRIORITY_HIGH)),                 \
+                             id "_others: the tasks behind them are not");                         \
+            __CPROVER_assert((0u < (queue)->period_us[x_i]) &&                                     \
+                                 ((queue)->period_us[x_i] < KEEL_PERIOD_LIMIT_US),                 \
+                             id "_periods: every period is in its range");                         \
+            __CPROVER_assert(0u < (queue)->budget_us[x_i], id "_budgets: no budget is 0");         \
+        }                                                                                          \
+    } while (false)
 
 static bool stats_same(const keel_stats_t *a, const keel_stats_t *b)
 {
@@ -252,10 +191,10 @@ static bool stats_same(const keel_stats_t *a, const keel_stats_t *b)
            (a->promotions == b->promotions);
 }
 
-static bool task_same(const keel_task_t *a, const keel_task_t *b)
+static bool stats_fresh(const keel_stats_t *stats)
 {
-    return (a->config == b->config) && (a->skipped == b->skipped) &&
-           (a->release_us == b->release_us) && stats_same(&a->stats, &b->stats);
+    return (stats->total_us == 0u) && (stats->runs == 0u) && (stats->last_us == 0u) &&
+           (stats->longest_us == 0u) && (stats->overruns == 0u) && (stats->promotions == 0u);
 }
 
 static bool config_same(const keel_task_config_t *a, const keel_task_config_t *b)
@@ -263,6 +202,21 @@ static bool config_same(const keel_task_config_t *a, const keel_task_config_t *b
     return (a->name == b->name) && (a->run == b->run) && (a->context == b->context) &&
            (a->period_us == b->period_us) && (a->budget_us == b->budget_us) &&
            (a->phase_us == b->phase_us) && (a->priority == b->priority);
+}
+
+/* Whether a slot holds what it held but for who the task is. */
+static bool slot_same(const keel_queue_t *a, const keel_queue_t *b, uint32_t x)
+{
+    return (a->release_us[x] == b->release_us[x]) && (a->period_us[x] == b->period_us[x]) &&
+           (a->budget_us[x] == b->budget_us[x]) && (a->priority[x] == b->priority[x]) &&
+           (a->skipped[x] == b->skipped[x]) && stats_same(&a->stats[x], &b->stats[x]);
+}
+
+/* Whether two queues are the same, as seen at a position and slot: if at any, they are. */
+static bool queue_same(const keel_queue_t *a, const keel_queue_t *b, uint32_t x)
+{
+    return (a->count == b->count) && (a->realtime_count == b->realtime_count) &&
+           (a->order[x] == b->order[x]) && (a->task[x] == b->task[x]) && slot_same(a, b, x);
 }
 
 #endif

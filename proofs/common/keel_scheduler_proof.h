@@ -5,79 +5,115 @@
 #ifndef KEEL_SCHEDULER_PROOF_H
 #define KEEL_SCHEDULER_PROOF_H
 
+#include "decision_contracts.h"
 #include "keel/rtos/scheduler.h"
 #include "keel_proof.h"
 
-/* The clock's last reading, which may be any. */
+/* The clock, which may read anything, its last reading and how often it was read. */
 static uint32_t clock_reading;
+static uint32_t clock_readings;
 
 static uint32_t any_clock(void *context)
 {
     (void)context;
     clock_reading = nondet_u32();
+    clock_readings++;
     return clock_reading;
 }
 
-static void any_setup(keel_scheduler_config_t *config)
+/* The time from one reading to a later one (clock_elapsed). */
+static uint64_t elapsed(uint32_t from_us, uint32_t to_us)
 {
-    config->read_clock = any_clock;
-    config->clock_context = NULL;
-    config->guard_us = any_bits(31u);
-    config->utilisation_limit = any_below(KEEL_UTILISATION_FULL_PPM + 1u);
+    return ((to_us >= from_us) ? 0u : 0x100000000u) + (uint64_t)to_us - from_us;
 }
 
-/* Any valid state of the scheduler (scheduler_state) around a queue that is there already. */
+/* Any valid state of the scheduler (scheduler_state) around a queue that is there already, with any
+ * bounds that are right (realtime_bound, other_bound, realtime_exact): one that lies ahead is never,
+ * or the release of some task. */
 static void any_state(keel_scheduler_t *scheduler)
 {
-    any_setup(&scheduler->config);
+    const keel_queue_t *const queue = &scheduler->queue;
+    const uint32_t earliest = any_below(CAPACITY);
+
+    scheduler->config.read_clock = any_clock;
+    scheduler->config.clock_context = NULL;
+    scheduler->config.guard_us = any_bits(31u);
+    scheduler->config.utilisation_limit = any_below(KEEL_UTILISATION_FULL_PPM + 1u);
     scheduler->clock.raw_us = nondet_u32();
     scheduler->clock.now_us = nondet_u64();
     __CPROVER_assume(scheduler->clock.now_us <= KEEL_CLOCK_TIME_LIMIT_US);
     scheduler->busy_us = nondet_u64();
     __CPROVER_assume(scheduler->busy_us <= scheduler->clock.now_us);
-    scheduler->stage = any_below(KEEL_STAGE_OTHER + 1u);
+    scheduler->stage = (int16_t)any_below((uint32_t)KEEL_STAGE_OTHER + 1u);
     scheduler->wake_us = (scheduler->stage < KEEL_STAGE_PASS) ? nondet_u64() : 0u;
-    scheduler->pass_end = any_below(scheduler->queue.realtime_count + 1u);
-    scheduler->cursor = any_below(scheduler->pass_end + 1u);
-    scheduler->running = KEEL_INDEX_NONE;
-    if ((scheduler->queue.count > 0u) && nondet_bool()) {
-        scheduler->running = any_below(scheduler->queue.count);
+    scheduler->pass_end = (int16_t)any_below(queue->realtime_count + 1u);
+    scheduler->cursor = (int16_t)any_below((uint32_t)scheduler->pass_end + 1u);
+    scheduler->running = nondet_s16();
+    __CPROVER_assume((KEEL_POSITION_NONE <= scheduler->running) &&
+                     (scheduler->running < queue->count));
+    scheduler->earliest_realtime_us = nondet_u64();
+    scheduler->earliest_other_us = nondet_u64();
+    for (uint32_t i = 0u; i < CAPACITY; i++) {
+        const uint64_t release_us = queue->release_us[slot_at(i)];
+
+        __CPROVER_assume((i >= queue->realtime_count) ||
+                         (scheduler->earliest_realtime_us <= release_us));
+        __CPROVER_assume(!is_other(queue, i) || (scheduler->earliest_other_us <= release_us));
     }
-    scheduler->ran = nondet_bool();
+    __CPROVER_assume((scheduler->earliest_realtime_us <= scheduler->clock.now_us) ||
+                     (scheduler->earliest_realtime_us == KEEL_TIME_NEVER_US) ||
+                     ((earliest < queue->realtime_count) &&
+                      (scheduler->earliest_realtime_us ==
+                       queue->release_us[queue->order[earliest]])));
 }
 
-/* Until the start no time has passed, and every task waits for its phase (setup_armed). */
-static void wait_for_the_start(keel_scheduler_t *scheduler, uint32_t most)
+/* Any valid scheduler; the task that the harness is about stands at a position, if that is within
+ * the queue. */
+static void any_scheduler(keel_scheduler_t *scheduler, uint32_t of_interest)
 {
-    if (scheduler->stage == KEEL_STAGE_SETUP) {
-        scheduler->clock.now_us = 0u;
-        scheduler->busy_us = 0u;
-        for (uint32_t t = 0u; t < most; t++) {
-            proof_task[t]->release_us = proof_config[t]->phase_us;
-        }
-    }
-}
-
-static void any_scheduler_of(keel_scheduler_t *scheduler, uint32_t most)
-{
-    any_queue_of(&scheduler->queue, most);
+    any_queue(&scheduler->queue, of_interest);
     any_state(scheduler);
 }
 
-/* Asserts what SCH_006 says of a scheduler besides its queue (scheduler_state). */
-static void assert_scheduler_valid(const keel_scheduler_t *scheduler)
+/* Replaces the numbers of a queue by small ones, as the utilisation divides: periods and budgets of
+ * so many bits. */
+static void narrow_tasks(keel_queue_t *queue, uint32_t bits)
 {
-    assert_queue_valid(&scheduler->queue);
-    __CPROVER_assert((scheduler->cursor <= scheduler->pass_end) &&
-                         (scheduler->pass_end <= scheduler->queue.realtime_count),
-                     "SCH_006_state: the pass lies within the real-time tasks");
-    __CPROVER_assert((scheduler->running == KEEL_INDEX_NONE) ||
-                         (scheduler->running < scheduler->queue.count),
-                     "SCH_006_state: the running task is in the queue");
-    __CPROVER_assert(scheduler->stage <= KEEL_STAGE_OTHER, "SCH_006_state: the stage is one");
-    __CPROVER_assert((scheduler->stage < KEEL_STAGE_PASS) || (scheduler->wake_us == 0u),
-                     "SCH_006_state: nothing waits in a pass");
+    for (uint32_t x = 0u; x < CAPACITY; x++) {
+        queue->period_us[x] = any_bits(bits) + 1u;
+        queue->budget_us[x] = any_bits(bits) + 1u;
+    }
 }
+
+/* Asserts that a scheduler is valid (scheduler_valid), at arbitrary positions. */
+#define ASSERT_SCHEDULER_VALID(s)                                                                  \
+    do {                                                                                           \
+        const uint32_t at_k = any_below(CAPACITY);                                                 \
+        const uint64_t at_k_us = (s)->queue.release_us[(s)->queue.order[at_k]];                    \
+                                                                                                   \
+        ASSERT_QUEUE_VALID(&(s)->queue, "SCH_006");                                                \
+        __CPROVER_assert((0 <= (s)->cursor) && ((s)->cursor <= (s)->pass_end) &&                   \
+                             ((s)->pass_end <= (s)->queue.realtime_count),                         \
+                         "SCH_006_state: the pass lies within the real-time tasks");               \
+        __CPROVER_assert((KEEL_POSITION_NONE <= (s)->running) &&                                   \
+                             ((s)->running < (s)->queue.count),                                    \
+                         "SCH_006_state: the running task is in the queue");                       \
+        __CPROVER_assert(((s)->config.guard_us < KEEL_PERIOD_LIMIT_US) &&                          \
+                             ((s)->config.utilisation_limit <= KEEL_UTILISATION_FULL_PPM),         \
+                         "SCH_006_state: the configuration is in its range");                      \
+        __CPROVER_assert((KEEL_STAGE_SETUP <= (s)->stage) && ((s)->stage <= KEEL_STAGE_OTHER) &&   \
+                             (((s)->stage < KEEL_STAGE_PASS) || ((s)->wake_us == 0u)),             \
+                         "SCH_006_state: the stage is one, nothing waits in a pass");              \
+        __CPROVER_assert((at_k >= (s)->queue.realtime_count) ||                                    \
+                             ((s)->earliest_realtime_us <= at_k_us),                               \
+                         "SCH_006_realtime_bound: no real-time task is released before it");       \
+        __CPROVER_assert(!is_other(&(s)->queue, at_k) || ((s)->earliest_other_us <= at_k_us),      \
+                         "SCH_006_other_bound: no other task is released before it");              \
+        __CPROVER_assert(((s)->earliest_realtime_us <= (s)->clock.now_us) ||                       \
+                             is_some_release(&(s)->queue, 0u, (s)->queue.realtime_count,           \
+                                             (s)->earliest_realtime_us),                           \
+                         "SCH_006_exact: the bound that lies ahead is a release");                 \
+    } while (false)
 
 static bool setup_same(const keel_scheduler_config_t *a, const keel_scheduler_config_t *b)
 {
@@ -85,25 +121,83 @@ static bool setup_same(const keel_scheduler_config_t *a, const keel_scheduler_co
            (a->guard_us == b->guard_us) && (a->utilisation_limit == b->utilisation_limit);
 }
 
-/* Whether two queues are the same, as seen at an index. */
-static bool queue_same(const keel_queue_t *a, const keel_queue_t *b, uint32_t i)
-{
-    return (a->count == b->count) && (a->realtime_count == b->realtime_count) &&
-           (a->task[i] == b->task[i]);
-}
-
 static bool clock_same(const keel_clock_t *a, const keel_clock_t *b)
 {
     return (a->now_us == b->now_us) && (a->raw_us == b->raw_us);
 }
 
-/* Whether two schedulers are the same, as seen at an index of their queues. */
-static bool scheduler_same(const keel_scheduler_t *a, const keel_scheduler_t *b, uint32_t i)
+/* Whether two schedulers are the same but for their queues. */
+static bool state_same(const keel_scheduler_t *a, const keel_scheduler_t *b)
 {
-    return queue_same(&a->queue, &b->queue, i) && setup_same(&a->config, &b->config) &&
-           clock_same(&a->clock, &b->clock) && (a->wake_us == b->wake_us) &&
-           (a->busy_us == b->busy_us) && (a->stage == b->stage) && (a->cursor == b->cursor) &&
-           (a->pass_end == b->pass_end) && (a->running == b->running) && (a->ran == b->ran);
+    return setup_same(&a->config, &b->config) && clock_same(&a->clock, &b->clock) &&
+           (a->wake_us == b->wake_us) && (a->busy_us == b->busy_us) &&
+           (a->earliest_realtime_us == b->earliest_realtime_us) &&
+           (a->earliest_other_us == b->earliest_other_us) && (a->stage == b->stage) &&
+           (a->cursor == b->cursor) && (a->pass_end == b->pass_end) && (a->running == b->running);
+}
+
+/* Whether two schedulers are the same, as seen at a position and slot: if at any, they are. */
+static bool scheduler_same(const keel_scheduler_t *a, const keel_scheduler_t *b, uint32_t x)
+{
+    return state_same(a, b) && queue_same(&a->queue, &b->queue, x);
+}
+
+/* The slack: the time to the earliest real-time release (time_to, fits_slack). */
+static uint64_t slack_of(const keel_scheduler_t *scheduler)
+{
+    uint64_t slack_us = KEEL_TIME_NEVER_US;
+
+    for (uint32_t i = 0u; i < CAPACITY; i++) {
+        const uint64_t release_us = scheduler->queue.release_us[slot_at(i)];
+        const uint64_t time_us = (release_us > scheduler->clock.now_us)
+                                     ? (release_us - scheduler->clock.now_us)
+                                     : 0u;
+
+        if ((i < scheduler->queue.realtime_count) && (time_us < slack_us)) {
+            slack_us = time_us;
+        }
+    }
+    return slack_us;
+}
+
+static bool fits_slack(const keel_scheduler_t *scheduler, uint32_t x, uint64_t slack_us)
+{
+    return (slack_us == KEEL_TIME_NEVER_US) ||
+           (((uint64_t)scheduler->config.guard_us + task_worst(&scheduler->queue, x)) <= slack_us);
+}
+
+static bool is_due(const keel_scheduler_t *scheduler, uint32_t i)
+{
+    return scheduler->queue.release_us[scheduler->queue.order[i]] <= scheduler->clock.now_us;
+}
+
+/* With what dynamic priority the task at a position competes, if no real-time task is due: 0 when it
+ * may not run (other_may_run, priority_at). */
+static uint32_t may_run_with(const keel_scheduler_t *scheduler, uint32_t i, uint64_t slack_us)
+{
+    const uint32_t x = scheduler->queue.order[i];
+    uint32_t priority;
+
+    if (!is_other(&scheduler->queue, i) || !is_due(scheduler, i)) {
+        return 0u;
+    }
+    priority = task_priority(&scheduler->queue, x, scheduler->clock.now_us);
+    return ((priority == KEEL_PRIORITY_REALTIME) || fits_slack(scheduler, x, slack_us)) ? priority
+                                                                                        : 0u;
+}
+
+/* The claim that wake_us makes while it lies ahead, of the task at a position (wake_realtime,
+ * wake_others, waits). */
+static bool wake_is_right(const keel_scheduler_t *scheduler, uint32_t i, uint64_t slack_us)
+{
+    const uint32_t x = scheduler->queue.order[i];
+
+    if ((scheduler->clock.now_us >= scheduler->wake_us) || (i >= scheduler->queue.count) ||
+        (scheduler->wake_us <= scheduler->queue.release_us[x])) {
+        return true;
+    }
+    return (i >= scheduler->queue.realtime_count) && !fits_slack(scheduler, x, slack_us) &&
+           is_up_to_promotion(&scheduler->queue, x, scheduler->wake_us);
 }
 
 #endif

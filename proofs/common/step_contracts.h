@@ -1,69 +1,75 @@
 /**
  * @file step_contracts.h
- * @brief What keel_scheduler_step knows of begin, next and finish: their stage and their pass.
+ * @brief What a pass knows of next and finish, and a step of a pass.
  *
- * A part of the contracts in scheduler.h, as expressions of C. Each part's own harness proves that
- * it keeps them; in the harness of the step's order they stand in for the parts.
+ * A part of the contracts in pass.h, as expressions of C: the stage, the pass, and the one real-time
+ * task that the theorem about a pass is about. Each part's own harness proves that it keeps them; in
+ * the harnesses of the pass and the step they stand in for the parts.
  */
 #ifndef STEP_CONTRACTS_H
 #define STEP_CONTRACTS_H
 
 #include "keel/rtos/scheduler.h"
 
-static bool keel_scheduler_begin_may(const keel_scheduler_t *scheduler)
+static bool keel_pass_next_may(const keel_scheduler_t *scheduler)
 {
-    return (scheduler != NULL) && (scheduler->queue.realtime_count <= KEEL_QUEUE_CAPACITY);
+    return (scheduler != NULL) && (0 <= scheduler->cursor) &&
+           (scheduler->cursor <= scheduler->pass_end);
 }
 
-static bool keel_scheduler_begin_does(keel_status_t status, const keel_scheduler_t *before,
-                                      const keel_scheduler_t *after)
+/* As seen at a position at which the task is due before the call, or not. */
+static bool keel_pass_next_does(const keel_task_config_t *task, const keel_scheduler_t *before,
+                                const keel_scheduler_t *after, uint32_t i, bool due)
 {
-    if (status != KEEL_OK) {
-        return (after->stage == before->stage) &&
-               ((status == KEEL_ERR_CLOCK) || (status == KEEL_ERR_STATE));
-    }
-    return (before->stage == KEEL_STAGE_READY) &&
-           ((after->stage == KEEL_STAGE_READY) ||
-            ((after->stage == KEEL_STAGE_PASS) && (after->cursor == 0u) &&
-             (after->pass_end == before->queue.realtime_count)));
-}
+    const bool in_pass = (before->cursor <= i) && (i < before->pass_end);
 
-static bool keel_scheduler_next_may(const keel_scheduler_t *scheduler)
-{
-    return (scheduler != NULL) && (scheduler->cursor <= scheduler->pass_end);
-}
-
-static bool keel_scheduler_next_does(const keel_task_t *task, const keel_scheduler_t *before,
-                                     const keel_scheduler_t *after)
-{
     if (before->stage != KEEL_STAGE_PASS) {
         return (task == NULL) && (after->stage == before->stage);
     }
-    if (task == NULL) {
-        return after->stage == KEEL_STAGE_READY;
+    if (after->pass_end != before->pass_end) {
+        return false;
     }
-    return (after->stage == KEEL_STAGE_OTHER) ||
-           ((after->stage == KEEL_STAGE_REALTIME) && (before->cursor < after->cursor) &&
-            (after->cursor <= after->pass_end) && (after->pass_end == before->pass_end));
+    if (after->stage == KEEL_STAGE_REALTIME) {
+        return (task != NULL) && (before->cursor <= after->running) &&
+               (after->running < before->pass_end) && (after->cursor == (after->running + 1)) &&
+               (!in_pass || !due || (after->running <= i)) && ((i != after->running) || due);
+    }
+    return (after->stage == ((task != NULL) ? KEEL_STAGE_OTHER : KEEL_STAGE_READY)) &&
+           (after->cursor == after->pass_end) && (!in_pass || !due);
 }
 
-static bool keel_scheduler_finish_may(const keel_scheduler_t *scheduler)
+static bool keel_pass_finish_may(const keel_scheduler_t *scheduler)
 {
     return scheduler != NULL;
 }
 
-static bool keel_scheduler_finish_does(keel_status_t status, const keel_scheduler_t *before,
-                                       const keel_scheduler_t *after)
+static bool keel_pass_finish_does(keel_status_t status, const keel_scheduler_t *before,
+                                  const keel_scheduler_t *after)
 {
     if ((before->stage != KEEL_STAGE_REALTIME) && (before->stage != KEEL_STAGE_OTHER)) {
         return (status == KEEL_ERR_STATE) && (after->stage == before->stage);
     }
-    if ((status == KEEL_OK) && (before->stage == KEEL_STAGE_REALTIME)) {
-        return (after->stage == KEEL_STAGE_PASS) && (after->cursor == before->cursor) &&
-               (after->pass_end == before->pass_end);
-    }
-    return (after->stage == KEEL_STAGE_READY) &&
-           ((status == KEEL_OK) || (status == KEEL_ERR_CLOCK));
+    return ((status == KEEL_OK) || (status == KEEL_ERR_CLOCK)) &&
+           (after->stage == (((status == KEEL_OK) && (before->stage == KEEL_STAGE_REALTIME))
+                                 ? KEEL_STAGE_PASS
+                                 : KEEL_STAGE_READY)) &&
+           (after->cursor == before->cursor) && (after->pass_end == before->pass_end) &&
+           (after->running == KEEL_POSITION_NONE);
+}
+
+static bool keel_pass_run_may(const keel_scheduler_t *scheduler)
+{
+    return (scheduler != NULL) &&
+           ((scheduler->stage == KEEL_STAGE_READY) || (scheduler->stage == KEEL_STAGE_PASS)) &&
+           (0 <= scheduler->cursor) && (scheduler->cursor <= scheduler->pass_end) &&
+           (scheduler->pass_end <= scheduler->queue.realtime_count) &&
+           (scheduler->queue.realtime_count <= KEEL_QUEUE_CAPACITY);
+}
+
+static bool keel_pass_run_does(keel_status_t status, const keel_scheduler_t *after)
+{
+    return ((status == KEEL_OK) || (status == KEEL_ERR_CLOCK)) &&
+           (after->stage == KEEL_STAGE_READY);
 }
 
 #endif

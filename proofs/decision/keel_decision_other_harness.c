@@ -1,62 +1,60 @@
-// cbmc: --unwind 34 --external-sat-solver cadical
+// cbmc: --unwind 17
 // sources: src/rtos/decision.c src/rtos/priority.c
-// covers: keel_decision_other competing_priority priority_of fits
+// replaces: keel_priority_dynamic
+// covers: keel_decision_other priority_of fits
+// defines: -DKEEL_QUEUE_CAPACITY=8u
 //
-// Bounded to a queue of one real-time task and three others, with periods, budgets and runs up to
-// 2^4 us and times below 2^6 us: eq. 3 divides. The contract under WP has no such bound.
-#include "../common/keel_proof.h"
-#include "keel/rtos/decision.h"
+// Bounded to a capacity of 8 tasks, with numbers of their full width but for times, which are below
+// 2^59 us: eq. 3 is what its contract says (priority_contracts.h). The contract under WP has no such
+// bound.
+#include "../common/decision_contracts.h"
+#include "../common/priority_contracts.h"
 
-#define MOST 4u
-
-/* The dynamic priority with which a task competes: 0 when it is not eligible. */
-static uint32_t competing(const keel_task_t *task, uint64_t now_us, uint64_t slack_us,
-                          uint64_t guard_us)
+uint32_t keel_priority_dynamic_stand_in(uint32_t sp, uint64_t age_us, uint32_t period_us)
 {
-    const keel_task_config_t *const config = task->config;
-    uint32_t priority;
+    const uint32_t priority = nondet_u32();
 
-    if (task->release_us > now_us) {
-        return 0u;
-    }
-    priority = dynamic_priority(config->priority, (now_us - task->release_us) + config->period_us,
-                                config->period_us);
-    if ((priority == 16u) || (((guard_us + config->budget_us) <= slack_us) &&
-                              ((guard_us + task->stats.longest_us) <= slack_us))) {
-        return priority;
-    }
-    return 0u;
+    __CPROVER_assert(keel_priority_dynamic_may(sp, age_us, period_us),
+                     "precondition: keel_priority_dynamic");
+    __CPROVER_assume(keel_priority_dynamic_does(priority, sp, age_us, period_us));
+    return priority;
 }
 
 void keel_decision_other_harness(void)
 {
     keel_queue_t queue;
-    const uint64_t now_us = any_bits64(6u);
-    const uint64_t slack_us = nondet_bool() ? any_bits64(6u) : KEEL_TIME_NEVER_US;
-    const uint32_t guard_us = any_bits(4u);
-    const uint32_t i = any_below(MOST);
-    uint32_t priority[MOST];
-    uint32_t chosen;
+    const uint64_t now_us = any_bits64(59u);
+    const uint32_t room_us = nondet_u32();
+    const uint32_t i = any_below(CAPACITY);
+    uint32_t priority;
+    keel_choice_t choice;
+    keel_queue_t before;
 
-    queue_of(&queue, 1u, MOST);
-    narrow_tasks(MOST, 4u, 6u);
-    for (uint32_t k = 0u; k < MOST; k++) {
-        priority[k] = ((queue.realtime_count <= k) && (k < queue.count))
-                          ? competing(proof_task[k], now_us, slack_us, guard_us)
-                          : 0u;
-    }
+    any_queue(&queue, CAPACITY);
+    before = queue;
 
-    chosen = keel_decision_other(&queue, now_us, slack_us, guard_us);
+    __CPROVER_assume(keel_decision_other_may(&queue, now_us));
+    choice = keel_decision_other(&queue, now_us, room_us);
 
-    __CPROVER_assert((queue.realtime_count <= chosen) && (chosen <= queue.count),
-                     "DEC_003_range: the index is that of another task, or count");
-    if (chosen < queue.count) {
-        __CPROVER_assert(priority[chosen] > 0u, "DEC_003_eligible: the chosen task is eligible");
-        __CPROVER_assert(priority[i] <= priority[chosen],
+    __CPROVER_assert(keel_decision_other_does(&choice, &queue, now_us, room_us, i),
+                     "DEC_003_part: as the pass takes it to do");
+    priority = competing(&queue, i, now_us, room_us);
+    __CPROVER_assert(choice.priority <= KEEL_PRIORITY_REALTIME, "DEC_003_range: within the scale");
+    __CPROVER_assert(!is_other(&queue, i) ||
+                         (choice.earliest_us <= queue.release_us[queue.order[i]]),
+                     "DEC_003_earliest: no other task is released before it");
+    __CPROVER_assert(is_some_release(&queue, queue.realtime_count, queue.count, choice.earliest_us),
+                     "DEC_003_earliest: it is another task's release, or never");
+    if (choice.priority > 0u) {
+        __CPROVER_assert(is_other(&queue, choice.position) &&
+                             ((i != choice.position) || (choice.priority == priority)),
+                         "DEC_003_eligible: it is eligible, with its dynamic priority");
+        __CPROVER_assert(priority <= choice.priority,
                          "DEC_003_highest: no eligible task has a higher dynamic priority");
-        __CPROVER_assert((i >= chosen) || (priority[i] < priority[chosen]),
+        __CPROVER_assert((i >= choice.position) || (priority < choice.priority),
                          "DEC_003_first: nor one before it the same");
     } else {
-        __CPROVER_assert(priority[i] == 0u, "DEC_003_none: none is eligible");
+        __CPROVER_assert(priority == 0u, "DEC_003_none: none is eligible");
     }
+    __CPROVER_assert(queue_same(&queue, &before, i), "DEC_003_frame: nothing is written");
 }

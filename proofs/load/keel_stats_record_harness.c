@@ -3,9 +3,27 @@
 // covers: keel_stats_record count_one
 #include "../common/keel_proof.h"
 
+/* The record of one run, field by field (stats_recorded); the promotions stay. */
+static keel_stats_t recorded(const keel_stats_t *before, uint32_t elapsed_us, uint32_t budget_us)
+{
+    keel_stats_t after = *before;
+
+    after.last_us = elapsed_us;
+    after.longest_us = (before->longest_us < elapsed_us) ? elapsed_us : before->longest_us;
+    if ((budget_us < elapsed_us) && (before->overruns != UINT16_MAX)) {
+        after.overruns++;
+    }
+    if ((before->runs != UINT32_MAX) && (elapsed_us <= (UINT64_MAX - before->total_us))) {
+        after.runs++;
+        after.total_us += elapsed_us;
+    }
+    return after;
+}
+
 void keel_stats_record_harness(void)
 {
     keel_stats_t stats = nondet_stats();
+    keel_stats_t expected;
     const keel_stats_t before = stats;
     const uint32_t elapsed_us = nondet_u32();
     const uint32_t budget_us = nondet_u32();
@@ -36,5 +54,7 @@ void keel_stats_record_harness(void)
         __CPROVER_assert((stats.runs == before.runs) && (stats.total_us == before.total_us),
                          "LOD_003_frozen: a full mean is kept");
     }
+    expected = recorded(&before, elapsed_us, budget_us);
+    __CPROVER_assert(stats_same(&stats, &expected), "LOD_003_recorded: all of the record at once");
     __CPROVER_assert(stats.promotions == before.promotions, "LOD_001_frame: promotions stay");
 }

@@ -1,4 +1,4 @@
-// cbmc: --unwind 2 --external-sat-solver cadical
+// cbmc: --unwind 17 --external-sat-solver cadical
 // sources: src/rtos/priority.c
 // covers: keel_priority_dynamic keel_priority_promoted saturation
 //
@@ -8,6 +8,7 @@
 // contract under WP has no such bound, and the saturated half of the law is proved for all values
 // in keel_priority_dynamic__saturated_harness.
 #include "../common/keel_proof.h"
+#include "../common/priority_contracts.h"
 
 void keel_priority_dynamic_harness(void)
 {
@@ -15,8 +16,13 @@ void keel_priority_dynamic_harness(void)
     const uint64_t age_us = any_bits64(12u);
     const uint32_t period_us = any_bits(8u) + 1u;
     const uint64_t scaled = sp * age_us;
-    const uint32_t dp = keel_priority_dynamic(sp, age_us, period_us);
+    uint32_t dp;
 
+    __CPROVER_assume(keel_priority_dynamic_may(sp, age_us, period_us));
+    dp = keel_priority_dynamic(sp, age_us, period_us);
+
+    __CPROVER_assert(keel_priority_dynamic_does(dp, sp, age_us, period_us),
+                     "PRI_001_part: as the decision takes it to do");
     __CPROVER_assert((1u <= dp) && (dp <= KEEL_PRIORITY_REALTIME),
                      "PRI_002: dp lies within its scale");
     __CPROVER_assert((dp == KEEL_PRIORITY_REALTIME) == (scaled >= (15u * (uint64_t)period_us)),

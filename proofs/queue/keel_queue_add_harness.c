@@ -1,71 +1,55 @@
-// cbmc: --unwind 34 --external-sat-solver cadical
+// cbmc: --unwind 34
 // sources: src/rtos/queue.c
-// covers: keel_queue_add open_slot keel_queue_find
+// covers: keel_queue_add fill_slot open_place enqueue
 #include "../common/keel_proof.h"
-
-static bool holds(const keel_queue_t *queue, const keel_task_t *task)
-{
-    bool held = false;
-
-    for (uint32_t i = 0u; i < CAPACITY; i++) {
-        held = held || ((i < queue->count) && (queue->task[i] == task));
-    }
-    return held;
-}
 
 void keel_queue_add_harness(void)
 {
     keel_queue_t queue;
+    const uint64_t release_us = nondet_u64();
     const uint32_t i = any_below(CAPACITY);
-    const uint32_t t = any_below(TASKS);
     keel_queue_t before;
-    keel_task_t task_before;
     keel_task_config_t config_before;
-    keel_task_t *task;
-    bool held;
-    bool realtime;
     uint32_t place;
-    keel_status_t status;
+    uint32_t slot;
+    bool realtime;
 
-    any_queue(&queue);
-    task = nondet_bool() ? proof_task[any_below(TASKS)] : NULL;
-    realtime = (task != NULL) && is_realtime(task);
-    held = holds(&queue, task);
+    any_queue(&queue, CAPACITY);
+    __CPROVER_assume(queue.count < CAPACITY);
+    any_config(&proof_task);
+    __CPROVER_assume(config_is_valid_here(&proof_task));
     before = queue;
-    task_before = *proof_task[t];
-    config_before = *proof_config[t];
+    config_before = proof_task;
+    realtime = proof_task.priority == KEEL_PRIORITY_REALTIME;
     place = realtime ? queue.realtime_count : queue.count;
+    slot = queue.order[queue.count];
 
-    status = keel_queue_add(&queue, task);
+    keel_queue_add(&queue, &proof_task, release_us);
 
-    assert_queue_valid(&queue);
-    __CPROVER_assert((task != NULL) || (status == KEEL_ERR_NULL), "QUE_004_null: no task");
-    __CPROVER_assert((task == NULL) || !held || (status == KEEL_ERR_DUPLICATE),
-                     "QUE_004_duplicate: queued already");
-    __CPROVER_assert((task == NULL) || held || (before.count < CAPACITY) ||
-                         (status == KEEL_ERR_FULL),
-                     "QUE_004_full: no slot is left");
-    __CPROVER_assert((task == NULL) || held || (before.count == CAPACITY) || (status == KEEL_OK),
-                     "QUE_003_ok: a new task is taken while a slot is left");
-    if (status == KEEL_OK) {
-        __CPROVER_assert(queue.count == (before.count + 1u), "QUE_003_count: one task more");
-        __CPROVER_assert(queue.realtime_count == (before.realtime_count + (realtime ? 1u : 0u)),
-                         "QUE_003_realtime: one real-time task more if it is one");
-        __CPROVER_assert(queue.task[place] == task,
-                         "QUE_003_place: it stands behind the last of its class");
-        __CPROVER_assert((i >= place) || (queue.task[i] == before.task[i]),
-                         "QUE_006_before: the tasks before it stay");
-        __CPROVER_assert((i <= place) || (i >= queue.count) ||
-                             (queue.task[i] == before.task[i - 1u]),
-                         "QUE_006_behind: the tasks behind it move down one slot");
+    ASSERT_QUEUE_VALID(&queue, "QUE_005");
+    __CPROVER_assert(queue.count == (before.count + 1u), "QUE_003_order: one task more");
+    __CPROVER_assert(queue.realtime_count == (before.realtime_count + (realtime ? 1u : 0u)),
+                     "QUE_003_order: one real-time task more if it is one");
+    __CPROVER_assert(queue.order[place] == slot, "QUE_003_order: last of its class, a free slot");
+    __CPROVER_assert((i >= place) || (queue.order[i] == before.order[i]),
+                     "QUE_003_order: the slots before it stay");
+    __CPROVER_assert((i <= place) || (i >= queue.count) || (queue.order[i] == before.order[i - 1u]),
+                     "QUE_003_order: those behind it move down by one");
+    __CPROVER_assert((i < queue.count) || (queue.order[i] == before.order[i]),
+                     "QUE_003_order: the free ones stay");
+    if (i == slot) {
+        __CPROVER_assert(queue.task[i] == &proof_task, "QUE_003_copied: the slot is the task's");
+        __CPROVER_assert((queue.period_us[i] == proof_task.period_us) &&
+                             (queue.budget_us[i] == proof_task.budget_us) &&
+                             (queue.priority[i] == proof_task.priority),
+                         "QUE_003_copied: with what is declared");
+        __CPROVER_assert(queue.release_us[i] == release_us, "QUE_003_release: its first release");
+        __CPROVER_assert((queue.skipped[i] == 0u) && stats_fresh(&queue.stats[i]),
+                         "QUE_003_fresh: with nothing counted");
     } else {
-        __CPROVER_assert((queue.count == before.count) &&
-                             (queue.realtime_count == before.realtime_count),
-                         "QUE_004_unchanged: a refusal keeps the counts");
-        __CPROVER_assert(queue.task[i] == before.task[i],
-                         "QUE_004_unchanged: a refusal keeps the slots");
+        __CPROVER_assert((queue.task[i] == before.task[i]) && slot_same(&queue, &before, i),
+                         "QUE_003_frame: no other slot is written");
     }
-    __CPROVER_assert(task_same(proof_task[t], &task_before) &&
-                         config_same(proof_config[t], &config_before),
-                     "QUE_003_frame: no task and no declaration is written");
+    __CPROVER_assert(config_same(&proof_task, &config_before),
+                     "QUE_003_frame: nor is the declaration");
 }

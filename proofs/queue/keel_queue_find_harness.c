@@ -1,4 +1,4 @@
-// cbmc: --unwind 34 --external-sat-solver cadical
+// cbmc: --unwind 34
 // sources: src/rtos/queue.c
 // covers: keel_queue_find
 #include "../common/keel_proof.h"
@@ -7,22 +7,22 @@ void keel_queue_find_harness(void)
 {
     keel_queue_t queue;
     const uint32_t i = any_below(CAPACITY);
-    keel_task_t *task;
-    keel_task_t *slot;
-    uint32_t count;
+    const uint32_t place = any_below(CAPACITY + 1u);
+    const keel_task_config_t *const task = nondet_bool() ? &proof_task : NULL;
+    keel_queue_t before;
     uint32_t found;
 
-    any_queue(&queue);
-    task = nondet_bool() ? proof_task[any_below(TASKS)] : NULL;
-    slot = queue.task[i];
-    count = queue.count;
+    any_queue(&queue, place);
+    before = queue;
 
     found = keel_queue_find(&queue, task);
 
-    __CPROVER_assert(found <= queue.count, "QUE_002_range: the index is at most count");
-    __CPROVER_assert((found == queue.count) || (queue.task[found] == task),
-                     "QUE_002_found: the task is at the index");
-    __CPROVER_assert((found < queue.count) || (i >= queue.count) || (queue.task[i] != task),
-                     "QUE_002_absent: with no index the task is nowhere");
-    __CPROVER_assert((queue.count == count) && (queue.task[i] == slot), "QUE_002: nothing changed");
+    __CPROVER_assert(found <= queue.count, "QUE_002_range: the position is at most count");
+    __CPROVER_assert((found == queue.count) || (queue.task[queue.order[found]] == task),
+                     "QUE_002_found: the task is there");
+    __CPROVER_assert((i >= found) || (queue.task[queue.order[i]] != task),
+                     "QUE_002_absent: and nowhere before");
+    __CPROVER_assert(found == (((task != NULL) && (place < queue.count)) ? place : queue.count),
+                     "QUE_002_position: so it is the task's position");
+    __CPROVER_assert(queue_same(&queue, &before, i), "QUE_002_frame: nothing is written");
 }

@@ -1,50 +1,39 @@
-// cbmc: --unwind 34 --external-sat-solver cadical
+// cbmc: --unwind 34
 // sources: src/rtos/queue.c
-// covers: keel_queue_remove close_slot
+// covers: keel_queue_remove close_place
 #include "../common/keel_proof.h"
 
 void keel_queue_remove_harness(void)
 {
     keel_queue_t queue;
-    const uint32_t index = nondet_u32();
+    const uint32_t position = any_below(CAPACITY);
     const uint32_t i = any_below(CAPACITY);
-    const uint32_t t = any_below(TASKS);
     keel_queue_t before;
-    keel_task_t task_before;
-    keel_task_config_t config_before;
-    keel_status_t status;
+    uint32_t slot;
 
-    any_queue(&queue);
+    any_queue(&queue, position);
+    __CPROVER_assume(position < queue.count);
     before = queue;
-    task_before = *proof_task[t];
-    config_before = *proof_config[t];
+    slot = queue.order[position];
 
-    status = keel_queue_remove(&queue, index);
+    keel_queue_remove(&queue, position);
 
-    assert_queue_valid(&queue);
-    if (index < before.count) {
-        __CPROVER_assert(status == KEEL_OK, "QUE_007_ok: a queued task can be removed");
-        __CPROVER_assert((i >= queue.count) || (queue.task[i] != before.task[index]),
-                         "QUE_007_gone: the task is queued no more");
-        __CPROVER_assert(queue.count == (before.count - 1u), "QUE_007_count: one task less");
-        __CPROVER_assert(queue.realtime_count ==
-                             (before.realtime_count - ((index < before.realtime_count) ? 1u : 0u)),
-                         "QUE_007_realtime: one real-time task less if it was one");
-        __CPROVER_assert((i >= index) || (queue.task[i] == before.task[i]),
-                         "QUE_008_before: the tasks before it stay");
-        __CPROVER_assert((i < index) || (i >= queue.count) ||
-                             (queue.task[i] == before.task[i + 1u]),
-                         "QUE_008_behind: the tasks behind it move up one slot");
-    } else {
-        __CPROVER_assert(status == KEEL_ERR_UNKNOWN_TASK,
-                         "QUE_004_unknown: no task has this index");
-        __CPROVER_assert((queue.count == before.count) &&
-                             (queue.realtime_count == before.realtime_count),
-                         "QUE_004_unchanged: a refusal keeps the counts");
-        __CPROVER_assert(queue.task[i] == before.task[i],
-                         "QUE_004_unchanged: a refusal keeps the slots");
-    }
-    __CPROVER_assert(task_same(proof_task[t], &task_before) &&
-                         config_same(proof_config[t], &config_before),
-                     "QUE_007_frame: no task and no declaration is written");
+    ASSERT_QUEUE_VALID(&queue, "QUE_005");
+    __CPROVER_assert(queue.task[i] != &proof_task, "QUE_007_gone: the task is queued no more");
+    __CPROVER_assert(queue.count == (before.count - 1u), "QUE_007_order: one task less");
+    __CPROVER_assert(queue.realtime_count ==
+                         (before.realtime_count - ((position < before.realtime_count) ? 1u : 0u)),
+                     "QUE_007_order: one real-time task less if it was one");
+    __CPROVER_assert((queue.order[queue.count] == slot) && (queue.task[slot] == NULL),
+                     "QUE_007_freed: its slot is the first free one");
+    __CPROVER_assert((i >= position) || (queue.order[i] == before.order[i]),
+                     "QUE_007_order: the slots before it stay");
+    __CPROVER_assert((i < position) || (i >= queue.count) ||
+                         (queue.order[i] == before.order[i + 1u]),
+                     "QUE_007_order: those behind it move up by one");
+    __CPROVER_assert((i <= queue.count) || (queue.order[i] == before.order[i]),
+                     "QUE_007_order: the free ones stay");
+    __CPROVER_assert((i == slot) || (queue.task[i] == before.task[i]),
+                     "QUE_007_frame: no other slot is freed");
+    __CPROVER_assert(slot_same(&queue, &before, i), "QUE_007_frame: what is in a slot stays");
 }

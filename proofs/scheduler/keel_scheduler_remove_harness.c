@@ -1,72 +1,71 @@
-// cbmc: --unwind 34 --external-sat-solver cadical --no-sat-preprocessor
-// sources: src/rtos/scheduler.c src/rtos/queue.c src/rtos/task.c src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
+// cbmc: --unwind 34
+// sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
 // covers: keel_scheduler_remove take_out shift_up
-//
-// Bounded to queues of at most 3 tasks; that the queue closes its gap is proved for all 32 in
-// keel_queue_remove_harness. The preprocessor is the coverage run's, which takes twice as long with
-// it; other harnesses' takes longer without.
 #include "../common/keel_scheduler_proof.h"
-
-#define MOST 3u
 
 void keel_scheduler_remove_harness(void)
 {
     keel_scheduler_t scheduler;
     const uint32_t i = any_below(CAPACITY);
-    const uint32_t j = any_below(MOST);
-    const uint32_t t = any_below(MOST);
+    const uint32_t place = any_below(CAPACITY + 1u);
+    const keel_task_config_t *const task = nondet_bool() ? &proof_task : NULL;
     const bool given = nondet_bool();
-    keel_task_t *task = NULL;
+    bool null;
+    bool known;
     keel_scheduler_t before;
-    keel_task_t task_before;
-    bool queued;
+    keel_scheduler_t expected;
     keel_status_t status;
 
-    any_scheduler_of(&scheduler, MOST);
-    if (nondet_bool()) {
-        task = nondet_bool() ? proof_task[NEWCOMER] : proof_task[t];
-    }
-    queued = (task != NULL) && (task == proof_task[t]) && (t < scheduler.queue.count);
+    any_scheduler(&scheduler, place);
+    null = !given || (task == NULL);
+    known = place < scheduler.queue.count;
     before = scheduler;
-    task_before = *proof_task[j];
+    expected = scheduler;
 
     status = keel_scheduler_remove(given ? &scheduler : NULL, task);
 
-    assert_scheduler_valid(&scheduler);
-    __CPROVER_assert((status == KEEL_ERR_NULL) == (!given || (task == NULL)),
-                     "SCH_008_null: an argument is missing");
-    __CPROVER_assert(!given || (task == NULL) || queued || (status == KEEL_ERR_UNKNOWN_TASK),
+    ASSERT_SCHEDULER_VALID(&scheduler);
+    __CPROVER_assert((status == KEEL_ERR_NULL) == null, "SCH_008_null: an argument is missing");
+    __CPROVER_assert((status == KEEL_ERR_UNKNOWN_TASK) == (!null && !known),
                      "SCH_008_unknown: it is not in the queue");
-    __CPROVER_assert(!given || !queued || (status == KEEL_OK), "SCH_007_ok: a queued task goes");
+    __CPROVER_assert((status == KEEL_OK) == (!null && known), "SCH_007_ok: a queued task goes");
     if (status == KEEL_OK) {
-        const bool in_pass = (before.cursor <= j) && (j < before.pass_end);
-        const uint32_t place = (j > t) ? (j - 1u) : j;
+        const uint32_t slot = before.queue.order[place];
+        const int16_t gone = (int16_t)place;
 
-        __CPROVER_assert((i >= scheduler.queue.count) || (scheduler.queue.task[i] != task),
-                         "SCH_007_gone: it is queued no more");
-        __CPROVER_assert(scheduler.queue.count == (before.queue.count - 1u),
-                         "SCH_007_count: one task less");
-        __CPROVER_assert(scheduler.wake_us == 0u, "SCH_007_wake: the next step looks anew");
-        if ((j != t) && (j < before.queue.count)) {
-            __CPROVER_assert(scheduler.queue.task[place] == proof_task[j],
-                             "SCH_007_order: the others keep their order");
-            __CPROVER_assert(in_pass ==
-                                 ((scheduler.cursor <= place) && (place < scheduler.pass_end)),
-                             "SCH_006_cursor: the pass still has the same tasks before it");
-            __CPROVER_assert((before.running != j) || (scheduler.running == place),
-                             "SCH_006_running: the running task is still known");
+        __CPROVER_assert(scheduler.queue.task[i] != task, "SCH_007_gone: it is queued no more");
+        expected.queue.count--;
+        expected.queue.realtime_count -= (place < before.queue.realtime_count) ? 1u : 0u;
+        expected.queue.task[slot] = NULL;
+        expected.queue.order[i] = scheduler.queue.order[i];
+        __CPROVER_assert(
+            scheduler.queue.order[i] ==
+                (((place <= i) && (i < expected.queue.count))
+                     ? before.queue.order[(i + 1u) % CAPACITY]
+                     : ((i == expected.queue.count) ? slot : before.queue.order[i])),
+            "SCH_007_order: those behind it move up by one, its slot is the first free one");
+        expected.cursor -= (gone < before.cursor) ? 1 : 0;
+        expected.pass_end -= (gone < before.pass_end) ? 1 : 0;
+        if (gone == before.running) {
+            expected.running = KEEL_POSITION_NONE;
+        } else if (gone < before.running) {
+            expected.running--;
         }
-        __CPROVER_assert((before.running != t) || (scheduler.running == KEEL_INDEX_NONE),
-                         "SCH_006_forgotten: a task that removed itself runs no more");
-        __CPROVER_assert((before.running != KEEL_INDEX_NONE) ||
-                             (scheduler.running == KEEL_INDEX_NONE),
-                         "SCH_006_running: with none running, none runs");
-    } else {
-        __CPROVER_assert(scheduler_same(&scheduler, &before, i),
-                         "SCH_008_unchanged: a refusal changes nothing");
+        __CPROVER_assert((scheduler.cursor == expected.cursor) &&
+                             (scheduler.pass_end == expected.pass_end),
+                         "SCH_007_pass: the pass goes on with the same tasks");
+        __CPROVER_assert(scheduler.running == expected.running,
+                         "SCH_007_running: the running task is still known, unless it went");
+        expected.wake_us = 0u;
+        expected.earliest_realtime_us = 0u;
+        expected.earliest_other_us = 0u;
+        __CPROVER_assert((scheduler.wake_us == 0u) && (scheduler.earliest_realtime_us == 0u) &&
+                             (scheduler.earliest_other_us == 0u),
+                         "SCH_007_wake: nothing is known of the releases");
+        __CPROVER_assert((scheduler.pass_end - scheduler.cursor) <=
+                             (before.pass_end - before.cursor),
+                         "SCH_007_shrinks: the pass gets no longer");
     }
-    __CPROVER_assert((scheduler.stage == before.stage) && (scheduler.busy_us == before.busy_us) &&
-                         clock_same(&scheduler.clock, &before.clock) &&
-                         task_same(proof_task[j], &task_before),
-                     "SCH_007_frame: no task is written, nor the time");
+    __CPROVER_assert(scheduler_same(&scheduler, &expected, i),
+                     "SCH_007_frame: nothing else is written, and nothing at all by a refusal");
 }

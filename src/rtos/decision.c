@@ -2,6 +2,13 @@
 
 #include <stdbool.h>
 
+/*@ // A task that is less than a period late: dp = 1 + sp + sp * late / T, never saturated.
+  @ lemma DEC_fresh: \forall integer sp, late_us, period_us;
+  @     1 <= sp <= KEEL_PRIORITY_HIGH ==> 0 <= late_us < period_us ==>
+  @     dynamic_priority(sp, late_us + period_us, period_us) ==
+  @         1 + sp + (sp * late_us) / period_us;
+  @*/
+
 uint32_t keel_decision_realtime(const keel_queue_t *queue, uint32_t from, uint32_t to,
                                 uint64_t now_us)
 {
@@ -9,168 +16,133 @@ uint32_t keel_decision_realtime(const keel_queue_t *queue, uint32_t from, uint32
 
     /*@ loop invariant range: from <= i <= to;
       @ loop invariant none: \forall integer j; from <= j < i ==>
-      @     !released(queue->task[j], now_us);
+      @     !released(queue, queue->order[j], now_us);
       @ loop assigns i;
       @ loop variant to - i;
       @*/
-    while ((i < to) && (queue->task[i]->release_us > now_us)) {
+    while ((i < to) && (queue->release_us[queue->order[i]] > now_us)) {
         i++;
     }
     return i;
 }
 
-/*@ requires \valid_read(task);
-  @ assigns \nothing;
-  @ ensures \result == time_to(task, now_us);
-  @*/
-static uint64_t time_to_release_us(const keel_task_t *task, uint64_t now_us)
+uint64_t keel_decision_earliest_us(const keel_queue_t *queue)
 {
-    return (task->release_us > now_us) ? (task->release_us - now_us) : 0u;
-}
-
-uint64_t keel_decision_slack_us(const keel_queue_t *queue, uint64_t now_us)
-{
-    uint64_t slack_us = KEEL_TIME_NEVER_US;
+    uint64_t earliest_us = KEEL_TIME_NEVER_US;
 
     /*@ loop invariant range: 0 <= i <= queue->realtime_count;
-      @ loop invariant bound: \forall integer j; 0 <= j < i ==>
-      @     slack_us <= time_to(queue->task[j], now_us);
-      @ loop invariant exact: slack_us == KEEL_TIME_NEVER_US ||
-      @     \exists integer j; 0 <= j < i && slack_us == time_to(queue->task[j], now_us);
-      @ loop invariant none: i == 0 ==> slack_us == KEEL_TIME_NEVER_US;
-      @ loop assigns i, slack_us;
+      @ loop invariant earliest: is_earliest(queue, 0, i, earliest_us);
+      @ loop assigns i, earliest_us;
       @ loop variant queue->realtime_count - i;
       @*/
     for (uint32_t i = 0u; i < queue->realtime_count; i++) {
-        const uint64_t time_us = time_to_release_us(queue->task[i], now_us);
+        const uint64_t release_us = queue->release_us[queue->order[i]];
 
-        if (time_us < slack_us) {
-            slack_us = time_us;
+        if (release_us < earliest_us) {
+            earliest_us = release_us;
         }
     }
-    return slack_us;
+    return earliest_us;
 }
 
-/*@ requires \valid_read(task) && \valid_read(task->config) && config_valid(task->config);
-  @ requires released(task, now_us) && now_us <= KEEL_CLOCK_TIME_LIMIT_US;
+/* The dynamic priority of a released task. Mostly it is less than a period late, and then sp * late
+ * is mostly below T: no division. */
+/*@ requires \valid_read(queue) && slot < KEEL_QUEUE_CAPACITY;
+  @ requires period_valid(queue->period_us[slot]);
+  @ requires 1 <= queue->priority[slot] <= KEEL_PRIORITY_HIGH;
+  @ requires released(queue, slot, now_us) && now_us <= KEEL_CLOCK_TIME_LIMIT_US;
   @ assigns \nothing;
-  @ ensures \result == task_priority(task, now_us);
+  @ ensures \result == task_priority(queue, slot, now_us);
+  @ ensures 1 <= \result <= KEEL_PRIORITY_REALTIME;
   @*/
-static uint32_t priority_of(const keel_task_t *task, uint64_t now_us)
+static uint32_t priority_of(const keel_queue_t *queue, uint32_t slot, uint64_t now_us)
 {
-    const uint32_t period_us = task->config->period_us;
+    const uint64_t late_us = now_us - queue->release_us[slot];
+    const uint32_t period_us = queue->period_us[slot];
+    const uint32_t sp = queue->priority[slot];
 
-    return keel_priority_dynamic(task->config->priority, (now_us - task->release_us) + period_us,
-                                 period_us);
-}
-
-/*@ requires \valid_read(task) && \valid_read(task->config);
-  @ assigns \nothing;
-  @ ensures \result <==> guard_us + task_worst(task) <= slack_us;
-  @*/
-static bool fits(const keel_task_t *task, uint64_t slack_us, uint32_t guard_us)
-{
-    const uint32_t budget_us = task->config->budget_us;
-    const uint32_t longest_us = task->stats.longest_us;
-    const uint32_t worst_us = (longest_us > budget_us) ? longest_us : budget_us;
-
-    return ((uint64_t)guard_us + worst_us) <= slack_us;
-}
-
-/* The dynamic priority with which a task competes now: 0, as in eq. 3, when it is not eligible. */
-/*@ requires \valid_read(task) && \valid_read(task->config) && config_valid(task->config);
-  @ requires now_us <= KEEL_CLOCK_TIME_LIMIT_US;
-  @ assigns \nothing;
-  @ behavior eligible:
-  @   assumes eligible(task, now_us, slack_us, guard_us);
-  @   ensures \result == task_priority(task, now_us) && \result > 0;
-  @ behavior not_eligible:
-  @   assumes !eligible(task, now_us, slack_us, guard_us);
-  @   ensures \result == 0;
-  @ complete behaviors;
-  @ disjoint behaviors;
-  @*/
-static uint32_t competing_priority(const keel_task_t *task, uint64_t now_us, uint64_t slack_us,
-                                   uint32_t guard_us)
-{
-    uint32_t priority;
-
-    if (task->release_us > now_us) {
-        return 0u;
+    if ((late_us < period_us) && ((sp * late_us) < period_us)) {
+        return 1u + sp;
     }
-    priority = priority_of(task, now_us);
-    if ((priority < KEEL_PRIORITY_REALTIME) && !fits(task, slack_us, guard_us)) {
-        return 0u;
-    }
-    return priority;
+    return keel_priority_dynamic(sp, late_us + period_us, period_us);
 }
 
-uint32_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, uint64_t slack_us,
-                             uint32_t guard_us)
+/*@ requires \valid_read(queue) && slot < KEEL_QUEUE_CAPACITY;
+  @ assigns \nothing;
+  @ ensures \result <==> task_worst(queue, slot) <= room_us;
+  @*/
+static bool fits(const keel_queue_t *queue, uint32_t slot, uint32_t room_us)
 {
-    uint32_t best = queue->count;
-    uint32_t best_priority = 0u;
+    return (queue->budget_us[slot] <= room_us) && (queue->stats[slot].longest_us <= room_us);
+}
+
+keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, uint32_t room_us)
+{
+    const uint32_t last = queue->count;
+    keel_choice_t choice = {KEEL_TIME_NEVER_US, 0u, 0u};
 
     /*@ loop invariant range: queue->realtime_count <= i <= queue->count;
-      @ loop invariant best_range: best == queue->count || queue->realtime_count <= best < i;
-      @ loop invariant none: best == queue->count <==> best_priority == 0;
-      @ loop invariant eligible: best < queue->count ==>
-      @     eligible(queue->task[best], now_us, slack_us, guard_us) &&
-      @     best_priority == task_priority(queue->task[best], now_us);
+      @ loop invariant scale: choice.priority <= KEEL_PRIORITY_REALTIME;
+      @ loop invariant earliest: is_earliest(queue, queue->realtime_count, i, choice.earliest_us);
+      @ loop invariant before: choice.priority > 0 ==> choice.position < i;
+      @ loop invariant chosen: choice.priority > 0 ==> chosen(queue, choice, now_us, room_us);
       @ loop invariant highest: \forall integer j; queue->realtime_count <= j < i ==>
-      @     eligible(queue->task[j], now_us, slack_us, guard_us) ==>
-      @     task_priority(queue->task[j], now_us) <= best_priority;
-      @ loop invariant first: \forall integer j; queue->realtime_count <= j < i && j < best ==>
-      @     eligible(queue->task[j], now_us, slack_us, guard_us) ==>
-      @     best < queue->count && task_priority(queue->task[j], now_us) < best_priority;
-      @ loop assigns i, best, best_priority;
+      @     eligible(queue, queue->order[j], now_us, room_us) ==>
+      @     task_priority(queue, queue->order[j], now_us) <= choice.priority;
+      @ loop invariant first: choice.priority > 0 ==>
+      @     \forall integer j; queue->realtime_count <= j < choice.position ==>
+      @     eligible(queue, queue->order[j], now_us, room_us) ==>
+      @     task_priority(queue, queue->order[j], now_us) < choice.priority;
+      @ loop invariant none: choice.priority == 0 ==>
+      @     \forall integer j; queue->realtime_count <= j < i ==>
+      @     !eligible(queue, queue->order[j], now_us, room_us);
+      @ loop assigns i, choice;
+      @ loop variant queue->count - i;
+      @*/
+    for (uint32_t i = queue->realtime_count; i < last; i++) {
+        const uint32_t slot = queue->order[i];
+        const uint64_t release_us = queue->release_us[slot];
+
+        if (release_us < choice.earliest_us) {
+            choice.earliest_us = release_us;
+        }
+        if (release_us <= now_us) {
+            const uint32_t priority = priority_of(queue, slot, now_us);
+
+            if ((priority > choice.priority) &&
+                ((priority == KEEL_PRIORITY_REALTIME) || fits(queue, slot, room_us))) {
+                choice.position = i;
+                choice.priority = priority;
+            }
+        }
+    }
+    return choice;
+}
+
+uint64_t keel_decision_event_us(const keel_queue_t *queue, uint64_t now_us)
+{
+    uint64_t event_us = KEEL_TIME_NEVER_US;
+
+    /*@ loop invariant range: queue->realtime_count <= i <= queue->count;
+      @ loop invariant bound: \forall integer j; queue->realtime_count <= j < i ==>
+      @     event_us <= next_event(queue, queue->order[j], now_us);
+      @ loop invariant exact: event_us == KEEL_TIME_NEVER_US ||
+      @     \exists integer j; queue->realtime_count <= j < i &&
+      @         event_us == next_event(queue, queue->order[j], now_us);
+      @ loop assigns i, event_us;
       @ loop variant queue->count - i;
       @*/
     for (uint32_t i = queue->realtime_count; i < queue->count; i++) {
-        const uint32_t priority = competing_priority(queue->task[i], now_us, slack_us, guard_us);
+        const uint32_t slot = queue->order[i];
+        uint64_t at_us = queue->release_us[slot];
 
-        if (priority > best_priority) {
-            best = i;
-            best_priority = priority;
+        if (at_us <= now_us) {
+            at_us += keel_priority_promotion_age_us(queue->priority[slot], queue->period_us[slot]) -
+                     queue->period_us[slot];
+        }
+        if (at_us < event_us) {
+            event_us = at_us;
         }
     }
-    return best;
-}
-
-/*@ requires \valid_read(task) && \valid_read(task->config) && config_valid(task->config);
-  @ requires now_us <= KEEL_CLOCK_TIME_LIMIT_US;
-  @ assigns \nothing;
-  @ ensures \result == next_event(task, now_us);
-  @*/
-static uint64_t next_event_us(const keel_task_t *task, uint64_t now_us)
-{
-    const keel_task_config_t *config = task->config;
-
-    if ((task->release_us > now_us) || (config->priority == KEEL_PRIORITY_REALTIME)) {
-        return task->release_us;
-    }
-    return task->release_us + (keel_priority_promotion_age_us(config->priority, config->period_us) -
-                               config->period_us);
-}
-
-uint64_t keel_decision_wake_us(const keel_queue_t *queue, uint64_t now_us)
-{
-    uint64_t wake_us = KEEL_TIME_NEVER_US;
-
-    /*@ loop invariant range: 0 <= i <= queue->count;
-      @ loop invariant bound: \forall integer j; 0 <= j < i ==>
-      @     wake_us <= next_event(queue->task[j], now_us);
-      @ loop invariant exact: wake_us == KEEL_TIME_NEVER_US ||
-      @     \exists integer j; 0 <= j < i && wake_us == next_event(queue->task[j], now_us);
-      @ loop assigns i, wake_us;
-      @ loop variant queue->count - i;
-      @*/
-    for (uint32_t i = 0u; i < queue->count; i++) {
-        const uint64_t event_us = next_event_us(queue->task[i], now_us);
-
-        if (event_us < wake_us) {
-            wake_us = event_us;
-        }
-    }
-    return wake_us;
+    return event_us;
 }

@@ -55,7 +55,6 @@ typedef struct bench_body {
 static bench_t bench;
 static bench_body_t bench_bodies[KEEL_QUEUE_CAPACITY];
 static keel_task_config_t bench_configs[KEEL_QUEUE_CAPACITY];
-static keel_task_t bench_tasks[KEEL_QUEUE_CAPACITY];
 static bench_kind_t bench_kinds[PASSES_MAX];
 
 static uint32_t bench_clock(void *context)
@@ -98,8 +97,8 @@ static void bench_add(uint32_t i, uint32_t n)
     bench_configs[i] = urpilot_task_config(table_row, bench_run, &bench_bodies[i]);
     bench_configs[i].period_us *= stretch;
     bench_configs[i].phase_us = 0u; /* All released together: the longest passes. */
-    bench_tasks[i] = (keel_task_t){.config = &bench_configs[i]};
-    bench_require(keel_scheduler_add(&bench.scheduler, &bench_tasks[i]) == KEEL_OK, "add refuses");
+    bench_require(keel_scheduler_add(&bench.scheduler, &bench_configs[i]) == KEEL_OK,
+                  "add refuses");
 }
 
 static void bench_begin(uint32_t n)

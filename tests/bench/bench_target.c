@@ -67,7 +67,6 @@ static kind_t kind[KINDS] = {{"waited", 0u, 0u, 0u},   {"idle", 0u, 0u, 0u},
 
 static virtual_clock_t virtual_clock KEEL_REALTIME_ZERO;
 static keel_scheduler_t scheduler KEEL_REALTIME_ZERO;
-static keel_task_t task[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
 static keel_task_config_t config[URPILOT_TASK_COUNT];
 static virtual_body_t body[URPILOT_TASK_COUNT];
 static uint32_t ran_realtime;
@@ -200,8 +199,7 @@ static void setup_scheduler(void)
                                    realtime ? &ran_realtime : &ran_other};
         config[i] = urpilot_task_config(i, bench_body, &body[i]);
         config[i].phase_us = 0u; /* All released together: the longest passes. */
-        task[i].config = &config[i];
-        require(keel_scheduler_add(&scheduler, &task[i]) == KEEL_OK);
+        require(keel_scheduler_add(&scheduler, &config[i]) == KEEL_OK);
     }
     require(keel_scheduler_start(&scheduler) == KEEL_OK);
 }

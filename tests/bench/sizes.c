@@ -5,7 +5,5 @@
  */
 #include "keel/rtos/scheduler.h"
 
-char bench_size_task[sizeof(keel_task_t)];
-char bench_size_slot[sizeof(keel_task_t *)];
 char bench_size_config[sizeof(keel_task_config_t)];
 char bench_size_scheduler[sizeof(keel_scheduler_t)];

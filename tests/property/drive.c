@@ -18,6 +18,7 @@ typedef char tasks_fit_the_model[(TASKS <= MODEL_TASKS) ? 1 : -1];
 typedef enum inside_kind {
     INSIDE_ADD,
     INSIDE_REMOVE,
+    INSIDE_REPORT,
     INSIDE_STEP,
     INSIDE_RESYNC
 } inside_kind_t;
@@ -27,6 +28,7 @@ typedef struct inside {
     inside_kind_t kind;
     int task;
     model_declaration_t is;
+    keel_task_report_t report;
     keel_status_t status;
 } inside_t;
 
@@ -41,8 +43,7 @@ typedef struct run {
 typedef struct session session_t;
 
 typedef struct actor {
-    keel_task_t task;
-    keel_task_config_t config;
+    keel_task_config_t config; /* Its address is the task. */
     session_t *session;
     bool queued; /* By the kernel's own answers. */
 } actor_t;
@@ -50,7 +51,7 @@ typedef struct actor {
 struct session {
     const uint8_t *bytes;
     size_t left;
-    keel_scheduler_t kernel;
+    keel_scheduler_t *kernel; /* It lies apart from the declarations. */
     actor_t actor[MODEL_TASKS];
     model_t model;
     uint32_t raw;  /* The counter. */
@@ -124,8 +125,6 @@ static void spoil(session_t *s, model_declaration_t *is)
 {
     switch (pick(s, 8)) {
     case 0:
-        is->present = false;
-        break;
     case 1:
         is->has_body = false;
         break;
@@ -155,7 +154,7 @@ static model_declaration_t pick_declaration(session_t *s)
     const uint32_t period = pick_period(s);
     const uint32_t budget = pick_budget(s, period);
     const uint32_t phase = (pick(s, 2) == 0) ? 0 : pick(s, period);
-    model_declaration_t is = {true, true, period, budget, phase, pick_priority(s)};
+    model_declaration_t is = {true, period, budget, phase, pick_priority(s)};
 
     if (one_in(s, 24)) {
         spoil(s, &is);
@@ -208,9 +207,8 @@ static uint64_t at_most(uint64_t value, uint64_t limit)
     return (value < limit) ? value : limit;
 }
 
-static void same_task(session_t *s, int i)
+static void same_report(session_t *s, int i, const keel_task_report_t *kernel)
 {
-    const keel_task_t *const kernel = &s->actor[i].task;
     const model_task_t *const model = &s->model.task[i];
 
     same(s, "release", i, kernel->release_us, model->release);
@@ -223,15 +221,51 @@ static void same_task(session_t *s, int i)
     same(s, "promotions", i, kernel->stats.promotions, at_most(model->promotions, UINT16_MAX));
 }
 
-static const keel_task_t *task_of(session_t *s, int task)
+static keel_status_t report_status(const session_t *s, int task)
 {
-    return (task == MODEL_NO_TASK) ? NULL : &s->actor[task].task;
+    return model_holds(&s->model, task) ? KEEL_OK : KEEL_ERR_UNKNOWN_TASK;
 }
 
-static void same_slot(session_t *s, int slot, int task)
+static void same_task(session_t *s, int i)
 {
-    if (s->kernel.queue.task[slot] != task_of(s, task)) {
-        differ(s, "queue: slot %d does not hold task %d", slot, task);
+    keel_task_report_t report;
+    const keel_status_t status = keel_scheduler_report(s->kernel, &s->actor[i].config, &report);
+
+    same(s, "report", i, (uint64_t)status, (uint64_t)report_status(s, i));
+    if (status == KEEL_OK) {
+        same_report(s, i, &report);
+    }
+}
+
+static const keel_task_config_t *task_of(session_t *s, int task)
+{
+    return (task == MODEL_NO_TASK) ? NULL : &s->actor[task].config;
+}
+
+static void same_position(session_t *s, int position, int task)
+{
+    if (keel_scheduler_task(s->kernel, (uint32_t)position) != task_of(s, task)) {
+        differ(s, "queue: position %d does not hold task %d", position, task);
+    }
+}
+
+/* Every slot stands in the order once, and a free one holds no task. */
+static void whole_queue(session_t *s)
+{
+    const keel_queue_t *const queue = &s->kernel->queue;
+    bool seen[KEEL_QUEUE_CAPACITY] = {false};
+
+    for (uint32_t i = 0; i < KEEL_QUEUE_CAPACITY; i++) {
+        const uint32_t slot = queue->order[i];
+
+        if ((slot >= KEEL_QUEUE_CAPACITY) || seen[slot]) {
+            differ(s, "queue: the order holds slot %" PRIu32 " twice, or it is none", slot);
+            return;
+        }
+        seen[slot] = true;
+        if ((i >= queue->count) && (queue->task[slot] != NULL)) {
+            differ(s, "queue: free slot %" PRIu32 " holds a task", slot);
+        }
     }
 }
 
@@ -240,32 +274,39 @@ static void same_queue(session_t *s)
     const model_t *const m = &s->model;
     const int count = m->realtime.length + m->others.length;
 
-    same(s, "count", MODEL_NO_TASK, s->kernel.queue.count, (uint64_t)count);
-    same(s, "realtime_count", MODEL_NO_TASK, s->kernel.queue.realtime_count,
+    same(s, "count", MODEL_NO_TASK, s->kernel->queue.count, (uint64_t)count);
+    same(s, "realtime_count", MODEL_NO_TASK, s->kernel->queue.realtime_count,
          (uint64_t)m->realtime.length);
-    for (int i = 0; i < (int)KEEL_QUEUE_CAPACITY; i++) {
+    for (int i = 0; i <= (int)KEEL_QUEUE_CAPACITY; i++) {
         if (i < m->realtime.length) {
-            same_slot(s, i, m->realtime.item[i]);
+            same_position(s, i, m->realtime.item[i]);
         } else if (i < count) {
-            same_slot(s, i, m->others.item[i - m->realtime.length]);
+            same_position(s, i, m->others.item[i - m->realtime.length]);
         } else {
-            same_slot(s, i, MODEL_NO_TASK);
+            same_position(s, i, MODEL_NO_TASK);
         }
     }
+    whole_queue(s);
 }
 
 static void same_running(session_t *s)
 {
-    const keel_scheduler_t *const k = &s->kernel;
-    const bool known = k->running < KEEL_QUEUE_CAPACITY;
-    const keel_task_t *const running = known ? k->queue.task[k->running] : NULL;
+    const keel_scheduler_t *const k = s->kernel;
 
-    if (running != task_of(s, s->model.running)) {
-        differ(s, "running: index %" PRIu32 " is not task %d", k->running, s->model.running);
+    if (keel_scheduler_task(k, k->running) != task_of(s, s->model.running)) {
+        differ(s, "running: position %u is not task %d", (unsigned)k->running, s->model.running);
     }
-    if (!known) {
-        same(s, "running", MODEL_NO_TASK, k->running, KEEL_INDEX_NONE);
+    if (s->model.running == MODEL_NO_TASK) {
+        same(s, "running", MODEL_NO_TASK, k->running, KEEL_POSITION_NONE);
     }
+}
+
+/* The kernel sleeps as long as it may, and only behind a pass that found nothing to run. */
+static void same_wake(session_t *s)
+{
+    const model_t *const m = &s->model;
+
+    same(s, "wake", MODEL_NO_TASK, s->kernel->wake_us, m->idle ? model_wake(m) : 0);
 }
 
 /* A sleeping kernel is between two passes; the model, which never sleeps, has closed its pass. */
@@ -275,7 +316,7 @@ static void same_stage(session_t *s)
     const model_t *const m = &s->model;
     const uint32_t running = m->serving_realtime ? KEEL_STAGE_REALTIME : KEEL_STAGE_OTHER;
 
-    same(s, "stage", MODEL_NO_TASK, s->kernel.stage,
+    same(s, "stage", MODEL_NO_TASK, s->kernel->stage,
          (m->stage == RUNNING) ? running : stage[m->stage]);
 }
 
@@ -285,11 +326,12 @@ static void same_everything(session_t *s)
     for (int i = 0; i < TASKS; i++) {
         same_task(s, i);
     }
-    same(s, "now", MODEL_NO_TASK, s->kernel.clock.now_us, s->model.now);
-    same(s, "raw", MODEL_NO_TASK, s->kernel.clock.raw_us, s->model.raw);
-    same(s, "busy", MODEL_NO_TASK, s->kernel.busy_us, s->model.busy);
+    same(s, "now", MODEL_NO_TASK, s->kernel->clock.now_us, s->model.now);
+    same(s, "raw", MODEL_NO_TASK, s->kernel->clock.raw_us, s->model.raw);
+    same(s, "busy", MODEL_NO_TASK, s->kernel->busy_us, s->model.busy);
     same_stage(s);
     same_running(s);
+    same_wake(s);
 }
 
 /* --- Operations on both --- */
@@ -309,7 +351,6 @@ static void declare(actor_t *actor, const model_declaration_t *is)
     actor->config.budget_us = (uint32_t)is->budget;
     actor->config.phase_us = (uint32_t)is->phase;
     actor->config.priority = (uint32_t)is->priority;
-    actor->task.config = is->present ? &actor->config : NULL;
 }
 
 /* Lets the counter go on. */
@@ -329,14 +370,14 @@ static keel_status_t kernel_add(session_t *s, int task, const model_declaration_
     if (!actor->queued) {
         declare(actor, is);
     }
-    status = keel_scheduler_add(&s->kernel, &actor->task);
+    status = keel_scheduler_add(s->kernel, &actor->config);
     actor->queued = actor->queued || (status == KEEL_OK);
     return status;
 }
 
 static keel_status_t kernel_remove(session_t *s, int task)
 {
-    const keel_status_t status = keel_scheduler_remove(&s->kernel, &s->actor[task].task);
+    const keel_status_t status = keel_scheduler_remove(s->kernel, &s->actor[task].config);
 
     s->actor[task].queued = s->actor[task].queued && (status != KEEL_OK);
     return status;
@@ -356,8 +397,7 @@ static void add_task(session_t *s, int task, model_declaration_t is)
 
     tell(s, "add task %d: period %" PRIu64 " budget %" PRIu64 " phase %" PRIu64, task, is.period,
          is.budget, is.phase);
-    tell(s, " priority %" PRIu64 "%s%s\n", is.priority, is.present ? "" : " undeclared",
-         is.has_body ? "" : " bodiless");
+    tell(s, " priority %" PRIu64 "%s\n", is.priority, is.has_body ? "" : " bodiless");
     same_status(s, "add", status, add_to_model(s, task, &is));
 }
 
@@ -372,7 +412,7 @@ static void do_add(session_t *s)
 static void add_crowd(session_t *s)
 {
     for (int i = 0; i < TASKS; i++) {
-        const model_declaration_t is = {true, true, 100000, 1 + pick(s, 8), 0, 1 + pick(s, 4)};
+        const model_declaration_t is = {true, 100000, 1 + pick(s, 8), 0, 1 + pick(s, 4)};
 
         add_task(s, i, is);
     }
@@ -390,7 +430,7 @@ static void do_check(session_t *s)
 {
     uint32_t kernel = UINT32_MAX;
     int model = -1;
-    const keel_status_t status = keel_scheduler_check(&s->kernel, &kernel);
+    const keel_status_t status = keel_scheduler_check(s->kernel, &kernel);
 
     same_status(s, "check", status, model_check(&s->model, &model));
     same(s, "admitted", MODEL_NO_TASK, kernel, (uint64_t)model);
@@ -398,39 +438,60 @@ static void do_check(session_t *s)
 
 static void do_start(session_t *s)
 {
-    const keel_status_t status = keel_scheduler_start(&s->kernel);
+    const keel_status_t status = keel_scheduler_start(s->kernel);
 
     same_status(s, "start", status, model_start(&s->model, s->raw));
 }
 
 static void do_resync(session_t *s)
 {
-    const keel_status_t status = keel_scheduler_resync(&s->kernel);
+    const keel_status_t status = keel_scheduler_resync(s->kernel);
 
     same_status(s, "resync", status, model_resync(&s->model, s->raw));
 }
 
+static void report_nulls(session_t *s)
+{
+    const keel_task_config_t *const task = &s->actor[0].config;
+    keel_task_report_t report;
+
+    same_status(s, "report null", keel_scheduler_report(s->kernel, NULL, &report), KEEL_ERR_NULL);
+    same_status(s, "report of null", keel_scheduler_report(NULL, task, &report), KEEL_ERR_NULL);
+    same_status(s, "report to null", keel_scheduler_report(s->kernel, task, NULL), KEEL_ERR_NULL);
+    if (keel_scheduler_task(NULL, 0) != NULL) {
+        differ(s, "no scheduler has a task");
+    }
+}
+
 static void do_nulls(session_t *s)
 {
-    same_status(s, "add null", keel_scheduler_add(&s->kernel, NULL), KEEL_ERR_NULL);
-    same_status(s, "add to null", keel_scheduler_add(NULL, &s->actor[0].task), KEEL_ERR_NULL);
-    same_status(s, "remove null", keel_scheduler_remove(&s->kernel, NULL), KEEL_ERR_NULL);
+    same_status(s, "add null", keel_scheduler_add(s->kernel, NULL), KEEL_ERR_NULL);
+    same_status(s, "add to null", keel_scheduler_add(NULL, &s->actor[0].config), KEEL_ERR_NULL);
+    same_status(s, "remove null", keel_scheduler_remove(s->kernel, NULL), KEEL_ERR_NULL);
     same_status(s, "start null", keel_scheduler_start(NULL), KEEL_ERR_NULL);
     same_status(s, "step null", keel_scheduler_step(NULL), KEEL_ERR_NULL);
     same_status(s, "resync null", keel_scheduler_resync(NULL), KEEL_ERR_NULL);
+    report_nulls(s);
 }
 
 /* --- Runs --- */
 
+static inside_kind_t pick_inside(session_t *s)
+{
+    static const inside_kind_t kinds[] = {
+        INSIDE_ADD,    INSIDE_ADD,    INSIDE_ADD,    INSIDE_ADD,    INSIDE_ADD,    INSIDE_ADD,
+        INSIDE_REMOVE, INSIDE_REMOVE, INSIDE_REMOVE, INSIDE_REMOVE, INSIDE_REMOVE, INSIDE_REMOVE,
+        INSIDE_REPORT, INSIDE_REPORT, INSIDE_STEP,   INSIDE_RESYNC};
+
+    return kinds[pick(s, (uint32_t)(sizeof kinds / sizeof kinds[0]))];
+}
+
 static void act_inside(session_t *s, run_t *run)
 {
     inside_t *const inside = &run->inside[run->insides];
-    const uint32_t kind = pick(s, 16);
 
     run->insides++;
-    inside->kind = (kind < 7) ? INSIDE_ADD
-                              : ((kind < 14) ? INSIDE_REMOVE
-                                             : ((kind == 14) ? INSIDE_STEP : INSIDE_RESYNC));
+    inside->kind = pick_inside(s);
     inside->task = one_in(s, 3) ? run->task : (int)pick(s, (uint32_t)TASKS);
     switch (inside->kind) {
     case INSIDE_ADD:
@@ -440,11 +501,15 @@ static void act_inside(session_t *s, run_t *run)
     case INSIDE_REMOVE:
         inside->status = kernel_remove(s, inside->task);
         break;
+    case INSIDE_REPORT:
+        inside->status = keel_scheduler_report(s->kernel, &s->actor[inside->task].config,
+                                               &inside->report);
+        break;
     case INSIDE_STEP:
-        inside->status = keel_scheduler_step(&s->kernel);
+        inside->status = keel_scheduler_step(s->kernel);
         break;
     default:
-        inside->status = keel_scheduler_resync(&s->kernel);
+        inside->status = keel_scheduler_resync(s->kernel);
         break;
     }
 }
@@ -499,6 +564,11 @@ static keel_status_t repeat_inside(session_t *s, const inside_t *inside)
         return add_to_model(s, inside->task, &inside->is);
     case INSIDE_REMOVE:
         return model_remove(&s->model, inside->task);
+    case INSIDE_REPORT:
+        if (inside->status == KEEL_OK) {
+            same_report(s, inside->task, &inside->report);
+        }
+        return report_status(s, inside->task);
     case INSIDE_STEP:
         return model_begin(&s->model, 0);
     default:
@@ -511,6 +581,7 @@ static void tally_inside(session_t *s, const run_t *run, const inside_t *inside)
     if (inside->status != KEEL_OK) {
         return;
     }
+    s->tally->inside_reports += (inside->kind == INSIDE_REPORT) ? 1 : 0;
     s->tally->inside_adds += (inside->kind == INSIDE_ADD) ? 1 : 0;
     if (inside->kind == INSIDE_REMOVE) {
         s->tally->self_removes += (inside->task == run->task) ? 1 : 0;
@@ -521,8 +592,8 @@ static void tally_inside(session_t *s, const run_t *run, const inside_t *inside)
 /* The model has decided for a task; the kernel must have run the same at the same time. */
 static void repeat_run(session_t *s, const run_t *run, int task)
 {
-    static const char *const names[] = {"add inside", "remove inside", "step inside",
-                                        "resync inside"};
+    static const char *const names[] = {"add inside", "remove inside", "report inside",
+                                        "step inside", "resync inside"};
 
     tell(s, "  ran task %d from %" PRIu32 " to %" PRIu32 "\n", run->task, run->start_raw,
          run->end_raw);
@@ -566,14 +637,14 @@ static keel_status_t model_step(session_t *s, uint32_t raw)
 static void do_step(session_t *s)
 {
     const uint32_t raw = s->raw;
-    const uint64_t wake = s->kernel.wake_us;
+    const uint64_t wake = s->kernel->wake_us;
     keel_status_t status;
 
     tell(s, "step at %" PRIu32 "\n", raw);
     s->runs = 0;
-    status = keel_scheduler_step(&s->kernel);
+    status = keel_scheduler_step(s->kernel);
     same_status(s, "step", status, model_step(s, raw));
-    if ((status == KEEL_OK) && (s->kernel.clock.now_us < wake)) {
+    if ((status == KEEL_OK) && (s->kernel->clock.now_us < wake)) {
         s->tally->sleeping_steps++;
     }
 }
@@ -583,8 +654,8 @@ static void do_step(session_t *s)
 /* How long until the kernel means to wake up, if that is soon. */
 static uint32_t until_wake(const session_t *s)
 {
-    const uint64_t wake = s->kernel.wake_us;
-    const uint64_t now = s->kernel.clock.now_us;
+    const uint64_t wake = s->kernel->wake_us;
+    const uint64_t now = s->kernel->clock.now_us;
 
     return ((wake > now) && ((wake - now) < 0x7FFFFFFFu)) ? (uint32_t)(wake - now) : 1;
 }
@@ -652,10 +723,10 @@ static void do_outside(session_t *s)
 
 static int kernel_next(session_t *s)
 {
-    const keel_task_t *const task = keel_scheduler_next(&s->kernel);
+    const keel_task_config_t *const task = keel_pass_next(s->kernel);
 
     for (int i = 0; (i < TASKS) && (task != NULL); i++) {
-        if (task == &s->actor[i].task) {
+        if (task == &s->actor[i].config) {
             return i;
         }
     }
@@ -664,11 +735,11 @@ static int kernel_next(session_t *s)
 
 static void do_begin(session_t *s)
 {
-    const keel_status_t status = keel_scheduler_begin(&s->kernel, s->raw);
+    const keel_status_t status = keel_pass_begin(s->kernel, s->raw);
     const keel_status_t expected = model_begin(&s->model, s->raw);
 
     same_status(s, "begin", status, expected);
-    if ((status == KEEL_OK) && (s->kernel.stage == KEEL_STAGE_READY)) {
+    if ((status == KEEL_OK) && (s->kernel->stage == KEEL_STAGE_READY)) {
         /* The kernel sleeps; then the model must have nothing to run. */
         same(s, "sleeps through", MODEL_NO_TASK, (uint64_t)MODEL_NO_TASK,
              (uint64_t)model_next(&s->model));
@@ -686,7 +757,7 @@ static void do_next(session_t *s)
 
 static void do_finish(session_t *s)
 {
-    const keel_status_t status = keel_scheduler_finish(&s->kernel, s->raw);
+    const keel_status_t status = keel_pass_finish(s->kernel, s->raw);
 
     same_status(s, "finish", status, model_finish(&s->model, s->raw));
 }
@@ -721,7 +792,7 @@ static void begin_session(session_t *s)
     const uint32_t limit = one_in(s, 4) ? pick(s, 1000001u) : 1000000u;
     const keel_scheduler_config_t config = {read_counter, s, guard, limit};
 
-    memset(&s->kernel, 0, sizeof s->kernel);
+    memset(s->kernel, 0, sizeof *s->kernel);
     memset(s->actor, 0, sizeof s->actor);
     for (int i = 0; i < MODEL_TASKS; i++) {
         s->actor[i].session = s;
@@ -730,15 +801,15 @@ static void begin_session(session_t *s)
     s->pace = 4u << (2 * pick(s, 4)); /* 4, 16, 64 or 256 us */
     tell(s, "init: guard %" PRIu32 " limit %" PRIu32 "\n", guard, limit);
     model_init(&s->model, (int)KEEL_QUEUE_CAPACITY, guard, limit);
-    same_status(s, "init", keel_scheduler_init(&s->kernel, &config), KEEL_OK);
+    same_status(s, "init", keel_scheduler_init(s->kernel, &config), KEEL_OK);
 }
 
 static void do_bad_init(session_t *s)
 {
     const keel_scheduler_config_t config = {read_counter, s, pick(s, 2) * 0x80000000u, 1000001u};
 
-    same_status(s, "bad init", keel_scheduler_init(&s->kernel, &config), KEEL_ERR_CONFIG);
-    same_status(s, "null init", keel_scheduler_init(&s->kernel, NULL), KEEL_ERR_NULL);
+    same_status(s, "bad init", keel_scheduler_init(s->kernel, &config), KEEL_ERR_CONFIG);
+    same_status(s, "null init", keel_scheduler_init(s->kernel, NULL), KEEL_ERR_NULL);
 }
 
 /* Adds some tasks and starts, leaving out those that are not admitted. */
@@ -796,10 +867,12 @@ static void operate(session_t *s)
 bool drive(const uint8_t *bytes, size_t size, drive_tally_t *tally, char *difference, size_t room,
            FILE *trace)
 {
+    static keel_scheduler_t kernel;
     static session_t session;
     session_t *const s = &session;
 
     memset(s, 0, sizeof *s);
+    s->kernel = &kernel;
     s->bytes = bytes;
     s->left = size;
     s->tally = tally;

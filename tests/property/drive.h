@@ -30,6 +30,7 @@ typedef struct drive_tally {
     uint64_t inside_adds;    /**< Tasks added from inside a task. */
     uint64_t inside_removes; /**< Tasks removed from inside another. */
     uint64_t self_removes;   /**< Tasks that removed themselves. */
+    uint64_t inside_reports; /**< Reports of queued tasks that were taken inside a task. */
     uint64_t sleeping_steps; /**< Steps before wake_us. */
     uint64_t wraps;          /**< Times the counter wrapped. */
 } drive_tally_t;

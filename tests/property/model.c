@@ -129,7 +129,7 @@ static keel_status_t declaration_error(const model_declaration_t *is)
 {
     const bool known = ((is->priority >= 1) && (is->priority <= 4)) || is_realtime(is);
 
-    if (!is->present || !is->has_body) {
+    if (!is->has_body) {
         return KEEL_ERR_NULL;
     }
     if ((is->period == 0) || (is->period >= TWO_31)) {
@@ -172,6 +172,7 @@ keel_status_t model_add(model_t *m, int task)
         return admissible(m, &all);
     }
     arm(m, task, m->now);
+    m->idle = false;
     append(is_realtime(&m->task[task].is) ? &m->realtime : &m->others, task);
     return KEEL_OK;
 }
@@ -184,6 +185,7 @@ keel_status_t model_remove(model_t *m, int task)
     drop(&m->realtime, task);
     drop(&m->others, task);
     drop(&m->pass, task);
+    m->idle = false;
     if (m->running == task) {
         m->running = MODEL_NO_TASK;
     }
@@ -238,6 +240,7 @@ keel_status_t model_begin(model_t *m, uint64_t raw)
     if (status == KEEL_OK) {
         m->stage = DECIDING;
         m->pass = m->realtime;
+        m->idle = false;
     }
     return status;
 }
@@ -326,6 +329,7 @@ int model_next(model_t *m)
     task = best_other(m);
     if (task == MODEL_NO_TASK) {
         m->stage = BETWEEN;
+        m->idle = true;
         return MODEL_NO_TASK;
     }
     if (dynamic_priority(m, task) == HIGHEST) {
@@ -358,6 +362,27 @@ keel_status_t model_finish(model_t *m, uint64_t raw)
     m->stage = ((status == KEEL_OK) && m->serving_realtime) ? DECIDING : BETWEEN;
     m->running = MODEL_NO_TASK;
     return status;
+}
+
+/* When waiting alone makes something run: the first release or, of a task that waits for room, the
+ * time from which on its dynamic priority is the highest. */
+uint64_t model_wake(const model_t *m)
+{
+    const model_list_t all = everything(m);
+    uint64_t wake = UINT64_MAX;
+
+    for (int i = 0; i < all.length; i++) {
+        const model_task_t *const t = &m->task[all.item[i]];
+        uint64_t at = t->release;
+
+        if (is_due(m, all.item[i]) && !is_realtime(&t->is)) {
+            const uint64_t enough = (HIGHEST - 1u) * t->is.period; /* Of sp * age. */
+
+            at += ((enough + t->is.priority - 1) / t->is.priority) - t->is.period;
+        }
+        wake = (at < wake) ? at : wake;
+    }
+    return wake;
 }
 
 keel_status_t model_resync(model_t *m, uint64_t raw)

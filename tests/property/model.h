@@ -3,8 +3,8 @@
  * @brief A reference model of the queue, admission and the scheduler, written to be obvious.
  *
  * It shares no code with the kernel: tasks are numbers, lists are searched and shifted, nothing
- * is remembered that can be worked out, and it never sleeps: where the kernel has wake_us, the
- * model decides at every step. Only the names of the statuses are the kernel's.
+ * is remembered that can be worked out, and it never sleeps: where the kernel waits for wake_us,
+ * the model decides at every step. Only the names of the statuses are the kernel's.
  */
 #ifndef KEEL_TESTS_PROPERTY_MODEL_H
 #define KEEL_TESTS_PROPERTY_MODEL_H
@@ -19,7 +19,6 @@
 
 /** What a task declares. */
 typedef struct model_declaration {
-    bool present; /* There is a declaration at all. */
     bool has_body;
     uint64_t period, budget, phase, priority;
 } model_declaration_t;
@@ -53,6 +52,7 @@ typedef struct model {
     model_stage_t stage;
     bool serving_realtime;
     int running; /* The running task, unless it was removed. */
+    bool idle;   /* The last pass ended with nothing to run, and no task came or went since. */
     uint64_t now, busy;
     uint64_t raw; /* The last reading of the counter. */
 } model_t;
@@ -66,6 +66,7 @@ keel_status_t model_start(model_t *m, uint64_t raw);
 keel_status_t model_begin(model_t *m, uint64_t raw);
 int model_next(model_t *m);
 keel_status_t model_finish(model_t *m, uint64_t raw);
+uint64_t model_wake(const model_t *m);
 keel_status_t model_resync(model_t *m, uint64_t raw);
 
 #endif

@@ -99,6 +99,7 @@ static int report_tally(const drive_tally_t *t)
         {"adds inside a task", t->inside_adds},
         {"removes inside", t->inside_removes},
         {"self-removals", t->self_removes},
+        {"reports inside", t->inside_reports},
         {"sleeping steps", t->sleeping_steps},
         {"wraps", t->wraps},
     };

@@ -41,8 +41,7 @@ typedef struct stream {
 } stream_t;
 
 static keel_queue_t queue;
-static keel_task_t task[QUEUE_TASKS];
-static keel_task_config_t task_config[QUEUE_TASKS];
+static keel_task_config_t task[QUEUE_TASKS];
 static keel_voter_t voter;
 static keel_filter_t filter;
 static keel_pid_t pid;
@@ -127,33 +126,79 @@ static void digest_float(stream_t *s, float value)
 
 /* --- Units ------------------------------------------------------------------------------------ */
 
+static void body(void *context)
+{
+    (void)context;
+}
+
+static void setup_queue(stream_t *s)
+{
+    for (uint32_t i = 0u; i < QUEUE_TASKS; i++) {
+        task[i].run = body;
+        task[i].period_us = 1u + (uint32_t)any_bits(s, 30u);
+        task[i].budget_us = 1u + (uint32_t)any_bits(s, 30u);
+        task[i].priority = (below(s, 3u) == 0u) ? KEEL_PRIORITY_REALTIME
+                                                : (1u + below(s, KEEL_PRIORITY_HIGH));
+    }
+    keel_queue_init(&queue);
+}
+
+/* Adds a task that is not there, or serves one that is. */
+static void add_or_serve(stream_t *s, uint32_t which)
+{
+    const uint32_t position = keel_queue_find(&queue, &task[which]);
+
+    if (position < queue.count) {
+        const uint32_t slot = queue.order[position];
+
+        keel_queue_advance(&queue, slot, queue.release_us[slot] + any_bits(s, 40u));
+    } else if (queue.count < KEEL_QUEUE_CAPACITY) {
+        keel_queue_add(&queue, &task[which], any_bits(s, 40u));
+    } else {
+        /* It is full. */
+    }
+}
+
+static void digest_queue(stream_t *s)
+{
+    digest(s, queue.count);
+    digest(s, queue.realtime_count);
+    for (uint32_t i = 0u; i < KEEL_QUEUE_CAPACITY; i++) {
+        digest(s, queue.order[i]);
+    }
+    for (uint32_t i = 0u; i < queue.count; i++) {
+        const uint32_t slot = queue.order[i];
+
+        digest(s, (uint64_t)(queue.task[slot] - task));
+        digest(s, queue.release_us[slot]);
+        digest(s, queue.period_us[slot]);
+        digest(s, queue.budget_us[slot]);
+        digest(s, queue.priority[slot]);
+        digest(s, queue.skipped[slot]);
+    }
+}
+
 static void vector_queue(stream_t *s)
 {
     const uint32_t choice = below(s, 16u);
     /* Fills up and empties in turn, so that it is often full. */
     const uint32_t adds = (((s->vector / FILL_EVERY) % 2u) == 0u) ? 12u : 4u;
     const uint32_t which = below(s, QUEUE_TASKS);
+    const uint32_t position = below(s, KEEL_QUEUE_CAPACITY);
 
     if (s->vector == 0u) {
-        for (uint32_t i = 0u; i < QUEUE_TASKS; i++) {
-            task_config[i].priority = (below(s, 3u) == 0u) ? KEEL_PRIORITY_REALTIME
-                                                           : (1u + below(s, KEEL_PRIORITY_HIGH));
-            task[i].config = &task_config[i];
-        }
-        keel_queue_init(&queue);
+        setup_queue(s);
     }
     if (choice < adds) {
-        digest(s, (uint64_t)keel_queue_add(&queue, (which == 0u) ? NULL : &task[which]));
+        add_or_serve(s, which);
     } else if (choice < 14u) {
-        digest(s, (uint64_t)keel_queue_remove(&queue, below(s, KEEL_QUEUE_CAPACITY)));
+        if (position < queue.count) {
+            keel_queue_remove(&queue, position);
+        }
     } else {
         digest(s, keel_queue_find(&queue, &task[which]));
     }
-    digest(s, queue.count);
-    digest(s, queue.realtime_count);
-    for (uint32_t i = 0u; i < KEEL_QUEUE_CAPACITY; i++) {
-        digest(s, (queue.task[i] == NULL) ? UINT32_MAX : (uint64_t)(queue.task[i] - task));
-    }
+    digest_queue(s);
 }
 
 static void vector_priority(stream_t *s)

@@ -32,7 +32,13 @@
 
 typedef void (*function_t)(void);
 
-static keel_scheduler_t scheduler;
+/* A scheduler, and behind the last of its slots what a number that is no slot's would find. */
+static struct {
+    keel_scheduler_t scheduler;
+    const keel_task_config_t *behind[UINT8_MAX];
+} memory;
+
+static keel_scheduler_t *const scheduler = &memory.scheduler;
 static volatile uint32_t sink;
 
 /* Hides a value from the compiler, which would turn some of these mistakes into others. */
@@ -58,6 +64,7 @@ BREAKS void fault_interrupt(void);
 BREAKS void fault_hang(void);
 BREAKS void fault_jump(void);
 BREAKS void fault_jump_far(void);
+BREAKS void fault_lost_slot(void);
 BREAKS void fault_lost_task(void);
 BREAKS void fault_lost_name(void);
 
@@ -115,10 +122,24 @@ void fault_jump_far(void)
     ((function_t)(hidden(WILD_FAR) | 1u))();
 }
 
-/* The record's task is looked up by pointers that may be what is broken. */
+static const keel_task_config_t **running_task(void)
+{
+    return &scheduler->queue.task[scheduler->queue.order[scheduler->running]];
+}
+
+/* The record's task is looked up by numbers and pointers that may be what is broken. */
+void fault_lost_slot(void)
+{
+    for (uint32_t i = 0u; i < UINT8_MAX; i++) {
+        memory.behind[i] = *running_task();
+    }
+    scheduler->queue.order[scheduler->running] = UINT8_MAX;
+    __asm volatile("udf #2");
+}
+
 void fault_lost_task(void)
 {
-    scheduler.queue.task[scheduler.running] = (keel_task_t *)hidden(NOWHERE);
+    *running_task() = (const keel_task_config_t *)hidden(NOWHERE);
     __asm volatile("udf #2");
 }
 
@@ -126,9 +147,9 @@ void fault_lost_name(void)
 {
     static keel_task_config_t broken;
 
-    broken = *scheduler.queue.task[scheduler.running]->config;
+    broken = **running_task();
     broken.name = (const char *)hidden(NOWHERE);
-    scheduler.queue.task[scheduler.running]->config = &broken;
+    *running_task() = &broken;
     __asm volatile("udf #2");
 }
 
@@ -165,12 +186,11 @@ static void body(void *context)
     FAULT();
 }
 
-static const keel_task_config_t config = {.name = "breaker",
-                                          .run = body,
-                                          .period_us = PERIOD_US,
-                                          .budget_us = BUDGET_US,
-                                          .priority = KEEL_PRIORITY_REALTIME};
-static keel_task_t task = {.config = &config};
+static const keel_task_config_t task = {.name = "breaker",
+                                        .run = body,
+                                        .period_us = PERIOD_US,
+                                        .budget_us = BUDGET_US,
+                                        .priority = KEEL_PRIORITY_REALTIME};
 
 int main(void)
 {
@@ -178,12 +198,12 @@ int main(void)
                                               .guard_us = GUARD_US,
                                               .utilisation_limit = KEEL_UTILISATION_FULL_PPM};
 
-    keel_fault_watch(&scheduler);
-    if ((keel_scheduler_init(&scheduler, &settings) == KEEL_OK) &&
-        (keel_scheduler_add(&scheduler, &task) == KEEL_OK) &&
-        (keel_scheduler_start(&scheduler) == KEEL_OK)) {
+    keel_fault_watch(scheduler);
+    if ((keel_scheduler_init(scheduler, &settings) == KEEL_OK) &&
+        (keel_scheduler_add(scheduler, &task) == KEEL_OK) &&
+        (keel_scheduler_start(scheduler) == KEEL_OK)) {
         keel_console_text("breaking\n");
-        (void)keel_scheduler_step(&scheduler);
+        (void)keel_scheduler_step(scheduler);
     }
     keel_console_text("nothing broke\n");
     return 1;

@@ -46,8 +46,7 @@ typedef struct experiment experiment_t;
 /* A task, and what is watched about it. */
 typedef struct actor {
     experiment_t *experiment;
-    keel_task_t task;
-    keel_task_config_t config;
+    keel_task_config_t config; /* Its address is the task. */
     uint32_t number;
     uint64_t work_ns;
     uint64_t spike_run, spike_ns;
@@ -72,7 +71,7 @@ typedef struct chain {
 } chain_t;
 
 struct experiment {
-    keel_scheduler_t scheduler;
+    keel_scheduler_t *scheduler; /* It lies apart from the declarations. */
     host_board_t board;
     host_costs_t costs;
     rival_step_t step;
@@ -192,6 +191,15 @@ static void note_start(experiment_t *e, actor_t *actor, uint64_t now_ns)
     e->fingerprint = ((e->fingerprint ^ now_ns) * 0x100000001B3u) ^ actor->number;
 }
 
+/* What the scheduler knows of a task: nothing when it was refused. */
+static keel_task_report_t report_of(const actor_t *actor)
+{
+    keel_task_report_t report = {0};
+
+    (void)keel_scheduler_report(actor->experiment->scheduler, &actor->config, &report);
+    return report;
+}
+
 static void note_end(actor_t *actor, uint64_t now_ns)
 {
     const uint64_t due_ns = actor->due_us * HOST_NS_PER_US;
@@ -204,7 +212,7 @@ static void note_end(actor_t *actor, uint64_t now_ns)
     }
     actor->late += (response_ns > deadline_ns) ? 1u : 0u;
     actor->runs++;
-    actor->due_us = actor->task.release_us; /* The kernel has moved it on. */
+    actor->due_us = report_of(actor).release_us; /* The kernel has moved it on. */
 }
 
 static void body(void *context)
@@ -232,25 +240,24 @@ static keel_status_t set_up(experiment_t *e)
                                             .clock_context = &e->board,
                                             .guard_us = e->guard_us,
                                             .utilisation_limit = e->utilisation_limit};
-    keel_status_t status = keel_scheduler_init(&e->scheduler, &config);
+    keel_status_t status = keel_scheduler_init(e->scheduler, &config);
 
-    host_board_init(&e->board, &e->scheduler, &e->costs, e->first_us);
+    host_board_init(&e->board, e->scheduler, &e->costs, e->first_us);
     for (uint32_t i = 0u; (i < e->actors) && (status == KEEL_OK); i++) {
-        e->actor[i].task.config = &e->actor[i].config;
         e->actor[i].due_us = e->actor[i].config.phase_us;
-        status = keel_scheduler_add(&e->scheduler, &e->actor[i].task);
+        status = keel_scheduler_add(e->scheduler, &e->actor[i].config);
     }
-    return (status == KEEL_OK) ? keel_scheduler_start(&e->scheduler) : status;
+    return (status == KEEL_OK) ? keel_scheduler_start(e->scheduler) : status;
 }
 
 /* Eq. 14: the time without load of one window. */
 static void note_window(experiment_t *e, keel_load_t *window)
 {
-    const uint64_t now_us = e->scheduler.clock.now_us;
+    const uint64_t now_us = e->scheduler->clock.now_us;
     const uint64_t length_us = now_us - window->start_us;
 
     if (length_us >= WINDOW_US) {
-        const uint64_t busy_us = e->scheduler.busy_us - window->busy_us;
+        const uint64_t busy_us = e->scheduler->busy_us - window->busy_us;
         const uint64_t idle_us = ((length_us - busy_us) * WINDOW_US) / length_us;
 
         if ((e->windows == 0u) || (idle_us < e->idle_least_us)) {
@@ -258,7 +265,7 @@ static void note_window(experiment_t *e, keel_load_t *window)
         }
         e->idle_total_us += idle_us;
         e->windows++;
-        keel_load_begin(window, now_us, e->scheduler.busy_us);
+        keel_load_begin(window, now_us, e->scheduler->busy_us);
     }
 }
 
@@ -278,7 +285,7 @@ static keel_status_t run(experiment_t *e)
 
     keel_load_begin(&window, 0u, 0u);
     while ((status == KEEL_OK) && (e->board.now_ns < end_ns)) {
-        status = e->step(&e->scheduler);
+        status = e->step(e->scheduler);
         note_window(e, &window);
         if (e->skip) {
             host_board_idle(&e->board, skip_until_ns(&window, end_ns));
@@ -292,7 +299,7 @@ static keel_status_t run(experiment_t *e)
 
 static void print_actor(const actor_t *actor)
 {
-    const keel_stats_t *const stats = &actor->task.stats;
+    const keel_task_report_t report = report_of(actor);
     const double count = (actor->deviations > 0u) ? (double)actor->deviations : 1.0;
     const uint64_t whole_ns = actor->last_ns - actor->first_ns;
 
@@ -304,8 +311,8 @@ static void print_actor(const actor_t *actor)
     (void)printf("\"due\": %" PRIu64 ", \"gap\": %" PRIu64 ", \"last\": %" PRIu64
                  ", \"skipped\": %u, \"overruns\": %u, \"promotions\": %u}",
                  actor->due_us * HOST_NS_PER_US, actor->longest_gap_ns, actor->last_ns,
-                 (unsigned)actor->task.skipped, (unsigned)stats->overruns,
-                 (unsigned)stats->promotions);
+                 (unsigned)report.skipped, (unsigned)report.stats.overruns,
+                 (unsigned)report.stats.promotions);
 }
 
 static void print_chain(const chain_t *chain)
@@ -339,7 +346,11 @@ static void print_result(const experiment_t *e, keel_status_t status)
 
 static void reset(experiment_t *e)
 {
+    keel_scheduler_t *const scheduler = e->scheduler;
+
     (void)memset(e, 0, sizeof *e);
+    (void)memset(scheduler, 0, sizeof *scheduler);
+    e->scheduler = scheduler;
     e->step = keel_scheduler_step;
     e->random = 1u;
 }
@@ -483,7 +494,8 @@ static bool obey(experiment_t *e, const char *line)
 
 int main(void)
 {
-    static experiment_t experiment;
+    static keel_scheduler_t scheduler;
+    static experiment_t experiment = {.scheduler = &scheduler};
     static char line[LINE_SIZE];
 
     reset(&experiment);

@@ -136,11 +136,18 @@ class TargetTest(unittest.TestCase):
         self.assertEqual(bench.read_sizes(text), {"decision": (428, 12)})
 
     def test_symbols_are_read(self) -> None:
-        text = "00000000 00000028 B bench_size_task\n00000028 00000004 B bench_size_slot\n"
-        self.assertEqual(bench.read_symbols(text), {"task": 40, "slot": 4})
+        text = "00000000 0000001c B bench_size_config\n00000028 00000640 B bench_size_scheduler\n"
+        self.assertEqual(bench.read_symbols(text), {"config": 28, "scheduler": 1600})
 
-    def test_ram_per_task_holds_a_slot(self) -> None:
-        target = Target({"a": 100, "b": 50}, {}, {"task": 36, "slot": 4})
+    def test_a_task_is_what_a_scheduler_grows_by(self) -> None:
+        less, more = bench.CAPACITIES
+        self.assertEqual(bench.size_of_task(64 + 40 * less, 64 + 40 * more), 40)
+        for wrong in (64 + 40 * more + 1, 64 + 40 * less, 0):
+            with self.subTest(wrong), self.assertRaisesRegex(BenchError, "whole tasks"):
+                bench.size_of_task(64 + 40 * less, wrong)
+
+    def test_totals(self) -> None:
+        target = Target({"a": 100, "b": 50}, {}, {"task": 40})
         self.assertEqual((target.per_task, target.total), (40, 150))
 
 
@@ -198,7 +205,7 @@ class StepTest(unittest.TestCase):
 
 
 class GoalTest(unittest.TestCase):
-    TARGET = Target({"a": 2048}, {}, {"task": 36, "slot": 4})
+    TARGET = Target({"a": 2048}, {}, {"task": 40})
 
     def goals(self, waited: int, one: int) -> list[Goal]:
         kinds = {name: Kind() for name in bench.KINDS}

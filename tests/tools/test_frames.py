@@ -22,7 +22,7 @@ import refusals  # noqa: E402
 from proofs.project import Unit, find_units  # noqa: E402
 from proofs.settings import Exceptions  # noqa: E402
 
-from proofs import assertions, frames, unused, wp  # noqa: E402
+from proofs import assertions, frames, targets, unused  # noqa: E402
 
 HEADER = """\
 #ifndef BOX_H
@@ -116,13 +116,13 @@ class Frames(Tree):
     def test_all_but_postconditions_and_what_is_named_stays_with_wp(self) -> None:
         entry = "keel_box_fill put_small keel_box_fill_harness"
         exceptions = Exceptions(not_by_wp=self.left, by_cbmc={entry: "why"})
-        target = wp.Target(self.unit, self.unit.source, "keel_box_fill")
+        target = targets.Target(self.unit, self.unit.source, "keel_box_fill")
         found = frames.restricted(target, exceptions).selection
         self.assertEqual(found[:2], ["-wp-fct", "keel_box_fill"])
         self.assertEqual(found[2:], ["-wp-prop=-@ensures,-put_small", *frames.NO_FLOATS])
 
     def test_other_functions_stay_whole(self) -> None:
-        target = wp.Target(self.unit, self.unit.source, "keel_box_put")
+        target = targets.Target(self.unit, self.unit.source, "keel_box_put")
         self.assertEqual(frames.restricted(target, Exceptions()).selection,
                          ["-wp-fct", "keel_box_put"])  # fmt: skip
 
@@ -156,6 +156,15 @@ class Frames(Tree):
     def test_only_what_wp_leaves_may_leave_a_clause(self) -> None:
         entry = "keel_box_fill put_small keel_box_fill_harness"
         self.complaint(entry, "only what not_by_wp names", left={})
+
+    def test_a_ghost_function_has_its_contract_to_itself(self) -> None:
+        ghost = (
+            "/*@ ghost\n/@ requires told: \\true;\n @ ensures \\true;\n @/\n"
+            "static void tell(int *box)\n{\n}\n*/\n\n"
+        )
+        self.write("src/rtos/box.c", SOURCE.replace("/*@ requires", ghost + "/*@ requires"))
+        self.assertEqual(self.problems(), [])
+        self.assertEqual(frames.preconditions([self.unit])["told"], "tell")
 
     def test_a_postcondition_that_no_engine_proves_is_a_failure(self) -> None:
         stated = "  @ assigns *box;\n  @ ensures *box == 3;\n  @*/\nstatic"
@@ -214,6 +223,15 @@ class Unused(Tree):
         self.write("include/keel/rtos/box.h", text.replace("  @*/\n/*@ requires \\v", more))
         names = [problem.split()[1] for problem in unused.problems(self.root)]
         self.assertEqual(names, ["box_small", "box_tiny"])
+
+    def test_ghost_code_and_the_header_of_the_state_count(self) -> None:
+        state = "/*@ predicate box_kept(int x) = x == BOX_LIMIT;\n  @*/\n"
+        self.write("include/keel/rtos/box_state.h", state)
+        [problem] = unused.problems(self.root)
+        self.assertIn("box_state.h:1: box_kept is used by no contract", problem)
+        ghost = "/*@ ghost\n/@ requires box_kept(n);\n @/\nstatic void tell(int n)\n{\n}\n*/\n"
+        self.write("src/rtos/box.c", SOURCE + ghost)
+        self.assertEqual(unused.problems(self.root), [])
 
     def test_a_mention_in_a_comment_is_no_use(self) -> None:
         text = HEADER.replace("box_twice(3)", "6; // box_twice(3)\n  @ //")

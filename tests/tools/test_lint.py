@@ -119,7 +119,8 @@ class IncludeTest(unittest.TestCase):
         for path, header in (
             ("include/keel/rtos/task.h", "keel/rtos/clock.h"),
             ("include/keel/rtos/queue.h", "keel/status.h"),
-            ("include/keel/rtos/scheduler.h", "keel/rtos/decision.h"),
+            ("include/keel/rtos/scheduler.h", "keel/rtos/pass.h"),
+            ("include/keel/rtos/pass.h", "keel/rtos/decision.h"),
             ("src/rtos/queue.c", "keel/rtos/queue.h"),
             ("include/keel/flight/pid.h", "keel/rtos/clock.h"),
             ("src/flight/pid.c", "keel/flight/filter.h"),
@@ -131,6 +132,7 @@ class IncludeTest(unittest.TestCase):
         for path, header in (
             ("include/keel/rtos/clock.h", "keel/rtos/task.h"),
             ("include/keel/rtos/queue.h", "keel/rtos/scheduler.h"),
+            ("include/keel/rtos/pass.h", "keel/rtos/scheduler.h"),
             ("src/rtos/admission.c", "keel/rtos/decision.h"),
             ("src/rtos/task.c", "keel/flight/pid.h"),
             ("src/middleware/voter.c", "keel/flight/pid.h"),
@@ -154,6 +156,31 @@ class IncludeTest(unittest.TestCase):
             text("src/rtos/a.c", '#include "keel/rtos/a.h"'),
         ]
         self.assertEqual(places(list(lint.check_reached(texts))), [("include/keel/rtos/c.h", 1)])
+
+
+class DeclarationTest(unittest.TestCase):
+    """A task's declaration in an example is an object of its own."""
+
+    def lines_of(self, path: str, *lines: str) -> list[int]:
+        return [finding.line for finding in lint.check_declarations(text(path, *lines))]
+
+    def test_a_declaration_in_a_structure_or_on_the_stack_is_found(self) -> None:
+        lines = ("typedef struct demo_task {", "    keel_task_config_t config;", "} demo_task_t;",
+                 "    const keel_task_config_t config = {0};", "    keel_task_config_t row[2];",
+                 "keel_task_config_t shared;")  # fmt: skip
+        self.assertEqual(self.lines_of("examples/demo/demo.c", *lines), [2, 4, 5, 6])
+        self.assertEqual(self.lines_of("tests/unit/board.h", *lines), [])
+
+    def test_objects_pointers_and_values_are_allowed(self) -> None:
+        lines = (
+            "static const keel_task_config_t gyro = {",
+            "static keel_task_config_t declaration[TASKS] IN_DTCM;",
+            "    const keel_task_config_t *declaration;",
+            "static void add(const keel_task_config_t *task)",
+            "keel_task_config_t set_task_config(uint32_t row);",
+            "    return (keel_task_config_t){.name = task->name,",
+        )
+        self.assertEqual(self.lines_of("examples/demo/demo.c", *lines), [])
 
 
 def deviation(

@@ -24,13 +24,13 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import mutate  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
-from proofs.driver import Times  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
 from proofs.mutation import Tools, Trees, Trial, Verdict  # noqa: E402
 from proofs.project import ProjectError, Unit  # noqa: E402
 from proofs.settings import Exceptions  # noqa: E402
+from proofs.times import Times  # noqa: E402
 
-from proofs import mutation, wp  # noqa: E402
+from proofs import mutation, targets, wp  # noqa: E402
 
 HEADER = """\
 #include <stdbool.h>
@@ -197,7 +197,7 @@ class Limits(unittest.TestCase):
                 answer = {"prover": prover, "verdict": "valid", "time": seconds}
                 (Path(folder) / f"{name}.json").write_text(json.dumps(answer), encoding="utf-8")
             goals = [{"prover": "Qed"}, {"prover": "Alt-Ergo 2.0.0"}, {"prover": "CVC4 1.8"}]
-            stages = mutation.limits(wp.Result(goals=goals), Path(folder))
+            stages = mutation.limits(targets.Result(goals=goals), Path(folder))
         names = ("alt-ergo", "cvc4")
         self.assertEqual(stages, (wp.Stage(names, 12), wp.Stage(names, 12, pruning=True)))
 
@@ -217,7 +217,8 @@ class Trials(unittest.TestCase):
         header.write_text(HEADER, encoding="utf-8")
         self.unit = Unit(self.root, "rtos", "box")
         environment = {"PATH": os.environ["PATH"]}
-        tools = Tools((), (), (), ("gcc",), environment, scratch, scratch / "answers")
+        tools = Tools((), (), (), ("gcc",), environment, scratch, scratch / "answers",
+                      scratch / "verdicts")  # fmt: skip
         trees = Trees(self.root, scratch, 1)
         self.trial = Trial(self.unit, tools, trees, (), False, Cache(None), {}, Exceptions(),
                            Times(scratch / "times.json"))  # fmt: skip
@@ -248,7 +249,9 @@ class Asked:
         self.proves = proves
         self.asked: list[tuple[wp.Stage, ...]] = []
 
-    def first_problem(self, _target: wp.Target, stages: tuple[wp.Stage, ...], _: object) -> str:
+    def first_problem(
+        self, _target: targets.Target, stages: tuple[wp.Stage, ...], _: object
+    ) -> str:
         self.asked.append(stages)
         return "" if stages in self.proves else "f_ensures"
 
@@ -260,7 +263,7 @@ class Patience(Trials):
         """What a trial makes of WP's answers, and how often it asked."""
         prover: Any = Asked(proves)
         self.trial._patient = patient
-        target = wp.Target(self.unit, self.unit.header, "keel_box_small")
+        target = targets.Target(self.unit, self.unit.header, "keel_box_small")
         return self.trial._asked(prover, target, self.short), len(prover.asked)
 
     def test_what_only_takes_longer_survives(self) -> None:

@@ -32,6 +32,7 @@ from proofs.cache import Cache  # noqa: E402
 from proofs.jobs import Runner, in_pool  # noqa: E402
 from proofs.project import ProjectError, Unit, closure, find_units  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
+from proofs.times import Times  # noqa: E402
 from toolchain import Toolchain, ToolchainError  # noqa: E402
 
 from proofs import (  # noqa: E402
@@ -42,6 +43,8 @@ from proofs import (  # noqa: E402
     harness,
     rules,
     settings,
+    targets,
+    verdict,
     wp,
     wplog,
     wrong,
@@ -141,6 +144,19 @@ class CSource(unittest.TestCase):
         body = "{ for (;;) { while (x) { } do { } while (y); } }"
         self.assertEqual(csource.loops(body), 3)
 
+    def test_ghost_functions_are_proved_and_their_loops_must_end(self) -> None:
+        text = (
+            "/*@ ghost\n/@ ensures \\true; @/\nstatic void lemma(int n)\n{\n"
+            "    /@ loop variant n; @/\n    while (n > 0) {\n        n--;\n    }\n}\n*/\n"
+            "int f(void)\n{\n    //@ ghost lemma(1);\n    return 1;\n}\n"
+        )
+        opened = csource.with_ghosts(text)
+        self.assertEqual([f.name for f in csource.defined(text)], ["f"])
+        self.assertEqual([f.name for f in csource.proved(text)], ["lemma", "f"])
+        self.assertEqual([f.line for f in csource.proved(text)], [3, 11])
+        self.assertEqual(csource.loops(csource.body_of(opened, "lemma")), 1)
+        self.assertEqual(len(opened), len(text))
+
     def test_other_bodies_are_removed(self) -> None:
         text = csource.without_other_bodies(SOURCE, frozenset(["keel_box_put"]))
         self.assertNotIn("while", text)
@@ -198,11 +214,11 @@ GOOD = (
 
 
 class WpVerdict(TreeTest):
-    def judge(self, log: str, report: str, allowed: tuple[str, ...] = ()) -> wp.Result:
-        target = wp.Target(self.unit, self.unit.source, "keel_box_put")
-        return wp.judge(target, log, report, self.root, allowed)
+    def judge(self, log: str, report: str, allowed: tuple[str, ...] = ()) -> targets.Result:
+        target = targets.Target(self.unit, self.unit.source, "keel_box_put")
+        return verdict.judge(target, log, report, self.root, allowed)
 
-    def assert_fails(self, result: wp.Result, text: str) -> None:
+    def assert_fails(self, result: targets.Result, text: str) -> None:
         self.assertTrue(any(text in problem for problem in result.problems), result.problems)
 
     def test_all_proved_is_success(self) -> None:
@@ -305,16 +321,16 @@ class WpVerdict(TreeTest):
         self.assert_fails(self.judge(log, wp_report(3, 3)), "does not know this function")
 
     def test_a_loop_without_variant_is_a_failure(self) -> None:
-        target = wp.Target(self.unit, self.unit.source, "helper")
+        target = targets.Target(self.unit, self.unit.source, "helper")
         goal = "[wp] [Qed] Goal typed_helper_assigns : Valid (1ms)"
         variant = "[wp] [Qed] Goal typed_helper_loop_variant_decrease : Valid (1ms)"
-        without = wp.judge(target, wp_log(goal, function="helper"), wp_report(1, 1), self.root)
+        without = verdict.judge(target, wp_log(goal, function="helper"), wp_report(1, 1), self.root)
         self.assert_fails(without, "1 loops, but 0 loop variants")
         log = wp_log(goal, variant, function="helper")
-        self.assertEqual(wp.judge(target, log, wp_report(2, 2), self.root).problems, [])
+        self.assertEqual(verdict.judge(target, log, wp_report(2, 2), self.root).problems, [])
         parts = [variant.replace("decrease", f"decrease_part{number}") for number in (1, 2)]
         log = wp_log(goal, *parts, function="helper")
-        self.assertEqual(wp.judge(target, log, wp_report(3, 3), self.root).problems, [])
+        self.assertEqual(verdict.judge(target, log, wp_report(3, 3), self.root).problems, [])
 
 
 class WpRun(TreeTest):
@@ -325,7 +341,7 @@ class WpRun(TreeTest):
         return wp.Wp(frama_c, runner, self.root, self.root, cache)
 
     def test_each_stage_uses_its_own_provers_only(self) -> None:
-        target = wp.Target(self.unit, self.unit.source, "keel_box_put")
+        target = targets.Target(self.unit, self.unit.source, "keel_box_put")
         command = self.prover().command(target, wp.THOROUGH, True, self.root / "r.json")
         provers = [word for word in command if word.startswith("-wp-prover")]
         # WP asks a prover as often as it was named, so none is named again while it stays.
@@ -337,7 +353,7 @@ class WpRun(TreeTest):
 
     def test_answers_that_prove_nothing_are_forgotten(self) -> None:
         prover = self.prover(self.root / "answers")
-        target = wp.Target(self.unit, self.unit.source, "keel_box_put")
+        target = targets.Target(self.unit, self.unit.source, "keel_box_put")
         folder = self.root / "answers" / target.identity
         folder.mkdir(parents=True)
         answers = {
@@ -355,18 +371,19 @@ class WpRun(TreeTest):
     def test_targets_are_the_functions_of_header_and_source_and_the_lemmas(self) -> None:
         with self.unit.header.open("a", encoding="utf-8") as stream:
             stream.write("/*@ lemma BOX_two: 1 + 1 == 2;\n  @*/\n")
-        names = [(target.name, target.lemmas) for target in wp.targets(self.unit)]
+        names = [(t.name, t.lemmas) for t in targets.targets(self.unit)]
         self.assertEqual(names, [("helper", ()), ("keel_box_put", ()), ("lemmas", ("BOX_two",))])
 
     def test_theorem_files_are_targets(self) -> None:
         text = "// wp: theorem\nvoid theorem(int *b)\n{\n    keel_box_put(b, 1);\n}\n"
         (self.unit.folder / "twice.c").write_text(text, encoding="utf-8")
         unit = find_units(self.root)["box"]
-        self.assertIn(("twice", "theorem"), [(t.file.stem, t.function) for t in wp.targets(unit)])
+        found = [(t.file.stem, t.function) for t in targets.targets(unit)]
+        self.assertIn(("twice", "theorem"), found)
 
     def test_a_unit_of_inline_functions_is_proved_by_including_it(self) -> None:
         self.unit.source.unlink()
-        file = wp.translation_unit(self.unit)
+        file = targets.translation_unit(self.unit)
         self.assertEqual(file.read_text(encoding="utf-8"), '#include "keel/rtos/box.h"\n')
 
 
@@ -450,7 +467,7 @@ class Jobs(unittest.TestCase):
         keys = iter([key, key, changed or key])
         job = driver.Job("box", "wp", "f", lambda: next(keys), execute)
         runner = Runner({}, self.folder)
-        times = driver.Times(self.folder / "times.json")
+        times = Times(self.folder / "times.json")
         cache = Cache(self.folder / "cache")
         [outcome] = driver.run_jobs([job], cache, runner, 1, times, lambda _: None)
         return len(executed), outcome
@@ -492,7 +509,7 @@ class Jobs(unittest.TestCase):
             return driver.Job("b", "wp", name, lambda: name, execute)
 
         jobs = [job("short"), job("long"), job("new")]
-        times = driver.Times(self.folder / "times.json")
+        times = Times(self.folder / "times.json")
         driver.run_jobs(jobs, Cache(None), Runner({}, self.folder), 1, times, lambda _: None)
         self.assertEqual(order, ["new", "long", "short"])
 
@@ -717,6 +734,12 @@ int keel_box_get_stand_in(int box)
             return harness.text_problems(harness.read_harness(self.unit, path))
 
         self.assertEqual(problems(text), [])
+        elsewhere = self.unit.folder.with_name("crate")
+        elsewhere.mkdir()
+        (self.unit.folder / "keel_box_get_harness.c").rename(elsewhere / "keel_box_get_harness.c")
+        self.assertEqual(problems(text), [])
+        (elsewhere / "keel_box_get_harness.c").unlink()
+        self.assertIn("get_harness lacks __CPROVER_assume(", problems(text)[0])
         self.assertIn("stand_in lacks", problems(text.replace("assert(keel", "assume(keel"))[0])
         self.assertIn("is to prove", problems(text.replace("s: keel_box_put", "s: keel_box_get "
                                                            "keel_box_put"))[0])  # fmt: skip
@@ -914,9 +937,14 @@ class FakeTools:
         return {}
 
 
-class WholeRun(TreeTest):
+class WholeRunCase(TreeTest):
+    """A project whose engines say what a test has them say."""
+
+    fresh = False
+
     def setUp(self) -> None:
         super().setUp()
+        self.verdict_folder = self.root / "verdicts"
         self.tools = FakeTools(self.root)
         (self.unit.folder / "wrong" / "zero.toml").unlink()
         self.play()
@@ -930,15 +958,21 @@ class WholeRun(TreeTest):
         parts = {"goals": GOALS, "cbmc": json.loads(cbmc_output(ASSERTED)), "cover": COVERED}
         self.tools.play(**(parts | changes))
 
-    def prove(self, update: bool = False, partial: bool = False) -> tuple[int, str, dict[str, Any]]:
+    def prove(
+        self, update: bool = False, partial: bool = False, **more: Any
+    ) -> tuple[int, str, dict[str, Any]]:
+        """A run: its status, its output, and its report."""
         unit = find_units(self.root)["box"]
-        choice = Choice((unit,), partial, ("wp", "cbmc"), 2, True, False, update)
+        choice = Choice((unit,), partial, ("wp", "cbmc"), 2, self.verdict_folder, self.fresh,
+                        update_goals=update, **more)  # fmt: skip
         output = io.StringIO()
         with contextlib.redirect_stdout(output):
             tools: Any = self.tools
             status = Session(self.root, tools, choice).run()
         return status, output.getvalue(), json.loads(self.report_file.read_text(encoding="utf-8"))
 
+
+class WholeRun(WholeRunCase):
     def test_a_proof(self) -> None:
         status, output, report = self.prove()
         self.assertEqual(status, 0, output)
@@ -1018,7 +1052,7 @@ class WholeRun(TreeTest):
         self.assertFalse(self.report_file.exists())
 
 
-class Jobs(unittest.TestCase):
+class Pool(unittest.TestCase):
     def test_an_interrupt_while_tasks_are_handed_in_stops_those_that_run(self) -> None:
         runner = mock.Mock()
         handed_in: list[Callable[[], int]] = []
@@ -1067,7 +1101,7 @@ import test_prove as t
 root = Path({root!r})
 unit = t.find_units(root)["box"]
 t.prove.end_as_by_ctrl_c()
-t.Session(root, t.FakeTools(root), t.Choice((unit,), False, ("wp",), 2, True, False, False)).run()
+t.Session(root, t.FakeTools(root), t.Choice((unit,), False, ("wp",), 2, root / "v")).run()
 """
 
 

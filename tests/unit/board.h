@@ -16,19 +16,11 @@
 #define BOARD_LOG_SIZE 200u
 
 typedef struct actor {
-    keel_task_t task;
-    keel_task_config_t config;
-    uint32_t cost_us;  /* How long it runs. */
-    void (*act)(void); /* What it does halfway, or null. */
+    keel_task_config_t config; /* Its address is the task. */
+    uint32_t cost_us;          /* How long it runs. */
+    void (*act)(void);         /* What it does halfway, or null. */
     char name;
 } actor_t;
-
-/* What the kernel may write: compared byte for byte where it must not. */
-typedef struct kernel_memory {
-    keel_scheduler_t scheduler;
-    actor_t a, b, c, d, o, p;
-    actor_t crowd[KEEL_QUEUE_CAPACITY];
-} kernel_memory_t;
 
 typedef struct board {
     uint32_t raw_us; /* The counter. */
@@ -37,8 +29,11 @@ typedef struct board {
     char ran[BOARD_LOG_SIZE];
 } board_t;
 
-static kernel_memory_t kernel;
-static kernel_memory_t kernel_before;
+/* All that the kernel may write: compared byte for byte where it must not. */
+static keel_scheduler_t scheduler;
+static keel_scheduler_t scheduler_before;
+
+static actor_t a, b, c, d, o, p;
 static board_t board;
 
 /* A reading of the counter some time later: it wraps. */
@@ -80,21 +75,20 @@ static inline void declare(actor_t *actor, char name, uint32_t priority, uint32_
     actor->config.period_us = period_us;
     actor->config.budget_us = budget_us;
     actor->config.priority = priority;
-    actor->task.config = &actor->config;
 }
 
 /* Clears the board; A to D are real-time, O and P are not. */
 static inline void board_reset(uint32_t raw_us)
 {
     memset(&board, 0, sizeof board);
-    memset(&kernel, 0, sizeof kernel);
+    memset(&scheduler, 0, sizeof scheduler);
     board.raw_us = raw_us;
-    declare(&kernel.a, 'A', KEEL_PRIORITY_REALTIME, 1000u, 10u);
-    declare(&kernel.b, 'B', KEEL_PRIORITY_REALTIME, 1000u, 20u);
-    declare(&kernel.c, 'C', KEEL_PRIORITY_REALTIME, 1000u, 30u);
-    declare(&kernel.d, 'D', KEEL_PRIORITY_REALTIME, 1000u, 40u);
-    declare(&kernel.o, 'O', KEEL_PRIORITY_LOW, 2000u, 50u);
-    declare(&kernel.p, 'P', KEEL_PRIORITY_HIGH, 2000u, 60u);
+    declare(&a, 'A', KEEL_PRIORITY_REALTIME, 1000u, 10u);
+    declare(&b, 'B', KEEL_PRIORITY_REALTIME, 1000u, 20u);
+    declare(&c, 'C', KEEL_PRIORITY_REALTIME, 1000u, 30u);
+    declare(&d, 'D', KEEL_PRIORITY_REALTIME, 1000u, 40u);
+    declare(&o, 'O', KEEL_PRIORITY_LOW, 2000u, 50u);
+    declare(&p, 'P', KEEL_PRIORITY_HIGH, 2000u, 60u);
 }
 
 static inline keel_scheduler_config_t board_config(uint32_t guard_us)
@@ -109,21 +103,63 @@ static inline void board_init(uint32_t guard_us)
 {
     const keel_scheduler_config_t config = board_config(guard_us);
 
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_init(&kernel.scheduler, &config));
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_init(&scheduler, &config));
 }
 
 /* The checks below name the line of the test that made them, not their own. */
-#define add(actor)     succeeds(keel_scheduler_add(&kernel.scheduler, &(actor)->task), __LINE__)
-#define discard(actor) succeeds(keel_scheduler_remove(&kernel.scheduler, &(actor)->task), __LINE__)
-#define start()        succeeds(keel_scheduler_start(&kernel.scheduler), __LINE__)
-#define step()         succeeds(keel_scheduler_step(&kernel.scheduler), __LINE__)
+#define add(actor)     succeeds(keel_scheduler_add(&scheduler, &(actor)->config), __LINE__)
+#define discard(actor) succeeds(keel_scheduler_remove(&scheduler, &(actor)->config), __LINE__)
+#define start()        succeeds(keel_scheduler_start(&scheduler), __LINE__)
+#define step()         succeeds(keel_scheduler_step(&scheduler), __LINE__)
 #define step_at(now)   succeeds(step_when(now), __LINE__)
+#define report(actor)  report_at(actor, __LINE__)
+#define unknown(actor) unknown_at(actor, __LINE__)
+#define took(actor, n) took_at(actor, n, __LINE__)
 #define ran(names)     ran_at(names, __LINE__)
 #define unchanged()    unchanged_at(__LINE__)
 
 static inline void succeeds(keel_status_t status, int line)
 {
     UNITY_TEST_ASSERT_EQUAL_INT(KEEL_OK, status, line, "refused");
+}
+
+/* What the scheduler tells of a task. */
+static inline keel_task_report_t report_at(const actor_t *actor, int line)
+{
+    keel_task_report_t found;
+
+    memset(&found, 0xA5, sizeof found);
+    succeeds(keel_scheduler_report(&scheduler, &actor->config, &found), line);
+    return found;
+}
+
+/* The scheduler does not know this task. */
+static inline void unknown_at(const actor_t *actor, int line)
+{
+    keel_task_report_t found;
+
+    UNITY_TEST_ASSERT_EQUAL_INT(KEEL_ERR_UNKNOWN_TASK,
+                                keel_scheduler_report(&scheduler, &actor->config, &found), line,
+                                "known");
+}
+
+/* A task ran so often, and each time took its own time and no other's. */
+static inline void took_at(const actor_t *actor, uint32_t runs, int line)
+{
+    const keel_stats_t stats = report_at(actor, line).stats;
+
+    UNITY_TEST_ASSERT_EQUAL_UINT32(runs, stats.runs, line, "runs");
+    UNITY_TEST_ASSERT_EQUAL_UINT32((runs > 0u) ? actor->cost_us : 0u, stats.last_us, line, "last");
+    UNITY_TEST_ASSERT_EQUAL_UINT64((uint64_t)runs * actor->cost_us, stats.total_us, line, "total");
+}
+
+/* Where the scheduler keeps a task: for a test that sets what cannot be told to it. */
+static inline uint32_t slot_of(const actor_t *actor)
+{
+    const uint32_t position = keel_queue_find(&scheduler.queue, &actor->config);
+
+    TEST_ASSERT_LESS_THAN_UINT32(scheduler.queue.count, position);
+    return scheduler.queue.order[position];
 }
 
 /* Lets time pass outside of tasks. */
@@ -135,10 +171,10 @@ static inline void wait_us(uint32_t us)
 /* Steps once when the scheduler's time is now_us. */
 static inline keel_status_t step_when(uint64_t now_us)
 {
-    const keel_clock_t *const clock = &kernel.scheduler.clock;
+    const keel_clock_t *const clock = &scheduler.clock;
 
     board.raw_us = later(clock->raw_us, (uint32_t)(now_us - clock->now_us));
-    return keel_scheduler_step(&kernel.scheduler);
+    return keel_scheduler_step(&scheduler);
 }
 
 /* These ran since the last look, in this order. */
@@ -151,13 +187,14 @@ static inline void ran_at(const char *names, int line)
 
 static inline void remember(void)
 {
-    memcpy(&kernel_before, &kernel, sizeof kernel);
+    memcpy(&scheduler_before, &scheduler, sizeof scheduler);
 }
 
 /* The kernel has written nothing since remember(). */
 static inline void unchanged_at(int line)
 {
-    UNITY_TEST_ASSERT_EQUAL_MEMORY(&kernel_before, &kernel, sizeof kernel, line, "written");
+    UNITY_TEST_ASSERT_EQUAL_MEMORY(&scheduler_before, &scheduler, sizeof scheduler, line,
+                                   "written");
 }
 
 #endif

@@ -15,23 +15,9 @@ void tearDown(void)
 {
 }
 
-static void body(void *context)
-{
-    (void)context;
-}
-
-static keel_task_config_t declare(uint32_t priority, uint32_t period_us, uint32_t budget_us)
-{
-    const keel_task_config_t config = {NULL, body, NULL, period_us, budget_us, 0u, priority};
-
-    return config;
-}
-
 static keel_status_t admit(uint32_t priority, uint32_t period_us, uint32_t budget_us)
 {
-    const keel_task_config_t config = declare(priority, period_us, budget_us);
-
-    return keel_admission_admit(&admission, &config);
+    return keel_admission_admit(&admission, priority, period_us, budget_us);
 }
 
 static void begin(uint32_t guard_us)
@@ -220,21 +206,30 @@ static void ADM_003_first_reason_is_reported(void)
 }
 
 static keel_queue_t queue;
-static keel_task_config_t config[4];
-static keel_task_t task[4];
+static keel_task_config_t config[3];
 
-/* A queue of three tasks; the one named by index has the given declaration, the others suit. */
-static void queue_with(uint32_t index, keel_task_config_t misfit)
+static void body(void *context)
+{
+    (void)context;
+}
+
+static keel_task_config_t declare(uint32_t priority, uint32_t period_us, uint32_t budget_us)
+{
+    const keel_task_config_t config = {NULL, body, NULL, period_us, budget_us, 0u, priority};
+
+    return config;
+}
+
+/* A queue of three tasks; the one at a position has the given declaration, the others suit. */
+static void queue_with(uint32_t position, keel_task_config_t misfit)
 {
     keel_queue_init(&queue);
-    memset(task, 0, sizeof task);
     config[0] = declare(KEEL_PRIORITY_REALTIME, 1000u, 100u);
     config[1] = declare(KEEL_PRIORITY_REALTIME, 2000u, 100u);
     config[2] = declare(KEEL_PRIORITY_LOW, 1000u, 10u);
-    config[index] = misfit;
+    config[position] = misfit;
     for (uint32_t i = 0u; i < 3u; i++) {
-        task[i].config = &config[i];
-        TEST_ASSERT_EQUAL(KEEL_OK, keel_queue_add(&queue, &task[i]));
+        keel_queue_add(&queue, &config[i], 0u);
     }
     begin(10u);
 }

@@ -1,6 +1,8 @@
 /* Unit tests of keel/rtos/scheduler.h on a virtual board. Schedules are worked out by hand. */
 #include "board.h"
 
+static actor_t crowd[KEEL_QUEUE_CAPACITY];
+
 void setUp(void)
 {
     board_reset(0u);
@@ -15,7 +17,7 @@ void tearDown(void)
 static void SCH_001_init_makes_an_empty_scheduler(void)
 {
     const keel_scheduler_config_t config = board_config(25u);
-    keel_scheduler_t *const s = &kernel.scheduler;
+    keel_scheduler_t *const s = &scheduler;
 
     memset(s, 0xA5, sizeof *s);
     TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_init(s, &config));
@@ -35,15 +37,16 @@ static void SCH_001_init_makes_an_empty_scheduler(void)
     TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_SETUP, s->stage);
     TEST_ASSERT_EQUAL_UINT32(0u, s->cursor);
     TEST_ASSERT_EQUAL_UINT32(0u, s->pass_end);
-    TEST_ASSERT_EQUAL_UINT32(KEEL_INDEX_NONE, s->running);
-    TEST_ASSERT_FALSE(s->ran);
+    TEST_ASSERT_EQUAL_UINT32(KEEL_POSITION_NONE, s->running);
+    TEST_ASSERT_EQUAL_UINT64(0u, s->earliest_realtime_us);
+    TEST_ASSERT_EQUAL_UINT64(0u, s->earliest_other_us);
     TEST_ASSERT_EQUAL_UINT32(0u, board.reads);
 }
 
 static void init_is_refused(keel_status_t reason, const keel_scheduler_config_t *config)
 {
     remember();
-    TEST_ASSERT_EQUAL(reason, keel_scheduler_init(&kernel.scheduler, config));
+    TEST_ASSERT_EQUAL(reason, keel_scheduler_init(&scheduler, config));
     unchanged();
 }
 
@@ -66,7 +69,7 @@ static void SCH_002_init_refuses_limits_out_of_range(void)
     config.utilisation_limit = 1000001u;
     init_is_refused(KEEL_ERR_CONFIG, &config);
     config.utilisation_limit = 1000000u;
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_init(&kernel.scheduler, &config));
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_init(&scheduler, &config));
 }
 
 static void check_finds(keel_status_t status, uint32_t admitted)
@@ -74,8 +77,16 @@ static void check_finds(keel_status_t status, uint32_t admitted)
     uint32_t found = UINT32_MAX;
 
     remember();
-    TEST_ASSERT_EQUAL(status, keel_scheduler_check(&kernel.scheduler, &found));
+    TEST_ASSERT_EQUAL(status, keel_scheduler_check(&scheduler, &found));
     TEST_ASSERT_EQUAL_UINT32(admitted, found);
+    unchanged();
+}
+
+static void start_is_refused(keel_status_t reason)
+{
+    remember();
+    TEST_ASSERT_EQUAL(reason, keel_scheduler_start(&scheduler));
+    TEST_ASSERT_EQUAL(reason, keel_scheduler_start_at(&scheduler, 4711u));
     unchanged();
 }
 
@@ -83,28 +94,28 @@ static void SCH_003_check_names_the_offender(void)
 {
     board_init(10u);
     check_finds(KEEL_OK, 0u);
-    add(&kernel.a);
+    add(&a);
     check_finds(KEEL_OK, 1u);
-    kernel.b.config.budget_us = 971u; /* 10 + 971 + 20 > 1000 */
-    add(&kernel.b);
+    b.config.budget_us = 971u; /* 10 + 971 + 20 > 1000 */
+    add(&b);
     check_finds(KEEL_ERR_REALTIME_DEMAND, 1u);
-    discard(&kernel.b);
-    kernel.o.config.budget_us = 981u; /* 981 + 10 > 990 */
-    add(&kernel.o);
+    discard(&b);
+    o.config.budget_us = 981u; /* 981 + 10 > 990 */
+    add(&o);
     check_finds(KEEL_ERR_BUDGET_GAP, 1u);
-    discard(&kernel.o);
-    kernel.p.config.budget_us = 980u;
-    kernel.p.config.period_us = 985u; /* 1 % + 99.5 % */
-    add(&kernel.p);
+    discard(&o);
+    p.config.budget_us = 980u;
+    p.config.period_us = 985u; /* 1 % + 99.5 % */
+    add(&p);
     check_finds(KEEL_ERR_UTILISATION, 1u);
 }
 
 static void SCH_004_add_before_the_start_checks_the_task_alone(void)
 {
     board_init(10u);
-    kernel.a.config.budget_us = 5000u; /* Never admissible, but that is for the start to say. */
-    add(&kernel.a);
-    TEST_ASSERT_EQUAL_UINT32(1u, kernel.scheduler.queue.count);
+    a.config.budget_us = 5000u; /* Never admissible, but that is for the start to say. */
+    add(&a);
+    TEST_ASSERT_EQUAL_UINT32(1u, scheduler.queue.count);
 }
 
 static void SCH_004_add_after_the_start_arms_the_task_from_now(void)
@@ -112,29 +123,45 @@ static void SCH_004_add_after_the_start_arms_the_task_from_now(void)
     board_init(0u);
     start();
     step_at(5000u);
-    kernel.o.config.phase_us = 300u;
-    kernel.o.task.stats.runs = 7u;
-    kernel.o.task.skipped = 7u;
-    add(&kernel.o);
-    TEST_ASSERT_EQUAL_UINT64(5300u, kernel.o.task.release_us);
-    TEST_ASSERT_EQUAL_UINT32(0u, kernel.o.task.stats.runs);
-    TEST_ASSERT_EQUAL_UINT32(0u, kernel.o.task.skipped);
+    o.config.phase_us = 300u;
+    add(&o);
+    TEST_ASSERT_EQUAL_UINT64(5300u, report(&o).release_us);
     step_at(5299u);
     ran("");
     step_at(5300u);
     ran("O");
 }
 
+static void SCH_004_a_task_added_again_begins_anew(void)
+{
+    const keel_stats_t none = {0u, 0u, 0u, 0u, 0u, 0u};
+    keel_task_report_t again;
+
+    board_init(0u);
+    add(&p);
+    start();
+    p.cost_us = 61u;  /* An overrun. */
+    step_at(100000u); /* Promoted, 50 periods late. */
+    ran("P");
+    TEST_ASSERT_EQUAL_UINT16(50u, report(&p).skipped);
+    discard(&p);
+    add(&p);
+    again = report(&p);
+    TEST_ASSERT_EQUAL_UINT64(100061u, again.release_us);
+    TEST_ASSERT_EQUAL_UINT16(0u, again.skipped);
+    TEST_ASSERT_EQUAL_MEMORY(&none, &again.stats, sizeof none);
+}
+
 static void SCH_004_add_after_the_start_wakes_the_scheduler(void)
 {
     board_init(0u);
-    kernel.a.config.phase_us = 900u;
-    add(&kernel.a);
+    a.config.phase_us = 900u;
+    add(&a);
     start();
     step_at(100u); /* Idle until 900. */
-    TEST_ASSERT_EQUAL_UINT64(900u, kernel.scheduler.wake_us);
-    kernel.o.config.phase_us = 50u;
-    add(&kernel.o);
+    TEST_ASSERT_EQUAL_UINT64(900u, scheduler.wake_us);
+    o.config.phase_us = 50u;
+    add(&o);
     step_at(149u);
     ran("");
     step_at(150u);
@@ -144,41 +171,38 @@ static void SCH_004_add_after_the_start_wakes_the_scheduler(void)
 static void add_is_refused(keel_status_t reason, actor_t *actor)
 {
     remember();
-    TEST_ASSERT_EQUAL(reason, keel_scheduler_add(&kernel.scheduler, &actor->task));
+    TEST_ASSERT_EQUAL(reason, keel_scheduler_add(&scheduler, &actor->config));
     unchanged();
 }
 
 /* Every reason of keel_task_check, then mended; the queue is as before. */
 static void refuses_bad_declarations(void)
 {
-    kernel.o.task.config = NULL;
-    add_is_refused(KEEL_ERR_NULL, &kernel.o);
-    kernel.o.task.config = &kernel.o.config;
-    kernel.o.config.run = NULL;
-    add_is_refused(KEEL_ERR_NULL, &kernel.o);
-    kernel.o.config.run = actor_run;
-    kernel.o.config.period_us = 0u;
-    add_is_refused(KEEL_ERR_PERIOD, &kernel.o);
-    kernel.o.config.period_us = 0x80000000u;
-    add_is_refused(KEEL_ERR_PERIOD, &kernel.o);
-    kernel.o.config.period_us = 2000u;
-    kernel.o.config.phase_us = 2000u;
-    add_is_refused(KEEL_ERR_PHASE, &kernel.o);
-    kernel.o.config.phase_us = 0u;
-    kernel.o.config.budget_us = 0u;
-    add_is_refused(KEEL_ERR_BUDGET_ZERO, &kernel.o);
-    kernel.o.config.budget_us = 50u;
-    kernel.o.config.priority = 5u;
-    add_is_refused(KEEL_ERR_PRIORITY, &kernel.o);
-    kernel.o.config.priority = KEEL_PRIORITY_LOW;
+    o.config.run = NULL;
+    add_is_refused(KEEL_ERR_NULL, &o);
+    o.config.run = actor_run;
+    o.config.period_us = 0u;
+    add_is_refused(KEEL_ERR_PERIOD, &o);
+    o.config.period_us = 0x80000000u;
+    add_is_refused(KEEL_ERR_PERIOD, &o);
+    o.config.period_us = 2000u;
+    o.config.phase_us = 2000u;
+    add_is_refused(KEEL_ERR_PHASE, &o);
+    o.config.phase_us = 0u;
+    o.config.budget_us = 0u;
+    add_is_refused(KEEL_ERR_BUDGET_ZERO, &o);
+    o.config.budget_us = 50u;
+    o.config.priority = 5u;
+    add_is_refused(KEEL_ERR_PRIORITY, &o);
+    o.config.priority = KEEL_PRIORITY_LOW;
 }
 
 static void SCH_005_add_refuses_null(void)
 {
     board_init(0u);
     remember();
-    TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_add(NULL, &kernel.a.task));
-    TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_add(&kernel.scheduler, NULL));
+    TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_add(NULL, &a.config));
+    TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_add(&scheduler, NULL));
     unchanged();
 }
 
@@ -186,28 +210,28 @@ static void SCH_005_add_refuses_bad_declarations(void)
 {
     board_init(0u);
     refuses_bad_declarations();
-    add(&kernel.a);
+    add(&a);
     start();
     step();
     refuses_bad_declarations();
-    add(&kernel.o);
+    add(&o);
 }
 
 static void SCH_005_add_refuses_a_duplicate(void)
 {
     board_init(0u);
-    add(&kernel.a);
-    add(&kernel.o);
-    add_is_refused(KEEL_ERR_DUPLICATE, &kernel.a);
+    add(&a);
+    add(&o);
+    add_is_refused(KEEL_ERR_DUPLICATE, &a);
     start();
-    add_is_refused(KEEL_ERR_DUPLICATE, &kernel.o);
+    add_is_refused(KEEL_ERR_DUPLICATE, &o);
 }
 
 static void fill_with_a_crowd(void)
 {
     for (uint32_t i = 0u; i < KEEL_QUEUE_CAPACITY; i++) {
-        declare(&kernel.crowd[i], 'x', KEEL_PRIORITY_LOW, 1000000u, 1u);
-        add(&kernel.crowd[i]);
+        declare(&crowd[i], 'x', KEEL_PRIORITY_LOW, 1000000u, 1u);
+        add(&crowd[i]);
     }
 }
 
@@ -215,26 +239,120 @@ static void SCH_005_add_refuses_when_full(void)
 {
     board_init(0u);
     fill_with_a_crowd();
-    add_is_refused(KEEL_ERR_FULL, &kernel.a);
-    add_is_refused(KEEL_ERR_DUPLICATE, &kernel.crowd[0]);
+    add_is_refused(KEEL_ERR_FULL, &a);
+    add_is_refused(KEEL_ERR_DUPLICATE, &crowd[0]);
     start();
-    add_is_refused(KEEL_ERR_FULL, &kernel.o);
+    add_is_refused(KEEL_ERR_FULL, &o);
 }
 
 static void SCH_005_add_after_the_start_refuses_what_is_not_admitted(void)
 {
     board_init(10u);
-    add(&kernel.a);
+    add(&a);
     start();
-    kernel.b.config.budget_us = 971u;
-    add_is_refused(KEEL_ERR_REALTIME_DEMAND, &kernel.b);
-    kernel.o.config.budget_us = 981u;
-    add_is_refused(KEEL_ERR_BUDGET_GAP, &kernel.o);
-    kernel.p.config.budget_us = 980u;
-    kernel.p.config.period_us = 985u;
-    add_is_refused(KEEL_ERR_UTILISATION, &kernel.p);
-    kernel.b.config.budget_us = 970u;
-    add(&kernel.b);
+    b.config.budget_us = 971u;
+    add_is_refused(KEEL_ERR_REALTIME_DEMAND, &b);
+    o.config.budget_us = 981u;
+    add_is_refused(KEEL_ERR_BUDGET_GAP, &o);
+    p.config.budget_us = 980u;
+    p.config.period_us = 985u;
+    add_is_refused(KEEL_ERR_UTILISATION, &p);
+    b.config.budget_us = 970u;
+    add(&b);
+}
+
+/* Guard 10; A leaves 990 us of each 1000. */
+static void with_a(void)
+{
+    board_reset(0u);
+    board_init(10u);
+    add(&a);
+}
+
+/* And O, whose runs take up to 60 us. */
+static void with_a_and_o(void)
+{
+    with_a();
+    o.config.budget_us = 60u;
+    add(&o);
+}
+
+/* The same A, when no more than a tenth of the time is to be used. */
+static void with_a_and_a_tenth(void)
+{
+    keel_scheduler_config_t config = board_config(10u);
+
+    config.utilisation_limit = 100000u;
+    board_reset(0u);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_init(&scheduler, &config));
+    add(&a);
+}
+
+/* What a task declares, as far as admission looks at it. */
+typedef struct claim {
+    uint32_t period_us, budget_us;
+} claim_t;
+
+static void claims(actor_t *actor, claim_t claim)
+{
+    actor->config.period_us = claim.period_us;
+    actor->config.budget_us = claim.budget_us;
+}
+
+/* A task is accepted after the start exactly as far as the rule goes. */
+static void joins_up_to(void (*set_up)(void), actor_t *actor, claim_t good, claim_t bad,
+                        keel_status_t reason)
+{
+    set_up();
+    start();
+    claims(actor, bad);
+    add_is_refused(reason, actor);
+    claims(actor, good);
+    add(actor);
+}
+
+/* A set starts exactly as far as the rule goes; the offender is the task at a position. */
+static void starts_up_to(void (*set_up)(void), actor_t *actor, claim_t good, claim_t bad,
+                         keel_status_t reason, uint32_t offender)
+{
+    set_up();
+    claims(actor, bad);
+    add(actor);
+    check_finds(reason, offender);
+    start_is_refused(reason);
+    discard(actor);
+    claims(actor, good);
+    add(actor);
+    check_finds(KEEL_OK, scheduler.queue.count);
+    start();
+}
+
+static const claim_t demand[2] = {{1000u, 970u}, {1000u, 971u}};  /* 10 + 970 + 2 * 10 = 1000 */
+static const claim_t short_period[2] = {{60u, 30u}, {59u, 30u}};  /* 10 + 30 + 2 * 10 = 60 */
+static const claim_t gap[2] = {{100000u, 980u}, {100000u, 981u}}; /* 980 + 10 = 990 */
+static const claim_t gap_left[2] = {{100u, 30u}, {100u, 31u}};    /* 60 + 10 = 100 - 30 */
+static const claim_t tenth[2] = {{2000u, 180u}, {2000u, 181u}};   /* 1 % + 9 % */
+static const claim_t tenth_of[2] = {{2000u, 180u}, {1999u, 180u}};
+
+static void SCH_004_add_after_the_start_accepts_all_that_can_be_scheduled(void)
+{
+    joins_up_to(with_a, &b, demand[0], demand[1], KEEL_ERR_REALTIME_DEMAND);
+    joins_up_to(with_a, &b, short_period[0], short_period[1], KEEL_ERR_REALTIME_DEMAND);
+    joins_up_to(with_a, &o, gap[0], gap[1], KEEL_ERR_BUDGET_GAP);
+    joins_up_to(with_a_and_o, &b, gap_left[0], gap_left[1], KEEL_ERR_BUDGET_GAP);
+    joins_up_to(with_a_and_a_tenth, &p, tenth[0], tenth[1], KEEL_ERR_UTILISATION);
+    joins_up_to(with_a_and_a_tenth, &p, tenth_of[0], tenth_of[1], KEEL_ERR_UTILISATION);
+}
+
+static void SCH_009_start_accepts_all_that_can_be_scheduled(void)
+{
+    starts_up_to(with_a, &b, demand[0], demand[1], KEEL_ERR_REALTIME_DEMAND, 1u);
+    starts_up_to(with_a, &b, short_period[0], short_period[1], KEEL_ERR_REALTIME_DEMAND, 1u);
+    starts_up_to(with_a, &o, gap[0], gap[1], KEEL_ERR_BUDGET_GAP, 1u);
+    /* B is before O in the queue, so it is O that no longer fits. */
+    starts_up_to(with_a_and_o, &b, gap_left[0], gap_left[1], KEEL_ERR_BUDGET_GAP, 2u);
+    starts_up_to(with_a_and_a_tenth, &p, tenth[0], tenth[1], KEEL_ERR_UTILISATION, 1u);
+    starts_up_to(with_a_and_a_tenth, &p, tenth_of[0], tenth_of[1], KEEL_ERR_UTILISATION, 1u);
 }
 
 /* Nobody may write the limit of a started scheduler. If it is written nonetheless, so that the
@@ -242,41 +360,41 @@ static void SCH_005_add_after_the_start_refuses_what_is_not_admitted(void)
 static void SCH_005_add_refuses_when_the_set_itself_is_not_admitted(void)
 {
     board_init(10u);
-    add(&kernel.a);
+    add(&a);
     start();
-    kernel.scheduler.config.utilisation_limit = 9999u; /* A takes 1 %. */
-    add_is_refused(KEEL_ERR_UTILISATION, &kernel.o);
+    scheduler.config.utilisation_limit = 9999u; /* A takes 1 %. */
+    add_is_refused(KEEL_ERR_UTILISATION, &o);
 }
 
 static void SCH_007_remove_takes_the_task_out(void)
 {
     board_init(0u);
-    add(&kernel.a);
-    add(&kernel.b);
-    discard(&kernel.a);
+    add(&a);
+    add(&b);
+    discard(&a);
     start();
     step();
     ran("B");
-    discard(&kernel.b);
+    discard(&b);
     step_at(5000u);
     ran("");
-    TEST_ASSERT_EQUAL_UINT32(0u, kernel.scheduler.queue.count);
-    TEST_ASSERT_EQUAL_UINT32(1u, kernel.b.task.stats.runs);
+    TEST_ASSERT_EQUAL_UINT32(0u, scheduler.queue.count);
+    unknown(&b);
 }
 
 static void SCH_007_remove_makes_the_scheduler_decide_anew(void)
 {
     board_init(0u);
-    add(&kernel.a);
-    kernel.o.config.phase_us = 150u;
-    kernel.o.config.budget_us = 900u;
-    add(&kernel.o);
+    add(&a);
+    o.config.phase_us = 150u;
+    o.config.budget_us = 900u;
+    add(&o);
     start();
     step();        /* A runs. */
     step_at(150u); /* O is released but does not fit the 850 us before A. */
     ran("A");
-    TEST_ASSERT_EQUAL_UINT64(1000u, kernel.scheduler.wake_us);
-    discard(&kernel.a);
+    TEST_ASSERT_EQUAL_UINT64(1000u, scheduler.wake_us);
+    discard(&a);
     step_at(151u);
     ran("O");
 }
@@ -284,12 +402,11 @@ static void SCH_007_remove_makes_the_scheduler_decide_anew(void)
 static void SCH_008_remove_refuses_null_and_strangers(void)
 {
     board_init(0u);
-    add(&kernel.a);
+    add(&a);
     remember();
-    TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_remove(NULL, &kernel.a.task));
-    TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_remove(&kernel.scheduler, NULL));
-    TEST_ASSERT_EQUAL(KEEL_ERR_UNKNOWN_TASK,
-                      keel_scheduler_remove(&kernel.scheduler, &kernel.b.task));
+    TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_remove(NULL, &a.config));
+    TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_remove(&scheduler, NULL));
+    TEST_ASSERT_EQUAL(KEEL_ERR_UNKNOWN_TASK, keel_scheduler_remove(&scheduler, &b.config));
     unchanged();
 }
 
@@ -299,19 +416,17 @@ static void SCH_009_start_sets_time_and_releases(void)
 {
     board_reset(0xFFFFFF00u);
     board_init(0u);
-    kernel.a.config.phase_us = 7u;
-    kernel.o.config.phase_us = 1999u;
-    kernel.a.task.skipped = 5u;
-    kernel.a.task.release_us = 99u;
-    add(&kernel.a);
-    add(&kernel.o);
+    a.config.phase_us = 7u;
+    o.config.phase_us = 1999u;
+    add(&a);
+    add(&o);
     start();
-    TEST_ASSERT_EQUAL_UINT64(0u, kernel.scheduler.clock.now_us);
-    TEST_ASSERT_EQUAL_UINT32(0xFFFFFF00u, kernel.scheduler.clock.raw_us);
-    TEST_ASSERT_EQUAL_UINT64(7u, kernel.a.task.release_us);
-    TEST_ASSERT_EQUAL_UINT32(0u, kernel.a.task.skipped);
-    TEST_ASSERT_EQUAL_UINT64(1999u, kernel.o.task.release_us);
-    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_READY, kernel.scheduler.stage);
+    TEST_ASSERT_EQUAL_UINT64(0u, scheduler.clock.now_us);
+    TEST_ASSERT_EQUAL_UINT32(0xFFFFFF00u, scheduler.clock.raw_us);
+    TEST_ASSERT_EQUAL_UINT64(7u, report(&a).release_us);
+    TEST_ASSERT_EQUAL_UINT32(0u, report(&a).skipped);
+    TEST_ASSERT_EQUAL_UINT64(1999u, report(&o).release_us);
+    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_READY, scheduler.stage);
     TEST_ASSERT_EQUAL_UINT32(1u, board.reads);
     ran("");
 }
@@ -319,17 +434,9 @@ static void SCH_009_start_sets_time_and_releases(void)
 static void SCH_009_start_at_takes_the_reading(void)
 {
     board_init(0u);
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_start_at(&kernel.scheduler, 4711u));
-    TEST_ASSERT_EQUAL_UINT32(4711u, kernel.scheduler.clock.raw_us);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_start_at(&scheduler, 4711u));
+    TEST_ASSERT_EQUAL_UINT32(4711u, scheduler.clock.raw_us);
     TEST_ASSERT_EQUAL_UINT32(0u, board.reads);
-}
-
-static void start_is_refused(keel_status_t reason)
-{
-    remember();
-    TEST_ASSERT_EQUAL(reason, keel_scheduler_start(&kernel.scheduler));
-    TEST_ASSERT_EQUAL(reason, keel_scheduler_start_at(&kernel.scheduler, 4711u));
-    unchanged();
 }
 
 static void SCH_010_start_refuses_null(void)
@@ -340,7 +447,7 @@ static void SCH_010_start_refuses_null(void)
 static void SCH_010_start_refuses_a_second_time(void)
 {
     board_init(0u);
-    add(&kernel.a);
+    add(&a);
     start();
     start_is_refused(KEEL_ERR_STATE);
     step();
@@ -350,570 +457,80 @@ static void SCH_010_start_refuses_a_second_time(void)
 static void SCH_010_start_refuses_what_is_not_admitted(void)
 {
     board_init(10u);
-    add(&kernel.a);
-    kernel.b.config.budget_us = 971u;
-    add(&kernel.b);
+    add(&a);
+    b.config.budget_us = 971u;
+    add(&b);
     start_is_refused(KEEL_ERR_REALTIME_DEMAND);
-    discard(&kernel.b);
-    kernel.o.config.budget_us = 981u;
-    add(&kernel.o);
+    discard(&b);
+    o.config.budget_us = 981u;
+    add(&o);
     start_is_refused(KEEL_ERR_BUDGET_GAP);
-    discard(&kernel.o);
-    kernel.p.config.budget_us = 980u;
-    kernel.p.config.period_us = 985u;
-    add(&kernel.p);
+    discard(&o);
+    p.config.budget_us = 980u;
+    p.config.period_us = 985u;
+    add(&p);
     start_is_refused(KEEL_ERR_UTILISATION);
-    discard(&kernel.p);
+    discard(&p);
     start();
-}
-
-/* --- Order of service --- */
-
-static void SCH_015_due_realtime_tasks_run_in_queue_order(void)
-{
-    board_init(0u);
-    add(&kernel.c);
-    add(&kernel.a);
-    add(&kernel.b);
-    start();
-    step();
-    ran("CAB");
-    step();
-    ran("");
-    step_at(1000u);
-    ran("CAB");
-}
-
-static void SCH_015_only_due_realtime_tasks_run(void)
-{
-    board_init(0u);
-    kernel.b.config.phase_us = 500u;
-    add(&kernel.a);
-    add(&kernel.b);
-    add(&kernel.c);
-    start();
-    step();
-    ran("AC");
-    step_at(499u);
-    ran("");
-    step_at(500u);
-    ran("B");
-}
-
-static void SCH_015_clock_is_read_again_before_each_decision(void)
-{
-    board_init(0u);
-    kernel.b.config.phase_us = 10u; /* Falls due just when A ends. */
-    kernel.c.config.phase_us = 31u; /* Falls due 1 us after B ends. */
-    add(&kernel.a);
-    add(&kernel.b);
-    add(&kernel.c);
-    start();
-    step();
-    ran("AB");
-    TEST_ASSERT_EQUAL_UINT32(4u, board.reads); /* start, begin, after A, after B */
-    step_at(31u);
-    ran("C");
-}
-
-static void SCH_015_a_pass_does_not_turn_back(void)
-{
-    board_init(0u);
-    kernel.a.config.phase_us = 5u;
-    add(&kernel.a);
-    add(&kernel.b); /* While B runs, A falls due, which stands before it. */
-    start();
-    step();
-    ran("B");
-    step();
-    ran("A");
-}
-
-static void SCH_016_at_most_one_other_task_a_step(void)
-{
-    board_init(0u);
-    add(&kernel.a);
-    add(&kernel.o);
-    add(&kernel.p);
-    start();
-    step();
-    ran("AP"); /* dp of P is 5, of O is 2. */
-    step();
-    ran("O");
-    step();
-    ran("");
-}
-
-static void SCH_016_ties_go_to_the_first_queued(void)
-{
-    board_init(0u);
-    kernel.o.config.priority = KEEL_PRIORITY_HIGH;
-    add(&kernel.o);
-    add(&kernel.p);
-    start();
-    step();
-    ran("O");
-    step();
-    ran("P");
-}
-
-static void SCH_016_released_tasks_only(void)
-{
-    board_init(0u);
-    kernel.o.config.phase_us = 100u;
-    add(&kernel.o);
-    start();
-    step_at(99u);
-    ran("");
-    step_at(100u);
-    ran("O");
-    step_at(2099u);
-    ran("");
-    step_at(2100u);
-    ran("O");
-}
-
-static void SCH_016_runs_when_guard_and_worst_case_just_fit(void)
-{
-    board_init(20u);
-    kernel.a.config.phase_us = 170u;
-    kernel.o.config.phase_us = 100u;
-    add(&kernel.a);
-    add(&kernel.o);
-    start();
-    step_at(100u); /* 20 + 50 = 70 */
-    ran("O");
-    step_at(170u);
-    ran("A");
-}
-
-static void SCH_016_waits_when_it_is_one_microsecond_too_long(void)
-{
-    board_init(20u);
-    kernel.a.config.phase_us = 169u;
-    kernel.o.config.phase_us = 100u;
-    add(&kernel.a);
-    add(&kernel.o);
-    start();
-    step_at(100u);
-    ran("");
-    step_at(169u);
-    ran("AO"); /* Now there are 990 us. */
-}
-
-static void SCH_016_no_other_task_while_a_realtime_task_is_due(void)
-{
-    board_init(0u);
-    kernel.a.cost_us = 1000u; /* A overruns until its next release. */
-    add(&kernel.a);
-    add(&kernel.o);
-    start();
-    step();
-    ran("A");
-    step();
-    ran("A");
-}
-
-/* O is released at 900 and 2900, both times 99 us before A; its first run takes cost_us. */
-static void second_run_at_2900(uint32_t cost_us, const char *expected)
-{
-    board_reset(0u);
-    board_init(20u);
-    kernel.a.config.phase_us = 999u;
-    kernel.o.config.phase_us = 900u;
-    kernel.o.cost_us = cost_us;
-    add(&kernel.a);
-    add(&kernel.o);
-    start();
-    step_at(900u); /* 20 + 50 fit whatever the run will take. */
-    ran("O");
-    step_at(999u);
-    step_at(1999u);
-    ran("AA");
-    step_at(2900u);
-    ran(expected);
-}
-
-static void SCH_016_worst_case_is_the_longest_run(void)
-{
-    second_run_at_2900(79u, "O"); /* 20 + 79 = 99 */
-    second_run_at_2900(80u, "");
-    TEST_ASSERT_EQUAL_UINT16(1u, kernel.o.task.stats.overruns);
-    step_at(2999u);
-    ran("AO");                    /* Now there are 990 us. */
-    second_run_at_2900(30u, "O"); /* The budget, not the shorter run, counts. */
-}
-
-/* --- Releases and statistics --- */
-
-static void SCH_014_releases_stay_on_the_grid(void)
-{
-    board_init(0u);
-    kernel.a.config.phase_us = 100u;
-    add(&kernel.a);
-    start();
-    step_at(150u);
-    TEST_ASSERT_EQUAL_UINT64(1100u, kernel.a.task.release_us);
-    step_at(2099u); /* 999 late. */
-    TEST_ASSERT_EQUAL_UINT64(2100u, kernel.a.task.release_us);
-    TEST_ASSERT_EQUAL_UINT32(0u, kernel.a.task.skipped);
-    step_at(5234u); /* The releases at 3100 and 4100 and 5100: two are missed. */
-    TEST_ASSERT_EQUAL_UINT64(6100u, kernel.a.task.release_us);
-    TEST_ASSERT_EQUAL_UINT32(3u, kernel.a.task.skipped);
-    ran("AAA");
-}
-
-static void SCH_014_next_gives_null_unless_a_pass_is_open(void)
-{
-    board_init(0u);
-    add(&kernel.a);
-    remember();
-    TEST_ASSERT_NULL(keel_scheduler_next(&kernel.scheduler));
-    unchanged();
-    start();
-    remember();
-    TEST_ASSERT_NULL(keel_scheduler_next(&kernel.scheduler));
-    unchanged();
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_begin(&kernel.scheduler, 0u));
-    TEST_ASSERT_EQUAL_PTR(&kernel.a.task, keel_scheduler_next(&kernel.scheduler));
-    remember();
-    TEST_ASSERT_NULL(keel_scheduler_next(&kernel.scheduler)); /* A runs. */
-    unchanged();
-}
-
-static void SCH_017_finish_records_the_run(void)
-{
-    board_init(0u);
-    add(&kernel.a);
-    add(&kernel.o);
-    start();
-    kernel.a.cost_us = 8u;
-    step();
-    kernel.a.cost_us = 25u; /* 15 more than the budget. */
-    step_at(1000u);
-    kernel.a.cost_us = 9u;
-    step_at(2000u);
-    ran("AOAAO");
-    TEST_ASSERT_EQUAL_UINT32(3u, kernel.a.task.stats.runs);
-    TEST_ASSERT_EQUAL_UINT64(42u, kernel.a.task.stats.total_us);
-    TEST_ASSERT_EQUAL_UINT32(9u, kernel.a.task.stats.last_us);
-    TEST_ASSERT_EQUAL_UINT32(25u, kernel.a.task.stats.longest_us);
-    TEST_ASSERT_EQUAL_UINT16(1u, kernel.a.task.stats.overruns);
-    TEST_ASSERT_EQUAL_UINT16(0u, kernel.a.task.stats.promotions);
-    TEST_ASSERT_EQUAL_UINT32(2u, kernel.o.task.stats.runs);
-    TEST_ASSERT_EQUAL_UINT64(142u, kernel.scheduler.busy_us);
-    TEST_ASSERT_EQUAL_UINT64(2059u, kernel.scheduler.clock.now_us);
-}
-
-static void SCH_017_begin_next_finish_make_a_step(void)
-{
-    keel_scheduler_t *const s = &kernel.scheduler;
-
-    board_init(0u);
-    add(&kernel.a);
-    add(&kernel.o);
-    start();
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_begin(s, 100u));
-    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_PASS, s->stage);
-    TEST_ASSERT_EQUAL_PTR(&kernel.a.task, keel_scheduler_next(s));
-    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_REALTIME, s->stage);
-    TEST_ASSERT_EQUAL_UINT32(0u, s->running);
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_finish(s, 111u));
-    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_PASS, s->stage);
-    TEST_ASSERT_EQUAL_UINT32(KEEL_INDEX_NONE, s->running);
-    TEST_ASSERT_EQUAL_PTR(&kernel.o.task, keel_scheduler_next(s));
-    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_OTHER, s->stage);
-    TEST_ASSERT_EQUAL_UINT32(1u, s->running);
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_finish(s, 160u));
-    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_READY, s->stage);
-    TEST_ASSERT_EQUAL_UINT32(11u, kernel.a.task.stats.last_us);
-    TEST_ASSERT_EQUAL_UINT32(49u, kernel.o.task.stats.last_us);
-    TEST_ASSERT_EQUAL_UINT64(60u, s->busy_us);
-}
-
-static void SCH_023_without_a_pass_nothing_runs(void)
-{
-    board_init(0u);
-    add(&kernel.a);
-    start();
-    remember();
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_run_pass(&kernel.scheduler));
-    unchanged();
-    ran("");
-}
-
-static void SCH_023_begin_and_run_pass_make_a_step(void)
-{
-    board_init(0u);
-    add(&kernel.a);
-    add(&kernel.b);
-    add(&kernel.o);
-    start();
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_begin(&kernel.scheduler, 0u));
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_run_pass(&kernel.scheduler));
-    ran("ABO");
-    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_READY, kernel.scheduler.stage);
-}
-
-static void SCH_018_finish_refuses_when_nothing_runs(void)
-{
-    keel_scheduler_t *const s = &kernel.scheduler;
-
-    board_init(0u);
-    add(&kernel.a);
-    remember();
-    TEST_ASSERT_EQUAL(KEEL_ERR_STATE, keel_scheduler_finish(s, 5u));
-    unchanged();
-    start();
-    remember();
-    TEST_ASSERT_EQUAL(KEEL_ERR_STATE, keel_scheduler_finish(s, 5u));
-    unchanged();
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_begin(s, 0u));
-    remember();
-    TEST_ASSERT_EQUAL(KEEL_ERR_STATE, keel_scheduler_finish(s, 5u));
-    unchanged();
-}
-
-static void SCH_018_broken_clock_ends_the_pass(void)
-{
-    keel_scheduler_t *const s = &kernel.scheduler;
-
-    board_init(0u);
-    add(&kernel.a);
-    add(&kernel.b);
-    start();
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_begin(s, 100u));
-    TEST_ASSERT_EQUAL_PTR(&kernel.a.task, keel_scheduler_next(s));
-    TEST_ASSERT_EQUAL(KEEL_ERR_CLOCK, keel_scheduler_finish(s, 99u));
-    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_READY, s->stage);
-    TEST_ASSERT_EQUAL_UINT32(KEEL_INDEX_NONE, s->running);
-    TEST_ASSERT_EQUAL_UINT32(0u, kernel.a.task.stats.runs);
-    TEST_ASSERT_EQUAL_UINT64(0u, s->busy_us);
-    TEST_ASSERT_EQUAL_UINT64(100u, s->clock.now_us);
-    /* A was served; B is not skipped, it waits for the clock. */
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_begin(s, 100u));
-    TEST_ASSERT_EQUAL_PTR(&kernel.b.task, keel_scheduler_next(s));
-}
-
-/* --- Sleeping --- */
-
-static void SCH_012_an_idle_step_reads_the_clock_alone(void)
-{
-    board_init(0u);
-    kernel.a.config.phase_us = 700u;
-    add(&kernel.a);
-    add(&kernel.o);
-    start();
-    step();
-    ran("O");
-    step();
-    TEST_ASSERT_EQUAL_UINT64(700u, kernel.scheduler.wake_us);
-    board.reads = 0u;
-    remember();
-    board.raw_us = 699u;
-    step();
-    TEST_ASSERT_EQUAL_UINT32(1u, board.reads);
-    ran("");
-    kernel_before.scheduler.clock.now_us = 699u;
-    kernel_before.scheduler.clock.raw_us = 699u;
-    unchanged(); /* Nothing but the time. */
-}
-
-static void SCH_012_wakes_for_a_release_and_not_before(void)
-{
-    board_init(0u);
-    kernel.a.config.phase_us = 700u;
-    add(&kernel.a);
-    start();
-    for (uint64_t now_us = 0u; now_us < 700u; now_us += 1u) {
-        step_at(now_us);
-    }
-    ran("");
-    step_at(700u);
-    ran("A");
-}
-
-static void SCH_012_a_pass_that_ran_a_task_does_not_sleep(void)
-{
-    board_init(0u);
-    add(&kernel.a);
-    add(&kernel.o);
-    add(&kernel.p);
-    start();
-    step();
-    TEST_ASSERT_EQUAL_UINT64(0u, kernel.scheduler.wake_us);
-    step();
-    TEST_ASSERT_EQUAL_UINT64(0u, kernel.scheduler.wake_us);
-    step();
-    TEST_ASSERT_EQUAL_UINT64(1000u, kernel.scheduler.wake_us);
-    ran("APO");
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_begin(&kernel.scheduler, 1000u));
-    TEST_ASSERT_EQUAL_UINT64(0u, kernel.scheduler.wake_us); /* As finish demands. */
-}
-
-static void SCH_012_sleeps_for_ever_without_tasks(void)
-{
-    board_init(0u);
-    start();
-    step();
-    TEST_ASSERT_EQUAL_UINT64(UINT64_MAX, kernel.scheduler.wake_us);
-    add(&kernel.a);
-    step();
-    ran("A");
-}
-
-static void SCH_012_wakes_for_a_promotion(void)
-{
-    board_init(20u);
-    kernel.o.task.config = &kernel.o.config;
-    kernel.o.config.period_us = 100u;
-    kernel.o.config.priority = KEEL_PRIORITY_HIGH;
-    kernel.a.config.phase_us = 999u;
-    add(&kernel.a);
-    add(&kernel.o);
-    start();
-    kernel.o.task.stats.longest_us = 5000u; /* Fits no gap. */
-    step();
-    /* Promoted at age 375, which is 275 behind the release. */
-    TEST_ASSERT_EQUAL_UINT64(275u, kernel.scheduler.wake_us);
-    step_at(274u);
-    ran("");
-    step_at(275u);
-    ran("O");
-    TEST_ASSERT_EQUAL_UINT16(1u, kernel.o.task.stats.promotions);
-    TEST_ASSERT_EQUAL_UINT32(2u, kernel.o.task.skipped);
-    TEST_ASSERT_EQUAL_UINT64(300u, kernel.o.task.release_us);
-}
-
-/* --- Promotion --- */
-
-/* A real-time task that leaves 950 us of each 1000, and another whose first run takes 950. */
-static void SCH_016_a_long_run_is_outlived_through_promotion(void)
-{
-    board_init(10u);
-    declare(&kernel.a, 'A', KEEL_PRIORITY_REALTIME, 1000u, 50u);
-    declare(&kernel.o, 'O', KEEL_PRIORITY_HIGH, 10000u, 100u);
-    kernel.o.cost_us = 950u;
-    add(&kernel.a);
-    add(&kernel.o);
-    start();
-    step();
-    ran("AO");
-    TEST_ASSERT_EQUAL_UINT32(950u, kernel.o.task.stats.longest_us);
-    kernel.o.cost_us = 90u;
-    /* Released at 10000, it never fits again: 10 + 950 > 950. Promoted at 3.75 periods. */
-    for (uint64_t now_us = 1000u; now_us < 37500u; now_us += 50u) {
-        step_at(now_us);
-    }
-    ran("AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"); /* 1000, 2000, ... 37000 */
-    step_at(37500u);
-    ran("O");
-    TEST_ASSERT_EQUAL_UINT32(2u, kernel.o.task.stats.runs);
-    TEST_ASSERT_EQUAL_UINT16(1u, kernel.o.task.stats.promotions);
-    TEST_ASSERT_EQUAL_UINT32(2u, kernel.o.task.skipped); /* of the releases 10000 to 30000 */
-    TEST_ASSERT_EQUAL_UINT64(40000u, kernel.o.task.release_us);
-}
-
-static void SCH_016_promoted_runs_behind_due_realtime_tasks(void)
-{
-    board_init(10u);
-    declare(&kernel.p, 'P', KEEL_PRIORITY_HIGH, 1000u, 60u);
-    add(&kernel.a);
-    add(&kernel.o);
-    add(&kernel.p);
-    start();
-    step_at(3000u); /* P: age 4000 of 1000, promoted; O: 1 + 5000 / 2000. */
-    ran("AP");
-    TEST_ASSERT_EQUAL_UINT16(1u, kernel.p.task.stats.promotions);
-    TEST_ASSERT_EQUAL_UINT16(0u, kernel.o.task.stats.promotions);
-    step();
-    ran("O");
-    TEST_ASSERT_EQUAL_UINT16(0u, kernel.o.task.stats.promotions);
-}
-
-static void SCH_016_promoted_tasks_run_first_come_first_served(void)
-{
-    board_init(0u);
-    add(&kernel.o);
-    add(&kernel.p);
-    start();
-    step_at(100000u); /* Both are promoted: queue order, not class. */
-    ran("O");
-    step();
-    ran("P");
-    TEST_ASSERT_EQUAL_UINT16(1u, kernel.o.task.stats.promotions);
-    TEST_ASSERT_EQUAL_UINT16(1u, kernel.p.task.stats.promotions);
-    step_at(102000u);
-    step();
-    ran("PO"); /* Served, they compete by class again. */
-    TEST_ASSERT_EQUAL_UINT16(1u, kernel.p.task.stats.promotions);
 }
 
 /* --- Adding and removing from inside a running task --- */
 
 static void remove_a(void)
 {
-    discard(&kernel.a);
+    discard(&a);
 }
 
 static void remove_b(void)
 {
-    discard(&kernel.b);
+    discard(&b);
 }
 
 static void remove_o(void)
 {
-    discard(&kernel.o);
+    discard(&o);
 }
 
 static void add_d(void)
 {
-    kernel.p.act = NULL;
-    kernel.o.act = NULL;
-    kernel.a.act = NULL;
-    add(&kernel.d);
+    p.act = NULL;
+    o.act = NULL;
+    a.act = NULL;
+    add(&d);
 }
 
 static void add_p(void)
 {
-    kernel.o.act = NULL;
-    add(&kernel.p);
+    o.act = NULL;
+    add(&p);
 }
 
 static void readd_a(void)
 {
-    discard(&kernel.a);
-    add(&kernel.a);
-    kernel.a.act = NULL;
+    discard(&a);
+    add(&a);
+    a.act = NULL;
 }
 
 static void with_a_b_c(void)
 {
     board_init(0u);
-    add(&kernel.a);
-    add(&kernel.b);
-    add(&kernel.c);
+    add(&a);
+    add(&b);
+    add(&c);
     start();
-}
-
-/* Each task that ran has its own time and no other's. */
-static void took(const actor_t *actor, uint32_t runs)
-{
-    TEST_ASSERT_EQUAL_UINT32(runs, actor->task.stats.runs);
-    TEST_ASSERT_EQUAL_UINT32((runs > 0u) ? actor->cost_us : 0u, actor->task.stats.last_us);
-    TEST_ASSERT_EQUAL_UINT64((uint64_t)runs * actor->cost_us, actor->task.stats.total_us);
 }
 
 static void SCH_007_a_task_removes_itself(void)
 {
     with_a_b_c();
-    kernel.a.act = remove_a;
+    a.act = remove_a;
     step();
     ran("ABC");
-    took(&kernel.a, 0u); /* It left before its run was over; the time counts as busy. */
-    took(&kernel.b, 1u);
-    took(&kernel.c, 1u);
-    TEST_ASSERT_EQUAL_UINT64(60u, kernel.scheduler.busy_us);
+    unknown(&a); /* It left before its run was over; the time counts as busy. */
+    took(&b, 1u);
+    took(&c, 1u);
+    TEST_ASSERT_EQUAL_UINT64(60u, scheduler.busy_us);
     step_at(1000u);
     ran("BC");
 }
@@ -921,12 +538,12 @@ static void SCH_007_a_task_removes_itself(void)
 static void SCH_007_the_last_task_removes_itself(void)
 {
     board_init(0u);
-    add(&kernel.a);
+    add(&a);
     start();
-    kernel.a.act = remove_a;
+    a.act = remove_a;
     step();
     ran("A");
-    TEST_ASSERT_EQUAL_UINT32(0u, kernel.scheduler.queue.count);
+    TEST_ASSERT_EQUAL_UINT32(0u, scheduler.queue.count);
     step_at(1000u);
     ran("");
 }
@@ -934,13 +551,13 @@ static void SCH_007_the_last_task_removes_itself(void)
 static void SCH_007_a_task_removes_an_earlier_one(void)
 {
     with_a_b_c();
-    kernel.b.act = remove_a;
+    b.act = remove_a;
     step();
     ran("ABC");
-    took(&kernel.a, 1u);
-    took(&kernel.b, 1u);
-    took(&kernel.c, 1u);
-    kernel.b.act = NULL;
+    unknown(&a);
+    took(&b, 1u);
+    took(&c, 1u);
+    b.act = NULL;
     step_at(1000u);
     ran("BC");
 }
@@ -948,13 +565,13 @@ static void SCH_007_a_task_removes_an_earlier_one(void)
 static void SCH_007_a_task_removes_a_later_one(void)
 {
     with_a_b_c();
-    kernel.a.act = remove_b;
+    a.act = remove_b;
     step();
     ran("AC");
-    took(&kernel.a, 1u);
-    took(&kernel.b, 0u);
-    took(&kernel.c, 1u);
-    kernel.a.act = NULL;
+    took(&a, 1u);
+    unknown(&b);
+    took(&c, 1u);
+    a.act = NULL;
     step_at(1000u);
     ran("AC");
 }
@@ -962,21 +579,21 @@ static void SCH_007_a_task_removes_a_later_one(void)
 static void SCH_007_removing_the_next_task_runs_none_twice(void)
 {
     with_a_b_c();
-    kernel.a.cost_us = 1000u; /* Due again when it ends. */
-    kernel.a.act = remove_b;
+    a.cost_us = 1000u; /* Due again when it ends. */
+    a.act = remove_b;
     step();
     ran("AC");
-    took(&kernel.a, 1u);
+    took(&a, 1u);
 }
 
 static void SCH_007_removing_the_first_other_task_skips_no_realtime_one(void)
 {
     board_init(0u);
-    add(&kernel.a);
-    add(&kernel.b);
-    add(&kernel.o);
+    add(&a);
+    add(&b);
+    add(&o);
     start();
-    kernel.a.act = remove_o;
+    a.act = remove_o;
     step();
     ran("AB");
 }
@@ -984,15 +601,15 @@ static void SCH_007_removing_the_first_other_task_skips_no_realtime_one(void)
 static void SCH_007_other_task_removes_itself(void)
 {
     board_init(0u);
-    add(&kernel.a);
-    add(&kernel.o);
-    add(&kernel.p);
+    add(&a);
+    add(&o);
+    add(&p);
     start();
-    kernel.o.act = remove_o;
+    o.act = remove_o;
     step();
     step();
     ran("APO");
-    took(&kernel.o, 0u);
+    unknown(&o);
     step_at(2000u);
     step();
     ran("AP");
@@ -1001,51 +618,82 @@ static void SCH_007_other_task_removes_itself(void)
 static void SCH_007_other_task_removes_a_realtime_one(void)
 {
     board_init(0u);
-    add(&kernel.a);
-    add(&kernel.b);
-    add(&kernel.o);
-    add(&kernel.p);
+    add(&a);
+    add(&b);
+    add(&o);
+    add(&p);
     start();
-    kernel.p.act = remove_a;
+    p.act = remove_a;
     step();
     ran("ABP");
-    took(&kernel.p, 1u); /* Its index moved while it ran. */
-    took(&kernel.o, 0u);
-    took(&kernel.b, 1u);
+    took(&p, 1u); /* Its position moved while it ran. */
+    took(&o, 0u);
+    took(&b, 1u);
 }
 
 static void SCH_004_a_realtime_task_added_in_a_pass_waits_for_the_next(void)
 {
     board_init(0u);
-    add(&kernel.a);
-    add(&kernel.b);
+    add(&a);
+    add(&b);
     start();
-    kernel.a.act = add_d;
+    a.act = add_d;
     step();
     ran("AB");
-    TEST_ASSERT_EQUAL_UINT64(0u, kernel.d.task.release_us); /* From the time A started. */
+    TEST_ASSERT_EQUAL_UINT64(0u, report(&d).release_us); /* From the time A started. */
     step();
     ran("D");
-    took(&kernel.a, 1u);
-    took(&kernel.b, 1u);
-    took(&kernel.d, 1u);
+    took(&a, 1u);
+    took(&b, 1u);
+    took(&d, 1u);
     step_at(1000u);
     ran("ABD");
+}
+
+static void add_o(void)
+{
+    a.act = NULL;
+    add(&o);
+}
+
+/* A, which takes 10 us, adds O, whose first release is its phase later; what the step runs. */
+static void a_adds_o(uint32_t phase_us, const char *expected)
+{
+    board_reset(0u);
+    board_init(0u);
+    o.config.phase_us = phase_us;
+    add(&a);
+    start();
+    a.act = add_o;
+    step();
+    ran(expected);
+    took(&a, 1u);
+}
+
+static void SCH_004_another_task_added_in_a_pass_takes_part_in_its_choice(void)
+{
+    a_adds_o(0u, "AO");
+    took(&o, 1u);
+    a_adds_o(10u, "AO"); /* Its phase is over when A ends ... */
+    a_adds_o(11u, "A");  /* ... and here 1 us later. */
+    took(&o, 0u);
+    step_at(11u);
+    ran("O");
 }
 
 static void SCH_004_other_task_adds_a_realtime_one(void)
 {
     board_init(0u);
-    add(&kernel.a);
-    add(&kernel.o);
-    add(&kernel.p);
+    add(&a);
+    add(&o);
+    add(&p);
     start();
-    kernel.p.act = add_d;
+    p.act = add_d;
     step();
     ran("AP");
-    took(&kernel.p, 1u); /* Its index moved while it ran. */
-    took(&kernel.o, 0u);
-    took(&kernel.d, 0u);
+    took(&p, 1u); /* Its position moved while it ran. */
+    took(&o, 0u);
+    took(&d, 0u);
     step();
     ran("DO");
 }
@@ -1053,26 +701,26 @@ static void SCH_004_other_task_adds_a_realtime_one(void)
 static void SCH_004_the_first_other_task_adds_a_realtime_one(void)
 {
     board_init(0u);
-    add(&kernel.a);
-    add(&kernel.o);
+    add(&a);
+    add(&o);
     start();
-    kernel.o.act = add_d; /* D takes the very slot of O. */
+    o.act = add_d; /* D takes the very position of O. */
     step();
     ran("AO");
-    took(&kernel.o, 1u);
-    took(&kernel.d, 0u);
+    took(&o, 1u);
+    took(&d, 0u);
 }
 
 static void SCH_004_other_task_adds_another(void)
 {
     board_init(0u);
-    add(&kernel.o);
+    add(&o);
     start();
-    kernel.o.act = add_p;
+    o.act = add_p;
     step();
     ran("O");
-    took(&kernel.o, 1u);
-    took(&kernel.p, 0u);
+    took(&o, 1u);
+    took(&p, 0u);
     step();
     ran("P");
 }
@@ -1080,37 +728,146 @@ static void SCH_004_other_task_adds_another(void)
 static void SCH_004_a_task_added_anew_by_itself_waits_for_the_next_pass(void)
 {
     with_a_b_c();
-    kernel.a.act = readd_a;
+    a.act = readd_a;
     step();
     ran("ABC");
-    took(&kernel.a, 0u); /* Armed anew: no statistics. */
-    TEST_ASSERT_EQUAL_UINT64(0u, kernel.a.task.release_us);
+    took(&a, 0u); /* Armed anew: no statistics. */
+    TEST_ASSERT_EQUAL_UINT64(0u, report(&a).release_us);
     step();
     ran("A");
-    took(&kernel.a, 1u);
+    took(&a, 1u);
     step_at(1000u);
     ran("BCA");
 }
 
 static void swap_o_for_d(void)
 {
-    discard(&kernel.o);
-    add(&kernel.d);
+    discard(&o);
+    add(&d);
 }
 
 static void SCH_004_a_task_adds_after_it_has_removed_itself(void)
 {
     board_init(0u);
-    add(&kernel.a);
-    add(&kernel.o);
+    add(&a);
+    add(&o);
     start();
-    kernel.o.act = swap_o_for_d;
+    o.act = swap_o_for_d;
     step();
     ran("AO");
-    took(&kernel.o, 0u);
-    took(&kernel.d, 0u);
+    unknown(&o);
+    took(&d, 0u);
     step();
     ran("D");
+}
+
+/* --- What is known of tasks --- */
+
+static void SCH_024_tasks_are_told_in_queue_order(void)
+{
+    board_init(0u);
+    TEST_ASSERT_NULL(keel_scheduler_task(&scheduler, 0u));
+    add(&o);
+    add(&c);
+    add(&a);
+    TEST_ASSERT_EQUAL_PTR(&c.config, keel_scheduler_task(&scheduler, 0u));
+    TEST_ASSERT_EQUAL_PTR(&a.config, keel_scheduler_task(&scheduler, 1u));
+    TEST_ASSERT_EQUAL_PTR(&o.config, keel_scheduler_task(&scheduler, 2u));
+    TEST_ASSERT_NULL(keel_scheduler_task(&scheduler, 3u));
+    discard(&a);
+    TEST_ASSERT_EQUAL_PTR(&c.config, keel_scheduler_task(&scheduler, 0u));
+    TEST_ASSERT_EQUAL_PTR(&o.config, keel_scheduler_task(&scheduler, 1u));
+    TEST_ASSERT_NULL(keel_scheduler_task(&scheduler, 2u));
+}
+
+static void SCH_024_no_task_beyond_the_queue_or_without_a_scheduler(void)
+{
+    board_init(0u);
+    fill_with_a_crowd();
+    TEST_ASSERT_EQUAL_PTR(&crowd[KEEL_QUEUE_CAPACITY - 1u].config,
+                          keel_scheduler_task(&scheduler, KEEL_QUEUE_CAPACITY - 1u));
+    TEST_ASSERT_NULL(keel_scheduler_task(&scheduler, KEEL_QUEUE_CAPACITY));
+    TEST_ASSERT_NULL(keel_scheduler_task(&scheduler, UINT32_MAX));
+    TEST_ASSERT_NULL(keel_scheduler_task(NULL, 0u));
+}
+
+static void SCH_025_report_copies_what_is_known(void)
+{
+    keel_task_report_t o_now;
+
+    board_init(0u);
+    add(&a);
+    add(&o);
+    start();
+    o.cost_us = 70u; /* 20 more than the budget. */
+    step_at(5500u);  /* A missed 5 periods, O 2. */
+    ran("AO");
+    remember();
+    TEST_ASSERT_EQUAL_UINT64(6000u, report(&a).release_us);
+    TEST_ASSERT_EQUAL_UINT16(5u, report(&a).skipped);
+    o_now = report(&o);
+    TEST_ASSERT_EQUAL_UINT64(6000u, o_now.release_us);
+    TEST_ASSERT_EQUAL_UINT16(2u, o_now.skipped);
+    TEST_ASSERT_EQUAL_UINT64(70u, o_now.stats.total_us);
+    TEST_ASSERT_EQUAL_UINT32(1u, o_now.stats.runs);
+    TEST_ASSERT_EQUAL_UINT32(70u, o_now.stats.last_us);
+    TEST_ASSERT_EQUAL_UINT32(70u, o_now.stats.longest_us);
+    TEST_ASSERT_EQUAL_UINT16(1u, o_now.stats.overruns);
+    TEST_ASSERT_EQUAL_UINT16(0u, o_now.stats.promotions);
+    unchanged();
+}
+
+/* Slots are given to other tasks again; a report must not mix them up. */
+static void SCH_025_report_follows_a_task_that_others_move(void)
+{
+    board_init(0u);
+    add(&a);
+    add(&b);
+    add(&o);
+    start();
+    step();
+    discard(&a);
+    add(&c); /* Takes the slot of A, at a position before O. */
+    took(&b, 1u);
+    took(&o, 1u);
+    took(&c, 0u);
+    unknown(&a);
+}
+
+static keel_task_report_t inside;
+
+static void report_a(void)
+{
+    inside = report(&a);
+}
+
+static void SCH_025_report_from_inside_the_task_itself(void)
+{
+    board_init(0u);
+    add(&a);
+    start();
+    a.act = report_a;
+    step_at(500u);
+    TEST_ASSERT_EQUAL_UINT64(1000u, inside.release_us); /* It has moved on already. */
+    TEST_ASSERT_EQUAL_UINT32(0u, inside.stats.runs);    /* The run is not over. */
+}
+
+static void SCH_025_report_refuses_null_and_strangers(void)
+{
+    keel_task_report_t found;
+    keel_task_report_t before;
+
+    board_init(0u);
+    add(&a);
+    memset(&found, 0xA5, sizeof found);
+    memset(&before, 0xA5, sizeof before);
+    remember();
+    TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_report(NULL, &a.config, &found));
+    TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_report(&scheduler, NULL, &found));
+    TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_report(&scheduler, &a.config, NULL));
+    TEST_ASSERT_EQUAL(KEEL_ERR_UNKNOWN_TASK, keel_scheduler_report(&scheduler, &b.config, &found));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &found, sizeof found);
+    unchanged();
 }
 
 /* --- Refusals of a step --- */
@@ -1118,7 +875,7 @@ static void SCH_004_a_task_adds_after_it_has_removed_itself(void)
 static void step_is_refused(keel_status_t reason)
 {
     remember();
-    TEST_ASSERT_EQUAL(reason, keel_scheduler_step(&kernel.scheduler));
+    TEST_ASSERT_EQUAL(reason, keel_scheduler_step(&scheduler));
     unchanged();
     ran("");
 }
@@ -1131,7 +888,7 @@ static void SCH_013_step_refuses_null(void)
 static void SCH_013_step_refuses_before_the_start(void)
 {
     board_init(0u);
-    add(&kernel.a);
+    add(&a);
     step_is_refused(KEEL_ERR_STATE);
 }
 
@@ -1139,10 +896,10 @@ static keel_status_t inner_status[4];
 
 static void call_everything(void)
 {
-    inner_status[0] = keel_scheduler_step(&kernel.scheduler);
-    inner_status[1] = keel_scheduler_begin(&kernel.scheduler, 5u);
-    inner_status[2] = keel_scheduler_start(&kernel.scheduler);
-    inner_status[3] = keel_scheduler_resync(&kernel.scheduler);
+    inner_status[0] = keel_scheduler_step(&scheduler);
+    inner_status[1] = keel_pass_begin(&scheduler, 5u);
+    inner_status[2] = keel_scheduler_start(&scheduler);
+    inner_status[3] = keel_scheduler_resync(&scheduler);
 }
 
 static void refused_inside(actor_t *actor)
@@ -1161,34 +918,23 @@ static void refused_inside(actor_t *actor)
 static void SCH_013_step_refuses_inside_a_running_task(void)
 {
     board_init(0u);
-    kernel.o.config.phase_us = 500u;
-    add(&kernel.a);
-    add(&kernel.o);
+    o.config.phase_us = 500u;
+    add(&a);
+    add(&o);
     start();
-    refused_inside(&kernel.a);
+    refused_inside(&a);
     ran("A");
-    took(&kernel.a, 1u);
+    took(&a, 1u);
     wait_us(600u);
-    refused_inside(&kernel.o);
+    refused_inside(&o);
     ran("O");
-    took(&kernel.o, 1u);
-}
-
-static void SCH_013_begin_refuses_in_an_open_pass(void)
-{
-    board_init(0u);
-    add(&kernel.a);
-    start();
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_begin(&kernel.scheduler, 0u));
-    remember();
-    TEST_ASSERT_EQUAL(KEEL_ERR_STATE, keel_scheduler_begin(&kernel.scheduler, 10u));
-    unchanged();
+    took(&o, 1u);
 }
 
 static void SCH_013_step_refuses_a_backwards_clock(void)
 {
     board_init(0u);
-    add(&kernel.a);
+    add(&a);
     start();
     step_at(500u);
     ran("A");
@@ -1199,21 +945,21 @@ static void SCH_013_step_refuses_a_backwards_clock(void)
     wait_us(0xFFFFFFFFu); /* 2^31 - 1 on: the longest good step. */
     step();
     ran("A");
-    TEST_ASSERT_EQUAL_UINT64(510u + 0x7FFFFFFFu + 10u, kernel.scheduler.clock.now_us);
+    TEST_ASSERT_EQUAL_UINT64(510u + 0x7FFFFFFFu + 10u, scheduler.clock.now_us);
 }
 
 static void resync_adopts_the_clock(void)
 {
     board_init(0u);
-    kernel.a.config.phase_us = 600u;
-    add(&kernel.a);
+    a.config.phase_us = 600u;
+    add(&a);
     start();
     step_at(500u);
     board.raw_us = 90u;
     step_is_refused(KEEL_ERR_CLOCK);
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_resync(&kernel.scheduler));
-    TEST_ASSERT_EQUAL_UINT32(90u, kernel.scheduler.clock.raw_us);
-    TEST_ASSERT_EQUAL_UINT64(500u, kernel.scheduler.clock.now_us); /* Time stands still. */
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_resync(&scheduler));
+    TEST_ASSERT_EQUAL_UINT32(90u, scheduler.clock.raw_us);
+    TEST_ASSERT_EQUAL_UINT64(500u, scheduler.clock.now_us); /* Time stands still. */
     board.raw_us = 189u;
     step();
     ran("");
@@ -1224,31 +970,31 @@ static void resync_adopts_the_clock(void)
 
 static void step_the_clock_back(void)
 {
-    kernel.a.act = NULL;
+    a.act = NULL;
     board.raw_us = 40u;
 }
 
 static void resync_after_a_task_s_clock_jumped(void)
 {
     board_init(0u);
-    add(&kernel.a);
-    add(&kernel.b);
+    add(&a);
+    add(&b);
     start();
     wait_us(100u);
-    kernel.a.act = step_the_clock_back;
-    TEST_ASSERT_EQUAL(KEEL_ERR_CLOCK, keel_scheduler_step(&kernel.scheduler));
+    a.act = step_the_clock_back;
+    TEST_ASSERT_EQUAL(KEEL_ERR_CLOCK, keel_scheduler_step(&scheduler));
     ran("A");
     step_is_refused(KEEL_ERR_CLOCK);
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_resync(&kernel.scheduler));
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_resync(&scheduler));
     step();
     ran("B"); /* A is served already, B still due. */
-    TEST_ASSERT_EQUAL_UINT64(120u, kernel.scheduler.clock.now_us);
+    TEST_ASSERT_EQUAL_UINT64(120u, scheduler.clock.now_us);
 }
 
 static void resync_is_refused(keel_status_t reason)
 {
     remember();
-    TEST_ASSERT_EQUAL(reason, keel_scheduler_resync(&kernel.scheduler));
+    TEST_ASSERT_EQUAL(reason, keel_scheduler_resync(&scheduler));
     unchanged();
 }
 
@@ -1256,10 +1002,10 @@ static void resync_refuses_null_and_wrong_stages(void)
 {
     TEST_ASSERT_EQUAL(KEEL_ERR_NULL, keel_scheduler_resync(NULL));
     board_init(0u);
-    add(&kernel.a);
+    add(&a);
     resync_is_refused(KEEL_ERR_STATE);
     start();
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_begin(&kernel.scheduler, 0u));
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_pass_begin(&scheduler, 0u));
     resync_is_refused(KEEL_ERR_STATE);
 }
 
@@ -1274,26 +1020,26 @@ static void schedule_is_the_same_from(uint32_t raw_us)
 {
     board_reset(raw_us);
     board_init(10u);
-    declare(&kernel.a, 'A', KEEL_PRIORITY_REALTIME, 1000u, 50u);
-    declare(&kernel.b, 'B', KEEL_PRIORITY_REALTIME, 2500u, 20u);
-    declare(&kernel.o, 'O', KEEL_PRIORITY_MEDIUM, 3000u, 100u);
-    add(&kernel.a);
-    add(&kernel.b);
-    add(&kernel.o);
+    declare(&a, 'A', KEEL_PRIORITY_REALTIME, 1000u, 50u);
+    declare(&b, 'B', KEEL_PRIORITY_REALTIME, 2500u, 20u);
+    declare(&o, 'O', KEEL_PRIORITY_MEDIUM, 3000u, 100u);
+    add(&a);
+    add(&b);
+    add(&o);
     start();
     step();
     for (uint64_t now_us = 200u; now_us <= 6000u; now_us += 100u) {
-        if (kernel.scheduler.clock.now_us <= now_us) {
+        if (scheduler.clock.now_us <= now_us) {
             step_at(now_us);
         }
     }
     ran("ABOAABAOAABAO");
-    TEST_ASSERT_EQUAL_UINT64(6150u, kernel.scheduler.clock.now_us);
-    TEST_ASSERT_EQUAL_UINT64(710u, kernel.scheduler.busy_us); /* 7 * 50 + 3 * 20 + 3 * 100 */
-    TEST_ASSERT_EQUAL_UINT64(7000u, kernel.a.task.release_us);
-    TEST_ASSERT_EQUAL_UINT64(7500u, kernel.b.task.release_us);
-    TEST_ASSERT_EQUAL_UINT64(9000u, kernel.o.task.release_us);
-    TEST_ASSERT_EQUAL_UINT32(0u, kernel.a.task.skipped);
+    TEST_ASSERT_EQUAL_UINT64(6150u, scheduler.clock.now_us);
+    TEST_ASSERT_EQUAL_UINT64(710u, scheduler.busy_us); /* 7 * 50 + 3 * 20 + 3 * 100 */
+    TEST_ASSERT_EQUAL_UINT64(7000u, report(&a).release_us);
+    TEST_ASSERT_EQUAL_UINT64(7500u, report(&b).release_us);
+    TEST_ASSERT_EQUAL_UINT64(9000u, report(&o).release_us);
+    TEST_ASSERT_EQUAL_UINT32(0u, report(&a).skipped);
 }
 
 static void CLK_003_schedule_is_the_same_across_the_wrap(void)
@@ -1316,7 +1062,9 @@ int main(void)
     RUN_TEST(SCH_003_check_names_the_offender);
     RUN_TEST(SCH_004_add_before_the_start_checks_the_task_alone);
     RUN_TEST(SCH_004_add_after_the_start_arms_the_task_from_now);
+    RUN_TEST(SCH_004_a_task_added_again_begins_anew);
     RUN_TEST(SCH_004_add_after_the_start_wakes_the_scheduler);
+    RUN_TEST(SCH_004_add_after_the_start_accepts_all_that_can_be_scheduled);
     RUN_TEST(SCH_005_add_refuses_null);
     RUN_TEST(SCH_005_add_refuses_bad_declarations);
     RUN_TEST(SCH_005_add_refuses_a_duplicate);
@@ -1328,36 +1076,10 @@ int main(void)
     RUN_TEST(SCH_008_remove_refuses_null_and_strangers);
     RUN_TEST(SCH_009_start_sets_time_and_releases);
     RUN_TEST(SCH_009_start_at_takes_the_reading);
+    RUN_TEST(SCH_009_start_accepts_all_that_can_be_scheduled);
     RUN_TEST(SCH_010_start_refuses_null);
     RUN_TEST(SCH_010_start_refuses_a_second_time);
     RUN_TEST(SCH_010_start_refuses_what_is_not_admitted);
-    RUN_TEST(SCH_015_due_realtime_tasks_run_in_queue_order);
-    RUN_TEST(SCH_015_only_due_realtime_tasks_run);
-    RUN_TEST(SCH_015_clock_is_read_again_before_each_decision);
-    RUN_TEST(SCH_015_a_pass_does_not_turn_back);
-    RUN_TEST(SCH_016_at_most_one_other_task_a_step);
-    RUN_TEST(SCH_016_ties_go_to_the_first_queued);
-    RUN_TEST(SCH_016_released_tasks_only);
-    RUN_TEST(SCH_016_runs_when_guard_and_worst_case_just_fit);
-    RUN_TEST(SCH_016_waits_when_it_is_one_microsecond_too_long);
-    RUN_TEST(SCH_016_no_other_task_while_a_realtime_task_is_due);
-    RUN_TEST(SCH_016_worst_case_is_the_longest_run);
-    RUN_TEST(SCH_014_releases_stay_on_the_grid);
-    RUN_TEST(SCH_014_next_gives_null_unless_a_pass_is_open);
-    RUN_TEST(SCH_017_finish_records_the_run);
-    RUN_TEST(SCH_017_begin_next_finish_make_a_step);
-    RUN_TEST(SCH_023_without_a_pass_nothing_runs);
-    RUN_TEST(SCH_023_begin_and_run_pass_make_a_step);
-    RUN_TEST(SCH_018_finish_refuses_when_nothing_runs);
-    RUN_TEST(SCH_018_broken_clock_ends_the_pass);
-    RUN_TEST(SCH_012_an_idle_step_reads_the_clock_alone);
-    RUN_TEST(SCH_012_wakes_for_a_release_and_not_before);
-    RUN_TEST(SCH_012_a_pass_that_ran_a_task_does_not_sleep);
-    RUN_TEST(SCH_012_sleeps_for_ever_without_tasks);
-    RUN_TEST(SCH_012_wakes_for_a_promotion);
-    RUN_TEST(SCH_016_a_long_run_is_outlived_through_promotion);
-    RUN_TEST(SCH_016_promoted_runs_behind_due_realtime_tasks);
-    RUN_TEST(SCH_016_promoted_tasks_run_first_come_first_served);
     RUN_TEST(SCH_007_a_task_removes_itself);
     RUN_TEST(SCH_007_the_last_task_removes_itself);
     RUN_TEST(SCH_007_a_task_removes_an_earlier_one);
@@ -1367,15 +1089,21 @@ int main(void)
     RUN_TEST(SCH_007_other_task_removes_itself);
     RUN_TEST(SCH_007_other_task_removes_a_realtime_one);
     RUN_TEST(SCH_004_a_realtime_task_added_in_a_pass_waits_for_the_next);
+    RUN_TEST(SCH_004_another_task_added_in_a_pass_takes_part_in_its_choice);
     RUN_TEST(SCH_004_other_task_adds_a_realtime_one);
     RUN_TEST(SCH_004_the_first_other_task_adds_a_realtime_one);
     RUN_TEST(SCH_004_other_task_adds_another);
     RUN_TEST(SCH_004_a_task_added_anew_by_itself_waits_for_the_next_pass);
     RUN_TEST(SCH_004_a_task_adds_after_it_has_removed_itself);
+    RUN_TEST(SCH_024_tasks_are_told_in_queue_order);
+    RUN_TEST(SCH_024_no_task_beyond_the_queue_or_without_a_scheduler);
+    RUN_TEST(SCH_025_report_copies_what_is_known);
+    RUN_TEST(SCH_025_report_follows_a_task_that_others_move);
+    RUN_TEST(SCH_025_report_from_inside_the_task_itself);
+    RUN_TEST(SCH_025_report_refuses_null_and_strangers);
     RUN_TEST(SCH_013_step_refuses_null);
     RUN_TEST(SCH_013_step_refuses_before_the_start);
     RUN_TEST(SCH_013_step_refuses_inside_a_running_task);
-    RUN_TEST(SCH_013_begin_refuses_in_an_open_pass);
     RUN_TEST(SCH_013_step_refuses_a_backwards_clock);
     RUN_TEST(resync_adopts_the_clock);
     RUN_TEST(resync_after_a_task_s_clock_jumped);

@@ -24,6 +24,7 @@ FUNCTION = re.compile(
     r"\((?P<parameters>[^;{}]*)\)[ \t\n]*(?P<end>[{;])",
     re.MULTILINE,
 )
+GHOST = re.compile(r"/\*@\s*ghost\b(?P<code>.*?)\*/", re.DOTALL)
 NOT_A_FUNCTION = frozenset("if for while switch return sizeof typedef".split())
 LOOP = re.compile(r"\b(?:for|while)\b")
 LEMMA = re.compile(r"\blemma\s+(\w+)")
@@ -100,6 +101,25 @@ def functions(text: str) -> list[Function]:
 def defined(text: str) -> list[Function]:
     """The functions that a text defines."""
     return [function for function in functions(text) if function.body]
+
+
+def with_ghosts(text: str) -> str:
+    """The text with ghost code (in block comments) laid open, its annotations too.
+
+    Provers take ghost code for code: a ghost function's contract is assumed where it is called, a
+    ghost loop must end. Places are kept.
+    """
+
+    def opened(match: re.Match[str]) -> str:
+        code = match.group("code").replace("/@ ", "/*@").replace("@/", "*/")
+        return " " * (len(match.group()) - len(code) - 2) + code + "  "
+
+    return GHOST.sub(opened, text)
+
+
+def proved(text: str) -> list[Function]:
+    """The functions that a text defines, ghosts too: those that provers must prove."""
+    return defined(with_ghosts(text))
 
 
 def body_of(text: str, name: str) -> str:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import functools
-import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
-from .cache import Cache, write_atomically
+from .cache import Cache
 from .jobs import Runner, in_pool
 from .project import ProjectError
+from .times import Times
 
 
 @dataclass(frozen=True)
@@ -45,39 +44,6 @@ class Outcome:
         return list(self.result["problems"])
 
 
-class Times:
-    """How long each job took last time: the longest go first, so that none is left to wait for."""
-
-    def __init__(self, path: Path) -> None:
-        self._path = path
-        self._seconds = self._read()
-        self._noted: dict[str, float] = {}
-
-    def _read(self) -> dict[str, float]:
-        try:
-            return dict(json.loads(self._path.read_text(encoding="utf-8")))
-        except (OSError, ValueError):
-            return {}
-
-    def of(self, kind: str, unit: str, name: str) -> float | None:
-        """The last duration of a job, if it was ever run."""
-        return self._seconds.get(f"{unit}/{kind}/{name}")
-
-    def expected(self, job: Job) -> float:
-        """The last duration; a job never seen may be the longest of all."""
-        return self._seconds.get(job.label, float("inf"))
-
-    def note(self, outcome: Outcome) -> None:
-        """Remember a duration."""
-        if not outcome.cached:
-            self._noted[outcome.job.label] = float(outcome.result["seconds"])
-
-    def save(self) -> None:
-        """Keep for the next run, beside what another run may have kept meanwhile."""
-        merged = {**self._read(), **self._noted}
-        write_atomically(self._path, json.dumps(merged, indent=1, sort_keys=True))
-
-
 def run_jobs(
     jobs: Sequence[Job], cache: Cache, runner: Runner, width: int, times: Times,
     done: Callable[[Outcome], None],
@@ -87,7 +53,8 @@ def run_jobs(
 
     def finish(outcome: Outcome) -> None:
         outcomes.append(outcome)
-        times.note(outcome)
+        if not outcome.cached:
+            times.note(outcome.job.label, float(outcome.result["seconds"]))
         done(outcome)
 
     waiting: list[Job] = []
@@ -97,7 +64,7 @@ def run_jobs(
             waiting.append(job)
         else:
             finish(Outcome(job, known, cached=True))
-    waiting.sort(key=lambda job: (-times.expected(job), job.label))
+    waiting.sort(key=lambda job: (-times.expected(job.label), job.label))
     tasks = [functools.partial(_execute, job, cache) for job in waiting]
     for index, result in in_pool(tasks, width, runner):
         finish(Outcome(waiting[index], result, cached=False))

@@ -7,9 +7,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from . import cbmc, csource, frames, gappa, wp
+from . import cbmc, csource, frames, gappa, targets, wp
 from .cache import digest
 from .driver import Job
+from .goals import read_goals
 from .harness import Harness, read_harness
 from .project import ProjectError, Unit, closure
 from .settings import Exceptions
@@ -24,27 +25,40 @@ def wp_jobs(
     jobs = []
     for unit in units:
         allowed = list(exceptions[unit.name].warnings)
-        for target in wp.targets(unit):
-            target = frames.restricted(target, exceptions[unit.name])
+        shown = str(unit.goal_list.relative_to(root))
+        recorded = read_goals(unit.goal_list, shown).provers
+        for whole in targets.targets(unit):
+            target = frames.restricted(whole, exceptions[unit.name])
 
-            def execute(target: wp.Target = target, allowed: list[str] = allowed) -> dict[str, Any]:
-                return prover.prove(target, stages, allowed=allowed).as_dict()
-
+            execute = functools.partial(_prove, prover, target, stages, allowed, recorded)
             key = functools.partial(wp_key, target, prover, root, stamp, allowed)
             theorem = f"{target.file.stem}:" if target.file in unit.theorems else ""
             jobs.append(Job(unit.name, "wp", theorem + target.name, key, execute))
     return jobs
 
 
+def placeless(options: Iterable[str], root: Path) -> list[str]:
+    """Options without the place of the clone: the text of its files is in the key elsewhere."""
+    return [text.replace(f"{root}/", "") for text in options]
+
+
+def _prove(
+    prover: wp.Wp, target: targets.Target, stages: Sequence[wp.Stage], allowed: Sequence[str],
+    recorded: Mapping[str, str],
+) -> dict[str, Any]:  # fmt: skip
+    return prover.prove(target, stages, True, allowed, recorded).as_dict()
+
+
 def wp_key(
-    target: wp.Target, prover: wp.Wp, root: Path, stamp: Mapping[str, str], allowed: Sequence[str]
-) -> str:
+    target: targets.Target, prover: wp.Wp, root: Path, stamp: Mapping[str, str],
+    allowed: Sequence[str],
+) -> str:  # fmt: skip
     """What the verdict on a function, or on lemmas, depends on."""
     return digest(
         {
-            "kind": "wp", "stamp": dict(stamp), "options": prover.options(),
+            "kind": "wp", "stamp": dict(stamp), "options": placeless(prover.options(), root),
             "selection": target.selection, "smoke": wp.SMOKE.steps, "allowed": list(allowed),
-            "text": wp.dependencies(target, root), "file": target.file.name,
+            "text": targets.dependencies(target, root), "file": target.file.name,
         }
     )  # fmt: skip
 
@@ -56,7 +70,7 @@ def survey_jobs(
     """A job for each unit: does Frama-C see functions that this driver would prove nowhere?"""
     jobs = []
     for unit in units:
-        file = wp.translation_unit(unit)
+        file = targets.translation_unit(unit)
 
         def execute(unit: Unit = unit, file: Path = file) -> dict[str, Any]:
             log = prover.survey(unit.name, file)
@@ -67,11 +81,11 @@ def survey_jobs(
             ]
             if not log.functions:
                 problems.append(f"{unit.name}: Frama-C sees no function: {log.messages}")
-            return wp.Result(problems=problems).as_dict()
+            return targets.Result(problems=problems).as_dict()
 
         def key(file: Path = file) -> str:
             files = closure(root, [file])
-            text = {str(path): path.read_text(encoding="utf-8") for path in files}
+            text = {str(path.relative_to(root)): path.read_text("utf-8") for path in files}
             return digest({"survey": text, "stamp": dict(stamp), "known": sorted(known)})
 
         jobs.append(Job(unit.name, "wp", "survey", key, execute))
@@ -119,8 +133,8 @@ def cbmc_key(
     directives = [harness.name, harness.options, sources, harness.covers, harness.defines,
                   harness.replaces]
     return digest(
-        {"kind": "cbmc", "stamp": dict(stamp), "options": checker.options(), "texts": texts,
-         "directives": directives, "expected": expected}
+        {"kind": "cbmc", "stamp": dict(stamp), "options": placeless(checker.options(), root),
+         "texts": texts, "directives": directives, "expected": expected}
     )  # fmt: skip
 
 

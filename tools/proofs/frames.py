@@ -20,7 +20,7 @@ from .project import Unit
 from .settings import Exceptions
 
 if TYPE_CHECKING:
-    from . import wp
+    from .targets import Target
 
 # Whether a sum or a product of floats stays finite is CBMC's to check, for each operation.
 NO_FLOATS = ("-warn-special-float", "none")
@@ -32,10 +32,11 @@ def selection(left: tuple[str, ...] | None) -> list[str]:
     """The options that leave to CBMC what is CBMC's; nothing when WP proves all."""
     if left is None:
         return []
-    return ["-wp-prop=" + ",".join(["-@ensures", *(f"-{label}" for label in left)]), *NO_FLOATS]
+    props = ",".join(["-@ensures", *(f"-{label}" for label in left)])
+    return [f"-wp-prop={props}", *NO_FLOATS]
 
 
-def restricted(target: wp.Target, exceptions: Exceptions) -> wp.Target:
+def restricted(target: Target, exceptions: Exceptions) -> Target:
     """The target with what the exceptions leave to CBMC taken out of it."""
     if target.function not in exceptions.not_by_wp:
         return target
@@ -73,7 +74,8 @@ def preconditions(units: Iterable[Unit]) -> dict[str, str]:
 
 
 def _contracts(text: str) -> list[tuple[str, str]]:
-    """Each function of a text with the annotations that stand before it, after the last one."""
+    """Each function, ghosts too, with the annotations that stand before it, after the last one."""
+    text = csource.with_ghosts(text)
     lines = text.splitlines()
     found = []
     first = 0

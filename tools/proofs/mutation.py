@@ -13,14 +13,14 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from . import cbmc, engines, frames, wp
+from . import cbmc, engines, frames, targets, wp
 from .cache import Cache, digest
-from .driver import Times
 from .harness import Harness, read_harness
 from .jobs import Runner
 from .mutants import Mutant
 from .project import ProjectError, Unit, closure
 from .settings import Exceptions
+from .times import Times
 
 Identity = tuple[str, str, str, int]
 
@@ -113,6 +113,7 @@ class Tools:
     environment: Mapping[str, str]
     scratch: Path
     answers: Path
+    verdicts: Path
 
 
 class Trial:
@@ -136,7 +137,7 @@ class Trial:
         self._patient = patient
         self._allowed = list(exceptions.warnings)
         self._baseline = threading.Lock()
-        self._proved = Cache(unit.root / "build" / "prove" / "cache")
+        self._proved = Cache(tools.verdicts)
         self._sound: dict[str, bool] = {}
         self._stages: dict[str, tuple[wp.Stage, ...]] = {}
         self._harnesses = [read_harness(unit, path) for path in unit.harnesses]
@@ -166,8 +167,8 @@ class Trial:
                 )
             return self._stages[function]
 
-    def _target(self, unit: Unit, function: str) -> wp.Target:
-        target = next(item for item in wp.targets(unit) if item.function == function)
+    def _target(self, unit: Unit, function: str) -> targets.Target:
+        target = next(item for item in targets.targets(unit) if item.function == function)
         return frames.restricted(target, self._exceptions)
 
     def try_mutant(self, mutant: Mutant) -> Verdict:
@@ -242,7 +243,7 @@ class Trial:
 
     def _assembly(self, unit: Unit, runner: Runner) -> str | None:
         """The optimised assembly of a unit; None if it does not compile."""
-        file = wp.translation_unit(unit)
+        file = targets.translation_unit(unit)
         keep = ("-fkeep-inline-functions", "-fkeep-static-functions")
         options = [
             "-O2",
@@ -318,7 +319,7 @@ class Trial:
         prover = wp.Wp(self._tools.frama_c, runner, unit.root, scratch, answers)
         return self._asked(prover, target, stages)
 
-    def _asked(self, prover: wp.Wp, target: wp.Target, stages: Sequence[wp.Stage]) -> str:
+    def _asked(self, prover: wp.Wp, target: targets.Target, stages: Sequence[wp.Stage]) -> str:
         """What WP says, first within short limits: what is not proved then gets the full ones."""
         problem = prover.first_problem(target, stages, self._allowed)
         if problem and not self._patient:
@@ -327,7 +328,7 @@ class Trial:
         return f"killed: {problem}" if problem else "survived"
 
 
-def limits(result: wp.Result, answers: Path) -> tuple[wp.Stage, ...]:
+def limits(result: targets.Result, answers: Path) -> tuple[wp.Stage, ...]:
     """Passes with the provers that a proof needed, and a multiple of the time that it needed."""
     needed = {goal["prover"].split(" ")[0] for goal in result.goals} & set(PROVERS)
     longest = 0.0

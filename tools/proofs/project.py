@@ -9,6 +9,9 @@ from pathlib import Path
 from . import csource
 
 ROOT = Path(__file__).resolve().parents[2]
+STATE = "_state.h"
+# How long each job took where it was recorded, in seconds.
+RECORDED_TIMES = "proofs/times.json"
 
 
 class ProjectError(Exception):
@@ -17,7 +20,10 @@ class ProjectError(Exception):
 
 @dataclass(frozen=True)
 class Unit:
-    """One unit: `include/keel/LAYER/NAME.h`, `src/LAYER/NAME.c`, `proofs/NAME/`."""
+    """One unit: `include/keel/LAYER/NAME.h`, `src/LAYER/NAME.c`, `proofs/NAME/`.
+
+    A unit's state and the logic about it may stand in a header of their own, `NAME_state.h`.
+    """
 
     root: Path
     layer: str
@@ -27,6 +33,11 @@ class Unit:
     def header(self) -> Path:
         """Contract of the unit."""
         return self.root / "include" / "keel" / self.layer / f"{self.name}.h"
+
+    @property
+    def state(self) -> Path:
+        """The unit's structure and what holds of it, where that is apart from the contracts."""
+        return self.header.with_name(f"{self.name}{STATE}")
 
     @property
     def source(self) -> Path:
@@ -75,14 +86,16 @@ class Unit:
 
     @property
     def own_files(self) -> list[Path]:
-        """Header and source."""
-        return [path for path in (self.header, self.source) if path.is_file()]
+        """Headers and source."""
+        return [path for path in (self.state, self.header, self.source) if path.is_file()]
 
 
 def find_units(root: Path = ROOT) -> dict[str, Unit]:
     """All units by name, in the order of layers and names."""
     units: dict[str, Unit] = {}
     for header in sorted((root / "include" / "keel").glob("*/*.h")):
+        if header.name.endswith(STATE):
+            continue
         unit = Unit(root, header.parent.name, header.stem)
         if unit.name in units:
             raise ProjectError(

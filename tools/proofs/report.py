@@ -13,6 +13,7 @@ from . import cbmc
 from .driver import Job, Outcome
 from .project import Unit
 from .settings import Exceptions
+from .times import Forecast, Times, estimates
 
 
 @dataclass
@@ -25,6 +26,8 @@ class UnitResult:
     listed: list[str] = field(default_factory=list)
     smoke: int = 0
     accepted: list[str] = field(default_factory=list)
+    stale: list[str] = field(default_factory=list)
+    unrecorded: list[str] = field(default_factory=list)
     harnesses: dict[str, dict[str, Any]] = field(default_factory=dict)
     negative: dict[str, bool] = field(default_factory=dict)
     bounds: list[dict[str, str]] = field(default_factory=list)
@@ -71,6 +74,8 @@ class UnitResult:
         if job.kind == "wp":
             self.goals += result["goals"]
             self.smoke += result["smoke"]
+            self.stale += result["stale"]
+            self.unrecorded += result["unrecorded"]
             self.accepted += [text for text in result["allowed"] if text not in self.accepted]
         elif job.kind == "cbmc":
             self.harnesses[job.name] = _harness(result, not outcome.problems)
@@ -107,6 +112,17 @@ class Gathered:
     units: dict[str, UnitResult]
     engines: Sequence[str]
     problems: list[str] = field(default_factory=list)
+    # Verdicts that were known, and those that were had now.
+    known: int = 0
+    fresh: int = 0
+    # What the report of a shard has besides; it says nothing about the whole.
+    shard: dict[str, Any] = field(default_factory=dict)
+
+    def add(self, outcome: Outcome) -> None:
+        """Take in a job's result."""
+        self.units[outcome.job.unit].add(outcome)
+        self.known += outcome.cached
+        self.fresh += not outcome.cached
 
     @property
     def wp_total(self) -> int:
@@ -157,6 +173,8 @@ class Gathered:
     @property
     def success(self) -> bool:
         """True when all is proved, and there is something to prove."""
+        if self.shard:
+            return not self.all_problems
         return not self.all_problems and 0 < self.total == self.proved
 
 
@@ -172,7 +190,9 @@ KINDS = {
 class Console:
     """Tells people how far the run is: a line for each job that ran, and for each unit."""
 
-    def __init__(self, jobs: Sequence[Job]) -> None:
+    def __init__(self, jobs: Sequence[Job], times: Times, width: int) -> None:
+        expected = estimates([job.label for job in jobs], times.seconds)
+        self._forecast = Forecast(expected, width)
         self._waiting = [(job.unit, job.kind) for job in jobs]
         self._sums: dict[tuple[str, str], tuple[int, int, float]] = {}
 
@@ -181,10 +201,16 @@ class Console:
         job = outcome.job
         proved, total = self._numbers(outcome)
         seconds = 0.0 if outcome.cached else float(outcome.result["seconds"])
+        if outcome.cached:
+            self._forecast.known(job.label)
+        else:
+            self._forecast.done(job.label, seconds)
         if not outcome.cached and total:
-            self._line(job, job.name, proved, total, seconds)
+            self._line(job, job.name, proved, total, seconds, self._forecast.text())
         for text in outcome.problems:
             print(f"    FAILED {text}", flush=True)
+        for text in () if outcome.cached else outcome.result.get("stale", ()):
+            print(f"    note   {text}", flush=True)
         kind = (job.unit, job.kind)
         before = self._sums.get(kind, (0, 0, 0.0))
         self._sums[kind] = (before[0] + proved, before[1] + total, before[2] + seconds)
@@ -203,11 +229,14 @@ class Console:
         return int(not outcome.problems), 1
 
     @staticmethod
-    def _line(job: Job, name: str, proved: int, total: int, seconds: float) -> None:
+    def _line(
+        job: Job, name: str, proved: int, total: int, seconds: float, left: str = ""
+    ) -> None:
         engine, what = KINDS[job.kind]
         time = f"{seconds:.0f} s" if seconds else "known"
         numbers = f"{proved:>4} of {total:>4} {what}"
-        print(f"{job.unit:<10} {engine:<5} {name:<37} {numbers}  {time}", flush=True)
+        text = f"{job.unit:<10} {engine:<5} {name:<37} {numbers}  {time:<7}{left}"
+        print(text.rstrip(), flush=True)
 
 
 def closing_lines(gathered: Gathered) -> list[str]:
@@ -220,9 +249,14 @@ def closing_lines(gathered: Gathered) -> list[str]:
                 f"{name}: the postconditions of {left} functions are left to CBMC,"
                 " see proofs/units.toml"
             )
+    if stale := sum(len(unit.stale) for unit in gathered.units.values()):
+        lines.append(f"{stale} goals have a better prover than is recorded: run --update-goals")
+    lines.append(f"verdicts: {gathered.known} known before, {gathered.fresh} had now")
     engines = (
         f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}, Gappa {gathered.gappa_proved}"
     )
+    if gathered.shard:
+        lines.append(f"shard {gathered.shard['shard']}: see --join for the verdict on the whole")
     return [*lines, f"proved {gathered.proved} of {gathered.total} goals ({engines})"]
 
 
@@ -235,11 +269,13 @@ def content(
 ) -> dict[str, Any]:
     """The report."""
     report: dict[str, Any] = {"verdict": "proved" if gathered.success else "failed"}
-    if partial:
+    if partial or gathered.shard:
         report["partial"] = True
+    report |= gathered.shard
     return report | {
         "goals": gathered.total,
         "proved": gathered.proved,
+        "verdicts": {"known": gathered.known, "fresh": gathered.fresh},
         "problems": gathered.all_problems,
         "units": {name: _unit(result, gathered.engines) for name, result in gathered.units.items()},
         "tools": {name: _tool(found) for name, found in tools.items()},
@@ -256,6 +292,7 @@ def _unit(result: UnitResult, engines: Sequence[str]) -> dict[str, Any]:
             "proved": result.wp_proved,
             "smoke_tests": result.smoke,
             "accepted_warnings": {text: exceptions.warnings[text] for text in result.accepted},
+            "stale_provers": result.stale,
             "not_proved_here": exceptions.no_body,
             "not_by_wp": exceptions.not_by_wp,
             "by_cbmc": exceptions.by_cbmc,

@@ -23,13 +23,17 @@ from . import (
     gappa,
     report,
     rules,
+    shards,
     unused,
     wp,
 )
 from .cache import Cache, write_atomically
+from .goals import as_text, read_goals, short_name
 from .jobs import Runner
-from .project import Unit, closure, find_units
+from .project import RECORDED_TIMES, Unit, closure, find_units
 from .settings import Exceptions, read_exceptions
+from .times import Times, read_times, recorded_anew
+from .times import as_text as times_text
 
 
 @dataclass(frozen=True)
@@ -40,9 +44,14 @@ class Choice:
     partial: bool
     engines: tuple[str, ...]
     width: int
-    cached: bool
-    quick: bool
-    update_goals: bool
+    # Where verdicts are kept, for all clones of the user.
+    verdicts: Path
+    fresh: bool = False
+    quick: bool = False
+    update_goals: bool = False
+    # A part of the jobs, or the reports of all parts.
+    shard: shards.Shard | None = None
+    join: tuple[Path, ...] = ()
 
 
 def tool_stamp(tools: dict[str, Found]) -> dict[str, str]:
@@ -63,7 +72,8 @@ def own_digest() -> str:
     """SHA-256 over the driver's source: another driver may judge differently."""
     folder = Path(__file__).resolve().parent
     state = hashlib.sha256()
-    for path in sorted([*folder.glob("*.py"), folder.parent / "toolchain.py"]):
+    own = [*folder.glob("*.py"), *folder.glob("*.ml"), folder.parent / "toolchain.py"]
+    for path in sorted(own):
         if path.stem not in ("mutants", "mutation"):
             state.update(path.read_bytes())
     return state.hexdigest()
@@ -88,7 +98,8 @@ class Session:
     def run(self) -> int:
         """Prove, report; the exit status."""
         start = time.monotonic()
-        target = self._build / "report.json"
+        shard = self._choice.shard
+        target = self._build / (shard.file_name if shard else "report.json")
         target.unlink(missing_ok=True)
         # Not below build/: why3 puts a socket there, whose path must be short.
         scratch = Path(tempfile.mkdtemp(prefix="keel-prove-"))
@@ -107,7 +118,7 @@ class Session:
         return 0 if gathered.success else 1
 
     def _prove(self, runner: Runner, scratch: Path) -> report.Gathered:
-        """Run all jobs of the choice."""
+        """Have the verdicts of the choice, and apply the rules."""
         choice = self._choice
         everything = find_units(self._root)
         exceptions = read_exceptions(self._root / "proofs" / "units.toml", list(everything))
@@ -116,7 +127,52 @@ class Session:
             choice.engines,
         )
         stamp = {**tool_stamp(self._tools.versions("prove")), "driver": own_digest()}
-        jobs = []
+        jobs = self._jobs(runner, scratch, stamp, everything, exceptions)
+        times = Times(self._build / "times.json", self._root / RECORDED_TIMES)
+        made_of = shards.origin(jobs, stamp) if choice.shard or choice.join else {}
+        if choice.shard:
+            jobs = shards.part(jobs, choice.shard, times.recorded)
+        console = report.Console(jobs, times, choice.width)
+        if choice.join:
+            outcomes = shards.joined(jobs, choice.join, made_of)
+            for outcome in outcomes:
+                console.done(outcome)
+        else:
+            cache = Cache(choice.verdicts, choice.fresh)
+            outcomes = driver.run_jobs(jobs, cache, runner, choice.width, times, console.done)
+            times.save()
+            cache.prune()
+        for outcome in outcomes:
+            gathered.add(outcome)
+        if choice.shard:
+            # The rules look at all that there is: they wait for the reports to be joined.
+            gathered.shard = shards.entries(choice.shard, made_of, outcomes)
+            return gathered
+        self._apply_rules(gathered)
+        if choice.update_goals:
+            self._record_times(outcomes)
+        return gathered
+
+    def _record_times(self, outcomes: Sequence[driver.Outcome]) -> None:
+        """Record how long the jobs took, for everybody; what failed says nothing."""
+        path = self._root / RECORDED_TIMES
+        seen = {
+            outcome.job.label: float(outcome.result["seconds"])
+            for outcome in outcomes
+            if not outcome.problems
+        }
+        whole = not self._choice.partial and len(seen) == len(outcomes)
+        text = times_text(recorded_anew(read_times(path), seen, whole))
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:
+            write_atomically(path, text)
+
+    def _jobs(
+        self, runner: Runner, scratch: Path, stamp: dict[str, str], everything: dict[str, Unit],
+        exceptions: dict[str, Exceptions],
+    ) -> list[driver.Job]:  # fmt: skip
+        """All jobs of the choice."""
+        choice = self._choice
+        jobs: list[driver.Job] = []
         if "wp" in choice.engines:
             jobs += self._wp_jobs(runner, scratch, stamp, everything, exceptions)
         if "cbmc" in choice.engines:
@@ -127,14 +183,7 @@ class Session:
         if "gappa" in choice.engines:
             bounds = gappa.Gappa(self._tools.command("gappa"), runner, self._root, scratch)
             jobs += engines.gappa_jobs(choice.units, bounds, self._root, stamp)
-        cache = Cache(self._build / "cache" if choice.cached else None)
-        times = driver.Times(self._build / "times.json")
-        console = report.Console(jobs)
-        for outcome in driver.run_jobs(jobs, cache, runner, choice.width, times, console.done):
-            gathered.units[outcome.job.unit].add(outcome)
-        times.save()
-        self._apply_rules(gathered)
-        return gathered
+        return jobs
 
     def _wp_jobs(
         self, runner: Runner, scratch: Path, stamp: dict[str, str], everything: dict[str, Unit],
@@ -143,13 +192,13 @@ class Session:
         choice = self._choice
         prover = wp.Wp(
             self._tools.frama_c(), runner, self._root, scratch,
-            prover_answers(self._root, stamp) if choice.cached else None,
+            None if choice.fresh else prover_answers(self._root, stamp),
         )  # fmt: skip
         known = frozenset(
             function.name
             for unit in everything.values()
             for path in (*unit.own_files, *unit.theorems)
-            for function in csource.defined(path.read_text(encoding="utf-8"))
+            for function in csource.proved(path.read_text(encoding="utf-8"))
         )
         stages = wp.QUICK if choice.quick else wp.THOROUGH
         place = (self._root, stamp)
@@ -204,18 +253,26 @@ class Session:
         if self._choice.update_goals:
             self._update_goal_list(result, seen, path)
         if path.is_file():
-            result.listed = path.read_text(encoding="utf-8").split()
+            result.listed = read_goals(path, shown).names
             result.problems += rules.compare_goals(result.listed, seen, shown)
         else:
             result.problems.append(f"{shown} is missing: review the goals, run --update-goals")
 
     def _update_goal_list(self, result: report.UnitResult, seen: Sequence[str], path: Path) -> None:
-        """Rewrite the list, unless the run itself is in doubt."""
-        shown = path.relative_to(self._root)
+        """Rewrite the list, unless the run itself is in doubt.
+
+        A goal that is not proved, in this run, keeps the prover that it had.
+        """
+        shown = str(path.relative_to(self._root))
         if any("WP" in text for text in result.problems):
             print(f"{result.unit.name:<10} {shown} left alone: the run failed")
             return
-        text = "".join(f"{name}\n" for name in sorted(set(seen)))
+        provers = read_goals(path, shown).provers | {
+            goal["name"]: short_name(goal["prover"]) for goal in result.goals if goal["prover"]
+        }
+        for name in result.unrecorded:
+            provers.pop(name, None)
+        text = as_text(seen, provers)
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
             write_atomically(path, text)
             print(f"{result.unit.name:<10} {shown} rewritten: review the difference")

@@ -15,6 +15,7 @@ GOAL = re.compile(
     r"^\[wp\] \[(?P<by>[^\]]+)\] Goal (?:typed\w*?_)?(?P<name>\w+)(?: : (?P<status>\w+))?"
 )
 SMOKE = re.compile(r"^\[wp\] \[(?P<by>\w+)\] Smoke-test (?:typed\w*?_)?(?P<name>\w+)")
+PASS = "[wp] Running WP plugin"
 ATTEMPT = re.compile(r"^ +(?P<by>[\w-]+(?: [\d.]+)?): (?P<status>[A-Z]\w*)")
 MESSAGE = re.compile(
     r"^\[(?P<who>[\w:.-]+)\] (?:(?P<place>[^\s:]+:\d+): )?"
@@ -32,6 +33,8 @@ class Goal:
     name: str
     status: str = ""
     prover: str = ""
+    # How many passes of WP had begun when it was proved.
+    passes: int = 0
     attempts: list[str] = field(default_factory=list)
 
     @property
@@ -61,6 +64,7 @@ class Log:
     smoke: dict[str, bool] = field(default_factory=dict)
     messages: list[Message] = field(default_factory=list)
     functions: list[str] = field(default_factory=list)
+    passes: int = 0
 
     @property
     def proved(self) -> int:
@@ -77,6 +81,7 @@ def _note_goal(log: Log, match: re.Match[str]) -> Goal:
     if match["status"]:
         goal.attempts.append(f"{match['by']}: {status}")
     if not goal.proved:
+        goal.passes = log.passes
         goal.status, goal.prover = status, match["by"] if status == "Valid" else ""
     return goal
 
@@ -94,6 +99,7 @@ def read_log(text: str) -> Log:
             log.messages[-1] = message
             continue
         message = None
+        log.passes += line.startswith(PASS)
         if match := GOAL.match(line):
             goal = _note_goal(log, match)
             continue

@@ -17,8 +17,8 @@
 #ifndef KEEL_RTOS_ADMISSION_H
 #define KEEL_RTOS_ADMISSION_H
 
+#include "keel/rtos/priority.h"
 #include "keel/rtos/queue.h"
-#include "keel/rtos/task.h"
 #include "keel/status.h"
 
 #include <stdint.h>
@@ -39,23 +39,23 @@ typedef struct keel_admission {
 } keel_admission_t;
 
 /*@ // C / T in parts per million, rounded up.
-  @ logic integer utilisation(keel_task_config_t *c) =
-  @     (c->budget_us * KEEL_UTILISATION_FULL_PPM + c->period_us - 1) / c->period_us;
+  @ logic integer utilisation(integer period_us, integer budget_us) =
+  @     (budget_us * KEEL_UTILISATION_FULL_PPM + period_us - 1) / period_us;
   @
-  @ logic integer realtime_budget(keel_task_config_t *c) =
-  @     (c->priority == KEEL_PRIORITY_REALTIME) ? c->budget_us : 0;
+  @ logic integer realtime_budget(integer priority, integer budget_us) =
+  @     (priority == KEEL_PRIORITY_REALTIME) ? budget_us : 0;
   @
-  @ predicate admission_demand(keel_admission_t a) =
-  @     a.realtime_demand_us == 0 ||
-  @     a.realtime_demand_us + 2 * a.guard_us <= a.shortest_realtime_us;
+  @ // The rules, on the totals of a set.
+  @ predicate demand_rule(integer demand_us, integer shortest_us, integer guard_us) =
+  @     demand_us == 0 || demand_us + 2 * guard_us <= shortest_us;
   @
-  @ predicate admission_gap(keel_admission_t a) =
-  @     a.longest_other_us == 0 || a.longest_other_us + a.guard_us <= a.shortest_gap_us;
-  @
-  @ predicate admission_utilisation(keel_admission_t a) = a.utilisation <= a.utilisation_limit;
+  @ predicate gap_rule(integer other_us, integer gap_us, integer guard_us) =
+  @     other_us == 0 || other_us + guard_us <= gap_us;
   @
   @ predicate admissible(keel_admission_t a) =
-  @     admission_demand(a) && admission_gap(a) && admission_utilisation(a);
+  @     demand_rule(a.realtime_demand_us, a.shortest_realtime_us, a.guard_us) &&
+  @     gap_rule(a.longest_other_us, a.shortest_gap_us, a.guard_us) &&
+  @     a.utilisation <= a.utilisation_limit;
   @
   @ // Totals that cannot overflow: the limits are in range and the demand is below a period.
   @ predicate admission_valid(keel_admission_t a) =
@@ -64,29 +64,29 @@ typedef struct keel_admission {
   @     a.longest_other_us <= UINT32_MAX && a.tasks <= KEEL_QUEUE_CAPACITY && admissible(a);
   @
   @ // What the totals become with one more task.
-  @ logic integer with_demand(keel_admission_t a, keel_task_config_t *c) =
-  @     a.realtime_demand_us + realtime_budget(c);
+  @ logic integer with_period(integer shortest_us, integer priority, integer period_us) =
+  @     (priority == KEEL_PRIORITY_REALTIME) ? \min(shortest_us, period_us) : shortest_us;
   @
-  @ logic integer with_period(keel_admission_t a, keel_task_config_t *c) =
-  @     (c->priority == KEEL_PRIORITY_REALTIME)
-  @         ? \min(a.shortest_realtime_us, c->period_us) : a.shortest_realtime_us;
+  @ logic integer with_gap(integer gap_us, integer priority, integer period_us,
+  @                        integer budget_us) =
+  @     (priority == KEEL_PRIORITY_REALTIME)
+  @         ? \min(gap_us, \max(0, period_us - budget_us)) : gap_us;
   @
-  @ logic integer with_gap(keel_admission_t a, keel_task_config_t *c) =
-  @     (c->priority == KEEL_PRIORITY_REALTIME)
-  @         ? \min(a.shortest_gap_us, \max(0, c->period_us - c->budget_us)) : a.shortest_gap_us;
+  @ logic integer with_other(integer other_us, integer priority, integer budget_us) =
+  @     (priority == KEEL_PRIORITY_REALTIME) ? other_us : \max(other_us, budget_us);
   @
-  @ logic integer with_other(keel_admission_t a, keel_task_config_t *c) =
-  @     (c->priority == KEEL_PRIORITY_REALTIME)
-  @         ? a.longest_other_us : \max(a.longest_other_us, c->budget_us);
+  @ predicate demand_fits(keel_admission_t a, integer priority, integer period_us,
+  @                       integer budget_us) =
+  @     demand_rule(a.realtime_demand_us + realtime_budget(priority, budget_us),
+  @                 with_period(a.shortest_realtime_us, priority, period_us), a.guard_us);
   @
-  @ predicate demand_fits(keel_admission_t a, keel_task_config_t *c) =
-  @     with_demand(a, c) == 0 || with_demand(a, c) + 2 * a.guard_us <= with_period(a, c);
+  @ predicate gap_fits(keel_admission_t a, integer priority, integer period_us,
+  @                    integer budget_us) =
+  @     gap_rule(with_other(a.longest_other_us, priority, budget_us),
+  @              with_gap(a.shortest_gap_us, priority, period_us, budget_us), a.guard_us);
   @
-  @ predicate gap_fits(keel_admission_t a, keel_task_config_t *c) =
-  @     with_other(a, c) == 0 || with_other(a, c) + a.guard_us <= with_gap(a, c);
-  @
-  @ predicate utilisation_fits(keel_admission_t a, keel_task_config_t *c) =
-  @     a.utilisation + utilisation(c) <= a.utilisation_limit;
+  @ predicate utilisation_fits(keel_admission_t a, integer period_us, integer budget_us) =
+  @     a.utilisation + utilisation(period_us, budget_us) <= a.utilisation_limit;
   @*/
 
 /**
@@ -115,131 +115,178 @@ void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
  * Admits one more task, or refuses it and leaves the totals alone (requirement ADM-002).
  *
  * @param admission totals of the tasks admitted so far
- * @param config    a valid declaration (keel_task_check)
+ * @param priority  the task's static priority
+ * @param period_us its period, 1 to 2^31 - 1 us
+ * @param budget_us its budget, at least 1 us
  * @return KEEL_OK, or the first that applies of KEEL_ERR_REALTIME_DEMAND, KEEL_ERR_BUDGET_GAP,
  *         KEEL_ERR_UTILISATION
  */
-/*@ requires \valid(admission) && \valid_read(config) && \separated(admission, config);
+/*@ requires \valid(admission);
   @ requires admission_valid(*admission) && admission->tasks < KEEL_QUEUE_CAPACITY;
-  @ requires config_valid(config);
+  @ requires period_valid(period_us) && 0 < budget_us;
   @ assigns *admission;
   @ ensures ADM_002_valid: admission_valid(*admission);
   @ ensures ADM_002_limits: admission->guard_us == \old(admission->guard_us) &&
   @     admission->utilisation_limit == \old(admission->utilisation_limit);
-  @ ensures ADM_002_kept: \result != KEEL_OK ==> admission->tasks == \old(admission->tasks);
+  @ ensures ADM_002_kept: \result != KEEL_OK ==> admission->tasks == \old(admission->tasks) &&
+  @     admission->utilisation == \old(admission->utilisation) &&
+  @     admission->realtime_demand_us == \old(admission->realtime_demand_us) &&
+  @     admission->shortest_realtime_us == \old(admission->shortest_realtime_us) &&
+  @     admission->shortest_gap_us == \old(admission->shortest_gap_us) &&
+  @     admission->longest_other_us == \old(admission->longest_other_us);
   @ behavior demand:
-  @   assumes !demand_fits(*admission, config);
+  @   assumes !demand_fits(*admission, priority, period_us, budget_us);
   @   assigns \nothing;
   @   ensures ADM_003_demand: \result == KEEL_ERR_REALTIME_DEMAND;
   @ behavior gap:
-  @   assumes demand_fits(*admission, config) && !gap_fits(*admission, config);
+  @   assumes demand_fits(*admission, priority, period_us, budget_us);
+  @   assumes !gap_fits(*admission, priority, period_us, budget_us);
   @   assigns \nothing;
   @   ensures ADM_003_gap: \result == KEEL_ERR_BUDGET_GAP;
   @ behavior utilisation:
-  @   assumes demand_fits(*admission, config) && gap_fits(*admission, config);
-  @   assumes !utilisation_fits(*admission, config);
+  @   assumes demand_fits(*admission, priority, period_us, budget_us);
+  @   assumes gap_fits(*admission, priority, period_us, budget_us);
+  @   assumes !utilisation_fits(*admission, period_us, budget_us);
   @   assigns \nothing;
   @   ensures ADM_003_utilisation: \result == KEEL_ERR_UTILISATION;
   @ behavior admitted:
-  @   assumes demand_fits(*admission, config) && gap_fits(*admission, config);
-  @   assumes utilisation_fits(*admission, config);
+  @   assumes demand_fits(*admission, priority, period_us, budget_us);
+  @   assumes gap_fits(*admission, priority, period_us, budget_us);
+  @   assumes utilisation_fits(*admission, period_us, budget_us);
   @   ensures ok: \result == KEEL_OK;
   @   ensures ADM_002_tasks: admission->tasks == \old(admission->tasks) + 1;
   @   ensures ADM_002_utilisation: admission->utilisation ==
-  @       \old(admission->utilisation) + utilisation(config);
-  @   ensures ADM_002_demand:
-  @       admission->realtime_demand_us == with_demand(\old(*admission), config);
-  @   ensures ADM_002_period:
-  @       admission->shortest_realtime_us == with_period(\old(*admission), config);
-  @   ensures ADM_002_gap: admission->shortest_gap_us == with_gap(\old(*admission), config);
-  @   ensures ADM_002_other: admission->longest_other_us == with_other(\old(*admission), config);
+  @       \old(admission->utilisation) + utilisation(period_us, budget_us);
+  @   ensures ADM_002_demand: admission->realtime_demand_us ==
+  @       \old(admission->realtime_demand_us) + realtime_budget(priority, budget_us);
+  @   ensures ADM_002_period: admission->shortest_realtime_us ==
+  @       with_period(\old(admission->shortest_realtime_us), priority, period_us);
+  @   ensures ADM_002_gap: admission->shortest_gap_us ==
+  @       with_gap(\old(admission->shortest_gap_us), priority, period_us, budget_us);
+  @   ensures ADM_002_other: admission->longest_other_us ==
+  @       with_other(\old(admission->longest_other_us), priority, budget_us);
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
-keel_status_t keel_admission_admit(keel_admission_t *admission, const keel_task_config_t *config);
+keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priority,
+                                   uint32_t period_us, uint32_t budget_us);
 
-/*@ // Sum of the budgets of the real-time tasks among the first n of the queue.
+/*@ // What admission asks of the order: that each of its tasks has a slot.
+  @ predicate queue_slots(keel_queue_t *q) =
+  @     \forall integer i; 0 <= i < q->count ==> q->order[i] < KEEL_QUEUE_CAPACITY;
+  @
+  @ // The totals of the first n tasks of a queue: the sum of the real-time budgets, ...
   @ logic integer realtime_demand(keel_queue_t *q, integer n) =
-  @     (n <= 0) ? 0 : realtime_demand(q, n - 1) + realtime_budget(q->task[n - 1]->config);
+  @     (n <= 0) ? 0 : realtime_demand(q, n - 1) +
+  @         realtime_budget(q->priority[q->order[n - 1]], q->budget_us[q->order[n - 1]]);
   @
-  @ // Sum of the utilisations of the first n tasks of the queue, in ppm.
+  @ // ... of the utilisations, in ppm, ...
   @ logic integer total_utilisation(keel_queue_t *q, integer n) =
-  @     (n <= 0) ? 0 : total_utilisation(q, n - 1) + utilisation(q->task[n - 1]->config);
+  @     (n <= 0) ? 0 : total_utilisation(q, n - 1) +
+  @         utilisation(q->period_us[q->order[n - 1]], q->budget_us[q->order[n - 1]]);
   @
-  @ // Every real-time period holds all real-time budgets and the guard twice.
+  @ // ... the shortest real-time period, ...
+  @ logic integer shortest_realtime(keel_queue_t *q, integer n) =
+  @     (n <= 0) ? UINT64_MAX : with_period(shortest_realtime(q, n - 1),
+  @         q->priority[q->order[n - 1]], q->period_us[q->order[n - 1]]);
+  @
+  @ // ... the shortest gap that a real-time task leaves ...
+  @ logic integer shortest_gap(keel_queue_t *q, integer n) =
+  @     (n <= 0) ? UINT64_MAX : with_gap(shortest_gap(q, n - 1),
+  @         q->priority[q->order[n - 1]], q->period_us[q->order[n - 1]],
+  @         q->budget_us[q->order[n - 1]]);
+  @
+  @ // ... and the longest budget of another task.
+  @ logic integer longest_other(keel_queue_t *q, integer n) =
+  @     (n <= 0) ? 0 : with_other(longest_other(q, n - 1), q->priority[q->order[n - 1]],
+  @         q->budget_us[q->order[n - 1]]);
+  @
+  @ // The totals hold what they say of the first n tasks.
+  @ predicate totals_of(keel_admission_t a, keel_queue_t *q, integer n) =
+  @     a.tasks == n && a.realtime_demand_us == realtime_demand(q, n) &&
+  @     a.utilisation == total_utilisation(q, n) &&
+  @     a.shortest_realtime_us == shortest_realtime(q, n) &&
+  @     a.shortest_gap_us == shortest_gap(q, n) && a.longest_other_us == longest_other(q, n);
+  @
+  @ // The rules for the first n tasks of a queue.
+  @ predicate demand_holds(keel_queue_t *q, integer n, integer guard_us) =
+  @     demand_rule(realtime_demand(q, n), shortest_realtime(q, n), guard_us);
+  @
+  @ predicate gap_holds(keel_queue_t *q, integer n, integer guard_us) =
+  @     gap_rule(longest_other(q, n), shortest_gap(q, n), guard_us);
+  @
+  @ predicate utilisation_holds(keel_queue_t *q, integer n, integer limit) =
+  @     total_utilisation(q, n) <= limit;
+  @
+  @ predicate set_holds(keel_queue_t *q, integer n, integer guard_us, integer limit) =
+  @     demand_holds(q, n, guard_us) && gap_holds(q, n, guard_us) &&
+  @     utilisation_holds(q, n, limit);
+  @
+  @ // Why the first n tasks are refused: the first rule that they break.
+  @ predicate set_refused(keel_queue_t *q, integer n, integer guard_us, integer limit,
+  @                       integer status) =
+  @     (status == KEEL_ERR_REALTIME_DEMAND && !demand_holds(q, n, guard_us)) ||
+  @     (status == KEEL_ERR_BUDGET_GAP && demand_holds(q, n, guard_us) &&
+  @      !gap_holds(q, n, guard_us)) ||
+  @     (status == KEEL_ERR_UTILISATION && demand_holds(q, n, guard_us) &&
+  @      gap_holds(q, n, guard_us) && !utilisation_holds(q, n, limit));
+  @
+  @ // The rules for all tasks of a queue and one more.
+  @ predicate demand_holds_with(keel_queue_t *q, integer priority, integer period_us,
+  @                             integer budget_us, integer guard_us) =
+  @     demand_rule(realtime_demand(q, q->count) + realtime_budget(priority, budget_us),
+  @                 with_period(shortest_realtime(q, q->count), priority, period_us), guard_us);
+  @
+  @ predicate gap_holds_with(keel_queue_t *q, integer priority, integer period_us,
+  @                          integer budget_us, integer guard_us) =
+  @     gap_rule(with_other(longest_other(q, q->count), priority, budget_us),
+  @              with_gap(shortest_gap(q, q->count), priority, period_us, budget_us), guard_us);
+  @
+  @ predicate utilisation_holds_with(keel_queue_t *q, integer period_us, integer budget_us,
+  @                                  integer limit) =
+  @     total_utilisation(q, q->count) + utilisation(period_us, budget_us) <= limit;
+  @
+  @ // The rules as they are told: every real-time period holds all real-time budgets and the guard
+  @ // twice ...
   @ predicate demand_admitted(keel_queue_t *q, integer guard_us) =
   @     \forall integer i; 0 <= i < q->realtime_count ==>
-  @         realtime_demand(q, q->count) + 2 * guard_us <= q->task[i]->config->period_us;
+  @         realtime_demand(q, q->count) + 2 * guard_us <= q->period_us[q->order[i]];
   @
-  @ // Every other budget fits the gap that each real-time task leaves.
+  @ // ... and every other budget fits the gap that each real-time task leaves.
   @ predicate gaps_admitted(keel_queue_t *q, integer guard_us) =
   @     \forall integer i, j; 0 <= i < q->realtime_count <= j < q->count ==>
-  @         q->task[j]->config->budget_us + guard_us
-  @             <= q->task[i]->config->period_us - q->task[i]->config->budget_us;
-  @
-  @ // The same of the tasks of the queue and one more: the periods hold the demand of all ...
-  @ predicate periods_hold_with(keel_queue_t *q, keel_task_config_t *c, integer guard_us) =
-  @     \forall integer i; 0 <= i < q->realtime_count ==>
-  @         realtime_demand(q, q->count) + realtime_budget(c) + 2 * guard_us
-  @             <= q->task[i]->config->period_us;
-  @
-  @ predicate period_holds_all(keel_queue_t *q, keel_task_config_t *c, integer guard_us) =
-  @     c->priority == KEEL_PRIORITY_REALTIME ==>
-  @         realtime_demand(q, q->count) + c->budget_us + 2 * guard_us <= c->period_us;
-  @
-  @ // ... and the budgets fit the gaps.
-  @ predicate fits_gaps(keel_queue_t *q, keel_task_config_t *c, integer guard_us) =
-  @     c->priority != KEEL_PRIORITY_REALTIME ==>
-  @         \forall integer i; 0 <= i < q->realtime_count ==> c->budget_us + guard_us
-  @             <= q->task[i]->config->period_us - q->task[i]->config->budget_us;
-  @
-  @ predicate leaves_gaps(keel_queue_t *q, keel_task_config_t *c, integer guard_us) =
-  @     c->priority == KEEL_PRIORITY_REALTIME ==>
-  @         \forall integer j; q->realtime_count <= j < q->count ==>
-  @             q->task[j]->config->budget_us + guard_us <= c->period_us - c->budget_us;
+  @         q->budget_us[q->order[j]] + guard_us
+  @             <= q->period_us[q->order[i]] - q->budget_us[q->order[i]];
   @*/
 
 /**
  * Admits the tasks of a queue in order, up to the first that is refused (requirement ADM-004).
  *
  * @param admission totals of an empty set (keel_admission_init)
- * @param queue     a valid queue of checked tasks
- * @return KEEL_OK when all are admitted; otherwise the reason for which the task with index
+ * @param queue     a valid queue
+ * @return KEEL_OK when all are admitted; otherwise the reason for which the task at position
  *         admission->tasks is refused
  */
 /*@ requires \valid(admission) && \valid_read(queue) && \separated(admission, queue);
-  @ requires queue_valid(queue) && queue_checked(queue);
-  @ requires \forall integer i; 0 <= i < queue->count ==>
-  @     \separated(admission, queue->task[i]);
-  @ requires \forall integer i; 0 <= i < queue->count ==>
-  @     \separated(admission, queue->task[i]->config);
-  @ requires admission_valid(*admission) && admission->tasks == 0;
-  @ requires admission->realtime_demand_us == 0 && admission->utilisation == 0;
+  @ requires queue_counts(queue) && queue_slots(queue);
+  @ requires queue_realtime_first(queue) && queue_others_last(queue);
+  @ requires queue_periods(queue) && queue_budgets(queue);
+  @ requires admission_valid(*admission) && totals_of(*admission, queue, 0);
   @ assigns *admission;
-  @ ensures ADM_002_valid: admission_valid(*admission);
-  @ ensures ADM_002_limits: admission->guard_us == \old(admission->guard_us) &&
+  @ ensures ADM_004_valid: admission_valid(*admission);
+  @ ensures ADM_004_limits: admission->guard_us == \old(admission->guard_us) &&
   @     admission->utilisation_limit == \old(admission->utilisation_limit);
-  @ ensures ADM_004_offender: \result != KEEL_OK ==> admission->tasks < queue->count;
-  @ ensures ADM_004_all: \result == KEEL_OK ==> admission->tasks == queue->count;
-  @ ensures ADM_004_demand: \result == KEEL_OK ==>
-  @     demand_admitted(queue, admission->guard_us);
-  @ ensures ADM_004_gaps: \result == KEEL_OK ==> gaps_admitted(queue, admission->guard_us);
-  @ ensures ADM_004_utilisation: \result == KEEL_OK ==>
-  @     total_utilisation(queue, queue->count) <= admission->utilisation_limit;
-  @ ensures ADM_004_totals: \result == KEEL_OK ==>
-  @     admission->realtime_demand_us == realtime_demand(queue, queue->count) &&
-  @     admission->utilisation == total_utilisation(queue, queue->count);
-  @ ensures ADM_004_some: \result == KEEL_OK ==> 0 < queue->realtime_count ==>
-  @     admission->realtime_demand_us > 0;
-  @ ensures ADM_004_period: \result == KEEL_OK ==>
-  @     \forall integer i; 0 <= i < queue->realtime_count ==>
-  @         admission->shortest_realtime_us <= queue->task[i]->config->period_us;
-  @ ensures ADM_004_gap: \result == KEEL_OK ==>
-  @     \forall integer i; 0 <= i < queue->realtime_count ==> admission->shortest_gap_us <=
-  @         \max(0, queue->task[i]->config->period_us - queue->task[i]->config->budget_us);
-  @ ensures ADM_004_other: \result == KEEL_OK ==>
-  @     \forall integer j; queue->realtime_count <= j < queue->count ==>
-  @         admission->longest_other_us >= queue->task[j]->config->budget_us;
+  @ ensures ADM_004_range: admission->tasks <= queue->count;
+  @ ensures ADM_004_totals: totals_of(*admission, queue, admission->tasks);
+  @ ensures ADM_004_all: \result == KEEL_OK <==> admission->tasks == queue->count;
+  @ ensures ADM_004_offender: \result != KEEL_OK ==> set_refused(queue, admission->tasks + 1,
+  @     admission->guard_us, admission->utilisation_limit, \result);
+  @ ensures ADM_004_complete: \result == KEEL_OK <==> set_holds(queue, queue->count,
+  @     admission->guard_us, admission->utilisation_limit);
+  @ ensures ADM_004_told: \result == KEEL_OK <==>
+  @     demand_admitted(queue, admission->guard_us) &&
+  @     gaps_admitted(queue, admission->guard_us) &&
+  @     utilisation_holds(queue, queue->count, admission->utilisation_limit);
   @*/
 keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue_t *queue);
 

@@ -16,134 +16,178 @@
 #include "keel/rtos/clock.h"
 #include "keel/rtos/priority.h"
 #include "keel/rtos/queue.h"
-#include "keel/rtos/task.h"
 
 #include <stdint.h>
 
-/** The slack when no real-time task is queued, and the wake-up time when there is nothing to do. */
+/** The time of what never happens: a release when there is no task. */
 #define KEEL_TIME_NEVER_US UINT64_MAX
 
-/*@ predicate released(keel_task_t *task, integer now_us) = task->release_us <= now_us;
+/*@ // What scheduling says of the task in slot x.
+  @ predicate released(keel_queue_t *q, integer x, integer now_us) = q->release_us[x] <= now_us;
   @
-  @ // Time since the release before the one to be served: eq. 3's t - le, on the grid.
-  @ logic integer task_age(keel_task_t *task, integer now_us) =
-  @     now_us - task->release_us + task->config->period_us;
+  @ // Eq. 3; a task's age counts from the release before the one to be served, on the grid.
+  @ logic integer task_priority(keel_queue_t *q, integer x, integer now_us) =
+  @     dynamic_priority(q->priority[x], now_us - q->release_us[x] + q->period_us[x],
+  @                      q->period_us[x]);
   @
-  @ logic integer task_priority(keel_task_t *task, integer now_us) =
-  @     dynamic_priority(task->config->priority, task_age(task, now_us), task->config->period_us);
+  @ predicate promoted(keel_queue_t *q, integer x, integer now_us) =
+  @     task_priority(q, x, now_us) == KEEL_PRIORITY_REALTIME;
   @
   @ // w: the declared budget or the longest measured run, whichever is longer.
-  @ logic integer task_worst(keel_task_t *task) =
-  @     \max(task->config->budget_us, task->stats.longest_us);
-  @
-  @ predicate promoted(keel_task_t *task, integer now_us) =
-  @     task_priority(task, now_us) == KEEL_PRIORITY_REALTIME;
-  @
-  @ predicate eligible(keel_task_t *task, integer now_us, integer slack_us, integer guard_us) =
-  @     released(task, now_us) &&
-  @     (promoted(task, now_us) || guard_us + task_worst(task) <= slack_us);
+  @ logic integer task_worst(keel_queue_t *q, integer x) =
+  @     \max(q->budget_us[x], q->stats[x].longest_us);
   @
   @ // Time to a task's release, none when it is due.
-  @ logic integer time_to(keel_task_t *task, integer now_us) =
-  @     (task->release_us > now_us) ? task->release_us - now_us : 0;
+  @ logic integer time_to(keel_queue_t *q, integer x, integer now_us) =
+  @     (q->release_us[x] > now_us) ? q->release_us[x] - now_us : 0;
   @
-  @ predicate decidable(keel_queue_t *q, integer now_us) =
-  @     queue_valid(q) && queue_checked(q) && now_us <= KEEL_CLOCK_TIME_LIMIT_US;
+  @ // W + w <= S, the slack being the time to the next of all real-time releases.
+  @ predicate fits_slack(keel_queue_t *q, integer x, integer now_us, integer guard_us) =
+  @     \forall integer j; 0 <= j < q->realtime_count ==>
+  @         guard_us + task_worst(q, x) <= time_to(q, q->order[j], now_us);
+  @
+  @ // Whether a task may run that is not real-time, if no real-time task is due.
+  @ predicate may_run(keel_queue_t *q, integer x, integer now_us, integer guard_us) =
+  @     released(q, x, now_us) && (promoted(q, x, now_us) || fits_slack(q, x, now_us, guard_us));
+  @
+  @ // The same with the room that the slack leaves beside the guard, which is computed once.
+  @ predicate eligible(keel_queue_t *q, integer x, integer now_us, integer room_us) =
+  @     released(q, x, now_us) && (promoted(q, x, now_us) || task_worst(q, x) <= room_us);
+  @
+  @ // When waiting alone makes a task run that is not real-time: its release, or its promotion.
+  @ logic integer promotion(keel_queue_t *q, integer x) =
+  @     q->release_us[x] - q->period_us[x] + promotion_age(q->priority[x], q->period_us[x]);
+  @
+  @ logic integer next_event(keel_queue_t *q, integer x, integer now_us) =
+  @     (q->release_us[x] > now_us) ? q->release_us[x] : promotion(q, x);
+  @
+  @ // The earliest release among positions first to last - 1; later than any time if there is none.
+  @ predicate is_earliest(keel_queue_t *q, integer first, integer last, integer time_us) =
+  @     (\forall integer i; first <= i < last ==> time_us <= q->release_us[q->order[i]]) &&
+  @     (time_us == KEEL_TIME_NEVER_US ||
+  @      (\exists integer i; first <= i < last && time_us == q->release_us[q->order[i]]));
   @*/
 
 /**
  * FCFS: the first due real-time task in a part of the queue (eq. 1, requirement DEC-001).
  *
  * @param queue  a valid queue
- * @param from   the first index to look at
- * @param to     the index behind the last; from <= to <= queue->realtime_count
+ * @param from   the first position to look at
+ * @param to     the position behind the last; from <= to <= queue->realtime_count
  * @param now_us the time, in us
- * @return the index of the first task in the part that is due, or to when none is
+ * @return the position of the first task in the part that is due, or to when none is
  */
-/*@ requires \valid_read(queue) && queue_valid(queue);
+/*@ requires \valid_read(queue) && queue_counts(queue) && queue_order(queue);
   @ requires from <= to <= queue->realtime_count;
   @ assigns \nothing;
   @ ensures range: from <= \result <= to;
-  @ ensures DEC_001_due: \result < to ==> released(queue->task[\result], now_us);
+  @ ensures DEC_001_due: \result < to ==> released(queue, queue->order[\result], now_us);
   @ ensures DEC_001_first: \forall integer i; from <= i < \result ==>
-  @     !released(queue->task[i], now_us);
+  @     !released(queue, queue->order[i], now_us);
   @*/
 uint32_t keel_decision_realtime(const keel_queue_t *queue, uint32_t from, uint32_t to,
                                 uint64_t now_us);
 
 /**
- * The slack S: the time to the next real-time release (requirement DEC-002).
+ * The earliest release of a real-time task, which the slack reaches to (requirement DEC-002).
  *
- * @param queue  a valid queue
- * @param now_us the time, in us
- * @return the time in us, 0 when a real-time task is due, KEEL_TIME_NEVER_US when there is none
+ * @param queue a valid queue
+ * @return the time in us, KEEL_TIME_NEVER_US when there is no real-time task
  */
-/*@ requires \valid_read(queue) && queue_valid(queue);
+/*@ requires \valid_read(queue) && queue_counts(queue) && queue_order(queue);
   @ assigns \nothing;
-  @ ensures DEC_002_bound: \forall integer i; 0 <= i < queue->realtime_count ==>
-  @     \result <= time_to(queue->task[i], now_us);
-  @ ensures DEC_002_exact: \result == KEEL_TIME_NEVER_US ||
-  @     (\exists integer i; 0 <= i < queue->realtime_count &&
-  @         \result == time_to(queue->task[i], now_us));
-  @ ensures DEC_002_none: queue->realtime_count == 0 ==> \result == KEEL_TIME_NEVER_US;
+  @ ensures DEC_002_earliest: is_earliest(queue, 0, queue->realtime_count, \result);
   @*/
-uint64_t keel_decision_slack_us(const keel_queue_t *queue, uint64_t now_us);
+uint64_t keel_decision_earliest_us(const keel_queue_t *queue);
+
+/**
+ * The room for another task: the longest worst-case time w with which W + w <= S, S being the
+ * time to the earliest real-time release (requirement DEC-005). Inline, as it is a part of every
+ * choice and smaller than a call.
+ *
+ * @param earliest_us the earliest real-time release, in us
+ * @param now_us      the time, in us
+ * @param guard_us    the guard W, in us
+ * @return the room in us, UINT32_MAX when it is longer; 0 when even a task of 1 us does not fit
+ */
+/*@ assigns \nothing;
+  @ ensures DEC_005_room: \forall integer w; 0 < w <= UINT32_MAX ==>
+  @     (w <= \result <==>
+  @      guard_us + w <= ((earliest_us > now_us) ? earliest_us - now_us : 0));
+  @*/
+static inline uint32_t keel_decision_room_us(uint64_t earliest_us, uint64_t now_us,
+                                             uint32_t guard_us)
+{
+    uint64_t room_us;
+
+    if ((earliest_us <= now_us) || ((earliest_us - now_us) <= guard_us)) {
+        return 0u;
+    }
+    room_us = (earliest_us - now_us) - guard_us;
+    return (room_us < UINT32_MAX) ? (uint32_t)room_us : UINT32_MAX;
+}
+
+/** Which of the tasks that are not real-time runs, and when the next of them is released. */
+typedef struct keel_choice {
+    uint64_t earliest_us; /**< The earliest release of them all; KEEL_TIME_NEVER_US if none is. */
+    uint32_t position;    /**< The chosen task's position in the order. */
+    uint32_t priority;    /**< Its dynamic priority; 0: none is eligible. */
+} keel_choice_t;
+
+/*@ // What a choice at now_us is, by what each of the tasks was allowed then.
+  @ predicate chosen(keel_queue_t *q, keel_choice_t c, integer now_us, integer room_us) =
+  @     q->realtime_count <= c.position < q->count &&
+  @     eligible(q, q->order[c.position], now_us, room_us) &&
+  @     c.priority == task_priority(q, q->order[c.position], now_us);
+  @*/
 
 /**
  * EDF with dynamic priority: the task that runs among those that are not real-time (eq. 3,
  * requirement DEC-003).
  *
- * @param queue    a valid queue of checked tasks
- * @param now_us   the time, in us
- * @param slack_us the slack S, in us
- * @param guard_us the guard W, in us
- * @return the index of the chosen task, or queue->count when none is eligible
+ * @param queue   a valid queue
+ * @param now_us  the time, in us
+ * @param room_us the room that the slack leaves, in us (keel_decision_room_us)
+ * @return the choice
  */
-/*@ requires \valid_read(queue) && decidable(queue, now_us);
+/*@ requires \valid_read(queue) && queue_valid(queue);
+  @ requires now_us <= KEEL_CLOCK_TIME_LIMIT_US;
   @ assigns \nothing;
-  @ ensures range: queue->realtime_count <= \result <= queue->count;
-  @ ensures DEC_003_eligible: \result < queue->count ==>
-  @     eligible(queue->task[\result], now_us, slack_us, guard_us);
-  @ ensures DEC_003_highest: \result < queue->count ==>
+  @ ensures range: \result.priority <= KEEL_PRIORITY_REALTIME;
+  @ ensures DEC_003_earliest:
+  @     is_earliest(queue, queue->realtime_count, queue->count, \result.earliest_us);
+  @ ensures DEC_003_eligible: \result.priority > 0 ==> chosen(queue, \result, now_us, room_us);
+  @ ensures DEC_003_highest: \forall integer i; queue->realtime_count <= i < queue->count ==>
+  @     eligible(queue, queue->order[i], now_us, room_us) ==>
+  @     task_priority(queue, queue->order[i], now_us) <= \result.priority;
+  @ ensures DEC_003_first: \result.priority > 0 ==>
+  @     \forall integer i; queue->realtime_count <= i < \result.position ==>
+  @     eligible(queue, queue->order[i], now_us, room_us) ==>
+  @     task_priority(queue, queue->order[i], now_us) < \result.priority;
+  @ ensures DEC_003_none: \result.priority == 0 ==>
   @     \forall integer i; queue->realtime_count <= i < queue->count ==>
-  @         eligible(queue->task[i], now_us, slack_us, guard_us) ==>
-  @         task_priority(queue->task[i], now_us) <= task_priority(queue->task[\result], now_us);
-  @ ensures DEC_003_first: \result < queue->count ==>
-  @     \forall integer i; queue->realtime_count <= i < \result ==>
-  @         eligible(queue->task[i], now_us, slack_us, guard_us) ==>
-  @         task_priority(queue->task[i], now_us) < task_priority(queue->task[\result], now_us);
-  @ ensures DEC_003_none: \result == queue->count ==>
-  @     \forall integer i; queue->realtime_count <= i < queue->count ==>
-  @         !eligible(queue->task[i], now_us, slack_us, guard_us);
+  @     !eligible(queue, queue->order[i], now_us, room_us);
   @*/
-uint32_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, uint64_t slack_us,
-                             uint32_t guard_us);
-
-/*@ // When waiting alone can make a task run: its release, or its promotion if it is released.
-  @ logic integer next_event(keel_task_t *task, integer now_us) =
-  @     (task->release_us > now_us || task->config->priority == KEEL_PRIORITY_REALTIME)
-  @         ? task->release_us
-  @         : task->release_us - task->config->period_us
-  @           + promotion_age(task->config->priority, task->config->period_us);
-  @*/
+keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, uint32_t room_us);
 
 /**
- * How long nothing can become eligible when nothing is now (requirement DEC-004): until the first
- * release, or the promotion of a task that is released but does not fit. Slack only shrinks until
- * a real-time task runs, so a task that does not fit now will not fit before that.
+ * How long no task that is not real-time can become eligible when none is now (requirement
+ * DEC-004): until the first release, or the promotion of a task that is released but does not fit.
+ * Slack only shrinks until a real-time task runs, so what does not fit now will not before that.
  *
- * @param queue  a valid queue of checked tasks
+ * @param queue  a valid queue
  * @param now_us the time, in us
- * @return the time up to which every decision is the same, in us, or KEEL_TIME_NEVER_US
+ * @return the earliest such time in us, or KEEL_TIME_NEVER_US
  */
-/*@ requires \valid_read(queue) && decidable(queue, now_us);
+/*@ requires \valid_read(queue) && queue_valid(queue);
+  @ requires now_us <= KEEL_CLOCK_TIME_LIMIT_US;
   @ assigns \nothing;
-  @ ensures DEC_004_bound: \forall integer i; 0 <= i < queue->count ==>
-  @     \result <= next_event(queue->task[i], now_us);
+  @ ensures DEC_004_bound: \forall integer i; queue->realtime_count <= i < queue->count ==>
+  @     \result <= next_event(queue, queue->order[i], now_us);
   @ ensures DEC_004_exact: \result == KEEL_TIME_NEVER_US ||
-  @     (\exists integer i; 0 <= i < queue->count &&
-  @         \result == next_event(queue->task[i], now_us));
+  @     (\exists integer i; queue->realtime_count <= i < queue->count &&
+  @         \result == next_event(queue, queue->order[i], now_us));
   @*/
-uint64_t keel_decision_wake_us(const keel_queue_t *queue, uint64_t now_us);
+uint64_t keel_decision_event_us(const keel_queue_t *queue, uint64_t now_us);
 
 #endif

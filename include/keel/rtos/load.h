@@ -28,6 +28,10 @@ typedef struct keel_stats {
     (stats).total_us, (stats).runs, (stats).last_us, (stats).longest_us, (stats).overruns,         \
         (stats).promotions
 
+/* Those of them that a run writes. */
+#define STATS_RUN(stats)                                                                           \
+    (stats).total_us, (stats).runs, (stats).last_us, (stats).longest_us, (stats).overruns
+
 /*@ predicate stats_fresh(keel_stats_t stats) =
   @     stats.total_us == 0 && stats.runs == 0 && stats.last_us == 0 &&
   @     stats.longest_us == 0 && stats.overruns == 0 && stats.promotions == 0;
@@ -38,6 +42,26 @@ typedef struct keel_stats {
   @ // Whether one more run can enter the mean.
   @ predicate stats_open(keel_stats_t stats, integer elapsed_us) =
   @     stats.runs < UINT32_MAX && stats.total_us + elapsed_us <= UINT64_MAX;
+  @
+  @ // One run of a task was recorded: every field that a run writes.
+  @ predicate stats_recorded{L, M}(keel_stats_t *stats, integer elapsed_us, integer budget_us) =
+  @     \at(stats->last_us, M) == elapsed_us &&
+  @     \at(stats->longest_us, M) == \max(\at(stats->longest_us, L), elapsed_us) &&
+  @     \at(stats->overruns, M) == ((elapsed_us > budget_us)
+  @         ? counted(\at(stats->overruns, L), UINT16_MAX) : \at(stats->overruns, L)) &&
+  @     \at(stats->runs, M) == \at(stats->runs, L) +
+  @         ((\at(stats->runs, L) < UINT32_MAX &&
+  @           \at(stats->total_us, L) + elapsed_us <= UINT64_MAX) ? 1 : 0) &&
+  @     \at(stats->total_us, M) == \at(stats->total_us, L) +
+  @         ((\at(stats->runs, L) < UINT32_MAX &&
+  @           \at(stats->total_us, L) + elapsed_us <= UINT64_MAX) ? elapsed_us : 0);
+  @
+  @ predicate stats_same{L, M}(keel_stats_t *stats) =
+  @     \at(stats->last_us, M) == \at(stats->last_us, L) &&
+  @     \at(stats->longest_us, M) == \at(stats->longest_us, L) &&
+  @     \at(stats->overruns, M) == \at(stats->overruns, L) &&
+  @     \at(stats->runs, M) == \at(stats->runs, L) &&
+  @     \at(stats->total_us, M) == \at(stats->total_us, L);
   @*/
 
 /**
@@ -48,11 +72,12 @@ typedef struct keel_stats {
  * @param budget_us  the task's declared budget, in us; a longer run is an overrun
  */
 /*@ requires \valid(stats);
-  @ assigns stats->total_us, stats->runs, stats->last_us, stats->longest_us, stats->overruns;
+  @ assigns STATS_RUN(*stats);
   @ ensures LOD_001_last: stats->last_us == elapsed_us;
   @ ensures LOD_001_longest: stats->longest_us == \max(\old(stats->longest_us), elapsed_us);
   @ ensures LOD_002: stats->overruns == ((elapsed_us > budget_us)
   @     ? counted(\old(stats->overruns), UINT16_MAX) : \old(stats->overruns));
+  @ ensures LOD_003_recorded: stats_recorded{Pre, Post}(stats, elapsed_us, budget_us);
   @ behavior open:
   @   assumes stats_open(*stats, elapsed_us);
   @   ensures LOD_003_runs: stats->runs == \old(stats->runs) + 1;

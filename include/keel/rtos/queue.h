@@ -1,19 +1,26 @@
 /**
  * @file queue.h
- * @brief The one task queue that both halves of the scheduler share: an array without gaps.
+ * @brief The one task queue that both halves of the scheduler share: no gaps, nothing outside.
  *
- * Slots 0 to count - 1 hold tasks, the others none. Within the array the real-time tasks come
- * first, then the others, each class in the order in which its tasks were added: order matters
- * only within a class (FCFS serves real-time tasks in queue order, EDF breaks ties by it), and
- * with the classes apart neither half of the scheduler looks at the tasks of the other.
+ * A queue holds its tasks itself. What is known of a task lies in a slot, by field, and a slot
+ * never moves; the queue proper is an order of slots, one byte each: those in use in queue order,
+ * then the free ones. So a task is put in its place, or taken out, by moving a few bytes, there is
+ * always a free slot to take, and no pointer leads from one task to another.
  *
- * The queue points at tasks, which belong to its caller, as does the queue itself.
+ * In the order the real-time tasks come first, then the others, each class as its tasks were added:
+ * order matters only within a class (FCFS serves real-time tasks in queue order, EDF breaks ties by
+ * it), and with the classes apart neither half of the scheduler looks at the tasks of the other.
+ *
+ * The functions here are the kernel's own. They ask for what their caller has checked, and refuse
+ * nothing; keel_scheduler_add and keel_scheduler_remove are what an application calls.
  */
 #ifndef KEEL_RTOS_QUEUE_H
 #define KEEL_RTOS_QUEUE_H
 
+#include "keel/rtos/clock.h"
+#include "keel/rtos/load.h"
+#include "keel/rtos/priority.h"
 #include "keel/rtos/task.h"
-#include "keel/status.h"
 
 #include <stdint.h>
 
@@ -22,68 +29,137 @@
 #define KEEL_QUEUE_CAPACITY 32u
 #endif
 
-/** The queue. Read it freely; only the functions of the kernel write it. */
+#if KEEL_QUEUE_CAPACITY > 255u
+#error "KEEL_QUEUE_CAPACITY: a slot's number must fit into a byte"
+#endif
+
+/**
+ * The queue. Its caller owns the memory; only the functions of the kernel write it.
+ *
+ * Types tell who writes what: what adding and removing alone change is of 8 bits, what deciding
+ * changes is not. Provers know memory by its type, and need no further reason.
+ */
 typedef struct keel_queue {
-    uint32_t count;                         /**< Tasks in the queue. */
-    uint32_t realtime_count;                /**< How many of them, at the front, are real-time. */
-    keel_task_t *task[KEEL_QUEUE_CAPACITY]; /**< The tasks, then nulls. */
+    uint8_t count;                            /**< Tasks in the queue. */
+    uint8_t realtime_count;                   /**< How many of them, at the front, are real-time. */
+    uint8_t order[KEEL_QUEUE_CAPACITY];       /**< All slots: in queue order, then free ones. */
+    uint8_t priority[KEEL_QUEUE_CAPACITY];    /**< By slot: the static priority. */
+    uint16_t skipped[KEEL_QUEUE_CAPACITY];    /**< Whole periods passed unserved; saturates. */
+    uint32_t period_us[KEEL_QUEUE_CAPACITY];  /**< The period T, in us. */
+    uint32_t budget_us[KEEL_QUEUE_CAPACITY];  /**< The declared worst-case execution time, in us. */
+    uint64_t release_us[KEEL_QUEUE_CAPACITY]; /**< The next release to serve, in us. */
+    keel_stats_t stats[KEEL_QUEUE_CAPACITY];  /**< How its runs went. */
+    const keel_task_config_t *task[KEEL_QUEUE_CAPACITY]; /**< Its declaration; null: free. */
 } keel_queue_t;
 
 /*@ predicate queue_counts(keel_queue_t *q) =
   @     q->realtime_count <= q->count <= KEEL_QUEUE_CAPACITY;
   @
+  @ // Every slot stands in the order, once.
+  @ predicate queue_order(keel_queue_t *q) =
+  @     (\forall integer i; 0 <= i < KEEL_QUEUE_CAPACITY ==> q->order[i] < KEEL_QUEUE_CAPACITY) &&
+  @     (\forall integer i, j; 0 <= i < j < KEEL_QUEUE_CAPACITY ==> q->order[i] != q->order[j]);
+  @
   @ predicate queue_no_gaps(keel_queue_t *q) =
-  @     (\forall integer i; 0 <= i < q->count ==> q->task[i] != \null) &&
-  @     (\forall integer i; q->count <= i < KEEL_QUEUE_CAPACITY ==> q->task[i] == \null);
+  @     (\forall integer i; 0 <= i < q->count ==> q->task[q->order[i]] != \null) &&
+  @     (\forall integer i; q->count <= i < KEEL_QUEUE_CAPACITY ==>
+  @         q->task[q->order[i]] == \null);
   @
   @ predicate queue_no_duplicates(keel_queue_t *q) =
-  @     \forall integer i, j; 0 <= i < j < q->count ==> q->task[i] != q->task[j];
+  @     \forall integer i, j; 0 <= i < j < q->count ==>
+  @         q->task[q->order[i]] != q->task[q->order[j]];
   @
   @ predicate queue_realtime_first(keel_queue_t *q) =
-  @     \forall integer i; 0 <= i < q->realtime_count ==> realtime(q->task[i]);
+  @     \forall integer i; 0 <= i < q->realtime_count ==>
+  @         q->priority[q->order[i]] == KEEL_PRIORITY_REALTIME;
   @
   @ predicate queue_others_last(keel_queue_t *q) =
-  @     \forall integer i; q->realtime_count <= i < q->count ==> !realtime(q->task[i]);
+  @     \forall integer i; q->realtime_count <= i < q->count ==>
+  @         1 <= q->priority[q->order[i]] <= KEEL_PRIORITY_HIGH;
   @
-  @ predicate queue_tasks_valid(keel_queue_t *q) =
-  @     \forall integer i; 0 <= i < q->count ==> \valid(q->task[i]);
+  @ predicate queue_periods(keel_queue_t *q) =
+  @     \forall integer i; 0 <= i < q->count ==> period_valid(q->period_us[q->order[i]]);
   @
-  @ predicate queue_configs_valid(keel_queue_t *q) =
-  @     \forall integer i; 0 <= i < q->count ==> \valid_read(q->task[i]->config);
-  @
-  @ // The tasks are memory apart from the queue, their declarations objects of their own.
-  @ predicate queue_apart(keel_queue_t *q) =
-  @     (\forall integer i; 0 <= i < q->count ==> \separated(q, q->task[i])) &&
-  @     (\forall integer i; 0 <= i < q->count ==> \base_addr(q) != \base_addr(q->task[i]->config));
+  @ predicate queue_budgets(keel_queue_t *q) =
+  @     \forall integer i; 0 <= i < q->count ==> 0 < q->budget_us[q->order[i]];
   @
   @ predicate queue_valid(keel_queue_t *q) =
-  @     queue_counts(q) && queue_no_gaps(q) && queue_no_duplicates(q) && queue_tasks_valid(q) &&
-  @     queue_configs_valid(q) && queue_apart(q) && queue_realtime_first(q) &&
-  @     queue_others_last(q);
+  @     queue_counts(q) && queue_order(q) && queue_no_gaps(q) && queue_no_duplicates(q) &&
+  @     queue_realtime_first(q) && queue_others_last(q) && queue_periods(q) && queue_budgets(q);
   @
-  @ // Each task's declaration has passed keel_task_check.
-  @ predicate queue_checked(keel_queue_t *q) =
-  @     \forall integer i; 0 <= i < q->count ==> config_valid(q->task[i]->config);
+  @ predicate queue_holds(keel_queue_t *q, keel_task_config_t *task) =
+  @     \exists integer i; 0 <= i < q->count && q->task[q->order[i]] == task;
   @
-  @ predicate queue_holds(keel_queue_t *q, keel_task_t *task) =
-  @     \exists integer i; 0 <= i < q->count && q->task[i] == task;
+  @ // Positions first to last - 1 hold in state M the slots that they held in state L ...
+  @ predicate order_same{L, M}(keel_queue_t *q, integer first, integer last) =
+  @     \forall integer i; first <= i < last ==> \at(q->order[i], M) == \at(q->order[i], L);
   @
-  @ // Slots first to last - 1 hold in state M what they held in state L.
-  @ predicate slots_same{L, M}(keel_queue_t *q, integer first, integer last) =
-  @     \forall integer i; first <= i < last ==> \at(q->task[i], M) == \at(q->task[i], L);
+  @ // ... those that the positions before them held ...
+  @ predicate order_down{L, M}(keel_queue_t *q, integer first, integer last) =
+  @     \forall integer i; first <= i < last ==> \at(q->order[i], M) == \at(q->order[i - 1], L);
   @
-  @ // Slots first to last - 1 hold in state M what the slots before them held in state L.
-  @ predicate slots_down{L, M}(keel_queue_t *q, integer first, integer last) =
-  @     \forall integer i; first <= i < last ==> \at(q->task[i], M) == \at(q->task[i - 1], L);
+  @ // ... or those that the positions behind them held.
+  @ predicate order_up{L, M}(keel_queue_t *q, integer first, integer last) =
+  @     \forall integer i; first <= i < last ==> \at(q->order[i], M) == \at(q->order[i + 1], L);
   @
-  @ // Slots first to last - 1 hold in state M what the slots behind them held in state L.
-  @ predicate slots_up{L, M}(keel_queue_t *q, integer first, integer last) =
-  @     \forall integer i; first <= i < last ==> \at(q->task[i], M) == \at(q->task[i + 1], L);
+  @ // The whole periods that a task in slot x has missed, and the point of its grid behind now.
+  @ logic integer grid_missed(keel_queue_t *q, integer x, integer now_us) =
+  @     (now_us - q->release_us[x]) / q->period_us[x];
+  @
+  @ logic integer grid_next(keel_queue_t *q, integer x, integer now_us) =
+  @     q->release_us[x] + (grid_missed(q, x, now_us) + 1) * q->period_us[x];
   @
   @ // Where add puts a task: behind the last of its class.
-  @ logic integer queue_place(keel_queue_t *q, keel_task_t *task) =
-  @     (task->config->priority == KEEL_PRIORITY_REALTIME) ? q->realtime_count : q->count;
+  @ logic integer queue_place(keel_queue_t *q, integer priority) =
+  @     (priority == KEEL_PRIORITY_REALTIME) ? q->realtime_count : q->count;
+  @
+  @ // From state L to M a task of this priority has joined the order at its place, in the first
+  @ // free slot.
+  @ predicate order_joined{L, M}(keel_queue_t *q, integer priority) =
+  @     \at(q->count, M) == \at(q->count, L) + 1 &&
+  @     \at(q->realtime_count, M) == \at(q->realtime_count, L)
+  @         + ((priority == KEEL_PRIORITY_REALTIME) ? 1 : 0) &&
+  @     \at(q->order[\at(queue_place(q, priority), L)], M) == \at(q->order[q->count], L) &&
+  @     order_same{L, M}(q, 0, \at(queue_place(q, priority), L)) &&
+  @     order_down{L, M}(q, \at(queue_place(q, priority), L) + 1, \at(q->count, M)) &&
+  @     order_same{L, M}(q, \at(q->count, M), KEEL_QUEUE_CAPACITY);
+  @
+  @ // From state L to M the task at position i has left the order; its slot is the first free one.
+  @ predicate order_left{L, M}(keel_queue_t *q, integer i) =
+  @     \at(q->count, M) == \at(q->count, L) - 1 &&
+  @     \at(q->realtime_count, M) == \at(q->realtime_count, L)
+  @         - ((i < \at(q->realtime_count, L)) ? 1 : 0) &&
+  @     order_same{L, M}(q, 0, i) && order_up{L, M}(q, i, \at(q->count, M)) &&
+  @     \at(q->order[q->count], M) == \at(q->order[i], L) &&
+  @     order_same{L, M}(q, \at(q->count, L), KEEL_QUEUE_CAPACITY);
+  @
+  @ // Slot x holds a task that was just added: what scheduling reads of its declaration, ...
+  @ predicate slot_copied(keel_queue_t *q, integer x, keel_task_config_t *task) =
+  @     q->task[x] == task && q->period_us[x] == task->period_us &&
+  @     q->budget_us[x] == task->budget_us && q->priority[x] == task->priority;
+  @
+  @ // ... and fresh statistics.
+  @ predicate slot_fresh(keel_queue_t *q, integer x) =
+  @     q->skipped[x] == 0 && stats_fresh(q->stats[x]);
   @*/
+
+/* clang-format off: the formatter does not know these clauses. */
+/* The invariant of a queue as one clause for each part, which provers take one at a time. */
+#define QUEUE_STAYS_VALID(q)                                                                       \
+    ensures QUE_005_counts : queue_counts(q);                                                      \
+    ensures QUE_005_order : queue_order(q);                                                        \
+    ensures QUE_005_no_gaps : queue_no_gaps(q);                                                    \
+    ensures QUE_005_no_duplicates : queue_no_duplicates(q);                                        \
+    ensures QUE_005_realtime : queue_realtime_first(q);                                            \
+    ensures QUE_005_others : queue_others_last(q);                                                 \
+    ensures QUE_005_periods : queue_periods(q);                                                    \
+    ensures QUE_005_budgets : queue_budgets(q);
+
+/* All that is kept of the task in a slot. */
+#define QUEUE_SLOT(q, x)                                                                           \
+    (q)->task[x], (q)->release_us[x], (q)->period_us[x], (q)->budget_us[x], (q)->priority[x],      \
+        (q)->skipped[x], STATS_FIELDS((q)->stats[x])
+/* clang-format on */
 
 /**
  * Makes a queue empty (requirement QUE-001).
@@ -91,8 +167,10 @@ typedef struct keel_queue {
  * @param queue the queue to initialise
  */
 /*@ requires \valid(queue);
-  @ assigns queue->count, queue->realtime_count, queue->task[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @ ensures QUE_001: queue_valid(queue) && queue->count == 0;
+  @ assigns queue->count, queue->realtime_count, queue->order[0 .. KEEL_QUEUE_CAPACITY - 1],
+  @     queue->task[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ ensures QUE_001_valid: queue_valid(queue);
+  @ ensures QUE_001_empty: queue->count == 0 && queue->realtime_count == 0;
   @*/
 void keel_queue_init(keel_queue_t *queue);
 
@@ -101,99 +179,78 @@ void keel_queue_init(keel_queue_t *queue);
  *
  * @param queue a valid queue
  * @param task  the task to look for; it is compared, never read
- * @return its index, or queue->count when it is not there
+ * @return its position in the order, or queue->count when it is not there
  */
-/*@ requires \valid_read(queue) && queue_valid(queue);
+/*@ requires \valid_read(queue) && queue_counts(queue) && queue_order(queue);
   @ assigns \nothing;
   @ ensures range: \result <= queue->count;
-  @ ensures QUE_002_found: \result < queue->count ==> queue->task[\result] == task;
-  @ ensures QUE_002_absent: \result == queue->count ==> !queue_holds(queue, task);
+  @ ensures QUE_002_found: \result < queue->count ==>
+  @     queue->task[queue->order[\result]] == task;
+  @ ensures QUE_002_absent: \forall integer i; 0 <= i < \result ==>
+  @     queue->task[queue->order[i]] != task;
   @*/
-uint32_t keel_queue_find(const keel_queue_t *queue, keel_task_t *task);
+uint32_t keel_queue_find(const keel_queue_t *queue, const keel_task_config_t *task);
 
 /**
- * Adds a task behind the last of its class (requirement QUE-003). Writes the queue alone.
+ * Adds a task behind the last of its class: copies what scheduling reads of its declaration, sets
+ * its first release and clears its statistics (requirement QUE-003).
  *
- * @param queue a valid queue
- * @param task  the task, with its declaration set; both must outlive its stay in the queue
- * @return KEEL_OK, KEEL_ERR_NULL, KEEL_ERR_DUPLICATE or KEEL_ERR_FULL, tested in this order
+ * @param queue      a valid queue with a free slot, without the task
+ * @param task       the task, whose declaration keel_task_check accepts; it must outlive its stay
+ * @param release_us its first release, in us
  */
-/*@ requires \valid(queue) && queue_valid(queue);
-  @ requires task == \null || (\valid(task) && \valid_read(task->config) &&
-  @     \separated(queue, task) && \base_addr(queue) != \base_addr(task->config));
-  @ assigns queue->count, queue->realtime_count, queue->task[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @ ensures QUE_005_counts: queue_counts(queue);
-  @ ensures QUE_005_no_gaps: queue_no_gaps(queue);
-  @ ensures QUE_005_no_duplicates: queue_no_duplicates(queue);
-  @ ensures QUE_005_tasks: queue_tasks_valid(queue);
-  @ ensures QUE_005_configs: queue_configs_valid(queue);
-  @ ensures QUE_005_apart: queue_apart(queue);
-  @ ensures QUE_005_realtime: queue_realtime_first(queue);
-  @ ensures QUE_005_others: queue_others_last(queue);
-  @ behavior null:
-  @   assumes task == \null;
-  @   assigns \nothing;
-  @   ensures QUE_004_null: \result == KEEL_ERR_NULL;
-  @ behavior duplicate:
-  @   assumes task != \null && queue_holds(queue, task);
-  @   assigns \nothing;
-  @   ensures QUE_004_duplicate: \result == KEEL_ERR_DUPLICATE;
-  @ behavior full:
-  @   assumes task != \null && !queue_holds(queue, task);
-  @   assumes queue->count == KEEL_QUEUE_CAPACITY;
-  @   assigns \nothing;
-  @   ensures QUE_004_full: \result == KEEL_ERR_FULL;
-  @ behavior added:
-  @   assumes task != \null && !queue_holds(queue, task);
-  @   assumes queue->count < KEEL_QUEUE_CAPACITY;
-  @   assigns queue->count, queue->realtime_count, queue->task[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @   ensures ok: \result == KEEL_OK;
-  @   ensures QUE_003_count: queue->count == \old(queue->count) + 1;
-  @   ensures QUE_003_realtime: queue->realtime_count == \old(queue->realtime_count)
-  @       + ((task->config->priority == KEEL_PRIORITY_REALTIME) ? 1 : 0);
-  @   ensures QUE_003_place: queue->task[\old(queue_place(queue, task))] == task;
-  @   ensures QUE_006_before: slots_same{Pre, Post}(queue, 0, \old(queue_place(queue, task)));
-  @   ensures QUE_006_behind:
-  @       slots_down{Pre, Post}(queue, \old(queue_place(queue, task)) + 1, queue->count);
-  @ complete behaviors;
-  @ disjoint behaviors;
+/*@ requires \valid(queue) && queue_valid(queue) && queue->count < KEEL_QUEUE_CAPACITY;
+  @ requires \valid_read(task) && \separated(queue, task) && config_valid(task);
+  @ requires !queue_holds(queue, task);
+  @ assigns queue->count, queue->realtime_count, queue->order[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ assigns QUEUE_SLOT(queue, queue->order[queue->count]);
+  @ QUEUE_STAYS_VALID(queue)
+  @ ensures QUE_003_order: order_joined{Pre, Post}(queue, task->priority);
+  @ ensures QUE_003_copied: slot_copied(queue, \old(queue->order[queue->count]), task);
+  @ ensures QUE_003_fresh: slot_fresh(queue, \old(queue->order[queue->count]));
+  @ ensures QUE_003_release: queue->release_us[\old(queue->order[queue->count])] == release_us;
   @*/
-keel_status_t keel_queue_add(keel_queue_t *queue, keel_task_t *task);
+void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_t release_us);
 
 /**
- * Removes the task at an index; those behind it move up one slot (requirement QUE-007).
+ * Takes the task at a position out of the queue; those behind it move up by one (requirement
+ * QUE-007).
  *
- * @param queue a valid queue
- * @param index the task's index, as keel_queue_find gave it
- * @return KEEL_OK, or KEEL_ERR_UNKNOWN_TASK when no task has this index
+ * @param queue    a valid queue
+ * @param position of a task in the order, below queue->count
  */
-/*@ requires \valid(queue) && queue_valid(queue);
-  @ assigns queue->count, queue->realtime_count, queue->task[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @ ensures QUE_005_counts: queue_counts(queue);
-  @ ensures QUE_005_no_gaps: queue_no_gaps(queue);
-  @ ensures QUE_005_no_duplicates: queue_no_duplicates(queue);
-  @ ensures QUE_005_tasks: queue_tasks_valid(queue);
-  @ ensures QUE_005_configs: queue_configs_valid(queue);
-  @ ensures QUE_005_apart: queue_apart(queue);
-  @ ensures QUE_005_realtime: queue_realtime_first(queue);
-  @ ensures QUE_005_others: queue_others_last(queue);
-  @ behavior unknown:
-  @   assumes index >= queue->count;
-  @   assigns \nothing;
-  @   ensures QUE_004_unknown: \result == KEEL_ERR_UNKNOWN_TASK;
-  @ behavior removed:
-  @   assumes index < queue->count;
-  @   assigns queue->count, queue->realtime_count, queue->task[0 .. KEEL_QUEUE_CAPACITY - 1];
-  @   ensures ok: \result == KEEL_OK;
-  @   ensures QUE_007_gone: !queue_holds(queue, \old(queue->task[index]));
-  @   ensures QUE_007_count: queue->count == \old(queue->count) - 1;
-  @   ensures QUE_007_realtime: queue->realtime_count == \old(queue->realtime_count)
-  @       - ((index < \old(queue->realtime_count)) ? 1 : 0);
-  @   ensures QUE_008_before: slots_same{Pre, Post}(queue, 0, index);
-  @   ensures QUE_008_behind: slots_up{Pre, Post}(queue, index, queue->count);
-  @ complete behaviors;
-  @ disjoint behaviors;
+/*@ requires \valid(queue) && queue_valid(queue) && position < queue->count;
+  @ assigns queue->count, queue->realtime_count, queue->order[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ assigns queue->task[queue->order[position]];
+  @ QUEUE_STAYS_VALID(queue)
+  @ ensures QUE_007_gone: !queue_holds(queue, \old(queue->task[queue->order[position]]));
+  @ ensures QUE_007_order: order_left{Pre, Post}(queue, position);
+  @ ensures QUE_007_freed: queue->task[\old(queue->order[position])] == \null;
   @*/
-keel_status_t keel_queue_remove(keel_queue_t *queue, uint32_t index);
+void keel_queue_remove(keel_queue_t *queue, uint32_t position);
+
+/**
+ * Moves a released task's release on to the first point of its grid behind the present, and counts
+ * the whole periods that were missed (requirement QUE-009). The grid never shifts, so the task does
+ * not drift however late it runs.
+ *
+ * @param queue  a queue
+ * @param slot   the slot of a task that is due
+ * @param now_us the time, not before the task's release, in us
+ */
+/*@ requires \valid(queue) && slot < KEEL_QUEUE_CAPACITY;
+  @ requires period_valid(queue->period_us[slot]);
+  @ requires queue->release_us[slot] <= now_us <= KEEL_CLOCK_TIME_LIMIT_US;
+  @ assigns queue->release_us[slot], queue->skipped[slot];
+  @ ensures QUE_009_grid: queue->release_us[slot] == \old(grid_next(queue, slot, now_us));
+  @ ensures QUE_009_next:
+  @     now_us < queue->release_us[slot] <= now_us + queue->period_us[slot];
+  @ ensures QUE_009_on_time: now_us < \old(queue->release_us[slot]) + queue->period_us[slot] ==>
+  @     queue->release_us[slot] == \old(queue->release_us[slot]) + queue->period_us[slot] &&
+  @     queue->skipped[slot] == \old(queue->skipped[slot]);
+  @ ensures QUE_009_skipped: queue->skipped[slot] ==
+  @     \min(UINT16_MAX, \old(queue->skipped[slot] + grid_missed(queue, slot, now_us)));
+  @*/
+void keel_queue_advance(keel_queue_t *queue, uint32_t slot, uint64_t now_us);
 
 #endif

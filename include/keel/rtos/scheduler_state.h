@@ -1,0 +1,237 @@
+/**
+ * @file scheduler_state.h
+ * @brief What a scheduler keeps, and what holds of it: the logic that the proofs share.
+ *
+ * A reader of scheduler.h needs this file for two things: the fields, which may be read freely, and
+ * the meaning of the words that the contracts there use.
+ */
+#ifndef KEEL_RTOS_SCHEDULER_STATE_H
+#define KEEL_RTOS_SCHEDULER_STATE_H
+
+#include "keel/rtos/admission.h"
+#include "keel/rtos/clock.h"
+#include "keel/rtos/decision.h"
+#include "keel/rtos/queue.h"
+
+#include <stdint.h>
+
+/** Reads a free-running counter of microseconds, which wraps at 2^32. */
+typedef uint32_t (*keel_clock_fn_t)(void *context);
+
+/** How a scheduler is set up. */
+typedef struct keel_scheduler_config {
+    keel_clock_fn_t read_clock; /**< The clock. */
+    void *clock_context;        /**< Handed to read_clock; may be null. */
+    uint32_t guard_us;          /**< W of eq. 2: time for a decision, below 2^31 us. */
+    uint32_t utilisation_limit; /**< Highest utilisation, at most KEEL_UTILISATION_FULL_PPM. */
+} keel_scheduler_config_t;
+
+/* What the scheduler is doing. Plain numbers: an enumeration's size differs between compilers. */
+#define KEEL_STAGE_SETUP    0 /**< Tasks are being added; not started. */
+#define KEEL_STAGE_READY    1 /**< Between two passes. */
+#define KEEL_STAGE_PASS     2 /**< In a pass, about to decide. */
+#define KEEL_STAGE_REALTIME 3 /**< A real-time task is running. */
+#define KEEL_STAGE_OTHER    4 /**< Another task is running. */
+
+/** The position that no task has. */
+#define KEEL_POSITION_NONE (-1)
+
+/**
+ * A scheduler with its tasks. Its caller owns the memory; read it freely, only the functions of
+ * scheduler.h and pass.h write it.
+ *
+ * The two earliest releases are bounds that a pass need not look behind: 0 means that nothing is
+ * known, and adding and removing a task leave it so. A task that is taken into service moves its
+ * release on, so a bound survives it; who finds a bound passed looks at all tasks and renews it.
+ *
+ * What a pass keeps of itself is signed, which nothing else is here: provers know memory by its
+ * type.
+ */
+typedef struct keel_scheduler {
+    keel_clock_t clock;             /**< The time of the last clock reading. */
+    uint64_t wake_us;               /**< Before this time no task can run, in us. */
+    uint64_t busy_us;               /**< Time spent in tasks since the start, in us. */
+    uint64_t earliest_realtime_us;  /**< No real-time release before; while ahead, just then. */
+    uint64_t earliest_other_us;     /**< No release of another task before, in us. */
+    keel_scheduler_config_t config; /**< As given to keel_scheduler_init. */
+    int16_t cursor;                 /**< In a pass: the next position that FCFS looks at. */
+    int16_t pass_end;               /**< In a pass: where its real-time tasks end. */
+    int16_t running;                /**< The running task's position, or KEEL_POSITION_NONE. */
+    int16_t stage;                  /**< One of KEEL_STAGE_*. */
+    keel_queue_t queue;             /**< The tasks. */
+} keel_scheduler_t;
+
+/** What is known of a task while it is queued. */
+typedef struct keel_task_report {
+    uint64_t release_us; /**< The next release to serve, on the task's grid, in us. */
+    uint16_t skipped;    /**< Whole periods passed unserved; stays at UINT16_MAX. */
+    keel_stats_t stats;  /**< How its runs went. */
+} keel_task_report_t;
+
+/*@ predicate stage_running(keel_scheduler_t *s) =
+  @     s->stage == KEEL_STAGE_REALTIME || s->stage == KEEL_STAGE_OTHER;
+  @
+  @ // In a pass the cursor lies within the pass, the pass within the real-time tasks; the running
+  @ // task is in the queue; the configuration is as keel_scheduler_init accepted it.
+  @ predicate scheduler_state(keel_scheduler_t *s) =
+  @     0 <= s->cursor <= s->pass_end <= s->queue.realtime_count &&
+  @     KEEL_POSITION_NONE <= s->running < s->queue.count &&
+  @     s->config.guard_us < KEEL_PERIOD_LIMIT_US &&
+  @     s->config.utilisation_limit <= KEEL_UTILISATION_FULL_PPM &&
+  @     KEEL_STAGE_SETUP <= s->stage <= KEEL_STAGE_OTHER &&
+  @     (s->stage >= KEEL_STAGE_PASS ==> s->wake_us == 0);
+  @
+  @ // What is remembered of the releases: bounds ...
+  @ predicate realtime_bound(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < s->queue.realtime_count ==>
+  @         s->earliest_realtime_us <= s->queue.release_us[s->queue.order[i]];
+  @
+  @ predicate other_bound(keel_scheduler_t *s) =
+  @     \forall integer i; s->queue.realtime_count <= i < s->queue.count ==>
+  @         s->earliest_other_us <= s->queue.release_us[s->queue.order[i]];
+  @
+  @ // ... and the earliest real-time release itself, as long as it lies ahead.
+  @ predicate realtime_exact(keel_scheduler_t *s) =
+  @     s->clock.now_us < s->earliest_realtime_us ==>
+  @         is_earliest(&s->queue, 0, s->queue.realtime_count, s->earliest_realtime_us);
+  @
+  @ predicate scheduler_valid(keel_scheduler_t *s) =
+  @     queue_counts(&s->queue) && queue_order(&s->queue) && queue_no_gaps(&s->queue) &&
+  @     queue_no_duplicates(&s->queue) && queue_realtime_first(&s->queue) &&
+  @     queue_others_last(&s->queue) && queue_periods(&s->queue) && queue_budgets(&s->queue) &&
+  @     scheduler_state(s) && realtime_bound(s) && other_bound(s) && realtime_exact(s);
+  @
+  @ // The theorems hold up to this uptime; beyond it the kernel is not proved.
+  @ predicate in_uptime(keel_scheduler_t *s) = s->clock.now_us <= KEEL_CLOCK_TIME_LIMIT_US;
+  @
+  @ // Whether the task at position i may run now, if no real-time task is due.
+  @ predicate other_may_run(keel_scheduler_t *s, integer i) =
+  @     may_run(&s->queue, s->queue.order[i], s->clock.now_us, s->config.guard_us);
+  @
+  @ predicate due(keel_scheduler_t *s, integer i) =
+  @     released(&s->queue, s->queue.order[i], s->clock.now_us);
+  @
+  @ logic integer priority_at(keel_scheduler_t *s, integer i) =
+  @     task_priority(&s->queue, s->queue.order[i], s->clock.now_us);
+  @
+  @ // The task at position i is taken into service: its release moves on along its grid ...
+  @ predicate moved_on{L, M}(keel_scheduler_t *s, integer i) =
+  @     \at(s->queue.release_us[s->queue.order[i]], M) ==
+  @         \at(grid_next(&s->queue, s->queue.order[i], s->clock.now_us), L) &&
+  @     \at(s->queue.skipped[s->queue.order[i]], M) ==
+  @         \at(\min(UINT16_MAX, s->queue.skipped[s->queue.order[i]] +
+  @                  grid_missed(&s->queue, s->queue.order[i], s->clock.now_us)), L);
+  @
+  @ // ... or it is not.
+  @ predicate left_alone{L, M}(keel_scheduler_t *s, integer i) =
+  @     \at(s->queue.release_us[s->queue.order[i]], M) ==
+  @         \at(s->queue.release_us[s->queue.order[i]], L) &&
+  @     \at(s->queue.skipped[s->queue.order[i]], M) ==
+  @         \at(s->queue.skipped[s->queue.order[i]], L);
+  @
+  @ logic integer promotions_at(keel_scheduler_t *s, integer i) =
+  @     s->queue.stats[s->queue.order[i]].promotions;
+  @
+  @ // Nothing is due: neither a real-time task, nor another that may run.
+  @ predicate nothing_due(keel_scheduler_t *s) =
+  @     (\forall integer i; 0 <= i < s->queue.realtime_count ==> !due(s, i)) &&
+  @     (\forall integer i; s->queue.realtime_count <= i < s->queue.count ==>
+  @         !other_may_run(s, i));
+  @
+  @ // Why the task at a position, not a real-time one, cannot run before wake_us: it is not
+  @ // released before, or does not fit the slack, which only shrinks, and is not promoted before.
+  @ predicate waits(keel_scheduler_t *s, integer i) =
+  @     s->wake_us <= s->queue.release_us[s->queue.order[i]] ||
+  @     (s->wake_us <= promotion(&s->queue, s->queue.order[i]) &&
+  @      !fits_slack(&s->queue, s->queue.order[i], s->clock.now_us, s->config.guard_us));
+  @
+  @ // The claim that wake_us makes while it lies ahead: nothing is due before it.
+  @ predicate wake_realtime(keel_scheduler_t *s) =
+  @     \forall integer i; 0 <= i < s->queue.realtime_count ==>
+  @         s->wake_us <= s->queue.release_us[s->queue.order[i]];
+  @
+  @ predicate wake_others(keel_scheduler_t *s) =
+  @     \forall integer i; s->queue.realtime_count <= i < s->queue.count ==> waits(s, i);
+  @
+  @ predicate wake_right(keel_scheduler_t *s) =
+  @     s->clock.now_us < s->wake_us ==> wake_realtime(s) && wake_others(s);
+  @*/
+
+/*@ // What refuses a set of tasks: a rule of admission.
+  @ predicate admission_status(integer status) = status == KEEL_ERR_REALTIME_DEMAND ||
+  @     status == KEEL_ERR_BUDGET_GAP || status == KEEL_ERR_UTILISATION;
+  @
+  @ // Nothing is known of the releases, and the next step decides anew.
+  @ predicate nothing_known(keel_scheduler_t *s) =
+  @     s->wake_us == 0 && s->earliest_realtime_us == 0 && s->earliest_other_us == 0;
+  @
+  @ // The running task's position when a task of this priority joins the queue ...
+  @ predicate running_joined{L, M}(keel_scheduler_t *s, integer priority) =
+  @     \at(s->running, M) == \at(s->running, L) +
+  @         ((priority == KEEL_PRIORITY_REALTIME &&
+  @           \at(s->queue.realtime_count, L) <= \at(s->running, L)) ? 1 : 0);
+  @
+  @ // ... and the positions of a pass when the task at position i leaves it.
+  @ predicate pass_left{L, M}(keel_scheduler_t *s, integer i) =
+  @     \at(s->cursor, M) == \at(s->cursor, L) - ((i < \at(s->cursor, L)) ? 1 : 0) &&
+  @     \at(s->pass_end, M) == \at(s->pass_end, L) - ((i < \at(s->pass_end, L)) ? 1 : 0) &&
+  @     \at(s->running, M) == ((i == \at(s->running, L)) ? KEEL_POSITION_NONE :
+  @         \at(s->running, L) - ((i < \at(s->running, L)) ? 1 : 0));
+  @
+  @ // What adding asks for besides admission.
+  @ predicate addable(keel_scheduler_t *s, keel_task_config_t *task) =
+  @     config_valid(task) && !queue_holds(&s->queue, task) &&
+  @     s->queue.count < KEEL_QUEUE_CAPACITY;
+  @
+  @ // Whether the first n tasks keep the rules of admission, and the first rule that they break.
+  @ predicate scheduler_holds_of(keel_scheduler_t *s, integer n) =
+  @     set_holds(&s->queue, n, s->config.guard_us, s->config.utilisation_limit);
+  @
+  @ predicate scheduler_refused(keel_scheduler_t *s, integer n, integer status) =
+  @     set_refused(&s->queue, n, s->config.guard_us, s->config.utilisation_limit, status);
+  @
+  @ predicate scheduler_holds(keel_scheduler_t *s) = scheduler_holds_of(s, s->queue.count);
+  @
+  @ // Whether one more task breaks a rule of admission.
+  @ predicate demand_allows(keel_scheduler_t *s, keel_task_config_t *task) =
+  @     demand_holds_with(&s->queue, task->priority, task->period_us, task->budget_us,
+  @                       s->config.guard_us);
+  @
+  @ predicate gap_allows(keel_scheduler_t *s, keel_task_config_t *task) =
+  @     gap_holds_with(&s->queue, task->priority, task->period_us, task->budget_us,
+  @                    s->config.guard_us);
+  @
+  @ predicate utilisation_allows(keel_scheduler_t *s, keel_task_config_t *task) =
+  @     utilisation_holds_with(&s->queue, task->period_us, task->budget_us,
+  @                            s->config.utilisation_limit);
+  @
+  @ // The first rule of admission that it breaks.
+  @ predicate refuses(keel_scheduler_t *s, keel_task_config_t *task, integer status) =
+  @     (status == KEEL_ERR_REALTIME_DEMAND && !demand_allows(s, task)) ||
+  @     (status == KEEL_ERR_BUDGET_GAP && demand_allows(s, task) && !gap_allows(s, task)) ||
+  @     (status == KEEL_ERR_UTILISATION && demand_allows(s, task) && gap_allows(s, task) &&
+  @      !utilisation_allows(s, task));
+  @
+  @ predicate admits(keel_scheduler_t *s, keel_task_config_t *task) =
+  @     s->stage == KEEL_STAGE_SETUP || (scheduler_holds(s) && demand_allows(s, task) &&
+  @         gap_allows(s, task) && utilisation_allows(s, task));
+  @*/
+
+/* clang-format off: the formatter does not know these clauses. */
+/* The invariant of a scheduler as one clause for each part, which provers take one at a time. */
+#define SCHEDULER_STAYS_VALID(s)                                                                   \
+    ensures SCH_006_counts : queue_counts(&(s)->queue);                                            \
+    ensures SCH_006_order : queue_order(&(s)->queue);                                              \
+    ensures SCH_006_no_gaps : queue_no_gaps(&(s)->queue);                                          \
+    ensures SCH_006_no_duplicates : queue_no_duplicates(&(s)->queue);                              \
+    ensures SCH_006_realtime : queue_realtime_first(&(s)->queue);                                  \
+    ensures SCH_006_others : queue_others_last(&(s)->queue);                                       \
+    ensures SCH_006_periods : queue_periods(&(s)->queue);                                          \
+    ensures SCH_006_budgets : queue_budgets(&(s)->queue);                                          \
+    ensures SCH_006_state : scheduler_state(s);                                                    \
+    ensures SCH_006_realtime_bound : realtime_bound(s);                                            \
+    ensures SCH_006_other_bound : other_bound(s);                                                  \
+    ensures SCH_006_exact : realtime_exact(s);
+/* clang-format on */
+
+#endif
