@@ -54,6 +54,8 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--max-seconds", type=float, default=float("inf"), metavar="S",
                         help="start no mutant after this time")  # fmt: skip
     parser.add_argument("--list", action="store_true", help="print the mutants, try none")
+    parser.add_argument("--quick", action="store_true",
+                        help="short limits for WP; what they leave open is not killed")  # fmt: skip
     parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")
     options = parser.parse_args(arguments)
     if options.unit not in names:
@@ -122,7 +124,7 @@ def measure(unit: Unit, options: argparse.Namespace, toolchain: Toolchain) -> in
     times = Times(unit.root / "build/prove/times.json", unit.root / RECORDED_TIMES)
     trial = Trial(
         unit, tools, trees, engines, options.engine == "both", cache, stamp,
-        exceptions[unit.name], times,
+        exceptions[unit.name], times, patient=not options.quick,
     )  # fmt: skip
     try:
         verdicts = try_all(trial, found, options.jobs, options.max_seconds)
@@ -139,7 +141,9 @@ def measure(unit: Unit, options: argparse.Namespace, toolchain: Toolchain) -> in
 def conclude(verdicts: Sequence[Verdict], problems: Sequence[str], engines: Sequence[str]) -> int:
     """Tell the result; the exit status."""
     print("\n".join(mutation.table(verdicts, engines)))
-    open_ones = [verdict for verdict in verdicts if verdict.status in ("survived", "skipped")]
+    undecided = mutation.count(verdicts, "undecided")
+    statuses = ("survived", "undecided", "skipped")
+    open_ones = [verdict for verdict in verdicts if verdict.status in statuses]
     for verdict in open_ones:
         print(f"{verdict.status.upper()} {verdict.mutant.file.name}: {verdict.mutant}")
     for text in problems:
@@ -149,7 +153,8 @@ def conclude(verdicts: Sequence[Verdict], problems: Sequence[str], engines: Sequ
     }
     print(
         f"killed {numbers['killed']} of {len(verdicts) - numbers['stillborn']} mutants"
-        f" ({numbers['equivalent']} equivalent), {len(open_ones)} survived unexplained"
+        f" ({numbers['equivalent']} equivalent), {len(open_ones) - undecided} survived unexplained"
+        + (f", {undecided} undecided" if undecided else "")
     )
     return 1 if open_ones or problems else 0
 

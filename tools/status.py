@@ -56,7 +56,7 @@ def exceptions(units: Mapping[str, Any]) -> str:
     """The functions that an engine does not prove; each has its reason in proofs/units.toml."""
     kinds = {"Without a harness": ("cbmc", "without_harness"),
              "Declared without a body": ("wp", "not_proved_here"),
-             "Left to CBMC alone": ("wp", "not_by_wp")}  # fmt: skip
+             "Postconditions left to CBMC": ("wp", "not_by_wp")}  # fmt: skip
     text = ""
     for what, (engine, key) in kinds.items():
         functions = [f"`{name}`" for unit in units.values() for name in unit[engine][key]]

@@ -14,7 +14,8 @@ more. An orphan is
     a requirement without a clause, unless VERIFICATION says test (it then needs a test) or
         theorem (specs/soundness.md must then name it);
     a requirement with clauses which neither a harness nor a test names, unless it is a theorem;
-    a test listed under TESTS that does not exist, a CLAUSES that is not what the files say.
+    a test listed under TESTS that does not exist, a CLAUSES that is not what the files say;
+    a function that may change something when it refuses, and that STA-001 does not list.
 
 Tests that run on the target alone (tests/target) count as unit tests do.
 
@@ -29,6 +30,8 @@ import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+
+import refusals
 
 ROOT = Path(__file__).resolve().parents[1]
 LABEL = r"[A-Z]{3,4}_\d{3}(?:_\w+)?"
@@ -131,6 +134,7 @@ def join(root: Path) -> Trace:
     theorems = MENTION.findall(soundness.read_text(encoding="utf-8")) if soundness.exists() else []
     for entry in trace.requirements.values():
         trace.orphans += [f"{entry.uid}: {text}" for text in lacks(entry, known, theorems)]
+    trace.orphans += refusals.problems(root)
     return trace
 
 

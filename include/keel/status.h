@@ -3,9 +3,10 @@
  * @brief The result of every fallible Keel function.
  *
  * A function that returns anything but KEEL_OK has refused: nothing that the caller can observe
- * has changed (requirement STA-001; the one exception, a clock that breaks while a task runs, is
- * stated at keel_scheduler_finish). Each reason to refuse has a value of its own, so that a
- * caller can tell them apart without parsing anything.
+ * has changed. Requirement STA-001 lists the few exceptions, and each says at its function what it
+ * writes: refusals that are counted, or that tell which task was in the way, and a clock that
+ * breaks while tasks run. Each reason to refuse has a value of its own, so that a caller can tell
+ * them apart without parsing anything.
  */
 #ifndef KEEL_STATUS_H
 #define KEEL_STATUS_H

@@ -119,4 +119,47 @@ static bool keel_voter_combine_does(float mean, const keel_voter_sample_t sample
     return finite_here(mean) && combine_above(mean, sample, weight, sensors) && below;
 }
 
+/* voter_valid, but for the cut-off and the initial output: nothing but init reads these two. */
+static bool voter_valid_here(const keel_voter_t *v)
+{
+    bool valid = (2u <= v->config.sensors) && (v->config.sensors <= SENSORS) &&
+                 agreement_valid_here(&v->config) && limits_valid_here(&v->config) &&
+                 none_valid_here(v->config.agree, v->none) && (v->config.max_age_us > 0u) &&
+                 (v->config.latch_count > 0u) && (v->config.lowest <= v->vote.output) &&
+                 (v->vote.output <= v->config.highest) && (!v->unanimous || unanimous_here(v));
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        valid = valid && finite_here(v->sensor[i].last) &&
+                (v->sensor[i].latched || healthy_here(&v->config, &v->sensor[i]));
+    }
+    return valid;
+}
+
+static bool keel_voter_step_may(const keel_voter_t *voter)
+{
+    return voter_valid_here(voter);
+}
+
+static bool keel_voter_step_does(const keel_voter_t *voter)
+{
+    return voter_valid_here(voter);
+}
+
+static bool keel_voter_step_unanimous_may(const keel_voter_t *voter,
+                                          const keel_voter_sample_t sample[], uint32_t oldest_us)
+{
+    bool may = voter_valid_here(voter);
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        may = may && ((i >= voter->config.sensors) ||
+                      (sample[i].present && (sample[i].age_us <= oldest_us)));
+    }
+    return may;
+}
+
+static bool keel_voter_step_unanimous_does(const keel_voter_t *voter)
+{
+    return voter_valid_here(voter);
+}
+
 #endif

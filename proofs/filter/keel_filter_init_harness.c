@@ -4,6 +4,7 @@
 //
 // Any bit pattern for both frequencies.
 #include "../common/keel_flight_proof.h"
+#include "../common/unchanged.h"
 
 void keel_filter_init_harness(void)
 {
@@ -31,4 +32,6 @@ void keel_filter_init_harness(void)
     }
     __CPROVER_assert((status == KEEL_OK) || filter_same(&filter, &before),
                      "FLT_001_unchanged: a refusal changes nothing");
+    __CPROVER_assert((status == KEEL_OK) || unchanged(&filter, &before, sizeof(filter)),
+                     "STA_001_kept: a refusal changes nothing");
 }

@@ -4,6 +4,7 @@
 //
 // Any valid filter, any bit pattern: one step of the induction that bounds the states.
 #include "../common/keel_flight_proof.h"
+#include "../common/unchanged.h"
 
 void keel_filter_step_harness(void)
 {
@@ -21,6 +22,8 @@ void keel_filter_step_harness(void)
                      "FLT_005_status: taken or refused");
     __CPROVER_assert(filter_coefficients_here(&filter) && filter_bounded_here(&filter),
                      "FLT_005_bounded: states and output in bounds");
+    __CPROVER_assert((status == KEEL_OK) || unchanged(&filter, &before, sizeof(filter)),
+                     "STA_001_kept: a refusal changes nothing");
     if (status == KEEL_OK) {
         __CPROVER_assert(filter_input_here(input), "FLT_006_input: what is taken is in range");
         before.s1 = filter.s1;

@@ -2,11 +2,13 @@
 // sources: src/middleware/oversample.c
 // covers: keel_oversample_add
 #include "../common/oversample_proof.h"
+#include "../common/unchanged.h"
 
 void keel_oversample_add_harness(void)
 {
     keel_oversample_t o = any_oversample();
     const keel_oversample_t before = o;
+    keel_oversample_t expected = before;
     const float value = nondet_float();
     keel_status_t status;
 
@@ -33,10 +35,12 @@ void keel_oversample_add_harness(void)
                              ((o.most == value) || (o.most == before.most)),
                          "OVS_002_hull: and between the smallest and the largest");
     } else {
-        __CPROVER_assert((o.count == before.count) && (o.sum == before.sum) &&
-                             (o.least == before.least) && (o.most == before.most),
-                         "OVS_003_refused: another is not");
+        expected.runs = o.runs;
+        __CPROVER_assert(unchanged(&o, &expected, sizeof(o)),
+                         "OVS_003_refused: another is not; the run is all that is counted");
     }
+    __CPROVER_assert((status != KEEL_ERR_FULL) || unchanged(&o, &before, sizeof(o)),
+                     "STA_001_kept: when the runs are full, nothing changes");
     __CPROVER_assert((o.factor == before.factor) && (o.missed == before.missed) &&
                          (o.extra == before.extra),
                      "OVS_002_frame: the rest stays");

@@ -2,6 +2,7 @@
 // sources: src/middleware/oversample.c
 // covers: keel_oversample_take add_excess begin
 #include "../common/oversample_proof.h"
+#include "../common/unchanged.h"
 
 /* total + max(0, larger - smaller), saturated. */
 static uint32_t excess(uint32_t total, uint16_t larger, uint16_t smaller)
@@ -27,8 +28,16 @@ void keel_oversample_take_harness(void)
         __CPROVER_assert((status == KEEL_OK) && (before.least <= mean) && (mean <= before.most),
                          "OVS_004_mean: the mean lies among the samples");
     } else {
+        keel_oversample_t expected = before;
+
+        expected.runs = 0u;
+        expected.sum = 0.0f;
+        expected.missed = o.missed;
+        expected.extra = o.extra;
         __CPROVER_assert((status == KEEL_ERR_STATE) && (mean == 0.5f),
                          "OVS_004_none: no sample, no mean");
+        __CPROVER_assert(unchanged(&o, &expected, sizeof(o)),
+                         "OVS_004_written: the runs are accounted for, and nothing else");
     }
     __CPROVER_assert(valid_here(&o) && (o.count == 0u) && (o.runs == 0u) &&
                          (o.factor == before.factor),

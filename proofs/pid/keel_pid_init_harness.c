@@ -5,6 +5,7 @@
 // Any configuration, any bit pattern in it. Gains and limits are free; the rate and the cut-off are
 // one good pair or a bad one, since keel_filter_init_harness has all of them.
 #include "../common/keel_pid_proof.h"
+#include "../common/unchanged.h"
 
 void keel_pid_init_harness(void)
 {
@@ -35,4 +36,6 @@ void keel_pid_init_harness(void)
     }
     __CPROVER_assert((status == KEEL_OK) || pid_same(&pid, &before),
                      "PID_001_unchanged: a refusal changes nothing");
+    __CPROVER_assert((status == KEEL_OK) || unchanged(&pid, &before, sizeof(pid)),
+                     "STA_001_kept: a refusal changes nothing");
 }

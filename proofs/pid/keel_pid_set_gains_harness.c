@@ -2,6 +2,7 @@
 // sources: src/flight/pid.c src/flight/filter.c
 // covers: keel_pid_set_gains direct_terms are_gains is_gain
 #include "../common/keel_pid_proof.h"
+#include "../common/unchanged.h"
 
 void keel_pid_set_gains_harness(void)
 {
@@ -15,6 +16,8 @@ void keel_pid_set_gains_harness(void)
     __CPROVER_assert(pid_valid_here(&pid), "PID_004_valid: the controller stays valid");
     __CPROVER_assert(status == (gains_here(&gains) ? KEEL_OK : KEEL_ERR_GAIN),
                      "PID_004_status: good gains are taken, others refused");
+    __CPROVER_assert((status == KEEL_OK) || unchanged(&pid, &before, sizeof(pid)),
+                     "STA_001_kept: a refusal changes nothing");
     if (status == KEEL_OK) {
         __CPROVER_assert(gains_same(&pid.config.gains, &gains), "PID_005_taken: as given");
         __CPROVER_assert((before.started) || (before.error != 0.0f) || (before.setpoint != 0.0f) ||

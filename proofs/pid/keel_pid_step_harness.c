@@ -5,6 +5,7 @@
 // Any valid controller, any bit pattern for both inputs: one step of the induction that keeps the
 // output and the integral within their limits.
 #include "../common/keel_pid_proof.h"
+#include "../common/unchanged.h"
 
 void keel_pid_step_harness(void)
 {
@@ -23,6 +24,8 @@ void keel_pid_step_harness(void)
                      "PID_006_frame: what was configured stays");
     __CPROVER_assert((status == KEEL_OK) || (status == KEEL_ERR_INPUT),
                      "PID_007_status: taken or refused");
+    __CPROVER_assert((status == KEEL_OK) || unchanged(&pid, &before, sizeof(pid)),
+                     "STA_001_kept: a refusal changes nothing");
     if (status != KEEL_OK) {
         __CPROVER_assert(pid_same(&pid, &before), "PID_007_held: a refusal changes nothing");
         return;

@@ -1,6 +1,7 @@
 // cbmc: --unwind 5 --external-sat-solver cadical
 // sources: src/middleware/voter.c
 // covers: keel_voter_init
+#include "../common/unchanged.h"
 #include "../common/voter_proof.h"
 
 void keel_voter_init_harness(void)
@@ -50,13 +51,7 @@ void keel_voter_init_harness(void)
         __CPROVER_assert(healthy_here(&voter.config, &voter.sensor[i]),
                          "VOT_002_healthy: below its counts");
     } else {
-        __CPROVER_assert((voter.config.agree == before.config.agree) &&
-                             (voter.config.sensors == before.config.sensors) &&
-                             (voter.none == before.none) &&
-                             (voter.vote.output == before.vote.output) &&
-                             (voter.vote.state == before.vote.state) &&
-                             (voter.unanimous == before.unanimous) &&
-                             sensor_same(&voter.sensor[i], &before.sensor[i]),
-                         "VOT_002_unchanged: a refusal changes nothing");
+        __CPROVER_assert(unchanged(&voter, &before, sizeof(voter)),
+                         "STA_001_kept: a refusal changes nothing");
     }
 }

@@ -1,6 +1,7 @@
 // cbmc: --unwind 5 --external-sat-solver cadical
 // sources: src/middleware/voter.c
 // covers: keel_voter_readmit
+#include "../common/unchanged.h"
 #include "../common/voter_proof.h"
 
 void keel_voter_readmit_harness(void)
@@ -34,6 +35,8 @@ void keel_voter_readmit_harness(void)
                      "VOT_014_healthy: below its counts, or latched");
     __CPROVER_assert(!voter.unanimous || unanimous_here(&voter),
                      "VOT_014_unanimous: no vote with a latched sensor was");
+    __CPROVER_assert((status == KEEL_OK) || unchanged(&voter, &before, sizeof(voter)),
+                     "STA_001_kept: a refusal changes nothing");
     __CPROVER_assert(((status == KEEL_OK) && (i == sensor)) ||
                          sensor_same(&voter.sensor[i], &before.sensor[i]),
                      "VOT_014_frame: other sensors, and all in a refusal, stay");

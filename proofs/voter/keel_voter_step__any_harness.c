@@ -22,10 +22,12 @@ void keel_voter_step__any_harness(void)
     __CPROVER_assume(none_valid_here(agree, none));
     any_voter(&voter, agree, none);
     any_samples(sample);
+    __CPROVER_assume(keel_voter_step_may(&voter));
     before = voter;
     facts = facts_of(&before, sample);
 
     keel_voter_step(&voter, sample, elapsed_us);
 
     check_vote(&voter, &before, &facts, sample, elapsed_us);
+    __CPROVER_assert(keel_voter_step_does(&voter), "VOT_005_valid: the channel stays valid");
 }

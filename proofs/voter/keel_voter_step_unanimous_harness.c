@@ -21,10 +21,13 @@ void keel_voter_step_unanimous_harness(void)
     __CPROVER_assume(none_valid_here(agree, none));
     any_voter(&voter, agree, none);
     any_samples(sample);
+    __CPROVER_assume(keel_voter_step_unanimous_may(&voter, sample, oldest_us));
     before = voter;
     facts = facts_of(&before, sample);
 
     taken = keel_voter_step_unanimous(&voter, sample, oldest_us);
 
     check_attempt(taken, &voter, &before, &facts, sample, oldest_us);
+    __CPROVER_assert(keel_voter_step_unanimous_does(&voter),
+                     "VOT_018_valid: the channel stays valid");
 }

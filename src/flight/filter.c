@@ -14,6 +14,7 @@ static bool is_sample(float value)
 
 /* tan(pi ratio) for a ratio up to 1/4: the continued fraction of the tangent to its fifth term,
  * which is off by 1.4e-8 at most (at 1/4). */
+/*@ assigns \nothing; */
 static float tangent(float ratio)
 {
     const float pi = 3.1415927410125732421875f; /* to single precision, written out */
@@ -27,6 +28,9 @@ static float tangent(float ratio)
 /* For a cut-off up to a quarter of the rate t is g, and 1 / g above: never far above 1, so that no
  * product grows. With D' = 1 + sqrt(2) t + t^2 the parts 1 / D' and t^2 / D' change places there.
  * The difference is exact, since the ratio is at least 1/4. */
+/*@ requires \valid(filter);
+  @ assigns filter->a, filter->b, filter->c, filter->energy_limit;
+  @*/
 static void set_coefficients(keel_filter_t *filter, float ratio)
 {
     const float sqrt_2 = 1.41421353816986083984375f; /* to single precision, written out */

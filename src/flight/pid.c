@@ -48,6 +48,9 @@ static bool is_input(float value)
 }
 
 /* All terms of eq. 4 but the integral. */
+/*@ requires \valid_read(gains);
+  @ assigns \nothing;
+  @*/
 static float direct_terms(const keel_pid_gains_t *gains, float setpoint, float error,
                           float derivative)
 {
@@ -70,9 +73,10 @@ keel_status_t keel_pid_init(keel_pid_t *pid, const keel_pid_config_t *config)
         return status;
     }
     pid->config = *config;
+    //@ assert copied: pid_limits(pid->config);
+    keel_pid_reset(pid);
     pid->filter = filter;
     pid->integral_gain = config->gains.ki / config->rate_hz;
-    keel_pid_reset(pid);
     return KEEL_OK;
 }
 
@@ -106,6 +110,9 @@ keel_status_t keel_pid_set_gains(keel_pid_t *pid, const keel_pid_gains_t *gains)
 
 /* Moves the low-pass on, and the derivative with it. The first error is where the low-pass starts
  * from, as if it had been there for ever. */
+/*@ requires \valid(pid) && filter_valid(pid->filter);
+  @ assigns pid->filter.s1, pid->filter.s2, pid->filter.output, pid->derivative;
+  @*/
 static keel_status_t differentiate(keel_pid_t *pid, float error)
 {
     const float before = pid->started ? pid->filter.output : error;
@@ -118,12 +125,12 @@ static keel_status_t differentiate(keel_pid_t *pid, float error)
     return status;
 }
 
-/*@ requires \valid_read(config) && \is_finite(output) && pid_limits(*config);
+/*@ requires \valid_read(config) && pid_limits(*config);
   @ assigns \nothing;
-  @ ensures \result == KEEL_PID_AT_MAX <==> output > config->output_max;
-  @ ensures \result == KEEL_PID_AT_MIN <==> output < config->output_min;
-  @ ensures \result == KEEL_PID_FREE <==>
-  @     pid_within(output, config->output_min, config->output_max);
+  @ ensures \is_finite(output) ==> (\result == KEEL_PID_AT_MAX <==> output > config->output_max);
+  @ ensures \is_finite(output) ==> (\result == KEEL_PID_AT_MIN <==> output < config->output_min);
+  @ ensures \is_finite(output) ==> (\result == KEEL_PID_FREE <==>
+  @     pid_within(output, config->output_min, config->output_max));
   @*/
 static keel_pid_saturation_t limit_reached(const keel_pid_config_t *config, float output)
 {
@@ -144,6 +151,9 @@ static bool winds_up(keel_pid_saturation_t at, float from, float to)
 }
 
 /* The integral moves, but not further in the direction in which the output is beyond a limit. */
+/*@ requires \valid(pid) && pid_limits(pid->config) && \is_finite(pid->integral);
+  @ assigns pid->integral, pid->saturation, pid->output;
+  @*/
 static void put_out(keel_pid_t *pid, float direct, float error)
 {
     const float moved = keel_range_clamp(pid->integral + (pid->integral_gain * error),

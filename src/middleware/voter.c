@@ -2,11 +2,15 @@
 
 #include "keel/middleware/range.h"
 
+/*@ assigns \nothing; */
 static bool is_above(float none, float agree)
 {
     return (none > agree) && (none <= KEEL_VOTER_RANGE);
 }
 
+/*@ requires \valid_read(config);
+  @ assigns \nothing;
+  @*/
 static bool is_cutoff_valid(const keel_voter_config_t *config)
 {
     /* The factor first: its product with a is then finite. */
@@ -53,6 +57,12 @@ keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *co
     voter->vote.held_us = 0u;
     voter->vote.state = KEEL_VOTER_NONE;
     voter->vote.contributing = 0u;
+    /*@ loop invariant 0 <= i <= KEEL_VOTER_SENSORS;
+      @ loop assigns i, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1],
+      @     voter->vote.weight[0 .. KEEL_VOTER_SENSORS - 1],
+      @     voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1];
+      @ loop variant KEEL_VOTER_SENSORS - i;
+      @*/
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         voter->sensor[i].last = config->initial;
         voter->sensor[i].same = 0u;
@@ -77,6 +87,10 @@ float keel_voter_weight(const float agreement[], uint32_t others)
 {
     float total = 0.0f;
 
+    /*@ loop invariant 0 <= i <= others;
+      @ loop assigns i, total;
+      @ loop variant others - i;
+      @*/
     for (uint32_t i = 0u; i < others; i++) {
         total += agreement[i];
     }
@@ -100,6 +114,10 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
     float least = KEEL_VOTER_RANGE;
     float most = -KEEL_VOTER_RANGE;
 
+    /*@ loop invariant 0 <= i <= sensors;
+      @ loop assigns i, sum, weights, least, most;
+      @ loop variant sensors - i;
+      @*/
     for (uint32_t i = 0u; i < sensors; i++) {
         if (weight[i] > 0.0f) {
             const float value = sample[i].value;
@@ -122,6 +140,10 @@ static uint16_t one_more(uint16_t value)
 }
 
 /* Why a sample cannot be used, staleness aside, or KEEL_VOTER_USED (VOT-007). */
+/*@ requires \valid_read(config) && \valid_read(sensor) && \valid_read(sample);
+  @ requires \is_finite(config->lowest) && \is_finite(config->highest);
+  @ assigns \nothing;
+  @*/
 static uint8_t inspect(const keel_voter_config_t *config, const keel_voter_sensor_t *sensor,
                        const keel_voter_sample_t *sample)
 {
@@ -139,24 +161,42 @@ static uint8_t inspect(const keel_voter_config_t *config, const keel_voter_senso
     return (sample->age_us > config->max_age_us) ? KEEL_VOTER_LATE : KEEL_VOTER_USED;
 }
 
-/* Excludes what has not changed for too long; how many are then no longer usable (VOT-013). */
+/* Excludes what has not changed for too long; how many are still usable then (VOT-013). */
+/*@ requires \valid(voter) && voter->config.sensors <= KEEL_VOTER_SENSORS;
+  @ assigns voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1];
+  @*/
 static uint32_t exclude_stale(keel_voter_t *voter)
 {
-    uint32_t excluded = 0u;
+    uint32_t usable = 0u;
 
+    /*@ loop invariant 0 <= i <= voter->config.sensors && usable <= i;
+      @ loop assigns i, usable, voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1];
+      @ loop variant voter->config.sensors - i;
+      @*/
     for (uint32_t i = 0u; i < voter->config.sensors; i++) {
-        if ((voter->vote.reason[i] == KEEL_VOTER_USED) && (voter->config.stale_count > 0u) &&
-            (voter->sensor[i].same >= voter->config.stale_count)) {
-            voter->vote.reason[i] = KEEL_VOTER_STALE;
-            excluded++;
+        if (voter->vote.reason[i] == KEEL_VOTER_USED) {
+            if ((voter->config.stale_count > 0u) &&
+                (voter->sensor[i].same >= voter->config.stale_count)) {
+                voter->vote.reason[i] = KEEL_VOTER_STALE;
+            } else {
+                usable++;
+            }
         }
     }
-    return excluded;
+    return usable;
 }
 
 /* Looks at every sample: whether it is usable, and whether it has changed; how many are usable. The
  * votes in which a sensor alone did not change are counted (VOT-013). That all others changed is
  * asked for, so that one sensor gone wild does not make the others, at rest, look stale. */
+/*@ requires \valid(voter) && voter->config.sensors <= KEEL_VOTER_SENSORS;
+  @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
+  @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
+  @ requires \is_finite(voter->config.lowest) && \is_finite(voter->config.highest);
+  @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last,
+  @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].same,
+  @     voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1];
+  @*/
 static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sample[])
 {
     const keel_voter_config_t config = voter->config;
@@ -165,6 +205,14 @@ static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sampl
     uint32_t resting = 0u;
     uint32_t last_resting = 0u;
 
+    /*@ loop invariant 0 <= i <= config.sensors;
+      @ loop invariant usable <= i && moved + resting <= i && (resting > 0 ==> last_resting < i);
+      @ loop assigns i, usable, moved, resting, last_resting,
+      @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last,
+      @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].same,
+      @     voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1];
+      @ loop variant config.sensors - i;
+      @*/
     for (uint32_t i = 0u; i < config.sensors; i++) {
         keel_voter_sensor_t *const sensor = &voter->sensor[i];
         const uint8_t reason = inspect(&config, sensor, &sample[i]);
@@ -186,7 +234,7 @@ static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sampl
         if ((resting == 1u) && (moved > 0u)) {
             voter->sensor[last_resting].same = one_more(voter->sensor[last_resting].same);
         }
-        usable -= exclude_stale(voter);
+        usable = exclude_stale(voter);
     }
     return usable;
 }
@@ -197,6 +245,13 @@ typedef struct agreements {
 } agreements_t;
 
 /* Compares each pair; the agreement is 0 where one of the two is not usable. */
+/*@ requires \valid_read(voter) && voter->config.sensors <= KEEL_VOTER_SENSORS;
+  @ requires \valid_read(sample + (0 .. voter->config.sensors - 1)) && \valid(agreement);
+  @ requires \separated(agreement, voter, sample + (0 .. voter->config.sensors - 1));
+  @ requires \is_finite(voter->config.agree) &&
+  @     KEEL_VOTER_AGREE_MIN <= voter->config.agree <= KEEL_VOTER_AGREE_MAX;
+  @ assigns agreement->of[0 .. KEEL_VOTER_SENSORS - 1][0 .. KEEL_VOTER_SENSORS - 2];
+  @*/
 static void compare_all(const keel_voter_t *voter, const keel_voter_sample_t sample[],
                         agreements_t *agreement)
 {
@@ -205,7 +260,16 @@ static void compare_all(const keel_voter_t *voter, const keel_voter_sample_t sam
     const float agree = voter->config.agree;
     const float none = voter->none;
 
+    /*@ loop invariant 1 <= j && (sensors >= 1 ==> j <= sensors);
+      @ loop assigns j, agreement->of[0 .. KEEL_VOTER_SENSORS - 1][0 .. KEEL_VOTER_SENSORS - 2];
+      @ loop variant sensors - j;
+      @*/
     for (uint32_t j = 1u; j < sensors; j++) {
+        /*@ loop invariant 0 <= i <= j;
+          @ loop assigns i,
+          @     agreement->of[0 .. KEEL_VOTER_SENSORS - 1][0 .. KEEL_VOTER_SENSORS - 2];
+          @ loop variant j - i;
+          @*/
         for (uint32_t i = 0u; i < j; i++) {
             float s = 0.0f;
 
@@ -230,6 +294,11 @@ static uint32_t add_saturated(uint32_t a, uint32_t b)
 }
 
 /* The output, or another vote without one (VOT-008). */
+/*@ requires \valid(voter) && 1 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
+  @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
+  @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
+  @ assigns voter->vote.state, voter->vote.output, voter->vote.held, voter->vote.held_us;
+  @*/
 static void conclude(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t usable,
                      uint32_t elapsed_us)
 {
@@ -279,12 +348,28 @@ static void condemn(const keel_voter_config_t *config, keel_voter_sensor_t *sens
 
 /* Weighs each usable sample, and tells what the vote means for each sensor. A sample that is alone
  * has nobody to agree with; one without weight was outvoted. */
+/*@ requires \valid(voter) && 2 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
+  @ requires \valid_read(agreement) && \separated(voter, agreement);
+  @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].null,
+  @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].density,
+  @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].latched,
+  @     voter->vote.weight[0 .. KEEL_VOTER_SENSORS - 1],
+  @     voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1], voter->vote.contributing;
+  @*/
 static void judge(keel_voter_t *voter, const agreements_t *agreement, uint32_t usable)
 {
     keel_vote_t *const vote = &voter->vote;
     const uint32_t sensors = voter->config.sensors;
     uint8_t contributing = 0u;
 
+    /*@ loop invariant 0 <= i <= sensors && contributing <= i;
+      @ loop assigns i, contributing, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].null,
+      @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].density,
+      @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].latched,
+      @     voter->vote.weight[0 .. KEEL_VOTER_SENSORS - 1],
+      @     voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1];
+      @ loop variant sensors - i;
+      @*/
     for (uint32_t i = 0u; i < sensors; i++) {
         float weight = 0.0f;
 
@@ -309,11 +394,18 @@ static void judge(keel_voter_t *voter, const agreements_t *agreement, uint32_t u
 }
 
 /* Whether all agreed fully, and nothing is counted against any. */
+/*@ requires \valid_read(voter) && voter->config.sensors <= KEEL_VOTER_SENSORS;
+  @ assigns \nothing;
+  @*/
 static bool is_unanimous(const keel_voter_t *voter)
 {
     const uint32_t sensors = voter->config.sensors;
     bool unanimous = voter->vote.contributing == sensors;
 
+    /*@ loop invariant 0 <= i <= sensors;
+      @ loop assigns i, unanimous;
+      @ loop variant sensors - i;
+      @*/
     for (uint32_t i = 0u; unanimous && (i < sensors); i++) {
         const keel_voter_sensor_t *const sensor = &voter->sensor[i];
 
@@ -336,11 +428,21 @@ void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], ui
 
 /* Whether the others have not changed either, as the first has not, and all agree: the samples are
  * those of the last vote. */
+/*@ requires \valid_read(voter) && 1 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
+  @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
+  @ requires \is_finite(voter->config.agree) &&
+  @     KEEL_VOTER_AGREE_MIN <= voter->config.agree <= KEEL_VOTER_AGREE_MAX;
+  @ assigns \nothing;
+  @*/
 static bool is_at_rest(const keel_voter_t *voter, const keel_voter_sample_t sample[])
 {
     float least = sample[0].value;
     float most = least;
 
+    /*@ loop invariant 1 <= i <= voter->config.sensors;
+      @ loop assigns i, least, most;
+      @ loop variant voter->config.sensors - i;
+      @*/
     for (uint32_t i = 1u; i < voter->config.sensors; i++) {
         const float value = sample[i].value;
 
@@ -372,6 +474,10 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
     if (!(first >= lowest)) {
         return false;
     }
+    /*@ loop invariant 1 <= i <= sensors;
+      @ loop assigns i, least, most;
+      @ loop variant sensors - i;
+      @*/
     for (uint32_t i = 1u; i < sensors; i++) {
         const float value = sample[i].value;
 
@@ -385,6 +491,10 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
         return false;
     }
     voter->sensor[0].last = first;
+    /*@ loop invariant 1 <= i <= sensors;
+      @ loop assigns i, sum, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last;
+      @ loop variant sensors - i;
+      @*/
     for (uint32_t i = 1u; i < sensors; i++) {
         sum += sample[i].value;
         voter->sensor[i].last = sample[i].value;

@@ -17,6 +17,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
@@ -169,6 +170,16 @@ class Settling(unittest.TestCase):
         last = "killed 1 of 2 mutants (0 equivalent), 1 survived unexplained"
         self.assertEqual(self.conclude(verdict("killed"), verdict("survived")), (1, last))
 
+    def test_a_mutant_that_is_undecided_is_not_killed_and_fails(self) -> None:
+        last = "killed 1 of 2 mutants (0 equivalent), 0 survived unexplained, 1 undecided"
+        self.assertEqual(self.conclude(verdict("killed"), verdict("undecided")), (1, last))
+
+    def test_a_reason_explains_what_is_undecided(self) -> None:
+        undecided = verdict("undecided")
+        reasons = self.accepted(self.entry.format("nobody reads it"))
+        self.assertEqual(mutation.settle([undecided], reasons, True), [])
+        self.assertEqual(undecided.status, "equivalent")
+
     def test_a_mutant_that_was_not_tried_fails(self) -> None:
         self.assertEqual(self.conclude(verdict("killed"), verdict("skipped"))[0], 1)
 
@@ -229,6 +240,44 @@ class Trials(unittest.TestCase):
 
     def test_what_nobody_notices_survives(self) -> None:
         self.assertEqual(self.status("a < 4"), "survived")
+
+
+class Asked:
+    """WP that proves within the given stages, or not at all, and notes what it was asked."""
+
+    def __init__(self, proves: tuple[tuple[wp.Stage, ...], ...]) -> None:
+        self.proves = proves
+        self.asked: list[tuple[wp.Stage, ...]] = []
+
+    def first_problem(
+        self, _target: targets.Target, stages: tuple[wp.Stage, ...], _: object
+    ) -> str:
+        self.asked.append(stages)
+        return "" if stages in self.proves else "f_ensures"
+
+
+class Patience(Trials):
+    short = (wp.Stage(("alt-ergo",), 2),)
+
+    def ask(self, patient: bool, *proves: tuple[wp.Stage, ...]) -> tuple[str, int]:
+        """What a trial makes of WP's answers, and how often it asked."""
+        prover: Any = Asked(proves)
+        self.trial._patient = patient
+        target = targets.Target(self.unit, self.unit.header, "keel_box_small")
+        return self.trial._asked(prover, target, self.short), len(prover.asked)
+
+    def test_what_only_takes_longer_survives(self) -> None:
+        self.assertEqual(self.ask(True, wp.THOROUGH), ("survived", 2))
+
+    def test_what_the_full_limits_do_not_prove_is_killed(self) -> None:
+        self.assertEqual(self.ask(True), ("killed: f_ensures", 2))
+
+    def test_what_is_proved_at_once_is_not_asked_twice(self) -> None:
+        self.assertEqual(self.ask(True, self.short), ("survived", 1))
+
+    def test_without_the_full_limits_nothing_is_killed(self) -> None:
+        answer = f"{mutation.UNDECIDED}: f_ensures"
+        self.assertEqual(self.ask(False, wp.THOROUGH), (answer, 1))
 
 
 class CommandLine(unittest.TestCase):

@@ -950,6 +950,8 @@ class WholeRunCase(TreeTest):
         self.play()
         names = [f"{f}_{g}\n" for f, goals in GOALS.items() for g in goals]
         self.unit.goal_list.write_text("".join(sorted(names)), encoding="utf-8")
+        asserted = "keel_box_put_harness BOX_001: it holds the value\n"
+        (self.unit.folder / "assertions.txt").write_text(asserted, encoding="utf-8")
         self.report_file = self.root / "build" / "prove" / "report.json"
 
     def play(self, **changes: Any) -> None:
@@ -1011,6 +1013,14 @@ class WholeRun(WholeRunCase):
     def test_a_missing_list_fails(self) -> None:
         self.unit.goal_list.unlink()
         self.failing("goals.txt is missing", "proved 5 of 5 goals (WP 4, CBMC 1, Gappa 0)")
+
+    def test_a_vanished_assertion_fails_until_it_is_accepted(self) -> None:
+        path = self.unit.folder / "assertions.txt"
+        asserted = path.read_text(encoding="utf-8")
+        path.write_text(asserted + "keel_box_put_harness BOX_002: gone\n", encoding="utf-8")
+        self.failing("BOX_002: gone: is listed, but", "proved 5 of 5 goals (WP 4, CBMC 1, Gappa 0)")
+        self.assertEqual(self.prove(update=True)[0], 0)
+        self.assertEqual(path.read_text(encoding="utf-8"), asserted)
 
     def test_a_wrong_body_that_passes_fails(self) -> None:
         path = self.unit.folder / "wrong" / "zero.toml"

@@ -8,6 +8,7 @@ Frama-C is played by a small script.
 
 from __future__ import annotations
 
+import dataclasses
 import sys
 import unittest
 from pathlib import Path
@@ -157,6 +158,15 @@ class Asking(TreeTest):
         rest = command[command.index("-then") + 2 :]
         self.assertEqual(rest, plain[len(plain) - len(rest) :])
         self.assertEqual(rest[0], "-wp")
+
+    def test_a_function_that_is_left_to_cbmc_in_part_has_no_recorded_pass(self) -> None:
+        for left, expected in ((None, 1), ((), 0)):
+            target = dataclasses.replace(self.function, left=left)
+            run = mock.Mock(return_value=Finished(0, ""))
+            with mock.patch.object(Runner, "run", run):
+                self.prover.prove(target, wp.QUICK, recorded={f"{PUT}_assigns": "z3"})
+            [command] = run.call_args.args
+            self.assertEqual(sum(word.endswith("ask_recorded.ml") for word in command), expected)
 
     def recorded(self, provers: dict[str, str]) -> list[str]:
         file = self.prover._recorded_file(self.function, provers)

@@ -132,7 +132,7 @@ class StatusTest(unittest.TestCase):
         text = self.readme.read_text(encoding="utf-8")
         self.assertIn("Without a harness (reasons in `proofs/units.toml`): `f`, `g`.\n", text)
         self.assertIn("Declared without a body (reasons in `proofs/units.toml`): `h`.\n", text)
-        self.assertIn("Left to CBMC alone (reasons in `proofs/units.toml`): `k`.\n", text)
+        self.assertIn("Postconditions left to CBMC (reasons in `proofs/units.toml`): `k`.\n", text)
 
     def test_partial_report_is_refused(self) -> None:
         self.refused(a_report() | {"partial": True}, "not of all units")

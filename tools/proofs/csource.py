@@ -104,14 +104,14 @@ def defined(text: str) -> list[Function]:
 
 
 def with_ghosts(text: str) -> str:
-    """The text with ghost code (in block comments) laid open, its annotations as comments.
+    """The text with ghost code (in block comments) laid open, its annotations too.
 
     Provers take ghost code for code: a ghost function's contract is assumed where it is called, a
     ghost loop must end. Places are kept.
     """
 
     def opened(match: re.Match[str]) -> str:
-        code = match.group("code").replace("/@", "/*").replace("@/", "*/")
+        code = match.group("code").replace("/@ ", "/*@").replace("@/", "*/")
         return " " * (len(match.group()) - len(code) - 2) + code + "  "
 
     return GHOST.sub(opened, text)

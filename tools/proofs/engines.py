@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from . import cbmc, csource, gappa, targets, wp
+from . import cbmc, csource, frames, gappa, targets, wp
 from .cache import digest
 from .driver import Job
 from .goals import read_goals
@@ -27,9 +27,8 @@ def wp_jobs(
         allowed = list(exceptions[unit.name].warnings)
         shown = str(unit.goal_list.relative_to(root))
         recorded = read_goals(unit.goal_list, shown).provers
-        for target in targets.targets(unit):
-            if target.function in exceptions[unit.name].not_by_wp:
-                continue
+        for whole in targets.targets(unit):
+            target = frames.restricted(whole, exceptions[unit.name])
 
             execute = functools.partial(_prove, prover, target, stages, allowed, recorded)
             key = functools.partial(wp_key, target, prover, root, stamp, allowed)

@@ -11,7 +11,8 @@ Directives stand in the first comment lines of a harness:
 
 Where the harness calls a replaced function F, the harness's own F_stand_in is called: it asserts
 F_may(...) and returns anything that F_does(...) allows, while F_harness assumes the one and
-asserts the other of F itself. So what is proved holds of every function with F's contract.
+asserts the other of F itself, or one of F's harnesses for all its cases, F__any_harness, does. So
+what is proved holds of every function with F's contract.
 
 The function that a harness proves is in its name: keel_queue_add_harness, or, for one of several
 cases, keel_queue_add__full_harness.
@@ -159,7 +160,8 @@ def text_problems(harness: Harness) -> list[str]:
 
 def replacement_problems(harness: Harness) -> list[str]:
     """Why what a harness proves with stand-ins does not hold of the functions themselves."""
-    place = harness.path.relative_to(harness.unit.root)
+    root = harness.unit.root
+    place = harness.path.relative_to(root)
     files = closure(harness.unit.root, [harness.path])
     texts = [path.read_text(encoding="utf-8") for path in files]
     problems = []
@@ -167,14 +169,22 @@ def replacement_problems(harness: Harness) -> list[str]:
         if name == harness.function or name in harness.covers:
             problems.append(f"{place}: replaces {name}, which it is to prove")
         stand_in = "".join(csource.body_of(text, f"{name}_stand_in") for text in texts)
-        entry = f"{name}_harness"
-        own = sorted(harness.unit.folder.parent.glob(f"*/{entry}.c"))
-        proof = "".join(csource.body_of(path.read_text(), entry) for path in own)
-        for body, where, before, after in (
-            (stand_in, f"{name}_stand_in", "assert", "assume"),
-            (proof, entry, "assume", "assert"),
-        ):
-            wanted = (f"__CPROVER_{before}({name}_may(", f"__CPROVER_{after}({name}_does(")
-            problems += [f"{place}: {where} lacks {text}...)" for text in wanted
-                         if text not in body]  # fmt: skip
+        lacking = _lacks(stand_in, name, "assert", "assume")
+        problems += [f"{place}: {name}_stand_in lacks {text}...)" for text in lacking]
+        proofs = [csource.body_of(path.read_text(), path.stem) for path in _own(root, name)]
+        lacks = [_lacks(proof, name, "assume", "assert") for proof in proofs or [""]]
+        problems += [f"{place}: {name}_harness lacks {text}...)" for text in min(lacks, key=len)]
     return problems
+
+
+def _own(root: Path, function: str) -> list[Path]:
+    """The harnesses of a function, in whichever unit."""
+    found = root.glob(f"proofs/*/{function}*_harness.c")
+    own = (f"{function}_harness", f"{function}__")
+    return sorted(path for path in found if path.stem.startswith(own))
+
+
+def _lacks(body: str, name: str, before: str, after: str) -> list[str]:
+    """What a body does not do with the two sides of a contract."""
+    wanted = (f"__CPROVER_{before}({name}_may(", f"__CPROVER_{after}({name}_does(")
+    return [text for text in wanted if text not in body]

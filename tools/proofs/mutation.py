@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from . import cbmc, engines, targets, wp
+from . import cbmc, engines, frames, targets, wp
 from .cache import Cache, digest
 from .harness import Harness, read_harness
 from .jobs import Runner
@@ -31,6 +31,8 @@ SHORTEST, LONGEST = 2, 30
 IMPATIENT = 20.0
 LAST_PATIENCE = 10.0  # for the attempt after which a mutant is said to survive
 NO_ANSWER = "no answer"
+# A goal that is not proved within the limits above may be one that takes longer.
+UNDECIDED = "not proved in the short limit"
 
 
 @dataclass
@@ -120,7 +122,7 @@ class Trial:
     def __init__(
         self, unit: Unit, tools: Tools, trees: Trees, asked: Sequence[str], every: bool,
         cache: Cache, stamp: Mapping[str, str], exceptions: Exceptions,
-        times: Times,
+        times: Times, patient: bool = True,
     ) -> None:  # fmt: skip
         self._unit = unit
         self._tools = tools
@@ -132,6 +134,7 @@ class Trial:
         self._runners: list[Runner] = []
         self._exceptions = exceptions
         self._times = times
+        self._patient = patient
         self._allowed = list(exceptions.warnings)
         self._baseline = threading.Lock()
         self._proved = Cache(tools.verdicts)
@@ -164,9 +167,9 @@ class Trial:
                 )
             return self._stages[function]
 
-    @staticmethod
-    def _target(unit: Unit, function: str) -> targets.Target:
-        return next(item for item in targets.targets(unit) if item.function == function)
+    def _target(self, unit: Unit, function: str) -> targets.Target:
+        target = next(item for item in targets.targets(unit) if item.function == function)
+        return frames.restricted(target, self._exceptions)
 
     def try_mutant(self, mutant: Mutant) -> Verdict:
         """Which engine notices the mutant, if any."""
@@ -209,6 +212,8 @@ class Trial:
                 verdict.status = "killed"
                 if not self._every:
                     return
+            elif verdict.engines[engine].startswith(UNDECIDED) and verdict.status != "killed":
+                verdict.status = "undecided"
 
     def _runner(self, folder: Path) -> Runner:
         runner = Runner(dict(self._tools.environment), folder)
@@ -221,7 +226,7 @@ class Trial:
         texts = {str(path.relative_to(unit.root)): path.read_text() for path in files}
         return digest(
             {"mutant": mutant.function, "texts": texts, "stamp": self._stamp,
-             "engines": list(self._engines), "every": self._every}
+             "engines": list(self._engines), "every": self._every, "stages": str(wp.THOROUGH)}
         )  # fmt: skip
 
     def _compare(self, unit: Unit, runner: Runner) -> tuple[str, str] | None:
@@ -302,8 +307,6 @@ class Trial:
 
     def _by_wp(self, mutant: Mutant, unit: Unit, runner: Runner) -> str:
         """Whether a goal of the function is not proved any more."""
-        if mutant.function in self._exceptions.not_by_wp:
-            return "the function is left to CBMC"
         stages = self._stages_for(mutant.function)
         if not stages:
             return "the function is not proved unchanged"
@@ -314,7 +317,14 @@ class Trial:
         if known.is_dir() and not (answers / target.identity).is_dir():
             shutil.copytree(known, answers / target.identity)
         prover = wp.Wp(self._tools.frama_c, runner, unit.root, scratch, answers)
+        return self._asked(prover, target, stages)
+
+    def _asked(self, prover: wp.Wp, target: targets.Target, stages: Sequence[wp.Stage]) -> str:
+        """What WP says, first within short limits: what is not proved then gets the full ones."""
         problem = prover.first_problem(target, stages, self._allowed)
+        if problem and not self._patient:
+            return f"{UNDECIDED}: {problem}"
+        problem = problem and prover.first_problem(target, wp.THOROUGH, self._allowed)
         return f"killed: {problem}" if problem else "survived"
 
 
@@ -346,7 +356,7 @@ def settle(
         reason = unused.pop(verdict.mutant.identity, None)
         if reason is None:
             continue
-        if verdict.status == "survived":
+        if verdict.status in ("survived", "undecided"):
             verdict.status, verdict.reason = "equivalent", reason
         elif verdict.status != "skipped":
             problems.append(f"equivalent.toml: needless, it is {verdict.status}: {verdict.mutant}")
@@ -368,7 +378,7 @@ def table(verdicts: Sequence[Verdict], engines: Sequence[str]) -> list[str]:
 
 def report(unit: str, verdicts: Sequence[Verdict], problems: Sequence[str]) -> str:
     """The report, as JSON."""
-    names = ("killed", "survived", "equivalent", "stillborn", "skipped")
+    names = ("killed", "survived", "undecided", "equivalent", "stillborn", "skipped")
     summary: dict[str, Any] = {name: count(verdicts, name) for name in names}
     entries = [verdict.as_dict() for verdict in verdicts]
     content = {"unit": unit, "summary": summary, "problems": list(problems), "mutants": entries}

@@ -245,7 +245,10 @@ def closing_lines(gathered: Gathered) -> list[str]:
     for name, unit in gathered.units.items():
         if unit.exceptions.not_by_wp and "wp" in gathered.engines:
             left = len(unit.exceptions.not_by_wp)
-            lines.append(f"{name}: {left} functions are left to CBMC alone, see proofs/units.toml")
+            lines.append(
+                f"{name}: the postconditions of {left} functions are left to CBMC,"
+                " see proofs/units.toml"
+            )
     if stale := sum(len(unit.stale) for unit in gathered.units.values()):
         lines.append(f"{stale} goals have a better prover than is recorded: run --update-goals")
     lines.append(f"verdicts: {gathered.known} known before, {gathered.fresh} had now")
@@ -292,6 +295,7 @@ def _unit(result: UnitResult, engines: Sequence[str]) -> dict[str, Any]:
             "stale_provers": result.stale,
             "not_proved_here": exceptions.no_body,
             "not_by_wp": exceptions.not_by_wp,
+            "by_cbmc": exceptions.by_cbmc,
             "goal_list": sorted(result.goals, key=lambda goal: goal["name"]),
         }
     if "cbmc" in engines:

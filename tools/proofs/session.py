@@ -13,7 +13,20 @@ from pathlib import Path
 
 from toolchain import Found, Toolchain
 
-from . import cbmc, csource, driver, engines, gappa, report, rules, shards, wp
+from . import (
+    assertions,
+    cbmc,
+    csource,
+    driver,
+    engines,
+    frames,
+    gappa,
+    report,
+    rules,
+    shards,
+    unused,
+    wp,
+)
 from .cache import Cache, write_atomically
 from .goals import as_text, read_goals, short_name
 from .jobs import Runner
@@ -200,14 +213,17 @@ class Session:
         own = [path for unit in self._choice.units for path in (*unit.own_files, *unit.theorems)]
         shared = [*(root / "include" / "keel").glob("*.h"), *(root / "specs").glob("**/*.h")]
         gathered.problems += rules.assumptions_in([*own, *sorted(shared)], root)
+        gathered.problems += unused.problems(root)
         for result in gathered.units.values():
             unit, exceptions = result.unit, result.exceptions
             result.problems += rules.undefined_functions(unit, exceptions.no_body, root)
             result.problems += rules.left_by_wp(unit, exceptions.not_by_wp, root)
+            result.problems += frames.problems(unit, exceptions, find_units(root).values())
             if "cbmc" in self._choice.engines:
                 files = [path for path in closure(root, unit.harnesses) if "proofs" in path.parts]
                 result.problems += rules.switched_off_checks(files, root)
                 result.problems += rules.missing_harnesses(unit, exceptions.no_harness, root)
+                self._check_assertions(result)
             if "wp" in self._choice.engines:
                 self._check_warnings(result)
                 self._check_goal_list(result)
@@ -220,6 +236,14 @@ class Session:
             for text in result.exceptions.warnings
             if text not in result.accepted
         ]
+
+    def _check_assertions(self, result: report.UnitResult) -> None:
+        """Compare CBMC's assertions with the fixed list, or make the list anew."""
+        unit, harnesses = result.unit, result.harnesses
+        if self._choice.update_goals and assertions.update(unit, harnesses):
+            shown = assertions.list_of(unit).relative_to(self._root)
+            print(f"{unit.name:<10} {shown} rewritten: review the difference")
+        result.problems += assertions.problems(unit, harnesses)
 
     def _check_goal_list(self, result: report.UnitResult) -> None:
         """Compare the goals with the fixed list, or make the list anew."""

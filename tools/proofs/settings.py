@@ -4,9 +4,12 @@
     no_harness = [{ function = "keel_queue_init", reason = "…" }]
     no_body = [{ function = "keel_board_now", reason = "…" }]
     not_by_wp = [{ function = "keel_queue_sort", reason = "…" }]
+    by_cbmc = [{ function = "f", clause = "label", harness = "f_harness", reason = "…" }]
     warnings = [{ text = "part of a message of Frama-C", reason = "…" }]
 
-An exception without a reason, or that nothing needs any more, is an error.
+Of a function under not_by_wp WP proves all but the postconditions, and that no result of floats
+overflows (frames.py); by_cbmc names what else WP does not prove of it. An exception without a
+reason, or that nothing needs any more, is an error.
 """
 
 from __future__ import annotations
@@ -19,20 +22,25 @@ from typing import Any
 from .project import ProjectError
 
 KINDS = {
-    "no_harness": "function",
-    "no_body": "function",
-    "not_by_wp": "function",
-    "warnings": "text",
+    "no_harness": ("function",),
+    "no_body": ("function",),
+    "not_by_wp": ("function",),
+    "by_cbmc": ("function", "clause", "harness"),
+    "warnings": ("text",),
 }
 
 
 @dataclass
 class Exceptions:
-    """The exceptions of one unit: for each kind, what is excepted and why."""
+    """The exceptions of one unit: for each kind, what is excepted and why.
+
+    Of by_cbmc the key is "function clause harness".
+    """
 
     no_harness: dict[str, str] = field(default_factory=dict)
     no_body: dict[str, str] = field(default_factory=dict)
     not_by_wp: dict[str, str] = field(default_factory=dict)
+    by_cbmc: dict[str, str] = field(default_factory=dict)
     warnings: dict[str, str] = field(default_factory=dict)
 
 
@@ -41,14 +49,14 @@ def _read_kind(unit: str, kind: str, entries: Any) -> dict[str, str]:
         raise ProjectError(
             f"units.toml: [{unit}] has the unknown key {kind}; known: {', '.join(KINDS)}"
         )
-    wanted = {KINDS[kind], "reason"}
+    wanted = {*KINDS[kind], "reason"}
     found: dict[str, str] = {}
     for entry in entries:
         if set(entry) != wanted or not all(str(value).strip() for value in entry.values()):
             raise ProjectError(
                 f"units.toml: [{unit}] {kind}: each entry needs {' and '.join(sorted(wanted))}"
             )
-        found[str(entry[KINDS[kind]])] = str(entry["reason"])
+        found[" ".join(str(entry[key]) for key in KINDS[kind])] = str(entry["reason"])
     return found
 
 

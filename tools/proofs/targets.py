@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from . import csource
+from . import csource, frames
 from .cache import write_atomically
 from .project import Unit, closure
 
@@ -20,6 +20,8 @@ class Target:
     file: Path
     function: str | None
     lemmas: tuple[str, ...] = ()
+    # Labels that CBMC proves, postconditions and the results of floats besides; None: none.
+    left: tuple[str, ...] | None = None
 
     @property
     def name(self) -> str:
@@ -35,7 +37,7 @@ class Target:
     def selection(self) -> list[str]:
         """The options that select these goals and no others."""
         if self.function:
-            return ["-wp-fct", self.function]
+            return ["-wp-fct", self.function, *frames.selection(self.left)]
         return ["-wp-prop", ",".join(self.lemmas)]
 
 

@@ -111,13 +111,19 @@ class Wp:
         self, target: Target, stages: Sequence[Stage] = THOROUGH, smoke: bool = True,
         allowed: Sequence[str] = (), recorded: Mapping[str, str] | None = None,
     ) -> Result:  # fmt: skip
-        """Prove a target; `recorded` are the provers to ask first, by goal."""
+        """Prove a target; `recorded` are the provers to ask first, by goal.
+
+        That pass prepares all goals of a function, also those that are left to CBMC: where some
+        are, none is asked first.
+        """
         start = time.monotonic()
-        known = recorded or {}
+        known = recorded if recorded and target.left is None else {}
         with self._answers_alone(target):
             result = self._prove_lemmas(target, allowed, known)
             if result is None or result.problems:
                 result = self._run(target, stages, smoke, allowed, known)
+        if target.left is not None:
+            result.unrecorded = [goal["name"] for goal in result.goals]
         result.seconds = round(time.monotonic() - start, 1)
         return result
 

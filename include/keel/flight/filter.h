@@ -41,11 +41,6 @@
 /** The greatest input, in the input's unit. */
 #define KEEL_FILTER_INPUT_LIMIT 1.0e6f
 
-/** What an output never exceeds, whatever the cut-off and the inputs: 2^47. In exact arithmetic
- * inputs up to M lead to less than 2.5 M, and to less than 1.12 M with cut-offs up to a tenth of
- * the rate. */
-#define KEEL_FILTER_OUTPUT_LIMIT 140737488355328.0f
-
 /** What a state never exceeds: with a cut-off up to a quarter of the rate 2^22, else 2^45. */
 #define KEEL_FILTER_LOW_STATE_LIMIT  4194304.0f
 #define KEEL_FILTER_HIGH_STATE_LIMIT 35184372088832.0f
@@ -129,8 +124,8 @@ typedef struct keel_filter {
   @   ensures FLT_001_rate: \result == KEEL_ERR_RATE;
   @ behavior bad_cutoff:
   @   assumes filter_rate(rate_hz) && !filter_cutoff(rate_hz, cutoff_hz);
-  @   assigns \nothing;
   @   ensures FLT_001_cutoff: \result == KEEL_ERR_CUTOFF;
+  @   ensures FLT_001_unchanged: *filter == \old(*filter);
   @ behavior made:
   @   assumes filter_rate(rate_hz) && filter_cutoff(rate_hz, cutoff_hz);
   @   ensures FLT_001_ok: \result == KEEL_OK;

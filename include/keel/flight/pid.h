@@ -151,7 +151,7 @@ keel_status_t keel_pid_init(keel_pid_t *pid, const keel_pid_config_t *config);
  * @param pid the controller
  */
 /*@ requires \valid(pid);
-  @ requires pid_valid(*pid);
+  @ requires pid_limits(pid->config);
   @ assigns pid->integral, pid->setpoint, pid->error, pid->derivative, pid->output, pid->saturation,
   @     pid->started;
   @ ensures PID_003_fresh: pid->integral == 0 && pid->setpoint == 0 && pid->error == 0 &&

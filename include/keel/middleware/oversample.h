@@ -5,7 +5,8 @@
  *
  * The background runs factor times as often as the foreground. When it ran less or more often
  * between two takes, the missed or extra runs are counted and reported. A sample that is not finite
- * or too large is refused and does not enter the mean; its run counts all the same.
+ * or too large is refused and does not enter the mean; its run counts all the same. So two refusals
+ * write here, as STA-001 says: what they count tells that samples are lost.
  */
 #ifndef KEEL_MIDDLEWARE_OVERSAMPLE_H
 #define KEEL_MIDDLEWARE_OVERSAMPLE_H
@@ -66,8 +67,9 @@ keel_status_t keel_oversample_init(keel_oversample_t *oversample, uint16_t facto
  *
  * @param oversample the channel
  * @param value      the sample; any bit pattern
- * @return KEEL_OK; KEEL_ERR_VALUE when it is not finite or beyond KEEL_OVERSAMPLE_RANGE, or
- *         KEEL_ERR_FULL when there are 65535 runs already: only the run is counted then
+ * @return KEEL_OK; KEEL_ERR_VALUE when it is not finite or beyond KEEL_OVERSAMPLE_RANGE: the run is
+ *         counted all the same, and nothing else changes; KEEL_ERR_FULL when there are 65535 runs
+ *         already: then nothing changes
  */
 /*@ requires \valid(oversample) && oversample_valid(oversample);
   @ assigns oversample->sum, oversample->least, oversample->most, oversample->count,
@@ -77,7 +79,8 @@ keel_status_t keel_oversample_init(keel_oversample_t *oversample, uint16_t facto
   @ ensures OVS_002_count: \result == KEEL_OK ==>
   @     oversample->count == \old(oversample->count) + 1;
   @ ensures OVS_003_refused: \result != KEEL_OK ==>
-  @     oversample->count == \old(oversample->count) && oversample->sum == \old(oversample->sum);
+  @     oversample->count == \old(oversample->count) && oversample->sum == \old(oversample->sum) &&
+  @     oversample->least == \old(oversample->least) && oversample->most == \old(oversample->most);
   @ ensures OVS_003_full: \result == KEEL_ERR_FULL <==> \old(oversample->runs) == UINT16_MAX;
   @ ensures OVS_003_value: \result == KEEL_ERR_VALUE <==>
   @     \old(oversample->runs) < UINT16_MAX && !(\is_finite(value) &&
@@ -93,8 +96,8 @@ keel_status_t keel_oversample_add(keel_oversample_t *oversample, float value);
  * @param oversample the channel
  * @param mean       the mean of the samples since the last take, within the smallest and the
  *                   largest of them; left as it is when there is none
- * @return KEEL_OK, or KEEL_ERR_STATE when no sample was added; the runs are accounted for all the
- *         same
+ * @return KEEL_OK, or KEEL_ERR_STATE when no sample was added: the missing and the extra runs are
+ *         counted all the same and the channel begins anew, but the mean stays
  */
 /*@ requires \valid(oversample) && oversample_valid(oversample);
   @ requires \valid(mean) && \separated(oversample, mean);
@@ -102,6 +105,7 @@ keel_status_t keel_oversample_add(keel_oversample_t *oversample, float value);
   @ ensures OVS_004_mean: \old(oversample->count) > 0 ==> \result == KEEL_OK &&
   @     \is_finite(*mean) && \old(oversample->least) <= *mean <= \old(oversample->most);
   @ ensures OVS_004_none: \old(oversample->count) == 0 ==> \result == KEEL_ERR_STATE;
+  @ ensures OVS_004_stays: \result != KEEL_OK ==> *mean == \old(*mean);
   @ ensures OVS_005_anew: oversample_valid(oversample) && oversample->count == 0 &&
   @     oversample->runs == 0 && oversample->factor == \old(oversample->factor);
   @ ensures OVS_006_missed: oversample->missed == \min(UINT32_MAX, \old(oversample->missed) +

@@ -87,7 +87,7 @@ void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_imu_sample_t samp
  * @param imu  the virtual unit
  * @param unit the unit's index
  * @return KEEL_OK; KEEL_ERR_SENSORS when there is no such unit, KEEL_ERR_STATE when none of its
- *         channels is latched
+ *         channels is latched: then nothing changes
  */
 /*@ requires \valid(imu) && imu_valid(imu);
   @ assigns *imu;
@@ -95,7 +95,8 @@ void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_imu_sample_t samp
   @     \result == KEEL_ERR_SENSORS;
   @ ensures IMU_004_readmitted: \result == KEEL_OK ==> \forall integer k;
   @     0 <= k < KEEL_IMU_CHANNELS ==> !imu->channel[k].sensor[unit].latched;
-  @ ensures IMU_004_noted: unit < imu->channel[0].config.sensors ==> imu->latched[unit] == 0;
+  @ ensures IMU_004_noted: \result == KEEL_OK ==> imu->latched[unit] == 0;
+  @ ensures IMU_004_kept: \result != KEEL_OK ==> *imu == \old(*imu);
   @*/
 keel_status_t keel_virtual_imu_readmit(keel_virtual_imu_t *imu, uint32_t unit);
 

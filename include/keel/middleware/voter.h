@@ -21,8 +21,9 @@
  *   - Three sensors that all disagree are all condemned, as the paper has it. When all are latched
  *     the output is held until one is readmitted.
  *   - Two equal faulty sensors outvote a healthy third. No voter over three can tell.
- *   - A bias that keeps some agreement is neither removed nor latched; its influence on the output
- *     is bounded (VOT-015).
+ *   - A bias that keeps some agreement is neither removed nor latched. While the other two of three
+ *     are within a of each other, its influence on the output is bounded (VOT-015); farther apart
+ *     they agree less, and it moves the output farther.
  *   - A latched sensor is readmitted on request only.
  *
  * keel_voter_step takes any vote. keel_voter_step_unanimous, tried first, takes the usual one for
@@ -141,6 +142,10 @@ typedef struct keel_voter {
   @     (\exists integer i; 0 <= i < v->config.sensors && v->sensor[i].last <= v->vote.output) &&
   @     (\exists integer i; 0 <= i < v->config.sensors && v->vote.output <= v->sensor[i].last);
   @
+  @ // How many of the first n sensors contributed.
+  @ logic integer voter_used(keel_vote_t *vote, integer n) = (n <= 0) ? 0 :
+  @     voter_used(vote, n - 1) + ((vote->reason[n - 1] == KEEL_VOTER_USED) ? 1 : 0);
+  @
   @ // What holds of a channel between any two calls.
   @ predicate voter_valid(keel_voter_t *v) =
   @     voter_config_valid(v->config) && v->none == (float)(v->config.cutoff * v->config.agree) &&
@@ -183,14 +188,19 @@ keel_status_t keel_voter_check(const keel_voter_config_t *config);
  */
 /*@ requires \valid(voter) && \valid_read(config) && \separated(voter, config);
   @ assigns *voter;
-  @ ensures VOT_002_refused: !voter_config_valid(*config) ==> \result != KEEL_OK;
-  @ ensures VOT_002_ready: voter_config_valid(*config) ==>
-  @     \result == KEEL_OK && voter_valid(voter);
-  @ ensures VOT_002_output: \result == KEEL_OK ==> voter->vote.output == config->initial;
-  @ ensures VOT_002_fresh: \result == KEEL_OK ==>
-  @     \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==>
-  @         !voter->sensor[i].latched && voter->sensor[i].null == 0 &&
-  @         voter->sensor[i].density == 0 && voter->sensor[i].same == 0;
+  @ behavior refused:
+  @   assumes !voter_config_valid(*config);
+  @   assigns \nothing;
+  @   ensures VOT_002_refused: \result != KEEL_OK;
+  @ behavior ready:
+  @   assumes voter_config_valid(*config);
+  @   ensures VOT_002_ready: \result == KEEL_OK && voter_valid(voter);
+  @   ensures VOT_002_output: voter->vote.output == config->initial;
+  @   ensures VOT_002_fresh: \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==>
+  @       !voter->sensor[i].latched && voter->sensor[i].null == 0 &&
+  @       voter->sensor[i].density == 0 && voter->sensor[i].same == 0;
+  @ complete behaviors;
+  @ disjoint behaviors;
   @*/
 keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *config);
 
@@ -204,9 +214,9 @@ keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *co
  * @param none     n a, above a, at most KEEL_VOTER_RANGE
  * @return the agreement, 0 to 1; 0 from n a on only
  */
-/*@ requires \is_finite(distance) && 0 <= distance;
+/*@ requires agreement_distance: \is_finite(distance) && 0 <= distance;
   @ requires \is_finite(agree) && KEEL_VOTER_AGREE_MIN <= agree <= KEEL_VOTER_AGREE_MAX;
-  @ requires \is_finite(none) && agree < none <= KEEL_VOTER_RANGE;
+  @ requires agreement_none: \is_finite(none) && agree < none <= KEEL_VOTER_RANGE;
   @ assigns \nothing;
   @ ensures VOT_003_full: distance <= agree ==> \result == 1;
   @ ensures VOT_003_none: distance >= none ==> \result == 0;
@@ -227,8 +237,8 @@ float keel_voter_agreement(float distance, float agree, float none);
  * @return the weight, 0 to 1; 0 only when all agreements are
  */
 /*@ requires 1 <= others < KEEL_VOTER_SENSORS && \valid_read(agreement + (0 .. others - 1));
-  @ requires \forall integer i; 0 <= i < others ==> \is_finite(agreement[i]) &&
-  @     (agreement[i] == 0 || 0x1p-24 <= agreement[i] <= 1);
+  @ requires weight_agreements: \forall integer i; 0 <= i < others ==>
+  @     \is_finite(agreement[i]) && (agreement[i] == 0 || 0x1p-24 <= agreement[i] <= 1);
   @ assigns \nothing;
   @ ensures VOT_006_range: weight_valid(\result);
   @ ensures VOT_006_null: \result == 0 <==>
@@ -246,10 +256,10 @@ float keel_voter_weight(const float agreement[], uint32_t others);
  * @param most    the largest sample
  * @return the mean, from least to most
  */
-/*@ requires \is_finite(sum) && -4 * KEEL_VOTER_RANGE <= sum <= 4 * KEEL_VOTER_RANGE;
-  @ requires \is_finite(weights) && 0x1p-26 <= weights <= 4;
-  @ requires \is_finite(least) && \is_finite(most);
-  @ requires -KEEL_VOTER_RANGE <= least <= most <= KEEL_VOTER_RANGE;
+/*@ requires mean_sum: \is_finite(sum) && -4 * KEEL_VOTER_RANGE <= sum <= 4 * KEEL_VOTER_RANGE;
+  @ requires mean_weights: \is_finite(weights) && 0x1p-26 <= weights <= 4;
+  @ requires mean_ends: \is_finite(least) && \is_finite(most) &&
+  @     -KEEL_VOTER_RANGE <= least <= most <= KEEL_VOTER_RANGE;
   @ assigns \nothing;
   @ ensures VOT_005_mean: \is_finite(\result) && least <= \result <= most;
   @*/
@@ -264,8 +274,8 @@ float keel_voter_mean(float sum, float weights, float least, float most);
  * @param agree a, KEEL_VOTER_AGREE_MIN to KEEL_VOTER_AGREE_MAX
  * @return whether they do
  */
-/*@ requires \is_finite(least) && \is_finite(most);
-  @ requires -KEEL_VOTER_RANGE <= least <= most <= KEEL_VOTER_RANGE;
+/*@ requires within_ends: \is_finite(least) && \is_finite(most) &&
+  @     -KEEL_VOTER_RANGE <= least <= most <= KEEL_VOTER_RANGE;
   @ requires \is_finite(agree) && KEEL_VOTER_AGREE_MIN <= agree <= KEEL_VOTER_AGREE_MAX;
   @ assigns \nothing;
   @ ensures VOT_018_within: \result <==> (float)(most - least) <= agree;
@@ -284,11 +294,11 @@ bool keel_voter_within(float least, float most, float agree);
  */
 /*@ requires 1 <= sensors <= KEEL_VOTER_SENSORS;
   @ requires \valid_read(sample + (0 .. sensors - 1)) && \valid_read(weight + (0 .. sensors - 1));
-  @ requires \forall integer i; 0 <= i < sensors ==> weight_valid(weight[i]);
-  @ requires \forall integer i; 0 <= i < sensors && weight[i] > 0 ==>
+  @ requires combine_weights: \forall integer i; 0 <= i < sensors ==> weight_valid(weight[i]);
+  @ requires combine_samples: \forall integer i; 0 <= i < sensors && weight[i] > 0 ==>
   @     \is_finite(sample[i].value) &&
   @     -KEEL_VOTER_RANGE <= sample[i].value <= KEEL_VOTER_RANGE;
-  @ requires \exists integer i; 0 <= i < sensors && weight[i] > 0;
+  @ requires combine_some: \exists integer i; 0 <= i < sensors && weight[i] > 0;
   @ assigns \nothing;
   @ ensures VOT_005_finite: \is_finite(\result);
   @ ensures VOT_005_above: \exists integer i; 0 <= i < sensors && weight[i] > 0 &&
@@ -306,10 +316,11 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
  * @param sample     a sample per sensor, N of them, in the order of the sensors; any bit pattern
  * @param elapsed_us the time since the last vote, in us: how long a held output lasts
  */
-/*@ requires \valid(voter) && voter_valid(voter);
+/*@ requires \valid(voter) && 2 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
+  @ requires vote_valid: voter_valid(voter);
   @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
   @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
-  @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1], voter->vote;
+  @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1], voter->vote, voter->unanimous;
   @ ensures VOT_005_valid: voter_valid(voter);
   @ ensures VOT_005_hull: voter->vote.state == KEEL_VOTER_MEAN ==>
   @     (\exists integer i; 0 <= i < voter->config.sensors &&
@@ -320,8 +331,8 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
   @     0 <= voter->vote.weight[i] <= 1;
   @ ensures VOT_006_reason: \forall integer i; 0 <= i < voter->config.sensors ==>
   @     (voter->vote.weight[i] > 0 <==> voter->vote.reason[i] == KEEL_VOTER_USED);
-  @ ensures VOT_006_contributing: voter->vote.contributing == \numof(0, voter->config.sensors - 1,
-  @     \lambda integer i; voter->vote.reason[i] == KEEL_VOTER_USED);
+  @ ensures VOT_006_contributing:
+  @     voter->vote.contributing == voter_used(&voter->vote, voter->config.sensors);
   @ ensures VOT_007_latched: \forall integer i; 0 <= i < voter->config.sensors ==>
   @     (\old(voter->sensor[i].latched) <==> voter->vote.reason[i] == KEEL_VOTER_LATCHED);
   @ ensures VOT_007_missing: \forall integer i; 0 <= i < voter->config.sensors ==>
@@ -384,7 +395,8 @@ void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], ui
  * @param oldest_us the age of the oldest, in us; that of each sample is not read
  * @return whether the vote was taken; its result is in voter->vote then
  */
-/*@ requires \valid(voter) && voter_valid(voter);
+/*@ requires \valid(voter) && 2 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
+  @ requires attempt_valid: voter_valid(voter);
   @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
   @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
   @ requires \forall integer i; 0 <= i < voter->config.sensors ==>
