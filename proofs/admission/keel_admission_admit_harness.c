@@ -6,7 +6,7 @@
 // 2^6 us, as the utilisation divides. The contract under WP has no such bound.
 #include "../common/admission_contracts.h"
 
-/* Any totals; those of no real-time task have no shortest period and gap. */
+/* Any totals, valid or not. */
 static keel_admission_t any_totals(void)
 {
     keel_admission_t totals;
@@ -36,7 +36,8 @@ void keel_admission_admit_harness(void)
 
     __CPROVER_assume(keel_admission_admit_may(&totals, period_us, budget_us));
     /* C / T in ppm, rounded up: only one number satisfies this. */
-    __CPROVER_assume((scaled <= (share * period_us)) && ((share * period_us) < (scaled + period_us)));
+    __CPROVER_assume((scaled <= (share * period_us)) &&
+                     ((share * period_us) < (scaled + period_us)));
 
     status = keel_admission_admit(&totals, priority, period_us, budget_us);
 

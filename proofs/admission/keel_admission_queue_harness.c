@@ -4,7 +4,8 @@
 // covers: keel_admission_queue admit_at
 //
 // Numbers have their full width: the one function that divides is what its contract says
-// (admission_contracts.h). What a task adds to the utilisation is any function of period and budget.
+// (admission_contracts.h). What a task adds to the utilisation is any function of its period and
+// its budget.
 #include "../common/admission_contracts.h"
 
 uint64_t __CPROVER_uninterpreted_share(uint32_t period_us, uint32_t budget_us);

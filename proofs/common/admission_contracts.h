@@ -2,8 +2,8 @@
  * @file admission_contracts.h
  * @brief What keel_admission_admit asks for and does, as expressions of C; no part of it divides.
  *
- * Its own harness proves that it keeps the contract, for the share C / T that it adds; in the harness
- * of a whole queue it stands in for the function, with any share.
+ * Its own harness proves that it keeps the contract, for the share C / T that it adds; in the
+ * harness of a whole queue it stands in for the function, with any share.
  */
 #ifndef ADMISSION_CONTRACTS_H
 #define ADMISSION_CONTRACTS_H
@@ -94,8 +94,7 @@ static bool keel_admission_admit_may(const keel_admission_t *totals, uint32_t pe
 static bool keel_admission_admit_does(keel_status_t status, const keel_admission_t *before,
                                       const keel_admission_t *after, const keel_admission_t *with)
 {
-    return (status == verdict_on(with)) &&
-           totals_same(after, (status == KEEL_OK) ? with : before);
+    return (status == verdict_on(with)) && totals_same(after, (status == KEEL_OK) ? with : before);
 }
 
 #endif
