@@ -2,23 +2,15 @@
 // sources: src/rtos/admission.c
 // covers: keel_admission_admit minimum utilisation_of gap_of
 //
-// Totals, guard and budgets have their full width. Bounded to periods up to 2^3 us, or budgets of
-// up to 2^3: the utilisation divides. The contract under WP has no such bound.
+// Totals, guard and limit have their full width. Bounded to periods up to 2^3 us and budgets below
+// 2^6 us, as the utilisation divides. The contract under WP has no such bound.
 #include "../common/admission_contracts.h"
-#include "../common/keel_proof.h"
 
-void keel_admission_admit_harness(void)
+/* Any totals, valid or not. */
+static keel_admission_t any_totals(void)
 {
     keel_admission_t totals;
-    keel_admission_t with;
-    keel_admission_t before;
-    const keel_task_config_t *config;
-    uint64_t share;
-    keel_status_t status;
 
-    any_task(0u, nondet_bool());
-    narrow_task(0u, 3u, 6u);
-    config = proof_config[0];
     totals.guard_us = any_bits64(31u);
     totals.utilisation_limit = any_bits64(20u);
     totals.utilisation = any_bits64(20u);
@@ -27,31 +19,47 @@ void keel_admission_admit_harness(void)
     totals.shortest_gap_us = nondet_u64();
     totals.longest_other_us = any_bits64(32u);
     totals.tasks = any_below(CAPACITY);
-    __CPROVER_assume((totals.utilisation_limit <= KEEL_UTILISATION_FULL_PPM) &&
-                     (totals.utilisation <= totals.utilisation_limit));
-    __CPROVER_assume(demand_met(&totals) && gap_met(&totals));
-    before = totals;
-    with = totals_with(&totals, config);
-    __CPROVER_assume(keel_admission_admit_may(&totals, config));
+    return totals;
+}
 
-    status = keel_admission_admit(&totals, config);
+void keel_admission_admit_harness(void)
+{
+    keel_admission_t totals = any_totals();
+    const uint32_t priority = nondet_u32();
+    const uint32_t period_us = any_bits(3u) + 1u;
+    const uint32_t budget_us = any_bits(6u);
+    const uint64_t scaled = (uint64_t)budget_us * 1000000u;
+    const uint64_t share = any_bits64(SHARE_BITS);
+    const keel_admission_t before = totals;
+    const keel_admission_t with = totals_with(&before, priority, period_us, budget_us, share);
+    keel_status_t status;
 
-    __CPROVER_assert(keel_admission_admit_does(status, &before, &totals, config),
+    __CPROVER_assume(keel_admission_admit_may(&totals, period_us, budget_us));
+    /* C / T in ppm, rounded up: only one number satisfies this. */
+    __CPROVER_assume((scaled <= (share * period_us)) &&
+                     ((share * period_us) < (scaled + period_us)));
+
+    status = keel_admission_admit(&totals, priority, period_us, budget_us);
+
+    __CPROVER_assert(keel_admission_admit_does(status, &before, &totals, &with),
                      "ADM_004_part: as a whole queue takes it to do");
+    __CPROVER_assert(totals_valid(&totals), "ADM_002_valid: the totals stay valid");
+    __CPROVER_assert((totals.guard_us == before.guard_us) &&
+                         (totals.utilisation_limit == before.utilisation_limit),
+                     "ADM_002_limits: the limits stay");
     __CPROVER_assert((status == KEEL_ERR_REALTIME_DEMAND) == !demand_met(&with),
                      "ADM_003_demand: a period would not hold all real-time budgets and 2 W");
     __CPROVER_assert((status == KEEL_ERR_BUDGET_GAP) == (demand_met(&with) && !gap_met(&with)),
                      "ADM_003_gap: a budget would not fit a real-time task's gap");
-    __CPROVER_assert((status == KEEL_OK) || (status == KEEL_ERR_UTILISATION) ||
-                         (status == KEEL_ERR_REALTIME_DEMAND) || (status == KEEL_ERR_BUDGET_GAP),
-                     "ADM_002_status: there is no other reason");
-    if (status == KEEL_OK) {
-        share = totals.utilisation - before.utilisation;
-        __CPROVER_assert((before.utilisation <= totals.utilisation) &&
-                             (totals.utilisation <= totals.utilisation_limit),
-                         "ADM_002_utilisation: within the limit");
-        __CPROVER_assert(((share * config->period_us) >= (config->budget_us * 1000000u)) &&
-                             (((share - 1u) * config->period_us) < (config->budget_us * 1000000u)),
+    __CPROVER_assert((status == KEEL_ERR_UTILISATION) ==
+                         (demand_met(&with) && gap_met(&with) &&
+                          (with.utilisation > with.utilisation_limit)),
+                     "ADM_003_utilisation: the limit would be exceeded");
+    if (status != KEEL_OK) {
+        __CPROVER_assert(totals_same(&totals, &before), "ADM_002_kept: a refusal keeps the totals");
+    } else {
+        __CPROVER_assert(totals.tasks == with.tasks, "ADM_002_tasks: one task more");
+        __CPROVER_assert(totals.utilisation == with.utilisation,
                          "ADM_002_utilisation: C / T in ppm, rounded up, is added");
         __CPROVER_assert(totals.realtime_demand_us == with.realtime_demand_us,
                          "ADM_002_demand: a real-time budget is added");
@@ -61,22 +69,5 @@ void keel_admission_admit_harness(void)
                          "ADM_002_gap: the shortest gap");
         __CPROVER_assert(totals.longest_other_us == with.longest_other_us,
                          "ADM_002_other: the longest other budget");
-        __CPROVER_assert(totals.tasks == (before.tasks + 1u), "ADM_002_tasks: one task more");
-    } else {
-        __CPROVER_assert((totals.utilisation == before.utilisation) &&
-                             (totals.realtime_demand_us == before.realtime_demand_us) &&
-                             (totals.shortest_realtime_us == before.shortest_realtime_us) &&
-                             (totals.shortest_gap_us == before.shortest_gap_us) &&
-                             (totals.longest_other_us == before.longest_other_us) &&
-                             (totals.tasks == before.tasks),
-                         "ADM_003_unchanged: a refusal keeps the totals");
     }
-    if (status == KEEL_ERR_UTILISATION) {
-        share = (before.utilisation_limit - before.utilisation) * config->period_us;
-        __CPROVER_assert(share < (config->budget_us * 1000000u),
-                         "ADM_003_utilisation: the limit would be exceeded");
-    }
-    __CPROVER_assert((totals.guard_us == before.guard_us) &&
-                         (totals.utilisation_limit == before.utilisation_limit),
-                     "ADM_002_limits: the limits stay");
 }

@@ -1,8 +1,7 @@
 // cbmc: --unwind 2
 // sources: src/rtos/admission.c
 // covers: keel_admission_init
-#include "../common/keel_proof.h"
-#include "keel/rtos/admission.h"
+#include "../common/admission_contracts.h"
 
 void keel_admission_init_harness(void)
 {
@@ -12,6 +11,7 @@ void keel_admission_init_harness(void)
 
     keel_admission_init(&totals, guard_us, limit);
 
+    __CPROVER_assert(totals_valid(&totals), "ADM_001_valid: the totals are valid");
     __CPROVER_assert((totals.guard_us == guard_us) && (totals.utilisation_limit == limit),
                      "ADM_001_limits: the limits are kept");
     __CPROVER_assert((totals.utilisation == 0u) && (totals.realtime_demand_us == 0u) &&
