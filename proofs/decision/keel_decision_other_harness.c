@@ -2,9 +2,9 @@
 // sources: src/rtos/decision.c src/rtos/priority.c
 // replaces: keel_priority_dynamic
 // covers: keel_decision_other priority_of fits
-// defines: -DKEEL_QUEUE_CAPACITY=4u
+// defines: -DKEEL_QUEUE_CAPACITY=2u
 //
-// Bounded to a capacity of 4 tasks, periods and budgets of 6 bits and times of 10: eq. 3, of which its
+// Bounded to a capacity of 2 tasks, periods and budgets of 6 bits and times of 10: eq. 3, of which its
 // contract stands in (priority_contracts.h), is evaluated for each of them. The contract under WP has
 // no such bound.
 #include "../common/decision_contracts.h"

@@ -3,9 +3,9 @@
 // replaces: keel_decision_other keel_decision_event_us keel_queue_advance
 // covers: keel_pass_next dispatch find_realtime find_earliest_realtime choose_other
 // covers: remember serve_other find_wake close_pass keel_stats_promote
-// defines: -DKEEL_QUEUE_CAPACITY=3u
+// defines: -DKEEL_QUEUE_CAPACITY=2u
 //
-// Bounded to a capacity of 3 tasks, periods and budgets of 4 bits and times of 8, as eq. 3 is evaluated
+// Bounded to a capacity of 2 tasks, periods and budgets of 4 bits and times of 8, as eq. 3 is evaluated
 // for each of them; the functions that divide, or choose among many, are what their contracts say
 // (decision_contracts.h, queue_contracts.h). The contract under WP has no such bound, and says alone
 // that the wake-up time stays right (SCH_012_wake).

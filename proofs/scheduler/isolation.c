@@ -7,8 +7,8 @@
  * The function `isolation` is the life of a scheduler: it is started, and then begin, next and
  * finish are called for as long as one likes, each where the scheduler's stage asks for it, as
  * keel_scheduler_step does. They are the kernel's own functions, of which the proof knows their
- * contracts in pass.h and scheduler.h and nothing else. The world is a clock, read at most so long after it
- * was last read:
+ * contracts in pass.h and scheduler.h and nothing else. The world is a clock, read at most so long
+ * after it was last read:
  *
  *   - W, when a pass begins;
  *   - its budget, when a real-time task has run;
@@ -245,14 +245,14 @@ static bool is_promotion_due(const keel_scheduler_t *s)
   @ ensures ready: s->stage == KEEL_STAGE_READY ==>
   @     late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
   @ ensures realtime: s->stage == KEEL_STAGE_REALTIME ==>
-  @     s->cursor == s->running + 1 <= s->queue.realtime_count;
+  @     0 <= s->running && s->cursor == s->running + 1 <= s->queue.realtime_count;
   @ ensures bound: s->stage == KEEL_STAGE_REALTIME ==>
   @     s->clock.now_us - \at(s->queue.release_us[s->queue.order[\at(s->running, Post)]], Pre) <=
   @         sum[s->queue.realtime_count] - s->queue.budget_us[s->queue.order[s->running]]
   @         + s->config.guard_us;
   @ ensures before: s->stage == KEEL_STAGE_REALTIME ==> late_before(s, sum, s->running);
   @ ensures behind: s->stage == KEEL_STAGE_REALTIME ==> late_behind(s, sum, s->running);
-  @ ensures other: s->stage == KEEL_STAGE_OTHER ==> s->running < s->queue.count;
+  @ ensures other: s->stage == KEEL_STAGE_OTHER ==> 0 <= s->running < s->queue.count;
   @ ensures room: s->stage == KEEL_STAGE_OTHER ==> !\old(promotion_due(s)) ==>
   @     room(s, s->running);
   @*/
@@ -302,7 +302,7 @@ static void decide(keel_scheduler_t *s, const int64_t *sum)
 /* The running task runs for at most so long: time goes on; releases and declarations stay. */
 /*@ requires memory: \valid(s) && scheduler_valid(s) && in_uptime(s) && wake_right(s);
   @ requires busy: s->busy_us <= s->clock.now_us;
-  @ requires running: stage_running(s) && s->running < s->queue.count;
+  @ requires running: stage_running(s) && 0 <= s->running < s->queue.count;
   @ assigns s->clock.now_us, s->clock.raw_us, s->busy_us, s->stage, s->running,
   @     STATS_RUN(s->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1]);
   @ SCHEDULER_STAYS_VALID(s)
@@ -340,7 +340,7 @@ static void run_at_most(keel_scheduler_t *s, uint64_t limit_us)
 /* A real-time task runs: the pass goes on behind it. */
 /*@ SET_GIVEN(s, sum)
   @ requires stage: s->stage == KEEL_STAGE_REALTIME && pass_whole(s);
-  @ requires running: s->cursor == s->running + 1 <= s->queue.realtime_count;
+  @ requires running: 0 <= s->running && s->cursor == s->running + 1 <= s->queue.realtime_count;
   @ requires before: late_before(s, sum, s->running);
   @ requires behind: late_behind(s, sum, s->running);
   @ assigns s->clock.now_us, s->clock.raw_us, s->busy_us, s->stage, s->running,
@@ -361,7 +361,7 @@ static void run_realtime(keel_scheduler_t *s, const int64_t *sum)
 
 /* Another task runs: the pass is over before any real-time task is due. */
 /*@ SET_GIVEN(s, sum)
-  @ requires stage: s->stage == KEEL_STAGE_OTHER && s->running < s->queue.count;
+  @ requires stage: s->stage == KEEL_STAGE_OTHER && 0 <= s->running < s->queue.count;
   @ requires room: room(s, s->running);
   @ assigns s->clock.now_us, s->clock.raw_us, s->busy_us, s->stage, s->running,
   @     STATS_RUN(s->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1]);
@@ -411,13 +411,13 @@ void isolation(keel_scheduler_t *s, uint32_t raw_us, uint64_t moves)
       @ loop invariant behind: s->stage == KEEL_STAGE_PASS ==>
       @     late_behind(s, &sum[0], s->cursor);
       @ loop invariant running: s->stage == KEEL_STAGE_REALTIME ==>
-      @     s->cursor == s->running + 1 <= s->queue.realtime_count;
+      @     0 <= s->running && s->cursor == s->running + 1 <= s->queue.realtime_count;
       @ loop invariant running_before: s->stage == KEEL_STAGE_REALTIME ==>
       @     late_before(s, &sum[0], s->running);
       @ loop invariant running_behind: s->stage == KEEL_STAGE_REALTIME ==>
       @     late_behind(s, &sum[0], s->running);
       @ loop invariant other: s->stage == KEEL_STAGE_OTHER ==>
-      @     s->running < s->queue.count && room(s, s->running);
+      @     0 <= s->running < s->queue.count && room(s, s->running);
       @ loop variant moves - move;
       @*/
     for (uint64_t move = 0u; move < moves; move++) {
