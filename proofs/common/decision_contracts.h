@@ -2,8 +2,7 @@
  * @file decision_contracts.h
  * @brief The logic of decision.h as expressions of C, for numbers of their full width.
  *
- * Eq. 3 and the time of a promotion without a division; and what the functions ask for and do that
- * look at all tasks which are not real-time. Their own harnesses prove that they keep these, seen
+ * What the functions ask for and do that look at all tasks which are not real-time. Their own harnesses prove that they keep these, seen
  * at an arbitrary position; in the harness of a pass these stand in for them.
  */
 #ifndef DECISION_CONTRACTS_H
@@ -17,12 +16,19 @@ static bool is_other(const keel_queue_t *queue, uint32_t i)
     return (queue->realtime_count <= i) && (i < queue->count);
 }
 
-/* The dynamic priority of a released task (task_priority). */
-static uint32_t task_priority(const keel_queue_t *queue, uint32_t x, uint64_t now_us)
+/* Of the task in each slot, if it is released: its dynamic priority at the time of the decision
+ * (task_priority), and when it is promoted (promotion). Any numbers: that they are eq. 3's is proved of
+ * the unit priority, and nothing else here depends on it. A number that both sides read costs the solver
+ * nothing, where it would not come to an end with the products of eq. 3. */
+static uint32_t proof_priority[CAPACITY];
+static uint64_t proof_promotion_us[CAPACITY];
+
+static void any_priorities(void)
 {
-    return dynamic_priority(queue->priority[x],
-                            (now_us - queue->release_us[x]) + queue->period_us[x],
-                            queue->period_us[x]);
+    for (uint32_t x = 0u; x < CAPACITY; x++) {
+        proof_priority[x] = any_below(KEEL_PRIORITY_REALTIME) + 1u;
+        proof_promotion_us[x] = nondet_u64();
+    }
 }
 
 /* w (task_worst). */
@@ -42,37 +48,15 @@ static uint32_t competing(const keel_queue_t *queue, uint32_t i, uint64_t now_us
     if (!is_other(queue, i) || (queue->release_us[x] > now_us)) {
         return 0u;
     }
-    priority = task_priority(queue, x, now_us);
+    priority = proof_priority[x];
     return ((priority == KEEL_PRIORITY_REALTIME) || (task_worst(queue, x) <= room_us)) ? priority
                                                                                        : 0u;
 }
 
-/* Whether at a time a task in slot x has not been promoted, or is promoted just then: the time is
- * not behind its promotion, 15 T / sp - T after its release, rounded up. */
-static bool is_up_to_promotion(const keel_queue_t *queue, uint32_t x, uint64_t time_us)
+/* When waiting alone makes the task in slot x run (next_event). */
+static uint64_t event_of(const keel_queue_t *queue, uint32_t x, uint64_t now_us)
 {
-    const uint64_t period_us = queue->period_us[x];
-    uint64_t wait_us;
-
-    if (time_us <= queue->release_us[x]) {
-        return true;
-    }
-    wait_us = time_us - queue->release_us[x];
-    return (wait_us < (16u * period_us)) &&
-           ((queue->priority[x] * (wait_us + period_us - 1u)) < (15u * period_us));
-}
-
-/* Whether a time is not behind the next event of the task in slot x (next_event), or is it. */
-static bool is_up_to_event(const keel_queue_t *queue, uint32_t x, uint64_t now_us, uint64_t time_us)
-{
-    return (queue->release_us[x] > now_us) ? (time_us <= queue->release_us[x])
-                                           : is_up_to_promotion(queue, x, time_us);
-}
-
-static bool is_event(const keel_queue_t *queue, uint32_t x, uint64_t now_us, uint64_t time_us)
-{
-    return (time_us < UINT64_MAX) && is_up_to_event(queue, x, now_us, time_us) &&
-           !is_up_to_event(queue, x, now_us, time_us + 1u);
+    return (queue->release_us[x] > now_us) ? queue->release_us[x] : proof_promotion_us[x];
 }
 
 /* Whether a time is one of the releases among positions first to last - 1, or that of none (the
@@ -117,7 +101,7 @@ static bool keel_decision_event_us_may(const keel_queue_t *queue, uint64_t now_u
 static bool keel_decision_event_us_does(uint64_t event_us, const keel_queue_t *queue,
                                         uint64_t now_us, uint32_t i)
 {
-    return !is_other(queue, i) || is_up_to_event(queue, queue->order[i], now_us, event_us);
+    return !is_other(queue, i) || (event_us <= event_of(queue, queue->order[i], now_us));
 }
 
 #endif

@@ -172,24 +172,10 @@ static uint32_t may_run_with(const keel_scheduler_t *scheduler, uint32_t i, uint
     if (!is_other(&scheduler->queue, i) || !is_due(scheduler, i)) {
         return 0u;
     }
-    priority = task_priority(&scheduler->queue, x, scheduler->clock.now_us);
+    priority = proof_priority[x];
     return ((priority == KEEL_PRIORITY_REALTIME) || fits_slack(scheduler, x, earliest_us))
                ? priority
                : 0u;
-}
-
-/* The claim that wake_us makes while it lies ahead, of the task at a position (wake_realtime,
- * wake_others, waits). */
-static bool wake_is_right(const keel_scheduler_t *scheduler, uint32_t i, uint64_t earliest_us)
-{
-    const uint32_t x = scheduler->queue.order[i];
-
-    if ((scheduler->clock.now_us >= scheduler->wake_us) || (i >= scheduler->queue.count) ||
-        (scheduler->wake_us <= scheduler->queue.release_us[x])) {
-        return true;
-    }
-    return (i >= scheduler->queue.realtime_count) && !fits_slack(scheduler, x, earliest_us) &&
-           is_up_to_promotion(&scheduler->queue, x, scheduler->wake_us);
 }
 
 #endif

@@ -2,37 +2,66 @@
 // sources: src/rtos/decision.c src/rtos/priority.c
 // replaces: keel_priority_dynamic
 // covers: keel_decision_other priority_of fits
-// defines: -DKEEL_QUEUE_CAPACITY=2u
+// defines: -DKEEL_QUEUE_CAPACITY=8u
 //
-// Bounded to a capacity of 2 tasks, periods and budgets of 6 bits and times of 10: eq. 3, of which its
-// contract stands in (priority_contracts.h), is evaluated for each of them. The contract under WP has
-// no such bound.
+// Bounded to a capacity of 8 tasks; the dynamic priorities are any, the same for the same arguments, as
+// the unit priority proves what they are. The contract under WP has no bound.
 #include "../common/decision_contracts.h"
 #include "../common/priority_contracts.h"
 
+static keel_queue_t queue;
+static uint64_t now_us;
+
+/* The slot that stands for the arguments of eq. 3: the first whose task has them. */
+static uint32_t first_like(uint32_t sp, uint64_t age_us, uint32_t period_us)
+{
+    uint32_t x = 0u;
+
+    while ((x < (CAPACITY - 1u)) &&
+           ((queue.priority[x] != sp) || (queue.period_us[x] != period_us) ||
+            (queue.release_us[x] > now_us) ||
+            (((now_us - queue.release_us[x]) + period_us) != age_us))) {
+        x++;
+    }
+    return x;
+}
+
 uint32_t keel_priority_dynamic_stand_in(uint32_t sp, uint64_t age_us, uint32_t period_us)
 {
-    const uint32_t priority = nondet_u32();
-
     __CPROVER_assert(keel_priority_dynamic_may(sp, age_us, period_us),
                      "precondition: keel_priority_dynamic");
-    __CPROVER_assume(keel_priority_dynamic_does(priority, sp, age_us, period_us));
-    return priority;
+    return proof_priority[first_like(sp, age_us, period_us)];
+}
+
+/* Any dynamic priorities that are a function of what eq. 3 reads; 1 + sp, as it says, while sp * late is
+ * below a period. */
+static void any_function(void)
+{
+    any_priorities();
+    for (uint32_t x = 0u; x < CAPACITY; x++) {
+        const uint64_t late_us = now_us - queue.release_us[x];
+
+        if (queue.release_us[x] <= now_us) {
+            proof_priority[x] = proof_priority[first_like(
+                queue.priority[x], late_us + queue.period_us[x], queue.period_us[x])];
+            __CPROVER_assume((late_us >= queue.period_us[x]) ||
+                             ((queue.priority[x] * late_us) >= queue.period_us[x]) ||
+                             (proof_priority[x] == (1u + queue.priority[x])));
+        }
+    }
 }
 
 void keel_decision_other_harness(void)
 {
-    keel_queue_t queue;
-    const uint64_t now_us = any_bits64(10u);
     const uint32_t room_us = nondet_u32();
     const uint32_t i = any_below(CAPACITY);
     uint32_t priority;
     keel_choice_t choice;
     keel_queue_t before;
 
+    now_us = nondet_u64();
     any_queue(&queue, CAPACITY);
-    narrow_tasks(&queue, 6u);
-    narrow_releases(&queue, 10u);
+    any_function();
     before = queue;
 
     __CPROVER_assume(keel_decision_other_may(&queue, now_us));

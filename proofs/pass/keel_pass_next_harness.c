@@ -3,12 +3,11 @@
 // replaces: keel_decision_other keel_decision_event_us keel_queue_advance
 // covers: keel_pass_next dispatch find_realtime find_earliest_realtime choose_other
 // covers: remember serve_other find_wake close_pass keel_stats_promote
-// defines: -DKEEL_QUEUE_CAPACITY=2u
+// defines: -DKEEL_QUEUE_CAPACITY=4u
 //
-// Bounded to a capacity of 2 tasks, periods and budgets of 4 bits and times of 8, as eq. 3 is evaluated
-// for each of them; the functions that divide, or choose among many, are what their contracts say
-// (decision_contracts.h, queue_contracts.h). The contract under WP has no such bound, and says alone
-// that the wake-up time stays right (SCH_012_wake).
+// Bounded to a capacity of 4 tasks. The functions that divide, or choose among many, are what their
+// contracts say (decision_contracts.h, queue_contracts.h), dynamic priorities and times of promotion any.
+// The contract under WP has no bound, and says alone that the wake-up time stays right (SCH_012_wake).
 #include "../common/keel_scheduler_proof.h"
 #include "../common/queue_contracts.h"
 #include "../common/step_contracts.h"
@@ -121,8 +120,7 @@ static void assert_closed(const keel_scheduler_t *scheduler, const keel_schedule
                          (scheduler->wake_us <= scheduler->queue.release_us[x]),
                      "SCH_012_realtime: no real-time task is released before the wake-up time");
     __CPROVER_assert(!is_other(&scheduler->queue, i) ||
-                         is_up_to_event(&scheduler->queue, x, before->clock.now_us,
-                                        scheduler->wake_us),
+                         (scheduler->wake_us <= event_of(&scheduler->queue, x, before->clock.now_us)),
                      "SCH_012_others: no other task is released or promoted before it");
     __CPROVER_assert((scheduler->wake_us == scheduler->earliest_realtime_us) ||
                          (scheduler->wake_us == scheduler->earliest_other_us) ||
@@ -146,11 +144,8 @@ void keel_pass_next_harness(void)
     const keel_task_config_t *task;
 
     rival = any_below(CAPACITY);
-    any_queue(&scheduler.queue, CAPACITY);
-    narrow_tasks(&scheduler.queue, 4u);
-    narrow_releases(&scheduler.queue, 8u);
-    any_state(&scheduler);
-    __CPROVER_assume(scheduler.clock.now_us < 256u);
+    any_scheduler(&scheduler, CAPACITY);
+    any_priorities();
     earliest_us = earliest_of(&scheduler);
     due = is_due(&scheduler, rival);
     before = scheduler;

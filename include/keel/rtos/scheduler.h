@@ -42,6 +42,7 @@
 /*@ requires scheduler == \null || \valid(scheduler);
   @ requires config == \null || \valid_read(config);
   @ requires scheduler != \null && config != \null ==> \separated(scheduler, config);
+  @ assigns *scheduler;
   @ behavior null:
   @   assumes scheduler == \null || config == \null || config->read_clock == \null;
   @   assigns \nothing;
@@ -56,7 +57,6 @@
   @   assumes scheduler != \null && config != \null && config->read_clock != \null;
   @   assumes config->guard_us < KEEL_PERIOD_LIMIT_US &&
   @       config->utilisation_limit <= KEEL_UTILISATION_FULL_PPM;
-  @   assigns *scheduler;
   @   ensures ok: \result == KEEL_OK;
   @   ensures SCH_001_valid: scheduler_valid(scheduler);
   @   ensures SCH_001_empty: scheduler->queue.count == 0 && scheduler->clock.now_us == 0 &&
@@ -363,6 +363,7 @@ const keel_task_config_t *keel_scheduler_task(const keel_scheduler_t *scheduler,
 /*@ requires scheduler == \null || (\valid_read(scheduler) && scheduler_valid(scheduler));
   @ requires report == \null || \valid(report);
   @ requires scheduler != \null && report != \null ==> \separated(scheduler, report);
+  @ assigns *report;
   @ behavior null:
   @   assumes scheduler == \null || task == \null || report == \null;
   @   assigns \nothing;
@@ -375,7 +376,6 @@ const keel_task_config_t *keel_scheduler_task(const keel_scheduler_t *scheduler,
   @ behavior known:
   @   assumes scheduler != \null && task != \null && report != \null;
   @   assumes queue_holds(&scheduler->queue, task);
-  @   assigns *report;
   @   ensures ok: \result == KEEL_OK;
   @   ensures SCH_025_report: \forall integer i; 0 <= i < scheduler->queue.count ==>
   @       scheduler->queue.task[scheduler->queue.order[i]] == task ==>
