@@ -2,9 +2,9 @@
 // sources: src/rtos/decision.c src/rtos/priority.c
 // replaces: keel_priority_promotion_age_us
 // covers: keel_decision_event_us
-// defines: -DKEEL_QUEUE_CAPACITY=8u
+// defines: -DKEEL_QUEUE_CAPACITY=3u
 //
-// Bounded to a capacity of 8 tasks; the ages of promotion are any, the same for the same arguments, as
+// Bounded to a capacity of 3 tasks; the ages of promotion are any, the same for the same arguments, as
 // the unit priority proves what they are. The contract under WP has no bound.
 #include "../common/decision_contracts.h"
 #include "../common/priority_contracts.h"

@@ -386,6 +386,7 @@ static void run_other(keel_scheduler_t *s, const int64_t *sum)
 /*@ // As keel_scheduler_init and keel_scheduler_add leave it.
   @ requires memory: \valid(s) && scheduler_valid(s) && setup_unmoved(s);
   @ requires fresh: s->wake_us == 0 && s->busy_us == 0;
+  @ assigns *s;
   @*/
 void isolation(keel_scheduler_t *s, uint32_t raw_us, uint64_t moves)
 {
@@ -418,6 +419,7 @@ void isolation(keel_scheduler_t *s, uint32_t raw_us, uint64_t moves)
       @     late_behind(s, &sum[0], s->running);
       @ loop invariant other: s->stage == KEEL_STAGE_OTHER ==>
       @     0 <= s->running < s->queue.count && room(s, s->running);
+      @ loop assigns move, *s;
       @ loop variant moves - move;
       @*/
     for (uint64_t move = 0u; move < moves; move++) {
