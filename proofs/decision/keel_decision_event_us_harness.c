@@ -4,8 +4,8 @@
 // covers: keel_decision_event_us
 // defines: -DKEEL_QUEUE_CAPACITY=3u
 //
-// Bounded to a capacity of 3 tasks; the ages of promotion are any, the same for the same arguments, as
-// the unit priority proves what they are. The contract under WP has no bound.
+// Bounded to a capacity of 3 tasks; the age of promotion is what its contract says, of which the
+// assertions here need no more than that it is the same for the same arguments. The contract under WP has no bound.
 #include "../common/decision_contracts.h"
 #include "../common/priority_contracts.h"
 
@@ -28,6 +28,8 @@ uint64_t keel_priority_promotion_age_us_stand_in(uint32_t sp, uint32_t period_us
 {
     __CPROVER_assert(keel_priority_promotion_age_us_may(sp, period_us),
                      "precondition: keel_priority_promotion_age_us");
+    __CPROVER_assume(
+        keel_priority_promotion_age_us_does(age_us[first_like(sp, period_us)], sp, period_us));
     return age_us[first_like(sp, period_us)];
 }
 

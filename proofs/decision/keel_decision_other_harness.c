@@ -4,8 +4,8 @@
 // covers: keel_decision_other priority_of fits
 // defines: -DKEEL_QUEUE_CAPACITY=3u
 //
-// Bounded to a capacity of 3 tasks; the dynamic priorities are any, the same for the same arguments, as
-// the unit priority proves what they are. The contract under WP has no bound.
+// Bounded to a capacity of 3 tasks; eq. 3 is what its contract says, of which the assertions here
+// need no more than that it is the same for the same arguments. The contract under WP has no bound.
 #include "../common/decision_contracts.h"
 #include "../common/priority_contracts.h"
 
@@ -30,6 +30,8 @@ uint32_t keel_priority_dynamic_stand_in(uint32_t sp, uint64_t age_us, uint32_t p
 {
     __CPROVER_assert(keel_priority_dynamic_may(sp, age_us, period_us),
                      "precondition: keel_priority_dynamic");
+    __CPROVER_assume(keel_priority_dynamic_does(proof_priority[first_like(sp, age_us, period_us)], sp,
+                                                age_us, period_us));
     return proof_priority[first_like(sp, age_us, period_us)];
 }
 
