@@ -5,9 +5,9 @@
 // defines: -DKEEL_QUEUE_CAPACITY=2u
 //
 // Bounded to a capacity of 2 tasks: with 4 the solver takes over a minute. The contract under WP
-// has no such bound. Numbers have their full width: the one function that divides is what its contract
-// says (admission_contracts.h). What a task adds to the utilisation is any function of its period
-// and its budget.
+// has no such bound. Numbers have their full width: the one function that divides is what its
+// contract says (admission_contracts.h). What a task adds to the utilisation is any function of
+// its period and its budget.
 #include "../common/admission_contracts.h"
 
 uint64_t __CPROVER_uninterpreted_share(uint32_t period_us, uint32_t budget_us);
