@@ -2,8 +2,9 @@
  * @file decision_contracts.h
  * @brief The logic of decision.h as expressions of C, for numbers of their full width.
  *
- * What the functions ask for and do that look at all tasks which are not real-time. Their own harnesses prove that they keep these, seen
- * at an arbitrary position; in the harness of a pass these stand in for them.
+ * What the functions ask for and do that look at all tasks which are not real-time. Their own
+ * harnesses prove that they keep these, seen at an arbitrary position; in the harness of a pass
+ * these stand in for them.
  */
 #ifndef DECISION_CONTRACTS_H
 #define DECISION_CONTRACTS_H
@@ -17,9 +18,9 @@ static bool is_other(const keel_queue_t *queue, uint32_t i)
 }
 
 /* Of the task in each slot, if it is released: its dynamic priority at the time of the decision
- * (task_priority), and when it is promoted (promotion). Any numbers: that they are eq. 3's is proved of
- * the unit priority, and nothing else here depends on it. A number that both sides read costs the solver
- * nothing, where it would not come to an end with the products of eq. 3. */
+ * (task_priority), and when it is promoted (promotion). Any numbers: that they are eq. 3's is
+ * proved of the unit priority, and nothing else here depends on it. A number that both sides read
+ * costs the solver nothing, where it would not come to an end with the products of eq. 3. */
 static uint32_t proof_priority[CAPACITY];
 static uint64_t proof_promotion_us[CAPACITY];
 

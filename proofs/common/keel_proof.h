@@ -125,8 +125,8 @@ static void any_queue(keel_queue_t *queue, uint32_t of_interest)
     }
 }
 
-/* Replaces the periods and budgets of a queue by numbers of so many bits, for functions that multiply
- * or divide: the solver sees at once that the bits above are 0. */
+/* Replaces the periods and budgets of a queue by numbers of so many bits, for functions that
+ * multiply or divide: the solver sees at once that the bits above are 0. */
 static void narrow_tasks(keel_queue_t *queue, uint32_t bits)
 {
     for (uint32_t x = 0u; x < CAPACITY; x++) {

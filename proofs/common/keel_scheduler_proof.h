@@ -28,8 +28,8 @@ static uint64_t elapsed(uint32_t from_us, uint32_t to_us)
 }
 
 /* Any valid state of the scheduler (scheduler_state) around a queue that is there already, with any
- * bounds that are right (realtime_bound, other_bound, realtime_exact): one that lies ahead is never,
- * or the release of some task. */
+ * bounds that are right (realtime_bound, other_bound, realtime_exact): one that lies ahead is
+ * never, or the release of some task. */
 static void any_state(keel_scheduler_t *scheduler)
 {
     const keel_queue_t *const queue = &scheduler->queue;
@@ -147,7 +147,8 @@ static uint64_t earliest_of(const keel_scheduler_t *scheduler)
     return earliest_us;
 }
 
-/* Whether W + w fits the slack, the time to the earliest real-time release (fits_slack, time_to). */
+/* Whether W + w fits the slack, the time to the earliest real-time release (fits_slack, time_to).
+ */
 static bool fits_slack(const keel_scheduler_t *scheduler, uint32_t x, uint64_t earliest_us)
 {
     const uint64_t needed_us = (uint64_t)scheduler->config.guard_us +
@@ -162,8 +163,8 @@ static bool is_due(const keel_scheduler_t *scheduler, uint32_t i)
     return scheduler->queue.release_us[scheduler->queue.order[i]] <= scheduler->clock.now_us;
 }
 
-/* With what dynamic priority the task at a position competes, if no real-time task is due: 0 when it
- * may not run (other_may_run, priority_at). */
+/* With what dynamic priority the task at a position competes, if no real-time task is due: 0 when
+ * it may not run (other_may_run, priority_at). */
 static uint32_t may_run_with(const keel_scheduler_t *scheduler, uint32_t i, uint64_t earliest_us)
 {
     const uint32_t x = scheduler->queue.order[i];

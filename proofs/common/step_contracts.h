@@ -2,9 +2,9 @@
  * @file step_contracts.h
  * @brief What a pass knows of next and finish, and a step of a pass.
  *
- * A part of the contracts in pass.h, as expressions of C: the stage, the pass, and the one real-time
- * task that the theorem about a pass is about. Each part's own harness proves that it keeps them; in
- * the harnesses of the pass and the step they stand in for the parts.
+ * A part of the contracts in pass.h, as expressions of C: the stage, the pass, and the one
+ * real-time task that the theorem about a pass is about. Each part's own harness proves that it
+ * keeps them; in the harnesses of the pass and the step they stand in for the parts.
  */
 #ifndef STEP_CONTRACTS_H
 #define STEP_CONTRACTS_H

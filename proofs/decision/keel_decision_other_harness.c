@@ -2,10 +2,11 @@
 // sources: src/rtos/decision.c src/rtos/priority.c
 // replaces: keel_priority_dynamic
 // covers: keel_decision_other priority_of fits
-// defines: -DKEEL_QUEUE_CAPACITY=3u
+// defines: -DKEEL_QUEUE_CAPACITY=2u
 //
-// Bounded to a capacity of 3 tasks; eq. 3 is what its contract says, of which the assertions here
-// need no more than that it is the same for the same arguments. The contract under WP has no bound.
+// Bounded to a capacity of 2 tasks, periods and budgets of 6 bits and times of 10; eq. 3 is what
+// its contract says, of which the assertions here need no more than that it is the same for the
+// same arguments. The contract under WP has no bound.
 #include "../common/decision_contracts.h"
 #include "../common/priority_contracts.h"
 
@@ -28,22 +29,23 @@ static uint32_t first_like(uint32_t sp, uint64_t age_us, uint32_t period_us)
 
 uint32_t keel_priority_dynamic_stand_in(uint32_t sp, uint64_t age_us, uint32_t period_us)
 {
+    const uint32_t priority = proof_priority[first_like(sp, age_us, period_us)];
+
     __CPROVER_assert(keel_priority_dynamic_may(sp, age_us, period_us),
                      "precondition: keel_priority_dynamic");
-    __CPROVER_assume(keel_priority_dynamic_does(proof_priority[first_like(sp, age_us, period_us)], sp,
-                                                age_us, period_us));
-    return proof_priority[first_like(sp, age_us, period_us)];
+    __CPROVER_assume(keel_priority_dynamic_does(priority, sp, age_us, period_us));
+    return priority;
 }
 
-/* Any dynamic priorities that are a function of what eq. 3 reads; 1 + sp, as it says, while sp * late is
- * below a period. */
+/* Any dynamic priorities that are a function of what eq. 3 reads; 1 + sp, as it says, while sp *
+ * late is below a period. */
 static void any_function(void)
 {
     any_priorities();
     for (uint32_t x = 0u; x < CAPACITY; x++) {
-        const uint64_t late_us = now_us - queue.release_us[x];
-
         if (queue.release_us[x] <= now_us) {
+            const uint64_t late_us = now_us - queue.release_us[x];
+
             proof_priority[x] = proof_priority[first_like(
                 queue.priority[x], late_us + queue.period_us[x], queue.period_us[x])];
             __CPROVER_assume((late_us >= queue.period_us[x]) ||
@@ -61,8 +63,10 @@ void keel_decision_other_harness(void)
     keel_choice_t choice;
     keel_queue_t before;
 
-    now_us = nondet_u64();
+    now_us = any_bits64(10u);
     any_queue(&queue, CAPACITY);
+    narrow_tasks(&queue, 6u);
+    narrow_releases(&queue, 10u);
     any_function();
     before = queue;
 

@@ -2,9 +2,9 @@
 // sources: src/rtos/pass.c src/rtos/queue.c src/rtos/decision.c src/rtos/priority.c src/rtos/load.c
 // covers: keel_pass_begin keel_clock_advance
 //
-// All that beginning writes, and when. That a step which opens no pass leaves nothing due (SCH_011_idle)
-// and the wake-up time right (SCH_012_wake) is WP's alone: it multiplies priorities and ages, with which
-// the solver does not come to an end.
+// All that beginning writes, and when. That a step which opens no pass leaves nothing due
+// (SCH_011_idle) and the wake-up time right (SCH_012_wake) is WP's alone: it multiplies priorities
+// and ages, with which the solver does not come to an end.
 #include "../common/keel_scheduler_proof.h"
 
 void keel_pass_begin_harness(void)

@@ -3,11 +3,12 @@
 // replaces: keel_decision_other keel_decision_event_us keel_queue_advance
 // covers: keel_pass_next dispatch find_realtime find_earliest_realtime choose_other
 // covers: remember serve_other find_wake close_pass keel_stats_promote
-// defines: -DKEEL_QUEUE_CAPACITY=4u
+// defines: -DKEEL_QUEUE_CAPACITY=2u
 //
-// Bounded to a capacity of 4 tasks. The functions that divide, or choose among many, are what their
-// contracts say (decision_contracts.h, queue_contracts.h), dynamic priorities and times of promotion any.
-// The contract under WP has no bound, and says alone that the wake-up time stays right (SCH_012_wake).
+// Bounded to a capacity of 2 tasks. The functions that divide, or choose among many, are what their
+// contracts say (decision_contracts.h, queue_contracts.h), dynamic priorities and times of
+// promotion any. The contract under WP has no bound, and says alone that the wake-up time stays
+// right (SCH_012_wake).
 #include "../common/keel_scheduler_proof.h"
 #include "../common/queue_contracts.h"
 #include "../common/step_contracts.h"
@@ -28,6 +29,10 @@ keel_choice_t keel_decision_other_stand_in(const keel_queue_t *queue, uint64_t n
 
     __CPROVER_assert(keel_decision_other_may(queue, now_us), "precondition: keel_decision_other");
     __CPROVER_assume(keel_decision_other_does(&choice, queue, now_us, room_us, rival));
+    for (uint32_t i = 0u; i < CAPACITY; i++) {
+        __CPROVER_assume(!is_other(queue, i) ||
+                         (choice.earliest_us <= queue->release_us[queue->order[i]]));
+    }
     return choice;
 }
 
@@ -120,7 +125,8 @@ static void assert_closed(const keel_scheduler_t *scheduler, const keel_schedule
                          (scheduler->wake_us <= scheduler->queue.release_us[x]),
                      "SCH_012_realtime: no real-time task is released before the wake-up time");
     __CPROVER_assert(!is_other(&scheduler->queue, i) ||
-                         (scheduler->wake_us <= event_of(&scheduler->queue, x, before->clock.now_us)),
+                         (scheduler->wake_us <=
+                          event_of(&scheduler->queue, x, before->clock.now_us)),
                      "SCH_012_others: no other task is released or promoted before it");
     __CPROVER_assert((scheduler->wake_us == scheduler->earliest_realtime_us) ||
                          (scheduler->wake_us == scheduler->earliest_other_us) ||

@@ -2,16 +2,15 @@
 // sources: src/rtos/pass.c
 // replaces: keel_pass_next keel_pass_finish
 // covers: keel_pass_run run_task
-// defines: -DKEEL_QUEUE_CAPACITY=8u
+// defines: -DKEEL_QUEUE_CAPACITY=4u
 //
-// A pass is, for each task that next hands out, its body and finish, until it ends: each at the stage
-// that it asks for, with a reading of the clock made for it, and with nothing done to the scheduler
-// by the pass itself. Next and finish are whatever their contracts allow (step_contracts.h), a body
-// is whatever adding and removing tasks do to a pass, which is as long as the shipped capacity
-// allows. One arbitrary real-time task is followed through it, by its position: if it is due, and
-// nobody removes it, it runs, once, and none before it in the queue runs later.
-// Bounded to a capacity of 8 tasks, with which the solver comes to an end in a minute; the contract
-// under WP has no bound.
+// A pass is, for each task that next hands out, its body and finish, until it ends: each at the
+// stage that it asks for, with a reading of the clock made for it, and with nothing done to the
+// scheduler by the pass itself. Next and finish are whatever their contracts allow
+// (step_contracts.h), a body is whatever adding and removing tasks do to a pass. One arbitrary
+// real-time task is followed through it, by its position: if it is due, and nobody removes it, it
+// runs, once, and none before it in the queue runs later. Bounded to a capacity of 4 tasks, with
+// which the solver comes to an end in a minute; the contract under WP has no bound.
 #include "../common/keel_scheduler_proof.h"
 #include "../common/step_contracts.h"
 

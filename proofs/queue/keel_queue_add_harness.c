@@ -3,8 +3,8 @@
 // covers: keel_queue_add fill_slot open_place enqueue
 // defines: -DKEEL_QUEUE_CAPACITY=16u
 //
-// Bounded to a capacity of 16 tasks, with which the solver comes to an end in a minute; the contract
-// under WP has no bound.
+// Bounded to a capacity of 16 tasks, with which the solver comes to an end in a minute; the
+// contract under WP has no bound.
 #include "../common/keel_proof.h"
 
 void keel_queue_add_harness(void)

@@ -4,8 +4,8 @@
 // covers: keel_queue_advance add_saturating
 //
 // Bounded to periods up to 2^4 us, and up to 2^8 us of lateness, where the solver comes to the end
-// of the division; keel_queue_advance__on_time_harness has numbers of their full width. The contract
-// under WP has no such bound.
+// of the division; keel_queue_advance__on_time_harness has numbers of their full width. The
+// contract under WP has no such bound.
 #include "../common/keel_proof.h"
 #include "../common/queue_contracts.h"
 

@@ -3,8 +3,8 @@
 // covers: keel_queue_remove close_place
 // defines: -DKEEL_QUEUE_CAPACITY=16u
 //
-// Bounded to a capacity of 16 tasks, with which the solver comes to an end in a minute; the contract
-// under WP has no bound.
+// Bounded to a capacity of 16 tasks, with which the solver comes to an end in a minute; the
+// contract under WP has no bound.
 #include "../common/keel_proof.h"
 
 void keel_queue_remove_harness(void)

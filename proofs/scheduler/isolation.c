@@ -280,7 +280,8 @@ static void decide(keel_scheduler_t *s, const int64_t *sum)
       @             \at(s->queue.release_us[s->queue.order[k]], Pre);
       @*/
     /*@ assert late: s->stage == KEEL_STAGE_REALTIME ==>
-      @     s->clock.now_us - \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], Pre) <=
+      @     s->clock.now_us -
+      @         \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], Pre) <=
       @         s->config.guard_us + sum[s->running] + sum[s->queue.realtime_count]
       @         - sum[s->running + 1];
       @*/
@@ -438,7 +439,8 @@ void isolation(keel_scheduler_t *s, uint32_t raw_us, uint64_t moves)
             decide(s, sum);
             /*@ assert ISO_001: s->stage == KEEL_STAGE_REALTIME ==>
               @     s->clock.now_us -
-              @         \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], LoopCurrent) <=
+              @         \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]],
+              @             LoopCurrent) <=
               @     sum[s->queue.realtime_count] - s->queue.budget_us[s->queue.order[s->running]]
               @         + s->config.guard_us;
               @*/

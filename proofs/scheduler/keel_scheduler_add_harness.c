@@ -3,10 +3,9 @@
 // covers: keel_scheduler_add admit_one_more admit_queue insert
 // defines: -DKEEL_QUEUE_CAPACITY=4u
 //
-// After the start, where adding asks for admission; keel_scheduler_add__setup_harness has what needs
-// none, at the shipped capacity.
-// Bounded to a capacity of 4 tasks with periods and budgets up to 2^2 us, as the utilisation
-// divides; the contract under WP has no such bound.
+// After the start, where adding asks for admission; keel_scheduler_add__setup_harness has what
+// needs none, at the shipped capacity. Bounded to a capacity of 4 tasks with periods and budgets up
+// to 2^2 us, as the utilisation divides; the contract under WP has no such bound.
 #include "../common/add_proof.h"
 #include "../common/admission_proof.h"
 
