@@ -1,6 +1,6 @@
 // cbmc: --unwind 34
 // sources: src/rtos/pass.c src/rtos/queue.c src/rtos/decision.c src/rtos/priority.c src/rtos/load.c
-// covers: keel_pass_begin keel_clock_advance
+// covers: keel_pass_begin
 //
 // All that beginning writes, and when. That a step which opens no pass leaves nothing due
 // (SCH_011_idle) and the wake-up time right (SCH_012_wake) is WP's alone: it multiplies priorities

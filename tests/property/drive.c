@@ -293,11 +293,11 @@ static void same_running(session_t *s)
 {
     const keel_scheduler_t *const k = s->kernel;
 
-    if (keel_scheduler_task(k, k->running) != task_of(s, s->model.running)) {
-        differ(s, "running: position %u is not task %d", (unsigned)k->running, s->model.running);
+    if (keel_scheduler_task(k, (uint32_t)k->running) != task_of(s, s->model.running)) {
+        differ(s, "running: position %d is not task %d", k->running, s->model.running);
     }
     if (s->model.running == MODEL_NO_TASK) {
-        same(s, "running", MODEL_NO_TASK, k->running, KEEL_POSITION_NONE);
+        same(s, "running", MODEL_NO_TASK, (uint64_t)k->running, (uint64_t)KEEL_POSITION_NONE);
     }
 }
 
@@ -312,12 +312,12 @@ static void same_wake(session_t *s)
 /* A sleeping kernel is between two passes; the model, which never sleeps, has closed its pass. */
 static void same_stage(session_t *s)
 {
-    static const uint32_t stage[] = {KEEL_STAGE_SETUP, KEEL_STAGE_READY, KEEL_STAGE_PASS};
+    static const int16_t stage[] = {KEEL_STAGE_SETUP, KEEL_STAGE_READY, KEEL_STAGE_PASS};
     const model_t *const m = &s->model;
-    const uint32_t running = m->serving_realtime ? KEEL_STAGE_REALTIME : KEEL_STAGE_OTHER;
+    const int16_t running = m->serving_realtime ? KEEL_STAGE_REALTIME : KEEL_STAGE_OTHER;
 
-    same(s, "stage", MODEL_NO_TASK, s->kernel->stage,
-         (m->stage == RUNNING) ? running : stage[m->stage]);
+    same(s, "stage", MODEL_NO_TASK, (uint64_t)s->kernel->stage,
+         (uint64_t)((m->stage == RUNNING) ? running : stage[m->stage]));
 }
 
 static void same_everything(session_t *s)
