@@ -117,7 +117,9 @@ static const char *running_name(void)
     const keel_task_config_t *task;
     uint32_t slot;
 
-    if (!is_sound(scheduler, sizeof *scheduler) || (scheduler->running >= KEEL_QUEUE_CAPACITY)) {
+    /* A position of none, or any that is negative, is a large one then. */
+    if (!is_sound(scheduler, sizeof *scheduler) ||
+        ((uint32_t)scheduler->running >= KEEL_QUEUE_CAPACITY)) {
         return NULL;
     }
     slot = scheduler->queue.order[scheduler->running];
