@@ -28,7 +28,7 @@ static uint64_t utilisation_of(uint32_t period_us, uint32_t budget_us)
 {
     const uint64_t scaled = (uint64_t)budget_us * KEEL_UTILISATION_FULL_PPM;
 
-    return ((scaled + period_us) - 1u) / period_us;
+    return (scaled + ((uint64_t)period_us - 1u)) / period_us;
 }
 
 /*@ assigns \nothing;
