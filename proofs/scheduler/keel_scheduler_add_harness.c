@@ -3,8 +3,8 @@
 // covers: keel_scheduler_add admit_one_more admit_queue insert
 // defines: -DKEEL_QUEUE_CAPACITY=4u
 //
-// Any arguments, at any stage. Bounded to a capacity of 4 tasks, and to valid periods and budgets up to
-// 2^2 us, as the utilisation divides; the contract under WP has no such bound.
+// Any arguments, at any stage. Bounded to a capacity of 4 tasks, and to valid periods and budgets
+// up to 2^2 us, as the utilisation divides; the contract under WP has no such bound.
 #include "../common/add_proof.h"
 #include "../common/admission_proof.h"
 
@@ -72,7 +72,7 @@ void keel_scheduler_add_harness(void)
     __CPROVER_assert(null || valid || (status == keel_task_check(&proof_task)),
                      "SCH_005_checked: refused for the reason that the check names");
     __CPROVER_assert(null || !valid || (status == answer(&before, place)),
-                     "SCH_005_refused: queued already, no slot left, or the first rule that would break");
+                     "SCH_005_refused: queued, no slot left, or the rule that would break");
     if (status == KEEL_OK) {
         assert_added(&scheduler, &before, i);
     } else {
