@@ -111,11 +111,6 @@ static bool setup_same(const keel_scheduler_config_t *a, const keel_scheduler_co
            (a->guard_us == b->guard_us) && (a->utilisation_limit == b->utilisation_limit);
 }
 
-static bool clock_same(const keel_clock_t *a, const keel_clock_t *b)
-{
-    return (a->now_us == b->now_us) && (a->raw_us == b->raw_us);
-}
-
 /* Whether two schedulers are the same but for their queues. */
 static bool state_same(const keel_scheduler_t *a, const keel_scheduler_t *b)
 {
