@@ -45,8 +45,15 @@ static bool keel_decision_realtime_may(const keel_queue_t *queue, uint32_t from,
 static bool keel_decision_realtime_does(uint32_t found, const keel_queue_t *queue, uint32_t from,
                                         uint32_t to, uint64_t now_us)
 {
-    return (from <= found) && (found <= to) &&
-           ((found == to) || (release_at(queue, found) <= now_us));
+    bool first = (from <= found) && (found <= to);
+
+    for (uint32_t i = 0u; i < CAPACITY; i++) {
+        const bool due = release_at(queue, i) <= now_us;
+
+        first = first && ((i != found) || (found == to) || due);
+        first = first && ((i < from) || (found <= i) || !due);
+    }
+    return first;
 }
 
 static bool keel_decision_earliest_us_may(const keel_queue_t *queue)
@@ -68,12 +75,15 @@ static bool keel_decision_other_may(const keel_queue_t *queue, uint64_t now_us)
 static bool keel_decision_other_does(const keel_choice_t *choice, const keel_queue_t *queue,
                                      uint64_t now_us)
 {
+    bool released = false;
+
+    for (uint32_t i = 0u; i < CAPACITY; i++) {
+        released = released || ((i == choice->position) && is_other(queue, i) &&
+                                (release_at(queue, i) <= now_us));
+    }
     return (choice->priority <= KEEL_PRIORITY_REALTIME) &&
            is_earliest(queue, queue->realtime_count, queue->count, choice->earliest_us) &&
-           ((choice->priority > 0u)
-                ? (is_other(queue, choice->position) &&
-                   (release_at(queue, choice->position) <= now_us))
-                : (choice->position == 0u));
+           ((choice->priority > 0u) ? released : (choice->position == 0u));
 }
 
 static bool keel_decision_event_us_may(const keel_queue_t *queue, uint64_t now_us)

@@ -34,11 +34,11 @@ static bool keel_priority_promotion_age_us_may(uint32_t sp, uint32_t period_us)
     return keel_priority_dynamic_may(sp, 0u, period_us);
 }
 
-/* No task is promoted later than 15 periods behind its last release. */
+/* A task is promoted within 1 to 15 periods from the release before the one it waits for. */
 static bool keel_priority_promotion_age_us_does(uint64_t age_us, uint32_t sp, uint32_t period_us)
 {
-    (void)sp;
-    return (0u < age_us) && (age_us <= (15u * (uint64_t)period_us));
+    return (age_us <= (15u * (uint64_t)period_us)) &&
+           ((sp >= KEEL_PRIORITY_REALTIME) || (age_us >= period_us));
 }
 
 #endif

@@ -2,11 +2,11 @@
 // sources: src/rtos/decision.c src/rtos/priority.c specs/model/decision.c
 // replaces: keel_priority_dynamic
 // covers: keel_decision_other priority_of fits model_decision_other
-// defines: -DKEEL_QUEUE_CAPACITY=4u
+// defines: -DKEEL_QUEUE_CAPACITY=2u
 //
-// Bounded to a capacity of 4 tasks: with more the solver takes over a minute. The contract under WP
-// has no bound and determines the choice. Eq. 3 is any function with its contract, the same one on
-// both sides.
+// Bounded to a capacity of 2 tasks, periods and budgets of 6 bits and times of 10, with which the
+// solver comes to an end in a minute. The contract under WP has no bound and determines the choice.
+// Eq. 3 is any function with its contract, the same one on both sides.
 #include "../../specs/model/decision.h"
 #include "../../specs/model/priority.h"
 #include "../common/decision_contracts.h"
@@ -48,7 +48,7 @@ static bool choice_same(const keel_choice_t *a, const keel_choice_t *b)
 void keel_decision_other_harness(void)
 {
     keel_queue_t queue;
-    const uint64_t now_us = nondet_u64();
+    const uint64_t now_us = any_bits64(10u);
     const uint32_t room_us = nondet_u32();
     const uint32_t x = any_below(CAPACITY);
     keel_choice_t choice;
@@ -56,6 +56,8 @@ void keel_decision_other_harness(void)
     keel_queue_t before;
 
     any_queue(&queue, CAPACITY);
+    narrow_tasks(&queue, 6u);
+    narrow_releases(&queue, 10u);
     __CPROVER_assume(keel_decision_other_may(&queue, now_us));
     before = queue;
     expected = model_decision_other(&before, now_us, room_us);

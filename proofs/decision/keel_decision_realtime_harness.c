@@ -1,6 +1,10 @@
 // cbmc: --unwind 34
 // sources: src/rtos/decision.c src/rtos/priority.c specs/model/decision.c specs/model/priority.c
 // covers: keel_decision_realtime model_decision_realtime
+// defines: -DKEEL_QUEUE_CAPACITY=4u
+//
+// Bounded to a capacity of 4 tasks, with which the solver comes to an end in a minute; the contract
+// under WP has no bound and determines the position.
 #include "../../specs/model/decision.h"
 #include "../common/decision_contracts.h"
 

@@ -61,19 +61,3 @@ keel_status_t model_admission_admit(keel_admission_t *admission, uint32_t priori
     }
     return status;
 }
-
-keel_status_t model_admission_queue(keel_admission_t *admission, const keel_queue_t *queue)
-{
-    keel_status_t status = KEEL_OK;
-
-    /* ADM-004: the tasks in order, up to the first that is refused. */
-    for (uint32_t i = 0u; i < KEEL_QUEUE_CAPACITY; i++) {
-        const uint32_t slot = queue->order[i];
-
-        if ((i < queue->count) && (status == KEEL_OK)) {
-            status = model_admission_admit(admission, queue->priority[slot],
-                                           queue->period_us[slot], queue->budget_us[slot]);
-        }
-    }
-    return status;
-}

@@ -141,7 +141,7 @@ keel_status_t model_scheduler_start(keel_scheduler_t *scheduler)
     keel_status_t status;
 
     if (scheduler == NULL) {
-        return KEEL_ERR_NULL; /* SCH-019 */
+        return KEEL_ERR_NULL; /* SCH-010 */
     }
     raw_us = reading(scheduler);
     if (scheduler->stage != KEEL_STAGE_SETUP) {
