@@ -58,6 +58,11 @@ class UnitResult:
         return self._sum("proved")
 
     @property
+    def assertions_only(self) -> list[str]:
+        """The harnesses that leave all other checks to others."""
+        return [name for name, one in self.harnesses.items() if one["checks"] == "assertions"]
+
+    @property
     def gappa_total(self) -> int:
         """Bounds of rounding errors."""
         return len(self.bounds)
@@ -101,6 +106,7 @@ def _harness(result: Mapping[str, Any], sound: bool) -> dict[str, Any]:
         ],
         "defines": result["defines"],
         "replaces": result["replaces"],
+        "checks": result["checks"],
         "coverage": {"blocks": result["blocks"], "reached": result["covered"]},
     }
 
@@ -249,6 +255,9 @@ def closing_lines(gathered: Gathered) -> list[str]:
                 f"{name}: the postconditions of {left} functions are left to CBMC,"
                 " see proofs/units.toml"
             )
+    alone = [name for unit in gathered.units.values() for name in unit.assertions_only]
+    if alone:
+        lines.append(f"checked for assertions and unwinding alone: {', '.join(alone)}")
     if stale := sum(len(unit.stale) for unit in gathered.units.values()):
         lines.append(f"{stale} goals have a better prover than is recorded: run --update-goals")
     lines.append(f"verdicts: {gathered.known} known before, {gathered.fresh} had now")
@@ -312,6 +321,7 @@ def _unit(result: UnitResult, engines: Sequence[str]) -> dict[str, Any]:
                 "refuted": sum(result.negative.values()),
                 "list": result.negative,
             },
+            "assertions_only": result.assertions_only,
             "without_harness": exceptions.no_harness,
             "harnesses": harnesses,
         }

@@ -29,6 +29,7 @@ from . import (
 )
 from .cache import Cache, write_atomically
 from .goals import as_text, read_goals, short_name
+from .harness import read_harness, unchecked
 from .jobs import Runner
 from .project import RECORDED_TIMES, Unit, closure, find_units
 from .settings import Exceptions, read_exceptions
@@ -211,7 +212,7 @@ class Session:
         """What must hold besides that the proofs succeed."""
         root = self._root
         own = [path for unit in self._choice.units for path in (*unit.own_files, *unit.theorems)]
-        shared = [*(root / "include" / "keel").glob("*.h"), *(root / "specs").glob("**/*.h")]
+        shared = [*(root / "include" / "keel").glob("*.h"), *(root / "specs").glob("**/*.[ch]")]
         gathered.problems += rules.assumptions_in([*own, *sorted(shared)], root)
         gathered.problems += unused.problems(root)
         for result in gathered.units.values():
@@ -222,6 +223,7 @@ class Session:
             if "cbmc" in self._choice.engines:
                 files = [path for path in closure(root, unit.harnesses) if "proofs" in path.parts]
                 result.problems += rules.switched_off_checks(files, root)
+                result.problems += unchecked(read_harness(unit, path) for path in unit.harnesses)
                 result.problems += rules.missing_harnesses(unit, exceptions.no_harness, root)
                 self._check_assertions(result)
             if "wp" in self._choice.engines:
