@@ -34,7 +34,7 @@ from proofs import cbmc, engines, harness, rules  # noqa: E402
 
 ALONE = "// checks: assertions\n" + HARNESS
 CASE = HARNESS.replace("keel_box_put_harness", "keel_box_put__all_harness")
-MODEL = "void model_box_put(int *box, int value)\n{\n    *box = value;\n}\n"
+MODEL = "static int twice(int x)\n{\n    return x + x;\n}\n\nvoid model_box_put(int *box, int value)\n{\n    *box = value;\n}\n"
 
 
 class Directive(TreeTest):
@@ -99,7 +99,7 @@ class Directive(TreeTest):
         model.parent.mkdir(parents=True)
         model.write_text(MODEL, encoding="utf-8")
         alone = self.read("// sources: src/rtos/box.c specs/model/box.c\n"
-                          + ALONE.replace("covers: ", "covers: model_box_put "))  # fmt: skip
+                          + ALONE.replace("covers: ", "covers: twice model_box_put "))  # fmt: skip
         self.assertEqual(harness.unchecked([alone, self.case(CASE)]), [])
         model.write_text(
             MODEL.replace("    *box", "    __CPROVER_assume(0);\n    *box"), encoding="utf-8"
