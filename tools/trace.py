@@ -17,7 +17,8 @@ of the model that names a requirement counts as an assertion does. An orphan is
         theorem (specs/soundness.md must then name it);
     a requirement with clauses which neither a harness nor a test names, unless it is a theorem;
     a test listed under TESTS that does not exist, a CLAUSES that is not what the files say;
-    a function that may change something when it refuses, and that STA-001 does not list.
+    a function that may change something when it refuses, and that STA-001 does not list;
+    a function of a unit with a model whose outcome nothing determines (proofs/determined.py).
 
 Tests that run on the target alone (tests/target) count as unit tests do.
 
@@ -34,7 +35,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import refusals
-from proofs import csource
+from proofs import csource, determined
 from proofs.project import closure
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -167,6 +168,7 @@ def join(root: Path) -> Trace:
     for entry in trace.requirements.values():
         trace.orphans += [f"{entry.uid}: {text}" for text in lacks(entry, known, theorems)]
     trace.orphans += refusals.problems(root)
+    trace.orphans += [text for one in determined.of_tree(root) for text in one.problems]
     return trace
 
 

@@ -34,7 +34,17 @@ from proofs import cbmc, engines, harness, rules  # noqa: E402
 
 ALONE = "// checks: assertions\n" + HARNESS
 CASE = HARNESS.replace("keel_box_put_harness", "keel_box_put__all_harness")
-MODEL = "static int twice(int x)\n{\n    return x + x;\n}\n\nvoid model_box_put(int *box, int value)\n{\n    *box = value;\n}\n"
+MODEL = """\
+static int twice(int x)
+{
+    return x + x;
+}
+
+void model_box_put(int *box, int value)
+{
+    *box = value;
+}
+"""
 
 
 class Directive(TreeTest):

@@ -9,7 +9,7 @@ from typing import Any
 
 from toolchain import Found
 
-from . import cbmc
+from . import cbmc, determined
 from .driver import Job, Outcome
 from .project import Unit
 from .settings import Exceptions
@@ -33,6 +33,8 @@ class UnitResult:
     bounds: list[dict[str, str]] = field(default_factory=list)
     wrong_bounds: dict[str, bool] = field(default_factory=dict)
     problems: list[str] = field(default_factory=list)
+    # What determines each function.
+    outcomes: list[determined.Outcome] = field(default_factory=list)
 
     @property
     def wp_total(self) -> int:
@@ -171,6 +173,11 @@ class Gathered:
         return self.wp_proved + self.cbmc_proved + self.gappa_proved
 
     @property
+    def outcomes(self) -> list[determined.Outcome]:
+        """What determines each function."""
+        return [one for unit in self.units.values() for one in unit.outcomes]
+
+    @property
     def all_problems(self) -> list[str]:
         """Every reason why this is not a success."""
         texts = [*self.problems, *(text for unit in self.units.values() for text in unit.problems)]
@@ -264,6 +271,8 @@ def closing_lines(gathered: Gathered) -> list[str]:
     engines = (
         f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}, Gappa {gathered.gappa_proved}"
     )
+    if gathered.outcomes:
+        lines.append(determined.summary(gathered.outcomes))
     if gathered.shard:
         lines.append(f"shard {gathered.shard['shard']}: see --join for the verdict on the whole")
     return [*lines, f"proved {gathered.proved} of {gathered.total} goals ({engines})"]
@@ -294,7 +303,8 @@ def content(
 
 def _unit(result: UnitResult, engines: Sequence[str]) -> dict[str, Any]:
     exceptions = result.exceptions
-    entry: dict[str, Any] = {"problems": result.problems}
+    outcomes = [outcome.as_dict() for outcome in result.outcomes]
+    entry: dict[str, Any] = {"problems": result.problems, "determined": outcomes}
     if "wp" in engines:
         entry["wp"] = {
             "goals": result.wp_total,

@@ -16,7 +16,9 @@ from toolchain import Found, Toolchain
 from . import (
     assertions,
     cbmc,
+    clauses,
     csource,
+    determined,
     driver,
     engines,
     frames,
@@ -28,6 +30,7 @@ from . import (
     wp,
 )
 from .cache import Cache, write_atomically
+from .declarations import structures
 from .goals import as_text, read_goals, short_name
 from .harness import read_harness, unchecked
 from .jobs import Runner
@@ -115,6 +118,10 @@ class Session:
         versions = self._tools.versions("prove")
         content = report.content(gathered, versions, seconds, self._choice.partial)
         write_atomically(target, report.as_text(content))
+        if not gathered.shard:
+            write_atomically(
+                self._build / "determined.md", determined.as_markdown(gathered.outcomes)
+            )
         print("\n".join(report.closing_lines(gathered)), flush=True)
         return 0 if gathered.success else 1
 
@@ -215,8 +222,11 @@ class Session:
         shared = [*(root / "include" / "keel").glob("*.h"), *(root / "specs").glob("**/*.[ch]")]
         gathered.problems += rules.assumptions_in([*own, *sorted(shared)], root)
         gathered.problems += unused.problems(root)
+        known = structures(clauses.header_texts(root))
         for result in gathered.units.values():
             unit, exceptions = result.unit, result.exceptions
+            result.outcomes = determined.outcomes(unit, exceptions, known)
+            result.problems += [text for one in result.outcomes for text in one.problems]
             result.problems += rules.undefined_functions(unit, exceptions.no_body, root)
             result.problems += rules.left_by_wp(unit, exceptions.not_by_wp, root)
             result.problems += frames.problems(unit, exceptions, find_units(root).values())
