@@ -35,7 +35,7 @@ from proofs.settings import read_exceptions  # noqa: E402
 from proofs.times import Times  # noqa: E402
 from toolchain import TARGET_FLAGS, Toolchain, ToolchainError  # noqa: E402
 
-from proofs import mutation  # noqa: E402
+from proofs import clauses, mutant_slips, mutation  # noqa: E402
 
 ENGINES = {"wp": ("wp",), "cbmc": ("cbmc",), "both": ("cbmc", "wp"), None: ("cbmc", "wp")}
 
@@ -105,7 +105,8 @@ def try_all(trial: Trial, found: Sequence[Mutant], width: int, max_seconds: floa
 
 def measure(unit: Unit, options: argparse.Namespace, toolchain: Toolchain) -> int:
     """Try the mutants of a unit and report; the exit status."""
-    found = [mutant for path in unit.own_files for mutant in mutants(path)]
+    around = mutant_slips.surroundings(clauses.header_texts(unit.root))
+    found = [mutant for path in unit.own_files for mutant in mutants(path, around)]
     if options.function:
         found = [mutant for mutant in found if mutant.function == options.function]
     if options.list:
