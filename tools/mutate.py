@@ -42,7 +42,7 @@ from proofs.jobs import end_as_by_ctrl_c  # noqa: E402
 from proofs.mutant_crew import Dask, Job, Threads, answer_order  # noqa: E402
 from proofs.mutant_verdicts import Verdict  # noqa: E402
 from proofs.mutants import Mutant, generate  # noqa: E402
-from proofs.mutation import Tools, Trees, Trial  # noqa: E402
+from proofs.mutation import Tools, Trees, Trial, survey  # noqa: E402
 from proofs.project import RECORDED_TIMES, ROOT, ProjectError, Unit, find_units  # noqa: E402
 from proofs.session import own_digest, prover_answers, tool_stamp  # noqa: E402
 from proofs.settings import read_exceptions  # noqa: E402
@@ -139,10 +139,11 @@ class Measurement:
         cache = Cache(self._build / "cache", options.fresh)
         around = mutant_slips.surroundings(clauses.header_texts(root))
         self.units: list[Measured] = []
+        seen = survey(root)
         for unit in units:
             trial = Trial(
                 unit, programs, trees, self.engines, options.engine == "both", cache, self.stamp,
-                exceptions[unit.name], times, patient=not options.quick,
+                exceptions[unit.name], times, not options.quick, seen,
             )  # fmt: skip
             made = [generate(path, around) for path in unit.own_files]
             found = [mutant for one in made for mutant in one.mutants

@@ -239,13 +239,37 @@ class Equality(DeterminedTest):
         self.assert_found("the results are not asserted")
 
     def test_an_index_must_be_any(self) -> None:
-        for index, good in (("x", True), ("more", True), ("0u", False), ("status", False)):
+        for index, good in (("x", True), ("more", False), ("0u", False), ("status", False)):
             with self.subTest(index):
                 self.change("put_harness.c", "same(&box, &model)", f"same(&box, &model, {index})")
                 self.change("same_box.h", "keel_box_t *b)", "keel_box_t *b, uint32_t i)")
                 found = self.problems()
                 self.assertEqual(found == [], good, found)
                 self.write_all()
+
+    def test_a_contract_of_stand_ins_counts_as_what_it_says(self) -> None:
+        does = """
+static bool keel_box_put_does(const keel_box_t *is, const keel_box_t *was, int32_t a, int32_t b)
+{
+    return box_same(is, was) && (a == b);
+}
+"""
+        good = "keel_box_put_does(&box, &model, status, expected)"
+        head, _, tail = PUT.partition("    __CPROVER_assert(status")
+        call = "    const int32_t expected = model_box_put(&model, more);\n"
+        for text, claim, found in (
+            (does, good, False),
+            (does.replace("&&", "||"), good, True),
+            (does.replace("(a == b)", "(a == a)"), good, True),
+            (does.replace("    return", "    a = b;\n    return"), good, True),
+            (does, good.replace("&model", "&box"), True),
+            (does, f"(more > 3u) || {good}", True),
+        ):
+            with self.subTest(text=text, claim=claim):
+                self.write("proofs/common/same_box.h", SAME + text)
+                body = f'{head}{call}    __CPROVER_assert({claim}, "x");\n}}\n'
+                self.write("proofs/box/keel_box_put_harness.c", body)
+                self.assertEqual(bool(self.problems()), found, self.problems())
 
 
 class Sameness(DeterminedTest):
@@ -271,6 +295,19 @@ class Sameness(DeterminedTest):
             with self.subTest(new):
                 self.change("same_box.h", old, new)
                 self.assert_found(why)
+
+    def test_a_part_may_be_compared_by_another_function(self) -> None:
+        part = SAME.replace("(a->count == b->count) && ", "part_same(a, b) && ").replace(
+            "static bool box",
+            "static bool part_same(const keel_box_t *x, const keel_box_t *y)\n{\n"
+            "    return x->count == y->count;\n}\n\nstatic bool box")  # fmt: skip
+        self.write("proofs/common/same_box.h", part)
+        self.assertEqual(self.problems(), [])
+        for old, new in (("x->count == y", "x->count <= y"), ("part_same(a, b)", "part_same(a, a)"),
+                         ("return x->c", "return true || x->c")):  # fmt: skip
+            with self.subTest(new):
+                self.write("proofs/common/same_box.h", part.replace(old, new))
+                self.assertNotEqual(self.problems(), [])
 
     def test_a_new_field_must_be_compared(self) -> None:
         self.change("rtos/box.h", "    keel_lid_t lid;\n", "    keel_lid_t lid;\n    bool shut;\n")

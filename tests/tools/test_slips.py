@@ -76,6 +76,27 @@ class Slips(unittest.TestCase):
         self.assertEqual(made(body, "early"), ["p->x = a; if (a > 3) { return 1; }"])
         self.assertEqual(made(body.replace("return 1", "a = 3"), "early"), [])
 
+    def test_what_has_nothing_to_do_with_each_other_is_left_in_order(self) -> None:
+        for body, exchanged in (
+            ("p->x = 1;\n    p->y = 2;", False),
+            ("p->q.n = 1;\n    p->q.x[a] += 2;", False),
+            ("p->x = 1;\n    p->y = p->x;", True),
+            ("p->q = *q;\n    p->q.n = 2;", True),
+            ("p->o[p->n] = 1;\n    p->n = 2;", True),
+            ("p->o[a] = 1;\n    p->o[b] = 2;", True),
+            ("p->x = g(1);\n    p->y = g(2);", True),
+            ("p->x = 1;\n    q->y = 2;", True),
+        ):
+            with self.subTest(body):
+                self.assertEqual(bool(made(body, "order")), exchanged)
+
+    def test_what_only_computes_may_stand_before_a_check(self) -> None:
+        for statement, moved in (("b = g(a);", False), ("const int b = 1;", False),
+                                 ("*p = 1;", True), ("g(a);", True)):  # fmt: skip
+            with self.subTest(statement):
+                body = "if (a > 3) {\n        return 1;\n    }\n    " + statement
+                self.assertEqual(bool(made(body, "early")), moved)
+
     def test_a_branch_is_left_out(self) -> None:
         body = (
             "if (a) {\n    a = 1;\n    } else if (b) {\n    a = 2;\n    } else {\n    a = 3;\n    }"

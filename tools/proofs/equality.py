@@ -22,13 +22,16 @@ from .declarations import (
     calls,
     closing,
     read,
+    signatures,
     split,
 )
 from .harness import Harness
 from .project import closure
 from .sameness import FLOATS, Comparers
 
-ANY = r"(?:nondet|any)_\w+\("
+# What may be anything, as far as there is room.
+ANY = r"(?:(?:nondet|any)_\w+\(\s*\)|any_below\(\s*[A-Z]\w*\s*\))"
+RETURNED = re.compile(r"\{\s*return\b([^;]*);\s*\}")
 NARROWED = re.compile(r"\bany_bits\w*\(\s*\w+\s*\)")
 
 
@@ -75,7 +78,7 @@ class Reader:
             reading.problems.append(f"must call {self._function} and {self._model} once each")
             return reading
         texts = read(closure(harness.unit.root, [harness.path]))
-        comparison = _Comparison(body, code[0], model[0], Comparers(texts, self._structures))
+        comparison = _Comparison(body, code[0], model[0], texts, self._structures)
         reading.problems += comparison.start()
         reading.problems += comparison.results(self._signature.result, self._structures)
         for number, parameter in enumerate(self._signature.parameters):
@@ -86,12 +89,14 @@ class Reader:
 class _Comparison:
     """Two calls in a body, and what is asserted of them."""
 
-    def __init__(self, body: str, code: Call, model: Call, comparers: Comparers) -> None:
+    def __init__(
+        self, body: str, code: Call, model: Call, texts: Sequence[str], structures: Structures
+    ) -> None:  # fmt: skip
         self._body = body
         self._code = code
         self._model = model
-        self._comparers = comparers
-        self._claims = [*claims(body)]
+        self._comparers = Comparers(texts, structures)
+        self._claims = claims(body, texts)
 
     def start(self) -> list[str]:
         """What keeps a claim from being about both calls."""
@@ -226,8 +231,11 @@ def loops(body: str, place: int) -> tuple[str, ...] | None:
     return tuple(heads[1:]) if all(heads[1:]) else None
 
 
-def claims(body: str) -> Sequence[Claim]:
-    """What a body asserts in every execution, taken apart at &&."""
+def claims(body: str, texts: Sequence[str] = ()) -> Sequence[Claim]:
+    """What a body asserts in every execution, taken apart at &&.
+
+    A contract that stand-ins share, F_does(...), counts as the expression that it returns.
+    """
     found = []
     for call in calls(body, "__CPROVER_assert"):
         if call.arguments and loops(body, call.start) is not None:
@@ -235,11 +243,29 @@ def claims(body: str) -> Sequence[Claim]:
             while waiting:
                 text = bare(waiting.pop())
                 parts = split(text, "&&")
+                meant = _unfolded(text, texts)
                 if len(parts) > 1:
                     waiting += parts
+                elif meant:
+                    waiting.append(meant)
                 else:
                     found.append(Claim(text, call.start, call.end))
     return found
+
+
+def _unfolded(text: str, texts: Sequence[str]) -> str:
+    """What a call of F_does stands for; "" if it is none, or does more than return it."""
+    match = re.match(r"(\w+_does)\s*\(", text)
+    if not match or closing(text, match.end() - 1) != len(text):
+        return ""
+    given = split(text[match.end() : -1], ",")
+    for one in texts:
+        returned = RETURNED.fullmatch(csource.body_of(one, match[1]))
+        if returned:
+            names = [parameter.name for parameter in signatures(one)[match[1]].parameters]
+            values = dict(zip(names, given, strict=True))
+            return re.sub(r"(?<![\w.>])\w+", lambda word: values.get(word[0], word[0]), returned[1])
+    return ""
 
 
 def bounds(harness: Harness, body: str, place: int) -> list[str]:

@@ -20,6 +20,9 @@ LEAVES = re.compile(r"(?:return|break|continue|goto)\b")
 ASSIGNED = re.compile(
     r"(?P<left>[A-Za-z_*(][\w.\[\]>() -]*?)\s*(?<![=!<>])=(?!=)\s*(?P<right>.*);", re.S
 )
+# A field of an object is written, and a variable that is no object.
+WRITES = re.compile(r"(?P<left>\w+(?:->|\.|\[)[\w.\[\]>+ -]*?)\s*[-+*/|&]?=(?!=)[^;]*;", re.S)
+LOCAL = re.compile(r"(?:[\w ]+[\s*]+)?\w+\s*[-+*/|&]?=(?!=)")
 ENUM = re.compile(r"\benum(?:\s+\w+)?\s*\{(?P<body>[^}]*)\}")
 DEFINE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+([A-Z][A-Z0-9]*_[A-Z0-9_]+)[ \t]+\S")
 INDEX = re.compile(r"\[\s*([A-Za-z_]\w*)\s*\]")
@@ -154,9 +157,24 @@ def _order(text: str, code: str, own: list[Item]) -> Iterator[Change]:
             text[two.start : two.end] + text[one.end : two.start] + text[one.start : one.end]
         )
         if one.word == "if" and re.search(r"\breturn\b", first):
-            yield Change("early", one.start, two.end, exchanged)
-        elif not one.word and not DECLARED.fullmatch(first):
+            if not LOCAL.match(second):
+                yield Change("early", one.start, two.end, exchanged)
+        elif not one.word and not DECLARED.fullmatch(first) and not _commute(first, second):
             yield Change("order", one.start, two.end, exchanged)
+
+
+def _commute(first: str, second: str) -> bool:
+    """Whether two assignments to fields of one object plainly touch nothing in common."""
+    one, two = WRITES.fullmatch(first), WRITES.fullmatch(second)
+    if not one or not two or CALL.search(first + second):
+        return False
+    left, right = (
+        re.findall(r"\w+", re.sub(r"\[[^]]*\]", "", match["left"])) for match in (one, two)
+    )
+    length = min(len(left), len(right))
+    if left[0] != right[0] or left[:length] == right[:length]:
+        return False
+    return not (re.search(rf"\b{left[-1]}\b", second) or re.search(rf"\b{right[-1]}\b", first))
 
 
 def _branches(code: str, own: list[Item]) -> Iterator[Change]:

@@ -38,20 +38,16 @@ class Trees:
     """Copies of the tree, one for each trial at a time: the tree itself is never touched."""
 
     def __init__(self, root: Path, scratch: Path, count: int) -> None:
-        self._free: list[Path] = []
+        self._root = root
+        self._free = [scratch / f"tree{number}" for number in range(count)]
         self._lock = threading.Lock()
-        for number in range(count):
-            tree = scratch / f"tree{number}"
-            for name in ("include", "src", "proofs", MODELS):
-                if (root / name).is_dir():
-                    shutil.copytree(root / name, tree / name)
-            self._free.append(tree)
 
     @contextmanager
     def with_mutant(self, mutant: Mutant, root: Path) -> Iterator[Path]:
         """A tree in which the mutant has taken its file's place."""
         with self._lock:
             tree = self._free.pop()
+        self._fill(tree)
         file = tree / mutant.file.relative_to(root)
         text = file.read_text(encoding="utf-8")
         try:
@@ -61,6 +57,13 @@ class Trees:
             file.write_text(text, encoding="utf-8")
             with self._lock:
                 self._free.append(tree)
+
+
+    def _fill(self, tree: Path) -> None:
+        """Copy what proofs are made of, when the tree is used for the first time."""
+        for name in ("include", "src", "proofs", MODELS):
+            if (self._root / name).is_dir() and not (tree / name).is_dir():
+                shutil.copytree(self._root / name, tree / name)
 
 
 @dataclass(frozen=True)
@@ -77,24 +80,31 @@ class Tools:
     verdicts: Path
 
 
-def linked(unit: Unit) -> list[Harness]:
-    """The harnesses, of whichever unit, whose binary has a file of the unit in it."""
-    own = {path.resolve() for path in unit.own_files}
+@dataclass(frozen=True)
+class Seen:
+    """A harness, the files that its binary is made of, and the functions that it may call."""
+
+    harness: Harness
+    files: frozenset[Path]
+    reached: frozenset[str]
+
+
+def survey(root: Path) -> list[Seen]:
+    """All harnesses of all units."""
+    read = [read_harness(unit, path)
+            for unit in find_units(root).values() for path in unit.harnesses]  # fmt: skip
     found = []
-    for other in find_units(unit.root).values():
-        for path in other.harnesses:
-            harness = read_harness(other, path)
-            if own & set(closure(unit.root, [path, *harness.sources])):
-                found.append(harness)
+    for harness in read:
+        files = closure(root, [harness.path, *harness.sources])
+        found.append(Seen(harness, frozenset(files), _reached(harness, files)))
     return found
 
 
-def reached(harness: Harness) -> frozenset[str]:
-    """The functions that a harness may call, in whichever file that it links."""
-    files = closure(harness.unit.root, [harness.path, *harness.sources])
-    texts = [path.read_text(encoding="utf-8") for path in files]
+def _reached(harness: Harness, files: Sequence[Path]) -> frozenset[str]:
+    """The functions that a harness may call, in whichever of its files."""
     bodies: dict[str, str] = {}
-    for text in texts:
+    for path in files:
+        text = path.read_text(encoding="utf-8")
         code = csource.code_only(text)
         for function in csource.defined(text):
             if function.body:
@@ -121,7 +131,7 @@ class Trial:
     def __init__(
         self, unit: Unit, tools: Tools, trees: Trees, asked: Sequence[str], every: bool,
         cache: Cache, stamp: Mapping[str, str], exceptions: Exceptions,
-        times: Times, patient: bool = True,
+        times: Times, patient: bool = True, seen: Sequence[Seen] | None = None,
     ) -> None:  # fmt: skip
         self._unit = unit
         self._tools = tools
@@ -140,11 +150,12 @@ class Trial:
         self._sound: dict[str, bool] = {}
         self._stages: dict[str, tuple[wp.Stage, ...]] = {}
         self._original: str | None = None
-        self._linked = linked(unit)
-        self._reached = {one.name: reached(one) for one in self._linked}
-        parts = [path for one in self._linked for path in (one.path, *one.sources)]
-        files = closure(unit.root, [*unit.own_files, *parts])
-        self._texts = {path: path.read_text(encoding="utf-8") for path in files}
+        own = {path.resolve() for path in unit.own_files}
+        linked = [one for one in seen or survey(unit.root) if own & one.files]
+        self._linked = [one.harness for one in linked]
+        self._reached = {one.harness.name: one.reached for one in linked}
+        files = {*closure(unit.root, unit.own_files)}.union(*(one.files for one in linked))
+        self._texts = {path: path.read_text(encoding="utf-8") for path in sorted(files)}
 
     def stop(self) -> None:
         """End all programs."""

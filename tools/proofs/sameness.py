@@ -59,13 +59,28 @@ class Comparers:
             complaint = self._compared(same, field)
             if complaint:
                 found.append(f"{same.name}: {same.type}.{field.name} {complaint}")
+        for part in self._parts(same):
+            found += [text for text in self.problems(part) if f": {same.type}." not in text]
         for name, field in self._nested(same):
             inner = self.of(name, field.type)
             found += self.problems(inner) if inner else []
         return list(dict.fromkeys(found))
 
+    def _parts(self, same: Same) -> list[Same]:
+        """The functions that compare a part of the same two objects, at the same indices."""
+        arguments = r"\s*,\s*".join([same.left, same.right, *same.indices])
+        names = re.findall(rf"\b(\w+_same)\(\s*{arguments}\s*\)", same.body)
+        found = (self.of(name, same.type) for name in names if name != same.name)
+        return [part for part in found if part]
+
     def _compared(self, same: Same, field: Field) -> str:
-        """Why a field is not compared, or ""."""
+        """Why a field is not compared, here or in a part, or ""."""
+        complaint = self._compared_here(same, field)
+        if complaint and any(not self._compared(part, field) for part in self._parts(same)):
+            return ""
+        return complaint
+
+    def _compared_here(self, same: Same, field: Field) -> str:
         index = r"\s*\[\s*(\w+)\s*\]" if field.size else r"()"
         mine, other = (rf"{name}\s*->\s*{field.name}\b{index}(?!\s*[\w.\[(]|\s*->)"
                        for name in (same.left, same.right))  # fmt: skip
