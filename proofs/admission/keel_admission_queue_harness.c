@@ -1,8 +1,10 @@
 // cbmc: --unwind 34 --external-sat-solver cadical
 // sources: src/rtos/admission.c specs/model/admission_queue.c
 // replaces: keel_admission_admit
+// defines: -DKEEL_QUEUE_CAPACITY=8u
 // covers: keel_admission_queue admit_at model_admission_queue
 //
+// Bounded to a capacity of 8 tasks, with which the solver comes to an end in half a minute.
 // What each task comes to is an unknown, the same for the code and for the model: the i-th task's
 // totals and verdict. So the code admits the tasks in order, each with the totals of those before
 // it, up to the first that is refused. That the rules for all tasks together follow is WP's.

@@ -203,6 +203,7 @@ static void shift_up(keel_scheduler_t *scheduler, uint32_t position)
   @ ensures gone: !queue_holds(&scheduler->queue,
   @     \old(scheduler->queue.task[scheduler->queue.order[position]]));
   @ ensures order: order_left{Pre, Post}(&scheduler->queue, position);
+  @ ensures freed: scheduler->queue.task[\old(scheduler->queue.order[position])] == \null;
   @ ensures pass: pass_left{Pre, Post}(scheduler, position);
   @ ensures wake: nothing_known(scheduler);
   @*/

@@ -12,7 +12,6 @@
  *     keel_scheduler_add(&s, &gyro);        for every task
  *     keel_scheduler_start(&s);             admission; from here on time counts
  *     for (;;) { keel_scheduler_step(&s); }
- *
  * A task is its declaration, a constant, whose address is its handle. A task may add and remove
  * tasks, itself included, while it runs, and calls nothing else that changes its scheduler. The
  * fields, and the meaning of the contracts' words, stand in scheduler_state.h.
@@ -32,7 +31,7 @@
 /**
  * Prepares a scheduler without tasks (requirement SCH-001).
  *
- * @param scheduler the scheduler to initialise
+ * @param scheduler the scheduler
  * @param config    how; it is copied
  * @return KEEL_OK; KEEL_ERR_NULL, also for a null clock; KEEL_ERR_CONFIG: guard or limit too high
  */
@@ -92,8 +91,8 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
  *
  * @param scheduler the scheduler
  * @param task      the declaration, which must outlive the task's stay and not change meanwhile
- * @return KEEL_OK; KEEL_ERR_NULL, or what keel_task_check says; KEEL_ERR_DUPLICATE;
- *         KEEL_ERR_FULL; after the start what keel_admission_admit says; in this order
+ * @return KEEL_OK; KEEL_ERR_NULL, what keel_task_check says, KEEL_ERR_DUPLICATE, KEEL_ERR_FULL,
+ *         after the start what keel_admission_admit says; in this order
  */
 /*@ requires scheduler == \null || (\valid(scheduler) && scheduler_valid(scheduler) &&
   @     in_uptime(scheduler));
@@ -178,8 +177,10 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, const keel_task_co
   @   SCHEDULER_STAYS_VALID(scheduler)
   @   ensures SCH_007_gone: !queue_holds(&scheduler->queue, task);
   @   ensures SCH_007_tasks: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
-  @       scheduler->queue.task[x] ==
-  @           ((\old(scheduler->queue.task[x]) == task) ? \null : \old(scheduler->queue.task[x]));
+  @       \old(scheduler->queue.task[x]) != task ==>
+  @       scheduler->queue.task[x] == \old(scheduler->queue.task[x]);
+  @   ensures SCH_007_freed: \forall integer i; \old(is_at(scheduler, i, task)) ==>
+  @       scheduler->queue.task[\old(scheduler->queue.order[i])] == \null;
   @   ensures SCH_007_order: \forall integer i; \old(is_at(scheduler, i, task)) ==>
   @       order_left{Pre, Post}(&scheduler->queue, i);
   @   ensures SCH_007_pass: \forall integer i; \old(is_at(scheduler, i, task)) ==>
