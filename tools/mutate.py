@@ -42,7 +42,7 @@ from proofs.jobs import end_as_by_ctrl_c  # noqa: E402
 from proofs.mutant_crew import Dask, Job, Threads, answer_order  # noqa: E402
 from proofs.mutant_verdicts import Verdict  # noqa: E402
 from proofs.mutants import Mutant, generate  # noqa: E402
-from proofs.mutation import Tools, Trees, Trial, survey  # noqa: E402
+from proofs.mutation import MAKERS, Tools, Trees, Trial, survey  # noqa: E402
 from proofs.project import RECORDED_TIMES, ROOT, ProjectError, Unit, find_units  # noqa: E402
 from proofs.session import own_digest, prover_answers, tool_stamp  # noqa: E402
 from proofs.settings import read_exceptions  # noqa: E402
@@ -106,7 +106,7 @@ def stamp_of(toolchain: Toolchain) -> dict[str, str]:
     """What identifies the tools of a verdict, those that make mutants included."""
     own = digest_of_files(sorted((ROOT / "tools/proofs").glob("muta*.py")), ROOT)
     tools = tool_stamp(toolchain.versions("prove"))
-    return {**tools, "driver": own_digest(), "mutants": digest(own)}
+    return {**tools, "driver": own_digest(), MAKERS: digest(own)}
 
 
 @dataclass
@@ -210,7 +210,6 @@ class Measurement:
 def conclude(verdicts: Sequence[Verdict], problems: Sequence[str], engines: Sequence[str]) -> int:
     """Tell the result; the exit status."""
     print("\n".join(mutant_verdicts.table(verdicts, engines)))
-    undecided = mutant_verdicts.count(verdicts, "undecided")
     statuses = ("survived", "undecided", "skipped")
     open_ones = [verdict for verdict in verdicts if verdict.status in statuses]
     for verdict in open_ones:
@@ -219,12 +218,13 @@ def conclude(verdicts: Sequence[Verdict], problems: Sequence[str], engines: Sequ
         print(f"FAILED {text}")
     numbers = {
         name: mutant_verdicts.count(verdicts, name)
-        for name in ("killed", "equivalent", "stillborn")
+        for name in mutant_verdicts.STATUSES
     }
     print(
         f"killed {numbers['killed']} of {len(verdicts) - numbers['stillborn']} mutants"
-        f" ({numbers['equivalent']} equivalent), {len(open_ones) - undecided} survived unexplained"
-        + (f", {undecided} undecided" if undecided else "")
+        f" ({numbers['equivalent']} equivalent), {numbers['survived']} survived unexplained"
+        + (f", {numbers['undecided']} undecided" if numbers["undecided"] else "")
+        + (f", {numbers['skipped']} not tried" if numbers["skipped"] else "")
     )
     return 1 if open_ones or problems else 0
 

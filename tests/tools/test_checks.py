@@ -60,6 +60,11 @@ class Directive(TreeTest):
             with self.subTest(other), self.assertRaisesRegex(ProjectError, "`checks` takes"):
                 self.read(ALONE.replace("checks: assertions", f"checks: {other}"))
 
+    def test_prose_behind_an_empty_line_is_no_directive(self) -> None:
+        prose = "//\n// All other\n// checks: keel_box_put__all_harness.c\n"
+        read = self.read(ALONE.replace("#include", f"{prose}#include", 1))
+        self.assertTrue(read.assertions_only)
+
     def test_unwinding_is_checked_in_any_case(self) -> None:
         alone = cbmc.checks_of(self.read(ALONE))
         self.assertIn("--unwinding-assertions", alone)

@@ -37,7 +37,7 @@ from proofs.times import Times  # noqa: E402
 from test_prove import HARNESS, SOURCE, TreeTest  # noqa: E402
 from toolchain import Toolchain, ToolchainError  # noqa: E402
 
-from proofs import cbmc, jobs, mutant_worker  # noqa: E402
+from proofs import cbmc, engines, harness, jobs, mutant_worker  # noqa: E402
 
 
 def harness_text(name: str, covers: str, more: str = "") -> str:
@@ -91,7 +91,7 @@ class TrialCase(TreeTest):
         )
         return Trial(
             self.unit, tools, Trees(self.root, scratch, 1), ("cbmc", "wp"), False,
-            Cache(self.root / "cache"), {"tool": stamp}, Exceptions(),
+            Cache(self.root / "cache"), {"tool": stamp, "mutants": "m"}, Exceptions(),
             Times(self.root / "times.json"), patient,
         )  # fmt: skip
 
@@ -136,6 +136,32 @@ class Order(TrialCase):
         self.assertEqual((first, last), (NO_ANSWER, NO_ANSWER))
         self.assertEqual(begun, 5)
         self.assertEqual(asked[begun:], ["keel_box_put__slow_harness", "keel_box_get_harness"])
+
+
+class Unchanged(TrialCase):
+    def test_a_harness_that_fails_unchanged_kills_nothing_and_is_proved_once(self) -> None:
+        proofs: list[str] = []
+
+        def prove(_self: cbmc.Cbmc, harness: Any) -> cbmc.Result:
+            proofs.append(harness.name)
+            return cbmc.Result(problems=["no"] if "slow" in harness.name else [])
+
+        with mock.patch.object(cbmc.Cbmc, "prove", prove):
+            for _ in range(2):
+                trial = self.make_trial()
+                trial._proved = Cache(self.root / "verdicts")
+                self.assertTrue(trial._passes_unchanged("keel_box_put_harness"))
+                self.assertFalse(trial._passes_unchanged("keel_box_put__slow_harness"))
+                self.assertFalse(trial._passes_unchanged("keel_box_put__slow_harness"))
+                self.assertEqual(trial.unusable, ["keel_box_put__slow_harness"])
+        checker = cbmc.Cbmc(
+            ("goto-cc",), ("cbmc",), jobs.Runner({}, self.root), self.root, self.root
+        )
+        read = harness.read_harness(self.unit, self.unit.folder / "keel_box_put_harness.c")
+        key = engines.cbmc_key(read, checker, self.root, {"tool": "1"})
+        self.assertEqual([path.stem for path in (self.root / "verdicts").iterdir()], [key])
+        self.assertEqual(proofs.count("keel_box_put_harness"), 1)
+        self.assertEqual(proofs.count("keel_box_put__slow_harness"), 2)
 
 
 class Kept(TrialCase):

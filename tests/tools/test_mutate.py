@@ -182,7 +182,8 @@ class Settling(unittest.TestCase):
         self.assertEqual(undecided.status, "equivalent")
 
     def test_a_mutant_that_was_not_tried_fails(self) -> None:
-        self.assertEqual(self.conclude(verdict("killed"), verdict("skipped"))[0], 1)
+        last = "killed 1 of 2 mutants (0 equivalent), 0 survived unexplained, 1 not tried"
+        self.assertEqual(self.conclude(verdict("killed"), verdict("skipped")), (1, last))
 
     def test_all_killed_or_explained_is_success(self) -> None:
         verdicts = (verdict("killed"), verdict("equivalent"), verdict("stillborn"))

@@ -1,6 +1,6 @@
 """Reads CBMC harnesses: their directives, and what their text must satisfy.
 
-Directives stand in the first comment lines of a harness:
+Directives stand in the first comment lines of a harness, up to an empty one, which prose follows:
 
     // cbmc: --unwind 33 --external-sat-solver cadical   options of the search, from OPTIONS
     // sources: src/rtos/queue.c              what is linked; default: the unit's source
@@ -60,7 +60,7 @@ def directives(path: Path) -> dict[str, list[str]]:
     """The directives of a harness; each may be given on several lines."""
     found: dict[str, list[str]] = {}
     for line in path.read_text(encoding="utf-8").splitlines():
-        if not line.startswith("//"):
+        if not line.startswith("//") or line.strip() == "//":
             break
         match = DIRECTIVE.match(line)
         if match and match[1] in HARNESS_KEYS:
