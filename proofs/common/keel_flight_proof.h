@@ -64,8 +64,8 @@ static bool filter_bounded_here(const keel_filter_t *filter)
 static bool filter_same(const keel_filter_t *x, const keel_filter_t *y)
 {
     return float_same(x->a, y->a) && float_same(x->b, y->b) && float_same(x->c, y->c) &&
-           float_same(x->energy_limit, y->energy_limit) && float_same(x->s1, y->s1) && float_same(x->s2, y->s2) &&
-           float_same(x->output, y->output);
+           float_same(x->energy_limit, y->energy_limit) && float_same(x->s1, y->s1) &&
+           float_same(x->s2, y->s2) && float_same(x->output, y->output);
 }
 
 /* Any valid filter (filter_valid). Its energy limit is one of two by construction, not by an

@@ -62,14 +62,16 @@ static bool pid_valid_here(const keel_pid_t *pid)
 
 static bool pid_gains_same(const keel_pid_gains_t *x, const keel_pid_gains_t *y)
 {
-    return float_same(x->kp, y->kp) && float_same(x->ki, y->ki) && float_same(x->kd, y->kd) && float_same(x->kff, y->kff);
+    return float_same(x->kp, y->kp) && float_same(x->ki, y->ki) && float_same(x->kd, y->kd) &&
+           float_same(x->kff, y->kff);
 }
 
 static bool pid_config_same(const keel_pid_config_t *x, const keel_pid_config_t *y)
 {
     return pid_gains_same(&x->gains, &y->gains) && float_same(x->rate_hz, y->rate_hz) &&
            float_same(x->cutoff_hz, y->cutoff_hz) && float_same(x->output_min, y->output_min) &&
-           float_same(x->output_max, y->output_max) && float_same(x->integral_min, y->integral_min) &&
+           float_same(x->output_max, y->output_max) &&
+           float_same(x->integral_min, y->integral_min) &&
            float_same(x->integral_max, y->integral_max);
 }
 

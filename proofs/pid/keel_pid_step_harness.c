@@ -2,7 +2,7 @@
 // checks: assertions
 // sources: src/flight/pid.c src/flight/filter.c specs/model/pid.c specs/model/filter.c
 // covers: keel_pid_step differentiate winds_up put_out limit_reached direct_terms is_input
-// covers: model_pid_step without_integral side_of
+// covers: model_pid_step without_integral side_of differentiated
 //
 // Any controller at all, any bit pattern for both inputs: the same as the model's, bit for bit. The
 // solver sees that both compute the same only where nothing else is asked: overflow and NaN are

@@ -5,8 +5,7 @@
 void model_stats_record(keel_stats_t *stats, uint32_t elapsed_us, uint32_t budget_us)
 {
     /* LOD-003: a mean that cannot take both the run and its time takes neither. */
-    const bool open =
-        (stats->runs < UINT32_MAX) && (elapsed_us <= (UINT64_MAX - stats->total_us));
+    const bool open = (stats->runs < UINT32_MAX) && (elapsed_us <= (UINT64_MAX - stats->total_us));
 
     if (open) {
         stats->runs = stats->runs + 1u;

@@ -32,7 +32,8 @@ static bool limits_valid(const keel_pid_config_t *config)
 {
     return limit_valid(config->output_min) && limit_valid(config->output_max) &&
            (config->output_min < config->output_max) && limit_valid(config->integral_min) &&
-           limit_valid(config->integral_max) && contains(0.0f, config->integral_min, config->integral_max);
+           limit_valid(config->integral_max) &&
+           contains(0.0f, config->integral_min, config->integral_max);
 }
 
 static bool input_valid(float value)
@@ -41,7 +42,8 @@ static bool input_valid(float value)
 }
 
 /* PID-008: what eq. 4 adds up but for the integral. */
-static float without_integral(const keel_pid_gains_t *gains, float setpoint, float error, float derivative)
+static float without_integral(const keel_pid_gains_t *gains, float setpoint, float error,
+                              float derivative)
 {
     return ((gains->kp * error) + (gains->kff * setpoint)) + (gains->kd * derivative);
 }
@@ -84,7 +86,8 @@ void model_pid_reset(keel_pid_t *pid)
 
 keel_status_t model_pid_set_gains(keel_pid_t *pid, const keel_pid_gains_t *gains)
 {
-    const float before = without_integral(&pid->config.gains, pid->setpoint, pid->error, pid->derivative);
+    const float before = without_integral(&pid->config.gains, pid->setpoint, pid->error,
+                                          pid->derivative);
     const float after = without_integral(gains, pid->setpoint, pid->error, pid->derivative);
 
     /* PID-004 */
@@ -107,15 +110,25 @@ static keel_pid_saturation_t side_of(const keel_pid_config_t *config, float outp
     return (output < config->output_min) ? KEEL_PID_AT_MIN : KEEL_PID_FREE;
 }
 
+/* What the low-pass makes of an error. PID-009: at the first step it comes from the error itself, so
+ * that the derivative is 0. */
+static keel_status_t differentiated(keel_pid_t *pid, float error)
+{
+    const float before = pid->started ? pid->filter.output : error;
+    const keel_status_t taken = pid->started ? model_filter_step(&pid->filter, error)
+                                             : model_filter_reset(&pid->filter, error);
+
+    if (taken == KEEL_OK) {
+        pid->derivative = (pid->filter.output - before) * pid->config.rate_hz;
+    }
+    return taken;
+}
+
 keel_status_t model_pid_step(keel_pid_t *pid, float setpoint, float measurement)
 {
     const float error = setpoint - measurement;
-    /* PID-009: at the first step the low-pass comes from the error itself. */
-    const float before = pid->started ? pid->filter.output : error;
-    keel_filter_t filter = pid->filter;
-    keel_status_t taken;
+    keel_pid_t next = *pid;
     keel_pid_saturation_t side;
-    float derivative;
     float sum;
     float moved;
     float output;
@@ -124,13 +137,11 @@ keel_status_t model_pid_step(keel_pid_t *pid, float setpoint, float measurement)
     if (!(input_valid(setpoint) && input_valid(measurement))) {
         return KEEL_ERR_INPUT;
     }
-    taken = pid->started ? model_filter_step(&filter, error) : model_filter_reset(&filter, error);
-    if (taken != KEEL_OK) {
+    if (differentiated(&next, error) != KEEL_OK) {
         return KEEL_ERR_INPUT;
     }
     /* PID-008: eq. 4. The integral moves within its limits. */
-    derivative = (filter.output - before) * pid->config.rate_hz;
-    sum = without_integral(&pid->config.gains, setpoint, error, derivative);
+    sum = without_integral(&pid->config.gains, setpoint, error, next.derivative);
     moved = clamped(pid->integral + (pid->integral_gain * error), pid->config.integral_min,
                     pid->config.integral_max);
     output = sum + moved;
@@ -142,11 +153,11 @@ keel_status_t model_pid_step(keel_pid_t *pid, float setpoint, float measurement)
         output = sum + moved;
         side = side_of(&pid->config, output);
     }
-    pid->filter = filter;
+    pid->filter = next.filter;
     pid->integral = moved;
     pid->setpoint = setpoint;
     pid->error = error;
-    pid->derivative = derivative;
+    pid->derivative = next.derivative;
     pid->saturation = side;
     /* PID-006: the output stays within its limits. */
     pid->output = output;
