@@ -70,9 +70,10 @@ static bool keel_decision_other_does(const keel_choice_t *choice, const keel_que
 {
     return (choice->priority <= KEEL_PRIORITY_REALTIME) &&
            is_earliest(queue, queue->realtime_count, queue->count, choice->earliest_us) &&
-           ((choice->priority > 0u) ? (is_other(queue, choice->position) &&
-                                       (release_at(queue, choice->position) <= now_us))
-                                    : (choice->position == 0u));
+           ((choice->priority > 0u)
+                ? (is_other(queue, choice->position) &&
+                   (release_at(queue, choice->position) <= now_us))
+                : (choice->position == 0u));
 }
 
 static bool keel_decision_event_us_may(const keel_queue_t *queue, uint64_t now_us)

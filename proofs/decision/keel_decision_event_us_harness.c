@@ -43,8 +43,8 @@ void keel_decision_event_us_harness(void)
 
     event_us = keel_decision_event_us(&queue, now_us);
 
-    __CPROVER_assert(keel_decision_event_us_does(event_us,
-                                                 model_decision_event_us(&before, now_us)),
-                     "DEC_004_model: as the model says");
+    __CPROVER_assert(
+        keel_decision_event_us_does(event_us, model_decision_event_us(&before, now_us)),
+        "DEC_004_model: as the model says");
     __CPROVER_assert(queue_same(&queue, &before, x), "DEC_004_frame: nothing is written");
 }

@@ -43,8 +43,8 @@ static const keel_task_config_t *serve_other(keel_scheduler_t *scheduler)
 {
     const uint64_t now_us = scheduler->clock.now_us;
     const uint64_t realtime_us = model_decision_earliest_us(&scheduler->queue);
-    const uint32_t room_us = model_decision_room_us(realtime_us, now_us,
-                                                    scheduler->config.guard_us);
+    const uint32_t room_us =
+        model_decision_room_us(realtime_us, now_us, scheduler->config.guard_us);
     const keel_choice_t choice = model_decision_other(&scheduler->queue, now_us, room_us);
     uint64_t other_us = scheduler->earliest_other_us;
 
@@ -119,8 +119,8 @@ keel_status_t model_pass_run(keel_scheduler_t *scheduler)
 
         if (task != NULL) {
             task->run(task->context);
-            status = model_pass_finish(scheduler, scheduler->config
-                                                      .read_clock(scheduler->config.clock_context));
+            status = model_pass_finish(
+                scheduler, scheduler->config.read_clock(scheduler->config.clock_context));
         }
     }
     return status;

@@ -110,8 +110,8 @@ static keel_pid_saturation_t side_of(const keel_pid_config_t *config, float outp
     return (output < config->output_min) ? KEEL_PID_AT_MIN : KEEL_PID_FREE;
 }
 
-/* What the low-pass makes of an error. PID-009: at the first step it comes from the error itself, so
- * that the derivative is 0. */
+/* What the low-pass makes of an error. PID-009: at the first step it comes from the error itself,
+ * so that the derivative is 0. */
 static keel_status_t differentiated(keel_pid_t *pid, float error)
 {
     const float before = pid->started ? pid->filter.output : error;
