@@ -5,8 +5,7 @@
 void model_stats_record(keel_stats_t *stats, uint32_t elapsed_us, uint32_t budget_us)
 {
     /* LOD-003: a mean that cannot take both the run and its time takes neither. */
-    const bool open =
-        (stats->runs < UINT32_MAX) && (elapsed_us <= (UINT64_MAX - stats->total_us));
+    const bool open = (stats->runs < UINT32_MAX) && (elapsed_us <= (UINT64_MAX - stats->total_us));
 
     if (open) {
         stats->runs = stats->runs + 1u;
@@ -74,7 +73,7 @@ keel_status_t model_deviation_add(keel_deviation_t *deviation, uint64_t start_us
 
     /* LOD-009: neither the count, nor the square, nor the sum may overflow. */
     if ((deviation->starts == UINT32_MAX) || (off_us > UINT32_MAX) ||
-        ((off_us * off_us) > (UINT64_MAX - deviation->sum_us2))) {
+        (deviation->sum_us2 > (UINT64_MAX - (off_us * off_us)))) {
         return KEEL_ERR_STATE;
     }
     /* LOD-008: eq. 15 without the root. */
