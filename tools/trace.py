@@ -12,7 +12,7 @@ more. Where a harness compares the code with its model (specs/model), which it i
 of the model that names a requirement counts as an assertion does. An orphan is
 
     a label, an assertion, a test or a comment of a header or a model that names no requirement;
-    a model that no harness includes;
+    a model that no harness includes or links;
     a requirement without a clause, unless VERIFICATION says test (it then needs a test) or
         theorem (specs/soundness.md must then name it);
     a requirement with clauses which neither a harness nor a test names, unless it is a theorem;
@@ -47,6 +47,7 @@ ASSERTION = re.compile(rf'"({LABEL})[:"]')
 TEST = re.compile(r"\bRUN_TEST\((\w+)\)")
 REFERENCE = re.compile(rf'"({LABEL})"')
 MENTION = re.compile(r"\b[A-Z]{3,4}-\d{3}\b")
+LINKED = re.compile(r"(?<=specs/model/)\w+(?=\.c\b)")
 FIELD = re.compile(r"^([A-Z]+): ?(.*)$", re.MULTILINE)
 
 
@@ -97,10 +98,12 @@ def collect(root: Path, pattern: re.Pattern[str], *globs: str) -> list[tuple[str
 
 
 def compared_models(root: Path) -> set[str]:
-    """The units whose model a harness includes, be it by a header."""
+    """The models that a harness includes, be it by a header, or links."""
     models = (root / "specs/model").resolve()
     harnesses = sorted(root.glob("proofs/*/*_harness.c"))
-    return {path.stem for path in closure(root, harnesses) if path.parent == models}
+    included = {path.stem for path in closure(root, harnesses) if path.parent == models}
+    heads = (path.read_text(encoding="utf-8") for path in harnesses)
+    return included | {name for text in heads for name in LINKED.findall(text)}
 
 
 def modelled(root: Path) -> tuple[list[tuple[str, str]], list[str]]:

@@ -119,20 +119,15 @@ static bool setup_same(const keel_scheduler_config_t *a, const keel_scheduler_co
            (a->guard_us == b->guard_us) && (a->utilisation_limit == b->utilisation_limit);
 }
 
-/* Whether two schedulers are the same but for their queues. */
-static bool state_same(const keel_scheduler_t *a, const keel_scheduler_t *b)
+/* Whether two schedulers are the same, as seen at a position and slot: if at any, they are. */
+static bool scheduler_same(const keel_scheduler_t *a, const keel_scheduler_t *b, uint32_t x)
 {
     return setup_same(&a->config, &b->config) && clock_same(&a->clock, &b->clock) &&
            (a->wake_us == b->wake_us) && (a->busy_us == b->busy_us) &&
            (a->earliest_realtime_us == b->earliest_realtime_us) &&
            (a->earliest_other_us == b->earliest_other_us) && (a->stage == b->stage) &&
-           (a->cursor == b->cursor) && (a->pass_end == b->pass_end) && (a->running == b->running);
-}
-
-/* Whether two schedulers are the same, as seen at a position and slot: if at any, they are. */
-static bool scheduler_same(const keel_scheduler_t *a, const keel_scheduler_t *b, uint32_t x)
-{
-    return state_same(a, b) && queue_same(&a->queue, &b->queue, x);
+           (a->cursor == b->cursor) && (a->pass_end == b->pass_end) && (a->running == b->running) &&
+           queue_same(&a->queue, &b->queue, x);
 }
 
 #endif

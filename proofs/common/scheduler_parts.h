@@ -28,7 +28,6 @@ static keel_status_t newcomer_status;
 
 static void any_parts(uint32_t of_interest)
 {
-    at = any_below(CAPACITY);
     any_scheduler(&scheduler, of_interest);
     totals = nondet_admission();
     set_status = (keel_status_t)any_below(KEEL_ERR_UTILISATION + 1u);
@@ -118,12 +117,6 @@ void keel_queue_remove_stand_in(keel_queue_t *queue, uint32_t position)
                      "SCH_007_asked: the task that is removed");
     *queue = expected.queue;
     __CPROVER_assume(keel_queue_remove_does(queue, &expected.queue, at));
-}
-
-/* Whether the scheduler is what the model left. */
-static bool is_as_modelled(void)
-{
-    return scheduler_same(&scheduler, &expected, at);
 }
 
 #endif

@@ -32,8 +32,8 @@ void model_stats_record(keel_stats_t *stats, uint32_t elapsed_us, uint32_t budge
 void keel_stats_record_stand_in(keel_stats_t *stats, uint32_t elapsed_us, uint32_t budget_us)
 {
     __CPROVER_assert(keel_stats_record_may(stats), "precondition: keel_stats_record");
-    __CPROVER_assert((stats == &scheduler.queue.stats[slot]) &&
-                         (elapsed_us == ran_us) && (budget_us == before.queue.budget_us[slot]) &&
+    __CPROVER_assert((stats == &scheduler.queue.stats[slot]) && (elapsed_us == ran_us) &&
+                         (budget_us == before.queue.budget_us[slot]) &&
                          stats_same(stats, &before.queue.stats[slot]),
                      "SCH_017_recorded: the run of the task that ran, once");
     *stats = recorded;

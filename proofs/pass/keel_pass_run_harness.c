@@ -35,8 +35,7 @@ static uint32_t runs;
 
 static bool is_as_left(void)
 {
-    return state_same(&scheduler, &left) && (scheduler.queue.count == left.queue.count) &&
-           (scheduler.queue.realtime_count == left.queue.realtime_count);
+    return scheduler_same(&scheduler, &left, 0u);
 }
 
 /* One who may change the scheduler does. */

@@ -14,18 +14,20 @@
 void keel_scheduler_add_harness(void)
 {
     const keel_task_config_t *const task = nondet_bool() ? &proof_task : NULL;
-    keel_scheduler_t *const given = nondet_bool() ? &scheduler : NULL;
+    const bool given = nondet_bool();
     keel_task_config_t declared;
     keel_status_t modelled;
     keel_status_t status;
 
     any_config(&proof_task);
     declared = proof_task;
+    at = any_below(CAPACITY);
     any_parts(any_below(CAPACITY + 1u));
-    modelled = model_scheduler_add((given != NULL) ? &expected : NULL, task);
+    modelled = model_scheduler_add(given ? &expected : NULL, task);
 
-    status = keel_scheduler_add(given, task);
+    status = keel_scheduler_add(given ? &scheduler : NULL, task);
 
-    __CPROVER_assert((status == modelled) && is_as_modelled(), "SCH_004_model: as the model says");
+    __CPROVER_assert((status == modelled) && scheduler_same(&scheduler, &expected, at),
+                     "SCH_004_model: as the model says");
     __CPROVER_assert(config_same(&proof_task, &declared), "SCH_004_frame: the declaration stays");
 }

@@ -15,8 +15,8 @@ void keel_scheduler_init_harness(void)
     keel_scheduler_t scheduler = nondet_scheduler();
     keel_scheduler_config_t config;
     const uint32_t x = any_below(CAPACITY);
-    keel_scheduler_t *const given = nondet_bool() ? &scheduler : NULL;
-    const keel_scheduler_config_t *const wanted = nondet_bool() ? &config : NULL;
+    const bool given = nondet_bool();
+    const bool configured = nondet_bool();
     keel_scheduler_config_t as_given;
     keel_scheduler_t expected;
     keel_status_t modelled;
@@ -28,9 +28,9 @@ void keel_scheduler_init_harness(void)
     config.utilisation_limit = nondet_u32();
     as_given = config;
     expected = scheduler;
-    modelled = model_scheduler_init((given != NULL) ? &expected : NULL, wanted);
+    modelled = model_scheduler_init(given ? &expected : NULL, configured ? &config : NULL);
 
-    status = keel_scheduler_init(given, wanted);
+    status = keel_scheduler_init(given ? &scheduler : NULL, configured ? &config : NULL);
 
     __CPROVER_assert((status == modelled) && scheduler_same(&scheduler, &expected, x),
                      "SCH_001_model: as the model says");

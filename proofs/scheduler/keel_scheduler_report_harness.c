@@ -27,7 +27,7 @@ void keel_scheduler_report_harness(void)
     keel_task_report_t expected = report;
     const uint32_t x = any_below(CAPACITY);
     const keel_task_config_t *const task = nondet_bool() ? &proof_task : NULL;
-    const keel_scheduler_t *const given = nondet_bool() ? &scheduler : NULL;
+    const bool given = nondet_bool();
     const bool wanted = nondet_bool();
     keel_scheduler_t before;
     keel_status_t modelled;
@@ -35,10 +35,9 @@ void keel_scheduler_report_harness(void)
 
     any_queue(&scheduler.queue, any_below(CAPACITY + 1u));
     before = scheduler;
-    modelled = model_scheduler_report((given != NULL) ? &before : NULL, task,
-                                      wanted ? &expected : NULL);
+    modelled = model_scheduler_report(given ? &before : NULL, task, wanted ? &expected : NULL);
 
-    status = keel_scheduler_report(given, task, wanted ? &report : NULL);
+    status = keel_scheduler_report(given ? &scheduler : NULL, task, wanted ? &report : NULL);
 
     __CPROVER_assert((status == modelled) && report_same(&report, &expected),
                      "SCH_025_model: as the model says");

@@ -12,17 +12,17 @@ void keel_scheduler_resync_harness(void)
 {
     keel_scheduler_t scheduler;
     const uint32_t x = any_below(CAPACITY);
-    keel_scheduler_t *const given = nondet_bool() ? &scheduler : NULL;
+    const bool given = nondet_bool();
     keel_scheduler_t expected;
     keel_status_t modelled;
     keel_status_t status;
 
     any_scheduler(&scheduler, CAPACITY);
     expected = scheduler;
-    modelled = model_scheduler_resync((given != NULL) ? &expected : NULL);
+    modelled = model_scheduler_resync(given ? &expected : NULL);
     read_again();
 
-    status = keel_scheduler_resync(given);
+    status = keel_scheduler_resync(given ? &scheduler : NULL);
 
     __CPROVER_assert((status == modelled) && scheduler_same(&scheduler, &expected, x) &&
                          is_read_as_often(),

@@ -9,16 +9,18 @@
 
 void keel_scheduler_start_harness(void)
 {
-    keel_scheduler_t *const given = nondet_bool() ? &scheduler : NULL;
+    const bool given = nondet_bool();
     keel_status_t modelled;
     keel_status_t status;
 
+    at = any_below(CAPACITY);
     any_parts(CAPACITY);
-    modelled = model_scheduler_start((given != NULL) ? &expected : NULL);
+    modelled = model_scheduler_start(given ? &expected : NULL);
     read_again();
 
-    status = keel_scheduler_start(given);
+    status = keel_scheduler_start(given ? &scheduler : NULL);
 
-    __CPROVER_assert((status == modelled) && is_as_modelled() && is_read_as_often(),
+    __CPROVER_assert((status == modelled) && scheduler_same(&scheduler, &expected, at) &&
+                         is_read_as_often(),
                      "SCH_009_model: as the model says");
 }

@@ -15,7 +15,7 @@ void keel_scheduler_task_harness(void)
     keel_scheduler_t scheduler;
     const uint32_t x = any_below(CAPACITY);
     const uint32_t position = nondet_u32();
-    const keel_scheduler_t *const given = nondet_bool() ? &scheduler : NULL;
+    const bool given = nondet_bool();
     const keel_task_config_t *task;
     keel_scheduler_t before;
 
@@ -27,9 +27,9 @@ void keel_scheduler_task_harness(void)
     }
     before = scheduler;
 
-    task = keel_scheduler_task(given, position);
+    task = keel_scheduler_task(given ? &scheduler : NULL, position);
 
-    __CPROVER_assert(task == model_scheduler_task((given != NULL) ? &before : NULL, position),
+    __CPROVER_assert(task == model_scheduler_task(given ? &before : NULL, position),
                      "SCH_024_model: as the model says");
     __CPROVER_assert(scheduler_same(&scheduler, &before, x), "SCH_024_frame: nothing is written");
 }

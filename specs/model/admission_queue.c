@@ -10,8 +10,8 @@ keel_status_t model_admission_queue(keel_admission_t *admission, const keel_queu
         const uint32_t slot = queue->order[i];
 
         if ((i < queue->count) && (status == KEEL_OK)) {
-            status = model_admission_admit(admission, queue->priority[slot],
-                                           queue->period_us[slot], queue->budget_us[slot]);
+            status = model_admission_admit(admission, queue->priority[slot], queue->period_us[slot],
+                                           queue->budget_us[slot]);
         }
     }
     return status;

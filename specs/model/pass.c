@@ -43,8 +43,8 @@ static const keel_task_config_t *serve_other(keel_scheduler_t *scheduler)
 {
     const uint64_t now_us = scheduler->clock.now_us;
     const uint64_t realtime_us = model_decision_earliest_us(&scheduler->queue);
-    const uint32_t room_us =
-        model_decision_room_us(realtime_us, now_us, scheduler->config.guard_us);
+    const uint32_t room_us = model_decision_room_us(realtime_us, now_us,
+                                                    scheduler->config.guard_us);
     const keel_choice_t choice = model_decision_other(&scheduler->queue, now_us, room_us);
     uint64_t other_us = scheduler->earliest_other_us;
 
@@ -105,6 +105,23 @@ keel_status_t model_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us)
         scheduler->busy_us += scheduler->clock.now_us - start_us;
         scheduler->running = KEEL_POSITION_NONE;
         scheduler->stage = ((status == KEEL_OK) && realtime) ? KEEL_STAGE_PASS : KEEL_STAGE_READY;
+    }
+    return status;
+}
+
+keel_status_t model_pass_run(keel_scheduler_t *scheduler)
+{
+    keel_status_t status = KEEL_OK;
+
+    /* SCH-023: a real-time task at most once each, then one other task, or the end of the pass. */
+    for (uint32_t i = 0u; i <= KEEL_QUEUE_CAPACITY; i++) {
+        const keel_task_config_t *const task = model_pass_next(scheduler);
+
+        if (task != NULL) {
+            task->run(task->context);
+            status = model_pass_finish(scheduler, scheduler->config
+                                                      .read_clock(scheduler->config.clock_context));
+        }
     }
     return status;
 }

@@ -183,8 +183,7 @@ keel_status_t model_scheduler_resync(keel_scheduler_t *scheduler)
     return KEEL_OK;
 }
 
-const keel_task_config_t *model_scheduler_task(const keel_scheduler_t *scheduler,
-                                               uint32_t position)
+const keel_task_config_t *model_scheduler_task(const keel_scheduler_t *scheduler, uint32_t position)
 {
     if ((scheduler == NULL) || (position >= scheduler->queue.count)) {
         return NULL; /* SCH-024 */
