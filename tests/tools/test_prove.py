@@ -422,6 +422,8 @@ class Keys(TreeTest):
         file = "proofs/box/wrong/zero.toml"
         self.assertEqual(self.changed_by(file, "= 0;", "= 1;"), {"zero"})
         self.assertEqual(self.changed_by(file, "# It forgets", "# Oh, it forgets"), set())
+        smaller = 'defines = "-DBOXES=4u"\n[[replace]]'
+        self.assertEqual(self.changed_by(file, "[[replace]]", smaller), {"zero"})
 
     def test_a_contract_matters_to_wp_alone(self) -> None:
         changed = self.changed_by("include/keel/rtos/box.h", "BOX_001: *box", "BOX_002: *box")
@@ -792,9 +794,10 @@ class WrongBodies(TreeTest):
 
     def test_what_is_missing_or_unknown_is_an_error(self) -> None:
         cases = {
-            WRONG.replace("expect", "expects"): "unknown key expects; known: expect, file",
+            WRONG.replace("expect", "expects"): "unknown key expects; known: defines, expect, file",
             WRONG + 'count = "1"\n': "unknown key count; known: function, new, old",
             WRONG.replace('expect = ["BOX_001"]\n', ""): "`expect` must",
+            WRONG.replace("[[replace]]", 'defines = "BOXES=4u"\n[[replace]]'): "`defines` takes",
             WRONG.replace('["BOX_001"]', "[]"): "`expect` must",
             WRONG.replace('["BOX_001"]', "[1]"): "`expect` must",
             WRONG.replace('harness = "keel_box_put_harness"\n', ""): "`harness` must",

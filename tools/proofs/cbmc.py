@@ -8,7 +8,7 @@ import re
 import shutil
 import time
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -252,6 +252,8 @@ class Cbmc:
         """Show that a harness notices a wrong body, by the assertions that it should."""
         start = time.monotonic()
         result = Result()
+        if wrong.defines:
+            harness = replace(harness, defines=wrong.defines)
         binary, complaint = self.build(harness, f"{harness.name}-{wrong.name}", wrong)
         if complaint:
             result.problems.append(f"{wrong.shown}: {complaint}")

@@ -128,7 +128,7 @@ def cbmc_key(
         if place not in texts:
             raise ProjectError(f"{wrong.shown}: {wrong.harness} does not depend on {place}")
         texts[place] = csource.essence(wrong.text())
-        expected = (wrong.name, wrong.expect, place)
+        expected = (wrong.name, wrong.expect, place, wrong.defines)
     sources = [str(path.relative_to(root)) for path in harness.sources]
     directives = [harness.name, harness.options, sources, harness.covers, harness.defines,
                   harness.replaces, harness.assertions_only]

@@ -12,6 +12,7 @@ body is always the code as it is now:
 
 `harness` must refute it, and each text of `expect` must be part of an assertion that fails. `file`
 names the file that is changed: the unit's source, or its header if the unit is inline, unless told.
+`defines` takes the place of the harness's: a fault that shows in a smaller model is one, and sooner.
 Replacements are made in their order. The old text must occur exactly once in the file or, where
 `function` is given beside it, in the body of that function: a wrong body that has gone stale is an
 error.
@@ -28,7 +29,7 @@ from typing import Any
 from . import csource
 from .project import ProjectError, Unit
 
-KEYS = frozenset(["harness", "expect", "file", "replace"])
+KEYS = frozenset(["harness", "expect", "file", "defines", "replace"])
 REPLACE_KEYS = frozenset(["old", "new", "function"])
 
 
@@ -69,6 +70,7 @@ class WrongBody:
     expect: tuple[str, ...]
     file: Path
     replacements: tuple[Replacement, ...]
+    defines: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -115,7 +117,15 @@ def _parse(unit: Unit, path: Path, raw: Mapping[str, Any]) -> WrongBody:
         unit=unit, path=path, harness=_string(raw, "harness"), file=file,
         expect=tuple(_string({"expect": text}, "expect") for text in expect),
         replacements=tuple(_replacement(entry) for entry in entries),
+        defines=_defines(raw),
     )  # fmt: skip
+
+
+def _defines(raw: Mapping[str, Any]) -> tuple[str, ...]:
+    words = tuple(_string(raw, "defines").split()) if "defines" in raw else ()
+    if any(not word.startswith("-D") for word in words):
+        raise ValueError("`defines` takes -DNAME=VALUE only")
+    return words
 
 
 def _replacement(entry: Any) -> Replacement:
