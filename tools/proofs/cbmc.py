@@ -7,7 +7,7 @@ import os
 import re
 import shutil
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -335,6 +335,8 @@ class Cbmc:
         """Find out what the harness reaches."""
         options = harnesses.without_solver(list(harness.options))
         command = [*self._cbmc, str(binary), "--json-ui", *COVERAGE, *options]
+        listing = self._runner.run([*command, "--show-properties"], harness.timeout, merged=False)
+        command += blocks_of(listing.output, looked_at(harness, result.properties))
         answer = self._answer(self._runner.run(command, harness.timeout, merged=False), harness)
         found = blocks(answer.goals)
         if not answer.complete:
@@ -353,17 +355,30 @@ class Cbmc:
 
 def selection(listing: str, expect: Sequence[str]) -> list[str]:
     """The options that select the properties whose description contains an expected text."""
+    return _select(listing, lambda item: any(text in item["description"] for text in expect))
+
+
+def looked_at(harness: Harness, properties: Sequence[dict[str, str]]) -> set[str]:
+    """The functions whose blocks are looked at: what is to be covered, and where assertions are."""
+    asserting = {item["function"] for item in properties if ASSERTION.search(item["name"])}
+    return {harness.name, *harness.covers, *asserting}
+
+
+def blocks_of(listing: str, functions: Collection[str]) -> list[str]:
+    """The options that select the blocks of functions. Of others it may be hard to say."""
+    return _select(
+        listing, lambda item: item.get("sourceLocation", {}).get("function") in functions
+    )
+
+
+def _select(listing: str, wanted: Callable[[dict[str, Any]], bool]) -> list[str]:
+    """The options that select properties of a list by CBMC."""
     try:
         entries = json.loads(listing)
     except ValueError:
         return []
-    return [
-        word
-        for entry in entries
-        for item in entry.get("properties", [])
-        if any(text in item["description"] for text in expect)
-        for word in ("--property", item["name"])
-    ]
+    found = (item for entry in entries for item in entry.get("properties", []) if wanted(item))
+    return [word for item in found for word in ("--property", item["name"])]
 
 
 def refutation_problems(answer: Answer, wrong: WrongBody) -> list[str]:
