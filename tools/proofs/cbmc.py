@@ -366,9 +366,7 @@ def looked_at(harness: Harness, properties: Sequence[dict[str, str]]) -> set[str
 
 def blocks_of(listing: str, functions: Collection[str]) -> list[str]:
     """The options that select the blocks of functions. Of others it may be hard to say."""
-    return _select(
-        listing, lambda item: item.get("sourceLocation", {}).get("function") in functions
-    )
+    return _select(listing, lambda one: one.get("sourceLocation", {}).get("function") in functions)
 
 
 def _select(listing: str, wanted: Callable[[dict[str, Any]], bool]) -> list[str]:
