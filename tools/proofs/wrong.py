@@ -12,7 +12,7 @@ body is always the code as it is now:
 
 `harness` must refute it, and each text of `expect` must be part of an assertion that fails. `file`
 is changed, else the unit's source, or its header if the unit is inline.
-`defines` takes the place of the harness's: a fault that shows in a smaller model is one, and sooner.
+`defines` takes the place of the harness's: a smaller model shows a fault sooner.
 Replacements are made in their order. The old text must occur exactly once in the file or, where
 `function` is given beside it, in the body of that function: a wrong body that has gone stale is an
 error.
