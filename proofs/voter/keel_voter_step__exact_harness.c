@@ -1,5 +1,5 @@
 // cbmc: --unwind 5 --external-sat-solver cadical
-// sources: src/middleware/voter.c
+// sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
 // defines: -DKEEL_VOTER_SENSORS=3u
 // replaces: keel_voter_mean
 // covers: keel_voter_step compare_all judge conclude keel_voter_agreement keel_voter_weight
@@ -28,21 +28,23 @@ void keel_voter_step__exact_harness(void)
     int32_t sum = 0;
     uint32_t weights = 0u;
 
-    any_voter(&voter, 1.0f, 3.0f);
-    voter.config.sensors = three ? 3u : 2u;
+    any_channel(&voter, three ? 3u : 2u);
+    voter.config.agree = 1.0f;
+    voter.none = 3.0f;
+    voter.unanimous = false;
     voter.config.lowest = -3.0f;
     voter.config.highest = 2.0f;
     voter.config.stale_count = 0u;
-    __CPROVER_assume((voter.vote.output >= -3.0f) && (voter.vote.output <= 2.0f));
     for (uint32_t i = 0u; i < SENSORS; i++) {
         half[i] = nondet_u8() & 7u;
         sample[i].value = 0.5f * ((float)half[i] - 4.0f);
         sample[i].age_us = 0u;
         sample[i].present = nondet_bool();
         voter.sensor[i].latched = false;
-        __CPROVER_assume(healthy_here(&voter.config, &voter.sensor[i]));
         usable += ((i < voter.config.sensors) && sample[i].present) ? 1u : 0u;
     }
+
+    __CPROVER_assume(voter_valid_here(&voter));
 
     keel_voter_step(&voter, sample, 0u);
 

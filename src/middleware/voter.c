@@ -75,8 +75,10 @@ keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *co
     return KEEL_OK;
 }
 
-float keel_voter_agreement(float distance, float agree, float none)
+float keel_voter_agreement(float x, float y, float agree, float none)
 {
+    const float distance = (x > y) ? (x - y) : (y - x);
+
     if (distance <= agree) {
         return 1.0f;
     }
@@ -129,6 +131,21 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
         }
     }
     return keel_voter_mean(sum, weights, least, most);
+}
+
+float keel_voter_plain(const keel_voter_sample_t sample[], uint32_t sensors, float least,
+                       float most)
+{
+    float sum = 0.0f;
+
+    /*@ loop invariant 0 <= i <= sensors;
+      @ loop assigns i, sum;
+      @ loop variant sensors - i;
+      @*/
+    for (uint32_t i = 0u; i < sensors; i++) {
+        sum += sample[i].value;
+    }
+    return keel_voter_mean(sum, (float)sensors, least, most);
 }
 
 /*@ assigns \nothing;
@@ -221,13 +238,13 @@ static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sampl
         usable += (reason == KEEL_VOTER_USED) ? 1u : 0u;
         if ((reason == KEEL_VOTER_USED) || (reason >= KEEL_VOTER_OUT_OF_RANGE)) {
             if (sample[i].value != sensor->last) {
-                sensor->last = sample[i].value;
                 sensor->same = 0u;
                 moved++;
             } else {
                 resting++;
                 last_resting = i;
             }
+            sensor->last = sample[i].value;
         }
     }
     if (resting > 0u) {
@@ -274,10 +291,7 @@ static void compare_all(const keel_voter_t *voter, const keel_voter_sample_t sam
             float s = 0.0f;
 
             if ((reason[i] == KEEL_VOTER_USED) && (reason[j] == KEEL_VOTER_USED)) {
-                const float x = sample[i].value;
-                const float y = sample[j].value;
-
-                s = keel_voter_agreement((x > y) ? (x - y) : (y - x), agree, none);
+                s = keel_voter_agreement(sample[i].value, sample[j].value, agree, none);
             }
             agreement->of[i][j - 1u] = s;
             agreement->of[j][i] = s;
@@ -294,7 +308,7 @@ static uint32_t add_saturated(uint32_t a, uint32_t b)
 }
 
 /* The output, or another vote without one (VOT-008). */
-/*@ requires \valid(voter) && 1 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
+/*@ requires \valid(voter) && 2 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
   @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
   @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
   @ assigns voter->vote.state, voter->vote.output, voter->vote.held, voter->vote.held_us;
@@ -449,8 +463,8 @@ static bool is_at_rest(const keel_voter_t *voter, const keel_voter_sample_t samp
         if (value != voter->sensor[i].last) {
             return false;
         }
-        least = (least > value) ? value : least;
-        most = (most > value) ? most : value;
+        least = (value < least) ? value : least;
+        most = (value > most) ? value : most;
     }
     return keel_voter_within(least, most, voter->config.agree);
 }
@@ -463,7 +477,6 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
     const float first = sample[0].value;
     float least = first;
     float most = first;
-    float sum = first;
 
     if (!voter->unanimous || (oldest_us > voter->config.max_age_us)) {
         return false;
@@ -484,22 +497,20 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
         if (!(value >= lowest) || (value == voter->sensor[i].last)) {
             return false; /* NaN, too, is not at least the lowest. */
         }
-        least = (least > value) ? value : least;
-        most = (most > value) ? most : value;
+        least = (value < least) ? value : least;
+        most = (value > most) ? value : most;
     }
     if ((most > voter->config.highest) || !keel_voter_within(least, most, voter->config.agree)) {
         return false;
     }
-    voter->sensor[0].last = first;
-    /*@ loop invariant 1 <= i <= sensors;
-      @ loop assigns i, sum, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last;
+    /*@ loop invariant 0 <= i <= sensors;
+      @ loop assigns i, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last;
       @ loop variant sensors - i;
       @*/
-    for (uint32_t i = 1u; i < sensors; i++) {
-        sum += sample[i].value;
+    for (uint32_t i = 0u; i < sensors; i++) {
         voter->sensor[i].last = sample[i].value;
     }
-    voter->vote.output = keel_voter_mean(sum, (float)sensors, least, most);
+    voter->vote.output = keel_voter_plain(sample, sensors, least, most);
     return true;
 }
 
