@@ -61,9 +61,9 @@ campaign: python ## the voter's fault campaign and fig. 14: tables, JSON and plo
 coverage: python ## lines, branches and MC/DC that the unit tests reach
 	@python3 tools/coverage.py
 
-mutate: python ## break a unit's code and see whether the proofs notice (UNIT=queue)
-	@test -n "$(UNIT)" || { echo 'mutate: which unit? For example: make mutate UNIT=queue' >&2; exit 2; }
-	@python3 tools/mutate.py --unit $(UNIT) $(ARGS)
+mutate: python ## break the code and see whether the proofs notice (UNIT=queue; ARGS=--status; DASK=tcp://host:8786)
+	@$(if $(DASK),DASK=$(DASK) python3 tools/with_packages.py dask,python3) tools/mutate.py \
+	    $(if $(UNIT),--unit $(UNIT)) $(ARGS)
 
 fuzz: python ## fuzz the scheduler against its reference model (SECONDS=60)
 	@python3 tools/run_tests.py --filter fuzz --fuzz $(SECONDS)

@@ -1,13 +1,23 @@
 #!/usr/bin/env python3
 """Measure how strong the proofs of a unit are: break its code in small ways, see who notices.
 
+    python3 tools/mutate.py                              # all units, on all cores
     python3 tools/mutate.py --unit queue                 # CBMC first, WP if CBMC does not notice
     python3 tools/mutate.py --unit queue --engine both   # each engine by itself
     python3 tools/mutate.py --unit queue --list          # the mutants, without trying them
+    python3 tools/mutate.py --status                     # the last results, and which are stale
+    DASK=tcp://host:8786 python3 tools/mutate.py         # on a Dask cluster (make mutate)
 
-A mutant that nobody notices shows a contract that is too weak, or a change that makes no
-difference; the latter is accepted with its reason in proofs/UNIT/equivalent.toml. The tree is
-never touched. build/mutate/UNIT.json has the details.
+Mutants are slips of the pen (another operator, a number beside the right one, a statement left out)
+and of thought (order, a stale value, the neighbour's field or index, a check that comes too late, a
+clause forgotten; tools/proofs/mutant_slips.py). One is killed by a counterexample of CBMC, or by a
+goal that WP leaves open within its full limits. A mutant that nobody notices shows a contract that
+is too weak, or a change that makes no difference; the latter is accepted with its reason in
+proofs/UNIT/equivalent.toml. What does not compile, or compiles to the same code, does not count.
+
+The tree is never touched. build/mutate/UNIT.json has the details, and a digest of what they were
+found with: sources, contracts, harnesses, tools. Each verdict is kept there as it comes: who was
+interrupted calls the program again, and it goes on.
 
 Exit status: 0 when every mutant is killed or explained, 1 when not, 2 for a wrong command line.
 """
@@ -20,46 +30,56 @@ import shutil
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from proofs.cache import Cache, write_atomically  # noqa: E402
-from proofs.jobs import end_as_by_ctrl_c, in_pool  # noqa: E402
-from proofs.mutants import Mutant, mutants  # noqa: E402
-from proofs.mutation import Tools, Trees, Trial, Verdict  # noqa: E402
-from proofs.project import RECORDED_TIMES, ProjectError, Unit, find_units  # noqa: E402
+from proofs.cache import Cache, digest, digest_of_files, write_atomically  # noqa: E402
+from proofs.jobs import end_as_by_ctrl_c  # noqa: E402
+from proofs.mutant_crew import Dask, Job, Threads, answer_order  # noqa: E402
+from proofs.mutant_verdicts import Verdict  # noqa: E402
+from proofs.mutants import Mutant, generate  # noqa: E402
+from proofs.mutation import MAKERS, Tools, Trees, Trial, survey  # noqa: E402
+from proofs.project import RECORDED_TIMES, ROOT, ProjectError, Unit, find_units  # noqa: E402
 from proofs.session import own_digest, prover_answers, tool_stamp  # noqa: E402
 from proofs.settings import read_exceptions  # noqa: E402
 from proofs.times import Times  # noqa: E402
 from toolchain import TARGET_FLAGS, Toolchain, ToolchainError  # noqa: E402
 
-from proofs import mutation  # noqa: E402
+from proofs import clauses, mutant_slips, mutant_verdicts  # noqa: E402
 
 ENGINES = {"wp": ("wp",), "cbmc": ("cbmc",), "both": ("cbmc", "wp"), None: ("cbmc", "wp")}
 
 
 def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Namespace:
     """The command line; a unit that does not exist is named, with those that do."""
-    parser = argparse.ArgumentParser(description="Measure the proofs of a unit by mutants.")
-    parser.add_argument("--unit", required=True, metavar="U", help="the unit whose code is broken")
+    parser = argparse.ArgumentParser(description="Measure the proofs of units by mutants.")
+    parser.add_argument("--unit", nargs="+", metavar="U", default=list(names),
+                        help="the units whose code is broken; default: all")  # fmt: skip
     parser.add_argument(
         "--engine",
         choices=("wp", "cbmc", "both"),
         help="only this, or each apart; default: WP for what CBMC leaves",
     )
-    parser.add_argument("--function", metavar="F", help="only mutants of this function")
-    parser.add_argument("--jobs", type=int, default=2, metavar="N", help="mutants side by side")
+    parser.add_argument("--function", metavar="F",
+                        help="only mutants of this function, and no report")  # fmt: skip
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N",
+                        help="mutants side by side; default: one a core")  # fmt: skip
     parser.add_argument("--max-seconds", type=float, default=float("inf"), metavar="S",
                         help="start no mutant after this time")  # fmt: skip
     parser.add_argument("--list", action="store_true", help="print the mutants, try none")
+    parser.add_argument("--status", action="store_true", help="print the last results, try none")
     parser.add_argument("--quick", action="store_true",
                         help="short limits for WP; what they leave open is not killed")  # fmt: skip
     parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")
+    parser.add_argument("--order", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
-    if options.unit not in names:
-        parser.error(f"no such unit: {options.unit} (there are: {', '.join(names)})")
+    for name in options.unit:
+        if name not in names:
+            parser.error(f"no such unit: {name} (there are: {', '.join(names)})")
     if options.jobs < 1:
         parser.error("--jobs needs at least 1")
     return options
@@ -82,66 +102,114 @@ def tools_for(toolchain: Toolchain, root: Path, scratch: Path) -> Tools:
     )  # fmt: skip
 
 
-def try_all(trial: Trial, found: Sequence[Mutant], width: int, max_seconds: float) -> list[Verdict]:
-    """The verdicts on all mutants, told as they come."""
-    end = time.monotonic() + max_seconds
-
-    def attempt(mutant: Mutant) -> Verdict:
-        if time.monotonic() > end:
-            return Verdict(mutant, "skipped", "out of time")
-        return trial.try_mutant(mutant)
-
-    verdicts: dict[int, Verdict] = {}
-    tasks = [lambda mutant=mutant: attempt(mutant) for mutant in found]
-    for index, verdict in in_pool(tasks, width, trial):
-        verdicts[index] = verdict
-        how = verdict.reason or "; ".join(f"{k} {v}" for k, v in verdict.engines.items())
-        print(
-            f"{len(verdicts):>4}/{len(found)} {verdict.status:<10} {verdict.mutant}  [{how}]",
-            flush=True,
-        )
-    return [verdicts[index] for index in sorted(verdicts)]
+def stamp_of(toolchain: Toolchain) -> dict[str, str]:
+    """What identifies the tools of a verdict, those that make mutants included."""
+    own = digest_of_files(sorted((ROOT / "tools/proofs").glob("muta*.py")), ROOT)
+    tools = tool_stamp(toolchain.versions("prove"))
+    return {**tools, "driver": own_digest(), MAKERS: digest(own)}
 
 
-def measure(unit: Unit, options: argparse.Namespace, toolchain: Toolchain) -> int:
-    """Try the mutants of a unit and report; the exit status."""
-    found = [mutant for path in unit.own_files for mutant in mutants(path)]
-    if options.function:
-        found = [mutant for mutant in found if mutant.function == options.function]
-    if options.list:
-        print("\n".join(f"{mutant.kind:<10} {mutant}" for mutant in found))
-        return 0
-    build = unit.root / "build" / "mutate"
-    target = build / f"{unit.name}.json"
-    target.unlink(missing_ok=True)
-    scratch = Path(tempfile.mkdtemp(prefix="keel-mutate-"))
-    engines = ENGINES[options.engine]
-    stamp = {**tool_stamp(toolchain.versions("prove")), "driver": own_digest()}
-    cache = Cache(build / "cache", options.fresh)
-    tools = tools_for(toolchain, unit.root, scratch)
-    trees = Trees(unit.root, scratch, options.jobs)
-    exceptions = read_exceptions(unit.root / "proofs" / "units.toml", list(find_units(unit.root)))
-    times = Times(unit.root / "build/prove/times.json", unit.root / RECORDED_TIMES)
-    trial = Trial(
-        unit, tools, trees, engines, options.engine == "both", cache, stamp,
-        exceptions[unit.name], times, patient=not options.quick,
-    )  # fmt: skip
-    try:
-        verdicts = try_all(trial, found, options.jobs, options.max_seconds)
-    finally:
-        trial.stop()
-        shutil.rmtree(scratch, ignore_errors=True)
-    accepted = mutation.read_equivalent(unit.folder / "equivalent.toml")
-    problems = [f"{name} is not proved even unchanged" for name in trial.unusable]
-    problems += mutation.settle(verdicts, accepted, not options.function)
-    write_atomically(target, mutation.report(unit.name, verdicts, problems))
-    return conclude(verdicts, problems, engines)
+@dataclass
+class Measured:
+    """A unit, its mutants, and what became of them."""
+
+    unit: Unit
+    trial: Trial
+    found: list[Mutant]
+    dropped: int
+    verdicts: dict[int, Verdict]
+
+
+class Measurement:
+    """The trials of some units, with what they need."""
+
+    def __init__(
+        self, units: Sequence[Unit], options: argparse.Namespace, tools: Toolchain
+    ) -> None:  # fmt: skip
+        self._options = options
+        self.engines = ENGINES[options.engine]
+        self.stamp = stamp_of(tools)
+        root = units[0].root
+        self._build = root / "build" / "mutate"
+        self._scratch = Path(tempfile.mkdtemp(prefix="keel-mutate-"))
+        trees = Trees(root, self._scratch, options.jobs)
+        programs = tools_for(tools, root, self._scratch)
+        exceptions = read_exceptions(root / "proofs" / "units.toml", list(find_units(root)))
+        times = Times(root / "build/prove/times.json", root / RECORDED_TIMES)
+        cache = Cache(self._build / "cache", options.fresh)
+        around = mutant_slips.surroundings(clauses.header_texts(root))
+        self.units: list[Measured] = []
+        seen = survey(root)
+        for unit in units:
+            trial = Trial(
+                unit, programs, trees, self.engines, options.engine == "both", cache, self.stamp,
+                exceptions[unit.name], times, not options.quick, seen,
+            )  # fmt: skip
+            made = [generate(path, around) for path in unit.own_files]
+            found = [mutant for one in made for mutant in one.mutants
+                     if options.function in (None, mutant.function)]  # fmt: skip
+            dropped = sum(one.dropped for one in made)
+            self.units.append(Measured(unit, trial, found, dropped, {}))
+
+    def stop(self) -> None:
+        """End all programs."""
+        for one in self.units:
+            one.trial.stop()
+
+    def close(self) -> None:
+        """End all programs and leave nothing behind."""
+        self.stop()
+        shutil.rmtree(self._scratch, ignore_errors=True)
+
+    def report_of(self, unit: Unit) -> Path:
+        """Where the report on a unit is."""
+        return self._build / f"{unit.name}.json"
+
+    def run(self, crew: Threads | Dask) -> None:
+        """Have a verdict on every mutant, those that are known without asking again."""
+        for one in self.units:
+            if not self._options.function:
+                self.report_of(one.unit).unlink(missing_ok=True)
+            for place, mutant in enumerate(one.found):
+                known = one.trial.known(mutant)
+                if known:
+                    one.verdicts[place] = known
+        waiting = [(one, place) for one in self.units for place in range(len(one.found))
+                   if place not in one.verdicts]  # fmt: skip
+        total = sum(len(one.found) for one in self.units)
+        print(f"{total} mutants, {total - len(waiting)} known before", flush=True)
+        jobs: list[Job] = [(one.unit.name, one.trial, one.found[place]) for one, place in waiting]
+        start = time.monotonic()
+        for number, (job, verdict) in enumerate(crew.run(jobs), 1):
+            one, place = waiting[job]
+            one.verdicts[place] = verdict
+            one.trial.keep(verdict)
+            how = verdict.reason or "; ".join(f"{k} {v}" for k, v in verdict.engines.items())
+            left = (time.monotonic() - start) / number * (len(jobs) - number) / 60
+            print(f"{number:>4}/{len(jobs)} {left:>4.0f} min left {verdict.status:<10}"
+                  f" {verdict.mutant}  [{how}]", flush=True)  # fmt: skip
+
+    def conclude(self) -> int:
+        """Report on each unit; the exit status."""
+        status = 0
+        for one in self.units:
+            accepted = mutant_verdicts.read_equivalent(one.unit.folder / "equivalent.toml")
+            verdicts = [one.verdicts[place] for place in sorted(one.verdicts)]
+            problems = [f"{name} is not proved even unchanged" for name in one.trial.unusable]
+            problems += mutant_verdicts.settle(verdicts, accepted, not self._options.function)
+            text = mutant_verdicts.report(
+                one.unit.name, verdicts, problems, one.dropped, one.trial.digest
+            )
+            if not self._options.function:
+                write_atomically(self.report_of(one.unit), text)
+            print(f"{one.unit.name}: dropped {one.dropped} that say the same as another")
+            status = max(status, conclude(verdicts, problems, self.engines))
+        return status
 
 
 def conclude(verdicts: Sequence[Verdict], problems: Sequence[str], engines: Sequence[str]) -> int:
     """Tell the result; the exit status."""
-    print("\n".join(mutation.table(verdicts, engines)))
-    undecided = mutation.count(verdicts, "undecided")
+    print("\n".join(mutant_verdicts.table(verdicts, engines)))
     statuses = ("survived", "undecided", "skipped")
     open_ones = [verdict for verdict in verdicts if verdict.status in statuses]
     for verdict in open_ones:
@@ -149,14 +217,69 @@ def conclude(verdicts: Sequence[Verdict], problems: Sequence[str], engines: Sequ
     for text in problems:
         print(f"FAILED {text}")
     numbers = {
-        name: mutation.count(verdicts, name) for name in ("killed", "equivalent", "stillborn")
+        name: mutant_verdicts.count(verdicts, name)
+        for name in mutant_verdicts.STATUSES
     }
     print(
         f"killed {numbers['killed']} of {len(verdicts) - numbers['stillborn']} mutants"
-        f" ({numbers['equivalent']} equivalent), {len(open_ones) - undecided} survived unexplained"
-        + (f", {undecided} undecided" if undecided else "")
+        f" ({numbers['equivalent']} equivalent), {numbers['survived']} survived unexplained"
+        + (f", {numbers['undecided']} undecided" if numbers["undecided"] else "")
+        + (f", {numbers['skipped']} not tried" if numbers["skipped"] else "")
     )
     return 1 if open_ones or problems else 0
+
+
+def measure(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolchain) -> int:
+    """Try the mutants of units and report; the exit status."""
+    measurement = Measurement(units, options, toolchain)
+    crew: Threads | Dask | None = None
+    try:
+        if options.list or options.status:
+            tell(measurement, options)
+            return 0
+        if address := os.environ.get("DASK"):
+            order = {"engine": options.engine, "quick": options.quick}
+            crew = Dask(address, units[0].root, digest(measurement.stamp), order)
+        else:
+            end = time.monotonic() + options.max_seconds
+            crew = Threads(options.jobs, measurement, end)
+        measurement.run(crew)
+        return measurement.conclude()
+    finally:
+        if isinstance(crew, Dask):
+            crew.stop()
+        measurement.close()
+
+
+def tell(measurement: Measurement, options: argparse.Namespace) -> None:
+    """The mutants that there are, or what became of them."""
+    for one in measurement.units:
+        if options.status:
+            report = measurement.report_of(one.unit)
+            print(mutant_verdicts.standing(one.unit.name, report, one.trial.digest))
+        else:
+            print("\n".join(f"{mutant.kind:<10} {mutant}" for mutant in one.found))
+
+
+def carry_out(
+    order: Mapping[str, Any], units: Mapping[str, Unit], toolchain: Toolchain
+) -> dict[str, Any]:  # fmt: skip
+    """Try the mutants that an order from another machine names."""
+    line = ["--unit", order["unit"], "--jobs", "1", *(["--quick"] if order["quick"] else [])]
+    line += ["--engine", order["engine"]] if order["engine"] else []
+    measurement = Measurement([units[order["unit"]]], parse(line, list(units)), toolchain)
+    [one] = measurement.units
+    known = {mutant.identity: mutant for mutant in one.found}
+    try:
+        outcomes = []
+        for identity in order["mutants"]:
+            mutant = known[(identity[0], identity[1], identity[2], identity[3])]
+            verdict = one.trial.known(mutant) or one.trial.try_mutant(mutant)
+            one.trial.keep(verdict)
+            outcomes.append(verdict.outcome)
+    finally:
+        measurement.close()
+    return {"stamp": digest(measurement.stamp), "verdicts": outcomes}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -166,14 +289,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
         units = find_units()
         options = parse(arguments, list(units))
         toolchain = Toolchain()
+        if options.order:
+            return answer_order(sys.stdin.read, lambda order: _ordered(order, units, toolchain))
         toolchain.ensure("prove")
-        return measure(units[options.unit], options, toolchain)
+        return measure([units[name] for name in options.unit], options, toolchain)
     except (ProjectError, ToolchainError) as error:
         print(f"mutate: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("mutate: interrupted; nothing was reported", file=sys.stderr)
+        print("mutate: interrupted; what was decided is kept, call it again to go on",
+              file=sys.stderr)  # fmt: skip
         return 130
+
+
+def _ordered(
+    order: Mapping[str, Any], units: Mapping[str, Unit], toolchain: Toolchain
+) -> dict[str, Any]:  # fmt: skip
+    toolchain.ensure("prove")
+    return carry_out(order, units, toolchain)
 
 
 if __name__ == "__main__":

@@ -8,14 +8,17 @@ A requirement is an entry of specs/requirements/*.sdoc, say QUE-003. The ACSL cl
 it carry its id in their labels (QUE_003, QUE_003_count), and so do the assertions of the CBMC
 harnesses and the names of the tests (tests/unit, tests/bsp, tests/reference) that check it; a
 requirement may also list unit tests by name under TESTS, or the file of a test that checks far
-more. An orphan is
+more. Where a harness compares the code with its model (specs/model), which it includes, a comment
+of the model that names a requirement counts as an assertion does. An orphan is
 
-    a label, an assertion, a test or a comment of a header that names no requirement;
+    a label, an assertion, a test or a comment of a header or a model that names no requirement;
+    a model that no harness includes;
     a requirement without a clause, unless VERIFICATION says test (it then needs a test) or
         theorem (specs/soundness.md must then name it);
     a requirement with clauses which neither a harness nor a test names, unless it is a theorem;
     a test listed under TESTS that does not exist, a CLAUSES that is not what the files say;
-    a function that may change something when it refuses, and that STA-001 does not list.
+    a function that may change something when it refuses, and that STA-001 does not list;
+    a function of a unit with a model whose outcome nothing determines (proofs/determined.py).
 
 Tests that run on the target alone (tests/target) count as unit tests do.
 
@@ -32,6 +35,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import refusals
+from proofs import csource, determined
+from proofs.project import closure
 
 ROOT = Path(__file__).resolve().parents[1]
 LABEL = r"[A-Z]{3,4}_\d{3}(?:_\w+)?"
@@ -91,6 +96,28 @@ def collect(root: Path, pattern: re.Pattern[str], *globs: str) -> list[tuple[str
     return list(found)
 
 
+def compared_models(root: Path) -> set[str]:
+    """The units whose model a harness includes, be it by a header."""
+    models = (root / "specs/model").resolve()
+    harnesses = sorted(root.glob("proofs/*/*_harness.c"))
+    return {path.stem for path in closure(root, harnesses) if path.parent == models}
+
+
+def modelled(root: Path) -> tuple[list[tuple[str, str]], list[str]]:
+    """What comments of models name, with the place, and the models that stand alone."""
+    found: dict[tuple[str, str], None] = {}
+    alone = []
+    compared = compared_models(root)
+    for path in sorted((root / "specs/model").glob("*.c")):
+        where = path.relative_to(root).as_posix()
+        if path.stem not in compared:
+            alone.append(f"{where}: no harness compares the code with this model")
+            continue
+        comments = csource.comments(path.read_text(encoding="utf-8"))
+        found.update(((uid, where), None) for text in comments for uid in MENTION.findall(text))
+    return list(found), alone
+
+
 @dataclass
 class Trace:
     """The join: requirements by id, and what names one that does not exist."""
@@ -122,7 +149,13 @@ def join(root: Path) -> Trace:
                 getattr(trace.requirements[uid], kind).append(name)
             elif uid:
                 trace.orphans.append(f"{where}: {name}: there is no requirement {uid}")
-    for uid, where in collect(root, MENTION, "include/**/*.h", "bsp/**/*.h"):
+    named, alone = modelled(root)
+    trace.orphans += alone
+    for uid, where in named:
+        if uid in trace.requirements:
+            trace.requirements[uid].harnesses.append(where)
+    mentions = collect(root, MENTION, "include/**/*.h", "bsp/**/*.h", "specs/model/*.[ch]")
+    for uid, where in mentions:
         if uid not in trace.requirements:
             trace.orphans.append(f"{where}: there is no requirement {uid}")
     trace.clauses = len({name for name, _ in clauses})
@@ -135,6 +168,7 @@ def join(root: Path) -> Trace:
     for entry in trace.requirements.values():
         trace.orphans += [f"{entry.uid}: {text}" for text in lacks(entry, known, theorems)]
     trace.orphans += refusals.problems(root)
+    trace.orphans += [text for one in determined.of_tree(root) for text in one.problems]
     return trace
 
 

@@ -9,6 +9,7 @@
 #define KEEL_FLIGHT_PROOF_H
 
 #include "keel/flight/filter.h"
+#include "same.h"
 
 #include <stdbool.h>
 
@@ -29,12 +30,6 @@ static float any_within(float least, float greatest)
 
     __CPROVER_assume(within(value, least, greatest));
     return value;
-}
-
-/* The same number, or both none. */
-static bool same(float a, float b)
-{
-    return (a == b) || ((a != a) && (b != b));
 }
 
 static bool filter_input_here(float value)
@@ -68,9 +63,9 @@ static bool filter_bounded_here(const keel_filter_t *filter)
 
 static bool filter_same(const keel_filter_t *x, const keel_filter_t *y)
 {
-    return same(x->a, y->a) && same(x->b, y->b) && same(x->c, y->c) &&
-           same(x->energy_limit, y->energy_limit) && same(x->s1, y->s1) && same(x->s2, y->s2) &&
-           same(x->output, y->output);
+    return float_same(x->a, y->a) && float_same(x->b, y->b) && float_same(x->c, y->c) &&
+           float_same(x->energy_limit, y->energy_limit) && float_same(x->s1, y->s1) &&
+           float_same(x->s2, y->s2) && float_same(x->output, y->output);
 }
 
 /* Any valid filter (filter_valid). Its energy limit is one of two by construction, not by an

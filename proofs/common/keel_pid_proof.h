@@ -60,25 +60,27 @@ static bool pid_valid_here(const keel_pid_t *pid)
            pid_bounded_here(pid) && pid_remembers_here(pid);
 }
 
-static bool gains_same(const keel_pid_gains_t *x, const keel_pid_gains_t *y)
+static bool pid_gains_same(const keel_pid_gains_t *x, const keel_pid_gains_t *y)
 {
-    return same(x->kp, y->kp) && same(x->ki, y->ki) && same(x->kd, y->kd) && same(x->kff, y->kff);
+    return float_same(x->kp, y->kp) && float_same(x->ki, y->ki) && float_same(x->kd, y->kd) &&
+           float_same(x->kff, y->kff);
 }
 
-static bool config_same(const keel_pid_config_t *x, const keel_pid_config_t *y)
+static bool pid_config_same(const keel_pid_config_t *x, const keel_pid_config_t *y)
 {
-    return gains_same(&x->gains, &y->gains) && same(x->rate_hz, y->rate_hz) &&
-           same(x->cutoff_hz, y->cutoff_hz) && same(x->output_min, y->output_min) &&
-           same(x->output_max, y->output_max) && same(x->integral_min, y->integral_min) &&
-           same(x->integral_max, y->integral_max);
+    return pid_gains_same(&x->gains, &y->gains) && float_same(x->rate_hz, y->rate_hz) &&
+           float_same(x->cutoff_hz, y->cutoff_hz) && float_same(x->output_min, y->output_min) &&
+           float_same(x->output_max, y->output_max) &&
+           float_same(x->integral_min, y->integral_min) &&
+           float_same(x->integral_max, y->integral_max);
 }
 
 static bool pid_same(const keel_pid_t *x, const keel_pid_t *y)
 {
-    return config_same(&x->config, &y->config) && filter_same(&x->filter, &y->filter) &&
-           same(x->integral_gain, y->integral_gain) && same(x->integral, y->integral) &&
-           same(x->setpoint, y->setpoint) && same(x->error, y->error) &&
-           same(x->derivative, y->derivative) && same(x->output, y->output) &&
+    return pid_config_same(&x->config, &y->config) && filter_same(&x->filter, &y->filter) &&
+           float_same(x->integral_gain, y->integral_gain) && float_same(x->integral, y->integral) &&
+           float_same(x->setpoint, y->setpoint) && float_same(x->error, y->error) &&
+           float_same(x->derivative, y->derivative) && float_same(x->output, y->output) &&
            (x->saturation == y->saturation) && (x->started == y->started);
 }
 
@@ -87,7 +89,9 @@ static keel_pid_t any_pid_at_all(void)
     keel_pid_t pid = nondet_pid();
 
     pid.started = nondet_bool();
-    pid.saturation = nondet_bool() ? KEEL_PID_FREE : KEEL_PID_AT_MAX;
+    pid.saturation = nondet_bool()   ? KEEL_PID_FREE
+                     : nondet_bool() ? KEEL_PID_AT_MIN
+                                     : KEEL_PID_AT_MAX;
     return pid;
 }
 

@@ -15,6 +15,7 @@
 #ifndef KEEL_PROOF_H
 #define KEEL_PROOF_H
 
+#include "keel/rtos/clock.h"
 #include "keel/rtos/queue.h"
 #include "keel/rtos/task.h"
 
@@ -207,6 +208,21 @@ static bool stats_same(const keel_stats_t *a, const keel_stats_t *b)
     return (a->total_us == b->total_us) && (a->runs == b->runs) && (a->last_us == b->last_us) &&
            (a->longest_us == b->longest_us) && (a->overruns == b->overruns) &&
            (a->promotions == b->promotions);
+}
+
+static bool clock_same(const keel_clock_t *a, const keel_clock_t *b)
+{
+    return (a->now_us == b->now_us) && (a->raw_us == b->raw_us);
+}
+
+static bool load_same(const keel_load_t *a, const keel_load_t *b)
+{
+    return (a->start_us == b->start_us) && (a->busy_us == b->busy_us);
+}
+
+static bool deviation_same(const keel_deviation_t *a, const keel_deviation_t *b)
+{
+    return (a->sum_us2 == b->sum_us2) && (a->start_us == b->start_us) && (a->starts == b->starts);
 }
 
 static bool stats_fresh(const keel_stats_t *stats)

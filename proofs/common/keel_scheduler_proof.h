@@ -9,22 +9,29 @@
 #include "keel/rtos/scheduler.h"
 #include "keel_proof.h"
 
-/* The clock, which may read anything, its last reading and how often it was read. */
+/* The clock may read anything, and reads the same for the model and for the code; how often it is
+ * read, by each. */
 static uint32_t clock_reading;
 static uint32_t clock_readings;
+static uint32_t model_readings;
 
 static uint32_t any_clock(void *context)
 {
     (void)context;
-    clock_reading = nondet_u32();
     clock_readings++;
     return clock_reading;
 }
 
-/* The time from one reading to a later one (clock_elapsed). */
-static uint64_t elapsed(uint32_t from_us, uint32_t to_us)
+/* Between the model's call and the code's. */
+static void read_again(void)
 {
-    return ((to_us >= from_us) ? 0u : 0x100000000u) + (uint64_t)to_us - from_us;
+    model_readings = clock_readings;
+    clock_readings = 0u;
+}
+
+static bool is_read_as_often(void)
+{
+    return clock_readings == model_readings;
 }
 
 /* Any valid state of the scheduler (scheduler_state) around a queue that is there already, with any
@@ -35,6 +42,7 @@ static void any_state(keel_scheduler_t *scheduler)
     const keel_queue_t *const queue = &scheduler->queue;
     const uint32_t earliest = any_below(CAPACITY);
 
+    clock_reading = nondet_u32();
     scheduler->config.read_clock = any_clock;
     scheduler->config.clock_context = NULL;
     scheduler->config.guard_us = any_bits(31u);
@@ -100,8 +108,8 @@ static void any_scheduler(keel_scheduler_t *scheduler, uint32_t of_interest)
         __CPROVER_assert(!is_other(&(s)->queue, at_k) || ((s)->earliest_other_us <= at_k_us),      \
                          "SCH_006_other_bound: no other task is released before it");              \
         __CPROVER_assert(((s)->earliest_realtime_us <= (s)->clock.now_us) ||                       \
-                             is_some_release(&(s)->queue, 0u, (s)->queue.realtime_count,           \
-                                             (s)->earliest_realtime_us),                           \
+                             is_earliest(&(s)->queue, 0u, (s)->queue.realtime_count,               \
+                                         (s)->earliest_realtime_us),                               \
                          "SCH_006_exact: the bound that lies ahead is a release");                 \
     } while (false)
 
@@ -109,11 +117,6 @@ static bool setup_same(const keel_scheduler_config_t *a, const keel_scheduler_co
 {
     return (a->read_clock == b->read_clock) && (a->clock_context == b->clock_context) &&
            (a->guard_us == b->guard_us) && (a->utilisation_limit == b->utilisation_limit);
-}
-
-static bool clock_same(const keel_clock_t *a, const keel_clock_t *b)
-{
-    return (a->now_us == b->now_us) && (a->raw_us == b->raw_us);
 }
 
 /* Whether two schedulers are the same but for their queues. */
@@ -130,53 +133,6 @@ static bool state_same(const keel_scheduler_t *a, const keel_scheduler_t *b)
 static bool scheduler_same(const keel_scheduler_t *a, const keel_scheduler_t *b, uint32_t x)
 {
     return state_same(a, b) && queue_same(&a->queue, &b->queue, x);
-}
-
-/* The earliest real-time release; never if there is none. */
-static uint64_t earliest_of(const keel_scheduler_t *scheduler)
-{
-    uint64_t earliest_us = KEEL_TIME_NEVER_US;
-
-    for (uint32_t i = 0u; i < CAPACITY; i++) {
-        const uint64_t release_us = scheduler->queue.release_us[slot_at(i)];
-
-        if ((i < scheduler->queue.realtime_count) && (release_us < earliest_us)) {
-            earliest_us = release_us;
-        }
-    }
-    return earliest_us;
-}
-
-/* Whether W + w fits the slack, the time to the earliest real-time release (fits_slack, time_to).
- */
-static bool fits_slack(const keel_scheduler_t *scheduler, uint32_t x, uint64_t earliest_us)
-{
-    const uint64_t needed_us = (uint64_t)scheduler->config.guard_us +
-                               task_worst(&scheduler->queue, x);
-
-    return (earliest_us == KEEL_TIME_NEVER_US) ||
-           ((scheduler->clock.now_us + needed_us) <= earliest_us);
-}
-
-static bool is_due(const keel_scheduler_t *scheduler, uint32_t i)
-{
-    return scheduler->queue.release_us[scheduler->queue.order[i]] <= scheduler->clock.now_us;
-}
-
-/* With what dynamic priority the task at a position competes, if no real-time task is due: 0 when
- * it may not run (other_may_run, priority_at). */
-static uint32_t may_run_with(const keel_scheduler_t *scheduler, uint32_t i, uint64_t earliest_us)
-{
-    const uint32_t x = scheduler->queue.order[i];
-    uint32_t priority;
-
-    if (!is_other(&scheduler->queue, i) || !is_due(scheduler, i)) {
-        return 0u;
-    }
-    priority = proof_priority[x];
-    return ((priority == KEEL_PRIORITY_REALTIME) || fits_slack(scheduler, x, earliest_us))
-               ? priority
-               : 0u;
 }
 
 #endif

@@ -1,14 +1,36 @@
 /**
  * @file queue_contracts.h
- * @brief What keel_queue_advance asks for and does, as expressions of C without a division.
+ * @brief What the functions of queue.h that write ask for; what they do is what the model does.
  *
- * Its own harness proves that it keeps the contract; in the harness of a pass it stands in for the
- * function, with all numbers of their full width.
+ * Each function's own harness proves it. In the harness of a caller a stand-in leaves what the
+ * model's call has left, and asserts that it was called with the same.
  */
 #ifndef QUEUE_CONTRACTS_H
 #define QUEUE_CONTRACTS_H
 
+#include "../../specs/model/queue.h"
 #include "keel_proof.h"
+
+static bool keel_queue_add_may(const keel_queue_t *queue, const keel_task_config_t *task)
+{
+    return (queue->count < CAPACITY) && config_is_valid_here(task);
+}
+
+static bool keel_queue_add_does(const keel_queue_t *queue, const keel_queue_t *modelled, uint32_t x)
+{
+    return queue_same(queue, modelled, x);
+}
+
+static bool keel_queue_remove_may(const keel_queue_t *queue, uint32_t position)
+{
+    return position < queue->count;
+}
+
+static bool keel_queue_remove_does(const keel_queue_t *queue, const keel_queue_t *modelled,
+                                   uint32_t x)
+{
+    return queue_same(queue, modelled, x);
+}
 
 static bool keel_queue_advance_may(const keel_queue_t *queue, uint32_t slot, uint64_t now_us)
 {
@@ -17,22 +39,10 @@ static bool keel_queue_advance_may(const keel_queue_t *queue, uint32_t slot, uin
            (now_us <= KEEL_CLOCK_TIME_LIMIT_US);
 }
 
-/* Whether it did, as seen at a slot x. */
-static bool keel_queue_advance_does(const keel_queue_t *before, const keel_queue_t *after,
-                                    uint32_t slot, uint64_t now_us, uint32_t x)
+static bool keel_queue_advance_does(const keel_queue_t *queue, const keel_queue_t *modelled,
+                                    uint32_t x)
 {
-    const uint64_t next_us = before->release_us[slot] + before->period_us[slot];
-    keel_queue_t expected = *before;
-
-    expected.release_us[slot] = after->release_us[slot];
-    expected.skipped[slot] = after->skipped[slot];
-    return (now_us < after->release_us[slot]) &&
-           (after->release_us[slot] <= (now_us + before->period_us[slot])) &&
-           ((now_us >= next_us) || ((after->release_us[slot] == next_us) &&
-                                    (after->skipped[slot] == before->skipped[slot]))) &&
-           ((now_us < next_us) || (after->skipped[slot] > before->skipped[slot]) ||
-            (after->skipped[slot] == UINT16_MAX)) &&
-           queue_same(after, &expected, x);
+    return queue_same(queue, modelled, x);
 }
 
 #endif

@@ -11,10 +11,11 @@
 
 #include <stdbool.h>
 
-/* Bit for bit, so that 0 and -0 differ; all that are no number are the same. */
+/* Bit for bit, so that 0 and -0 differ. It is what the solvers take equality for: where both sides
+ * are the same term, z3 sees it without looking into it (IEEE's comparison is an operation). */
 static inline bool float_same(float a, float b)
 {
-    return ((a == b) && (__CPROVER_signf(a) == __CPROVER_signf(b))) || ((a != a) && (b != b));
+    return __CPROVER_equal(a, b);
 }
 
 #endif

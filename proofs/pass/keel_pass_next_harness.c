@@ -1,182 +1,169 @@
 // cbmc: --unwind 34
 // sources: src/rtos/pass.c src/rtos/queue.c src/rtos/decision.c src/rtos/priority.c src/rtos/load.c
-// replaces: keel_decision_other keel_decision_event_us keel_queue_advance
-// covers: keel_pass_next dispatch find_realtime find_earliest_realtime choose_other
-// covers: remember serve_other find_wake close_pass keel_stats_promote
-// defines: -DKEEL_QUEUE_CAPACITY=2u
+// sources: specs/model/pass.c specs/model/clock.c specs/model/load.c
+// replaces: keel_decision_realtime keel_decision_earliest_us keel_decision_other
+// replaces: keel_decision_event_us keel_queue_advance
+// covers: keel_pass_next dispatch find_realtime find_earliest_realtime choose_other remember
+// covers: serve_other find_wake close_pass model_pass_next serve
+// defines: -DKEEL_QUEUE_CAPACITY=4u
 //
-// Bounded to a capacity of 2 tasks. The functions that divide, or choose among many, are what their
-// contracts say (decision_contracts.h, queue_contracts.h), dynamic priorities and times of
-// promotion any. The contract under WP has no bound, and says alone that the wake-up time stays
-// right (SCH_012_wake).
+// Bounded to a capacity of 4 tasks, with which the solver comes to an end in half a minute; the
+// contract under WP has no bound and determines every field.
+// What a decision looks up in the queue is the same unknown for the code and for the model: the
+// answer that the model is told the code is told as well, if it asks the same. The code asks less
+// often, where a bound that it remembers already has the answer.
+#include "../../specs/model/decision.h"
+#include "../../specs/model/pass.h"
+#include "../common/decision_contracts.h"
 #include "../common/keel_scheduler_proof.h"
 #include "../common/queue_contracts.h"
 #include "../common/step_contracts.h"
 
 keel_choice_t nondet_choice(void);
 
-static uint32_t rival;    /* The position at which all is seen. */
-static uint32_t advances; /* How often a release was moved on, the slot and the time. */
-static uint32_t advanced_slot;
-static uint64_t advanced_at_us;
-static bool asked_event; /* Whether the next event was asked for, and what was said. */
-static uint64_t told_event_us;
+static uint32_t x; /* The position and the slot at which all is seen. */
+static keel_scheduler_t before;
+
+/* The answers. */
+static uint32_t first;
+static uint64_t earliest_us;
+static keel_choice_t choice;
+static uint64_t event_us;
+static uint32_t room_us; /* of which the choice is */
+static uint32_t served;  /* the slot whose release has moved on */
+static uint64_t next_us;
+static uint16_t skipped;
+
+static bool is_asked_of(const keel_queue_t *queue, uint64_t now_us)
+{
+    return (now_us == before.clock.now_us) && queue_same(queue, &before.queue, x);
+}
+
+uint32_t model_decision_realtime(const keel_queue_t *queue, uint32_t from, uint32_t to,
+                                 uint64_t now_us)
+{
+    __CPROVER_assume(keel_decision_realtime_does(first, queue, from, to, now_us));
+    return first;
+}
+
+uint32_t keel_decision_realtime_stand_in(const keel_queue_t *queue, uint32_t from, uint32_t to,
+                                         uint64_t now_us)
+{
+    __CPROVER_assert(keel_decision_realtime_may(queue, from, to),
+                     "precondition: keel_decision_realtime");
+    __CPROVER_assert(is_asked_of(queue, now_us) && (from == (uint32_t)before.cursor) &&
+                         (to == (uint32_t)before.pass_end),
+                     "SCH_015_asked: the tasks of the pass that it has yet to look at");
+    __CPROVER_assume(keel_decision_realtime_does(first, queue, from, to, now_us));
+    return first;
+}
+
+uint64_t model_decision_earliest_us(const keel_queue_t *queue)
+{
+    __CPROVER_assume(keel_decision_earliest_us_does(earliest_us, queue));
+    return earliest_us;
+}
+
+uint64_t keel_decision_earliest_us_stand_in(const keel_queue_t *queue)
+{
+    __CPROVER_assert(keel_decision_earliest_us_may(queue),
+                     "precondition: keel_decision_earliest_us");
+    __CPROVER_assert(is_asked_of(queue, before.clock.now_us), "SCH_016_asked: of the same queue");
+    __CPROVER_assume(keel_decision_earliest_us_does(earliest_us, queue));
+    return earliest_us;
+}
+
+uint32_t model_decision_room_us(uint64_t realtime_us, uint64_t now_us, uint32_t guard_us)
+{
+    return keel_decision_room_us(realtime_us, now_us, guard_us);
+}
+
+keel_choice_t model_decision_other(const keel_queue_t *queue, uint64_t now_us, uint32_t room)
+{
+    room_us = room;
+    __CPROVER_assume(keel_decision_other_does(&choice, queue, now_us));
+    return choice;
+}
 
 keel_choice_t keel_decision_other_stand_in(const keel_queue_t *queue, uint64_t now_us,
-                                           uint32_t room_us)
+                                           uint32_t room)
 {
-    const keel_choice_t choice = nondet_choice();
-
     __CPROVER_assert(keel_decision_other_may(queue, now_us), "precondition: keel_decision_other");
-    __CPROVER_assume(keel_decision_other_does(&choice, queue, now_us, room_us, rival));
-    for (uint32_t i = 0u; i < CAPACITY; i++) {
-        __CPROVER_assume(!is_other(queue, i) ||
-                         (choice.earliest_us <= queue->release_us[queue->order[i]]));
-    }
+    __CPROVER_assert(is_asked_of(queue, now_us) && (room == room_us),
+                     "SCH_016_asked: with the room that the slack leaves");
+    __CPROVER_assume(keel_decision_other_does(&choice, queue, now_us));
     return choice;
+}
+
+uint64_t model_decision_event_us(const keel_queue_t *queue, uint64_t now_us)
+{
+    (void)queue;
+    (void)now_us;
+    return event_us;
 }
 
 uint64_t keel_decision_event_us_stand_in(const keel_queue_t *queue, uint64_t now_us)
 {
+    const uint64_t told_us = event_us;
+
     __CPROVER_assert(keel_decision_event_us_may(queue, now_us),
                      "precondition: keel_decision_event_us");
-    told_event_us = nondet_u64();
-    asked_event = true;
-    __CPROVER_assume(keel_decision_event_us_does(told_event_us, queue, now_us, rival));
-    return told_event_us;
+    __CPROVER_assert(is_asked_of(queue, now_us), "SCH_012_asked: of the same queue");
+    __CPROVER_assume(keel_decision_event_us_does(told_us, event_us));
+    return told_us;
+}
+
+void model_queue_advance(keel_queue_t *queue, uint32_t slot, uint64_t now_us)
+{
+    (void)now_us;
+    served = slot;
+    queue->release_us[slot] = next_us;
+    queue->skipped[slot] = skipped;
 }
 
 void keel_queue_advance_stand_in(keel_queue_t *queue, uint32_t slot, uint64_t now_us)
 {
-    const keel_queue_t before = *queue;
+    keel_queue_t modelled = *queue;
 
     __CPROVER_assert(keel_queue_advance_may(queue, slot, now_us),
                      "precondition: keel_queue_advance");
-    advances++;
-    advanced_slot = slot;
-    advanced_at_us = now_us;
-    queue->release_us[slot] = nondet_u64();
-    queue->skipped[slot] = nondet_u16();
-    __CPROVER_assume(keel_queue_advance_does(&before, queue, slot, now_us, rival));
-}
-
-/* What a task that is served leaves as it was: all but who runs, its release and its promotions. */
-static void assert_served(const keel_scheduler_t *scheduler, const keel_scheduler_t *before,
-                          uint64_t earliest_us)
-{
-    const uint32_t i = rival;
-    const uint32_t slot = scheduler->queue.order[scheduler->running];
-    const uint32_t priority = may_run_with(before, scheduler->running, earliest_us);
-    const bool is_promoted = (scheduler->stage == KEEL_STAGE_OTHER) && (priority == 16u);
-    keel_scheduler_t expected = *before;
-
-    __CPROVER_assert((advances == 1u) && (advanced_slot == slot) &&
-                         (advanced_at_us == before->clock.now_us),
-                     "SCH_014_moved: its release moves on along its grid, once");
-    __CPROVER_assert(is_due(before, scheduler->running), "SCH_014_released: it was released");
-    __CPROVER_assert(!is_due(scheduler, scheduler->running),
-                     "SCH_014_release: its next release lies ahead");
-    __CPROVER_assert(scheduler->wake_us == 0u, "SCH_012_pass: nothing waits while a task runs");
-    if (scheduler->stage == KEEL_STAGE_OTHER) {
-        __CPROVER_assert(is_other(&scheduler->queue, scheduler->running) &&
-                             (scheduler->cursor == before->pass_end),
-                         "SCH_016_class: as the one other task of the pass");
-        __CPROVER_assert(priority > 0u, "SCH_016_fits: it fits the slack, or is promoted");
-        __CPROVER_assert(may_run_with(before, i, earliest_us) <= priority,
-                         "SCH_016_highest: none that may run has a higher dynamic priority");
-        __CPROVER_assert((i >= scheduler->running) ||
-                             (may_run_with(before, i, earliest_us) < priority),
-                         "SCH_016_first: nor one before it the same");
-        expected.earliest_realtime_us = scheduler->earliest_realtime_us;
-        expected.earliest_other_us = scheduler->earliest_other_us;
-    } else {
-        __CPROVER_assert((before->cursor <= scheduler->running) &&
-                             (scheduler->running < before->pass_end) &&
-                             (scheduler->cursor == (scheduler->running + 1)),
-                         "SCH_015_realtime: the pass goes on behind it");
-        __CPROVER_assert((i < before->cursor) || (i >= scheduler->running) || !is_due(before, i),
-                         "SCH_015_first: none of the pass before it is due");
-    }
-    if (is_promoted && (before->queue.stats[slot].promotions < UINT16_MAX)) {
-        expected.queue.stats[slot].promotions++;
-    }
-    __CPROVER_assert(scheduler->queue.stats[slot].promotions ==
-                         expected.queue.stats[slot].promotions,
-                     "SCH_016_promotion: its promotion is counted, if it is one");
-    expected.queue.release_us[slot] = scheduler->queue.release_us[slot];
-    expected.queue.skipped[slot] = scheduler->queue.skipped[slot];
-    expected.stage = scheduler->stage;
-    expected.cursor = scheduler->cursor;
-    expected.running = scheduler->running;
-    __CPROVER_assert(scheduler_same(scheduler, &expected, i),
-                     "SCH_014_others: nothing is written of any other task");
-}
-
-/* What a pass that closes leaves as it was: all but what is known of the releases. */
-static void assert_closed(const keel_scheduler_t *scheduler, const keel_scheduler_t *before,
-                          uint64_t earliest_us)
-{
-    const uint32_t i = rival;
-    const uint32_t x = before->queue.order[i];
-    keel_scheduler_t expected = *before;
-
-    __CPROVER_assert(may_run_with(before, i, earliest_us) == 0u, "SCH_016_none: no other may run");
-    __CPROVER_assert((i >= scheduler->queue.realtime_count) ||
-                         (scheduler->wake_us <= scheduler->queue.release_us[x]),
-                     "SCH_012_realtime: no real-time task is released before the wake-up time");
-    __CPROVER_assert(!is_other(&scheduler->queue, i) ||
-                         (scheduler->wake_us <=
-                          event_of(&scheduler->queue, x, before->clock.now_us)),
-                     "SCH_012_others: no other task is released or promoted before it");
-    __CPROVER_assert((scheduler->wake_us == scheduler->earliest_realtime_us) ||
-                         (scheduler->wake_us == scheduler->earliest_other_us) ||
-                         (asked_event && (scheduler->wake_us == told_event_us)),
-                     "SCH_012_exact: it is the time of one of these");
-    expected.stage = KEEL_STAGE_READY;
-    expected.cursor = before->pass_end;
-    expected.wake_us = scheduler->wake_us;
-    expected.earliest_realtime_us = scheduler->earliest_realtime_us;
-    expected.earliest_other_us = scheduler->earliest_other_us;
-    __CPROVER_assert((advances == 0u) && scheduler_same(scheduler, &expected, i),
-                     "SCH_014_others: no task is taken into service, nothing else is written");
+    __CPROVER_assert((slot == served) && (now_us == before.clock.now_us) &&
+                         (queue->release_us[slot] == before.queue.release_us[slot]) &&
+                         (queue->skipped[slot] == before.queue.skipped[slot]),
+                     "SCH_014_moved: the release of the task that is served, once");
+    queue->release_us[slot] = next_us;
+    queue->skipped[slot] = skipped;
+    modelled.release_us[slot] = next_us;
+    modelled.skipped[slot] = skipped;
+    __CPROVER_assume(keel_queue_advance_does(queue, &modelled, x));
 }
 
 void keel_pass_next_harness(void)
 {
     keel_scheduler_t scheduler;
-    uint64_t earliest_us;
+    keel_scheduler_t expected;
     bool due;
-    keel_scheduler_t before;
+    const keel_task_config_t *modelled;
     const keel_task_config_t *task;
 
-    rival = any_below(CAPACITY);
+    x = any_below(CAPACITY);
+    first = nondet_u32();
+    earliest_us = nondet_u64();
+    choice = nondet_choice();
+    event_us = nondet_u64();
+    next_us = nondet_u64();
+    skipped = nondet_u16();
     any_scheduler(&scheduler, CAPACITY);
-    any_priorities();
-    earliest_us = earliest_of(&scheduler);
-    due = is_due(&scheduler, rival);
+    due = release_at(&scheduler.queue, x) <= scheduler.clock.now_us;
     before = scheduler;
+    expected = scheduler;
+    modelled = model_pass_next(&expected);
 
     __CPROVER_assume(keel_pass_next_may(&scheduler));
     task = keel_pass_next(&scheduler);
 
-    __CPROVER_assert(keel_pass_next_does(task, &before, &scheduler, rival, due),
+    __CPROVER_assert((task == modelled) && scheduler_same(&scheduler, &expected, x),
+                     "SCH_014_model: as the model says");
+    __CPROVER_assert(keel_pass_next_does(task, &before, &scheduler, x, due),
                      "SCH_023_part: as the pass takes it to do");
-    ASSERT_SCHEDULER_VALID(&scheduler);
-    if (before.stage != KEEL_STAGE_PASS) {
-        __CPROVER_assert((task == NULL) && scheduler_same(&scheduler, &before, rival),
-                         "SCH_014_closed: with no pass open nothing runs, nothing changes");
-    } else if (task != NULL) {
-        __CPROVER_assert((0 <= scheduler.running) && (scheduler.running < scheduler.queue.count) &&
-                             (task ==
-                              scheduler.queue.task[scheduler.queue.order[scheduler.running]]),
-                         "SCH_014_task: it is the task that runs");
-        assert_served(&scheduler, &before, earliest_us);
-    } else {
-        __CPROVER_assert(scheduler.stage == KEEL_STAGE_READY, "SCH_014_stage: the pass is over");
-        assert_closed(&scheduler, &before, earliest_us);
-    }
-    __CPROVER_assert((before.stage != KEEL_STAGE_PASS) ||
-                         (scheduler.stage == KEEL_STAGE_REALTIME) || (rival < before.cursor) ||
-                         (rival >= before.pass_end) || !due,
-                     "SCH_015_none: a real-time task of the pass that is due goes first");
 }

@@ -138,6 +138,7 @@ static void add_up(const keel_scheduler_t *s, int64_t *sum)
 
 /* Starts the scheduler: from then on what is asked for below holds. */
 /*@ requires memory: \valid(s) && scheduler_valid(s) && setup_unmoved(s);
+  @ requires clock: clock_modelled(s);
   @ requires fresh: s->wake_us == 0 && s->busy_us == 0;
   @ requires summed: budgets_summed(s, sum);
   @ requires rise: sum[0] == 0 && sums_rise(sum, s->queue.realtime_count);
@@ -153,10 +154,10 @@ static void add_up(const keel_scheduler_t *s, int64_t *sum)
   @ ensures late: \result == KEEL_OK ==>
   @     late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
   @*/
-static keel_status_t start(keel_scheduler_t *s, const int64_t *sum, uint32_t raw_us)
+static keel_status_t start(keel_scheduler_t *s, const int64_t *sum)
 {
     (void)sum;
-    return keel_scheduler_start_at(s, raw_us);
+    return keel_scheduler_start(s);
 }
 
 /* Between passes: a pass begins, or nothing is due. */
@@ -386,15 +387,16 @@ static void run_other(keel_scheduler_t *s, const int64_t *sum)
 
 /*@ // As keel_scheduler_init and keel_scheduler_add leave it.
   @ requires memory: \valid(s) && scheduler_valid(s) && setup_unmoved(s);
+  @ requires clock: clock_modelled(s);
   @ requires fresh: s->wake_us == 0 && s->busy_us == 0;
   @ assigns *s;
   @*/
-void isolation(keel_scheduler_t *s, uint32_t raw_us, uint64_t moves)
+void isolation(keel_scheduler_t *s, uint64_t moves)
 {
     int64_t sum[KEEL_QUEUE_CAPACITY + 1u];
 
     add_up(s, sum);
-    if (start(s, sum, raw_us) != KEEL_OK) {
+    if (start(s, sum) != KEEL_OK) {
         return;
     }
     /*@ loop invariant memory: \valid(s) && scheduler_valid(s);

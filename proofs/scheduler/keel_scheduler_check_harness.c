@@ -1,32 +1,24 @@
-// cbmc: --unwind 6
-// sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
-// covers: keel_scheduler_check admit_queue
-// defines: -DKEEL_QUEUE_CAPACITY=4u
-//
-// Bounded to a capacity of 4 tasks with periods and budgets up to 2^2 us, as the utilisation
-// divides; the contract under WP has no such bound.
-#include "../common/admission_proof.h"
+// cbmc: --unwind 34
+// sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c
+// sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
+// sources: specs/model/scheduler.c specs/model/pass.c specs/model/queue.c specs/model/clock.c
+// sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/load.c
+// replaces: keel_admission_queue
+// covers: keel_scheduler_check admit_queue model_scheduler_check admit_all
+#include "../common/scheduler_parts.h"
 
 void keel_scheduler_check_harness(void)
 {
-    keel_scheduler_t scheduler;
-    const uint32_t x = any_below(CAPACITY);
     uint32_t admitted = nondet_u32();
-    uint32_t offender;
-    totals_t totals;
-    keel_scheduler_t before;
-    keel_status_t expected;
+    uint32_t expected_admitted = admitted;
+    keel_status_t modelled;
     keel_status_t status;
 
-    any_queue(&scheduler.queue, CAPACITY);
-    narrow_tasks(&scheduler.queue, 2u);
-    any_state(&scheduler);
-    expected = verdict_on_all(&scheduler, &offender, &totals);
-    before = scheduler;
+    any_parts(CAPACITY);
+    modelled = model_scheduler_check(&expected, &expected_admitted);
 
     status = keel_scheduler_check(&scheduler, &admitted);
 
-    __CPROVER_assert(status == expected, "SCH_003_complete: the first rule that breaks");
-    __CPROVER_assert(admitted == offender, "SCH_003_before: with the first task that breaks it");
-    __CPROVER_assert(scheduler_same(&scheduler, &before, x), "SCH_003_frame: nothing is written");
+    __CPROVER_assert((status == modelled) && (admitted == expected_admitted) && is_as_modelled(),
+                     "SCH_003_model: as the model says");
 }

@@ -1,47 +1,24 @@
-// cbmc: --unwind 6
-// sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
-// covers: keel_scheduler_start keel_scheduler_start_at read_clock
-// defines: -DKEEL_QUEUE_CAPACITY=4u
-//
-// Bounded to a capacity of 4 tasks with periods and budgets up to 2^2 us, as the utilisation
-// divides; the contract under WP has no such bound.
-#include "../common/admission_proof.h"
+// cbmc: --unwind 34
+// sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c
+// sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
+// sources: specs/model/scheduler.c specs/model/pass.c specs/model/queue.c specs/model/clock.c
+// sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/load.c
+// replaces: keel_admission_queue
+// covers: keel_scheduler_start admit_queue read_clock model_scheduler_start
+#include "../common/scheduler_parts.h"
 
 void keel_scheduler_start_harness(void)
 {
-    keel_scheduler_t scheduler;
-    const uint32_t x = any_below(CAPACITY);
-    const bool given = nondet_bool();
-    uint32_t offender;
-    totals_t totals;
-    keel_scheduler_t expected;
-    keel_status_t refusal;
+    keel_scheduler_t *const given = nondet_bool() ? &scheduler : NULL;
+    keel_status_t modelled;
     keel_status_t status;
 
-    any_queue(&scheduler.queue, CAPACITY);
-    narrow_tasks(&scheduler.queue, 2u);
-    any_state(&scheduler);
-    refusal = verdict_on_all(&scheduler, &offender, &totals);
-    expected = scheduler;
+    any_parts(CAPACITY);
+    modelled = model_scheduler_start((given != NULL) ? &expected : NULL);
+    read_again();
 
-    status = keel_scheduler_start(given ? &scheduler : NULL);
+    status = keel_scheduler_start(given);
 
-    ASSERT_SCHEDULER_VALID(&scheduler);
-    __CPROVER_assert((status == KEEL_ERR_NULL) == !given, "SCH_019_null: no scheduler");
-    __CPROVER_assert((status == KEEL_ERR_STATE) == (given && (expected.stage != KEEL_STAGE_SETUP)),
-                     "SCH_019_state: it was started before");
-    __CPROVER_assert(!given || (status == KEEL_ERR_STATE) || (status == refusal),
-                     "SCH_019_refused: for the first rule that breaks");
-    if (status == KEEL_OK) {
-        __CPROVER_assert((scheduler.stage == KEEL_STAGE_READY) && (scheduler.clock.now_us == 0u),
-                         "SCH_019_stage: it is started, at time 0");
-        __CPROVER_assert((clock_readings == 1u) && (scheduler.clock.raw_us == clock_reading),
-                         "SCH_019_clock: with the clock's reading");
-        expected.stage = KEEL_STAGE_READY;
-        expected.clock.now_us = 0u;
-        expected.clock.raw_us = clock_reading;
-        expected.earliest_realtime_us = 0u;
-    }
-    __CPROVER_assert(scheduler_same(&scheduler, &expected, x),
-                     "SCH_019_frame: nothing else is written, and nothing at all by a refusal");
+    __CPROVER_assert((status == modelled) && is_as_modelled() && is_read_as_often(),
+                     "SCH_009_model: as the model says");
 }

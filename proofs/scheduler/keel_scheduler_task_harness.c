@@ -1,8 +1,13 @@
 // cbmc: --unwind 34
-// sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
-// covers: keel_scheduler_task
+// sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c
+// sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
+// sources: specs/model/scheduler.c specs/model/pass.c specs/model/queue.c specs/model/clock.c
+// sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/load.c
+// sources: specs/model/admission.c specs/model/admission_queue.c
+// covers: keel_scheduler_task model_scheduler_task
 //
 // For any order of the slots.
+#include "../../specs/model/scheduler.h"
 #include "../common/keel_scheduler_proof.h"
 
 void keel_scheduler_task_harness(void)
@@ -10,7 +15,7 @@ void keel_scheduler_task_harness(void)
     keel_scheduler_t scheduler;
     const uint32_t x = any_below(CAPACITY);
     const uint32_t position = nondet_u32();
-    const bool given = nondet_bool();
+    const keel_scheduler_t *const given = nondet_bool() ? &scheduler : NULL;
     const keel_task_config_t *task;
     keel_scheduler_t before;
 
@@ -22,12 +27,9 @@ void keel_scheduler_task_harness(void)
     }
     before = scheduler;
 
-    task = keel_scheduler_task(given ? &scheduler : NULL, position);
+    task = keel_scheduler_task(given, position);
 
-    __CPROVER_assert((task == NULL) == (!given || (position >= scheduler.queue.count)),
-                     "SCH_024_none: no scheduler, or no task at this position");
-    __CPROVER_assert((task == NULL) ||
-                         (task == scheduler.queue.task[scheduler.queue.order[position]]),
-                     "SCH_024_task: it is the task at this position");
+    __CPROVER_assert(task == model_scheduler_task((given != NULL) ? &before : NULL, position),
+                     "SCH_024_model: as the model says");
     __CPROVER_assert(scheduler_same(&scheduler, &before, x), "SCH_024_frame: nothing is written");
 }

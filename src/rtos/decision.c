@@ -7,6 +7,30 @@
   @     1 <= sp <= KEEL_PRIORITY_HIGH ==> 0 <= late_us < period_us ==>
   @     dynamic_priority(sp, late_us + period_us, period_us) ==
   @         1 + sp + (sp * late_us) / period_us;
+  @
+  @ // The contracts say what a result is, not how it is found; there is only one such.
+  @ lemma DEC_001_only: \forall keel_queue_t *q, integer from, to, now_us, a, b;
+  @     from <= a <= to && (a < to ==> released(q, q->order[a], now_us)) &&
+  @     (\forall integer i; from <= i < a ==> !released(q, q->order[i], now_us)) ==>
+  @     from <= b <= to && (b < to ==> released(q, q->order[b], now_us)) &&
+  @     (\forall integer i; from <= i < b ==> !released(q, q->order[i], now_us)) ==> a == b;
+  @ lemma DEC_002_only: \forall keel_queue_t *q, integer first, last, a, b;
+  @     a <= KEEL_TIME_NEVER_US ==> b <= KEEL_TIME_NEVER_US ==>
+  @     is_earliest(q, first, last, a) ==> is_earliest(q, first, last, b) ==> a == b;
+  @ lemma DEC_003_only: \forall keel_queue_t *q, keel_choice_t a, keel_choice_t b,
+  @     integer now_us, room_us;
+  @     chosen(q, a, now_us, room_us) ==> chosen(q, b, now_us, room_us) ==>
+  @     (\forall integer i; q->realtime_count <= i < q->count ==>
+  @         eligible(q, q->order[i], now_us, room_us) ==>
+  @         task_priority(q, q->order[i], now_us) <= a.priority &&
+  @         task_priority(q, q->order[i], now_us) <= b.priority) ==>
+  @     (\forall integer i; q->realtime_count <= i < a.position ==>
+  @         eligible(q, q->order[i], now_us, room_us) ==>
+  @         task_priority(q, q->order[i], now_us) < a.priority) ==>
+  @     (\forall integer i; q->realtime_count <= i < b.position ==>
+  @         eligible(q, q->order[i], now_us, room_us) ==>
+  @         task_priority(q, q->order[i], now_us) < b.priority) ==>
+  @     a.position == b.position && a.priority == b.priority;
   @*/
 
 uint32_t keel_decision_realtime(const keel_queue_t *queue, uint32_t from, uint32_t to,
@@ -85,6 +109,7 @@ keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, ui
       @ loop invariant scale: choice.priority <= KEEL_PRIORITY_REALTIME;
       @ loop invariant earliest: is_earliest(queue, queue->realtime_count, i, choice.earliest_us);
       @ loop invariant before: choice.priority > 0 ==> choice.position < i;
+      @ loop invariant nowhere: choice.priority == 0 ==> choice.position == 0;
       @ loop invariant chosen: choice.priority > 0 ==> chosen(queue, choice, now_us, room_us);
       @ loop invariant highest: \forall integer j; queue->realtime_count <= j < i ==>
       @     eligible(queue, queue->order[j], now_us, room_us) ==>

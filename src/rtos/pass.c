@@ -22,7 +22,7 @@
   @     scheduler->cursor == cursor;
   @ ensures moved: moved_on{Pre, Post}(scheduler, position);
   @ ensures release: !due(scheduler, position);
-  @ ensures others: \forall integer k; 0 <= k < scheduler->queue.count ==> k != position ==>
+  @ ensures others: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==> k != position ==>
   @     left_alone{Pre, Post}(scheduler, k);
   @*/
 static const keel_task_config_t *dispatch(keel_scheduler_t *scheduler, uint32_t position,
@@ -31,7 +31,7 @@ static const keel_task_config_t *dispatch(keel_scheduler_t *scheduler, uint32_t 
     const uint32_t slot = scheduler->queue.order[position];
 
     keel_queue_advance(&scheduler->queue, slot, scheduler->clock.now_us);
-    /*@ assert others: \forall integer k; 0 <= k < scheduler->queue.count ==> k != position ==>
+    /*@ assert others: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==> k != position ==>
       @     left_alone{Pre, Here}(scheduler, k);
       @*/
     scheduler->cursor = (int16_t)cursor;
@@ -78,7 +78,9 @@ static uint64_t find_earliest_realtime(const keel_scheduler_t *scheduler)
   @ ensures bound: \forall integer i;
   @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
   @     \result.earliest_us <= scheduler->queue.release_us[scheduler->queue.order[i]];
-  @ ensures known: \result.earliest_us == scheduler->earliest_other_us ||
+  @ ensures known: scheduler->clock.now_us < scheduler->earliest_other_us ==>
+  @     \result.earliest_us == scheduler->earliest_other_us;
+  @ ensures renewed: scheduler->earliest_other_us <= scheduler->clock.now_us ==>
   @     is_earliest(&scheduler->queue, scheduler->queue.realtime_count, scheduler->queue.count,
   @                 \result.earliest_us);
   @ ensures chosen: \result.priority > 0 ==>
@@ -160,12 +162,12 @@ static void remember(keel_scheduler_t *scheduler, uint64_t realtime_us, uint64_t
   @     scheduler->cursor == scheduler->pass_end;
   @ ensures moved: moved_on{Pre, Post}(scheduler, position);
   @ ensures release: !due(scheduler, position);
-  @ ensures others: \forall integer k; 0 <= k < scheduler->queue.count ==> k != position ==>
+  @ ensures others: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==> k != position ==>
   @     left_alone{Pre, Post}(scheduler, k);
   @ ensures promotion: promotions_at(scheduler, position) == ((by_promotion != 0)
   @     ? counted(\old(promotions_at(scheduler, position)), UINT16_MAX)
   @     : \old(promotions_at(scheduler, position)));
-  @ ensures unpromoted: \forall integer k; 0 <= k < scheduler->queue.count ==> k != position ==>
+  @ ensures unpromoted: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==> k != position ==>
   @     promotions_at(scheduler, k) == \old(promotions_at(scheduler, k));
   @*/
 static const keel_task_config_t *serve_other(keel_scheduler_t *scheduler, uint32_t position,
@@ -174,7 +176,7 @@ static const keel_task_config_t *serve_other(keel_scheduler_t *scheduler, uint32
     if (by_promotion) {
         keel_stats_promote(&scheduler->queue.stats[scheduler->queue.order[position]]);
     }
-    /*@ assert unpromoted: \forall integer k; 0 <= k < scheduler->queue.count ==> k != position ==>
+    /*@ assert unpromoted: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==> k != position ==>
       @     promotions_at(scheduler, k) == \at(promotions_at(scheduler, k), Pre);
       @*/
     //@ assert state: scheduler_state(scheduler);
@@ -191,7 +193,9 @@ static const keel_task_config_t *serve_other(keel_scheduler_t *scheduler, uint32
   @ ensures others: \forall integer i;
   @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> \result <=
   @     next_event(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us);
-  @ ensures exact: \result == realtime_us || \result == other_us ||
+  @ ensures ahead: scheduler->clock.now_us < other_us ==>
+  @     \result == \min(realtime_us, other_us);
+  @ ensures exact: other_us <= scheduler->clock.now_us ==> \result == realtime_us ||
   @     \exists integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count &&
   @         \result == next_event(&scheduler->queue, scheduler->queue.order[i],
   @                               scheduler->clock.now_us);
@@ -224,7 +228,10 @@ static uint64_t find_wake(const keel_scheduler_t *scheduler, uint64_t realtime_u
   @ ensures others: \forall integer i;
   @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> scheduler->wake_us <=
   @     next_event(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us);
-  @ ensures exact: scheduler->wake_us == realtime_us || scheduler->wake_us == other_us ||
+  @ ensures first: scheduler->wake_us <= realtime_us;
+  @ ensures ahead: scheduler->clock.now_us < other_us ==>
+  @     scheduler->wake_us == \min(realtime_us, other_us);
+  @ ensures exact: other_us <= scheduler->clock.now_us ==> scheduler->wake_us == realtime_us ||
   @     \exists integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count &&
   @         scheduler->wake_us == next_event(&scheduler->queue, scheduler->queue.order[i],
   @                                          scheduler->clock.now_us);
@@ -284,7 +291,7 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
         return NULL;
     }
     remember(scheduler, realtime_us, choice.earliest_us);
-    /*@ assert same: \forall integer k; 0 <= k < scheduler->queue.count ==>
+    /*@ assert same: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==>
       @     left_alone{Pre, Here}(scheduler, k);
       @*/
     /*@ assert next: \forall integer k; 0 <= k < scheduler->queue.count ==>
@@ -298,7 +305,7 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
       @                     scheduler->clock.now_us), Pre);
       @*/
     task = serve_other(scheduler, choice.position, choice.priority == KEEL_PRIORITY_REALTIME);
-    /*@ assert others: \forall integer k; 0 <= k < scheduler->queue.count ==>
+    /*@ assert others: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==>
       @     k != scheduler->running ==> left_alone{Pre, Here}(scheduler, k);
       @*/
     return task;

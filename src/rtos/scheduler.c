@@ -203,6 +203,7 @@ static void shift_up(keel_scheduler_t *scheduler, uint32_t position)
   @ ensures gone: !queue_holds(&scheduler->queue,
   @     \old(scheduler->queue.task[scheduler->queue.order[position]]));
   @ ensures order: order_left{Pre, Post}(&scheduler->queue, position);
+  @ ensures freed: scheduler->queue.task[\old(scheduler->queue.order[position])] == \null;
   @ ensures pass: pass_left{Pre, Post}(scheduler, position);
   @ ensures wake: nothing_known(scheduler);
   @*/
@@ -230,24 +231,6 @@ keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, const keel_task
     return KEEL_OK;
 }
 
-keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_us)
-{
-    keel_admission_t admission;
-    keel_status_t status;
-
-    if (scheduler->stage != KEEL_STAGE_SETUP) {
-        return KEEL_ERR_STATE;
-    }
-    status = admit_queue(scheduler, &admission);
-    if (status != KEEL_OK) {
-        return status;
-    }
-    keel_clock_init(&scheduler->clock, raw_us);
-    scheduler->earliest_realtime_us = 0u;
-    scheduler->stage = KEEL_STAGE_READY;
-    return KEEL_OK;
-}
-
 /*@ requires \valid_read(scheduler) && clock_modelled(scheduler);
   @ assigns \nothing;
   @*/
@@ -259,10 +242,25 @@ static uint32_t read_clock(const keel_scheduler_t *scheduler)
 
 keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler)
 {
+    keel_admission_t admission;
+    uint32_t raw_us;
+    keel_status_t status;
+
     if (scheduler == NULL) {
         return KEEL_ERR_NULL;
     }
-    return keel_scheduler_start_at(scheduler, read_clock(scheduler));
+    raw_us = read_clock(scheduler);
+    if (scheduler->stage != KEEL_STAGE_SETUP) {
+        return KEEL_ERR_STATE;
+    }
+    status = admit_queue(scheduler, &admission);
+    if (status != KEEL_OK) {
+        return status;
+    }
+    keel_clock_init(&scheduler->clock, raw_us);
+    scheduler->earliest_realtime_us = 0u;
+    scheduler->stage = KEEL_STAGE_READY;
+    return KEEL_OK;
 }
 
 keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler)

@@ -24,13 +24,14 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import mutate  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
+from proofs.mutant_verdicts import Verdict  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
-from proofs.mutation import Tools, Trees, Trial, Verdict  # noqa: E402
+from proofs.mutation import Tools, Trees, Trial  # noqa: E402
 from proofs.project import ProjectError, Unit  # noqa: E402
 from proofs.settings import Exceptions  # noqa: E402
 from proofs.times import Times  # noqa: E402
 
-from proofs import mutation, targets, wp  # noqa: E402
+from proofs import mutant_verdicts, mutation, targets, wp  # noqa: E402
 
 HEADER = """\
 #include <stdbool.h>
@@ -130,30 +131,30 @@ def verdict(status: str, body: str = "a++;") -> Verdict:
 
 
 class Settling(unittest.TestCase):
-    def accepted(self, text: str) -> dict[mutation.Identity, str]:
+    def accepted(self, text: str) -> dict[mutant_verdicts.Identity, str]:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "equivalent.toml"
             path.write_text(text, encoding="utf-8")
-            return mutation.read_equivalent(path)
+            return mutant_verdicts.read_equivalent(path)
 
     entry = '[[equivalent]]\nfunction = "f"\noriginal = "a++;"\nmutant = ";"\nreason = "{}"\n'
 
     def test_a_reason_explains_a_survivor(self) -> None:
         survivor = verdict("survived")
         reasons = self.accepted(self.entry.format("nobody reads it"))
-        self.assertEqual(mutation.settle([survivor], reasons, True), [])
+        self.assertEqual(mutant_verdicts.settle([survivor], reasons, True), [])
         self.assertEqual((survivor.status, survivor.reason), ("equivalent", "nobody reads it"))
 
     def test_a_reason_for_what_is_killed_must_go(self) -> None:
         reasons = self.accepted(self.entry.format("no matter"))
-        [problem] = mutation.settle([verdict("killed")], reasons, True)
+        [problem] = mutant_verdicts.settle([verdict("killed")], reasons, True)
         self.assertIn("needless", problem)
 
     def test_a_reason_for_no_mutant_must_go(self) -> None:
         reasons = self.accepted(self.entry.format("no matter").replace("a++", "b++"))
-        [problem] = mutation.settle([verdict("killed")], reasons, True)
+        [problem] = mutant_verdicts.settle([verdict("killed")], reasons, True)
         self.assertIn("there is no such mutant", problem)
-        self.assertEqual(mutation.settle([verdict("killed")], reasons, False), [])
+        self.assertEqual(mutant_verdicts.settle([verdict("killed")], reasons, False), [])
 
     def test_a_reason_must_be_given(self) -> None:
         for text in (self.entry.format(" "), self.entry.format("x").replace("reason", "because")):
@@ -177,11 +178,12 @@ class Settling(unittest.TestCase):
     def test_a_reason_explains_what_is_undecided(self) -> None:
         undecided = verdict("undecided")
         reasons = self.accepted(self.entry.format("nobody reads it"))
-        self.assertEqual(mutation.settle([undecided], reasons, True), [])
+        self.assertEqual(mutant_verdicts.settle([undecided], reasons, True), [])
         self.assertEqual(undecided.status, "equivalent")
 
     def test_a_mutant_that_was_not_tried_fails(self) -> None:
-        self.assertEqual(self.conclude(verdict("killed"), verdict("skipped"))[0], 1)
+        last = "killed 1 of 2 mutants (0 equivalent), 0 survived unexplained, 1 not tried"
+        self.assertEqual(self.conclude(verdict("killed"), verdict("skipped")), (1, last))
 
     def test_all_killed_or_explained_is_success(self) -> None:
         verdicts = (verdict("killed"), verdict("equivalent"), verdict("stillborn"))

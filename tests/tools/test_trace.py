@@ -150,6 +150,35 @@ class TraceTest(unittest.TestCase):
         self.change("proofs/widget/turn_harness.c", "WID_001_turns", "turns")
         self.assertEqual(self.orphans(), ["WID-001: neither a harness nor a test names it"])
 
+    def model(self, text: str, harness: str = "") -> None:
+        """A model beside the code, and a harness that need not name the requirement."""
+        self.write("specs/model/widget.h", "void model_turn(void);\n")
+        self.write("specs/model/widget.c", text)
+        self.write("proofs/widget/turn_harness.c", harness)
+
+    include = '#include "../../specs/model/widget.h"\n'
+
+    def test_a_model_that_is_compared_is_enough_for_a_clause(self) -> None:
+        self.model("/* WID-001 */\n", self.include)
+        self.assertEqual(self.orphans(), [])
+        self.write("proofs/common/widget_proof.h", self.include)
+        self.model("// WID-001: turns\n", '#include "../common/widget_proof.h"\n')
+        self.assertEqual(self.orphans(), [])
+
+    def test_a_model_that_is_not_compared_says_nothing(self) -> None:
+        self.model("/* WID-001 */\n", "/* " + self.include + " */")
+        self.assertEqual(self.orphans(), [
+            "WID-001: neither a harness nor a test names it",
+            "specs/model/widget.c: no harness compares the code with this model"])  # fmt: skip
+
+    def test_only_comments_of_a_model_name_requirements(self) -> None:
+        self.model('const char *text = "WID-001";\n', self.include)
+        self.assertEqual(self.orphans(), ["WID-001: neither a harness nor a test names it"])
+
+    def test_a_model_names_requirements_that_there_are(self) -> None:
+        self.model("/* WID-001, WID-009 */\n", self.include)
+        self.assertEqual(self.orphans(), ["specs/model/widget.c: there is no requirement WID-009"])
+
     def test_a_test_is_enough_for_a_clause(self) -> None:
         self.change("proofs/widget/turn_harness.c", "WID_001_turns", "turns")
         self.write("tests/unit/test_more.c", "RUN_TEST(WID_001_it_turns);\n")

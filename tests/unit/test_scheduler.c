@@ -86,7 +86,6 @@ static void start_is_refused(keel_status_t reason)
 {
     remember();
     TEST_ASSERT_EQUAL(reason, keel_scheduler_start(&scheduler));
-    TEST_ASSERT_EQUAL(reason, keel_scheduler_start_at(&scheduler, 4711u));
     unchanged();
 }
 
@@ -429,14 +428,6 @@ static void SCH_009_start_sets_time_and_releases(void)
     TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_READY, scheduler.stage);
     TEST_ASSERT_EQUAL_UINT32(1u, board.reads);
     ran("");
-}
-
-static void SCH_009_start_at_takes_the_reading(void)
-{
-    board_init(0u);
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_start_at(&scheduler, 4711u));
-    TEST_ASSERT_EQUAL_UINT32(4711u, scheduler.clock.raw_us);
-    TEST_ASSERT_EQUAL_UINT32(0u, board.reads);
 }
 
 static void SCH_010_start_refuses_null(void)
@@ -1075,7 +1066,6 @@ int main(void)
     RUN_TEST(SCH_007_remove_makes_the_scheduler_decide_anew);
     RUN_TEST(SCH_008_remove_refuses_null_and_strangers);
     RUN_TEST(SCH_009_start_sets_time_and_releases);
-    RUN_TEST(SCH_009_start_at_takes_the_reading);
     RUN_TEST(SCH_009_start_accepts_all_that_can_be_scheduled);
     RUN_TEST(SCH_010_start_refuses_null);
     RUN_TEST(SCH_010_start_refuses_a_second_time);

@@ -26,6 +26,8 @@ CHECKS = (
     "--undefined-shift-check", "--float-overflow-check", "--nan-check", "--enum-range-check",
     "--drop-unused-functions",
 )  # fmt: skip
+# What a harness that checks assertions alone is checked for.
+ASSERTIONS = ("--no-standard-checks", "--unwinding-assertions", "--drop-unused-functions")
 # The coverage run asks what can be reached at all. CBMC takes assertions for assumptions there.
 COVERAGE = ("--cover", "location", "--no-standard-checks", "--drop-unused-functions")
 HARMLESS = (
@@ -43,6 +45,7 @@ class Result:
     properties: list[dict[str, str]] = field(default_factory=list)
     defines: list[str] = field(default_factory=list)
     replaces: list[str] = field(default_factory=list)
+    checks: str = "all"
     covered: int = 0
     blocks: int = 0
     problems: list[str] = field(default_factory=list)
@@ -63,6 +66,11 @@ class Answer:
     complete: bool
     failed: bool = False
     first_failure: str = ""
+
+
+def checks_of(harness: Harness) -> tuple[str, ...]:
+    """What CBMC is to look for."""
+    return ASSERTIONS if harness.assertions_only else CHECKS
 
 
 def file_of(location: dict[str, Any]) -> str:
@@ -99,7 +107,9 @@ def read_answer(text: str) -> Answer:
                 }
             )  # fmt: skip
         goals += entry.get("goals", [])
-        complete = complete or "cProverStatus" in entry or "goalsCovered" in entry
+        # A solver that crashes or says `unknown` makes it "error".
+        ended = entry.get("cProverStatus") in ("success", "failure")
+        complete = complete or ended or "goalsCovered" in entry
         failed = failed or entry.get("cProverStatus") == "failure"
         for step in entry.get("trace", []):  # what --stop-on-fail shows
             if step.get("stepType") == "failure":
@@ -214,15 +224,16 @@ class Cbmc:
 
     def options(self) -> list[str]:
         """What is the same for all harnesses."""
-        return [*self._goto_cc[1:], *CHECKS, *COVERAGE]
+        return [*self._goto_cc[1:], *CHECKS, *ASSERTIONS, *COVERAGE]
 
     def prove(self, harness: Harness) -> Result:
         """Prove a harness and measure what it reaches."""
         start = time.monotonic()
         problems = harnesses.text_problems(harness)
         result = Result(
-            problems=problems, defines=list(harness.defines), replaces=list(harness.replaces)
-        )
+            problems=problems, defines=list(harness.defines), replaces=list(harness.replaces),
+            checks="assertions" if harness.assertions_only else "all",
+        )  # fmt: skip
         binary, complaint = self.build(harness, harness.name)
         if complaint:
             result.problems.append(complaint)
@@ -255,12 +266,13 @@ class Cbmc:
 
     def check(self, harness: Harness, binary: Path, extra: Sequence[str] = ()) -> Answer:
         """Ask for the status of every property."""
-        command = [*self._cbmc, str(binary), "--json-ui", *CHECKS, *harness.options, *extra]
+        command = [*self._cbmc, str(binary), "--json-ui", *checks_of(harness)]
+        command += [*harness.options, *extra]
         return self._answer(self._runner.run(command, harness.timeout, merged=False), harness)
 
     def _selection(self, harness: Harness, binary: Path, expect: Sequence[str]) -> list[str]:
         """Options that restrict CBMC to the assertions that are to fail: all others take longer."""
-        command = [*self._cbmc, str(binary), "--json-ui", "--show-properties", *CHECKS]
+        command = [*self._cbmc, str(binary), "--json-ui", "--show-properties", *checks_of(harness)]
         done = self._runner.run(command, harness.timeout, merged=False)
         return selection(done.output, expect)
 

@@ -47,6 +47,11 @@ def without_comments(text: str) -> str:
     return TOKEN.sub(replace, text)
 
 
+def comments(text: str) -> list[str]:
+    """The comments of a text, annotations too."""
+    return [match.group("comment") for match in TOKEN.finditer(text) if match.group("comment")]
+
+
 def essence(text: str) -> str:
     """The text without comments and blank lines: what a compiler sees of it, places aside."""
     bare = TOKEN.sub(lambda match: " " if match.group("comment") else match.group(), text)

@@ -131,7 +131,7 @@ def cbmc_key(
         expected = (wrong.name, wrong.expect, place)
     sources = [str(path.relative_to(root)) for path in harness.sources]
     directives = [harness.name, harness.options, sources, harness.covers, harness.defines,
-                  harness.replaces]
+                  harness.replaces, harness.assertions_only]
     return digest(
         {"kind": "cbmc", "stamp": dict(stamp), "options": placeless(checker.options(), root),
          "texts": texts, "directives": directives, "expected": expected}

@@ -68,12 +68,12 @@ def preconditions(units: Iterable[Unit]) -> dict[str, str]:
     found: dict[str, str] = {}
     for unit in units:
         for path in unit.own_files:
-            for name, contract in _contracts(path.read_text(encoding="utf-8")):
+            for name, contract in contracts(path.read_text(encoding="utf-8")):
                 found.update(dict.fromkeys(REQUIRES.findall(contract), name))
     return found
 
 
-def _contracts(text: str) -> list[tuple[str, str]]:
+def contracts(text: str) -> list[tuple[str, str]]:
     """Each function, ghosts too, with the annotations that stand before it, after the last one."""
     text = csource.with_ghosts(text)
     lines = text.splitlines()
@@ -124,7 +124,7 @@ def _unproved_postconditions(unit: Unit, exceptions: Exceptions) -> list[str]:
         found += [
             f"{path.relative_to(unit.root)}: {name}: WP leaves its postcondition, which no harness"
             " can assert: callers may not rely on one"
-            for name, contract in _contracts(text)
+            for name, contract in contracts(text)
             if name in static & set(exceptions.not_by_wp) and re.search(r"\bensures\b", contract)
         ]
     return found

@@ -1,19 +1,23 @@
 """Reads CBMC harnesses: their directives, and what their text must satisfy.
 
-Directives stand in the first comment lines of a harness:
+Directives stand in the first comment lines of a harness, up to an empty one, which prose follows:
 
     // cbmc: --unwind 33 --external-sat-solver cadical   options of the search, from OPTIONS
     // sources: src/rtos/queue.c              what is linked; default: the unit's source
     // covers: keel_queue_add open_slot       functions that must be reached everywhere
     // defines: -DKEEL_QUEUE_CAPACITY=8u      for a smaller model, shown in the report
     // timeout: 900                           seconds
+    // checks: assertions                     assertions and unwinding alone; default: all checks
     // replaces: keel_voter_mean              functions that their contracts stand in for
 
 Where the harness calls a replaced function F, the harness's own F_stand_in is called: it asserts
 F_may(...) and returns anything that F_does(...) allows, while F_harness assumes the one and
 asserts the other of F itself, or one of F's harnesses for all its cases, F__any_harness, does. So
-what is proved holds of every function with F's contract. What stands in for the model of F does so
-by F's stand-in or contract, as a harness of F proves that the two are equal.
+what is proved holds of every function with F's contract.
+
+With `checks: assertions` two computations of floats stay the same terms for z3, which so sees at
+once that they are equal. Overflows, bounds and pointers are then the affair of other harnesses of
+the same function, which link the same sources and reach all that this one covers, but for models.
 
 The function that a harness proves is in its name: keel_queue_add_harness, or, for one of several
 cases, keel_queue_add__full_harness.
@@ -23,13 +27,14 @@ from __future__ import annotations
 
 import re
 import shlex
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from . import csource
 from .project import ProjectError, Unit, closure
 
-HARNESS_KEYS = frozenset("cbmc sources covers defines timeout entry replaces".split())
+HARNESS_KEYS = frozenset("cbmc sources covers defines timeout entry replaces checks".split())
 # What is meant as a directive, but is none of a harness.
 STRAY_KEYS = frozenset("harness expect source cover wp".split())
 DIRECTIVE = re.compile(r"^// ?(\w+): *(.*?)\s*$")
@@ -38,22 +43,24 @@ DIRECTIVE = re.compile(r"^// ?(\w+): *(.*?)\s*$")
 # little is caught by the unwinding assertions. True: takes a value.
 OPTIONS = {
     "--unwind": True, "--unwindset": True, "--object-bits": True, "--external-sat-solver": True,
-    "--sat-solver": True, "--z3": False, "--bitwuzla": False, "--cvc5": False, "--smt2": False,
+    "--z3": False, "--fpa": False,
     "--no-sat-preprocessor": False, "--slice-formula": False, "--no-simplify": False,
     "--arrays-uf-always": False, "--arrays-uf-never": False, "--refine": False,
     "--max-field-sensitivity-array-size": True, "--no-array-field-sensitivity": False,
 }  # fmt: skip
-# Those that choose a solver, which the coverage run (many easy questions) does without.
-SOLVERS = frozenset(
-    ["--external-sat-solver", "--sat-solver", "--z3", "--bitwuzla", "--cvc5", "--smt2"]
-)
+# Those that choose a solver, which the coverage run (many easy questions) does without. Each is one
+# of the pinned tools: a verdict depends on which it is.
+SOLVERS = frozenset(["--external-sat-solver", "--z3", "--fpa"])
+EXTERNAL = ("cadical",)
+# Where models stand: they are compared, and bear no checks of their own.
+MODELS = "specs/model"
 
 
 def directives(path: Path) -> dict[str, list[str]]:
     """The directives of a harness; each may be given on several lines."""
     found: dict[str, list[str]] = {}
     for line in path.read_text(encoding="utf-8").splitlines():
-        if not line.startswith("//"):
+        if not line.startswith("//") or line.strip() == "//":
             break
         match = DIRECTIVE.match(line)
         if match and match[1] in HARNESS_KEYS:
@@ -67,7 +74,11 @@ def search_options(path: Path, lines: list[str]) -> list[str]:
     """The options of a `cbmc` directive, checked."""
     words = shlex.split(" ".join(lines))
     expect_value = False
+    before = ""
     for word in words:
+        if before == "--external-sat-solver" and word not in EXTERNAL:
+            raise ProjectError(f"{path}: {word} is no solver of ours: {' '.join(EXTERNAL)}")
+        before = word
         if expect_value:
             expect_value = False
         elif word not in OPTIONS:
@@ -103,6 +114,8 @@ class Harness:
     defines: tuple[str, ...]
     timeout: float
     replaces: tuple[str, ...] = ()
+    # Whether CBMC is to look at assertions and unwinding alone.
+    assertions_only: bool = False
 
     @property
     def name(self) -> str:
@@ -123,6 +136,9 @@ def read_harness(unit: Unit, path: Path) -> Harness:
         raise ProjectError(f"{path}: `defines` takes -DNAME=VALUE only")
     if given.get("entry", [path.stem]) != [path.stem]:
         raise ProjectError(f"{path}: the entry of a harness bears the name of its file")
+    checks = given.get("checks", [])
+    if checks not in ([], ["assertions"]):
+        raise ProjectError(f"{path}: `checks` takes `assertions`, or is left out for all of them")
     sources = tuple(unit.root / name for line in given.get("sources", []) for name in line.split())
     if not sources and unit.source.is_file():
         sources = (unit.source,)
@@ -135,6 +151,7 @@ def read_harness(unit: Unit, path: Path) -> Harness:
         covers=tuple(" ".join(given.get("covers", [])).split()),
         timeout=float(given.get("timeout", ["900"])[0]),
         replaces=tuple(" ".join(given.get("replaces", [])).split()),
+        assertions_only=bool(checks),
     )  # fmt: skip
 
 
@@ -170,8 +187,6 @@ def replacement_problems(harness: Harness) -> list[str]:
         if name == harness.function or name in harness.covers:
             problems.append(f"{place}: replaces {name}, which it is to prove")
         stand_in = "".join(csource.body_of(text, f"{name}_stand_in") for text in texts)
-        if _stands_for_code(harness, name, stand_in):
-            continue
         lacking = _lacks(stand_in, name, "assert", "assume")
         problems += [f"{place}: {name}_stand_in lacks {text}...)" for text in lacking]
         proofs = [csource.body_of(path.read_text(), path.stem) for path in _own(root, name)]
@@ -180,13 +195,34 @@ def replacement_problems(harness: Harness) -> list[str]:
     return problems
 
 
-def _stands_for_code(harness: Harness, name: str, stand_in: str) -> bool:
-    """Whether a model's stand-in is that of the code's function, which equals the model."""
-    code = f"keel_{name.removeprefix('model_')}"
-    used = any(f"{code}_{end}(" in stand_in for end in ("stand_in", "does"))
-    proofs = [path.read_text(encoding="utf-8") for path in _own(harness.unit.root, code)]
-    compared = any(csource.calls(csource.code_only(text), name) for text in proofs)
-    return name.startswith("model_") and code in harness.replaces and used and compared
+def unchecked(harnesses: Iterable[Harness]) -> list[str]:
+    """What harnesses that check assertions alone leave without the other checks."""
+    every = list(harnesses)
+    problems = []
+    for one in (harness for harness in every if harness.assertions_only):
+        models = one.unit.root / MODELS
+        sources = {path for path in one.sources if not path.is_relative_to(models)}
+        reached = {
+            name
+            for other in every
+            if other.function == one.function and not other.assertions_only
+            if sources <= set(other.sources)
+            for name in other.covers
+        }
+        own = {
+            function.name
+            for path in one.sources
+            if path.is_relative_to(models)
+            for function in csource.defined(path.read_text(encoding="utf-8"))
+        }
+        place = one.path.relative_to(one.unit.root)
+        problems += [
+            f"{place}: checks assertions alone, and no other harness of {one.function} on the same"
+            f" sources covers {name} with all checks"
+            for name in one.covers
+            if name not in reached | own
+        ]
+    return problems
 
 
 def _own(root: Path, function: str) -> list[Path]:

@@ -1,4 +1,7 @@
-"""Generates wrong versions of C functions: one small slip each, of the kinds that programmers make.
+"""Generates wrong versions of C functions: one slip each, of the kinds that programmers make.
+
+Here are slips of the pen: another operator, a number beside the right one, a condition turned
+round, a statement left out, another result. Slips of thought are in mutant_slips.py.
 
 Mutants are made from the text between comments, so contracts and annotations stay as they are. A
 mutant is known by its function, its line before and after, and which of equal ones it is: line
@@ -13,7 +16,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import csource
+from . import csource, mutant_slips
+from .mutant_slips import Change, Surroundings
 
 RELATIONS = {
     "<": ("<=", ">="), "<=": ("<", ">"), ">": (">=", "<="), ">=": (">", "<"),
@@ -45,6 +49,10 @@ DECLARATION = re.compile(
 )
 
 
+# Nothing but the file itself is known.
+ALONE = Surroundings()
+
+
 @dataclass(frozen=True)
 class Mutant:
     """One wrong version of a file."""
@@ -73,39 +81,53 @@ class Mutant:
         return f"{self.function}:{self.line}  {self.before}  ->  {self.after}"
 
 
-@dataclass(frozen=True)
-class Change:
-    """A piece of text to be replaced."""
+@dataclass
+class Generated:
+    """The mutants of a file, and how many were the same text as another or as the original."""
 
-    kind: str
-    start: int
-    end: int
-    replacement: str
+    mutants: list[Mutant]
+    dropped: int = 0
 
 
-def mutants(file: Path) -> list[Mutant]:
+def mutants(file: Path, around: Surroundings = ALONE) -> list[Mutant]:
     """All mutants of the functions that a file defines, in the order of the text."""
+    return generate(file, around).mutants
+
+
+def generate(file: Path, around: Surroundings = ALONE) -> Generated:
+    """The same, without those that say the same as another or as the original."""
     text = file.read_text(encoding="utf-8")
     code = csource.code_only(text)
-    found: list[Mutant] = []
+    made = Generated([])
+    texts = {_plain(code)}
     seen: Counter[tuple[str, str, str]] = Counter()
     for function in csource.defined(text):
         assert function.body
         head = code[: function.body[0]].rpartition(f"{function.name}")[0]
         changes = set(_changes(code, *function.body, _result_type(head)))
+        changes |= set(mutant_slips.changes(text, code, function.body, around))
         for change in sorted(changes, key=lambda c: (c.start, c.end, c.kind, c.replacement)):
-            before, after = _lines(text, change)
-            if before == after:
+            replacement = csource.without_comments(change.replacement)
+            changed = _plain(code[: change.start] + replacement + code[change.end :])
+            if changed in texts:
+                made.dropped += 1
                 continue
+            texts.add(changed)
+            before, after = _lines(text, change)
             seen[function.name, before, after] += 1
-            found.append(
+            made.mutants.append(
                 Mutant(
                     file, function.name, change.kind, change.start, change.end, change.replacement,
                     text.count("\n", 0, change.start) + 1, before, after,
                     seen[function.name, before, after],
                 )
             )  # fmt: skip
-    return found
+    return made
+
+
+def _plain(code: str) -> int:
+    """What stands for a text in which only white space may differ."""
+    return hash("".join(code.split()))
 
 
 def _result_type(head: str) -> str:

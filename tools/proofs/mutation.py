@@ -4,93 +4,52 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import shutil
 import threading
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
-from . import cbmc, engines, frames, targets, wp
+from . import cbmc, csource, engines, frames, targets, wp
 from .cache import Cache, digest
-from .harness import Harness, read_harness
+from .harness import MODELS, Harness, read_harness
 from .jobs import Runner
+from .mutant_verdicts import Verdict
 from .mutants import Mutant
-from .project import ProjectError, Unit, closure
+from .project import ProjectError, Unit, closure, find_units
 from .settings import Exceptions
 from .times import Times
-
-Identity = tuple[str, str, str, int]
 
 # What is not true is given up soon; how soon depends on how long what is true takes.
 PROVERS = {"Alt-Ergo": "alt-ergo", "CVC4": "cvc4", "Z3": "z3"}
 PATIENCE = 3.0
 SHORTEST, LONGEST = 2, 30
 IMPATIENT = 20.0
+UNTIMED = 60.0  # what a harness counts for whose time nobody knows
 LAST_PATIENCE = 10.0  # for the attempt after which a mutant is said to survive
 NO_ANSWER = "no answer"
+# In a stamp, what makes the mutants: proofs of what is unchanged do not depend on it.
+MAKERS = "mutants"
 # A goal that is not proved within the limits above may be one that takes longer.
 UNDECIDED = "not proved in the short limit"
-
-
-@dataclass
-class Verdict:
-    """What became of a mutant."""
-
-    mutant: Mutant
-    status: str = "survived"
-    reason: str = ""
-    engines: dict[str, str] = field(default_factory=dict)
-
-    def as_dict(self) -> dict[str, Any]:
-        """For the report."""
-        mutant = self.mutant
-        return {
-            "function": mutant.function, "kind": mutant.kind, "line": mutant.line,
-            "original": mutant.before, "mutant": mutant.after, "occurrence": mutant.occurrence,
-            "status": self.status, "reason": self.reason, "engines": self.engines,
-        }  # fmt: skip
-
-
-def read_equivalent(path: Path) -> dict[Identity, str]:
-    """proofs/UNIT/equivalent.toml: survivors that a person has accepted, each with the reason.
-
-    [[equivalent]]
-    function = "open_slot"
-    original = "for (uint32_t i = queue->count; i > place; i--) {"
-    mutant = "for (uint32_t i = queue->count; i != place; i--) {"
-    reason = "place never exceeds count, so the loop ends at place either way"
-    """
-    raw = tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-    found: dict[Identity, str] = {}
-    for entry in raw.get("equivalent", []):
-        wanted = {"function", "original", "mutant", "reason"}
-        if not wanted <= set(entry) <= wanted | {"occurrence"} or not entry["reason"].strip():
-            raise ProjectError(f"{path}: each entry needs {', '.join(sorted(wanted))}")
-        occurrence = int(entry.get("occurrence", 1))
-        found[entry["function"], entry["original"], entry["mutant"], occurrence] = entry["reason"]
-    return found
 
 
 class Trees:
     """Copies of the tree, one for each trial at a time: the tree itself is never touched."""
 
     def __init__(self, root: Path, scratch: Path, count: int) -> None:
-        self._free: list[Path] = []
+        self._root = root
+        self._free = [scratch / f"tree{number}" for number in range(count)]
         self._lock = threading.Lock()
-        for number in range(count):
-            tree = scratch / f"tree{number}"
-            for name in ("include", "src", "proofs"):
-                shutil.copytree(root / name, tree / name)
-            self._free.append(tree)
 
     @contextmanager
     def with_mutant(self, mutant: Mutant, root: Path) -> Iterator[Path]:
         """A tree in which the mutant has taken its file's place."""
         with self._lock:
             tree = self._free.pop()
+        self._fill(tree)
         file = tree / mutant.file.relative_to(root)
         text = file.read_text(encoding="utf-8")
         try:
@@ -100,6 +59,13 @@ class Trees:
             file.write_text(text, encoding="utf-8")
             with self._lock:
                 self._free.append(tree)
+
+
+    def _fill(self, tree: Path) -> None:
+        """Copy what proofs are made of, when the tree is used for the first time."""
+        for name in ("include", "src", "proofs", MODELS):
+            if (self._root / name).is_dir() and not (tree / name).is_dir():
+                shutil.copytree(self._root / name, tree / name)
 
 
 @dataclass(frozen=True)
@@ -116,13 +82,58 @@ class Tools:
     verdicts: Path
 
 
+@dataclass(frozen=True)
+class Seen:
+    """A harness, the files that its binary is made of, and the functions that it may call."""
+
+    harness: Harness
+    files: frozenset[Path]
+    reached: frozenset[str]
+
+
+def survey(root: Path) -> list[Seen]:
+    """All harnesses of all units."""
+    read = [read_harness(unit, path)
+            for unit in find_units(root).values() for path in unit.harnesses]  # fmt: skip
+    found = []
+    for harness in read:
+        files = closure(root, [harness.path, *harness.sources])
+        found.append(Seen(harness, frozenset(files), _reached(harness, files)))
+    return found
+
+
+def _reached(harness: Harness, files: Sequence[Path]) -> frozenset[str]:
+    """The functions that a harness may call, in whichever of its files."""
+    bodies: dict[str, str] = {}
+    for path in files:
+        text = path.read_text(encoding="utf-8")
+        code = csource.code_only(text)
+        for function in csource.defined(text):
+            if function.body:
+                bodies[function.name] = bodies.get(function.name, "") + code[slice(*function.body)]
+    seen: set[str] = set()
+    waiting = [harness.name]
+    while waiting:
+        for name in re.findall(r"\b\w+\b", bodies.get(waiting.pop(), "")):
+            if name in bodies and name not in seen and name not in harness.replaces:
+                seen.add(name)
+                waiting.append(name)
+    return frozenset(seen)
+
+
 class Trial:
-    """Tries the mutants of one unit."""
+    """Tries the mutants of one unit.
+
+    A mutant is tried first by the harnesses that compare its function with the model, then by the
+    others that cover it, then by WP, which asks the function alone: what its callers rely on is its
+    contract, not its body. What is left are the harnesses that were too slow and, with little time
+    each, those that only call it. Among equals the one that is usually fastest comes first.
+    """
 
     def __init__(
         self, unit: Unit, tools: Tools, trees: Trees, asked: Sequence[str], every: bool,
         cache: Cache, stamp: Mapping[str, str], exceptions: Exceptions,
-        times: Times, patient: bool = True,
+        times: Times, patient: bool = True, seen: Sequence[Seen] | None = None,
     ) -> None:  # fmt: skip
         self._unit = unit
         self._tools = tools
@@ -140,7 +151,13 @@ class Trial:
         self._proved = Cache(tools.verdicts)
         self._sound: dict[str, bool] = {}
         self._stages: dict[str, tuple[wp.Stage, ...]] = {}
-        self._harnesses = [read_harness(unit, path) for path in unit.harnesses]
+        self._original: str | None = None
+        own = {path.resolve() for path in unit.own_files}
+        linked = [one for one in seen or survey(unit.root) if own & one.files]
+        self._linked = [one.harness for one in linked]
+        self._reached = {one.harness.name: one.reached for one in linked}
+        files = {*closure(unit.root, unit.own_files)}.union(*(one.files for one in linked))
+        self._texts = {path: path.read_text(encoding="utf-8") for path in sorted(files)}
 
     def stop(self) -> None:
         """End all programs."""
@@ -171,6 +188,21 @@ class Trial:
         target = next(item for item in targets.targets(unit) if item.function == function)
         return frames.restricted(target, self._exceptions)
 
+    @property
+    def digest(self) -> str:
+        """Of all that the verdicts depend on, mutants aside."""
+        return self._digest(self._texts, "")
+
+    def known(self, mutant: Mutant) -> Verdict | None:
+        """The verdict that was kept, if nothing that it depends on has changed."""
+        kept = self._cache.get(self._key(mutant))
+        return Verdict.of(mutant, kept) if kept else None
+
+    def keep(self, verdict: Verdict) -> None:
+        """Keep a verdict, so that whoever goes on need not ask again."""
+        if verdict.status != "skipped":
+            self._cache.put(self._key(verdict.mutant), verdict.outcome)
+
     def try_mutant(self, mutant: Mutant) -> Verdict:
         """Which engine notices the mutant, if any."""
         verdict = Verdict(mutant)
@@ -180,15 +212,8 @@ class Trial:
             same = self._compare(unit, runner)
             if same:
                 verdict.status, verdict.reason = same
-                return verdict
-            key = self._key(mutant, unit)
-            known = self._cache.get(key)
-            if known:
-                verdict.status, verdict.engines = "killed", known["engines"]
-                return verdict
-            self._ask_engines(verdict, unit, runner)
-            if verdict.status == "killed":
-                self._cache.put(key, {"engines": verdict.engines})
+            else:
+                self._ask_engines(verdict, unit, runner)
         return verdict
 
     def _ask_engines(self, verdict: Verdict, unit: Unit, runner: Runner) -> None:
@@ -197,6 +222,7 @@ class Trial:
         In the latter case CBMC has little time at first: some mutants that are very hard for it
         are easy for WP.
         """
+        said: dict[str, str] = {}
         asked = list(self._engines)
         if not self._every and asked == ["cbmc", "wp"]:
             asked = ["cbmc", "wp", "cbmc"]
@@ -205,7 +231,7 @@ class Trial:
             if verdict.engines.get(engine, NO_ANSWER) != NO_ANSWER:
                 continue
             if engine == "cbmc":
-                verdict.engines[engine] = self._by_cbmc(verdict.mutant, unit, runner, last)
+                verdict.engines[engine] = self._by_cbmc(verdict.mutant, unit, runner, last, said)
             else:
                 verdict.engines[engine] = self._by_wp(verdict.mutant, unit, runner)
             if verdict.engines[engine].startswith("killed"):
@@ -220,24 +246,31 @@ class Trial:
         self._runners.append(runner)
         return runner
 
-    def _key(self, mutant: Mutant, unit: Unit) -> str:
+    def _key(self, mutant: Mutant) -> str:
         """All that a verdict depends on, with the mutant in it."""
-        files = closure(unit.root, [*unit.own_files, *unit.harnesses])
-        texts = {str(path.relative_to(unit.root)): path.read_text() for path in files}
+        changed = mutant.apply(self._texts[mutant.file])
+        return self._digest({**self._texts, mutant.file: changed}, mutant.function)
+
+    def _digest(self, texts: Mapping[Path, str], function: str) -> str:
+        root = self._unit.root
         return digest(
-            {"mutant": mutant.function, "texts": texts, "stamp": self._stamp,
-             "engines": list(self._engines), "every": self._every, "stages": str(wp.THOROUGH)}
+            {"mutant": function, "texts": {str(path.relative_to(root)): text
+                                           for path, text in texts.items()},
+             "stamp": self._stamp, "engines": list(self._engines), "every": self._every,
+             "stages": str(wp.THOROUGH), "patient": self._patient}
         )  # fmt: skip
 
     def _compare(self, unit: Unit, runner: Runner) -> tuple[str, str] | None:
         """Whether the mutant does not compile, or compiles to what the original compiles to."""
-        original = self._assembly(self._unit, self._runner(self._unit.root))
-        if original is None:
+        with self._baseline:
+            if self._original is None:
+                self._original = self._assembly(self._unit, self._runner(self._unit.root))
+        if self._original is None:
             raise ProjectError(f"{self._unit.name} does not compile, even unchanged")
         mutated = self._assembly(unit, runner)
         if mutated is None:
             return "stillborn", "does not compile"
-        if mutated == original:
+        if mutated == self._original:
             return "equivalent", "same object code"
         return None
 
@@ -258,25 +291,31 @@ class Trial:
         done = runner.run([*self._tools.compiler, *options], merged=False)
         return done.output if done.status == 0 else None
 
-    def _by_cbmc(self, mutant: Mutant, unit: Unit, runner: Runner, patient: bool) -> str:
-        """Whether a harness that reaches the function fails."""
+    def _by_cbmc(
+        self, mutant: Mutant, unit: Unit, runner: Runner, patient: bool, asked: dict[str, str]
+    ) -> str:  # fmt: skip
+        """Whether a harness that reaches the function fails; `asked` has what each said."""
         scratch = self._tools.scratch / unit.root.name
         checker = cbmc.Cbmc(self._tools.goto_cc, self._tools.cbmc, runner, unit.root, scratch)
-        answers = []
-        for path in self._harness_files(mutant, unit):
-            harness = read_harness(unit, path)
+        for original in self._ranked(mutant, patient):
+            if asked.get(original.name, NO_ANSWER) != NO_ANSWER:
+                continue
+            own = Unit(unit.root, original.unit.layer, original.unit.name)
+            harness = read_harness(own, own.folder / original.path.name)
             binary, complaint = checker.build(harness, harness.name)
-            limited = replace(harness, timeout=self._limit(harness) if patient else IMPATIENT)
+            thorough = patient and mutant.function in harness.covers
+            limited = replace(harness, timeout=self._limit(harness) if thorough else IMPATIENT)
+            asked[harness.name] = NO_ANSWER
             if complaint:
-                answers.append(NO_ANSWER)
                 continue
             answer = checker.check(limited, binary, ["--stop-on-fail"])
             if answer.failed and self._passes_unchanged(harness.name):
                 return f"killed: {harness.name}: {answer.first_failure}"
-            answers.append("survived" if answer.complete else NO_ANSWER)
-        if not answers:
-            return "no harness"
-        return NO_ANSWER if NO_ANSWER in answers else "survived"
+            if answer.complete:
+                asked[harness.name] = "survived"
+        if not asked:
+            return "no harness" if patient else NO_ANSWER
+        return NO_ANSWER if not patient or NO_ANSWER in asked.values() else "survived"
 
     def _passes_unchanged(self, name: str) -> bool:
         """Whether a harness proves the original: if not, its failure shows nothing."""
@@ -285,25 +324,38 @@ class Trial:
                 tools, root = self._tools, self._unit.root
                 runner = self._runner(root)
                 checker = cbmc.Cbmc(tools.goto_cc, tools.cbmc, runner, root, tools.scratch)
-                harness = next(item for item in self._harnesses if item.name == name)
-                key = engines.cbmc_key(harness, checker, root, self._stamp)
-                known = self._proved.get(key)
-                self._sound[name] = known is not None or not checker.prove(harness).problems
+                harness = next(item for item in self._linked if item.name == name)
+                stamp = {name: text for name, text in self._stamp.items() if name != MAKERS}
+                key = engines.cbmc_key(harness, checker, root, stamp)  # that of make prove
+                if self._proved.get(key) is None:
+                    result = checker.prove(harness)
+                    if not result.problems:
+                        self._proved.put(key, result.as_dict())
+                    self._sound[name] = not result.problems
+                else:
+                    self._sound[name] = True
             return self._sound[name]
 
     def _limit(self, harness: Harness) -> float:
         """How long a harness may take: some mutants are much harder than the original."""
-        usual = self._times.of("cbmc", self._unit.name, harness.name)
+        usual = self._times.of("cbmc", harness.unit.name, harness.name)
         return min(harness.timeout, max(IMPATIENT, LAST_PATIENCE * (usual or harness.timeout)))
 
-    def _harness_files(self, mutant: Mutant, unit: Unit) -> list[Path]:
-        """The harnesses that reach the function, its own first."""
-        relevant = [harness for harness in self._harnesses if mutant.function in harness.covers]
+    def _ranked(self, mutant: Mutant, patient: bool) -> list[Harness]:
+        """The harnesses to ask: those that compare the function with its model first."""
 
-        def rank(harness: Harness) -> tuple[bool, str]:
-            return harness.function != mutant.function, harness.name
+        def rank(harness: Harness) -> tuple[int, float, str]:
+            usual = self._times.of("cbmc", harness.unit.name, harness.name)
+            covers = mutant.function in harness.covers
+            compares = covers and "model_" in " ".join(harness.covers)
+            own = harness.function == mutant.function
+            place = 3 - covers - compares - (compares and own)
+            return place, UNTIMED if usual is None else usual, harness.name
 
-        return [unit.folder / harness.path.name for harness in sorted(relevant, key=rank)]
+        found = [one for one in self._linked if mutant.function in self._reached[one.name]]
+        return sorted(
+            (one for one in found if patient or mutant.function in one.covers), key=rank
+        )  # fmt: skip
 
     def _by_wp(self, mutant: Mutant, unit: Unit, runner: Runner) -> str:
         """Whether a goal of the function is not proved any more."""
@@ -339,47 +391,3 @@ def limits(result: targets.Result, answers: Path) -> tuple[wp.Stage, ...]:
     seconds = min(max(SHORTEST, math.ceil(PATIENCE * longest)), LONGEST)
     names = tuple(name for prover, name in PROVERS.items() if prover in needed) or ("alt-ergo",)
     return wp.Stage(names, seconds), wp.Stage(names, seconds, pruning=True)
-
-
-def count(verdicts: Sequence[Verdict], status: str) -> int:
-    """How many mutants have a status."""
-    return sum(verdict.status == status for verdict in verdicts)
-
-
-def settle(
-    verdicts: Sequence[Verdict], accepted: Mapping[Identity, str], complete: bool
-) -> list[str]:
-    """Apply the accepted reasons to survivors; what is left to complain about."""
-    problems = []
-    unused = dict(accepted)
-    for verdict in verdicts:
-        reason = unused.pop(verdict.mutant.identity, None)
-        if reason is None:
-            continue
-        if verdict.status in ("survived", "undecided"):
-            verdict.status, verdict.reason = "equivalent", reason
-        elif verdict.status != "skipped":
-            problems.append(f"equivalent.toml: needless, it is {verdict.status}: {verdict.mutant}")
-    if complete:
-        problems += [f"equivalent.toml: there is no such mutant: {' | '.join(map(str, identity))}"
-                     for identity in unused]  # fmt: skip
-    return problems
-
-
-def table(verdicts: Sequence[Verdict], engines: Sequence[str]) -> list[str]:
-    """Numbers of the run, by engine and by kind of mutant."""
-    lines = []
-    for engine in engines:
-        asked = [verdict for verdict in verdicts if engine in verdict.engines]
-        killed = sum(verdict.engines[engine].startswith("killed") for verdict in asked)
-        lines.append(f"{engine.upper():<5} killed {killed:>3} of {len(asked):>3} that it saw")
-    return lines
-
-
-def report(unit: str, verdicts: Sequence[Verdict], problems: Sequence[str]) -> str:
-    """The report, as JSON."""
-    names = ("killed", "survived", "undecided", "equivalent", "stillborn", "skipped")
-    summary: dict[str, Any] = {name: count(verdicts, name) for name in names}
-    entries = [verdict.as_dict() for verdict in verdicts]
-    content = {"unit": unit, "summary": summary, "problems": list(problems), "mutants": entries}
-    return json.dumps(content, indent=1) + "\n"

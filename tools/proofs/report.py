@@ -9,7 +9,7 @@ from typing import Any
 
 from toolchain import Found
 
-from . import cbmc
+from . import cbmc, determined
 from .driver import Job, Outcome
 from .project import Unit
 from .settings import Exceptions
@@ -33,6 +33,8 @@ class UnitResult:
     bounds: list[dict[str, str]] = field(default_factory=list)
     wrong_bounds: dict[str, bool] = field(default_factory=dict)
     problems: list[str] = field(default_factory=list)
+    # What determines each function.
+    outcomes: list[determined.Outcome] = field(default_factory=list)
 
     @property
     def wp_total(self) -> int:
@@ -56,6 +58,11 @@ class UnitResult:
     def cbmc_proved(self) -> int:
         """Properties proved."""
         return self._sum("proved")
+
+    @property
+    def assertions_only(self) -> list[str]:
+        """The harnesses that leave all other checks to others."""
+        return [name for name, one in self.harnesses.items() if one["checks"] == "assertions"]
 
     @property
     def gappa_total(self) -> int:
@@ -101,6 +108,7 @@ def _harness(result: Mapping[str, Any], sound: bool) -> dict[str, Any]:
         ],
         "defines": result["defines"],
         "replaces": result["replaces"],
+        "checks": result["checks"],
         "coverage": {"blocks": result["blocks"], "reached": result["covered"]},
     }
 
@@ -163,6 +171,11 @@ class Gathered:
     def proved(self) -> int:
         """All goals that are proved."""
         return self.wp_proved + self.cbmc_proved + self.gappa_proved
+
+    @property
+    def outcomes(self) -> list[determined.Outcome]:
+        """What determines each function."""
+        return [one for unit in self.units.values() for one in unit.outcomes]
 
     @property
     def all_problems(self) -> list[str]:
@@ -249,12 +262,17 @@ def closing_lines(gathered: Gathered) -> list[str]:
                 f"{name}: the postconditions of {left} functions are left to CBMC,"
                 " see proofs/units.toml"
             )
+    alone = [name for unit in gathered.units.values() for name in unit.assertions_only]
+    if alone:
+        lines.append(f"checked for assertions and unwinding alone: {', '.join(alone)}")
     if stale := sum(len(unit.stale) for unit in gathered.units.values()):
         lines.append(f"{stale} goals have a better prover than is recorded: run --update-goals")
     lines.append(f"verdicts: {gathered.known} known before, {gathered.fresh} had now")
     engines = (
         f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}, Gappa {gathered.gappa_proved}"
     )
+    if gathered.outcomes:
+        lines.append(determined.summary(gathered.outcomes))
     if gathered.shard:
         lines.append(f"shard {gathered.shard['shard']}: see --join for the verdict on the whole")
     return [*lines, f"proved {gathered.proved} of {gathered.total} goals ({engines})"]
@@ -285,7 +303,8 @@ def content(
 
 def _unit(result: UnitResult, engines: Sequence[str]) -> dict[str, Any]:
     exceptions = result.exceptions
-    entry: dict[str, Any] = {"problems": result.problems}
+    outcomes = [outcome.as_dict() for outcome in result.outcomes]
+    entry: dict[str, Any] = {"problems": result.problems, "determined": outcomes}
     if "wp" in engines:
         entry["wp"] = {
             "goals": result.wp_total,
@@ -312,6 +331,7 @@ def _unit(result: UnitResult, engines: Sequence[str]) -> dict[str, Any]:
                 "refuted": sum(result.negative.values()),
                 "list": result.negative,
             },
+            "assertions_only": result.assertions_only,
             "without_harness": exceptions.no_harness,
             "harnesses": harnesses,
         }

@@ -16,7 +16,9 @@ from toolchain import Found, Toolchain
 from . import (
     assertions,
     cbmc,
+    clauses,
     csource,
+    determined,
     driver,
     engines,
     frames,
@@ -28,7 +30,9 @@ from . import (
     wp,
 )
 from .cache import Cache, write_atomically
+from .declarations import structures
 from .goals import as_text, read_goals, short_name
+from .harness import read_harness, unchecked
 from .jobs import Runner
 from .project import RECORDED_TIMES, Unit, closure, find_units
 from .settings import Exceptions, read_exceptions
@@ -74,7 +78,7 @@ def own_digest() -> str:
     state = hashlib.sha256()
     own = [*folder.glob("*.py"), *folder.glob("*.ml"), folder.parent / "toolchain.py"]
     for path in sorted(own):
-        if path.stem not in ("mutants", "mutation"):
+        if not path.stem.startswith("muta"):
             state.update(path.read_bytes())
     return state.hexdigest()
 
@@ -114,6 +118,10 @@ class Session:
         versions = self._tools.versions("prove")
         content = report.content(gathered, versions, seconds, self._choice.partial)
         write_atomically(target, report.as_text(content))
+        if not gathered.shard:
+            write_atomically(
+                self._build / "determined.md", determined.as_markdown(gathered.outcomes)
+            )
         print("\n".join(report.closing_lines(gathered)), flush=True)
         return 0 if gathered.success else 1
 
@@ -211,17 +219,21 @@ class Session:
         """What must hold besides that the proofs succeed."""
         root = self._root
         own = [path for unit in self._choice.units for path in (*unit.own_files, *unit.theorems)]
-        shared = [*(root / "include" / "keel").glob("*.h"), *(root / "specs").glob("**/*.h")]
+        shared = [*(root / "include" / "keel").glob("*.h"), *(root / "specs").glob("**/*.[ch]")]
         gathered.problems += rules.assumptions_in([*own, *sorted(shared)], root)
         gathered.problems += unused.problems(root)
+        known = structures(clauses.header_texts(root))
         for result in gathered.units.values():
             unit, exceptions = result.unit, result.exceptions
+            result.outcomes = determined.outcomes(unit, exceptions, known)
+            result.problems += [text for one in result.outcomes for text in one.problems]
             result.problems += rules.undefined_functions(unit, exceptions.no_body, root)
             result.problems += rules.left_by_wp(unit, exceptions.not_by_wp, root)
             result.problems += frames.problems(unit, exceptions, find_units(root).values())
             if "cbmc" in self._choice.engines:
                 files = [path for path in closure(root, unit.harnesses) if "proofs" in path.parts]
                 result.problems += rules.switched_off_checks(files, root)
+                result.problems += unchecked(read_harness(unit, path) for path in unit.harnesses)
                 result.problems += rules.missing_harnesses(unit, exceptions.no_harness, root)
                 self._check_assertions(result)
             if "wp" in self._choice.engines:

@@ -5,11 +5,13 @@
     no_body = [{ function = "keel_board_now", reason = "…" }]
     not_by_wp = [{ function = "keel_queue_sort", reason = "…" }]
     by_cbmc = [{ function = "f", clause = "label", harness = "f_harness", reason = "…" }]
+    determined = [{ function = "keel_queue_find", by = "wp", reason = "…" }]
     warnings = [{ text = "part of a message of Frama-C", reason = "…" }]
 
 Of a function under not_by_wp WP proves all but the postconditions, and that no result of floats
-overflows (frames.py); by_cbmc names what else WP does not prove of it. An exception without a
-reason, or that nothing needs any more, is an error.
+overflows (frames.py); by_cbmc names what else WP does not prove of it. `determined` names the
+functions whose outcome no harness shows to be a model's (determined.py): by "wp", or by "nothing".
+An exception without a reason, or that nothing needs any more, is an error.
 """
 
 from __future__ import annotations
@@ -26,6 +28,7 @@ KINDS = {
     "no_body": ("function",),
     "not_by_wp": ("function",),
     "by_cbmc": ("function", "clause", "harness"),
+    "determined": ("function", "by"),
     "warnings": ("text",),
 }
 
@@ -34,13 +37,14 @@ KINDS = {
 class Exceptions:
     """The exceptions of one unit: for each kind, what is excepted and why.
 
-    Of by_cbmc the key is "function clause harness".
+    Of by_cbmc the key is "function clause harness", of determined "function by".
     """
 
     no_harness: dict[str, str] = field(default_factory=dict)
     no_body: dict[str, str] = field(default_factory=dict)
     not_by_wp: dict[str, str] = field(default_factory=dict)
     by_cbmc: dict[str, str] = field(default_factory=dict)
+    determined: dict[str, str] = field(default_factory=dict)
     warnings: dict[str, str] = field(default_factory=dict)
 
 

@@ -130,7 +130,7 @@ static inline uint32_t keel_decision_room_us(uint64_t earliest_us, uint64_t now_
 /** Which of the tasks that are not real-time runs, and when the next of them is released. */
 typedef struct keel_choice {
     uint64_t earliest_us; /**< The earliest release of them all; KEEL_TIME_NEVER_US if none is. */
-    uint32_t position;    /**< The chosen task's position in the order. */
+    uint32_t position;    /**< The chosen task's position in the order; 0 when there is none. */
     uint32_t priority;    /**< Its dynamic priority; 0: none is eligible. */
 } keel_choice_t;
 
@@ -167,6 +167,7 @@ typedef struct keel_choice {
   @ ensures DEC_003_none: \result.priority == 0 ==>
   @     \forall integer i; queue->realtime_count <= i < queue->count ==>
   @     !eligible(queue, queue->order[i], now_us, room_us);
+  @ ensures DEC_003_nowhere: \result.priority == 0 ==> \result.position == 0;
   @*/
 keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, uint32_t room_us);
 

@@ -193,11 +193,11 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @   ensures SCH_014_moved: \result != \null ==>
   @       moved_on{Pre, Post}(scheduler, scheduler->running);
   @   ensures SCH_014_release: \result != \null ==> !due(scheduler, scheduler->running);
-  @   ensures SCH_014_others: \forall integer k; 0 <= k < scheduler->queue.count ==>
+  @   ensures SCH_014_others: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==>
   @       \result == \null || k != scheduler->running ==>
   @       scheduler->queue.release_us[scheduler->queue.order[k]] ==
   @           \old(scheduler->queue.release_us[scheduler->queue.order[k]]);
-  @   ensures SCH_014_uncounted: \forall integer k; 0 <= k < scheduler->queue.count ==>
+  @   ensures SCH_014_uncounted: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==>
   @       \result == \null || k != scheduler->running ==>
   @       scheduler->queue.skipped[scheduler->queue.order[k]] ==
   @           \old(scheduler->queue.skipped[scheduler->queue.order[k]]);
@@ -236,7 +236,18 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @               ? counted(\at(promotions_at(scheduler, \at(scheduler->running, Post)), Pre),
   @                         UINT16_MAX)
   @               : \at(promotions_at(scheduler, \at(scheduler->running, Post)), Pre));
-  @   ensures SCH_016_unpromoted: \forall integer k; 0 <= k < scheduler->queue.count ==>
+  @   ensures SCH_014_running: \result == \null ==> scheduler->running == \old(scheduler->running);
+  @   ensures SCH_016_known: scheduler->stage != KEEL_STAGE_REALTIME ==>
+  @       \at(is_earliest(&scheduler->queue, 0, scheduler->queue.realtime_count,
+  @                       \at(scheduler->earliest_realtime_us, Post)), Pre);
+  @   ensures SCH_016_bound: scheduler->stage != KEEL_STAGE_REALTIME ==>
+  @       scheduler->clock.now_us < \old(scheduler->earliest_other_us) ==>
+  @       scheduler->earliest_other_us == \old(scheduler->earliest_other_us);
+  @   ensures SCH_016_renewed: scheduler->stage != KEEL_STAGE_REALTIME ==>
+  @       \old(scheduler->earliest_other_us) <= scheduler->clock.now_us ==>
+  @       \at(is_earliest(&scheduler->queue, scheduler->queue.realtime_count,
+  @                       scheduler->queue.count, \at(scheduler->earliest_other_us, Post)), Pre);
+  @   ensures SCH_016_unpromoted: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==>
   @       scheduler->stage != KEEL_STAGE_OTHER || k != scheduler->running ==>
   @       promotions_at(scheduler, k) == \old(promotions_at(scheduler, k));
   @   ensures SCH_012_pass: \result != \null ==> scheduler->wake_us == 0;
@@ -247,9 +258,14 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @       \forall integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
   @           scheduler->wake_us <= next_event(&scheduler->queue, scheduler->queue.order[i],
   @                                            scheduler->clock.now_us);
+  @   ensures SCH_012_first: \result == \null ==>
+  @       scheduler->wake_us <= scheduler->earliest_realtime_us;
+  @   ensures SCH_012_ahead: \result == \null ==>
+  @       scheduler->clock.now_us < scheduler->earliest_other_us ==> scheduler->wake_us ==
+  @           \min(scheduler->earliest_realtime_us, scheduler->earliest_other_us);
   @   ensures SCH_012_exact: \result == \null ==>
+  @       scheduler->earliest_other_us <= scheduler->clock.now_us ==>
   @       scheduler->wake_us == scheduler->earliest_realtime_us ||
-  @       scheduler->wake_us == scheduler->earliest_other_us ||
   @       \exists integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count &&
   @           scheduler->wake_us == next_event(&scheduler->queue, scheduler->queue.order[i],
   @                                            scheduler->clock.now_us);

@@ -12,12 +12,9 @@
  *     keel_scheduler_add(&s, &gyro);        for every task
  *     keel_scheduler_start(&s);             admission; from here on time counts
  *     for (;;) { keel_scheduler_step(&s); }
- *
- * A task is its declaration, a constant, whose address is its handle. All that changes lies in the
- * scheduler. A task may add and remove tasks, itself included, while it runs. It calls nothing else
- * that changes its scheduler; a step from within a task is refused.
- *
- * What the words of the contracts mean, and what the fields are, stands in scheduler_state.h.
+ * A task is its declaration, a constant, whose address is its handle. A task may add and remove
+ * tasks, itself included, while it runs, and calls nothing else that changes its scheduler. The
+ * fields, and the meaning of the contracts' words, stand in scheduler_state.h.
  */
 #ifndef KEEL_RTOS_SCHEDULER_H
 #define KEEL_RTOS_SCHEDULER_H
@@ -34,13 +31,11 @@
 /**
  * Prepares a scheduler without tasks (requirement SCH-001).
  *
- * @param scheduler the scheduler to initialise
+ * @param scheduler the scheduler
  * @param config    how; it is copied
- * @return KEEL_OK; KEEL_ERR_NULL for a null argument or a null clock; KEEL_ERR_CONFIG when the
- *         guard is 2^31 us or more or the utilisation limit above KEEL_UTILISATION_FULL_PPM
+ * @return KEEL_OK; KEEL_ERR_NULL, also for a null clock; KEEL_ERR_CONFIG: guard or limit too high
  */
-/*@ requires scheduler == \null || \valid(scheduler);
-  @ requires config == \null || \valid_read(config);
+/*@ requires (scheduler == \null || \valid(scheduler)) && (config == \null || \valid_read(config));
   @ requires scheduler != \null && config != \null ==> \separated(scheduler, config);
   @ assigns *scheduler;
   @ behavior null:
@@ -59,15 +54,8 @@
   @       config->utilisation_limit <= KEEL_UTILISATION_FULL_PPM;
   @   ensures ok: \result == KEEL_OK;
   @   ensures SCH_001_valid: scheduler_valid(scheduler);
-  @   ensures SCH_001_empty: scheduler->queue.count == 0 && scheduler->clock.now_us == 0 &&
-  @       scheduler->clock.raw_us == 0 && scheduler->busy_us == 0;
-  @   ensures SCH_001_bounds: nothing_known(scheduler);
-  @   ensures SCH_001_config: scheduler->config.guard_us == config->guard_us &&
-  @       scheduler->config.utilisation_limit == config->utilisation_limit &&
-  @       scheduler->config.read_clock == config->read_clock &&
-  @       scheduler->config.clock_context == config->clock_context;
-  @   ensures SCH_001_stage: scheduler->stage == KEEL_STAGE_SETUP && scheduler->cursor == 0 &&
-  @       scheduler->pass_end == 0 && scheduler->running == KEEL_POSITION_NONE;
+  @   ensures SCH_001_config: config_copied(scheduler, config);
+  @   ensures SCH_001_empty: scheduler_fresh(scheduler);
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
@@ -75,8 +63,7 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
                                   const keel_scheduler_config_t *config);
 
 /**
- * Checks whether the tasks can be scheduled, and names the first that cannot (requirement
- * SCH-003). Changes nothing.
+ * Checks whether the tasks can be scheduled, and names the first that cannot (SCH-003).
  *
  * @param scheduler the scheduler
  * @param admitted  receives how many tasks are admitted: on refusal, the offender is
@@ -98,14 +85,14 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
 
 /**
  * Adds a task (requirement SCH-004). Before the start it is only checked by itself; afterwards it
- * is also admitted with the rest of the set, and its first release is its phase from now. It may
- * be called from inside a running task: a real-time task then waits for the next pass, another task
- * takes part in the choice at the end of this one if its phase is over by then.
+ * is also admitted with the rest of the set, and its first release is its phase from now. Called
+ * from inside a running task, a real-time task waits for the next pass, another task takes part in
+ * the choice at the end of this one if its phase is over by then.
  *
  * @param scheduler the scheduler
  * @param task      the declaration, which must outlive the task's stay and not change meanwhile
- * @return KEEL_OK; KEEL_ERR_NULL, or what keel_task_check says; KEEL_ERR_DUPLICATE;
- *         KEEL_ERR_FULL; after the start what keel_admission_admit says; in this order
+ * @return KEEL_OK; KEEL_ERR_NULL, what keel_task_check says, KEEL_ERR_DUPLICATE, KEEL_ERR_FULL,
+ *         after the start what keel_admission_admit says; in this order
  */
 /*@ requires scheduler == \null || (\valid(scheduler) && scheduler_valid(scheduler) &&
   @     in_uptime(scheduler));
@@ -163,8 +150,8 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
 keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, const keel_task_config_t *task);
 
 /**
- * Removes a task (requirement SCH-007). It may be called from inside a running task, also for the
- * running task itself; no task is then skipped or run twice in the pass.
+ * Removes a task (requirement SCH-007), also from inside a running task, and the running one; no
+ * task is then skipped or run twice in the pass.
  *
  * @param scheduler the scheduler
  * @param task      the task to remove; it is compared, never read
@@ -192,11 +179,11 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, const keel_task_co
   @   ensures SCH_007_tasks: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
   @       \old(scheduler->queue.task[x]) != task ==>
   @       scheduler->queue.task[x] == \old(scheduler->queue.task[x]);
-  @   ensures SCH_007_order: \forall integer i; 0 <= i < \old(scheduler->queue.count) ==>
-  @       \old(scheduler->queue.task[scheduler->queue.order[i]]) == task ==>
+  @   ensures SCH_007_freed: \forall integer i; \old(is_at(scheduler, i, task)) ==>
+  @       scheduler->queue.task[\old(scheduler->queue.order[i])] == \null;
+  @   ensures SCH_007_order: \forall integer i; \old(is_at(scheduler, i, task)) ==>
   @       order_left{Pre, Post}(&scheduler->queue, i);
-  @   ensures SCH_007_pass: \forall integer i; 0 <= i < \old(scheduler->queue.count) ==>
-  @       \old(scheduler->queue.task[scheduler->queue.order[i]]) == task ==>
+  @   ensures SCH_007_pass: \forall integer i; \old(is_at(scheduler, i, task)) ==>
   @       pass_left{Pre, Post}(scheduler, i);
   @   ensures SCH_007_wake: nothing_known(scheduler);
   @   ensures SCH_007_shrinks: scheduler->pass_end - scheduler->cursor <=
@@ -207,65 +194,42 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, const keel_task_co
 keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, const keel_task_config_t *task);
 
 /**
- * Starts the scheduler with a given reading of the clock: time begins at 0, and every task's first
- * release is its phase (requirement SCH-009).
+ * Reads the clock and starts the scheduler: time begins at 0 with this reading, and every task's
+ * first release is its phase (requirement SCH-009).
  *
- * @param scheduler a scheduler that was not started yet
- * @param raw_us    the clock now
- * @return KEEL_OK; KEEL_ERR_STATE when it was started before; what keel_scheduler_check says
- */
-/*@ requires \valid(scheduler) && scheduler_valid(scheduler);
-  @ assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->stage,
-  @     scheduler->earliest_realtime_us;
-  @ ensures SCH_010_kept: \result != KEEL_OK ==> started_nothing{Pre, Post}(scheduler);
-  @ behavior state:
-  @   assumes scheduler->stage != KEEL_STAGE_SETUP;
-  @   assigns \nothing;
-  @   ensures SCH_010_state: \result == KEEL_ERR_STATE;
-  @ behavior refused:
-  @   assumes scheduler->stage == KEEL_STAGE_SETUP && !scheduler_holds(scheduler);
-  @   assigns \nothing;
-  @   ensures SCH_010_refused: admission_status(\result);
-  @ behavior started:
-  @   assumes scheduler->stage == KEEL_STAGE_SETUP && scheduler_holds(scheduler);
-  @   ensures ok: \result == KEEL_OK;
-  @   SCHEDULER_STAYS_VALID(scheduler)
-  @   ensures SCH_009_stage: scheduler->stage == KEEL_STAGE_READY;
-  @   ensures SCH_009_clock: scheduler->clock.now_us == 0 && scheduler->clock.raw_us == raw_us;
-  @   ensures SCH_009_demand: \old(demand_admitted(&scheduler->queue, scheduler->config.guard_us));
-  @   ensures SCH_009_gaps: \old(gaps_admitted(&scheduler->queue, scheduler->config.guard_us));
-  @ complete behaviors;
-  @ disjoint behaviors;
-  @*/
-keel_status_t keel_scheduler_start_at(keel_scheduler_t *scheduler, uint32_t raw_us);
-
-/**
- * Reads the clock and starts the scheduler (keel_scheduler_start_at, requirement SCH-019).
- *
- * @param scheduler the scheduler, or null
- * @return KEEL_ERR_NULL, or what keel_scheduler_start_at says
+ * @param scheduler a scheduler that was not started yet, or null
+ * @return KEEL_OK; KEEL_ERR_NULL; KEEL_ERR_STATE: started before; what keel_scheduler_check says
  */
 /*@ requires scheduler == \null || (\valid(scheduler) && scheduler_valid(scheduler) &&
   @     clock_modelled(scheduler));
   @ assigns scheduler->clock.now_us, scheduler->clock.raw_us, scheduler->stage,
   @     scheduler->earliest_realtime_us;
+  @ ensures SCH_010_kept: scheduler != \null && \result != KEEL_OK ==>
+  @     started_nothing{Pre, Post}(scheduler);
   @ behavior null:
   @   assumes scheduler == \null;
   @   assigns \nothing;
-  @   ensures SCH_019_null: \result == KEEL_ERR_NULL;
+  @   ensures SCH_010_null: \result == KEEL_ERR_NULL;
+  @ behavior state:
+  @   assumes scheduler != \null && scheduler->stage != KEEL_STAGE_SETUP;
+  @   assigns \nothing;
+  @   ensures SCH_010_state: \result == KEEL_ERR_STATE;
   @ behavior refused:
-  @   assumes scheduler != \null;
-  @   assumes scheduler->stage != KEEL_STAGE_SETUP || !scheduler_holds(scheduler);
-  @   ensures SCH_019_refused: \result != KEEL_OK;
-  @   ensures SCH_019_state: \result == KEEL_ERR_STATE <==>
-  @       \old(scheduler->stage) != KEEL_STAGE_SETUP;
-  @   ensures SCH_019_kept: started_nothing{Pre, Post}(scheduler);
+  @   assumes scheduler != \null && scheduler->stage == KEEL_STAGE_SETUP;
+  @   assumes !scheduler_holds(scheduler);
+  @   assigns \nothing;
+  @   ensures SCH_010_offender: \exists integer n; 0 <= n < scheduler->queue.count &&
+  @       scheduler_holds_of(scheduler, n) && scheduler_refused(scheduler, n + 1, \result);
   @ behavior started:
-  @   assumes scheduler != \null;
-  @   assumes scheduler->stage == KEEL_STAGE_SETUP && scheduler_holds(scheduler);
+  @   assumes scheduler != \null && scheduler->stage == KEEL_STAGE_SETUP;
+  @   assumes scheduler_holds(scheduler);
   @   ensures ok: \result == KEEL_OK;
-  @   ensures SCH_019_valid: scheduler_valid(scheduler);
-  @   ensures SCH_019_stage: scheduler->stage == KEEL_STAGE_READY && scheduler->clock.now_us == 0;
+  @   SCHEDULER_STAYS_VALID(scheduler)
+  @   ensures SCH_009_stage: scheduler->stage == KEEL_STAGE_READY;
+  @   ensures SCH_009_clock: scheduler->clock.now_us == 0;
+  @   ensures SCH_009_bound: scheduler->earliest_realtime_us == 0;
+  @   ensures SCH_009_demand: \old(demand_admitted(&scheduler->queue, scheduler->config.guard_us));
+  @   ensures SCH_009_gaps: \old(gaps_admitted(&scheduler->queue, scheduler->config.guard_us));
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
@@ -309,8 +273,7 @@ keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
 keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler);
 
 /**
- * Takes up a clock that has jumped: time goes on from its reading, as if none had passed
- * (requirement SCH-021).
+ * Takes up a clock that has jumped, as if no time had passed (requirement SCH-021).
  *
  * @param scheduler a scheduler between two steps, or null
  * @return KEEL_OK; KEEL_ERR_NULL; KEEL_ERR_STATE before the start and from within a task
@@ -336,8 +299,7 @@ keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler);
 keel_status_t keel_scheduler_resync(keel_scheduler_t *scheduler);
 
 /**
- * The task at a position of the queue: to walk through all tasks, and to name one (requirement
- * SCH-024).
+ * The task at a position of the queue, to walk through all (requirement SCH-024).
  *
  * @param scheduler the scheduler, or null
  * @param position  0 for the first
@@ -377,8 +339,7 @@ const keel_task_config_t *keel_scheduler_task(const keel_scheduler_t *scheduler,
   @   assumes scheduler != \null && task != \null && report != \null;
   @   assumes queue_holds(&scheduler->queue, task);
   @   ensures ok: \result == KEEL_OK;
-  @   ensures SCH_025_report: \forall integer i; 0 <= i < scheduler->queue.count ==>
-  @       scheduler->queue.task[scheduler->queue.order[i]] == task ==>
+  @   ensures SCH_025_report: \forall integer i; is_at(scheduler, i, task) ==>
   @       report->release_us == scheduler->queue.release_us[scheduler->queue.order[i]] &&
   @       report->skipped == scheduler->queue.skipped[scheduler->queue.order[i]] &&
   @       report->stats == scheduler->queue.stats[scheduler->queue.order[i]];

@@ -101,6 +101,22 @@ typedef struct keel_task_report {
   @     queue_others_last(&s->queue) && queue_periods(&s->queue) && queue_budgets(&s->queue) &&
   @     scheduler_state(s) && realtime_bound(s) && other_bound(s) && realtime_exact(s);
   @
+  @ predicate config_copied(keel_scheduler_t *s, keel_scheduler_config_t *config) =
+  @     s->config.guard_us == config->guard_us &&
+  @     s->config.utilisation_limit == config->utilisation_limit &&
+  @     s->config.read_clock == config->read_clock &&
+  @     s->config.clock_context == config->clock_context;
+  @
+  @ // As keel_scheduler_init leaves it: no task, no time, not started, nothing known.
+  @ predicate scheduler_fresh(keel_scheduler_t *s) =
+  @     s->queue.count == 0 && s->queue.realtime_count == 0 && s->clock.now_us == 0 &&
+  @     s->clock.raw_us == 0 && s->busy_us == 0 && s->stage == KEEL_STAGE_SETUP &&
+  @     s->cursor == 0 && s->pass_end == 0 && s->running == KEEL_POSITION_NONE &&
+  @     s->wake_us == 0 && s->earliest_realtime_us == 0 && s->earliest_other_us == 0;
+  @
+  @ predicate is_at(keel_scheduler_t *s, integer i, keel_task_config_t *task) =
+  @     0 <= i < s->queue.count && s->queue.task[s->queue.order[i]] == task;
+  @
   @ // Until the start no time has passed.
   @ predicate setup_unmoved(keel_scheduler_t *s) =
   @     s->stage == KEEL_STAGE_SETUP ==> s->clock.now_us == 0;

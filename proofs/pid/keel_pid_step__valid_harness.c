@@ -1,0 +1,36 @@
+// cbmc: --external-sat-solver cadical
+// sources: src/flight/pid.c src/flight/filter.c
+// covers: keel_pid_step differentiate winds_up put_out limit_reached direct_terms is_input
+//
+// Any valid controller, any bit pattern for both inputs: one step of the induction that keeps the
+// output and the integral within their limits. What the step computes is in keel_pid_step_harness.
+#include "../common/keel_pid_proof.h"
+#include "../common/unchanged.h"
+
+void keel_pid_step__valid_harness(void)
+{
+    const float setpoint = nondet_float();
+    const float measurement = nondet_float();
+    keel_pid_t pid = any_pid();
+    const keel_pid_t before = pid;
+    keel_status_t status;
+
+    status = keel_pid_step(&pid, setpoint, measurement);
+
+    __CPROVER_assert(pid_valid_here(&pid), "PID_006_valid: the controller stays valid");
+    if (status != KEEL_OK) {
+        __CPROVER_assert(unchanged(&pid, &before, sizeof(pid)),
+                         "STA_001_kept: a refusal changes nothing");
+        return;
+    }
+    __CPROVER_assert(before.started || (pid.derivative == 0.0f),
+                     "PID_009_no_kick: the first step has no derivative");
+    if (pid.saturation == KEEL_PID_AT_MAX) {
+        __CPROVER_assert(pid.output == pid.config.output_max, "PID_010_at_max: at the limit");
+        __CPROVER_assert(pid.integral <= before.integral, "PID_010_at_max: no wind-up");
+    }
+    if (pid.saturation == KEEL_PID_AT_MIN) {
+        __CPROVER_assert(pid.output == pid.config.output_min, "PID_010_at_min: at the limit");
+        __CPROVER_assert(pid.integral >= before.integral, "PID_010_at_min: no wind-up");
+    }
+}

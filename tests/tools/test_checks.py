@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+"""Tests of harnesses that check assertions alone, and of what a failing solver makes of a proof.
+
+    python3 tests/tools/test_checks.py
+
+The last class runs CBMC with a solver that a test plays, and is skipped without CBMC.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import unittest
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
+
+from proofs.jobs import Runner  # noqa: E402
+from proofs.project import ProjectError, find_units  # noqa: E402
+from test_prove import (  # noqa: E402
+    ASSERTED,
+    HARNESS,
+    TreeTest,
+    WholeRunCase,
+    cbmc_output,
+    item,
+)
+from toolchain import Toolchain, ToolchainError  # noqa: E402
+
+from proofs import cbmc, engines, harness, rules  # noqa: E402
+
+ALONE = "// checks: assertions\n" + HARNESS
+CASE = HARNESS.replace("keel_box_put_harness", "keel_box_put__all_harness")
+MODEL = """\
+static int twice(int x)
+{
+    return x + x;
+}
+
+void model_box_put(int *box, int value)
+{
+    *box = value;
+}
+"""
+
+
+class Directive(TreeTest):
+    def read(self, text: str, name: str = "keel_box_put_harness") -> harness.Harness:
+        path = self.unit.folder / f"{name}.c"
+        path.write_text(text, encoding="utf-8")
+        return harness.read_harness(self.unit, path)
+
+    def test_only_the_choice_of_assertions_is_one(self) -> None:
+        self.assertFalse(self.read(HARNESS).assertions_only)
+        self.assertTrue(self.read(ALONE).assertions_only)
+        for other in ("none", "", "assertions bounds"):
+            with self.subTest(other), self.assertRaisesRegex(ProjectError, "`checks` takes"):
+                self.read(ALONE.replace("checks: assertions", f"checks: {other}"))
+
+    def test_prose_behind_an_empty_line_is_no_directive(self) -> None:
+        prose = "//\n// All other\n// checks: keel_box_put__all_harness.c\n"
+        read = self.read(ALONE.replace("#include", f"{prose}#include", 1))
+        self.assertTrue(read.assertions_only)
+
+    def test_unwinding_is_checked_in_any_case(self) -> None:
+        alone = cbmc.checks_of(self.read(ALONE))
+        self.assertIn("--unwinding-assertions", alone)
+        self.assertNotIn("--bounds-check", alone)
+        self.assertEqual(cbmc.checks_of(self.read(HARNESS)), cbmc.CHECKS)
+
+    def test_the_choice_is_part_of_the_key(self) -> None:
+        checker = cbmc.Cbmc(["goto-cc"], ["cbmc"], Runner({}, self.root), self.root, self.root)
+        keys = {engines.cbmc_key(self.read(text), checker, self.root, {"z3": version})
+                for text in (HARNESS, ALONE) for version in ("4.8.12", "4.9")}  # fmt: skip
+        self.assertEqual(len(keys), 4)
+
+    def test_the_solvers_are_those_whose_versions_are_in_every_key(self) -> None:
+        lock = json.loads((ROOT / "tools/toolchain.lock.json").read_text(encoding="utf-8"))
+        self.assertLessEqual({"z3", *harness.EXTERNAL}, set(lock["groups"]["prove"]))
+        for option in ("--cvc5", "--external-sat-solver ./yes", "--external-sat-solver minisat"):
+            with self.subTest(option), self.assertRaises(ProjectError):
+                self.read(HARNESS.replace("--external-sat-solver cadical", option))
+
+    def test_the_coverage_run_does_without_z3(self) -> None:
+        options = self.read(HARNESS.replace("--external-sat-solver cadical", "--z3 --fpa")).options
+        self.assertEqual(options, ("--unwind", "3", "--z3", "--fpa"))
+        self.assertEqual(harness.without_solver(list(options)), ["--unwind", "3"])
+
+    def test_another_harness_must_make_all_checks(self) -> None:
+        alone = self.read(ALONE)
+        [problem] = harness.unchecked([alone])
+        self.assertIn("no other harness of keel_box_put on the same sources", problem)
+        self.assertEqual(harness.unchecked([self.read(HARNESS)]), [])
+        self.assertEqual(harness.unchecked([alone, self.case(CASE)]), [])
+
+    def case(self, text: str) -> harness.Harness:
+        return self.read(text, "keel_box_put__all_harness")
+
+    def test_the_other_one_must_look_at_the_same(self) -> None:
+        alone = self.read(ALONE.replace("covers: ", "covers: helper "))
+        [problem] = harness.unchecked([alone, self.case(CASE)])
+        self.assertIn("covers helper with all checks", problem)
+        (self.root / "copy.c").write_text("", encoding="utf-8")
+        self.assertEqual(len(harness.unchecked([alone, self.case("// sources: copy.c\n" + CASE)])),
+                         2)  # fmt: skip
+        lazy = self.case("// checks: assertions\n" + CASE)
+        self.assertEqual(len(harness.unchecked([alone, lazy])), 3)
+
+    def test_a_model_bears_no_checks(self) -> None:
+        model = self.root / "specs/model/box.c"
+        model.parent.mkdir(parents=True)
+        model.write_text(MODEL, encoding="utf-8")
+        alone = self.read("// sources: src/rtos/box.c specs/model/box.c\n"
+                          + ALONE.replace("covers: ", "covers: twice model_box_put "))  # fmt: skip
+        self.assertEqual(harness.unchecked([alone, self.case(CASE)]), [])
+        model.write_text(
+            MODEL.replace("    *box", "    __CPROVER_assume(0);\n    *box"), encoding="utf-8"
+        )
+        self.assertEqual(len(rules.assumptions_in([model], self.root)), 1)
+
+
+class Report(WholeRunCase):
+    def test_such_harnesses_are_named_and_refused_without_another(self) -> None:
+        (self.unit.folder / "keel_box_put_harness.c").write_text(ALONE, encoding="utf-8")
+        located = json.loads(json.dumps(ASSERTED).replace('"9"', '"10"'))
+        covered = [{"goals": [self.block("keel_box_put_harness", "8-11"),
+                              self.block("keel_box_put", "15")], "goalsCovered": 2}]  # fmt: skip
+        self.play(cbmc=json.loads(cbmc_output(located)), cover=covered)
+        status, output, report = self.prove()
+        self.assertEqual(status, 1)
+        self.assertIn("checked for assertions and unwinding alone: keel_box_put_harness", output)
+        entry = report["units"]["box"]["cbmc"]
+        self.assertEqual(entry["assertions_only"], ["keel_box_put_harness"])
+        self.assertEqual(entry["harnesses"]["keel_box_put_harness"]["checks"], "assertions")
+        self.assertEqual(len(report["problems"]), 1, report["problems"])
+        self.assertIn("no other harness of keel_box_put", report["problems"][0])
+
+    @staticmethod
+    def block(function: str, lines: str) -> dict[str, Any]:
+        file = "proofs/box/keel_box_put_harness.c" if "harness" in function else "src/rtos/box.c"
+        location = {"file": file, "function": function, "line": lines.split("-")[0]}
+        return {"basicBlockLines": {file: {function: lines}}, "sourceLocation": location,
+                "status": "satisfied"}  # fmt: skip
+
+
+class Solver(unittest.TestCase):
+    """What CBMC 6.6 says when its solver does not answer."""
+
+    def test_an_error_of_the_solver_is_no_proof(self) -> None:
+        failed = item("h.assertion.2", "ERROR", "BOX_002: equal")
+        text = json.dumps([{"result": [ASSERTED, failed]}, {"cProverStatus": "error"}])
+        problems = cbmc.proof_problems(cbmc.read_answer(text))
+        self.assertTrue(any("BOX_002: equal: ERROR" in problem for problem in problems), problems)
+        self.assertIn("CBMC did not finish", problems)
+
+    def test_an_error_is_an_answer_neither_way(self) -> None:
+        answer = cbmc.read_answer(json.dumps([{"cProverStatus": "error"}]))
+        self.assertEqual((answer.complete, answer.failed), (False, False))
+
+
+def cbmc_tools() -> Toolchain | None:
+    """The tools, if CBMC is among them."""
+    try:
+        tools = Toolchain()
+        tools.command("cbmc")
+    except ToolchainError:
+        return None
+    return tools
+
+
+SUM = HARNESS.replace("--external-sat-solver cadical", "--z3 --fpa").replace(
+    "    keel_box_put(&box, 7);\n", "    float f;\n    float g = f;\n    keel_box_put(&box, 7);\n"
+    '    __CPROVER_assert(!(f + 1.0f > g + 1.0f), "BOX_002: the same sum");\n'
+)  # fmt: skip
+
+
+@unittest.skipUnless(cbmc_tools(), "needs CBMC")
+class PlayedSolver(TreeTest):
+    def prove(self, answer: str) -> list[str]:
+        """What is wrong with a proof by CBMC, with a z3 that runs these commands."""
+        tools = cbmc_tools()
+        assert tools
+        bin_folder = self.root / "bin"
+        bin_folder.mkdir(exist_ok=True)
+        z3 = bin_folder / "z3"
+        z3.write_text(f"#!/bin/sh\n{answer}\n", encoding="utf-8")
+        z3.chmod(0o755)
+        variables = {**os.environ, **tools.environment()}
+        variables["PATH"] = f"{bin_folder}{os.pathsep}{variables['PATH']}"
+        runner = Runner(variables, self.root)
+        checker = cbmc.Cbmc(tools.goto_cc(), tools.command("cbmc"), runner, self.root, self.root)
+        path = self.unit.folder / "keel_box_put_harness.c"
+        path.write_text("// checks: assertions\n// timeout: 2\n" + SUM, encoding="utf-8")
+        read = harness.read_harness(find_units(self.root)["box"], path)
+        binary, complaint = checker.build(read, read.name)
+        self.assertEqual(complaint, "")
+        return cbmc.proof_problems(checker.check(read, binary))
+
+    def test_only_unsat_proves(self) -> None:
+        self.assertEqual(self.prove("echo unsat"), [])
+
+    def test_anything_else_is_a_failure(self) -> None:
+        for answer in ("echo unknown", "kill -SEGV $$", "exit 1", "sleep 20", "echo timeout",
+                       "echo '(error \"no such logic\")'; echo unsat"):  # fmt: skip
+            with self.subTest(answer):
+                self.assertIn("CBMC did not finish", self.prove(answer))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,436 @@
+#!/usr/bin/env python3
+"""Tests of the check that every function's outcome is determined: each gap in it is found.
+
+    python3 tests/tools/test_determined.py
+
+A small project in which all is determined is changed in one place.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
+
+from proofs.project import ProjectError  # noqa: E402
+from test_prove import WholeRunCase  # noqa: E402
+
+from proofs import clauses, declarations, determined  # noqa: E402
+
+HEADER = """\
+#define BOX_SIDES 4u
+#define BOX_COUNTS(box) (box)->count, (box)->side[0 .. BOX_SIDES - 1]
+typedef struct keel_lid {
+    float angle; /**< In rad; see x. */
+    const char *name;
+} keel_lid_t;
+typedef struct keel_box {
+    uint32_t count;
+    uint8_t side[BOX_SIDES];
+    keel_lid_t lid;
+} keel_box_t;
+/*@ predicate box_full(keel_box_t *b) = \\forall integer i; 0 <= i < 4 ==> b->side[i] > 0;
+  @ predicate moved{L, M}(keel_box_t *b) =
+  @     \\at(b->count, M) == \\at(b->lid.angle, L);
+  @*/
+/*@ requires \\valid(box) && box_full(box);
+  @ assigns BOX_COUNTS(box), box->lid.angle;
+  @ ensures BOX_001: \\result == 0 && box->count == \\old(box->count) + more;
+  @ ensures BOX_002: \\forall integer i; 0 <= i < 4 ==> box->side[i] == 1;
+  @ ensures BOX_003_lid: box->lid.angle == 0;
+  @*/
+int32_t keel_box_put(keel_box_t *box, uint32_t more);
+/*@ assigns \\nothing;
+  @ ensures BOX_004: \\result == box->lid.angle;
+  @*/
+static inline float keel_box_angle(const keel_box_t *box)
+{
+    return box->lid.angle;
+}
+"""
+MODEL = """\
+int32_t model_box_put(keel_box_t *box, uint32_t more);
+float model_box_angle(const keel_box_t *crate);
+"""
+SAME = """\
+#define SIDES BOX_SIDES
+static bool lid_same(const keel_lid_t *a, const keel_lid_t *b)
+{
+    return float_same(a->angle, b->angle) && (a->name == b->name);
+}
+
+static bool box_same(const keel_box_t *a, const keel_box_t *b)
+{
+    bool same = (a->count == b->count) && lid_same(&a->lid, &b->lid);
+
+    for (uint32_t i = 0u; i < SIDES; i++) {
+        same = same && (a->side[i] == b->side[i]);
+    }
+    return same;
+}
+"""
+PUT = """\
+// covers: keel_box_put
+// defines: -DBOX_SIDES=2u
+#include "../common/same_box.h"
+#include "../../specs/model/box.h"
+
+void keel_box_put_harness(void)
+{
+    const uint32_t more = any_bits(8u);
+    const uint32_t x = nondet_u32();
+    keel_box_t box = any_box();
+    keel_box_t model = box;
+    int32_t status;
+
+    __CPROVER_assume(more > 0u);
+
+    status = keel_box_put(&box, more);
+
+    __CPROVER_assert(status == model_box_put(&model, more), "BOX_001_model: (as) the model");
+    __CPROVER_assert((more > 0u) && box_same(&box, &model), "BOX_002_model: says");
+}
+"""
+ANGLE = """\
+// covers: keel_box_angle
+#include "../../specs/model/box.h"
+
+void keel_box_angle_harness(void)
+{
+    const keel_box_t box = any_box();
+    const float expected = model_box_angle(&box);
+
+    __CPROVER_assert(float_same(keel_box_angle(&box), expected), "BOX_004_model: as the model");
+}
+"""
+FILES = {
+    "include/keel/rtos/box.h": HEADER,
+    "src/rtos/box.c": "int32_t keel_box_put(keel_box_t *box, uint32_t more)\n{\n    return 0;\n}\n",
+    "specs/model/box.h": MODEL,
+    "proofs/common/same_box.h": SAME,
+    "proofs/box/keel_box_put_harness.c": PUT,
+    "proofs/box/keel_box_angle_harness.c": ANGLE,
+}
+BY_WP = '[box]\ndetermined = [{ function = "keel_box_put", by = "wp", reason = "no end" }]\n'
+
+
+class DeterminedTest(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name).resolve()
+        for name, text in FILES.items():
+            self.write(name, text)
+
+    def write(self, name: str, text: str) -> None:
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+    def change(self, name: str, old: str, new: str) -> None:
+        path = next(path for path in FILES if path.endswith(name))
+        self.assertIn(old, FILES[path])
+        self.write(path, FILES[path].replace(old, new))
+
+    def outcome(self, function: str = "keel_box_put") -> determined.Outcome:
+        return next(one for one in determined.of_tree(self.root) if one.function == function)
+
+    def problems(self) -> list[str]:
+        return [text for one in determined.of_tree(self.root) for text in one.problems]
+
+    def assert_found(self, text: str) -> None:
+        found = self.problems()
+        self.assertTrue(any(text in problem for problem in found), found)
+        self.write_all()
+
+    def write_all(self) -> None:
+        for name, text in FILES.items():
+            self.write(name, text)
+
+
+class Equality(DeterminedTest):
+    def test_all_is_determined(self) -> None:
+        self.assertEqual(self.problems(), [])
+        found = determined.of_tree(self.root)
+        self.assertEqual([one.by for one in found], ["equality", "equality"])
+        self.assertEqual(determined.summary(found),
+                         "determined: 2 of 2 functions (equality 2, WP 0)")  # fmt: skip
+
+    def test_what_a_harness_narrows_is_listed(self) -> None:
+        bounds = self.outcome().harnesses["keel_box_put_harness"]
+        self.assertEqual(bounds, ["BOX_SIDES=2u", "any_bits(8u)", "more > 0u"])
+        row = determined.as_markdown(determined.of_tree(self.root))
+        self.assertIn("| keel_box_put | equality | keel_box_put_harness | BOX_SIDES=2u; any", row)
+
+    def test_a_model_must_be_declared_with_the_same_types(self) -> None:
+        self.change("model/box.h", "model_box_put(", "model_box_fill(")
+        self.assert_found("specs/model/box.h declares no model_box_put")
+        for old, new in (("uint32_t more", "uint16_t more"), ("int32_t model", "int model"),
+                         ("const keel_box_t *c", "keel_box_t *c")):  # fmt: skip
+            with self.subTest(new):
+                self.change("model/box.h", old, new)
+                self.assert_found("has other types than keel_box_")
+
+    def test_a_harness_must_compare(self) -> None:
+        cases = {
+            ("model_box_put(", "model_box_fill("): "no harness of it calls model_box_put",
+            ("status == model", "status != model"): "the results are not asserted to be the same",
+            ("(more > 0u) && box_same(&box, &model)", "true"): "box: are not asserted",
+            ("&& box_same", "|| box_same"): "box: are not asserted",
+            ("box_same(&box, &model)", "box_same(&box, &box)"): "box: are not asserted",
+            ("box_same(&box", "lid_same(&box"): "lid_same does not compare two keel_box_t",
+            ("put(&model", "put(&box"): "both are given one object",
+            ("put(&model, more", "put(&model, 1u"): "the model is given 1u, the function more",
+        }  # fmt: skip
+        for (old, new), why in cases.items():
+            with self.subTest(new):
+                self.change("put_harness.c", old, new)
+                self.assert_found(why)
+
+    def test_a_claim_must_be_made_in_every_execution(self) -> None:
+        tail = PUT.partition("    __CPROVER_assert(status")[2]
+        asserted = "    __CPROVER_assert(status" + tail.removesuffix("}\n")
+        for head in ("if (status == 0) {", "while (more > 0u) {"):
+            with self.subTest(head):
+                self.change("put_harness.c", asserted, f"    {head}\n{asserted}    }}\n")
+                self.assert_found("model_box_put(&model, more) is not called in every execution")
+        self.change("put_harness.c", "    int32_t status;", "    int32_t status;\n    return;")
+        self.assert_found("returns early")
+
+    def test_a_loop_over_numbers_is_listed(self) -> None:
+        self.change(
+            "angle_harness.c",
+            "    const float expected",
+            "    for (uint32_t i = 0u; i < 3u; i++) {\n    const float expected",
+        )
+        path = self.root / "proofs/box/keel_box_angle_harness.c"
+        path.write_text(path.read_text().rstrip()[:-1] + "    }\n}\n", encoding="utf-8")
+        self.assertEqual(
+            self.outcome("keel_box_angle").harnesses,
+            {"keel_box_angle_harness": ["for (uint32_t i = 0u; i < 3u; i++)"]},
+        )
+
+    def test_claims_come_after_the_calls_and_nothing_between(self) -> None:
+        claim = PUT[PUT.index("    __CPROVER_assert((more") : -len("}\n")]
+        self.change("put_harness.c", claim, "")
+        text = (self.root / "proofs/box/keel_box_put_harness.c").read_text(encoding="utf-8")
+        early = text.replace("    status = keel", f"{claim}    status = keel")
+        self.write("proofs/box/keel_box_put_harness.c", early)
+        self.assert_found("box: are not asserted")
+        for line in ("model = box;", "box.count = 0u;", "model.side[0] = box.side[0];"):
+            with self.subTest(line):
+                self.change("put_harness.c", claim, f"    {line}\n{claim}")
+                self.assert_found("is written between the calls and the assertion")
+        self.change(
+            "put_harness.c", "    __CPROVER_assert(st", "    status = 0;\n    __CPROVER_assert(st"
+        )
+        self.assert_found("status is written between")
+
+    def test_floats_are_compared_bit_for_bit(self) -> None:
+        self.change(
+            "angle_harness.c",
+            "float_same(keel_box_angle(&box), expected)",
+            "keel_box_angle(&box) == expected",
+        )
+        self.assert_found("the results are not asserted")
+
+    def test_an_index_must_be_any(self) -> None:
+        for index, good in (("x", True), ("more", False), ("0u", False), ("status", False)):
+            with self.subTest(index):
+                self.change("put_harness.c", "same(&box, &model)", f"same(&box, &model, {index})")
+                self.change("same_box.h", "keel_box_t *b)", "keel_box_t *b, uint32_t i)")
+                found = self.problems()
+                self.assertEqual(found == [], good, found)
+                self.write_all()
+
+    def test_a_contract_of_stand_ins_counts_as_what_it_says(self) -> None:
+        does = """
+static bool keel_box_put_does(const keel_box_t *is, const keel_box_t *was, int32_t a, int32_t b)
+{
+    return box_same(is, was) && (a == b);
+}
+"""
+        good = "keel_box_put_does(&box, &model, status, expected)"
+        head, _, tail = PUT.partition("    __CPROVER_assert(status")
+        call = "    const int32_t expected = model_box_put(&model, more);\n"
+        for text, claim, found in (
+            (does, good, False),
+            (does.replace("&&", "||"), good, True),
+            (does.replace("(a == b)", "(a == a)"), good, True),
+            (does.replace("    return", "    a = b;\n    return"), good, True),
+            (does, good.replace("&model", "&box"), True),
+            (does, f"(more > 3u) || {good}", True),
+        ):
+            with self.subTest(text=text, claim=claim):
+                self.write("proofs/common/same_box.h", SAME + text)
+                body = f'{head}{call}    __CPROVER_assert({claim}, "x");\n}}\n'
+                self.write("proofs/box/keel_box_put_harness.c", body)
+                self.assertEqual(bool(self.problems()), found, self.problems())
+
+
+class Sameness(DeterminedTest):
+    def test_a_field_left_out_is_named(self) -> None:
+        cases = {
+            ("(a->count == b->count) && ", ""): "box_same: keel_box_t.count is not compared",
+            ("a->count == b->count", "a->count == a->count"): "keel_box_t.count is not compared",
+            ("a->count == b->count", "a->count >= b->count"): "keel_box_t.count is not compared",
+            (" && (a->name == b->name)", ""): "lid_same: keel_lid_t.name is not compared",
+            (" && lid_same(&a->lid, &b->lid)", ""): "keel_box_t.lid is not compared by a function",
+            ("&& lid_same", "&& any_same"): "keel_box_t.lid is not compared by a function",
+            ("(&a->lid, &b->lid)", "(&a->lid, &a->lid)"): "keel_box_t.lid is not compared",
+            ("float_same(a->angle, b->angle)", "(a->angle == b->angle)"):
+                "keel_lid_t.angle is not compared by float_same",
+            ("i < SIDES", "i < 3u"): "keel_box_t.side is not compared at all of its BOX_SIDES",
+            ("i = 0u", "i = 1u"): "keel_box_t.side is not compared at all of its BOX_SIDES",
+            ("a->side[i] == b->side[i]", "a->side[0] == b->side[0]"): "is not compared at all",
+            ("b->side[i]", "b->side[x]"): "is compared at i with that at x",
+            ("same = same && (", "same = ("): "same forgets what was found before",
+            ("&& lid_same", "|| lid_same"): "may be true of objects that differ",
+        }  # fmt: skip
+        for (old, new), why in cases.items():
+            with self.subTest(new):
+                self.change("same_box.h", old, new)
+                self.assert_found(why)
+
+    def test_a_part_may_be_compared_by_another_function(self) -> None:
+        part = SAME.replace("(a->count == b->count) && ", "part_same(a, b) && ").replace(
+            "static bool box",
+            "static bool part_same(const keel_box_t *x, const keel_box_t *y)\n{\n"
+            "    return x->count == y->count;\n}\n\nstatic bool box")  # fmt: skip
+        self.write("proofs/common/same_box.h", part)
+        self.assertEqual(self.problems(), [])
+        for old, new in (("x->count == y", "x->count <= y"), ("part_same(a, b)", "part_same(a, a)"),
+                         ("return x->c", "return true || x->c")):  # fmt: skip
+            with self.subTest(new):
+                self.write("proofs/common/same_box.h", part.replace(old, new))
+                self.assertNotEqual(self.problems(), [])
+
+    def test_a_new_field_must_be_compared(self) -> None:
+        self.change("rtos/box.h", "    keel_lid_t lid;\n", "    keel_lid_t lid;\n    bool shut;\n")
+        self.assert_found("box_same: keel_box_t.shut is not compared")
+
+    def test_what_cannot_be_read_is_an_error(self) -> None:
+        for field in ("uint8_t a : 3;", "int a[2][3];", "int a, b;", "struct { int x; } y;"):
+            with self.subTest(field), self.assertRaises(ProjectError):
+                self.change("rtos/box.h", "    uint32_t count;", f"    {field}")
+                self.problems()
+
+
+class ByWp(DeterminedTest):
+    def setUp(self) -> None:
+        super().setUp()
+        self.write("proofs/units.toml", BY_WP)
+        self.write("proofs/box/keel_box_put_harness.c", "")
+
+    def write_all(self) -> None:
+        super().write_all()
+        self.write("proofs/box/keel_box_put_harness.c", "")
+
+    def test_every_field_is_named_by_a_clause(self) -> None:
+        outcome = self.outcome()
+        self.assertEqual((outcome.by, outcome.reason, outcome.problems), ("wp", "no end", []))
+        labels = {"count": ["BOX_001"], "side": ["BOX_002"], "lid.angle": ["BOX_003_lid"],
+                  "\\result": ["BOX_001"]}  # fmt: skip
+        self.assertEqual(outcome.fields, labels)
+        self.assertIn("not by equality: no end", determined.as_markdown([outcome]))
+
+    def test_a_field_that_no_clause_names_is_a_failure(self) -> None:
+        cases = {
+            ("box->count == \\old(box->count) + more", "more > 0"): "count",
+            ("box->count ==", "\\at(box->count, Pre) =="): "count",
+            ("\\result == 0 && ", ""): "\\result",
+            ("BOX_003_lid", "lid"): "lid.angle",
+            ("ensures BOX_003_lid: box->lid.angle == 0", "ensures BOX_003: moved{Pre, Post}(box)"):
+                "lid.angle",
+            ("assigns BOX_COUNTS(box), box->lid.angle", "assigns *box"): "lid.name",
+            ("\\forall integer i; 0 <= i < 4 ==> box->side[i] == 1", "box_full(box)"): "side",
+        }  # fmt: skip
+        for (old, new), name in cases.items():
+            with self.subTest(new):
+                self.change("rtos/box.h", old, new)
+                self.assert_found(
+                    f"keel_box_put: no clause of its contract says what becomes of {name}"
+                )
+
+    def test_what_cannot_be_read_is_a_failure(self) -> None:
+        self.change("rtos/box.h", "assigns BOX_COUNTS(box)", "assigns other->count")
+        self.assert_found("what is assigned by other->count?")
+
+    def test_a_choice_is_checked(self) -> None:
+        left = 'not_by_wp = [{ function = "keel_box_put", reason = "floats" }]\n'
+        cases = {
+            BY_WP.replace('"wp"', '"luck"'): "`by` is one of wp, nothing",
+            BY_WP.replace("box_put", "box_shut"): "there is no function keel_box_shut",
+            BY_WP + left: "WP leaves its postconditions to CBMC",
+        }
+        for text, why in cases.items():
+            with self.subTest(why):
+                self.write("proofs/units.toml", text)
+                self.assert_found(why)
+
+    def test_a_needless_choice_is_a_failure(self) -> None:
+        self.write("proofs/box/keel_box_put_harness.c", PUT)
+        self.assertEqual(self.problems(), [])  # the harness narrows
+        free = PUT.replace("any_bits(8u)", "nondet_u32()").replace(
+            "// defines: -DBOX_SIDES=2u\n", ""
+        )
+        free = free.replace("    __CPROVER_assume(more > 0u);\n", "")
+        self.write("proofs/box/keel_box_put_harness.c", free)
+        self.assert_found("determined: keel_box_put is no exception any more")
+
+    def test_nothing_needs_a_reason_and_is_shown(self) -> None:
+        self.write("proofs/units.toml", BY_WP.replace('"wp"', '"nothing"'))
+        self.assertEqual(self.problems(), [])
+        found = determined.of_tree(self.root)
+        self.assertIn("determined: 1 of 2 functions (equality 1, WP 0), 1 excepted",
+                      determined.summary(found))  # fmt: skip
+
+
+class Parsing(unittest.TestCase):
+    def test_a_clause_ends_behind_its_quantifiers(self) -> None:
+        text = "\\forall integer i; (\\exists integer j; i < j); requires x;"
+        self.assertEqual(clauses.statement(text), text.removesuffix("; requires x;"))
+
+    def test_the_state_before_does_not_count(self) -> None:
+        self.assertEqual(clauses.after("a == \\old(b(c)) + \\at(d, Post)").split(),
+                         ["a", "==", "+", "(d)"])  # fmt: skip
+
+    def test_signatures(self) -> None:
+        text = (
+            "static inline const char *f(const int *a, unsigned n, const float v[], int *const p);"
+        )
+        found = declarations.signatures(text)["f"]
+        self.assertEqual(found.types, ("const char *", "const int *", "unsigned", "const float *",
+                                       "int *"))  # fmt: skip
+        self.assertEqual([one.written for one in found.parameters], [False, False, False, True])
+
+
+class Report(WholeRunCase):
+    def test_open_functions_are_shown_and_do_not_fail(self) -> None:
+        status, output, report = self.prove()
+        self.assertEqual(status, 0, output)
+        self.assertIn("1 open: their units have no model", output)
+        [entry] = report["units"]["box"]["determined"]
+        self.assertEqual((entry["function"], entry["by"]), ("keel_box_put", "open"))
+        table = (self.root / "build/prove/determined.md").read_text(encoding="utf-8")
+        self.assertIn("| keel_box_put | open |", table)
+
+    def test_what_nothing_determines_fails_where_there_is_a_model(self) -> None:
+        model = self.root / "specs/model/box.h"
+        model.parent.mkdir(parents=True)
+        model.write_text("void model_box_put(int *box, int value);\n", encoding="utf-8")
+        status, _, report = self.prove()
+        self.assertEqual(status, 1)
+        self.assertIn("keel_box_put: no harness of it calls model_box_put", report["problems"])
+        self.assertIn(
+            "- keel_box_put: no harness",
+            (self.root / "build/prove/determined.md").read_text(encoding="utf-8"),
+        )
+
+
+if __name__ == "__main__":
+    unittest.main()
