@@ -23,32 +23,15 @@ static bool keel_voter_agreement_may(float x, float y, float agree, float none)
            none_valid_here(agree, none) && in_range_here(x) && in_range_here(y);
 }
 
-/* What keel_voter_within said last: of which ends, and for which a. */
-typedef struct hull {
-    float least;
-    float most;
-    float agree;
-    bool within;
-} hull_t;
-
-static hull_t hull;
-
-/* Whether two samples lie between such ends, so that they agree fully. */
-static bool in_hull(float x, float y, float agree)
-{
-    return hull.within && (hull.agree == agree) && (hull.least <= x) && (x <= hull.most) &&
-           (hull.least <= y) && (y <= hull.most);
-}
-
 /* 2^-24 is the least that is not 0: too small a weight could not be divided by. */
 static bool agreement_range(float s)
 {
     return (s == 0.0f) || ((0x1p-24f <= s) && (s <= 1.0f));
 }
 
-static bool keel_voter_agreement_does(float s, float x, float y, float agree)
+static bool keel_voter_agreement_does(float s)
 {
-    return agreement_range(s) && (!in_hull(x, y, agree) || (s == 1.0f));
+    return agreement_range(s);
 }
 
 static bool keel_voter_weight_may(const float agreement[], uint32_t others)
@@ -69,13 +52,11 @@ static bool weight_range(float w)
 static bool keel_voter_weight_does(float w, const float agreement[], uint32_t others)
 {
     bool null = true;
-    bool full = true;
 
     for (uint32_t i = 0u; i < (SENSORS - 1u); i++) {
         null = null && ((i >= others) || (agreement[i] == 0.0f));
-        full = full && ((i >= others) || (agreement[i] == 1.0f));
     }
-    return weight_range(w) && ((w == 0.0f) == null) && (!full || (w == 1.0f));
+    return weight_range(w) && ((w == 0.0f) == null);
 }
 
 static bool keel_voter_mean_may(float sum, float weights, float least, float most)
@@ -142,51 +123,6 @@ static bool keel_voter_combine_does(float mean, const keel_voter_sample_t sample
     return finite_here(mean) && combine_above(mean, sample, weight, sensors) && below;
 }
 
-static bool model_voter_combine_may(const keel_voter_sample_t sample[], const float weight[],
-                                    uint32_t sensors)
-{
-    return keel_voter_combine_may(sample, weight, sensors);
-}
-
-/* Whether a value is the plain mean, when each sample has weight 1. */
-static bool model_voter_combine_does(float mean, const keel_voter_sample_t sample[],
-                                     const float weight[], uint32_t sensors)
-{
-    bool plain = true;
-
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        plain = plain && ((i >= sensors) || (weight[i] == 1.0f));
-    }
-    return !plain || float_same(mean, plain_mean(sample, sensors));
-}
-
-static bool keel_voter_plain_may(const keel_voter_sample_t sample[], uint32_t sensors, float least,
-                                 float most)
-{
-    bool may = (2u <= sensors) && (sensors <= SENSORS) && (-KEEL_VOTER_RANGE <= least) &&
-               (least <= most) && (most <= KEEL_VOTER_RANGE);
-
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        may = may && ((i >= sensors) || ((least <= sample[i].value) && (sample[i].value <= most)));
-    }
-    return may;
-}
-
-static bool keel_voter_plain_does(float mean, float least, float most)
-{
-    return (least <= mean) && (mean <= most);
-}
-
-static bool model_voter_product_may(float weight, float value)
-{
-    return (0.0f < weight) && (weight <= 1.0f) && in_range_here(value);
-}
-
-static bool model_voter_product_does(float product, float weight, float value)
-{
-    return (weight != 1.0f) || float_same(product, value);
-}
-
 /* voter_valid, but for the cut-off and the initial output: nothing but init reads these two. */
 static bool voter_valid_here(const keel_voter_t *v)
 {
@@ -208,16 +144,9 @@ static bool keel_voter_step_may(const keel_voter_t *voter)
     return voter_valid_here(voter);
 }
 
-/* Valid; and who contributed is not latched. */
 static bool keel_voter_step_does(const keel_voter_t *voter)
 {
-    bool healthy = true;
-
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        healthy = healthy && ((i >= voter->config.sensors) || !voter->sensor[i].latched ||
-                              (voter->vote.reason[i] != KEEL_VOTER_USED));
-    }
-    return healthy && voter_valid_here(voter);
+    return voter_valid_here(voter);
 }
 
 static bool keel_voter_step_unanimous_may(const keel_voter_t *voter,
@@ -232,9 +161,9 @@ static bool keel_voter_step_unanimous_may(const keel_voter_t *voter,
     return may;
 }
 
-static bool keel_voter_step_unanimous_does(const keel_voter_t *voter, bool taken)
+static bool keel_voter_step_unanimous_does(const keel_voter_t *voter)
 {
-    return voter_valid_here(voter) && (!taken || voter->unanimous);
+    return voter_valid_here(voter);
 }
 
 #endif

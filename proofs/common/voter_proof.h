@@ -141,38 +141,12 @@ static bool samples_same(const keel_voter_sample_t a[SENSORS], const keel_voter_
     return same;
 }
 
-/* The plain mean of samples in range. */
-static float plain_mean(const keel_voter_sample_t sample[], uint32_t sensors)
-{
-    float least = KEEL_VOTER_RANGE;
-    float most = -KEEL_VOTER_RANGE;
-
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        if (i < sensors) {
-            least = (sample[i].value < least) ? sample[i].value : least;
-            most = (sample[i].value > most) ? sample[i].value : most;
-        }
-    }
-    return model_voter_plain(sample, sensors, least, most);
-}
-
-/* The plain mean of what the sensors last said. */
-static float mean_of_last(const keel_voter_t *v)
-{
-    keel_voter_sample_t sample[SENSORS];
-
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        sample[i].value = v->sensor[i].last;
-        sample[i].age_us = 0u;
-        sample[i].present = true;
-    }
-    return plain_mean(sample, v->config.sensors);
-}
-
 /* voter_unanimous */
 static bool unanimous_here(const keel_voter_t *v)
 {
     bool clean = true;
+    bool above = false;
+    bool below = false;
 
     for (uint32_t i = 0u; i < SENSORS; i++) {
         if (i < v->config.sensors) {
@@ -182,19 +156,21 @@ static bool unanimous_here(const keel_voter_t *v)
                     (s->density == 0u) && (v->vote.weight[i] == 1.0f) &&
                     (v->vote.reason[i] == KEEL_VOTER_USED) && (v->config.lowest <= s->last) &&
                     (s->last <= v->config.highest);
+            above = above || (s->last <= v->vote.output);
+            below = below || (v->vote.output <= s->last);
         }
     }
-    return clean && (v->vote.output == mean_of_last(v)) && (v->vote.state == KEEL_VOTER_MEAN) &&
+    return clean && above && below && (v->vote.state == KEEL_VOTER_MEAN) &&
            (v->vote.contributing == v->config.sensors) && (v->vote.held == 0u) &&
            (v->vote.held_us == 0u);
 }
 
-/* Any channel of so many sensors; voter_valid_here tells whether it is valid. */
-static void any_channel(keel_voter_t *voter, uint8_t sensors)
+/* Any channel with this a and n a; voter_valid_here tells whether it is valid. */
+static void any_voter(keel_voter_t *voter, float agree, float none)
 {
     voter->config = any_voter_config();
-    voter->config.sensors = sensors;
-    voter->none = nondet_float();
+    voter->config.agree = agree;
+    voter->none = none;
     voter->vote.output = nondet_float();
     voter->vote.held = nondet_u32();
     voter->vote.held_us = nondet_u32();

@@ -4,8 +4,8 @@
  *
  * Each asserts its part's precondition, and returns the value of a function of all that the part
  * reads, of which nothing is known but the part's postcondition: a harness that `replaces` the part
- * proves what holds of every function with that contract. The part's own harnesses prove that it is
- * one, and that it is the model's; so the same stands in for the model's part.
+ * proves what holds of every function with that contract. The part's own harness proves that it is
+ * one.
  */
 #ifndef VOTER_STAND_INS_H
 #define VOTER_STAND_INS_H
@@ -18,9 +18,6 @@ float __CPROVER_uninterpreted_mean(float sum, float weights, float least, float 
 uint32_t __CPROVER_uninterpreted_within(float least, float most, float agree);
 float __CPROVER_uninterpreted_combine(float x0, float x1, float x2, float x3, float w0, float w1,
                                       float w2, float w3, uint32_t sensors);
-float __CPROVER_uninterpreted_plain(float x0, float x1, float x2, float x3, uint32_t sensors,
-                                    float least, float most);
-float __CPROVER_uninterpreted_product(float weight, float value);
 
 float keel_voter_agreement_stand_in(float x, float y, float agree, float none)
 {
@@ -28,13 +25,8 @@ float keel_voter_agreement_stand_in(float x, float y, float agree, float none)
 
     __CPROVER_assert(keel_voter_agreement_may(x, y, agree, none),
                      "precondition: keel_voter_agreement");
-    __CPROVER_assume(keel_voter_agreement_does(s, x, y, agree));
+    __CPROVER_assume(keel_voter_agreement_does(s));
     return s;
-}
-
-float model_voter_agreement_stand_in(float x, float y, float agree, float none)
-{
-    return keel_voter_agreement_stand_in(x, y, agree, none);
 }
 
 /* Element i of so many, 0 beyond them: what is not read decides nothing. */
@@ -54,11 +46,6 @@ float keel_voter_weight_stand_in(const float agreement[], uint32_t others)
     return w;
 }
 
-float model_voter_weight_stand_in(const float agreement[], uint32_t others)
-{
-    return keel_voter_weight_stand_in(agreement, others);
-}
-
 /* What the quotient was asked of, for harnesses that check eq. 18 in numbers. */
 static float stand_in_sum;
 static float stand_in_weights;
@@ -75,50 +62,29 @@ float keel_voter_mean_stand_in(float sum, float weights, float least, float most
     return mean;
 }
 
-float model_voter_mean_stand_in(float sum, float weights, float least, float most)
-{
-    return keel_voter_mean_stand_in(sum, weights, least, most);
-}
+/* What was asked of whom, and the answer: two circuits that subtract are hard to find equal. */
+static float stand_in_least;
+static float stand_in_most;
+static float stand_in_agree;
+static bool stand_in_within;
 
 bool keel_voter_within_stand_in(float least, float most, float agree)
 {
     const bool within = __CPROVER_uninterpreted_within(least, most, agree) != 0u;
-    const hull_t said = {least, most, agree, within};
 
+    stand_in_least = least;
+    stand_in_most = most;
+    stand_in_agree = agree;
+    stand_in_within = within;
     __CPROVER_assert(keel_voter_within_may(least, most, agree), "precondition: keel_voter_within");
     __CPROVER_assume(keel_voter_within_does(within, least, most));
-    hull = said;
     return within;
-}
-
-bool model_voter_within_stand_in(float least, float most, float agree)
-{
-    return keel_voter_within_stand_in(least, most, agree);
 }
 
 /* The value of sample i of so many, as above. */
 static float value_of(const keel_voter_sample_t sample[], uint32_t i, uint32_t sensors)
 {
     return ((i < SENSORS) && (i < sensors)) ? sample[i].value : 0.0f;
-}
-
-float keel_voter_plain_stand_in(const keel_voter_sample_t sample[], uint32_t sensors, float least,
-                                float most)
-{
-    const float mean = __CPROVER_uninterpreted_plain(
-        value_of(sample, 0u, sensors), value_of(sample, 1u, sensors), value_of(sample, 2u, sensors),
-        value_of(sample, 3u, sensors), sensors, least, most);
-
-    __CPROVER_assert(keel_voter_plain_may(sample, sensors, least, most),
-                     "precondition: keel_voter_plain");
-    __CPROVER_assume(keel_voter_plain_does(mean, least, most));
-    return mean;
-}
-
-float model_voter_plain_stand_in(const keel_voter_sample_t sample[], uint32_t sensors, float least,
-                                 float most)
-{
-    return keel_voter_plain_stand_in(sample, sensors, least, most);
 }
 
 float keel_voter_combine_stand_in(const keel_voter_sample_t sample[], const float weight[],
@@ -133,28 +99,6 @@ float keel_voter_combine_stand_in(const keel_voter_sample_t sample[], const floa
                      "precondition: keel_voter_combine");
     __CPROVER_assume(keel_voter_combine_does(mean, sample, weight, sensors));
     return mean;
-}
-
-float model_voter_combine_stand_in(const keel_voter_sample_t sample[], const float weight[],
-                                   uint32_t sensors)
-{
-    const float mean = keel_voter_combine_stand_in(sample, weight, sensors);
-
-    __CPROVER_assert(model_voter_combine_may(sample, weight, sensors),
-                     "precondition: model_voter_combine");
-    __CPROVER_assume(model_voter_combine_does(mean, sample, weight, sensors));
-    return mean;
-}
-
-/* A constant weight of 1 leaves the value itself, so that no sum has other terms. */
-float model_voter_product_stand_in(float weight, float value)
-{
-    const float product =
-        (weight == 1.0f) ? value : __CPROVER_uninterpreted_product(weight, value);
-
-    __CPROVER_assert(model_voter_product_may(weight, value), "precondition: model_voter_product");
-    __CPROVER_assume(model_voter_product_does(product, weight, value));
-    return product;
 }
 
 #endif

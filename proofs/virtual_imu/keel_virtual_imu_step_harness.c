@@ -1,128 +1,72 @@
 // cbmc: --unwind 7 --external-sat-solver cadical
 // sources: src/middleware/virtual_imu.c src/middleware/voter.c
-// sources: specs/model/virtual_imu.c specs/model/voter.c specs/model/range.c
-// replaces: keel_voter_step keel_voter_step_unanimous keel_voter_plain
-// replaces: model_voter_step model_voter_plain
-// covers: keel_virtual_imu_step note model_virtual_imu_step
+// defines: -DKEEL_VOTER_SENSORS=2u
+// covers: keel_virtual_imu_step note
 //
-// Every valid virtual unit of 2 to 4 units, every bit pattern of the samples. What a channel's vote
-// leaves is any function of the channel, of the samples and of the time, with the contract of the
-// vote. So each channel has one outcome here, and what is asked for it must be the same in the code
-// as in the model. A unanimous vote that is taken leaves the same, whatever the time
-// (model_voter_step_unanimous__same_harness.c).
-#include "../common/virtual_imu_proof.h"
-#include "../common/voter_stand_ins.h"
+// Any unit may be absent, late or latched, any channel's last vote unanimous; the values are fixed,
+// another for each channel, as here it counts which sample goes where. How a channel votes:
+// keel_voter_step's harnesses.
+#include "keel/middleware/virtual_imu.h"
 
-static keel_virtual_imu_t imu;
-static keel_virtual_imu_t model;
-static keel_virtual_imu_t before;
-static keel_voter_t outcome[KEEL_IMU_CHANNELS];
-
-/* What the model asked for. */
-static keel_voter_sample_t asked[KEEL_IMU_CHANNELS][SENSORS];
-static uint32_t asked_elapsed_us;
-
-static uint32_t index_of(const keel_voter_t *voter, const keel_virtual_imu_t *of)
-{
-    uint32_t k = 0u;
-
-    while ((k < (KEEL_IMU_CHANNELS - 1u)) && (voter != &of->channel[k])) {
-        k++;
-    }
-    return k;
-}
-
-void model_voter_step_stand_in(keel_voter_t *voter, const keel_voter_sample_t sample[],
-                               uint32_t elapsed_us)
-{
-    const uint32_t k = index_of(voter, &model);
-
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        asked[k][i] = sample[i];
-    }
-    asked_elapsed_us = elapsed_us;
-    *voter = outcome[k];
-    __CPROVER_assume(keel_voter_step_does(voter));
-}
-
-/* Whether the samples of a vote are those that the model asked for. */
-static bool as_asked(uint32_t k, const keel_voter_sample_t sample[])
-{
-    bool same = true;
-
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        same = same && ((i >= before.channel[k].config.sensors) ||
-                        (float_same(sample[i].value, asked[k][i].value) &&
-                         (sample[i].age_us == asked[k][i].age_us) &&
-                         (sample[i].present == asked[k][i].present)));
-    }
-    return same;
-}
-
-void keel_voter_step_stand_in(keel_voter_t *voter, const keel_voter_sample_t sample[],
-                              uint32_t elapsed_us)
-{
-    const uint32_t k = index_of(voter, &imu);
-
-    __CPROVER_assert(keel_voter_step_may(voter), "precondition: keel_voter_step");
-    __CPROVER_assert(voter_same(voter, &before.channel[k]) && as_asked(k, sample) &&
-                         (elapsed_us == asked_elapsed_us),
-                     "IMU_002_asked: each channel votes once, on what the model says");
-    *voter = outcome[k];
-    __CPROVER_assume(keel_voter_step_does(voter));
-}
-
-bool keel_voter_step_unanimous_stand_in(keel_voter_t *voter, const keel_voter_sample_t sample[],
-                                        uint32_t oldest_us)
-{
-    const uint32_t k = index_of(voter, &imu);
-    const bool taken = nondet_bool();
-
-    __CPROVER_assert(keel_voter_step_unanimous_may(voter, sample, oldest_us),
-                     "precondition: keel_voter_step_unanimous");
-    __CPROVER_assert(voter_same(voter, &before.channel[k]) && as_asked(k, sample),
-                     "IMU_002_asked: the shorter way is tried with the same");
-    if (taken) {
-        *voter = outcome[k];
-    }
-    __CPROVER_assume(keel_voter_step_unanimous_does(voter, taken));
-    return taken;
-}
-
-static void any_imu_samples(keel_imu_sample_t sample[SENSORS])
-{
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        sample[i].age_us = nondet_u32();
-        sample[i].present = nondet_bool();
-        for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
-            sample[i].value[k] = nondet_float();
-        }
-    }
-}
+#include "../common/voter_proof.h"
 
 void keel_virtual_imu_step_harness(void)
 {
-    const uint32_t elapsed_us = nondet_u32();
-    keel_imu_sample_t sample[SENSORS];
+    keel_virtual_imu_t imu;
+    keel_imu_sample_t sample[2];
+    bool was[KEEL_IMU_CHANNELS][2];
+    float before[KEEL_IMU_CHANNELS];
 
-    any_imu(&imu, nondet_u8());
-    __CPROVER_assume(imu_valid_here(&imu));
-    any_imu_samples(sample);
-    before = imu;
-    model = imu;
     for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
-        any_channel(&outcome[k], imu.channel[0].config.sensors);
-        outcome[k].config = imu.channel[k].config;
-        outcome[k].none = imu.channel[k].none;
+        const keel_voter_config_t config = {1.0f, 3.0f, -9.0f, 9.0f, 0.0f, 5u, 2u, 0u, 0u, 2u};
+
+        imu.channel[k].config = config;
+        imu.channel[k].none = 3.0f;
+        imu.channel[k].unanimous = nondet_bool();
+        imu.channel[k].vote.output = imu.channel[k].unanimous ? 0.0f : 9.0f;
+        imu.channel[k].vote.state = KEEL_VOTER_MEAN;
+        imu.channel[k].vote.contributing = 2u;
+        before[k] = imu.channel[k].vote.output;
+        imu.channel[k].vote.held = 0u;
+        imu.channel[k].vote.held_us = 0u;
+        for (uint32_t i = 0u; i < 2u; i++) {
+            const keel_voter_sensor_t fresh = {0.0f, 0u, 0u, 0u, false};
+
+            imu.channel[k].sensor[i] = fresh;
+            was[k][i] = nondet_bool();
+            imu.channel[k].sensor[i].latched = was[k][i];
+            imu.channel[k].vote.weight[i] = 1.0f;
+            imu.channel[k].vote.reason[i] = KEEL_VOTER_USED;
+            sample[i].value[k] = (float)k;
+        }
+        __CPROVER_assume(!imu.channel[k].unanimous || unanimous_here(&imu.channel[k]));
     }
-    model_virtual_imu_step(&model, sample, elapsed_us);
+    sample[0].age_us = nondet_u32();
+    sample[1].age_us = nondet_u32();
+    sample[0].present = nondet_bool();
+    sample[1].present = nondet_bool();
 
-    keel_virtual_imu_step(&imu, sample, elapsed_us);
+    keel_virtual_imu_step(&imu, sample, nondet_u32());
 
-    __CPROVER_assert(virtual_imu_same(&imu, &model), "IMU_003_model: as the model says");
-    __CPROVER_assert(imu_valid_here(&imu), "IMU_002_valid: each channel stays valid");
     for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
-        __CPROVER_assert(imu.channel[k].config.sensors == before.channel[0].config.sensors,
-                         "sensors_stay: no vote changes another channel's configuration");
+        __CPROVER_assert((imu.channel[k].vote.output == (float)k) ||
+                             ((imu.channel[k].vote.output == before[k]) &&
+                              (imu.channel[k].vote.contributing == 0u)),
+                         "IMU_002_valid: each channel votes on its own samples");
+        for (uint32_t i = 0u; i < 2u; i++) {
+            __CPROVER_assert((((imu.used[i] >> k) & 1u) != 0u) ==
+                                 (imu.channel[k].vote.reason[i] == KEEL_VOTER_USED),
+                             "IMU_003_used: a bit per channel that contributed");
+            __CPROVER_assert((((imu.latched[i] >> k) & 1u) != 0u) ==
+                                 imu.channel[k].sensor[i].latched,
+                             "IMU_003_latched: a bit per channel that is latched");
+            __CPROVER_assert(sample[i].present ||
+                                 (imu.channel[k].vote.reason[i] == KEEL_VOTER_LATCHED) ||
+                                 (imu.channel[k].vote.reason[i] == KEEL_VOTER_MISSING),
+                             "IMU_002_absent: an absent unit has no channel");
+            __CPROVER_assert((imu.channel[k].vote.reason[i] == KEEL_VOTER_LATE) ==
+                                 (!was[k][i] && sample[i].present && (sample[i].age_us > 5u)),
+                             "IMU_002_late: a unit's age is that of all its channels");
+        }
     }
 }

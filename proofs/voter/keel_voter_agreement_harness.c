@@ -1,5 +1,5 @@
 // cbmc: --z3 --fpa
-// sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
+// sources: src/middleware/voter.c specs/model/voter_parts.c specs/model/range.c
 // checks: assertions
 // covers: keel_voter_agreement model_voter_agreement
 //

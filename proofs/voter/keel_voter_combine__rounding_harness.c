@@ -1,5 +1,5 @@
 // cbmc: --unwind 9
-// sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
+// sources: src/middleware/voter.c
 // defines: -DKEEL_VOTER_SENSORS=3u
 // covers: keel_voter_combine keel_voter_mean
 //

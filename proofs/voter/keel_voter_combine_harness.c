@@ -1,5 +1,5 @@
 // cbmc: --unwind 5 --z3 --fpa
-// sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
+// sources: src/middleware/voter.c specs/model/voter_parts.c specs/model/range.c
 // checks: assertions
 // covers: keel_voter_combine keel_voter_mean model_voter_combine model_voter_mean
 //

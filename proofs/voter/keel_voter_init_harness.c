@@ -16,7 +16,7 @@ void keel_voter_init_harness(void)
     keel_status_t expected;
     keel_status_t status;
 
-    any_channel(&voter, nondet_u8());
+    any_voter(&voter, nondet_float(), nondet_float());
     model = voter;
     expected = model_voter_init(&model, &before);
 

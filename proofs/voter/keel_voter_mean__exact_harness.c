@@ -1,5 +1,5 @@
 // cbmc: --external-sat-solver cadical
-// sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
+// sources: src/middleware/voter.c
 // covers: keel_voter_mean
 //
 // Quotients that are whole numbers, and the clamp.

@@ -1,6 +1,5 @@
 // cbmc: --unwind 5 --external-sat-solver cadical
 // sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
-// replaces: keel_voter_plain model_voter_plain
 // covers: keel_voter_readmit model_voter_readmit
 #include "../common/voter_stand_ins.h"
 
@@ -12,7 +11,7 @@ void keel_voter_readmit_harness(void)
     keel_status_t expected;
     keel_status_t status;
 
-    any_channel(&voter, nondet_u8());
+    any_voter(&voter, nondet_float(), nondet_float());
     __CPROVER_assume(voter_valid_here(&voter));
     model = voter;
     expected = model_voter_readmit(&model, sensor);

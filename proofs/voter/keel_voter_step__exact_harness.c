@@ -1,5 +1,5 @@
 // cbmc: --unwind 5 --external-sat-solver cadical
-// sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
+// sources: src/middleware/voter.c
 // defines: -DKEEL_VOTER_SENSORS=3u
 // replaces: keel_voter_mean
 // covers: keel_voter_step compare_all judge conclude keel_voter_agreement keel_voter_weight
@@ -28,9 +28,8 @@ void keel_voter_step__exact_harness(void)
     int32_t sum = 0;
     uint32_t weights = 0u;
 
-    any_channel(&voter, three ? 3u : 2u);
-    voter.config.agree = 1.0f;
-    voter.none = 3.0f;
+    any_voter(&voter, 1.0f, 3.0f);
+    voter.config.sensors = three ? 3u : 2u;
     voter.unanimous = false;
     voter.config.lowest = -3.0f;
     voter.config.highest = 2.0f;

@@ -1,5 +1,5 @@
 // cbmc: --unwind 4 --external-sat-solver cadical
-// sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
+// sources: src/middleware/voter.c
 // covers: keel_voter_weight
 #include "../common/voter_contracts.h"
 

@@ -1,5 +1,5 @@
 // cbmc: --external-sat-solver cadical
-// sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
+// sources: src/middleware/voter.c specs/model/voter_parts.c specs/model/range.c
 // covers: keel_voter_within model_voter_within
 #include "../common/voter_contracts.h"
 

@@ -65,85 +65,6 @@ keel_status_t model_voter_init(keel_voter_t *voter, const keel_voter_config_t *c
     return KEEL_OK;
 }
 
-/* Eq. 16: VOT-003, VOT-004 */
-float model_voter_agreement(float x, float y, float agree, float none)
-{
-    const float distance = (x > y) ? (x - y) : (y - x);
-
-    if (distance <= agree) {
-        return 1.0f;
-    }
-    if (distance >= none) {
-        return 0.0f;
-    }
-    return (none - distance) / (none - agree);
-}
-
-/* Eq. 17: VOT-006 */
-float model_voter_weight(const float agreement[], uint32_t others)
-{
-    float total = 0.0f;
-
-    for (uint32_t i = 0u; i < (KEEL_VOTER_SENSORS - 1u); i++) {
-        if (i < others) {
-            total = total + agreement[i];
-        }
-    }
-    return total / (float)others;
-}
-
-/* The quotient of eq. 18 within the samples: VOT-005 */
-float model_voter_mean(float sum, float weights, float least, float most)
-{
-    return model_range_clamp(sum / weights, least, most);
-}
-
-/* VOT-018 */
-bool model_voter_within(float least, float most, float agree)
-{
-    return (most - least) <= agree;
-}
-
-/* A term of eq. 18. */
-float model_voter_product(float weight, float value)
-{
-    return weight * value;
-}
-
-/* Eq. 18, of the samples that have a weight: VOT-005, VOT-016 (the order of the operations) */
-float model_voter_combine(const keel_voter_sample_t sample[], const float weight[],
-                          uint32_t sensors)
-{
-    float sum = 0.0f;
-    float weights = 0.0f;
-    float least = KEEL_VOTER_RANGE;
-    float most = -KEEL_VOTER_RANGE;
-
-    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
-        if ((i < sensors) && (weight[i] > 0.0f)) {
-            sum = sum + model_voter_product(weight[i], sample[i].value);
-            weights = weights + weight[i];
-            least = (sample[i].value < least) ? sample[i].value : least;
-            most = (sample[i].value > most) ? sample[i].value : most;
-        }
-    }
-    return model_voter_mean(sum, weights, least, most);
-}
-
-/* Eq. 18 where all weights are 1: VOT-018 */
-float model_voter_plain(const keel_voter_sample_t sample[], uint32_t sensors, float least,
-                        float most)
-{
-    float sum = 0.0f;
-
-    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
-        if (i < sensors) {
-            sum = sum + sample[i].value;
-        }
-    }
-    return model_voter_mean(sum, (float)sensors, least, most);
-}
-
 static uint16_t one_more(uint16_t count)
 {
     return (count < UINT16_MAX) ? (uint16_t)(count + 1u) : UINT16_MAX;
@@ -178,7 +99,7 @@ static bool is_readable(uint8_t reason)
            (reason == KEEL_VOTER_LATE);
 }
 
-/* Reasons of all samples. What is readable is kept, and where just one of the readable samples has
+/* Reasons of all samples. What has changed is kept, and where just one of the readable samples has
  * not changed, that is counted: VOT-013. 0 and -0 are no change. */
 static void look(keel_voter_t *voter, const keel_voter_sample_t sample[])
 {
@@ -197,10 +118,8 @@ static void look(keel_voter_t *voter, const keel_voter_sample_t sample[])
         }
     }
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
-        if (readable[i]) {
-            voter->sensor[i].last = sample[i].value;
-        }
         if (changed[i]) {
+            voter->sensor[i].last = sample[i].value;
             voter->sensor[i].same = 0u;
         } else if (readable[i] && (changes > 0u) && ((changes + 1u) == readables)) {
             voter->sensor[i].same = one_more(voter->sensor[i].same);
@@ -373,40 +292,6 @@ void model_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], u
     }
     conclude(&voter->vote, sample, voter->config.sensors, usable, elapsed_us);
     voter->unanimous = is_unanimous(voter);
-}
-
-/* VOT-018. Refused unless each sample is plausible and in time, all lie within a of each other, and
- * all have changed or none. Where none has, the last output is that of the same samples. */
-bool model_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sample[],
-                                uint32_t oldest_us)
-{
-    bool plausible = voter->unanimous && (oldest_us <= voter->config.max_age_us);
-    float least = sample[0].value;
-    float most = sample[0].value;
-    uint32_t changes = 0u;
-
-    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
-        if (i < voter->config.sensors) {
-            plausible = plausible && model_range_contains(sample[i].value, voter->config.lowest,
-                                                          voter->config.highest);
-            least = (sample[i].value < least) ? sample[i].value : least;
-            most = (sample[i].value > most) ? sample[i].value : most;
-            changes += (sample[i].value != voter->sensor[i].last) ? 1u : 0u;
-        }
-    }
-    if (!plausible || ((changes > 0u) && (changes < voter->config.sensors)) ||
-        !model_voter_within(least, most, voter->config.agree)) {
-        return false;
-    }
-    if (changes > 0u) {
-        voter->vote.output = model_voter_plain(sample, voter->config.sensors, least, most);
-        for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
-            if (i < voter->config.sensors) {
-                voter->sensor[i].last = sample[i].value;
-            }
-        }
-    }
-    return true;
 }
 
 /* VOT-014 */

@@ -16,13 +16,6 @@ bool model_voter_within(float least, float most, float agree);
 float model_voter_combine(const keel_voter_sample_t sample[], const float weight[],
                           uint32_t sensors);
 void model_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us);
-bool model_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sample[],
-                                uint32_t oldest_us);
 keel_status_t model_voter_readmit(keel_voter_t *voter, uint32_t sensor);
-float model_voter_plain(const keel_voter_sample_t sample[], uint32_t sensors, float least,
-                        float most);
-
-/* A product of a weight and a sample: apart, as one by 1 is exact (VOT-018). */
-float model_voter_product(float weight, float value);
 
 #endif

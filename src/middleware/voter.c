@@ -133,21 +133,6 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
     return keel_voter_mean(sum, weights, least, most);
 }
 
-float keel_voter_plain(const keel_voter_sample_t sample[], uint32_t sensors, float least,
-                       float most)
-{
-    float sum = 0.0f;
-
-    /*@ loop invariant 0 <= i <= sensors;
-      @ loop assigns i, sum;
-      @ loop variant sensors - i;
-      @*/
-    for (uint32_t i = 0u; i < sensors; i++) {
-        sum += sample[i].value;
-    }
-    return keel_voter_mean(sum, (float)sensors, least, most);
-}
-
 /*@ assigns \nothing;
   @ ensures \result == ((value < UINT16_MAX) ? value + 1 : UINT16_MAX);
   @*/
@@ -238,13 +223,13 @@ static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sampl
         usable += (reason == KEEL_VOTER_USED) ? 1u : 0u;
         if ((reason == KEEL_VOTER_USED) || (reason >= KEEL_VOTER_OUT_OF_RANGE)) {
             if (sample[i].value != sensor->last) {
+                sensor->last = sample[i].value;
                 sensor->same = 0u;
                 moved++;
             } else {
                 resting++;
                 last_resting = i;
             }
-            sensor->last = sample[i].value;
         }
     }
     if (resting > 0u) {
@@ -463,8 +448,8 @@ static bool is_at_rest(const keel_voter_t *voter, const keel_voter_sample_t samp
         if (value != voter->sensor[i].last) {
             return false;
         }
-        least = (value < least) ? value : least;
-        most = (value > most) ? value : most;
+        least = (least > value) ? value : least;
+        most = (most > value) ? most : value;
     }
     return keel_voter_within(least, most, voter->config.agree);
 }
@@ -477,6 +462,7 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
     const float first = sample[0].value;
     float least = first;
     float most = first;
+    float sum = first;
 
     if (!voter->unanimous || (oldest_us > voter->config.max_age_us)) {
         return false;
@@ -497,20 +483,22 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
         if (!(value >= lowest) || (value == voter->sensor[i].last)) {
             return false; /* NaN, too, is not at least the lowest. */
         }
-        least = (value < least) ? value : least;
-        most = (value > most) ? value : most;
+        least = (least > value) ? value : least;
+        most = (most > value) ? most : value;
     }
     if ((most > voter->config.highest) || !keel_voter_within(least, most, voter->config.agree)) {
         return false;
     }
-    /*@ loop invariant 0 <= i <= sensors;
-      @ loop assigns i, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last;
+    voter->sensor[0].last = first;
+    /*@ loop invariant 1 <= i <= sensors;
+      @ loop assigns i, sum, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last;
       @ loop variant sensors - i;
       @*/
-    for (uint32_t i = 0u; i < sensors; i++) {
+    for (uint32_t i = 1u; i < sensors; i++) {
+        sum += sample[i].value;
         voter->sensor[i].last = sample[i].value;
     }
-    voter->vote.output = keel_voter_plain(sample, sensors, least, most);
+    voter->vote.output = keel_voter_mean(sum, (float)sensors, least, most);
     return true;
 }
 

@@ -312,27 +312,6 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
                          uint32_t sensors);
 
 /**
- * The mean of samples that all have weight 1 (eq. 18, requirement VOT-018): what keel_voter_combine
- * gives then, as a product by 1 and a sum of ones are exact.
- *
- * @param sample  the samples
- * @param sensors how many there are, 2 to KEEL_VOTER_SENSORS
- * @param least   the smallest of them
- * @param most    the largest of them
- * @return the mean, from least to most
- */
-/*@ requires 2 <= sensors <= KEEL_VOTER_SENSORS && \valid_read(sample + (0 .. sensors - 1));
-  @ requires plain_ends: \is_finite(least) && \is_finite(most) &&
-  @     -KEEL_VOTER_RANGE <= least <= most <= KEEL_VOTER_RANGE;
-  @ requires plain_samples: \forall integer i; 0 <= i < sensors ==>
-  @     \is_finite(sample[i].value) && least <= sample[i].value <= most;
-  @ assigns \nothing;
-  @ ensures VOT_018_mean: \is_finite(\result) && least <= \result <= most;
-  @*/
-float keel_voter_plain(const keel_voter_sample_t sample[], uint32_t sensors, float least,
-                       float most);
-
-/**
  * Takes one vote (requirements VOT-005 to VOT-013). Its result is in voter->vote.
  *
  * @param voter      the channel, initialised

@@ -1,0 +1,57 @@
+// cbmc: --unwind 5 --external-sat-solver cadical
+// sources: src/middleware/voter.c
+// replaces: keel_voter_mean
+// covers: keel_voter_step_unanimous is_at_rest is_unanimous keel_voter_within
+//
+// The shorter way and the whole vote, from the same state with the same samples, come to the same:
+// a = 1, two to four sensors, samples in halves from -2 to 1.5 of which those from -1.5 to 1 are
+// plausible. What the mean is of is compared in place of the mean.
+#include "../common/voter_stand_ins.h"
+
+static float any_half(void)
+{
+    return 0.5f * ((float)(nondet_u8() & 7u) - 4.0f);
+}
+
+void keel_voter_step_unanimous__same_harness(void)
+{
+    keel_voter_t voter;
+    keel_voter_t whole;
+    keel_voter_sample_t sample[SENSORS];
+    bool moved = false;
+    float sum;
+    float weights;
+
+    any_voter(&voter, 1.0f, 3.0f);
+    voter.config.lowest = -1.5f;
+    voter.config.highest = 1.0f;
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        sample[i].value = any_half();
+        sample[i].age_us = 0u;
+        sample[i].present = true;
+        voter.sensor[i].last = any_half();
+        moved = moved || ((i < voter.config.sensors) && (sample[i].value != voter.sensor[i].last));
+    }
+    __CPROVER_assume(voter_valid_here(&voter));
+    whole = voter;
+    if (keel_voter_step_unanimous(&voter, sample, 0u)) {
+        sum = stand_in_sum;
+        weights = stand_in_weights;
+        keel_voter_step(&whole, sample, nondet_u32());
+        __CPROVER_assert((whole.vote.state == voter.vote.state) &&
+                             (whole.vote.contributing == voter.vote.contributing) &&
+                             (whole.vote.held == 0u) && (whole.vote.held_us == 0u) &&
+                             whole.unanimous,
+                         "VOT_018_same: the vote says the same");
+        for (uint32_t i = 0u; i < SENSORS; i++) {
+            if (i < voter.config.sensors) {
+                __CPROVER_assert(voter_sensor_same(&whole.sensor[i], &voter.sensor[i]) &&
+                                     (whole.vote.weight[i] == voter.vote.weight[i]) &&
+                                     (whole.vote.reason[i] == voter.vote.reason[i]),
+                                 "VOT_018_same: of each sensor, too");
+            }
+        }
+        __CPROVER_assert(!moved || ((stand_in_sum == sum) && (stand_in_weights == weights)),
+                         "VOT_018_same: the mean is of the same");
+    }
+}
