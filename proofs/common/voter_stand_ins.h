@@ -90,10 +90,14 @@ static float value_of(const keel_voter_sample_t sample[], uint32_t i, uint32_t s
 float keel_voter_combine_stand_in(const keel_voter_sample_t sample[], const float weight[],
                                   uint32_t sensors)
 {
-    const float mean = __CPROVER_uninterpreted_combine(
-        value_of(sample, 0u, sensors), value_of(sample, 1u, sensors), value_of(sample, 2u, sensors),
-        value_of(sample, 3u, sensors), read(weight, 0u, sensors), read(weight, 1u, sensors),
-        read(weight, 2u, sensors), read(weight, 3u, sensors), sensors);
+    const float mean = __CPROVER_uninterpreted_combine(value_of(sample, 0u, sensors),
+                                                       value_of(sample, 1u, sensors),
+                                                       value_of(sample, 2u, sensors),
+                                                       value_of(sample, 3u, sensors),
+                                                       read(weight, 0u, sensors),
+                                                       read(weight, 1u, sensors),
+                                                       read(weight, 2u, sensors),
+                                                       read(weight, 3u, sensors), sensors);
 
     __CPROVER_assert(keel_voter_combine_may(sample, weight, sensors),
                      "precondition: keel_voter_combine");

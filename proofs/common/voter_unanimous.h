@@ -42,7 +42,8 @@ static void check_frame(const keel_voter_t *is, const keel_voter_t *was)
         keel_voter_sensor_t expected = was->sensor[i];
 
         expected.last = is->sensor[i].last;
-        __CPROVER_assert(voter_sensor_same(&is->sensor[i], &expected), "VOT_018_counts: no count moves");
+        __CPROVER_assert(voter_sensor_same(&is->sensor[i], &expected),
+                         "VOT_018_counts: no count moves");
         __CPROVER_assert(float_same(is->vote.weight[i], was->vote.weight[i]) &&
                              (is->vote.reason[i] == was->vote.reason[i]),
                          "VOT_018_weights: nor weight or reason");

@@ -26,6 +26,5 @@ void keel_voter_agreement__bounds_harness(void)
     } else {
         __CPROVER_assert(s > 0.0f, "VOT_003_some: not 0 before n a");
     }
-    __CPROVER_assert(keel_voter_agreement_does(s),
-                     "VOT_003_least: nor too small to divide by");
+    __CPROVER_assert(keel_voter_agreement_does(s), "VOT_003_least: nor too small to divide by");
 }

@@ -58,8 +58,8 @@ keel_status_t model_oversample_take(keel_oversample_t *oversample, float *mean)
 {
     const keel_oversample_t old = *oversample;
 
-    empty(oversample);                                                       /* OVS-005 */
-    oversample->missed = with_excess(old.missed, old.factor, old.runs);      /* OVS-006 */
+    empty(oversample);                                                  /* OVS-005 */
+    oversample->missed = with_excess(old.missed, old.factor, old.runs); /* OVS-006 */
     oversample->extra = with_excess(old.extra, old.runs, old.factor);
     if (old.count == 0u) {
         return KEEL_ERR_STATE; /* OVS-004: the mean stays. */

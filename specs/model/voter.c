@@ -218,7 +218,8 @@ static void outvote(keel_voter_t *voter)
     }
 }
 
-/* Whether a vote condemns a sensor: VOT-010. With fewer than two others nobody knows who is wrong. */
+/* Whether a vote condemns a sensor: VOT-010. With fewer than two others nobody knows which is
+ * wrong. */
 static bool is_condemned(uint8_t reason, uint32_t usable)
 {
     return (reason == KEEL_VOTER_MISSING) || (reason == KEEL_VOTER_NOT_FINITE) ||
@@ -237,9 +238,9 @@ static void count(const keel_voter_config_t *config, keel_voter_sensor_t *sensor
     if (is_condemned(reason, usable)) {
         sensor->null = one_more(sensor->null);
         sensor->density = one_more(sensor->density);
-        sensor->latched =
-            (sensor->null >= config->latch_count) ||
-            ((config->density_limit > 0u) && (sensor->density >= config->density_limit));
+        sensor->latched = (sensor->null >= config->latch_count) ||
+                          ((config->density_limit > 0u) &&
+                           (sensor->density >= config->density_limit));
     }
 }
 

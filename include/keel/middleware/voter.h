@@ -206,8 +206,8 @@ keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *co
 
 /**
  * The agreement of two samples at the distance d (eq. 16, requirements VOT-003 and VOT-004): 1 up
- * to a, 0 from n a on, (n a - d)/(n a - a) between. In this form the quotient never exceeds 1, where
- * that of eq. 16 does once it is rounded.
+ * to a, 0 from n a on, (n a - d)/(n a - a) between. In this form the quotient never exceeds 1,
+ * where that of eq. 16 does once it is rounded.
  *
  * @param x     a sample, in magnitude at most KEEL_VOTER_RANGE
  * @param y     another
