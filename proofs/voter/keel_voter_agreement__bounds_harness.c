@@ -16,13 +16,13 @@ void keel_voter_agreement__bounds_harness(void)
 
     __CPROVER_assume(keel_voter_agreement_may(x, y, agree, none));
 
-    distance = (x > y) ? (x - y) : (y - x);
+    distance = x - y;
     s = keel_voter_agreement(x, y, agree, none);
 
     __CPROVER_assert((s >= 0.0f) && (s <= 1.0f), "VOT_004: an agreement lies in [0, 1]");
-    if (distance <= agree) {
+    if ((-agree <= distance) && (distance <= agree)) {
         __CPROVER_assert(s == 1.0f, "VOT_003_full: 1 up to a");
-    } else if (distance >= none) {
+    } else if ((distance <= -none) || (none <= distance)) {
         __CPROVER_assert(s == 0.0f, "VOT_003_none: 0 from n a on");
     } else {
         __CPROVER_assert(s > 0.0f, "VOT_003_some: not 0 before n a");
