@@ -5,7 +5,8 @@
 #ifndef OVERSAMPLE_PROOF_H
 #define OVERSAMPLE_PROOF_H
 
-#include "keel/middleware/oversample.h"
+#include "../../specs/model/oversample.h"
+#include "same.h"
 
 #include <stdbool.h>
 
@@ -26,6 +27,13 @@ static bool valid_here(const keel_oversample_t *o)
            ((o->count > 0u)
                 ? (o->least <= o->most)
                 : ((o->least == KEEL_OVERSAMPLE_RANGE) && (o->most == -KEEL_OVERSAMPLE_RANGE)));
+}
+
+static bool oversample_same(const keel_oversample_t *a, const keel_oversample_t *b)
+{
+    return float_same(a->sum, b->sum) && float_same(a->least, b->least) &&
+           float_same(a->most, b->most) && (a->missed == b->missed) && (a->extra == b->extra) &&
+           (a->count == b->count) && (a->runs == b->runs) && (a->factor == b->factor);
 }
 
 static keel_oversample_t any_oversample(void)

@@ -12,10 +12,15 @@
 
 #include "voter_proof.h"
 
-static bool keel_voter_agreement_may(float distance, float agree, float none)
+static bool in_range_here(float x)
+{
+    return (-KEEL_VOTER_RANGE <= x) && (x <= KEEL_VOTER_RANGE);
+}
+
+static bool keel_voter_agreement_may(float x, float y, float agree, float none)
 {
     return (KEEL_VOTER_AGREE_MIN <= agree) && (agree <= KEEL_VOTER_AGREE_MAX) &&
-           none_valid_here(agree, none) && (0.0f <= distance) && finite_here(distance);
+           none_valid_here(agree, none) && in_range_here(x) && in_range_here(y);
 }
 
 /* 2^-24 is the least that is not 0: too small a weight could not be divided by. */
@@ -24,10 +29,9 @@ static bool agreement_range(float s)
     return (s == 0.0f) || ((0x1p-24f <= s) && (s <= 1.0f));
 }
 
-static bool keel_voter_agreement_does(float s, float distance, float agree, float none)
+static bool keel_voter_agreement_does(float s)
 {
-    return agreement_range(s) && ((distance > agree) || (s == 1.0f)) &&
-           ((distance >= none) == (s == 0.0f));
+    return agreement_range(s);
 }
 
 static bool keel_voter_weight_may(const float agreement[], uint32_t others)
@@ -73,15 +77,15 @@ static bool keel_voter_within_may(float least, float most, float agree)
            (KEEL_VOTER_AGREE_MIN <= agree) && (agree <= KEEL_VOTER_AGREE_MAX);
 }
 
-static bool keel_voter_within_does(bool within, float least, float most, float agree)
+static bool keel_voter_within_does(bool within, float least, float most)
 {
-    return within == ((most - least) <= agree);
+    return within || (least < most);
 }
 
 static bool keel_voter_combine_may(const keel_voter_sample_t sample[], const float weight[],
                                    uint32_t sensors)
 {
-    bool may = (1u <= sensors) && (sensors <= SENSORS);
+    bool may = (2u <= sensors) && (sensors <= SENSORS);
     bool some = false;
 
     for (uint32_t i = 0u; i < SENSORS; i++) {

@@ -5,7 +5,8 @@
 #ifndef VOTER_PROOF_H
 #define VOTER_PROOF_H
 
-#include "keel/middleware/voter.h"
+#include "../../specs/model/voter.h"
+#include "same.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -53,6 +54,15 @@ static bool none_valid_here(float agree, float none)
     return (agree < none) && (none <= KEEL_VOTER_RANGE);
 }
 
+/* voter_config_valid */
+static bool config_valid_here(const keel_voter_config_t *c)
+{
+    return (2u <= c->sensors) && (c->sensors <= SENSORS) && agreement_valid_here(c) &&
+           (1.0f < c->cutoff) && (c->cutoff <= (KEEL_VOTER_RANGE / KEEL_VOTER_AGREE_MIN)) &&
+           none_valid_here(c->agree, c->cutoff * c->agree) && limits_valid_here(c) &&
+           initial_valid_here(c) && (c->max_age_us > 0u) && (c->latch_count > 0u);
+}
+
 static keel_voter_config_t any_voter_config(void)
 {
     keel_voter_config_t c;
@@ -82,10 +92,53 @@ static keel_voter_sensor_t any_sensor(void)
     return s;
 }
 
-static bool sensor_same(const keel_voter_sensor_t *a, const keel_voter_sensor_t *b)
+static bool voter_config_same(const keel_voter_config_t *a, const keel_voter_config_t *b)
 {
-    return (a->last == b->last) && (a->same == b->same) && (a->null == b->null) &&
+    return float_same(a->agree, b->agree) && float_same(a->cutoff, b->cutoff) &&
+           float_same(a->lowest, b->lowest) && float_same(a->highest, b->highest) &&
+           float_same(a->initial, b->initial) && (a->max_age_us == b->max_age_us) &&
+           (a->latch_count == b->latch_count) && (a->stale_count == b->stale_count) &&
+           (a->density_limit == b->density_limit) && (a->sensors == b->sensors);
+}
+
+static bool voter_sensor_same(const keel_voter_sensor_t *a, const keel_voter_sensor_t *b)
+{
+    return float_same(a->last, b->last) && (a->same == b->same) && (a->null == b->null) &&
            (a->density == b->density) && (a->latched == b->latched);
+}
+
+static bool vote_same(const keel_vote_t *a, const keel_vote_t *b)
+{
+    bool same = float_same(a->output, b->output) && (a->held == b->held) &&
+                (a->held_us == b->held_us) && (a->state == b->state) &&
+                (a->contributing == b->contributing);
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        same = same && float_same(a->weight[i], b->weight[i]) && (a->reason[i] == b->reason[i]);
+    }
+    return same;
+}
+
+static bool voter_same(const keel_voter_t *a, const keel_voter_t *b)
+{
+    bool same = voter_config_same(&a->config, &b->config) && float_same(a->none, b->none) &&
+                vote_same(&a->vote, &b->vote) && (a->unanimous == b->unanimous);
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        same = same && voter_sensor_same(&a->sensor[i], &b->sensor[i]);
+    }
+    return same;
+}
+
+static bool samples_same(const keel_voter_sample_t a[SENSORS], const keel_voter_sample_t b[SENSORS])
+{
+    bool same = true;
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        same = same && float_same(a[i].value, b[i].value) && (a[i].age_us == b[i].age_us) &&
+               (a[i].present == b[i].present);
+    }
+    return same;
 }
 
 /* voter_unanimous */
@@ -112,66 +165,34 @@ static bool unanimous_here(const keel_voter_t *v)
            (v->vote.held_us == 0u);
 }
 
-/* Any valid channel (voter_valid) with this a and n a. The cut-off n matters through n a only. */
+/* Any channel with this a and n a; voter_valid_here tells whether it is valid. */
 static void any_voter(keel_voter_t *voter, float agree, float none)
 {
     voter->config = any_voter_config();
     voter->config.agree = agree;
-    __CPROVER_assume((2u <= voter->config.sensors) && (voter->config.sensors <= SENSORS));
-    __CPROVER_assume(agreement_valid_here(&voter->config) && limits_valid_here(&voter->config));
-    __CPROVER_assume((voter->config.max_age_us > 0u) && (voter->config.latch_count > 0u));
     voter->none = none;
     voter->vote.output = nondet_float();
-    __CPROVER_assume((voter->config.lowest <= voter->vote.output) &&
-                     (voter->vote.output <= voter->config.highest));
     voter->vote.held = nondet_u32();
     voter->vote.held_us = nondet_u32();
     voter->vote.state = nondet_u8();
     voter->vote.contributing = nondet_u8();
+    voter->unanimous = nondet_bool();
     for (uint32_t i = 0u; i < SENSORS; i++) {
         voter->sensor[i] = any_sensor();
-        __CPROVER_assume(finite_here(voter->sensor[i].last));
-        __CPROVER_assume(voter->sensor[i].latched ||
-                         healthy_here(&voter->config, &voter->sensor[i]));
         voter->vote.weight[i] = nondet_float();
         voter->vote.reason[i] = nondet_u8();
     }
-    voter->unanimous = nondet_bool();
-    __CPROVER_assume(!voter->unanimous || unanimous_here(voter));
 }
 
-static void any_samples(keel_voter_sample_t sample[SENSORS])
+/* Any samples, and a copy of them. */
+static void any_samples(keel_voter_sample_t sample[SENSORS], keel_voter_sample_t copy[SENSORS])
 {
     for (uint32_t i = 0u; i < SENSORS; i++) {
         sample[i].value = nondet_float();
         sample[i].age_us = nondet_u32();
         sample[i].present = nondet_bool();
+        copy[i] = sample[i];
     }
-}
-
-/* What a sample's reason must be, from the contract. */
-static uint8_t reason_of(const keel_voter_config_t *config, const keel_voter_sensor_t *was,
-                         uint16_t same, const keel_voter_sample_t *sample)
-{
-    if (was->latched) {
-        return KEEL_VOTER_LATCHED;
-    }
-    if (!sample->present) {
-        return KEEL_VOTER_MISSING;
-    }
-    if (!finite_here(sample->value)) {
-        return KEEL_VOTER_NOT_FINITE;
-    }
-    if ((sample->value < config->lowest) || (config->highest < sample->value)) {
-        return KEEL_VOTER_OUT_OF_RANGE;
-    }
-    if (config->max_age_us < sample->age_us) {
-        return KEEL_VOTER_LATE;
-    }
-    if ((0u < config->stale_count) && (config->stale_count <= same)) {
-        return KEEL_VOTER_STALE;
-    }
-    return KEEL_VOTER_USED;
 }
 
 #endif

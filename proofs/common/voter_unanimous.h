@@ -35,11 +35,6 @@ static facts_t facts_of(const keel_voter_t *voter, const keel_voter_sample_t sam
     return facts;
 }
 
-static bool same_float(float a, float b)
-{
-    return (a == b) || ((a != a) && (b != b));
-}
-
 /* All but the last samples and the output. */
 static void check_frame(const keel_voter_t *is, const keel_voter_t *was)
 {
@@ -47,8 +42,9 @@ static void check_frame(const keel_voter_t *is, const keel_voter_t *was)
         keel_voter_sensor_t expected = was->sensor[i];
 
         expected.last = is->sensor[i].last;
-        __CPROVER_assert(sensor_same(&is->sensor[i], &expected), "VOT_018_counts: no count moves");
-        __CPROVER_assert(same_float(is->vote.weight[i], was->vote.weight[i]) &&
+        __CPROVER_assert(voter_sensor_same(&is->sensor[i], &expected),
+                         "VOT_018_counts: no count moves");
+        __CPROVER_assert(float_same(is->vote.weight[i], was->vote.weight[i]) &&
                              (is->vote.reason[i] == was->vote.reason[i]),
                          "VOT_018_weights: nor weight or reason");
     }

@@ -1,5 +1,5 @@
 // cbmc: --external-sat-solver cadical
-// sources: src/middleware/oversample.c
+// sources: src/middleware/oversample.c specs/model/oversample.c specs/model/range.c
 // covers: keel_oversample_take add_excess begin
 //
 // Means that are whole numbers, and the clamp.

@@ -30,19 +30,20 @@ void keel_voter_step__exact_harness(void)
 
     any_voter(&voter, 1.0f, 3.0f);
     voter.config.sensors = three ? 3u : 2u;
+    voter.unanimous = false;
     voter.config.lowest = -3.0f;
     voter.config.highest = 2.0f;
     voter.config.stale_count = 0u;
-    __CPROVER_assume((voter.vote.output >= -3.0f) && (voter.vote.output <= 2.0f));
     for (uint32_t i = 0u; i < SENSORS; i++) {
         half[i] = nondet_u8() & 7u;
         sample[i].value = 0.5f * ((float)half[i] - 4.0f);
         sample[i].age_us = 0u;
         sample[i].present = nondet_bool();
         voter.sensor[i].latched = false;
-        __CPROVER_assume(healthy_here(&voter.config, &voter.sensor[i]));
         usable += ((i < voter.config.sensors) && sample[i].present) ? 1u : 0u;
     }
+
+    __CPROVER_assume(voter_valid_here(&voter));
 
     keel_voter_step(&voter, sample, 0u);
 

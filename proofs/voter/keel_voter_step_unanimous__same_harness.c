@@ -1,6 +1,6 @@
 // cbmc: --unwind 5 --external-sat-solver cadical
 // sources: src/middleware/voter.c
-// replaces: keel_voter_mean keel_voter_agreement
+// replaces: keel_voter_mean
 // covers: keel_voter_step_unanimous is_at_rest is_unanimous keel_voter_within
 //
 // The shorter way and the whole vote, from the same state with the same samples, come to the same:
@@ -32,7 +32,7 @@ void keel_voter_step_unanimous__same_harness(void)
         voter.sensor[i].last = any_half();
         moved = moved || ((i < voter.config.sensors) && (sample[i].value != voter.sensor[i].last));
     }
-    __CPROVER_assume(!voter.unanimous || unanimous_here(&voter));
+    __CPROVER_assume(voter_valid_here(&voter));
     whole = voter;
     if (keel_voter_step_unanimous(&voter, sample, 0u)) {
         sum = stand_in_sum;
@@ -45,7 +45,7 @@ void keel_voter_step_unanimous__same_harness(void)
                          "VOT_018_same: the vote says the same");
         for (uint32_t i = 0u; i < SENSORS; i++) {
             if (i < voter.config.sensors) {
-                __CPROVER_assert(sensor_same(&whole.sensor[i], &voter.sensor[i]) &&
+                __CPROVER_assert(voter_sensor_same(&whole.sensor[i], &voter.sensor[i]) &&
                                      (whole.vote.weight[i] == voter.vote.weight[i]) &&
                                      (whole.vote.reason[i] == voter.vote.reason[i]),
                                  "VOT_018_same: of each sensor, too");

@@ -15,12 +15,12 @@ void keel_voter_step_unanimous_harness(void)
     keel_voter_t voter;
     keel_voter_t before;
     keel_voter_sample_t sample[SENSORS];
+    keel_voter_sample_t copy[SENSORS];
     facts_t facts;
     bool taken;
 
-    __CPROVER_assume(none_valid_here(agree, none));
     any_voter(&voter, agree, none);
-    any_samples(sample);
+    any_samples(sample, copy);
     __CPROVER_assume(keel_voter_step_unanimous_may(&voter, sample, oldest_us));
     before = voter;
     facts = facts_of(&before, sample);
@@ -28,6 +28,7 @@ void keel_voter_step_unanimous_harness(void)
     taken = keel_voter_step_unanimous(&voter, sample, oldest_us);
 
     check_attempt(taken, &voter, &before, &facts, sample, oldest_us);
+    __CPROVER_assert(samples_same(sample, copy), "VOT_018_read: the samples are only read");
     __CPROVER_assert(keel_voter_step_unanimous_does(&voter),
                      "VOT_018_valid: the channel stays valid");
 }

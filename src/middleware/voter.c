@@ -75,8 +75,10 @@ keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *co
     return KEEL_OK;
 }
 
-float keel_voter_agreement(float distance, float agree, float none)
+float keel_voter_agreement(float x, float y, float agree, float none)
 {
+    const float distance = (x > y) ? (x - y) : (y - x);
+
     if (distance <= agree) {
         return 1.0f;
     }
@@ -274,10 +276,7 @@ static void compare_all(const keel_voter_t *voter, const keel_voter_sample_t sam
             float s = 0.0f;
 
             if ((reason[i] == KEEL_VOTER_USED) && (reason[j] == KEEL_VOTER_USED)) {
-                const float x = sample[i].value;
-                const float y = sample[j].value;
-
-                s = keel_voter_agreement((x > y) ? (x - y) : (y - x), agree, none);
+                s = keel_voter_agreement(sample[i].value, sample[j].value, agree, none);
             }
             agreement->of[i][j - 1u] = s;
             agreement->of[j][i] = s;
@@ -294,7 +293,7 @@ static uint32_t add_saturated(uint32_t a, uint32_t b)
 }
 
 /* The output, or another vote without one (VOT-008). */
-/*@ requires \valid(voter) && 1 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
+/*@ requires \valid(voter) && 2 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
   @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
   @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
   @ assigns voter->vote.state, voter->vote.output, voter->vote.held, voter->vote.held_us;

@@ -46,7 +46,7 @@ static bool agrees_with_eq16()
         const float none = a * uniform(1.01f, 20.0f);
         const float d = uniform(0.0f, 1.2f * none);
         const Real exact = eq16(d, a, static_cast<Real>(none) / a);
-        const float s = keel_voter_agreement(d, a, none);
+        const float s = keel_voter_agreement(0.0f, d, a, none);
 
         /* Two differences and a quotient: three roundings. */
         if ((s > 1.0f) || (std::fabs(s - exact) > 3.001L * u * exact + 1e-17L)) {

@@ -155,19 +155,19 @@ static void VOT_002_starts_with_the_initial_output(void)
 
 static void VOT_003_agreement(void)
 {
-    TEST_ASSERT_EQUAL_FLOAT(1.0f, keel_voter_agreement(0.0f, 1.0f, 3.0f));
-    TEST_ASSERT_EQUAL_FLOAT(1.0f, keel_voter_agreement(1.0f, 1.0f, 3.0f));
-    TEST_ASSERT_EQUAL_FLOAT(0.75f, keel_voter_agreement(1.5f, 1.0f, 3.0f));
-    TEST_ASSERT_EQUAL_FLOAT(0.25f, keel_voter_agreement(2.5f, 1.0f, 3.0f));
-    TEST_ASSERT_EQUAL_FLOAT(0.0f, keel_voter_agreement(3.0f, 1.0f, 3.0f));
-    TEST_ASSERT_EQUAL_FLOAT(0.0f, keel_voter_agreement(3.4e38f, 1.0f, 3.0f));
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, keel_voter_agreement(2.0f, 2.0f, 1.0f, 3.0f));
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, keel_voter_agreement(2.0f, 3.0f, 1.0f, 3.0f));
+    TEST_ASSERT_EQUAL_FLOAT(0.75f, keel_voter_agreement(-0.5f, 1.0f, 1.0f, 3.0f));
+    TEST_ASSERT_EQUAL_FLOAT(0.25f, keel_voter_agreement(2.0f, -0.5f, 1.0f, 3.0f));
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, keel_voter_agreement(0.0f, 3.0f, 1.0f, 3.0f));
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, keel_voter_agreement(-1.0e6f, 1.0e6f, 1.0f, 3.0f));
 }
 
 static void VOT_004_agreement_never_exceeds_one(void)
 {
     /* One step above a: eq. 16 as it stands gives more than 1 for many a and n. */
     for (float a = 0.1f; a < 10.0f; a *= 1.01f) {
-        const float s = keel_voter_agreement(a + (a * 0x1p-23f), a, 1.7f * a);
+        const float s = keel_voter_agreement(0.0f, a + (a * 0x1p-23f), a, 1.7f * a);
 
         TEST_ASSERT_TRUE((s <= 1.0f) && (s > 0.99f));
     }

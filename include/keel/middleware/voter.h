@@ -205,25 +205,27 @@ keel_status_t keel_voter_check(const keel_voter_config_t *config);
 keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *config);
 
 /**
- * The agreement of two samples (eq. 16, requirements VOT-003 and VOT-004): 1 up to the distance a,
- * 0 from n a on, (n a - d)/(n a - a) between. In this form the quotient never exceeds 1, where
- * that of eq. 16 does once it is rounded.
+ * The agreement of two samples at the distance d (eq. 16, requirements VOT-003 and VOT-004): 1 up
+ * to a, 0 from n a on, (n a - d)/(n a - a) between. In this form the quotient never exceeds 1,
+ * where that of eq. 16 does once it is rounded.
  *
- * @param distance d, the distance of the two, finite and not negative
- * @param agree    a, KEEL_VOTER_AGREE_MIN to KEEL_VOTER_AGREE_MAX
- * @param none     n a, above a, at most KEEL_VOTER_RANGE
+ * @param x     a sample, in magnitude at most KEEL_VOTER_RANGE
+ * @param y     another
+ * @param agree a, KEEL_VOTER_AGREE_MIN to KEEL_VOTER_AGREE_MAX
+ * @param none  n a, above a, at most KEEL_VOTER_RANGE
  * @return the agreement, 0 to 1; 0 from n a on only
  */
-/*@ requires agreement_distance: \is_finite(distance) && 0 <= distance;
+/*@ requires agreement_samples: \is_finite(x) && \is_finite(y) &&
+  @     -KEEL_VOTER_RANGE <= x <= KEEL_VOTER_RANGE && -KEEL_VOTER_RANGE <= y <= KEEL_VOTER_RANGE;
   @ requires \is_finite(agree) && KEEL_VOTER_AGREE_MIN <= agree <= KEEL_VOTER_AGREE_MAX;
   @ requires agreement_none: \is_finite(none) && agree < none <= KEEL_VOTER_RANGE;
   @ assigns \nothing;
-  @ ensures VOT_003_full: distance <= agree ==> \result == 1;
-  @ ensures VOT_003_none: distance >= none ==> \result == 0;
-  @ ensures VOT_003_some: distance < none ==> \result > 0;
+  @ ensures VOT_003_full: -agree <= (float)(x - y) <= agree ==> \result == 1;
+  @ ensures VOT_003_none: (float)(x - y) <= -none || none <= (float)(x - y) ==> \result == 0;
+  @ ensures VOT_003_some: -none < (float)(x - y) < none ==> \result > 0;
   @ ensures VOT_004: \is_finite(\result) && 0 <= \result <= 1;
   @*/
-float keel_voter_agreement(float distance, float agree, float none);
+float keel_voter_agreement(float x, float y, float agree, float none);
 
 /*@ // A weight, or an agreement, that a quotient can do with: 0, or not below 2^-24 / 3.
   @ predicate weight_valid(float w) = \is_finite(w) && (w == 0 || 0x1p-26 <= w <= 1);
@@ -289,10 +291,10 @@ bool keel_voter_within(float least, float most, float agree);
  * @param sample  the samples; those with a weight are finite, in magnitude at most
  *                KEEL_VOTER_RANGE
  * @param weight  their weights: 0, or 2^-26 to 1, not all of them 0
- * @param sensors how many there are, 1 to KEEL_VOTER_SENSORS
+ * @param sensors how many there are, 2 to KEEL_VOTER_SENSORS
  * @return the mean, between the smallest and the largest sample with a weight
  */
-/*@ requires 1 <= sensors <= KEEL_VOTER_SENSORS;
+/*@ requires 2 <= sensors <= KEEL_VOTER_SENSORS;
   @ requires \valid_read(sample + (0 .. sensors - 1)) && \valid_read(weight + (0 .. sensors - 1));
   @ requires combine_weights: \forall integer i; 0 <= i < sensors ==> weight_valid(weight[i]);
   @ requires combine_samples: \forall integer i; 0 <= i < sensors && weight[i] > 0 ==>

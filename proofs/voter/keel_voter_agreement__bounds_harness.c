@@ -1,0 +1,31 @@
+// cbmc: --external-sat-solver cadical
+// sources: src/middleware/voter.c
+// covers: keel_voter_agreement
+//
+// Every a and n a that a configuration may give, every two samples in range.
+#include "../common/voter_contracts.h"
+
+void keel_voter_agreement__bounds_harness(void)
+{
+    const float agree = nondet_float();
+    const float none = nondet_float();
+    const float x = nondet_float();
+    const float y = nondet_float();
+    float distance;
+    float s;
+
+    __CPROVER_assume(keel_voter_agreement_may(x, y, agree, none));
+
+    distance = x - y;
+    s = keel_voter_agreement(x, y, agree, none);
+
+    __CPROVER_assert((s >= 0.0f) && (s <= 1.0f), "VOT_004: an agreement lies in [0, 1]");
+    if ((-agree <= distance) && (distance <= agree)) {
+        __CPROVER_assert(s == 1.0f, "VOT_003_full: 1 up to a");
+    } else if ((distance <= -none) || (none <= distance)) {
+        __CPROVER_assert(s == 0.0f, "VOT_003_none: 0 from n a on");
+    } else {
+        __CPROVER_assert(s > 0.0f, "VOT_003_some: not 0 before n a");
+    }
+    __CPROVER_assert(keel_voter_agreement_does(s), "VOT_003_least: nor too small to divide by");
+}

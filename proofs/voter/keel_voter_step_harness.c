@@ -1,0 +1,31 @@
+// cbmc: --unwind 5 --external-sat-solver cadical
+// sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
+// replaces: keel_voter_agreement keel_voter_weight keel_voter_combine
+// covers: keel_voter_step inspect inspect_all exclude_stale compare_all judge conclude clear
+// covers: condemn one_more add_saturated is_unanimous model_voter_step
+//
+// A whole vote: every valid channel of 2 to 4 sensors, every bit pattern of the samples. Agreement,
+// weight and mean are any functions of their arguments with their contracts, the same for the model
+// (voter_parts.h).
+#include "../common/voter_parts.h"
+
+void keel_voter_step_harness(void)
+{
+    const uint32_t elapsed_us = nondet_u32();
+    keel_voter_t voter;
+    keel_voter_t model;
+    keel_voter_sample_t sample[SENSORS];
+    keel_voter_sample_t before[SENSORS];
+
+    any_voter(&voter, nondet_float(), nondet_float());
+    __CPROVER_assume(keel_voter_step_may(&voter));
+    any_samples(sample, before);
+    model = voter;
+    model_voter_step(&model, before, elapsed_us);
+
+    keel_voter_step(&voter, sample, elapsed_us);
+
+    __CPROVER_assert(voter_same(&voter, &model), "VOT_005_model: as the model says");
+    __CPROVER_assert(samples_same(sample, before), "VOT_005_read: the samples are only read");
+    __CPROVER_assert(keel_voter_step_does(&voter), "VOT_005_valid: the channel stays valid");
+}

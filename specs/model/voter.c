@@ -1,0 +1,312 @@
+#include "voter.h"
+
+#include "range.h"
+
+/* VOT-001. The product n a comes last: with the factors in their ranges it is finite. */
+static bool cutoff_is_valid(const keel_voter_config_t *config)
+{
+    return model_range_contains(config->cutoff, 1.0f, KEEL_VOTER_RANGE / KEEL_VOTER_AGREE_MIN) &&
+           ((config->cutoff * config->agree) > config->agree) &&
+           ((config->cutoff * config->agree) <= KEEL_VOTER_RANGE);
+}
+
+keel_status_t model_voter_check(const keel_voter_config_t *config)
+{
+    if ((config->sensors < 2u) || (KEEL_VOTER_SENSORS < config->sensors)) {
+        return KEEL_ERR_SENSORS;
+    }
+    if (!model_range_contains(config->agree, KEEL_VOTER_AGREE_MIN, KEEL_VOTER_AGREE_MAX)) {
+        return KEEL_ERR_AGREEMENT;
+    }
+    if (!cutoff_is_valid(config)) {
+        return KEEL_ERR_CUTOFF;
+    }
+    if (!model_range_contains(config->lowest, -KEEL_VOTER_RANGE, KEEL_VOTER_RANGE) ||
+        !model_range_contains(config->highest, config->lowest, KEEL_VOTER_RANGE)) {
+        return KEEL_ERR_LIMITS;
+    }
+    if (!model_range_contains(config->initial, config->lowest, config->highest)) {
+        return KEEL_ERR_INITIAL;
+    }
+    if (config->max_age_us == 0u) {
+        return KEEL_ERR_AGE;
+    }
+    if (config->latch_count == 0u) {
+        return KEEL_ERR_LATCH;
+    }
+    return KEEL_OK;
+}
+
+/* VOT-002 */
+keel_status_t model_voter_init(keel_voter_t *voter, const keel_voter_config_t *config)
+{
+    const keel_status_t status = model_voter_check(config);
+
+    if (status != KEEL_OK) {
+        return status;
+    }
+    voter->config = *config;
+    voter->none = config->cutoff * config->agree;
+    voter->vote.output = config->initial;
+    voter->vote.held = 0u;
+    voter->vote.held_us = 0u;
+    voter->vote.state = KEEL_VOTER_NONE;
+    voter->vote.contributing = 0u;
+    voter->unanimous = false;
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        voter->sensor[i].last = config->initial;
+        voter->sensor[i].same = 0u;
+        voter->sensor[i].null = 0u;
+        voter->sensor[i].density = 0u;
+        voter->sensor[i].latched = false;
+        voter->vote.weight[i] = 0.0f;
+        voter->vote.reason[i] = KEEL_VOTER_USED;
+    }
+    return KEEL_OK;
+}
+
+static uint16_t one_more(uint16_t count)
+{
+    return (count < UINT16_MAX) ? (uint16_t)(count + 1u) : UINT16_MAX;
+}
+
+/* Why a sample is of no use, the first reason that applies; staleness comes later. VOT-007 */
+static uint8_t first_reason(const keel_voter_config_t *config, const keel_voter_sensor_t *sensor,
+                            const keel_voter_sample_t *sample)
+{
+    if (sensor->latched) {
+        return KEEL_VOTER_LATCHED;
+    }
+    if (!sample->present) {
+        return KEEL_VOTER_MISSING;
+    }
+    if (!model_range_contains(sample->value, -KEEL_RANGE_LARGEST, KEEL_RANGE_LARGEST)) {
+        return KEEL_VOTER_NOT_FINITE;
+    }
+    if (!model_range_contains(sample->value, config->lowest, config->highest)) {
+        return KEEL_VOTER_OUT_OF_RANGE;
+    }
+    if (sample->age_us > config->max_age_us) {
+        return KEEL_VOTER_LATE;
+    }
+    return KEEL_VOTER_USED;
+}
+
+/* Whether a sample can be compared with the sensor's last one: it is finite, plausible or not. */
+static bool is_readable(uint8_t reason)
+{
+    return (reason == KEEL_VOTER_USED) || (reason == KEEL_VOTER_OUT_OF_RANGE) ||
+           (reason == KEEL_VOTER_LATE);
+}
+
+/* Reasons of all samples. What has changed is kept, and where just one of the readable samples has
+ * not changed, that is counted: VOT-013. 0 and -0 are no change. */
+static void look(keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    bool readable[KEEL_VOTER_SENSORS] = {false};
+    bool changed[KEEL_VOTER_SENSORS] = {false};
+    uint32_t readables = 0u;
+    uint32_t changes = 0u;
+
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        if (i < voter->config.sensors) {
+            voter->vote.reason[i] = first_reason(&voter->config, &voter->sensor[i], &sample[i]);
+            readable[i] = is_readable(voter->vote.reason[i]);
+            changed[i] = readable[i] && (sample[i].value != voter->sensor[i].last);
+            readables += readable[i] ? 1u : 0u;
+            changes += changed[i] ? 1u : 0u;
+        }
+    }
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        if (changed[i]) {
+            voter->sensor[i].last = sample[i].value;
+            voter->sensor[i].same = 0u;
+        } else if (readable[i] && (changes > 0u) && ((changes + 1u) == readables)) {
+            voter->sensor[i].same = one_more(voter->sensor[i].same);
+        } else {
+            /* Not readable, or not the only one at rest: the count stays. */
+        }
+    }
+}
+
+/* Of the usable samples, those whose sensor has not changed for too long: VOT-013 */
+static void exclude_stale(keel_voter_t *voter)
+{
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        if ((i < voter->config.sensors) && (voter->vote.reason[i] == KEEL_VOTER_USED) &&
+            (voter->config.stale_count > 0u) &&
+            (voter->sensor[i].same >= voter->config.stale_count)) {
+            voter->vote.reason[i] = KEEL_VOTER_STALE;
+        }
+    }
+}
+
+/* How many samples have the reason KEEL_VOTER_USED. */
+static uint32_t used(const keel_voter_t *voter)
+{
+    uint32_t count = 0u;
+
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        if ((i < voter->config.sensors) && (voter->vote.reason[i] == KEEL_VOTER_USED)) {
+            count++;
+        }
+    }
+    return count;
+}
+
+/* The agreements of all pairs; 0 where one of the two is not usable. */
+typedef struct agreements {
+    float of[KEEL_VOTER_SENSORS][KEEL_VOTER_SENSORS];
+} agreements_t;
+
+static agreements_t compare(const keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    agreements_t agreements = {{{0.0f}}};
+
+    for (uint32_t j = 0u; j < KEEL_VOTER_SENSORS; j++) {
+        for (uint32_t i = 0u; i < j; i++) {
+            if ((j < voter->config.sensors) && (voter->vote.reason[i] == KEEL_VOTER_USED) &&
+                (voter->vote.reason[j] == KEEL_VOTER_USED)) {
+                agreements.of[i][j] = model_voter_agreement(sample[i].value, sample[j].value,
+                                                            voter->config.agree, voter->none);
+                agreements.of[j][i] = agreements.of[i][j];
+            }
+        }
+    }
+    return agreements;
+}
+
+/* The weight of sample i: the mean of its agreements with all others. VOT-006 */
+static float weight_of(const agreements_t *agreements, uint32_t i, uint32_t sensors)
+{
+    float agreement[KEEL_VOTER_SENSORS - 1u] = {0.0f};
+    uint32_t others = 0u;
+
+    for (uint32_t j = 0u; j < KEEL_VOTER_SENSORS; j++) {
+        if ((j < sensors) && (j != i)) {
+            agreement[others] = agreements->of[i][j];
+            others++;
+        }
+    }
+    return model_voter_weight(agreement, others);
+}
+
+/* Weights of all samples: 0 for what is not usable, 1 for what alone is (VOT-009). */
+static void weigh(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t usable)
+{
+    const uint32_t sensors = voter->config.sensors;
+    const agreements_t agreements = compare(voter, sample);
+
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        if (i < sensors) {
+            voter->vote.weight[i] = 0.0f;
+            if (voter->vote.reason[i] == KEEL_VOTER_USED) {
+                voter->vote.weight[i] = (usable == 1u) ? 1.0f : weight_of(&agreements, i, sensors);
+            }
+        }
+    }
+}
+
+/* What is usable and has no weight was outvoted: VOT-006 */
+static void outvote(keel_voter_t *voter)
+{
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        if ((i < voter->config.sensors) && (voter->vote.reason[i] == KEEL_VOTER_USED) &&
+            (voter->vote.weight[i] <= 0.0f)) {
+            voter->vote.reason[i] = KEEL_VOTER_OUTVOTED;
+        }
+    }
+}
+
+/* Whether a vote condemns a sensor: VOT-010. With fewer than two others nobody knows which is
+ * wrong. */
+static bool is_condemned(uint8_t reason, uint32_t usable)
+{
+    return (reason == KEEL_VOTER_MISSING) || (reason == KEEL_VOTER_NOT_FINITE) ||
+           (reason == KEEL_VOTER_OUT_OF_RANGE) || (reason == KEEL_VOTER_LATE) ||
+           (reason == KEEL_VOTER_STALE) || ((reason == KEEL_VOTER_OUTVOTED) && (usable > 2u));
+}
+
+/* What the vote means for a sensor: VOT-010 (null), VOT-011 (latched), VOT-012 (density) */
+static void count(const keel_voter_config_t *config, keel_voter_sensor_t *sensor, uint8_t reason,
+                  uint32_t usable)
+{
+    if (reason == KEEL_VOTER_USED) {
+        sensor->null = 0u;
+        sensor->density = (sensor->density > 0u) ? (uint16_t)(sensor->density - 1u) : 0u;
+    }
+    if (is_condemned(reason, usable)) {
+        sensor->null = one_more(sensor->null);
+        sensor->density = one_more(sensor->density);
+        sensor->latched = (sensor->null >= config->latch_count) ||
+                          ((config->density_limit > 0u) &&
+                           (sensor->density >= config->density_limit));
+    }
+}
+
+/* The output of a vote to which some contributed (VOT-005, VOT-009), else none (VOT-008). */
+static void conclude(keel_vote_t *vote, const keel_voter_sample_t sample[], uint32_t sensors,
+                     uint32_t usable, uint32_t elapsed_us)
+{
+    const uint64_t held_us = (uint64_t)vote->held_us + elapsed_us;
+
+    if (vote->contributing > 0u) {
+        vote->state = (usable == 1u) ? KEEL_VOTER_SINGLE : KEEL_VOTER_MEAN;
+        vote->output = model_voter_combine(sample, vote->weight, sensors);
+        vote->held = 0u;
+        vote->held_us = 0u;
+    } else {
+        vote->state = (usable == 0u) ? KEEL_VOTER_NONE : KEEL_VOTER_DISAGREE;
+        vote->held = (vote->held < UINT32_MAX) ? (vote->held + 1u) : UINT32_MAX;
+        vote->held_us = (held_us < UINT32_MAX) ? (uint32_t)held_us : UINT32_MAX;
+    }
+}
+
+/* Whether all weights are 1 and nothing is counted against any sensor: VOT-018 */
+static bool is_unanimous(const keel_voter_t *voter)
+{
+    bool unanimous = voter->vote.contributing == voter->config.sensors;
+
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        if (i < voter->config.sensors) {
+            unanimous = unanimous && (voter->vote.weight[i] >= 1.0f) &&
+                        (voter->sensor[i].same == 0u) && (voter->sensor[i].density == 0u);
+        }
+    }
+    return unanimous;
+}
+
+void model_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us)
+{
+    uint32_t usable;
+
+    look(voter, sample);
+    exclude_stale(voter);
+    usable = used(voter);
+    weigh(voter, sample, usable);
+    outvote(voter);
+    voter->vote.contributing = (uint8_t)used(voter);
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        if (i < voter->config.sensors) {
+            count(&voter->config, &voter->sensor[i], voter->vote.reason[i], usable);
+        }
+    }
+    conclude(&voter->vote, sample, voter->config.sensors, usable, elapsed_us);
+    voter->unanimous = is_unanimous(voter);
+}
+
+/* VOT-014 */
+keel_status_t model_voter_readmit(keel_voter_t *voter, uint32_t sensor)
+{
+    if (sensor >= voter->config.sensors) {
+        return KEEL_ERR_SENSORS;
+    }
+    if (!voter->sensor[sensor].latched) {
+        return KEEL_ERR_STATE;
+    }
+    voter->sensor[sensor].latched = false;
+    voter->sensor[sensor].null = 0u;
+    voter->sensor[sensor].density = 0u;
+    voter->sensor[sensor].same = 0u;
+    return KEEL_OK;
+}
