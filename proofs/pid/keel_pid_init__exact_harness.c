@@ -1,8 +1,9 @@
 // cbmc: --external-sat-solver cadical
-// sources: src/flight/pid.c src/flight/filter.c
-// covers: keel_pid_init
+// sources: src/flight/pid.c src/flight/filter.c specs/model/pid.c specs/model/filter.c
+// covers: keel_pid_init model_pid_init
 //
 // ki T, in numbers whose quotient is exact: at 4 Hz. Two gains are bad, and one cut-off.
+#include "../../specs/model/pid.h"
 #include "../common/keel_pid_proof.h"
 
 void keel_pid_init__exact_harness(void)
@@ -16,7 +17,12 @@ void keel_pid_init__exact_harness(void)
                                       .output_min = -1.0f,
                                       .output_max = limits ? 1.0f : -1.0f};
     keel_pid_t pid = any_pid_at_all();
+    keel_pid_t model = pid;
     const keel_status_t status = keel_pid_init(&pid, &config);
+
+    __CPROVER_assert(status == model_pid_init(&model, &config),
+                     "PID_001_model: taken or refused as the model says");
+    __CPROVER_assert(pid_same(&pid, &model), "PID_002_model: every field is what the model says");
 
     __CPROVER_assert((status == KEEL_OK) == ((ki >= 0) && limits && cutoff),
                      "PID_002_ok: taken when all is good");
