@@ -2,8 +2,8 @@
 // sources: src/flight/pid.c src/flight/filter.c specs/model/pid.c specs/model/filter.c
 // covers: keel_pid_set_gains direct_terms model_pid_set_gains without_integral
 //
-// What the integral takes over, on small whole numbers, whose sums and products are exact; 2 Hz. Wrong
-// bodies are refuted here: where floats differ, z3 finds no example.
+// What the integral takes over, on small whole numbers, whose sums and products are exact; 2 Hz.
+// Wrong bodies are refuted here: where floats differ, z3 finds no example.
 #include "../../specs/model/pid.h"
 #include "../common/keel_pid_proof.h"
 

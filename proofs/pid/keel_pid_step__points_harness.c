@@ -20,9 +20,9 @@ typedef struct point {
     bool started;
 } point_t;
 
-/* The first and later steps, within the limits, the integral beyond those of the output; beyond each limit, with the integral free, at its
- * own limit, held, and held so that the output is free again; refused inputs, one of them by the
- * low-pass. */
+/* The first and later steps, within the limits, the integral beyond those of the output; beyond
+ * each limit, with the integral free, at its own limit, held, and held so that the output is free
+ * again; refused inputs, one of them by the low-pass. */
 static const point_t points[POINTS] = {
     {1.1f, 0.3f, 0.013f, 0.7f, 0.3f, false},   {1.1f, 0.3f, 0.013f, 0.7f, 0.3f, true},
     {9.1f, 0.3f, 0.013f, 0.7f, 0.3f, true},    {-9.1f, 0.3f, 0.013f, 0.7f, 0.3f, true},
