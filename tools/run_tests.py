@@ -61,7 +61,10 @@ CAPACITIES: dict[str, tuple[int, list[str]]] = {
     "small": (1_000_000, [SMALL]),
 }
 
-MODEL_SOURCES = ["tests/property/model.c", "tests/property/drive.c"]
+SPECIFIED = ("admission", "admission_queue", "clock", "decision", "load", "pass", "priority",
+             "queue", "scheduler", "task")  # fmt: skip
+MODEL_SOURCES = [f"tests/property/{name}.c" for name in ("model", "drive", "lockstep")]
+MODEL_SOURCES += [f"specs/model/{name}.c" for name in SPECIFIED]
 
 
 class BuildError(Exception):

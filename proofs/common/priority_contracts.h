@@ -22,7 +22,7 @@ static bool keel_priority_dynamic_may(uint32_t sp, uint64_t age_us, uint32_t per
 static bool keel_priority_dynamic_does(uint32_t priority, uint32_t sp, uint64_t age_us,
                                        uint32_t period_us)
 {
-    const uint64_t late_us = age_us - period_us;
+    const uint64_t late_us = (age_us > period_us) ? (age_us - period_us) : 0u;
 
     return (1u <= priority) && (priority <= KEEL_PRIORITY_REALTIME) &&
            ((age_us < period_us) || (late_us >= period_us) || ((sp * late_us) >= period_us) ||

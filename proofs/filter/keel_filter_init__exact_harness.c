@@ -4,8 +4,8 @@
 //
 // The coefficients for some cut-offs at 1000 Hz, of which 250 Hz (g = 1) is the last below the
 // change of formula. The numbers are those of filter.h in double precision; how near the
-// coefficients are everywhere else is tested. Wrong bodies are refuted here: where floats differ, z3
-// finds no example.
+// coefficients are everywhere else is tested. Wrong bodies are refuted here: where floats differ,
+// z3 finds no example.
 #include "../../specs/model/filter.h"
 #include "../common/keel_flight_proof.h"
 

@@ -117,8 +117,12 @@ keel_status_t model_scheduler_remove(keel_scheduler_t *scheduler, const keel_tas
     }
     /* SCH-007: the pass goes on with the same tasks, the running task is known unless it went. */
     gone = (int16_t)position;
-    scheduler->cursor -= (gone < scheduler->cursor) ? 1 : 0;
-    scheduler->pass_end -= (gone < scheduler->pass_end) ? 1 : 0;
+    if (gone < scheduler->cursor) {
+        scheduler->cursor--;
+    }
+    if (gone < scheduler->pass_end) {
+        scheduler->pass_end--;
+    }
     if (gone == scheduler->running) {
         scheduler->running = KEEL_POSITION_NONE;
     } else if (gone < scheduler->running) {

@@ -1,6 +1,7 @@
 #include "drive.h"
 
 #include "keel/rtos/scheduler.h"
+#include "lockstep.h"
 #include "model.h"
 
 #include <inttypes.h>
@@ -320,8 +321,19 @@ static void same_stage(session_t *s)
          (uint64_t)((m->stage == RUNNING) ? running : stage[m->stage]));
 }
 
+/* Each call so far has left and answered what the executable specification says. */
+static void same_as_specified(session_t *s)
+{
+    const char *const function = lockstep_difference();
+
+    if (function != NULL) {
+        differ(s, "%s: not what specs/model says", function);
+    }
+}
+
 static void same_everything(session_t *s)
 {
+    same_as_specified(s);
     same_queue(s);
     for (int i = 0; i < TASKS; i++) {
         same_task(s, i);
@@ -370,14 +382,14 @@ static keel_status_t kernel_add(session_t *s, int task, const model_declaration_
     if (!actor->queued) {
         declare(actor, is);
     }
-    status = keel_scheduler_add(s->kernel, &actor->config);
+    status = lockstep_add(s->kernel, &actor->config);
     actor->queued = actor->queued || (status == KEEL_OK);
     return status;
 }
 
 static keel_status_t kernel_remove(session_t *s, int task)
 {
-    const keel_status_t status = keel_scheduler_remove(s->kernel, &s->actor[task].config);
+    const keel_status_t status = lockstep_remove(s->kernel, &s->actor[task].config);
 
     s->actor[task].queued = s->actor[task].queued && (status != KEEL_OK);
     return status;
@@ -430,7 +442,7 @@ static void do_check(session_t *s)
 {
     uint32_t kernel = UINT32_MAX;
     int model = -1;
-    const keel_status_t status = keel_scheduler_check(s->kernel, &kernel);
+    const keel_status_t status = lockstep_check(s->kernel, &kernel);
 
     same_status(s, "check", status, model_check(&s->model, &model));
     same(s, "admitted", MODEL_NO_TASK, kernel, (uint64_t)model);
@@ -438,14 +450,14 @@ static void do_check(session_t *s)
 
 static void do_start(session_t *s)
 {
-    const keel_status_t status = keel_scheduler_start(s->kernel);
+    const keel_status_t status = lockstep_start(s->kernel);
 
     same_status(s, "start", status, model_start(&s->model, s->raw));
 }
 
 static void do_resync(session_t *s)
 {
-    const keel_status_t status = keel_scheduler_resync(s->kernel);
+    const keel_status_t status = lockstep_resync(s->kernel);
 
     same_status(s, "resync", status, model_resync(&s->model, s->raw));
 }
@@ -465,9 +477,9 @@ static void report_nulls(session_t *s)
 
 static void do_nulls(session_t *s)
 {
-    same_status(s, "add null", keel_scheduler_add(s->kernel, NULL), KEEL_ERR_NULL);
+    same_status(s, "add null", lockstep_add(s->kernel, NULL), KEEL_ERR_NULL);
     same_status(s, "add to null", keel_scheduler_add(NULL, &s->actor[0].config), KEEL_ERR_NULL);
-    same_status(s, "remove null", keel_scheduler_remove(s->kernel, NULL), KEEL_ERR_NULL);
+    same_status(s, "remove null", lockstep_remove(s->kernel, NULL), KEEL_ERR_NULL);
     same_status(s, "start null", keel_scheduler_start(NULL), KEEL_ERR_NULL);
     same_status(s, "step null", keel_scheduler_step(NULL), KEEL_ERR_NULL);
     same_status(s, "resync null", keel_scheduler_resync(NULL), KEEL_ERR_NULL);
@@ -509,7 +521,7 @@ static void act_inside(session_t *s, run_t *run)
         inside->status = keel_scheduler_step(s->kernel);
         break;
     default:
-        inside->status = keel_scheduler_resync(s->kernel);
+        inside->status = lockstep_resync(s->kernel);
         break;
     }
 }
@@ -723,7 +735,7 @@ static void do_outside(session_t *s)
 
 static int kernel_next(session_t *s)
 {
-    const keel_task_config_t *const task = keel_pass_next(s->kernel);
+    const keel_task_config_t *const task = lockstep_next(s->kernel);
 
     for (int i = 0; (i < TASKS) && (task != NULL); i++) {
         if (task == &s->actor[i].config) {
@@ -735,7 +747,7 @@ static int kernel_next(session_t *s)
 
 static void do_begin(session_t *s)
 {
-    const keel_status_t status = keel_pass_begin(s->kernel, s->raw);
+    const keel_status_t status = lockstep_begin(s->kernel, s->raw);
     const keel_status_t expected = model_begin(&s->model, s->raw);
 
     same_status(s, "begin", status, expected);
@@ -757,7 +769,7 @@ static void do_next(session_t *s)
 
 static void do_finish(session_t *s)
 {
-    const keel_status_t status = keel_pass_finish(s->kernel, s->raw);
+    const keel_status_t status = lockstep_finish(s->kernel, s->raw);
 
     same_status(s, "finish", status, model_finish(&s->model, s->raw));
 }

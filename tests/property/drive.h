@@ -2,6 +2,7 @@
  * @file drive.h
  * @brief Drives the kernel and its model with one string of bytes, and compares them throughout.
  *
+ * Each call is compared with the executable specification, too (lockstep.h).
  * The bytes decide everything: declarations, operations, how long tasks run, what they do inside.
  * So a string from a random generator makes a property test, one from libFuzzer a fuzz test, and
  * a failing one can be made shorter as any string can.
