@@ -16,7 +16,10 @@ uint64_t __CPROVER_uninterpreted_age_us(uint32_t sp, uint32_t period_us);
 
 uint64_t model_priority_promotion_age_us(uint32_t sp, uint32_t period_us)
 {
-    return __CPROVER_uninterpreted_age_us(sp, period_us);
+    const uint64_t age_us = __CPROVER_uninterpreted_age_us(sp, period_us);
+
+    __CPROVER_assume(keel_priority_promotion_age_us_does(age_us, sp, period_us));
+    return age_us;
 }
 
 uint64_t keel_priority_promotion_age_us_stand_in(uint32_t sp, uint32_t period_us)
