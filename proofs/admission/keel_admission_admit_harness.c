@@ -3,7 +3,8 @@
 // covers: keel_admission_admit minimum utilisation_of gap_of model_admission_admit
 //
 // Totals, guard and limit have their full width. Bounded to periods up to 2^3 us and budgets below
-// 2^6 us, as the utilisation divides; keel_admission_admit__any_harness has no such bound.
+// 2^6 us, as the utilisation divides. The contract under WP has no such bound and determines every
+// field.
 #include "../../specs/model/admission.h"
 #include "../common/admission_proof.h"
 
