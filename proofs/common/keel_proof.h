@@ -144,31 +144,6 @@ static void narrow_releases(keel_queue_t *queue, uint32_t bits)
     }
 }
 
-/* Makes any order of the slots that is there any order of all (queue_order): each slot has a
- * position. For functions that look at few slots. */
-static void any_order(keel_queue_t *queue)
-{
-    for (uint32_t x = 0u; x < CAPACITY; x++) {
-        queue->order[x] = (uint8_t)any_below(CAPACITY);
-    }
-    for (uint32_t x = 0u; x < CAPACITY; x++) {
-        __CPROVER_assume(queue->order[any_below(CAPACITY)] == x);
-    }
-}
-
-/* Eq. 3 without a division: one more for each of the 15 multiples of T that sp * age reaches. */
-static uint32_t dynamic_priority(uint32_t sp, uint64_t age_us, uint32_t period_us)
-{
-    uint32_t priority = 1u;
-
-    for (uint32_t k = 1u; k < KEEL_PRIORITY_REALTIME; k++) {
-        if ((sp * age_us) >= (k * (uint64_t)period_us)) {
-            priority++;
-        }
-    }
-    return priority;
-}
-
 /* Asserts that a queue is valid (queue_valid) under the ids of a unit, at two arbitrary positions;
  * for duplicates these are slots, which is the same where the other parts hold. */
 #define ASSERT_QUEUE_VALID(queue, id)                                                              \
@@ -223,12 +198,6 @@ static bool load_same(const keel_load_t *a, const keel_load_t *b)
 static bool deviation_same(const keel_deviation_t *a, const keel_deviation_t *b)
 {
     return (a->sum_us2 == b->sum_us2) && (a->start_us == b->start_us) && (a->starts == b->starts);
-}
-
-static bool stats_fresh(const keel_stats_t *stats)
-{
-    return (stats->total_us == 0u) && (stats->runs == 0u) && (stats->last_us == 0u) &&
-           (stats->longest_us == 0u) && (stats->overruns == 0u) && (stats->promotions == 0u);
 }
 
 static bool config_same(const keel_task_config_t *a, const keel_task_config_t *b)

@@ -83,36 +83,6 @@ static void any_scheduler(keel_scheduler_t *scheduler, uint32_t of_interest)
     any_state(scheduler);
 }
 
-/* Asserts that a scheduler is valid (scheduler_valid), at arbitrary positions. */
-#define ASSERT_SCHEDULER_VALID(s)                                                                  \
-    do {                                                                                           \
-        const uint32_t at_k = any_below(CAPACITY);                                                 \
-        const uint64_t at_k_us = (s)->queue.release_us[(s)->queue.order[at_k]];                    \
-                                                                                                   \
-        ASSERT_QUEUE_VALID(&(s)->queue, "SCH_006");                                                \
-        __CPROVER_assert((0 <= (s)->cursor) && ((s)->cursor <= (s)->pass_end) &&                   \
-                             ((s)->pass_end <= (s)->queue.realtime_count),                         \
-                         "SCH_006_state: the pass lies within the real-time tasks");               \
-        __CPROVER_assert((KEEL_POSITION_NONE <= (s)->running) &&                                   \
-                             ((s)->running < (s)->queue.count),                                    \
-                         "SCH_006_state: the running task is in the queue");                       \
-        __CPROVER_assert(((s)->config.guard_us < KEEL_PERIOD_LIMIT_US) &&                          \
-                             ((s)->config.utilisation_limit <= KEEL_UTILISATION_FULL_PPM),         \
-                         "SCH_006_state: the configuration is in its range");                      \
-        __CPROVER_assert((KEEL_STAGE_SETUP <= (s)->stage) && ((s)->stage <= KEEL_STAGE_OTHER) &&   \
-                             (((s)->stage < KEEL_STAGE_PASS) || ((s)->wake_us == 0u)),             \
-                         "SCH_006_state: the stage is one, nothing waits in a pass");              \
-        __CPROVER_assert((at_k >= (s)->queue.realtime_count) ||                                    \
-                             ((s)->earliest_realtime_us <= at_k_us),                               \
-                         "SCH_006_realtime_bound: no real-time task is released before it");       \
-        __CPROVER_assert(!is_other(&(s)->queue, at_k) || ((s)->earliest_other_us <= at_k_us),      \
-                         "SCH_006_other_bound: no other task is released before it");              \
-        __CPROVER_assert(((s)->earliest_realtime_us <= (s)->clock.now_us) ||                       \
-                             is_earliest(&(s)->queue, 0u, (s)->queue.realtime_count,               \
-                                         (s)->earliest_realtime_us),                               \
-                         "SCH_006_exact: the bound that lies ahead is a release");                 \
-    } while (false)
-
 static bool setup_same(const keel_scheduler_config_t *a, const keel_scheduler_config_t *b)
 {
     return (a->read_clock == b->read_clock) && (a->clock_context == b->clock_context) &&
