@@ -175,9 +175,8 @@ static void print_report(keel_load_t *window)
         promotions += report.stats.promotions;
     }
     print_number("t ", scheduler.clock.now_us / REPORT_EVERY_US);
-    print_number(" s load ",
-                 keel_load_milli_percent(window, scheduler.clock.now_us, scheduler.busy_us));
-    print_number(" m% skipped ", skipped);
+    print_number(" s load ", keel_load_ppm(window, scheduler.clock.now_us, scheduler.busy_us));
+    print_number(" ppm skipped ", skipped);
     print_number(" overruns ", overruns);
     print_number(" promotions ", promotions);
     print_imu();

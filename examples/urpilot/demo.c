@@ -14,6 +14,7 @@
  * Exit status: 0 when every task ran once per period and in time, 1 when not, 2 for a wrong
  * command line.
  */
+#include "keel/rtos/deviation.h"
 #include "keel/rtos/load.h"
 #include "keel/rtos/scheduler.h"
 #include "urpilot_tasks.h"
@@ -30,6 +31,7 @@
 #define DEMO_POLL_MAX   1000000u                 /* A slower loop is a typing error. */
 #define DEMO_FIRST_TICK (UINT32_MAX - 30000000u) /* The counter at the start. */
 #define EXIT_USAGE      2
+#define PPM_PER_PERCENT 10000.0
 
 /* What the demo watches about a task: the context of its body. */
 typedef struct demo_task {
@@ -46,7 +48,7 @@ typedef struct demo {
     keel_scheduler_t scheduler;
     uint32_t ticks; /* The free-running microsecond counter. */
     uint32_t poll_us;
-    uint32_t peak; /* The highest load of a window, in thousandths of a percent. */
+    uint32_t peak_ppm; /* The highest load of a window. */
     demo_task_t task[URPILOT_TASK_COUNT];
 } demo_t;
 
@@ -106,7 +108,7 @@ static keel_status_t demo_start(demo_t *demo, uint32_t poll_us)
 
     demo->ticks = DEMO_FIRST_TICK;
     demo->poll_us = poll_us;
-    demo->peak = 0u;
+    demo->peak_ppm = 0u;
     for (uint32_t i = 0u; (i < URPILOT_TASK_COUNT) && (status == KEEL_OK); i++) {
         status = demo_add(demo, i);
     }
@@ -120,9 +122,9 @@ static void demo_watch_load(demo_t *demo, keel_load_t *window)
     const uint64_t busy_us = demo->scheduler.busy_us;
 
     if ((now_us - window->start_us) >= DEMO_WINDOW_US) {
-        const uint32_t load = keel_load_milli_percent(window, now_us, busy_us);
+        const uint32_t load_ppm = keel_load_ppm(window, now_us, busy_us);
 
-        demo->peak = (load > demo->peak) ? load : demo->peak;
+        demo->peak_ppm = (load_ppm > demo->peak_ppm) ? load_ppm : demo->peak_ppm;
         keel_load_begin(window, now_us, busy_us);
     }
 }
@@ -206,8 +208,8 @@ static void demo_print_tasks(const demo_t *demo)
 static void demo_print_load(const demo_t *demo)
 {
     const keel_load_t minute = {.start_us = 0u, .busy_us = 0u};
-    const uint32_t load = keel_load_milli_percent(&minute, demo->scheduler.clock.now_us,
-                                                  demo->scheduler.busy_us);
+    const uint32_t load_ppm = keel_load_ppm(&minute, demo->scheduler.clock.now_us,
+                                            demo->scheduler.busy_us);
     double declared = 0.0;
 
     for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
@@ -215,8 +217,8 @@ static void demo_print_load(const demo_t *demo)
     }
     (void)printf("\nCPU load (eq. 13 and 14): %.3f %% over the minute, at most %.3f %% in %u ms; "
                  "sum of C / T in table 2: %.3f %%.\n",
-                 (double)load / 1000.0, (double)demo->peak / 1000.0, DEMO_WINDOW_US / 1000u,
-                 declared);
+                 (double)load_ppm / PPM_PER_PERCENT, (double)demo->peak_ppm / PPM_PER_PERCENT,
+                 DEMO_WINDOW_US / 1000u, declared);
 }
 
 /* The last line, which tells how it went; returns whether it went well. */

@@ -43,5 +43,5 @@ keel_scheduler_config_t urpilot_scheduler_config(keel_clock_fn_t read_clock, voi
     return (keel_scheduler_config_t){.read_clock = read_clock,
                                      .clock_context = clock_context,
                                      .guard_us = URPILOT_GUARD_US,
-                                     .utilisation_limit = URPILOT_UTILISATION_LIMIT};
+                                     .utilisation_limit_ppm = URPILOT_UTILISATION_LIMIT_PPM};
 }

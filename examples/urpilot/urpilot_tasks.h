@@ -11,9 +11,9 @@
 
 #include <stdint.h>
 
-#define URPILOT_TASK_COUNT        21u
-#define URPILOT_GUARD_US          20u      /**< The guard W that the analysis assumes. */
-#define URPILOT_UTILISATION_LIMIT 1000000u /**< What the analysis admits, in ppm. */
+#define URPILOT_TASK_COUNT            21u
+#define URPILOT_GUARD_US              20u      /**< The guard W that the analysis assumes. */
+#define URPILOT_UTILISATION_LIMIT_PPM 1000000u /**< What the analysis admits. */
 
 /** The rows by name, in the order of the queue. */
 typedef enum urpilot_index {

@@ -49,7 +49,7 @@ static bool are_same(const keel_scheduler_t *a, const keel_scheduler_t *b)
            (a->config.read_clock == b->config.read_clock) &&
            (a->config.clock_context == b->config.clock_context) &&
            (a->config.guard_us == b->config.guard_us) &&
-           (a->config.utilisation_limit == b->config.utilisation_limit) &&
+           (a->config.utilisation_limit_ppm == b->config.utilisation_limit_ppm) &&
            (a->cursor == b->cursor) && (a->pass_end == b->pass_end) && (a->running == b->running) &&
            (a->stage == b->stage) && queues_are_same(&a->queue, &b->queue);
 }
