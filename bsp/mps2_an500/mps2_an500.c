@@ -1,10 +1,6 @@
 /* The board that QEMU emulates as mps2-an500: console, time base, memory protection, its end. */
 #include "board.h"
 
-#include "console.h"
-#include "cortex_m7/fault.h"
-#include "cortex_m7/memory.h"
-#include "cortex_m7/startup.h"
 #include "mps2_an500/emulator.h"
 
 #define ELEMENTS(array) (sizeof(array) / sizeof((array)[0]))
@@ -38,7 +34,6 @@ typedef struct fpgaio {
 
 #define FPGAIO           ((fpgaio_t *)0x40028000u)
 #define TICKS_PER_US     25u
-#define SAFE_STATUS      70 /* The emulator's exit status after a fault. */
 #define LOG2_NULL_GUARD  8u
 #define LOG2_STACK_GUARD 10u
 
@@ -86,21 +81,7 @@ void keel_board_outputs_off(void)
     FPGAIO->LED = 0u; /* All outputs that this board has. */
 }
 
-void keel_board_end(int status)
+void keel_board_halt(int status)
 {
-    keel_board_outputs_off();
-    keel_console_text("stack: ");
-    keel_console_number(keel_stack_used_b());
-    keel_console_text(" of ");
-    keel_console_number((uint32_t)keel_stack_top - (uint32_t)keel_stack_bottom);
-    keel_console_text(" bytes used\n");
     keel_emulator_exit(status);
-}
-
-void keel_board_safe(void)
-{
-    keel_board_outputs_off();
-    keel_console_text("safe state: ");
-    keel_fault_print();
-    keel_emulator_exit(SAFE_STATUS);
 }
