@@ -1,6 +1,10 @@
 /**
  * @file board.h
- * @brief What an application needs of a board. Each board implements it; nothing of it names one.
+ * @brief What a board owes: to applications, and to the start-up code, the console and the handler
+ *        of faults. Each board implements all of it; nothing of it names one.
+ *
+ * So all arrows point down to this header: an application and the code that all boards share call
+ * what it declares, and a board needs to know neither of them for it.
  *
  * Before main() runs, the board has set up its clocks, memories, FPU, memory protection, time base
  * and console, with all outputs off.
@@ -8,12 +12,16 @@
 #ifndef KEEL_BSP_BOARD_H
 #define KEEL_BSP_BOARD_H
 
+#include "cortex_m7/mpu.h"
+
 #include <stdint.h>
 
 /* Where code and data of real-time tasks lie: memories that the core reaches without waiting. */
 #define KEEL_REALTIME_CODE __attribute__((section(".itcm")))
 #define KEEL_REALTIME_DATA __attribute__((section(".dtcm_data")))
 #define KEEL_REALTIME_ZERO __attribute__((section(".dtcm_bss"))) /* For objects without a value. */
+
+/* For applications. */
 
 /** The board's name. */
 extern const char keel_board_name[];
@@ -29,13 +37,31 @@ uint32_t keel_board_clock_us(void *context);
 /** Writes one character to the console; waits at most as long as two characters take. */
 void keel_board_put(char c);
 
+/** Puts all outputs into their safe state; may be called with anything broken. */
+void keel_board_outputs_off(void);
+
+/* For the start-up code, in the order in which it needs them. */
+
+/** Its first steps. ITCM is filled, no other memory is; keeps to its stack. */
+void keel_board_early(void);
+
+/** The regions for the MPU. */
+extern const keel_mpu_region_t keel_board_regions[];
+extern const uint32_t keel_board_region_count;
+
+/** Clocks, time base, console; memory is filled, the FPU and the MPU are on. */
+void keel_board_start(void);
+
+/** The status of an end in the safe state, after a fault. */
+#define KEEL_SAFE_STATUS 70
+
 /**
- * Ends the application: interrupts and outputs off.
+ * Halts for good, with outputs off and all that was written shown on the console.
  *
- * An emulator ends with this exit status; a board stays in its safe state.
+ * An emulator ends with this exit status; a board stays as it is and tells it with its lights.
  *
- * @param status 0 when all went well
+ * @param status 0 when all went well, KEEL_SAFE_STATUS in the safe state
  */
-void keel_board_end(int status) __attribute__((noreturn));
+void keel_board_halt(int status) __attribute__((noreturn));
 
 #endif

@@ -389,8 +389,8 @@ def check_guard(text: Text) -> Iterator[Finding]:
 # units below it only; units of one rank do not know each other.
 LAYERS = ("rtos", "middleware", "flight")
 RTOS_UNITS = (
-    ("clock", "priority", "load"), ("task",), ("queue",), ("admission", "decision"),
-    ("scheduler_state",), ("pass",), ("scheduler",)
+    ("clock", "priority", "stats", "load", "deviation"), ("task",), ("queue",),
+    ("admission", "decision"), ("scheduler_state",), ("pass",), ("scheduler",)
 )  # fmt: skip
 RTOS_RANK = {name: rank for rank, names in enumerate(RTOS_UNITS) for name in names}
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')

@@ -1,5 +1,6 @@
 #include "cortex_m7/fault.h"
 
+#include "board.h"
 #include "console.h"
 #include "cortex_m7/core.h"
 #include "cortex_m7/memory.h"

@@ -67,9 +67,6 @@ bool keel_fault_take(void);
 /** Writes the last fault to the console. */
 void keel_fault_print(void);
 
-/** Board: puts all outputs into their safe state; may be called with anything broken. */
-void keel_board_outputs_off(void);
-
 /** The handler of every exception that is not expected. */
 void keel_fault_handler(void);
 

@@ -1,6 +1,7 @@
 #include "cortex_m7/startup.h"
 
 #include "board.h"
+#include "console.h"
 #include "cortex_m7/core.h"
 #include "cortex_m7/fault.h"
 #include "cortex_m7/memory.h"
@@ -103,6 +104,33 @@ static void start_faults(void)
     __asm volatile("dsb\n\tisb" ::: "memory");
 }
 
+/* What is to be told at the end of an application. */
+static void end(int status) __attribute__((noreturn));
+
+static void end(int status)
+{
+    keel_board_outputs_off();
+    keel_console_text("stack: ");
+    keel_console_number(keel_stack_used_b());
+    keel_console_text(" of ");
+    keel_console_number((uint32_t)keel_stack_top - (uint32_t)keel_stack_bottom);
+    keel_console_text((status == 0) ? " bytes used\nended\n"
+                                    : " bytes used\nended with a failure\n");
+    keel_board_halt(status);
+}
+
+/* Where a reset ends that follows a fault: the fault is told, and there is no application. */
+static void stay_safe(void) __attribute__((noreturn));
+
+static void stay_safe(void)
+{
+    keel_board_outputs_off();
+    keel_console_text("safe state: ");
+    keel_fault_print();
+    keel_console_text("outputs are off; reset to start again\n");
+    keel_board_halt(KEEL_SAFE_STATUS);
+}
+
 void keel_reset(void)
 {
     stop_leftovers();
@@ -115,7 +143,7 @@ void keel_reset(void)
     keel_mpu_start(keel_board_regions, keel_board_region_count);
     keel_board_start();
     if (keel_fault_take()) {
-        keel_board_safe();
+        stay_safe();
     }
-    keel_board_end(main());
+    end(main());
 }

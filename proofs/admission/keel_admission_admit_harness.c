@@ -6,7 +6,7 @@
 // 2^6 us, as the utilisation divides. The contract under WP has no such bound and determines every
 // field.
 #include "../../specs/model/admission.h"
-#include "../common/admission_proof.h"
+#include "admission_proof.h"
 
 void keel_admission_admit_harness(void)
 {

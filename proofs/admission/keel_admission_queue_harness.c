@@ -9,7 +9,7 @@
 // totals and verdict. So the code admits the tasks in order, each with the totals of those before
 // it, up to the first that is refused. That the rules for all tasks together follow is WP's.
 #include "../../specs/model/admission.h"
-#include "../common/admission_proof.h"
+#include "admission_proof.h"
 
 static keel_queue_t queue;
 static keel_admission_t told[CAPACITY + 1u]; /* The totals of the first i tasks. */

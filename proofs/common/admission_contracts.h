@@ -14,8 +14,8 @@
 static bool totals_same(const keel_admission_t *left, const keel_admission_t *right)
 {
     return (left->guard_us == right->guard_us) &&
-           (left->utilisation_limit == right->utilisation_limit) &&
-           (left->utilisation == right->utilisation) &&
+           (left->utilisation_limit_ppm == right->utilisation_limit_ppm) &&
+           (left->utilisation_ppm == right->utilisation_ppm) &&
            (left->realtime_demand_us == right->realtime_demand_us) &&
            (left->shortest_realtime_us == right->shortest_realtime_us) &&
            (left->shortest_gap_us == right->shortest_gap_us) &&

@@ -17,6 +17,7 @@
 
 #include "keel/rtos/clock.h"
 #include "keel/rtos/queue.h"
+#include "keel/rtos/stats.h"
 #include "keel/rtos/task.h"
 
 #include <stdbool.h>
@@ -188,16 +189,6 @@ static bool stats_same(const keel_stats_t *a, const keel_stats_t *b)
 static bool clock_same(const keel_clock_t *a, const keel_clock_t *b)
 {
     return (a->now_us == b->now_us) && (a->raw_us == b->raw_us);
-}
-
-static bool load_same(const keel_load_t *a, const keel_load_t *b)
-{
-    return (a->start_us == b->start_us) && (a->busy_us == b->busy_us);
-}
-
-static bool deviation_same(const keel_deviation_t *a, const keel_deviation_t *b)
-{
-    return (a->sum_us2 == b->sum_us2) && (a->start_us == b->start_us) && (a->starts == b->starts);
 }
 
 static bool config_same(const keel_task_config_t *a, const keel_task_config_t *b)

@@ -2,7 +2,7 @@
 // sources: src/rtos/load.c specs/model/load.c
 // covers: keel_load_begin model_load_begin
 #include "../../specs/model/load.h"
-#include "../common/keel_proof.h"
+#include "load_proof.h"
 
 void keel_load_begin_harness(void)
 {

@@ -1,7 +1,7 @@
 // cbmc: --external-sat-solver cadical
 // sources: src/middleware/oversample.c specs/model/oversample.c specs/model/range.c
 // covers: keel_oversample_init begin model_oversample_init
-#include "../common/oversample_proof.h"
+#include "oversample_proof.h"
 
 void keel_oversample_init_harness(void)
 {

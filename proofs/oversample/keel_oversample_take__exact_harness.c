@@ -3,7 +3,7 @@
 // covers: keel_oversample_take add_excess begin
 //
 // Means that are whole numbers, and the clamp.
-#include "../common/oversample_proof.h"
+#include "oversample_proof.h"
 
 void keel_oversample_take__exact_harness(void)
 {

@@ -4,7 +4,7 @@
 // covers: keel_oversample_take add_excess begin model_oversample_take
 //
 // All other checks: keel_oversample_take__valid_harness.c.
-#include "../common/oversample_proof.h"
+#include "oversample_proof.h"
 
 void keel_oversample_take_harness(void)
 {

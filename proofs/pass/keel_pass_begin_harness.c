@@ -1,7 +1,7 @@
 // cbmc: --unwind 34
-// sources: src/rtos/pass.c src/rtos/queue.c src/rtos/decision.c src/rtos/priority.c src/rtos/load.c
+// sources: src/rtos/pass.c src/rtos/queue.c src/rtos/decision.c src/rtos/priority.c src/rtos/stats.c
 // sources: specs/model/pass.c specs/model/clock.c specs/model/queue.c specs/model/decision.c
-// sources: specs/model/priority.c specs/model/load.c
+// sources: specs/model/priority.c specs/model/stats.c
 // covers: keel_pass_begin model_pass_begin
 //
 // That a step which opens no pass leaves nothing due (SCH_011_idle) and the wake-up time right

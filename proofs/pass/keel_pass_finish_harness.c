@@ -1,5 +1,5 @@
 // cbmc: --unwind 34
-// sources: src/rtos/pass.c src/rtos/queue.c src/rtos/decision.c src/rtos/priority.c src/rtos/load.c
+// sources: src/rtos/pass.c src/rtos/queue.c src/rtos/decision.c src/rtos/priority.c src/rtos/stats.c
 // sources: specs/model/pass.c specs/model/clock.c
 // replaces: keel_stats_record
 // covers: keel_pass_finish end_run record_run model_pass_finish
@@ -8,10 +8,10 @@
 // Bounded to a capacity of 8 tasks, with which the solver comes to an end in half a minute; the
 // contract under WP has no bound and determines every field.
 // What a run adds to its task's statistics is the same unknown for the code and for the model.
-#include "../../specs/model/load.h"
 #include "../../specs/model/pass.h"
+#include "../../specs/model/stats.h"
 #include "../common/keel_scheduler_proof.h"
-#include "../common/load_contracts.h"
+#include "../common/stats_contracts.h"
 #include "../common/step_contracts.h"
 
 static keel_scheduler_t scheduler;

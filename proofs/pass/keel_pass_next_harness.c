@@ -1,6 +1,6 @@
 // cbmc: --unwind 34
-// sources: src/rtos/pass.c src/rtos/queue.c src/rtos/decision.c src/rtos/priority.c src/rtos/load.c
-// sources: specs/model/pass.c specs/model/clock.c specs/model/load.c
+// sources: src/rtos/pass.c src/rtos/queue.c src/rtos/decision.c src/rtos/priority.c src/rtos/stats.c
+// sources: specs/model/pass.c specs/model/clock.c specs/model/stats.c
 // replaces: keel_decision_realtime keel_decision_earliest_us keel_decision_other
 // replaces: keel_decision_event_us keel_queue_advance
 // covers: keel_pass_next dispatch find_realtime find_earliest_realtime choose_other remember

@@ -4,7 +4,7 @@
 //
 // ki T, in numbers whose quotient is exact: at 4 Hz. Two gains are bad, and one cut-off.
 #include "../../specs/model/pid.h"
-#include "../common/keel_pid_proof.h"
+#include "pid_proof.h"
 
 void keel_pid_init__exact_harness(void)
 {

@@ -6,8 +6,8 @@
 // gives a NaN. The rate and the cut-off are one good pair or a bad one, since
 // keel_filter_init__valid_harness has all of them. What the controller is, is in
 // keel_pid_init_harness.
-#include "../common/keel_pid_proof.h"
 #include "../common/unchanged.h"
+#include "pid_proof.h"
 
 void keel_pid_init__valid_harness(void)
 {

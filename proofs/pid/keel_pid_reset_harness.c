@@ -2,7 +2,7 @@
 // sources: src/flight/pid.c src/flight/filter.c specs/model/pid.c specs/model/filter.c
 // covers: keel_pid_reset model_pid_reset
 #include "../../specs/model/pid.h"
-#include "../common/keel_pid_proof.h"
+#include "pid_proof.h"
 
 void keel_pid_reset_harness(void)
 {

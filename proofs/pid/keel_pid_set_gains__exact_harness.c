@@ -5,7 +5,7 @@
 // What the integral takes over, on small whole numbers, whose sums and products are exact; 2 Hz.
 // Wrong bodies are refuted here: where floats differ, z3 finds no example.
 #include "../../specs/model/pid.h"
-#include "../common/keel_pid_proof.h"
+#include "pid_proof.h"
 
 static int any_small(void)
 {

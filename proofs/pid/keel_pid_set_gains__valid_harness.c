@@ -4,8 +4,8 @@
 //
 // Any valid controller, any bit pattern for the gains: it stays valid, and no operation overflows
 // or gives a NaN. What changes is in keel_pid_set_gains_harness.
-#include "../common/keel_pid_proof.h"
 #include "../common/unchanged.h"
+#include "pid_proof.h"
 
 void keel_pid_set_gains__valid_harness(void)
 {

@@ -4,7 +4,7 @@
 //
 // Eq. 4 and the limits, on small whole numbers, whose sums and products are exact: a rate of 2 Hz,
 // a low-pass that follows at once (a = 1, the rest 0), ki T instead of ki.
-#include "../common/keel_pid_proof.h"
+#include "pid_proof.h"
 
 static int any_small(void)
 {

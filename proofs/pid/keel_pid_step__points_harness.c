@@ -7,7 +7,7 @@
 // dealt with in keel_pid_step_harness; wrong bodies are refuted here, for where floats differ z3
 // finds no example.
 #include "../../specs/model/pid.h"
-#include "../common/keel_pid_proof.h"
+#include "pid_proof.h"
 
 #define POINTS 13u
 

@@ -4,8 +4,8 @@
 //
 // Any valid controller, any bit pattern for both inputs: one step of the induction that keeps the
 // output and the integral within their limits. What the step computes is in keel_pid_step_harness.
-#include "../common/keel_pid_proof.h"
 #include "../common/unchanged.h"
+#include "pid_proof.h"
 
 void keel_pid_step__valid_harness(void)
 {

@@ -8,7 +8,7 @@
 // solver sees that both compute the same only where nothing else is asked: overflow and NaN are
 // checked in keel_pid_step__valid_harness.
 #include "../../specs/model/pid.h"
-#include "../common/keel_pid_proof.h"
+#include "pid_proof.h"
 
 void keel_pid_step_harness(void)
 {

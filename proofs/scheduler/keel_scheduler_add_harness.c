@@ -1,15 +1,15 @@
 // cbmc: --unwind 34
 // sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c
-// sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
+// sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/stats.c
 // sources: specs/model/scheduler.c specs/model/pass.c specs/model/queue.c specs/model/clock.c
-// sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/load.c
+// sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/stats.c
 // replaces: keel_admission_queue keel_admission_admit keel_queue_add
 // defines: -DKEEL_QUEUE_CAPACITY=8u
 // covers: keel_scheduler_add admit_one_more admit_queue insert model_scheduler_add refusal_of
 //
 // Any arguments, at any stage. Bounded to a capacity of 8 tasks, with which the solver comes to an
 // end in half a minute; the contract under WP has no bound and determines every field.
-#include "../common/scheduler_parts.h"
+#include "scheduler_parts.h"
 
 void keel_scheduler_add_harness(void)
 {

@@ -1,11 +1,11 @@
 // cbmc: --unwind 34
 // sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c
-// sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
+// sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/stats.c
 // sources: specs/model/scheduler.c specs/model/pass.c specs/model/queue.c specs/model/clock.c
-// sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/load.c
+// sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/stats.c
 // replaces: keel_admission_queue
 // covers: keel_scheduler_check admit_queue model_scheduler_check admit_all
-#include "../common/scheduler_parts.h"
+#include "scheduler_parts.h"
 
 void keel_scheduler_check_harness(void)
 {

@@ -1,8 +1,8 @@
 // cbmc: --unwind 34
 // sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c
-// sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
+// sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/stats.c
 // sources: specs/model/scheduler.c specs/model/pass.c specs/model/queue.c specs/model/clock.c
-// sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/load.c
+// sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/stats.c
 // sources: specs/model/admission.c specs/model/admission_queue.c
 // covers: keel_scheduler_init config_is_valid model_scheduler_init
 #include "../../specs/model/scheduler.h"
@@ -25,7 +25,7 @@ void keel_scheduler_init_harness(void)
     config.read_clock = nondet_bool() ? any_clock : NULL;
     config.clock_context = nondet_bool() ? &config : NULL;
     config.guard_us = nondet_u32();
-    config.utilisation_limit = nondet_u32();
+    config.utilisation_limit_ppm = nondet_u32();
     as_given = config;
     expected = scheduler;
     modelled = model_scheduler_init(given ? &expected : NULL, configured ? &config : NULL);

@@ -1,8 +1,8 @@
 // cbmc: --unwind 34
 // sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c
-// sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
+// sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/stats.c
 // sources: specs/model/scheduler.c specs/model/pass.c specs/model/queue.c specs/model/clock.c
-// sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/load.c
+// sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/stats.c
 // sources: specs/model/admission.c specs/model/admission_queue.c
 // covers: keel_scheduler_report model_scheduler_report
 // defines: -DKEEL_QUEUE_CAPACITY=16u

@@ -1,6 +1,6 @@
 // cbmc: --unwind 34
 // sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c
-// sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/load.c
+// sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/stats.c
 // sources: specs/model/scheduler.c specs/model/queue.c specs/model/clock.c
 // sources: specs/model/task.c specs/model/admission.c specs/model/admission_queue.c
 // replaces: keel_pass_run

@@ -1,11 +1,11 @@
 #include "admission.h"
 
 void model_admission_init(keel_admission_t *admission, uint32_t guard_us,
-                          uint32_t utilisation_limit)
+                          uint32_t utilisation_limit_ppm)
 {
     /* ADM-001: the totals of no task. */
     *admission = (keel_admission_t){.guard_us = guard_us,
-                                    .utilisation_limit = utilisation_limit,
+                                    .utilisation_limit_ppm = utilisation_limit_ppm,
                                     .shortest_realtime_us = UINT64_MAX,
                                     .shortest_gap_us = UINT64_MAX};
 }
@@ -19,7 +19,8 @@ static keel_admission_t with_task(const keel_admission_t *totals, uint32_t prior
     keel_admission_t with = *totals;
 
     with.tasks++;
-    with.utilisation += (scaled + ((uint64_t)period_us - 1u)) / period_us; /* C / T, rounded up */
+    with.utilisation_ppm += (scaled + ((uint64_t)period_us - 1u)) /
+                            period_us; /* C / T, rounded up */
     if (priority == KEEL_PRIORITY_REALTIME) {
         with.realtime_demand_us += budget_us;
         if (period_us < with.shortest_realtime_us) {
@@ -47,7 +48,8 @@ static keel_status_t verdict_on(const keel_admission_t *totals)
     if ((longest_us > 0u) && ((longest_us + totals->guard_us) > totals->shortest_gap_us)) {
         return KEEL_ERR_BUDGET_GAP;
     }
-    return (totals->utilisation > totals->utilisation_limit) ? KEEL_ERR_UTILISATION : KEEL_OK;
+    return (totals->utilisation_ppm > totals->utilisation_limit_ppm) ? KEEL_ERR_UTILISATION
+                                                                     : KEEL_OK;
 }
 
 keel_status_t model_admission_admit(keel_admission_t *admission, uint32_t priority,

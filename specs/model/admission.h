@@ -8,7 +8,7 @@
 #include "keel/rtos/admission.h"
 
 void model_admission_init(keel_admission_t *admission, uint32_t guard_us,
-                          uint32_t utilisation_limit);
+                          uint32_t utilisation_limit_ppm);
 keel_status_t model_admission_admit(keel_admission_t *admission, uint32_t priority,
                                     uint32_t period_us, uint32_t budget_us);
 keel_status_t model_admission_queue(keel_admission_t *admission, const keel_queue_t *queue);

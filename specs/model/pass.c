@@ -2,8 +2,8 @@
 
 #include "clock.h"
 #include "decision.h"
-#include "load.h"
 #include "queue.h"
+#include "stats.h"
 
 #include <stdbool.h>
 #include <stddef.h>

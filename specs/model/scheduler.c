@@ -24,7 +24,7 @@ keel_status_t model_scheduler_init(keel_scheduler_t *scheduler,
         return KEEL_ERR_NULL; /* SCH-002 */
     }
     if ((config->guard_us >= KEEL_PERIOD_LIMIT_US) ||
-        (config->utilisation_limit > KEEL_UTILISATION_FULL_PPM)) {
+        (config->utilisation_limit_ppm > KEEL_UTILISATION_FULL_PPM)) {
         return KEEL_ERR_CONFIG; /* SCH-002 */
     }
     /* SCH-001: no task, no time, not started. */
@@ -44,7 +44,7 @@ keel_status_t model_scheduler_init(keel_scheduler_t *scheduler,
 static keel_status_t admit_all(const keel_scheduler_t *scheduler, keel_admission_t *admission)
 {
     model_admission_init(admission, scheduler->config.guard_us,
-                         scheduler->config.utilisation_limit);
+                         scheduler->config.utilisation_limit_ppm);
     return model_admission_queue(admission, &scheduler->queue);
 }
 

@@ -1,10 +1,11 @@
 #include "keel/rtos/admission.h"
 
-void keel_admission_init(keel_admission_t *admission, uint32_t guard_us, uint32_t utilisation_limit)
+void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
+                         uint32_t utilisation_limit_ppm)
 {
     admission->guard_us = guard_us;
-    admission->utilisation_limit = utilisation_limit;
-    admission->utilisation = 0u;
+    admission->utilisation_limit_ppm = utilisation_limit_ppm;
+    admission->utilisation_ppm = 0u;
     admission->realtime_demand_us = 0u;
     admission->shortest_realtime_us = UINT64_MAX;
     admission->shortest_gap_us = UINT64_MAX;
@@ -42,7 +43,8 @@ static uint64_t gap_of(uint32_t period_us, uint32_t budget_us)
 keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priority,
                                    uint32_t period_us, uint32_t budget_us)
 {
-    const uint64_t utilisation = admission->utilisation + utilisation_of(period_us, budget_us);
+    const uint64_t utilisation_ppm = admission->utilisation_ppm +
+                                     utilisation_of(period_us, budget_us);
     uint64_t demand_us = admission->realtime_demand_us;
     uint64_t shortest_us = admission->shortest_realtime_us;
     uint64_t gap_us = admission->shortest_gap_us;
@@ -63,10 +65,10 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priorit
     if ((other_us > 0u) && ((other_us + admission->guard_us) > gap_us)) {
         return KEEL_ERR_BUDGET_GAP;
     }
-    if (utilisation > admission->utilisation_limit) {
+    if (utilisation_ppm > admission->utilisation_limit_ppm) {
         return KEEL_ERR_UTILISATION;
     }
-    admission->utilisation = utilisation;
+    admission->utilisation_ppm = utilisation_ppm;
     admission->realtime_demand_us = demand_us;
     admission->shortest_realtime_us = shortest_us;
     admission->shortest_gap_us = gap_us;
@@ -215,16 +217,16 @@ static void gaps_are_told(const keel_queue_t *queue, uint64_t guard_us)
   @ assigns *admission;
   @ ensures valid: admission_valid(*admission);
   @ ensures limits: admission->guard_us == \old(admission->guard_us) &&
-  @     admission->utilisation_limit == \old(admission->utilisation_limit);
+  @     admission->utilisation_limit_ppm == \old(admission->utilisation_limit_ppm);
   @ ensures admitted: \result == KEEL_OK ==> totals_of(*admission, queue, position + 1);
   @ ensures refused: \result != KEEL_OK ==> totals_of(*admission, queue, position);
   @ ensures tasks: \result != KEEL_OK ==> admission->tasks == position;
   @ ensures rule: \result != KEEL_OK ==> set_refused(queue, position + 1,
-  @     admission->guard_us, admission->utilisation_limit, \result);
+  @     admission->guard_us, admission->utilisation_limit_ppm, \result);
   @ ensures positive: 0 <= realtime_demand(queue, position + 1) &&
   @     0 <= longest_other(queue, position + 1);
   @ ensures ok: \result == KEEL_OK <==> set_holds(queue, position + 1, admission->guard_us,
-  @     admission->utilisation_limit);
+  @     admission->utilisation_limit_ppm);
   @*/
 static keel_status_t admit_at(keel_admission_t *admission, const keel_queue_t *queue,
                               uint32_t position)
@@ -244,7 +246,7 @@ keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue
       @ loop invariant totals: totals_of(*admission, queue, i);
       @ loop invariant valid: admission_valid(*admission);
       @ loop invariant limits: admission->guard_us == \at(admission->guard_us, Pre) &&
-      @     admission->utilisation_limit == \at(admission->utilisation_limit, Pre);
+      @     admission->utilisation_limit_ppm == \at(admission->utilisation_limit_ppm, Pre);
       @ loop assigns i, *admission;
       @ loop variant queue->count - i;
       @*/
@@ -254,16 +256,16 @@ keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue
         if (status != KEEL_OK) {
             //@ assert tasks: admission->tasks == i;
             //@ ghost uint64_t guard_us = admission->guard_us;
-            //@ ghost uint64_t limit = admission->utilisation_limit;
+            //@ ghost uint64_t limit = admission->utilisation_limit_ppm;
             //@ ghost rules_stay_broken(queue, i + 1u, guard_us, limit);
             /*@ assert broken: !set_holds(queue, queue->count, admission->guard_us,
-              @     admission->utilisation_limit);
+              @     admission->utilisation_limit_ppm);
               @*/
             return status;
         }
     }
     /*@ assert kept: set_holds(queue, queue->count, admission->guard_us,
-      @     admission->utilisation_limit);
+      @     admission->utilisation_limit_ppm);
       @*/
     return KEEL_OK;
 }

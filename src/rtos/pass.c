@@ -1,8 +1,8 @@
 #include "keel/rtos/pass.h"
 
 #include "keel/rtos/decision.h"
-#include "keel/rtos/load.h"
 #include "keel/rtos/queue.h"
+#include "keel/rtos/stats.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -5,13 +5,12 @@
 
 /*@ requires \valid_read(config);
   @ assigns \nothing;
-  @ ensures \result <==> (config->guard_us < KEEL_PERIOD_LIMIT_US &&
-  @                       config->utilisation_limit <= KEEL_UTILISATION_FULL_PPM);
+  @ ensures \result <==> settings_valid(config);
   @*/
 static bool config_is_valid(const keel_scheduler_config_t *config)
 {
     return (config->guard_us < KEEL_PERIOD_LIMIT_US) &&
-           (config->utilisation_limit <= KEEL_UTILISATION_FULL_PPM);
+           (config->utilisation_limit_ppm <= KEEL_UTILISATION_FULL_PPM);
 }
 
 keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
@@ -43,7 +42,7 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
   @ assigns *admission;
   @ ensures valid: admission_valid(*admission);
   @ ensures limits: admission->guard_us == scheduler->config.guard_us &&
-  @     admission->utilisation_limit == scheduler->config.utilisation_limit;
+  @     admission->utilisation_limit_ppm == scheduler->config.utilisation_limit_ppm;
   @ ensures range: admission->tasks <= scheduler->queue.count;
   @ ensures totals: totals_of(*admission, &scheduler->queue, admission->tasks);
   @ ensures all: \result == KEEL_OK <==> admission->tasks == scheduler->queue.count;
@@ -58,7 +57,8 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
   @*/
 static keel_status_t admit_queue(const keel_scheduler_t *scheduler, keel_admission_t *admission)
 {
-    keel_admission_init(admission, scheduler->config.guard_us, scheduler->config.utilisation_limit);
+    keel_admission_init(admission, scheduler->config.guard_us,
+                        scheduler->config.utilisation_limit_ppm);
     return keel_admission_queue(admission, &scheduler->queue);
 }
 
@@ -125,8 +125,8 @@ static void insert(keel_scheduler_t *scheduler, const keel_task_config_t *task)
       @     KEEL_QUEUE_CAPACITY;
       @*/
     //@ assert guard: scheduler->config.guard_us == \at(scheduler->config.guard_us, Pre);
-    /*@ assert limit: scheduler->config.utilisation_limit ==
-      @     \at(scheduler->config.utilisation_limit, Pre);
+    /*@ assert limit: scheduler->config.utilisation_limit_ppm ==
+      @     \at(scheduler->config.utilisation_limit_ppm, Pre);
       @*/
     if ((task->priority == KEEL_PRIORITY_REALTIME) && (scheduler->running >= place)) {
         scheduler->running++;

@@ -49,7 +49,7 @@ static bool are_same(const keel_scheduler_t *a, const keel_scheduler_t *b)
            (a->config.read_clock == b->config.read_clock) &&
            (a->config.clock_context == b->config.clock_context) &&
            (a->config.guard_us == b->config.guard_us) &&
-           (a->config.utilisation_limit == b->config.utilisation_limit) &&
+           (a->config.utilisation_limit_ppm == b->config.utilisation_limit_ppm) &&
            (a->cursor == b->cursor) && (a->pass_end == b->pass_end) && (a->running == b->running) &&
            (a->stage == b->stage) && queues_are_same(&a->queue, &b->queue);
 }
@@ -74,72 +74,47 @@ keel_status_t lockstep_check(const keel_scheduler_t *scheduler, uint32_t *admitt
     return status;
 }
 
+/* The body of a wrapper: the specification on a copy, the kernel's function on the scheduler, each
+ * with its arguments in parentheses; what they answer and leave must be the same. */
+#define LOCKSTEP(answer_t, function, on_copy, on_scheduler)                                        \
+    keel_scheduler_t copy = *scheduler;                                                            \
+    answer_t const expected = model_##function on_copy;                                            \
+    answer_t const answer = keel_##function on_scheduler;                                          \
+                                                                                                   \
+    compare("keel_" #function, answer == expected, scheduler, &copy);                              \
+    return answer
+
 keel_status_t lockstep_add(keel_scheduler_t *scheduler, const keel_task_config_t *task)
 {
-    keel_scheduler_t specified = *scheduler;
-    const keel_status_t expected = model_scheduler_add(&specified, task);
-    const keel_status_t status = keel_scheduler_add(scheduler, task);
-
-    compare("keel_scheduler_add", status == expected, scheduler, &specified);
-    return status;
+    LOCKSTEP(keel_status_t, scheduler_add, (&copy, task), (scheduler, task));
 }
 
 keel_status_t lockstep_remove(keel_scheduler_t *scheduler, const keel_task_config_t *task)
 {
-    keel_scheduler_t specified = *scheduler;
-    const keel_status_t expected = model_scheduler_remove(&specified, task);
-    const keel_status_t status = keel_scheduler_remove(scheduler, task);
-
-    compare("keel_scheduler_remove", status == expected, scheduler, &specified);
-    return status;
+    LOCKSTEP(keel_status_t, scheduler_remove, (&copy, task), (scheduler, task));
 }
 
 keel_status_t lockstep_start(keel_scheduler_t *scheduler)
 {
-    keel_scheduler_t specified = *scheduler;
-    const keel_status_t expected = model_scheduler_start(&specified);
-    const keel_status_t status = keel_scheduler_start(scheduler);
-
-    compare("keel_scheduler_start", status == expected, scheduler, &specified);
-    return status;
+    LOCKSTEP(keel_status_t, scheduler_start, (&copy), (scheduler));
 }
 
 keel_status_t lockstep_resync(keel_scheduler_t *scheduler)
 {
-    keel_scheduler_t specified = *scheduler;
-    const keel_status_t expected = model_scheduler_resync(&specified);
-    const keel_status_t status = keel_scheduler_resync(scheduler);
-
-    compare("keel_scheduler_resync", status == expected, scheduler, &specified);
-    return status;
+    LOCKSTEP(keel_status_t, scheduler_resync, (&copy), (scheduler));
 }
 
 keel_status_t lockstep_begin(keel_scheduler_t *scheduler, uint32_t raw_us)
 {
-    keel_scheduler_t specified = *scheduler;
-    const keel_status_t expected = model_pass_begin(&specified, raw_us);
-    const keel_status_t status = keel_pass_begin(scheduler, raw_us);
-
-    compare("keel_pass_begin", status == expected, scheduler, &specified);
-    return status;
+    LOCKSTEP(keel_status_t, pass_begin, (&copy, raw_us), (scheduler, raw_us));
 }
 
 const keel_task_config_t *lockstep_next(keel_scheduler_t *scheduler)
 {
-    keel_scheduler_t specified = *scheduler;
-    const keel_task_config_t *const expected = model_pass_next(&specified);
-    const keel_task_config_t *const task = keel_pass_next(scheduler);
-
-    compare("keel_pass_next", task == expected, scheduler, &specified);
-    return task;
+    LOCKSTEP(const keel_task_config_t *, pass_next, (&copy), (scheduler));
 }
 
 keel_status_t lockstep_finish(keel_scheduler_t *scheduler, uint32_t raw_us)
 {
-    keel_scheduler_t specified = *scheduler;
-    const keel_status_t expected = model_pass_finish(&specified, raw_us);
-    const keel_status_t status = keel_pass_finish(scheduler, raw_us);
-
-    compare("keel_pass_finish", status == expected, scheduler, &specified);
-    return status;
+    LOCKSTEP(keel_status_t, pass_finish, (&copy, raw_us), (scheduler, raw_us));
 }

@@ -196,7 +196,7 @@ int main(void)
 {
     const keel_scheduler_config_t settings = {.read_clock = keel_board_clock_us,
                                               .guard_us = GUARD_US,
-                                              .utilisation_limit = KEEL_UTILISATION_FULL_PPM};
+                                              .utilisation_limit_ppm = KEEL_UTILISATION_FULL_PPM};
 
     keel_fault_watch(scheduler);
     if ((keel_scheduler_init(scheduler, &settings) == KEEL_OK) &&

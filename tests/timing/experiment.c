@@ -18,7 +18,7 @@
  *
  * Exit status: 0, or 1 for an order that is not understood.
  */
-#include "bsp/host/board.h"
+#include "bsp/host/host_board.h"
 #include "keel/rtos/load.h"
 #include "rivals.h"
 
@@ -78,7 +78,7 @@ struct experiment {
     model_t model;
     uint64_t random;
     uint64_t duration_us;
-    uint32_t first_us, guard_us, utilisation_limit;
+    uint32_t first_us, guard_us, utilisation_limit_ppm;
     bool skip;
     uint32_t actors, chains;
     actor_t actor[KEEL_QUEUE_CAPACITY];
@@ -239,7 +239,7 @@ static keel_status_t set_up(experiment_t *e)
     const keel_scheduler_config_t config = {.read_clock = host_board_read,
                                             .clock_context = &e->board,
                                             .guard_us = e->guard_us,
-                                            .utilisation_limit = e->utilisation_limit};
+                                            .utilisation_limit_ppm = e->utilisation_limit_ppm};
     keel_status_t status = keel_scheduler_init(e->scheduler, &config);
 
     host_board_init(&e->board, e->scheduler, &e->costs, e->first_us);
@@ -400,7 +400,8 @@ static bool order_set(experiment_t *e, const char *words)
     unsigned skip;
 
     if (sscanf(words, "%" SCNu64 " %" SCNu64 " %" SCNu32 " %" SCNu32 " %" SCNu32 " %u", &seed,
-               &e->duration_us, &e->first_us, &e->guard_us, &e->utilisation_limit, &skip) != 6) {
+               &e->duration_us, &e->first_us, &e->guard_us, &e->utilisation_limit_ppm,
+               &skip) != 6) {
         return false;
     }
     e->random = (seed * 0x9E3779B97F4A7C15u) | 1u;

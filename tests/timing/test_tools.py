@@ -136,7 +136,7 @@ def test_whatever_is_accepted_can_be_analysed() -> None:
 
 def test_the_committed_table_is_not_stale(urpilot: TaskSet) -> None:
     files = ctable.table(urpilot, URPILOT.name)
-    assert not ctable.stale(files, ROOT / "examples/demo")
+    assert not ctable.stale(files, ROOT / "examples/urpilot")
 
 
 def test_a_stale_table_fails_and_is_regenerated(
@@ -172,7 +172,7 @@ def test_the_compiled_table_is_the_task_set(urpilot: TaskSet, tmp_path: Path) ->
         "               t->budget_us, t->phase_us);\n"
         '        printf("%s|%u|%u|%u|%u|%d\\n", c.name, c.priority, c.period_us, c.budget_us,\n'
         "               c.phase_us, (c.run == body) && (c.context == &here));\n    }\n"
-        '    printf("%d %u %u %d\\n", (int)URPILOT_GPS, s.guard_us, s.utilisation_limit,\n'
+        '    printf("%d %u %u %d\\n", (int)URPILOT_GPS, s.guard_us, s.utilisation_limit_ppm,\n'
         "           (s.read_clock == ticks) && (s.clock_context == &here));\n"
         "    return 0;\n}\n"
     )
@@ -190,11 +190,14 @@ def test_the_compiled_table_is_the_task_set(urpilot: TaskSet, tmp_path: Path) ->
     assert lines[-1] == "13 20 693000 1"
 
 
-@pytest.mark.parametrize("program", ["boards/main.c", "demo/demo.c", "firmware/main.c"])
+PROGRAMS = ("board_check/main.c", "urpilot/demo.c", "urpilot_on_target/main.c")
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
 def test_what_was_analysed_is_what_runs(program: str) -> None:
     """No application sets anything of a declaration or of the scheduler's settings itself."""
     text = (ROOT / "examples" / program).read_text(encoding="utf-8")
-    fields = "period_us|budget_us|phase_us|priority|guard_us|utilisation_limit"
+    fields = "period_us|budget_us|phase_us|priority|guard_us|utilisation_limit_ppm"
     assert not re.findall(rf"(?:\.|->)(?:{fields}) = ", text)
     assert text.count("urpilot_task_config(") == text.count("urpilot_scheduler_config(") == 1
 

@@ -44,8 +44,8 @@ static void ADM_001_begins_with_an_empty_set(void)
     memset(&admission, 0xA5, sizeof admission);
     keel_admission_init(&admission, 25u, 690000u);
     TEST_ASSERT_EQUAL_UINT64(25u, admission.guard_us);
-    TEST_ASSERT_EQUAL_UINT64(690000u, admission.utilisation_limit);
-    TEST_ASSERT_EQUAL_UINT64(0u, admission.utilisation);
+    TEST_ASSERT_EQUAL_UINT64(690000u, admission.utilisation_limit_ppm);
+    TEST_ASSERT_EQUAL_UINT64(0u, admission.utilisation_ppm);
     TEST_ASSERT_EQUAL_UINT64(0u, admission.realtime_demand_us);
     TEST_ASSERT_EQUAL_UINT64(UINT64_MAX, admission.shortest_realtime_us);
     TEST_ASSERT_EQUAL_UINT64(UINT64_MAX, admission.shortest_gap_us);
@@ -60,14 +60,14 @@ static void ADM_002_totals_of_a_set(void)
     admitted(KEEL_PRIORITY_LOW, 3000u, 50u);       /* 1.66667 %, rounded up */
     admitted(KEEL_PRIORITY_REALTIME, 500u, 20u);   /* 4 %, leaves 480 */
     admitted(KEEL_PRIORITY_HIGH, 2000u, 40u);      /* 2 % */
-    TEST_ASSERT_EQUAL_UINT64(176667u, admission.utilisation);
+    TEST_ASSERT_EQUAL_UINT64(176667u, admission.utilisation_ppm);
     TEST_ASSERT_EQUAL_UINT64(120u, admission.realtime_demand_us);
     TEST_ASSERT_EQUAL_UINT64(500u, admission.shortest_realtime_us);
     TEST_ASSERT_EQUAL_UINT64(480u, admission.shortest_gap_us);
     TEST_ASSERT_EQUAL_UINT64(50u, admission.longest_other_us);
     TEST_ASSERT_EQUAL_UINT64(4u, admission.tasks);
     TEST_ASSERT_EQUAL_UINT64(5u, admission.guard_us);
-    TEST_ASSERT_EQUAL_UINT64(KEEL_UTILISATION_FULL_PPM, admission.utilisation_limit);
+    TEST_ASSERT_EQUAL_UINT64(KEEL_UTILISATION_FULL_PPM, admission.utilisation_limit_ppm);
 }
 
 static void ADM_002_shortest_period_and_gap_may_be_of_different_tasks(void)
@@ -168,7 +168,7 @@ static void ADM_003_utilisation_just_at_its_limit(void)
     for (int i = 0; i < 4; i++) {
         admitted(KEEL_PRIORITY_LOW, 1000u, 250u);
     }
-    TEST_ASSERT_EQUAL_UINT64(KEEL_UTILISATION_FULL_PPM, admission.utilisation);
+    TEST_ASSERT_EQUAL_UINT64(KEEL_UTILISATION_FULL_PPM, admission.utilisation_ppm);
     refused(KEEL_ERR_UTILISATION, KEEL_PRIORITY_LOW, 0x7FFFFFFFu, 1u);
 }
 
@@ -190,7 +190,7 @@ static void ADM_003_smallest_and_largest_utilisation(void)
     refused(KEEL_ERR_UTILISATION, KEEL_PRIORITY_LOW, 1u, UINT32_MAX);
     refused(KEEL_ERR_UTILISATION, KEEL_PRIORITY_LOW, 1000u, 1001u);
     admitted(KEEL_PRIORITY_LOW, 0x7FFFFFFFu, 1u);
-    TEST_ASSERT_EQUAL_UINT64(1u, admission.utilisation);
+    TEST_ASSERT_EQUAL_UINT64(1u, admission.utilisation_ppm);
 }
 
 static void ADM_003_first_reason_is_reported(void)
@@ -239,7 +239,7 @@ static void ADM_004_all_are_admitted(void)
     queue_with(0u, declare(KEEL_PRIORITY_REALTIME, 1000u, 100u));
     TEST_ASSERT_EQUAL(KEEL_OK, keel_admission_queue(&admission, &queue));
     TEST_ASSERT_EQUAL_UINT64(3u, admission.tasks);
-    TEST_ASSERT_EQUAL_UINT64(160000u, admission.utilisation);
+    TEST_ASSERT_EQUAL_UINT64(160000u, admission.utilisation_ppm);
     TEST_ASSERT_EQUAL_UINT64(200u, admission.realtime_demand_us);
 }
 

@@ -1,5 +1,5 @@
 /* Unit tests of keel/rtos/scheduler.h on a virtual board. Schedules are worked out by hand. */
-#include "board.h"
+#include "actors.h"
 
 static actor_t crowd[KEEL_QUEUE_CAPACITY];
 
@@ -29,7 +29,7 @@ static void SCH_001_init_makes_an_empty_scheduler(void)
     TEST_ASSERT_TRUE(s->config.read_clock == board_read);
     TEST_ASSERT_EQUAL_PTR(&board, s->config.clock_context);
     TEST_ASSERT_EQUAL_UINT32(25u, s->config.guard_us);
-    TEST_ASSERT_EQUAL_UINT32(1000000u, s->config.utilisation_limit);
+    TEST_ASSERT_EQUAL_UINT32(1000000u, s->config.utilisation_limit_ppm);
     TEST_ASSERT_EQUAL_UINT64(0u, s->clock.now_us);
     TEST_ASSERT_EQUAL_UINT32(0u, s->clock.raw_us);
     TEST_ASSERT_EQUAL_UINT64(0u, s->wake_us);
@@ -66,9 +66,9 @@ static void SCH_002_init_refuses_limits_out_of_range(void)
 
     init_is_refused(KEEL_ERR_CONFIG, &config);
     config.guard_us = 0x7FFFFFFFu;
-    config.utilisation_limit = 1000001u;
+    config.utilisation_limit_ppm = 1000001u;
     init_is_refused(KEEL_ERR_CONFIG, &config);
-    config.utilisation_limit = 1000000u;
+    config.utilisation_limit_ppm = 1000000u;
     TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_init(&scheduler, &config));
 }
 
@@ -281,7 +281,7 @@ static void with_a_and_a_tenth(void)
 {
     keel_scheduler_config_t config = board_config(10u);
 
-    config.utilisation_limit = 100000u;
+    config.utilisation_limit_ppm = 100000u;
     board_reset(0u);
     TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_init(&scheduler, &config));
     add(&a);
@@ -361,7 +361,7 @@ static void SCH_005_add_refuses_when_the_set_itself_is_not_admitted(void)
     board_init(10u);
     add(&a);
     start();
-    scheduler.config.utilisation_limit = 9999u; /* A takes 1 %. */
+    scheduler.config.utilisation_limit_ppm = 9999u; /* A takes 1 %. */
     add_is_refused(KEEL_ERR_UTILISATION, &o);
 }
 

@@ -261,7 +261,7 @@ def admission_reasons(tasks: TaskSet) -> Iterator[str]:
                        f"{task.name} leaves {max(gap, 0)} us")  # fmt: skip
     # As the kernel counts: in parts per million, each task rounded up.
     ppm = sum(-(-keel.declared(tasks, task) * 1_000_000 // task.period) for task in tasks.tasks)
-    limit = tasks.costs.utilisation_limit
+    limit = tasks.costs.utilisation_limit_ppm
     if ppm > limit:
         yield (f"the kernel refuses it: utilisation with the scheduler's own time, "
                f"{ppm / 10_000:.2f} %, exceeds the limit of {limit / 10_000:.2f} %")  # fmt: skip

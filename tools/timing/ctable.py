@@ -31,9 +31,9 @@ HEADER = """\
 
 #include <stdint.h>
 
-#define {upper}_TASK_COUNT        {count}u
-#define {upper}_GUARD_US          {guard} /**< The guard W that the analysis assumes. */
-#define {upper}_UTILISATION_LIMIT {limit} /**< What the analysis admits, in ppm. */
+#define {upper}_TASK_COUNT            {count}u
+#define {upper}_GUARD_US              {guard} /**< The guard W that the analysis assumes. */
+#define {upper}_UTILISATION_LIMIT_PPM {limit} /**< What the analysis admits. */
 
 /** The rows by name, in the order of the queue. */
 typedef enum {name}_index {{
@@ -101,7 +101,7 @@ keel_scheduler_config_t {name}_scheduler_config(keel_clock_fn_t read_clock, void
     return (keel_scheduler_config_t){{.read_clock = read_clock,
                                      .clock_context = clock_context,
                                      .guard_us = {upper}_GUARD_US,
-                                     .utilisation_limit = {upper}_UTILISATION_LIMIT}};
+                                     .utilisation_limit_ppm = {upper}_UTILISATION_LIMIT_PPM}};
 }}
 """
 
@@ -118,7 +118,7 @@ def table(tasks: TaskSet, source: str) -> dict[str, str]:
     """The files of the table, by name."""
     upper = tasks.name.upper()
     symbols = [f"    {upper}_{symbol_of(task.name)}" for task in tasks.tasks]
-    guard, limit = f"{tasks.costs.guard_us}u", f"{tasks.costs.utilisation_limit}u"
+    guard, limit = f"{tasks.costs.guard_us}u", f"{tasks.costs.utilisation_limit_ppm}u"
     width = max(len(guard), len(limit))
     words = {
         "name": tasks.name, "upper": upper, "count": len(tasks.tasks), "source": source,

@@ -25,7 +25,7 @@ SIZE_LIMIT = 1 << 20
 
 # Names that the C table (ctable.py) takes: of its own macros, of the macros of stdint.h, which it
 # includes, and of the kernel.
-TABLE_NAMES = frozenset({"TASK_COUNT", "GUARD_US", "UTILISATION_LIMIT", "TASKS_H"})
+TABLE_NAMES = frozenset({"TASK_COUNT", "GUARD_US", "UTILISATION_LIMIT_PPM", "TASKS_H"})
 STDINT_NAME = re.compile(
     r"(U?INT(_?(FAST|LEAST))?\d+|U?INT(PTR|MAX)|PTRDIFF|SIZE|SIG_ATOMIC|WCHAR|WINT)_(MIN|MAX|C)"
 )
@@ -55,7 +55,7 @@ class Costs(Strict):
     utilisation_limit_percent: Percent = 100.0
 
     @property
-    def utilisation_limit(self) -> int:
+    def utilisation_limit_ppm(self) -> int:
         """The limit as the kernel takes it, in parts per million."""
         return round(self.utilisation_limit_percent * 10_000)
 

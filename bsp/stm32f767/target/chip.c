@@ -1,11 +1,9 @@
-/* The STM32F767 as a board: board.h, and what the start-up code asks of a board. */
+/* The STM32F767 as a board: board.h, and what an application may use beyond it. */
 #include "stm32f767/target/chip.h"
 
 #include "board.h"
 #include "common/supervisor.h"
-#include "console.h"
 #include "cortex_m7/fault.h"
-#include "cortex_m7/startup.h"
 #include "stm32f767/power.h"
 #include "stm32f767/pwm.h"
 #include "stm32f767/registers/dbgmcu.h"
@@ -210,25 +208,13 @@ static void blink(keel_led_name_t name, uint32_t time_us)
     }
 }
 
-void keel_board_end(int status)
+void keel_board_halt(int status)
 {
-    keel_board_outputs_off();
-    keel_console_text("stack: ");
-    keel_console_number(keel_stack_used_b());
-    keel_console_text((status == 0) ? " bytes used; ended\n"
-                                    : " bytes used; ended with a failure\n");
     (void)keel_serial_flush(&serial, &patience);
+    if (status == KEEL_SAFE_STATUS) {
+        blink(KEEL_LED_RED, BLINK_US);
+    }
     blink((status == 0) ? KEEL_LED_GREEN : KEEL_LED_RED, 10u * BLINK_US);
-}
-
-void keel_board_safe(void)
-{
-    keel_board_outputs_off();
-    keel_console_text("safe state: ");
-    keel_fault_print();
-    keel_console_text("outputs are off; reset to start again\n");
-    (void)keel_serial_flush(&serial, &patience);
-    blink(KEEL_LED_RED, BLINK_US);
 }
 
 void keel_chip_led(keel_led_name_t name, bool on)

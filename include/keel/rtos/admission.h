@@ -28,14 +28,14 @@
 
 /** The totals of the tasks admitted so far, with the limits they are held to. */
 typedef struct keel_admission {
-    uint64_t guard_us;             /**< W, the guard, below 2^31 us. */
-    uint64_t utilisation_limit;    /**< The highest utilisation, in ppm. */
-    uint64_t utilisation;          /**< Sum of C / T, each rounded up, in ppm. */
-    uint64_t realtime_demand_us;   /**< Sum of the real-time budgets, in us. */
-    uint64_t shortest_realtime_us; /**< Shortest real-time period, in us; UINT64_MAX if none. */
-    uint64_t shortest_gap_us;      /**< Shortest T - C of a real-time task; UINT64_MAX if none. */
-    uint64_t longest_other_us;     /**< Longest budget of another task, in us. */
-    uint64_t tasks;                /**< How many tasks were admitted. */
+    uint64_t guard_us;              /**< W, the guard, below 2^31 us. */
+    uint64_t utilisation_limit_ppm; /**< The highest utilisation, in ppm. */
+    uint64_t utilisation_ppm;       /**< Sum of C / T, each rounded up, in ppm. */
+    uint64_t realtime_demand_us;    /**< Sum of the real-time budgets, in us. */
+    uint64_t shortest_realtime_us;  /**< Shortest real-time period, in us; UINT64_MAX if none. */
+    uint64_t shortest_gap_us;       /**< Shortest T - C of a real-time task; UINT64_MAX if none. */
+    uint64_t longest_other_us;      /**< Longest budget of another task, in us. */
+    uint64_t tasks;                 /**< How many tasks were admitted. */
 } keel_admission_t;
 
 /*@ // C / T in parts per million, rounded up.
@@ -55,11 +55,11 @@ typedef struct keel_admission {
   @ predicate admissible(keel_admission_t a) =
   @     demand_rule(a.realtime_demand_us, a.shortest_realtime_us, a.guard_us) &&
   @     gap_rule(a.longest_other_us, a.shortest_gap_us, a.guard_us) &&
-  @     a.utilisation <= a.utilisation_limit;
+  @     a.utilisation_ppm <= a.utilisation_limit_ppm;
   @
   @ // Totals that cannot overflow: the limits are in range and the demand is below a period.
   @ predicate admission_valid(keel_admission_t a) =
-  @     a.guard_us < KEEL_PERIOD_LIMIT_US && a.utilisation_limit <= KEEL_UTILISATION_FULL_PPM &&
+  @     a.guard_us < KEEL_PERIOD_LIMIT_US && a.utilisation_limit_ppm <= KEEL_UTILISATION_FULL_PPM &&
   @     a.realtime_demand_us < KEEL_PERIOD_LIMIT_US &&
   @     a.longest_other_us <= UINT32_MAX && a.tasks <= KEEL_QUEUE_CAPACITY && admissible(a);
   @
@@ -86,30 +86,30 @@ typedef struct keel_admission {
   @              with_gap(a.shortest_gap_us, priority, period_us, budget_us), a.guard_us);
   @
   @ predicate utilisation_fits(keel_admission_t a, integer period_us, integer budget_us) =
-  @     a.utilisation + utilisation(period_us, budget_us) <= a.utilisation_limit;
+  @     a.utilisation_ppm + utilisation(period_us, budget_us) <= a.utilisation_limit_ppm;
   @*/
 
 /**
  * Begins with an empty set (requirement ADM-001).
  *
- * @param admission         the totals to initialise
- * @param guard_us          the scheduler's guard W, below 2^31 us
- * @param utilisation_limit the highest utilisation, at most KEEL_UTILISATION_FULL_PPM
+ * @param admission             the totals to initialise
+ * @param guard_us              the scheduler's guard W, below 2^31 us
+ * @param utilisation_limit_ppm the highest utilisation, at most KEEL_UTILISATION_FULL_PPM
  */
 /*@ requires \valid(admission);
   @ requires guard_us < KEEL_PERIOD_LIMIT_US;
-  @ requires utilisation_limit <= KEEL_UTILISATION_FULL_PPM;
+  @ requires utilisation_limit_ppm <= KEEL_UTILISATION_FULL_PPM;
   @ assigns *admission;
   @ ensures ADM_001_valid: admission_valid(*admission);
   @ ensures ADM_001_limits: admission->guard_us == guard_us &&
-  @     admission->utilisation_limit == utilisation_limit;
-  @ ensures ADM_001_empty: admission->utilisation == 0 && admission->realtime_demand_us == 0 &&
+  @     admission->utilisation_limit_ppm == utilisation_limit_ppm;
+  @ ensures ADM_001_empty: admission->utilisation_ppm == 0 && admission->realtime_demand_us == 0 &&
   @     admission->shortest_realtime_us == UINT64_MAX &&
   @     admission->shortest_gap_us == UINT64_MAX && admission->longest_other_us == 0 &&
   @     admission->tasks == 0;
   @*/
 void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
-                         uint32_t utilisation_limit);
+                         uint32_t utilisation_limit_ppm);
 
 /**
  * Admits one more task, or refuses it and leaves the totals alone (requirement ADM-002).
@@ -127,9 +127,9 @@ void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
   @ assigns *admission;
   @ ensures ADM_002_valid: admission_valid(*admission);
   @ ensures ADM_002_limits: admission->guard_us == \old(admission->guard_us) &&
-  @     admission->utilisation_limit == \old(admission->utilisation_limit);
+  @     admission->utilisation_limit_ppm == \old(admission->utilisation_limit_ppm);
   @ ensures ADM_002_kept: \result != KEEL_OK ==> admission->tasks == \old(admission->tasks) &&
-  @     admission->utilisation == \old(admission->utilisation) &&
+  @     admission->utilisation_ppm == \old(admission->utilisation_ppm) &&
   @     admission->realtime_demand_us == \old(admission->realtime_demand_us) &&
   @     admission->shortest_realtime_us == \old(admission->shortest_realtime_us) &&
   @     admission->shortest_gap_us == \old(admission->shortest_gap_us) &&
@@ -155,8 +155,8 @@ void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
   @   assumes utilisation_fits(*admission, period_us, budget_us);
   @   ensures ok: \result == KEEL_OK;
   @   ensures ADM_002_tasks: admission->tasks == \old(admission->tasks) + 1;
-  @   ensures ADM_002_utilisation: admission->utilisation ==
-  @       \old(admission->utilisation) + utilisation(period_us, budget_us);
+  @   ensures ADM_002_utilisation: admission->utilisation_ppm ==
+  @       \old(admission->utilisation_ppm) + utilisation(period_us, budget_us);
   @   ensures ADM_002_demand: admission->realtime_demand_us ==
   @       \old(admission->realtime_demand_us) + realtime_budget(priority, budget_us);
   @   ensures ADM_002_period: admission->shortest_realtime_us ==
@@ -204,7 +204,7 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priorit
   @ // The totals hold what they say of the first n tasks.
   @ predicate totals_of(keel_admission_t a, keel_queue_t *q, integer n) =
   @     a.tasks == n && a.realtime_demand_us == realtime_demand(q, n) &&
-  @     a.utilisation == total_utilisation(q, n) &&
+  @     a.utilisation_ppm == total_utilisation(q, n) &&
   @     a.shortest_realtime_us == shortest_realtime(q, n) &&
   @     a.shortest_gap_us == shortest_gap(q, n) && a.longest_other_us == longest_other(q, n);
   @
@@ -275,18 +275,18 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priorit
   @ assigns *admission;
   @ ensures ADM_004_valid: admission_valid(*admission);
   @ ensures ADM_004_limits: admission->guard_us == \old(admission->guard_us) &&
-  @     admission->utilisation_limit == \old(admission->utilisation_limit);
+  @     admission->utilisation_limit_ppm == \old(admission->utilisation_limit_ppm);
   @ ensures ADM_004_range: admission->tasks <= queue->count;
   @ ensures ADM_004_totals: totals_of(*admission, queue, admission->tasks);
   @ ensures ADM_004_all: \result == KEEL_OK <==> admission->tasks == queue->count;
   @ ensures ADM_004_offender: \result != KEEL_OK ==> set_refused(queue, admission->tasks + 1,
-  @     admission->guard_us, admission->utilisation_limit, \result);
+  @     admission->guard_us, admission->utilisation_limit_ppm, \result);
   @ ensures ADM_004_complete: \result == KEEL_OK <==> set_holds(queue, queue->count,
-  @     admission->guard_us, admission->utilisation_limit);
+  @     admission->guard_us, admission->utilisation_limit_ppm);
   @ ensures ADM_004_told: \result == KEEL_OK <==>
   @     demand_admitted(queue, admission->guard_us) &&
   @     gaps_admitted(queue, admission->guard_us) &&
-  @     utilisation_holds(queue, queue->count, admission->utilisation_limit);
+  @     utilisation_holds(queue, queue->count, admission->utilisation_limit_ppm);
   @*/
 keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue_t *queue);
 

@@ -18,8 +18,8 @@
 #define KEEL_RTOS_QUEUE_H
 
 #include "keel/rtos/clock.h"
-#include "keel/rtos/load.h"
 #include "keel/rtos/priority.h"
+#include "keel/rtos/stats.h"
 #include "keel/rtos/task.h"
 
 #include <stdint.h>

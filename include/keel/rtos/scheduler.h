@@ -20,7 +20,6 @@
 #define KEEL_RTOS_SCHEDULER_H
 
 #include "keel/rtos/admission.h"
-#include "keel/rtos/load.h"
 #include "keel/rtos/pass.h"
 #include "keel/rtos/scheduler_state.h"
 #include "keel/rtos/task.h"
@@ -44,14 +43,12 @@
   @   ensures SCH_002_null: \result == KEEL_ERR_NULL;
   @ behavior config:
   @   assumes scheduler != \null && config != \null && config->read_clock != \null;
-  @   assumes config->guard_us >= KEEL_PERIOD_LIMIT_US ||
-  @       config->utilisation_limit > KEEL_UTILISATION_FULL_PPM;
+  @   assumes !settings_valid(config);
   @   assigns \nothing;
   @   ensures SCH_002_config: \result == KEEL_ERR_CONFIG;
   @ behavior done:
   @   assumes scheduler != \null && config != \null && config->read_clock != \null;
-  @   assumes config->guard_us < KEEL_PERIOD_LIMIT_US &&
-  @       config->utilisation_limit <= KEEL_UTILISATION_FULL_PPM;
+  @   assumes settings_valid(config);
   @   ensures ok: \result == KEEL_OK;
   @   ensures SCH_001_valid: scheduler_valid(scheduler);
   @   ensures SCH_001_config: config_copied(scheduler, config);
@@ -66,10 +63,8 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
  * Checks whether the tasks can be scheduled, and names the first that cannot (SCH-003).
  *
  * @param scheduler the scheduler
- * @param admitted  receives how many tasks are admitted: on refusal, the offender is
- *                  keel_scheduler_task(scheduler, *admitted)
- * @return KEEL_OK, or the offender's KEEL_ERR_REALTIME_DEMAND, KEEL_ERR_BUDGET_GAP or
- *         KEEL_ERR_UTILISATION
+ * @param admitted  receives how many tasks are admitted: on refusal, the offender's position
+ * @return KEEL_OK, or the offender's KEEL_ERR_REALTIME_DEMAND, _BUDGET_GAP or _UTILISATION
  */
 /*@ requires \valid_read(scheduler) && scheduler_valid(scheduler);
   @ requires \valid(admitted) && \separated(admitted, scheduler);
@@ -108,8 +103,7 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @   assigns \nothing;
   @   ensures SCH_005_null: \result == KEEL_ERR_NULL;
   @ behavior invalid:
-  @   assumes scheduler != \null && task != \null && task->run != \null;
-  @   assumes !config_valid(task);
+  @   assumes scheduler != \null && task != \null && task->run != \null && !config_valid(task);
   @   assigns \nothing;
   @   ensures SCH_005_invalid: config_refused(task, \result);
   @ behavior duplicate:

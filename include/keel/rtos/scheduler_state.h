@@ -20,10 +20,10 @@ typedef uint32_t (*keel_clock_fn_t)(void *context);
 
 /** How a scheduler is set up. */
 typedef struct keel_scheduler_config {
-    keel_clock_fn_t read_clock; /**< The clock. */
-    void *clock_context;        /**< Handed to read_clock; may be null. */
-    uint32_t guard_us;          /**< W of eq. 2: time for a decision, below 2^31 us. */
-    uint32_t utilisation_limit; /**< Highest utilisation, at most KEEL_UTILISATION_FULL_PPM. */
+    keel_clock_fn_t read_clock;     /**< The clock. */
+    void *clock_context;            /**< Handed to read_clock; may be null. */
+    uint32_t guard_us;              /**< W of eq. 2: time for a decision, below 2^31 us. */
+    uint32_t utilisation_limit_ppm; /**< Highest utilisation, at most KEEL_UTILISATION_FULL_PPM. */
 } keel_scheduler_config_t;
 
 /* What the scheduler is doing. Plain numbers: an enumeration's size differs between compilers. */
@@ -77,7 +77,7 @@ typedef struct keel_task_report {
   @     0 <= s->cursor <= s->pass_end <= s->queue.realtime_count &&
   @     KEEL_POSITION_NONE <= s->running < s->queue.count &&
   @     s->config.guard_us < KEEL_PERIOD_LIMIT_US &&
-  @     s->config.utilisation_limit <= KEEL_UTILISATION_FULL_PPM &&
+  @     s->config.utilisation_limit_ppm <= KEEL_UTILISATION_FULL_PPM &&
   @     KEEL_STAGE_SETUP <= s->stage <= KEEL_STAGE_OTHER &&
   @     (s->stage >= KEEL_STAGE_PASS ==> s->wake_us == 0);
   @
@@ -101,9 +101,14 @@ typedef struct keel_task_report {
   @     queue_others_last(&s->queue) && queue_periods(&s->queue) && queue_budgets(&s->queue) &&
   @     scheduler_state(s) && realtime_bound(s) && other_bound(s) && realtime_exact(s);
   @
+  @ // What keel_scheduler_init accepts besides a clock.
+  @ predicate settings_valid(keel_scheduler_config_t *config) =
+  @     config->guard_us < KEEL_PERIOD_LIMIT_US &&
+  @     config->utilisation_limit_ppm <= KEEL_UTILISATION_FULL_PPM;
+  @
   @ predicate config_copied(keel_scheduler_t *s, keel_scheduler_config_t *config) =
   @     s->config.guard_us == config->guard_us &&
-  @     s->config.utilisation_limit == config->utilisation_limit &&
+  @     s->config.utilisation_limit_ppm == config->utilisation_limit_ppm &&
   @     s->config.read_clock == config->read_clock &&
   @     s->config.clock_context == config->clock_context;
   @
@@ -220,10 +225,10 @@ typedef struct keel_task_report {
   @
   @ // Whether the first n tasks keep the rules of admission, and the first rule that they break.
   @ predicate scheduler_holds_of(keel_scheduler_t *s, integer n) =
-  @     set_holds(&s->queue, n, s->config.guard_us, s->config.utilisation_limit);
+  @     set_holds(&s->queue, n, s->config.guard_us, s->config.utilisation_limit_ppm);
   @
   @ predicate scheduler_refused(keel_scheduler_t *s, integer n, integer status) =
-  @     set_refused(&s->queue, n, s->config.guard_us, s->config.utilisation_limit, status);
+  @     set_refused(&s->queue, n, s->config.guard_us, s->config.utilisation_limit_ppm, status);
   @
   @ predicate scheduler_holds(keel_scheduler_t *s) = scheduler_holds_of(s, s->queue.count);
   @
@@ -238,7 +243,7 @@ typedef struct keel_task_report {
   @
   @ predicate utilisation_allows(keel_scheduler_t *s, keel_task_config_t *task) =
   @     utilisation_holds_with(&s->queue, task->period_us, task->budget_us,
-  @                            s->config.utilisation_limit);
+  @                            s->config.utilisation_limit_ppm);
   @
   @ // The first rule of admission that it breaks.
   @ predicate refuses(keel_scheduler_t *s, keel_task_config_t *task, integer status) =

@@ -1,0 +1,324 @@
+/**
+ * @file main.c
+ * @brief The paper's 21 tasks on a real board, until it is switched off.
+ *
+ * The first image to flash on a board: it shows whether clock, console, sensor, outputs, watchdog
+ * and the handling of faults work there, and what each task takes.
+ *
+ * The background task of the inertial unit reads the sensor, if there is one; every other body, and
+ * the rest of this one's time, keeps the CPU busy for the task's worst-case time of table 2.
+ * Periods, budgets, phases and the guard are those that `make analyze` analyses. A line on the
+ * console tells every second how it goes. The watchdog is fed only while every real-time task meets
+ * its releases. What the kernel refuses ends as a fault does.
+ *
+ * Keys: p lets pulses of 1000 us out, o switches the outputs off, t prints a table of the tasks;
+ * and, to see what follows: u an undefined instruction, n a null pointer, s a stack that overflows,
+ * h a task that hangs.
+ */
+#include "board.h"
+#include "console.h"
+#include "cortex_m7/fault.h"
+#include "cortex_m7/startup.h"
+#include "keel/rtos/load.h"
+#include "keel/rtos/scheduler.h"
+#include "stm32f767/target/chip.h"
+#include "urpilot_tasks.h"
+
+#define REPORT_EVERY_US 1000000u
+#define OFFER_US        2000000u
+#define PULSE_US        1000u /* No throttle. */
+#define BLINK_RUNS      25u   /* 25 runs of 20 ms. */
+
+/* What keel_fault_stop records. */
+#define FAULT_SETUP 0xDE300001u
+#define FAULT_STEP  0xDE300002u
+
+/* What the background task of the inertial unit saw. */
+typedef struct imu {
+    bool there;
+    uint32_t samples;
+    uint32_t failures;
+    keel_icm20689_sample_t last;
+} imu_t;
+
+static keel_scheduler_t scheduler KEEL_REALTIME_ZERO;
+
+/* The tasks: the scheduler knows each by the address of its declaration, and reads it when it runs
+ * the task. */
+static keel_task_config_t declaration[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
+
+/* How long each task's body works: the context of its body. */
+static uint32_t wcet_us[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
+
+static imu_t imu KEEL_REALTIME_ZERO;
+static bool hang;
+
+KEEL_REALTIME_CODE static void work_until(uint32_t start_us, uint32_t length_us)
+{
+    while ((keel_board_clock_us(NULL) - start_us) < length_us) {
+    }
+}
+
+KEEL_REALTIME_CODE static void body(void *context)
+{
+    const uint32_t *const length_us = context;
+
+    work_until(keel_board_clock_us(NULL), *length_us);
+}
+
+KEEL_REALTIME_CODE static void imu_body(void *context)
+{
+    const uint32_t *const length_us = context;
+    const uint32_t start_us = keel_board_clock_us(NULL);
+
+    while (hang) {
+    }
+    if (imu.there) {
+        if (keel_icm20689_read(keel_chip_sensor(), &imu.last) == KEEL_BSP_OK) {
+            imu.samples++;
+        } else {
+            imu.failures++;
+        }
+    }
+    work_until(start_us, *length_us);
+}
+
+static void state_body(void *context)
+{
+    static uint32_t runs;
+    const uint32_t *const length_us = context;
+    const uint32_t start_us = keel_board_clock_us(NULL);
+
+    keel_chip_led(KEEL_LED_GREEN, (runs % (2u * BLINK_RUNS)) < BLINK_RUNS);
+    runs++;
+    work_until(start_us, *length_us);
+}
+
+static void require(keel_status_t status, uint32_t code)
+{
+    if (status != KEEL_OK) {
+        keel_fault_stop(code);
+    }
+}
+
+static keel_task_fn_t body_of(uint32_t i)
+{
+    if (i == (uint32_t)URPILOT_BACKGROUND_IMU) {
+        return imu_body;
+    }
+    return (i == (uint32_t)URPILOT_STATE_MACHINE) ? state_body : body;
+}
+
+static void start(void)
+{
+    const keel_scheduler_config_t config = urpilot_scheduler_config(keel_board_clock_us, NULL);
+
+    require(keel_scheduler_init(&scheduler, &config), FAULT_SETUP);
+    for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
+        wcet_us[i] = urpilot_task[i].wcet_us;
+        declaration[i] = urpilot_task_config(i, body_of(i), &wcet_us[i]);
+        require(keel_scheduler_add(&scheduler, &declaration[i]), FAULT_SETUP);
+    }
+    require(keel_scheduler_start(&scheduler), FAULT_SETUP);
+}
+
+static void print_number(const char *label, uint64_t value)
+{
+    keel_console_text(label);
+    keel_console_number(value);
+}
+
+static void print_signed(const char *label, int16_t value)
+{
+    keel_console_text(label);
+    keel_console_text((value < 0) ? "-" : "");
+    keel_console_number((uint64_t)((value < 0) ? -(int32_t)value : (int32_t)value));
+}
+
+static void print_imu(void)
+{
+    if (!imu.there) {
+        keel_console_text(" imu none");
+        return;
+    }
+    print_number(" imu ", imu.samples);
+    print_number(" failed ", imu.failures);
+    for (uint32_t axis = 0u; axis < 3u; axis++) {
+        print_signed((axis == 0u) ? " a " : " ", imu.last.acceleration[axis]);
+    }
+    for (uint32_t axis = 0u; axis < 3u; axis++) {
+        print_signed((axis == 0u) ? " g " : " ", imu.last.rate[axis]);
+    }
+}
+
+/* What the scheduler knows of a task. */
+static keel_task_report_t report_of(uint32_t i)
+{
+    keel_task_report_t report = {0};
+
+    (void)keel_scheduler_report(&scheduler, &declaration[i], &report);
+    return report;
+}
+
+/* One line: time, load, and what went wrong since the start. */
+static void print_report(keel_load_t *window)
+{
+    uint64_t skipped = 0u;
+    uint64_t overruns = 0u;
+    uint64_t promotions = 0u;
+
+    for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
+        const keel_task_report_t report = report_of(i);
+
+        skipped += report.skipped;
+        overruns += report.stats.overruns;
+        promotions += report.stats.promotions;
+    }
+    print_number("t ", scheduler.clock.now_us / REPORT_EVERY_US);
+    print_number(" s load ", keel_load_ppm(window, scheduler.clock.now_us, scheduler.busy_us));
+    print_number(" ppm skipped ", skipped);
+    print_number(" overruns ", overruns);
+    print_number(" promotions ", promotions);
+    print_imu();
+    keel_console_text("\n");
+    keel_load_begin(window, scheduler.clock.now_us, scheduler.busy_us);
+}
+
+static void print_table(void)
+{
+    for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
+        const keel_task_report_t report = report_of(i);
+
+        keel_console_text("task ");
+        keel_console_text(declaration[i].name);
+        print_number(": period ", declaration[i].period_us);
+        print_number(" runs ", report.stats.runs);
+        print_number(" longest ", report.stats.longest_us);
+        print_number(" skipped ", report.skipped);
+        print_number(" overruns ", report.stats.overruns);
+        print_number(" promotions ", report.stats.promotions);
+        keel_console_text("\n");
+    }
+    print_number("stack used ", keel_stack_used_b());
+    keel_console_text(" bytes\n");
+}
+
+static void outputs(bool on)
+{
+    for (uint32_t channel = 0u; channel < KEEL_PWM_OUTPUTS; channel++) {
+        (void)keel_chip_pulse(channel, on ? PULSE_US : 0u);
+    }
+    if (on) {
+        keel_chip_arm();
+    } else {
+        keel_board_outputs_off();
+    }
+    keel_console_text(on ? "outputs on\n" : "outputs off\n");
+}
+
+/* Goes down the stack into its guard, a frame at a time, without a function that calls itself. */
+static void overflow(void)
+{
+    volatile uint8_t *const here = __builtin_frame_address(0);
+
+    for (uint32_t i = 0u; i < 0x8000u; i++) {
+        *(here - i) = 0u;
+    }
+}
+
+/* The pointer is volatile, so that the compiler cannot know that it is null. */
+static void read_nowhere(void)
+{
+    const volatile uint32_t *volatile nowhere = NULL;
+
+    (void)*nowhere;
+}
+
+static void obey(char key)
+{
+    switch (key) {
+    case 'p':
+        outputs(true);
+        break;
+    case 'o':
+        outputs(false);
+        break;
+    case 't':
+        print_table();
+        break;
+    case 'u':
+        __asm volatile("udf #1");
+        break;
+    case 'n':
+        read_nowhere();
+        break;
+    case 's':
+        overflow();
+        break;
+    case 'h':
+        hang = true;
+        break;
+    default:
+        keel_console_text("keys: p o t, and u n s h for faults\n");
+        break;
+    }
+}
+
+static void print_start(void)
+{
+    keel_console_text("Keel on ");
+    keel_console_text(keel_board_name);
+    keel_console_text(": 21 tasks\n");
+    if (keel_fault_last() != NULL) {
+        keel_console_text("since power-on: ");
+        keel_fault_print();
+    }
+    print_number("sensor status ", (uint64_t)keel_chip_sensor_start());
+    keel_console_text("\n");
+}
+
+/* The level lies in the option bytes, so it is set by hand, once for a board, and before the
+ * watchdog runs, which would bite meanwhile. */
+static void offer_brownout(void)
+{
+    const uint32_t start_us = keel_board_clock_us(NULL);
+    char key = '\0';
+
+    if (keel_chip_brownout_is_set()) {
+        return;
+    }
+    keel_console_text("brown-out reset is below 2.7 V: b within 2 s sets 2.7 V for good\n");
+    while ((key != 'b') && ((keel_board_clock_us(NULL) - start_us) < OFFER_US)) {
+        keel_chip_turn();
+        (void)keel_chip_get(&key);
+    }
+    if (key == 'b') {
+        print_number("brown-out status ", (uint64_t)keel_chip_brownout_set());
+        keel_console_text("\n");
+    }
+}
+
+int main(void)
+{
+    keel_load_t window;
+    char key;
+
+    print_start();
+    offer_brownout();
+    imu.there = (keel_icm20689_read(keel_chip_sensor(), &imu.last) == KEEL_BSP_OK);
+    keel_chip_led(KEEL_LED_BLUE, imu.there);
+    keel_fault_watch(&scheduler);
+    start();
+    keel_chip_watchdog_start(&scheduler);
+    keel_load_begin(&window, 0u, 0u);
+    for (;;) {
+        require(keel_scheduler_step(&scheduler), FAULT_STEP);
+        keel_chip_turn();
+        if ((scheduler.clock.now_us - window.start_us) >= REPORT_EVERY_US) {
+            print_report(&window);
+        }
+        if (keel_chip_get(&key)) {
+            obey(key);
+        }
+    }
+}
