@@ -10,7 +10,7 @@ void keel_virtual_imu_init_harness(void)
 {
     keel_virtual_imu_t imu;
     keel_virtual_imu_t before;
-    keel_imu_config_t config;
+    keel_virtual_imu_config_t config;
     const uint32_t i = nondet_u32();
     keel_status_t expected;
     keel_status_t status;

@@ -16,7 +16,7 @@ void keel_virtual_imu_readmit_harness(void)
     keel_virtual_imu_t before;
     keel_status_t status;
 
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+    for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
         imu.channel[k].config.sensors = 2u;
         imu.channel[k].sensor[0] = any_sensor();
         imu.channel[k].sensor[1] = any_sensor();
@@ -29,7 +29,7 @@ void keel_virtual_imu_readmit_harness(void)
 
     status = keel_virtual_imu_readmit(&imu, unit);
 
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+    for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
         is = is || ((unit == 0u) && imu.channel[k].sensor[0].latched) ||
              ((unit == 1u) && imu.channel[k].sensor[1].latched);
     }

@@ -13,11 +13,11 @@
 void keel_virtual_imu_step_harness(void)
 {
     keel_virtual_imu_t imu;
-    keel_imu_sample_t sample[2];
-    bool was[KEEL_IMU_CHANNELS][2];
-    float before[KEEL_IMU_CHANNELS];
+    keel_virtual_imu_sample_t sample[2];
+    bool was[KEEL_VIRTUAL_IMU_CHANNELS][2];
+    float before[KEEL_VIRTUAL_IMU_CHANNELS];
 
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+    for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
         const keel_voter_config_t config = {1.0f, 3.0f, -9.0f, 9.0f, 0.0f, 5u, 2u, 0u, 0u, 2u};
 
         imu.channel[k].config = config;
@@ -48,7 +48,7 @@ void keel_virtual_imu_step_harness(void)
 
     keel_virtual_imu_step(&imu, sample, nondet_u32());
 
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+    for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
         __CPROVER_assert((imu.channel[k].vote.output == (float)k) ||
                              ((imu.channel[k].vote.output == before[k]) &&
                               (imu.channel[k].vote.contributing == 0u)),

@@ -16,34 +16,34 @@
 #include <stdint.h>
 
 /** Channels of a unit: accelerometer x, y, z in m/s^2, then gyroscope x, y, z in rad/s. */
-#define KEEL_IMU_CHANNELS 6u
+#define KEEL_VIRTUAL_IMU_CHANNELS 6u
 /** How many of them are the accelerometer's. */
-#define KEEL_IMU_ACCELEROMETER 3u
+#define KEEL_VIRTUAL_IMU_ACCELEROMETER 3u
 /** The verdict of a unit with all channels: a bit per channel, channel 0 the lowest. */
-#define KEEL_IMU_ALL 0x3Fu
+#define KEEL_VIRTUAL_IMU_ALL 0x3Fu
 
 /** How the units vote. */
-typedef struct keel_imu_config {
+typedef struct keel_virtual_imu_config {
     keel_voter_config_t accelerometer; /**< Of channels 0 to 2, in m/s^2. */
     keel_voter_config_t gyroscope;     /**< Of channels 3 to 5, in rad/s; as many sensors. */
-} keel_imu_config_t;
+} keel_virtual_imu_config_t;
 
 /** What one unit measured. Values may be any bit pattern. */
-typedef struct keel_imu_sample {
-    float value[KEEL_IMU_CHANNELS]; /**< In m/s^2 and rad/s. */
-    uint32_t age_us;                /**< How long ago, in us. */
-    bool present;                   /**< Whether the unit gave a sample. */
-} keel_imu_sample_t;
+typedef struct keel_virtual_imu_sample {
+    float value[KEEL_VIRTUAL_IMU_CHANNELS]; /**< In m/s^2 and rad/s. */
+    uint32_t age_us;                        /**< How long ago, in us. */
+    bool present;                           /**< Whether the unit gave a sample. */
+} keel_virtual_imu_sample_t;
 
 /** A virtual unit. Written by the functions below alone; all of it may be read. */
 typedef struct keel_virtual_imu {
-    keel_voter_t channel[KEEL_IMU_CHANNELS]; /**< The output is channel[k].vote.output. */
-    uint8_t used[KEEL_VOTER_SENSORS];        /**< Per unit: its channels that contributed. */
-    uint8_t latched[KEEL_VOTER_SENSORS];     /**< Per unit: its channels latched as faulty. */
+    keel_voter_t channel[KEEL_VIRTUAL_IMU_CHANNELS]; /**< The output is channel[k].vote.output. */
+    uint8_t used[KEEL_VOTER_SENSORS];    /**< Per unit: its channels that contributed. */
+    uint8_t latched[KEEL_VOTER_SENSORS]; /**< Per unit: its channels latched as faulty. */
 } keel_virtual_imu_t;
 
-/*@ predicate imu_valid(keel_virtual_imu_t *imu) =
-  @     \forall integer k; 0 <= k < KEEL_IMU_CHANNELS ==>
+/*@ predicate virtual_imu_valid(keel_virtual_imu_t *imu) =
+  @     \forall integer k; 0 <= k < KEEL_VIRTUAL_IMU_CHANNELS ==>
   @         voter_valid(&imu->channel[k]) &&
   @         imu->channel[k].config.sensors == imu->channel[0].config.sensors;
   @*/
@@ -61,9 +61,10 @@ typedef struct keel_virtual_imu {
   @ ensures IMU_001_refused:
   @     (!voter_config_valid(config->accelerometer) || !voter_config_valid(config->gyroscope) ||
   @      config->accelerometer.sensors != config->gyroscope.sensors) ==> \result != KEEL_OK;
-  @ ensures IMU_001_ready: \result == KEEL_OK ==> imu_valid(imu);
+  @ ensures IMU_001_ready: \result == KEEL_OK ==> virtual_imu_valid(imu);
   @*/
-keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu, const keel_imu_config_t *config);
+keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu,
+                                    const keel_virtual_imu_config_t *config);
 
 /**
  * Takes a vote on each channel (requirements IMU-002 and IMU-003).
@@ -72,13 +73,13 @@ keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu, const keel_imu_conf
  * @param sample     a sample per unit, N of them, in the order of the units
  * @param elapsed_us the time since the last vote, in us
  */
-/*@ requires \valid(imu) && imu_valid(imu);
+/*@ requires \valid(imu) && virtual_imu_valid(imu);
   @ requires \valid_read(sample + (0 .. imu->channel[0].config.sensors - 1));
   @ requires \separated(imu, sample + (0 .. imu->channel[0].config.sensors - 1));
   @ assigns *imu;
-  @ ensures IMU_002_valid: imu_valid(imu);
+  @ ensures IMU_002_valid: virtual_imu_valid(imu);
   @*/
-void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_imu_sample_t sample[],
+void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_virtual_imu_sample_t sample[],
                            uint32_t elapsed_us);
 
 /**
@@ -89,12 +90,12 @@ void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_imu_sample_t samp
  * @return KEEL_OK; KEEL_ERR_SENSORS when there is no such unit, KEEL_ERR_STATE when none of its
  *         channels is latched: then nothing changes
  */
-/*@ requires \valid(imu) && imu_valid(imu);
+/*@ requires \valid(imu) && virtual_imu_valid(imu);
   @ assigns *imu;
   @ ensures IMU_004_unknown: unit >= imu->channel[0].config.sensors <==>
   @     \result == KEEL_ERR_SENSORS;
   @ ensures IMU_004_readmitted: \result == KEEL_OK ==> \forall integer k;
-  @     0 <= k < KEEL_IMU_CHANNELS ==> !imu->channel[k].sensor[unit].latched;
+  @     0 <= k < KEEL_VIRTUAL_IMU_CHANNELS ==> !imu->channel[k].sensor[unit].latched;
   @ ensures IMU_004_noted: \result == KEEL_OK ==> imu->latched[unit] == 0;
   @ ensures IMU_004_kept: \result != KEEL_OK ==> *imu == \old(*imu);
   @*/
