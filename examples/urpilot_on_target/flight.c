@@ -19,7 +19,7 @@
 #define OFFSET    0.01f
 
 static keel_virtual_imu_t imu KEEL_REALTIME_ZERO;
-static keel_imu_sample_t sample[UNITS] KEEL_REALTIME_ZERO;
+static keel_virtual_imu_sample_t sample[UNITS] KEEL_REALTIME_ZERO;
 static keel_pid_t controller[AXES] KEEL_REALTIME_ZERO;
 static uint32_t votes KEEL_REALTIME_ZERO;
 static uint32_t steps KEEL_REALTIME_ZERO;
@@ -38,7 +38,7 @@ keel_status_t flight_init(void)
                                        .stale_count = 50u,
                                        .density_limit = 0u,
                                        .sensors = UNITS};
-    const keel_imu_config_t config = {voter, voter};
+    const keel_virtual_imu_config_t config = {voter, voter};
     const keel_pid_config_t rate = {.gains = {0.5f, 0.2f, 0.01f, 0.0f},
                                     .rate_hz = RATE_HZ,
                                     .cutoff_hz = 80.0f,
@@ -67,7 +67,7 @@ KEEL_REALTIME_CODE static void measure(void)
     for (uint32_t unit = 0u; unit < UNITS; unit++) {
         const bool frozen = (unit == FROZEN_UNIT) && (votes >= FROZEN_FROM);
 
-        for (uint32_t k = 0u; (k < KEEL_IMU_CHANNELS) && !frozen; k++) {
+        for (uint32_t k = 0u; (k < KEEL_VIRTUAL_IMU_CHANNELS) && !frozen; k++) {
             sample[unit].value[k] = truth_of(k) + (OFFSET * (float)unit);
         }
         sample[unit].present = true;
@@ -78,7 +78,7 @@ KEEL_REALTIME_CODE void flight_vote(void)
 {
     measure();
     keel_virtual_imu_step(&imu, sample, VOTE_PERIOD_US);
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+    for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
         const float distance = imu.channel[k].vote.output - truth_of(k);
         const float size = (distance < 0.0f) ? -distance : distance;
 
@@ -90,7 +90,7 @@ KEEL_REALTIME_CODE void flight_vote(void)
 KEEL_REALTIME_CODE void flight_control(void)
 {
     for (uint32_t axis = 0u; axis < AXES; axis++) {
-        const float rate = imu.channel[KEEL_IMU_ACCELEROMETER + axis].vote.output;
+        const float rate = imu.channel[KEEL_VIRTUAL_IMU_ACCELEROMETER + axis].vote.output;
 
         if (keel_pid_step(&controller[axis], 0.0f, rate) != KEEL_OK) {
             refused++;

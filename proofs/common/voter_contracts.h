@@ -123,6 +123,21 @@ static bool keel_voter_combine_does(float mean, const keel_voter_sample_t sample
     return finite_here(mean) && combine_above(mean, sample, weight, sensors) && below;
 }
 
+#ifdef VOTER_FLOATS_OPEN
+/* What voter_valid says of a channel's integers alone, for a harness of code that hands channels on
+ * and looks at no float of them. It takes more channels for valid, before a call and after it; that
+ * channels are valid in full where they are handed on is another harness's to show. */
+static bool voter_valid_here(const keel_voter_t *v)
+{
+    bool clean = v->vote.contributing == v->config.sensors;
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        clean = clean && ((i >= v->config.sensors) ||
+                          (!v->sensor[i].latched && (v->vote.reason[i] == KEEL_VOTER_USED)));
+    }
+    return (2u <= v->config.sensors) && (v->config.sensors <= SENSORS) && (!v->unanimous || clean);
+}
+#else
 /* voter_valid, but for the cut-off and the initial output: nothing but init reads these two. */
 static bool voter_valid_here(const keel_voter_t *v)
 {
@@ -138,15 +153,28 @@ static bool voter_valid_here(const keel_voter_t *v)
     }
     return valid;
 }
+#endif
 
 static bool keel_voter_step_may(const keel_voter_t *voter)
 {
     return voter_valid_here(voter);
 }
 
+/* Who contributed is counted, and is not latched after the vote (VOT-006, VOT-010, VOT-011). */
+static bool used_is_healthy_here(const keel_voter_t *v)
+{
+    bool healthy = true;
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        healthy = healthy && ((i >= v->config.sensors) || (v->vote.reason[i] != KEEL_VOTER_USED) ||
+                              ((v->vote.contributing > 0u) && !v->sensor[i].latched));
+    }
+    return healthy;
+}
+
 static bool keel_voter_step_does(const keel_voter_t *voter)
 {
-    return voter_valid_here(voter);
+    return voter_valid_here(voter) && used_is_healthy_here(voter);
 }
 
 static bool keel_voter_step_unanimous_may(const keel_voter_t *voter,

@@ -1,49 +1,31 @@
 // cbmc: --unwind 7 --external-sat-solver cadical
-// sources: src/middleware/virtual_imu.c src/middleware/voter.c
-// defines: -DKEEL_VOTER_SENSORS=2u
-// covers: keel_virtual_imu_readmit
-#include "keel/middleware/virtual_imu.h"
-
-#include "../common/unchanged.h"
-#include "../common/voter_proof.h"
+// sources: src/middleware/virtual_imu.c src/middleware/voter.c specs/model/virtual_imu.c
+// sources: specs/model/voter.c specs/model/range.c
+// covers: keel_virtual_imu_readmit model_virtual_imu_readmit
+//
+// Every virtual unit of 2 to 4 units, be its channels valid or not. That a valid channel stays so:
+// keel_voter_readmit_harness.c.
+#include "virtual_imu_proof.h"
 
 void keel_virtual_imu_readmit_harness(void)
 {
-    keel_virtual_imu_t imu;
+    const uint8_t units = nondet_u8();
     const uint32_t unit = nondet_u32();
-    bool was = false;
-    bool is = false;
-    keel_virtual_imu_t before;
+    keel_virtual_imu_t imu;
+    keel_virtual_imu_t model;
+    bool noted;
+    keel_status_t expected;
     keel_status_t status;
 
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
-        imu.channel[k].config.sensors = 2u;
-        imu.channel[k].sensor[0] = any_sensor();
-        imu.channel[k].sensor[1] = any_sensor();
-        was = was || ((unit == 0u) && imu.channel[k].sensor[0].latched) ||
-              ((unit == 1u) && imu.channel[k].sensor[1].latched);
-    }
-    imu.latched[0] = nondet_u8();
-    imu.latched[1] = nondet_u8();
-    before = imu;
+    __CPROVER_assume((2u <= units) && (units <= SENSORS));
+    any_virtual_imu(&imu, units);
+    noted = noted_here(&imu);
+    model = imu;
+    expected = model_virtual_imu_readmit(&model, unit);
 
     status = keel_virtual_imu_readmit(&imu, unit);
 
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
-        is = is || ((unit == 0u) && imu.channel[k].sensor[0].latched) ||
-             ((unit == 1u) && imu.channel[k].sensor[1].latched);
-    }
-    __CPROVER_assert((status == KEEL_ERR_SENSORS) == (unit > 1u), "IMU_004_unknown: no such unit");
-    __CPROVER_assert((status == KEEL_OK) == was, "IMU_004_refused: none of its is latched");
-    __CPROVER_assert((status != KEEL_OK) || !is, "IMU_004_readmitted: all of its channels are");
-    __CPROVER_assert((status != KEEL_OK) || (imu.latched[unit] == 0u),
-                     "IMU_004_noted: no channel of it is latched");
-    __CPROVER_assert((unit == 1u) || (imu.latched[1] == before.latched[1]),
-                     "IMU_004_note: the other unit's note stays");
-    __CPROVER_assert((unit == 1u) ||
-                         unchanged(&imu.channel[3].sensor[1], &before.channel[3].sensor[1],
-                                   sizeof(keel_voter_sensor_t)),
-                     "IMU_004_frame: the other unit stays");
-    __CPROVER_assert((status == KEEL_OK) || unchanged(&imu, &before, sizeof(imu)),
-                     "STA_001_kept: a refusal changes nothing");
+    __CPROVER_assert(status == expected, "IMU_004_model: as the model says");
+    __CPROVER_assert(virtual_imu_same(&imu, &model), "IMU_004_model: in every field");
+    __CPROVER_assert(!noted || noted_here(&imu), "IMU_004_valid: bits as the channels say, still");
 }

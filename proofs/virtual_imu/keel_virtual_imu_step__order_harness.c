@@ -56,9 +56,9 @@ bool keel_voter_step_unanimous_stand_in(keel_voter_t *voter, const keel_voter_sa
 void keel_virtual_imu_step__order_harness(void)
 {
     keel_virtual_imu_t imu;
-    keel_imu_sample_t sample[SENSORS];
+    keel_virtual_imu_sample_t sample[SENSORS];
 
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+    for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
         any_voter(&imu.channel[k], nondet_float(), nondet_float());
         __CPROVER_assume(voter_valid_here(&imu.channel[k]) &&
                          (imu.channel[k].config.sensors == imu.channel[0].config.sensors));
@@ -67,14 +67,14 @@ void keel_virtual_imu_step__order_harness(void)
     for (uint32_t i = 0u; i < SENSORS; i++) {
         sample[i].age_us = nondet_u32();
         sample[i].present = nondet_bool();
-        for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+        for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
             sample[i].value[k] = nondet_float();
         }
     }
 
     keel_virtual_imu_step(&imu, sample, nondet_u32());
 
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+    for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
         __CPROVER_assert(voter_valid_here(&imu.channel[k]) &&
                              (imu.channel[k].config.sensors == units),
                          "IMU_002_valid: each channel stays valid");

@@ -1,72 +1,118 @@
 // cbmc: --unwind 7 --external-sat-solver cadical
-// sources: src/middleware/virtual_imu.c src/middleware/voter.c
-// defines: -DKEEL_VOTER_SENSORS=2u
-// covers: keel_virtual_imu_step note
+// sources: src/middleware/virtual_imu.c src/middleware/voter.c specs/model/virtual_imu.c
+// defines: -DVOTER_FLOATS_OPEN
+// replaces: keel_voter_step keel_voter_step_unanimous
+// covers: keel_virtual_imu_step note model_virtual_imu_step
 //
-// Any unit may be absent, late or latched, any channel's last vote unanimous; the values are fixed,
-// another for each channel, as here it counts which sample goes where. How a channel votes:
-// keel_voter_step's harnesses.
-#include "keel/middleware/virtual_imu.h"
+// Every virtual unit of 2 to 4 units, every bit pattern of the samples. What a vote comes to is
+// unknown: the model's vote on a channel comes to anything that its contract allows. The code must
+// ask for that vote, on the same channel in the same state with the same samples, and is told the
+// same.
+//
+// The floats of a channel may be anything: the virtual unit does not look at them. That each
+// channel is valid in full when it votes: keel_virtual_imu_step__order_harness.c. Composed by hand:
+// a unanimous vote comes to what the whole vote comes to (VOT-018, shown in proofs/voter). When it
+// is taken is unknown, but only of a channel whose last vote was unanimous, and it stays so.
+#include "virtual_imu_proof.h"
 
-#include "../common/voter_proof.h"
+/* A vote on a channel: what was asked, and what came of it. */
+typedef struct ballot {
+    keel_voter_t before;
+    keel_voter_t after;
+    keel_voter_sample_t sample[SENSORS];
+    uint32_t elapsed_us;
+} ballot_t;
+
+static ballot_t ballot[CHANNELS];
+static keel_virtual_imu_t imu;
+static keel_virtual_imu_t model;
+
+static uint32_t channel_of(const keel_virtual_imu_t *unit, const keel_voter_t *voter)
+{
+    uint32_t channel = CHANNELS;
+
+    for (uint32_t k = 0u; k < CHANNELS; k++) {
+        channel = (voter == &unit->channel[k]) ? k : channel;
+    }
+    return channel;
+}
+
+void model_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us)
+{
+    ballot_t *const vote = &ballot[channel_of(&model, voter)];
+
+    vote->before = *voter;
+    vote->elapsed_us = elapsed_us;
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        vote->sample[i] = sample[i];
+    }
+    any_voter(&vote->after, nondet_float(), nondet_float());
+    vote->after.config = voter->config;
+    vote->after.none = voter->none;
+    __CPROVER_assume(keel_voter_step_does(&vote->after));
+    *voter = vote->after;
+}
+
+/* Asks for the vote that the model asked for, but for the time elapsed. */
+static void vote_as_the_model(keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    const ballot_t *const vote = &ballot[channel_of(&imu, voter)];
+
+    __CPROVER_assert(voter_same(voter, &vote->before), "IMU_002_state: in the same state");
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        __CPROVER_assert((i >= voter->config.sensors) ||
+                             voter_sample_same(&sample[i], &vote->sample[i]),
+                         "IMU_002_sample: with the same sample of each unit");
+    }
+    *voter = vote->after;
+}
+
+void keel_voter_step_stand_in(keel_voter_t *voter, const keel_voter_sample_t sample[],
+                              uint32_t elapsed_us)
+{
+    __CPROVER_assert(keel_voter_step_may(voter), "precondition: keel_voter_step");
+    __CPROVER_assert(elapsed_us == ballot[channel_of(&imu, voter)].elapsed_us,
+                     "IMU_002_elapsed: after the same time");
+    vote_as_the_model(voter, sample);
+    __CPROVER_assume(keel_voter_step_does(voter));
+}
+
+bool keel_voter_step_unanimous_stand_in(keel_voter_t *voter, const keel_voter_sample_t sample[],
+                                        uint32_t oldest_us)
+{
+    const bool taken = voter->unanimous && nondet_bool();
+
+    __CPROVER_assert(keel_voter_step_unanimous_may(voter, sample, oldest_us),
+                     "precondition: keel_voter_step_unanimous");
+    if (taken) {
+        vote_as_the_model(voter, sample);
+        __CPROVER_assume(voter->unanimous);
+    }
+    __CPROVER_assume(keel_voter_step_unanimous_does(voter));
+    return taken;
+}
 
 void keel_virtual_imu_step_harness(void)
 {
-    keel_virtual_imu_t imu;
-    keel_imu_sample_t sample[2];
-    bool was[KEEL_IMU_CHANNELS][2];
-    float before[KEEL_IMU_CHANNELS];
+    const uint8_t units = nondet_u8();
+    const uint32_t elapsed_us = nondet_u32();
+    keel_virtual_imu_sample_t sample[SENSORS];
+    keel_virtual_imu_sample_t before[SENSORS];
 
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
-        const keel_voter_config_t config = {1.0f, 3.0f, -9.0f, 9.0f, 0.0f, 5u, 2u, 0u, 0u, 2u};
-
-        imu.channel[k].config = config;
-        imu.channel[k].none = 3.0f;
-        imu.channel[k].unanimous = nondet_bool();
-        imu.channel[k].vote.output = imu.channel[k].unanimous ? 0.0f : 9.0f;
-        imu.channel[k].vote.state = KEEL_VOTER_MEAN;
-        imu.channel[k].vote.contributing = 2u;
-        before[k] = imu.channel[k].vote.output;
-        imu.channel[k].vote.held = 0u;
-        imu.channel[k].vote.held_us = 0u;
-        for (uint32_t i = 0u; i < 2u; i++) {
-            const keel_voter_sensor_t fresh = {0.0f, 0u, 0u, 0u, false};
-
-            imu.channel[k].sensor[i] = fresh;
-            was[k][i] = nondet_bool();
-            imu.channel[k].sensor[i].latched = was[k][i];
-            imu.channel[k].vote.weight[i] = 1.0f;
-            imu.channel[k].vote.reason[i] = KEEL_VOTER_USED;
-            sample[i].value[k] = (float)k;
-        }
-        __CPROVER_assume(!imu.channel[k].unanimous || unanimous_here(&imu.channel[k]));
+    any_virtual_imu(&imu, units);
+    for (uint32_t k = 0u; k < CHANNELS; k++) {
+        __CPROVER_assume(keel_voter_step_may(&imu.channel[k]));
     }
-    sample[0].age_us = nondet_u32();
-    sample[1].age_us = nondet_u32();
-    sample[0].present = nondet_bool();
-    sample[1].present = nondet_bool();
+    any_unit_samples(sample, before);
+    model = imu;
+    model_virtual_imu_step(&model, sample, elapsed_us);
 
-    keel_virtual_imu_step(&imu, sample, nondet_u32());
+    keel_virtual_imu_step(&imu, sample, elapsed_us);
 
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
-        __CPROVER_assert((imu.channel[k].vote.output == (float)k) ||
-                             ((imu.channel[k].vote.output == before[k]) &&
-                              (imu.channel[k].vote.contributing == 0u)),
-                         "IMU_002_valid: each channel votes on its own samples");
-        for (uint32_t i = 0u; i < 2u; i++) {
-            __CPROVER_assert((((imu.used[i] >> k) & 1u) != 0u) ==
-                                 (imu.channel[k].vote.reason[i] == KEEL_VOTER_USED),
-                             "IMU_003_used: a bit per channel that contributed");
-            __CPROVER_assert((((imu.latched[i] >> k) & 1u) != 0u) ==
-                                 imu.channel[k].sensor[i].latched,
-                             "IMU_003_latched: a bit per channel that is latched");
-            __CPROVER_assert(sample[i].present ||
-                                 (imu.channel[k].vote.reason[i] == KEEL_VOTER_LATCHED) ||
-                                 (imu.channel[k].vote.reason[i] == KEEL_VOTER_MISSING),
-                             "IMU_002_absent: an absent unit has no channel");
-            __CPROVER_assert((imu.channel[k].vote.reason[i] == KEEL_VOTER_LATE) ==
-                                 (!was[k][i] && sample[i].present && (sample[i].age_us > 5u)),
-                             "IMU_002_late: a unit's age is that of all its channels");
-        }
+    __CPROVER_assert(virtual_imu_same(&imu, &model), "IMU_002_model: as the model says");
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        __CPROVER_assert(unit_sample_same(&sample[i], &before[i]),
+                         "IMU_002_read: the samples are only read");
     }
+    __CPROVER_assert(noted_here(&imu), "IMU_003_noted: bits as the channels say");
 }

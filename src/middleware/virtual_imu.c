@@ -1,6 +1,7 @@
 #include "keel/middleware/virtual_imu.h"
 
-keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu, const keel_imu_config_t *config)
+keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu,
+                                    const keel_virtual_imu_config_t *config)
 {
     const keel_status_t accelerometer = keel_voter_check(&config->accelerometer);
     const keel_status_t gyroscope = keel_voter_check(&config->gyroscope);
@@ -14,13 +15,13 @@ keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu, const keel_imu_conf
     if (config->accelerometer.sensors != config->gyroscope.sensors) {
         return KEEL_ERR_SENSORS;
     }
-    /*@ loop invariant 0 <= k <= KEEL_IMU_CHANNELS;
-      @ loop assigns k, imu->channel[0 .. KEEL_IMU_CHANNELS - 1];
-      @ loop variant KEEL_IMU_CHANNELS - k;
+    /*@ loop invariant 0 <= k <= KEEL_VIRTUAL_IMU_CHANNELS;
+      @ loop assigns k, imu->channel[0 .. KEEL_VIRTUAL_IMU_CHANNELS - 1];
+      @ loop variant KEEL_VIRTUAL_IMU_CHANNELS - k;
       @*/
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+    for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
         /* Both are valid, so this refuses nothing. */
-        (void)keel_voter_init(&imu->channel[k], (k < KEEL_IMU_ACCELEROMETER)
+        (void)keel_voter_init(&imu->channel[k], (k < KEEL_VIRTUAL_IMU_ACCELEROMETER)
                                                     ? &config->accelerometer
                                                     : &config->gyroscope);
     }
@@ -37,7 +38,7 @@ keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu, const keel_imu_conf
 }
 
 /* Notes the verdicts of a channel's last vote. Of a sensor that contributed there is none. */
-/*@ requires \valid(imu) && channel < KEEL_IMU_CHANNELS;
+/*@ requires \valid(imu) && channel < KEEL_VIRTUAL_IMU_CHANNELS;
   @ requires imu->channel[channel].config.sensors <= KEEL_VOTER_SENSORS;
   @ assigns imu->used[0 .. KEEL_VOTER_SENSORS - 1], imu->latched[0 .. KEEL_VOTER_SENSORS - 1];
   @*/
@@ -60,7 +61,7 @@ static void note(keel_virtual_imu_t *imu, uint32_t channel)
     }
 }
 
-void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_imu_sample_t sample[],
+void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_virtual_imu_sample_t sample[],
                            uint32_t elapsed_us)
 {
     const uint32_t units = imu->channel[0].config.sensors;
@@ -82,18 +83,18 @@ void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_imu_sample_t samp
         one[i].present = sample[i].present;
         oldest_us = (sample[i].age_us > oldest_us) ? sample[i].age_us : oldest_us;
         complete = complete && sample[i].present;
-        imu->used[i] = KEEL_IMU_ALL;
+        imu->used[i] = KEEL_VIRTUAL_IMU_ALL;
         imu->latched[i] = 0u;
     }
-    /*@ loop invariant 0 <= k <= KEEL_IMU_CHANNELS;
-      @ loop invariant sensors_stay: \forall integer j; k <= j < KEEL_IMU_CHANNELS ==>
+    /*@ loop invariant 0 <= k <= KEEL_VIRTUAL_IMU_CHANNELS;
+      @ loop invariant sensors_stay: \forall integer j; k <= j < KEEL_VIRTUAL_IMU_CHANNELS ==>
       @     imu->channel[j].config.sensors == units;
       @ loop invariant \forall integer j; 0 <= j < units ==>
       @     one[j].age_us <= oldest_us && (complete ==> one[j].present);
       @ loop assigns k, one[0 .. KEEL_VOTER_SENSORS - 1], *imu;
-      @ loop variant KEEL_IMU_CHANNELS - k;
+      @ loop variant KEEL_VIRTUAL_IMU_CHANNELS - k;
       @*/
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+    for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
         /*@ loop invariant 0 <= i <= units;
           @ loop invariant \forall integer j; 0 <= j < units ==>
           @     one[j].age_us <= oldest_us && (complete ==> one[j].present);
@@ -117,13 +118,13 @@ keel_status_t keel_virtual_imu_readmit(keel_virtual_imu_t *imu, uint32_t unit)
     if (unit >= imu->channel[0].config.sensors) {
         return KEEL_ERR_SENSORS;
     }
-    /*@ loop invariant 0 <= k <= KEEL_IMU_CHANNELS;
-      @ loop invariant \forall integer j; 0 <= j < KEEL_IMU_CHANNELS ==>
+    /*@ loop invariant 0 <= k <= KEEL_VIRTUAL_IMU_CHANNELS;
+      @ loop invariant \forall integer j; 0 <= j < KEEL_VIRTUAL_IMU_CHANNELS ==>
       @     imu->channel[j].config.sensors == \at(imu->channel[j].config.sensors, Pre);
-      @ loop assigns k, status, imu->channel[0 .. KEEL_IMU_CHANNELS - 1];
-      @ loop variant KEEL_IMU_CHANNELS - k;
+      @ loop assigns k, status, imu->channel[0 .. KEEL_VIRTUAL_IMU_CHANNELS - 1];
+      @ loop variant KEEL_VIRTUAL_IMU_CHANNELS - k;
       @*/
-    for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+    for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
         if (keel_voter_readmit(&imu->channel[k], unit) == KEEL_OK) {
             status = KEEL_OK;
         }

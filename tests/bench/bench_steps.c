@@ -85,12 +85,12 @@ static void bench_run_pid(void)
 
 /* Samples that keep moving: of all units within the distance of full agreement, or with the last
  * unit's beyond that of none. */
-static void bench_fill(keel_imu_sample_t sample[UNITS], uint32_t n, float offset)
+static void bench_fill(keel_virtual_imu_sample_t sample[UNITS], uint32_t n, float offset)
 {
     for (uint32_t i = 0u; i < UNITS; i++) {
         sample[i].age_us = 100u;
         sample[i].present = true;
-        for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+        for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
             sample[i].value[k] = (0.2f * bench_signal((3u * n) + (7u * i) + k)) +
                                  ((i == (UNITS - 1u)) ? offset : 0.0f);
         }
@@ -107,8 +107,8 @@ static void bench_run_imu(const char *name, float offset, uint8_t contributing)
                                        .latch_count = UINT16_MAX,
                                        .stale_count = 50u,
                                        .sensors = UNITS};
-    const keel_imu_config_t config = {voter, voter};
-    keel_imu_sample_t sample[UNITS];
+    const keel_virtual_imu_config_t config = {voter, voter};
+    keel_virtual_imu_sample_t sample[UNITS];
 
     bench_require(keel_virtual_imu_init(&bench_imu, &config) == KEEL_OK, "virtual IMU");
     for (uint32_t n = 0u; n < STEPS; n++) {
@@ -116,7 +116,7 @@ static void bench_run_imu(const char *name, float offset, uint8_t contributing)
         CALLGRIND_TOGGLE_COLLECT;
         keel_virtual_imu_step(&bench_imu, sample, 1000u);
         CALLGRIND_TOGGLE_COLLECT;
-        for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+        for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
             bench_require(bench_imu.channel[k].vote.contributing == contributing, "vote");
         }
     }

@@ -287,12 +287,12 @@ static void bench_pid(void)
 }
 
 /* Three units that differ a little, the last by an offset more: as in bench_steps.c. */
-static void fill(keel_imu_sample_t sample[UNITS], uint32_t n, float offset)
+static void fill(keel_virtual_imu_sample_t sample[UNITS], uint32_t n, float offset)
 {
     for (uint32_t i = 0u; i < UNITS; i++) {
         sample[i].age_us = 100u;
         sample[i].present = true;
-        for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+        for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
             sample[i].value[k] = (0.2f * signal_at((3u * n) + (7u * i) + k)) +
                                  ((i == (UNITS - 1u)) ? offset : 0.0f);
         }
@@ -302,7 +302,7 @@ static void fill(keel_imu_sample_t sample[UNITS], uint32_t n, float offset)
 static void bench_imu(const char *name, float offset, uint8_t contributing)
 {
     static keel_virtual_imu_t imu KEEL_REALTIME_ZERO;
-    static keel_imu_sample_t sample[UNITS];
+    static keel_virtual_imu_sample_t sample[UNITS];
     const keel_voter_config_t voter = {.agree = 0.25f,
                                        .cutoff = 3.0f,
                                        .lowest = -160.0f,
@@ -311,7 +311,7 @@ static void bench_imu(const char *name, float offset, uint8_t contributing)
                                        .latch_count = UINT16_MAX,
                                        .stale_count = 50u,
                                        .sensors = UNITS};
-    const keel_imu_config_t settings = {voter, voter};
+    const keel_virtual_imu_config_t settings = {voter, voter};
     kind_t steps = {name, 0u, 0u, 0u};
 
     require(keel_virtual_imu_init(&imu, &settings) == KEEL_OK);
@@ -319,7 +319,7 @@ static void bench_imu(const char *name, float offset, uint8_t contributing)
         fill(sample, n, offset);
         add(&steps,
             measure((function_t)keel_virtual_imu_step, &imu, (uint32_t)sample, 1000u, false));
-        for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+        for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
             require(imu.channel[k].vote.contributing == contributing);
         }
     }

@@ -67,15 +67,15 @@ keel_voter_config_t configuration(int kind, std::uint16_t density_limit)
     return config;
 }
 
-using Samples = std::array<keel_imu_sample_t, units>;
+using Samples = std::array<keel_virtual_imu_sample_t, units>;
 
 /* What a fault makes of a unit's sample; i counts the samples since it began. */
-void spoil(keel_imu_sample_t &sample, const std::string &fault, int i,
-           const keel_imu_sample_t &frozen, std::mt19937_64 &generator)
+void spoil(keel_virtual_imu_sample_t &sample, const std::string &fault, int i,
+           const keel_virtual_imu_sample_t &frozen, std::mt19937_64 &generator)
 {
     std::normal_distribution<double> normal;
 
-    for (unsigned k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+    for (unsigned k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
         const double a = agree[k / 3u];
         float &value = sample.value[k];
 
@@ -133,15 +133,15 @@ struct Flight {
 Flight fly(const std::string &fault, int unit, double start_s, std::uint16_t density_limit,
            bool traced)
 {
-    const keel_imu_config_t config = {configuration(0, density_limit),
-                                      configuration(1, density_limit)};
+    const keel_virtual_imu_config_t config = {configuration(0, density_limit),
+                                              configuration(1, density_limit)};
     const int start = static_cast<int>(start_s * rate_hz);
     const bool two = fault.rfind("two", 0) == 0;
     std::mt19937_64 generator(static_cast<std::uint64_t>(unit) * 1000u + start);
     std::normal_distribution<double> normal;
     keel_virtual_imu_t imu;
     Samples sample = {};
-    keel_imu_sample_t frozen = {};
+    keel_virtual_imu_sample_t frozen = {};
     Angles with;
     Angles without;
     Flight flight;
@@ -196,7 +196,7 @@ Flight fly(const std::string &fault, int unit, double start_s, std::uint16_t den
         if ((flight.first_latch_s < 0.0) && (imu.latched[unit] != 0u)) {
             flight.first_latch_s = t - start_s;
         }
-        if ((flight.all_latched_s < 0.0) && (imu.latched[unit] == KEEL_IMU_ALL)) {
+        if ((flight.all_latched_s < 0.0) && (imu.latched[unit] == KEEL_VIRTUAL_IMU_ALL)) {
             flight.all_latched_s = t - start_s;
         }
         with.step(voted);

@@ -21,9 +21,9 @@ static const keel_voter_config_t gyroscope = {.agree = 0.5f,
                                               .max_age_us = 5000u,
                                               .latch_count = 2u,
                                               .sensors = 3u};
-static keel_imu_config_t config;
+static keel_virtual_imu_config_t config;
 static keel_virtual_imu_t imu;
-static keel_imu_sample_t sample[3];
+static keel_virtual_imu_sample_t sample[3];
 
 void setUp(void)
 {
@@ -33,7 +33,7 @@ void setUp(void)
     for (uint32_t i = 0u; i < 3u; i++) {
         sample[i].age_us = 0u;
         sample[i].present = true;
-        for (uint32_t k = 0u; k < KEEL_IMU_CHANNELS; k++) {
+        for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
             sample[i].value[k] = (float)k;
         }
     }
@@ -87,12 +87,12 @@ static void IMU_002_unanimous_votes_and_others(void)
     keel_virtual_imu_step(&imu, sample, 1000u);
     TEST_ASSERT_EQUAL_FLOAT(2.5f, imu.channel[2].vote.output);
     TEST_ASSERT_EQUAL_FLOAT(5.0f, imu.channel[5].vote.output);
-    TEST_ASSERT_EQUAL_HEX8(KEEL_IMU_ALL, imu.used[2]);
+    TEST_ASSERT_EQUAL_HEX8(KEEL_VIRTUAL_IMU_ALL, imu.used[2]);
     sample[0].age_us = 5001u; /* Not the oldest in order: the others are as old as may be. */
     sample[2].age_us = 5000u;
     keel_virtual_imu_step(&imu, sample, 1000u);
     TEST_ASSERT_EQUAL_HEX8(0u, imu.used[0]);
-    TEST_ASSERT_EQUAL_HEX8(KEEL_IMU_ALL, imu.used[2]);
+    TEST_ASSERT_EQUAL_HEX8(KEEL_VIRTUAL_IMU_ALL, imu.used[2]);
     TEST_ASSERT_EQUAL_FLOAT(2.625f, imu.channel[2].vote.output);
     TEST_ASSERT_EQUAL(KEEL_OK, keel_virtual_imu_init(&imu, &config));
     sample[0].age_us = 0u;
@@ -107,7 +107,7 @@ static void IMU_003_verdicts_per_unit(void)
 {
     sample[2].value[4] = 6.0f;
     keel_virtual_imu_step(&imu, sample, 1000u);
-    TEST_ASSERT_EQUAL_HEX8(KEEL_IMU_ALL, imu.used[0]);
+    TEST_ASSERT_EQUAL_HEX8(KEEL_VIRTUAL_IMU_ALL, imu.used[0]);
     TEST_ASSERT_EQUAL_HEX8(0x2Fu, imu.used[2]);
     TEST_ASSERT_EQUAL_HEX8(0u, imu.latched[2]);
     keel_virtual_imu_step(&imu, sample, 1000u);
@@ -120,7 +120,7 @@ static void IMU_003_a_silent_unit_loses_all_channels(void)
     sample[1].present = false;
     keel_virtual_imu_step(&imu, sample, 1000u);
     keel_virtual_imu_step(&imu, sample, 1000u);
-    TEST_ASSERT_EQUAL_HEX8(KEEL_IMU_ALL, imu.latched[1]);
+    TEST_ASSERT_EQUAL_HEX8(KEEL_VIRTUAL_IMU_ALL, imu.latched[1]);
     TEST_ASSERT_EQUAL_HEX8(0u, imu.used[1]);
     sample[1].present = true;
     sample[0].age_us = 5001u; /* Late, and alone is the third. */

@@ -16,40 +16,63 @@
 #include <stdint.h>
 
 /** Channels of a unit: accelerometer x, y, z in m/s^2, then gyroscope x, y, z in rad/s. */
-#define KEEL_IMU_CHANNELS 6u
+#define KEEL_VIRTUAL_IMU_CHANNELS 6u
 /** How many of them are the accelerometer's. */
-#define KEEL_IMU_ACCELEROMETER 3u
+#define KEEL_VIRTUAL_IMU_ACCELEROMETER 3u
 /** The verdict of a unit with all channels: a bit per channel, channel 0 the lowest. */
-#define KEEL_IMU_ALL 0x3Fu
+#define KEEL_VIRTUAL_IMU_ALL 0x3Fu
 
 /** How the units vote. */
-typedef struct keel_imu_config {
+typedef struct keel_virtual_imu_config {
     keel_voter_config_t accelerometer; /**< Of channels 0 to 2, in m/s^2. */
     keel_voter_config_t gyroscope;     /**< Of channels 3 to 5, in rad/s; as many sensors. */
-} keel_imu_config_t;
+} keel_virtual_imu_config_t;
 
 /** What one unit measured. Values may be any bit pattern. */
-typedef struct keel_imu_sample {
-    float value[KEEL_IMU_CHANNELS]; /**< In m/s^2 and rad/s. */
-    uint32_t age_us;                /**< How long ago, in us. */
-    bool present;                   /**< Whether the unit gave a sample. */
-} keel_imu_sample_t;
+typedef struct keel_virtual_imu_sample {
+    float value[KEEL_VIRTUAL_IMU_CHANNELS]; /**< In m/s^2 and rad/s. */
+    uint32_t age_us;                        /**< How long ago, in us. */
+    bool present;                           /**< Whether the unit gave a sample. */
+} keel_virtual_imu_sample_t;
 
 /** A virtual unit. Written by the functions below alone; all of it may be read. */
 typedef struct keel_virtual_imu {
-    keel_voter_t channel[KEEL_IMU_CHANNELS]; /**< The output is channel[k].vote.output. */
-    uint8_t used[KEEL_VOTER_SENSORS];        /**< Per unit: its channels that contributed. */
-    uint8_t latched[KEEL_VOTER_SENSORS];     /**< Per unit: its channels latched as faulty. */
+    keel_voter_t channel[KEEL_VIRTUAL_IMU_CHANNELS]; /**< The output is channel[k].vote.output. */
+    uint8_t used[KEEL_VOTER_SENSORS];    /**< Per unit: its channels that contributed. */
+    uint8_t latched[KEEL_VOTER_SENSORS]; /**< Per unit: its channels latched as faulty. */
 } keel_virtual_imu_t;
 
-/*@ predicate imu_valid(keel_virtual_imu_t *imu) =
-  @     \forall integer k; 0 <= k < KEEL_IMU_CHANNELS ==>
+/*@ // A unit's verdict on a channel: its bit.
+  @ predicate virtual_imu_bit(integer verdict, integer channel) = ((verdict >> channel) & 1) == 1;
+  @
+  @ // Whether a sensor contributed to a vote; before the first vote none has.
+  @ predicate voter_contributed(keel_vote_t *vote, integer sensor) =
+  @     vote->contributing > 0 && vote->reason[sensor] == KEEL_VOTER_USED;
+  @
+  @ // The verdicts say what the channels say.
+  @ predicate virtual_imu_noted(keel_virtual_imu_t *imu) =
+  @     \forall integer k, i; 0 <= k < KEEL_VIRTUAL_IMU_CHANNELS &&
+  @         0 <= i < imu->channel[k].config.sensors ==>
+  @         (virtual_imu_bit(imu->used[i], k) <==>
+  @             voter_contributed(&imu->channel[k].vote, i)) &&
+  @         (virtual_imu_bit(imu->latched[i], k) <==> imu->channel[k].sensor[i].latched);
+  @
+  @ // What holds of a virtual unit between any two calls.
+  @ predicate virtual_imu_valid(keel_virtual_imu_t *imu) =
+  @     virtual_imu_noted(imu) &&
+  @     \forall integer k; 0 <= k < KEEL_VIRTUAL_IMU_CHANNELS ==>
   @         voter_valid(&imu->channel[k]) &&
   @         imu->channel[k].config.sensors == imu->channel[0].config.sensors;
+  @
+  @ // Whether a configuration is accepted.
+  @ predicate virtual_imu_config_valid(keel_virtual_imu_config_t c) =
+  @     voter_config_valid(c.accelerometer) && voter_config_valid(c.gyroscope) &&
+  @     c.accelerometer.sensors == c.gyroscope.sensors;
   @*/
 
 /**
- * Makes a virtual unit ready for its first vote (requirement IMU-001).
+ * Makes a virtual unit ready for its first vote (requirement IMU-001). Each channel is then as
+ * keel_voter_init makes it, with the configuration of its kind.
  *
  * @param imu    the virtual unit
  * @param config how it votes
@@ -58,44 +81,81 @@ typedef struct keel_virtual_imu {
  */
 /*@ requires \valid(imu) && \valid_read(config) && \separated(imu, config);
   @ assigns *imu;
-  @ ensures IMU_001_refused:
-  @     (!voter_config_valid(config->accelerometer) || !voter_config_valid(config->gyroscope) ||
-  @      config->accelerometer.sensors != config->gyroscope.sensors) ==> \result != KEEL_OK;
-  @ ensures IMU_001_ready: \result == KEEL_OK ==> imu_valid(imu);
+  @ ensures IMU_001_accepted: \result == KEEL_OK <==> virtual_imu_config_valid(*config);
+  @ ensures IMU_001_differ: voter_config_valid(config->accelerometer) &&
+  @     voter_config_valid(config->gyroscope) &&
+  @     config->accelerometer.sensors != config->gyroscope.sensors ==>
+  @         \result == KEEL_ERR_SENSORS;
+  @ ensures IMU_001_kept: \result != KEEL_OK ==> *imu == \old(*imu);
+  @ ensures IMU_001_ready: \result == KEEL_OK ==> virtual_imu_valid(imu);
+  @ ensures IMU_001_accelerometer: \result == KEEL_OK ==> \forall integer k;
+  @     0 <= k < KEEL_VIRTUAL_IMU_ACCELEROMETER ==>
+  @         imu->channel[k].config == config->accelerometer &&
+  @         imu->channel[k].vote.output == config->accelerometer.initial;
+  @ ensures IMU_001_gyroscope: \result == KEEL_OK ==> \forall integer k;
+  @     KEEL_VIRTUAL_IMU_ACCELEROMETER <= k < KEEL_VIRTUAL_IMU_CHANNELS ==>
+  @         imu->channel[k].config == config->gyroscope &&
+  @         imu->channel[k].vote.output == config->gyroscope.initial;
+  @ ensures IMU_001_fresh: \result == KEEL_OK ==> \forall integer i;
+  @     0 <= i < KEEL_VOTER_SENSORS ==> imu->used[i] == 0 && imu->latched[i] == 0;
   @*/
-keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu, const keel_imu_config_t *config);
+keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu,
+                                    const keel_virtual_imu_config_t *config);
 
 /**
- * Takes a vote on each channel (requirements IMU-002 and IMU-003).
+ * Takes a vote on each channel (requirements IMU-002 and IMU-003): on channel k, each unit's
+ * value[k] with the unit's age and presence, as keel_voter_step takes it.
  *
  * @param imu        the virtual unit, initialised
  * @param sample     a sample per unit, N of them, in the order of the units
  * @param elapsed_us the time since the last vote, in us
  */
-/*@ requires \valid(imu) && imu_valid(imu);
+/*@ requires \valid(imu) && virtual_imu_valid(imu);
   @ requires \valid_read(sample + (0 .. imu->channel[0].config.sensors - 1));
   @ requires \separated(imu, sample + (0 .. imu->channel[0].config.sensors - 1));
   @ assigns *imu;
-  @ ensures IMU_002_valid: imu_valid(imu);
+  @ ensures IMU_002_valid: virtual_imu_valid(imu);
+  @ ensures IMU_002_config: \forall integer k; 0 <= k < KEEL_VIRTUAL_IMU_CHANNELS ==>
+  @     imu->channel[k].config == \old(imu->channel[k].config);
+  @ ensures IMU_003_used: \forall integer k, i; 0 <= k < KEEL_VIRTUAL_IMU_CHANNELS &&
+  @     0 <= i < imu->channel[k].config.sensors ==>
+  @         (virtual_imu_bit(imu->used[i], k) <==>
+  @             imu->channel[k].vote.reason[i] == KEEL_VOTER_USED);
+  @ ensures IMU_003_latched: \forall integer k, i; 0 <= k < KEEL_VIRTUAL_IMU_CHANNELS &&
+  @     0 <= i < imu->channel[k].config.sensors ==>
+  @         (virtual_imu_bit(imu->latched[i], k) <==> imu->channel[k].sensor[i].latched);
   @*/
-void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_imu_sample_t sample[],
+void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_virtual_imu_sample_t sample[],
                            uint32_t elapsed_us);
 
 /**
- * Readmits all latched channels of a unit (requirement IMU-004).
+ * Readmits all latched channels of a unit (requirement IMU-004). Which channels contributed to the
+ * last vote stays noted.
  *
  * @param imu  the virtual unit
  * @param unit the unit's index
  * @return KEEL_OK; KEEL_ERR_SENSORS when there is no such unit, KEEL_ERR_STATE when none of its
  *         channels is latched: then nothing changes
  */
-/*@ requires \valid(imu) && imu_valid(imu);
+/*@ requires \valid(imu) && virtual_imu_valid(imu);
   @ assigns *imu;
+  @ ensures IMU_004_valid: virtual_imu_valid(imu);
   @ ensures IMU_004_unknown: unit >= imu->channel[0].config.sensors <==>
   @     \result == KEEL_ERR_SENSORS;
+  @ ensures IMU_004_accepted: \result == KEEL_OK <==>
+  @     unit < imu->channel[0].config.sensors && (\exists integer k;
+  @         0 <= k < KEEL_VIRTUAL_IMU_CHANNELS && \old(imu->channel[k].sensor[unit].latched));
   @ ensures IMU_004_readmitted: \result == KEEL_OK ==> \forall integer k;
-  @     0 <= k < KEEL_IMU_CHANNELS ==> !imu->channel[k].sensor[unit].latched;
+  @     0 <= k < KEEL_VIRTUAL_IMU_CHANNELS ==> !imu->channel[k].sensor[unit].latched;
   @ ensures IMU_004_noted: \result == KEEL_OK ==> imu->latched[unit] == 0;
+  @ ensures IMU_004_others: \forall integer k, i; 0 <= k < KEEL_VIRTUAL_IMU_CHANNELS &&
+  @     0 <= i < KEEL_VOTER_SENSORS && i != unit ==>
+  @         imu->channel[k].sensor[i] == \old(imu->channel[k].sensor[i]) &&
+  @         imu->latched[i] == \old(imu->latched[i]);
+  @ ensures IMU_004_votes: \forall integer k; 0 <= k < KEEL_VIRTUAL_IMU_CHANNELS ==>
+  @     imu->channel[k].vote == \old(imu->channel[k].vote);
+  @ ensures IMU_004_used: \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==>
+  @     imu->used[i] == \old(imu->used[i]);
   @ ensures IMU_004_kept: \result != KEEL_OK ==> *imu == \old(*imu);
   @*/
 keel_status_t keel_virtual_imu_readmit(keel_virtual_imu_t *imu, uint32_t unit);
