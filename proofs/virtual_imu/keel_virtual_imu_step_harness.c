@@ -21,7 +21,7 @@ void keel_virtual_imu_step_harness(void)
         const keel_voter_config_t config = {1.0f, 3.0f, -9.0f, 9.0f, 0.0f, 5u, 2u, 0u, 0u, 2u};
 
         imu.channel[k].config = config;
-        imu.channel[k].none = 3.0f;
+        imu.channel[k].disagree = 3.0f;
         imu.channel[k].unanimous = nondet_bool();
         imu.channel[k].vote.output = imu.channel[k].unanimous ? 0.0f : 9.0f;
         imu.channel[k].vote.state = KEEL_VOTER_MEAN;
