@@ -61,8 +61,8 @@ CAPACITIES: dict[str, tuple[int, list[str]]] = {
     "small": (1_000_000, [SMALL]),
 }
 
-SPECIFIED = ("admission", "admission_queue", "clock", "decision", "pass", "priority", "queue",
-             "scheduler", "stats", "task")  # fmt: skip
+SPECIFIED = ("admission", "admission_queue", "clock", "decision", "pass", "pass_run", "priority",
+             "queue", "scheduler", "stats", "task")  # fmt: skip
 MODEL_SOURCES = [f"tests/property/{name}.c" for name in ("model", "drive", "lockstep")]
 MODEL_SOURCES += [f"specs/model/{name}.c" for name in SPECIFIED]
 

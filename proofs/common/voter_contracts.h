@@ -17,10 +17,10 @@ static bool in_range_here(float x)
     return (-KEEL_VOTER_RANGE <= x) && (x <= KEEL_VOTER_RANGE);
 }
 
-static bool keel_voter_agreement_may(float x, float y, float agree, float none)
+static bool keel_voter_agreement_may(float x, float y, float agree, float disagree)
 {
     return (KEEL_VOTER_AGREE_MIN <= agree) && (agree <= KEEL_VOTER_AGREE_MAX) &&
-           none_valid_here(agree, none) && in_range_here(x) && in_range_here(y);
+           disagree_valid_here(agree, disagree) && in_range_here(x) && in_range_here(y);
 }
 
 /* 2^-24 is the least that is not 0: too small a weight could not be divided by. */
@@ -143,7 +143,7 @@ static bool voter_valid_here(const keel_voter_t *v)
 {
     bool valid = (2u <= v->config.sensors) && (v->config.sensors <= SENSORS) &&
                  agreement_valid_here(&v->config) && limits_valid_here(&v->config) &&
-                 none_valid_here(v->config.agree, v->none) && (v->config.max_age_us > 0u) &&
+                 disagree_valid_here(v->config.agree, v->disagree) && (v->config.max_age_us > 0u) &&
                  (v->config.latch_count > 0u) && (v->config.lowest <= v->vote.output) &&
                  (v->vote.output <= v->config.highest) && (!v->unanimous || unanimous_here(v));
 

@@ -44,14 +44,14 @@ static bool initial_valid_here(const keel_voter_config_t *c)
 /* voter_healthy */
 static bool healthy_here(const keel_voter_config_t *c, const keel_voter_sensor_t *s)
 {
-    return (s->null < c->latch_count) &&
+    return (s->condemned_votes < c->latch_count) &&
            ((c->density_limit == 0u) || (s->density < c->density_limit));
 }
 
 /* n a of a valid configuration */
-static bool none_valid_here(float agree, float none)
+static bool disagree_valid_here(float agree, float disagree)
 {
-    return (agree < none) && (none <= KEEL_VOTER_RANGE);
+    return (agree < disagree) && (disagree <= KEEL_VOTER_RANGE);
 }
 
 /* voter_config_valid */
@@ -59,7 +59,7 @@ static bool config_valid_here(const keel_voter_config_t *c)
 {
     return (2u <= c->sensors) && (c->sensors <= SENSORS) && agreement_valid_here(c) &&
            (1.0f < c->cutoff) && (c->cutoff <= (KEEL_VOTER_RANGE / KEEL_VOTER_AGREE_MIN)) &&
-           none_valid_here(c->agree, c->cutoff * c->agree) && limits_valid_here(c) &&
+           disagree_valid_here(c->agree, c->cutoff * c->agree) && limits_valid_here(c) &&
            initial_valid_here(c) && (c->max_age_us > 0u) && (c->latch_count > 0u);
 }
 
@@ -85,8 +85,8 @@ static keel_voter_sensor_t any_sensor(void)
     keel_voter_sensor_t s;
 
     s.last = nondet_float();
-    s.same = nondet_u16();
-    s.null = nondet_u16();
+    s.unchanged_votes = nondet_u16();
+    s.condemned_votes = nondet_u16();
     s.density = nondet_u16();
     s.latched = nondet_bool();
     return s;
@@ -103,8 +103,9 @@ static bool voter_config_same(const keel_voter_config_t *a, const keel_voter_con
 
 static bool voter_sensor_same(const keel_voter_sensor_t *a, const keel_voter_sensor_t *b)
 {
-    return float_same(a->last, b->last) && (a->same == b->same) && (a->null == b->null) &&
-           (a->density == b->density) && (a->latched == b->latched);
+    return float_same(a->last, b->last) && (a->unchanged_votes == b->unchanged_votes) &&
+           (a->condemned_votes == b->condemned_votes) && (a->density == b->density) &&
+           (a->latched == b->latched);
 }
 
 static bool vote_same(const keel_vote_t *a, const keel_vote_t *b)
@@ -121,7 +122,7 @@ static bool vote_same(const keel_vote_t *a, const keel_vote_t *b)
 
 static bool voter_same(const keel_voter_t *a, const keel_voter_t *b)
 {
-    bool same = voter_config_same(&a->config, &b->config) && float_same(a->none, b->none) &&
+    bool same = voter_config_same(&a->config, &b->config) && float_same(a->disagree, b->disagree) &&
                 vote_same(&a->vote, &b->vote) && (a->unanimous == b->unanimous);
 
     for (uint32_t i = 0u; i < SENSORS; i++) {
@@ -152,10 +153,10 @@ static bool unanimous_here(const keel_voter_t *v)
         if (i < v->config.sensors) {
             const keel_voter_sensor_t *const s = &v->sensor[i];
 
-            clean = clean && !s->latched && (s->same == 0u) && (s->null == 0u) &&
-                    (s->density == 0u) && (v->vote.weight[i] == 1.0f) &&
-                    (v->vote.reason[i] == KEEL_VOTER_USED) && (v->config.lowest <= s->last) &&
-                    (s->last <= v->config.highest);
+            clean = clean && !s->latched && (s->unchanged_votes == 0u) &&
+                    (s->condemned_votes == 0u) && (s->density == 0u) &&
+                    (v->vote.weight[i] == 1.0f) && (v->vote.reason[i] == KEEL_VOTER_USED) &&
+                    (v->config.lowest <= s->last) && (s->last <= v->config.highest);
             above = above || (s->last <= v->vote.output);
             below = below || (v->vote.output <= s->last);
         }
@@ -166,11 +167,11 @@ static bool unanimous_here(const keel_voter_t *v)
 }
 
 /* Any channel with this a and n a; voter_valid_here tells whether it is valid. */
-static void any_voter(keel_voter_t *voter, float agree, float none)
+static void any_voter(keel_voter_t *voter, float agree, float disagree)
 {
     voter->config = any_voter_config();
     voter->config.agree = agree;
-    voter->none = none;
+    voter->disagree = disagree;
     voter->vote.output = nondet_float();
     voter->vote.held = nondet_u32();
     voter->vote.held_us = nondet_u32();

@@ -1,162 +1,167 @@
-// cbmc: --unwind 35
-// sources: src/rtos/pass.c
+// cbmc: --unwind 7 --external-sat-solver cadical
+// sources: src/rtos/pass.c specs/model/pass_run.c
 // replaces: keel_pass_next keel_pass_finish
-// covers: keel_pass_run run_task
+// covers: keel_pass_run run_task model_pass_run
 // defines: -DKEEL_QUEUE_CAPACITY=4u
 //
-// A pass is, for each task that next hands out, its body and finish, until it ends: each at the
-// stage that it asks for, with a reading of the clock made for it, and with nothing done to the
-// scheduler by the pass itself. Next and finish are whatever their contracts allow
-// (step_contracts.h), a body is whatever adding and removing tasks do to a pass. One arbitrary
-// real-time task is followed through it, by its position: if it is due, and nobody removes it, it
-// runs, once, and none before it in the queue runs later. Bounded to a capacity of 4 tasks, with
-// which the solver comes to an end in a minute; the contract under WP has no bound.
+// Every valid scheduler of up to 4 tasks, with which the solver comes to an end in half a minute.
+// Next, the bodies, the clock and finish are unknown functions, the same for the code and for the
+// model, of what they are given and of the fields that they write here: the stage, the pass, and
+// busy_us in the place of all others. So a part that is called at another moment, with another
+// argument, or once more or less, leaves another state behind; and what the pass writes of itself
+// stays to be seen. Of the parts no more is known than their contracts (step_contracts.h), and
+// that outside a pass next and finish change nothing (SCH-014, SCH-018).
+#include "../../specs/model/pass.h"
 #include "../common/keel_scheduler_proof.h"
 #include "../common/step_contracts.h"
 
-#define GONE UINT32_MAX
+uint32_t __CPROVER_uninterpreted_next(uint64_t mark, uint64_t pass);
+uint32_t __CPROVER_uninterpreted_body(uint64_t mark, uint64_t pass, uint32_t which, uint32_t given);
+uint32_t __CPROVER_uninterpreted_clock(uint64_t mark, uint64_t pass, uint32_t nth, uint32_t given);
+uint32_t __CPROVER_uninterpreted_finish(uint64_t mark, uint64_t pass, uint32_t raw_us);
 
-typedef enum moment {
-    IN_PASS,
-    HANDED_OUT,
-    HAS_RUN,
-    OVER
-} moment_t;
+static keel_scheduler_t *acting; /* The scheduler whose pass is run: the model's or the code's. */
+static keel_task_config_t declared[2];
+static uint32_t contexts[3]; /* The two tasks' and the clock's. */
 
-static keel_scheduler_t scheduler;
-static keel_scheduler_t left; /* The scheduler as one who may change it has left it. */
-static keel_task_config_t declaration;
-static uint32_t body_context;
-static moment_t moment;
-static keel_status_t expected;
-static uint32_t followed; /* The position of the task that is followed; GONE when it was removed. */
-static bool due;
-static uint32_t runs;
-
-static bool is_as_left(void)
+static uint32_t number_of(const void *context)
 {
-    return scheduler_same(&scheduler, &left, 0u);
-}
+    uint32_t number = 3u;
 
-/* One who may change the scheduler does. */
-static void change(void)
-{
-    scheduler.stage = nondet_s16();
-    scheduler.cursor = nondet_s16();
-    scheduler.pass_end = nondet_s16();
-    scheduler.running = nondet_s16();
-    scheduler.wake_us = nondet_u64();
-    scheduler.busy_us = nondet_u64();
-    scheduler.clock.now_us = nondet_u64();
-    scheduler.clock.raw_us = nondet_u32();
-    scheduler.earliest_realtime_us = nondet_u64();
-    scheduler.earliest_other_us = nondet_u64();
-    left = scheduler;
-}
-
-static uint32_t counted_clock(void *context)
-{
-    (void)context;
-    __CPROVER_assert(moment == HAS_RUN, "SCH_023_reading: the clock is read after a body");
-    clock_readings++;
-    clock_reading = nondet_u32();
-    return clock_reading;
-}
-
-const keel_task_config_t *keel_pass_next_stand_in(keel_scheduler_t *given)
-{
-    const keel_scheduler_t before = scheduler;
-    const keel_task_config_t *const chosen = nondet_bool() ? &declaration : NULL;
-
-    __CPROVER_assert(keel_pass_next_may(given), "precondition: keel_pass_next");
-    __CPROVER_assert((given == &scheduler) && is_as_left() && (moment == IN_PASS),
-                     "SCH_023_sequence: next opens, or follows finish, in a pass");
-    change();
-    __CPROVER_assume(keel_pass_next_does(chosen, &before, &scheduler, followed, due));
-    moment = (chosen != NULL) ? HANDED_OUT : OVER;
-    if (scheduler.stage == KEEL_STAGE_REALTIME) {
-        __CPROVER_assert((runs == 0u) || (followed == GONE) || (followed < scheduler.running),
-                         "SCH_023_order: real-time tasks run in queue order");
-        if (scheduler.running == followed) {
-            runs++;
-            due = false;
-        }
+    for (uint32_t i = 0u; i < 3u; i++) {
+        number = (context == &contexts[i]) ? i : number;
     }
-    return chosen;
+    return number;
 }
 
-/* Adding puts no task before one of the pass, removing moves up all that stand behind: a task
- * stays on its side of the cursor and of the pass' end (SCH_004_order, SCH_007_order,
- * SCH_007_pass). */
-static void body(void *context)
+static uint64_t pass_of(const keel_scheduler_t *scheduler)
 {
-    const keel_scheduler_t before = scheduler;
-    const uint32_t was = followed;
-
-    __CPROVER_assert((context == &body_context) && is_as_left() && (moment == HANDED_OUT),
-                     "SCH_023_sequence: the body of the task handed out follows, with its context");
-    change();
-    __CPROVER_assume((scheduler.stage == before.stage) && (0 <= scheduler.cursor) &&
-                     (scheduler.cursor <= before.cursor) &&
-                     (scheduler.cursor <= scheduler.pass_end) &&
-                     ((scheduler.pass_end - scheduler.cursor) <=
-                      (before.pass_end - before.cursor)));
-    followed = nondet_u32();
-    __CPROVER_assume((followed == GONE) ||
-                     ((was != GONE) && (followed <= was) &&
-                      ((followed < scheduler.cursor) == (was < before.cursor)) &&
-                      ((followed < scheduler.pass_end) == (was < before.pass_end))));
-    due = due && (followed != GONE);
-    moment = HAS_RUN;
+    return ((uint64_t)(uint16_t)scheduler->cursor << 48u) |
+           ((uint64_t)(uint16_t)scheduler->pass_end << 32u) |
+           ((uint64_t)(uint16_t)(scheduler->running + 1) << 16u) | (uint16_t)scheduler->stage;
 }
 
-keel_status_t keel_pass_finish_stand_in(keel_scheduler_t *given, uint32_t raw_us)
+/* What a part leaves behind, out of one number. */
+static void leave(keel_scheduler_t *scheduler, uint32_t mark)
 {
-    const keel_scheduler_t before = scheduler;
+    scheduler->busy_us = mark;
+    scheduler->stage = (int16_t)(mark & 7u);
+    scheduler->running = (int16_t)((mark >> 8u) & UINT8_MAX) - 1;
+    scheduler->cursor = (int16_t)((mark >> 16u) & UINT8_MAX);
+    scheduler->pass_end = (int16_t)((mark >> 24u) & UINT8_MAX);
+}
 
-    __CPROVER_assert(keel_pass_finish_may(given), "precondition: keel_pass_finish");
-    __CPROVER_assert((given == &scheduler) && is_as_left() && (moment == HAS_RUN),
-                     "SCH_023_sequence: finish follows the body");
-    __CPROVER_assert((clock_readings == 1u) && (raw_us == clock_reading),
-                     "SCH_023_reading: one reading for each body");
-    clock_readings = 0u;
-    expected = nondet_bool() ? KEEL_OK : KEEL_ERR_CLOCK;
-    change();
-    __CPROVER_assume(keel_pass_finish_does(expected, &before, &scheduler));
-    due = due || ((followed != GONE) && nondet_bool());
-    moment = (scheduler.stage == KEEL_STAGE_PASS) ? IN_PASS : OVER;
-    return expected;
+/* The bit of such a number that decides what a part returns. */
+static bool chooses(uint32_t mark, uint32_t bit)
+{
+    return ((mark >> (3u + bit)) & 1u) != 0u;
+}
+
+const keel_task_config_t *model_pass_next(keel_scheduler_t *scheduler)
+{
+    const keel_scheduler_t before = *scheduler;
+    const uint32_t mark = __CPROVER_uninterpreted_next(before.busy_us, pass_of(&before));
+    const keel_task_config_t *task = NULL;
+
+    if (before.stage == KEEL_STAGE_PASS) {
+        leave(scheduler, mark);
+        task = chooses(mark, 0u) ? &declared[chooses(mark, 1u) ? 1u : 0u] : NULL;
+        __CPROVER_assume(keel_pass_next_does(task, &before, scheduler, CAPACITY, false));
+    }
+    return task;
+}
+
+const keel_task_config_t *keel_pass_next_stand_in(keel_scheduler_t *scheduler)
+{
+    const keel_scheduler_t before = *scheduler;
+    const keel_task_config_t *task;
+
+    __CPROVER_assert(keel_pass_next_may(scheduler), "precondition: keel_pass_next");
+    task = model_pass_next(scheduler);
+    __CPROVER_assume(keel_pass_next_does(task, &before, scheduler, CAPACITY, false));
+    return task;
+}
+
+/* What a body does, adding and removing tasks: the pass does not grow longer (SCH_007_pass). */
+static void run_body(uint32_t which, const void *context)
+{
+    const keel_scheduler_t before = *acting;
+
+    leave(acting, __CPROVER_uninterpreted_body(before.busy_us, pass_of(&before), which,
+                                               number_of(context)));
+    __CPROVER_assume((acting->stage == before.stage) && (acting->cursor <= acting->pass_end) &&
+                     ((acting->pass_end - acting->cursor) <= (before.pass_end - before.cursor)));
+}
+
+static void first_body(void *context)
+{
+    run_body(0u, context);
+}
+
+static void second_body(void *context)
+{
+    run_body(1u, context);
+}
+
+static uint32_t unknown_clock(void *context)
+{
+    clock_readings++;
+    return __CPROVER_uninterpreted_clock(acting->busy_us, pass_of(acting), clock_readings,
+                                         number_of(context));
+}
+
+keel_status_t model_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us)
+{
+    const keel_scheduler_t before = *scheduler;
+    const uint32_t mark = __CPROVER_uninterpreted_finish(before.busy_us, pass_of(&before), raw_us);
+    keel_status_t status = KEEL_ERR_STATE;
+
+    if ((before.stage == KEEL_STAGE_REALTIME) || (before.stage == KEEL_STAGE_OTHER)) {
+        leave(scheduler, mark);
+        status = chooses(mark, 0u) ? KEEL_OK : KEEL_ERR_CLOCK;
+        __CPROVER_assume(keel_pass_finish_does(status, &before, scheduler));
+    }
+    return status;
+}
+
+keel_status_t keel_pass_finish_stand_in(keel_scheduler_t *scheduler, uint32_t raw_us)
+{
+    const keel_scheduler_t before = *scheduler;
+    keel_status_t status;
+
+    __CPROVER_assert(keel_pass_finish_may(scheduler), "precondition: keel_pass_finish");
+    status = model_pass_finish(scheduler, raw_us);
+    __CPROVER_assume(keel_pass_finish_does(status, &before, scheduler));
+    return status;
 }
 
 void keel_pass_run_harness(void)
 {
-    bool must_run;
-    bool is_open;
+    const uint32_t x = any_below(CAPACITY);
+    keel_scheduler_t scheduler;
+    keel_scheduler_t expected;
+    keel_status_t modelled;
     keel_status_t status;
 
-    declaration.run = body;
-    declaration.context = &body_context;
-    scheduler.queue.count = nondet_u8();
-    scheduler.queue.realtime_count = nondet_u8();
-    scheduler.config.read_clock = counted_clock;
-    change();
+    any_scheduler(&scheduler, CAPACITY);
+    scheduler.config.read_clock = unknown_clock;
+    scheduler.config.clock_context = &contexts[2];
+    declared[0].run = first_body;
+    declared[0].context = &contexts[0];
+    declared[1].run = second_body;
+    declared[1].context = &contexts[1];
     __CPROVER_assume(keel_pass_run_may(&scheduler));
-    followed = any_below(CAPACITY);
-    due = nondet_bool();
-    is_open = scheduler.stage == KEEL_STAGE_PASS;
-    must_run = is_open && due && (scheduler.cursor <= followed) && (followed < scheduler.pass_end);
-    moment = is_open ? IN_PASS : OVER;
-    expected = KEEL_OK;
+    expected = scheduler;
+    acting = &expected;
+    modelled = model_pass_run(&expected);
+    read_again();
+    acting = &scheduler;
 
     status = keel_pass_run(&scheduler);
 
+    __CPROVER_assert((status == modelled) && scheduler_same(&scheduler, &expected, x) &&
+                         is_read_as_often(),
+                     "SCH_023_model: as the model says");
     __CPROVER_assert(keel_pass_run_does(status, &scheduler),
                      "SCH_023_closed: the pass is closed, refused by the clock alone");
-    __CPROVER_assert(
-        (moment == OVER) && is_as_left() && (clock_readings == 0u),
-        "SCH_023_sequence: it ends with the pass, only its parts change the scheduler");
-    __CPROVER_assert(status == expected, "SCH_023_result: that of the last finish");
-    __CPROVER_assert(runs <= 1u, "SCH_023_once: no real-time task runs twice in a pass");
-    __CPROVER_assert((status != KEEL_OK) || !must_run || (followed == GONE) || (runs == 1u),
-                     "SCH_023_all: no due real-time task that is left is left out");
 }

@@ -8,21 +8,21 @@
 void keel_voter_agreement__bounds_harness(void)
 {
     const float agree = nondet_float();
-    const float none = nondet_float();
+    const float disagree = nondet_float();
     const float x = nondet_float();
     const float y = nondet_float();
     float distance;
     float s;
 
-    __CPROVER_assume(keel_voter_agreement_may(x, y, agree, none));
+    __CPROVER_assume(keel_voter_agreement_may(x, y, agree, disagree));
 
     distance = x - y;
-    s = keel_voter_agreement(x, y, agree, none);
+    s = keel_voter_agreement(x, y, agree, disagree);
 
     __CPROVER_assert((s >= 0.0f) && (s <= 1.0f), "VOT_004: an agreement lies in [0, 1]");
     if ((-agree <= distance) && (distance <= agree)) {
         __CPROVER_assert(s == 1.0f, "VOT_003_full: 1 up to a");
-    } else if ((distance <= -none) || (none <= distance)) {
+    } else if ((distance <= -disagree) || (disagree <= distance)) {
         __CPROVER_assert(s == 0.0f, "VOT_003_none: 0 from n a on");
     } else {
         __CPROVER_assert(s > 0.0f, "VOT_003_some: not 0 before n a");

@@ -12,9 +12,9 @@ void keel_voter_agreement_harness(void)
     const float x = nondet_float();
     const float y = nondet_float();
     const float agree = nondet_float();
-    const float none = nondet_float();
-    const float expected = model_voter_agreement(x, y, agree, none);
+    const float disagree = nondet_float();
+    const float expected = model_voter_agreement(x, y, agree, disagree);
 
-    __CPROVER_assert(float_same(keel_voter_agreement(x, y, agree, none), expected),
+    __CPROVER_assert(float_same(keel_voter_agreement(x, y, agree, disagree), expected),
                      "VOT_003_model: as the model says");
 }

@@ -5,7 +5,7 @@
 //
 // Every weight that keel_voter_weight may give, every bit pattern of the samples without weight.
 // The quotient is whatever its contract allows.
-#include "../common/voter_stand_ins.h"
+#include "voter_stand_ins.h"
 
 void keel_voter_combine__bounds_harness(void)
 {

@@ -6,8 +6,8 @@
 // The operations of eq. 18 for three sensors and their order are those of mean_of_three, whose
 // roundings mean.g bounds: on numbers with which any other order of the sums, and a fused product
 // and sum, give another result.
-#include "../common/voter_mean.h"
 #include "../common/voter_proof.h"
+#include "voter_mean.h"
 
 #define POINTS 8u
 

@@ -1,7 +1,7 @@
 // cbmc: --unwind 5 --external-sat-solver cadical
 // sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
 // covers: keel_voter_readmit model_voter_readmit
-#include "../common/voter_stand_ins.h"
+#include "voter_stand_ins.h"
 
 void keel_voter_readmit_harness(void)
 {

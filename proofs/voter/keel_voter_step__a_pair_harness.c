@@ -6,7 +6,7 @@
 //
 // A whole vote of two sensors: what keel_voter_step_harness.c proves for two to four, once more for
 // these, in less time. Most faults show here.
-#include "../common/voter_parts.h"
+#include "voter_parts.h"
 
 void keel_voter_step__a_pair_harness(void)
 {

@@ -7,7 +7,7 @@
 //
 // Eq. 16 to 18 in numbers: a = 1, n = 3, two or three sensors of which each may be absent, samples
 // in halves from -2 to 1.5. Agreements are then quarters, weights eighths, and all sums exact.
-#include "../common/voter_stand_ins.h"
+#include "voter_stand_ins.h"
 
 /* The agreement of two samples, given in halves, in quarters. */
 static uint32_t quarters(uint32_t x, uint32_t y)

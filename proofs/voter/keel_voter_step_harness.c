@@ -7,7 +7,7 @@
 // A whole vote: every valid channel of 2 to 4 sensors, every bit pattern of the samples. Agreement,
 // weight and mean are any functions of their arguments with their contracts, the same for the model
 // (voter_parts.h).
-#include "../common/voter_parts.h"
+#include "voter_parts.h"
 
 void keel_voter_step_harness(void)
 {

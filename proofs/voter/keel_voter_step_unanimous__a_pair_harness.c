@@ -6,12 +6,12 @@
 //
 // Two sensors: what keel_voter_step_unanimous_harness.c proves for two to four, once more for
 // these, in a few seconds. Most faults show here.
-#include "../common/voter_unanimous.h"
+#include "voter_unanimous.h"
 
 void keel_voter_step_unanimous__a_pair_harness(void)
 {
     const float agree = nondet_float();
-    const float none = nondet_float();
+    const float disagree = nondet_float();
     const uint32_t oldest_us = nondet_u32();
     keel_voter_t voter;
     keel_voter_t before;
@@ -20,7 +20,7 @@ void keel_voter_step_unanimous__a_pair_harness(void)
     facts_t facts;
     bool taken;
 
-    any_voter(&voter, agree, none);
+    any_voter(&voter, agree, disagree);
     any_samples(sample, copy);
     __CPROVER_assume(voter_valid_here(&voter));
     before = voter;

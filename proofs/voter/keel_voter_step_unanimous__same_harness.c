@@ -6,7 +6,7 @@
 // The shorter way and the whole vote, from the same state with the same samples, come to the same:
 // a = 1, two to four sensors, samples in halves from -2 to 1.5 of which those from -1.5 to 1 are
 // plausible. What the mean is of is compared in place of the mean.
-#include "../common/voter_stand_ins.h"
+#include "voter_stand_ins.h"
 
 static float any_half(void)
 {

@@ -5,12 +5,12 @@
 //
 // Every valid channel of 2 to 4 sensors, every bit pattern of the samples' values and of their
 // oldest age. The mean, and what is within a, are as their contracts allow (voter_stand_ins.h).
-#include "../common/voter_unanimous.h"
+#include "voter_unanimous.h"
 
 void keel_voter_step_unanimous_harness(void)
 {
     const float agree = nondet_float();
-    const float none = nondet_float();
+    const float disagree = nondet_float();
     const uint32_t oldest_us = nondet_u32();
     keel_voter_t voter;
     keel_voter_t before;
@@ -19,7 +19,7 @@ void keel_voter_step_unanimous_harness(void)
     facts_t facts;
     bool taken;
 
-    any_voter(&voter, agree, none);
+    any_voter(&voter, agree, disagree);
     any_samples(sample, copy);
     __CPROVER_assume(keel_voter_step_unanimous_may(&voter, sample, oldest_us));
     before = voter;

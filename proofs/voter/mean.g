@@ -1,5 +1,5 @@
 # goals: 6
-# rounds: proofs/common/voter_mean.h mean_of_three
+# rounds: proofs/voter/voter_mean.h mean_of_three
 #
 # The rounding of eq. 18 in single precision for three sensors (requirement VOT-016).
 #

@@ -46,7 +46,7 @@ keel_status_t model_voter_init(keel_voter_t *voter, const keel_voter_config_t *c
         return status;
     }
     voter->config = *config;
-    voter->none = config->cutoff * config->agree;
+    voter->disagree = config->cutoff * config->agree;
     voter->vote.output = config->initial;
     voter->vote.held = 0u;
     voter->vote.held_us = 0u;
@@ -55,8 +55,8 @@ keel_status_t model_voter_init(keel_voter_t *voter, const keel_voter_config_t *c
     voter->unanimous = false;
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         voter->sensor[i].last = config->initial;
-        voter->sensor[i].same = 0u;
-        voter->sensor[i].null = 0u;
+        voter->sensor[i].unchanged_votes = 0u;
+        voter->sensor[i].condemned_votes = 0u;
         voter->sensor[i].density = 0u;
         voter->sensor[i].latched = false;
         voter->vote.weight[i] = 0.0f;
@@ -120,9 +120,9 @@ static void look(keel_voter_t *voter, const keel_voter_sample_t sample[])
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         if (changed[i]) {
             voter->sensor[i].last = sample[i].value;
-            voter->sensor[i].same = 0u;
+            voter->sensor[i].unchanged_votes = 0u;
         } else if (readable[i] && (changes > 0u) && ((changes + 1u) == readables)) {
-            voter->sensor[i].same = one_more(voter->sensor[i].same);
+            voter->sensor[i].unchanged_votes = one_more(voter->sensor[i].unchanged_votes);
         } else {
             /* Not readable, or not the only one at rest: the count stays. */
         }
@@ -135,7 +135,7 @@ static void exclude_stale(keel_voter_t *voter)
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         if ((i < voter->config.sensors) && (voter->vote.reason[i] == KEEL_VOTER_USED) &&
             (voter->config.stale_count > 0u) &&
-            (voter->sensor[i].same >= voter->config.stale_count)) {
+            (voter->sensor[i].unchanged_votes >= voter->config.stale_count)) {
             voter->vote.reason[i] = KEEL_VOTER_STALE;
         }
     }
@@ -168,7 +168,7 @@ static agreements_t compare(const keel_voter_t *voter, const keel_voter_sample_t
             if ((j < voter->config.sensors) && (voter->vote.reason[i] == KEEL_VOTER_USED) &&
                 (voter->vote.reason[j] == KEEL_VOTER_USED)) {
                 agreements.of[i][j] = model_voter_agreement(sample[i].value, sample[j].value,
-                                                            voter->config.agree, voter->none);
+                                                            voter->config.agree, voter->disagree);
                 agreements.of[j][i] = agreements.of[i][j];
             }
         }
@@ -227,18 +227,19 @@ static bool is_condemned(uint8_t reason, uint32_t usable)
            (reason == KEEL_VOTER_STALE) || ((reason == KEEL_VOTER_OUTVOTED) && (usable > 2u));
 }
 
-/* What the vote means for a sensor: VOT-010 (null), VOT-011 (latched), VOT-012 (density) */
+/* What the vote means for a sensor: VOT-010 (condemned_votes), VOT-011 (latched), VOT-012
+ * (density) */
 static void count(const keel_voter_config_t *config, keel_voter_sensor_t *sensor, uint8_t reason,
                   uint32_t usable)
 {
     if (reason == KEEL_VOTER_USED) {
-        sensor->null = 0u;
+        sensor->condemned_votes = 0u;
         sensor->density = (sensor->density > 0u) ? (uint16_t)(sensor->density - 1u) : 0u;
     }
     if (is_condemned(reason, usable)) {
-        sensor->null = one_more(sensor->null);
+        sensor->condemned_votes = one_more(sensor->condemned_votes);
         sensor->density = one_more(sensor->density);
-        sensor->latched = (sensor->null >= config->latch_count) ||
+        sensor->latched = (sensor->condemned_votes >= config->latch_count) ||
                           ((config->density_limit > 0u) &&
                            (sensor->density >= config->density_limit));
     }
@@ -270,7 +271,8 @@ static bool is_unanimous(const keel_voter_t *voter)
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         if (i < voter->config.sensors) {
             unanimous = unanimous && (voter->vote.weight[i] >= 1.0f) &&
-                        (voter->sensor[i].same == 0u) && (voter->sensor[i].density == 0u);
+                        (voter->sensor[i].unchanged_votes == 0u) &&
+                        (voter->sensor[i].density == 0u);
         }
     }
     return unanimous;
@@ -305,8 +307,8 @@ keel_status_t model_voter_readmit(keel_voter_t *voter, uint32_t sensor)
         return KEEL_ERR_STATE;
     }
     voter->sensor[sensor].latched = false;
-    voter->sensor[sensor].null = 0u;
+    voter->sensor[sensor].condemned_votes = 0u;
     voter->sensor[sensor].density = 0u;
-    voter->sensor[sensor].same = 0u;
+    voter->sensor[sensor].unchanged_votes = 0u;
     return KEEL_OK;
 }

@@ -9,7 +9,7 @@
 
 keel_status_t model_voter_check(const keel_voter_config_t *config);
 keel_status_t model_voter_init(keel_voter_t *voter, const keel_voter_config_t *config);
-float model_voter_agreement(float x, float y, float agree, float none);
+float model_voter_agreement(float x, float y, float agree, float disagree);
 float model_voter_weight(const float agreement[], uint32_t others);
 float model_voter_mean(float sum, float weights, float least, float most);
 bool model_voter_within(float least, float most, float agree);

@@ -3,17 +3,17 @@
 #include "range.h"
 
 /* Eq. 16: VOT-003, VOT-004 */
-float model_voter_agreement(float x, float y, float agree, float none)
+float model_voter_agreement(float x, float y, float agree, float disagree)
 {
     const float distance = (x > y) ? (x - y) : (y - x);
 
     if (distance <= agree) {
         return 1.0f;
     }
-    if (distance >= none) {
+    if (distance >= disagree) {
         return 0.0f;
     }
-    return (none - distance) / (none - agree);
+    return (disagree - distance) / (disagree - agree);
 }
 
 /* Eq. 17: VOT-006 */

@@ -3,9 +3,9 @@
 #include "keel/middleware/range.h"
 
 /*@ assigns \nothing; */
-static bool is_above(float none, float agree)
+static bool is_above(float disagree, float agree)
 {
-    return (none > agree) && (none <= KEEL_VOTER_RANGE);
+    return (disagree > agree) && (disagree <= KEEL_VOTER_RANGE);
 }
 
 /*@ requires \valid_read(config);
@@ -50,7 +50,7 @@ keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *co
         return status;
     }
     voter->config = *config;
-    voter->none = config->cutoff * config->agree;
+    voter->disagree = config->cutoff * config->agree;
     voter->unanimous = false;
     voter->vote.output = config->initial;
     voter->vote.held = 0u;
@@ -65,8 +65,8 @@ keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *co
       @*/
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         voter->sensor[i].last = config->initial;
-        voter->sensor[i].same = 0u;
-        voter->sensor[i].null = 0u;
+        voter->sensor[i].unchanged_votes = 0u;
+        voter->sensor[i].condemned_votes = 0u;
         voter->sensor[i].density = 0u;
         voter->sensor[i].latched = false;
         voter->vote.weight[i] = 0.0f;
@@ -75,14 +75,14 @@ keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *co
     return KEEL_OK;
 }
 
-float keel_voter_agreement(float x, float y, float agree, float none)
+float keel_voter_agreement(float x, float y, float agree, float disagree)
 {
     const float distance = (x > y) ? (x - y) : (y - x);
 
     if (distance <= agree) {
         return 1.0f;
     }
-    return (distance >= none) ? 0.0f : ((none - distance) / (none - agree));
+    return (distance >= disagree) ? 0.0f : ((disagree - distance) / (disagree - agree));
 }
 
 float keel_voter_weight(const float agreement[], uint32_t others)
@@ -178,7 +178,7 @@ static uint32_t exclude_stale(keel_voter_t *voter)
     for (uint32_t i = 0u; i < voter->config.sensors; i++) {
         if (voter->vote.reason[i] == KEEL_VOTER_USED) {
             if ((voter->config.stale_count > 0u) &&
-                (voter->sensor[i].same >= voter->config.stale_count)) {
+                (voter->sensor[i].unchanged_votes >= voter->config.stale_count)) {
                 voter->vote.reason[i] = KEEL_VOTER_STALE;
             } else {
                 usable++;
@@ -196,7 +196,7 @@ static uint32_t exclude_stale(keel_voter_t *voter)
   @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
   @ requires \is_finite(voter->config.lowest) && \is_finite(voter->config.highest);
   @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last,
-  @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].same,
+  @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].unchanged_votes,
   @     voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1];
   @*/
 static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sample[])
@@ -211,7 +211,7 @@ static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sampl
       @ loop invariant usable <= i && moved + resting <= i && (resting > 0 ==> last_resting < i);
       @ loop assigns i, usable, moved, resting, last_resting,
       @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last,
-      @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].same,
+      @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].unchanged_votes,
       @     voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1];
       @ loop variant config.sensors - i;
       @*/
@@ -224,7 +224,7 @@ static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sampl
         if ((reason == KEEL_VOTER_USED) || (reason >= KEEL_VOTER_OUT_OF_RANGE)) {
             if (sample[i].value != sensor->last) {
                 sensor->last = sample[i].value;
-                sensor->same = 0u;
+                sensor->unchanged_votes = 0u;
                 moved++;
             } else {
                 resting++;
@@ -234,7 +234,9 @@ static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sampl
     }
     if (resting > 0u) {
         if ((resting == 1u) && (moved > 0u)) {
-            voter->sensor[last_resting].same = one_more(voter->sensor[last_resting].same);
+            keel_voter_sensor_t *const sensor = &voter->sensor[last_resting];
+
+            sensor->unchanged_votes = one_more(sensor->unchanged_votes);
         }
         usable = exclude_stale(voter);
     }
@@ -260,7 +262,7 @@ static void compare_all(const keel_voter_t *voter, const keel_voter_sample_t sam
     const uint8_t *const reason = voter->vote.reason;
     const uint32_t sensors = voter->config.sensors;
     const float agree = voter->config.agree;
-    const float none = voter->none;
+    const float disagree = voter->disagree;
 
     /*@ loop invariant 1 <= j && (sensors >= 1 ==> j <= sensors);
       @ loop assigns j, agreement->of[0 .. KEEL_VOTER_SENSORS - 1][0 .. KEEL_VOTER_SENSORS - 2];
@@ -276,7 +278,7 @@ static void compare_all(const keel_voter_t *voter, const keel_voter_sample_t sam
             float s = 0.0f;
 
             if ((reason[i] == KEEL_VOTER_USED) && (reason[j] == KEEL_VOTER_USED)) {
-                s = keel_voter_agreement(sample[i].value, sample[j].value, agree, none);
+                s = keel_voter_agreement(sample[i].value, sample[j].value, agree, disagree);
             }
             agreement->of[i][j - 1u] = s;
             agreement->of[j][i] = s;
@@ -317,13 +319,13 @@ static void conclude(keel_voter_t *voter, const keel_voter_sample_t sample[], ui
 
 /* A vote to which a sensor contributed (VOT-010, VOT-012). */
 /*@ requires \valid(sensor);
-  @ assigns sensor->null, sensor->density;
-  @ ensures clear: sensor->null == 0;
+  @ assigns sensor->condemned_votes, sensor->density;
+  @ ensures clear: sensor->condemned_votes == 0;
   @ ensures leak: sensor->density == \max(\old(sensor->density) - 1, 0);
   @*/
 static void clear(keel_voter_sensor_t *sensor)
 {
-    sensor->null = 0u;
+    sensor->condemned_votes = 0u;
     if (sensor->density > 0u) {
         sensor->density--;
     }
@@ -331,17 +333,18 @@ static void clear(keel_voter_sensor_t *sensor)
 
 /* A vote that condemns a sensor (VOT-010 to VOT-012). */
 /*@ requires \valid_read(config) && \valid(sensor) && \separated(config, sensor);
-  @ assigns sensor->null, sensor->density, sensor->latched;
-  @ ensures count: sensor->null == \min(\old(sensor->null) + 1, UINT16_MAX);
+  @ assigns sensor->condemned_votes, sensor->density, sensor->latched;
+  @ ensures count:
+  @     sensor->condemned_votes == \min(\old(sensor->condemned_votes) + 1, UINT16_MAX);
   @ ensures fill: sensor->density == \min(\old(sensor->density) + 1, UINT16_MAX);
-  @ ensures latch: sensor->latched <==> (sensor->null >= config->latch_count ||
+  @ ensures latch: sensor->latched <==> (sensor->condemned_votes >= config->latch_count ||
   @     (config->density_limit > 0 && sensor->density >= config->density_limit));
   @*/
 static void condemn(const keel_voter_config_t *config, keel_voter_sensor_t *sensor)
 {
-    sensor->null = one_more(sensor->null);
+    sensor->condemned_votes = one_more(sensor->condemned_votes);
     sensor->density = one_more(sensor->density);
-    sensor->latched = (sensor->null >= config->latch_count) ||
+    sensor->latched = (sensor->condemned_votes >= config->latch_count) ||
                       ((config->density_limit > 0u) && (sensor->density >= config->density_limit));
 }
 
@@ -349,7 +352,7 @@ static void condemn(const keel_voter_config_t *config, keel_voter_sensor_t *sens
  * has nobody to agree with; one without weight was outvoted. */
 /*@ requires \valid(voter) && 2 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
   @ requires \valid_read(agreement) && \separated(voter, agreement);
-  @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].null,
+  @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].condemned_votes,
   @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].density,
   @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].latched,
   @     voter->vote.weight[0 .. KEEL_VOTER_SENSORS - 1],
@@ -362,7 +365,7 @@ static void judge(keel_voter_t *voter, const agreements_t *agreement, uint32_t u
     uint8_t contributing = 0u;
 
     /*@ loop invariant 0 <= i <= sensors && contributing <= i;
-      @ loop assigns i, contributing, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].null,
+      @ loop assigns i, contributing, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].condemned_votes,
       @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].density,
       @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].latched,
       @     voter->vote.weight[0 .. KEEL_VOTER_SENSORS - 1],
@@ -408,7 +411,7 @@ static bool is_unanimous(const keel_voter_t *voter)
     for (uint32_t i = 0u; unanimous && (i < sensors); i++) {
         const keel_voter_sensor_t *const sensor = &voter->sensor[i];
 
-        unanimous = (voter->vote.weight[i] >= 1.0f) && (sensor->same == 0u) &&
+        unanimous = (voter->vote.weight[i] >= 1.0f) && (sensor->unchanged_votes == 0u) &&
                     (sensor->density == 0u);
     }
     return unanimous;
@@ -511,8 +514,8 @@ keel_status_t keel_voter_readmit(keel_voter_t *voter, uint32_t sensor)
         return KEEL_ERR_STATE;
     }
     voter->sensor[sensor].latched = false;
-    voter->sensor[sensor].null = 0u;
+    voter->sensor[sensor].condemned_votes = 0u;
     voter->sensor[sensor].density = 0u;
-    voter->sensor[sensor].same = 0u;
+    voter->sensor[sensor].unchanged_votes = 0u;
     return KEEL_OK;
 }

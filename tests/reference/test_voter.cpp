@@ -43,10 +43,10 @@ static bool agrees_with_eq16()
 {
     for (int i = 0; i < 200000; i++) {
         const float a = uniform(0.001f, 100.0f);
-        const float none = a * uniform(1.01f, 20.0f);
+        const float disagree = a * uniform(1.01f, 20.0f);
         const float d = uniform(0.0f, 1.2f * none);
-        const Real exact = eq16(d, a, static_cast<Real>(none) / a);
-        const float s = keel_voter_agreement(0.0f, d, a, none);
+        const Real exact = eq16(d, a, static_cast<Real>(disagree) / a);
+        const float s = keel_voter_agreement(0.0f, d, a, disagree);
 
         /* Two differences and a quotient: three roundings. */
         if ((s > 1.0f) || (std::fabs(s - exact) > 3.001L * u * exact + 1e-17L)) {
@@ -121,7 +121,7 @@ static bool influence_is_bounded(bool wild)
         const Real excess = std::fmax(output - std::fmax(x, y),
                                       static_cast<Real>(std::fmin(x, y)) - output);
         /* VOT-017, with the n that the channel has: its n a is rounded. */
-        const Real n_ = voter.none / static_cast<Real>(a);
+        const Real n_ = voter.disagree / static_cast<Real>(a);
         const Real c = influence(n_);
         const bool three = voter.vote.weight[at] > 0.0f;
         const Real largest = std::fmax(std::fmax(std::fabs(x), std::fabs(y)),
@@ -205,8 +205,8 @@ static bool unanimous_is_the_whole_vote()
                 if (voter.vote.weight[k] != whole.vote.weight[k] ||
                     voter.vote.reason[k] != whole.vote.reason[k] ||
                     voter.sensor[k].last != whole.sensor[k].last ||
-                    voter.sensor[k].same != whole.sensor[k].same ||
-                    voter.sensor[k].null != whole.sensor[k].null ||
+                    voter.sensor[k].unchanged_votes != whole.sensor[k].unchanged_votes ||
+                    voter.sensor[k].condemned_votes != whole.sensor[k].condemned_votes ||
                     voter.sensor[k].density != whole.sensor[k].density) {
                     return false;
                 }

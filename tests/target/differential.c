@@ -246,8 +246,8 @@ static void digest_vote(stream_t *s)
     for (uint32_t i = 0u; i < voter.config.sensors; i++) {
         digest_float(s, voter.vote.weight[i]);
         digest(s, voter.vote.reason[i]);
-        digest(s, voter.sensor[i].null);
-        digest(s, voter.sensor[i].same);
+        digest(s, voter.sensor[i].condemned_votes);
+        digest(s, voter.sensor[i].unchanged_votes);
         digest(s, voter.sensor[i].density);
         digest(s, voter.sensor[i].latched ? 1u : 0u);
     }

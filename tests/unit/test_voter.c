@@ -149,7 +149,7 @@ static void VOT_002_starts_with_the_initial_output(void)
     TEST_ASSERT_EQUAL_UINT8(KEEL_VOTER_NONE, voter.vote.state);
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         TEST_ASSERT_FALSE(voter.sensor[i].latched);
-        TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[i].null);
+        TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[i].condemned_votes);
     }
 }
 
@@ -303,7 +303,7 @@ static void VOT_010_two_that_disagree_are_not_condemned(void)
         vote(0.0f, 4.0f, NAN);
         expect(KEEL_VOTER_DISAGREE, 7.0f);
     }
-    TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[0].null);
+    TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[0].condemned_votes);
     TEST_ASSERT_FALSE(voter.sensor[0].latched);
     TEST_ASSERT_FALSE(voter.sensor[1].latched);
     TEST_ASSERT_TRUE(voter.sensor[2].latched);
@@ -313,9 +313,9 @@ static void VOT_010_one_agreement_clears(void)
 {
     vote(0.0f, 0.0f, 9.0f);
     vote(0.0f, 0.0f, 9.0f);
-    TEST_ASSERT_EQUAL_UINT16(2u, voter.sensor[2].null);
+    TEST_ASSERT_EQUAL_UINT16(2u, voter.sensor[2].condemned_votes);
     vote(0.0f, 0.0f, 2.5f);
-    TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[2].null);
+    TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[2].condemned_votes);
     TEST_ASSERT_FALSE(voter.sensor[2].latched);
 }
 
@@ -330,7 +330,7 @@ static void VOT_011_latched_exactly_at_the_count(void)
     vote(0.0f, 1.0f, 0.5f); /* It agrees again, but is out. */
     expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_LATCHED);
     expect(KEEL_VOTER_MEAN, 0.5f);
-    TEST_ASSERT_EQUAL_UINT16(3u, voter.sensor[2].null);
+    TEST_ASSERT_EQUAL_UINT16(3u, voter.sensor[2].condemned_votes);
 }
 
 static void VOT_011_all_three_latched(void)
@@ -372,7 +372,7 @@ static void VOT_013_frozen_while_others_move(void)
     vote(0.1f, 0.2f, 0.5f);
     expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_USED);
     vote(0.1f, 0.3f, 0.5f); /* The first does not move either: no evidence. */
-    TEST_ASSERT_EQUAL_UINT16(1u, voter.sensor[2].same);
+    TEST_ASSERT_EQUAL_UINT16(1u, voter.sensor[2].unchanged_votes);
     vote(0.2f, 0.4f, 0.5f);
     expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_STALE);
     vote(0.3f, 0.5f, 0.6f); /* It moves again. */
@@ -415,7 +415,7 @@ static void VOT_014_readmission_on_request(void)
     TEST_ASSERT_EQUAL_MEMORY(&before.sensor[0], &voter.sensor[0], 2u * sizeof before.sensor[0]);
     vote(0.0f, 0.5f, 1.0f);
     expect(KEEL_VOTER_MEAN, 0.5f);
-    TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[2].null);
+    TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[2].condemned_votes);
 }
 
 static bool unanimous(float a, float b, float c, uint32_t oldest_us)

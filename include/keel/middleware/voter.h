@@ -97,17 +97,17 @@ typedef struct keel_vote {
 
 /** What the voter remembers of a sensor. */
 typedef struct keel_voter_sensor {
-    float last;       /**< Its last finite sample; at first the initial output. */
-    uint16_t same;    /**< Votes in which it alone did not change; saturates. */
-    uint16_t null;    /**< Consecutive votes that condemned it; saturates. */
-    uint16_t density; /**< One up per vote that condemned it, one down per agreement. */
-    bool latched;     /**< Whether it is latched as faulty. */
+    float last;               /**< Its last finite sample; at first the initial output. */
+    uint16_t unchanged_votes; /**< Votes in which it alone did not change; saturates. */
+    uint16_t condemned_votes; /**< Consecutive votes that condemned it; saturates. */
+    uint16_t density;         /**< One up per vote that condemned it, one down per agreement. */
+    bool latched;             /**< Whether it is latched as faulty. */
 } keel_voter_sensor_t;
 
 /** A channel. Written by the functions below alone; all of it may be read. */
 typedef struct keel_voter {
     keel_voter_config_t config;
-    float none; /**< n a: no agreement from here on. */
+    float disagree; /**< n a: samples this far apart, or farther, do not agree at all. */
     keel_voter_sensor_t sensor[KEEL_VOTER_SENSORS];
     keel_vote_t vote; /**< The last one. */
     bool unanimous;   /**< All weights were 1 in it, and nothing is counted against any sensor. */
@@ -129,15 +129,16 @@ typedef struct keel_voter {
   @
   @ // A sensor below its counts: the vote that takes it there latches it.
   @ predicate voter_healthy(keel_voter_config_t c, keel_voter_sensor_t s) =
-  @     s.null < c.latch_count && (c.density_limit > 0 ==> s.density < c.density_limit);
+  @     s.condemned_votes < c.latch_count && (c.density_limit > 0 ==> s.density < c.density_limit);
   @
   @ // The last vote was the mean of all samples with weight 1, and nothing is counted against any.
   @ predicate voter_unanimous(keel_voter_t *v) =
   @     v->vote.state == KEEL_VOTER_MEAN && v->vote.contributing == v->config.sensors &&
   @     v->vote.held == 0 && v->vote.held_us == 0 &&
   @     (\forall integer i; 0 <= i < v->config.sensors ==> !v->sensor[i].latched &&
-  @         v->sensor[i].same == 0 && v->sensor[i].null == 0 && v->sensor[i].density == 0 &&
-  @         v->vote.weight[i] == 1 && v->vote.reason[i] == KEEL_VOTER_USED &&
+  @         v->sensor[i].unchanged_votes == 0 && v->sensor[i].condemned_votes == 0 &&
+  @         v->sensor[i].density == 0 && v->vote.weight[i] == 1 &&
+  @         v->vote.reason[i] == KEEL_VOTER_USED &&
   @         v->config.lowest <= v->sensor[i].last <= v->config.highest) &&
   @     (\exists integer i; 0 <= i < v->config.sensors && v->sensor[i].last <= v->vote.output) &&
   @     (\exists integer i; 0 <= i < v->config.sensors && v->vote.output <= v->sensor[i].last);
@@ -148,7 +149,8 @@ typedef struct keel_voter {
   @
   @ // What holds of a channel between any two calls.
   @ predicate voter_valid(keel_voter_t *v) =
-  @     voter_config_valid(v->config) && v->none == (float)(v->config.cutoff * v->config.agree) &&
+  @     voter_config_valid(v->config) &&
+  @     v->disagree == (float)(v->config.cutoff * v->config.agree) &&
   @     \is_finite(v->vote.output) && v->config.lowest <= v->vote.output <= v->config.highest &&
   @     (v->unanimous ==> voter_unanimous(v)) &&
   @     \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==> \is_finite(v->sensor[i].last) &&
@@ -197,8 +199,8 @@ keel_status_t keel_voter_check(const keel_voter_config_t *config);
   @   ensures VOT_002_ready: \result == KEEL_OK && voter_valid(voter);
   @   ensures VOT_002_output: voter->vote.output == config->initial;
   @   ensures VOT_002_fresh: \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==>
-  @       !voter->sensor[i].latched && voter->sensor[i].null == 0 &&
-  @       voter->sensor[i].density == 0 && voter->sensor[i].same == 0;
+  @       !voter->sensor[i].latched && voter->sensor[i].condemned_votes == 0 &&
+  @       voter->sensor[i].density == 0 && voter->sensor[i].unchanged_votes == 0;
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
@@ -209,23 +211,24 @@ keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *co
  * to a, 0 from n a on, (n a - d)/(n a - a) between. In this form the quotient never exceeds 1,
  * where that of eq. 16 does once it is rounded.
  *
- * @param x     a sample, in magnitude at most KEEL_VOTER_RANGE
- * @param y     another
- * @param agree a, KEEL_VOTER_AGREE_MIN to KEEL_VOTER_AGREE_MAX
- * @param none  n a, above a, at most KEEL_VOTER_RANGE
+ * @param x        a sample, in magnitude at most KEEL_VOTER_RANGE
+ * @param y        another
+ * @param agree    a, KEEL_VOTER_AGREE_MIN to KEEL_VOTER_AGREE_MAX: up to here they agree fully
+ * @param disagree n a, above a, at most KEEL_VOTER_RANGE: from here on not at all
  * @return the agreement, 0 to 1; 0 from n a on only
  */
 /*@ requires agreement_samples: \is_finite(x) && \is_finite(y) &&
   @     -KEEL_VOTER_RANGE <= x <= KEEL_VOTER_RANGE && -KEEL_VOTER_RANGE <= y <= KEEL_VOTER_RANGE;
   @ requires \is_finite(agree) && KEEL_VOTER_AGREE_MIN <= agree <= KEEL_VOTER_AGREE_MAX;
-  @ requires agreement_none: \is_finite(none) && agree < none <= KEEL_VOTER_RANGE;
+  @ requires agreement_disagree: \is_finite(disagree) && agree < disagree <= KEEL_VOTER_RANGE;
   @ assigns \nothing;
   @ ensures VOT_003_full: -agree <= (float)(x - y) <= agree ==> \result == 1;
-  @ ensures VOT_003_none: (float)(x - y) <= -none || none <= (float)(x - y) ==> \result == 0;
-  @ ensures VOT_003_some: -none < (float)(x - y) < none ==> \result > 0;
+  @ ensures VOT_003_none:
+  @     (float)(x - y) <= -disagree || disagree <= (float)(x - y) ==> \result == 0;
+  @ ensures VOT_003_some: -disagree < (float)(x - y) < disagree ==> \result > 0;
   @ ensures VOT_004: \is_finite(\result) && 0 <= \result <= 1;
   @*/
-float keel_voter_agreement(float x, float y, float agree, float none);
+float keel_voter_agreement(float x, float y, float agree, float disagree);
 
 /*@ // A weight, or an agreement, that a quotient can do with: 0, or not below 2^-24 / 3.
   @ predicate weight_valid(float w) = \is_finite(w) && (w == 0 || 0x1p-26 <= w <= 1);
@@ -360,19 +363,19 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
   @         voter->vote.reason[i] == KEEL_VOTER_USED && voter->vote.output == sample[i].value;
   @ ensures VOT_010_count: \forall integer i; 0 <= i < voter->config.sensors ==>
   @     !\old(voter->sensor[i].latched) ==>
-  @     (voter->sensor[i].null == 0 ||
-  @      voter->sensor[i].null == \old(voter->sensor[i].null) ||
-  @      voter->sensor[i].null == \old(voter->sensor[i].null) + 1);
+  @     (voter->sensor[i].condemned_votes == 0 ||
+  @      voter->sensor[i].condemned_votes == \old(voter->sensor[i].condemned_votes) ||
+  @      voter->sensor[i].condemned_votes == \old(voter->sensor[i].condemned_votes) + 1);
   @ ensures VOT_010_condemned: \forall integer i; 0 <= i < voter->config.sensors ==>
-  @     voter->vote.reason[i] >= KEEL_VOTER_MISSING ==> voter->sensor[i].null ==
-  @         ((\old(voter->sensor[i].null) < UINT16_MAX) ? \old(voter->sensor[i].null) + 1
-  @                                                    : UINT16_MAX);
+  @     voter->vote.reason[i] >= KEEL_VOTER_MISSING ==> voter->sensor[i].condemned_votes ==
+  @         ((\old(voter->sensor[i].condemned_votes) < UINT16_MAX)
+  @              ? \old(voter->sensor[i].condemned_votes) + 1 : UINT16_MAX);
   @ ensures VOT_010_clear: \forall integer i; 0 <= i < voter->config.sensors ==>
-  @     voter->vote.reason[i] == KEEL_VOTER_USED ==> voter->sensor[i].null == 0;
+  @     voter->vote.reason[i] == KEEL_VOTER_USED ==> voter->sensor[i].condemned_votes == 0;
   @ ensures VOT_011_latch: \forall integer i; 0 <= i < voter->config.sensors ==>
   @     !\old(voter->sensor[i].latched) ==>
   @     (voter->sensor[i].latched <==>
-  @         (voter->sensor[i].null >= voter->config.latch_count ||
+  @         (voter->sensor[i].condemned_votes >= voter->config.latch_count ||
   @          (voter->config.density_limit > 0 &&
   @           voter->sensor[i].density >= voter->config.density_limit)));
   @ ensures VOT_011_stays: \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==>
@@ -382,7 +385,7 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
   @         ((\old(voter->sensor[i].density) > 0) ? \old(voter->sensor[i].density) - 1 : 0));
   @ ensures VOT_013_stale: \forall integer i; 0 <= i < voter->config.sensors ==>
   @     voter->vote.reason[i] == KEEL_VOTER_STALE ==>
-  @         (0 < voter->config.stale_count <= voter->sensor[i].same);
+  @         (0 < voter->config.stale_count <= voter->sensor[i].unchanged_votes);
   @*/
 void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us);
 
@@ -455,8 +458,8 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
   @   assumes voter->sensor[sensor].latched;
   @   assigns voter->sensor[sensor];
   @   ensures VOT_014_readmitted: \result == KEEL_OK && !voter->sensor[sensor].latched &&
-  @       voter->sensor[sensor].null == 0 && voter->sensor[sensor].density == 0 &&
-  @       voter->sensor[sensor].same == 0;
+  @       voter->sensor[sensor].condemned_votes == 0 && voter->sensor[sensor].density == 0 &&
+  @       voter->sensor[sensor].unchanged_votes == 0;
   @   ensures VOT_014_last: voter->sensor[sensor].last == \old(voter->sensor[sensor].last);
   @ complete behaviors;
   @ disjoint behaviors;

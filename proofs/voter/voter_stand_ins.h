@@ -10,20 +10,20 @@
 #ifndef VOTER_STAND_INS_H
 #define VOTER_STAND_INS_H
 
-#include "voter_contracts.h"
+#include "../common/voter_contracts.h"
 
-float __CPROVER_uninterpreted_agreement(float x, float y, float agree, float none);
+float __CPROVER_uninterpreted_agreement(float x, float y, float agree, float disagree);
 float __CPROVER_uninterpreted_weight(float a, float b, float c, uint32_t others);
 float __CPROVER_uninterpreted_mean(float sum, float weights, float least, float most);
 uint32_t __CPROVER_uninterpreted_within(float least, float most, float agree);
 float __CPROVER_uninterpreted_combine(float x0, float x1, float x2, float x3, float w0, float w1,
                                       float w2, float w3, uint32_t sensors);
 
-float keel_voter_agreement_stand_in(float x, float y, float agree, float none)
+float keel_voter_agreement_stand_in(float x, float y, float agree, float disagree)
 {
-    const float s = __CPROVER_uninterpreted_agreement(x, y, agree, none);
+    const float s = __CPROVER_uninterpreted_agreement(x, y, agree, disagree);
 
-    __CPROVER_assert(keel_voter_agreement_may(x, y, agree, none),
+    __CPROVER_assert(keel_voter_agreement_may(x, y, agree, disagree),
                      "precondition: keel_voter_agreement");
     __CPROVER_assume(keel_voter_agreement_does(s));
     return s;

@@ -11,9 +11,9 @@
 
 #include "voter_stand_ins.h"
 
-float model_voter_agreement(float x, float y, float agree, float none)
+float model_voter_agreement(float x, float y, float agree, float disagree)
 {
-    return keel_voter_agreement_stand_in(x, y, agree, none);
+    return keel_voter_agreement_stand_in(x, y, agree, disagree);
 }
 
 float model_voter_weight(const float agreement[], uint32_t others)
