@@ -29,11 +29,12 @@ def main(arguments: Sequence[str]) -> int:
         tools = Toolchain()
         tools.ensure(group)
         python = tools.command("pip")[0]  # The Python that the packages were installed for.
-        packages = tools.command(f"{group}-packages")[0]
+        groups = [name for name in tools.lock.groups[group] if name.endswith("-packages")]
+        packages = [tools.command(name)[0] for name in groups]
     except ToolchainError as error:
         print(f"with_packages: {error}", file=sys.stderr)
         return 1
-    variables = {**os.environ, "PYTHONPATH": os.pathsep.join([packages, str(TOOLS_DIR)])}
+    variables = {**os.environ, "PYTHONPATH": os.pathsep.join([*packages, str(TOOLS_DIR)])}
     os.execve(python, [python, *program], variables)
 
 
