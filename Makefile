@@ -86,7 +86,7 @@ firmware: python ## build a board's image (BOARD=mps2_an500; ARGS='--app FOLDER'
 	@python3 tools/firmware.py "$(BOARD)" $(ARGS)
 
 model: python ## run a board's image on a model of its chip (BOARD=nucleo_f767zi; ARGS='--keys 1.5:t')
-	@python3 tools/model.py "$(BOARD)" $(ARGS)
+	@python3 tools/chip_model.py "$(BOARD)" $(ARGS)
 
 stack: python ## bound the stack of every task and of main in a board's image (BOARD=nucleo_f767zi)
 	@python3 tools/stack.py "$(BOARD)" $(ARGS)

@@ -18,6 +18,7 @@ from __future__ import annotations
 import json
 import re
 import tomllib
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
@@ -28,9 +29,18 @@ from common.toml_lines import KeyPath, line_index, line_of
 
 provide()
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError  # noqa: E402
+from pydantic import (  # noqa: E402
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationError,
+    model_validator,
+)
 
-__all__ = ["ConfigError", "Field", "Table", "Text", "read_json", "read_toml"]
+__all__ = [
+    "ConfigError", "Field", "Mistake", "Table", "Text", "model_validator", "parse_toml",
+    "read_json", "read_toml",
+]  # fmt: skip
 
 SHOWN = 40  # Characters of what a file holds that an error quotes.
 
@@ -49,10 +59,19 @@ Text = Annotated[str, Field(min_length=1)]
 Model = TypeVar("Model", bound=BaseModel)
 
 
-def read_toml(path: Path, model: type[Model]) -> Model:
+Mistake = tuple[KeyPath, str]  # Where in the data, and the reason.
+Check = Callable[[Model], Iterable[Mistake]]  # What types cannot say.
+
+
+def read_toml(path: Path, model: type[Model], check: Check[Model] | None = None) -> Model:
     """The file as the model has it."""
-    text = read_text(path)
-    shown = place_of(path)
+    return parse_toml(read_text(path), model, place_of(path), check)
+
+
+def parse_toml(
+    text: str, model: type[Model], shown: str, check: Check[Model] | None = None
+) -> Model:
+    """A text as the model has it; `shown` is the file's name in errors."""
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -63,7 +82,10 @@ def read_toml(path: Path, model: type[Model]) -> Model:
     except (RecursionError, ValueError) as error:
         # What tomllib lets through: deeply nested brackets, numbers of thousands of digits.
         raise ConfigError(f"{shown}:1: no usable TOML") from error
-    return checked(data, model, shown, text)
+    found = checked(data, model, shown, text)
+    if check and (mistakes := list(check(found))):
+        raise refusal(data, shown, text, mistakes)
+    return found
 
 
 def read_json(path: Path, model: type[Model]) -> Model:
@@ -89,15 +111,23 @@ def checked(
     try:
         return model.model_validate(data, strict=strict)
     except ValidationError as error:
-        lines = line_index(text) if text else {}
-        found = []
-        for entry in error.errors(include_url=False, include_context=False):
-            place = existing(data, entry["loc"])
-            line = line_of(lines, place)
-            reason = reason_of(entry["type"], entry["msg"], entry["input"], entry["loc"], model)
-            words = ": ".join([f"{shown}:{line}" if text else shown, *in_words(data, place)])
-            found.append((line, f"{words}: {reason}"))
-        raise ConfigError("\n".join(line for _, line in sorted(found))) from error
+        mistakes = [
+            (existing(data, entry["loc"]),
+             reason_of(entry["type"], entry["msg"], entry["input"], entry["loc"], model))
+            for entry in error.errors(include_url=False, include_context=False)
+        ]  # fmt: skip
+        raise refusal(data, shown, text, mistakes) from error
+
+
+def refusal(data: Any, shown: str, text: str, mistakes: Iterable[Mistake]) -> ConfigError:
+    """The error that tells mistakes in the order of their lines."""
+    lines = line_index(text) if text else {}
+    found = []
+    for place, reason in mistakes:
+        line = line_of(lines, place)
+        words = ": ".join([f"{shown}:{line}" if text else shown, *in_words(data, place)])
+        found.append((line, f"{words}: {reason}"))
+    return ConfigError("\n".join(told for _, told in sorted(found)))
 
 
 def existing(data: Any, place: KeyPath) -> KeyPath:
