@@ -14,8 +14,10 @@ from common.errors import CANNOT, nearest
 class Parser(argparse.ArgumentParser):
     """argparse's, but for its way to refuse; no option may be shortened."""
 
-    def __init__(self, description: str | None = None, **options: Any) -> None:
-        super().__init__(description=description, allow_abbrev=False, **options)
+    def __init__(
+        self, description: str | None = None, prog: str | None = None, **options: Any
+    ) -> None:
+        super().__init__(prog, description=description, allow_abbrev=False, **options)
 
     def words(self) -> Iterator[str]:
         """Every option and command, those of commands too."""
