@@ -69,7 +69,7 @@ fuzz: python ## fuzz the scheduler against its reference model (SECONDS=60)
 	@python3 tools/run_tests.py --filter fuzz --fuzz $(SECONDS)
 
 trace: python ## requirement, clause, harness, test: fail when one stands alone
-	@python3 tools/trace.py $(ARGS)
+	@python3 tools/requirements_trace.py $(ARGS)
 
 registers: python ## hold the register headers against two independent register databases
 	@python3 tools/registers.py
@@ -79,7 +79,7 @@ status: python ## write what the last run of 'make prove' proved into README.md
 
 .PHONY: test-target
 test-target: python ## the unit tests, faults, demo and host's results on an emulated Cortex-M7
-	@python3 tools/target.py $(ARGS)
+	@python3 tools/emulated_tests.py $(ARGS)
 
 firmware: python ## build a board's image (BOARD=mps2_an500; ARGS='--app FOLDER': another main)
 	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/urpilot

@@ -512,6 +512,17 @@ class TheLockFile(Sandbox):
             if not spec.cached and not spec.derived:
                 self.assertTrue(spec.at_least and spec.below and spec.packages, spec.name)
 
+    def test_a_package_has_one_version_in_all_files_of_one_program(self) -> None:
+        lock = Lock.read()
+        for group in ("timing-tests", "tools-tests"):
+            seen: dict[str, str] = {}
+            for name in lock.groups[group]:
+                path = ROOT / lock.tools[name].path
+                text = path.read_text() if name.endswith("-packages") else ""
+                for package, version in re.findall(r"^([a-z]\S*)==(\S+)", text, re.MULTILINE):
+                    self.assertEqual(seen.setdefault(package, version), version, package)
+            self.assertIn("pytest", seen)
+
     def test_no_registry_is_named(self) -> None:
         for path in (LOCK_FILE, *Path(toolchain.__file__).parent.glob("*.py")):
             hosts = re.findall(r"\b[a-z0-9-]+\.(?:org|com|net|io)\b|https?:", path.read_text())
