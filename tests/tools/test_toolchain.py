@@ -318,7 +318,8 @@ class Unpacking(Sandbox):
             self.assertEqual(self.trees(), [])
 
     def test_only_one_installation_at_a_time(self) -> None:
-        waiting = "import sys; sys.path.insert(0, sys.argv[1]); import pathlib\nfrom toolchain.cache import Cache\nfrom toolchain.tools import tell\n"
+        waiting = "import pathlib, sys; sys.path.insert(0, sys.argv[1])\n"
+        waiting += "from toolchain.cache import Cache\nfrom toolchain.tools import tell\n"
         waiting += "with Cache(pathlib.Path(sys.argv[2])).locked(tell):\n"
         waiting += "    print('inside', flush=True)"
         command = [sys.executable, "-c", waiting, str(ROOT / "tools"), str(self.cache)]

@@ -10,7 +10,7 @@ import threading
 from collections.abc import Mapping
 from pathlib import Path
 
-from common.errors import ToolError
+from common.errors import ToolError, nearest
 
 
 def write_bytes(path: Path, data: bytes) -> None:
@@ -42,9 +42,18 @@ def read_text(path: Path) -> str:
     try:
         return path.read_bytes().decode()
     except OSError as error:
-        raise ToolError(f"{path}: cannot be read: {error.strerror}") from error
+        like = (
+            nearest(path.name, names_beside(path)) if isinstance(error, FileNotFoundError) else ""
+        )
+        guess = f"; did you mean {path.with_name(like)}?" if like else ""
+        raise ToolError(f"{path}: cannot be read: {error.strerror}{guess}") from error
     except UnicodeDecodeError as error:
         raise ToolError(f"{path}: expected UTF-8") from error
+
+
+def names_beside(path: Path) -> list[str]:
+    """The names of the files in a file's folder."""
+    return sorted(item.name for item in path.parent.iterdir()) if path.parent.is_dir() else []
 
 
 def sha256_of(path: Path) -> str:
