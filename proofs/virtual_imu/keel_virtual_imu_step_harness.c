@@ -48,7 +48,7 @@ void model_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], u
     }
     any_voter(&vote->after, nondet_float(), nondet_float());
     vote->after.config = voter->config;
-    vote->after.none = voter->none;
+    vote->after.disagree = voter->disagree;
     __CPROVER_assume(keel_voter_step_does(&vote->after));
     *voter = vote->after;
 }

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Run the image of a real board on a model of the STM32F767.
 
-    python3 tools/model.py nucleo_f767zi                      # two seconds of the board's time
-    python3 tools/model.py fmuv5 --seconds 5 --keys 1.5:t     # and a key on the console at 1.5 s
-    python3 tools/model.py nucleo_f767zi --broken hse         # a clock that never becomes ready
+    python3 tools/chip_model.py nucleo_f767zi                   # two seconds of the board's time
+    python3 tools/chip_model.py fmuv5 --seconds 5 --keys 1.5:t  # and a key on the console at 1.5 s
+    python3 tools/chip_model.py nucleo_f767zi --broken hse      # a clock that never becomes ready
 
 An emulator of the processor's instructions (Unicorn) runs the very image that is flashed. Modelled
 around it, register by register, is what the image uses: clocks with over-drive and flash latency,
