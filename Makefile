@@ -11,7 +11,7 @@ TASKSET ?= specs/tasksets/urpilot.toml
 ARGS ?=
 BOARD ?=
 
-ALL_TOOLS := prove test lint coverage bench fuzz firmware target registers model \
+ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
              flash-openocd flash-pyocd flash-st-flash flash-px4 timing
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
