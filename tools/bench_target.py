@@ -23,7 +23,7 @@ from toolchain import Toolchain, write_atomically  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
 BUDGET = ROOT / "tests/bench/budget.toml"
-SOURCES = ("tests/bench/bench_target.c", "examples/demo/urpilot_tasks.c")
+SOURCES = ("tests/bench/bench_target.c", "examples/urpilot/urpilot_tasks.c")
 SHIFT = 10  # An instruction takes 1024 ns: more than a tick of the counter, which so sees each one.
 LINE = re.compile(r"^bench (\w+) passes (\d+) instructions (\d+) longest (\d+)$", re.MULTILINE)
 TIMEOUT_S = 120.0

@@ -137,7 +137,7 @@ def test_whatever_is_accepted_can_be_analysed() -> None:
 
 def test_the_committed_table_is_not_stale(urpilot: TaskSet) -> None:
     files = ctable.table(urpilot, URPILOT.name)
-    assert not ctable.stale(files, ROOT / "examples/demo")
+    assert not ctable.stale(files, ROOT / "examples/urpilot")
 
 
 def test_a_stale_table_fails_and_is_regenerated(
@@ -191,7 +191,10 @@ def test_the_compiled_table_is_the_task_set(urpilot: TaskSet, tmp_path: Path) ->
     assert lines[-1] == "13 20 693000 1"
 
 
-@pytest.mark.parametrize("program", ["boards/main.c", "demo/demo.c", "firmware/main.c"])
+PROGRAMS = ("board_check/main.c", "urpilot/demo.c", "urpilot_on_target/main.c")
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
 def test_what_was_analysed_is_what_runs(program: str) -> None:
     """No application sets anything of a declaration or of the scheduler's settings itself."""
     text = (ROOT / "examples" / program).read_text(encoding="utf-8")

@@ -118,11 +118,6 @@ class Programs(FolderTest):
         with self.assertRaisesRegex(ToolError, "sh: exit status 4\nbecause"):
             output_of(["sh", "-c", "echo because >&2; exit 4"])
 
-    def test_a_log_gets_the_output(self) -> None:
-        log = self.file("before\n", "log")
-        self.assertTrue(run(["echo", "after"], log=log).good)
-        self.assertEqual(log.read_text(encoding="utf-8"), "before\nafter\n")
-
 
 class Files(FolderTest):
     def test_folders_are_made_and_the_file_is_readable(self) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from typing import NoReturn
+from collections.abc import Iterator
+from typing import Any, NoReturn
 
 from common.errors import CANNOT, nearest
 
@@ -13,13 +14,24 @@ from common.errors import CANNOT, nearest
 class Parser(argparse.ArgumentParser):
     """argparse's, but for its way to refuse; no option may be shortened."""
 
-    def __init__(self, description: str, prog: str | None = None) -> None:
-        super().__init__(prog=prog, description=description, allow_abbrev=False)
+    def __init__(
+        self, description: str | None = None, prog: str | None = None, **options: Any
+    ) -> None:
+        super().__init__(prog, description=description, allow_abbrev=False, **options)
+
+    def words(self) -> Iterator[str]:
+        """Every option and command, those of commands too."""
+        for action in self._actions:
+            yield from action.option_strings
+            if isinstance(action.choices, dict):
+                for name, command in action.choices.items():
+                    yield name
+                    yield from command.words()
 
     def error(self, message: str) -> NoReturn:
         """One line and exit status 2."""
-        word = re.search(r"unrecognized arguments: (\S+)", message)
-        like = nearest(word[1].partition("=")[0], self._option_string_actions) if word else ""
+        wrong = re.search(r"unrecognized arguments: ([^\s=]+)|invalid choice: '([^']*)'", message)
+        like = nearest(wrong[1] or wrong[2], dict.fromkeys(self.words())) if wrong else ""
         guess = f"; did you mean {like}?" if like else ""
         print(f"{self.prog}: {message}{guess} (--help lists all)", file=sys.stderr)
         sys.exit(CANNOT)

@@ -53,23 +53,18 @@ class Ended:
 def run(
     command: Sequence[str | Path], timeout_s: float | None = TIMEOUT_S, *, cwd: Path = ROOT,
     environment: Mapping[str, str] | None = None, apart: bool = False,
-    log: Path | None = None,
 ) -> Ended:  # fmt: skip
-    """Run a program. Variables are added to ours. Its two output streams are one, unless `apart`;
-    with `log` they are added to that file, and not kept. A missing program ends with 127."""
-    stream = log.open("ab") if log else None
+    """Run a program. Variables are added to ours. Its two output streams are one, unless `apart`.
+    A program that is missing ends with 127."""
     try:
         child = subprocess.Popen(
             [str(word) for word in command], cwd=cwd, env={**os.environ, **(environment or {})},
-            stdin=subprocess.DEVNULL, stdout=stream or subprocess.PIPE,
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.PIPE if apart else subprocess.STDOUT,
             text=True, errors="replace", start_new_session=True,
         )  # fmt: skip
     except OSError as error:
         return Ended(NOT_STARTED, f"{command[0]}: {error.strerror}")
-    finally:
-        if stream:
-            stream.close()
     return _end_of(child, timeout_s)
 
 
@@ -83,8 +78,8 @@ def _end_of(child: subprocess.Popen[str], timeout_s: float | None) -> Ended:
         output, errors = child.communicate()
         if not isinstance(error, subprocess.TimeoutExpired):
             raise
-        return Ended(child.returncode, output or "", timed_out=True, errors=errors or "")
-    return Ended(child.returncode, output or "", errors=errors or "")
+        return Ended(child.returncode, output, timed_out=True, errors=errors or "")
+    return Ended(child.returncode, output, errors=errors or "")
 
 
 def output_of(
