@@ -20,7 +20,7 @@ from toolchain import Toolchain, ToolchainError
 from timing import ctable
 from timing.analysis import analyse
 from timing.board import BoardError, build
-from timing.experiments import run_experiments
+from timing.evaluation import evaluate
 from timing.output import Cell, console, table, write_json
 from timing.phases import spread, without_phases
 from timing.plots import plot_classes, plot_paths, plot_tasks
@@ -111,7 +111,7 @@ def run_all_experiments(options: argparse.Namespace) -> int:
     began = time.monotonic()
     try:
         program = build(Toolchain())
-        findings, results = run_experiments(tasks, program, console())
+        findings, results = evaluate(tasks, program, console())
     except (BoardError, ToolchainError, subprocess.SubprocessError) as error:
         print(f"timing: {error}", file=sys.stderr)
         return 1
