@@ -6,6 +6,8 @@
     python3 tools/prove.py --update-goals     # accept the goals as they are now, after review
     python3 tools/prove.py --shard 2/4        # a quarter of it: build/prove/shard-2-of-4.json
     python3 tools/prove.py --join FILE...     # the verdict on the whole, from all four reports
+    python3 tools/prove.py --explain NAME     # why a goal, harness or assertion fails; how a wrong
+                                              # body is refuted
 
 Exit status: 0 when all is proved and the goals are those of proofs/UNIT/goals.txt, 1 when not, 2
 for a wrong command line. build/prove/report.json has the details; there is none while a run is
@@ -55,6 +57,8 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--shard", type=shard, metavar="N/M", help="only this part of the jobs")
     parser.add_argument("--join", nargs="+", type=Path, metavar="FILE",
                         help="prove nothing: take what the reports of all shards say")  # fmt: skip
+    parser.add_argument("--explain", metavar="NAME",
+                        help="why a goal, harness, assertion or wrong body fails")  # fmt: skip
     options = parser.parse_args(arguments)
     selected = options.unit or options.engine or options.quick
     if options.shard and (selected or options.join or options.update_goals):
@@ -85,7 +89,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             fresh=options.fresh, quick=options.quick, update_goals=options.update_goals,
             shard=options.shard, join=tuple(path.resolve() for path in options.join or ()),
         )  # fmt: skip
-        return Session(ROOT, tools, choice).run()
+        session = Session(ROOT, tools, choice)
+        return session.explain(options.explain) if options.explain else session.run()
     except (ProjectError, ToolchainError) as error:
         print(f"prove: {error}", file=sys.stderr)
         return 1
