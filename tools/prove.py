@@ -10,8 +10,9 @@
                                               # body is refuted
 
 Exit status: 0 when all is proved and the goals are those of proofs/UNIT/goals.txt, 1 when not, 2
-for a wrong command line. build/prove/report.json has the details; there is none while a run is
-not over. A verdict is kept in the user's cache (KEEL_CACHE) under all that it depends on, and only
+when it could not be tried, or a name is unknown. build/prove/report.json has the details; junit.xml
+and results.sarif beside it say the same to CI systems and editors. There is none while a run is not
+over. A verdict is kept in the user's cache (KEEL_CACHE) under all that it depends on, and only
 success is: another clone of the same text has it, too.
 """
 
@@ -25,11 +26,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
+from common.errors import program  # noqa: E402
 from proofs.jobs import end_as_by_ctrl_c  # noqa: E402
-from proofs.project import ROOT, ProjectError, find_units  # noqa: E402
+from proofs.project import ROOT, find_units  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
 from proofs.shards import Shard, read_shard  # noqa: E402
-from toolchain import Toolchain, ToolchainError  # noqa: E402
+from toolchain import Toolchain  # noqa: E402
 
 ENGINES = ("wp", "cbmc", "gappa")
 
@@ -76,27 +78,25 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
     end_as_by_ctrl_c()
-    try:
-        units = find_units()
-        options = parse(arguments, list(units))
-        tools = Toolchain()
-        tools.ensure("prove")
-        choice = Choice(
-            units=tuple(units[name] for name in options.unit or units),
-            partial=bool(options.unit or options.engine),
-            engines=(options.engine,) if options.engine else ENGINES,
-            width=options.width, verdicts=tools.cache.folder / "verdicts",
-            fresh=options.fresh, quick=options.quick, update_goals=options.update_goals,
-            shard=options.shard, join=tuple(path.resolve() for path in options.join or ()),
-        )  # fmt: skip
-        session = Session(ROOT, tools, choice)
-        return session.explain(options.explain) if options.explain else session.run()
-    except (ProjectError, ToolchainError) as error:
-        print(f"prove: {error}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print("prove: interrupted; nothing was reported", file=sys.stderr)
-        return 130
+    return program("prove", lambda: prove(arguments))
+
+
+def prove(arguments: Sequence[str] | None) -> int:
+    """Do what the command line asks for."""
+    units = find_units()
+    options = parse(arguments, list(units))
+    tools = Toolchain()
+    tools.ensure("prove")
+    choice = Choice(
+        units=tuple(units[name] for name in options.unit or units),
+        partial=bool(options.unit or options.engine),
+        engines=(options.engine,) if options.engine else ENGINES,
+        width=options.width, verdicts=tools.cache.folder / "verdicts",
+        fresh=options.fresh, quick=options.quick, update_goals=options.update_goals,
+        shard=options.shard, join=tuple(path.resolve() for path in options.join or ()),
+    )  # fmt: skip
+    session = Session(ROOT, tools, choice)
+    return session.explain(options.explain) if options.explain else session.run()
 
 
 if __name__ == "__main__":

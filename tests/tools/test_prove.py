@@ -1170,7 +1170,7 @@ class CommandLine(unittest.TestCase):
         missing = ToolchainError("cbmc is missing")
         with mock.patch.object(Toolchain, "ensure", side_effect=missing), \
                 contextlib.redirect_stderr(error):  # fmt: skip
-            self.assertEqual(prove.main([]), 1)
+            self.assertEqual(prove.main([]), 2)
         self.assertEqual(error.getvalue(), "prove: cbmc is missing\n")
 
 

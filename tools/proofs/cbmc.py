@@ -10,8 +10,9 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from common.files import write_text
+
 from . import harness as harnesses
-from .cache import write_atomically
 from .cbmc_answers import (
     ASSERTION,
     Answer,
@@ -196,7 +197,7 @@ class Cbmc:
     def _write(self, wrong: WrongBody) -> Path:
         """Write the file with the fault in it; the folder in which it has its usual place."""
         tree = self._root / "build" / "prove" / "wrong" / wrong.unit.name / wrong.name
-        write_atomically(tree / wrong.file.relative_to(self._root), wrong.text())
+        write_text(tree / wrong.file.relative_to(self._root), wrong.text())
         return tree
 
     def _measure(self, harness: Harness, binary: Path, result: Result) -> None:

@@ -137,12 +137,14 @@ class Gathered:
     fresh: int = 0
     # The unit and the name of what is not proved, as --explain takes it.
     open: list[tuple[str, str]] = field(default_factory=list)
+    outcomes: list[Outcome] = field(default_factory=list)
     # What the report of a shard has besides; it says nothing about the whole.
     shard: dict[str, Any] = field(default_factory=dict)
 
     def add(self, outcome: Outcome) -> None:
         """Take in a job's result."""
         self.units[outcome.job.unit].add(outcome)
+        self.outcomes.append(outcome)
         self.open += [(outcome.job.unit, name) for name in unproved(outcome)]
         self.known += outcome.cached
         self.fresh += not outcome.cached
@@ -188,7 +190,7 @@ class Gathered:
         return self.wp_proved + self.cbmc_proved + self.gappa_proved
 
     @property
-    def outcomes(self) -> list[determined.Outcome]:
+    def decided(self) -> list[determined.Outcome]:
         """What determines each function."""
         return [one for unit in self.units.values() for one in unit.outcomes]
 
@@ -290,8 +292,8 @@ def closing_lines(gathered: Gathered) -> list[str]:
     engines = (
         f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}, Gappa {gathered.gappa_proved}"
     )
-    if gathered.outcomes:
-        lines.append(determined.summary(gathered.outcomes))
+    if gathered.decided:
+        lines.append(determined.summary(gathered.decided))
     if gathered.shard:
         lines.append(f"shard {gathered.shard['shard']}: see --join for the verdict on the whole")
     return [*lines, f"proved {gathered.proved} of {gathered.total} goals ({engines})"]

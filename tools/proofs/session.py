@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from common.files import write_text
 from toolchain import Found, Toolchain
 
 from . import (
@@ -24,6 +25,7 @@ from . import (
     driver,
     engines,
     explain,
+    exports,
     frames,
     gappa,
     report,
@@ -32,7 +34,7 @@ from . import (
     unused,
     wp,
 )
-from .cache import Cache, write_atomically
+from .cache import Cache
 from .declarations import structures
 from .goals import as_text, read_goals, short_name
 from .harness import read_harness, unchecked
@@ -75,6 +77,10 @@ def tool_stamp(tools: dict[str, Found]) -> dict[str, str]:
     return stamp
 
 
+# Makes mutants, or tells what others found: no verdict depends on it.
+NO_JUDGES = ("muta", "explain", "counterexample", "sequents", "exports", "report", "times")
+
+
 def own_digest() -> str:
     """SHA-256 over the driver's source: another driver may judge differently. How the provers are
     installed does not matter, how they are started does."""
@@ -82,7 +88,7 @@ def own_digest() -> str:
     state = hashlib.sha256()
     own = [*folder.glob("*.py"), *folder.glob("*.ml"), folder.parent / "toolchain/provers.py"]
     for path in sorted(own):
-        if not path.stem.startswith("muta"):
+        if not path.stem.startswith(NO_JUDGES):
             state.update(path.read_bytes())
     return state.hexdigest()
 
@@ -147,16 +153,18 @@ class Session:
         shard = self._choice.shard
         target = self._build / (shard.file_name if shard else "report.json")
         target.unlink(missing_ok=True)
+        exports.clear(self._build)
         with self._programs() as (runner, scratch):
             gathered = self._prove(runner, scratch)
         seconds = time.monotonic() - start
         versions = self._tools.versions("prove")
         content = report.content(gathered, versions, seconds, self._choice.partial)
-        write_atomically(target, report.as_text(content))
+        write_text(target, report.as_text(content))
         if not gathered.shard:
-            write_atomically(
-                self._build / "determined.md", determined.as_markdown(gathered.outcomes)
+            write_text(
+                self._build / "determined.md", determined.as_markdown(gathered.decided)
             )
+        exports.write(self._build, gathered)
         print("\n".join(report.closing_lines(gathered)), flush=True)
         return 0 if gathered.success else 1
 
@@ -207,7 +215,7 @@ class Session:
         whole = not self._choice.partial and len(seen) == len(outcomes)
         text = times_text(recorded_anew(read_times(path), seen, whole))
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
-            write_atomically(path, text)
+            write_text(path, text)
 
     def _jobs(
         self, runner: Runner, scratch: Path, stamp: dict[str, str], everything: dict[str, Unit],
@@ -328,5 +336,5 @@ class Session:
             provers.pop(name, None)
         text = as_text(seen, provers)
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
-            write_atomically(path, text)
+            write_text(path, text)
             print(f"{result.unit.name:<10} {shown} rewritten: review the difference")

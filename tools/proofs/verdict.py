@@ -35,6 +35,7 @@ def judge(
     result = Result(smoke=sum(log.smoke.values()))
     result.goals = [
         {"name": goal.name, "status": goal.status, "prover": goal.prover}
+        | ({} if goal.proved else {"place": place_of(target, goal.name, root)})
         for goal in log.goals.values()
     ]
     result.problems += _structure(target, log, report, output)
