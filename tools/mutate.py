@@ -37,7 +37,8 @@ from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from proofs.cache import Cache, digest, digest_of_files, write_atomically  # noqa: E402
+from common.files import write_text  # noqa: E402
+from proofs.cache import Cache, digest, digest_of_files  # noqa: E402
 from proofs.jobs import end_as_by_ctrl_c  # noqa: E402
 from proofs.mutant_crew import Dask, Job, Threads, answer_order  # noqa: E402
 from proofs.mutant_verdicts import Verdict  # noqa: E402
@@ -201,7 +202,7 @@ class Measurement:
                 one.unit.name, verdicts, problems, one.dropped, one.trial.digest
             )
             if not self._options.function:
-                write_atomically(self.report_of(one.unit), text)
+                write_text(self.report_of(one.unit), text)
             print(f"{one.unit.name}: dropped {one.dropped} that say the same as another")
             status = max(status, conclude(verdicts, problems, self.engines))
         return status

@@ -6,10 +6,13 @@
     python3 tools/prove.py --update-goals     # accept the goals as they are now, after review
     python3 tools/prove.py --shard 2/4        # a quarter of it: build/prove/shard-2-of-4.json
     python3 tools/prove.py --join FILE...     # the verdict on the whole, from all four reports
+    python3 tools/prove.py --explain NAME     # why a goal, harness or assertion fails; how a wrong
+                                              # body is refuted
 
 Exit status: 0 when all is proved and the goals are those of proofs/UNIT/goals.txt, 1 when not, 2
-for a wrong command line. build/prove/report.json has the details; there is none while a run is
-not over. A verdict is kept in the user's cache (KEEL_CACHE) under all that it depends on, and only
+when it could not be tried, or a name is unknown. build/prove/report.json has the details; junit.xml
+and results.sarif beside it say the same to CI systems and editors. There is none while a run is not
+over. A verdict is kept in the user's cache (KEEL_CACHE) under all that it depends on, and only
 success is: another clone of the same text has it, too.
 """
 
@@ -23,11 +26,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
+from common.errors import program  # noqa: E402
 from proofs.jobs import end_as_by_ctrl_c  # noqa: E402
-from proofs.project import ROOT, ProjectError, find_units  # noqa: E402
+from proofs.project import ROOT, find_units  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
 from proofs.shards import Shard, read_shard  # noqa: E402
-from toolchain import Toolchain, ToolchainError  # noqa: E402
+from toolchain import Toolchain  # noqa: E402
 
 ENGINES = ("wp", "cbmc", "gappa")
 
@@ -55,6 +59,8 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--shard", type=shard, metavar="N/M", help="only this part of the jobs")
     parser.add_argument("--join", nargs="+", type=Path, metavar="FILE",
                         help="prove nothing: take what the reports of all shards say")  # fmt: skip
+    parser.add_argument("--explain", metavar="NAME",
+                        help="why a goal, harness, assertion or wrong body fails")  # fmt: skip
     options = parser.parse_args(arguments)
     selected = options.unit or options.engine or options.quick
     if options.shard and (selected or options.join or options.update_goals):
@@ -72,26 +78,25 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
     end_as_by_ctrl_c()
-    try:
-        units = find_units()
-        options = parse(arguments, list(units))
-        tools = Toolchain()
-        tools.ensure("prove")
-        choice = Choice(
-            units=tuple(units[name] for name in options.unit or units),
-            partial=bool(options.unit or options.engine),
-            engines=(options.engine,) if options.engine else ENGINES,
-            width=options.width, verdicts=tools.cache.folder / "verdicts",
-            fresh=options.fresh, quick=options.quick, update_goals=options.update_goals,
-            shard=options.shard, join=tuple(path.resolve() for path in options.join or ()),
-        )  # fmt: skip
-        return Session(ROOT, tools, choice).run()
-    except (ProjectError, ToolchainError) as error:
-        print(f"prove: {error}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print("prove: interrupted; nothing was reported", file=sys.stderr)
-        return 130
+    return program("prove", lambda: prove(arguments))
+
+
+def prove(arguments: Sequence[str] | None) -> int:
+    """Do what the command line asks for."""
+    units = find_units()
+    options = parse(arguments, list(units))
+    tools = Toolchain()
+    tools.ensure("prove")
+    choice = Choice(
+        units=tuple(units[name] for name in options.unit or units),
+        partial=bool(options.unit or options.engine),
+        engines=(options.engine,) if options.engine else ENGINES,
+        width=options.width, verdicts=tools.cache.folder / "verdicts",
+        fresh=options.fresh, quick=options.quick, update_goals=options.update_goals,
+        shard=options.shard, join=tuple(path.resolve() for path in options.join or ()),
+    )  # fmt: skip
+    session = Session(ROOT, tools, choice)
+    return session.explain(options.explain) if options.explain else session.run()
 
 
 if __name__ == "__main__":

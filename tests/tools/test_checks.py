@@ -30,7 +30,7 @@ from test_prove import (  # noqa: E402
 )
 from toolchain import Toolchain, ToolchainError  # noqa: E402
 
-from proofs import cbmc, engines, harness, rules  # noqa: E402
+from proofs import cbmc, cbmc_answers, engines, harness, rules  # noqa: E402
 
 ALONE = "// checks: assertions\n" + HARNESS
 CASE = HARNESS.replace("keel_box_put_harness", "keel_box_put__all_harness")
@@ -152,12 +152,12 @@ class Solver(unittest.TestCase):
     def test_an_error_of_the_solver_is_no_proof(self) -> None:
         failed = item("h.assertion.2", "ERROR", "BOX_002: equal")
         text = json.dumps([{"result": [ASSERTED, failed]}, {"cProverStatus": "error"}])
-        problems = cbmc.proof_problems(cbmc.read_answer(text))
+        problems = cbmc_answers.proof_problems(cbmc_answers.read_answer(text))
         self.assertTrue(any("BOX_002: equal: ERROR" in problem for problem in problems), problems)
         self.assertIn("CBMC did not finish", problems)
 
     def test_an_error_is_an_answer_neither_way(self) -> None:
-        answer = cbmc.read_answer(json.dumps([{"cProverStatus": "error"}]))
+        answer = cbmc_answers.read_answer(json.dumps([{"cProverStatus": "error"}]))
         self.assertEqual((answer.complete, answer.failed), (False, False))
 
 
@@ -214,7 +214,7 @@ class PlayedSolver(TreeTest):
         read = self.read(SUM)
         binary, complaint = checker.build(read, read.name)
         self.assertEqual(complaint, "")
-        return cbmc.proof_problems(checker.check(read, binary))
+        return cbmc_answers.proof_problems(checker.check(read, binary))
 
     def test_only_unsat_proves(self) -> None:
         self.assertEqual(self.prove("echo unsat"), [])

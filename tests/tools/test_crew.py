@@ -37,7 +37,7 @@ from proofs.times import Times  # noqa: E402
 from test_prove import HARNESS, SOURCE, TreeTest  # noqa: E402
 from toolchain import Toolchain, ToolchainError  # noqa: E402
 
-from proofs import cbmc, engines, harness, jobs, mutant_worker  # noqa: E402
+from proofs import cbmc, cbmc_answers, engines, harness, jobs, mutant_worker  # noqa: E402
 
 
 def harness_text(name: str, covers: str, more: str = "") -> str:
@@ -120,9 +120,9 @@ class Order(TrialCase):
     def test_who_answered_is_not_asked_again(self) -> None:
         asked: list[str] = []
 
-        def check(_self: cbmc.Cbmc, harness: Any, *_: object) -> cbmc.Answer:
+        def check(_self: cbmc.Cbmc, harness: Any, *_: object) -> cbmc_answers.Answer:
             asked.append(harness.name)
-            return cbmc.Answer([], [], [], complete="slow" not in harness.name)
+            return cbmc_answers.Answer([], [], [], complete="slow" not in harness.name)
 
         said: dict[str, str] = {}
         runner = jobs.Runner({}, self.root)

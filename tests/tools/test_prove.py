@@ -29,6 +29,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import prove  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
+from proofs.cbmc_answers import read_answer, refutation_problems  # noqa: E402
 from proofs.jobs import Runner, in_pool  # noqa: E402
 from proofs.project import ProjectError, Unit, closure, find_units  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
@@ -37,6 +38,7 @@ from toolchain import Toolchain, ToolchainError  # noqa: E402
 
 from proofs import (  # noqa: E402
     cbmc,
+    cbmc_answers,
     csource,
     driver,
     engines,
@@ -599,7 +601,7 @@ ASSERTED = item("h.assertion.1", "SUCCESS", "BOX_001: it holds the value")
 
 class CbmcVerdict(TreeTest):
     def problems(self, text: str) -> list[str]:
-        return cbmc.proof_problems(cbmc.read_answer(text))
+        return cbmc_answers.proof_problems(read_answer(text))
 
     def test_all_proved_is_success(self) -> None:
         self.assertEqual(self.problems(cbmc_output(ASSERTED)), [])
@@ -624,21 +626,21 @@ class CbmcVerdict(TreeTest):
 
     def test_a_wrong_body_that_passes_is_a_failure(self) -> None:
         body = wrong.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
-        passes = cbmc.read_answer(cbmc_output(ASSERTED))
-        [problem] = cbmc.refutation_problems(passes, body)
+        passes = read_answer(cbmc_output(ASSERTED))
+        [problem] = refutation_problems(passes, body)
         self.assertIn("does not refute this wrong body", problem)
 
     def test_a_wrong_body_must_fail_at_its_assertion(self) -> None:
         body = wrong.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
-        other = cbmc.read_answer(cbmc_output(item("h.assertion.2", "FAILURE", "BOX_002: x")))
-        [problem] = cbmc.refutation_problems(other, body)
+        other = read_answer(cbmc_output(item("h.assertion.2", "FAILURE", "BOX_002: x")))
+        [problem] = refutation_problems(other, body)
         self.assertIn("not at BOX_001", problem)
-        right = cbmc.read_answer(cbmc_output(item("h.assertion.1", "FAILURE", "BOX_001: x")))
-        self.assertEqual(cbmc.refutation_problems(right, body), [])
+        right = read_answer(cbmc_output(item("h.assertion.1", "FAILURE", "BOX_001: x")))
+        self.assertEqual(refutation_problems(right, body), [])
 
     def test_a_run_that_breaks_off_refutes_nothing(self) -> None:
         body = wrong.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
-        self.assertEqual(len(cbmc.refutation_problems(cbmc.read_answer("[{"), body)), 1)
+        self.assertEqual(len(refutation_problems(read_answer("[{"), body)), 1)
 
     def test_only_the_expected_assertions_are_asked_for(self) -> None:
         listing = json.dumps([{"properties": [
@@ -660,8 +662,8 @@ def goal(function: str, lines: str, reached: bool, file: str = "src/rtos/box.c")
 class Coverage(TreeTest):
     def problems(self, *goals: dict[str, Any]) -> list[str]:
         parsed = harness.read_harness(self.unit, self.unit.harnesses[0])
-        properties = cbmc.read_answer(cbmc_output(ASSERTED)).properties
-        return cbmc.coverage_problems(cbmc.blocks(goals), parsed, properties)
+        properties = read_answer(cbmc_output(ASSERTED)).properties
+        return cbmc_answers.coverage_problems(cbmc_answers.blocks(goals), parsed, properties)
 
     own = "proofs/box/keel_box_put_harness.c"
     name = "keel_box_put_harness"
@@ -1168,7 +1170,7 @@ class CommandLine(unittest.TestCase):
         missing = ToolchainError("cbmc is missing")
         with mock.patch.object(Toolchain, "ensure", side_effect=missing), \
                 contextlib.redirect_stderr(error):  # fmt: skip
-            self.assertEqual(prove.main([]), 1)
+            self.assertEqual(prove.main([]), 2)
         self.assertEqual(error.getvalue(), "prove: cbmc is missing\n")
 
 

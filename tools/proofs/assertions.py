@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from .cache import write_atomically
+from common.files import write_text
+
 from .project import Unit
 
 
@@ -37,7 +38,7 @@ def update(unit: Unit, harnesses: Mapping[str, Mapping[str, Any]]) -> bool:
     path = list_of(unit)
     if (path.read_text(encoding="utf-8") if path.is_file() else "") == text:
         return False
-    write_atomically(path, text)
+    write_text(path, text)
     return True
 
 

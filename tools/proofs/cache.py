@@ -10,11 +10,12 @@ import contextlib
 import hashlib
 import json
 import os
-import tempfile
 import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
+
+from common.files import write_text
 
 
 def digest(value: object) -> str:
@@ -27,19 +28,6 @@ def digest_of_files(files: list[Path], root: Path) -> dict[str, str]:
     return {
         os.path.relpath(path, root): hashlib.sha256(path.read_bytes()).hexdigest() for path in files
     }
-
-
-def write_atomically(path: Path, text: str) -> None:
-    """Write a file so that whoever reads it sees all of it or none."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as stream:
-            stream.write(text)
-        os.replace(name, path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
 
 
 OLDEST = 90 * 24 * 3600.0  # seconds since an entry was last of use
@@ -75,7 +63,7 @@ class Cache:
         """Keep a result. The caller only offers success."""
         if self._folder:
             entry = {"key": key, "digest": digest(dict(result)), "result": result}
-            write_atomically(self._folder / f"{key}.json", json.dumps(entry))
+            write_text(self._folder / f"{key}.json", json.dumps(entry))
 
     def prune(self, oldest: float = OLDEST, largest: int = LARGEST) -> None:
         """Forget what has been of no use for long, and the least recently used beyond a size."""

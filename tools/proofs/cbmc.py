@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 import json
-import os
-import re
 import shutil
 import time
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from common.files import write_text
+
 from . import harness as harnesses
-from .cache import write_atomically
+from .cbmc_answers import (
+    ASSERTION,
+    Answer,
+    blocks,
+    coverage_problems,
+    proof_problems,
+    read_answer,
+    refutation_problems,
+)
 from .harness import Harness
 from .jobs import Finished, Runner
 from .project import closure
@@ -30,12 +38,6 @@ CHECKS = (
 ASSERTIONS = ("--no-standard-checks", "--unwinding-assertions", "--drop-unused-functions")
 # The coverage run asks what can be reached at all. CBMC takes assertions for assumptions there.
 COVERAGE = ("--cover", "location", "--no-standard-checks", "--drop-unused-functions")
-HARMLESS = (
-    # Said of every coverage run; the proof itself has unwinding assertions.
-    "--cover is incompatible with --unwinding-assertions",
-    "Use --unwinding-assertions to obtain sound verification results",
-)
-ASSERTION = re.compile(r"\.assertion\.\d+$")
 
 
 @dataclass
@@ -56,158 +58,9 @@ class Result:
         return asdict(self)
 
 
-@dataclass(frozen=True)
-class Answer:
-    """CBMC's JSON output, taken apart."""
-
-    properties: list[dict[str, str]]
-    goals: list[dict[str, Any]]
-    warnings: list[str]
-    complete: bool
-    failed: bool = False
-    first_failure: str = ""
-
-
 def checks_of(harness: Harness) -> tuple[str, ...]:
     """What CBMC is to look for."""
     return ASSERTIONS if harness.assertions_only else CHECKS
-
-
-def file_of(location: dict[str, Any]) -> str:
-    """File of a source location."""
-    return os.path.normpath(str(location.get("file", "?")))
-
-
-def place(location: dict[str, Any]) -> str:
-    """File and line of a source location."""
-    return f"{file_of(location)}:{location.get('line', '?')}"
-
-
-def read_answer(text: str) -> Answer:
-    """Read CBMC's JSON output. Output that breaks off is not complete."""
-    try:
-        entries = json.loads(text)
-    except ValueError:
-        return Answer([], [], ["CBMC's output breaks off"], complete=False)
-    properties: list[dict[str, str]] = []
-    goals: list[dict[str, Any]] = []
-    warnings: list[str] = []
-    complete = failed = False
-    first_failure = ""
-    for entry in entries if isinstance(entries, list) else []:
-        if entry.get("messageType") in ("WARNING", "ERROR"):
-            warnings.append(str(entry.get("messageText", "")))
-        for item in entry.get("result", []):
-            location = item.get("sourceLocation", {})
-            properties.append(
-                {
-                    "name": str(item["property"]), "description": str(item["description"]),
-                    "status": str(item["status"]), "place": place(location),
-                    "function": str(location.get("function", "")),
-                }
-            )  # fmt: skip
-        goals += entry.get("goals", [])
-        # A solver that crashes or says `unknown` makes it "error".
-        ended = entry.get("cProverStatus") in ("success", "failure")
-        complete = complete or ended or "goalsCovered" in entry
-        failed = failed or entry.get("cProverStatus") == "failure"
-        for step in entry.get("trace", []):  # what --stop-on-fail shows
-            if step.get("stepType") == "failure":
-                first_failure = str(step.get("reason", ""))
-    return Answer(properties, goals, warnings, complete, failed, first_failure)
-
-
-def numbers(ranges: str) -> set[int]:
-    """The lines in "18,20-22"."""
-    lines: set[int] = set()
-    for part in ranges.split(","):
-        first, _, last = part.partition("-")
-        lines.update(range(int(first), int(last or first) + 1))
-    return lines
-
-
-POINTER_CALL = re.compile(r"[.>]\w+\(")
-
-
-@dataclass(frozen=True)
-class Block:
-    """A basic block of the code and whether any execution reaches it."""
-
-    function: str
-    places: frozenset[tuple[str, int]]
-    first: str
-    reached: bool
-
-
-def blocks(goals: Iterable[dict[str, Any]]) -> list[Block]:
-    """The blocks of a coverage run."""
-    found = []
-    for goal in goals:
-        places = frozenset(
-            (os.path.normpath(file), line)
-            for file, functions in goal.get("basicBlockLines", {}).items()
-            for ranges in functions.values()
-            for line in numbers(ranges)
-        )
-        location = goal.get("sourceLocation", {})
-        function = str(location.get("function", ""))
-        found.append(Block(function, places, place(location), goal.get("status") == "satisfied"))
-    return found
-
-
-def proof_problems(answer: Answer) -> list[str]:
-    """Every property that is not proved, and reasons not to believe the rest."""
-    problems = [
-        f"{item['place']}: {item['description']}: {item['status']} ({item['name']})"
-        for item in answer.properties
-        if item["status"] != "SUCCESS"
-    ]
-    problems += [text for text in answer.warnings if not any(known in text for known in HARMLESS)]
-    if not answer.complete:
-        problems.append("CBMC did not finish")
-    elif not any(ASSERTION.search(item["name"]) for item in answer.properties):
-        problems.append("there is no assertion in it")
-    return problems
-
-
-def coverage_problems(
-    found: Sequence[Block], harness: Harness, properties: Sequence[dict[str, str]]
-) -> list[str]:
-    """What no execution reaches: the harness's end, an assertion, a block of what it covers."""
-    problems = []
-    ends = [block for block in found if block.function == harness.name]
-    last = max((line for block in ends for _, line in block.places), default=0)
-    if not any(block.reached and any(line == last for _, line in block.places) for block in ends):
-        problems.append(
-            "no execution reaches the harness's end: its assumptions contradict each other"
-        )
-    reached = {f"{file}:{line}" for block in found if block.reached for file, line in block.places}
-    for item in properties:
-        if ASSERTION.search(item["name"]) and item["place"] not in reached:
-            problems.append(f"{item['place']}: no execution reaches this assertion")
-    for function in harness.covers:
-        own = [block for block in found if block.function == function]
-        if not own:
-            problems.append(f"{function} is covered nowhere: it is never called")
-        problems += [
-            f"{block.first}: not reached in {function}"
-            for block in own
-            if not block.reached and not _is_dispatch(block, reached, harness.unit.root)
-        ]
-    return list(dict.fromkeys(problems))
-
-
-def _is_dispatch(block: Block, reached: frozenset[str] | set[str], root: Path) -> bool:
-    """Whether a block is only what CBMC makes of a call through a pointer that hits no function.
-
-    CBMC turns the call into a choice of functions and a remainder that no valid pointer reaches.
-    The call's own line is reached all the same, or this is no such block.
-    """
-    return bool(block.places) and all(
-        f"{file}:{line}" in reached
-        and POINTER_CALL.search((root / file).read_text(encoding="utf-8").splitlines()[line - 1])
-        for file, line in block.places
-    )
 
 
 class Cbmc:
@@ -272,6 +125,22 @@ class Cbmc:
         command += [*harness.options, *extra]
         return self._answer(self._runner.run(command, harness.timeout, merged=False), harness)
 
+    def counterexample(
+        self, harness: Harness, wrong: WrongBody | None, expect: Sequence[str]
+    ) -> tuple[Answer, str]:  # fmt: skip
+        """An execution in which an assertion fails that contains an expected text, or any check.
+
+        The answer has its trace, or says that there is none; the text is a compiler's complaint.
+        """
+        if wrong and wrong.defines:
+            harness = replace(harness, defines=wrong.defines)
+        name = f"{harness.name}-{wrong.name}" if wrong else harness.name
+        binary, complaint = self.build(harness, name, wrong)
+        if complaint:
+            return Answer([], [], [], complete=False), complaint
+        selected = self._selection(harness, binary, expect) if expect else []
+        return self.check(harness, binary, ["--stop-on-fail", "--trace", *selected]), ""
+
     def _selection(self, harness: Harness, binary: Path, expect: Sequence[str]) -> list[str]:
         """Options that restrict CBMC to the assertions that are to fail: all others take longer."""
         command = [*self._cbmc, str(binary), "--json-ui", "--show-properties", *checks_of(harness)]
@@ -328,7 +197,7 @@ class Cbmc:
     def _write(self, wrong: WrongBody) -> Path:
         """Write the file with the fault in it; the folder in which it has its usual place."""
         tree = self._root / "build" / "prove" / "wrong" / wrong.unit.name / wrong.name
-        write_atomically(tree / wrong.file.relative_to(self._root), wrong.text())
+        write_text(tree / wrong.file.relative_to(self._root), wrong.text())
         return tree
 
     def _measure(self, harness: Harness, binary: Path, result: Result) -> None:
@@ -377,22 +246,6 @@ def _select(listing: str, wanted: Callable[[dict[str, Any]], bool]) -> list[str]
         return []
     found = (item for entry in entries for item in entry.get("properties", []) if wanted(item))
     return [word for item in found for word in ("--property", item["name"])]
-
-
-def refutation_problems(answer: Answer, wrong: WrongBody) -> list[str]:
-    """Why a wrong body does not count as refuted; nothing if it does."""
-    shown = wrong.shown
-    if not answer.complete:
-        return [f"{shown}: CBMC did not finish: {' '.join(answer.warnings)}"]
-    failed = [item["description"] for item in answer.properties if item["status"] == "FAILURE"]
-    if not failed:
-        wanted = ", ".join(wrong.expect)
-        return [f"{shown}: {wrong.harness} does not refute this wrong body at {wanted}: too weak"]
-    return [
-        f"{shown}: {wrong.harness} fails, but not at {expected}; it fails at: {'; '.join(failed)}"
-        for expected in wrong.expect
-        if not any(expected in description for description in failed)
-    ]
 
 
 def dependencies(harness: Harness, root: Path) -> list[Path]:

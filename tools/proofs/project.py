@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from common.errors import ToolError
+
 from . import csource
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -14,7 +16,7 @@ STATE = "_state.h"
 RECORDED_TIMES = "proofs/times.json"
 
 
-class ProjectError(Exception):
+class ProjectError(ToolError):
     """The tree is not as the driver needs it; the message says what to change."""
 
 

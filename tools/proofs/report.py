@@ -9,11 +9,13 @@ from typing import Any
 
 from toolchain import Found
 
-from . import cbmc, determined
+from . import cbmc_answers, determined
 from .driver import Job, Outcome
 from .project import Unit
 from .settings import Exceptions
 from .times import Forecast, Times, estimates
+
+EXPLAINED = 5  # commands that a summary names
 
 
 @dataclass
@@ -104,13 +106,23 @@ def _harness(result: Mapping[str, Any], sound: bool) -> dict[str, Any]:
         "assertions": [
             {key: item[key] for key in ("name", "description", "status")}
             for item in properties
-            if cbmc.ASSERTION.search(item["name"])
+            if cbmc_answers.ASSERTION.search(item["name"])
         ],
         "defines": result["defines"],
         "replaces": result["replaces"],
         "checks": result["checks"],
         "coverage": {"blocks": result["blocks"], "reached": result["covered"]},
     }
+
+
+def unproved(outcome: Outcome) -> list[str]:
+    """The names under which --explain knows what a job did not prove."""
+    job, result = outcome.job, outcome.result
+    if job.kind == "wp":
+        return [goal["name"] for goal in result["goals"] if goal["status"] != "Valid"]
+    if job.kind == "cbmc" and any(one["status"] != "SUCCESS" for one in result["properties"]):
+        return [job.name]
+    return [job.name] if job.kind == "negative" and outcome.problems else []
 
 
 @dataclass
@@ -123,12 +135,17 @@ class Gathered:
     # Verdicts that were known, and those that were had now.
     known: int = 0
     fresh: int = 0
+    # The unit and the name of what is not proved, as --explain takes it.
+    open: list[tuple[str, str]] = field(default_factory=list)
+    outcomes: list[Outcome] = field(default_factory=list)
     # What the report of a shard has besides; it says nothing about the whole.
     shard: dict[str, Any] = field(default_factory=dict)
 
     def add(self, outcome: Outcome) -> None:
         """Take in a job's result."""
         self.units[outcome.job.unit].add(outcome)
+        self.outcomes.append(outcome)
+        self.open += [(outcome.job.unit, name) for name in unproved(outcome)]
         self.known += outcome.cached
         self.fresh += not outcome.cached
 
@@ -173,7 +190,7 @@ class Gathered:
         return self.wp_proved + self.cbmc_proved + self.gappa_proved
 
     @property
-    def outcomes(self) -> list[determined.Outcome]:
+    def decided(self) -> list[determined.Outcome]:
         """What determines each function."""
         return [one for unit in self.units.values() for one in unit.outcomes]
 
@@ -255,6 +272,10 @@ class Console:
 def closing_lines(gathered: Gathered) -> list[str]:
     """What is wrong, together, and the line that says how much is proved."""
     lines = [f"FAILED {text}" for text in gathered.all_problems]
+    lines += [
+        f"to see why: make prove UNIT={unit} ARGS='--explain {name}'"
+        for unit, name in gathered.open[:EXPLAINED]
+    ]
     for name, unit in gathered.units.items():
         if unit.exceptions.not_by_wp and "wp" in gathered.engines:
             left = len(unit.exceptions.not_by_wp)
@@ -271,8 +292,8 @@ def closing_lines(gathered: Gathered) -> list[str]:
     engines = (
         f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}, Gappa {gathered.gappa_proved}"
     )
-    if gathered.outcomes:
-        lines.append(determined.summary(gathered.outcomes))
+    if gathered.decided:
+        lines.append(determined.summary(gathered.decided))
     if gathered.shard:
         lines.append(f"shard {gathered.shard['shard']}: see --join for the verdict on the whole")
     return [*lines, f"proved {gathered.proved} of {gathered.total} goals ({engines})"]

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import shutil
+import sys
 import tempfile
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from common.files import write_text
 from toolchain import Found, Toolchain
 
 from . import (
@@ -21,6 +24,8 @@ from . import (
     determined,
     driver,
     engines,
+    explain,
+    exports,
     frames,
     gappa,
     report,
@@ -29,7 +34,7 @@ from . import (
     unused,
     wp,
 )
-from .cache import Cache, write_atomically
+from .cache import Cache
 from .declarations import structures
 from .goals import as_text, read_goals, short_name
 from .harness import read_harness, unchecked
@@ -72,6 +77,10 @@ def tool_stamp(tools: dict[str, Found]) -> dict[str, str]:
     return stamp
 
 
+# Makes mutants, or tells what others found: no verdict depends on it.
+NO_JUDGES = ("muta", "explain", "counterexample", "sequents", "exports", "report", "times")
+
+
 def own_digest() -> str:
     """SHA-256 over the driver's source: another driver may judge differently. How the provers are
     installed does not matter, how they are started does."""
@@ -79,7 +88,7 @@ def own_digest() -> str:
     state = hashlib.sha256()
     own = [*folder.glob("*.py"), *folder.glob("*.ml"), folder.parent / "toolchain/provers.py"]
     for path in sorted(own):
-        if not path.stem.startswith("muta"):
+        if not path.stem.startswith(NO_JUDGES):
             state.update(path.read_bytes())
     return state.hexdigest()
 
@@ -99,6 +108,44 @@ class Session:
         self._tools = tools
         self._choice = choice
         self._build = root / "build" / "prove"
+        self._exceptions = root / "proofs" / "units.toml"
+
+    @contextlib.contextmanager
+    def _programs(self) -> Iterator[tuple[Runner, Path]]:
+        """What starts programs, and a folder for what they write; both end with the block."""
+        # Not below build/: why3 puts a socket there, whose path must be short.
+        scratch = Path(tempfile.mkdtemp(prefix="keel-prove-"))
+        environment = {**os.environ, **self._tools.environment(), "TMPDIR": str(scratch)}
+        runner = Runner(environment, self._root)
+        try:
+            yield runner, scratch
+        finally:
+            runner.stop()
+            shutil.rmtree(scratch, ignore_errors=True)
+
+    def explain(self, name: str) -> int:
+        """Explain what bears a name; 0 if all is well with it, 1 if not, 2 if nothing does."""
+        everything = list(find_units(self._root).values())
+        every = explain.subjects(self._choice.units, self._build / "report.json")
+        try:
+            found = explain.named(every, name)
+        except explain.UnknownName as error:
+            print(f"prove: {error}", file=sys.stderr)
+            return 2
+        exceptions = read_exceptions(self._exceptions, [unit.name for unit in everything])
+        sound = True
+        with self._programs() as (runner, scratch):
+            explainer = explain.Explainer(
+                explain.Engines(
+                    self._checker(runner, scratch), self._prover(runner, scratch),
+                    exceptions, clauses.header_texts(self._root),
+                ), self._root,
+            )  # fmt: skip
+            for subject in found:
+                text, well = explainer.explain(subject)
+                print("\n".join([*text, ""]), flush=True)
+                sound = sound and well
+        return 0 if sound else 1
 
     def run(self) -> int:
         """Prove, report; the exit status."""
@@ -106,23 +153,18 @@ class Session:
         shard = self._choice.shard
         target = self._build / (shard.file_name if shard else "report.json")
         target.unlink(missing_ok=True)
-        # Not below build/: why3 puts a socket there, whose path must be short.
-        scratch = Path(tempfile.mkdtemp(prefix="keel-prove-"))
-        environment = {**os.environ, **self._tools.environment(), "TMPDIR": str(scratch)}
-        runner = Runner(environment, self._root)
-        try:
+        exports.clear(self._build)
+        with self._programs() as (runner, scratch):
             gathered = self._prove(runner, scratch)
-        finally:
-            runner.stop()
-            shutil.rmtree(scratch, ignore_errors=True)
         seconds = time.monotonic() - start
         versions = self._tools.versions("prove")
         content = report.content(gathered, versions, seconds, self._choice.partial)
-        write_atomically(target, report.as_text(content))
+        write_text(target, report.as_text(content))
         if not gathered.shard:
-            write_atomically(
-                self._build / "determined.md", determined.as_markdown(gathered.outcomes)
+            write_text(
+                self._build / "determined.md", determined.as_markdown(gathered.decided)
             )
+        exports.write(self._build, gathered)
         print("\n".join(report.closing_lines(gathered)), flush=True)
         return 0 if gathered.success else 1
 
@@ -130,7 +172,7 @@ class Session:
         """Have the verdicts of the choice, and apply the rules."""
         choice = self._choice
         everything = find_units(self._root)
-        exceptions = read_exceptions(self._root / "proofs" / "units.toml", list(everything))
+        exceptions = read_exceptions(self._exceptions, list(everything))
         gathered = report.Gathered(
             {unit.name: report.UnitResult(unit, exceptions[unit.name]) for unit in choice.units},
             choice.engines,
@@ -173,7 +215,7 @@ class Session:
         whole = not self._choice.partial and len(seen) == len(outcomes)
         text = times_text(recorded_anew(read_times(path), seen, whole))
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
-            write_atomically(path, text)
+            write_text(path, text)
 
     def _jobs(
         self, runner: Runner, scratch: Path, stamp: dict[str, str], everything: dict[str, Unit],
@@ -185,24 +227,31 @@ class Session:
         if "wp" in choice.engines:
             jobs += self._wp_jobs(runner, scratch, stamp, everything, exceptions)
         if "cbmc" in choice.engines:
-            checker = cbmc.Cbmc(
-                self._tools.goto_cc(), self._tools.command("cbmc"), runner, self._root, scratch
-            )
+            checker = self._checker(runner, scratch)
             jobs += engines.cbmc_jobs(choice.units, checker, self._root, stamp)
         if "gappa" in choice.engines:
             bounds = gappa.Gappa(self._tools.command("gappa"), runner, self._root, scratch)
             jobs += engines.gappa_jobs(choice.units, bounds, self._root, stamp)
         return jobs
 
+    def _checker(self, runner: Runner, scratch: Path) -> cbmc.Cbmc:
+        return cbmc.Cbmc(
+            self._tools.goto_cc(), self._tools.command("cbmc"), runner, self._root, scratch
+        )
+
+    def _prover(self, runner: Runner, scratch: Path) -> wp.Wp:
+        answers = prover_answers(self._root, tool_stamp(self._tools.versions("prove")))
+        return wp.Wp(
+            self._tools.frama_c(), runner, self._root, scratch,
+            None if self._choice.fresh else answers,
+        )  # fmt: skip
+
     def _wp_jobs(
         self, runner: Runner, scratch: Path, stamp: dict[str, str], everything: dict[str, Unit],
         exceptions: dict[str, Exceptions],
     ) -> list[driver.Job]:  # fmt: skip
         choice = self._choice
-        prover = wp.Wp(
-            self._tools.frama_c(), runner, self._root, scratch,
-            None if choice.fresh else prover_answers(self._root, stamp),
-        )  # fmt: skip
+        prover = self._prover(runner, scratch)
         known = frozenset(
             function.name
             for unit in everything.values()
@@ -287,5 +336,5 @@ class Session:
             provers.pop(name, None)
         text = as_text(seen, provers)
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
-            write_atomically(path, text)
+            write_text(path, text)
             print(f"{result.unit.name:<10} {shown} rewritten: review the difference")

@@ -7,8 +7,9 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+from common.files import write_text
+
 from . import csource, frames
-from .cache import write_atomically
 from .project import Unit, closure
 
 
@@ -70,7 +71,7 @@ def translation_unit(unit: Unit) -> Path:
     if unit.source.is_file():
         return unit.source
     path = unit.root / "build" / "prove" / "inline" / f"{unit.name}.c"
-    write_atomically(path, f'#include "keel/{unit.layer}/{unit.name}.h"\n')
+    write_text(path, f'#include "keel/{unit.layer}/{unit.name}.h"\n')
     return path
 
 

@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from .cache import write_atomically
+from common.files import write_text
 
 UNKNOWN = 10.0  # seconds, of a job whose kind was never seen
 # Seconds that count as if they had gone as recorded, so that a run's first jobs say little.
@@ -60,7 +60,7 @@ class Times:
     def save(self) -> None:
         """Keep for the next run, beside what another run may have kept meanwhile."""
         merged = {**read_times(self._path), **self._noted}
-        write_atomically(self._path, json.dumps(merged, indent=1, sort_keys=True))
+        write_text(self._path, json.dumps(merged, indent=1, sort_keys=True))
 
 
 def recorded_anew(

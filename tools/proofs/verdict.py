@@ -11,7 +11,8 @@ from . import csource, goals, wplog
 from .targets import Result, Target
 
 VARIANT = re.compile(r"(.*_loop_variant(?:_\d+)?_decrease)(?:_part\d+)?$")
-CLAUSE = re.compile(r"\b(?:ensures|invariant|assert|requires|lemma)\s+(\w+)\s*:")
+CLAUSE = re.compile(r"\b(ensures|invariant|assert|requires|lemma)\s+(\w+)\s*:")
+CLAUSE_LINES = 12  # of the longest clause that is shown whole
 
 # Messages that take nothing from a proof.
 HARMLESS = {
@@ -34,6 +35,7 @@ def judge(
     result = Result(smoke=sum(log.smoke.values()))
     result.goals = [
         {"name": goal.name, "status": goal.status, "prover": goal.prover}
+        | ({} if goal.proved else {"place": place_of(target, goal.name, root)})
         for goal in log.goals.values()
     ]
     result.problems += _structure(target, log, report, output)
@@ -135,10 +137,24 @@ def place_of(target: Target, goal: str, root: Path) -> str:
             for number, clause in enumerate(text.splitlines()[first:last], first + 1):
                 label = CLAUSE.search(clause)
                 if label and re.search(
-                    rf"_{label.group(1)}(_\d+)?(_established|_preserved)?$", goal
+                    rf"{label[1]}\w*_{label[2]}(_\d+)?(_established|_preserved)?$", goal
                 ):
                     return f"{shown}:{number}"
     return fallback or "no place known"
+
+
+def clause_at(root: Path, place: str) -> str:
+    """The text of the clause, or the line of code, that stands at FILE:LINE."""
+    name, _, line = place.rpartition(":")
+    if not line.isdigit() or not (root / name).is_file():
+        return ""
+    text = (root / name).read_text(encoding="utf-8").splitlines()[int(line) - 1 :]
+    found = ""
+    for one in text[:CLAUSE_LINES]:
+        found += " " + one.strip().removeprefix("/*@").removeprefix("@").strip()
+        if not CLAUSE.search(found) or found.rstrip().endswith((";", "*/")):
+            break
+    return found.strip()
 
 
 def _regions(text: str, function: str | None) -> Iterator[tuple[int, int, int]]:

@@ -207,6 +207,15 @@ class Wp:
         problems += message_problems(log, allowed, []) + loop_problems(target, log)
         return problems[0] if problems else ""
 
+    def printed(self, target: Target) -> str:
+        """What WP prints of a target's goals, each tried for a short time."""
+        selected = [(stage, [*target.selection, "-wp-print"]) for stage in QUICK]
+        report = self._report_of(target)
+        with self._answers_alone(target):
+            output = self._runner.run(self._words(target, selected, report)).output
+            self._drop_failures(target)
+        return output
+
     def command(
         self, target: Target, stages: Sequence[Stage], smoke: bool, report: Path,
         recorded: bool = False,
