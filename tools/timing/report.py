@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from plotting import new_figure, write_svg
 from rich.console import Console
 
 from timing.analysis import Analysis, ChainRow, ClassLoad
-from timing.output import Cell, new_figure, table, write_svg
+from timing.output import Cell, table
 
 PUBLISHED_LABELS = {
     "realtime_utilisation": "U_FCFS, eq. 10",
