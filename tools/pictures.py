@@ -50,7 +50,7 @@ FLIES = (
     Box("Keel: flight", "filter   pid", BLUE),
     Box("Keel: middleware", "range   oversample   voter   virtual_imu", BLUE),
     Box("Keel: rtos", "scheduler   pass   admission   decision\n"
-        "queue   task   load   priority   clock", BLUE),
+        "queue   task   stats   load   deviation   priority   clock", BLUE),
     Box("your board", "a microsecond counter; drivers for two boards are here", GREY),
 )  # fmt: skip
 SHOWS = (
