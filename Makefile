@@ -11,10 +11,10 @@ TASKSET ?= specs/tasksets/urpilot.toml
 ARGS ?=
 BOARD ?=
 
-ALL_TOOLS := prove test lint coverage bench fuzz firmware target registers model \
+ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
              flash-openocd flash-pyocd flash-st-flash flash-px4 timing
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
-DEMO := $(wildcard src/rtos/*.c examples/demo/*.c)
+DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
 TIMING := python3 tools/with_packages.py timing -m timing
 
 .PHONY: analyze tables fuzztasks timing
@@ -32,9 +32,9 @@ test: python ## build and run all tests (ARGS='--filter unit/': some of them)
 
 demo: python ## the paper's 21 tasks, one simulated minute on this host
 	@python3 tools/toolchain.py ensure test
-	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/demo
+	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/urpilot
 	@mkdir -p build
-	gcc $(CFLAGS) -Iinclude -Iexamples/demo $(DEMO) -lm -o build/demo
+	gcc $(CFLAGS) -Iinclude -Iexamples/urpilot $(DEMO) -lm -o build/demo
 	@build/demo
 
 bench: python ## instructions per pass and per step, code size and RAM; over the Cortex-M7's budget it fails
@@ -50,7 +50,7 @@ timing: python ## the paper's evaluation on the virtual board: tables, JSON and 
 	@$(TIMING) experiments specs/tasksets/urpilot.toml
 
 tables: python ## regenerate the C task table from the paper's task set
-	@$(TIMING) table specs/tasksets/urpilot.toml examples/demo
+	@$(TIMING) table specs/tasksets/urpilot.toml examples/urpilot
 
 fuzztasks: python ## 100 000 broken task-set files, each of which must be read or refused in words
 	@python3 tools/with_packages.py timing tests/timing/fuzz_taskset.py 100000
@@ -86,11 +86,11 @@ test-target: python ## the unit tests, faults, demo and host's results on an emu
 	@python3 tools/target.py $(ARGS)
 
 firmware: python ## build a board's image (BOARD=mps2_an500; ARGS='--app FOLDER': another main)
-	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/demo
+	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/urpilot
 	@python3 tools/firmware.py "$(BOARD)" $(ARGS)
 
 model: python ## run a board's image on a model of its chip (BOARD=nucleo_f767zi; ARGS='--keys 1.5:t')
-	@python3 tools/model.py "$(BOARD)" $(ARGS)
+	@python3 tools/chip_model.py "$(BOARD)" $(ARGS)
 
 stack: python ## bound the stack of every task and of main in a board's image (BOARD=nucleo_f767zi)
 	@python3 tools/stack.py "$(BOARD)" $(ARGS)

@@ -47,8 +47,8 @@ ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build" / "bench"
 REPORT = BUILD / "report.json"
 LAYER = "src/rtos"
-HARNESS = ("tests/bench/bench_scheduler.c", "examples/demo/urpilot_tasks.c")
-INCLUDES = ("-Iinclude", "-Iexamples/demo")
+HARNESS = ("tests/bench/bench_scheduler.c", "examples/urpilot/urpilot_tasks.c")
+INCLUDES = ("-Iinclude", "-Iexamples/urpilot")
 HOST_FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-Werror")
 ARM_FLAGS = ("-std=c99", "-O2", *TARGET_FLAGS, "-ffreestanding", "-ffunction-sections")
 

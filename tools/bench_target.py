@@ -18,12 +18,12 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import target  # noqa: E402
-from firmware import FirmwareError  # noqa: E402
+from common.errors import ToolError  # noqa: E402
 from toolchain import Toolchain, write_atomically  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
 BUDGET = ROOT / "tests/bench/budget.toml"
-SOURCES = ("tests/bench/bench_target.c", "examples/demo/urpilot_tasks.c")
+SOURCES = ("tests/bench/bench_target.c", "examples/urpilot/urpilot_tasks.c")
 SHIFT = 10  # An instruction takes 1024 ns: more than a tick of the counter, which so sees each one.
 LINE = re.compile(r"^bench (\w+) passes (\d+) instructions (\d+) longest (\d+)$", re.MULTILINE)
 TIMEOUT_S = 120.0
@@ -178,7 +178,7 @@ def add(tools: Toolchain, report_file: Path, accepting: bool = False) -> list[st
         if accepting:
             accept(BUDGET, figures)
         budget = read_budget(BUDGET)
-    except (BenchTargetError, FirmwareError) as error:
+    except (BenchTargetError, ToolError) as error:
         report_file.unlink(missing_ok=True)  # Half a report must not look whole.
         raise BenchTargetError(str(error)) from error
     report = json.loads(report_file.read_text())

@@ -39,8 +39,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import firmware  # noqa: E402
-from firmware import Builder, FirmwareError, Image, read_board  # noqa: E402
+from boards.board import Board, read_board  # noqa: E402
+from boards.elf import read_contents  # noqa: E402
+from common.build import source_files  # noqa: E402
+from common.errors import ToolError  # noqa: E402
+from common.run import output_of  # noqa: E402
+from firmware import Builder, Image, examine  # noqa: E402
 from run_tests import Ended, Outcome, run, tell, unity_outcome  # noqa: E402
 from toolchain import Toolchain, ToolchainError, write_atomically  # noqa: E402
 
@@ -57,7 +61,7 @@ class TargetError(Exception):
     """Something could not be run; the message says what and why."""
 
 
-def emulator(tools: Toolchain, board: firmware.Board, elf: Path, shift: int = SHIFT) -> list[str]:
+def emulator(tools: Toolchain, board: Board, elf: Path, shift: int = SHIFT) -> list[str]:
     """The command that runs an image: its console is the standard output, its end the status."""
     return [
         *tools.command("qemu-system-arm"), "-machine", "mps2-an500",
@@ -86,7 +90,7 @@ class Bench:
     def unity(self) -> Path:
         """Unity, writing to the board's console."""
         folder = self.tools.command("unity")[0]
-        return self.builder.object(f"{folder}/unity.c", self.unity_flags(), warn=False)
+        return self.builder.object(f"{folder}/unity.c", [*self.unity_flags(), "-w"])
 
     def unity_flags(self) -> list[str]:
         """What makes a file find Unity, and Unity the console."""
@@ -111,7 +115,7 @@ class Bench:
 
 def unit_image(bench: Bench, name: str, source: str) -> Image:
     """The image of one file of unit tests."""
-    test = bench.builder.object(source, bench.unity_flags(), warn=False)
+    test = bench.builder.object(source, [*bench.unity_flags(), "-w"])
     return bench.builder.link(name.replace("/", "-"), [bench.unity(), test])
 
 
@@ -210,7 +214,7 @@ def judge_fault(fault: Fault, found: Mapping[str, str], span: range) -> list[str
 
 def code_of(bench: Bench, image: Image, function: str) -> range:
     """Where a function of an image lies."""
-    contents = firmware.read_contents(firmware.elf_file(bench.tools), image.elf)
+    contents = read_contents(bench.tools, image.elf)
     symbol = contents.symbol(function)
     return range(symbol.address, symbol.address + symbol.size)
 
@@ -285,7 +289,7 @@ def judge_demo(periods: Mapping[str, int], output: str) -> list[str]:
 def demo_suite(bench: Bench, name: str) -> Outcome:
     """The board's own application, for ten simulated seconds."""
     image = bench.builder.link("demo", bench.builder.objects(bench.board.application))
-    firmware.examine(bench.builder, image)
+    examine(bench.builder, image)
     bench.demo_sha256 = sha256(image.elf.read_bytes()).hexdigest()
     periods = demo_periods((bench.root / TASK_SET).read_text(encoding="utf-8"))
     ended = bench.run(image, LONG_TIMEOUT_S)
@@ -329,9 +333,9 @@ def first_difference(host: Mapping[tuple[str, int], str], target: Mapping[tuple[
 def run_host(bench: Bench, defines: Sequence[str] = ()) -> str:
     """What the driver prints on this host."""
     program = bench.root / BUILD / "differential-host"
-    sources = [*firmware.source_files(bench.root, ["src"]), DRIVER, *HOST_SOURCES]
+    sources = [*source_files(["src"], bench.root), DRIVER, *HOST_SOURCES]
     gcc = bench.tools.command("gcc")
-    firmware.run([*gcc, *HOST_FLAGS, *defines, *sources, "-o", str(program)], bench.root)
+    output_of([*gcc, *HOST_FLAGS, *defines, *sources, "-o", str(program)], cwd=bench.root)
     ended = run([program], LONG_TIMEOUT_S)
     if ended.status != 0:
         raise TargetError(f"the host's build of {DRIVER}: {ended.how}")
@@ -403,7 +407,7 @@ def run_suite(bench: Bench, suite: Suite) -> Outcome:
     began = time.monotonic()
     try:
         outcome = suite.run(bench)
-    except (FirmwareError, TargetError, ToolchainError, OSError) as error:
+    except (ToolError, TargetError, ToolchainError, OSError) as error:
         outcome = Outcome()
         outcome.add(suite.name, f"{suite.name}: {error}")
     if not outcome.passed and not outcome.failures:
@@ -457,7 +461,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         tools = Toolchain()
         tools.ensure("target")
         bench = Bench(tools)
-    except (FirmwareError, ToolchainError, OSError) as error:
+    except (ToolError, ToolchainError, OSError) as error:
         print(f"test-target: {error}", file=sys.stderr)
         return 1
     outcomes: dict[str, Outcome] = {}

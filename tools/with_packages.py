@@ -3,7 +3,7 @@
 
     python3 tools/with_packages.py timing -m timing analyze specs/tasksets/urpilot.toml
 
-Exit status: the program's, or 1 when the packages could not be had.
+Exit status: the program's, or 2 when the packages could not be had.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ def main(arguments: Sequence[str]) -> int:
     try:
         tools = Toolchain()
         tools.ensure(group)
-        python = tools.command("pip")[0]  # The Python that the packages were installed for.
-        packages = tools.command(f"{group}-packages")[0]
+        groups = [name for name in tools.lock.groups[group] if name.endswith("-packages")]
+        packages = [tools.command(name)[0] for name in groups]
     except ToolchainError as error:
         print(f"with_packages: {error}", file=sys.stderr)
-        return 1
-    variables = {**os.environ, "PYTHONPATH": os.pathsep.join([packages, str(TOOLS_DIR)])}
-    os.execve(python, [python, *program], variables)
+        return 2
+    variables = {**os.environ, "PYTHONPATH": os.pathsep.join([*packages, str(TOOLS_DIR)])}
+    os.execve(sys.executable, [sys.executable, *program], variables)
 
 
 if __name__ == "__main__":

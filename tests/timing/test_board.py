@@ -9,9 +9,8 @@ from pathlib import Path
 
 import pytest
 from rich.console import Console
-from timing import board, keel
+from timing import board
 from timing.board import BoardError, Experiment, Result
-from timing.bounds import fixed_priority
 from timing.experiments import (
     Findings,
     Runner,
@@ -30,9 +29,11 @@ from timing.experiments import (
     silent,
     turn_ceiling,
 )  # fmt: skip
-from timing.orders import least, least_of_class
+from timing.least_deviation import least, least_of_class
 from timing.phases import without_phases
+from timing.scheduler_bounds import TICK, realtime_bound
 from timing.taskset import Chain, Costs, Task, TaskSet, read
+from timing.textbook_tests import fixed_priority
 from toolchain import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -96,7 +97,7 @@ def test_a_pass_is_not_a_priority_order(program: Path, urpilot: TaskSet) -> None
     result = run(program, Experiment(tasks, duration_us=10_000, turn_ns=0))
     assert result.tasks["Background IMU"].worst == 167
     assert fixed_priority(tasks.realtime, 0)[0] == 140
-    assert keel.realtime_bound(tasks, 0) == 177 + keel.TICK
+    assert realtime_bound(tasks, 0) == 177 + TICK
 
 
 def test_without_guard_by_hand(program: Path) -> None:

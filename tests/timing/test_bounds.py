@@ -8,7 +8,11 @@ from pathlib import Path
 
 import pytest
 from timing.analysis import Gaps, analyse, gaps_of
-from timing.bounds import (
+from timing.phases import without_phases
+from timing.report import verdict
+from timing.scheduler_bounds import bounds_of, followed, path_bound
+from timing.taskset import Costs, Task, TaskSet, read
+from timing.textbook_tests import (
     conventional,
     fixed_priority,
     freshness,
@@ -20,10 +24,6 @@ from timing.bounds import (
     response,
     utilisation,
 )  # fmt: skip
-from timing.keel import bounds, followed, path_bound
-from timing.phases import without_phases
-from timing.report import verdict
-from timing.taskset import Costs, Task, TaskSet, read
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -235,4 +235,4 @@ def test_what_has_too_many_samples_to_follow_keeps_the_sum(urpilot: TaskSet) -> 
     pair = tuple(Task(name, name, "real-time", 100, 90) for name in "AB")
     late = TaskSet("late", pair)
     chain = urpilot.chains[0].model_copy(update={"path": ["A", "B"]})
-    assert path_bound(late, chain, bounds(late)).least is None
+    assert path_bound(late, chain, bounds_of(late)).least is None

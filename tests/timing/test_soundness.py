@@ -15,12 +15,13 @@ from pathlib import Path
 
 import pytest
 from sets import random_set, with_chains
-from timing import board, keel
+from timing import board
 from timing.analysis import admission_reasons, analyse
 from timing.board import Experiment, Result
-from timing.bounds import fixed_priority, freshness, hyperperiod, jeffay, reaction
 from timing.phases import spread
+from timing.scheduler_bounds import Bounds, bounds_of, collisions, declared, needs, path_bound
 from timing.taskset import Task, TaskSet
+from timing.textbook_tests import fixed_priority, freshness, hyperperiod, jeffay, reaction
 from toolchain import Toolchain
 
 SETS = int(os.environ.get("KEEL_RANDOM_SETS", "10000"))
@@ -72,7 +73,7 @@ class Seen:
     tight: float = 0.0  # The observed response that came nearest to its bound.
 
 
-def hold(tasks: TaskSet, found: keel.Bounds, result: Result, seen: Seen) -> None:
+def hold(tasks: TaskSet, found: Bounds, result: Result, seen: Seen) -> None:
     """Every bound that is claimed holds for this run."""
     for task in tasks.realtime:
         worst = result.tasks[task.name].worst
@@ -95,7 +96,7 @@ def test_what_is_called_safe_is_not_broken(program: Path) -> None:
     sets = [random_set(number, LOADS[number % len(LOADS)]) for number in range(SETS)]
     seen = Seen()
     for tasks, results in simulated(program, sets, with_kernel):
-        analysis, found = analyse(tasks), keel.bounds(tasks)
+        analysis, found = analyse(tasks), bounds_of(tasks)
         refused = any(admission_reasons(tasks))
         # The analyser's rules of admission are the kernel's.
         assert all((result.status != 0) == refused for result in results), tasks
@@ -125,7 +126,7 @@ def test_under_overload_the_bounds_behind_promotion_hold(program: Path) -> None:
     sets = [random_set(number, 0.6 + 0.2 * (number % 5)) for number in range(SETS // 4)]
     compared = overloads = 0
     for tasks, results in simulated(program, sets, understated):
-        bounds = keel.bounds(tasks)
+        bounds = bounds_of(tasks)
         overloads += sum(task.utilisation for task in tasks.tasks) > 1.0
         for result in results:
             for task in tasks.realtime if result.status == 0 else ():
@@ -155,10 +156,10 @@ class Paths:
     value_beyond_f: int = 0  # Age of a value until it is replaced.
 
 
-def hold_paths(tasks: TaskSet, found: keel.Bounds, results: list[Result], seen: Paths) -> None:
+def hold_paths(tasks: TaskSet, found: Bounds, results: list[Result], seen: Paths) -> None:
     """No path that has a safe bound exceeds it."""
     for chain in tasks.chains:
-        bound = keel.path_bound(tasks, chain, found)
+        bound = path_bound(tasks, chain, found)
         outcomes = [result.chains[chain.name] for result in results]
         if bound.least is None:
             continue
@@ -185,7 +186,7 @@ def test_no_path_exceeds_its_safe_bound(program: Path) -> None:
     seen = Paths()
     for tasks, results in simulated(program, sets, with_kernel):
         if not any(admission_reasons(tasks)):
-            hold_paths(tasks, keel.bounds(tasks), results, seen)
+            hold_paths(tasks, bounds_of(tasks), results, seen)
     print(seen)
     assert seen.bounded > SETS / 10 and seen.followed > SETS / 50 and seen.tight > 0.9, seen
     assert seen.sample_beyond_e and seen.event_beyond_e, seen
@@ -255,8 +256,8 @@ def test_phases_keep_tasks_apart(program: Path) -> None:
         for result in results:
             for task in tasks.tasks:
                 # One more us: the loop turns every half one, and the clock counts whole ones.
-                assert result.tasks[task.name].worst <= keel.declared(tasks, task) + 1.0, tasks
-            hold(tasks, keel.bounds(tasks), result, Seen())
+                assert result.tasks[task.name].worst <= declared(tasks, task) + 1.0, tasks
+            hold(tasks, bounds_of(tasks), result, Seen())
 
 
 def meet(tasks: TaskSet) -> bool:
@@ -268,7 +269,7 @@ def meet(tasks: TaskSet) -> bool:
         for release in range(task.phase, length + task.period, task.period)
     )
     return any(
-        second - first < keel.needs(tasks, tasks.tasks[one], tasks.tasks[two])
+        second - first < needs(tasks, tasks.tasks[one], tasks.tasks[two])
         for number, (first, one) in enumerate(releases)
         for second, two in releases[number + 1 : number + 1 + len(tasks.tasks)]
     )
@@ -283,6 +284,6 @@ def test_collisions_are_those_of_the_releases() -> None:
             tasks = spread(tasks)[0]
         if hyperperiod(tasks.tasks) > 10_000:
             continue
-        assert bool(keel.collisions(tasks)) == meet(tasks), tasks
+        assert bool(collisions(tasks)) == meet(tasks), tasks
         seen[meet(tasks)] += 1
     assert min(seen.values()) > min(SETS, 1000) / 50, seen

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 from fuzz_taskset import fuzz
-from timing.lines import line_index
 from timing.taskset import TaskSetError, parse, read
+from timing.toml_lines import line_index
 
 ROOT = Path(__file__).resolve().parents[2]
 URPILOT = ROOT / "specs/tasksets/urpilot.toml"

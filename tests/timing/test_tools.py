@@ -13,14 +13,15 @@ from pathlib import Path
 
 import pytest
 from fuzz_taskset import fuzz
-from timing import ctable, keel, taskset
+from timing import ctable, taskset
 from timing.__main__ import main
 from timing.analysis import analyse
-from timing.bounds import hyperperiod
 from timing.phases import spread, without_phases
 from timing.report import plot_responses, plot_utilisation, verdict
+from timing.scheduler_bounds import collisions, declared, needs, promotion_wait
 from timing.synthesis import LADDER, SynthesisError, keeps_limits, synthesize, with_periods
 from timing.taskset import Task, TaskSet, TaskSetError, parse, read
+from timing.textbook_tests import hyperperiod
 from toolchain import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -69,9 +70,9 @@ def test_limits_are_the_kernels() -> None:
 
 def test_promotion_wait_by_hand() -> None:
     """priority.h: low after 15 periods of age, high after 3.75; a release is at age 1."""
-    assert keel.promotion_wait(Task("a", "a", "low", 20_000, 1)) == 280_000
-    assert keel.promotion_wait(Task("a", "a", "high", 2_000, 1)) == 5_500
-    assert keel.promotion_wait(Task("a", "a", "high", 3, 1)) == 12 - 3  # 11.25, rounded up.
+    assert promotion_wait(Task("a", "a", "low", 20_000, 1)) == 280_000
+    assert promotion_wait(Task("a", "a", "high", 2_000, 1)) == 5_500
+    assert promotion_wait(Task("a", "a", "high", 3, 1)) == 12 - 3  # 11.25, rounded up.
 
 
 # --- Verdicts ------------------------------------------------------------------------------------
@@ -136,7 +137,7 @@ def test_whatever_is_accepted_can_be_analysed() -> None:
 
 def test_the_committed_table_is_not_stale(urpilot: TaskSet) -> None:
     files = ctable.table(urpilot, URPILOT.name)
-    assert not ctable.stale(files, ROOT / "examples/demo")
+    assert not ctable.stale(files, ROOT / "examples/urpilot")
 
 
 def test_a_stale_table_fails_and_is_regenerated(
@@ -190,7 +191,10 @@ def test_the_compiled_table_is_the_task_set(urpilot: TaskSet, tmp_path: Path) ->
     assert lines[-1] == "13 20 693000 1"
 
 
-@pytest.mark.parametrize("program", ["boards/main.c", "demo/demo.c", "firmware/main.c"])
+PROGRAMS = ("board_check/main.c", "urpilot/demo.c", "urpilot_on_target/main.c")
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
 def test_what_was_analysed_is_what_runs(program: str) -> None:
     """No application sets anything of a declaration or of the scheduler's settings itself."""
     text = (ROOT / "examples" / program).read_text(encoding="utf-8")
@@ -263,7 +267,7 @@ def crowded_releases(tasks: TaskSet) -> set[frozenset[str]]:
     return {
         frozenset((one, two))
         for (first, one), (second, two) in pairwise(releases)
-        if second - first < keel.needs(tasks, by_label[one], by_label[two])
+        if second - first < needs(tasks, by_label[one], by_label[two])
     }
 
 
@@ -273,7 +277,7 @@ def test_the_shipped_phases_are_those_that_the_analyser_finds(urpilot: TaskSet) 
 
 
 def test_the_shipped_phases_keep_every_pair_apart(urpilot: TaskSet) -> None:
-    assert not crowded_releases(urpilot) and not keel.collisions(urpilot)
+    assert not crowded_releases(urpilot) and not collisions(urpilot)
 
 
 REALTIME = {"τ11", "τ12", "τ18"}
@@ -286,7 +290,7 @@ def realtime_collisions(tasks: TaskSet) -> set[frozenset[str]]:
     found = set()
     for task in tasks.realtime:
         for release in range(task.phase, task.phase + 2000, task.period):
-            for at in range(release, release + keel.declared(tasks, task)):
+            for at in range(release, release + declared(tasks, task)):
                 if used.setdefault(at % 2000, task.label) != task.label:
                     found.add(frozenset((task.label, used[at % 2000])))
     return found

@@ -4,7 +4,7 @@
     python3 tests/tools/test_bench.py
 
 One class measures a function whose instructions are known: it is written in assembly. The last
-runs the demo (examples/demo), which shares its table of tasks with the benchmark, and holds it
+runs the demo (examples/urpilot), which shares its table of tasks with the benchmark, and holds it
 against table 2 of the paper, copied here a second time.
 """
 
@@ -326,10 +326,10 @@ class DemoTest(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.program = Path(folder.name) / "demo"
-        sources = [*ROOT.glob("src/rtos/*.c"), *ROOT.glob("examples/demo/*.c")]
+        sources = [*ROOT.glob("src/rtos/*.c"), *ROOT.glob("examples/urpilot/*.c")]
         gcc = [*Toolchain().command("gcc"), "-std=c99", "-O1", "-Wall", "-Wextra", "-Werror"]
         gcc += ["-fsanitize=undefined,address", "-fno-sanitize-recover=all"]
-        folders = [f"-I{ROOT / name}" for name in ("include", "examples/demo")]
+        folders = [f"-I{ROOT / name}" for name in ("include", "examples/urpilot")]
         subprocess.run([*gcc, *folders, *sources, "-lm", "-o", cls.program], check=True)
 
     def demo(self, *arguments: str) -> tuple[int, list[str]]:

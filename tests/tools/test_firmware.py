@@ -21,16 +21,11 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import firmware  # noqa: E402
-from firmware import (  # noqa: E402
-    Board,
-    Contents,
-    FirmwareError,
-    Place,
-    Region,
-    Section,
-    Symbol,
-    UnknownBoardError,
-)
+from boards.board import Board, Place, Region, read_board  # noqa: E402
+from boards.elf import Contents, Section, Symbol  # noqa: E402
+from boards.placement import check_image, usage  # noqa: E402
+from common.build import source_files  # noqa: E402
+from common.errors import ToolError  # noqa: E402
 
 GOOD = """\
 description = "a board"
@@ -54,13 +49,17 @@ region = "FLASH"
 sections = [".text"]
 """
 
-FLASH = Region("FLASH", 0x8000, 0x1000)
-RAM = Region("RAM", 0x2000_0000, 0x100)
+FLASH = Region(name="FLASH", origin=0x8000, size=0x1000)
+RAM = Region(name="RAM", origin=0x2000_0000, size=0x100)
 
 
 def toy(*places: Place) -> Board:
     """A board with two memories."""
-    return Board("toy", "", "", (), (), 0x8000, (FLASH, RAM), places)
+    text = Place(region="FLASH", sections=[".text"])
+    return Board(
+        name="toy", description="a board", linker_script="toy.ld", sources=[], application=[],
+        load_address=0x8000, region=[FLASH, RAM], place=[*places] or [text],
+    )  # fmt: skip
 
 
 def image(*sections: Section, symbols: tuple[Symbol, ...] = (), entry: int = 0x8001) -> Contents:
@@ -75,7 +74,7 @@ DATA = Section(".data", 0x2000_0000, 0x10, 0x8080)
 
 def wrong(board: Board, contents: Contents) -> list[str]:
     """What the checks find."""
-    checks = firmware.check_image(board, contents, {})
+    checks = check_image(board, contents, {})
     return [f"{check.what}: {check.wrong}" for check in checks if check.wrong]
 
 
@@ -100,25 +99,25 @@ class BoardFile(Folder):
     def read(self, text: str) -> Board:
         self.write("bsp/toy/board.toml", text)
         self.write("bsp/toy/toy.ld")
-        return firmware.read_board(self.root, "toy")
+        return read_board(self.root, "toy")
 
     def refused(self, text: str, reason: str) -> None:
-        with self.assertRaises(FirmwareError) as caught:
+        with self.assertRaises(ToolError) as caught:
             self.read(text)
-        self.assertIn("bsp/toy/board.toml", str(caught.exception))
-        self.assertIn(reason, str(caught.exception))
+        self.assertIn(f"bsp/toy/board.toml:{reason}", str(caught.exception))
 
     def test_a_whole_file(self) -> None:
         board = self.read(GOOD)
         self.assertEqual((board.name, board.load_address), ("toy", 0x8000))
-        self.assertEqual(board.regions, (FLASH, RAM))
-        self.assertEqual(board.places, (Place("FLASH", sections=(".text",)),))
+        self.assertEqual(board.region, [FLASH, RAM])
+        self.assertEqual(board.place, [Place(region="FLASH", sections=[".text"])])
 
     def test_an_unknown_board_names_those_that_there_are(self) -> None:
         self.read(GOOD)
-        with self.assertRaises(UnknownBoardError) as caught:
-            firmware.read_board(self.root, "toi")
-        self.assertIn("no board toi; boards: toy", str(caught.exception))
+        with self.assertRaises(ToolError) as caught:
+            read_board(self.root, "toi")
+        told = "there is no board toi; did you mean toy? (boards: toy)"
+        self.assertIn(told, str(caught.exception))
 
     def test_an_unknown_board_on_the_command_line(self) -> None:
         said = io.StringIO()
@@ -127,32 +126,37 @@ class BoardFile(Folder):
         self.assertIn("mps2_an500", said.getvalue())
 
     def test_an_unknown_key(self) -> None:
-        self.refused("colour = 'red'\n" + GOOD, "unknown key colour")
+        self.refused("colour = 'red'\n" + GOOD, "1: colour: unknown key")
 
     def test_an_unknown_key_of_a_region(self) -> None:
-        self.refused(GOOD.replace("size = 0x100\n", "size = 0x100\nlength = 1\n"), "key length")
+        text = GOOD.replace("size = 0x100\n", "size = 0x100\nlength = 1\n")
+        self.refused(text, "16: region RAM: length: unknown key")
 
     def test_a_missing_key(self) -> None:
-        self.refused(GOOD.replace("load_address = 0x8000\n", ""), "load_address is missing")
+        self.refused(GOOD.replace("load_address = 0x8000\n", ""), "1: load_address: is missing")
 
     def test_a_wrong_type(self) -> None:
-        self.refused(GOOD.replace("= 0x8000\n", "= 'here'\n", 1), "load_address has the wrong type")
+        text = GOOD.replace("= 0x8000\n", "= 'here'\n", 1)
+        self.refused(text, "5: load_address: expected to be a valid integer")
 
     def test_a_number_beyond_32_bits(self) -> None:
-        self.refused(GOOD.replace("0x20000000", "0x100000000"), "origin is no 32-bit number")
+        text = GOOD.replace("0x20000000", "0x100000000")
+        self.refused(text, "14: region RAM: origin: expected to be less than or")
 
     def test_a_place_in_no_region(self) -> None:
         text = GOOD.replace('[[place]]\nregion = "FLASH"', '[[place]]\nregion = "ROM"')
-        self.refused(text, "there is no region ROM")
+        self.refused(text, "18: place number 1: region: there is no region ROM")
 
     def test_a_place_of_two_kinds(self) -> None:
-        self.refused(GOOD + "symbols = ['x']\n", "one of sections, symbols and code_of")
+        kinds = "17: place number 1: one of sections, symbols and code_of"
+        self.refused(GOOD + "symbols = ['x']\n", kinds)
 
     def test_a_missing_linker_script(self) -> None:
-        self.refused(GOOD.replace("toy.ld", "other.ld"), "there is no bsp/toy/other.ld")
+        text = GOOD.replace("toy.ld", "other.ld")
+        self.refused(text, "2: linker_script: there is no bsp/toy/other.ld")
 
     def test_no_toml(self) -> None:
-        self.refused("= 3", "board.toml: ")
+        self.refused("= 3", "1: no TOML: ")
 
 
 class Sources(Folder):
@@ -161,12 +165,12 @@ class Sources(Folder):
     def test_files_and_folders_each_once(self) -> None:
         for name in ("a/b.c", "a/sub/c.S", "a/a.h", "d.c"):
             self.write(name)
-        found = firmware.source_files(self.root, ["d.c", "a", "a/b.c"])
+        found = source_files(["d.c", "a", "a/b.c"], self.root)
         self.assertEqual(found, ["d.c", "a/b.c", "a/sub/c.S"])
 
     def test_nothing_there(self) -> None:
-        with self.assertRaisesRegex(FirmwareError, "no source file x"):
-            firmware.source_files(self.root, ["x"])
+        with self.assertRaisesRegex(ToolError, "no source file x"):
+            source_files(["x"], self.root)
 
 
 class Checks(unittest.TestCase):
@@ -211,7 +215,7 @@ class Checks(unittest.TestCase):
         self.assertEqual(wrong(toy(), image(TEXT, entry=0x8000)), ["entry: is no Thumb function"])
 
     def test_a_symbol_elsewhere(self) -> None:
-        place = Place("RAM", symbols=("hot_*",))
+        place = Place(region="RAM", symbols=["hot_*"])
         hot = Symbol("hot_loop", 0x8010, 8, True, ".text", "")
         self.assertEqual(
             wrong(toy(place), image(TEXT, symbols=(hot,))),
@@ -219,24 +223,24 @@ class Checks(unittest.TestCase):
         )
 
     def test_a_symbol_half_outside(self) -> None:
-        place = Place("RAM", symbols=("table",))
+        place = Place(region="RAM", symbols=["table"])
         table = Symbol("table", 0x2000_00FC, 8, False, ".bss", "")
         self.assertEqual(
             wrong(toy(place), image(TEXT, symbols=(table,))), ["symbol table: lies elsewhere"]
         )
 
     def test_a_name_that_matches_nothing(self) -> None:
-        place = Place("RAM", symbols=("cold",))
+        place = Place(region="RAM", symbols=["cold"])
         self.assertEqual(
             wrong(toy(place), image(TEXT)), ["symbol cold: the image holds no such thing"]
         )
 
     def test_a_name_that_may_match_nothing(self) -> None:
-        place = Place("RAM", symbols=("cold",), optional=True)
+        place = Place(region="RAM", symbols=["cold"], optional=True)
         self.assertEqual(wrong(toy(place), image(TEXT)), [])
 
     def test_a_load_address_elsewhere(self) -> None:
-        place = Place("RAM", load="FLASH", sections=(".data",))
+        place = Place(region="RAM", load="FLASH", sections=[".data"])
         unloaded = Section(".data", 0x2000_0000, 4, None)
         self.assertEqual(
             wrong(toy(place), image(TEXT, unloaded)),
@@ -244,7 +248,7 @@ class Checks(unittest.TestCase):
         )
 
     def test_usage_counts_what_is_copied_twice(self) -> None:
-        self.assertEqual(firmware.usage(toy(), image(TEXT, DATA)), {"FLASH": 0x90, "RAM": 0x10})
+        self.assertEqual(usage(toy(), image(TEXT, DATA)), {"FLASH": 0x90, "RAM": 0x10})
 
 
 PARTS = ("bsp", "examples", "include", "src")
@@ -302,7 +306,7 @@ class CommandLine(unittest.TestCase):
         command = [sys.executable, str(ROOT / "tools/firmware.py"), ""]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("boards: ", done.stderr)
+        self.assertIn("(boards: ", done.stderr)
 
 
 if __name__ == "__main__":

@@ -168,8 +168,8 @@ class DeclarationTest(unittest.TestCase):
         lines = ("typedef struct demo_task {", "    keel_task_config_t config;", "} demo_task_t;",
                  "    const keel_task_config_t config = {0};", "    keel_task_config_t row[2];",
                  "keel_task_config_t shared;")  # fmt: skip
-        self.assertEqual(self.lines_of("examples/demo/demo.c", *lines), [2, 4, 5, 6])
-        self.assertEqual(self.lines_of("tests/unit/board.h", *lines), [])
+        self.assertEqual(self.lines_of("examples/urpilot/demo.c", *lines), [2, 4, 5, 6])
+        self.assertEqual(self.lines_of("tests/unit/actors.h", *lines), [])
 
     def test_objects_pointers_and_values_are_allowed(self) -> None:
         lines = (
@@ -180,7 +180,7 @@ class DeclarationTest(unittest.TestCase):
             "keel_task_config_t set_task_config(uint32_t row);",
             "    return (keel_task_config_t){.name = task->name,",
         )
-        self.assertEqual(self.lines_of("examples/demo/demo.c", *lines), [])
+        self.assertEqual(self.lines_of("examples/urpilot/demo.c", *lines), [])
 
 
 def deviation(

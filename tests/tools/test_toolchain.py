@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of tools/toolchain.py. No network, no package manager, nothing installed.
+"""Tests of tools/toolchain. No network, no package manager, nothing installed.
 
     python3 tests/tools/test_toolchain.py
 
@@ -27,17 +27,14 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import toolchain  # noqa: E402
-from toolchain import (  # noqa: E402
-    Cache,
-    Finder,
-    Lock,
-    Log,
-    Spec,
-    Suite,
-    Toolchain,
-    ToolchainError,
-    Tree,
-)
+from common.files import sha256_of  # noqa: E402
+from toolchain import Toolchain, ToolchainError, command_line, python_packages  # noqa: E402
+from toolchain.apt import Log, Suite  # noqa: E402
+from toolchain.cache import Cache  # noqa: E402
+from toolchain.found import Finder  # noqa: E402
+from toolchain.lock import LOCK_FILE, Lock, Spec  # noqa: E402
+from toolchain.mirror import debian_mirror  # noqa: E402
+from toolchain.unpack import Tree, write_starter  # noqa: E402
 
 
 def quiet(line: str) -> None:
@@ -115,7 +112,7 @@ class FindingTools(Sandbox):
         self.assertEqual(tools.command("z"), [str(path)])
         finding = tools.versions("g")["z"]
         self.assertEqual((finding.version, finding.origin), ("2.5", "found"))
-        self.assertEqual(finding.sha256, toolchain.sha256_of(path))
+        self.assertEqual(finding.sha256, sha256_of(path))
 
     def test_the_second_time_runs_nothing(self) -> None:
         self.script("z", "echo z 2.5")
@@ -159,7 +156,12 @@ class Refusals(Sandbox):
         os.environ["KEEL_NO_INSTALL"] = "1"
         tools = Toolchain(self.cache, self.lock(z=system("z"), y=system("y"), prover=DEB))
         message = self.refusal(tools)
-        for part in ("3 missing", "z: wanted 2.0 or later, before 3", "y-deb", "prover 6.6-4"):
+        for part in (
+            "z, y, prover: missing; KEEL_NO_INSTALL=1",
+            "z: wanted 2.0 or later, before 3",
+            "y-deb",
+            "prover 6.6-4",
+        ):
             self.assertIn(part, message)
         self.assertIn(str(self.bin), message)
 
@@ -204,17 +206,34 @@ class Refusals(Sandbox):
         self.assertIn("held broken packages", message)
         self.assertIn("install.log", message)
 
-    def test_the_command_line_fails_with_one(self) -> None:
+    def test_the_command_line_ends_with_two_and_names_the_tools_first(self) -> None:
         os.environ["KEEL_NO_INSTALL"] = "1"
         with contextlib.redirect_stderr(io.StringIO()) as errors:
-            self.assertEqual(toolchain.main(["ensure", "prove"]), 1)
-        self.assertIn("frama-c: wanted 25", errors.getvalue())
+            self.assertEqual(command_line.main(["ensure", "prove"]), 2)
+        first, *others = errors.getvalue().splitlines()
+        self.assertRegex(first, r"^toolchain: gcc, .*frama-c.*: missing; KEEL_NO_INSTALL=1 forbids")
+        self.assertTrue(any("frama-c: wanted 25" in line for line in others))
+
+    def test_a_wrong_name_is_told_in_one_line_with_the_nearest(self) -> None:
+        for words, wanted in ((["ensure", "prov"], "there is no group prov; did you mean prove?"),
+                              (["path", "cmbc"], "there is no tool cmbc; did you mean cbmc?"),
+                              (["version"], "did you mean versions?"),
+                              (["versions", "--jsn"], "--jsn; did you mean --json?")):  # fmt: skip
+            with self.subTest(words), contextlib.redirect_stderr(io.StringIO()) as errors:
+                status: object = 2
+                try:
+                    status = command_line.main(words)
+                except SystemExit as ended:
+                    status = ended.code
+                self.assertEqual(status, 2)
+                [line] = errors.getvalue().splitlines()
+                self.assertIn(wanted, line)
 
     def test_an_unknown_group_and_tool(self) -> None:
         tools = Toolchain(self.cache, self.lock(z=system("z")))
-        with self.assertRaisesRegex(ToolchainError, "no such group: proof"):
+        with self.assertRaisesRegex(ToolchainError, "no group proof \\(groups: g\\)"):
             tools.ensure("proof")
-        with self.assertRaisesRegex(ToolchainError, "knows no tool 'cobol'"):
+        with self.assertRaisesRegex(ToolchainError, "there is no tool cobol"):
             tools.command("cobol")
 
 
@@ -232,7 +251,7 @@ class Unpacking(Sandbox):
         program.parent.mkdir(parents=True)
         program.write_text(f"#!/bin/sh\necho prover {answer}\n")
         program.chmod(0o755)
-        toolchain._write_starter(tree, "prover")
+        write_starter(tree, "prover")
         tree.add_part("prover", "6.6-4", "test", program)
 
     def trees(self) -> list[str]:
@@ -273,9 +292,9 @@ class Unpacking(Sandbox):
         pip.chmod(0o755)
 
         def fill(tree: Tree) -> None:
-            toolchain.install_packages(tree, [str(pip)])
+            python_packages.install(tree, [str(pip)])
 
-        spec = self.packages(toolchain.sha256_of(file))
+        spec = self.packages(sha256_of(file))
         found = self.store.unpack(spec, fill, Finder(self.cache))
         self.assertEqual((found.version, found.origin), ("1.5", "cache"))
         self.assertIn(sys.implementation.cache_tag, found.commands["z-packages"])
@@ -299,8 +318,8 @@ class Unpacking(Sandbox):
             self.assertEqual(self.trees(), [])
 
     def test_only_one_installation_at_a_time(self) -> None:
-        waiting = "import sys; sys.path.insert(0, sys.argv[1]); import toolchain, pathlib\n"
-        waiting += "with toolchain.Cache(pathlib.Path(sys.argv[2])).locked(toolchain.tell):\n"
+        waiting = "import sys; sys.path.insert(0, sys.argv[1]); import pathlib\nfrom toolchain.cache import Cache\nfrom toolchain.tools import tell\n"
+        waiting += "with Cache(pathlib.Path(sys.argv[2])).locked(tell):\n"
         waiting += "    print('inside', flush=True)"
         command = [sys.executable, "-c", waiting, str(ROOT / "tools"), str(self.cache)]
         with self.store.locked(quiet):
@@ -344,7 +363,7 @@ class Crates(Sandbox):
         regs: dict[str, object] = {
             "kind": "crate", "file": "Cargo.toml", "version": r'version = "(\d+\.\d+)',
             "at_least": "1.2", "below": "1.3", "package": "regs", "pin": "1.2.0",
-            "sha256": sha256 or toolchain.sha256_of(self.archive), "keep": ["src/a/"],
+            "sha256": sha256 or sha256_of(self.archive), "keep": ["src/a/"],
         }  # fmt: skip
         return self.lock(cargo=cargo, regs=regs)
 
@@ -418,29 +437,52 @@ class Mirrors(Sandbox):
     def test_one_line_format(self) -> None:
         text = "# deb x:/old bookworm main\ndeb-src x:/src bookworm main\n"
         text += "deb [arch=amd64 signed-by=/k.gpg] x:/debian bookworm main contrib # ours\n"
-        self.assertEqual(toolchain.debian_mirror(self.etc(list=text)), "x:/debian")
+        self.assertEqual(debian_mirror(self.etc(list=text)), "x:/debian")
 
     def test_deb822_format(self) -> None:
         text = "Types: deb\nEnabled: no\nURIs: x:/off\nSuites: bookworm\nComponents: main\n\n"
         text += "Types: deb deb-src\n# a comment\nURIs: x:/debian x:/second\n"
         text += "Suites: bookworm\n  bookworm-updates\nComponents: main\n"
-        self.assertEqual(toolchain.debian_mirror(self.etc(parts_a_sources=text)), "x:/debian")
+        self.assertEqual(debian_mirror(self.etc(parts_a_sources=text)), "x:/debian")
 
     def test_third_parties_with_the_same_suite_name_come_last(self) -> None:
         third = "deb [signed-by=/usr/share/keyrings/other.gpg] x:/apt bookworm main\n"
         signed = "Types: deb\nURIs: x:/mirror\nSuites: bookworm\nComponents: main\n"
         signed += "Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg\n"
         etc = self.etc(list=third, parts_z_sources=signed)
-        self.assertEqual(toolchain.debian_mirror(etc), "x:/mirror")
+        self.assertEqual(debian_mirror(etc), "x:/mirror")
 
     def test_security_and_media_do_not_count(self) -> None:
         text = "deb x:/debian-security bookworm-security main\ndeb cdrom:[D]/ bookworm main\n"
         with self.assertRaisesRegex(ToolchainError, "no Debian mirror"):
-            toolchain.debian_mirror(self.etc(list=text))
+            debian_mirror(self.etc(list=text))
 
     def test_the_environment_may_choose(self) -> None:
         os.environ["KEEL_DEBIAN_MIRROR"] = "x:/chosen"
-        self.assertEqual(toolchain.debian_mirror(self.etc()), "x:/chosen")
+        self.assertEqual(debian_mirror(self.etc()), "x:/chosen")
+
+
+class Verdicts(Sandbox):
+    """Which files of the toolchain the verdicts of proofs depend on."""
+
+    def digest(self, changed: str = "") -> str:
+        """The driver's digest in a copy of the tools in which a line was added to a file."""
+        tools = self.folder / "tools"
+        if not tools.exists():
+            skipped = shutil.ignore_patterns("__pycache__")
+            shutil.copytree(ROOT / "tools", tools, ignore=skipped)
+        if changed:
+            with (tools / changed).open("a") as stream:
+                stream.write("# A comment.\n")
+        script = "from proofs.session import own_digest; print(own_digest())"
+        command = [sys.executable, "-c", script]
+        return subprocess.check_output(command, cwd=tools, text=True)
+
+    def test_the_way_provers_are_started_counts_and_the_installer_does_not(self) -> None:
+        before = self.digest()
+        for file in ("toolchain/apt.py", "toolchain/tools.py", "toolchain.py"):
+            self.assertEqual(self.digest(file), before, file)
+        self.assertNotEqual(self.digest("toolchain/provers.py"), before)
 
 
 class TheLockFile(Sandbox):
@@ -463,7 +505,7 @@ class TheLockFile(Sandbox):
                 self.assertRegex(spec.sha256, r"^[0-9a-f]{64}$", spec.name)
                 self.assertTrue(spec.pin and (spec.package or spec.path), spec.name)
             if spec.kind == "packages":
-                self.assertEqual(spec.sha256, toolchain.sha256_of(ROOT / spec.path), spec.path)
+                self.assertEqual(spec.sha256, sha256_of(ROOT / spec.path), spec.path)
                 text = (ROOT / spec.path).read_text()
                 lines = [line for line in text.splitlines() if re.match(r"[a-z]", line)]
                 self.assertTrue(lines and all("==" in line for line in lines), spec.path)
@@ -471,7 +513,7 @@ class TheLockFile(Sandbox):
                 self.assertTrue(spec.at_least and spec.below and spec.packages, spec.name)
 
     def test_no_registry_is_named(self) -> None:
-        for path in (toolchain.LOCK_FILE, Path(toolchain.__file__)):
+        for path in (LOCK_FILE, *Path(toolchain.__file__).parent.glob("*.py")):
             hosts = re.findall(r"\b[a-z0-9-]+\.(?:org|com|net|io)\b|https?:", path.read_text())
             self.assertEqual(hosts, [], path.name)
 

@@ -1,5 +1,5 @@
 /* Unit tests of keel/rtos/pass.h on a virtual board. Schedules are worked out by hand. */
-#include "board.h"
+#include "actors.h"
 
 void setUp(void)
 {

@@ -1,5 +1,5 @@
 /* Unit tests of keel/rtos/scheduler.h on a virtual board. Schedules are worked out by hand. */
-#include "board.h"
+#include "actors.h"
 
 static actor_t crowd[KEEL_QUEUE_CAPACITY];
 

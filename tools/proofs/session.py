@@ -73,10 +73,11 @@ def tool_stamp(tools: dict[str, Found]) -> dict[str, str]:
 
 
 def own_digest() -> str:
-    """SHA-256 over the driver's source: another driver may judge differently."""
+    """SHA-256 over the driver's source: another driver may judge differently. How the provers are
+    installed does not matter, how they are started does."""
     folder = Path(__file__).resolve().parent
     state = hashlib.sha256()
-    own = [*folder.glob("*.py"), *folder.glob("*.ml"), folder.parent / "toolchain.py"]
+    own = [*folder.glob("*.py"), *folder.glob("*.ml"), folder.parent / "toolchain/provers.py"]
     for path in sorted(own):
         if not path.stem.startswith("muta"):
             state.update(path.read_bytes())

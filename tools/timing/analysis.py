@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from timing import bounds as textbook
-from timing import keel
+from timing import textbook_tests as textbook
+from timing.scheduler_bounds import Bounds, Tails, bounds_of, collisions, declared, path_bound
 from timing.taskset import CLASSES, Task, TaskSet
 
 LOAD_TARGET = 40.0  # Percent; section IV-C of the paper.
@@ -164,7 +164,7 @@ def class_load(name: str, tasks: list[Task]) -> ClassLoad:
                      textbook.liu_layland(len(tasks)), textbook.hyperbolic(tasks))  # fmt: skip
 
 
-def realtime_rows(tasks: TaskSet, found: keel.Bounds) -> list[RealtimeRow]:
+def realtime_rows(tasks: TaskSet, found: Bounds) -> list[RealtimeRow]:
     """Response times of the real-time tasks."""
     outside = max((task.budget for task in tasks.others), default=0)
     unguarded = textbook.fixed_priority(tasks.realtime, outside)
@@ -181,8 +181,8 @@ def gaps_of(tasks: TaskSet) -> Gaps:
     """The gaps between real-time tasks, from every release of a common period."""
     if not tasks.realtime:
         return Gaps(None, None, None)
-    admission = max(0, min(task.period - keel.declared(tasks, task) for task in tasks.realtime))
-    tails = keel.Tails(tasks.realtime)
+    admission = max(0, min(task.period - declared(tasks, task) for task in tasks.realtime))
+    tails = Tails(tasks.realtime)
     if not tails.instants:
         return Gaps(None, None, admission)
     gaps: list[int] = []
@@ -192,7 +192,7 @@ def gaps_of(tasks: TaskSet) -> Gaps:
         for index, at in enumerate(tails.instants):
             following = (*tails.instants, tails.instants[0] + tails.cycle)[index + 1]
             work = sum(
-                keel.declared(tasks, task)
+                declared(tasks, task)
                 for task in tasks.realtime
                 if (at - task.phase) % task.period == 0
             )
@@ -208,13 +208,13 @@ def fits(tasks: TaskSet, task: Task, gaps: Gaps) -> str:
         return "always"
     if gaps.shortest is None or gaps.longest is None:
         return "not known"
-    need = tasks.costs.guard_us + keel.declared(tasks, task)
+    need = tasks.costs.guard_us + declared(tasks, task)
     if need <= gaps.shortest:
         return "every"
     return "some" if need <= gaps.longest else "none"
 
 
-def other_rows(tasks: TaskSet, found: keel.Bounds) -> list[OtherRow]:
+def other_rows(tasks: TaskSet, found: Bounds) -> list[OtherRow]:
     """The tasks that are not real-time."""
     gaps = gaps_of(tasks)
     rows = []
@@ -229,12 +229,12 @@ def other_rows(tasks: TaskSet, found: keel.Bounds) -> list[OtherRow]:
     return rows
 
 
-def chain_rows(tasks: TaskSet, found: keel.Bounds) -> list[ChainRow]:
+def chain_rows(tasks: TaskSet, found: Bounds) -> list[ChainRow]:
     """The chains."""
     rows = []
     for chain in tasks.chains:
         path = tasks.path(chain)
-        bound = keel.path_bound(tasks, chain, found)
+        bound = path_bound(tasks, chain, found)
         rows.append(
             ChainRow(chain.name, [task.label for task in path], textbook.reaction(path),
                      chain.reaction_limit_us, textbook.freshness(path), chain.freshness_limit_us,
@@ -246,28 +246,28 @@ def chain_rows(tasks: TaskSet, found: keel.Bounds) -> list[ChainRow]:
 def admission_reasons(tasks: TaskSet) -> Iterator[str]:
     """Why keel_scheduler_start would refuse the set (ADM-003), budgets as declared."""
     guard = tasks.costs.guard_us
-    demand = sum(keel.declared(tasks, task) for task in tasks.realtime)
+    demand = sum(declared(tasks, task) for task in tasks.realtime)
     for task in tasks.realtime:
         if demand + 2 * guard > task.period:
             yield (
                 f"the kernel refuses it: real-time budgets and twice the guard, "
                 f"{demand + 2 * guard} us, exceed the period of {task.name}, {task.period} us"
             )
-        gap = task.period - keel.declared(tasks, task)
+        gap = task.period - declared(tasks, task)
         for other in tasks.others:
-            need = keel.declared(tasks, other) + guard
+            need = declared(tasks, other) + guard
             if need > gap:
                 yield (f"the kernel refuses it: {other.name} needs {need} us with the guard, and "
                        f"{task.name} leaves {max(gap, 0)} us")  # fmt: skip
     # As the kernel counts: in parts per million, each task rounded up.
-    ppm = sum(-(-keel.declared(tasks, task) * 1_000_000 // task.period) for task in tasks.tasks)
+    ppm = sum(-(-declared(tasks, task) * 1_000_000 // task.period) for task in tasks.tasks)
     limit = tasks.costs.utilisation_limit
     if ppm > limit:
         yield (f"the kernel refuses it: utilisation with the scheduler's own time, "
                f"{ppm / 10_000:.2f} %, exceeds the limit of {limit / 10_000:.2f} %")  # fmt: skip
 
 
-def reasons(tasks: TaskSet, found: keel.Bounds, chains: list[ChainRow]) -> Iterator[str]:
+def reasons(tasks: TaskSet, found: Bounds, chains: list[ChainRow]) -> Iterator[str]:
     """Why the set is not schedulable, most basic first."""
     total = textbook.utilisation(tasks.tasks)
     if total > 1:
@@ -290,7 +290,7 @@ def reasons(tasks: TaskSet, found: keel.Bounds, chains: list[ChainRow]) -> Itera
 
 def analyse(tasks: TaskSet) -> Analysis:
     """Every test of a task set."""
-    found = keel.bounds(tasks)
+    found = bounds_of(tasks)
     chains = chain_rows(tasks, found)
     published = tasks.published.model_dump() if tasks.published else None
     return Analysis(
@@ -308,7 +308,7 @@ def analyse(tasks: TaskSet) -> Analysis:
         realtime_rows=realtime_rows(tasks, found),
         other_rows=other_rows(tasks, found),
         promotion_excluded=found.promotion_excluded,
-        collisions=[(one.label, two.label) for one, two in keel.collisions(tasks)],
+        collisions=[(one.label, two.label) for one, two in collisions(tasks)],
         gaps=gaps_of(tasks),
         chains=chains,
         hyperperiod=textbook.hyperperiod(tasks.tasks),

@@ -11,7 +11,7 @@ from typing import Any
 
 from toolchain import Toolchain
 
-from timing import keel
+from timing.scheduler_bounds import declared
 from timing.taskset import Task, TaskSet
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -26,7 +26,7 @@ FLAGS = (
     "-Wconversion",
     "-I.",
     "-Iinclude",
-    "-Itests/timing",
+    "-Iexperiments",
 )
 
 
@@ -47,7 +47,7 @@ class Experiment:
     turn_ns: int = TURN_NS
     skip_idle: bool = True
     work: dict[str, int] = field(default_factory=dict)  # Where it is not the task's budget.
-    budgets: dict[str, int] = field(default_factory=dict)  # Where not keel.declared.
+    budgets: dict[str, int] = field(default_factory=dict)  # Where not declared.
     spike: tuple[str, int, int] | None = None  # Task, number of the run, its time.
 
     def orders(self) -> str:
@@ -72,7 +72,7 @@ class Experiment:
 
     def task(self, task: Task) -> str:
         """The order for a task."""
-        budget = self.budgets.get(task.name, keel.declared(self.tasks, task))
+        budget = self.budgets.get(task.name, declared(self.tasks, task))
         work = self.work.get(task.name, task.budget)
         return f"task {task.priority} {task.period} {budget} {work} {task.phase}"
 
@@ -145,7 +145,7 @@ def build(tools: Toolchain, name: str = "experiment", extra: Sequence[str] = ())
     (ROOT / BUILD).mkdir(parents=True, exist_ok=True)
     sources = sorted(
         str(path.relative_to(ROOT))
-        for folder in ("src/rtos", "bsp/host", "tests/timing")
+        for folder in ("src/rtos", "bsp/host", "experiments")
         for path in (ROOT / folder).glob("*.c")
     )
     program = ROOT / BUILD / name

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from toolchain import write_atomically
 
-from timing import keel
+from timing.scheduler_bounds import declared
 from timing.taskset import Task, TaskSet, symbol_of
 
 PRIORITIES = {
@@ -110,7 +110,7 @@ def row(tasks: TaskSet, task: Task) -> str:
     """The row of a task."""
     return (
         f'    {{"{task.name}", {PRIORITIES[task.class_name]}, {task.period}u, {task.budget}u, '
-        f"{keel.declared(tasks, task)}u, {task.phase}u}},"
+        f"{declared(tasks, task)}u, {task.phase}u}},"
     )
 
 

@@ -18,12 +18,12 @@ from typing import Any
 
 from rich.console import Console
 
-from timing import bounds as textbook
-from timing import keel
+from timing import textbook_tests as textbook
 from timing.board import TURN_NS, Experiment, Result, run_batch
-from timing.orders import least_of_class
+from timing.least_deviation import least_of_class
 from timing.output import Cell, table
 from timing.phases import without_phases
+from timing.scheduler_bounds import TICK, bounds_of, path_bound, realtime_bound, responses_of
 from timing.taskset import TaskSet
 
 SECOND = 1_000_000
@@ -256,10 +256,10 @@ def together(tasks: TaskSet, results: Deviations) -> list[Together]:
 NOTE_TOGETHER = (
     "Least: what any scheduler leaves that preempts nothing, starts a due task whenever the "
     "processor is free, and serves tasks\nreleased together in one fixed order: each run ahead "
-    "adds C^2 / 24 us^2 to the mean square of the deviation (tools/timing/\norders.py). What Keel "
-    "deviates beyond that comes from the order of the queue among equals, and from its guard. "
-    "1000 periods\nscatter by 2 to 3 % around the expected value. Phases remove the collisions, "
-    "and all of this."
+    "adds C^2 / 24 us^2 to the mean square of the deviation (tools/timing/\nleast_deviation.py). "
+    "What Keel deviates beyond that comes from the order of the queue among equals, and from its "
+    "guard. 1000 periods\nscatter by 2 to 3 % around the expected value. Phases remove the "
+    "collisions, and all of this."
 )
 
 
@@ -385,7 +385,7 @@ REASON_ADVICE = "these limits are advice: it is not known whether the paper has 
 def show_paths(tasks: TaskSet, results: Deviations, out: Console, findings: Findings) -> None:
     """Observed against predicted against limits."""
     plain = without_phases(tasks)
-    bounds = [keel.bounds(item) for item in (tasks, plain)]
+    bounds = [bounds_of(item) for item in (tasks, plain)]
     rows: list[list[Cell]] = []
     events: list[list[Cell]] = []
     worst: dict[str, Seen] = {}
@@ -401,8 +401,8 @@ def show_paths(tasks: TaskSet, results: Deviations, out: Console, findings: Find
         rows.append([chain.name, react["Keel"], react["no phases"], textbook.reaction(path),
                      chain.reaction_limit_us, fresh["Keel"], fresh["no phases"],
                      textbook.freshness(path), chain.freshness_limit_us])  # fmt: skip
-        events.append([chain.name, event["Keel"], keel.path_bound(tasks, chain, bounds[0]).least,
-                       event["no phases"], keel.path_bound(plain, chain, bounds[1]).least,
+        events.append([chain.name, event["Keel"], path_bound(tasks, chain, bounds[0]).least,
+                       event["no phases"], path_bound(plain, chain, bounds[1]).least,
                        chain.reaction_limit_us])  # fmt: skip
         worst[chain.name] = Seen(react["Keel"], fresh["Keel"], event["Keel"])
     columns = ["path", "E seen", "E, no phases", "E, eq. 5, 6", "limit", "F seen",
@@ -425,13 +425,13 @@ def show_paths(tasks: TaskSet, results: Deviations, out: Console, findings: Find
 
 def judge_paths(tasks: TaskSet, worst: dict[str, Seen], findings: Findings) -> None:
     """What was observed, against the safe bound, against limits, and against advice."""
-    found = keel.bounds(tasks)
+    found = bounds_of(tasks)
     beyond_bound = []
     late: list[str] = []
     beyond: dict[bool, list[str]] = {False: [], True: []}  # By whether the limits are advice.
     for chain in tasks.chains:
         seen = worst[chain.name]
-        limit = keel.path_bound(tasks, chain, found).least
+        limit = path_bound(tasks, chain, found).least
         if limit is None or max(seen.reaction, seen.freshness, seen.event) > limit:
             beyond_bound.append(chain.name)
         if seen.reaction > chain.reaction_limit_us or seen.freshness > chain.freshness_limit_us:
@@ -456,9 +456,9 @@ def show_realtime(tasks: TaskSet, results: Deviations, out: Console, findings: F
     rows: list[list[Cell]] = []
     held = True
     for variant in variants(tasks):
-        if variant.turn_ns > keel.TICK * 1000:
+        if variant.turn_ns > TICK * 1000:
             continue  # Beyond what the bound assumes of the main loop.
-        bound = keel.bounds(variant.tasks).realtime
+        bound = bounds_of(variant.tasks).realtime
         for task in variant.tasks.realtime:
             for model in MODELS:
                 outcome = results[variant.name, model].tasks[task.name]
@@ -476,7 +476,7 @@ def show_realtime(tasks: TaskSet, results: Deviations, out: Console, findings: F
     kept = all(
         results[variant, model].tasks[name].worst <= (bound.response or 0)
         for variant, bounded in (("Keel", tasks), ("no phases", without_phases(tasks)))
-        for name, bound in keel.bounds(bounded).others.items()
+        for name, bound in bounds_of(bounded).others.items()
         for model in ("constant", GOAL_MODEL)
     )
     findings.goal("other responses", "never above the analyser's bound",
@@ -536,7 +536,7 @@ def longest_run(experiment: Experiment) -> int:
 def overload_bound(experiment: Experiment) -> int:
     """What still holds for real-time tasks: one such run in the way."""
     blocking = longest_run(experiment) + experiment.tasks.costs.dispatch_us
-    return keel.realtime_bound(experiment.tasks, blocking)
+    return realtime_bound(experiment.tasks, blocking)
 
 
 def silent(experiment: Experiment, result: Result) -> list[str]:
@@ -678,8 +678,8 @@ SIMULATED = (
 
 def show_contradictions(tasks: TaskSet, out: Console, findings: Findings) -> None:
     """The paper's figures that its own table excludes. It gives no phases."""
-    found = keel.bounds(without_phases(tasks))
-    responses = keel.responses_of(found)
+    found = bounds_of(without_phases(tasks))
+    responses = responses_of(found)
     rows: list[list[Cell]] = []
     for task in tasks.tasks:
         response = responses[task.name]

@@ -1,4 +1,5 @@
-"""Release phases with which no two tasks ever want the processor at the same time (keel.collide).
+"""Release phases with which no two tasks ever want the processor at the same time (collide in
+scheduler_bounds.py).
 
 Tasks are placed one after the other, real-time first in queue order, then by period; each at its
 first free phase.
@@ -10,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from timing.keel import needs
+from timing.scheduler_bounds import needs
 from timing.taskset import Task, TaskSet
 
 

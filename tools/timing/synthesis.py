@@ -21,10 +21,10 @@ from dataclasses import dataclass, replace
 
 from rich.console import Console
 
-from timing import bounds as textbook
-from timing import keel
+from timing import textbook_tests as textbook
 from timing.analysis import LOAD_ALARM, LOAD_TARGET, Analysis, analyse
 from timing.output import Cell, table
+from timing.scheduler_bounds import declared
 from timing.taskset import Task, TaskSet
 
 LADDER = (100, 200, 500, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000, 200_000, 500_000)
@@ -66,9 +66,9 @@ def keeps_limits(tasks: TaskSet) -> bool:
 
 def shortest(tasks: TaskSet, task: Task) -> int:
     """The first rung on which the task, and all real-time budgets if it is one, have room."""
-    need = keel.declared(tasks, task)
+    need = declared(tasks, task)
     if task.realtime:
-        need = sum(keel.declared(tasks, other) for other in tasks.realtime)
+        need = sum(declared(tasks, other) for other in tasks.realtime)
         need += 2 * tasks.costs.guard_us
     return next((rung for rung in LADDER if rung >= need), LADDER[-1])
 

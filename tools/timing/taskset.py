@@ -11,8 +11,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from timing.lines import Path as KeyPath
-from timing.lines import line_index, line_of
+from timing.toml_lines import Path as KeyPath
+from timing.toml_lines import line_index, line_of
 
 # The kernel's own limits: priority.h (KEEL_PERIOD_LIMIT_US, KEEL_PRIORITY_*), queue.h
 # (KEEL_QUEUE_CAPACITY). tests/timing/test_tools.py compares them with the headers.

@@ -36,8 +36,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from timing.bounds import STEPS, conventional
 from timing.taskset import PRIORITY_MAX, Chain, Task, TaskSet
+from timing.textbook_tests import STEPS, conventional
 
 INSTANTS = 256  # More release instants than this are bounded by a count, not looked at.
 ROUNDS = 200
@@ -277,7 +277,7 @@ def promoted_response(tasks: TaskSet, task: Task) -> int | None:
 # --- Together ------------------------------------------------------------------------------------
 
 
-def bounds(tasks: TaskSet) -> Bounds:
+def bounds_of(tasks: TaskSet) -> Bounds:
     """All bounds of a task set."""
     guarded = realtime_bound(tasks, 0)
     promoted = realtime_bound(tasks, promotion_blocking(tasks))

@@ -1,12 +1,12 @@
 /**
- * @file board.h
- * @brief A virtual board for tests of the scheduler: a clock that only tasks and tests move.
+ * @file actors.h
+ * @brief Tasks for tests of the scheduler, and a clock that only they and the tests move.
  *
  * An actor is a task with a one-letter name, the time it takes, and something it may do while it
  * runs. Which actors ran, in which order, is the text in board.ran.
  */
-#ifndef KEEL_TESTS_UNIT_BOARD_H
-#define KEEL_TESTS_UNIT_BOARD_H
+#ifndef KEEL_TESTS_UNIT_ACTORS_H
+#define KEEL_TESTS_UNIT_ACTORS_H
 
 #include "keel/rtos/scheduler.h"
 #include "unity.h"

@@ -1,5 +1,5 @@
 /**
- * @file board.h
+ * @file host_board.h
  * @brief The virtual board: a clock that only work moves on; the scheduler's own work costs time.
  *
  * Time is a number of nanoseconds. The scheduler reads it as a free-running counter of microseconds

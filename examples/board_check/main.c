@@ -2,6 +2,9 @@
  * @file main.c
  * @brief The paper's 21 tasks on a real board, until it is switched off.
  *
+ * The first image to flash on a board: it shows whether clock, console, sensor, outputs, watchdog
+ * and the handling of faults work there, and what each task takes.
+ *
  * The background task of the inertial unit reads the sensor, if there is one; every other body, and
  * the rest of this one's time, keeps the CPU busy for the task's worst-case time of table 2.
  * Periods, budgets, phases and the guard are those that `make analyze` analyses. A line on the

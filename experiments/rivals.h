@@ -3,8 +3,8 @@
  * @brief Schedulers to compare Keel's with. They share its interface, queue, clock and statistics:
  * set up a keel_scheduler_t as usual, then call one of these instead of keel_scheduler_step.
  */
-#ifndef KEEL_TESTS_TIMING_RIVALS_H
-#define KEEL_TESTS_TIMING_RIVALS_H
+#ifndef KEEL_EXPERIMENTS_RIVALS_H
+#define KEEL_EXPERIMENTS_RIVALS_H
 
 #include "keel/rtos/scheduler.h"
 

@@ -2,6 +2,9 @@
  * @file main.c
  * @brief The paper's 21 tasks on a board, for ten seconds of the board's own time.
  *
+ * For the emulated Cortex-M7 first, and for tests, which judge what it prints: the kernel, the vote
+ * and the controllers run as on a board, compiled for it.
+ *
  * Two of the real-time tasks vote and control (flight.h); every body keeps the CPU busy for the
  * rest of the task's worst-case time of table 2. Its budget is a little more, because a run's
  * measured time includes the pass before it: the task set says how long that may take. At the end

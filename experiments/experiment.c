@@ -18,7 +18,7 @@
  *
  * Exit status: 0, or 1 for an order that is not understood.
  */
-#include "bsp/host/board.h"
+#include "bsp/host/host_board.h"
 #include "keel/rtos/load.h"
 #include "rivals.h"
 

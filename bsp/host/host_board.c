@@ -1,4 +1,4 @@
-#include "board.h"
+#include "host_board.h"
 
 void host_board_init(host_board_t *board, const keel_scheduler_t *scheduler,
                      const host_costs_t *costs, uint32_t first_us)

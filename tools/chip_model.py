@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Run the image of a real board on a model of the STM32F767.
+
+    python3 tools/chip_model.py nucleo_f767zi                   # two seconds of the board's time
+    python3 tools/chip_model.py fmuv5 --seconds 5 --keys 1.5:t  # and a key on the console at 1.5 s
+    python3 tools/chip_model.py nucleo_f767zi --broken hse      # a clock that never becomes ready
+
+An emulator of the processor's instructions (Unicorn) runs the very image that is flashed. Modelled
+around it, register by register, is what the image uses: clocks with over-drive and flash latency,
+timers, the console, the watchdog, the pulse outputs, an SPI with an ICM-20689, the memory
+protection's guards, faults and resets, and the memories, of which the backup memory keeps its
+content. The model checks as well: that the core changes to the PLL only when that is allowed, and
+that nothing writes to what is not there.
+
+What it cannot tell: anything about time. Its clock moves on by a microsecond with each reading of
+the time base, so code between two readings takes none. Caches and wait states have no effect.
+
+build/model/<board>.json says what happened. Exit status: 0 when the run went to its end and the
+board printed what it is, 1 when not, 2 when there is no image or no model of the board.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from boards.built import read_built
+from boards.chip import BROKEN, OPTIONS, UART7, USART3, Chip, ModelError
+from boards.processor import Processor
+from common.arguments import Parser
+from common.errors import ROOT, ToolError, program, unknown
+from common.files import write_json
+from toolchain import Toolchain
+
+REPORT = "build/model"
+# The console, and port and pin of the sensor's chip select.
+CONSOLES = {"nucleo_f767zi": (USART3, (3, 14)), "fmuv5": (UART7, (5, 2))}
+
+
+def simulate(
+    tools: Toolchain, root: Path, name: str, seconds: float,
+    keys: Sequence[tuple[int, str]] = (), broken: str = "", step_us: int = 1,
+    options: int = OPTIONS,
+) -> Chip:  # fmt: skip
+    """Run a board's image; the chip afterwards. Longer steps make a shorter, coarser run."""
+    if name not in CONSOLES:
+        raise ToolError(unknown("model", name, CONSOLES))
+    image = read_built(root, name)
+    chip = Chip(*CONSOLES[name], broken)
+    chip.keys = sorted(keys)
+    chip.step_us = step_us
+    chip.options = options
+    Processor(tools, image.binary.read_bytes(), image.address, chip).run(int(seconds * 1e6))
+    return chip
+
+
+def read_key(text: str) -> tuple[int, str]:
+    """A key with its time, as 1.5:t."""
+    when, _, key = text.partition(":")
+    try:
+        if len(key) == 1:
+            return int(float(when) * 1e6), key
+    except ValueError:
+        pass
+    raise argparse.ArgumentTypeError(f"{text!r} is no SECONDS:KEY")
+
+
+def conclude(board: str, seconds: float, chip: Chip, root: Path) -> int:
+    """Print what the board said, write the report; the exit status."""
+    print(chip.text.replace("\r", ""), end="")
+    content = {"board": board, "seconds": seconds, "resets": chip.resets,
+               "sensor_samples": chip.sensor.samples, "armed_us": chip.armed_us,
+               "console": chip.text}  # fmt: skip
+    write_json(root / REPORT / f"{board}.json", content)
+    good = f"Keel on {board}" in chip.text or "safe state" in chip.text
+    print(f"model: {board}: {seconds:g} s of its time, {chip.resets} resets"
+          f"{'' if good else ', but it did not say what it is'}.")  # fmt: skip
+    return 0 if good else 1
+
+
+def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
+    """Entry point."""
+    parser = Parser("Run a board's image on a model of its chip.", "model")
+    parser.add_argument("board", help="the board, a folder of bsp")
+    parser.add_argument("--seconds", type=float, default=2.0, help="of the board's time")
+    parser.add_argument("--keys", type=read_key, nargs="*", default=[], metavar="SECONDS:KEY")
+    parser.add_argument("--broken", choices=BROKEN, default="", help="what does not work")
+    options = parser.parse_args(arguments)
+
+    def work() -> int:
+        (root / REPORT / f"{options.board}.json").unlink(missing_ok=True)
+        tools = Toolchain()
+        tools.ensure("model")
+        try:
+            chip = simulate(
+                tools, root, options.board, options.seconds, options.keys, options.broken
+            )
+        except ModelError as error:
+            print(f"model: {error}", file=sys.stderr)
+            return 1
+        return conclude(options.board, options.seconds, chip, root)
+
+    return program("model", work)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,22 @@
+"""Makes the Python packages of a group importable; they are installed when they are missing."""
+
+from __future__ import annotations
+
+import sys
+
+from toolchain import Toolchain, ToolchainError
+
+from common.errors import CANNOT
+
+
+def provide(group: str = "common") -> None:
+    """Put the packages first on the path. What keeps them away ends the program, in one line."""
+    tools = Toolchain()
+    try:
+        tools.ensure(group)
+        folder = tools.command(f"{group}-packages")[0]
+    except ToolchainError as error:
+        print(f"packages: {error}", file=sys.stderr)
+        sys.exit(CANNOT)
+    if folder not in sys.path:
+        sys.path.insert(0, folder)

@@ -1,0 +1,94 @@
+"""Runs programs: with a time limit, in a session of their own, so that none outlives its caller."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from common.errors import ROOT, ToolError
+
+TIMEOUT_S = 300.0
+LINES_OF_A_CRASH = 12
+NOT_STARTED = 127
+SANITIZER = ("runtime error:", "ERROR: AddressSanitizer")
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a program ended: its exit status (negative: the signal) and what it wrote."""
+
+    status: int
+    output: str
+    timed_out: bool = False
+    errors: str = ""  # The other stream, when the two were kept apart.
+
+    @property
+    def good(self) -> bool:
+        """Whether it came to its end by itself, with status 0."""
+        return self.status == 0 and not self.timed_out
+
+    @property
+    def how(self) -> str:
+        """In words."""
+        if self.timed_out:
+            return "hung: killed at its time limit"
+        if self.status < 0:
+            return f"crashed: {signal.Signals(-self.status).name}"
+        return f"exit status {self.status}"
+
+    @property
+    def evidence(self) -> str:
+        """The lines that say most about a crash: a sanitizer's first, or else the last ones."""
+        lines = f"{self.output}{self.errors}".strip().splitlines()
+        for number, line in enumerate(lines):
+            if any(mark in line for mark in SANITIZER):
+                return "\n".join(lines[number : number + LINES_OF_A_CRASH])
+        return "\n".join(lines[-LINES_OF_A_CRASH:])
+
+
+def run(
+    command: Sequence[str | Path], timeout_s: float | None = TIMEOUT_S, *, cwd: Path = ROOT,
+    environment: Mapping[str, str] | None = None, apart: bool = False,
+) -> Ended:  # fmt: skip
+    """Run a program. Variables are added to ours. Its two output streams are one, unless `apart`.
+    A program that is missing ends with 127."""
+    try:
+        child = subprocess.Popen(
+            [str(word) for word in command], cwd=cwd, env={**os.environ, **(environment or {})},
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE if apart else subprocess.STDOUT,
+            text=True, errors="replace", start_new_session=True,
+        )  # fmt: skip
+    except OSError as error:
+        return Ended(NOT_STARTED, f"{command[0]}: {error.strerror}")
+    return _end_of(child, timeout_s)
+
+
+def _end_of(child: subprocess.Popen[str], timeout_s: float | None) -> Ended:
+    """Wait for the end of a program, or make one."""
+    try:
+        output, errors = child.communicate(timeout=timeout_s)
+    except BaseException as error:
+        # The whole session: a child of the program would keep the pipe open.
+        os.killpg(child.pid, signal.SIGKILL)
+        output, errors = child.communicate()
+        if not isinstance(error, subprocess.TimeoutExpired):
+            raise
+        return Ended(child.returncode, output, timed_out=True, errors=errors or "")
+    return Ended(child.returncode, output, errors=errors or "")
+
+
+def output_of(
+    command: Sequence[str | Path], timeout_s: float | None = TIMEOUT_S, *, cwd: Path = ROOT,
+    environment: Mapping[str, str] | None = None,
+) -> str:  # fmt: skip
+    """What a program prints; when it does not end well, that and its words are the error."""
+    ended = run(command, timeout_s, cwd=cwd, environment=environment, apart=True)
+    if not ended.good:
+        words = f"{ended.errors}{ended.output}".strip()
+        raise ToolError(f"{Path(command[0]).name}: {ended.how}\n{words}".strip())
+    return ended.output

@@ -1,0 +1,26 @@
+"""Finds, installs and pins the tools Keel is proved, tested and built with.
+
+A proof is worth what its prover is worth, so toolchain.lock.json names for every tool the
+versions that may be used. What decides a verdict and does not come from the host's own suite is
+pinned by SHA-256 as well and unpacked into a cache outside the repository. The host's package
+manager installs the rest; its libc and its /etc/apt are never touched.
+
+lock             what is wanted
+found, findings  what is there, and remembering it
+apt, mirror      Debian packages
+python_packages  what pip brings
+unpack, cache    the folder of unpacked tools
+provers          how provers are started for the target: verdicts depend on it
+tools            all together: the class Toolchain
+command_line     what tools/toolchain.py takes
+"""
+
+from common.files import write_text as write_atomically
+
+from toolchain.found import Found
+from toolchain.lock import ToolchainError
+from toolchain.provers import MACHDEP_FILE, TARGET_FLAGS
+from toolchain.tools import Toolchain
+
+__all__ = ["MACHDEP_FILE", "TARGET_FLAGS", "Found", "Toolchain", "ToolchainError",
+           "write_atomically"]  # fmt: skip
