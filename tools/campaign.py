@@ -8,23 +8,27 @@ voter and with a plain mean) and faults.svg (of each fault the worst error of th
 proved bound, and when the faulty unit was latched).
 
 Exit status: 0 when every single fault stays within the bound and no healthy unit was latched by
-one, 1 otherwise.
+one, 1 when not, 2 when it could not be flown.
 """
 
 from __future__ import annotations
 
 import json
-import subprocess
 import sys
 from collections.abc import Sequence
 from math import degrees
 from pathlib import Path
+from typing import Any
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from campaign_plots import Flight, plot_faults, plot_figure14  # noqa: E402
-from toolchain import Toolchain, ToolchainError, write_atomically  # noqa: E402
+from common.arguments import Parser  # noqa: E402
+from common.build import Build  # noqa: E402
+from common.errors import ROOT, program  # noqa: E402
+from common.files import write_text  # noqa: E402
+from common.run import output_of  # noqa: E402
+from toolchain import Toolchain  # noqa: E402
 
 BUILD = Path("build/campaign")
 SOURCES = ("src/middleware/voter.c", "src/middleware/virtual_imu.c")
@@ -35,23 +39,11 @@ FAULT_S = 8.0  # When unit 3 freezes in fig. 14.
 
 def build(tools: Toolchain) -> Path:
     """Build the campaign's program."""
-    (ROOT / BUILD).mkdir(parents=True, exist_ok=True)
-    objects = []
-    for source in SOURCES:
-        objects.append(str(BUILD / f"{Path(source).stem}.o"))
-        flags = ["-std=c99", "-O2", "-Iinclude", "-c", source, "-o", objects[-1]]
-        run([*tools.command("gcc"), *flags])
-    program = BUILD / "campaign"
+    c = Build(tools, "gcc", ["-std=c99", "-O2", "-Iinclude"], ROOT / BUILD / "obj")
     eigen = tools.command("eigen")[0]
-    run([*tools.command("g++"), "-std=c++17", "-O1", "-Iinclude", "-isystem", eigen,
-         "tests/reference/campaign.cpp", *objects, "-o", str(program)])  # fmt: skip
-    return ROOT / program
-
-
-def run(command: Sequence[str]) -> str:
-    """Run a program at the root; its output."""
-    done = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True)
-    return done.stdout
+    flags = ["-std=c++17", "-O1", "-Iinclude", "-isystem", eigen]
+    cpp = Build(tools, "g++", flags, ROOT / BUILD)
+    return cpp.link("campaign", [cpp.object("tests/reference/campaign.cpp"), *c.objects(SOURCES)])
 
 
 def by_fault(flights: Sequence[Flight]) -> dict[str, list[Flight]]:
@@ -125,29 +117,43 @@ def errors(trace: Sequence[Sequence[float]], start_s: float) -> str:
             f"roll {most[2]:.2f}, pitch {most[3]:.2f} with a plain mean")  # fmt: skip
 
 
-def main() -> int:
-    """Entry point."""
-    try:
-        tools = Toolchain()
-        tools.ensure("test")
-        text = run([str(build(tools))])
-    except (ToolchainError, subprocess.CalledProcessError) as error:
-        print(f"campaign: {error}\n{getattr(error, 'stderr', '')}", file=sys.stderr)
-        return 1
-    campaign = json.loads(text)
-    flights, bound, shown = campaign["flights"], float(campaign["bound"]), campaign["figure14"]
-    write_atomically(ROOT / BUILD / "campaign.json", text)
-    plot_figure14(shown["trace"], FAULT_S, ROOT / BUILD / "figure14.svg")
-    plot_faults(single_faults(flights), bound, ROOT / BUILD / "faults.svg")
-    for limit, group in by_limit(flights).items():
+def is_good(flights: Sequence[Flight], bound: float) -> bool:
+    """Whether no single fault left the bound or had a healthy unit latched."""
+    single = [flight for flight in flights if not is_double(flight["fault"])]
+    return all(f["worst_a"] <= bound + ROUNDING_A and not f["healthy_latched"] for f in single)
+
+
+def tell(campaign: dict[str, Any]) -> None:
+    """Print the tables and what fig. 14 shows."""
+    bound, shown = float(campaign["bound"]), campaign["figure14"]
+    for limit, group in by_limit(campaign["flights"]).items():
         print(f"\n{rule_of(limit)}:\n" + "\n".join(table(by_fault(group), bound)))
     print(f"\nfig. 14: unit 3 frozen at {FAULT_S:.0f} s, all six channels latched after "
           f"{1000.0 * shown['all_latched_s']:.0f} ms")  # fmt: skip
     print(f"fig. 14: {errors(shown['trace'], FAULT_S)}")
     print(f"written: {BUILD}/campaign.json, figure14.svg, faults.svg")
-    single = [flight for flight in flights if not is_double(flight["fault"])]
-    good = all(f["worst_a"] <= bound + ROUNDING_A and not f["healthy_latched"] for f in single)
-    return 0 if good and shown["all_latched_s"] >= 0.0 else 1
+
+
+def fly() -> int:
+    """Build, run, write, tell."""
+    tools = Toolchain()
+    tools.ensure("test")
+    text = output_of([build(tools)])
+    campaign = json.loads(text)
+    flights, bound, shown = campaign["flights"], float(campaign["bound"]), campaign["figure14"]
+    write_text(ROOT / BUILD / "campaign.json", text)
+    plot_figure14(shown["trace"], FAULT_S, ROOT / BUILD / "figure14.svg")
+    plot_faults(single_faults(flights), bound, ROOT / BUILD / "faults.svg")
+    tell(campaign)
+    return 0 if is_good(flights, bound) and shown["all_latched_s"] >= 0.0 else 1
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Entry point."""
+    Parser("Break sensors one by one, and plot what the voter makes of it.", "campaign").parse_args(
+        arguments
+    )
+    return program("campaign", fly)
 
 
 if __name__ == "__main__":

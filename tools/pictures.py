@@ -6,22 +6,24 @@
 Draws what Keel is made of (layers.svg), and takes over the plots that `make campaign` and
 `make timing` have left in build. Committed pictures are small: a larger one is refused.
 
-Exit status: 0 when all were written, 1 when one is missing or too large.
+Exit status: 0 when all were written, 2 when one is missing or too large.
 """
 
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from common.arguments import Parser
+from common.errors import ROOT, ToolError, program
+from common.files import read_text, write_text
 from plotting import BLUE, GREEN, GREY, ORANGE, RED, new_figure, write_svg
-from toolchain import write_atomically
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-ROOT = Path(__file__).resolve().parents[1]
 FOLDER = Path("docs/pictures")
 TAKEN = (
     "build/campaign/faults.svg",
@@ -30,10 +32,6 @@ TAKEN = (
     "build/timing/experiments/figure12.svg",
 )
 MOST_BYTES = 60_000
-
-
-class PictureError(Exception):
-    """Why there is no picture."""
 
 
 class Box(NamedTuple):
@@ -98,25 +96,27 @@ def plot_layers(path: Path) -> None:
 def take(source: Path, folder: Path) -> None:
     """Copy a plot; a missing one, and one too large to be committed, is an error."""
     if not source.is_file():
-        raise PictureError(f"{source}: missing; `make pictures` makes it")
-    text = source.read_text(encoding="utf-8")
+        raise ToolError(f"{source}: missing; `make pictures` makes it")
+    text = read_text(source)
     if len(text.encode()) > MOST_BYTES:
-        raise PictureError(f"{source}: larger than {MOST_BYTES} bytes")
-    write_atomically(folder / source.name, text)
+        raise ToolError(f"{source}: larger than {MOST_BYTES} bytes")
+    write_text(folder / source.name, text)
 
 
-def main(root: Path = ROOT) -> int:
-    """Entry point."""
-    try:
-        plot_layers(root / FOLDER / "layers.svg")
-        for name in TAKEN:
-            take(root / name, root / FOLDER)
-    except PictureError as error:
-        print(f"pictures: {error}", file=sys.stderr)
-        return 1
+def write(root: Path) -> int:
+    """Draw and take over all pictures."""
+    plot_layers(root / FOLDER / "layers.svg")
+    for name in TAKEN:
+        take(root / name, root / FOLDER)
     names = ", ".join(["layers.svg", *(Path(name).name for name in TAKEN)])
     print(f"written: {FOLDER}/{names}")
     return 0
+
+
+def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
+    """Entry point."""
+    Parser("Make the pictures of the documents.", "pictures").parse_args(arguments)
+    return program("pictures", lambda: write(root))
 
 
 if __name__ == "__main__":

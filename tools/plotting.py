@@ -1,4 +1,4 @@
-"""One look for every picture: colours, axes, and SVG that is the same bytes for the same content."""
+"""One look for every picture: colours, axes, and SVG without a date or a random name."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from toolchain import write_atomically
+from common.files import write_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -63,4 +63,4 @@ def write_svg(path: Path, figure: Figure) -> None:
     stream = BytesIO()
     figure.savefig(stream, format="svg", metadata={"Date": None})
     lines = [line.rstrip() for line in stream.getvalue().decode().splitlines()]
-    write_atomically(path, "\n".join([*lines, ""]))
+    write_text(path, "\n".join([*lines, ""]))

@@ -6,23 +6,22 @@
 The page holds what build/prove/report.json says, and nothing that changes from run to run. A report
 of some units or of one engine only is refused, as its table would pass for the whole.
 
-Exit status: 0 when the page was written, 1 when not (the reason is told), 2 for a wrong command
-line.
+Exit status: 0 when the page was written, 2 when not; the reason is told.
 """
 
 from __future__ import annotations
 
-import argparse
 import json
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from toolchain import write_atomically  # noqa: E402
+from common.arguments import Parser  # noqa: E402
+from common.errors import ROOT, ToolError, program  # noqa: E402
+from common.files import read_text, write_text  # noqa: E402
 
 PAGE = Path("docs/status.md")
 INTRODUCTION = """\
@@ -46,10 +45,6 @@ body or a bound, and must be noticed. [What is proved](proved.md) says what all 
 """
 DETERMINED = ("equality", "wp")
 REASONS = "`proofs/units.toml`"
-
-
-class StatusError(Exception):
-    """Why no page can be written."""
 
 
 def numbers(unit: Mapping[str, Any]) -> list[tuple[int, int]]:
@@ -110,10 +105,10 @@ def exceptions(units: Mapping[str, Any]) -> str:
 def page(report: Mapping[str, Any]) -> str:
     """The report as a table, with a line under it that says whether everything is proved."""
     if report.get("partial"):
-        raise StatusError("the last run was not of all units and engines: run make prove first")
+        raise ToolError("the last run was not of all units and engines: run make prove first")
     units = {name: numbers(unit) for name, unit in report["units"].items()}
     if not units:
-        raise StatusError("the report names no unit")
+        raise ToolError("the report names no unit")
     columns = list(zip(*units.values(), strict=True))
     total = [(sum(good for good, _ in pairs), sum(all_ for _, all_ in pairs)) for pairs in columns]
     rows = "".join(row(f"`{name}`", pairs) for name, pairs in units.items())
@@ -125,24 +120,19 @@ def page(report: Mapping[str, Any]) -> str:
     return f"{INTRODUCTION}{table}\n{verdict}{exceptions(report['units'])}{KEY}"
 
 
-def write(root: Path) -> None:
+def write(root: Path) -> int:
     """Read the report, write the page."""
     path = root / "build/prove/report.json"
     if not path.is_file():
-        raise StatusError("there is no report: run make prove first")
-    write_atomically(root / PAGE, page(json.loads(path.read_text(encoding="utf-8"))))
+        raise ToolError("there is no report: run make prove first")
+    write_text(root / PAGE, page(json.loads(read_text(path))))
+    return 0
 
 
 def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     """Entry point."""
-    parser = argparse.ArgumentParser(description=f"Write {PAGE}, what the proofs proved.")
-    parser.parse_args(arguments)
-    try:
-        write(root)
-    except StatusError as error:
-        print(f"status: {error}", file=sys.stderr)
-        return 1
-    return 0
+    Parser(f"Write {PAGE}, what the proofs proved.", "status").parse_args(arguments)
+    return program("status", lambda: write(root))
 
 
 if __name__ == "__main__":

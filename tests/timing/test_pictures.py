@@ -8,6 +8,7 @@ import campaign
 import pictures
 import pytest
 from campaign_plots import Flight, plot_faults, plot_figure14
+from common.errors import ToolError
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -55,12 +56,12 @@ def test_a_large_picture_is_refused(tmp_path: Path) -> None:
     plot.write_text("x" * pictures.MOST_BYTES)
     pictures.take(plot, tmp_path / "docs")
     plot.write_text("x" * (pictures.MOST_BYTES + 1))
-    with pytest.raises(pictures.PictureError, match=r"plot\.svg: larger than"):
+    with pytest.raises(ToolError, match=r"plot\.svg: larger than"):
         pictures.take(plot, tmp_path / "docs")
 
 
 def test_a_missing_plot_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert pictures.main(tmp_path) == 1
+    assert pictures.main([], tmp_path) == 2
     assert "faults.svg: missing" in capsys.readouterr().err
 
 

@@ -116,7 +116,8 @@ def is_path(text: str) -> bool:
         return False
     first, slash, _ = text.partition("/")
     if slash:
-        return first not in GENERATED and (first in files() or text.endswith((".c", *CHECKED_NAMES)))
+        named = first in files() or text.endswith((".c", *CHECKED_NAMES))
+        return named and first not in GENERATED
     return text.endswith(CHECKED_NAMES)
 
 

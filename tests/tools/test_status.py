@@ -97,7 +97,7 @@ class StatusTest(unittest.TestCase):
     def refused(self, report: dict[str, Any] | None, reason: str) -> None:
         """It says why, and leaves the page alone."""
         code, errors = self.run_status(report)
-        self.assertEqual(code, 1)
+        self.assertEqual(code, 2)
         self.assertIn(reason, errors)
         self.assertEqual(self.page.read_text(encoding="utf-8"), "old")
 
