@@ -30,6 +30,7 @@ LINK = re.compile(r"\]\(([^()\s]+)\)")
 HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
 TARGET = re.compile(r"^(?:\S+=\S* )*make ([a-z][a-z-]*)")
 IDENTIFIER = re.compile(r"\bkeel_[a-z0-9_]+\b")
+TABLE = re.compile(r"(?:^\|.*\n)+", re.MULTILINE)
 DETERMINED = re.compile(r"For (\d+) of the (\d+) public functions")
 
 
@@ -110,6 +111,13 @@ def leads_nowhere(link: Place) -> bool:
     return bool(anchor) and anchor not in anchors(documents().get(path, ""))
 
 
+def is_uneven(table: str) -> bool:
+    """Whether a table has no heading, or rows of different lengths."""
+    rows = [re.split(r"(?<!\\)\|", row) for row in table.splitlines()]
+    headed = len(rows) > 1 and re.fullmatch(r"[-:]+", rows[1][1].strip()) is not None
+    return not headed or len({len(row) for row in rows}) != 1
+
+
 def is_path(text: str) -> bool:
     """Whether a piece of code is the path of a file of the project, or a file's name."""
     if text in PLACEHOLDERS or not re.fullmatch(r"[\w.*<>/-]+", text):
@@ -166,6 +174,9 @@ class DocumentsTest(unittest.TestCase):
         self.assertEqual(set(), pages - indexed)
         pictures = {name for name in files() if name.startswith(f"{PICTURES}/")}
         self.assertEqual(set(), pictures - {linked(link)[0] for link in links()})
+
+    def test_tables_have_a_heading_and_even_rows(self) -> None:
+        self.none(everywhere(TABLE), is_uneven)
 
     def test_targets_exist(self) -> None:
         makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
