@@ -78,7 +78,11 @@ fuzztasks: python ## 100 000 broken task-set files, each of which must be read o
 	@python3 tools/with_packages.py timing tests/timing/fuzz_taskset.py 100000
 
 campaign: python ## the voter's fault campaign and fig. 14: tables, JSON and plots in build/campaign
-	@python3 tools/campaign.py
+	@python3 tools/with_packages.py timing tools/campaign.py
+
+.PHONY: pictures
+pictures: campaign timing ## the pictures of the documents, in docs/pictures
+	@python3 tools/with_packages.py timing tools/pictures.py
 
 coverage: python ## lines, branches and MC/DC that the unit tests reach
 	@python3 tools/coverage.py $(ARGS)
@@ -96,7 +100,7 @@ trace: python ## requirement, clause, harness, test: fail when one stands alone
 registers: python ## hold the register headers against two independent register databases
 	@python3 tools/registers.py
 
-status: python ## write what the last run of 'make prove' proved into README.md
+status: python ## write what the last run of 'make prove' proved into docs/status.md
 	@python3 tools/status.py
 
 .PHONY: test-target

@@ -1,43 +1,59 @@
 #!/usr/bin/env python3
-"""Write what the last run of tools/prove.py proved into README.md.
+"""Write what the last run of tools/prove.py proved into docs/status.md.
 
     python3 tools/status.py
 
-The table between the lines <!-- status --> and <!-- /status --> is replaced; it holds what
-build/prove/report.json says, and nothing that changes from run to run. A report of some units or
-of one engine only is refused, as its table would pass for the whole.
+The page holds what build/prove/report.json says, and nothing that changes from run to run. A report
+of some units or of one engine only is refused, as its table would pass for the whole.
 
-Exit status: 0 when the table was written, 1 when not (the reason is told), 2 for a wrong command
-line.
+Exit status: 0 when the page was written, 2 when not; the reason is told.
 """
 
 from __future__ import annotations
 
-import argparse
 import json
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[1]
-BEGIN, END = "<!-- status -->\n", "<!-- /status -->\n"
-HEAD = """\
-| unit | WP goals proved | CBMC harnesses | CBMC properties | Gappa goals | wrong variants refuted |
-|---|---|---|---|---|---|
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from common.arguments import Parser  # noqa: E402
+from common.errors import ROOT, ToolError, program  # noqa: E402
+from common.files import read_text, write_text  # noqa: E402
+
+PAGE = Path("docs/status.md")
+INTRODUCTION = """\
+# Status
+
+What the last complete run of `make prove` proved. `make status` writes this page from the run's
+report; nobody edits it.
+
 """
-
-
-class StatusError(Exception):
-    """Why no table can be written."""
+HEAD = """\
+| unit | functions determined | WP goals | CBMC harnesses | CBMC properties | Gappa goals | \
+mistakes refuted |
+|---|---|---|---|---|---|---|
+"""
+KEY = """
+A *function determined* is a public function of which result and every field it writes are proved to
+be those of its [executable specification](../specs/model/README.md). A *goal* is a statement that
+WP or Gappa proves. A *harness* is a program that calls one function once with arbitrary arguments
+and states; a *property* is one thing that CBMC checks in it. A *mistake* is made on purpose in a
+body or a bound, and must be noticed. [What is proved](proved.md) says what all of this amounts to.
+"""
+DETERMINED = ("equality", "wp")
+REASONS = "`proofs/units.toml`"
 
 
 def numbers(unit: Mapping[str, Any]) -> list[tuple[int, int]]:
-    """Of a unit: goals, harnesses, properties, bounds, wrong variants, each as (good, all)."""
-    wp, cbmc, gappa = unit["wp"], unit["cbmc"], unit["gappa"]
+    """Of a unit: functions, goals, harnesses, properties, bounds, mistakes, as (good, all)."""
+    functions, wp, cbmc, gappa = (unit[key] for key in ("determined", "wp", "cbmc", "gappa"))
     harnesses = cbmc["harnesses"].values()
     bodies, bounds = cbmc["negative"], gappa["negative"]
     return [
+        (sum(function["by"] in DETERMINED for function in functions), len(functions)),
         (wp["proved"], wp["goals"]),
         (sum(harness["sound"] for harness in harnesses), len(harnesses)),
         (cbmc["proved"], cbmc["properties"]),
@@ -52,26 +68,47 @@ def row(name: str, pairs: Sequence[tuple[int, int]]) -> str:
     return f"| {' | '.join([name, *cells])} |\n"
 
 
+def undetermined(units: Mapping[str, Any]) -> list[str]:
+    """The public functions that some choice is left to."""
+    functions = [function for unit in units.values() for function in unit["determined"]]
+    return [entry["function"] for entry in functions if entry["by"] not in DETERMINED]
+
+
+def left_to_cbmc(units: Mapping[str, Any]) -> str:
+    """How many functions of floats each unit leaves to CBMC; empty when there is none."""
+    counts = {name: len(unit["wp"]["not_by_wp"]) for name, unit in units.items()}
+    parts = [f"`{name}` {count}" for name, count in counts.items() if count]
+    return f"{sum(counts.values())} functions of floats: {', '.join(parts)}" if parts else ""
+
+
+def named(functions: Sequence[str]) -> str:
+    """Functions, as code."""
+    return ", ".join(f"`{name}`" for name in functions)
+
+
 def exceptions(units: Mapping[str, Any]) -> str:
-    """The functions that an engine does not prove; each has its reason in proofs/units.toml."""
-    kinds = {"Without a harness": ("cbmc", "without_harness"),
-             "Declared without a body": ("wp", "not_proved_here"),
-             "Postconditions left to CBMC": ("wp", "not_by_wp")}  # fmt: skip
-    text = ""
-    for what, (engine, key) in kinds.items():
-        functions = [f"`{name}`" for unit in units.values() for name in unit[engine][key]]
-        if functions:
-            text += f"{what} (reasons in `proofs/units.toml`): {', '.join(functions)}.\n"
-    return text
+    """What an engine does not prove; each has its reason in proofs/units.toml."""
+
+    def every(engine: str, key: str) -> list[str]:
+        return [name for unit in units.values() for name in unit[engine][key]]
+
+    kinds = {
+        "not determined in every field": named(undetermined(units)),
+        "declared without a body": named(every("wp", "not_proved_here")),
+        "without a harness": named(every("cbmc", "without_harness")),
+        "postconditions left to CBMC": left_to_cbmc(units),
+    }
+    lines = [f"- {what}: {which}.\n" for what, which in kinds.items() if which]
+    return f"\nExceptions; {REASONS} has the reason of each:\n\n{''.join(lines)}" if lines else ""
 
 
-def table(report: Mapping[str, Any]) -> str:
+def page(report: Mapping[str, Any]) -> str:
     """The report as a table, with a line under it that says whether everything is proved."""
     if report.get("partial"):
-        raise StatusError("the last run was not of all units and engines: run make prove first")
+        raise ToolError("the last run was not of all units and engines: run make prove first")
     units = {name: numbers(unit) for name, unit in report["units"].items()}
     if not units:
-        raise StatusError("the report names no unit")
+        raise ToolError("the report names no unit")
     columns = list(zip(*units.values(), strict=True))
     total = [(sum(good for good, _ in pairs), sum(all_ for _, all_ in pairs)) for pairs in columns]
     rows = "".join(row(f"`{name}`", pairs) for name, pairs in units.items())
@@ -79,39 +116,23 @@ def table(report: Mapping[str, Any]) -> str:
         verdict = "Every goal and every property is proved.\n"
     else:
         verdict = f"**Not everything is proved**: {len(report['problems'])} problems.\n"
-    return f"{HEAD}{rows}{row('all', total)}\n{verdict}{exceptions(report['units'])}"
+    table = f"{HEAD}{rows}{row('all', total)}"
+    return f"{INTRODUCTION}{table}\n{verdict}{exceptions(report['units'])}{KEY}"
 
 
-def replaced(text: str, new: str) -> str:
-    """The text with what stands between the marks replaced."""
-    if text.count(BEGIN) != 1 or text.count(END) != 1:
-        raise StatusError("README.md needs one <!-- status --> and one <!-- /status --> line")
-    before, rest = text.split(BEGIN)
-    if END not in rest:
-        raise StatusError("README.md: <!-- /status --> stands before <!-- status -->")
-    return before + BEGIN + new + END + rest.split(END)[1]
-
-
-def write(root: Path) -> None:
-    """Read the report, write the table."""
+def write(root: Path) -> int:
+    """Read the report, write the page."""
     path = root / "build/prove/report.json"
     if not path.is_file():
-        raise StatusError("there is no report: run make prove first")
-    readme = root / "README.md"
-    new = table(json.loads(path.read_text(encoding="utf-8")))
-    readme.write_text(replaced(readme.read_text(encoding="utf-8"), new), encoding="utf-8")
+        raise ToolError("there is no report: run make prove first")
+    write_text(root / PAGE, page(json.loads(read_text(path))))
+    return 0
 
 
 def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     """Entry point."""
-    parser = argparse.ArgumentParser(description="Write the status table of README.md.")
-    parser.parse_args(arguments)
-    try:
-        write(root)
-    except StatusError as error:
-        print(f"status: {error}", file=sys.stderr)
-        return 1
-    return 0
+    Parser(f"Write {PAGE}, what the proofs proved.", "status").parse_args(arguments)
+    return program("status", lambda: write(root))
 
 
 if __name__ == "__main__":

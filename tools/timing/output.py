@@ -1,22 +1,17 @@
-"""Writing results: whole files or none, tables of one look, plots without a date in them."""
+"""Writing results: whole files or none, tables of one look."""
 
 from __future__ import annotations
 
 import json
-import os
 import shutil
 from collections.abc import Sequence
-from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rich import box
 from rich.console import Console
 from rich.table import Table
 from toolchain import write_atomically
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 Cell = str | int | float | None
 
@@ -49,24 +44,3 @@ def table(
 def write_json(path: Path, report: dict[str, Any]) -> None:
     """A report, in one go."""
     write_atomically(path, json.dumps(report, indent=1, ensure_ascii=False) + "\n")
-
-
-def new_figure(width: float, height: float) -> Figure:
-    """A figure that needs no display."""
-    # Its cache of fonts belongs to us, not to the user's home.
-    os.environ.setdefault("MPLCONFIGDIR", str(Path(os.environ.get("TMPDIR", "/tmp")) / "keel-mpl"))
-    import matplotlib
-
-    matplotlib.use("svg")
-    matplotlib.rcParams["svg.hashsalt"] = "keel"
-    matplotlib.rcParams["svg.fonttype"] = "none"
-    from matplotlib.figure import Figure
-
-    return Figure(figsize=(width, height), layout="constrained")
-
-
-def write_svg(path: Path, figure: Figure) -> None:
-    """A figure as SVG, the same bytes for the same content."""
-    stream = BytesIO()
-    figure.savefig(stream, format="svg", metadata={"Date": None})
-    write_atomically(path, stream.getvalue().decode())

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+
+from plotting import BLUE, COLOURS, GREY, SKY, grid_along, new_figure, write_svg
 
 from timing.experiments import (
     GOAL_MODEL,
@@ -12,10 +15,20 @@ from timing.experiments import (
     paper_class_sigma,
     sigma,
 )  # fmt: skip
-from timing.output import new_figure, write_svg
 from timing.taskset import TaskSet
 
-SHOWN = ("Keel", "RT phases", "no phases", "unguarded", "EDF")
+Row = Sequence[str | int | float | None]
+
+# Variants of the experiments, with what the legend calls them.
+SHOWN = {
+    "Keel": "Keel",
+    "RT phases": "Keel, phases of real-time tasks only",
+    "no phases": "Keel without phases",
+    "unguarded": "without guard or phases",
+    "EDF": "plain EDF without phases",
+}
+PAPER = "paper"
+STYLES = dict(zip([PAPER, *SHOWN], [GREY, *COLOURS], strict=False))
 FLOOR = 1e-4  # Percent; a logarithmic scale has no 0.
 
 
@@ -23,20 +36,24 @@ def plot_classes(tasks: TaskSet, results: Deviations, path: Path) -> None:
     """Fig. 12: deviation by class."""
     figure = new_figure(9.0, 4.5)
     axes = figure.add_subplot()
-    series = {"paper": [paper_class_sigma(tasks, name) for name in SIGMA_GOALS]}
+    series = {PAPER: [paper_class_sigma(tasks, name) for name in SIGMA_GOALS]}
     for variant in SHOWN:
         result = results[variant, GOAL_MODEL]
         series[variant] = [class_sigma(tasks, result, name) for name in SIGMA_GOALS]
     width = 0.8 / len(series)
     for number, (name, values) in enumerate(series.items()):
         places = [place + (number - len(series) / 2 + 0.5) * width for place in range(len(values))]
-        axes.bar(places, [max(value, FLOOR) for value in values], width, label=name)
+        axes.bar(places, [max(value, FLOOR) for value in values], width, color=STYLES[name],
+                 label=SHOWN.get(name, name))  # fmt: skip
     for place, goal in enumerate(SIGMA_GOALS.values()):
         label = "goal" if place == 0 else "_more"  # A legend leaves out names that begin so.
         axes.hlines(goal, place - 0.4, place + 0.4, color="black", linewidth=1.0, label=label)
     axes.set_xticks(range(len(SIGMA_GOALS)), list(SIGMA_GOALS))
-    axes.set(yscale="log", ylabel="% of the period", title="Fig. 12: mean deviation by class")
-    figure.legend(loc="outside lower center", fontsize=8, ncols=7)
+    axes.set(yscale="log", ylim=(FLOOR, 10.0), xlabel="priority class",
+             ylabel="standard deviation of the period, % of it",
+             title="How steady tasks start, by priority class (fig. 12)")  # fmt: skip
+    grid_along(axes, "y")
+    figure.legend(loc="outside lower center", ncols=4)
     write_svg(path, figure)
 
 
@@ -45,29 +62,37 @@ def plot_tasks(tasks: TaskSet, results: Deviations, path: Path) -> None:
     figure = new_figure(9.0, 4.5)
     axes = figure.add_subplot()
     places = range(len(tasks.tasks))
-    axes.plot(places, [task.sigma or FLOOR for task in tasks.tasks], "k_", label="paper")
-    for variant, mark in zip(SHOWN, "ox^sd", strict=True):
+    axes.plot(places, [max(task.sigma or 0.0, FLOOR) for task in tasks.tasks], "_",
+              color=STYLES[PAPER], label=PAPER, markersize=12)  # fmt: skip
+    for (variant, label), mark in zip(SHOWN.items(), "ox^sd", strict=True):
         result = results[variant, GOAL_MODEL]
         values = [max(sigma(tasks, result, task.name), FLOOR) for task in tasks.tasks]
-        axes.plot(places, values, mark, label=variant, markersize=5)
-    axes.set_xticks(places, [task.label for task in tasks.tasks], fontsize=8)
-    axes.set(yscale="log", ylabel="% of the period", title="Period deviation by task (eq. 15)")
-    figure.legend(loc="outside lower center", fontsize=8, ncols=6)
+        axes.plot(places, values, mark, color=STYLES[variant], label=label, markersize=5)
+    axes.set_xticks(places, [task.label for task in tasks.tasks])
+    axes.set(yscale="log", ylim=(0.7 * FLOOR, 20.0), xlabel="task of table 2",
+             ylabel="standard deviation of the period, % of it",
+             title="How steady each task starts (eq. 15)")  # fmt: skip
+    grid_along(axes, "y")
+    figure.legend(loc="outside lower center", ncols=3)
     write_svg(path, figure)
 
 
-def plot_paths(rows: list[list[str | int | float | None]], path: Path) -> None:
+def plot_paths(rows: Sequence[Row], path: Path) -> None:
     """Fig. 10: reaction above, freshness below."""
     figure = new_figure(9.0, 6.0)
-    names = [str(row[0]) for row in rows]
-    for number, (title, first) in enumerate((("Reaction", 1), ("Freshness", 5))):
-        axes = figure.add_subplot(2, 1, number + 1)
-        labels = ("observed", "observed, no phases", "predicted (eq. 5 to 7)", "constraint")
-        for column, label in enumerate(labels):
+    kinds = {"observed": BLUE, "observed without phases": SKY, "predicted by eq. 5 to 7": GREY}
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    for axes, title, first in ((upper, "Reaction", 1), (lower, "Freshness", 5)):
+        for column, (label, colour) in enumerate(kinds.items()):
             values = [float(row[first + column] or 0.0) / 1000 for row in rows]
-            axes.bar([place + 0.2 * (column - 1.5) for place in range(len(rows))], values, 0.2,
-                     label=label)  # fmt: skip
-        axes.set_xticks(range(len(rows)), names, fontsize=8)
-        axes.set(ylabel="ms", title=f"Fig. 10: {title.lower()}")
-        axes.legend(fontsize=8)
+            places = [place + 0.25 * (column - 1) for place in range(len(rows))]
+            axes.bar(places, values, 0.25, color=colour, label=label)
+        for place, row in enumerate(rows):
+            limit = float(row[first + len(kinds)] or 0.0) / 1000
+            axes.hlines(limit, place - 0.4, place + 0.4, color="black", linewidth=1.0,
+                        label="limit" if place == 0 else "_more")  # fmt: skip
+        axes.set(ylabel="time, ms", title=f"{title} of each path (fig. 10)")
+        grid_along(axes, "y")
+    lower.set_xticks(range(len(rows)), [str(row[0]).replace(", ", ",\n") for row in rows])
+    figure.legend(*upper.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     write_svg(path, figure)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from plotting import BLUE, RED, grid_along, new_figure, write_svg
 from rich.console import Console
 
 from timing.analysis import Analysis, ChainRow, ClassLoad
-from timing.output import Cell, new_figure, table, write_svg
+from timing.output import Cell, table
 
 PUBLISHED_LABELS = {
     "realtime_utilisation": "U_FCFS, eq. 10",
@@ -214,8 +215,10 @@ def plot_utilisation(analysis: Analysis, path: Path) -> None:
                          (1.0, "eq. 11")):  # fmt: skip
         axes.axvline(value, color="black", linewidth=0.8, linestyle="--")
         axes.text(value, 0.55, label, rotation=90, ha="right", va="bottom", fontsize=8)
-    axes.set(xlim=(0.0, max(1.05, 1.05 * left)), ylim=(-0.5, 1.0),
+    axes.set(xlim=(0.0, max(1.05, 1.05 * left)), ylim=(-0.5, 1.0), xlabel="C / T, summed by class",
              title=f"{analysis.name}: utilisation {left:.4f}")  # fmt: skip
+    axes.set_yticks([])
+    grid_along(axes, "x")
     figure.legend(loc="outside lower center", ncols=5, fontsize=8)
     write_svg(path, figure)
 
@@ -236,11 +239,13 @@ def plot_responses(analysis: Analysis, path: Path) -> None:
     places = range(len(rows))
     late = [bound is None or bound > deadline for _, bound, deadline in rows]
     axes.barh(places, [bound or deadline for _, bound, deadline in rows],
-              color=["tab:red" if wrong else "tab:blue" for wrong in late])  # fmt: skip
+              color=[RED if wrong else BLUE for wrong in late])  # fmt: skip
     axes.scatter([deadline for _, _, deadline in rows], places, marker="|", s=80, color="black",
                  label="deadline")  # fmt: skip
     axes.set_yticks(places, [name for name, _, _ in rows], fontsize=8)
     axes.invert_yaxis()
-    axes.set(xscale="log", xlabel="us", title=f"{analysis.name}: bound of the response time")
-    axes.legend(loc="lower right", fontsize=8)
+    axes.set(xscale="log", xlabel="time from the release, us",
+             title=f"{analysis.name}: bound of the response time")  # fmt: skip
+    grid_along(axes, "x")
+    figure.legend(loc="outside lower right")
     write_svg(path, figure)

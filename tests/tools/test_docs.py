@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+"""Tests of the documents: what they name exists, what they link to is there, and all can be found.
+
+    python3 tests/tools/test_docs.py
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import unittest
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parents[2]
+README_LINES = 150
+INDEX = "docs/README.md"
+PICTURES = "docs/pictures"
+GENERATED = frozenset({"build", "__pycache__", ".git", ".mypy_cache", ".ruff_cache", ".venv"})
+
+# Names that stand for the reader's own.
+PLACEHOLDERS = frozenset({"my.toml", "keel_x"})
+CHECKED_NAMES = (".h", ".py", ".g", ".sdoc", ".toml")
+
+FENCE = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
+SPAN = re.compile(r"`([^`\n]+)`")
+LINK = re.compile(r"\]\(([^()\s]+)\)")
+HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
+TARGET = re.compile(r"^(?:\S+=\S* )*make ([a-z][a-z-]*)")
+IDENTIFIER = re.compile(r"\bkeel_[a-z0-9_]+\b")
+TABLE = re.compile(r"(?:^\|.*\n)+", re.MULTILINE)
+DETERMINED = re.compile(r"For (\d+) of the (\d+) public functions")
+
+
+class Place(NamedTuple):
+    """Something that a document says, and where."""
+
+    file: str
+    line: int
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}: {self.text}"
+
+
+@cache
+def files() -> frozenset[str]:
+    """The project's files and folders, generated ones apart."""
+    paths = [path.relative_to(ROOT) for path in ROOT.rglob("*")]
+    return frozenset(p.as_posix() for p in paths if GENERATED.isdisjoint(p.parts))
+
+
+@cache
+def documents() -> dict[str, str]:
+    """Every document by its path."""
+    names = sorted(name for name in files() if name.endswith(".md"))
+    return {name: (ROOT / name).read_text(encoding="utf-8") for name in names}
+
+
+def found(pattern: re.Pattern[str], name: str, text: str) -> Iterator[Place]:
+    """What a pattern finds in a document."""
+    for match in pattern.finditer(text):
+        yield Place(name, text.count("\n", 0, match.start()) + 1, match[match.lastindex or 0])
+
+
+def everywhere(pattern: re.Pattern[str]) -> Iterator[Place]:
+    """What a pattern finds in all documents."""
+    for name, text in documents().items():
+        yield from found(pattern, name, text)
+
+
+def commands() -> Iterator[Place]:
+    """Everything that is shown as code: spans, and the lines of blocks."""
+    yield from everywhere(SPAN)
+    for block in everywhere(FENCE):
+        for number, line in enumerate(block.text.splitlines()):
+            yield Place(block.file, block.line + number, line.strip())
+
+
+def anchors(text: str) -> set[str]:
+    """The anchors of a document's headings, as code hosts make them."""
+    slugs: list[str] = []
+    for heading in HEADING.findall(FENCE.sub("", text)):
+        words = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading).lower()
+        slug = re.sub(r"[^\w\- ]", "", words).replace(" ", "-")
+        slugs.append(slug if slug not in slugs else f"{slug}-{slugs.count(slug)}")
+    return set(slugs)
+
+
+def linked(link: Place) -> tuple[str, str]:
+    """The file that a link leads to, and the anchor in it."""
+    path, _, anchor = link.text.partition("#")
+    if not path:
+        return link.file, anchor
+    target = (ROOT / link.file).parent / path
+    return Path(target).resolve().relative_to(ROOT).as_posix(), anchor
+
+
+def links() -> Iterator[Place]:
+    """The links that lead to files of the project."""
+    return (link for link in everywhere(LINK) if "://" not in link.text)
+
+
+def leads_nowhere(link: Place) -> bool:
+    """Whether file or anchor are missing."""
+    path, anchor = linked(link)
+    if path not in files():
+        return True
+    return bool(anchor) and anchor not in anchors(documents().get(path, ""))
+
+
+def is_uneven(table: str) -> bool:
+    """Whether a table has no heading, or rows of different lengths."""
+    rows = [re.split(r"(?<!\\)\|", row) for row in table.splitlines()]
+    headed = len(rows) > 1 and re.fullmatch(r"[-:]+", rows[1][1].strip()) is not None
+    return not headed or len({len(row) for row in rows}) != 1
+
+
+def is_path(text: str) -> bool:
+    """Whether a piece of code is the path of a file of the project, or a file's name."""
+    if text in PLACEHOLDERS or not re.fullmatch(r"[\w.*<>/-]+", text):
+        return False
+    first, slash, _ = text.partition("/")
+    if slash:
+        named = first in files() or text.endswith((".c", *CHECKED_NAMES))
+        return named and first not in GENERATED
+    return text.endswith(CHECKED_NAMES)
+
+
+def is_missing(path: str) -> bool:
+    """Whether no file has this path; <unit> and * stand for any. Headers are named as included."""
+    pattern = re.escape(re.sub(r"<\w+>", "*", path.rstrip("/"))).replace(r"\*", "[^/]*")
+    whole = re.compile(rf"(.*/)?{pattern}" if path.endswith(".h") or "/" not in path else pattern)
+    return not any(whole.fullmatch(name) for name in files())
+
+
+@cache
+def identifiers() -> frozenset[str]:
+    """What the headers and the harnesses call by Keel's name."""
+    names = {Path(name).stem for name in files()}
+    for name in files():
+        if name.endswith(".h") and name.startswith(("include/", "bsp/")):
+            names.update(IDENTIFIER.findall((ROOT / name).read_text(encoding="utf-8")))
+    return frozenset(names)
+
+
+def determined() -> tuple[str, str]:
+    """How many functions the status page says are determined, of how many."""
+    row = next(line for line in documents()["docs/status.md"].splitlines() if "| all |" in line)
+    numbers = re.findall(r"\d+", row.split("|")[2])
+    return numbers[0], numbers[-1]
+
+
+class DocumentsTest(unittest.TestCase):
+    """All documents of the project."""
+
+    def none(self, places: Iterable[Place], wrong: Callable[[str], bool]) -> None:
+        """Fail with every place that is wrong."""
+        found_wrong = sorted({str(place) for place in places if wrong(place.text)})
+        self.assertEqual([], found_wrong, "\n" + "\n".join(found_wrong))
+
+    def test_links_lead_somewhere(self) -> None:
+        broken = [str(link) for link in links() if leads_nowhere(link)]
+        self.assertEqual([], broken, "\n" + "\n".join(broken))
+
+    def test_the_readme_is_short(self) -> None:
+        self.assertLessEqual(len(documents()["README.md"].splitlines()), README_LINES)
+
+    def test_every_page_and_picture_is_linked(self) -> None:
+        indexed = {linked(link)[0] for link in links() if link.file == INDEX}
+        pages = {name for name in documents() if name.startswith("docs/")} - {INDEX}
+        self.assertEqual(set(), pages - indexed)
+        pictures = {name for name in files() if name.startswith(f"{PICTURES}/")}
+        self.assertEqual(set(), pictures - {linked(link)[0] for link in links()})
+
+    def test_tables_have_a_heading_and_even_rows(self) -> None:
+        self.none(everywhere(TABLE), is_uneven)
+
+    def test_targets_exist(self) -> None:
+        makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+        targets = set(re.findall(r"^([a-z][a-z-]*):", makefile, re.MULTILINE))
+        self.none(commands(), lambda text: bool(set(TARGET.findall(text)) - targets))
+
+    def test_files_exist(self) -> None:
+        self.none(everywhere(SPAN), lambda text: is_path(text) and is_missing(text))
+
+    def test_functions_exist(self) -> None:
+        known = identifiers() | PLACEHOLDERS
+        self.none(everywhere(IDENTIFIER), lambda text: text not in known)
+
+    def test_the_picture_shows_every_unit(self) -> None:
+        picture = (ROOT / PICTURES / "layers.svg").read_text(encoding="utf-8")
+        for header in (ROOT / "include/keel").glob("*/*.h"):
+            if header.stem != "scheduler_state":  # A part of the scheduler.
+                self.assertRegex(picture, rf">[^<]*\b{header.stem}\b")
+
+    def test_claims_are_the_status(self) -> None:
+        claims = [DETERMINED.findall(documents()[name]) for name in ("README.md", "docs/proved.md")]
+        self.assertEqual([[determined()]] * 2, claims)
+
+    def test_the_example_compiles(self) -> None:
+        examples = re.findall(r"^```c\n(.*?)^```$", documents()["README.md"], re.M | re.S)
+        self.assertEqual(len(examples), 1)
+        flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", f"-I{ROOT / 'include'}"]
+        done = subprocess.run(
+            ["gcc", *flags, "-fsyntax-only", "-x", "c", "-"], input=examples[0], text=True,
+            capture_output=True, timeout=60, check=False,
+        )  # fmt: skip
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+if __name__ == "__main__":
+    unittest.main()
