@@ -1,4 +1,5 @@
 #include "keel/rtos/scheduler.h"
+#include "keel/version.h"
 
 #include <stdio.h>
 #include <time.h>
@@ -55,6 +56,7 @@ int main(void)
     while ((status == KEEL_OK) && (runs[2] < 50u)) { /* A second; in an aircraft, for ever. */
         status = keel_scheduler_step(&scheduler);
     }
-    printf("gyro %u, control %u, telemetry %u\n", runs[0], runs[1], runs[2]);
+    printf("Keel %d.%d.%d: gyro %u, control %u, telemetry %u\n", KEEL_VERSION_MAJOR,
+           KEEL_VERSION_MINOR, KEEL_VERSION_PATCH, runs[0], runs[1], runs[2]);
     return (status == KEEL_OK) ? 0 : 1;
 }
