@@ -99,11 +99,11 @@ class ConsumerTest(unittest.TestCase):
 
     def environment(self) -> dict[str, str]:
         """The pinned programs first, and no setting of the user that steers a build."""
-        commands = ("cmake", "ninja", "gcc", "arm-none-eabi-gcc", "pkg-config")
+        commands = ("cmake", "gcc", "arm-none-eabi-gcc", "pkg-config")
         paths = [str(Path(self.tools.command(name)[0]).parent) for name in commands]
         kept = {key: os.environ[key] for key in ("HOME", "PATH") if key in os.environ}
         kept["PATH"] = os.pathsep.join([*dict.fromkeys(paths), kept["PATH"]])
-        return {**kept, "CMAKE_GENERATOR": "Ninja", "LC_ALL": "C"}
+        return {**kept, "CMAKE_GENERATOR": "Unix Makefiles", "LC_ALL": "C"}
 
     def attempt(
         self, command: Sequence[str | Path], **variables: str
@@ -119,6 +119,11 @@ class ConsumerTest(unittest.TestCase):
         done = self.attempt(command, **variables)
         self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}{done.stderr}")
         return done.stdout
+
+    def python(self, *arguments: str | Path, **variables: str) -> str:
+        """Run Python with the packages of the group; what it wrote."""
+        packages = self.tools.command("consumer-packages")[0]
+        return self.good([sys.executable, *arguments], PYTHONPATH=packages, **variables)
 
     def project(self, keel: str, targets: str = ALL_TARGETS, main: str = MAIN) -> None:
         """Write the project; `keel` are the lines that make Keel's targets known."""
