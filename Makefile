@@ -26,13 +26,13 @@ EVIDENCE := coverage mutate fuzz fuzztasks trace status dist
 RESEARCH := timing campaign pictures
 
 ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
-             flash-openocd flash-pyocd flash-st-flash flash-px4 timing
+             flash-openocd flash-pyocd flash-st-flash flash-px4 timing consumer
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
 TIMING := python3 tools/with_packages.py timing -m timing
 
 .PHONY: analyze tables fuzztasks timing
-.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace registers status firmware model stack flash tools doctor clean python
+.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace registers status firmware model stack flash dist tools doctor clean python
 .NOTPARALLEL:
 
 help: ## this list
@@ -119,6 +119,9 @@ stack: python ## bound the stack of every task and of main in a board's image (B
 
 flash: python ## write a board's image to the board (BOARD=nucleo_f767zi; ARGS='--tool st-flash')
 	@python3 tools/flash.py "$(BOARD)" $(ARGS)
+
+dist: python ## a release of this commit: archive, bill of materials, checksums (in build/dist)
+	@python3 tools/dist.py $(ARGS)
 
 tools: python ## install all tools now, rather than when they are needed
 	@python3 tools/toolchain.py ensure $(ALL_TOOLS)

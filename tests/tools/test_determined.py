@@ -408,6 +408,11 @@ class Parsing(unittest.TestCase):
                                        "int *"))  # fmt: skip
         self.assertEqual([one.written for one in found.parameters], [False, False, False, True])
 
+    def test_what_stands_around_declarations_belongs_to_none(self) -> None:
+        text = "KEEL_C_BEGIN\n\nint first(void);\n\nKEEL_C_END\nint second(void);\n"
+        found = declarations.signatures(text)
+        self.assertEqual([found[name].types for name in ("first", "second")], [("int",)] * 2)
+
 
 class Report(WholeRunCase):
     def test_open_functions_are_shown_and_do_not_fail(self) -> None:

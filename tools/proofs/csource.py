@@ -18,7 +18,8 @@ TOKEN = re.compile(
     re.DOTALL | re.VERBOSE,
 )
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+"([^"]+)"', re.MULTILINE)
-DIRECTIVE = re.compile(r"^[ \t]*#(?:\\\n|[^\n])*", re.MULTILINE)
+# The two macros of c_declarations.h stand for a directive: they are nothing to C.
+DIRECTIVE = re.compile(r"^(?:[ \t]*#(?:\\\n|[^\n])*|KEEL_C_(?:BEGIN|END)$)", re.MULTILINE)
 FUNCTION = re.compile(
     r"^(?P<head>[A-Za-z_][\w \t\n*]*?[ \t\n*])(?P<name>[A-Za-z_]\w*)[ \t\n]*"
     r"\((?P<parameters>[^;{}]*)\)[ \t\n]*(?P<end>[{;])",

@@ -28,7 +28,10 @@
 #ifndef KEEL_FLIGHT_FILTER_H
 #define KEEL_FLIGHT_FILTER_H
 
+#include "keel/c_declarations.h"
 #include "keel/status.h"
+
+KEEL_C_BEGIN
 
 /** Sample rates, in Hz; the least is 2^-10. */
 #define KEEL_FILTER_RATE_MIN_HZ 0.0009765625f
@@ -189,5 +192,7 @@ keel_status_t keel_filter_reset(keel_filter_t *filter, float value);
   @     filter->s2 == \old(filter->s2) && filter->output == \old(filter->output);
   @*/
 keel_status_t keel_filter_step(keel_filter_t *filter, float input);
+
+KEEL_C_END
 
 #endif

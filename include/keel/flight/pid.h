@@ -24,10 +24,13 @@
 #ifndef KEEL_FLIGHT_PID_H
 #define KEEL_FLIGHT_PID_H
 
+#include "keel/c_declarations.h"
 #include "keel/flight/filter.h"
 #include "keel/status.h"
 
 #include <stdbool.h>
+
+KEEL_C_BEGIN
 
 /** The greatest set-point and measurement: half of what the filter takes, so that it takes every
  * error. */
@@ -214,5 +217,7 @@ keel_status_t keel_pid_set_gains(keel_pid_t *pid, const keel_pid_gains_t *gains)
   @     pid->output == pid->config.output_min && pid->integral >= \old(pid->integral);
   @*/
 keel_status_t keel_pid_step(keel_pid_t *pid, float setpoint, float measurement);
+
+KEEL_C_END
 
 #endif

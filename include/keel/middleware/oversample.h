@@ -11,9 +11,12 @@
 #ifndef KEEL_MIDDLEWARE_OVERSAMPLE_H
 #define KEEL_MIDDLEWARE_OVERSAMPLE_H
 
+#include "keel/c_declarations.h"
 #include "keel/status.h"
 
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /** The largest magnitude of a sample, in the channel's unit. */
 #define KEEL_OVERSAMPLE_RANGE 1.0e9f
@@ -114,5 +117,7 @@ keel_status_t keel_oversample_add(keel_oversample_t *oversample, float value);
   @     \max(0, \old(oversample->runs) - oversample->factor));
   @*/
 keel_status_t keel_oversample_take(keel_oversample_t *oversample, float *mean);
+
+KEEL_C_END
 
 #endif

@@ -9,7 +9,11 @@
 #ifndef KEEL_MIDDLEWARE_RANGE_H
 #define KEEL_MIDDLEWARE_RANGE_H
 
+#include "keel/c_declarations.h"
+
 #include <stdbool.h>
+
+KEEL_C_BEGIN
 
 /** The largest finite float: a value is finite when it lies between this and its negative. */
 #define KEEL_RANGE_LARGEST 0x1.fffffep+127f
@@ -58,5 +62,7 @@ static inline float keel_range_clamp(float value, float lowest, float highest)
 
     return (above < highest) ? above : highest;
 }
+
+KEEL_C_END
 
 #endif

@@ -9,11 +9,14 @@
 #ifndef KEEL_MIDDLEWARE_VIRTUAL_IMU_H
 #define KEEL_MIDDLEWARE_VIRTUAL_IMU_H
 
+#include "keel/c_declarations.h"
 #include "keel/middleware/voter.h"
 #include "keel/status.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /** Channels of a unit: accelerometer x, y, z in m/s^2, then gyroscope x, y, z in rad/s. */
 #define KEEL_VIRTUAL_IMU_CHANNELS 6u
@@ -159,5 +162,7 @@ void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_virtual_imu_sampl
   @ ensures IMU_004_kept: \result != KEEL_OK ==> *imu == \old(*imu);
   @*/
 keel_status_t keel_virtual_imu_readmit(keel_virtual_imu_t *imu, uint32_t unit);
+
+KEEL_C_END
 
 #endif

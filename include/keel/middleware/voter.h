@@ -32,10 +32,13 @@
 #ifndef KEEL_MIDDLEWARE_VOTER_H
 #define KEEL_MIDDLEWARE_VOTER_H
 
+#include "keel/c_declarations.h"
 #include "keel/status.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /** The most sensors that can vote. */
 #ifndef KEEL_VOTER_SENSORS
@@ -465,5 +468,7 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
   @ disjoint behaviors;
   @*/
 keel_status_t keel_voter_readmit(keel_voter_t *voter, uint32_t sensor);
+
+KEEL_C_END
 
 #endif

@@ -17,11 +17,14 @@
 #ifndef KEEL_RTOS_ADMISSION_H
 #define KEEL_RTOS_ADMISSION_H
 
+#include "keel/c_declarations.h"
 #include "keel/rtos/priority.h"
 #include "keel/rtos/queue.h"
 #include "keel/status.h"
 
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /** A utilisation of 100 %, in parts per million. */
 #define KEEL_UTILISATION_FULL_PPM 1000000u
@@ -289,5 +292,7 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priorit
   @     utilisation_holds(queue, queue->count, admission->utilisation_limit_ppm);
   @*/
 keel_status_t keel_admission_queue(keel_admission_t *admission, const keel_queue_t *queue);
+
+KEEL_C_END
 
 #endif

@@ -10,9 +10,12 @@
 #ifndef KEEL_RTOS_CLOCK_H
 #define KEEL_RTOS_CLOCK_H
 
+#include "keel/c_declarations.h"
 #include "keel/status.h"
 
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /** A step of the counter of this size or more is read as a jump backwards, in us. */
 #define KEEL_CLOCK_STEP_LIMIT_US 0x80000000u
@@ -101,5 +104,7 @@ static inline keel_status_t keel_clock_advance(keel_clock_t *clock, uint32_t raw
     clock->raw_us = raw_us;
     return KEEL_OK;
 }
+
+KEEL_C_END
 
 #endif

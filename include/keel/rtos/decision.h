@@ -13,11 +13,14 @@
 #ifndef KEEL_RTOS_DECISION_H
 #define KEEL_RTOS_DECISION_H
 
+#include "keel/c_declarations.h"
 #include "keel/rtos/clock.h"
 #include "keel/rtos/priority.h"
 #include "keel/rtos/queue.h"
 
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /** The time of what never happens: a release when there is no task. */
 #define KEEL_TIME_NEVER_US UINT64_MAX
@@ -190,5 +193,7 @@ keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, ui
   @         \result == next_event(queue, queue->order[i], now_us));
   @*/
 uint64_t keel_decision_event_us(const keel_queue_t *queue, uint64_t now_us);
+
+KEEL_C_END
 
 #endif

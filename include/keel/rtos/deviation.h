@@ -7,9 +7,12 @@
 #ifndef KEEL_RTOS_DEVIATION_H
 #define KEEL_RTOS_DEVIATION_H
 
+#include "keel/c_declarations.h"
 #include "keel/status.h"
 
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /** How far a task's measured periods lie from their target (eq. 15). All zero at first. */
 typedef struct keel_deviation {
@@ -79,5 +82,7 @@ keel_status_t keel_deviation_add(keel_deviation_t *deviation, uint64_t start_us,
   @     \result == deviation->sum_us2 / (deviation->starts - 1);
   @*/
 uint64_t keel_deviation_variance_us2(const keel_deviation_t *deviation);
+
+KEEL_C_END
 
 #endif

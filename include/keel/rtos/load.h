@@ -5,7 +5,11 @@
 #ifndef KEEL_RTOS_LOAD_H
 #define KEEL_RTOS_LOAD_H
 
+#include "keel/c_declarations.h"
+
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /** A load of 100 %, in ppm, as utilisation is. */
 #define KEEL_LOAD_FULL_PPM 1000000u
@@ -49,5 +53,7 @@ void keel_load_begin(keel_load_t *load, uint64_t now_us, uint64_t busy_us);
   @     ((busy_us - load->busy_us) * KEEL_LOAD_FULL_PPM) / (now_us - load->start_us);
   @*/
 uint32_t keel_load_ppm(const keel_load_t *load, uint64_t now_us, uint64_t busy_us);
+
+KEEL_C_END
 
 #endif

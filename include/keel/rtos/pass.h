@@ -10,12 +10,15 @@
 #ifndef KEEL_RTOS_PASS_H
 #define KEEL_RTOS_PASS_H
 
+#include "keel/c_declarations.h"
 #include "keel/rtos/clock.h"
 #include "keel/rtos/scheduler_state.h"
 #include "keel/rtos/task.h"
 #include "keel/status.h"
 
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /*
  * What is assumed of the functions that the user supplies, as contracts of two that stand for any.
@@ -361,5 +364,7 @@ keel_status_t keel_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us);
   @ ensures SCH_023_bodies: bodies_modelled(scheduler);
   @*/
 keel_status_t keel_pass_run(keel_scheduler_t *scheduler);
+
+KEEL_C_END
 
 #endif

@@ -22,8 +22,12 @@
 #ifndef KEEL_RTOS_PRIORITY_H
 #define KEEL_RTOS_PRIORITY_H
 
+#include "keel/c_declarations.h"
+
 #include <stdbool.h>
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 #define KEEL_PRIORITY_LOW         1u
 #define KEEL_PRIORITY_MEDIUM      2u
@@ -127,5 +131,7 @@ uint32_t keel_priority_dynamic(uint32_t sp, uint64_t age_us, uint32_t period_us)
   @ ensures PRI_004: \result == promotion_age(sp, period_us);
   @*/
 uint64_t keel_priority_promotion_age_us(uint32_t sp, uint32_t period_us);
+
+KEEL_C_END
 
 #endif

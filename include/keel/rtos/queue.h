@@ -17,12 +17,15 @@
 #ifndef KEEL_RTOS_QUEUE_H
 #define KEEL_RTOS_QUEUE_H
 
+#include "keel/c_declarations.h"
 #include "keel/rtos/clock.h"
 #include "keel/rtos/priority.h"
 #include "keel/rtos/stats.h"
 #include "keel/rtos/task.h"
 
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /** How many tasks a queue holds. */
 #ifndef KEEL_QUEUE_CAPACITY
@@ -252,5 +255,7 @@ void keel_queue_remove(keel_queue_t *queue, uint32_t position);
   @     \min(UINT16_MAX, \old(queue->skipped[slot] + grid_missed(queue, slot, now_us)));
   @*/
 void keel_queue_advance(keel_queue_t *queue, uint32_t slot, uint64_t now_us);
+
+KEEL_C_END
 
 #endif

@@ -19,6 +19,7 @@
 #ifndef KEEL_RTOS_SCHEDULER_H
 #define KEEL_RTOS_SCHEDULER_H
 
+#include "keel/c_declarations.h"
 #include "keel/rtos/admission.h"
 #include "keel/rtos/pass.h"
 #include "keel/rtos/scheduler_state.h"
@@ -26,6 +27,8 @@
 #include "keel/status.h"
 
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /**
  * Prepares a scheduler without tasks (requirement SCH-001).
@@ -342,5 +345,7 @@ const keel_task_config_t *keel_scheduler_task(const keel_scheduler_t *scheduler,
   @*/
 keel_status_t keel_scheduler_report(const keel_scheduler_t *scheduler,
                                     const keel_task_config_t *task, keel_task_report_t *report);
+
+KEEL_C_END
 
 #endif

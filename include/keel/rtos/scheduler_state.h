@@ -8,12 +8,15 @@
 #ifndef KEEL_RTOS_SCHEDULER_STATE_H
 #define KEEL_RTOS_SCHEDULER_STATE_H
 
+#include "keel/c_declarations.h"
 #include "keel/rtos/admission.h"
 #include "keel/rtos/clock.h"
 #include "keel/rtos/decision.h"
 #include "keel/rtos/queue.h"
 
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /** Reads a free-running counter of microseconds, which wraps at 2^32. */
 typedef uint32_t (*keel_clock_fn_t)(void *context);
@@ -273,5 +276,7 @@ typedef struct keel_task_report {
     ensures SCH_006_other_bound : other_bound(s);                                                  \
     ensures SCH_006_exact : realtime_exact(s);
 /* clang-format on */
+
+KEEL_C_END
 
 #endif

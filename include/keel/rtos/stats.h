@@ -8,7 +8,11 @@
 #ifndef KEEL_RTOS_STATS_H
 #define KEEL_RTOS_STATS_H
 
+#include "keel/c_declarations.h"
+
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /** Statistics of one task's runs (fig. 4). All zero at first. */
 typedef struct keel_stats {
@@ -112,5 +116,7 @@ void keel_stats_promote(keel_stats_t *stats);
   @ ensures STS_005_mean: stats->runs > 0 ==> \result == stats->total_us / stats->runs;
   @*/
 uint64_t keel_stats_mean_us(const keel_stats_t *stats);
+
+KEEL_C_END
 
 #endif

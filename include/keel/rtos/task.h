@@ -9,11 +9,14 @@
 #ifndef KEEL_RTOS_TASK_H
 #define KEEL_RTOS_TASK_H
 
+#include "keel/c_declarations.h"
 #include "keel/rtos/priority.h"
 #include "keel/status.h"
 
 #include <stddef.h>
 #include <stdint.h>
+
+KEEL_C_BEGIN
 
 /** The body of a task: runs once per release, to its end. */
 typedef void (*keel_task_fn_t)(void *context);
@@ -85,5 +88,7 @@ typedef struct keel_task_config {
   @ disjoint behaviors;
   @*/
 keel_status_t keel_task_check(const keel_task_config_t *config);
+
+KEEL_C_END
 
 #endif

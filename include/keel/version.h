@@ -1,0 +1,14 @@
+/**
+ * @file version.h
+ * @brief The version of Keel, by https://semver.org: the one place where it is written by hand.
+ *
+ * Before 1.0.0 a new minor version may change the interface; CHANGELOG.md says how.
+ */
+#ifndef KEEL_VERSION_H
+#define KEEL_VERSION_H
+
+#define KEEL_VERSION_MAJOR 0
+#define KEEL_VERSION_MINOR 9
+#define KEEL_VERSION_PATCH 0
+
+#endif
