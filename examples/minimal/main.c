@@ -43,7 +43,7 @@ int main(void)
 {
     static keel_scheduler_t scheduler;
     const keel_scheduler_config_t config = {
-        .read_clock = read_clock, .guard_us = 20u, .utilisation_limit = 700000u, /* 70 % */
+        .read_clock = read_clock, .guard_us = 20u, .utilisation_limit_ppm = 700000u, /* 70 % */
     };
     keel_status_t status = keel_scheduler_init(&scheduler, &config);
 
