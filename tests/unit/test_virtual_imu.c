@@ -72,6 +72,14 @@ static void IMU_001_the_accelerometers_fault_is_told_first(void)
     refuses(KEEL_ERR_LATCH);
 }
 
+static void IMU_001_each_channel_has_the_configuration_of_its_kind(void)
+{
+    for (uint32_t k = 0u; k < 3u; k++) {
+        TEST_ASSERT_EQUAL_FLOAT(160.0f, imu.channel[k].config.highest);
+        TEST_ASSERT_EQUAL_FLOAT(35.0f, imu.channel[k + 3u].config.highest);
+    }
+}
+
 static void IMU_001_starts_anew(void)
 {
     sample[1].value[4] = NAN;
@@ -247,6 +255,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(IMU_001_both_configurations_are_checked);
     RUN_TEST(IMU_001_the_accelerometers_fault_is_told_first);
+    RUN_TEST(IMU_001_each_channel_has_the_configuration_of_its_kind);
     RUN_TEST(IMU_001_starts_anew);
     RUN_TEST(IMU_002_each_value_reaches_its_sensor);
     RUN_TEST(IMU_002_each_unit_has_its_own_age_and_presence);
