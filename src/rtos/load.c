@@ -13,5 +13,7 @@ uint32_t keel_load_ppm(const keel_load_t *load, uint64_t now_us, uint64_t busy_u
     if (window_us == 0u) {
         return 0u;
     }
+    /*@ assert share: (busy_us - load->busy_us) * KEEL_LOAD_FULL_PPM <=
+      @     window_us * KEEL_LOAD_FULL_PPM; */
     return (uint32_t)(((busy_us - load->busy_us) * KEEL_LOAD_FULL_PPM) / window_us);
 }

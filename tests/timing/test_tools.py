@@ -209,7 +209,7 @@ def test_names_that_the_table_takes_are_refused() -> None:
     taken = set(re.findall(r"\{upper\}_([A-Z_]+)", ctable.HEADER + ctable.SOURCE))
     assert taken == taskset.TABLE_NAMES
     text = URPILOT.read_text(encoding="utf-8")
-    for name in ("Task count", "guard us", "Utilisation limit", "Tasks-h"):
+    for name in ("Task count", "guard us", "Utilisation limit ppm", "Tasks-h"):
         with pytest.raises(ConfigError, match=f"task {name}: name: expected a name other than"):
             parse(text.replace('name = "GPS"', f'name = "{name}"'))
     for set_name, name in (("int8", "Max"), ("uint_fast16", "max"), ("size", "max")):
