@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What CMakeLists.txt is made of.
 
 set(KEEL_ROOT ${CMAKE_CURRENT_LIST_DIR}/..)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # `cmake --install`: headers, libraries, what find_package(Keel) reads, and keel.pc for pkg-config.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Make a release: an archive of the commit, its bill of materials, and the checksums of both.
 
     python3 tools/dist.py              # build/dist/keel-<version>.tar.gz, .cdx.json, SHA256SUMS

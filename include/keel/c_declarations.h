@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file c_declarations.h
  * @brief What stands around the declarations of a header, so that C++ finds the functions of C.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file version.h
  * @brief The version of Keel, by https://semver.org: the one place where it is written by hand.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A project of somebody else, in a folder of its own, that builds on Keel."""
 
 from __future__ import annotations

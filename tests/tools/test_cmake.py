@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of CMakeLists.txt: clean projects that contain Keel, on the host and for a Cortex-M7.
 
     python3 tests/tools/test_cmake.py

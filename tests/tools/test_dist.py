@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of tools/dist.py: the same bytes twice, an archive that builds and proves, and refusals.
 
     python3 tests/tools/test_dist.py

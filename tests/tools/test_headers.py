@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of the public headers: each alone, in C and in C++, for the host and the Cortex-M7.
 
     python3 tests/tools/test_headers.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of what `cmake --install` leaves: clean projects that find Keel by CMake or by pkg-config.
 
     python3 tests/tools/test_installed.py
@@ -13,7 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from consumer import CORTEX_M7, ROOT, ConsumerTest, answer, version  # noqa: E402
+from consumer import AS_FOLDER, CORTEX_M7, ROOT, ConsumerTest, answer, version  # noqa: E402
 from toolchain import TARGET_FLAGS  # noqa: E402
 
 FIND = "find_package(Keel {version} REQUIRED COMPONENTS {components})"
@@ -60,6 +61,14 @@ class PackageTest(ConsumerTest):
         self.installed("-DKEEL_QUEUE_CAPACITY=8", "-DKEEL_VOTER_SENSORS=2")
         self.project(SENSIBLE)
         self.assertEqual(self.attempt([self.build(self.search())]).returncode, answer(8, 2))
+
+    def test_with_the_project_that_contains_it(self) -> None:
+        self.project(AS_FOLDER)
+        self.build("-DKEEL_INSTALL=ON")
+        self.good(["cmake", "--install", "build", "--prefix", self.folder / "moved"])
+        self.project(SENSIBLE)
+        program = self.build(self.search(), into="other")
+        self.assertEqual(self.attempt([program]).returncode, answer())
 
     def test_what_is_not_there_is_refused(self) -> None:
         self.installed()

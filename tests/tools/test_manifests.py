@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of what package managers read of Keel: PlatformIO's manifest, Zephyr's module, and that all
 of them name the same version and numbers.
 
