@@ -25,7 +25,7 @@ BOARDS := firmware model stack flash registers test-target
 EVIDENCE := coverage mutate fuzz fuzztasks trace status dist
 RESEARCH := timing campaign pictures
 
-ALL_TOOLS := prove test lint coverage bench fuzz firmware target registers model \
+ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
              flash-openocd flash-pyocd flash-st-flash flash-px4 timing
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)

@@ -23,8 +23,8 @@ build/firmware/<board> then holds keel.elf, keel.bin, keel.map, report.json, and
 what the compiler knows about stacks (*.su, *.ci). An image does not depend on the folder it was
 built in. A failed build leaves no report.
 
-Exit status: 0 when the image is whole, 1 when it is not as the board's file asks, 2 when it could not
-be built.
+Exit status: 0 when the image is whole, 1 when it is not as the board's file asks, 2 when it could
+not be built.
 """
 
 from __future__ import annotations

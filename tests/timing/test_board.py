@@ -11,25 +11,17 @@ import pytest
 from rich.console import Console
 from timing import board
 from timing.board import BoardError, Experiment, Result
+from timing.deviation import Together, drift, excuse, turn_ceiling
 from timing.experiments import (
     Findings,
     Runner,
-    Seen,
-    Together,
     at_goal_cost,
     class_sigma,
-    counted,
-    drift,
-    excuse,
-    judge_paths,
-    overload_bound,
-    overload_plans,
-    overloaded,
     paper_class_sigma,
-    silent,
-    turn_ceiling,
 )  # fmt: skip
 from timing.least_deviation import least, least_of_class
+from timing.observed import Seen, judge_paths
+from timing.overload import counted, overload_bound, overload_plans, overloaded, silent
 from timing.phases import without_phases
 from timing.scheduler_bounds import TICK, realtime_bound
 from timing.taskset import Chain, Costs, Task, TaskSet, read

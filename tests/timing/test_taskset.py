@@ -6,9 +6,11 @@ import os
 from pathlib import Path
 
 import pytest
+from common.config import ConfigError
+from common.errors import ToolError
+from common.toml_lines import line_index
 from fuzz_taskset import fuzz
-from timing.taskset import TaskSetError, parse, read
-from timing.toml_lines import line_index
+from timing.taskset import parse, read
 
 ROOT = Path(__file__).resolve().parents[2]
 URPILOT = ROOT / "specs/tasksets/urpilot.toml"
@@ -39,19 +41,15 @@ freshness_limit_us = 30000
 """
 
 
-TASK_KEYS = (
-    "unknown key; expected one of name, label, class, priority, realtime, period_us, budget_us, "
-    "phase_us, sigma_percent"
-)
 ONE_CLASS = "expected one of class, priority (1 to 4) and realtime = true"
 
 
 def problems(old: str, new: str) -> list[str]:
     """What is said of the small set with one piece of text replaced."""
     assert SMALL.count(old) >= 1
-    with pytest.raises(TaskSetError) as caught:
+    with pytest.raises(ConfigError) as caught:
         parse(SMALL.replace(old, new, 1), "s.toml")
-    return [str(problem) for problem in caught.value.problems]
+    return str(caught.value).splitlines()
 
 
 def test_a_small_set_is_read() -> None:
@@ -83,38 +81,38 @@ def test_the_shipped_set_is_table_2() -> None:
     ("old", "new", "told"),
     [
         ("budget_us = 50", "budget = 50",
-         f's.toml:10: task "Gyro": budget: {TASK_KEYS}'),
+         "s.toml:10: task Gyro: budget: unknown key; did you mean budget_us?"),
         ("[[task]]", "[[task]]\nperiod_ms = 1",
-         f's.toml:7: task "Gyro": period_ms: {TASK_KEYS}'),
+         "s.toml:7: task Gyro: period_ms: unknown key; did you mean period_us?"),
         ("[[chain]]", "[chains]",
-         "s.toml:19: chains: unknown key; expected one of name, scheduler, published, task, chain"),
-        ("guard_us = 10", "gaurd_us = 10", "s.toml:4: scheduler: gaurd_us: unknown key; expected "
-         "one of guard_us, pass_us, dispatch_us, utilisation_limit_percent"),
+         "s.toml:19: chains: unknown key; did you mean chain?"),
+        ("guard_us = 10", "gaurd_us = 10",
+         "s.toml:4: scheduler: gaurd_us: unknown key; did you mean guard_us?"),
         ("guard_us = 10", "guard_us = true",
          "s.toml:4: scheduler: guard_us: expected to be a valid integer, found True"),
         ("period_us = 1000", "period_us = 1000.0",
-         's.toml:9: task "Gyro": period_us: expected to be a valid integer, found 1000.0'),
+         "s.toml:9: task Gyro: period_us: expected to be a valid integer, found 1000.0"),
         ("period_us = 1000", "period_us = 0",
-         's.toml:9: task "Gyro": period_us: expected to be greater than or equal to 1, found 0'),
+         "s.toml:9: task Gyro: period_us: expected to be greater than or equal to 1, found 0"),
         ("period_us = 1000", "period_us = 2147483648",
-         's.toml:9: task "Gyro": period_us: expected to be less than 2147483648, found 2147483648'),
+         "s.toml:9: task Gyro: period_us: expected to be less than 2147483648, found 2147483648"),
         ("budget_us = 50", "budget_us = 1001",
-         's.toml:10: task "Gyro": budget_us: expected at most the period, 1000'),
+         "s.toml:10: task Gyro: budget_us: expected at most the period, 1000"),
         ("phase_us = 5", "phase_us = 20_000",
-         's.toml:17: task "Telemetry": phase_us: expected less than the period, 20000'),
+         "s.toml:17: task Telemetry: phase_us: expected less than the period, 20000"),
         ("priority = 1", 'priority = 1\nclass = "low"',
-         f's.toml:12: task "Telemetry": {ONE_CLASS}'),
+         f"s.toml:12: task Telemetry: {ONE_CLASS}"),
         ("priority = 1\n", "",
-         f's.toml:12: task "Telemetry": {ONE_CLASS}'),
+         f"s.toml:12: task Telemetry: {ONE_CLASS}"),
         ('path = ["Gyro",', 'path = ["Giro",',
-         's.toml:21: chain "Gyro, ground": path: expected names of tasks; there is no "Giro"'),
+         's.toml:21: chain Gyro, ground: path: expected names of tasks; there is no "Giro"'),
         ('path = ["Gyro",', 'path = ["Telemetry",',
-         's.toml:21: chain "Gyro, ground": path: expected each task at most once'),
+         "s.toml:21: chain Gyro, ground: path: expected each task at most once"),
         ('name = "Telemetry"', 'name = "gyro"',
-         's.toml:13: task "gyro": name: expected another than that of "Gyro" (as a C identifier)'),
+         's.toml:13: task gyro: name: expected another than that of "Gyro" (as a C identifier)'),
         ('name = "Gyro"\n', "",
-         "s.toml:6: task number 1: name: expected: this key is missing"),
-        ('name = "small"', "name = small", "s.toml:1: file: expected TOML: Invalid value"),
+         "s.toml:6: task number 1: name: is missing"),
+        ('name = "small"', "name = small", "s.toml:1: no TOML: Invalid value"),
     ],
 )  # fmt: skip
 def test_an_error_names_file_line_field_and_what_was_expected(
@@ -127,12 +125,12 @@ def test_no_name_is_given_twice_however_short() -> None:
     """CPython shares strings of one character: two such names are one object."""
     for name, again in (("A", "A"), ("A", "a"), ("Gyro", "Gyro")):
         text = SMALL.replace('"Gyro"', f'"{name}"').replace('"Telemetry"', f'"{again}"')
-        with pytest.raises(TaskSetError) as caught:
+        with pytest.raises(ConfigError) as caught:
             parse(text, "s.toml")
         expected = f'expected another than that of "{name}" (as a C identifier)'
-        assert f's.toml:13: task "{again}": name: {expected}' in str(caught.value)
+        assert f"s.toml:13: task {again}: name: {expected}" in str(caught.value)
     text = SMALL.replace('class = "real-time"', 'class = "real-time"\nlabel = "a"')
-    with pytest.raises(TaskSetError, match='label: expected another than that of "Gyro"'):
+    with pytest.raises(ConfigError, match='label: expected another than that of "Gyro"'):
         parse(text.replace("priority = 1", 'priority = 1\nlabel = "a"'))
 
 
@@ -155,9 +153,9 @@ def in_task(line: str) -> str:
     ],
 )  # fmt: skip
 def test_hostile_texts_are_refused_in_words(text: str) -> None:
-    with pytest.raises(TaskSetError) as caught:
+    with pytest.raises(ConfigError) as caught:
         parse(text)
-    assert "expected" in str(caught.value)
+    assert str(caught.value).startswith("task set")
     assert all(len(line) < 400 for line in str(caught.value).splitlines())
 
 
@@ -169,9 +167,9 @@ def test_a_key_of_many_parts_costs_no_memory_for_each_of_them() -> None:
 def test_files_that_cannot_be_read_are_refused_in_words(tmp_path: Path) -> None:
     bad = tmp_path / "latin1.toml"
     bad.write_bytes(b'name = "x"\n# \xfc\n')
-    for path, told in ((tmp_path / "none.toml", "1: file: cannot be read"),
-                       (bad, "2: file: expected UTF-8")):  # fmt: skip
-        with pytest.raises(TaskSetError) as caught:
+    for path, told in ((tmp_path / "none.toml", "none.toml: cannot be read"),
+                       (bad, "latin1.toml:2: expected UTF-8")):  # fmt: skip
+        with pytest.raises(ToolError) as caught:
             read(path)
         assert told in str(caught.value)
 

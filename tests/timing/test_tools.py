@@ -12,6 +12,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from common.config import ConfigError
 from fuzz_taskset import fuzz
 from timing import ctable, taskset
 from timing.__main__ import main
@@ -20,7 +21,7 @@ from timing.phases import spread, without_phases
 from timing.report import plot_responses, plot_utilisation, verdict
 from timing.scheduler_bounds import collisions, declared, needs, promotion_wait
 from timing.synthesis import LADDER, SynthesisError, keeps_limits, synthesize, with_periods
-from timing.taskset import Task, TaskSet, TaskSetError, parse, read
+from timing.taskset import Task, TaskSet, parse, read
 from timing.textbook_tests import hyperperiod
 from toolchain import Toolchain
 
@@ -103,7 +104,7 @@ def test_exit_status_and_first_reason(
     output = capsys.readouterr()
     if status == 2:
         line = path.read_text(encoding="utf-8").split("budget_us = 0\n")[0].count("\n") + 1
-        assert output.err.startswith(f'{path}:{line}: task "GPS": budget_us')
+        assert output.err.startswith(f"{path}:{line}: task GPS: budget_us")
     else:
         assert told in output.out.splitlines()[-1]
 
@@ -209,14 +210,14 @@ def test_names_that_the_table_takes_are_refused() -> None:
     assert taken == taskset.TABLE_NAMES
     text = URPILOT.read_text(encoding="utf-8")
     for name in ("Task count", "guard us", "Utilisation limit", "Tasks-h"):
-        with pytest.raises(TaskSetError, match=f'"{name}": name: expected a name other than'):
+        with pytest.raises(ConfigError, match=f"task {name}: name: expected a name other than"):
             parse(text.replace('name = "GPS"', f'name = "{name}"'))
     for set_name, name in (("int8", "Max"), ("uint_fast16", "max"), ("size", "max")):
         changed_set = text.replace('name = "urpilot"', f'name = "{set_name}"')
-        with pytest.raises(TaskSetError, match="stdint.h"):
+        with pytest.raises(ConfigError, match="stdint.h"):
             parse(changed_set.replace('name = "GPS"', f'name = "{name}"'))
     for set_name in ("keel", "keel_priority"):
-        with pytest.raises(TaskSetError, match="name: expected a name that does not begin"):
+        with pytest.raises(ConfigError, match="name: expected a name that does not begin"):
             parse(text.replace('name = "urpilot"', f'name = "{set_name}"'))
 
 
@@ -334,4 +335,4 @@ def test_the_program_ends_in_words_for_a_wrong_command_line() -> None:
     done = subprocess.run(
         [sys.executable, "-m", "timing", "analyze"], capture_output=True, text=True, check=False
     )
-    assert done.returncode == 2 and "usage" in done.stderr
+    assert done.returncode == 2 and "are required: taskset" in done.stderr

@@ -18,10 +18,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import firmware  # noqa: E402
 import chip_model  # noqa: E402
+import firmware  # noqa: E402
 import stack  # noqa: E402
-from chip_model import PWR, RCC, Board, ModelError  # noqa: E402
+from boards import chip  # noqa: E402
+from boards.chip import PWR, RCC, Chip, ModelError  # noqa: E402
+from boards.stack_bounds import EXCEPTION_FRAME_B  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 
@@ -33,7 +35,7 @@ class ImageTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
         cls.tools = Toolchain()
-        cls.tools.ensure("firmware", "model")
+        cls.tools.ensure("firmware", "stack", "model")
         for board in chip_model.CONSOLES:
             with contextlib.redirect_stdout(io.StringIO()):
                 firmware.build(cls.tools, board, [])
@@ -41,12 +43,12 @@ class ImageTest(unittest.TestCase):
     def run_image(
         self, seconds: float = 0.2, keys: str = "", board: str = "nucleo_f767zi",
         broken: str = "", step_us: int = 4,
-    ) -> Board:  # fmt: skip
+    ) -> Chip:  # fmt: skip
         """Run an image; keys come a millisecond apart from 0.16 s on."""
         pressed = [(160_000 + 1000 * i, key) for i, key in enumerate(keys)]
         return chip_model.simulate(self.tools, ROOT, board, seconds, pressed, broken, step_us)
 
-    def safe(self, board: Board, *parts: str) -> None:
+    def safe(self, board: Chip, *parts: str) -> None:
         self.assertRegex(board.text, "(?s)safe state: fault 1 .*outputs are off")
         for part in parts:
             self.assertIn(part, board.text)
@@ -54,11 +56,11 @@ class ImageTest(unittest.TestCase):
 
     def test_nothing_of_a_boot_loader_is_left(self) -> None:
         words = self.run_image(0.01).words
-        self.assertEqual(words[chip_model.SYSTICK], 0)
+        self.assertEqual(words[chip.SYSTICK], 0)
         for word in range(4):  # 110 interrupts, disabled and not pending.
-            self.assertEqual(words[chip_model.NVIC + 0x80 + 4 * word], 0xFFFF_FFFF)
-            self.assertEqual(words[chip_model.NVIC + 0x180 + 4 * word], 0xFFFF_FFFF)
-        self.assertEqual(words[chip_model.SCB + 4], 1 << 25 | 1 << 27)
+            self.assertEqual(words[chip.NVIC + 0x80 + 4 * word], 0xFFFF_FFFF)
+            self.assertEqual(words[chip.NVIC + 0x180 + 4 * word], 0xFFFF_FFFF)
+        self.assertEqual(words[chip.SCB + 4], 1 << 25 | 1 << 27)
 
     def test_both_boards_start_and_read_their_sensor(self) -> None:
         for name in chip_model.CONSOLES:
@@ -82,7 +84,7 @@ class ImageTest(unittest.TestCase):
         assert used is not None
         stacks = stack.measure(self.tools, ROOT, "nucleo_f767zi")["stacks"]
         assert isinstance(stacks, dict)
-        self.assertLessEqual(int(used[1]), stacks["main"]["bound"] - stack.EXCEPTION_FRAME_B)
+        self.assertLessEqual(int(used[1]), stacks["main"]["bound"] - EXCEPTION_FRAME_B)
 
     def test_the_brown_out_level_is_set_by_hand_and_once(self) -> None:
         delivered = 0xFFFF_AAFD
@@ -128,12 +130,12 @@ class BoardTest(unittest.TestCase):
     """The model's own rules."""
 
     def setUp(self) -> None:
-        self.board = Board(chip_model.USART3, (3, 14))
+        self.board = Chip(chip.USART3, (3, 14))
         self.board.write(RCC, 0x0005_0083)  # The oscillator, by a clock from outside.
         self.board.write(RCC + 4, 0x2940_3604)
         self.board.write(RCC, self.board.read(RCC) | 1 << 24)
         self.board.write(PWR, 0x3_C000)
-        self.board.write(chip_model.FLASHR, 7)
+        self.board.write(chip.FLASHR, 7)
 
     def test_a_right_change_to_the_pll(self) -> None:
         self.board.write(RCC + 8, 0x9402)
@@ -145,7 +147,7 @@ class BoardTest(unittest.TestCase):
             self.board.write(RCC + 8, 0x9402)
 
     def test_a_change_that_is_not_allowed(self) -> None:
-        self.refuses(chip_model.FLASHR, 6, "too few wait states")
+        self.refuses(chip.FLASHR, 6, "too few wait states")
         self.refuses(PWR + 4, 0x1_0000, "over-drive is not on")
         self.refuses(RCC, 0x0107_0083, "has not locked")
 
@@ -166,23 +168,23 @@ class BoardTest(unittest.TestCase):
 
     def test_the_watchdog(self) -> None:
         for address, value in ((0, 0xCCCC), (0, 0x5555), (4, 0), (8, 399), (0, 0xAAAA)):
-            self.board.write(chip_model.IWDG + address, value)
+            self.board.write(chip.IWDG + address, value)
         self.board.tick(50_000)
         self.assertFalse(self.board.reset_wanted)
         self.board.tick(1)
         self.assertTrue(self.board.reset_wanted)
 
     def test_a_watchdog_that_was_not_started_or_unlocked(self) -> None:
-        self.board.write(chip_model.IWDG, 0xAAAA)
+        self.board.write(chip.IWDG, 0xAAAA)
         self.board.tick(10_000_000)
         self.assertFalse(self.board.reset_wanted)
         with self.assertRaisesRegex(ModelError, "while they are locked"):
-            self.board.write(chip_model.IWDG + 8, 399)
+            self.board.write(chip.IWDG + 8, 399)
 
     def test_an_unknown_board(self) -> None:
         with contextlib.redirect_stderr(io.StringIO()) as err:
-            self.assertEqual(chip_model.main(["mps2_an500"]), 1)
-        self.assertIn("no model of mps2_an500", err.getvalue())
+            self.assertEqual(chip_model.main(["mps2_an500"]), 2)
+        self.assertIn("there is no model mps2_an500", err.getvalue())
 
 
 if __name__ == "__main__":

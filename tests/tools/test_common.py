@@ -25,7 +25,15 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 from common.arguments import Parser  # noqa: E402
 from common.build import Build, BuildError, source_files  # noqa: E402
-from common.config import ConfigError, Field, Table, Text, read_json, read_toml  # noqa: E402
+from common.config import (  # noqa: E402
+    ConfigError,
+    Field,
+    Mistake,
+    Table,
+    Text,
+    read_json,
+    read_toml,
+)
 from common.errors import ToolError, nearest, program, unknown  # noqa: E402
 from common.files import write_json, write_text  # noqa: E402
 from common.junit import JUnitSuite, write_junit  # noqa: E402
@@ -199,6 +207,16 @@ class Config(FolderTest):
         for text, wanted in cases.items():
             with self.subTest(text):
                 self.assertEqual(self.refusal(text), wanted)
+
+    def test_what_types_cannot_say_is_told_in_the_same_way(self) -> None:
+        twice = GOOD + GOOD
+
+        def check(entries: Entries) -> list[Mistake]:
+            return [(("entry", n, "id"), "is taken") for n in range(1, len(entries.entry))]
+
+        with self.assertRaisesRegex(ConfigError, r"file\.toml:5: entry MD-1: id: is taken$"):
+            read_toml(self.file(twice), Entries, check)
+        self.assertEqual(len(read_toml(self.file(GOOD), Entries, check).entry), 1)
 
     def test_json_and_missing_files_are_refused(self) -> None:
         with self.assertRaisesRegex(ConfigError, r"x\.json:2: no JSON: "):

@@ -116,7 +116,8 @@ class BoardFile(Folder):
         self.read(GOOD)
         with self.assertRaises(ToolError) as caught:
             read_board(self.root, "toi")
-        self.assertIn("there is no board toi; did you mean toy? (boards: toy)", str(caught.exception))
+        told = "there is no board toi; did you mean toy? (boards: toy)"
+        self.assertIn(told, str(caught.exception))
 
     def test_an_unknown_board_on_the_command_line(self) -> None:
         said = io.StringIO()
@@ -128,26 +129,31 @@ class BoardFile(Folder):
         self.refused("colour = 'red'\n" + GOOD, "1: colour: unknown key")
 
     def test_an_unknown_key_of_a_region(self) -> None:
-        self.refused(GOOD.replace("size = 0x100\n", "size = 0x100\nlength = 1\n"), "16: region RAM: length: unknown key")
+        text = GOOD.replace("size = 0x100\n", "size = 0x100\nlength = 1\n")
+        self.refused(text, "16: region RAM: length: unknown key")
 
     def test_a_missing_key(self) -> None:
         self.refused(GOOD.replace("load_address = 0x8000\n", ""), "1: load_address: is missing")
 
     def test_a_wrong_type(self) -> None:
-        self.refused(GOOD.replace("= 0x8000\n", "= 'here'\n", 1), "5: load_address: expected to be a valid integer")
+        text = GOOD.replace("= 0x8000\n", "= 'here'\n", 1)
+        self.refused(text, "5: load_address: expected to be a valid integer")
 
     def test_a_number_beyond_32_bits(self) -> None:
-        self.refused(GOOD.replace("0x20000000", "0x100000000"), "14: region RAM: origin: expected to be less than or")
+        text = GOOD.replace("0x20000000", "0x100000000")
+        self.refused(text, "14: region RAM: origin: expected to be less than or")
 
     def test_a_place_in_no_region(self) -> None:
         text = GOOD.replace('[[place]]\nregion = "FLASH"', '[[place]]\nregion = "ROM"')
         self.refused(text, "18: place number 1: region: there is no region ROM")
 
     def test_a_place_of_two_kinds(self) -> None:
-        self.refused(GOOD + "symbols = ['x']\n", "17: place number 1: one of sections, symbols and code_of")
+        kinds = "17: place number 1: one of sections, symbols and code_of"
+        self.refused(GOOD + "symbols = ['x']\n", kinds)
 
     def test_a_missing_linker_script(self) -> None:
-        self.refused(GOOD.replace("toy.ld", "other.ld"), "2: linker_script: there is no bsp/toy/other.ld")
+        text = GOOD.replace("toy.ld", "other.ld")
+        self.refused(text, "2: linker_script: there is no bsp/toy/other.ld")
 
     def test_no_toml(self) -> None:
         self.refused("= 3", "1: no TOML: ")

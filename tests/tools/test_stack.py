@@ -20,7 +20,29 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import stack  # noqa: E402
-from stack import Bounds, Code, Entry, Function, StackError, Table  # noqa: E402
+from boards.built import read_built  # noqa: E402
+from boards.call_graph import (  # noqa: E402
+    Code,
+    Disassembler,
+    Function,
+    StackError,
+    complete,
+    parse,
+)
+from boards.elf import Contents, Symbol, read_contents  # noqa: E402
+from boards.stack_bounds import (  # noqa: E402
+    TABLE,
+    Bounds,
+    Entry,
+    Indirect,
+    StackTable,
+    analyse,
+    mistakes,
+)
+from common.config import read_toml  # noqa: E402
+from common.errors import ToolError  # noqa: E402
+from common.run import output_of  # noqa: E402
+from toolchain import Toolchain  # noqa: E402
 
 
 def node(title: str, frame: str = "") -> str:
@@ -37,7 +59,7 @@ def edge(source: str, target: str) -> str:
 
 def graph_of(*lines: str) -> dict[str, Function]:
     graph: dict[str, Function] = {}
-    stack.parse("\n".join(lines), graph, "x.c")
+    parse("\n".join(lines), graph, "x.c")
     return graph
 
 
@@ -50,7 +72,17 @@ DIAMOND = (
 )  # fmt: skip
 DEEP = node("deep", "64 bytes (static)")
 SIZES = {"main": 1024}
-RESET = Entry("reset", 0, "main")
+RESET = Entry(function="reset")
+
+
+def table_of(
+    tasks: tuple[str, ...] = (), indirect: dict[str, tuple[str, ...]] | None = None,
+    entries: tuple[Entry, ...] = (RESET,),
+) -> StackTable:  # fmt: skip
+    """A table."""
+    calls = [Indirect(caller=name, calls=[*them], reason="r")
+             for name, them in (indirect or {}).items()]  # fmt: skip
+    return StackTable(tasks=[*tasks], indirect=calls, entry=[*entries])
 
 
 class GraphTest(unittest.TestCase):
@@ -90,65 +122,120 @@ class GraphTest(unittest.TestCase):
             Bounds(graph_of(*DIAMOND)).of("reset")
 
 
-LISTING = """
-08000100 <deep>:
- 8000100:\tstmdb\tsp!, {r4, r5, r6, r7, r8, r9, sl, lr}
- 8000104:\tvpush\t{d8-d9}
- 8000108:\tsub\tsp, #12
- 800010a:\tstr.w\tlr, [sp, #-4]!
- 800010e:\tbl\t8000200 <deeper>
- 8000112:\tbls.n\t8000120 <deep+0x20>
- 8000114:\tbl\t8000300 <__other_veneer>
- 8000118:\tldr\tr5, [sp, #32]
- 800011a:\tldmia.w\tsp!, {r4, r5, r6, r7, r8, r9, sl, pc}
+ASSEMBLY = """
+.syntax unified
+.cpu cortex-m7
+.fpu fpv5-d16
+.thumb
+.macro function name
+.type \\name, %function
+\\name:
+.endm
 
-08000200 <deeper>:
- 8000200:\tpush\t{r4-r6, lr}
- 8000202:\tbx\tlr
+function deep
+    stmdb sp!, {r4, r5, r6, r7, r8, r9, sl, lr}
+    vpush {d8-d9}
+    sub sp, #12
+    str lr, [sp, #-4]!
+    bl deeper
+    bls.n inside
+    bl __other_veneer
+inside:
+    add sp, #12
+    ldr r5, [sp, #32]
+    ldr r0, number
+    ldmia sp!, {r4, r5, r6, r7, r8, r9, sl, pc}
+number:
+    .word 0xb0ffb0ff    @ Data: as instructions they would move the stack pointer.
+.size deep, . - deep
+
+function __other_veneer
+    b.w other
+.size __other_veneer, . - __other_veneer
+
+.hidden deeper          @ No size, as in libraries.
+function deeper
+    push {r4-r6, lr}
+    bx lr
+
+.globl alias
+.thumb_set alias, other
+function other
+    b.w deeper
+.size other, . - other
+
+function single
+    vpush {s16-s19}
+    strd r0, r1, [sp, #-16]!
+    bx lr
+.size single, . - single
+
+function dynamic
+    sub.w sp, sp, r3
+    bx lr
+.size dynamic, . - dynamic
+
+.data
+.type table, %object
+table:
+    .word 0
+.size table, . - table
 """
 
 
 class CodeTest(unittest.TestCase):
+    code: dict[str, Code]
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        tools = Toolchain()
+        tools.ensure("firmware", "stack")
+        with tempfile.TemporaryDirectory(prefix="keel-test-") as folder:
+            source, elf = Path(folder, "code.s"), Path(folder, "code.elf")
+            source.write_text(ASSEMBLY)
+            gcc = tools.command("arm-none-eabi-gcc")
+            output_of([*gcc, "-nostdlib", "-Wl,-Ttext=0x8000100,-e,deep", source, "-o", elf])
+            contents = read_contents(tools, elf)
+        cls.code = Disassembler(tools, contents).functions()
+
     def test_every_push_is_counted(self) -> None:
-        code = stack.read_code(LISTING)
-        self.assertEqual(code["deep"].pushed, 8 * 4 + 2 * 8 + 12 + 4)
-        self.assertEqual(code["deeper"].pushed, 16)
+        self.assertEqual(self.code["deep"].pushed, 8 * 4 + 2 * 8 + 12 + 4)
+        self.assertEqual(self.code["deeper"].pushed, 16)
 
     def test_calls_are_found_also_through_a_veneer(self) -> None:
-        self.assertEqual(stack.read_code(LISTING)["deep"].calls, {"deeper", "other"})
+        self.assertEqual(self.code["deep"].calls, {"deeper", "other"})
+        self.assertEqual(self.code["alias"].calls, {"deeper"})
 
-    def test_single_registers_of_the_fpu(self) -> None:
-        self.assertEqual(stack.taken("f", "vpush", "{s16-s19}"), 16)
+    def test_single_registers_of_the_fpu_and_pairs(self) -> None:
+        self.assertEqual(self.code["single"].pushed, 16 + 16)
 
     def test_a_frame_of_a_size_in_a_register_is_an_error(self) -> None:
-        with self.assertRaisesRegex(StackError, "f: the frame has no bound"):
-            stack.taken("f", "sub.w", "sp, sp, r3")
+        graph = graph_of(*DIAMOND, node("dynamic"), edge("main", "dynamic"))
+        code = {**self.code, **dict.fromkeys(("reset", "main", "left", "right"), Code())}
+        self.assertEqual(code["deep"].unbounded, "")
+        unbounded = "dynamic: the frame has no bound .sub.* sp, sp, r3"
+        with self.assertRaisesRegex(StackError, unbounded):
+            complete(graph, code)
 
     def test_a_library_function_gets_its_frame_and_calls(self) -> None:
         graph = graph_of(*DIAMOND)
-        code = {**{name: Code() for name in ("reset", "main", "left", "right", "other")},
-                **stack.read_code(LISTING)}  # fmt: skip
-        self.assertEqual(stack.complete(graph, code), ["deep", "deeper", "other"])
+        self.assertEqual(complete(graph, self.code), ["deep", "deeper", "other"])
         self.assertEqual(Bounds(graph).of("reset").bytes, 8 + 16 + 8 + 64 + 16)
 
     def test_functions_of_an_image(self) -> None:
-        symbols = (
-            "08000100 g     F .text\t00000018 deep\n"
-            "08000200 g     F .text\t00000004 .hidden deeper\n"
-            "00000b40 l     F .itcm\t00000008 __deep_veneer\n"
-            "08000300 g     O .text\t00000004 table\n"
-        )
-        self.assertEqual(list(stack.functions_of(symbols)), ["deep", "deeper"])
+        names = {"deep", "deeper", "other", "alias", "single", "dynamic"}
+        self.assertEqual(set(self.code), names)
+        self.assertIs(self.code["other"], self.code["alias"])
 
 
 class AnalysisTest(unittest.TestCase):
     def analyse(
-        self, *lines: str, table: Table | None = None, more: tuple[str, ...] = ()
+        self, *lines: str, table: StackTable | None = None, more: tuple[str, ...] = ()
     ) -> tuple[int, dict[str, int]]:
         graph = graph_of(*DIAMOND, DEEP, *lines)
         names = [function.name for function in graph.values()]
         code = {name: Code() for name in (*names, *more)}
-        stacks, tasks, _ = stack.analyse(graph, code, table or Table((), {}, (RESET,)), SIZES)
+        stacks, tasks, _ = analyse(graph, code, table or table_of(), SIZES)
         return stacks[0].bytes, {name: path.bytes for name, path in tasks.items()}
 
     def test_the_exceptions_frame_is_added(self) -> None:
@@ -160,7 +247,7 @@ class AnalysisTest(unittest.TestCase):
             self.analyse(edge("main", "__indirect_call"))
 
     def test_an_indirect_call_takes_the_deepest_target(self) -> None:
-        table = Table(("work",), {"main": ("clock", "tasks")}, (RESET,))
+        table = table_of(("work",), {"main": ("clock", "tasks")})
         bytes_, tasks = self.analyse(
             edge("main", "__indirect_call"), node("clock", "4 bytes (static)"),
             node("y.c:work", "100 bytes (static)"), edge("y.c:work", "deep"), table=table,
@@ -169,7 +256,7 @@ class AnalysisTest(unittest.TestCase):
         self.assertEqual(tasks, {"work": 164})
 
     def test_a_clone_calls_what_its_original_calls(self) -> None:
-        table = Table((), {"f": ("g",)}, (RESET,))
+        table = table_of((), {"f": ("g",)})
         bytes_, _ = self.analyse(
             node("x.c:f.constprop.0", "8 bytes (static)"), edge("main", "x.c:f.constprop.0"),
             edge("x.c:f.constprop.0", "__indirect_call"), node("g", "200 bytes (static)"),
@@ -178,12 +265,12 @@ class AnalysisTest(unittest.TestCase):
         self.assertEqual(bytes_, 8 + 16 + 8 + 200 + 108)
 
     def test_targets_that_are_not_there_are_an_error(self) -> None:
-        table = Table((), {"main": ("gone",)}, (RESET,))
+        table = table_of((), {"main": ("gone",)})
         with self.assertRaisesRegex(StackError, "none of what .* is in the image"):
             self.analyse(edge("main", "__indirect_call"), table=table)
 
     def test_recursion_through_a_pointer_is_an_error(self) -> None:
-        table = Table((), {"deep": ("main",)}, (RESET,))
+        table = table_of((), {"deep": ("main",)})
         with self.assertRaisesRegex(StackError, "recursion"):
             self.analyse(edge("deep", "__indirect_call"), table=table)
 
@@ -194,55 +281,57 @@ class AnalysisTest(unittest.TestCase):
     def test_what_the_linker_left_out_does_not_count(self) -> None:
         graph = graph_of(*DIAMOND, DEEP, node("out", "900 bytes (static)"), edge("main", "out"))
         code = {name: Code() for name in ("reset", "main", "left", "right", "deep")}
-        stacks, _, _ = stack.analyse(graph, code, Table((), {}, (RESET,)), SIZES)
+        stacks, _, _ = analyse(graph, code, table_of(), SIZES)
         self.assertEqual(stacks[0].bytes, 96 + 108)
 
     def test_an_entry_begins_with_what_is_there_already(self) -> None:
-        table = Table((), {}, (RESET, Entry("handler", 32, "fault")))
+        table = table_of(entries=(RESET, Entry(function="handler", bytes=32, stack="fault")))
         graph = graph_of(*DIAMOND, DEEP, node("handler", "40 bytes (static)"))
         code = {function.name: Code() for function in graph.values()}
-        stacks, _, _ = stack.analyse(graph, code, table, {"main": 1024, "fault": 64})
+        stacks, _, _ = analyse(graph, code, table, {"main": 1024, "fault": 64})
         self.assertEqual(
             [(item.name, item.bytes) for item in stacks], [("main", 204), ("fault", 72)]
         )
 
     def test_a_stack_without_an_entry_is_an_error(self) -> None:
         with self.assertRaisesRegex(StackError, "no entry of this image on the stack main"):
-            self.analyse(table=Table((), {}, (Entry("other", 0, "main"),)))
+            self.analyse(table=table_of(entries=(Entry(function="other"),)))
 
 
 class FilesTest(unittest.TestCase):
     def setUp(self) -> None:
         self.root = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
 
-    def table(self, text: str) -> Table:
+    def table(self, text: str) -> StackTable:
         path = self.root / "stack.toml"
         path.write_text(text)
-        return stack.read_table(path)
+        return read_toml(path, StackTable, mistakes)
 
     def test_the_projects_table_can_be_read(self) -> None:
-        table = stack.read_table(ROOT / stack.TABLE)
-        self.assertIn("keel_scheduler_step", table.indirect)
-        self.assertEqual({entry.stack for entry in table.entries}, {"main", "fault"})
+        table = read_toml(ROOT / TABLE, StackTable, mistakes)
+        self.assertIn("keel_scheduler_step", [item.caller for item in table.indirect])
+        self.assertEqual({entry.stack for entry in table.entry}, {"main", "fault"})
 
     def test_bad_tables_are_refused(self) -> None:
         entry = '[[entry]]\nfunction = "reset"\n'
         bad = {
-            "": "no entry",
-            entry + "[other]": "unknown key other",
-            "tasks = [": "stack.toml: ",
-            entry + '[[indirect]]\ncaller = "a"\ncalls = ["b"]': "a: caller, calls and reason",
-            entry
-            + '[[indirect]]\ncaller = "a"\ncalls = []\nreason = "r"\n' * 2: "a has two entries",
-            '[[entry]]\nname = "reset"': "function",
-        }
+            "": "toml: entry: is missing",
+            "entry = []": "toml:1: entry: expected to have at least 1 item",
+            entry + "[other]": "toml:3: other: unknown key",
+            "tasks = [": "toml:1: no TOML: ",
+            entry + '[[indirect]]\ncaller = "a"\ncalls = ["b"]':
+                "toml:3: indirect number 1: reason: is missing",
+            entry + '[[indirect]]\ncaller = "a"\ncalls = []\nreason = "r"\n' * 2:
+                "toml:8: indirect number 2: caller: a has two entries",
+            '[[entry]]\nname = "reset"': "toml:1: entry reset: function: is missing",
+        }  # fmt: skip
         for text, reason in bad.items():
-            with self.assertRaisesRegex(StackError, reason):
+            with self.assertRaisesRegex(ToolError, reason):
                 self.table(text)
 
     def test_no_image_says_what_to_run(self) -> None:
-        with self.assertRaisesRegex(StackError, "run: make firmware BOARD=some"):
-            stack.read_graph(self.root, "some")
+        with self.assertRaisesRegex(ToolError, "run: make firmware BOARD=some"):
+            read_built(self.root, "some")
 
     def test_too_little_room_fails_and_is_reported(self) -> None:
         report = {
@@ -290,13 +379,14 @@ class FilesTest(unittest.TestCase):
         self.assertIn("not compared", out.getvalue())
 
     def test_sizes_of_the_stacks(self) -> None:
-        symbols = (
-            "20000400 B keel_stack_bottom\n20004400 B keel_stack_top\n"
-            "20004800 B keel_fault_stack_top\n"
-        )
-        self.assertEqual(stack.stack_sizes(symbols), {"main": 0x4000, "fault": 0x400})
-        with self.assertRaisesRegex(StackError, "no symbol 'keel_stack_top'"):
-            stack.stack_sizes("")
+        places = {"keel_stack_bottom": 0x400, "keel_stack_top": 0x4400,
+                  "keel_fault_stack_top": 0x4800}  # fmt: skip
+        contents = Contents(0, symbols=[
+            Symbol(name, 0x2000_0000 + at, 0, False, ".stack", "") for name, at in places.items()
+        ])  # fmt: skip
+        self.assertEqual(stack.stack_sizes(contents), {"main": 0x4000, "fault": 0x400})
+        with self.assertRaisesRegex(ToolError, "no symbol keel_stack_top"):
+            stack.stack_sizes(Contents(0))
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -44,7 +45,8 @@ class Contents:
     entry: int
     sections: list[Section] = field(default_factory=list)
     symbols: list[Symbol] = field(default_factory=list)
-    code: dict[str, bytes] = field(default_factory=dict)  # The bytes of sections with code.
+    code: dict[str, bytes] = field(default_factory=dict)  # The bytes of sections with code,
+    marks: list[tuple[int, bool]] = field(default_factory=list)  # and from where they are code.
 
     def symbol(self, name: str) -> Symbol:
         for symbol in self.symbols:
@@ -65,11 +67,20 @@ class Contents:
                 return section.load + item.address - section.address
         return None
 
-    def bytes_of(self, symbol: Symbol) -> bytes:
-        """A function's instructions."""
+    def instructions_of(self, symbol: Symbol) -> Iterator[tuple[int, bytes]]:
+        """A function's instructions, without the data among them: addresses and bytes."""
         [home] = (section for section in self.sections if section.name == symbol.section)
-        start = symbol.address - home.address
-        return self.code[symbol.section][start : start + symbol.size]
+        end = symbol.address + symbol.size
+        if not symbol.size:  # Of a library's assembly: up to the next function.
+            last = home.address + home.size
+            end = min((it.address for it in self.functions if symbol.address < it.address < last),
+                      default=last)  # fmt: skip
+        inside = [(at, code) for at, code in self.marks if symbol.address < at < end]
+        before = [(at, code) for at, code in self.marks if at <= symbol.address]
+        parts = [(symbol.address, not before or before[-1][1]), *inside, (end, False)]
+        for (start, is_code), (stop, _) in pairwise(parts):
+            if is_code:
+                yield start, self.code[home.name][start - home.address : stop - home.address]
 
 
 def read_contents(tools: Toolchain, path: Path) -> Contents:
@@ -87,7 +98,12 @@ def read_contents(tools: Toolchain, path: Path) -> Contents:
                 contents.sections.append(Section(section.name, place, size, loaded))
                 if section["sh_flags"] & SHF_EXECINSTR:
                     contents.code[section.name] = section.data()
-        contents.symbols = list(read_symbols(elf, names))
+        contents.symbols = [item for item in read_symbols(elf, names) if item.name[0] != "$"]
+        contents.marks = sorted(
+            (item.address, item.name.startswith("$t"))
+            for item in read_symbols(elf, names)
+            if item.name.startswith(("$t", "$d")) and item.section in contents.code
+        )
     return contents
 
 
@@ -103,7 +119,7 @@ def load_address(section: Any, segments: Sequence[Any]) -> int | None:
 
 
 def read_symbols(elf: Any, sections: Sequence[str]) -> Iterator[Symbol]:
-    """Functions, objects and the linker script's names."""
+    """Functions, objects, the linker script's names, and the marks of code and data ($t, $d)."""
     file = ""
     for symbol in elf.get_section_by_name(".symtab").iter_symbols():
         kind, where = symbol["st_info"]["type"], symbol["st_shndx"]
@@ -114,6 +130,6 @@ def read_symbols(elf: Any, sections: Sequence[str]) -> Iterator[Symbol]:
             local = symbol["st_info"]["bind"] == "STB_LOCAL"
             function = kind == "STT_FUNC"
             address = int(symbol["st_value"]) & (~1 if function else ~0)
-            if section != "SHN_UNDEF" and not symbol.name.startswith("$"):
+            if section != "SHN_UNDEF":
                 size, origin = int(symbol["st_size"]), file if local else ""
                 yield Symbol(symbol.name, address, size, function, section, origin)

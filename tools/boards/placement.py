@@ -1,4 +1,4 @@
-"""Whether everything in an image lies where its board's file asks, and what it takes of memories."""
+"""Whether all of an image lies where its board's file asks, and what it takes of memories."""
 
 from __future__ import annotations
 

@@ -19,6 +19,7 @@ import json
 import re
 import tomllib
 from collections.abc import Callable, Iterable
+from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
@@ -168,6 +169,7 @@ def reason_of(kind: str, message: str, given: Any, place: KeyPath, model: type[B
     return f"{wanted}, found {quoted(given)}"
 
 
+@cache
 def keys_of(model: type[BaseModel]) -> set[str]:
     """Every key that a model or one within it knows."""
     schema = model.model_json_schema()

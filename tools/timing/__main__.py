@@ -2,33 +2,35 @@
 
     python3 tools/with_packages.py timing -m timing analyze specs/tasksets/urpilot.toml
 
-Exit status: 0 when all is well, 1 when a set is not schedulable, a table is stale or an experiment
-fails, 2 for a wrong command line or a bad file. (`make` itself ends with 2 for either.)
+Exit status: 0 when all is well, 1 when a set is not schedulable, a table is stale or a goal of an
+experiment is missed, 2 for a wrong command line, a bad file, or what could not be run. (`make`
+itself ends with 2 for either.)
 """
 
 from __future__ import annotations
 
 import argparse
-import subprocess
 import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from toolchain import Toolchain, ToolchainError
+from common.arguments import Parser
+from common.config import ConfigError
+from common.errors import ROOT, ToolError, program
+from toolchain import Toolchain
 
 from timing import ctable
 from timing.analysis import analyse
-from timing.board import BoardError, build
-from timing.experiments import run_experiments
+from timing.board import build
+from timing.evaluation import evaluate
 from timing.output import Cell, console, table, write_json
 from timing.phases import spread, without_phases
 from timing.plots import plot_classes, plot_paths, plot_tasks
 from timing.report import plot_responses, plot_utilisation, print_analysis, verdict
 from timing.synthesis import SynthesisError, print_synthesis, synthesize
-from timing.taskset import TaskSet, TaskSetError, read
+from timing.taskset import TaskSet, read
 
-ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path("build/timing")
 
 
@@ -109,12 +111,7 @@ def run_all_experiments(options: argparse.Namespace) -> int:
     """The paper's evaluation on the virtual board."""
     tasks = read(options.taskset)
     began = time.monotonic()
-    try:
-        program = build(Toolchain())
-        findings, results = run_experiments(tasks, program, console())
-    except (BoardError, ToolchainError, subprocess.SubprocessError) as error:
-        print(f"timing: {error}", file=sys.stderr)
-        return 1
+    findings, results = evaluate(tasks, build(Toolchain()), console())
     folder = ROOT / BUILD / "experiments"
     plot_classes(tasks, results, folder / "figure12.svg")
     plot_tasks(tasks, results, folder / "deviation.svg")
@@ -131,7 +128,7 @@ def run_all_experiments(options: argparse.Namespace) -> int:
 
 def arguments_parser() -> argparse.ArgumentParser:
     """The command line."""
-    parser = argparse.ArgumentParser(prog="timing", description="Timing tools.")
+    parser = Parser("Timing tools.", "timing")
     commands = parser.add_subparsers(dest="command", required=True)
     analyze = commands.add_parser("analyze", help="analyse a task set")
     analyze.add_argument("taskset", type=Path)
@@ -153,13 +150,18 @@ def arguments_parser() -> argparse.ArgumentParser:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
     options = arguments_parser().parse_args(arguments)
-    try:
-        status: int = options.run(options)
-    except TaskSetError as error:
-        print(error, file=sys.stderr)
-        print(f"{options.command}: {len(error.problems)} problems in the task set", file=sys.stderr)
-        return 2
-    return status
+
+    def work() -> int:
+        try:
+            status: int = options.run(options)
+        except ConfigError as error:
+            # As they are: an editor finds the lines.
+            print(error, file=sys.stderr)
+            problems = len(str(error).splitlines())
+            raise ToolError(f"{problems} problems in the task set") from error
+        return status
+
+    return program(options.command, work)
 
 
 if __name__ == "__main__":

@@ -9,29 +9,22 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from common.build import Build
+from common.errors import ROOT, ToolError
 from toolchain import Toolchain
 
 from timing.scheduler_bounds import declared
 from timing.taskset import Task, TaskSet
 
-ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path("build/timing")
 TURN_NS = 200  # A turn of the main loop that does nothing: 30 instructions and the loop.
-FLAGS = (
-    "-std=c99",
-    "-O2",
-    "-Wall",
-    "-Wextra",
-    "-Werror",
-    "-Wconversion",
-    "-I.",
-    "-Iinclude",
-    "-Iexperiments",
-)
+FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-Wconversion", "-I.", "-Iinclude",
+         "-Iexperiments")  # fmt: skip
+SOURCES = ("src/rtos", "bsp/host", "experiments")
 
 
-class BoardError(Exception):
-    """The program could not be built, or did not understand."""
+class BoardError(ToolError):
+    """The program failed, or its results are none."""
 
 
 @dataclass(frozen=True)
@@ -142,18 +135,8 @@ def read_result(line: str, experiment: Experiment) -> Result:
 
 def build(tools: Toolchain, name: str = "experiment", extra: Sequence[str] = ()) -> Path:
     """Build the program."""
-    (ROOT / BUILD).mkdir(parents=True, exist_ok=True)
-    sources = sorted(
-        str(path.relative_to(ROOT))
-        for folder in ("src/rtos", "bsp/host", "experiments")
-        for path in (ROOT / folder).glob("*.c")
-    )
-    program = ROOT / BUILD / name
-    command = [*tools.command("gcc"), *FLAGS, *extra, *sources, "-lm", "-o", str(program)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise BoardError(f"the virtual board does not build:\n{done.stderr}")
-    return program
+    board = Build(tools, "gcc", [*FLAGS, *extra], ROOT / BUILD / f"{name}.build", link_flags=extra)
+    return board.program(name, SOURCES, ["-lm"])
 
 
 def run_batch(
@@ -165,9 +148,11 @@ def run_batch(
     unless the caller looks at the status itself (refusals).
     """
     orders = "".join(experiment.orders() for experiment in experiments)
-    done = subprocess.run(
-        [str(program)], input=orders, capture_output=True, text=True, timeout=timeout_s, check=False
-    )
+    try:
+        done = subprocess.run([program], input=orders, capture_output=True, text=True,
+                              timeout=timeout_s, check=False)  # fmt: skip
+    except subprocess.TimeoutExpired as error:
+        raise BoardError(f"the virtual board does not end within {timeout_s:g} s") from error
     lines = done.stdout.splitlines()
     if done.returncode != 0 or len(lines) != len(experiments):
         raise BoardError(f"the virtual board fails: {done.stderr or done.returncode}")

@@ -1,0 +1,257 @@
+"""A model of the STM32F767 around its processor: register by register, what our images use."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from common.errors import ToolError
+
+# Bases of the peripherals (RM0410, table 1).
+TIM5, IWDG, USART3, PWR, UART7 = 0x4000_0C00, 0x4000_3000, 0x4000_4800, 0x4000_7000, 0x4000_7800
+TIM1, SPI1, GPIOA, RCC, FLASHR = 0x4001_0000, 0x4001_3000, 0x4002_0000, 0x4002_3800, 0x4002_3C00
+SYSTICK, NVIC, SCB, DBGMCU = 0xE000_E010, 0xE000_E100, 0xE000_ED00, 0xE004_2000
+BLOCKS = {
+    TIM5: 0x54, IWDG: 0x14, USART3: 0x2C, PWR: 0x10, UART7: 0x2C, TIM1: 0x68, SPI1: 0x24,
+    RCC: 0x98, FLASHR: 0x1C, SCB: 0x2A4, DBGMCU: 0x10, SYSTICK: 0x10,
+    NVIC: 0x200,
+    **{GPIOA + 0x400 * port: 0x2C for port in range(11)},
+}  # fmt: skip
+RESETS = {
+    RCC: 0x83, RCC + 4: 0x2400_3010, RCC + 0x30: 0x0010_0000, RCC + 0x74: 0x0E00_0000,
+    PWR: 0xC000, USART3 + 0x1C: 0xC0, UART7 + 0x1C: 0xC0, SPI1 + 4: 0x700, SPI1 + 8: 2,
+    IWDG + 8: 0xFFF, FLASHR + 0x14: 0xFFFF_AAF1, GPIOA: 0xA800_0000, GPIOA + 0x400: 0x280,
+    SCB + 0x80: 0x0FE0_0019 | 127 << 13,  # 128 sets of 4 ways of 32 bytes.
+    SCB + 0x90: 0x800,
+}  # fmt: skip
+
+OPTION_KEYS = [0x0819_2A3B, 0x4C5D_6E7F]
+OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
+BROKEN = ("hse", "pll", "overdrive", "sensor", "other-sensor")
+
+
+class ModelError(ToolError):
+    """The image did what must not be; the message says what and where."""
+
+
+@dataclass
+class Sensor:
+    """An ICM-20689 on the SPI: its registers, and where it is in an exchange."""
+
+    identity: int = 0x98
+    there: bool = True
+    registers: bytearray = field(default_factory=lambda: bytearray(128))
+    selected: bool = False
+    address: int = -1
+    samples: int = 0
+
+    def select(self, selected: bool) -> None:
+        self.selected = selected
+        self.address = -1
+
+    def exchange(self, byte: int) -> int:
+        """One byte each way."""
+        if not self.selected or not self.there:
+            return 0xFF
+        if self.address < 0:
+            self.address = byte
+            return 0
+        place = self.address & 0x7F
+        answer = self._read(place)
+        if not self.address & 0x80:
+            self._write(place, byte)
+        self.address = (self.address & 0x80) | ((place + 1) & 0x7F)
+        return answer
+
+    def _read(self, place: int) -> int:
+        if place == 0x75:
+            return self.identity
+        if place == 0x3B:  # A new sample with each burst: 1 g on the third axis, turning slowly.
+            self.samples += 1
+            values = (0, 0, 2048, 327, self.samples & 0x7F, 0, 1)
+            data = b"".join(value.to_bytes(2, "big") for value in values)
+            self.registers[0x3B : 0x3B + 14] = data
+        return self.registers[place]
+
+    def _write(self, place: int, value: int) -> None:
+        if place == 0x6B and value & 0x80:
+            self.registers[:] = bytes(128)
+            self.registers[0x6B] = 0x40
+        else:
+            self.registers[place] = value
+
+
+class Chip:
+    """The chip around the processor."""
+
+    def __init__(self, console: int, select: tuple[int, int], broken: str = "") -> None:
+        self.console = console
+        self.select = select  # Port and pin of the sensor's chip select.
+        self.broken = broken
+        identity = 0x12 if broken == "other-sensor" else 0x98
+        self.sensor = Sensor(identity, there=broken != "sensor")
+        self.step_us = 1  # By how much a reading of the time base moves time on.
+        self.time_us = 0
+        self.text = ""
+        self.keys: list[tuple[int, str]] = []  # When, and which.
+        self.resets = 0
+        self.reset_wanted = False
+        self.starved = False
+        self.armed_us: list[tuple[int, bool]] = []
+        self.exception = 0
+        self.words: dict[int, int] = {}
+        self.options = OPTIONS
+        self.unlocking: list[int] = []
+        self.reset()
+
+    def reset(self) -> None:
+        """The registers as a reset leaves them."""
+        flags = (1 << 29) if self.starved else (1 << 28) if self.resets else 0x0E00_0000
+        self.words = {**RESETS, RCC + 0x74: flags}
+        self.words[FLASHR + 0x14] = self.options
+        self.reset_wanted = False
+        self.starved = False
+        self.exception = 0
+        self.watchdog_us = 0  # Its time-out; 0: it does not run.
+        self.fed_us = self.time_us
+        self.counter_from_us = 0
+        self.sensor.select(False)
+
+    def tick(self, us: int) -> None:
+        """Time passes."""
+        self.time_us += us
+        if self.watchdog_us and self.time_us - self.fed_us > self.watchdog_us:
+            self.starved = True
+            self.reset_wanted = True
+
+    # Registers.
+
+    def block(self, address: int) -> int:
+        """The peripheral that has a register; there must be one."""
+        for base, size in BLOCKS.items():
+            if base <= address < base + size:
+                return base
+        raise ModelError(f"0x{address:08x} is no register of a peripheral that is modelled")
+
+    def read(self, address: int) -> int:
+        """What a register reads."""
+        self.block(address)
+        if address == TIM5 + 0x24:
+            self.tick(self.step_us)
+            return (self.time_us - self.counter_from_us) & 0xFFFF_FFFF
+        if address == self.console + 0x1C:
+            due = bool(self.keys) and self.keys[0][0] <= self.time_us
+            return self.words[address] | (0x20 if due else 0)
+        if address == self.console + 0x24 and self.keys:
+            return ord(self.keys.pop(0)[1])
+        if address == SPI1 + 0xC:
+            self.words[SPI1 + 8] &= ~1
+        if address == SCB + 4:
+            return self.exception | (0x800 if self.exception else 0)  # RETTOBASE.
+        return self.words.get(address, 0)
+
+    def write(self, address: int, value: int) -> None:
+        """What writing a register does."""
+        base = self.block(address)
+        self.words[address] = value
+        handler: Callable[[int, int], None] | None = {
+            RCC: self._rcc, PWR: self._pwr, IWDG: self._iwdg, SPI1: self._spi, TIM1: self._tim1,
+            TIM5: self._tim5, self.console: self._uart, SCB: self._scb, FLASHR: self._flash,
+        }.get(base)  # fmt: skip
+        if handler:
+            handler(address - base, value)
+        elif GPIOA <= base < GPIOA + 11 * 0x400:
+            self._gpio((base - GPIOA) // 0x400, address - base, value)
+
+    def _follow(self, word: int, control: int, flag: int, broken: bool) -> int:
+        return word | flag if word & control and not broken else word & ~flag
+
+    def _rcc(self, offset: int, value: int) -> None:
+        if offset == 0:
+            word = self._follow(value, 1, 2, False)
+            word = self._follow(word, 1 << 16, 1 << 17, self.broken == "hse")
+            if word & 1 << 24 and not word & 1 << 17:
+                raise ModelError("the PLL is switched on without its oscillator")
+            self.words[RCC] = self._follow(word, 1 << 24, 1 << 25, self.broken == "pll")
+        elif offset == 4 and self.words[RCC] & 1 << 24:
+            raise ModelError("the PLL's factors are changed while it runs")
+        elif offset == 8:
+            if value & 3 == 2:
+                self._check_switch(value)
+            self.words[RCC + 8] = (value & ~0xC) | (value & 3) << 2
+        elif offset == 0x74 and value & 1 << 24:
+            self.words[RCC + 0x74] = 0
+
+    def _check_switch(self, value: int) -> None:
+        """What must hold when the core changes to the PLL (RM0410, 3.3.2, 4.1.4 and 5.2)."""
+        pll = self.words[RCC + 4]
+        hse_mhz = 8 if self.words[RCC] & 1 << 18 else 16
+        core_mhz = hse_mhz // (pll & 0x3F) * (pll >> 6 & 0x1FF) // (2 * (pll >> 16 & 3) + 2)
+        rules = {
+            "the PLL has not locked": self.words[RCC] & 1 << 25,
+            "over-drive is not on": self.words.get(PWR + 4, 0) & 0x3_0000 == 0x3_0000,
+            "the flash has too few wait states": self.words.get(FLASHR, 0) & 0xF >= 7,
+            f"the core would run at {core_mhz} MHz": core_mhz == 216,
+            "a bus would be too fast": value >> 10 & 7 == 5 and value >> 13 & 7 == 4,
+        }
+        for reason, held in rules.items():
+            if not held:
+                raise ModelError(f"the core changes to the PLL, but {reason}")
+
+    def _pwr(self, offset: int, value: int) -> None:
+        if offset == 0 and self.broken != "overdrive":
+            self.words[PWR + 4] = self.words.get(PWR + 4, 0) | value & 0x3_0000
+
+    def _flash(self, offset: int, value: int) -> None:
+        """Option bytes are programmed at once, if they were unlocked."""
+        if offset == 8:
+            self.unlocking.append(value)
+            if self.unlocking == OPTION_KEYS:
+                self.words[FLASHR + 0x14] &= ~1
+        elif offset == 0x14:
+            if self.unlocking != OPTION_KEYS:
+                raise ModelError("option bytes are written while they are locked")
+            if value & 2:
+                self.options = (value & ~2) | 1
+            if value & 1:
+                self.unlocking = []
+            self.words[FLASHR + 0x14] = value & ~2
+
+    def _iwdg(self, offset: int, value: int) -> None:
+        """A key starts it, feeds it, or lets its registers be written until the next one."""
+        if offset in (4, 8) and self.words.get(IWDG) != 0x5555:
+            raise ModelError("the watchdog's registers are written while they are locked")
+        if offset == 0 and (value == 0xCCCC or (value == 0xAAAA and self.watchdog_us)):
+            divisor = 4 << self.words.get(IWDG + 4, 0)
+            self.watchdog_us = (self.words[IWDG + 8] + 1) * divisor * 1000 // 32
+            self.fed_us = self.time_us
+
+    def _spi(self, offset: int, value: int) -> None:
+        if offset == 0xC:
+            if not self.words.get(SPI1, 0) & 0x40:
+                raise ModelError("a byte is sent while the SPI is off")
+            self.words[SPI1 + 0xC] = self.sensor.exchange(value & 0xFF)
+            self.words[SPI1 + 8] |= 1
+
+    def _tim1(self, offset: int, value: int) -> None:
+        if offset == 0x44:
+            armed = bool(value & 1 << 15)
+            if not self.armed_us or self.armed_us[-1][1] != armed:
+                self.armed_us.append((self.time_us, armed))
+
+    def _tim5(self, offset: int, value: int) -> None:
+        if offset == 0x14 and value & 1:
+            self.counter_from_us = self.time_us
+
+    def _uart(self, offset: int, value: int) -> None:
+        if offset == 0x28:
+            self.text += chr(value & 0xFF)
+
+    def _scb(self, offset: int, value: int) -> None:
+        if offset == 0xC and value >> 16 == 0x05FA and value & 4:
+            self.reset_wanted = True
+
+    def _gpio(self, port: int, offset: int, value: int) -> None:
+        number, pin = self.select
+        if offset == 0x18 and port == number and value >> pin & 0x1_0001:
+            self.sensor.select(bool(value >> 16 >> pin & 1))
