@@ -146,9 +146,14 @@ class Files(FolderTest):
         self.assertEqual([item.name for item in self.folder.iterdir()], ["report.json"])
 
     @unittest.skipUnless(Path("/dev/full").exists(), "needs /dev/full")
-    def test_a_full_device_is_told_as_one(self) -> None:
-        with self.assertRaisesRegex(ToolError, "cannot write"):
-            write_text(Path("/dev/full/x"), "text")
+    def test_a_device_that_is_really_full(self) -> None:
+        """The file in which the text is drafted leads to a device that is always full."""
+        with mock.patch("common.files.threading.get_ident", return_value=7):
+            draft = self.folder / f".report.json.{os.getpid()}-7"
+            draft.symlink_to("/dev/full")
+            with self.assertRaisesRegex(ToolError, r"report\.json: No space left on device$"):
+                write_text(self.folder / "report.json", "text")
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_writers_do_not_disturb_each_other(self) -> None:
         path = self.folder / "x"
