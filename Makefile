@@ -11,6 +11,20 @@ TASKSET ?= specs/tasksets/urpilot.toml
 ARGS ?=
 BOARD ?=
 
+# The variables that a command line may set. Another one is a slip, and must not pass unnoticed.
+VARIABLES := UNIT SECONDS TASKSET ARGS BOARD DASK CFLAGS KEEL_CACHE KEEL_NO_INSTALL KEEL_FRESH \
+             KEEL_DEBIAN_MIRROR
+GIVEN := $(foreach name,$(.VARIABLES),$(if $(findstring command line,$(origin $(name))),$(name)))
+STRANGE := $(filter-out $(VARIABLES),$(GIVEN))
+ifneq ($(STRANGE),)
+$(error $(shell python3 tools/make_names.py variable $(STRANGE) -- $(VARIABLES)))
+endif
+
+# The targets of `make help` by their use; those that are not named here are for every day.
+BOARDS := firmware model stack flash registers test-target
+EVIDENCE := coverage mutate fuzz fuzztasks trace status dist
+RESEARCH := timing campaign pictures
+
 ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
              flash-openocd flash-pyocd flash-st-flash flash-px4 timing
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
@@ -22,7 +36,15 @@ TIMING := python3 tools/with_packages.py timing -m timing
 .NOTPARALLEL:
 
 help: ## this list
-	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
+	@awk -F ':[^#]*## ' -v boards='$(BOARDS)' -v evidence='$(EVIDENCE)' -v research='$(RESEARCH)' ' \
+	    function group(words, use, list, n) { \
+	        for (n = split(words, list, " "); n > 0; n--) of[list[n]] = use } \
+	    BEGIN { group(boards, "Boards"); group(evidence, "Evidence"); group(research, "Research") } \
+	    /^[a-z-]+:[^#]*## / { use = ($$1 in of) ? of[$$1] : "Everyday"; \
+	        lines[use] = lines[use] sprintf("  make %-13s %s\n", $$1, $$2) } \
+	    END { print "Everyday\n" lines["Everyday"] "\nBoards\n" lines["Boards"] \
+	        "\nEvidence\n" lines["Evidence"] "\nResearch\n" lines["Research"] }' \
+	    $(firstword $(MAKEFILE_LIST))
 
 prove: python ## prove every contract and harness (UNIT=queue: one unit; ARGS=--update-goals)
 	@python3 tools/prove.py $(if $(UNIT),--unit $(UNIT)) $(ARGS)
@@ -59,7 +81,7 @@ campaign: python ## the voter's fault campaign and fig. 14: tables, JSON and plo
 	@python3 tools/campaign.py
 
 coverage: python ## lines, branches and MC/DC that the unit tests reach
-	@python3 tools/coverage.py
+	@python3 tools/coverage.py $(ARGS)
 
 mutate: python ## break the code and see whether the proofs notice (UNIT=queue; ARGS=--status; DASK=tcp://host:8786)
 	@$(if $(DASK),DASK=$(DASK) python3 tools/with_packages.py dask,python3) tools/mutate.py \
@@ -69,7 +91,7 @@ fuzz: python ## fuzz the scheduler against its reference model (SECONDS=60)
 	@python3 tools/run_tests.py --filter fuzz --fuzz $(SECONDS)
 
 trace: python ## requirement, clause, harness, test: fail when one stands alone
-	@python3 tools/trace.py $(ARGS)
+	@python3 tools/requirements_trace.py $(ARGS)
 
 registers: python ## hold the register headers against two independent register databases
 	@python3 tools/registers.py
@@ -79,7 +101,7 @@ status: python ## write what the last run of 'make prove' proved into README.md
 
 .PHONY: test-target
 test-target: python ## the unit tests, faults, demo and host's results on an emulated Cortex-M7
-	@python3 tools/target.py $(ARGS)
+	@python3 tools/emulated_tests.py $(ARGS)
 
 firmware: python ## build a board's image (BOARD=mps2_an500; ARGS='--app FOLDER': another main)
 	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/urpilot
@@ -115,3 +137,8 @@ python:
 	             'without a password, or no network); please install it' >&2; exit 1; }; }
 	@python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
 	    echo "make: Python 3.11 or newer is needed, this is $$(python3 --version)" >&2; exit 1; }
+
+# What is no target is a slip, too.
+TARGETS = $(shell sed -nE 's/^([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
+.DEFAULT:
+	$(error $(shell python3 tools/make_names.py target $@ -- $(TARGETS)))

@@ -9,26 +9,25 @@ taken both ways, every condition of every decision shown to decide it alone. Wha
 reach is listed, with the reason, in specs/coverage_exclusions.toml; an exclusion that excludes
 nothing is an error. build/coverage/report.json holds the figures and every gap.
 
-Exit status: 0 when all is covered or excluded, 1 otherwise, 2 for a wrong command line.
+Exit status: 0 when all is covered or excluded, 1 when not, 2 when it could not be measured.
 """
 
 from __future__ import annotations
 
-import argparse
 import json
-import os
-import subprocess
 import sys
-import tomllib
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "tools"))
-
-from toolchain import Toolchain, ToolchainError, write_atomically  # noqa: E402
+from common.arguments import Parser
+from common.build import Build, source_files
+from common.config import Table, Text, read_toml
+from common.errors import ROOT, ToolError, program
+from common.files import write_json
+from common.run import output_of
+from toolchain import Toolchain
 
 BUILD = ROOT / "build/coverage"
 REPORT = BUILD / "report.json"
@@ -38,10 +37,6 @@ TIMEOUT_S = 120
 FLAGS = ["-std=c99", "-O0", "-g", "-Iinclude"]
 INSTRUMENT = ["-fprofile-instr-generate", "-fcoverage-mapping", "-fcoverage-mcdc"]
 METRICS = ("lines", "branches", "mcdc")
-
-
-class CoverageError(Exception):
-    """The coverage could not be measured; the message says why."""
 
 
 @dataclass(frozen=True)
@@ -54,17 +49,22 @@ class Gap:
     what: str
 
 
-@dataclass(frozen=True)
-class Exclusion:
+class Exclusion(Table):
     """A line that need not be covered, and why."""
 
-    file: str
-    line: str
-    reason: str
+    file: Text
+    line: Text
+    reason: Text
 
     def excludes(self, gap: Gap) -> bool:
         """True when it is about this gap."""
         return (self.file, self.line) == (gap.file, gap.text)
+
+
+class Exclusions(Table):
+    """The file of exclusions."""
+
+    exclusion: list[Exclusion] = []
 
 
 @dataclass
@@ -158,17 +158,8 @@ def coverage_of(
 
 
 def read_exclusions(path: Path = EXCLUSIONS) -> list[Exclusion]:
-    """The exclusions; each must name a file, a line and a reason, and nothing else."""
-    raw = tomllib.loads(path.read_text()) if path.exists() else {}
-    unknown = set(raw) - {"exclusion"}
-    if unknown:
-        raise CoverageError(f"{path.name}: unknown key {sorted(unknown)[0]!r}")
-    exclusions = []
-    for number, entry in enumerate(raw.get("exclusion", []), start=1):
-        if set(entry) != {"file", "line", "reason"} or not all(entry.values()):
-            raise CoverageError(f"{path.name}: exclusion {number} needs file, line and reason")
-        exclusions.append(Exclusion(**{key: str(value) for key, value in entry.items()}))
-    return exclusions
+    """The exclusions."""
+    return read_toml(path, Exclusions).exclusion if path.exists() else []
 
 
 def apply(
@@ -184,27 +175,6 @@ def apply(
 # --- Building and running ------------------------------------------------------------------------
 
 
-def output_of(command: Sequence[str], environment: dict[str, str] | None = None) -> str:
-    """The output of a program; its failure is ours, with its own words."""
-    try:
-        done = subprocess.run(
-            list(command), cwd=ROOT, env={**os.environ, **(environment or {})}, text=True,
-            errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE, timeout=TIMEOUT_S, check=False,
-        )  # fmt: skip
-    except subprocess.TimeoutExpired as error:
-        raise CoverageError(f"{Path(command[0]).name} hung") from error
-    if done.returncode != 0:
-        words = f"{done.stdout}{done.stderr}".strip()
-        raise CoverageError(f"{Path(command[0]).name}: exit status {done.returncode}\n{words}")
-    return done.stdout
-
-
-def kernel_sources() -> list[str]:
-    """The kernel's source files."""
-    return sorted(str(path.relative_to(ROOT)) for path in (ROOT / "src").rglob("*.c"))
-
-
 class Measurement:
     """Builds and runs the unit tests, and asks llvm-cov what they covered."""
 
@@ -213,40 +183,31 @@ class Measurement:
         self.programs: list[str] = []
         self.profile = str(BUILD / "all.profdata")
 
-    def compile(self, source: str, extra: Sequence[str]) -> str:
-        """Compile one file."""
-        target = str(BUILD / f"{Path(source).stem}.o")
-        output_of([*self.tools.command("clang-19"), *FLAGS, *extra, "-c", source, "-o", target])
-        return target
-
     def build(self) -> None:
         """Build one program for each file of unit tests."""
-        unity = self.tools.command("unity")[0]
-        system = ["-isystem", unity]
-        common = [self.compile(source, INSTRUMENT) for source in kernel_sources()]
-        common.append(self.compile(f"{unity}/unity.c", [*system, "-w"]))
+        unity = ["-isystem", self.tools.command("unity")[0]]
+        build = Build(self.tools, "clang-19", FLAGS, BUILD, ROOT, INSTRUMENT)
+        common = build.objects(["src"], INSTRUMENT)
+        common.append(build.object(f"{unity[1]}/unity.c", [*unity, "-w"]))
         for path in sorted((ROOT / "tests/unit").glob("test_*.c")):
-            test = self.compile(str(path.relative_to(ROOT)), [*INSTRUMENT, *system])
-            program = str(BUILD / path.stem)
-            linked = [*common, test, "-lm", "-o", program]
-            output_of([*self.tools.command("clang-19"), *INSTRUMENT, *linked])
-            self.programs.append(program)
+            test = build.object(path.relative_to(ROOT).as_posix(), [*INSTRUMENT, *unity])
+            self.programs.append(str(build.link(path.stem, [*common, test], ["-lm"])))
         if not self.programs:
-            raise CoverageError("there are no unit tests")
+            raise ToolError("there are no unit tests")
 
     def run(self) -> None:
         """Run them, and merge what they executed."""
         profiles = []
-        for program in self.programs:
-            profile = f"{program}.profraw"
-            output_of([program], {"LLVM_PROFILE_FILE": profile})
+        for path in self.programs:
+            profile = f"{path}.profraw"
+            output_of([path], TIMEOUT_S, environment={"LLVM_PROFILE_FILE": profile})
             profiles.append(profile)
         merge = [*self.tools.command("llvm-profdata-19"), "merge", "-sparse", *profiles]
         output_of([*merge, "-o", self.profile])
 
     def export(self, form: str) -> str:
         """What llvm-cov tells, in one of its formats."""
-        objects = [word for program in self.programs[1:] for word in ("-object", program)]
+        objects = [word for path in self.programs[1:] for word in ("-object", path)]
         command = [*self.tools.command("llvm-cov-19"), "export", f"-format={form}"]
         profile = f"-instr-profile={self.profile}"
         folders = [str(ROOT / "src"), str(ROOT / "include")]
@@ -266,9 +227,9 @@ class Measurement:
             )
             if measured.lines[1] > 0:
                 found[name] = measured
-        absent = [source for source in kernel_sources() if source not in found]
+        absent = [source for source in source_files(["src"]) if source not in found]
         if absent:
-            raise CoverageError(f"nothing is known about {', '.join(absent)}")
+            raise ToolError(f"nothing is known about {', '.join(absent)}")
         return found
 
 
@@ -309,9 +270,9 @@ def write_report(
         },
         "gaps": [asdict(gap) for gap in remaining],
         "excluded": [asdict(gap) for gap in excluded],
-        "unused_exclusions": [asdict(item) for item in unused],
+        "unused_exclusions": [item.model_dump() for item in unused],
     }
-    write_atomically(REPORT, json.dumps(report, indent=1) + "\n")
+    write_json(REPORT, report)
 
 
 def judge(files: dict[str, FileCoverage], exclusions: Sequence[Exclusion]) -> int:
@@ -343,17 +304,15 @@ def measure() -> dict[str, FileCoverage]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
-    parser = argparse.ArgumentParser(description="Measure what Keel's unit tests cover.")
-    parser.parse_args(arguments)
-    BUILD.mkdir(parents=True, exist_ok=True)
-    REPORT.unlink(missing_ok=True)
-    try:
+    Parser("Measure what Keel's unit tests cover.", "coverage").parse_args(arguments)
+
+    def work() -> int:
+        BUILD.mkdir(parents=True, exist_ok=True)
+        REPORT.unlink(missing_ok=True)
         exclusions = read_exclusions()
         return judge(measure(), exclusions)
-    except (CoverageError, ToolchainError, tomllib.TOMLDecodeError, OSError) as error:
-        print(f"coverage: {error}", file=sys.stderr)
-        print("coverage: not measured")
-        return 1
+
+    return program("coverage", work)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 /**
  * @file differential.c
  * @brief Random vectors through the kernel's units, printed as digests, on the host and on the
- *        target alike. tools/target.py compares what the two print.
+ *        target alike. tools/emulated_tests.py compares what the two print.
  *
  * Every vector's results, floats by their bits, go into its unit's digest; each block of vectors
  * prints the digest so far. With DETAIL_UNIT and DETAIL_BLOCK defined, each vector of that block

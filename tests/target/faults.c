@@ -1,8 +1,8 @@
 /**
  * @file faults.c
- * @brief Breaks one thing from within a real-time task, FAULT saying which. tools/target.py builds
- *        it once for each and reads from the console what was recorded and that the board came back
- *        in its safe state.
+ * @brief Breaks one thing from within a real-time task, FAULT saying which. tools/emulated_tests.py
+ *        builds it once for each and reads from the console what was recorded and that the board
+ *        came back in its safe state.
  *
  * A program that gets beyond its fault ends with status 1.
  */

@@ -26,7 +26,11 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import bench  # noqa: E402
-from bench import BenchError, Dump, Goal, Host, Kind, Target  # noqa: E402
+from bench import Host  # noqa: E402
+from benchmark import assembly, callgrind, emulated, tables  # noqa: E402
+from benchmark.callgrind import Dump, Kind  # noqa: E402
+from benchmark.tables import Goal, Target  # noqa: E402
+from common.errors import ToolError  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 # Three dumps as callgrind writes them. In the first, keel_step's own 40 + 30 instructions stand
@@ -73,7 +77,7 @@ LAYER = frozenset({"keel_step", "keel_next"})
 
 class DumpTest(unittest.TestCase):
     def dumps(self) -> list[Dump]:
-        return list(bench.read_dumps(CALLGRIND.splitlines(keepends=True)))
+        return list(callgrind.read_dumps(CALLGRIND.splitlines(keepends=True)))
 
     def test_labelled_dumps_are_read_with_own_costs_only(self) -> None:
         first, second = self.dumps()
@@ -81,36 +85,36 @@ class DumpTest(unittest.TestCase):
         self.assertEqual(second, Dump("other", 1, Counter(keel_step=50, keel_next=25)))
 
     def test_only_the_layer_is_counted(self) -> None:
-        kinds = bench.sum_dumps(self.dumps(), LAYER)
+        kinds = callgrind.sum_dumps(self.dumps(), LAYER)
         self.assertEqual((kinds["waited"].passes, kinds["waited"].mean), (10, 7.0))
         self.assertEqual((kinds["other"].mean, kinds["other"].longest), (75.0, 75))
         self.assertEqual(kinds["idle"], Kind())
 
     def test_the_longest_of_several_passes(self) -> None:
         dumps = [Dump("other", 1, Counter(keel_step=cost)) for cost in (10, 40, 25)]
-        kind = bench.sum_dumps(dumps, LAYER)["other"]
+        kind = callgrind.sum_dumps(dumps, LAYER)["other"]
         self.assertEqual((kind.passes, kind.mean, kind.longest), (3, 25.0, 40))
 
     def test_kinds_are_taken_together_by_their_passes(self) -> None:
         kinds = {"waited": Kind(9, 90), "idle": Kind(1, 110, 110)}
-        total = bench.merged(kinds, bench.NO_TASK)
+        total = callgrind.merged(kinds, callgrind.NO_TASK)
         self.assertEqual((total.passes, total.mean, total.longest), (10, 20.0, 110))
 
     def test_an_instruction_of_nobody_is_an_error(self) -> None:
         for name in ("memcpy", "keel_unknown", "bench"):
-            with self.assertRaisesRegex(BenchError, name):
-                bench.sum_dumps([Dump("other", 1, Counter({name: 1}))], LAYER)
+            with self.assertRaisesRegex(ToolError, name):
+                callgrind.sum_dumps([Dump("other", 1, Counter({name: 1}))], LAYER)
 
     def test_an_unknown_kind_is_an_error(self) -> None:
-        with self.assertRaisesRegex(BenchError, "odd"):
-            bench.sum_dumps([Dump("odd", 1)], LAYER)
+        with self.assertRaisesRegex(ToolError, "odd"):
+            callgrind.sum_dumps([Dump("odd", 1)], LAYER)
 
 
 class MeasureTest(unittest.TestCase):
     HOST = Host(Path("x"), LAYER)
 
     def kinds(self, cost: int) -> dict[str, Kind]:
-        return {name: Kind(1, cost, cost) for name in bench.KINDS}
+        return {name: Kind(1, cost, cost) for name in callgrind.KINDS}
 
     def measure(self, *runs: dict[str, Kind]) -> dict[str, Kind]:
         with mock.patch.object(bench, "count", side_effect=runs):
@@ -120,13 +124,13 @@ class MeasureTest(unittest.TestCase):
         self.assertEqual(self.measure(self.kinds(5), self.kinds(5)), self.kinds(5))
 
     def test_two_runs_that_differ_by_one_are_an_error(self) -> None:
-        with self.assertRaisesRegex(BenchError, "differ"):
+        with self.assertRaisesRegex(ToolError, "differ"):
             self.measure(self.kinds(5), self.kinds(6))
 
     def test_a_kind_that_never_came_is_an_error(self) -> None:
         for gone in (["waited"], ["idle"], ["realtime", "other"]):
             kinds = {**self.kinds(5), **{name: Kind() for name in gone}}
-            with self.subTest(gone), self.assertRaisesRegex(BenchError, "no pass"):
+            with self.subTest(gone), self.assertRaisesRegex(ToolError, "no pass"):
                 self.measure(kinds, kinds)
 
 
@@ -143,7 +147,7 @@ class TargetTest(unittest.TestCase):
         less, more = bench.CAPACITIES
         self.assertEqual(bench.size_of_task(64 + 40 * less, 64 + 40 * more), 40)
         for wrong in (64 + 40 * more + 1, 64 + 40 * less, 0):
-            with self.subTest(wrong), self.assertRaisesRegex(BenchError, "whole tasks"):
+            with self.subTest(wrong), self.assertRaisesRegex(ToolError, "whole tasks"):
                 bench.size_of_task(64 + 40 * less, wrong)
 
     def test_totals(self) -> None:
@@ -174,18 +178,18 @@ x.o:     file format elf32-littlearm
 class StepTest(unittest.TestCase):
     def refused(self, old: str, new: str) -> str:
         self.assertIn(old, LISTING)
-        with self.assertRaises(BenchError) as caught:
-            bench.refuse_slow_code(bench.read_code(LISTING.replace(old, new)), "keel_step")
+        with self.assertRaises(ToolError) as caught:
+            assembly.refuse_slow_code(assembly.read_code(LISTING.replace(old, new)), "keel_step")
         return str(caught.exception)
 
     def test_functions_are_read(self) -> None:
-        code = bench.read_code(LISTING)
+        code = assembly.read_code(LISTING)
         self.assertEqual(list(code), ["keel_step", "helper", "keel_other"])
         self.assertEqual(code["keel_step"].calls, {"helper", "keel_other"})
         self.assertEqual([item.instructions for item in code.values()], [3, 2, 1])
 
     def test_single_precision_and_own_calls_are_fine(self) -> None:
-        bench.refuse_slow_code(bench.read_code(LISTING), "keel_step")
+        assembly.refuse_slow_code(assembly.read_code(LISTING), "keel_step")
 
     def test_double_precision_is_refused_also_in_a_callee(self) -> None:
         for wrong in ("vadd.f64\td0, d0, d0", "vcvt.f64.f32\td0, s0", "vcvt.f32.f64\ts0, d0"):
@@ -197,18 +201,18 @@ class StepTest(unittest.TestCase):
 
     def test_what_no_step_reaches_may_call(self) -> None:
         more = LISTING + "\n00000000 <keel_init>:\n\t\t\t0: R_ARM_THM_CALL\tmemcpy\n"
-        bench.refuse_slow_code(bench.read_code(more), "keel_step")
+        assembly.refuse_slow_code(assembly.read_code(more), "keel_step")
 
     def test_a_step_that_is_gone_is_an_error(self) -> None:
-        with self.assertRaisesRegex(BenchError, "keel_gone"):
-            bench.refuse_slow_code(bench.read_code(LISTING), "keel_gone")
+        with self.assertRaisesRegex(ToolError, "keel_gone"):
+            assembly.refuse_slow_code(assembly.read_code(LISTING), "keel_gone")
 
 
 class GoalTest(unittest.TestCase):
     TARGET = Target({"a": 2048}, {}, {"task": 40})
 
     def goals(self, waited: int, one: int) -> list[Goal]:
-        kinds = {name: Kind() for name in bench.KINDS}
+        kinds = {name: Kind() for name in callgrind.KINDS}
         kinds["waited"] = Kind(2, waited * 2)
         kinds["other"] = Kind(2, one * 2)
         return bench.goals_of({21: kinds}, self.TARGET)
@@ -218,14 +222,15 @@ class GoalTest(unittest.TestCase):
         self.assertEqual([goal.met for goal in self.goals(26, 201)], [False, False, True, True])
 
     def test_the_verdict_tells_what_is_missed(self) -> None:
-        self.assertIn("all 4 goals met", bench.verdict(self.goals(25, 200)))
+        self.assertIn("all 4 goals met", tables.verdict(self.goals(25, 200)))
         self.assertIn(
-            "1 of 4 goals missed: instructions, no task 26.0 > 25", bench.verdict(self.goals(26, 1))
+            "1 of 4 goals missed: instructions, no task 26.0 > 25",
+            tables.verdict(self.goals(26, 1)),
         )
 
     def status(self, goals: list[Goal], *arguments: str, over: tuple[str, ...] = ()) -> int:
         quiet = contextlib.redirect_stdout(io.StringIO())
-        on_target = mock.patch.object(bench.bench_target, "add", return_value=[*over])
+        on_target = mock.patch.object(emulated, "add", return_value=[*over])
         with quiet, on_target, mock.patch.object(bench, "measure", return_value=goals):
             with mock.patch.object(Toolchain, "ensure"):
                 return bench.main(arguments)
@@ -241,9 +246,9 @@ class GoalTest(unittest.TestCase):
 
     def test_an_error_fails(self) -> None:
         quiet = contextlib.redirect_stderr(io.StringIO())
-        with quiet, mock.patch.object(bench, "measure", side_effect=BenchError("x")):
+        with quiet, mock.patch.object(bench, "measure", side_effect=ToolError("x")):
             with mock.patch.object(Toolchain, "ensure"):
-                self.assertEqual(bench.main([]), 1)
+                self.assertEqual(bench.main([]), 2)
 
 
 # A step of five instructions and a call of the clock, which has two of its own.

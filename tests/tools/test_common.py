@@ -225,6 +225,9 @@ class Config(FolderTest):
             read_json(self.file('{"entry": [{"reason": "x"}]}', "x.json"), Entries)
         with self.assertRaisesRegex(ToolError, "nothing.toml: cannot be read: No such file"):
             read_toml(self.folder / "nothing.toml", Entries)
+        self.file(GOOD, "units.toml")
+        with self.assertRaisesRegex(ToolError, r"unit\.toml: .*; did you mean .*/units\.toml\?$"):
+            read_toml(self.folder / "unit.toml", Entries)
         (self.folder / "latin.toml").write_bytes(b"x = '\xe9'")
         with self.assertRaisesRegex(ToolError, "expected UTF-8"):
             read_toml(self.folder / "latin.toml", Entries)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Tests of tools/coverage.py: reading exports, finding gaps, excluding them. Nothing is built.
 
-    python3 tests/tools/test_coverage.py
+python3 tests/tools/test_coverage.py
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import coverage  # noqa: E402
+from common.errors import ToolError  # noqa: E402
 from coverage import (  # noqa: E402
-    CoverageError,
     Exclusion,
     FileCoverage,
     Gap,
@@ -39,6 +39,11 @@ TEXT = "#define LIMIT 3\nif (a && b) {\n    return 1;\n}\nreturn 0;\n"
 def gap(line: int = 3, text: str = "return 1;") -> Gap:
     """A gap in a file."""
     return Gap("src/x.c", line, text, "line not executed")
+
+
+def excluding(file: str) -> Exclusion:
+    """An exclusion of a line of a file."""
+    return Exclusion(file=file, line="return 1;", reason="why")
 
 
 class Reading(unittest.TestCase):
@@ -113,20 +118,24 @@ class Exclusions(unittest.TestCase):
 
     def test_reads_an_exclusion(self) -> None:
         text = '[[exclusion]]\nfile = "src/x.c"\nline = "return 1;"\nreason = "why"\n'
-        self.assertEqual(self.read(text), [Exclusion("src/x.c", "return 1;", "why")])
+        self.assertEqual(self.read(text), [excluding("src/x.c")])
 
     def test_refuses_an_exclusion_without_reason(self) -> None:
         for reason in ("", 'reason = ""\n'):
-            with self.assertRaisesRegex(CoverageError, "exclusion 1 needs"):
+            with self.assertRaisesRegex(
+                ToolError, r"exclusions\.toml:[14]: exclusion number 1: reason: "
+            ):
                 self.read(f'[[exclusion]]\nfile = "src/x.c"\nline = "return 1;"\n{reason}')
 
     def test_refuses_unknown_keys(self) -> None:
-        with self.assertRaisesRegex(CoverageError, "unknown key 'exclude'"):
+        with self.assertRaisesRegex(
+            ToolError, "toml:1: exclude: unknown key; did you mean exclusion"
+        ):
             self.read('[[exclude]]\nfile = "src/x.c"\n')
 
     def test_apply_sorts_gaps_and_exclusions(self) -> None:
-        used = Exclusion("src/x.c", "return 1;", "why")
-        unused = Exclusion("src/y.c", "return 1;", "why")
+        used = excluding("src/x.c")
+        unused = excluding("src/y.c")
         other = gap(5, "return 0;")
         found = apply([used, unused], [gap(), other])
         self.assertEqual(found, ([other], [gap()], [unused]))
@@ -153,12 +162,12 @@ class Verdict(unittest.TestCase):
         self.assertTrue(output.endswith("coverage: 1 gaps, 0 unused exclusions\n"))
 
     def test_an_excluded_gap_passes(self) -> None:
-        status, output, good = self.judge([gap()], [Exclusion("src/x.c", "return 1;", "why")])
+        status, output, good = self.judge([gap()], [excluding("src/x.c")])
         self.assertEqual((status, good), (0, True))
         self.assertIn("1 gaps excluded", output)
 
     def test_an_unused_exclusion_fails(self) -> None:
-        status, output, good = self.judge([], [Exclusion("src/x.c", "return 1;", "why")])
+        status, output, good = self.judge([], [excluding("src/x.c")])
         self.assertEqual((status, good), (1, False))
         self.assertIn("excludes nothing: src/x.c: return 1;", output)
 
@@ -174,11 +183,11 @@ class Verdict(unittest.TestCase):
         with (
             mock.patch.object(coverage, "BUILD", folder),
             mock.patch.object(coverage, "REPORT", report),
-            mock.patch.object(coverage, "measure", side_effect=CoverageError("no compiler")),
+            mock.patch.object(coverage, "measure", side_effect=ToolError("no compiler")),
             contextlib.redirect_stdout(output),
             contextlib.redirect_stderr(output),
         ):
-            self.assertEqual(coverage.main([]), 1)
+            self.assertEqual(coverage.main([]), 2)
         self.assertIn("no compiler", output.getvalue())
         self.assertFalse(report.exists(), "an old report must not stand for a new one")
 

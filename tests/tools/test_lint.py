@@ -21,7 +21,10 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import lint  # noqa: E402
-from lint import Deviation, Finding, LintError, Text, Violation  # noqa: E402
+from common.errors import ToolError  # noqa: E402
+from linting import house, misra  # noqa: E402
+from linting.misra import Deviation, Violation  # noqa: E402
+from linting.texts import Finding, Text  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 
@@ -42,29 +45,29 @@ class HouseTest(unittest.TestCase):
 
     def test_unfinished_work_is_found(self) -> None:
         item = text("a.md", "done", "TO" + "DO: more", "fix" + "me in prose", "(FIX" + "ME)")
-        self.assertEqual(self.lines_of(lint.check_words, item), [2, 4])
+        self.assertEqual(self.lines_of(house.check_words, item), [2, 4])
 
     def test_a_path_of_one_machine_is_found(self) -> None:
         item = text(
             "a.md", "see /ro" + "ot/x", "cd /wo" + "rk/main", "/ho" + "me/ann/y", "src/work/z"
         )
-        self.assertEqual(self.lines_of(lint.check_words, item), [1, 2, 3])
+        self.assertEqual(self.lines_of(house.check_words, item), [1, 2, 3])
 
     def test_the_name_of_a_registry_is_found(self) -> None:
         item = text(
             "a.yml", "url: https://py" + "pi.org/simple", "pip install x", "FROM gh" + "cr.io/a"
         )
-        self.assertEqual(self.lines_of(lint.check_words, item), [1, 3])
+        self.assertEqual(self.lines_of(house.check_words, item), [1, 3])
 
     def test_the_linter_does_not_find_itself(self) -> None:
-        for name in ("tools/lint.py", "tests/tools/test_lint.py"):
+        for name in ("tools/linting/house.py", "tests/tools/test_lint.py"):
             lines = (ROOT / name).read_text().splitlines()
-            self.assertEqual(list(lint.check_words(Text(name, lines))), [])
+            self.assertEqual(list(house.check_words(Text(name, lines))), [])
 
     def test_100_columns_are_allowed_101_are_not(self) -> None:
         item = text("src/a.c", "x" * 100, "x" * 101)
-        self.assertEqual(self.lines_of(lint.check_length, item), [2])
-        self.assertEqual(self.lines_of(lint.check_length, text("a.json", "x" * 101)), [])
+        self.assertEqual(self.lines_of(house.check_length, item), [2])
+        self.assertEqual(self.lines_of(house.check_length, text("a.json", "x" * 101)), [])
 
     def test_admit_and_axiom_are_found_in_annotations(self) -> None:
         item = text(
@@ -74,7 +77,7 @@ class HouseTest(unittest.TestCase):
             "  @ axiom zero: \\false;",
             "  @*/",
         )
-        self.assertEqual(self.lines_of(lint.check_unproved, item), [1, 3])
+        self.assertEqual(self.lines_of(house.check_unproved, item), [1, 3])
 
     def test_admit_in_prose_and_in_names_is_no_matter(self) -> None:
         item = text(
@@ -85,35 +88,35 @@ class HouseTest(unittest.TestCase):
             "  @*/",
             "status = admit(task);",
         )
-        self.assertEqual(self.lines_of(lint.check_unproved, item), [])
+        self.assertEqual(self.lines_of(house.check_unproved, item), [])
 
     def test_axioms_outside_the_kernel_count_in_proofs_alone(self) -> None:
-        self.assertEqual(self.lines_of(lint.check_unproved, text("proofs/a.why", "axiom x")), [1])
+        self.assertEqual(self.lines_of(house.check_unproved, text("proofs/a.why", "axiom x")), [1])
         self.assertEqual(
-            self.lines_of(lint.check_unproved, text("proofs/a.c", "//@ admit x;")), [1]
+            self.lines_of(house.check_unproved, text("proofs/a.c", "//@ admit x;")), [1]
         )
-        self.assertEqual(self.lines_of(lint.check_unproved, text("tests/a.c", "//@ admit x;")), [])
+        self.assertEqual(self.lines_of(house.check_unproved, text("tests/a.c", "//@ admit x;")), [])
 
     def test_the_kernel_must_not_know_a_prover(self) -> None:
         item = text("src/rtos/a.c", "#ifdef __FRAMAC__", "__CPROVER_assume(x);", "#endif")
-        self.assertEqual(self.lines_of(lint.check_prover, item), [1, 2])
-        self.assertEqual(self.lines_of(lint.check_prover, text("proofs/a.c", item.lines[1])), [])
+        self.assertEqual(self.lines_of(house.check_prover, item), [1, 2])
+        self.assertEqual(self.lines_of(house.check_prover, text("proofs/a.c", item.lines[1])), [])
 
     def test_the_guard_is_named_after_the_path(self) -> None:
         good = ["/** text */", "#ifndef KEEL_RTOS_A_H", "#define KEEL_RTOS_A_H", "int a;", "#endif"]
-        self.assertEqual(self.lines_of(lint.check_guard, Text("include/keel/rtos/a.h", good)), [])
-        self.assertEqual(self.lines_of(lint.check_guard, Text("include/keel/rtos/b.h", good)), [2])
-        self.assertEqual(self.lines_of(lint.check_guard, text("include/keel/a.h", "int a;")), [1])
+        self.assertEqual(self.lines_of(house.check_guard, Text("include/keel/rtos/a.h", good)), [])
+        self.assertEqual(self.lines_of(house.check_guard, Text("include/keel/rtos/b.h", good)), [2])
+        self.assertEqual(self.lines_of(house.check_guard, text("include/keel/a.h", "int a;")), [1])
         open_end = [*good[:4], "#endif", "#if 1", "int b;"]
         item = Text("include/keel/rtos/a.h", open_end)
-        self.assertEqual(self.lines_of(lint.check_guard, item), [2])
+        self.assertEqual(self.lines_of(house.check_guard, item), [2])
 
 
 class IncludeTest(unittest.TestCase):
     """Arrows point down only."""
 
     def reason(self, path: str, header: str, quoted: bool = True) -> str:
-        return lint.include_reason(path, quoted, header)
+        return house.include_reason(path, quoted, header)
 
     def test_down_is_allowed(self) -> None:
         for path, header in (
@@ -146,7 +149,7 @@ class IncludeTest(unittest.TestCase):
         item = text(
             "src/rtos/clock.c", '#include "keel/rtos/clock.h"', '#  include "keel/rtos/task.h"'
         )
-        self.assertEqual([finding.line for finding in lint.check_includes(item)], [2])
+        self.assertEqual([finding.line for finding in house.check_includes(item)], [2])
 
     def test_a_header_that_no_source_includes_is_found(self) -> None:
         texts = [
@@ -155,14 +158,14 @@ class IncludeTest(unittest.TestCase):
             text("include/keel/rtos/c.h", '#include "keel/rtos/a.h"'),
             text("src/rtos/a.c", '#include "keel/rtos/a.h"'),
         ]
-        self.assertEqual(places(list(lint.check_reached(texts))), [("include/keel/rtos/c.h", 1)])
+        self.assertEqual(places(list(house.check_reached(texts))), [("include/keel/rtos/c.h", 1)])
 
 
 class DeclarationTest(unittest.TestCase):
     """A task's declaration in an example is an object of its own."""
 
     def lines_of(self, path: str, *lines: str) -> list[int]:
-        return [finding.line for finding in lint.check_declarations(text(path, *lines))]
+        return [finding.line for finding in house.check_declarations(text(path, *lines))]
 
     def test_a_declaration_in_a_structure_or_on_the_stack_is_found(self) -> None:
         lines = ("typedef struct demo_task {", "    keel_task_config_t config;", "} demo_task_t;",
@@ -195,11 +198,11 @@ class JudgeTest(unittest.TestCase):
     SOURCE = text("src/a.c", "a", "return 1; /* MISRA deviation MD-001 */", "return 2;", "b")
 
     def judge(self, violations: list[Violation], *deviations: Deviation) -> list[tuple[str, int]]:
-        return places(list(lint.judge(violations, deviations, [self.SOURCE])))
+        return places(list(misra.judge(violations, deviations, [self.SOURCE])))
 
     def test_a_violation_without_a_deviation_stands(self) -> None:
         source = text("src/a.c", "return 1;")
-        found = list(lint.judge([Violation("src/a.c", 1, "15.5", "m")], [], [source]))
+        found = list(misra.judge([Violation("src/a.c", 1, "15.5", "m")], [], [source]))
         self.assertEqual(found, [Finding("src/a.c", 1, "15.5: m")])
 
     def test_a_mark_covers_its_line_and_the_next(self) -> None:
@@ -215,13 +218,13 @@ class JudgeTest(unittest.TestCase):
         source = text("src/a.c", "return 1;")
         header = text("include/a.h", "return 1;")
         violations = [Violation(name, 1, "15.5", "m") for name in ("src/a.c", "include/a.h")]
-        found = list(lint.judge(violations, [deviation()], [source, header]))
+        found = list(misra.judge(violations, [deviation()], [source, header]))
         self.assertEqual(places(found), [("include/a.h", 1)])
 
     def test_the_line_must_match(self) -> None:
         source = text("src/a.c", "return 1;", "goto end;")
         violations = [Violation("src/a.c", line, "15.5", "m") for line in (1, 2)]
-        found = list(lint.judge(violations, [deviation(line="^return")], [source]))
+        found = list(misra.judge(violations, [deviation(line="^return")], [source]))
         self.assertEqual(places(found), [("src/a.c", 2)])
 
     def test_a_deviation_without_use_is_a_finding(self) -> None:
@@ -230,7 +233,7 @@ class JudgeTest(unittest.TestCase):
             deviation(marked=True),
             deviation("MD-002", "8.7"),
         )
-        self.assertEqual(found, [(lint.DEVIATIONS, 7)])
+        self.assertEqual(found, [(misra.DEVIATIONS, 7)])
 
     def test_a_mark_without_use_is_a_finding(self) -> None:
         self.assertEqual(self.judge([]), [("src/a.c", 2)])
@@ -253,14 +256,15 @@ class DeviationFileTest(unittest.TestCase):
 
     def read(self, content: str) -> list[Deviation]:
         with tempfile.TemporaryDirectory() as name:
-            path = Path(name) / lint.DEVIATIONS
+            path = Path(name) / misra.DEVIATIONS
             path.parent.mkdir()
             path.write_text(content)
-            return lint.read_deviations(Path(name))
+            return misra.read_deviations(Path(name))
 
     def test_an_entry_is_read(self) -> None:
         (entry,) = self.read(ENTRY)
         self.assertEqual(entry, Deviation("MD-001", "15.5", "because", ("src/",), "", True, 2))
+        self.assertEqual(self.read(ENTRY.replace("[[deviation]]", "[[ deviation ]]")), [entry])
 
     def test_slips_are_refused(self) -> None:
         for old, new in (
@@ -272,13 +276,13 @@ class DeviationFileTest(unittest.TestCase):
             ('scope = "line"', 'scope = "file"'),
             ('scope = "line"', 'scope = "line"\nlines = "x"'),
             ("[[deviation]]", "[[deviation]"),
-            ("[[deviation]]", "[[ deviation ]]"),
+            ('scope = "line"', 'scope = "line"\nline = "("'),
         ):
-            with self.subTest(new), self.assertRaises(LintError):
+            with self.subTest(new), self.assertRaises(ToolError):
                 self.read(ENTRY.replace(old, new))
 
     def test_an_id_declared_twice_is_refused(self) -> None:
-        with self.assertRaisesRegex(LintError, "MD-001 is declared twice"):
+        with self.assertRaisesRegex(ToolError, r":10: deviation MD-001: id: is declared twice"):
             self.read(ENTRY + ENTRY)
 
 
@@ -331,7 +335,7 @@ class ToolTest(unittest.TestCase):
         self.root = Path(folder.name)
         self.write(".clang-format", (ROOT / ".clang-format").read_text())
         self.write("include/keel/rtos/clock.h", HEADER)
-        self.write(lint.DEVIATIONS, LIBRARY)
+        self.write(misra.DEVIATIONS, LIBRARY)
 
     def write(self, name: str, content: str) -> None:
         path = self.root / name
@@ -363,7 +367,7 @@ class ToolTest(unittest.TestCase):
 
     def test_a_deviation_of_no_use_fails(self) -> None:
         self.write("src/rtos/clock.c", BARE)
-        self.write(lint.DEVIATIONS, LIBRARY + ENTRY)
+        self.write(misra.DEVIATIONS, LIBRARY + ENTRY)
         status, lines = self.lint()
         self.assertEqual(status, 1)
         self.assertIn("MD-001 covers no finding", lines[0])
@@ -392,6 +396,15 @@ class ToolTest(unittest.TestCase):
     def test_code_that_does_not_parse_fails(self) -> None:
         self.write("src/rtos/clock.c", BARE.replace("{", "{{", 1))
         self.assertEqual(self.lint()[0], 1)
+
+    def test_a_slip_in_the_deviations_is_one_line_with_its_place(self) -> None:
+        self.write(misra.DEVIATIONS, ENTRY.replace("reason", "reson"))
+        status, lines = self.lint()
+        self.assertEqual(status, 2)
+        place = f"{self.root / misra.DEVIATIONS}"
+        self.assertEqual(lines, [
+            f"lint: {place}:2: deviation MD-001: reason: is missing",
+            f"{place}:7: deviation MD-001: reson: unknown key; did you mean reason?"])  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Tests of tools/run_tests.py: failures, crashes, hangs and empty suites are told as such.
 
-    python3 tests/tools/test_run_tests.py
+python3 tests/tools/test_run_tests.py
 """
 
 from __future__ import annotations
 
 import contextlib
+import errno
 import io
 import json
 import sys
@@ -14,43 +15,28 @@ import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
+from xml.etree import ElementTree
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import run_tests  # noqa: E402
-from run_tests import (  # noqa: E402
-    Bench,
-    BuildError,
-    Ended,
+from common.build import BuildError  # noqa: E402
+from common.run import Ended, run  # noqa: E402
+from run_tests import BUILD, HostBuilds  # noqa: E402
+from suites import running  # noqa: E402
+from suites.outcomes import (  # noqa: E402
     Outcome,
-    Suite,
     program_outcome,
     pytest_outcome,
-    python_outcome,
     reference_outcome,
-    run,
     unity_outcome,
 )
+from suites.running import Suite  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 PASSED = "t.c:1:QUE_001_a:PASS\n"
 FAILED = "t.c:9:QUE_002_b:FAIL: Expected 1 Was 2\n"
-PYTHON_TRACE = """F.
-======================================================================
-FAIL: test_x (test_y.Y.test_x)
-What it is about.
-----------------------------------------------------------------------
-Traceback (most recent call last):
-  File "/somewhere/tests/tools/test_y.py", line 7, in test_x
-    self.assertEqual(1, 2)
-AssertionError: 1 != 2
-
-----------------------------------------------------------------------
-Ran 2 tests in 0.001s
-
-FAILED (failures=1)
-"""
 
 
 def python(code: str) -> list[str]:
@@ -60,12 +46,6 @@ def python(code: str) -> list[str]:
 
 class Programs(unittest.TestCase):
     """How a program ends."""
-
-    def test_exit_status_and_output(self) -> None:
-        ended = run(python("import sys; print('out'); sys.stderr.write('err'); sys.exit(3)"))
-        self.assertEqual((ended.status, ended.timed_out), (3, False))
-        self.assertEqual(sorted(ended.output.split()), ["err", "out"])
-        self.assertEqual(ended.how, "exit status 3")
 
     def test_a_crash_is_named(self) -> None:
         ended = run(python("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)"))
@@ -79,11 +59,6 @@ class Programs(unittest.TestCase):
         self.assertIn("hung", ended.how)
         self.assertIn("so far", ended.output)
         self.assertIn("hung", program_outcome("p", ended).failures[0])
-
-    def test_a_sanitizer_s_words_are_the_evidence(self) -> None:
-        noise = "noise\n" * 50
-        ended = Ended(1, f"{noise}a.c:5:3: runtime error: overflow\nstack\n")
-        self.assertTrue(ended.evidence.startswith("a.c:5:3: runtime error: overflow"))
 
 
 class Unity(unittest.TestCase):
@@ -153,7 +128,7 @@ class Reference(unittest.TestCase):
 
     def test_a_program_is_built_with_eigen_and_the_kernel(self) -> None:
         code = (
-            "#include <Eigen/Dense>\n#include \"reference.hpp\"\n"
+            '#include <Eigen/Dense>\n#include "reference.hpp"\n'
             'extern "C" {\n#include "keel/rtos/load.h"\n}\n'
             "int main()\n{\n    keel_load_t load{};\n    reference::Suite suite;\n"
             "    keel_load_begin(&load, 3u, 4u);\n"
@@ -169,64 +144,71 @@ class Reference(unittest.TestCase):
         (folder / "known.cpp").write_text(code)
         with mock.patch.object(run_tests, "BUILD", folder):
             outcome = run_tests.reference_suite(
-                Bench(tools), "reference/known", str(folder / "known.cpp")
+                HostBuilds(tools), "reference/known", str(folder / "known.cpp")
             )
         self.assertEqual(outcome.tests, {"norm": "passed", "off": "failed", "nan": "failed"})
         self.assertEqual(len(outcome.failures), 2)
 
 
-class Python(unittest.TestCase):
-    """What unittest wrote."""
-
-    def test_all_pass(self) -> None:
-        outcome = python_outcome("tools/y", Ended(0, "..\nRan 2 tests in 0.0s\n\nOK\n"))
-        self.assertEqual((outcome.passed, outcome.failures), (2, []))
-
-    def test_a_failure_has_its_place(self) -> None:
-        outcome = python_outcome("tools/y", Ended(1, PYTHON_TRACE))
-        self.assertEqual(outcome.passed, 1)
-        place = "/somewhere/tests/tools/test_y.py:7: test_x (test_y.Y.test_x)"
-        self.assertEqual(outcome.failures, [f"{place}: AssertionError: 1 != 2"])
-
-    def test_skipped_tests_are_not_passed(self) -> None:
-        outcome = python_outcome("tools/y", Ended(0, "Ran 3 tests in 0s\n\nOK (skipped=2)\n"))
-        self.assertEqual((outcome.passed, outcome.failures), (1, []))
-
-    def test_no_test_is_a_failure(self) -> None:
-        outcome = python_outcome("tools/y", Ended(0, "Ran 0 tests in 0.0s\n\nOK\n"))
-        self.assertEqual(len(outcome.failures), 1)
-
-    def test_a_crash_is_a_failure(self) -> None:
-        outcome = python_outcome("tools/y", Ended(-9, ".."))
-        self.assertIn("SIGKILL", outcome.failures[0])
-
-
 class Pytest(unittest.TestCase):
     """What pytest reported."""
 
-    def outcome(self, cases: str, status: int) -> Outcome:
+    def outcome(self, cases: str, status: int, may_skip: bool = False) -> Outcome:
         """The outcome of a report with these cases."""
         folder = self.enterContext(tempfile.TemporaryDirectory())
         report = Path(folder) / "report.xml"
         report.write_text(f"<testsuites><testsuite>{cases}</testsuite></testsuites>")
-        return pytest_outcome("timing/y", report, Ended(status, ""))
+        return pytest_outcome("timing/y", report, Ended(status, "so far\n"), may_skip)
 
     def test_all_pass(self) -> None:
         outcome = self.outcome('<testcase classname="t" name="a"/>', 0)
         self.assertEqual((outcome.passed, outcome.failures), (1, []))
+        self.assertEqual(outcome.tests, {"t.a": "passed"})
 
     def test_failures_and_skipped_tests_are_named(self) -> None:
-        outcome = self.outcome(
-            '<testcase classname="t" name="a"><failure message="1 is 2"/></testcase>'
-            '<testcase classname="t" name="b"><skipped message="later"/></testcase>', 1,
-        )  # fmt: skip
-        self.assertEqual(outcome.failures, ["t.a: failure: 1 is 2", "t.b: skipped: later"])
+        cases = (
+            '<testcase classname="t" name="a"><failure message="1 is 2">    f()\n'
+            "tests/test_y.py:7: in test_a\n    g()\ntools/y.py:9: AssertionError</failure>"
+            '</testcase><testcase classname="t" name="b"><skipped message="later"/></testcase>'
+        )
+        outcome = self.outcome(cases, 1)
+        self.assertEqual(
+            outcome.failures, ["tests/test_y.py:7: t.a: failure: 1 is 2", "t.b: skipped: later"]
+        )
+        self.assertEqual(self.outcome(cases, 1, may_skip=True).tests, {"t.a": "failed"})
 
-    def test_no_report_and_a_status_that_does_not_fit_are_failures(self) -> None:
+    def test_no_report_no_test_and_a_status_that_does_not_fit_are_failures(self) -> None:
         missing = pytest_outcome("timing/y", Path("nowhere.xml"), Ended(2, "usage"))
         self.assertIn("timing/y: exit status 2", missing.failures[0])
         crashed = self.outcome('<testcase classname="t" name="a"/>', -11)
         self.assertIn("SIGSEGV", crashed.failures[0])
+        skipped = '<testcase classname="t" name="a"><skipped message="x"/></testcase>'
+        self.assertEqual(len(self.outcome(skipped, 0, may_skip=True).failures), 1)
+
+    def test_a_hang_is_a_failure(self) -> None:
+        hung = pytest_outcome("tools/y", Path("nowhere.xml"), Ended(-9, "..", timed_out=True))
+        self.assertIn("hung", hung.failures[0])
+
+    def test_a_real_run_is_read(self) -> None:
+        """A file of unittest tests: one good, one bad, one with a bad sub-test, one skipped."""
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        source = folder / "test_real.py"
+        source.write_text(
+            "import unittest\nclass T(unittest.TestCase):\n"
+            "    def test_a(self):\n        print('x')\n"
+            "    def test_b(self):\n        self.assertEqual(1, 2)\n"
+            "    def test_c(self):\n"
+            "        with self.subTest('s'):\n            self.assertEqual(3, 4)\n"
+            "    @unittest.skip('later')\n    def test_d(self):\n        pass\n"
+        )
+        Toolchain().ensure("tools-tests", say=lambda _: None)
+        with mock.patch.object(run_tests, "BUILD", folder):
+            outcome = run_tests.python_suite("tools/real", source, "tools-tests", may_skip=True)
+        self.assertEqual(outcome.passed, 1)
+        self.assertTrue(any("test_real.T.test_b: failure: AssertionError: 1 != 2" in text
+                            for text in outcome.failures), outcome.failures)  # fmt: skip
+        self.assertIn("/test_real.py:6: ", "".join(outcome.failures))
+        self.assertTrue(any("3 != 4" in text for text in outcome.failures), outcome.failures)
 
 
 class Everything(unittest.TestCase):
@@ -240,8 +222,7 @@ class Everything(unittest.TestCase):
         """Run suites that end in an outcome, or an error."""
 
         def suite(name: str, result: object) -> Suite:
-            def act(bench: Bench) -> Outcome:
-                del bench
+            def act() -> Outcome:
                 if isinstance(result, Exception):
                     raise result
                 assert isinstance(result, Outcome)
@@ -273,9 +254,14 @@ class Everything(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertTrue(output.endswith("3 passed, 1 failed\n"))
         self.assertIn("t.c:0: bad0: it failed", output)
-        report = json.loads((self.folder / run_tests.REPORT).read_text())
+        report = json.loads((self.folder / BUILD / running.REPORT).read_text())
         self.assertEqual((report["passed"], report["failed"]), (3, 1))
         self.assertEqual(report["suites"]["b"]["tests"], {"good0": "passed", "bad0": "failed"})
+        cases = {
+            case.get("name"): [part.get("message") for part in case]
+            for case in ElementTree.parse(self.folder / BUILD / running.JUNIT).iter("testcase")
+        }
+        self.assertEqual(cases, {"good0": [], "good1": [], "bad0": ["t.c:0: bad0: it failed"]})
 
     def test_all_pass(self) -> None:
         status, output = self.main({"a": self.outcome(2)})
@@ -294,8 +280,17 @@ class Everything(unittest.TestCase):
 
     def test_a_filter_that_fits_nothing_fails(self) -> None:
         status, output = self.main({"a": self.outcome(1)}, "--filter", "zzz")
-        self.assertEqual(status, 1)
-        self.assertTrue(output.endswith("0 passed, 0 failed\n"))
+        self.assertEqual(status, 2)
+        self.assertEqual(output, "test: no suite's name contains 'zzz'\n")
+        _, output = self.main({"unit/queue": self.outcome(1)}, "--filter", "unit/queu3")
+        self.assertIn("did you mean unit/queue?", output)
+
+    def test_a_report_that_cannot_be_written_is_one_line(self) -> None:
+        full = OSError(errno.ENOSPC, "No space left on device")
+        with mock.patch.object(Path, "write_bytes", side_effect=full):
+            status, output = self.main({"a": self.outcome(1)})
+        self.assertEqual(status, 2)
+        self.assertRegex(output, r"\ntest: cannot write \S+junit\.xml: No space left on device\n$")
 
     def test_a_filter_chooses(self) -> None:
         status, output = self.main(

@@ -318,7 +318,8 @@ class Unpacking(Sandbox):
             self.assertEqual(self.trees(), [])
 
     def test_only_one_installation_at_a_time(self) -> None:
-        waiting = "import sys; sys.path.insert(0, sys.argv[1]); import pathlib\nfrom toolchain.cache import Cache\nfrom toolchain.tools import tell\n"
+        waiting = "import pathlib, sys; sys.path.insert(0, sys.argv[1])\n"
+        waiting += "from toolchain.cache import Cache\nfrom toolchain.tools import tell\n"
         waiting += "with Cache(pathlib.Path(sys.argv[2])).locked(tell):\n"
         waiting += "    print('inside', flush=True)"
         command = [sys.executable, "-c", waiting, str(ROOT / "tools"), str(self.cache)]
@@ -511,6 +512,17 @@ class TheLockFile(Sandbox):
                 self.assertTrue(lines and all("==" in line for line in lines), spec.path)
             if not spec.cached and not spec.derived:
                 self.assertTrue(spec.at_least and spec.below and spec.packages, spec.name)
+
+    def test_a_package_has_one_version_in_all_files_of_one_program(self) -> None:
+        lock = Lock.read()
+        for group in ("timing-tests", "tools-tests"):
+            seen: dict[str, str] = {}
+            for name in lock.groups[group]:
+                path = ROOT / lock.tools[name].path
+                text = path.read_text() if name.endswith("-packages") else ""
+                for package, version in re.findall(r"^([a-z]\S*)==(\S+)", text, re.MULTILINE):
+                    self.assertEqual(seen.setdefault(package, version), version, package)
+            self.assertIn("pytest", seen)
 
     def test_no_registry_is_named(self) -> None:
         for path in (LOCK_FILE, *Path(toolchain.__file__).parent.glob("*.py")):

@@ -10,7 +10,7 @@ import threading
 from collections.abc import Mapping
 from pathlib import Path
 
-from common.errors import ToolError
+from common.errors import ToolError, nearest
 
 
 def write_bytes(path: Path, data: bytes) -> None:
@@ -42,12 +42,20 @@ def read_text(path: Path) -> str:
     try:
         data = path.read_bytes()
     except OSError as error:
-        raise ToolError(f"{path}: cannot be read: {error.strerror}") from error
+        raise ToolError(f"{path}: cannot be read: {error.strerror}{guess_of(path)}") from error
     try:
         return data.decode()
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise ToolError(f"{path}:{line}: expected UTF-8") from error
+
+
+def guess_of(path: Path) -> str:
+    """The file that may have been meant instead of one that is not there."""
+    folder = path.parent
+    there = sorted(item.name for item in folder.iterdir()) if folder.is_dir() else []
+    like = "" if path.name in there else nearest(path.name, there)
+    return f"; did you mean {folder / like}?" if like else ""
 
 
 def sha256_of(path: Path) -> str:

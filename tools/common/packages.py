@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import sys
 
-from toolchain import Toolchain, ToolchainError
-
 from common.errors import CANNOT
+from toolchain import Toolchain, ToolchainError
 
 
 def provide(group: str = "common") -> None:

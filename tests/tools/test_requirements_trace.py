@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Tests of tools/trace.py: each kind of orphan is found in a small project that has just this one.
+"""Tests of tools/requirements_trace.py: each kind of orphan is found in a small project that has
+just this one.
 
-    python3 tests/tools/test_trace.py
+python3 tests/tools/test_requirements_trace.py
 """
 
 from __future__ import annotations
@@ -16,10 +17,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import trace  # noqa: E402
-
-if Path(trace.__file__).resolve() != ROOT / "tools/trace.py":  # The standard library has one too.
-    raise ImportError(trace.__file__)
+import requirements_trace  # noqa: E402
 
 SDOC = """\
 [DOCUMENT]
@@ -89,7 +87,7 @@ class TraceTest(unittest.TestCase):
         """The exit status, and the lines that were printed."""
         output = io.StringIO()
         with contextlib.redirect_stdout(output):
-            status = trace.main(arguments, self.root)
+            status = requirements_trace.main(arguments, self.root)
         return status, output.getvalue().splitlines()
 
     def orphans(self) -> list[str]:
@@ -143,7 +141,7 @@ class TraceTest(unittest.TestCase):
     def test_requirement_without_clause(self) -> None:
         self.write("include/keel/widget.h", "/** Turns. */\n")
         self.assertEqual(self.orphans(), [
-            "WID-001: CLAUSES is not what the headers say (tools/trace.py --update)",
+            "WID-001: CLAUSES is not what the headers say (tools/requirements_trace.py --update)",
             "WID-001: no clause states it"])  # fmt: skip
 
     def test_clause_that_nobody_checks(self) -> None:
@@ -212,15 +210,17 @@ class TraceTest(unittest.TestCase):
 
     def test_stale_clauses_are_updated(self) -> None:
         self.change("specs/requirements/widget.sdoc", "WID_001_range, WID_001_turns", "WID_001")
-        self.assertEqual(self.orphans(), [
-            "WID-001: CLAUSES is not what the headers say (tools/trace.py --update)"])  # fmt: skip
+        self.assertEqual(
+            self.orphans(),
+            ["WID-001: CLAUSES is not what the headers say (tools/requirements_trace.py --update)"],
+        )
         self.assertEqual(self.run_trace("--update")[0], 0)
         text = (self.root / "specs/requirements/widget.sdoc").read_text(encoding="utf-8")
         self.assertEqual(text, SDOC)
 
     def test_no_requirement_at_all(self) -> None:
         with tempfile.TemporaryDirectory() as empty, contextlib.redirect_stdout(io.StringIO()):
-            self.assertEqual(trace.main([], Path(empty)), 1)
+            self.assertEqual(requirements_trace.main([], Path(empty)), 1)
 
 
 if __name__ == "__main__":

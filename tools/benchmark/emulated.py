@@ -1,29 +1,27 @@
 """What passes and steps cost on the Cortex-M7: instructions, counted on the emulated machine.
 
-Part of tools/bench.py. The image (tests/bench/bench_target.c) runs twice and must print the same
+The image (bench/bench_target.c) runs twice and must print the same
 both times. Its figures stand beside the host's in a table and, as cortex_m7, in the report; each is
-held against its budget in tests/bench/budget.toml.
+held against its budget in bench/budget.toml.
 """
 
 from __future__ import annotations
 
 import json
 import re
-import sys
-import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+from common.config import Field, Mistake, Table, read_toml
+from common.errors import ROOT, ToolError
+from common.files import read_text, write_json, write_text
+from suites.emulated import EmulatedBoard
+from toolchain import Toolchain
 
-import target  # noqa: E402
-from common.errors import ToolError  # noqa: E402
-from toolchain import Toolchain, write_atomically  # noqa: E402
-
-ROOT = Path(__file__).resolve().parents[1]
-BUDGET = ROOT / "tests/bench/budget.toml"
-SOURCES = ("tests/bench/bench_target.c", "examples/urpilot/urpilot_tasks.c")
+BUDGET = ROOT / "bench/budget.toml"
+SOURCES = ("bench/bench_target.c", "examples/urpilot/urpilot_tasks.c")
 SHIFT = 10  # An instruction takes 1024 ns: more than a tick of the counter, which so sees each one.
 LINE = re.compile(r"^bench (\w+) passes (\d+) instructions (\d+) longest (\d+)$", re.MULTILINE)
 TIMEOUT_S = 120.0
@@ -46,10 +44,6 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
 }  # fmt: skip
 
 
-class BenchTargetError(Exception):
-    """Something could not be measured, or the budget cannot be read."""
-
-
 @dataclass(frozen=True)
 class Figure:
     """What was counted of one kind."""
@@ -67,14 +61,14 @@ def read_figures(output: str) -> dict[str, Figure]:
     """What the image printed, by kind of pass."""
     if "\nbench ended\n" not in output:
         last = output.strip().splitlines()[-1:] or ["nothing"]
-        raise BenchTargetError(f"the target's bench did not end well; last it said: {last[0]}")
+        raise ToolError(f"the target's bench did not end well; last it said: {last[0]}")
     return {name: Figure(*map(int, words)) for name, *words in LINE.findall(output)}
 
 
 def together(kinds: Mapping[str, Figure], names: Sequence[str]) -> Figure:
     """Several kinds as one."""
     if missing := [name for name in names if not kinds.get(name, Figure(0, 0, 0)).passes]:
-        raise BenchTargetError(f"no pass was measured of the kind {missing[0]}")
+        raise ToolError(f"no pass was measured of the kind {missing[0]}")
     found = [kinds[name] for name in names]
     return Figure(
         sum(item.passes for item in found),
@@ -85,57 +79,53 @@ def together(kinds: Mapping[str, Figure], names: Sequence[str]) -> Figure:
 
 def measure(tools: Toolchain) -> dict[str, Figure]:
     """Build, run twice, compare."""
-    bench = target.Bench(tools)
-    image = bench.builder.link("bench", bench.builder.objects(SOURCES))
+    board = EmulatedBoard(tools)
+    image = board.builder.link("bench", board.builder.objects(SOURCES))
     outputs = []
     for _ in range(2):
-        ended = bench.run(image, TIMEOUT_S, SHIFT)
-        if ended.status != 0 or ended.timed_out:
-            raise BenchTargetError(f"the target's bench: {ended.how}\n{ended.evidence}")
+        ended = board.run(image, TIMEOUT_S, SHIFT)
+        if not ended.good:
+            raise ToolError(f"the target's bench: {ended.how}\n{ended.evidence}")
         outputs.append(ended.output)
     if outputs[0] != outputs[1]:
-        raise BenchTargetError("two runs on the emulated machine differ")
+        raise ToolError("two runs on the emulated machine differ")
     kinds = read_figures(outputs[0])
     return {name: together(kinds, parts) for name, (_, parts, _, _) in FIGURES.items()}
 
 
-@dataclass(frozen=True)
-class Budget:
+Positive = Annotated[float, Field(gt=0, lt=1e9)]
+
+
+class Budget(Table):
     """The budget file."""
 
-    tolerance_percent: float
-    instructions: dict[str, float]
+    tolerance_percent: Positive
+    instructions: dict[str, Positive]
 
     def limit(self, name: str) -> float:
         return self.instructions[name] * (1.0 + self.tolerance_percent / 100.0)
 
 
+def odd_figures(budget: Budget) -> Iterator[Mistake]:
+    """A budget has exactly the figures that there are."""
+    for name in sorted(set(budget.instructions) ^ set(FIGURES)):
+        reason = "is missing" if name in FIGURES else "is no figure"
+        yield ("instructions", name), reason
+
+
 def read_budget(path: Path) -> Budget:
-    """Read and check the budget: exactly the figures that there are."""
-    where = path.name
-    try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, tomllib.TOMLDecodeError) as error:
-        raise BenchTargetError(f"{where}: {error}") from error
-    tolerance, values = raw.get("tolerance_percent"), raw.get("instructions")
-    if set(raw) != {"tolerance_percent", "instructions"} or not isinstance(values, dict):
-        raise BenchTargetError(f"{where}: holds tolerance_percent and [instructions], no more")
-    if odd := sorted(set(values) ^ set(FIGURES)):
-        raise BenchTargetError(f"{where}: {odd[0]} is missing or no figure")
-    numbers = [tolerance, *values.values()]
-    if not all(isinstance(item, int | float) and 0 < item < 1e9 for item in numbers):
-        raise BenchTargetError(f"{where}: every value is a number above 0")
-    return Budget(float(str(tolerance)), {name: float(value) for name, value in values.items()})
+    """Read and check the budget."""
+    return read_toml(path, Budget, odd_figures)
 
 
 def accept(path: Path, figures: Mapping[str, Figure]) -> None:
     """Write what was measured into the budget, and leave the rest of the file."""
-    text = path.read_text(encoding="utf-8")
+    text = read_text(path)
     for name, figure in figures.items():
         text, count = re.subn(rf"(?m)^{name} = .*$", f"{name} = {figure.mean:.1f}", text)
         if count != 1:
-            raise BenchTargetError(f"{path.name}: {name} stands {count} times on a line of its own")
-    write_atomically(path, text)
+            raise ToolError(f"{path.name}: {name} stands {count} times on a line of its own")
+    write_text(path, text)
 
 
 def exceeded(figures: Mapping[str, Figure], budget: Budget) -> list[str]:
@@ -178,9 +168,9 @@ def add(tools: Toolchain, report_file: Path, accepting: bool = False) -> list[st
         if accepting:
             accept(BUDGET, figures)
         budget = read_budget(BUDGET)
-    except (BenchTargetError, ToolError) as error:
+    except ToolError:
         report_file.unlink(missing_ok=True)  # Half a report must not look whole.
-        raise BenchTargetError(str(error)) from error
+        raise
     report = json.loads(report_file.read_text())
     over = exceeded(figures, budget)
     report["cortex_m7"] = {
@@ -198,6 +188,6 @@ def add(tools: Toolchain, report_file: Path, accepting: bool = False) -> list[st
         },
         "over_budget": over,
     }
-    write_atomically(report_file, json.dumps(report, indent=1) + "\n")
+    write_json(report_file, report)
     print_table(report, figures, budget)
     return over

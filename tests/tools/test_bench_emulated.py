@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Tests of tools/bench_target.py: what it reads, and when a budget is exceeded. That an instruction
-is counted as one is checked by the image itself, against assembly of known length.
+"""Tests of tools/benchmark/emulated.py: what it reads, and when a budget is exceeded. That an
+instruction is counted as one is checked by the image itself, against assembly of known length.
 
-    python3 tests/tools/test_bench_target.py
+    python3 tests/tools/test_bench_emulated.py
 """
 
 from __future__ import annotations
@@ -19,8 +19,9 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import bench_target  # noqa: E402
-from bench_target import BenchTargetError, Budget, Figure  # noqa: E402
+from benchmark import emulated  # noqa: E402
+from benchmark.emulated import Budget, Figure  # noqa: E402
+from common.errors import ToolError  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 OUTPUT = """\
@@ -67,18 +68,18 @@ class Reading(unittest.TestCase):
     """What the image prints."""
 
     def test_the_kinds_of_a_figure_are_taken_together(self) -> None:
-        kinds = bench_target.read_figures(OUTPUT)
-        self.assertEqual(bench_target.together(kinds, ("waited", "idle")), FIGURES["no_task"])
+        kinds = emulated.read_figures(OUTPUT)
+        self.assertEqual(emulated.together(kinds, ("waited", "idle")), FIGURES["no_task"])
         self.assertEqual(FIGURES["no_task"].mean, 125.0)
 
     def test_a_kind_without_passes(self) -> None:
-        kinds = bench_target.read_figures(OUTPUT.replace("passes 2 ", "passes 0 "))
-        with self.assertRaisesRegex(BenchTargetError, "of the kind idle"):
-            bench_target.together(kinds, ("waited", "idle"))
+        kinds = emulated.read_figures(OUTPUT.replace("passes 2 ", "passes 0 "))
+        with self.assertRaisesRegex(ToolError, "of the kind idle"):
+            emulated.together(kinds, ("waited", "idle"))
 
     def test_an_image_that_did_not_end_well(self) -> None:
-        with self.assertRaisesRegex(BenchTargetError, "bench failed"):
-            bench_target.read_figures(OUTPUT.replace("bench ended", "bench failed"))
+        with self.assertRaisesRegex(ToolError, "bench failed"):
+            emulated.read_figures(OUTPUT.replace("bench ended", "bench failed"))
 
 
 class Budgets(unittest.TestCase):
@@ -91,41 +92,49 @@ class Budgets(unittest.TestCase):
 
     def read(self, text: str) -> Budget:
         self.file.write_text(text)
-        return bench_target.read_budget(self.file)
+        return emulated.read_budget(self.file)
 
     def test_the_tolerance_is_five_percent(self) -> None:
         self.assertAlmostEqual(self.read(GOOD).limit("filter"), 36.75)
 
     def test_nothing_is_above_its_budget(self) -> None:
-        self.assertEqual(bench_target.exceeded(FIGURES, self.read(GOOD)), [])
+        self.assertEqual(emulated.exceeded(FIGURES, self.read(GOOD)), [])
 
     def test_up_to_the_tolerance_is_good(self) -> None:
         budget = self.read(GOOD)
         just = {**FIGURES, "pid": Figure(10, 1218, 122)}  # 121.8 = 116 * 1.05
         above = {**FIGURES, "pid": Figure(10, 1219, 122)}
-        self.assertEqual(bench_target.exceeded(just, budget), [])
+        self.assertEqual(emulated.exceeded(just, budget), [])
         self.assertEqual(
-            bench_target.exceeded(above, budget), ["PID step, its filter included 121.9 > 121.8"]
+            emulated.exceeded(above, budget), ["PID step, its filter included 121.9 > 121.8"]
         )
 
     def test_files_that_are_refused(self) -> None:
         for old, new, reason in (
-            ("pid = 116\n", "", "pid is missing"),
-            ("pid = 116\n", "pid = 116\nmixer = 3\n", "mixer is missing or no figure"),
-            ("pid = 116\n", "pid = 0\n", "a number above 0"),
-            ("pid = 116\n", "pid = 'little'\n", "a number above 0"),
-            ("tolerance_percent = 5\n", "", "holds tolerance_percent"),
-            ("[instructions]", "[instructions", "budget.toml: "),
+            ("pid = 116\n", "", "budget.toml:4: instructions: pid: is missing"),
+            (
+                "pid = 116\n",
+                "pid = 116\nmixer = 3\n",
+                "budget.toml:13: instructions: mixer: is no figure",
+            ),
+            (
+                "pid = 116\n",
+                "pid = 0\n",
+                "toml:12: instructions: pid: expected to be greater than 0",
+            ),
+            ("pid = 116\n", "pid = 'little'\n", "expected to be a valid number, found 'little'"),
+            ("tolerance_percent = 5\n", "", "tolerance_percent: is missing"),
+            ("[instructions]", "[instructions", "budget.toml:4: no TOML"),
         ):
-            with self.assertRaises(BenchTargetError) as caught:
+            with self.assertRaises(ToolError) as caught:
                 self.read(GOOD.replace(old, new))
             self.assertIn(reason, str(caught.exception))
 
     def test_accepting_writes_the_figures_and_keeps_the_rest(self) -> None:
         self.file.write_text(GOOD)
-        bench_target.accept(self.file, FIGURES)
+        emulated.accept(self.file, FIGURES)
         self.assertTrue(self.file.read_text().startswith("# About the budget.\n"))
-        budget = bench_target.read_budget(self.file)
+        budget = emulated.read_budget(self.file)
         self.assertEqual(
             budget.instructions,
             {
@@ -153,12 +162,12 @@ class Report(Budgets):
         self.said = io.StringIO()
         with (
             contextlib.redirect_stdout(self.said),
-            mock.patch.object(bench_target, "measure", **effect),
-            mock.patch.object(bench_target, "BUDGET", self.file),
+            mock.patch.object(emulated, "measure", **effect),
+            mock.patch.object(emulated, "BUDGET", self.file),
         ):
             tools = Toolchain()
             tools.ensure("target", say=lambda _: None)
-            return bench_target.add(tools, self.report)
+            return emulated.add(tools, self.report)
 
     def test_figures_join_the_hosts(self) -> None:
         self.assertEqual(self.add(FIGURES), [])
@@ -173,8 +182,8 @@ class Report(Budgets):
         self.assertEqual(json.loads(self.report.read_text())["cortex_m7"]["over_budget"], over)
 
     def test_an_error_leaves_no_report(self) -> None:
-        with self.assertRaisesRegex(BenchTargetError, "broken"):
-            self.add(BenchTargetError("broken"))
+        with self.assertRaisesRegex(ToolError, "broken"):
+            self.add(ToolError("broken"))
         self.assertFalse(self.report.exists())
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Tests of tools/target.py: how it judges what an emulated board printed, and that a program which
-hangs or computes something else is a failure.
+"""Tests of tools/emulated_tests.py: how it judges what an emulated board printed, and that a
+program which hangs or computes something else is a failure.
 
-    python3 tests/tools/test_target.py
+    python3 tests/tools/test_emulated_tests.py
 """
 
 from __future__ import annotations
@@ -15,9 +15,11 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import target  # noqa: E402
-from run_tests import Ended, unity_outcome  # noqa: E402
-from target import FAULTS, Bench  # noqa: E402
+import emulated_tests  # noqa: E402
+from common.run import Ended  # noqa: E402
+from suites.emulated import BUILD, EmulatedBoard  # noqa: E402
+from suites.faults import FAULTS, judge_fault, read_record  # noqa: E402
+from suites.outcomes import unity_outcome  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 DIVISION = """\
@@ -40,10 +42,10 @@ class Records(unittest.TestCase):
         for old, new in changes:
             self.assertIn(old, text)
             text = text.replace(old, new)
-        return target.judge_fault(FAULTS[kind], target.read_record(text), span)
+        return judge_fault(FAULTS[kind], read_record(text), span)
 
     def test_a_record_is_read(self) -> None:
-        found = target.read_record(DIVISION)
+        found = read_record(DIVISION)
         self.assertEqual(found["exception"], "6")
         self.assertEqual(found["task"], "breaker")
         self.assertEqual(found["pc"], "0x00200a44")
@@ -53,9 +55,7 @@ class Records(unittest.TestCase):
         self.assertEqual(self.judge("division"), [])
 
     def test_no_record(self) -> None:
-        self.assertEqual(
-            target.judge_fault(FAULTS["division"], {}, SPAN), ["no record was printed"]
-        )
+        self.assertEqual(judge_fault(FAULTS["division"], {}, SPAN), ["no record was printed"])
 
     def test_another_exception(self) -> None:
         wrong = self.judge("division", ("exception 6", "exception 3"))
@@ -104,7 +104,9 @@ class Demo(unittest.TestCase):
     """What the demo printed."""
 
     def judge(self, *lines: str, end: str = "demo ended\n", flight: str = FLIGHT) -> list[str]:
-        return target.judge_demo({"IMU": 1000, "ADC": 1000000}, "".join([*lines, flight, end]))
+        return emulated_tests.judge_demo(
+            {"IMU": 1000, "ADC": 1000000}, "".join([*lines, flight, end])
+        )
 
     def test_votes_and_control(self) -> None:
         lines = (LINE.format("IMU", 1000, 10000, 0, 0, 0), LINE.format("ADC", 1000000, 10, 0, 0, 0))
@@ -154,7 +156,9 @@ class Demo(unittest.TestCase):
         self.assertEqual(self.judge(*lines, end=""), ["it did not come to its end"])
 
     def test_the_table_is_read(self) -> None:
-        periods = target.demo_periods((ROOT / target.TASK_SET).read_text(encoding="utf-8"))
+        periods = emulated_tests.demo_periods(
+            (ROOT / emulated_tests.TASK_SET).read_text(encoding="utf-8")
+        )
         self.assertEqual(len(periods), 21)
         self.assertEqual(periods["Background IMU"], 1000)
         self.assertEqual(periods["ADC"], 1000000)
@@ -163,13 +167,13 @@ class Demo(unittest.TestCase):
 class Differences(unittest.TestCase):
     """Two builds that print digests."""
 
-    def output(self, changed: int = -1, blocks: int = target.BLOCKS) -> str:
+    def output(self, changed: int = -1, blocks: int = emulated_tests.BLOCKS) -> str:
         lines = [f"queue block {n} 0x{n + (n == changed):08x}0x00000000" for n in range(blocks)]
         return "\n".join([*lines, ""])
 
     def first(self, theirs: str) -> int | None:
-        ours = target.digests(self.output())
-        return target.first_difference(ours, target.digests(theirs), "queue")
+        ours = emulated_tests.digests(self.output())
+        return emulated_tests.first_difference(ours, emulated_tests.digests(theirs), "queue")
 
     def test_equal(self) -> None:
         self.assertIsNone(self.first(self.output()))
@@ -187,20 +191,20 @@ class Differences(unittest.TestCase):
 class Emulated(unittest.TestCase):
     """Programs that really run on the emulator."""
 
-    bench: Bench
+    board: EmulatedBoard
 
     @classmethod
     def setUpClass(cls) -> None:
         tools = Toolchain()
         tools.ensure("target")
-        cls.bench = Bench(tools)
+        cls.board = EmulatedBoard(tools)
 
     def program(self, name: str, text: str) -> Ended:
         """Build a program, and run it for two seconds at most."""
-        source = ROOT / target.BUILD / f"{name}.c"
+        source = ROOT / BUILD / f"{name}.c"
         source.write_text(text)
-        made = self.bench.builder.object(source.relative_to(ROOT).as_posix())
-        return self.bench.run(self.bench.builder.link(name, [made]), 2.0)
+        made = self.board.builder.object(source.relative_to(ROOT).as_posix())
+        return self.board.run(self.board.builder.link(name, [made]), 2.0)
 
     def test_the_exit_status_arrives(self) -> None:
         ended = self.program("tool-status", "int main(void)\n{\n    return 42;\n}\n")
@@ -214,7 +218,7 @@ class Emulated(unittest.TestCase):
         self.assertEqual((outcome.passed, len(outcome.failures)), (0, 1))
 
     def test_a_test_that_fails_is_counted(self) -> None:
-        source = ROOT / target.BUILD / "tool_unity.c"
+        source = ROOT / BUILD / "tool_unity.c"
         source.write_text(
             '#include "unity.h"\nvoid setUp(void)\n{\n}\nvoid tearDown(void)\n{\n}\n'
             "static void good(void)\n{\n    TEST_ASSERT_EQUAL(1, 1);\n}\n"
@@ -222,23 +226,25 @@ class Emulated(unittest.TestCase):
             "int main(void)\n{\n    UNITY_BEGIN();\n    RUN_TEST(good);\n    RUN_TEST(bad);\n"
             "    return UNITY_END();\n}\n"
         )
-        outcome = target.unit_suite(self.bench, "unit/tool", source.relative_to(ROOT).as_posix())
+        outcome = emulated_tests.unit_suite(
+            self.board, "unit/tool", source.relative_to(ROOT).as_posix()
+        )
         self.assertEqual((outcome.passed, len(outcome.failures)), (1, 1))
 
     def test_the_first_vector_that_differs_is_named(self) -> None:
-        with mock.patch.object(target, "DRIVER", self.changed_driver()):
+        with mock.patch.object(emulated_tests, "DRIVER", self.changed_driver()):
             defines = ["-DDETAIL_UNIT=1u", "-DDETAIL_BLOCK=0u"]
-            host = target.run_host(self.bench, defines)
-        with mock.patch.object(target, "run_host", lambda *_: host):
-            told = target.differing_vector(self.bench, "priority", 0)
+            host = emulated_tests.run_host(self.board, defines)
+        with mock.patch.object(emulated_tests, "run_host", lambda *_: host):
+            told = emulated_tests.differing_vector(self.board, "priority", 0)
         self.assertRegex(told, r"^vector 1234: the host has 0x\w+, the target 0x\w+$")
 
     def changed_driver(self) -> str:
         """The driver with one vector of the unit priority changed."""
-        text = (ROOT / target.DRIVER).read_text()
+        text = (ROOT / emulated_tests.DRIVER).read_text()
         old = "    digest(s, promotion_us);\n"
         self.assertEqual(text.count(old), 1)
-        place = target.BUILD / "tool_differential.c"
+        place = BUILD / "tool_differential.c"
         changed = text.replace(old, "    digest(s, promotion_us + (s->vector == 1234u));\n")
         (ROOT / place).write_text(changed)
         return place.as_posix()

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Trace every requirement to its clauses, harnesses and tests, and find what stands alone.
 
-    python3 tools/trace.py             # every orphan, one a line
-    python3 tools/trace.py --update    # first bring the CLAUSES of specs/requirements up to date
+    python3 tools/requirements_trace.py             # every orphan, one a line
+    python3 tools/requirements_trace.py --update    # first bring specs/requirements up to date
 
 A requirement is an entry of specs/requirements/*.sdoc, say QUE-003. The ACSL clauses that state
 it carry its id in their labels (QUE_003, QUE_003_count), and so do the assertions of the CBMC
@@ -22,12 +22,11 @@ of the model that names a requirement counts as an assertion does. An orphan is
 
 Tests that run on the target alone (tests/target) count as unit tests do.
 
-Exit status: 0 without orphans, 1 with, 2 for a wrong command line.
+Exit status: 0 without orphans, 1 with, 2 when they could not be looked for.
 """
 
 from __future__ import annotations
 
-import argparse
 import re
 import sys
 from collections.abc import Iterator, Sequence
@@ -35,10 +34,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import refusals
+from common.arguments import Parser
+from common.errors import ROOT, program
+from common.files import write_text
 from proofs import csource, determined
 from proofs.project import closure
 
-ROOT = Path(__file__).resolve().parents[1]
 LABEL = r"[A-Z]{3,4}_\d{3}(?:_\w+)?"
 KEYWORD = r"\b(?:ensures|lemma|assert|check|invariant)"
 CLAUSE = re.compile(rf"{KEYWORD}\s+({LABEL})\s*(?:\{{[^}}]*\}})?\s*:")
@@ -191,7 +192,7 @@ def lacks(entry: Requirement, tests: set[str], theorems: Sequence[str]) -> Itera
     if entry.clauses and entry.verification != "theorem" and not (entry.harnesses or tested):
         yield "neither a harness nor a test names it"
     if entry.listed_clauses != list(dict.fromkeys(entry.clauses)):
-        yield "CLAUSES is not what the headers say (tools/trace.py --update)"
+        yield "CLAUSES is not what the headers say (tools/requirements_trace.py --update)"
 
 
 def update(root: Path) -> None:
@@ -206,22 +207,27 @@ def update(root: Path) -> None:
                 lines.append(line)
             if line.startswith("VERIFICATION:") and requirements[uid].clauses:
                 lines.append("CLAUSES: " + ", ".join(dict.fromkeys(requirements[uid].clauses)))
-        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        write_text(path, "\n".join(lines) + "\n")
 
 
 def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     """Entry point."""
-    parser = argparse.ArgumentParser(description="Trace requirements to clauses, harnesses, tests.")
+    parser = Parser("Trace requirements to clauses, harnesses and tests.", "trace")
     parser.add_argument("--update", action="store_true", help="write CLAUSES first")
-    if parser.parse_args(arguments).update:
-        update(root)
-    trace = join(root)
-    for orphan in sorted(trace.orphans):
-        print(orphan)
-    print(f"traced {len(trace.requirements)} requirements: {trace.clauses} clauses, "
-          f"{trace.harnesses} harnesses, {trace.tests} tests, "
-          f"{len(trace.orphans)} orphans")  # fmt: skip
-    return 1 if trace.orphans or not trace.requirements else 0
+    options = parser.parse_args(arguments)
+
+    def work() -> int:
+        if options.update:
+            update(root)
+        trace = join(root)
+        for orphan in sorted(trace.orphans):
+            print(orphan)
+        print(f"traced {len(trace.requirements)} requirements: {trace.clauses} clauses, "
+              f"{trace.harnesses} harnesses, {trace.tests} tests, "
+              f"{len(trace.orphans)} orphans")  # fmt: skip
+        return 1 if trace.orphans or not trace.requirements else 0
+
+    return program("trace", work)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,291 @@
+#!/usr/bin/env python3
+"""Run Keel's tests on a Cortex-M7 that QEMU emulates.
+
+    python3 tools/emulated_tests.py                   # everything
+    python3 tools/emulated_tests.py --filter fault/   # the suites whose name contains this
+
+Suites, each one image or more of the board mps2_an500, built as its firmware is:
+
+    unit/<unit>          the unit tests of tests/unit, and tests/target/test_core.c
+    fault/<kind>         tests/target/faults.c: the fault is recorded as the processor's manual
+                         says, and the board comes back in its safe state
+    demo                 the firmware with the 21 tasks of table 2, ten seconds of simulated
+                         time: each task has run once for each of its periods, in time; the
+                         inertial unit that froze is latched, and hardly moved the voted values
+    differential/<unit>  tests/target/differential.c: 10^5 random vectors of each unit give the same
+                         bits in the host's build and in the target's
+
+The emulator counts instructions, four nanoseconds each, so that every run is the same. A program
+that hangs is killed and counts as failed. Each image tells how deep its stack was: the painted
+stack. build/test-target/report.json has it all; an unfinished run leaves none.
+
+Exit status: 0 when at least one test ran and none failed, 1 otherwise, 2 for a wrong command line.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+import tomllib
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+from boards.elf import read_contents
+from common.arguments import Parser
+from common.build import Build
+from common.errors import ROOT, ToolError, program
+from common.files import sha256_of
+from common.run import Ended, run
+from firmware import Image, examine
+from suites import running
+from suites.emulated import BOARD, BUILD, SHIFT, EmulatedBoard
+from suites.faults import FAULTS, SAFE_STATUS, judge_fault, read_record
+from suites.outcomes import Outcome, unity_outcome
+from suites.running import Suite
+from toolchain import Toolchain
+
+LONG_TIMEOUT_S = 900.0
+
+
+def unit_image(board: EmulatedBoard, name: str, source: str) -> Image:
+    """The image of one file of unit tests."""
+    test = board.builder.object(source, [*board.unity_flags(), "-w"])
+    return board.builder.link(name.replace("/", "-"), [board.unity(), test])
+
+
+def unit_suite(board: EmulatedBoard, name: str, source: str) -> Outcome:
+    """The tests of one file."""
+    return unity_outcome(name, board.run(unit_image(board, name, source)))
+
+
+def code_of(board: EmulatedBoard, image: Image, function: str) -> range:
+    """Where a function of an image lies."""
+    contents = read_contents(board.tools, image.elf)
+    symbol = contents.symbol(function)
+    return range(symbol.address, symbol.address + symbol.size)
+
+
+def fault_suite(board: EmulatedBoard, name: str, kind: str) -> Outcome:
+    """Break one thing; look at what was recorded."""
+    fault = FAULTS[kind]
+    define = f"-DFAULT=fault_{kind}"
+    image = board.builder.link(
+        name.replace("/", "-"), [board.builder.object("tests/target/faults.c", [define])]
+    )
+    function = fault.function or f"fault_{kind}"
+    span = range(0) if function == "-" else code_of(board, image, function)
+    ended = board.run(image)
+    wrong = judge_fault(fault, read_record(ended.output), span)
+    if ended.status != SAFE_STATUS or ended.timed_out:
+        wrong.insert(0, f"{ended.how}, not {SAFE_STATUS}")
+    if ended.output.count("breaking\n") != 1:
+        wrong.append("the program was not started exactly once")
+    outcome = Outcome()
+    outcome.add(name, f"{name}: {'; '.join(wrong)}\n{ended.evidence}" if wrong else "")
+    return outcome
+
+
+# --- The demo ------------------------------------------------------------------------------------
+
+DEMO_US = 10_000_000
+DEMO_LINE = re.compile(
+    r"^task (.+): period (\d+) runs (\d+) longest (\d+) skipped (\d+) overruns (\d+) "
+    r"promotions (\d+)$",
+    re.MULTILINE,
+)
+# In ten seconds 5000 votes and steps; the unit that froze is latched in all six channels. The voted
+# values stay within the units' own spread (0.02) and what one faulty unit may move them, half of
+# a = 0.1 (VOT-015).
+FLIGHT_LINE = re.compile(
+    r"^flight votes 5000 steps 5000 refused 0 worst (\d+) used 63 latched 0 used 63 latched 0 "
+    r"used 0 latched 63$",
+    re.MULTILINE,
+)
+WORST_MILLIONTHS = 70_000
+TASK_SET = "specs/tasksets/urpilot.toml"
+
+
+def demo_periods(text: str) -> dict[str, int]:
+    """The tasks of table 2 with their periods in us, from the task set."""
+    return {task["name"]: task["period_us"] for task in tomllib.loads(text)["task"]}
+
+
+def judge_demo(periods: Mapping[str, int], output: str) -> list[str]:
+    """What is not as the periods ask."""
+    wrong = []
+    lines = {match[1]: [int(word) for word in match.groups()[1:]] for match in
+             DEMO_LINE.finditer(output)}  # fmt: skip
+    for name in periods.keys() ^ lines.keys():
+        wrong.append(f"{name}: is only in the {'table' if name in periods else 'output'}")
+    for name, (period, runs, _, skipped, overruns, promotions) in lines.items():
+        wanted = DEMO_US // periods.get(name, DEMO_US)
+        if (period, runs) != (periods.get(name), wanted):
+            wrong.append(f"{name}: period {period}, {runs} runs, not {wanted}")
+        if skipped or overruns or promotions:
+            wrong.append(f"{name}: skipped {skipped}, overruns {overruns}, promoted {promotions}")
+    flight = FLIGHT_LINE.search(output)
+    if not flight or int(flight[1]) > WORST_MILLIONTHS:
+        told = re.search(r"^flight .*$", output, re.MULTILINE)
+        wrong.append(f"votes and control: {told[0] if told else 'nothing was told'}")
+    if "\ndemo ended\n" not in output:
+        wrong.append("it did not come to its end")
+    return wrong
+
+
+def demo_suite(board: EmulatedBoard, name: str) -> Outcome:
+    """The board's own application, for ten simulated seconds."""
+    image = board.builder.link("demo", board.builder.objects(board.board.application))
+    examine(board.builder, image)
+    board.demo_sha256 = sha256_of(image.elf)
+    periods = demo_periods((board.root / TASK_SET).read_text(encoding="utf-8"))
+    ended = board.run(image, LONG_TIMEOUT_S)
+    wrong = judge_demo(periods, ended.output)
+    if len(periods) != 21:
+        wrong.append(f"table 2 has {len(periods)} tasks")
+    if ended.status != 0 or ended.timed_out:
+        wrong.insert(0, ended.how)
+    outcome = Outcome()
+    outcome.add(name, f"{name}: {'; '.join(wrong)}\n{ended.evidence}" if wrong else "")
+    return outcome
+
+
+# --- The same results as on the host -------------------------------------------------------------
+
+DRIVER = "tests/target/differential.c"
+UNITS = ("queue", "priority", "voter", "filter", "pid")
+VECTORS = 100_000  # of each unit
+BLOCKS = 50
+HOST_FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-Iinclude", "-Ibsp")
+HOST_SOURCES = ("tests/target/host_console.c", "bsp/console.c")
+BLOCK = re.compile(r"^(\w+) block (\d+) (0x\w+)$", re.MULTILINE)
+VECTOR = re.compile(r"^\w+ vector (\d+) (0x\w+)$", re.MULTILINE)
+
+
+def digests(output: str) -> dict[tuple[str, int], str]:
+    """The digests of the blocks."""
+    return {(unit, int(block)): text for unit, block, text in BLOCK.findall(output)}
+
+
+def first_difference(host: Mapping[tuple[str, int], str], target: Mapping[tuple[str, int], str],
+                     unit: str) -> int | None:  # fmt: skip
+    """The first block of a unit in which the two differ; one that is missing differs."""
+    for block in range(BLOCKS):
+        ours = host.get((unit, block))
+        if ours is None or ours != target.get((unit, block)):
+            return block
+    return None
+
+
+def run_host(board: EmulatedBoard, defines: Sequence[str] = ()) -> str:
+    """What the driver prints on this host."""
+    folder = board.root / BUILD / "host"
+    build = Build(board.tools, "gcc", [*HOST_FLAGS, *defines], folder, board.root)
+    ended = run([build.program("differential", ["src", DRIVER, *HOST_SOURCES])], LONG_TIMEOUT_S)
+    if not ended.good:
+        raise ToolError(f"the host's build of {DRIVER}: {ended.how}")
+    return ended.output
+
+
+def run_target(board: EmulatedBoard, defines: Sequence[str] = ()) -> Ended:
+    """What the driver prints on the target."""
+    name = "differential-detail" if defines else "differential"
+    image = board.builder.link(name, [board.builder.object(DRIVER, defines)])
+    return board.run(image, LONG_TIMEOUT_S)
+
+
+def differing_vector(board: EmulatedBoard, unit: str, block: int) -> str:
+    """The first vector of a block on which the two differ, with both digests."""
+    defines = [f"-DDETAIL_UNIT={UNITS.index(unit)}u", f"-DDETAIL_BLOCK={block}u"]
+    host = VECTOR.findall(run_host(board, defines))
+    target = VECTOR.findall(run_target(board, defines).output)
+    for ours, theirs in zip(host, target, strict=False):
+        if ours != theirs:
+            return f"vector {ours[0]}: the host has {ours[1]}, the target {theirs[1]}"
+    return f"block {block}: the target printed {len(target)} vectors, the host {len(host)}"
+
+
+def differential_suite(board: EmulatedBoard, name: str) -> Outcome:
+    """All units, each a test of its own."""
+    host = digests(run_host(board))
+    ended = run_target(board)
+    target = digests(ended.output)
+    outcome = Outcome()
+    for unit in UNITS:
+        block = first_difference(host, target, unit)
+        what = "" if block is None else differing_vector(board, unit, block)
+        outcome.add(f"{name}/{unit}", f"{name}/{unit}: {what}" if what else "")
+    counted = f"all vectors {len(UNITS) * VECTORS} " in ended.output
+    if ended.status != 0 or ended.timed_out or not counted:
+        outcome.add(name, f"{name}: {ended.how}\n{ended.evidence}")
+    return outcome
+
+
+# --- All of them ---------------------------------------------------------------------------------
+
+
+def all_suites(board: EmulatedBoard) -> list[Suite]:
+    """Every suite, the fastest first."""
+    suites = []
+    files = [*sorted((ROOT / "tests/unit").glob("test_*.c")), ROOT / "tests/target/test_core.c"]
+    for path in files:
+        name, source = f"unit/{path.stem.removeprefix('test_')}", path.relative_to(ROOT).as_posix()
+        suites.append(Suite(name, (), partial(unit_suite, board, name, source)))
+    for kind in FAULTS:
+        name = f"fault/{kind}"
+        suites.append(Suite(name, (), partial(fault_suite, board, name, kind)))
+    suites.append(Suite("differential", (), partial(differential_suite, board, "differential")))
+    suites.append(Suite("demo", (), partial(demo_suite, board, "demo")))
+    return suites
+
+
+def facts_of(board: EmulatedBoard, words: str) -> dict[str, object]:
+    """What the report has beside the suites."""
+    versions = {name: item.version for name, item in board.tools.versions("target").items()}
+    return {
+        "schema": 1,
+        "filter": words,
+        "board": BOARD,
+        "tools": versions,
+        "flags": board.builder.flags,
+        "nanoseconds_per_instruction": 1 << SHIFT,
+        "vectors_per_unit": VECTORS,
+        "painted_stack": {
+            "size": board.stack_size,
+            "used": board.stacks,
+            "demo_sha256": board.demo_sha256,
+        },
+    }
+
+
+def print_stacks(board: EmulatedBoard) -> None:
+    """The deepest stacks."""
+    if board.stacks:
+        deepest = max(board.stacks, key=lambda name: board.stacks[name])
+        main = f", the demo's main {board.stacks['demo']}" if "demo" in board.stacks else ""
+        print(f"painted stack of {board.stack_size} bytes: at most {board.stacks[deepest]} used "
+              f"({deepest}){main}")  # fmt: skip
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Entry point."""
+    parser = Parser("Run Keel's tests on an emulated Cortex-M7.", "test-target")
+    parser.add_argument("--filter", default="", metavar="TEXT", help="suites whose name has this")
+    options = parser.parse_args(arguments)
+
+    def work() -> int:
+        running.begin(ROOT / BUILD)
+        tools = Toolchain()
+        tools.ensure("target")
+        board = EmulatedBoard(tools)
+        suites = running.chosen(all_suites(board), options.filter)
+        outcomes = running.run_all(tools, suites)
+        print_stacks(board)
+        return running.end(
+            ROOT / BUILD, "Keel, emulated", outcomes, facts_of(board, options.filter)
+        )
+
+    return program("test-target", work)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,6 @@
+"""What tools/lint.py checks.
+
+texts  the project's files, and what a finding is
+misra  MISRA C:2012 with Cppcheck, and the deviations from it
+house  the rules of the house
+"""
