@@ -32,7 +32,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from boards.built import read_built
-from boards.call_graph import Disassembler, StackError, read_graph
+from boards.call_graph import Disassembler, read_graph
 from boards.elf import Contents, read_contents
 from boards.stack_bounds import EXCEPTION_FRAME_B, TABLE, StackTable, analyse, mistakes
 from common.arguments import Parser
@@ -129,11 +129,7 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         (root / REPORT / f"{board}.json").unlink(missing_ok=True)
         tools = Toolchain()
         tools.ensure("stack")
-        try:
-            return conclude(measure(tools, root, board), root)
-        except StackError as error:
-            print(f"stack: {error}", file=sys.stderr)
-            return 1
+        return conclude(measure(tools, root, board), root)
 
     return program("stack", work)
 

@@ -69,6 +69,10 @@ class Names(unittest.TestCase):
         self.assertEqual(unknown("unit", "", ["x"]), "there is no unit (none named) (units: x)")
 
 
+class NotGood(ToolError):
+    status = 1
+
+
 class Programs(FolderTest):
     def told(self, body: NoReturn | object) -> tuple[int, str]:
         def raising() -> int:
@@ -81,6 +85,7 @@ class Programs(FolderTest):
 
     def test_what_a_tool_cannot_do_is_status_2(self) -> None:
         self.assertEqual(self.told(ToolError("no such unit")), (2, "tool: no such unit\n"))
+        self.assertEqual(self.told(NotGood("too deep")), (1, "tool: too deep\n"))
         gone = FileNotFoundError(errno.ENOENT, "No such file or directory", "a.toml")
         self.assertEqual(self.told(gone), (2, "tool: a.toml: No such file or directory\n"))
         self.assertEqual(self.told(KeyboardInterrupt())[0], 130)
