@@ -63,11 +63,13 @@ class Refusals(unittest.TestCase):
         self.assertIn("there is no target xyzzy (targets: help, ", self.refused("xyzzy"))
 
     def test_a_board(self) -> None:
-        status, lines = make("firmware", "BOARD=nucleo")
-        self.assertEqual(status, 2)
-        told = [line for line in lines if line.startswith("firmware: ")]
-        self.assertEqual(told, lines[-1:])
-        self.assertIn("there is no board nucleo; did you mean nucleo_f767zi?", told[0])
+        for target in ("firmware", "stack", "flash"):
+            with self.subTest(target):
+                status, lines = make(target, "BOARD=nucleo")
+                self.assertEqual(status, 2)
+                told = [line for line in lines if line.startswith(f"{target}: ")]
+                self.assertEqual(told, lines[-1:])
+                self.assertIn("there is no board nucleo; did you mean nucleo_f767zi?", told[0])
 
     def test_a_suite(self) -> None:
         self.assertEqual(
