@@ -27,7 +27,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from boards.built import read_built
-from boards.chip import BROKEN, OPTIONS, UART7, USART3, Chip, ModelError
+from boards.chip import BROKEN, OPTIONS, UART7, USART3, Chip
 from boards.processor import Processor
 from common.arguments import Parser
 from common.errors import ROOT, ToolError, program, unknown
@@ -93,13 +93,8 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         (root / REPORT / f"{options.board}.json").unlink(missing_ok=True)
         tools = Toolchain()
         tools.ensure("model")
-        try:
-            chip = simulate(
-                tools, root, options.board, options.seconds, options.keys, options.broken
-            )
-        except ModelError as error:
-            print(f"model: {error}", file=sys.stderr)
-            return 1
+        what = (options.board, options.seconds, options.keys, options.broken)
+        chip = simulate(tools, root, *what)
         return conclude(options.board, options.seconds, chip, root)
 
     return program("model", work)

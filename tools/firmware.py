@@ -62,6 +62,8 @@ COMMON_INCLUDE = ("include", "bsp")
 class FirmwareError(ToolError):
     """An image is not what its board's file asks for."""
 
+    status = 1
+
 
 @dataclass(frozen=True)
 class Image:
@@ -195,11 +197,7 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         read_board(root, options.board)
         tools = Toolchain()
         tools.ensure("firmware")
-        try:
-            build(tools, options.board, options.app, root)
-        except FirmwareError as error:
-            print(f"firmware: {error}", file=sys.stderr)
-            return 1
+        build(tools, options.board, options.app, root)
         return 0
 
     return program("firmware", work)

@@ -13,16 +13,14 @@ it. A command is a byte, its arguments and 0x20; an answer is its data, 0x12 and
 upload is never started. Nothing counts as written until the boot loader's own checksum over its
 whole flash is that of the image.
 
-Exit status: 0 when the image was written and checked, 1 when not, 2 for a wrong command line.
+Exit status: 0 when the image was written and checked, 2 when not.
 """
 
 from __future__ import annotations
 
-import argparse
 import base64
 import binascii
 import glob
-import importlib
 import json
 import struct
 import sys
@@ -33,7 +31,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from toolchain import Toolchain, ToolchainError
+from boards.packages import load
+from common.arguments import Parser
+from common.errors import ToolError, program
+from common.files import write_text
+from toolchain import Toolchain
 
 MAGIC = "PX4FWv1"
 PORTS = ("/dev/serial/by-id/*PX4_BL*", "/dev/serial/by-id/*PX4*BL*")
@@ -52,7 +54,7 @@ ERASE_S = 60.0
 CRC_S = 30.0
 
 
-class Px4Error(Exception):
+class Px4Error(ToolError):
     """A container or an upload is not as it must be; the message says what and why."""
 
 
@@ -90,6 +92,10 @@ class Container:
         }
         return json.dumps(content, indent=1) + "\n"
 
+    def write(self, path: Path) -> None:
+        """Write the container, whole or not at all."""
+        write_text(path, self.text())
+
     @classmethod
     def read(cls, path: Path) -> Container:
         """Read and check a container."""
@@ -106,14 +112,6 @@ class Container:
         if size != len(image):
             raise Px4Error(f"{path}: the image has {len(image)} bytes, not {size} as it says")
         return found
-
-
-def write_container(container: Container, path: Path) -> None:
-    """Write a container so that nobody ever sees half of it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    draft = path.with_name(f".{path.name}.tmp")
-    draft.write_text(container.text(), encoding="utf-8")
-    draft.replace(path)
 
 
 # --- The boot loader -----------------------------------------------------------------------------
@@ -224,10 +222,7 @@ class BootLoader:
 
 def open_port(tools: Toolchain, name: str) -> Port:
     """Open a serial port for this program alone."""
-    folder = tools.command("pyserial")[0]
-    if folder not in sys.path:
-        sys.path.insert(0, folder)
-    serial = importlib.import_module("serial")
+    serial = load(tools, "pyserial", "serial")
     port: Port = serial.Serial(name, BAUD, timeout=ANSWER_S, exclusive=True)
     return port
 
@@ -245,19 +240,16 @@ def find(tools: Toolchain, name: str, wait_s: float) -> BootLoader:
     last = "no such port" if name else "no port of a PX4 boot loader"
     while True:
         for candidate in candidates(name):
+            port: Port | None = None
             try:
                 port = open_port(tools, candidate)
-            except (OSError, ValueError) as error:
-                last = f"{candidate}: {error}"
-                continue
-            loader = BootLoader(port)
-            try:
+                loader = BootLoader(port)
                 loader.sync()
-            except (Px4Error, OSError) as error:
+                return loader
+            except (Px4Error, OSError, ValueError) as error:
                 last = f"{candidate}: {error}"
-                port.close()
-                continue
-            return loader
+                if port:
+                    port.close()
         if time.monotonic() >= deadline:
             raise Px4Error(
                 f"no boot loader within {wait_s:g} s ({last}). Check that the board is connected "
@@ -287,7 +279,7 @@ def tell(line: str) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
-    parser = argparse.ArgumentParser(description="Make and upload .px4 containers.")
+    parser = Parser("Make and upload .px4 containers.", "px4")
     commands = parser.add_subparsers(dest="command", required=True)
     pack = commands.add_parser("pack", help="make a container of a binary image")
     pack.add_argument("image", type=Path)
@@ -298,21 +290,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     send.add_argument("--port", default="", help="serial port (default: a PX4 boot loader's)")
     send.add_argument("--wait", type=float, default=30.0, metavar="SECONDS")
     options = parser.parse_args(arguments)
-    try:
+
+    def work() -> int:
         if options.command == "pack":
             container = Container(options.board_id, options.image.read_bytes())
-            write_container(container, options.output)
+            container.write(options.output)
             print(f"px4: {options.output}, {len(container.image)} bytes for board "
                   f"{options.board_id}")  # fmt: skip
             return 0
         tools = Toolchain()
         tools.ensure("flash-px4")
         upload(tools, options.container, options.port, options.wait, tell)
-    except (Px4Error, ToolchainError, OSError) as error:
-        print(f"px4: {error}", file=sys.stderr)
-        return 1
-    print("px4: written, and the checksum of the flash is that of the image")
-    return 0
+        print("px4: written, and the checksum of the flash is that of the image")
+        return 0
+
+    return program("px4", work)
 
 
 if __name__ == "__main__":

@@ -69,6 +69,10 @@ class Names(unittest.TestCase):
         self.assertEqual(unknown("unit", "", ["x"]), "there is no unit (none named) (units: x)")
 
 
+class NotGood(ToolError):
+    status = 1
+
+
 class Programs(FolderTest):
     def told(self, body: NoReturn | object) -> tuple[int, str]:
         def raising() -> int:
@@ -81,6 +85,7 @@ class Programs(FolderTest):
 
     def test_what_a_tool_cannot_do_is_status_2(self) -> None:
         self.assertEqual(self.told(ToolError("no such unit")), (2, "tool: no such unit\n"))
+        self.assertEqual(self.told(NotGood("too deep")), (1, "tool: too deep\n"))
         gone = FileNotFoundError(errno.ENOENT, "No such file or directory", "a.toml")
         self.assertEqual(self.told(gone), (2, "tool: a.toml: No such file or directory\n"))
         self.assertEqual(self.told(KeyboardInterrupt())[0], 130)
@@ -146,9 +151,14 @@ class Files(FolderTest):
         self.assertEqual([item.name for item in self.folder.iterdir()], ["report.json"])
 
     @unittest.skipUnless(Path("/dev/full").exists(), "needs /dev/full")
-    def test_a_full_device_is_told_as_one(self) -> None:
-        with self.assertRaisesRegex(ToolError, "cannot write"):
-            write_text(Path("/dev/full/x"), "text")
+    def test_a_device_that_is_really_full(self) -> None:
+        """The file in which the text is drafted leads to a device that is always full."""
+        with mock.patch("common.files.threading.get_ident", return_value=7):
+            draft = self.folder / f".report.json.{os.getpid()}-7"
+            draft.symlink_to("/dev/full")
+            with self.assertRaisesRegex(ToolError, r"report\.json: No space left on device$"):
+                write_text(self.folder / "report.json", "text")
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_writers_do_not_disturb_each_other(self) -> None:
         path = self.folder / "x"

@@ -148,7 +148,7 @@ class ContainerTest(unittest.TestCase):
         self.path = self.folder / "image.px4"
 
     def test_what_other_programs_read(self) -> None:
-        px4.write_container(Container(50, IMAGE), self.path)
+        Container(50, IMAGE).write(self.path)
         raw = json.loads(self.path.read_text())
         self.assertEqual(raw["magic"], "PX4FWv1")
         self.assertEqual(raw["board_id"], 50)
@@ -160,7 +160,7 @@ class ContainerTest(unittest.TestCase):
         self.assertEqual(Container(50, IMAGE).text(), Container(50, IMAGE).text())
 
     def test_round_trip(self) -> None:
-        px4.write_container(Container(50, IMAGE, "Keel", 4096), self.path)
+        Container(50, IMAGE, "Keel", 4096).write(self.path)
         self.assertEqual(Container.read(self.path), Container(50, IMAGE, "Keel", 4096))
 
     def test_whole_words_with_ones(self) -> None:
@@ -215,7 +215,7 @@ class UploadTest(unittest.TestCase):
     def setUp(self) -> None:
         self.folder = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
         self.path = self.folder / "image.px4"
-        px4.write_container(Container(50, IMAGE), self.path)
+        Container(50, IMAGE).write(self.path)
         self.board = Simulation()
         self.said: list[str] = []
 
@@ -289,7 +289,7 @@ class UploadTest(unittest.TestCase):
             self.assertEqual(px4.main(words), 0)
         self.assertIn("checksum of the flash is that of the image", out.getvalue())
         with contextlib.redirect_stderr(io.StringIO()) as err:
-            self.assertEqual(px4.main(["upload", str(self.folder / "none")]), 1)
+            self.assertEqual(px4.main(["upload", str(self.folder / "none")]), 2)
         self.assertIn("px4:", err.getvalue())
 
 

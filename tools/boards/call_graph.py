@@ -20,7 +20,9 @@ INDIRECT = "__indirect_call"
 
 
 class StackError(ToolError):
-    """A stack has no bound, or too little room; the message says why."""
+    """A stack has no bound; the message says why."""
+
+    status = 1
 
 
 # --- What the compiler says ----------------------------------------------------------------------

@@ -33,6 +33,8 @@ BROKEN = ("hse", "pll", "overdrive", "sensor", "other-sensor")
 class ModelError(ToolError):
     """The image did what must not be; the message says what and where."""
 
+    status = 1
+
 
 @dataclass
 class Sensor:

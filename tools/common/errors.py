@@ -14,7 +14,10 @@ INTERRUPTED = 130
 
 
 class ToolError(Exception):
-    """Why a tool cannot do its work: one line, below it the words of a program that failed."""
+    """Why a tool cannot do its work: one line, below it the words of a program that failed. What
+    was checked and is not good has a class of its own, with status 1."""
+
+    status = CANNOT
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
@@ -41,11 +44,12 @@ def said(error: OSError) -> str:
 
 
 def program(name: str, body: Callable[[], int]) -> int:
-    """Run a tool; whatever keeps it from its work is told in its name, and is exit status 2."""
+    """Run a tool; whatever ends it is told in its name, and is the exit status."""
     try:
         return body()
     except ToolError as error:
         print(f"{name}: {error}", file=sys.stderr)
+        return error.status
     except OSError as error:
         print(f"{name}: {said(error)}", file=sys.stderr)
     except KeyboardInterrupt:

@@ -42,11 +42,7 @@ def read_text(path: Path) -> str:
     try:
         data = path.read_bytes()
     except OSError as error:
-        like = (
-            nearest(path.name, names_beside(path)) if isinstance(error, FileNotFoundError) else ""
-        )
-        guess = f"; did you mean {path.with_name(like)}?" if like else ""
-        raise ToolError(f"{path}: cannot be read: {error.strerror}{guess}") from error
+        raise ToolError(f"{path}: cannot be read: {error.strerror}{guess_of(path)}") from error
     try:
         return data.decode()
     except UnicodeDecodeError as error:
@@ -54,9 +50,12 @@ def read_text(path: Path) -> str:
         raise ToolError(f"{path}:{line}: expected UTF-8") from error
 
 
-def names_beside(path: Path) -> list[str]:
-    """The names of the files in a file's folder."""
-    return sorted(item.name for item in path.parent.iterdir()) if path.parent.is_dir() else []
+def guess_of(path: Path) -> str:
+    """The file that may have been meant instead of one that is not there."""
+    folder = path.parent
+    there = sorted(item.name for item in folder.iterdir()) if folder.is_dir() else []
+    like = "" if path.name in there else nearest(path.name, there)
+    return f"; did you mean {folder / like}?" if like else ""
 
 
 def sha256_of(path: Path) -> str:

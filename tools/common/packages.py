@@ -12,7 +12,8 @@ def provide(group: str = "common") -> None:
     """Put the packages first on the path. What keeps them away ends the program, in one line."""
     tools = Toolchain()
     try:
-        tools.ensure(group)
+        # On stderr: a program's own output may be read by another program.
+        tools.ensure(group, say=lambda line: print(line, file=sys.stderr))
         folder = tools.command(f"{group}-packages")[0]
     except ToolchainError as error:
         print(f"packages: {error}", file=sys.stderr)
