@@ -44,7 +44,7 @@ from proofs.mutant_crew import Dask, Job, Threads, answer_order  # noqa: E402
 from proofs.mutant_verdicts import Verdict  # noqa: E402
 from proofs.mutants import Mutant, generate  # noqa: E402
 from proofs.mutation import MAKERS, Tools, Trees, Trial, survey  # noqa: E402
-from proofs.project import RECORDED_TIMES, ROOT, ProjectError, Unit, find_units  # noqa: E402
+from proofs.project import KEEL, RECORDED_TIMES, ProjectError, Unit, find_units  # noqa: E402
 from proofs.session import own_digest, prover_answers, tool_stamp  # noqa: E402
 from proofs.settings import read_exceptions  # noqa: E402
 from proofs.times import Times  # noqa: E402
@@ -105,7 +105,7 @@ def tools_for(toolchain: Toolchain, root: Path, scratch: Path) -> Tools:
 
 def stamp_of(toolchain: Toolchain) -> dict[str, str]:
     """What identifies the tools of a verdict, those that make mutants included."""
-    own = digest_of_files(sorted((ROOT / "tools/proofs").glob("muta*.py")), ROOT)
+    own = digest_of_files(sorted((KEEL / "tools/proofs").glob("muta*.py")), KEEL)
     tools = tool_stamp(toolchain.versions("prove"))
     return {**tools, "driver": own_digest(), MAKERS: digest(own)}
 

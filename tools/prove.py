@@ -6,6 +6,7 @@
     python3 tools/prove.py --update-goals     # accept the goals as they are now, after review
     python3 tools/prove.py --shard 2/4        # a quarter of it: build/prove/shard-2-of-4.json
     python3 tools/prove.py --join FILE...     # the verdict on the whole, from all four reports
+    python3 tools/prove.py --project FOLDER   # a project of your own: docs/own_unit.md
     python3 tools/prove.py --explain NAME     # why a goal, harness or assertion fails; how a wrong
                                               # body is refuted
 
@@ -28,7 +29,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from common.errors import program  # noqa: E402
 from proofs.jobs import end_as_by_ctrl_c  # noqa: E402
-from proofs.project import ROOT, find_units  # noqa: E402
+from proofs.project import KEEL, ProjectError, find_units  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
 from proofs.shards import Shard, read_shard  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
@@ -47,6 +48,8 @@ def shard(text: str) -> Shard:
 def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Namespace:
     """The command line; a unit that does not exist is named, with those that do."""
     parser = argparse.ArgumentParser(description="Prove Keel with Frama-C/WP, CBMC and Gappa.")
+    parser.add_argument("--project", type=Path, metavar="FOLDER",
+                        help="a project that uses Keel; default: Keel itself")  # fmt: skip
     parser.add_argument("--unit", nargs="+", metavar="U", help="only these units")
     parser.add_argument("--engine", choices=ENGINES, help="only this engine")
     parser.add_argument("--update-goals", action="store_true", help="rewrite proofs/UNIT/goals.txt")
@@ -81,9 +84,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return program("prove", lambda: prove(arguments))
 
 
+def project(arguments: Sequence[str] | None) -> Path:
+    """The project to be proved, which decides what units there are."""
+    parser = argparse.ArgumentParser(add_help=False)
+    parser.add_argument("--project", type=Path, default=KEEL)
+    root: Path = parser.parse_known_args(arguments)[0].project.resolve()
+    if not find_units(root):
+        raise ProjectError(f"{root}: there is no unit, include/LAYER/NAME.h")
+    return root
+
+
 def prove(arguments: Sequence[str] | None) -> int:
     """Do what the command line asks for."""
-    units = find_units()
+    root = project(arguments)
+    units = find_units(root)
     options = parse(arguments, list(units))
     tools = Toolchain()
     tools.ensure("prove")
@@ -95,7 +109,7 @@ def prove(arguments: Sequence[str] | None) -> int:
         fresh=options.fresh, quick=options.quick, update_goals=options.update_goals,
         shard=options.shard, join=tuple(path.resolve() for path in options.join or ()),
     )  # fmt: skip
-    session = Session(ROOT, tools, choice)
+    session = Session(root, tools, choice)
     return session.explain(options.explain) if options.explain else session.run()
 
 

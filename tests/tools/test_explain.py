@@ -90,6 +90,12 @@ class Counterexamples(unittest.TestCase):
         self.assertEqual(found.place, "src/rtos/box.c:4")
         self.assertEqual(found.calls, ["put (called at proofs/box/h.c:8)"])
 
+    def test_a_boolean_that_is_neither_false_nor_true_shows(self) -> None:
+        value = {"name": "boolean", "data": "TRUE", "binary": "10000000"}
+        steps = [called("h", 1), assigned("flag", value), called("f", 2)]
+        [line] = lines(read_trace(steps, "h", "f").before)
+        self.assertIn("0x80", line)
+
     def test_equal_values_are_told_once_and_a_copy_as_such(self) -> None:
         state = {f"a.x[{i}]": "0" for i in range(6)} | {"a.x[6]": "1", "a.n": "7"}
         state |= {name.replace("a.", "b."): value for name, value in state.items()}

@@ -89,6 +89,13 @@ class Exports(WholeRunCase):
         self.assertEqual((result["ruleId"], result["message"]["text"]),
                          ("cbmc/overflow", "overflow: FAILURE"))  # fmt: skip
 
+    def test_the_summary_has_a_row_for_each_unit_and_what_failed(self) -> None:
+        self.unit.goal_list.unlink()
+        self.files()
+        text = (self.report_file.parent / "summary.md").read_text(encoding="utf-8")
+        self.assertIn("| box | 4 of 4 | 1 of 1 |  |  |", text)
+        self.assertIn("- proofs/box/goals.txt is missing", text)
+
     def test_what_a_rule_finds_is_there_too(self) -> None:
         self.unit.goal_list.unlink()
         tests, log = self.files()

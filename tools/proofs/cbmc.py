@@ -24,7 +24,7 @@ from .cbmc_answers import (
 )
 from .harness import Harness
 from .jobs import Finished, Runner
-from .project import closure
+from .project import closure, include_options
 from .wrong import WrongBody
 
 CHECKS = (
@@ -157,7 +157,7 @@ class Cbmc:
         folder = self._scratch / "cbmc" / name
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
-        include = ["-Iinclude"]
+        include = include_options(self._root)
         sources = list(harness.sources)
         if wrong:
             tree = self._write(wrong)
@@ -166,9 +166,8 @@ class Cbmc:
             sources = [changed if path == wrong.file else path for path in sources]
         objects: list[str] = []
         for number, source in enumerate([*sources, harness.path]):
-            shown = source.relative_to(self._root) if source.is_relative_to(self._root) else source
             objects.append(str(folder / f"{number}.gb"))
-            options = [*include, *harness.defines, "-c", str(shown), "-o", objects[-1]]
+            options = [*include, *harness.defines, "-c", self._place(source), "-o", objects[-1]]
             done = self._runner.run([*self._goto_cc, *options])
             if done.status != 0 or "warning" in done.output.lower():
                 return folder, f"goto-cc: {done.output.strip()}"
@@ -182,6 +181,10 @@ class Cbmc:
         if complaint or not harness.replaces:
             return binary, complaint
         return self._with_stand_ins(harness, binary)
+
+    def _place(self, source: Path) -> str:
+        inside = source.is_relative_to(self._root)
+        return str(source.relative_to(self._root) if inside else source)
 
     def _with_stand_ins(self, harness: Harness, binary: Path) -> tuple[Path, str]:
         """The binary with calls of stand-ins in the place of those of the replaced functions."""

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from . import csource, frames
 from .declarations import Signature, Structures, closing, macros, read, split
-from .project import Unit, closure
+from .project import Unit, closure, include_folders
 from .unused import DEFINITION
 
 CLAUSE = re.compile(r"\b(requires|assumes|assigns|ensures|behavior|complete|disjoint)\b")
@@ -217,5 +217,5 @@ def _names(text: str, way: Path_) -> bool:
 
 
 def header_texts(root: Path) -> list[str]:
-    """All headers of Keel."""
-    return read(sorted((root / "include").glob("keel/**/*.h")))
+    """All headers of the project and of Keel."""
+    return read(path for folder in include_folders(root) for path in sorted(folder.rglob("*.h")))

@@ -135,8 +135,11 @@ def _parts(name: str, value: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 def shown(value: Mapping[str, Any]) -> str:
     """A value as a person writes it."""
     data = str(value["data"])
+    bits = int(value.get("binary", "0"), 2)
     if data.startswith("'") and "binary" in value:
-        return str(int(value["binary"], 2))  # a byte that is no character
+        return str(bits)  # a byte that is no character
+    if value.get("name") == "boolean" and bits > 1:
+        return f"{data} (its bits are {bits:#x}, neither false nor true)"
     data = re.sub(r"/\*enum\*/|!\d+(?:@\d+)?", "", data)
     return SUFFIX.sub("", NULL.sub("NULL", data))
 

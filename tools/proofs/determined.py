@@ -55,7 +55,7 @@ def public_functions(unit: Unit, exceptions: Exceptions) -> dict[str, Signature]
     return {
         name: signature
         for name, signature in found.items()
-        if name.startswith("keel_") and name not in exceptions.no_body
+        if name.startswith(unit.prefix) and name not in exceptions.no_body
     }
 
 
@@ -95,7 +95,7 @@ def _by_equality(
     if declared is None:
         return Outcome(unit.name, name, OPEN)
     outcome = Outcome(unit.name, name, UNDETERMINED)
-    model = "model_" + name.removeprefix("keel_")
+    model = "model_" + name.removeprefix(unit.prefix)
     where = model_of(unit).relative_to(unit.root)
     if model not in declared:
         outcome.problems.append(f"{name}: {where} declares no {model}")
@@ -113,7 +113,7 @@ def _readings(
     unit: Unit, name: str, signature: Signature, known: Structures
 ) -> list[Reading]:  # fmt: skip
     """What the harnesses show that call the model."""
-    reader = Reader(name, signature, known)
+    reader = Reader(name, "model_" + name.removeprefix(unit.prefix), signature, known)
     own = [
         path
         for path in unit.harnesses

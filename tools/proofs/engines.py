@@ -12,7 +12,7 @@ from .cache import digest
 from .driver import Job
 from .goals import read_goals
 from .harness import Harness, read_harness
-from .project import ProjectError, Unit, closure
+from .project import KEEL, ProjectError, Unit, closure, shown
 from .settings import Exceptions
 from .wrong import WrongBody, read_wrong_body
 
@@ -25,8 +25,7 @@ def wp_jobs(
     jobs = []
     for unit in units:
         allowed = list(exceptions[unit.name].warnings)
-        shown = str(unit.goal_list.relative_to(root))
-        recorded = read_goals(unit.goal_list, shown).provers
+        recorded = read_goals(unit.goal_list, shown(unit.goal_list, root)).provers
         for whole in targets.targets(unit):
             target = frames.restricted(whole, exceptions[unit.name])
 
@@ -39,7 +38,7 @@ def wp_jobs(
 
 def placeless(options: Iterable[str], root: Path) -> list[str]:
     """Options without the place of the clone: the text of its files is in the key elsewhere."""
-    return [text.replace(f"{root}/", "") for text in options]
+    return [text.replace(f"{root}/", "").replace(f"{KEEL}/", "keel:") for text in options]
 
 
 def _prove(
@@ -85,7 +84,7 @@ def survey_jobs(
 
         def key(file: Path = file) -> str:
             files = closure(root, [file])
-            text = {str(path.relative_to(root)): path.read_text("utf-8") for path in files}
+            text = {shown(path, root): path.read_text("utf-8") for path in files}
             return digest({"survey": text, "stamp": dict(stamp), "known": sorted(known)})
 
         jobs.append(Job(unit.name, "wp", "survey", key, execute))
@@ -119,17 +118,17 @@ def cbmc_key(
     So do a wrong body's replacements, by what they make of the file as it is now.
     """
     texts = {
-        str(path.relative_to(root)): csource.essence(path.read_text(encoding="utf-8"))
+        shown(path, root): csource.essence(path.read_text(encoding="utf-8"))
         for path in cbmc.dependencies(harness, root)
     }
     expected: tuple[object, ...] = ()
     if wrong:
-        place = str(wrong.file.relative_to(root))
+        place = shown(wrong.file, root)
         if place not in texts:
             raise ProjectError(f"{wrong.shown}: {wrong.harness} does not depend on {place}")
         texts[place] = csource.essence(wrong.text())
         expected = (wrong.name, wrong.expect, place, wrong.defines)
-    sources = [str(path.relative_to(root)) for path in harness.sources]
+    sources = [shown(path, root) for path in harness.sources]
     directives = [harness.name, harness.options, sources, harness.covers, harness.defines,
                   harness.replaces, harness.assertions_only]
     return digest(
@@ -144,7 +143,7 @@ def gappa_jobs(
     """A job for each file of bounds, and for each wrong one, of the units."""
 
     def key(path: Path) -> str:
-        texts = {str(file.relative_to(root)): file.read_text(encoding="utf-8")
+        texts = {shown(file, root): file.read_text(encoding="utf-8")
                  for file in prover.dependencies(path)}  # fmt: skip
         return digest({"kind": "gappa", "stamp": dict(stamp), "texts": texts})
 

@@ -58,9 +58,11 @@ class Reading:
 class Reader:
     """Reads the harnesses of one function, which has one model."""
 
-    def __init__(self, function: str, signature: Signature, structures: Structures) -> None:
+    def __init__(
+        self, function: str, model: str, signature: Signature, structures: Structures
+    ) -> None:  # fmt: skip
         self._function = function
-        self._model = "model_" + function.removeprefix("keel_")
+        self._model = model
         self._signature = signature
         self._structures = structures
 

@@ -7,13 +7,14 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from common.files import write_text
 from common.junit import JUnitSuite, write_junit
 from common.sarif import SarifResult, split_place, write_sarif
 
 from .driver import Outcome
 from .report import Gathered, UnitResult
 
-JUNIT, SARIF = "junit.xml", "results.sarif"
+JUNIT, SARIF, SUMMARY = "junit.xml", "results.sarif", "summary.md"
 KIND = re.compile(
     r"_(loop_(?:invariant|variant|assigns)|assert_rte|assert|ensures|requires|assigns|terminates)"
 )
@@ -91,9 +92,22 @@ def results(every: Iterable[Check]) -> list[SarifResult]:
             for check in every if check.failure]  # fmt: skip
 
 
+def summary(gathered: Gathered) -> str:
+    """A short table, for the page of a CI run; below it what failed."""
+    lines = ["| unit | WP | CBMC | Gappa | wrong bodies refuted |", "|---|---|---|---|---|"]
+    for name, unit in gathered.units.items():
+        refuted = [*unit.negative.values(), *unit.wrong_bounds.values()]
+        cells = [(unit.wp_proved, unit.wp_total), (unit.cbmc_proved, unit.cbmc_total),
+                 (unit.gappa_proved, unit.gappa_total), (sum(refuted), len(refuted))]  # fmt: skip
+        numbers = [f"{good} of {total}" if total else "" for good, total in cells]
+        lines.append(f"| {name} | {' | '.join(numbers)} |")
+    lines += ["", f"Proved {gathered.proved} of {gathered.total} goals.", ""]
+    return "\n".join([*lines, *(f"- {' '.join(text.split())}" for text in gathered.all_problems)])
+
+
 def clear(folder: Path) -> None:
     """Remove what an earlier run left: a run that breaks off leaves nothing."""
-    for name in (JUNIT, SARIF):
+    for name in (JUNIT, SARIF, SUMMARY):
         (folder / name).unlink(missing_ok=True)
 
 
@@ -102,3 +116,4 @@ def write(folder: Path, gathered: Gathered) -> None:
     every = checks(gathered)
     write_junit(folder / JUNIT, "Keel proofs", suites(every))
     write_sarif(folder / SARIF, "Keel proofs", results(every))
+    write_text(folder / SUMMARY, summary(gathered) + "\n")

@@ -32,7 +32,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import csource
-from .project import ProjectError, Unit, closure
+from .project import ProjectError, Unit, closure, find_file
 
 HARNESS_KEYS = frozenset("cbmc sources covers defines timeout entry replaces checks".split())
 # What is meant as a directive, but is none of a harness.
@@ -139,7 +139,9 @@ def read_harness(unit: Unit, path: Path) -> Harness:
     checks = given.get("checks", [])
     if checks not in ([], ["assertions"]):
         raise ProjectError(f"{path}: `checks` takes `assertions`, or is left out for all of them")
-    sources = tuple(unit.root / name for line in given.get("sources", []) for name in line.split())
+    sources = tuple(
+        find_file(unit.root, name) for line in given.get("sources", []) for name in line.split()
+    )
     if not sources and unit.source.is_file():
         sources = (unit.source,)
     for source in sources:

@@ -1,7 +1,12 @@
-"""The units of Keel and the files that belong to each, found by their names."""
+"""The units of a project and the files that belong to each, found by their names.
+
+The project is Keel, or one that uses Keel and is laid out alike: `include/LAYER/NAME.h`,
+`src/LAYER/NAME.c`, `proofs/NAME/`. Headers and sources of Keel are then found in Keel.
+"""
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -10,7 +15,7 @@ from common.errors import ToolError
 
 from . import csource
 
-ROOT = Path(__file__).resolve().parents[2]
+KEEL = Path(__file__).resolve().parents[2]
 STATE = "_state.h"
 # How long each job took where it was recorded, in seconds.
 RECORDED_TIMES = "proofs/times.json"
@@ -22,7 +27,7 @@ class ProjectError(ToolError):
 
 @dataclass(frozen=True)
 class Unit:
-    """One unit: `include/keel/LAYER/NAME.h`, `src/LAYER/NAME.c`, `proofs/NAME/`.
+    """One unit: `include/PACKAGE/LAYER/NAME.h`, `src/LAYER/NAME.c`, `proofs/NAME/`.
 
     A unit's state and the logic about it may stand in a header of their own, `NAME_state.h`.
     """
@@ -30,11 +35,17 @@ class Unit:
     root: Path
     layer: str
     name: str
+    package: str = "keel"
+
+    @property
+    def prefix(self) -> str:
+        """What the names of public functions start with, and those of their models do not."""
+        return f"{self.package}_" if self.package else ""
 
     @property
     def header(self) -> Path:
         """Contract of the unit."""
-        return self.root / "include" / "keel" / self.layer / f"{self.name}.h"
+        return self.root / "include" / self.package / self.layer / f"{self.name}.h"
 
     @property
     def state(self) -> Path:
@@ -92,13 +103,14 @@ class Unit:
         return [path for path in (self.state, self.header, self.source) if path.is_file()]
 
 
-def find_units(root: Path = ROOT) -> dict[str, Unit]:
+def find_units(root: Path = KEEL) -> dict[str, Unit]:
     """All units by name, in the order of layers and names."""
+    package = "keel" if (root / "include" / "keel").is_dir() else ""
     units: dict[str, Unit] = {}
-    for header in sorted((root / "include" / "keel").glob("*/*.h")):
+    for header in sorted((root / "include" / package).glob("*/*.h")):
         if header.name.endswith(STATE):
             continue
-        unit = Unit(root, header.parent.name, header.stem)
+        unit = Unit(root, header.parent.name, header.stem, package)
         if unit.name in units:
             raise ProjectError(
                 f"two units are called {unit.name}: {units[unit.name].header}, {header}"
@@ -107,12 +119,38 @@ def find_units(root: Path = ROOT) -> dict[str, Unit]:
     return units
 
 
+def include_folders(root: Path) -> list[Path]:
+    """Where headers are looked for; a project that has none of Keel's takes them from Keel."""
+    own = root / "include"
+    return [own] if (own / "keel").is_dir() else [own, KEEL / "include"]
+
+
+def include_options(root: Path) -> list[str]:
+    """The same for a compiler that runs in the project's folder."""
+    return [f"-I{os.path.relpath(path, root) if path.is_relative_to(root) else path}"
+            for path in include_folders(root)]  # fmt: skip
+
+
+def shown(path: Path, root: Path) -> str:
+    """A file as messages and keys name it, wherever project and Keel are."""
+    for folder, start in ((root, ""), (KEEL, "keel:")):
+        if path.is_relative_to(folder):
+            return f"{start}{path.relative_to(folder)}"
+    return str(path)
+
+
+def find_file(root: Path, name: str) -> Path:
+    """A file of the project, or else of Keel."""
+    own = root / name
+    return own if own.exists() or not (KEEL / name).is_file() else KEEL / name
+
+
 def resolve(root: Path, including: Path, name: str) -> Path:
     """The project's file behind an #include with quotation marks."""
-    for folder in (including.parent, root / "include"):
+    for folder in (including.parent, *include_folders(root)):
         if (folder / name).is_file():
             return (folder / name).resolve()
-    raise ProjectError(f"{including.relative_to(root)} includes {name}, which is not there")
+    raise ProjectError(f"{shown(including, root)} includes {name}, which is not there")
 
 
 def closure(root: Path, files: list[Path]) -> list[Path]:

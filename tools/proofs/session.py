@@ -254,7 +254,7 @@ class Session:
         prover = self._prover(runner, scratch)
         known = frozenset(
             function.name
-            for unit in everything.values()
+            for unit in (*everything.values(), *find_units().values())
             for path in (*unit.own_files, *unit.theorems)
             for function in csource.proved(path.read_text(encoding="utf-8"))
         )
@@ -269,7 +269,7 @@ class Session:
         """What must hold besides that the proofs succeed."""
         root = self._root
         own = [path for unit in self._choice.units for path in (*unit.own_files, *unit.theorems)]
-        shared = [*(root / "include" / "keel").glob("*.h"), *(root / "specs").glob("**/*.[ch]")]
+        shared = [*(root / "include").glob("keel/*.h"), *(root / "specs").glob("**/*.[ch]")]
         gathered.problems += rules.assumptions_in([*own, *sorted(shared)], root)
         gathered.problems += unused.problems(root)
         known = structures(clauses.header_texts(root))

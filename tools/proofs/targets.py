@@ -10,7 +10,7 @@ from typing import Any
 from common.files import write_text
 
 from . import csource, frames
-from .project import Unit, closure
+from .project import Unit, closure, shown
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def translation_unit(unit: Unit) -> Path:
     if unit.source.is_file():
         return unit.source
     path = unit.root / "build" / "prove" / "inline" / f"{unit.name}.c"
-    write_text(path, f'#include "keel/{unit.layer}/{unit.name}.h"\n')
+    write_text(path, f'#include "{unit.header.relative_to(unit.root / "include")}"\n')
     return path
 
 
@@ -97,6 +97,6 @@ def dependencies(target: Target, root: Path) -> dict[str, str]:
     """The text that a target's verdict depends on, file by file."""
     keep = frozenset([target.function] if target.function else [])
     return {
-        str(path.relative_to(root)): csource.without_other_bodies(path.read_text(), keep)
+        shown(path, root): csource.without_other_bodies(path.read_text(), keep)
         for path in closure(root, [target.file, *target.unit.own_files])
     }

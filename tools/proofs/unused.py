@@ -18,7 +18,7 @@ DEFINITION = re.compile(
 )
 MACRO = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
 WORD = re.compile(r"\b[A-Za-z_]\w*")
-PROVED = ("include/keel/**/*.h", "src/**/*.c", "proofs/**/*.[ch]")
+PROVED = ("include/**/*.h", "src/**/*.c", "proofs/**/*.[ch]")
 OTHERS = ("bsp/**/*.[chS]", "examples/**/*.[ch]", "tests/**/*.[ch]", "tests/**/*.[ch]pp")
 
 

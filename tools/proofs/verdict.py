@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from . import csource, goals, wplog
+from .project import shown
 from .targets import Result, Target
 
 VARIANT = re.compile(r"(.*_loop_variant(?:_\d+)?_decrease)(?:_part\d+)?$")
@@ -131,15 +132,14 @@ def place_of(target: Target, goal: str, root: Path) -> str:
     fallback = ""
     for path in files:
         text = path.read_text(encoding="utf-8")
-        shown = path.relative_to(root) if path.is_relative_to(root) else path
         for first, last, line in _regions(text, target.function):
-            fallback = f"{shown}:{line}"
+            fallback = f"{shown(path, root)}:{line}"
             for number, clause in enumerate(text.splitlines()[first:last], first + 1):
                 label = CLAUSE.search(clause)
                 if label and re.search(
                     rf"{label[1]}\w*_{label[2]}(_\d+)?(_established|_preserved)?$", goal
                 ):
-                    return f"{shown}:{number}"
+                    return f"{shown(path, root)}:{number}"
     return fallback or "no place known"
 
 

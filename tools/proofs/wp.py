@@ -19,6 +19,7 @@ from pathlib import Path
 from . import wplog
 from .goals import QED
 from .jobs import Runner
+from .project import include_options
 from .targets import Result, Target
 from .verdict import judge, loop_problems, message_problems
 
@@ -86,7 +87,7 @@ class Wp:
 
     def options(self) -> list[str]:
         """Everything on the command line that is the same for all targets."""
-        return [*self._frama_c, *CHECKS, "-cpp-extra-args=-Iinclude"]
+        return [*self._frama_c, *CHECKS, f"-cpp-extra-args={' '.join(include_options(self._root))}"]
 
     def _own_options(self, name: str) -> list[str]:
         """The options for one process, with a machdep of its own."""

@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""Tests of keel.mk and examples/own_unit, as a new user tries them: in a folder of their own.
+
+    python3 tests/tools/test_own_unit.py
+
+The provers are the real ones; what they prove of the example is kept in the user's cache.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+class OwnUnit(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.project = Path(folder.name).resolve() / "own"
+        ignored = shutil.ignore_patterns("build")
+        shutil.copytree(ROOT / "examples/own_unit", self.project, ignore=ignored)
+        self.source = self.project / "src/battery/monitor.c"
+
+    def make(self, *words: str) -> tuple[int, str]:
+        """Run make in the project, with Keel's rules."""
+        command = ["make", "-f", str(ROOT / "keel.mk"), *words]
+        ended = subprocess.run(command, cwd=self.project, stdout=subprocess.PIPE, check=False,
+                               stderr=subprocess.STDOUT, text=True, timeout=900)  # fmt: skip
+        return ended.returncode, ended.stdout
+
+    def slip(self, old: str, new: str) -> None:
+        """An engineer's mistake."""
+        text = self.source.read_text(encoding="utf-8")
+        self.assertEqual(text.count(old), 1)
+        self.source.write_text(text.replace(old, new), encoding="utf-8")
+
+    def test_the_example_is_proved_where_it_was_copied_to(self) -> None:
+        status, output = self.make("prove")
+        self.assertEqual(status, 0, output)
+        self.assertIn("determined: 2 of 2 functions", output)
+        report = json.loads((self.project / "build/prove/report.json").read_text("utf-8"))
+        self.assertEqual(report["verdict"], "proved")
+        self.assertEqual(list(report["units"]), ["monitor"])
+
+    def test_its_own_makefile_does_the_same(self) -> None:
+        command = ["make", "-n", "prove", f"KEEL={ROOT}"]
+        output = subprocess.check_output(command, cwd=self.project, text=True)
+        self.assertIn(f"{ROOT}/tools/prove.py --project", output)
+
+    def test_its_unit_tests_pass_and_notice_a_mistake(self) -> None:
+        status, output = self.make("test")
+        self.assertEqual((status, output.splitlines()[-1]), (0, "4 of 4 tests passed"), output)
+        self.slip("monitor->alarm = true;", "monitor->alarm = false;")
+        status, output = self.make("test")
+        self.assertNotEqual(status, 0)
+        self.assertRegex(output, r"FAILED BAT_002_\w+: tests/unit/test_monitor.c:\d+")
+
+    def test_a_mistake_fails_the_proof_and_is_explained(self) -> None:
+        self.slip("low < BATTERY_MONITOR_SAMPLES", "low <= BATTERY_MONITOR_SAMPLES")
+        status, output = self.make("prove", "UNIT=monitor", "ARGS=--engine cbmc")
+        self.assertNotEqual(status, 0)
+        self.assertIn("BAT_002_model: as the model says: FAILURE", output)
+        command = "make prove UNIT=monitor ARGS='--explain battery_monitor_step_harness'"
+        self.assertIn(f"to see why: {command}", output)
+        status, output = self.make("prove", "UNIT=monitor", "ARGS=--explain BAT_002_model")
+        self.assertNotEqual(status, 0)
+        self.assertIn("monitor.low = 6 (before: 5)", output)
+        self.assertIn("before: 5", output)
+
+    def test_a_folder_that_is_no_project_is_refused_in_one_line(self) -> None:
+        shutil.rmtree(self.project / "include")
+        output = self.make("prove")[1]
+        self.assertIn(f"prove: {self.project}: there is no unit, include/LAYER/NAME.h", output)
+
+
+if __name__ == "__main__":
+    unittest.main()
