@@ -44,7 +44,7 @@ static bool agrees_with_eq16()
     for (int i = 0; i < 200000; i++) {
         const float a = uniform(0.001f, 100.0f);
         const float disagree = a * uniform(1.01f, 20.0f);
-        const float d = uniform(0.0f, 1.2f * none);
+        const float d = uniform(0.0f, 1.2f * disagree);
         const Real exact = eq16(d, a, static_cast<Real>(disagree) / a);
         const float s = keel_voter_agreement(0.0f, d, a, disagree);
 
