@@ -71,6 +71,23 @@ static bool keel_voter_mean_does(float mean, float least, float most)
     return (least <= mean) && (mean <= most);
 }
 
+static bool keel_voter_plain_mean_may(const keel_voter_sample_t sample[], uint32_t sensors,
+                                      float least, float most)
+{
+    bool may = (2u <= sensors) && (sensors <= SENSORS) && (-KEEL_VOTER_RANGE <= least) &&
+               (least <= most) && (most <= KEEL_VOTER_RANGE);
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        may = may && ((i >= sensors) || ((least <= sample[i].value) && (sample[i].value <= most)));
+    }
+    return may;
+}
+
+static bool keel_voter_plain_mean_does(float mean, float least, float most)
+{
+    return (least <= mean) && (mean <= most);
+}
+
 static bool keel_voter_within_may(float least, float most, float agree)
 {
     return (-KEEL_VOTER_RANGE <= least) && (least <= most) && (most <= KEEL_VOTER_RANGE) &&

@@ -1,33 +1,35 @@
 // cbmc: --unwind 5 --external-sat-solver cadical
-// sources: src/middleware/voter.c
-// replaces: keel_voter_mean keel_voter_within
+// sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
+// replaces: keel_voter_plain_mean keel_voter_within
 // defines: -DKEEL_VOTER_SENSORS=2u
-// covers: keel_voter_step_unanimous is_at_rest
+// covers: keel_voter_step_unanimous is_at_rest model_voter_step_unanimous
 //
 // Two sensors: what keel_voter_step_unanimous_harness.c proves for two to four, once more for
 // these, in a few seconds. Most faults show here.
-#include "voter_unanimous.h"
+#include "voter_parts.h"
 
 void keel_voter_step_unanimous__a_pair_harness(void)
 {
-    const float agree = nondet_float();
-    const float disagree = nondet_float();
     const uint32_t oldest_us = nondet_u32();
     keel_voter_t voter;
-    keel_voter_t before;
+    keel_voter_t model;
     keel_voter_sample_t sample[SENSORS];
-    keel_voter_sample_t copy[SENSORS];
-    facts_t facts;
+    keel_voter_sample_t before[SENSORS];
+    bool expected;
     bool taken;
 
-    any_voter(&voter, agree, disagree);
-    any_samples(sample, copy);
-    __CPROVER_assume(voter_valid_here(&voter));
-    before = voter;
-    facts = facts_of(&before, sample);
+    any_voter(&voter, nondet_float(), nondet_float());
+    any_samples(sample, before);
+    __CPROVER_assume(keel_voter_step_unanimous_may(&voter, sample, oldest_us));
+    model = voter;
+    expected = model_voter_step_unanimous(&model, before, oldest_us);
 
     taken = keel_voter_step_unanimous(&voter, sample, oldest_us);
 
-    check_attempt(taken, &voter, &before, &facts, sample, oldest_us);
-    __CPROVER_assert(samples_same(sample, copy), "VOT_018_read: the samples are only read");
+    __CPROVER_assert(taken == expected, "VOT_018_taken: as the model says");
+    __CPROVER_assert(voter_same(&voter, &model),
+                     "VOT_018_model: as the model says, in every field");
+    __CPROVER_assert(samples_same(sample, before), "VOT_018_read: the samples are only read");
+    __CPROVER_assert(keel_voter_step_unanimous_does(&voter),
+                     "VOT_018_valid: the channel stays valid");
 }

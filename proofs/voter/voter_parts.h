@@ -21,6 +21,17 @@ float model_voter_weight(const float agreement[], uint32_t others)
     return keel_voter_weight_stand_in(agreement, others);
 }
 
+float model_voter_plain_mean(const keel_voter_sample_t sample[], uint32_t sensors, float least,
+                             float most)
+{
+    return keel_voter_plain_mean_stand_in(sample, sensors, least, most);
+}
+
+bool model_voter_within(float least, float most, float agree)
+{
+    return keel_voter_within_stand_in(least, most, agree);
+}
+
 float model_voter_combine(const keel_voter_sample_t sample[], const float weight[],
                           uint32_t sensors)
 {

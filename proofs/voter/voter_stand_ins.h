@@ -15,6 +15,8 @@
 float __CPROVER_uninterpreted_agreement(float x, float y, float agree, float disagree);
 float __CPROVER_uninterpreted_weight(float a, float b, float c, uint32_t others);
 float __CPROVER_uninterpreted_mean(float sum, float weights, float least, float most);
+float __CPROVER_uninterpreted_plain_mean(float x0, float x1, float x2, float x3, uint32_t sensors,
+                                         float least, float most);
 uint32_t __CPROVER_uninterpreted_within(float least, float most, float agree);
 float __CPROVER_uninterpreted_combine(float x0, float x1, float x2, float x3, float w0, float w1,
                                       float w2, float w3, uint32_t sensors);
@@ -62,20 +64,10 @@ float keel_voter_mean_stand_in(float sum, float weights, float least, float most
     return mean;
 }
 
-/* What was asked of whom, and the answer: two circuits that subtract are hard to find equal. */
-static float stand_in_least;
-static float stand_in_most;
-static float stand_in_agree;
-static bool stand_in_within;
-
 bool keel_voter_within_stand_in(float least, float most, float agree)
 {
     const bool within = __CPROVER_uninterpreted_within(least, most, agree) != 0u;
 
-    stand_in_least = least;
-    stand_in_most = most;
-    stand_in_agree = agree;
-    stand_in_within = within;
     __CPROVER_assert(keel_voter_within_may(least, most, agree), "precondition: keel_voter_within");
     __CPROVER_assume(keel_voter_within_does(within, least, most));
     return within;
@@ -85,6 +77,21 @@ bool keel_voter_within_stand_in(float least, float most, float agree)
 static float value_of(const keel_voter_sample_t sample[], uint32_t i, uint32_t sensors)
 {
     return ((i < SENSORS) && (i < sensors)) ? sample[i].value : 0.0f;
+}
+
+float keel_voter_plain_mean_stand_in(const keel_voter_sample_t sample[], uint32_t sensors,
+                                     float least, float most)
+{
+    const float mean = __CPROVER_uninterpreted_plain_mean(value_of(sample, 0u, sensors),
+                                                          value_of(sample, 1u, sensors),
+                                                          value_of(sample, 2u, sensors),
+                                                          value_of(sample, 3u, sensors), sensors,
+                                                          least, most);
+
+    __CPROVER_assert(keel_voter_plain_mean_may(sample, sensors, least, most),
+                     "precondition: keel_voter_plain_mean");
+    __CPROVER_assume(keel_voter_plain_mean_does(mean, least, most));
+    return mean;
 }
 
 float keel_voter_combine_stand_in(const keel_voter_sample_t sample[], const float weight[],

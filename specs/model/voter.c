@@ -297,6 +297,42 @@ void model_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], u
     voter->unanimous = is_unanimous(voter);
 }
 
+/* VOT-018: the vote is taken when the last was unanimous, none of the samples is late, all are
+ * plausible and within a of each other, and all or none have changed. If none has, the last output
+ * was their mean already. */
+bool model_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sample[],
+                                uint32_t oldest_us)
+{
+    const uint32_t sensors = voter->config.sensors;
+    uint32_t plausible = 0u;
+    uint32_t changed = 0u;
+    float least = KEEL_VOTER_RANGE;
+    float most = -KEEL_VOTER_RANGE;
+    bool taken;
+
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        if ((i < sensors) &&
+            model_range_contains(sample[i].value, voter->config.lowest, voter->config.highest)) {
+            plausible++;
+            changed += (sample[i].value != voter->sensor[i].last) ? 1u : 0u;
+            least = (sample[i].value < least) ? sample[i].value : least;
+            most = (sample[i].value > most) ? sample[i].value : most;
+        }
+    }
+    taken = voter->unanimous && (oldest_us <= voter->config.max_age_us) && (plausible == sensors) &&
+            ((changed == 0u) || (changed == sensors)) &&
+            model_voter_within(least, most, voter->config.agree);
+    if (taken && (changed > 0u)) {
+        for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+            if (i < sensors) {
+                voter->sensor[i].last = sample[i].value;
+            }
+        }
+        voter->vote.output = model_voter_plain_mean(sample, sensors, least, most);
+    }
+    return taken;
+}
+
 /* VOT-014 */
 keel_status_t model_voter_readmit(keel_voter_t *voter, uint32_t sensor)
 {

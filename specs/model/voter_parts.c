@@ -35,6 +35,20 @@ float model_voter_mean(float sum, float weights, float least, float most)
     return model_range_clamp(sum / weights, least, most);
 }
 
+/* Eq. 18, of samples that all have the weight 1: VOT-018 */
+float model_voter_plain_mean(const keel_voter_sample_t sample[], uint32_t sensors, float least,
+                             float most)
+{
+    float sum = 0.0f;
+
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        if (i < sensors) {
+            sum = sum + sample[i].value;
+        }
+    }
+    return model_voter_mean(sum, (float)sensors, least, most);
+}
+
 /* VOT-018 */
 bool model_voter_within(float least, float most, float agree)
 {

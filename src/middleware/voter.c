@@ -104,6 +104,21 @@ float keel_voter_mean(float sum, float weights, float least, float most)
     return keel_range_clamp(sum / weights, least, most);
 }
 
+float keel_voter_plain_mean(const keel_voter_sample_t sample[], uint32_t sensors, float least,
+                            float most)
+{
+    float sum = 0.0f; /* As in eq. 18: a sum that starts with -0 could be -0. */
+
+    /*@ loop invariant 0 <= i <= sensors;
+      @ loop assigns i, sum;
+      @ loop variant sensors - i;
+      @*/
+    for (uint32_t i = 0u; i < sensors; i++) {
+        sum += sample[i].value;
+    }
+    return keel_voter_mean(sum, (float)sensors, least, most);
+}
+
 bool keel_voter_within(float least, float most, float agree)
 {
     return (most - least) <= agree;
@@ -452,7 +467,7 @@ static bool is_at_rest(const keel_voter_t *voter, const keel_voter_sample_t samp
             return false;
         }
         least = (least > value) ? value : least;
-        most = (most > value) ? most : value;
+        most = (value > most) ? value : most;
     }
     return keel_voter_within(least, most, voter->config.agree);
 }
@@ -465,7 +480,6 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
     const float first = sample[0].value;
     float least = first;
     float most = first;
-    float sum = first;
 
     if (!voter->unanimous || (oldest_us > voter->config.max_age_us)) {
         return false;
@@ -487,21 +501,19 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
             return false; /* NaN, too, is not at least the lowest. */
         }
         least = (least > value) ? value : least;
-        most = (most > value) ? most : value;
+        most = (value > most) ? value : most;
     }
     if ((most > voter->config.highest) || !keel_voter_within(least, most, voter->config.agree)) {
         return false;
     }
-    voter->sensor[0].last = first;
-    /*@ loop invariant 1 <= i <= sensors;
-      @ loop assigns i, sum, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last;
+    /*@ loop invariant 0 <= i <= sensors;
+      @ loop assigns i, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last;
       @ loop variant sensors - i;
       @*/
-    for (uint32_t i = 1u; i < sensors; i++) {
-        sum += sample[i].value;
+    for (uint32_t i = 0u; i < sensors; i++) {
         voter->sensor[i].last = sample[i].value;
     }
-    voter->vote.output = keel_voter_mean(sum, (float)sensors, least, most);
+    voter->vote.output = keel_voter_plain_mean(sample, sensors, least, most);
     return true;
 }
 

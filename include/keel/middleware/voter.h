@@ -274,6 +274,28 @@ float keel_voter_weight(const float agreement[], uint32_t others);
 float keel_voter_mean(float sum, float weights, float least, float most);
 
 /**
+ * The mean of samples that all have the weight 1: what keel_voter_combine gives then (requirement
+ * VOT-018).
+ *
+ * @param sample  the samples
+ * @param sensors how many there are, 2 to KEEL_VOTER_SENSORS
+ * @param least   the smallest of them
+ * @param most    the largest
+ * @return the mean, from least to most
+ */
+/*@ requires 2 <= sensors <= KEEL_VOTER_SENSORS;
+  @ requires \valid_read(sample + (0 .. sensors - 1));
+  @ requires plain_ends: \is_finite(least) && \is_finite(most) &&
+  @     -KEEL_VOTER_RANGE <= least <= most <= KEEL_VOTER_RANGE;
+  @ requires plain_samples: \forall integer i; 0 <= i < sensors ==>
+  @     \is_finite(sample[i].value) && least <= sample[i].value <= most;
+  @ assigns \nothing;
+  @ ensures VOT_018_mean: \is_finite(\result) && least <= \result <= most;
+  @*/
+float keel_voter_plain_mean(const keel_voter_sample_t sample[], uint32_t sensors, float least,
+                            float most);
+
+/**
  * Whether samples lie within a of each other (requirement VOT-018). It is enough to look at the
  * smallest and the largest: no pair's distance, rounded, exceeds theirs.
  *

@@ -1,0 +1,303 @@
+/* Voter, filter and PID beside their executable specification (specs/model): random and adversarial
+ * calls on both, of which result and every bit of the object must be the same after each. */
+#include "keel/flight/filter.h"
+#include "keel/flight/pid.h"
+#include "keel/middleware/voter.h"
+#include "unity.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* The models are part of this test: the kernel that it is linked with has none. */
+#include "../../specs/model/filter.c"
+#include "../../specs/model/pid.c"
+#include "../../specs/model/range.c"
+#include "../../specs/model/voter.c"
+#include "../../specs/model/voter_parts.c"
+
+#define STEPS       1000000u
+#define SMALLEST    0x1p-149f /* Above 0, and not normal. */
+#define SETUP_EVERY 256u
+
+static uint64_t random_state;
+
+void setUp(void)
+{
+    random_state = 20240607u;
+}
+
+void tearDown(void)
+{
+}
+
+/* SplitMix64. */
+static uint32_t any(void)
+{
+    uint64_t z;
+
+    random_state += 0x9E3779B97F4A7C15u;
+    z = random_state;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return (uint32_t)((z ^ (z >> 31)) >> 16);
+}
+
+static uint32_t below(uint32_t limit)
+{
+    return any() % limit;
+}
+
+static bool one_in(uint32_t chances)
+{
+    return below(chances) == 0u;
+}
+
+static float between(float low, float high)
+{
+    return low + ((high - low) * ((float)(any() & 0xFFFFFFu) / 16777216.0f));
+}
+
+static float any_bits(void)
+{
+    const uint32_t bits = any();
+    float value;
+
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* What breaks arithmetic that did not expect it. */
+static float awkward(void)
+{
+    const float values[] = {NAN,      INFINITY, -INFINITY, 0.0f,       -0.0f,      SMALLEST,
+                            -FLT_MIN, FLT_MAX,  -FLT_MAX,  -SMALLEST,  1.0e6f,     -1.0e6f,
+                            1.0e9f,   5.0e5f,   -5.0e5f,   any_bits(), any_bits(), 1.0f};
+
+    return values[below(sizeof values / sizeof values[0])];
+}
+
+static float usually(float value)
+{
+    return one_in(64u) ? awkward() : value;
+}
+
+static keel_voter_t voter;
+static keel_voter_t voter_model;
+static bool voter_made;
+
+static void set_up_voter(void)
+{
+    const float limit = one_in(4u) ? 4.0f : 1000.0f;
+    const keel_voter_config_t config = {.agree = usually(between(0.001f, 4.0f)),
+                                        .cutoff = usually(between(1.01f, 6.0f)),
+                                        .lowest = usually(-limit),
+                                        .highest = usually(one_in(8u) ? 0.0f : limit),
+                                        .initial = usually(0.0f),
+                                        .max_age_us = one_in(64u) ? 0u : 100u,
+                                        .latch_count = (uint16_t)below(64u),
+                                        .stale_count = (uint16_t)below(16u),
+                                        .density_limit = (uint16_t)below(128u),
+                                        .sensors = (uint8_t)(one_in(64u) ? any() : 2u + below(3u))};
+    const keel_status_t expected = model_voter_init(&voter_model, &config);
+
+    TEST_ASSERT_EQUAL(model_voter_check(&config), keel_voter_check(&config));
+    TEST_ASSERT_EQUAL(expected, keel_voter_init(&voter, &config));
+    voter_made = voter_made || (expected == KEEL_OK);
+}
+
+/* A sample near the truth, the last one, its opposite (0 and -0), or one that is awkward. */
+static float any_value(float truth, const keel_voter_sensor_t *sensor, bool rests)
+{
+    const float value = truth + (between(-0.6f, 0.6f) * voter.config.agree);
+
+    if (one_in(64u)) {
+        return one_in(2u) ? awkward() : -sensor->last;
+    }
+    return (rests || one_in(16u)) ? sensor->last : value;
+}
+
+static bool any_samples(keel_voter_sample_t sample[KEEL_VOTER_SENSORS])
+{
+    const float truth = one_in(16u) ? 0.0f : between(-5.0f, 5.0f);
+    const bool rests = one_in(8u);
+    const bool zeros = one_in(32u);
+    bool complete = true;
+
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        sample[i].value = any_value(truth, &voter.sensor[i], rests);
+        sample[i].value = zeros ? (one_in(4u) ? 0.0f : -0.0f) : sample[i].value;
+        sample[i].age_us = one_in(64u) ? any() : below(101u);
+        sample[i].present = !one_in(128u);
+        complete = complete && sample[i].present;
+    }
+    return complete;
+}
+
+static uint32_t oldest_of(const keel_voter_sample_t sample[KEEL_VOTER_SENSORS])
+{
+    uint32_t oldest_us = 0u;
+
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        oldest_us = (sample[i].age_us > oldest_us) ? sample[i].age_us : oldest_us;
+    }
+    return oldest_us;
+}
+
+/* VOT-018: what is taken is what the whole vote leaves, too; at rest a zero may keep its sign. */
+static bool attempt(const keel_voter_sample_t sample[KEEL_VOTER_SENSORS])
+{
+    const uint32_t oldest_us = oldest_of(sample);
+    const bool expected = model_voter_step_unanimous(&voter_model, sample, oldest_us);
+    const bool rests = sample[0].value == voter.sensor[0].last;
+    keel_voter_t whole;
+
+    memcpy(&whole, &voter, sizeof whole);
+    TEST_ASSERT_EQUAL(expected, keel_voter_step_unanimous(&voter, sample, oldest_us));
+    if (expected) {
+        keel_voter_step(&whole, sample, 0u);
+        if (rests && (voter.vote.output == 0.0f) && (whole.vote.output == 0.0f)) {
+            whole.vote.output = voter.vote.output;
+        }
+        TEST_ASSERT_EQUAL_MEMORY(&whole, &voter, sizeof voter);
+    }
+    return expected;
+}
+
+static void VOT_018_every_vote_is_the_specified_one(void)
+{
+    uint32_t taken = 0u;
+    uint32_t readmitted = 0u;
+
+    memset(&voter, 0, sizeof voter);
+    memset(&voter_model, 0, sizeof voter_model);
+    for (uint32_t i = 0u; i < STEPS; i++) {
+        keel_voter_sample_t sample[KEEL_VOTER_SENSORS];
+        bool complete;
+
+        if ((i % SETUP_EVERY) == 0u) {
+            set_up_voter();
+        }
+        complete = any_samples(sample);
+        if (voter_made && complete && attempt(sample)) {
+            taken++;
+        } else if (voter_made) {
+            const uint32_t elapsed_us = any();
+
+            model_voter_step(&voter_model, sample, elapsed_us);
+            keel_voter_step(&voter, sample, elapsed_us);
+        }
+        if (voter_made && one_in(64u)) {
+            const uint32_t sensor = below(KEEL_VOTER_SENSORS + 1u);
+            const keel_status_t expected = model_voter_readmit(&voter_model, sensor);
+
+            TEST_ASSERT_EQUAL(expected, keel_voter_readmit(&voter, sensor));
+            readmitted += (expected == KEEL_OK) ? 1u : 0u;
+        }
+        TEST_ASSERT_EQUAL_MEMORY(&voter_model, &voter, sizeof voter);
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(STEPS / 20u, taken);
+    TEST_ASSERT_GREATER_THAN_UINT32(100u, readmitted);
+}
+
+static keel_filter_t filter;
+static keel_filter_t filter_model;
+
+static void FLT_009_every_step_is_the_specified_one(void)
+{
+    bool made = false;
+    uint32_t refused = 0u;
+
+    memset(&filter, 0, sizeof filter);
+    memset(&filter_model, 0, sizeof filter_model);
+    for (uint32_t i = 0u; i < STEPS; i++) {
+        const float input = usually(between(-1.0e6f, 1.0e6f));
+
+        if ((i % SETUP_EVERY) == 0u) {
+            const float rate_hz = usually(between(1.0f, 8000.0f));
+            const float cutoff_hz = usually(between(0.1f, 0.6f * rate_hz));
+            const keel_status_t expected = model_filter_init(&filter_model, rate_hz, cutoff_hz);
+
+            TEST_ASSERT_EQUAL(expected, keel_filter_init(&filter, rate_hz, cutoff_hz));
+            made = made || (expected == KEEL_OK);
+        }
+        if (made && one_in(128u)) {
+            TEST_ASSERT_EQUAL(model_filter_reset(&filter_model, input),
+                              keel_filter_reset(&filter, input));
+        } else if (made) {
+            const keel_status_t expected = model_filter_step(&filter_model, input);
+
+            TEST_ASSERT_EQUAL(expected, keel_filter_step(&filter, input));
+            refused += (expected != KEEL_OK) ? 1u : 0u;
+        }
+        TEST_ASSERT_EQUAL_MEMORY(&filter_model, &filter, sizeof filter);
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(1000u, refused);
+}
+
+static keel_pid_t pid;
+static keel_pid_t pid_model;
+
+static keel_pid_gains_t any_gains(void)
+{
+    return (keel_pid_gains_t){.kp = usually(between(0.0f, 10.0f)),
+                              .ki = usually(between(0.0f, 10.0f)),
+                              .kd = usually(between(0.0f, 1.0f)),
+                              .kff = usually(between(0.0f, 1.0f))};
+}
+
+static bool set_up_pid(void)
+{
+    const keel_pid_config_t config = {.gains = any_gains(),
+                                      .rate_hz = usually(between(100.0f, 8000.0f)),
+                                      .cutoff_hz = usually(between(1.0f, 60.0f)),
+                                      .output_min = usually(between(-900.0f, 0.0f)),
+                                      .output_max = usually(between(1.0f, 900.0f)),
+                                      .integral_min = usually(between(-90.0f, 0.0f)),
+                                      .integral_max = usually(between(0.0f, 90.0f))};
+    const keel_status_t expected = model_pid_init(&pid_model, &config);
+
+    TEST_ASSERT_EQUAL(expected, keel_pid_init(&pid, &config));
+    return expected == KEEL_OK;
+}
+
+static void PID_008_every_step_is_the_specified_one(void)
+{
+    bool made = false;
+    uint32_t saturated = 0u;
+
+    memset(&pid, 0, sizeof pid);
+    memset(&pid_model, 0, sizeof pid_model);
+    for (uint32_t i = 0u; i < STEPS; i++) {
+        if ((i % SETUP_EVERY) == 0u) {
+            made = set_up_pid() || made;
+        }
+        if (made && one_in(128u)) {
+            const keel_pid_gains_t gains = any_gains();
+
+            TEST_ASSERT_EQUAL(model_pid_set_gains(&pid_model, &gains),
+                              keel_pid_set_gains(&pid, &gains));
+        } else if (made && one_in(128u)) {
+            model_pid_reset(&pid_model);
+            keel_pid_reset(&pid);
+        } else if (made) {
+            const float setpoint = usually(between(-100.0f, 100.0f));
+            const float measurement = usually(between(-100.0f, 100.0f));
+
+            TEST_ASSERT_EQUAL(model_pid_step(&pid_model, setpoint, measurement),
+                              keel_pid_step(&pid, setpoint, measurement));
+        }
+        TEST_ASSERT_EQUAL_MEMORY(&pid_model, &pid, sizeof pid);
+        saturated += (pid.saturation != KEEL_PID_FREE) ? 1u : 0u;
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(1000u, saturated);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(VOT_018_every_vote_is_the_specified_one);
+    RUN_TEST(FLT_009_every_step_is_the_specified_one);
+    RUN_TEST(PID_008_every_step_is_the_specified_one);
+    return UNITY_END();
+}
