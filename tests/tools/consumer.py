@@ -104,7 +104,8 @@ class ConsumerTest(unittest.TestCase):
         paths = [str(Path(self.tools.command(name)[0]).parent) for name in commands]
         kept = {key: os.environ[key] for key in ("HOME", "PATH") if key in os.environ}
         kept["PATH"] = os.pathsep.join([*dict.fromkeys(paths), kept["PATH"]])
-        return {**kept, "CMAKE_GENERATOR": "Unix Makefiles", "LC_ALL": "C"}
+        steering = {"CMAKE_GENERATOR": "Unix Makefiles", "CMAKE_BUILD_PARALLEL_LEVEL": "2"}
+        return {**kept, **steering, "LC_ALL": "C"}
 
     def attempt(
         self, command: Sequence[str | Path], **variables: str

@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of what a newcomer copies: examples/minimal, and the README's files and commands.
+
+    python3 tests/tools/test_minimal.py
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from consumer import ROOT, ConsumerTest  # noqa: E402
+
+
+class ExampleTest(ConsumerTest):
+    """What a newcomer copies."""
+
+    def test_minimal(self) -> None:
+        """Periods of 1, 4 and 20 ms, until the slowest ran 50 times: 980 ms and a little more."""
+        self.good(["cmake", "-S", ROOT / "examples/minimal", "-B", "build"])
+        self.good(["cmake", "--build", "build"])
+        told = self.good([self.folder / "build/flight"])
+        runs = dict(re.findall(r"(\w+) (\d+)", told))
+        self.assertEqual(int(runs["telemetry"]), 50)
+        self.assertTrue(900 <= int(runs["gyro"]) <= 1000, told)
+        self.assertTrue(225 <= int(runs["control"]) <= 250, told)
+
+    def blocks(self) -> dict[str, str]:
+        """The fenced blocks of the README's section, by language."""
+        text = (ROOT / "README.md").read_text(encoding="utf-8")
+        section = re.search(r"^## Use it in your firmware\n(.*?)(?=^## |\Z)", text, re.M | re.S)
+        self.assertIsNotNone(section, "README.md has no such section")
+        assert section is not None
+        found = re.findall(r"^```(\w+)\n(.*?)^```$", section[1], re.M | re.S)
+        self.assertEqual(sorted(name for name, _ in found), ["c", "cmake", "sh"])
+        return dict(found)
+
+    def test_readme(self) -> None:
+        """The README's very files and commands, in an empty folder beside Keel."""
+        blocks = self.blocks()
+        (self.folder / "keel").symlink_to(ROOT)
+        (self.folder / "CMakeLists.txt").write_text(blocks["cmake"])
+        (self.folder / "main.c").write_text(blocks["c"])
+        told = self.good(["bash", "-euc", blocks["sh"]], CFLAGS="-Wall -Wextra -Werror")
+        self.assertRegex(told, r"telemetry (ran )?50")
+
+
+if __name__ == "__main__":
+    unittest.main()
