@@ -29,11 +29,11 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import px4
-from boards.board import board_names
+from boards.board import board_folder
 from boards.built import BuiltImage, read_built
 from common.arguments import Parser
 from common.config import Field, Mistake, Table, Text, read_toml
-from common.errors import ROOT, ToolError, program, unknown
+from common.errors import ROOT, ToolError, program
 from common.files import sha256_of, write_json
 from common.run import run
 from toolchain import Toolchain
@@ -82,10 +82,7 @@ def mistakes(file: FlashFile) -> Iterator[Mistake]:
 
 def read_board(root: Path, name: str) -> FlashFile:
     """What bsp/<board>/flash.toml says, checked."""
-    known = board_names(root, FLASH_FILE)
-    if name not in known:
-        raise FlashError(unknown("board", name, known))
-    return read_toml(root / "bsp" / name / FLASH_FILE, FlashFile, mistakes)
+    return read_toml(board_folder(root, name, FLASH_FILE) / FLASH_FILE, FlashFile, mistakes)
 
 
 # --- The tools -----------------------------------------------------------------------------------

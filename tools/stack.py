@@ -31,14 +31,14 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from boards.board import board_names
+from boards.board import board_folder
 from boards.built import read_built
 from boards.call_graph import Disassembler, read_graph
 from boards.elf import Contents, read_contents
 from boards.stack_bounds import EXCEPTION_FRAME_B, TABLE, StackTable, analyse, mistakes
 from common.arguments import Parser
 from common.config import read_toml
-from common.errors import ROOT, ToolError, program, unknown
+from common.errors import ROOT, program
 from common.files import sha256_of, write_json
 from toolchain import Toolchain
 
@@ -127,8 +127,7 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     board = parser.parse_args(arguments).board
 
     def work() -> int:
-        if board not in (known := board_names(root)):
-            raise ToolError(unknown("board", board, known))
+        board_folder(root, board)
         (root / REPORT / f"{board}.json").unlink(missing_ok=True)
         tools = Toolchain()
         tools.ensure("stack")

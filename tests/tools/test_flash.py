@@ -27,7 +27,6 @@ import flash  # noqa: E402
 import px4  # noqa: E402
 from boards.built import FIRMWARE  # noqa: E402
 from common.errors import ToolError  # noqa: E402
-from flash import FlashError  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 
@@ -160,7 +159,7 @@ class FlashTest(unittest.TestCase):
 
     def test_unknown_boards_and_tools(self) -> None:
         told = "did you mean nucleo_f767zi\\? .boards: fmuv5, nucleo_f767zi"
-        with self.assertRaisesRegex(FlashError, told):
+        with self.assertRaisesRegex(ToolError, told):
             self.flash("nucleo")
         self.fails("cannot be written with px4; with: openocd, pyocd, st-flash", tool="px4")
 

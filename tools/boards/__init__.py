@@ -4,8 +4,9 @@ board              a board's file
 built              the image that `make firmware` left, as its report vouches for it
 elf, placement     what is in an image, and whether it lies where the board's file asks
 call_graph         who calls whom, and with which frame: from the compiler and from instructions
-stack_table        what the compiler cannot know of calls, and the deepest paths
+stack_bounds       the deepest paths, with what the compiler cannot know of calls
 register_headers   the facts that the register headers state
 register_databases the same facts in two independent databases
 chip, processor    a model of the STM32F767: its peripherals, and the core that runs an image
+packages           modules of the Python packages that the toolchain has
 """

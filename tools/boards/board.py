@@ -66,9 +66,12 @@ class Board(BoardFile):
         return next(region for region in self.region if region.name == name)
 
 
-def board_names(root: Path, file: str = BOARD_FILE) -> list[str]:
-    """The boards that have such a file."""
-    return sorted(path.parent.name for path in (root / "bsp").glob(f"*/{file}"))
+def board_folder(root: Path, name: str, file: str = BOARD_FILE) -> Path:
+    """The folder of a board that has such a file; the error tells which there are."""
+    known = sorted(path.parent.name for path in (root / "bsp").glob(f"*/{file}"))
+    if name not in known:
+        raise ToolError(unknown("board", name, known))
+    return root / "bsp" / name
 
 
 def mistakes(root: Path, board: BoardFile) -> Iterator[Mistake]:
@@ -87,9 +90,6 @@ def mistakes(root: Path, board: BoardFile) -> Iterator[Mistake]:
 
 def read_board(root: Path, name: str) -> Board:
     """Read and check a board's file."""
-    known = board_names(root)
-    if name not in known:
-        raise ToolError(unknown("board", name, known))
-    path = root / "bsp" / name / BOARD_FILE
+    path = board_folder(root, name) / BOARD_FILE
     file = read_toml(path, BoardFile, lambda found: mistakes(root, found))
     return Board(name=name, **dict(file))
