@@ -159,6 +159,12 @@ class CSource(unittest.TestCase):
         self.assertEqual(csource.loops(csource.body_of(opened, "lemma")), 1)
         self.assertEqual(len(opened), len(text))
 
+    def test_a_loop_in_a_ghost_of_one_line_is_counted(self) -> None:
+        text = "int f(void)\n{\n    //@ ghost while (n > 0) n--;\n    return 1;\n}\n"
+        body = csource.body_of(csource.with_ghosts(text), "f")
+        self.assertEqual(csource.loops(body), 1)
+        self.assertEqual(len(csource.with_ghosts(text)), len(text))
+
     def test_other_bodies_are_removed(self) -> None:
         text = csource.without_other_bodies(SOURCE, frozenset(["keel_box_put"]))
         self.assertNotIn("while", text)
@@ -427,6 +433,14 @@ class Keys(TreeTest):
         smaller = 'defines = "-DBOXES=4u"\n[[replace]]'
         self.assertEqual(self.changed_by(file, "[[replace]]", smaller), {"zero"})
 
+    def test_the_harness_of_what_is_replaced_matters(self) -> None:
+        replacing = HARNESS.replace("// covers", "// replaces: helper\n// covers")
+        (self.unit.folder / "keel_box_put_harness.c").write_text(replacing, encoding="utf-8")
+        other = HARNESS.replace("keel_box_put", "helper")
+        (self.unit.folder / "helper_harness.c").write_text(other, encoding="utf-8")
+        changed = self.changed_by("proofs/box/helper_harness.c", "&box, 7", "&box, 8")
+        self.assertEqual(changed, {"helper_harness", "keel_box_put_harness", "zero"})
+
     def test_a_contract_matters_to_wp_alone(self) -> None:
         changed = self.changed_by("include/keel/rtos/box.h", "BOX_001: *box", "BOX_002: *box")
         self.assertEqual(changed, {"helper", "keel_box_put"})
@@ -519,6 +533,14 @@ class Jobs(unittest.TestCase):
 
 
 class Rules(TreeTest):
+    def test_a_ghost_function_that_leads_back_to_itself_fails(self) -> None:
+        ghost = "/*@ ghost\nstatic void {}(int n)\n{{\n    {}(n);\n}}\n*/\n"
+        path = self.root / "src/rtos/ghost.c"
+        path.write_text(ghost.format("one", "two") + ghost.format("two", "one"), encoding="utf-8")
+        self.assertEqual(len(rules.endless_ghosts([path])), 2)
+        path.write_text(ghost.format("one", "two") + ghost.format("two", "put"), encoding="utf-8")
+        self.assertEqual(rules.endless_ghosts([path]), [])
+
     def test_a_vanished_goal_is_a_failure(self) -> None:
         [problem] = rules.compare_goals(["a", "b"], ["a"], "goals.txt")
         self.assertIn("b is listed, but WP has no such goal", problem)

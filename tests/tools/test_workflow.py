@@ -23,7 +23,7 @@ provide("ci")
 import yaml  # noqa: E402
 
 WORKFLOWS = sorted((ROOT / ".github/workflows").glob("*.yml"))
-SETTING = r"-f +\S+|[A-Z]+=(?:\"[^\"]*\"|'[^']*'|\S+)"
+SETTING = r"-f +\S+|[A-Z]+=(?:\"[^\"]*\"|'[^']*'|[^\s`]+)"
 MAKE = re.compile(rf"(?:^|`|&& |run: )[ ]*make((?: +(?:{SETTING}|[a-z][\w-]*))+)", re.M)
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
 

@@ -26,6 +26,7 @@ FUNCTION = re.compile(
     re.MULTILINE,
 )
 GHOST = re.compile(r"/\*@\s*ghost\b(?P<code>.*?)\*/", re.DOTALL)
+GHOST_LINE = re.compile(r"//@\s*ghost\b(?P<code>[^\n]*)")
 NOT_A_FUNCTION = frozenset("if for while switch return sizeof typedef".split())
 LOOP = re.compile(r"\b(?:for|while)\b")
 LEMMA = re.compile(r"\blemma\s+(\w+)")
@@ -110,7 +111,7 @@ def defined(text: str) -> list[Function]:
 
 
 def with_ghosts(text: str) -> str:
-    """The text with ghost code (in block comments) laid open, its annotations too.
+    """The text with ghost code laid open, its annotations too.
 
     Provers take ghost code for code: a ghost function's contract is assumed where it is called, a
     ghost loop must end. Places are kept.
@@ -120,12 +121,22 @@ def with_ghosts(text: str) -> str:
         code = match.group("code").replace("/@ ", "/*@").replace("@/", "*/")
         return " " * (len(match.group()) - len(code) - 2) + code + "  "
 
-    return GHOST.sub(opened, text)
+    def opened_line(match: re.Match[str]) -> str:
+        return match["code"].rjust(len(match.group()))
+
+    return GHOST_LINE.sub(opened_line, GHOST.sub(opened, text))
 
 
 def proved(text: str) -> list[Function]:
     """The functions that a text defines, ghosts too: those that provers must prove."""
     return defined(with_ghosts(text))
+
+
+def ghosts(text: str) -> dict[str, str]:
+    """The ghost functions of a text, each with its body as code."""
+    real = {function.name for function in defined(text)}
+    opened = with_ghosts(text)
+    return {one.name: body_of(opened, one.name) for one in proved(text) if one.name not in real}
 
 
 def body_of(text: str, name: str) -> str:

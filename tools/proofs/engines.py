@@ -11,7 +11,7 @@ from . import cbmc, csource, frames, gappa, targets, wp
 from .cache import digest
 from .driver import Job
 from .goals import read_goals
-from .harness import Harness, read_harness
+from .harness import Harness, harnesses_of, read_harness
 from .project import KEEL, ProjectError, Unit, closure, shown
 from .settings import Exceptions
 from .wrong import WrongBody, read_wrong_body
@@ -131,9 +131,13 @@ def cbmc_key(
     sources = [shown(path, root) for path in harness.sources]
     directives = [harness.name, harness.options, sources, harness.covers, harness.defines,
                   harness.replaces, harness.assertions_only]
+    # What is replaced is proved by other harnesses, at whose text this one's verdict looks.
+    others = {shown(path, root): csource.essence(path.read_text(encoding="utf-8"))
+              for name in harness.replaces for path in harnesses_of(root, name)}  # fmt: skip
     return digest(
         {"kind": "cbmc", "stamp": dict(stamp), "options": placeless(checker.options(), root),
-         "texts": texts, "directives": directives, "expected": expected}
+         "texts": texts, "directives": directives, "expected": expected,
+         "others": others}
     )  # fmt: skip
 
 

@@ -191,7 +191,7 @@ def replacement_problems(harness: Harness) -> list[str]:
         stand_in = "".join(csource.body_of(text, f"{name}_stand_in") for text in texts)
         lacking = _lacks(stand_in, name, "assert", "assume")
         problems += [f"{place}: {name}_stand_in lacks {text}...)" for text in lacking]
-        proofs = [csource.body_of(path.read_text(), path.stem) for path in _own(root, name)]
+        proofs = [csource.body_of(path.read_text(), path.stem) for path in harnesses_of(root, name)]
         lacks = [_lacks(proof, name, "assume", "assert") for proof in proofs or [""]]
         problems += [f"{place}: {name}_harness lacks {text}...)" for text in min(lacks, key=len)]
     return problems
@@ -227,7 +227,7 @@ def unchecked(harnesses: Iterable[Harness]) -> list[str]:
     return problems
 
 
-def _own(root: Path, function: str) -> list[Path]:
+def harnesses_of(root: Path, function: str) -> list[Path]:
     """The harnesses of a function, in whichever unit."""
     found = root.glob(f"proofs/*/{function}*_harness.c")
     own = (f"{function}_harness", f"{function}__")

@@ -28,6 +28,27 @@ def assumptions_in(files: Iterable[Path], root: Path) -> list[str]:
     return problems
 
 
+def endless_ghosts(files: Iterable[Path]) -> list[str]:
+    """Ghost functions that lead back to themselves: each would rest on its own contract."""
+    bodies: dict[str, str] = {}
+    for path in dict.fromkeys(files):
+        bodies |= csource.ghosts(path.read_text(encoding="utf-8"))
+    called = {name: {other for other in bodies if csource.calls(body, other)}
+              for name, body in bodies.items()}  # fmt: skip
+    problems = []
+    for name in called:
+        reached: set[str] = set()
+        waiting = [*called[name]]
+        while waiting:
+            other = waiting.pop()
+            if other not in reached:
+                reached.add(other)
+                waiting += called[other]
+        if name in reached:
+            problems.append(f"the ghost function {name} calls itself: what ends its argument?")
+    return problems
+
+
 def switched_off_checks(files: Iterable[Path], root: Path) -> list[str]:
     """Places where a harness tells CBMC not to look."""
     problems = []

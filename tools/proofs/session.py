@@ -271,6 +271,7 @@ class Session:
         own = [path for unit in self._choice.units for path in (*unit.own_files, *unit.theorems)]
         shared = [*(root / "include").glob("keel/*.h"), *(root / "specs").glob("**/*.[ch]")]
         gathered.problems += rules.assumptions_in([*own, *sorted(shared)], root)
+        gathered.problems += rules.endless_ghosts(own)
         gathered.problems += unused.problems(root)
         known = structures(clauses.header_texts(root))
         for result in gathered.units.values():
