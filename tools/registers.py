@@ -15,7 +15,7 @@ fetched with their checksums and read as data:
 A fact without a counterpart is a difference, unless specs/registers.toml says with a reason why it
 has none, or what the database calls it. An entry there that nothing needs is a difference too.
 The signals of the boards' pins (bsp/*/pins.c) and what the boards' files say of memories and
-interrupts (bsp/*/board.toml) are compared as well.
+interrupts (bsp/*/board.toml, and their base) are compared as well.
 
 build/registers/report.json has every fact. Exit status: 0 without differences, 1 with, 2 for a
 wrong command line.
@@ -485,25 +485,28 @@ def compare_pins(root: Path, metapac: Metapac, result: Comparison) -> None:
                 result.differences.append(f"{where}: {name}: stm32-metapac has no such function")
 
 
+CHIP = "bsp/stm32f767"
 VECTORS = re.compile(r"KEEL_BOARD_INTERRUPTS=(\d+)u?")
 
 
 def compare_boards(root: Path, databases: Databases, result: Comparison) -> None:
     """The boards' files: how many interrupts the vector table has, and where the memories lie."""
     wanted = {"stm32ral": databases.irq, "stm32-metapac": databases.metapac.interrupts}
-    for path in sorted(root.glob("bsp/*/board.toml")):
+    base = f"{CHIP}/chip.toml"
+    for path in (root / base, *sorted(root.glob("bsp/*/board.toml"))):
         board = tomllib.loads(path.read_text(encoding="utf-8"))
-        if "bsp/stm32f767" not in board["sources"]:
-            continue
         where = path.relative_to(root).as_posix()
-        number = VECTORS.search(" ".join(board["defines"]))
-        fact = Fact("interrupt", "KEEL_BOARD_INTERRUPTS", where, "vectors", "",
-                    (int(number[1]) if number else 0,))  # fmt: skip
-        found: list[tuple[str, tuple[int, ...]]] = [
-            (name, (max(numbers.values()) + 1,)) for name, numbers in wanted.items()
-        ]
-        result.check(fact, found, False)
-        for region in board["region"]:
+        if where != base and board.get("base") != base and CHIP not in board["sources"]:
+            continue
+        number = VECTORS.search(" ".join(board.get("defines", [])))
+        if number or where == base:
+            fact = Fact("interrupt", "KEEL_BOARD_INTERRUPTS", where, "vectors", "",
+                        (int(number[1]) if number else 0,))  # fmt: skip
+            found: list[tuple[str, tuple[int, ...]]] = [
+                (name, (max(numbers.values()) + 1,)) for name, numbers in wanted.items()
+            ]
+            result.check(fact, found, False)
+        for region in board.get("region", []):
             known = {name: (base, size) for name, base, size in databases.metapac.memories}
             if region["name"] in known:
                 values = (int(region["origin"]), int(region["size"]))
