@@ -18,6 +18,8 @@ A board is a folder bsp/<board> with a file board.toml:
                   files or folders: each function of theirs); load, optional: the region that
                   holds the copy from which the startup code fills it. A name that matches nothing
                   is an error, unless optional = true.
+    base          optional: a file with what boards share. The board's lists come behind those of
+                  the base, and its regions replace those of the same name.
 
 build/firmware/<board> then holds keel.elf, keel.bin, keel.map, report.json, and beside each object
 what the compiler knows about stacks (*.su, *.ci). An image does not depend on the folder it was

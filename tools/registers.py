@@ -15,7 +15,7 @@ fetched with their checksums and read as data:
 A fact without a counterpart is a difference, unless specs/registers.toml says with a reason why it
 has none, or what the database calls it. An entry there that nothing needs is a difference too.
 The signals of the boards' pins (bsp/*/pins.c) and what the boards' files say of memories and
-interrupts (bsp/*/board.toml) are compared as well.
+interrupts (bsp/*/board.toml, and their base) are compared as well.
 
 build/registers/report.json has every fact. Exit status: 0 without differences, 1 with, 2 when
 nothing could be compared.
@@ -29,7 +29,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from boards.board import BOARD_FILE, BoardFile
+from boards.board import BOARD_FILE, Board, read_board
 from boards.register_databases import Databases
 from boards.register_headers import Fact, instances_of, read_facts, read_headers
 from common.arguments import Parser
@@ -132,7 +132,7 @@ def compare_pins(root: Path, databases: Databases, result: Comparison) -> None:
 VECTORS = re.compile(r"KEEL_BOARD_INTERRUPTS=(\d+)u?")
 
 
-def board_facts(board: BoardFile, where: str) -> Iterator[Fact]:
+def board_facts(board: Board, where: str) -> Iterator[Fact]:
     """What a board's file says of the chip: how large the vector table is, where memories lie."""
     number = VECTORS.search(" ".join(board.defines))
     count = int(number[1]) if number else 0
@@ -147,7 +147,7 @@ def compare_boards(root: Path, databases: Databases, result: Comparison) -> None
     vectors = [(name, (max(known.values()) + 1,)) for name, known in databases.interrupts.items()]
     memories = {name: (base, size) for name, base, size in databases.metapac.memories}
     for path in sorted(root.glob(f"bsp/*/{BOARD_FILE}")):
-        board = read_toml(path, BoardFile)
+        board = read_board(root, path.parent.name)
         if "bsp/stm32f767" not in board.sources:
             continue
         for fact in board_facts(board, path.relative_to(root).as_posix()):

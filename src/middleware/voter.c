@@ -481,6 +481,7 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
     float least = first;
     float most = first;
 
+    //@ assert sensors: 2 <= sensors <= KEEL_VOTER_SENSORS;
     if (!voter->unanimous || (oldest_us > voter->config.max_age_us)) {
         return false;
     }

@@ -49,6 +49,41 @@ region = "FLASH"
 sections = [".text"]
 """
 
+BASE = """\
+sources = ["src"]
+application = ["app"]
+[[region]]
+name = "FLASH"
+origin = 0
+size = 0x2000
+
+[[region]]
+name = "RAM"
+origin = 0x20000000
+size = 0x100
+
+[[place]]
+region = "RAM"
+sections = [".data"]
+"""
+
+OWN = """\
+base = "bsp/chip/chip.toml"
+description = "a board"
+linker_script = "bsp/toy/toy.ld"
+sources = ["bsp/toy"]
+load_address = 0x8000
+
+[[region]]
+name = "FLASH"
+origin = 0x8000
+size = 0x1000
+
+[[place]]
+region = "FLASH"
+sections = [".text"]
+"""
+
 FLASH = Region(name="FLASH", origin=0x8000, size=0x1000)
 RAM = Region(name="RAM", origin=0x2000_0000, size=0x100)
 
@@ -93,8 +128,8 @@ class Folder(unittest.TestCase):
         return path
 
 
-class BoardFile(Folder):
-    """What a board's file may say."""
+class Reading(Folder):
+    """A test that reads a board's file."""
 
     def read(self, text: str) -> Board:
         self.write("bsp/toy/board.toml", text)
@@ -105,6 +140,10 @@ class BoardFile(Folder):
         with self.assertRaises(ToolError) as caught:
             self.read(text)
         self.assertIn(f"bsp/toy/board.toml:{reason}", str(caught.exception))
+
+
+class BoardFile(Reading):
+    """What a board's file may say."""
 
     def test_a_whole_file(self) -> None:
         board = self.read(GOOD)
@@ -157,6 +196,39 @@ class BoardFile(Folder):
 
     def test_no_toml(self) -> None:
         self.refused("= 3", "1: no TOML: ")
+
+    def test_a_list_that_is_missing(self) -> None:
+        self.refused(GOOD.replace('sources = ["bsp/toy"]\n', ""), "1: sources: is missing")
+        self.refused(GOOD[: GOOD.index("[[place]]")], "1: place: is missing")
+
+
+class Bases(Reading):
+    """What a board's file takes from its base."""
+
+    def shared(self, text: str) -> None:
+        self.write("bsp/chip/chip.toml", text)
+
+    def test_lists_are_joined_and_regions_replaced_by_name(self) -> None:
+        self.shared(BASE)
+        board = self.read(OWN)
+        self.assertEqual(board.sources, ["src", "bsp/toy"])
+        self.assertEqual(board.application, ["app"])
+        own = Region(name="FLASH", origin=0x8000, size=0x1000)
+        self.assertEqual(board.region, [own, RAM])
+        self.assertEqual([place.region for place in board.place], ["RAM", "FLASH"])
+
+    def test_a_missing_base(self) -> None:
+        self.refused(OWN, "1: base: there is no bsp/chip/chip.toml")
+
+    def test_a_mistake_of_the_base_is_told_of_the_base(self) -> None:
+        for old, new, told in (
+            ('region = "RAM"', 'region = "ROM"', "14: place number 1: region: there is no region"),
+            ('["src"]', "[3]", "1: sources number 1: expected to be a valid string"),
+            ("sources", "load_address = 1\nsources", "1: load_address: unknown key"),
+        ):
+            self.shared(BASE.replace(old, new))
+            with self.assertRaisesRegex(ToolError, f"bsp/chip/chip.toml:{told}"):
+                self.read(OWN)
 
 
 class Sources(Folder):

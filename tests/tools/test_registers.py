@@ -95,7 +95,7 @@ class RegistersTest(unittest.TestCase):
         self.finds("PD8 AF8 USART3_TX", "no such function")
 
     def test_a_boards_file_that_is_wrong_is_found(self) -> None:
-        path = "bsp/fmuv5/board.toml"
+        path = "bsp/stm32f767/chip.toml"
         self.change(path, "KEEL_BOARD_INTERRUPTS=110u", "KEEL_BOARD_INTERRUPTS=98u")
         self.finds(path, "KEEL_BOARD_INTERRUPTS", "0x62", "has 0x6e")
         self.change(path, "size = 0x60000", "size = 0x80000")

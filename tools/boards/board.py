@@ -43,24 +43,33 @@ class Place(Table):
         return self
 
 
-class BoardFile(Table):
-    """A board's file."""
+class Shared(Table):
+    """What boards of one chip may share; all of it may be empty here."""
 
-    description: Text
-    linker_script: Text
-    sources: list[Text]
-    application: list[Text]
-    load_address: Word
-    region: Annotated[list[Region], Field(min_length=1)]
-    place: Annotated[list[Place], Field(min_length=1)]
+    sources: list[Text] = []
+    application: list[Text] = []
+    region: list[Region] = []
+    place: list[Place] = []
     include: list[Text] = []
     defines: list[Text] = []
 
 
-class Board(BoardFile):
-    """A board: its file, and the name of the folder that it lies in."""
+class BoardFile(Shared):
+    """A board's file."""
+
+    description: Text
+    linker_script: Text
+    load_address: Word
+    base: Text | None = None
+
+
+class Board(Shared):
+    """A board: its file joined with its base, and the name of the folder that it lies in."""
 
     name: str
+    description: Text
+    linker_script: Text
+    load_address: Word
 
     def memory(self, name: str) -> Region:
         return next(region for region in self.region if region.name == name)
@@ -74,22 +83,53 @@ def board_folder(root: Path, name: str, file: str = BOARD_FILE) -> Path:
     return root / "bsp" / name
 
 
-def mistakes(root: Path, board: BoardFile) -> Iterator[Mistake]:
-    """Names of what is not there."""
-    if not (root / board.linker_script).is_file():
-        yield ("linker_script",), f"there is no {board.linker_script}"
-    for folder in board.include:
+def names_of_nothing(root: Path, file: Shared, others: Shared) -> Iterator[Mistake]:
+    """Names of what is not there; `others` may have the regions that a place lies in."""
+    for folder in file.include:
         if not (root / folder).exists():
             yield ("include",), f"there is no {folder}"
-    known = {region.name for region in board.region}
-    for number, place in enumerate(board.place):
+    known = {region.name for region in (*file.region, *others.region)}
+    for number, place in enumerate(file.place):
         for key in ("region", "load"):
             if (name := getattr(place, key)) and name not in known:
                 yield ("place", number, key), f"there is no region {name}"
+
+
+def read_base(root: Path, file: BoardFile) -> Shared:
+    """What a board shares with others; nothing unless its file names a base."""
+    if not file.base:
+        return Shared()
+    return read_toml(
+        root / file.base, Shared, lambda found: names_of_nothing(root, found, file)
+    )
+
+
+def mistakes(root: Path, file: BoardFile) -> Iterator[Mistake]:
+    """What is wrong with a board's file though its types are right."""
+    if file.base and not (root / file.base).is_file():
+        yield ("base",), f"there is no {file.base}"
+        return
+    if not (root / file.linker_script).is_file():
+        yield ("linker_script",), f"there is no {file.linker_script}"
+    base = read_base(root, file)
+    yield from names_of_nothing(root, file, base)
+    for key in ("sources", "application", "region", "place"):
+        if not getattr(file, key) and not getattr(base, key):
+            yield (key,), "is missing"
+
+
+def joined(name: str, file: BoardFile, base: Shared) -> Board:
+    """A board's lists behind those of its base; its regions instead of those with their names."""
+    lists = {key: [*getattr(base, key), *getattr(file, key)] for key in Shared.model_fields}
+    lists["region"] = list({region.name: region for region in lists["region"]}.values())
+    return Board(
+        name=name, description=file.description, linker_script=file.linker_script,
+        load_address=file.load_address, **lists,
+    )  # fmt: skip
 
 
 def read_board(root: Path, name: str) -> Board:
     """Read and check a board's file."""
     path = board_folder(root, name) / BOARD_FILE
     file = read_toml(path, BoardFile, lambda found: mistakes(root, found))
-    return Board(name=name, **dict(file))
+    return joined(name, file, read_base(root, file))
