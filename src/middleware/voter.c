@@ -481,7 +481,6 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
     float least = first;
     float most = first;
 
-    //@ assert sensors: 2 <= sensors <= KEEL_VOTER_SENSORS;
     if (!voter->unanimous || (oldest_us > voter->config.max_age_us)) {
         return false;
     }
@@ -507,11 +506,12 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
     if ((most > voter->config.highest) || !keel_voter_within(least, most, voter->config.agree)) {
         return false;
     }
-    /*@ loop invariant 0 <= i <= sensors;
+    voter->sensor[0].last = first;
+    /*@ loop invariant 1 <= i <= sensors;
       @ loop assigns i, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last;
       @ loop variant sensors - i;
       @*/
-    for (uint32_t i = 0u; i < sensors; i++) {
+    for (uint32_t i = 1u; i < sensors; i++) {
         voter->sensor[i].last = sample[i].value;
     }
     voter->vote.output = keel_voter_plain_mean(sample, sensors, least, most);
