@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What Keel can do. Each target installs what it needs (KEEL_NO_INSTALL=1: says what is missing
 # instead) and runs one program of tools/, which can also be called directly.
 

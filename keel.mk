@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Proves and tests a project of yours with Keel's tools: docs/own_unit.md.
 #
 #     make -f /path/to/keel/keel.mk prove

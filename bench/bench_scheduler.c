@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file bench_scheduler.c
  * @brief Runs the scheduler on a virtual clock so that callgrind can count the instructions of

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file bench_steps.c
  * @brief Runs the steps of the layers above the RTOS so that callgrind can count their

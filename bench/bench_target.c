@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file bench_target.c
  * @brief Counts the instructions of passes and steps on the emulated Cortex-M7. Started by

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file sizes.c
  * @brief Objects as large as the kernel's own: tools/bench.py reads their sizes from the symbols,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file board.h
  * @brief What a board owes: to applications, and to the start-up code, the console and the handler

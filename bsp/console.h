@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file console.h
  * @brief Text on the board's console, without a heap and without the C library's streams.

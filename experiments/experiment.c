@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file experiment.c
  * @brief Runs task sets on the virtual board, as told on standard input, and tells what happened.

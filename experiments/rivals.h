@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file rivals.h
  * @brief Schedulers to compare Keel's with. They share its interface, queue, clock and statistics:

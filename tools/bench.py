@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Measure what Keel costs: instructions per pass and per step, code size, RAM.
 
     python3 tools/bench.py            # measure, print tables, write build/bench/report.json

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The voter's fault campaign, and the paper's fig. 14: build, run, print tables, plot.
 
     python3 tools/with_packages.py timing tools/campaign.py

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The fault campaign's plots: fig. 14, and what each fault does."""
 
 from __future__ import annotations

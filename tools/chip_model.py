@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Run the image of a real board on a model of the STM32F767.
 
     python3 tools/chip_model.py nucleo_f767zi                   # two seconds of the board's time

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Measure what the unit tests cover: statements (lines), branches and MC/DC.
 
     python3 tools/coverage.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Run Keel's tests on a Cortex-M7 that QEMU emulates.
 
     python3 tools/emulated_tests.py                   # everything

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Build the firmware of a board, and check from the ELF that everything lies where it must.
 
     python3 tools/firmware.py mps2_an500                     # the board's application

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Write the image of a board to the board.
 
     python3 tools/flash.py nucleo_f767zi                      # what 'make firmware' built

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Check the text of the project: layout of C and C++, MISRA C:2012, and the rules of the house.
 
     python3 tools/lint.py           # every finding as file:line: reason

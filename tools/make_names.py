@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The line with which `make` refuses a name: which, the nearest right one, and all there are.
 
 python3 tools/make_names.py variable UNTI -- UNIT BOARD ARGS

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Measure how strong the proofs of a unit are: break its code in small ways, see who notices.
 
     python3 tools/mutate.py                              # all units, on all cores

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Build and run the unit tests of a project that uses Keel: its tests/unit/test_*.c, with Unity.
 
     python3 tools/own_tests.py --project FOLDER

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One look for every picture: colours, axes, and SVG without a date or a random name."""
 
 from __future__ import annotations

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Prove Keel: every contract with Frama-C/WP, every harness with CBMC, rounding with Gappa.
 
     python3 tools/prove.py                    # everything

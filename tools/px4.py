@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The .px4 container, and the upload of one through the PX4 boot loader's serial protocol.
 
     python3 tools/px4.py pack IMAGE.bin OUT.px4 --board-id 50     # make a container

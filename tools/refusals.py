@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Holds requirement STA-001 against the code: which functions change something when they refuse.
 
 STA-001 (specs/requirements/status.sdoc) lists the exceptions, a line for each:

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Hold the project's register headers against two independent register databases.
 
     python3 tools/registers.py      # every difference, one a line

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Trace every requirement to its clauses, harnesses and tests, and find what stands alone.
 
     python3 tools/requirements_trace.py             # every orphan, one a line

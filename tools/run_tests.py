@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Build and run Keel's tests on this host.
 
     python3 tools/run_tests.py                    # everything but the fuzzer

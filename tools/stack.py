@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Bound the stack of every task and of main(), from the compiler's call graph.
 
     python3 tools/stack.py nucleo_f767zi     # of the image that 'make firmware' built

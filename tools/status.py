@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Write what the last run of tools/prove.py proved into docs/status.md.
 
     python3 tools/status.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Run Python with the packages of a group of tools, which are installed when they are missing.
 
     python3 tools/with_packages.py timing -m timing analyze specs/tasksets/urpilot.toml

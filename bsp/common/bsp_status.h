@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file bsp_status.h
  * @brief The result of what a board's drivers do.

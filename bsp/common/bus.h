@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file bus.h
  * @brief A bus to a device, as an interface: what a driver of a device needs of the board.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "common/supervisor.h"
 
 #define WEIGHT_MISSED 2u  /* Of a look that found something missed; a good one takes 1 away. */

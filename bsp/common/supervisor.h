@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file supervisor.h
  * @brief Whether the scheduler meets its real-time releases: only then is the watchdog fed.

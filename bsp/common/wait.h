@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file wait.h
  * @brief Waiting for hardware with a bound, so that nothing waits for ever.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file bits.h
  * @brief Fields of 32-bit registers, described by their masks alone.

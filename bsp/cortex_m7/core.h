@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file core.h
  * @brief Registers of the Cortex-M7 that Keel uses (ARMv7-M Architecture Reference Manual, B3).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "cortex_m7/fault.h"
 
 #include "board.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file fault.h
  * @brief What a fault leaves behind: a record in memory that a reset keeps.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file memory.h
  * @brief What a board's linker script says about its memories. Only the addresses have a meaning.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file mpu.h
  * @brief The memory protection unit, from a board's table of regions.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "cortex_m7/startup.h"
 
 #include "board.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file startup.h
  * @brief From the reset to main() and its end: what is the same on every board. What it asks of the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The vector table of a board without interrupts: every exception but the reset is a fault. */
 #include "cortex_m7/fault.h"
 #include "cortex_m7/memory.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "devices/icm20689.h"
 
 #define REG_SMPLRT_DIV    0x19u

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file icm20689.h
  * @brief The inertial sensor ICM-20689 (TDK InvenSense, DS-000143) on an SPI bus.

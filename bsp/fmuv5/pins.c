@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A flight controller after the Pixhawk standard FMUv5. */
 #include "board.h"
 #include "stm32f767/target/chip.h"

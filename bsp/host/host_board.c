@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "host_board.h"
 
 void host_board_init(host_board_t *board, const keel_scheduler_t *scheduler,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file host_board.h
  * @brief The virtual board: a clock that only work moves on; the scheduler's own work costs time.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "mps2_an500/emulator.h"
 
 #include <stdint.h>

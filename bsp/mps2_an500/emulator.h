@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file emulator.h
  * @brief What the emulator offers a program by semihosting (Arm, Semihosting for AArch32).

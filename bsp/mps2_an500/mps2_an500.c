@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The board that QEMU emulates as mps2-an500: console, time base, memory protection, its end. */
 #include "board.h"
 

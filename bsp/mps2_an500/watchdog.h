@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file watchdog.h
  * @brief The board's watchdog (CMSDK): a non-maskable interrupt when it was not fed in time, which

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* ST Nucleo-F767ZI (user manual UM1974). The sensor, if any, is at the Arduino connector. */
 #include "board.h"
 #include "stm32f767/target/chip.h"

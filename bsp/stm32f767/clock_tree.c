@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "stm32f767/clock_tree.h"
 
 #define VCO_INPUT_HZ   2000000u

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file clock_tree.h
  * @brief The clocks: from the board's oscillator to 216 MHz, with over-drive.

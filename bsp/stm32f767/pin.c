@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "stm32f767/pin.h"
 
 #define MODE_INPUT     0u

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file pin.h
  * @brief Pins: outputs, inputs and alternate functions.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "stm32f767/power.h"
 
 /* The keys that unlock the option bytes (RM0410, 3.4.2). */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file power.h
  * @brief Brown-out level and backup memory.

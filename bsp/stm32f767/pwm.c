@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "stm32f767/pwm.h"
 
 #include "stm32f767/time_base.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file pwm.h
  * @brief Four pulse outputs for motors or servos from an advanced timer.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "stm32f767/serial.h"
 
 #define DIVISOR_MIN 16u

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file serial.h
  * @brief A serial console: text goes into a buffer at once, and to the line when it takes it.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "stm32f767/spi_bus.h"
 
 #define CODE_MAX   7u

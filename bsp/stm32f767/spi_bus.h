@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file spi_bus.h
  * @brief SPI master in mode 3, one byte after the other, with a bound on every wait.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "stm32f767/time_base.h"
 
 #define MICROSECOND_HZ 1000000u

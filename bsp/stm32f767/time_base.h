@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file time_base.h
  * @brief A free-running counter of microseconds from a 32-bit timer; it wraps at 2^32.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "stm32f767/watchdog.h"
 
 #define KEY_START     0xCCCCu

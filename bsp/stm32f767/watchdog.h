@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file watchdog.h
  * @brief The independent watchdog: it has its own oscillator and cannot be stopped once started.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file main.c
  * @brief The paper's 21 tasks on a real board, until it is switched off.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file demo.c
  * @brief The paper's 21 tasks on a virtual clock, for one simulated minute.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file urpilot_tasks.h
  * @brief The 21 tasks of urpilot.toml, as data.

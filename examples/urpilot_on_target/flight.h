@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file flight.h
  * @brief What the demo's real-time tasks do: a vote of three simulated inertial units, one of which

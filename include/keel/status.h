@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file status.h
  * @brief The result of every fallible Keel function.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file admission_proof.h
  * @brief What the harnesses of admission share: any totals.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 34 --external-sat-solver cadical
 // sources: src/rtos/admission.c specs/model/admission.c
 // covers: keel_admission_admit minimum utilisation_of gap_of model_admission_admit

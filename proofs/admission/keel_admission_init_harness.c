@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 2
 // sources: src/rtos/admission.c specs/model/admission.c
 // covers: keel_admission_init model_admission_init

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 34 --external-sat-solver cadical
 // sources: src/rtos/admission.c specs/model/admission_queue.c
 // replaces: keel_admission_admit

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 2
 // sources: specs/model/clock.c
 // covers: keel_clock_init model_clock_init

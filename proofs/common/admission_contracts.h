@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file admission_contracts.h
  * @brief What the functions of admission.h ask for and do, as far as the scheduler needs to know.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file decision_contracts.h
  * @brief What the functions of decision.h ask for and do, as far as a pass needs to know.

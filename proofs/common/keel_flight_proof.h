@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file keel_flight_proof.h
  * @brief What the CBMC harnesses of the flight layer share: arbitrary numbers and valid filters.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file keel_proof.h
  * @brief What the CBMC harnesses share: arbitrary values, and any valid queue.

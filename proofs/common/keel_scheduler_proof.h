@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file keel_scheduler_proof.h
  * @brief What the harnesses of the scheduler share: any valid scheduler, and its comparison.

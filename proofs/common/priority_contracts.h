@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file priority_contracts.h
  * @brief What the functions of priority.h ask for, and what a decision takes from them.

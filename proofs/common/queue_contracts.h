@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file queue_contracts.h
  * @brief What the functions of queue.h that write ask for; what they do is what the model does.

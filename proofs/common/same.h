@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file same.h
  * @brief Whether two objects are the same in every field: what the code leaves and what the model

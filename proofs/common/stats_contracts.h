@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file stats_contracts.h
  * @brief keel_stats_record does what the model does; in the harness of a pass it stands in.

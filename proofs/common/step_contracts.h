@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file step_contracts.h
  * @brief What a pass knows of next and finish, and a step of a pass.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file unchanged.h
  * @brief Whether an object is what it was, bit for bit: what a refusal must not change (STA-001).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file voter_contracts.h
  * @brief The contracts of the voter's parts, for CBMC: what their own harnesses prove, and what

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file voter_proof.h
  * @brief What the CBMC harnesses of the voter share: arbitrary configurations, channels, samples.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 34
 // sources: src/rtos/decision.c src/rtos/priority.c specs/model/decision.c
 // replaces: keel_priority_promotion_age_us

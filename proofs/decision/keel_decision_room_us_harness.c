@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 2
 // sources: src/rtos/decision.c src/rtos/priority.c specs/model/decision.c specs/model/priority.c
 // covers: keel_decision_room_us model_decision_room_us

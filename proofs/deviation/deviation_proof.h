@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file deviation_proof.h
  * @brief What the harnesses of keel/rtos/deviation.h share.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 34 --external-sat-solver cadical
 // sources: src/rtos/deviation.c
 // covers: keel_deviation_variance_us2

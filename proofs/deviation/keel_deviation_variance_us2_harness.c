@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 2 --z3
 // sources: src/rtos/deviation.c specs/model/deviation.c
 // covers: keel_deviation_variance_us2 model_deviation_variance_us2

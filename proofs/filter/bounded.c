@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wp: theorem
 /**
  * The filter's states are bounded for bounded inputs (requirement FLT-008), over the reals.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 12 --external-sat-solver cadical
 // sources: src/flight/filter.c specs/model/filter.c
 // covers: keel_filter_init set_coefficients tangent model_filter_init tan_of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/filter.c specs/model/filter.c
 // covers: keel_filter_reset is_sample model_filter_reset sample_valid

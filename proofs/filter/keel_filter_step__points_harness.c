@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 8 --external-sat-solver cadical
 // sources: src/flight/filter.c specs/model/filter.c
 // covers: keel_filter_step model_filter_step

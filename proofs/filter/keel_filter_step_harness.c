@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --z3 --fpa
 // checks: assertions
 // sources: src/flight/filter.c specs/model/filter.c

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 2
 // sources: src/rtos/load.c specs/model/load.c
 // covers: keel_load_begin model_load_begin

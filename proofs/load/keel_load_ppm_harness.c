@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 2 --z3
 // checks: assertions
 // sources: src/rtos/load.c specs/model/load.c

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/middleware/oversample.c specs/model/oversample.c specs/model/range.c
 // covers: keel_oversample_take add_excess begin

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --z3 --fpa
 // sources: src/middleware/oversample.c specs/model/oversample.c specs/model/range.c
 // checks: assertions

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file oversample_proof.h
  * @brief What the CBMC harnesses of the oversampling share.

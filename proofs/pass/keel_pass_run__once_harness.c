@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 7
 // sources: src/rtos/pass.c
 // replaces: keel_pass_next keel_pass_finish

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 7 --external-sat-solver cadical
 // sources: src/rtos/pass.c specs/model/pass_run.c
 // replaces: keel_pass_next keel_pass_finish

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/pid.c src/flight/filter.c
 // covers: keel_pid_step differentiate winds_up put_out limit_reached direct_terms is_input

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file pid_proof.h
  * @brief What the harnesses of the PID controller share: arbitrary valid controllers.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 17 --external-sat-solver cadical
 // sources: src/rtos/priority.c
 // covers: keel_priority_dynamic keel_priority_promoted saturation

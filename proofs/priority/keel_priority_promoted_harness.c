@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 2 --z3
 // sources: src/rtos/priority.c specs/model/priority.c
 // covers: keel_priority_promoted saturation model_priority_promoted saturation_us

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 2 --external-sat-solver cadical
 // sources: src/rtos/priority.c
 // covers: keel_priority_promotion_age_us saturation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 2 --z3
 // sources: src/rtos/priority.c specs/model/priority.c
 // covers: keel_priority_promotion_age_us saturation model_priority_promotion_age_us saturation_us

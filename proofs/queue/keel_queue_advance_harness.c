@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/rtos/queue.c specs/model/queue.c
 // defines: -DKEEL_QUEUE_CAPACITY=4u

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 34
 // sources: src/rtos/queue.c specs/model/queue.c
 // covers: keel_queue_find model_queue_find

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: specs/model/range.c
 // covers: keel_range_contains model_range_contains

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wp: theorem
 /**
  * The isolation theorem (requirement ISO-001): with no promotion, and execution times within their

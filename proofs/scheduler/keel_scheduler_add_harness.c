@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 34
 // sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c
 // sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/stats.c

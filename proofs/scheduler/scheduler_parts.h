@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file scheduler_parts.h
  * @brief The parts of add, remove, check and start that are proved by themselves.

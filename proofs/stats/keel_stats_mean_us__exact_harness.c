@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 34 --external-sat-solver cadical
 // sources: src/rtos/stats.c
 // covers: keel_stats_mean_us

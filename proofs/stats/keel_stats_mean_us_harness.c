@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 2 --z3
 // sources: src/rtos/stats.c specs/model/stats.c
 // covers: keel_stats_mean_us model_stats_mean_us

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 2
 // sources: src/rtos/stats.c specs/model/stats.c
 // covers: keel_stats_record count_one model_stats_record

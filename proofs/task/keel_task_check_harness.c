@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 2
 // sources: src/rtos/task.c specs/model/task.c
 // covers: keel_task_check priority_is_valid model_task_check

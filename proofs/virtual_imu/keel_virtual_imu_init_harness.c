@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 7 --external-sat-solver cadical
 // sources: src/middleware/virtual_imu.c src/middleware/voter.c specs/model/virtual_imu.c
 // sources: specs/model/voter.c specs/model/range.c

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 7
 // sources: src/middleware/virtual_imu.c src/middleware/voter.c
 // defines: -DKEEL_VOTER_SENSORS=2u

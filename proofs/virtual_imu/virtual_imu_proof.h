@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file virtual_imu_proof.h
  * @brief What the CBMC harnesses of the virtual IMU share: arbitrary units and samples.

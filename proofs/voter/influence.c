@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wp: theorem
 /**
  * The influence of one faulty sensor (requirement VOT-015), over the reals.

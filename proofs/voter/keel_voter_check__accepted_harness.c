@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/middleware/voter.c
 // covers: keel_voter_check is_cutoff_valid is_above

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 4 --z3 --fpa
 // sources: src/middleware/voter.c specs/model/voter_parts.c specs/model/range.c
 // checks: assertions

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/middleware/voter.c specs/model/voter_parts.c specs/model/range.c
 // covers: keel_voter_within model_voter_within

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file voter_mean.h
  * @brief Eq. 18 for three sensors with each rounding apart.

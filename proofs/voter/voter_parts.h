@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file voter_parts.h
  * @brief The voter's parts in its model's vote: the same functions as in the code's.

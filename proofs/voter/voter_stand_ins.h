@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file voter_stand_ins.h
  * @brief What stands in for the voter's parts where a whole vote is proved.

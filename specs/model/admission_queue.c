@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A whole queue; apart, as its proof needs no more of one task's admission than its verdict. */
 #include "admission.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "clock.h"
 
 /* CLK-001: in 64 bits, in which the later reading stands 2^32 us higher if the counter wrapped. */

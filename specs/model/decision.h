@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file decision.h
  * @brief What the functions of keel/rtos/decision.h do.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file filter.h
  * @brief What the functions of keel/flight/filter.h do.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file oversample.h
  * @brief What the functions of keel/middleware/oversample.h do.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "priority.h"
 
 /* (max - 1) * T: eq. 3 saturates once sp * age reaches it. */

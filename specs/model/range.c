@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "range.h"
 
 /* RNG-001. NaN is the only value that does not equal itself; infinities lie beyond finite ends. */

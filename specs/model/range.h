@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file range.h
  * @brief What the functions of keel/middleware/range.h do.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file scheduler.h
  * @brief What the functions of keel/rtos/scheduler.h do.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file stats.h
  * @brief What the functions of keel/rtos/stats.h do.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file task.h
  * @brief What the function of keel/rtos/task.h does.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file virtual_imu.h
  * @brief What the functions of keel/middleware/virtual_imu.h do.

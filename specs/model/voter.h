@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file voter.h
  * @brief What the functions of keel/middleware/voter.h do.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "keel/middleware/voter.h"
 
 #include "keel/middleware/range.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "keel/rtos/admission.h"
 
 void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "keel/rtos/load.h"
 
 void keel_load_begin(keel_load_t *load, uint64_t now_us, uint64_t busy_us)

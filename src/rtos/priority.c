@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "keel/rtos/priority.h"
 
 /* What sp * age must reach for eq. 3 to saturate: (max - 1) * T. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of bsp/stm32f767/clock_tree.h on simulated register blocks. Expected values are worked
  * out by hand from RM0410 (5.2, 5.3, 4.1.4 and 3.3.2). */
 #include "stm32f767/clock_tree.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of bsp/devices/icm20689.h with a simulated sensor. Registers, identity and scales are
  * those of the data sheet DS-000143. */
 #include "devices/icm20689.h"

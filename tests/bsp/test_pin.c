@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of bsp/stm32f767/pin.h. Expected register contents are from RM0410, 6.4. */
 #include "stm32f767/pin.h"
 #include "unity.h"

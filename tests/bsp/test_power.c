@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of bsp/stm32f767/power.h. Register contents are from RM0410, 3.7.6 and 4.4. */
 #include "stm32f767/power.h"
 #include "unity.h"

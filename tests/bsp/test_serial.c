@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of bsp/stm32f767/serial.h on a simulated line. */
 #include "stm32f767/serial.h"
 #include "unity.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of bsp/stm32f767/spi_bus.h with a simulated SPI, which answers each byte with its
  * complement. */
 #include "stm32f767/spi_bus.h"

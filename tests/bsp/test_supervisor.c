@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of bsp/common/supervisor.h with a real scheduler on a simulated clock. */
 #include "common/supervisor.h"
 #include "unity.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of bsp/stm32f767/time_base.h. */
 #include "stm32f767/time_base.h"
 #include "unity.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of bsp/common/wait.h. */
 #include "common/wait.h"
 #include "unity.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of bsp/stm32f767/watchdog.h. Expected values by RM0410, 30.3: the time-out is
  * (reload + 1) * divisor / 32 kHz. */
 #include "stm32f767/watchdog.h"

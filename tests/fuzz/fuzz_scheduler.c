@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file fuzz_scheduler.c
  * @brief libFuzzer target: any string of bytes drives the kernel and its model; they never differ.

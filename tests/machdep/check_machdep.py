@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Compare the data model under which Keel is proved with the compiler that builds it.
 
     python3 tests/machdep/check_machdep.py              # one line; exit status 1 on a difference

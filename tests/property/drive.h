@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file drive.h
  * @brief Drives the kernel and its model with one string of bytes, and compares them throughout.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file lockstep.h
  * @brief The kernel's functions, each called beside its executable specification (specs/model).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file model.h
  * @brief A reference model of the queue, admission and the scheduler, written to be obvious.

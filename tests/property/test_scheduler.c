@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file test_scheduler.c
  * @brief Property test: random operations on the kernel and on its model; the two never differ.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file reference.hpp
  * @brief What the reference tests share: counting them, and telling how each went.

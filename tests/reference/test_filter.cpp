@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The low-pass against the analytic response of the same filter in double precision, and the sums
 // that its documented bounds rest on.
 #include "reference.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The controller against eq. 4 in state space, in double precision: alone, with random inputs, and
 // in a closed loop with a plant.
 #include "reference.hpp"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The voter against eq. 16 to 18 in long double, over random and adversarial samples. Tolerances
  * follow from the rounding of each operation (u = 2^-24), none is tuned. */
 #include "reference.hpp"

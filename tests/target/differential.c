@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file differential.c
  * @brief Random vectors through the kernel's units, printed as digests, on the host and on the

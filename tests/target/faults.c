@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file faults.c
  * @brief Breaks one thing from within a real-time task, FAULT saying which. tools/emulated_tests.py

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The board's console for the host's build of differential.c. */
 #include "board.h"
 

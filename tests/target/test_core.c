@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Tests of what the start-up code has done before main(), and of the fault record. Expected values
    are the ARMv7-M Architecture Reference Manual's. */
 #include "board.h"

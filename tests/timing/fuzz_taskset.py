@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Mutates task-set files: most come out broken in one way or another, many still parse.
 
     python3 tools/with_packages.py timing tests/timing/fuzz_taskset.py 100000

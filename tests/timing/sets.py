@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Random small task sets."""
 
 from __future__ import annotations

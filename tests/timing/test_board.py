@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The virtual board and the rival schedulers, against schedules worked out by hand."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The pictures of the documents: what was drawn is what is committed, and they stay small."""
 
 from __future__ import annotations

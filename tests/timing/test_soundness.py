@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The analyser against brute force: what it calls safe no simulation by the kernel's code breaks.
 
 KEEL_RANDOM_SETS sets how many sets are tried, 10 000 unless given. Each runs for many of its

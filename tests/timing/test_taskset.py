@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tests of the task-set files: what is read, and how each error is told."""
 
 from __future__ import annotations

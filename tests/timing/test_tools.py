@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The analyser as a whole: command line, C table, synthesis, phases, kernel's limits, fuzzing."""
 
 from __future__ import annotations

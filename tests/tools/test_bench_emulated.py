@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of tools/benchmark/emulated.py: what it reads, and when a budget is exceeded. That an
 instruction is counted as one is checked by the image itself, against assembly of known length.
 

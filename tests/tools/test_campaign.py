@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tests of tools/campaign.py: what it makes of flights."""
 
 from __future__ import annotations

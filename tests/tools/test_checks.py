@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of harnesses that check assertions alone, and of what a failing solver makes of a proof.
 
     python3 tests/tools/test_checks.py

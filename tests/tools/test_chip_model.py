@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The images of the real boards on the model of their chip, and what the model itself refuses.
 
     python3 tests/tools/test_chip_model.py

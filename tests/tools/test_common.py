@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of tools/common: programs, files, checked TOML and JSON, builds, reports.
 
 python3 tests/tools/test_common.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of how mutants are tried: in which order of harnesses, by whom, and what is kept.
 
     python3 tests/tools/test_crew.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of the check that every function's outcome is determined: each gap in it is found.
 
     python3 tests/tools/test_determined.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of the documents: what they name exists, what they link to is there, and all can be found.
 
     python3 tests/tools/test_docs.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of `make prove ARGS='--explain NAME'`: what it says of goals, harnesses and wrong bodies.
 
 python3 tests/tools/test_explain.py

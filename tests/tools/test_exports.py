@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of the results for other programs: build/prove/junit.xml and build/prove/results.sarif.
 
 python3 tests/tools/test_exports.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of tools/firmware.py: what it reads of a board, what it checks in an image, and that an
 image does not depend on the folder it was built in.
 

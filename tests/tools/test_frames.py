@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of what keeps a gap between two engines from going unnoticed.
 
     python3 tests/tools/test_frames.py

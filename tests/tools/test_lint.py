@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of tools/lint.py: each rule with a text that breaks it and one that does not.
 
     python3 tests/tools/test_lint.py

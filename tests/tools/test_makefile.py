@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of the Makefile: its help, and that a wrong name or value is told in one line.
 
 python3 tests/tools/test_makefile.py

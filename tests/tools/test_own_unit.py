@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of keel.mk and examples/own_unit, as a new user tries them: in a folder of their own.
 
     python3 tests/tools/test_own_unit.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of tools/prove.py: what must make a proof fail does, and only success is remembered.
 
     python3 tests/tools/test_prove.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of tools/px4.py: the container, and uploads to a simulated boot loader at a terminal.
 
     python3 tests/tools/test_px4.py

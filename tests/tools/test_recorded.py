@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of recorded provers: asked first and alone, never believed, and easy to record anew.
 
     python3 tests/tools/test_recorded.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The register headers against the register databases, and that a slip in a header is noticed.
 
     python3 tests/tools/test_registers.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of tools/requirements_trace.py: each kind of orphan is found in a small project that has
 just this one.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of shards: the parts are the same everywhere, and joined only when nothing is amiss.
 
     python3 tests/tools/test_shards.py

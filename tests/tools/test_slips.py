@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of the slips of thought that mutants are made of: each operator makes what it is to make.
 
 python3 tests/tools/test_slips.py

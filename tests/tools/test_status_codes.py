@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The sections of include/keel/status.h: which layer may return what.
 
     python3 tests/tools/test_status_codes.py

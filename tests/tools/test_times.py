@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of times: what is recorded, which job goes first, and what a run will still take.
 
     python3 tests/tools/test_times.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of tools/toolchain. No network, no package manager, nothing installed.
 
     python3 tests/tools/test_toolchain.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of the verdicts that are kept: shared by all clones, only success, and nothing broken.
 
     python3 tests/tools/test_verdicts.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests of .github/workflows and of the commands in docs/ci.md: what they call exists.
 
     python3 tests/tools/test_workflow.py

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file actors.h
  * @brief Tasks for tests of the scheduler, and a clock that only they and the tests move.

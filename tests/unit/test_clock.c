@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/rtos/clock.h. Expected values are worked out by hand. */
 #include "keel/rtos/clock.h"
 #include "unity.h"

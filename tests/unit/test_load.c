@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/rtos/load.h. Expected values are worked out by hand. */
 #include "keel/rtos/load.h"
 #include "unity.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/middleware/oversample.h. Expected values are worked out by hand. */
 #include "keel/middleware/oversample.h"
 #include "unity.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/rtos/pass.h on a virtual board. Schedules are worked out by hand. */
 #include "actors.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/flight/pid.h. Expected values are worked out by hand. */
 #include "keel/flight/pid.h"
 #include "unity.h"

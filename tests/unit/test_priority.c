@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/rtos/priority.h. Expected values are eq. 3, worked out by hand. */
 #include "keel/rtos/priority.h"
 #include "unity.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/middleware/range.h. */
 #include "keel/middleware/range.h"
 #include "unity.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Voter, filter and PID beside their executable specification (specs/model): random and adversarial
  * calls on both, of which result and every bit of the object must be the same after each. */
 #include "keel/flight/filter.h"

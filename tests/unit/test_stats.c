@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/rtos/stats.h. Expected values are worked out by hand. */
 #include "keel/rtos/stats.h"
 #include "unity.h"

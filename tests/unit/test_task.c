@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/rtos/task.h. Expected values are worked out by hand. */
 #include "keel/rtos/task.h"
 #include "unity.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/middleware/virtual_imu.h. Expected values are worked out by hand. */
 #include "keel/middleware/virtual_imu.h"
 #include "unity.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What one faulty sensor of three can do to the output (keel/middleware/voter.h, VOT-015), and the
  * condition under which that is bounded. a = 1, n = 3, so c(n) = 1/2. */
 #include "keel/middleware/voter.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What Keel costs.
 
 callgrind  instructions of passes and steps in a host build, from what callgrind wrote

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a step must not have in its Cortex-M7 objects: double precision, and calls of a library."""
 
 from __future__ import annotations

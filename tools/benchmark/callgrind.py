@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Instructions of passes and steps in a host build, from what callgrind wrote."""
 
 from __future__ import annotations

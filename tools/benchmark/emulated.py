@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What passes and steps cost on the Cortex-M7: instructions, counted on the emulated machine.
 
 The image (bench/bench_target.c) runs twice and must print the same

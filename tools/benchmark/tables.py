@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What `make bench` prints of its measurements on the host."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The boards: what their files say, what is in their images, and what those may do.
 
 board              a board's file

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The image that `make firmware` left for a board: nothing but what its report vouches for."""
 
 from __future__ import annotations

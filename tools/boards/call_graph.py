@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Who calls whom, and how much stack a frame takes: from the compiler (*.ci), and for functions of
 its libraries, which have no such file, from their instructions."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A model of the STM32F767 around its processor: register by register, what our images use."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What is in an ELF file: sections that take memory, and symbols."""
 
 from __future__ import annotations

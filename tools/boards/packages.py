@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Modules of the Python packages that the toolchain has."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Whether all of an image lies where its board's file asks, and what it takes of memories."""
 
 from __future__ import annotations

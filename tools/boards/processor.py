@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The processor of the STM32F767 with its memories: Unicorn runs an image within the chip."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What two independent databases say of the STM32F767's registers: two crates, read as data."""
 
 from __future__ import annotations

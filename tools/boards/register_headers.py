@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The facts that the register headers state: names from their text, values from the compiler."""
 
 from __future__ import annotations

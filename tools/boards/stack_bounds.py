@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The deepest path of each stack: the call graph, with what the compiler cannot know of it."""
 
 from __future__ import annotations

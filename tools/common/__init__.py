@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What every tool needs, once: running programs, writing files, reading checked files, building.
 
 errors     the one exception of a tool, exit statuses, and the nearest right name for a wrong one

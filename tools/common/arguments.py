@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A command line whose mistakes are told in one line, with the nearest right word."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Builds C and C++, for the host and for the target: each file at most once with the same flags."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads TOML and JSON that people write, checked by a pydantic model.
 
     class Deviation(Table):

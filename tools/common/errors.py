@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The one exception of a tool, what it makes of the exit status, and the nearest right name."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Writes files: whole or not at all, and errors name the file."""
 
 from __future__ import annotations

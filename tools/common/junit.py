@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reports of tests as JUnit XML, which CI systems read."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Makes the Python packages of a group importable; they are installed when they are missing."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs programs: with a time limit, in a session of their own, so that none outlives its caller."""
 
 from __future__ import annotations

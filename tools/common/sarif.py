@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Findings as SARIF 2.1.0, which code hosts and editors show beside the lines they are about."""
 
 from __future__ import annotations

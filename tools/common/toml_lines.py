@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Where in a TOML file each key stands. tomllib reads values but does not say where they were."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What tools/lint.py checks.
 
 texts  the project's files, and what a finding is

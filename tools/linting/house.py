@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The rules of the house, each with a text that breaks it in tests/tools/test_lint.py."""
 
 from __future__ import annotations

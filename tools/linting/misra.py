@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """MISRA C:2012 with Cppcheck, and the deviations from it."""
 
 from __future__ import annotations

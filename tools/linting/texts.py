@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The project's files, and what a finding is."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+(* SPDX-License-Identifier: Apache-2.0 *)
 (* The data model of the flight computer, for Frama-C 25.
 
    What is proved must be what is built. Frama-C's own machines are PCs: their

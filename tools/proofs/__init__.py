@@ -1,1 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
 """The proof driver behind tools/prove.py, one module per reason to change."""

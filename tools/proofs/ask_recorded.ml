@@ -1,3 +1,4 @@
+(* SPDX-License-Identifier: Apache-2.0 *)
 (* Has each goal of a function tried by the prover that is recorded for it, and by no other.
 
    It decides who is asked first, and nothing else: the goals, the provers and the verdicts are

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Fixes the assertions of CBMC's harnesses in the repository, as goals.txt does WP's goals.
 
 proofs/UNIT/assertions.txt has a line for each: the harness and the assertion's text. One that

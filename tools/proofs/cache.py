@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Remembers proofs that succeeded, under everything that they depend on.
 
 Only success is kept. A time-out says something about the machine's load, not about the code, and a

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Proves harnesses with CBMC, on goto binaries of the very sources, built for the target."""
 
 from __future__ import annotations

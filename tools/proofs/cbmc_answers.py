@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads what CBMC answers: what is proved, what is reached, what refutes a wrong body."""
 
 from __future__ import annotations

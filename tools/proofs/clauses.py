@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads contracts: which of the fields that a function assigns a clause says something of.
 
 A clause counts if it bears the id of a requirement and is no invariant: what a contract requires

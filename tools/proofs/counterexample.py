@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads a counterexample of CBMC: what the harness chose, what the code made of it, what fails.
 
 CBMC tells an execution step by step. Kept are the variables of the harness and the static ones that

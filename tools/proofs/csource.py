@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads C text just well enough for the driver: comments, functions, loops, annotations.
 
 Keel's style (one declaration per line, functions at the left margin, no macro that hides a brace)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads declarations of Keel's headers: structures, signatures, macros.
 
 They are in one style, a declaration a line, which a few expressions can read. What they cannot is

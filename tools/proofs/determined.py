@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Is the outcome of every public function determined? Lists by what, and fails where by nothing.
 
 By equality: specs/model/UNIT.h declares model_x with the types of keel_x, and a harness of keel_x

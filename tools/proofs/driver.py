@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs the jobs whose verdict is not known yet."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Makes jobs out of units: what each engine has to do, and under which key the verdict is kept."""
 
 from __future__ import annotations

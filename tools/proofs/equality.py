@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads a harness: does it show that a function does what its model does?
 
 It must call both, with the same numbers, and assert, in an assertion that every execution reaches

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Explains one thing by its name: an open goal, a harness, an assertion, a wrong body.
 
 For CBMC that is the counterexample as a state; for WP the clause, where it stands, what is known

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A run's results for other programs: JUnit XML for CI systems, SARIF for hosts and editors."""
 
 from __future__ import annotations

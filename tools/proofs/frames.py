@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What WP proves of functions whose postconditions are left to CBMC (units.toml, not_by_wp).
 
 Their results are floats, on whose rounding WP's provers do not come to an end. All else is WP's all

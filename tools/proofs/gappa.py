@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Proves bounds of rounding errors with Gappa: proofs/UNIT/*.g, and the wrong ones in wrong/.
 
 Directives stand in the first comment lines of a file:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """proofs/UNIT/goals.txt: the goals that must be proved, and who proved each of them last.
 
     keel_box_put_assigns qed

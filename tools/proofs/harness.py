@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads CBMC harnesses: their directives, and what their text must satisfy.
 
 Directives stand in the first comment lines of a harness, up to an empty one, which prose follows:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs jobs side by side, and the programs that they start; none outlives the driver."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Has mutants tried: by threads of this machine, or by the workers of a Dask cluster.
 
 To a cluster go orders, each a few mutants of one function, so that what the function costs

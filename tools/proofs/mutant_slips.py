@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Generates slips of thought: what an engineer may write who has understood a little less.
 
 Wrong order, a stale value, the neighbour's field or index, a check that comes too late, a clause

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What became of mutants: accepted reasons, numbers, the report and whether it is still true."""
 
 from __future__ import annotations

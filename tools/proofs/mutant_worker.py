@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a worker of a cluster does: unpacks the project and has its own tools try some mutants.
 
 It is sent as it stands here, so that a worker needs Python and nothing of Keel's.

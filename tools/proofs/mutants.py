@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Generates wrong versions of C functions: one slip each, of the kinds that programmers make.
 
 Here are slips of the pen: another operator, a number beside the right one, a condition turned

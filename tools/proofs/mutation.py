@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs mutants against the proofs: one that no proof notices shows a contract that is too weak."""
 
 from __future__ import annotations

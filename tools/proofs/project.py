@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The units of a project and the files that belong to each, found by their names.
 
 The project is Keel, or one that uses Keel and is laid out alike: `include/LAYER/NAME.h`,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a run found out, for machines (report.json) and for people (the console)."""
 
 from __future__ import annotations

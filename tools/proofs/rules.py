@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What must hold of the proofs besides that they succeed: nothing left out, nothing assumed."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Checks functions X_same(a, b) of the proofs: whether each compares every field of its structure.
 
 What it does not compare may be anything after a call, and no harness would notice. A field is

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads the goals that WP prints, and writes them as nearly as can be in the words of the contract.
 
 WP names an address before it reads it (`Let a = shiftfield_F6_keel_queue_count(q)`, `Mchar_0[a]`).

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One run of the driver, from the choice of units to the report."""
 
 from __future__ import annotations

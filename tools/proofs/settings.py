@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """proofs/units.toml: the few exceptions that a person has accepted, each with its reason.
 
     [queue]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Splits the jobs of a whole run between machines, and joins what each of them reports."""
 
 from __future__ import annotations

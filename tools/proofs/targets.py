@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What WP proves in one process each: the functions and the lemmas of a unit."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """How long jobs take: as recorded for everybody, as seen in this clone, and what is left."""
 
 from __future__ import annotations

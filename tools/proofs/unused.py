@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Finds what contracts define and nothing uses: it looks like a guarantee, and is none.
 
 A predicate, a logic function or a macro counts as used when a clause uses it, or a definition that

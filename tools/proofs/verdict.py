@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Judges a run of WP: what is proved, and all that takes from the trust in it."""
 
 from __future__ import annotations

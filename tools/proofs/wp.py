@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Proves units with Frama-C/WP, one process per function.
 
 WP is modular: the proof of a function depends on its body and on the contracts of what it calls.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads what WP says: the goals of its log, the totals of its JSON report, its warnings.
 
 Frama-C exits 0 with goals unproved, so nothing here looks at an exit status. The verdict is that

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads wrong bodies: faults, put in on purpose, that a harness must notice.
 
 proofs/UNIT/wrong/NAME.toml says which text of the unit to replace, so that the rest of a wrong

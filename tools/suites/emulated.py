@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The board that QEMU emulates: building images for it, and running them."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the emulated board must record of each fault that tests/target/faults.c makes."""
 
 from __future__ import annotations

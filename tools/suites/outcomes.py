@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """How a suite went: its tests by name, from what its program wrote."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs suites, tells how they went, and writes the reports."""
 
 from __future__ import annotations

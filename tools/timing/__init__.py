@@ -1,1 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
 """The timing tools: a schedulability analyser, and experiments on the virtual board."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The timing tools.
 
     python3 tools/with_packages.py timing -m timing analyze specs/tasksets/urpilot.toml

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The analysis of a task set: every test, and a verdict with the first reason."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The virtual board: builds its program, gives it orders, reads what happened."""
 
 from __future__ import annotations

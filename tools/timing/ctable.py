@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The C task table of a task set: what was analysed is what is compiled."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Period deviation: table 2 and fig. 12."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The paper's evaluation on the virtual board, with the very scheduler of src/."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the experiments share: goals, a runner of simulations, and the variants that are compared.
 
 Goals are judged on the task set as its file gives it, which is what flies: with its phases. The

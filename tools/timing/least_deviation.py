@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The least period deviation (eq. 15) that any order of service leaves where tasks are released
 together, with times drawn from 50 % to 100 % of the WCET, each run by itself.
 

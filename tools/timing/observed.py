@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the same runs tell of load, paths and responses, and what contradicts the paper."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Writing results: whole files or none, tables of one look."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Overload, the clock's wrap, and the readings of eq. 3."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Release phases with which no two tasks ever want the processor at the same time (collide in
 scheduler_bounds.py).
 

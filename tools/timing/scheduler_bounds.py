@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Bounds for Keel's own scheduler, the scheduler's costs included.
 
 They hold for every execution time up to the budget, given the costs that the task set declares: p

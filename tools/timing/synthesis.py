@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Periods from end-to-end limits (section IV-A of the paper), as long as the limits allow.
 
 The tasks of judged paths start with the shortest period of a ladder 1, 2, 5, 10, ... Again and

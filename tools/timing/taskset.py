@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Task sets: what a file may say, and reading one with errors that name file, line and key."""
 
 from __future__ import annotations

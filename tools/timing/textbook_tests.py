@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Textbook tests: utilisation bounds, Jeffay's condition, non-preemptive fixed priorities, chains.
 
 Sources: Liu and Layland 1973 (eq. 8 and 11 of the paper); Bini and Buttazzo 2003, the hyperbolic

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Finds, installs and pins the tools Keel is proved, tested and built with.
 
 A proof is worth what its prover is worth, so toolchain.lock.json names for every tool the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Debian packages: from the host's own suite, and from others."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The folder of unpacked tools, shared by every clone of the project."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The command line of the toolchain.
 
     python3 tools/toolchain.py ensure prove test     # make the tools available

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What was found, remembered in the cache for as long as it is still true."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What is there: looking for tools on the host and in the cache."""
 
 from __future__ import annotations

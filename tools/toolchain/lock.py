@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What is wanted: the lock file."""
 
 from __future__ import annotations

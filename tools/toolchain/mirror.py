@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The Debian mirror that the host uses, from its apt configuration."""
 
 from __future__ import annotations

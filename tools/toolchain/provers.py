@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """How the provers are started: for which target, with which flags and which configuration.
 
 Verdicts depend on this file beside the tools' versions: a change of it makes them void

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Python packages: pip fetches them, as it is configured here, and holds them to their pins."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The tools of the project on this host: found, or installed."""
 
 from __future__ import annotations

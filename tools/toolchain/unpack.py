@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Filling a folder of the cache with what was downloaded and is, byte for byte, as pinned."""
 
 from __future__ import annotations

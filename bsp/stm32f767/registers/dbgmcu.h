@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file dbgmcu.h
  * @brief Debug support (RM0410, chapter 40): what stands still while a debugger halts the core.

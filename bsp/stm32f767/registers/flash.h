@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file flash.h
  * @brief Flash interface and option bytes (RM0410, chapter 3).

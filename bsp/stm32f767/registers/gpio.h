@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file gpio.h
  * @brief General-purpose inputs and outputs (RM0410, chapter 6).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file iwdg.h
  * @brief Independent watchdog (RM0410, chapter 30).

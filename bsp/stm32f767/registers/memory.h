@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file memory.h
  * @brief Memories of the STM32F767 (RM0410, chapter 2): addresses and sizes in bytes.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file pwr.h
  * @brief Power control (RM0410, chapter 4).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file rcc.h
  * @brief Reset and clock control (reference manual RM0410, chapter 5).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file spi.h
  * @brief Serial peripheral interface (RM0410, chapter 35).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file tim.h
  * @brief Timers 1 (advanced, RM0410 chapter 25) and 5 (32 bits, chapter 26).

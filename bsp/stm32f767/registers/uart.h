@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file uart.h
  * @brief USART and UART (RM0410, chapter 34).

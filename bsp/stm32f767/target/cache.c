@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "stm32f767/target/cache.h"
 
 #include "cortex_m7/core.h"

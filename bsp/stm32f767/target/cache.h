@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file cache.h
  * @brief The core's caches. Keel has no DMA, so they need no care once they are on.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The STM32F767 as a board: board.h, and what an application may use beyond it. */
 #include "stm32f767/target/chip.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file chip.h
  * @brief The STM32F767 on a board: what a board says about itself, and what an application may use

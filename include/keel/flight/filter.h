@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file filter.h
  * @brief Two-pole Butterworth low-pass: what the derivative of eq. 4 is taken from.

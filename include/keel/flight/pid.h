@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file pid.h
  * @brief PID controller in parallel form with feed-forward (eq. 4).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file oversample.h
  * @brief Oversampling of one channel (fig. 7): a background task adds samples, a foreground task

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file range.h
  * @brief Whether a float lies in a range, and the float of a range that is next to it.

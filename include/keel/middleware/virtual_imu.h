@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file virtual_imu.h
  * @brief A virtual inertial measurement unit: a voter per channel over 2 to 4 redundant units.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file voter.h
  * @brief One channel of a weighted average voter over 2 to 4 redundant sensors (eq. 16 to 18).

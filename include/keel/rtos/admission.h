@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file admission.h
  * @brief Whether a set of tasks can be scheduled: checked before flight, one task at a time.

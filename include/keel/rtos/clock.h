@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file clock.h
  * @brief A microsecond clock that never wraps, made from a 32-bit counter that does.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file decision.h
  * @brief Which task runs now: pure functions over the queue, which change nothing.

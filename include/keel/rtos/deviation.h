@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file deviation.h
  * @brief How far the measured periods of a task lie from their target (eq. 15).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file load.h
  * @brief The CPU's load over a window of time (eq. 13 and 14).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file pass.h
  * @brief A pass: the pieces that keel_scheduler_step is made of, for the proofs and for loops of

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file priority.h
  * @brief Static priorities and the dynamic priority of eq. 3.

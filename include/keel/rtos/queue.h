@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file queue.h
  * @brief The one task queue that both halves of the scheduler share: no gaps, nothing outside.

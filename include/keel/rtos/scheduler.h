@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file scheduler.h
  * @brief The hybrid scheduler: FCFS for real-time tasks, EDF with dynamic priority for the others.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file scheduler_state.h
  * @brief What a scheduler keeps, and what holds of it: the logic that the proofs share.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file stats.h
  * @brief Statistics of one task's runs: how long, how often, how often over the budget.

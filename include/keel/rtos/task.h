@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file task.h
  * @brief A task, as its programmer declares it.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file monitor.h
  * @brief Watches a battery's voltage, and says when to land.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sources: src/battery/monitor.c specs/model/monitor.c
 // covers: battery_monitor_step model_battery_monitor_step
 #include "proof.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What the harnesses of the monitor share: any valid monitor, and when two are the same. */
 #ifndef MONITOR_PROOF_H
 #define MONITOR_PROOF_H

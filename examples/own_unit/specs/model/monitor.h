@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What the functions of battery/monitor.h do, as plainly as possible. */
 #ifndef MODEL_MONITOR_H
 #define MODEL_MONITOR_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "battery/monitor.h"
 
 keel_status_t battery_monitor_init(battery_monitor_t *monitor, uint16_t limit_mv)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of battery/monitor.h. */
 #include "battery/monitor.h"
 #include "keel/rtos/scheduler.h"
