@@ -130,10 +130,15 @@ def is_path(text: str) -> bool:
     return text.endswith(CHECKED_NAMES)
 
 
+ANY = re.compile(r"<\w+>|(?<![A-Za-z])(UNIT|LAYER|F)(?![A-Za-z])")
+
+
 def is_missing(path: str) -> bool:
-    """Whether no file has this path; <unit> and * stand for any. Headers are named as included."""
-    pattern = re.escape(re.sub(r"<\w+>", "*", path.rstrip("/"))).replace(r"\*", "[^/]*")
-    whole = re.compile(rf"(.*/)?{pattern}" if path.endswith(".h") or "/" not in path else pattern)
+    """Whether no file has this path, here or in the example of a user's project; <unit>, UNIT and *
+    stand for any. Headers are named as included."""
+    pattern = re.escape(ANY.sub("*", path.rstrip("/"))).replace(r"\*", "[^/]*")
+    before = ".*/" if path.endswith(".h") or "/" not in path else "examples/own_unit/"
+    whole = re.compile(f"({before})?{pattern}")
     return not any(whole.fullmatch(name) for name in files())
 
 

@@ -43,6 +43,7 @@ class RegistersTest(unittest.TestCase):
     def setUp(self) -> None:
         self.root = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
         shutil.copytree(ROOT / "bsp", self.root / "bsp")
+        shutil.copytree(ROOT / "examples", self.root / "examples")  # Named by the boards' files.
         (self.root / "specs").mkdir()
         shutil.copy(ROOT / registers.EXCEPTIONS, self.root / registers.EXCEPTIONS)
 
@@ -98,9 +99,9 @@ class RegistersTest(unittest.TestCase):
     def test_a_boards_file_that_is_wrong_is_found(self) -> None:
         path = "bsp/stm32f767/chip.toml"
         self.change(path, "KEEL_BOARD_INTERRUPTS=110u", "KEEL_BOARD_INTERRUPTS=98u")
-        self.finds(path, "KEEL_BOARD_INTERRUPTS", "0x62", "has 0x6e")
+        self.finds("bsp/fmuv5/board.toml", "KEEL_BOARD_INTERRUPTS", "0x62", "has 0x6e")
         self.change(path, "size = 0x60000", "size = 0x80000")
-        self.finds(path, "region SRAM", "0x20020000 0x60000")
+        self.finds("bsp/fmuv5/board.toml", "region SRAM", "0x20020000 0x60000")
 
     def test_a_wrong_memory_is_found(self) -> None:
         self.change("bsp/stm32f767/registers/memory.h", "0x00060000u", "0x00080000u")
