@@ -110,7 +110,7 @@ class PlatformioTest(ConsumerTest):
         home = {"PLATFORMIO_CORE_DIR": str(self.folder / "pio")}
         self.python("pio.py", "pkg", "pack", "-o", self.folder / "keel.tar.gz", ROOT, **home)
         with tarfile.open(self.folder / "keel.tar.gz") as archive:
-            archive.extractall(self.folder / "keel", filter="data")
+            archive.extractall(self.folder / "keel")
         return self.folder / "keel"
 
     def test_the_package_holds_what_is_flown(self) -> None:
