@@ -3,9 +3,8 @@
  * @file scheduler.h
  * @brief The hybrid scheduler: FCFS for real-time tasks, EDF with dynamic priority for the others.
  *
- * One step of the scheduler is a pass: every due real-time task in queue order, the clock read
- * again before each decision, then at most one other task. Between passes, while nothing can be
- * due, a step costs a clock reading and a comparison.
+ * A step is a pass: every due real-time task in queue order, then at most one other task, the clock
+ * read before each decision. While nothing can be due, it is a clock reading and a comparison.
  *
  *     static const keel_task_config_t gyro = {.name = "gyro", .run = read_gyro, ...};
  *
@@ -13,9 +12,9 @@
  *     keel_scheduler_add(&s, &gyro);        for every task
  *     keel_scheduler_start(&s);             admission; from here on time counts
  *     for (;;) { keel_scheduler_step(&s); }
- * A task is its declaration, a constant, whose address is its handle. A task may add and remove
- * tasks, itself included, while it runs, and calls nothing else that changes its scheduler. The
- * fields, and the meaning of the contracts' words, stand in scheduler_state.h.
+ *
+ * A task is its declaration, a constant, whose address is its handle. While it runs it may add and
+ * remove tasks, itself too, but change nothing else. The contracts' words: scheduler_state.h.
  */
 #ifndef KEEL_RTOS_SCHEDULER_H
 #define KEEL_RTOS_SCHEDULER_H
@@ -84,9 +83,8 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
 
 /**
  * Adds a task (requirement SCH-004). Before the start it is only checked by itself; afterwards it
- * is also admitted with the rest of the set, and its first release is its phase from now. Called
- * from inside a running task, a real-time task waits for the next pass, another task takes part in
- * the choice at the end of this one if its phase is over by then.
+ * is also admitted with the rest of the set, and its first release is its phase from now. Added by
+ * a running task, a real-time task waits for the next pass; another may be chosen in this one.
  *
  * @param scheduler the scheduler
  * @param task      the declaration, which must outlive the task's stay and not change meanwhile
