@@ -18,7 +18,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from common.config import ConfigError
-from timing.output import write_json
+from common.files import write_json
 from timing.taskset import TaskSet, parse
 
 ROOT = Path(__file__).resolve().parents[2]

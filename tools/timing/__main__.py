@@ -19,13 +19,14 @@ from pathlib import Path
 from common.arguments import Parser
 from common.config import ConfigError
 from common.errors import ROOT, ToolError, program
+from common.files import write_json
 from toolchain import Toolchain
 
 from timing import ctable
 from timing.analysis import analyse
 from timing.board import build
 from timing.evaluation import evaluate
-from timing.output import Cell, console, table, write_json
+from timing.output import Cell, console, table
 from timing.phases import spread, without_phases
 from timing.plots import plot_classes, plot_paths, plot_tasks
 from timing.report import plot_responses, plot_utilisation, print_analysis, verdict

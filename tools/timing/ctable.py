@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from toolchain import write_atomically
+from common.files import write_text
 
 from timing.scheduler_bounds import declared
 from timing.taskset import Task, TaskSet, symbol_of
@@ -149,5 +149,5 @@ def write(files: dict[str, str], folder: Path) -> list[str]:
     """Write the files that have changed; their names."""
     changed = stale(files, folder)
     for name in changed:
-        write_atomically(folder / name, files[name])
+        write_text(folder / name, files[name])
     return changed

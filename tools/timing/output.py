@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writing results: whole files or none, tables of one look."""
+"""Tables of one look, and the console that shows them."""
 
 from __future__ import annotations
 
-import json
 import shutil
 from collections.abc import Sequence
-from pathlib import Path
-from typing import Any
 
 from rich import box
 from rich.console import Console
 from rich.table import Table
-from toolchain import write_atomically
 
 Cell = str | int | float | None
 
@@ -40,8 +36,3 @@ def table(
     for row in rows:
         result.add_row(*map(shown, row))
     return result
-
-
-def write_json(path: Path, report: dict[str, Any]) -> None:
-    """A report, in one go."""
-    write_atomically(path, json.dumps(report, indent=1, ensure_ascii=False) + "\n")

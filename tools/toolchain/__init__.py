@@ -16,12 +16,9 @@ tools            all together: the class Toolchain
 command_line     what tools/toolchain.py takes
 """
 
-from common.files import write_text as write_atomically
-
 from toolchain.found import Found
 from toolchain.lock import ToolchainError
 from toolchain.provers import MACHDEP_FILE, TARGET_FLAGS
 from toolchain.tools import Toolchain
 
-__all__ = ["MACHDEP_FILE", "TARGET_FLAGS", "Found", "Toolchain", "ToolchainError",
-           "write_atomically"]  # fmt: skip
+__all__ = ["MACHDEP_FILE", "TARGET_FLAGS", "Found", "Toolchain", "ToolchainError"]
