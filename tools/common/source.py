@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Says which source a report was made from, so that nobody takes an old report for a new one."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from common.errors import ROOT
+from common.files import sha256_of, write_json
+from common.run import run
+
+PRODUCT = ("include", "src")  # What is proved, and what goes into a firmware.
+MADE = ("build", "__pycache__", ".git", ".mypy_cache", ".ruff_cache")  # Nobody's source.
+STAMP = "made_from"
+
+
+def files_below(root: Path) -> Iterator[Path]:
+    """All files that are somebody's source, in order."""
+    for path in sorted(root.iterdir()):
+        if path.name in MADE:
+            continue
+        if path.is_dir() and not path.is_symlink():
+            yield from files_below(path)
+        else:
+            yield path
+
+
+def digest_of_tree(root: Path, folders: Sequence[str] = ()) -> str:
+    """SHA-256 over the names and contents of all files, or of those in some folders."""
+    places = [root / folder for folder in folders] or [root]
+    whole = hashlib.sha256()
+    for place in places:
+        for path in files_below(place):
+            content = sha256_of(path) if path.is_file() else "none"
+            whole.update(f"{path.relative_to(root).as_posix()} {content}\n".encode())
+    return whole.hexdigest()
+
+
+def commit_of(root: Path) -> str:
+    """The commit that is checked out; empty where there is no git, as in a release archive."""
+    asked = run(["git", "rev-parse", "HEAD"], cwd=root)
+    return asked.output.strip() if asked.good and (root / ".git").exists() else ""
+
+
+def stamp_of(root: Path = ROOT) -> dict[str, str]:
+    """What the tree is now: its commit, the digest of all of it, and that of the product."""
+    return {
+        "commit": commit_of(root),
+        "tree": digest_of_tree(root),
+        "product": digest_of_tree(root, PRODUCT),
+    }
+
+
+def write_report(path: Path, report: Mapping[str, object], root: Path = ROOT) -> None:
+    """Write a report with the stamp of the source that it speaks of."""
+    write_json(path, {**report, STAMP: stamp_of(root)})
