@@ -23,7 +23,7 @@ endif
 
 # The targets of `make help` by their use; those that are not named here are for every day.
 BOARDS := firmware model stack flash registers test-target
-EVIDENCE := coverage mutate fuzz fuzztasks trace status dist
+EVIDENCE := coverage mutate fuzz soak fuzztasks trace status dist
 RESEARCH := timing campaign pictures
 
 ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
@@ -34,7 +34,7 @@ DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
 TIMING := python3 tools/with_packages.py timing -m timing
 
 .PHONY: analyze tables fuzztasks timing
-.PHONY: help prove test demo bench lint campaign coverage mutate fuzz trace registers status firmware model stack flash dist tools doctor clean python
+.PHONY: help prove test demo bench lint campaign coverage mutate fuzz soak trace registers status firmware model stack flash dist tools doctor clean python
 .NOTPARALLEL:
 
 help: ## this list
@@ -95,6 +95,9 @@ mutate: python ## break the code and see whether the proofs notice (UNIT=queue; 
 
 fuzz: python ## fuzz the scheduler against its reference model (SECONDS=60)
 	@python3 tools/run_tests.py --filter fuzz --fuzz $(SECONDS)
+
+soak: python ## 10^9 random calls of each stateful unit beside the specification (half an hour)
+	@python3 tools/soak.py $(ARGS)
 
 trace: python ## requirement, clause, harness, test: fail when one stands alone
 	@python3 tools/requirements_trace.py $(ARGS)
