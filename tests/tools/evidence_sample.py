@@ -62,8 +62,8 @@ def formal() -> Part:
                 items=(function, other, harness, *goals, asserted, assumption))  # fmt: skip
 
 
-def tested() -> Part:
-    """What was tested, and what the tests do not see."""
+def sample_tests() -> Part:
+    """What was sample_tests, and what the tests do not see."""
     ran = [
         Item(kind="test", id=f"unit/test_queue/test_{number}_adds", title="It adds", state="good",
              links=("requirement:QUE-001", "unit:queue"))
@@ -78,7 +78,7 @@ def tested() -> Part:
 SAMPLE: dict[str, Callable[[Context], Part]] = {
     "requirements": lambda _: requirements(),
     "formal": lambda _: formal(),
-    "tests": lambda _: tested(),
+    "tests": lambda _: sample_tests(),
 }
 
 

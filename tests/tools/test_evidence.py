@@ -34,7 +34,7 @@ from evidence_sample import (  # noqa: E402
     assembled,
     context_in,
     formal,
-    tested,
+    sample_tests,
 )
 
 from common.errors import ToolError  # noqa: E402
@@ -98,7 +98,7 @@ class InFolder(unittest.TestCase):
 
 def added(*items: Item, **facts: Any) -> Callable[[Context], Part]:
     """The sample's tests with more items, or other facts."""
-    part = tested()
+    part = sample_tests()
     return lambda _: part.model_copy(update={"items": (*part.items, *items), **facts})
 
 
@@ -153,7 +153,7 @@ class Parts(InFolder):
                             for line in told), told)  # fmt: skip
 
     def test_an_item_twice_in_one_part(self) -> None:
-        self.assertEqual(self.problems(tests=added(tested().items[0])),
+        self.assertEqual(self.problems(tests=added(sample_tests().items[0])),
                          ["tests: test:unit/test_queue/test_0_adds is there twice"])  # fmt: skip
 
     def test_something_bad_of_which_no_problem_speaks(self) -> None:
@@ -349,7 +349,7 @@ class Packages(InFolder):
         write_package(self.folder / "evidence", made, SOURCE, {})
         part = json.loads((self.folder / "evidence/tests/part.json").read_text(encoding="utf-8"))
         self.assertEqual(part["schema"], 1)
-        self.assertEqual(len(part["items"]), len(tested().items))
+        self.assertEqual(len(part["items"]), len(sample_tests().items))
         self.assertEqual(list(part["files"]), ["a/junit.xml"])
         self.assertTrue((self.folder / "evidence/tests/a/junit.xml").is_file())
 
@@ -432,8 +432,7 @@ class Sources(InFolder):
         subprocess.run(["git", *who, *words], cwd=self.folder, check=True, capture_output=True)
 
     def test_a_change_after_the_commit_is_seen_and_changes_the_stamp(self) -> None:
-        for name in ("src", "include"):
-            (self.folder / name).mkdir()
+        (self.folder / "src").mkdir()
         code = self.folder / "src/a.c"
         code.write_text("int a;\n", encoding="utf-8")
         self.git("init", "-q")
@@ -448,8 +447,7 @@ class Sources(InFolder):
         self.assertEqual(source_of(self.folder, second).changed, ("src/a.c",))
 
     def test_an_archive_has_no_commit_and_no_time(self) -> None:
-        for name in ("src", "include"):
-            (self.folder / name).mkdir()
+        (self.folder / "a").write_text("a", encoding="utf-8")
         stamp = stamp_of(self.folder)
         self.assertEqual((stamp["commit"], source_of(self.folder, stamp).seconds), ("", 0))
 
