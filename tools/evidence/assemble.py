@@ -16,8 +16,8 @@ from common.errors import ToolError
 from evidence.part import Context, Item, Kind, Part, State
 
 # In the order of the package: from what was wanted to what was found, and what it rests on.
-PARTS = ("objectives", "plans", "requirements", "trace", "formal", "strength", "tests", "static",
-         "object", "tools", "configuration", "safety")  # fmt: skip
+PARTS = ("objectives", "plans", "requirements", "trace", "contracts", "formal", "strength", "tests",
+         "static", "object", "tools", "configuration", "safety")  # fmt: skip
 WORST: tuple[State, ...] = ("bad", "open", "good", "told")
 KINDS: tuple[str, ...] = get_args(Kind)
 REFERENCE = re.compile(rf"(?:{'|'.join(KINDS)}):\S+")
@@ -46,8 +46,9 @@ class Entry:
 
     @property
     def title(self) -> str:
-        """The first that a part gives."""
-        return next((item.title for _, item in self.items if item.title), self.id)
+        """The first that says more than the id does."""
+        titles = (item.title for _, item in self.items if item.title)
+        return next((title for title in titles if title != self.id), self.id)
 
     @property
     def state(self) -> State:
@@ -111,7 +112,8 @@ def join(parts: Sequence[Part]) -> dict[str, Entry]:
     """What all parts say of each thing, with links in both directions."""
     entries: dict[str, Entry] = {}
     for part in parts:
-        for item in part.items:
+        own = Item(kind="part", id=part.name, title=part.title)
+        for item in (*part.items, own):
             key = f"{item.kind}:{item.id}"
             entry = entries.setdefault(key, Entry(key))
             entry.items.append((part.name, item))

@@ -86,7 +86,7 @@ class Site:
         for key, entry in self.made.entries.items():
             if group := group_of(key):
                 groups.setdefault(group, []).append(entry)
-            else:
+            elif entry.kind != "part":  # Its page is made above.
                 self._page("thing.html", self.places[key].page, BELOW, entry=entry,
                            related=self.model.related(entry),
                            drawn=Markup(self.tracer.around(entry)))  # noqa: S704  # fmt: skip
