@@ -4,7 +4,7 @@
 
     python3 tools/evidence.py                     # run what has to be run, write build/evidence
     python3 tools/evidence.py --as-is             # run nothing: the reports as they are
-    python3 tools/evidence.py --draft FOLDER      # what there is, problems included, unsealed
+    python3 tools/evidence.py --draft FOLDER      # the same, problems included, and unsealed
     python3 tools/evidence.py --verify FOLDER     # is a package as it was made?
 
 A package is written as a whole, and only when nothing is wrong; else the one that was there stays,
@@ -36,6 +36,8 @@ from evidence.package import Source, source_of, write_package  # noqa: E402
 from evidence.part import Context  # noqa: E402
 from evidence.verify import verify  # noqa: E402
 
+BEGUN = time.monotonic()
+
 
 def tell(line: str) -> None:
     """Progress, at once."""
@@ -64,30 +66,36 @@ def closing(problems: Sequence[str], done: str) -> int:
     """Tell the problems, and end with one line."""
     for problem in problems:
         tell(f"FAILED {problem}")
-    tell(f"evidence: {done}" if not problems else f"evidence: {len(problems)} problems, {done}")
+    many = f"{len(problems)} problem{'s' * (len(problems) > 1)}, " if problems else ""
+    tell(f"evidence: {many}{done}, in {time.monotonic() - BEGUN:.0f} s")
     return 1 if problems else 0
 
 
-def make(out: Path, as_is: bool, dirty: bool, draft: Path | None) -> int:
-    """Make the package, or the draft of one."""
-    begun = time.monotonic()
+def make(out: Path, as_is: bool, dirty: bool) -> int:
+    """Make the package."""
     context = context_of(ROOT, out)
     source = source_of(ROOT, context.stamp)
-    problems = [] if dirty or draft else refused(source)
+    problems = [] if dirty else refused(source)
     if not as_is and not problems:
-        problems += run_commands(context)
+        problems = run_commands(context)
     made = assemble(context)
-    made.problems[:0] = problems
-    seconds = f"in {time.monotonic() - begun:.0f} s"
-    if draft:
-        write_package(draft, made, source, versions(), sealed=False)
-        return closing(made.problems, f"a draft is in {draft}, {seconds}")
-    if made.problems:
-        return closing(made.problems, f"nothing is written, {seconds}")
-    if stamp_of(ROOT) != context.stamp:
-        return closing(["the source has changed meanwhile"], f"nothing is written, {seconds}")
+    problems += made.problems
+    if not problems and stamp_of(ROOT) != context.stamp:
+        problems = ["the source has changed meanwhile"]
+    if problems:
+        return closing(problems, "nothing is written")
     write_package(out, made, source, versions())
-    return closing([], f"{out} is written, {seconds}")
+    return closing([], f"{out} is written")
+
+
+def make_draft(out: Path, draft: Path) -> int:
+    """Make what there is, with its problems on every page."""
+    if draft.resolve() == out.resolve():
+        raise ToolError("a draft has a folder of its own")
+    context = context_of(ROOT, out)
+    made = assemble(context)
+    write_package(draft, made, source_of(ROOT, context.stamp), versions(), sealed=False)
+    return closing(made.problems, f"a draft is in {draft}")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -102,10 +110,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     def work() -> int:
         if options.verify:
-            return closing(verify(options.verify, stamp_of(ROOT)), f"{options.verify} is verified")
-        if options.draft and options.draft.resolve() == options.out.resolve():
-            raise ToolError("a draft has a folder of its own")
-        return make(options.out, options.as_is, options.dirty, options.draft)
+            problems = verify(options.verify, stamp_of(ROOT))
+            return closing(problems, f"{options.verify} is {'not ' * bool(problems)}as it was made")
+        if options.draft:
+            return make_draft(options.out, options.draft)
+        return make(options.out, options.as_is, options.dirty)
 
     return program("evidence", work)
 

@@ -387,9 +387,10 @@ class Program(InFolder):
     def test_it_writes_a_package_and_verifies_it(self) -> None:
         status, lines = self.run_it()
         self.assertEqual(status, 0, lines)
-        self.assertRegex(lines[-1], r"^evidence: .*out is written, in \d+ s$")
+        self.assertRegex(lines[-1], r"^evidence: .*/out is written, in \d+ s$")
         status, lines = self.run_it("--verify", str(self.out))
-        self.assertEqual((status, lines), (0, [f"evidence: {self.out} is verified"]))
+        self.assertEqual((status, len(lines)), (0, 1), lines)
+        self.assertIn(f"evidence: {self.out} is as it was made", lines[0])
         (self.out / "index.html").unlink()
         status, lines = self.run_it("--verify", str(self.out))
         self.assertEqual(status, 1)
@@ -401,7 +402,7 @@ class Program(InFolder):
         status, lines = self.run_it(tests=added(problems=("test_x fails",)))
         self.assertEqual(status, 1)
         self.assertIn("FAILED tests: test_x fails", lines)
-        self.assertRegex(lines[-1], r"^evidence: 1 problems, nothing is written")
+        self.assertRegex(lines[-1], r"^evidence: 1 problem, nothing is written")
         self.assertEqual(digests(self.out), before)
         self.assertEqual([path.name for path in self.folder.glob(".*")], [])
 
