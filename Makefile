@@ -14,7 +14,7 @@ BOARD ?=
 
 # The variables that a command line may set. Another one is a slip, and must not pass unnoticed.
 VARIABLES := UNIT SECONDS TASKSET ARGS BOARD DASK CFLAGS KEEL_CACHE KEEL_NO_INSTALL KEEL_FRESH \
-             KEEL_DEBIAN_MIRROR
+             KEEL_DEBIAN_MIRROR VERIFY
 GIVEN := $(foreach name,$(.VARIABLES),$(if $(findstring command line,$(origin $(name))),$(name)))
 STRANGE := $(filter-out $(VARIABLES),$(GIVEN))
 ifneq ($(STRANGE),)
@@ -23,12 +23,12 @@ endif
 
 # The targets of `make help` by their use; those that are not named here are for every day.
 BOARDS := firmware model stack flash registers test-target
-EVIDENCE := coverage mutate fuzz soak fuzztasks trace status dist
+EVIDENCE := evidence coverage mutate fuzz soak fuzztasks trace status dist
 RESEARCH := timing campaign pictures
 
 ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
              flash-openocd flash-pyocd flash-st-flash flash-px4 timing tools-tests timing-tests \
-             consumer
+             consumer evidence browser
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
 TIMING := python3 tools/with_packages.py timing -m timing
@@ -124,6 +124,10 @@ stack: python ## bound the stack of every task and of main in a board's image (B
 
 flash: python ## write a board's image to the board (BOARD=nucleo_f767zi; ARGS='--tool st-flash')
 	@python3 tools/flash.py "$(BOARD)" $(ARGS)
+
+.PHONY: evidence
+evidence: python ## the evidence package in build/evidence; VERIFY=folder looks whether one is as it was made
+	@python3 tools/evidence.py $(if $(VERIFY),--verify "$(VERIFY)") $(ARGS)
 
 dist: python ## a release of this commit: archive, bill of materials, checksums (in build/dist)
 	@python3 tools/dist.py $(ARGS)

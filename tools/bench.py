@@ -44,8 +44,8 @@ from benchmark.tables import FOR_SCALE, Goal, Target, verdict
 from common.arguments import Parser
 from common.build import Build
 from common.errors import ROOT, ToolError, program
-from common.files import write_json
 from common.run import output_of
+from common.source import write_report
 from toolchain import TARGET_FLAGS, Toolchain
 
 BUILD = ROOT / "build" / "bench"
@@ -254,7 +254,7 @@ def measure(tools: Toolchain) -> list[Goal]:
     check_target_steps(tools)
     steps = measure_steps(tools)
     goals = goals_of(sets, target)
-    write_json(REPORT, report_of(tools, sets, target, steps))
+    write_report(REPORT, report_of(tools, sets, target, steps))
     print("Instructions of a pass, host build, scheduler code only")
     for tasks, kinds in sets.items():
         tables.print_set(tasks, SETS[tasks], kinds)

@@ -27,6 +27,7 @@ import subprocess
 import sys
 import tarfile
 from collections.abc import Iterator, Sequence
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -147,16 +148,21 @@ def bill(root: Path, number: str, time: str) -> dict[str, Any]:
     }
 
 
+def time_of(root: Path) -> tuple[int, str]:
+    """When the commit was made, in seconds and as people write it."""
+    seconds = int(git(root, "log", "-1", "--format=%ct"))
+    return seconds, datetime.fromtimestamp(seconds, UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
 def release(root: Path, out: Path) -> list[Path]:
     """Write the files of a release, the checksums last."""
     number = version(root)
-    asked = ("--format=%ct%n%cd", "--date=format-local:%FT%TZ")
-    seconds, time = git(root, "log", "-1", *asked).split()
+    seconds, time = time_of(root)
     name = f"keel-{number}"
     bom = json.dumps(bill(root, number, time), indent=1) + "\n"
     contents = {
         f"{name}.cdx.json": bom.encode(),
-        f"{name}.tar.gz": archive(root, name, int(seconds)),
+        f"{name}.tar.gz": archive(root, name, seconds),
     }
     sums = [f"{hashlib.sha256(data).hexdigest()}  {file}\n" for file, data in contents.items()]
     contents["SHA256SUMS"] = "".join(sums).encode()
@@ -175,7 +181,6 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     parser.add_argument("--dirty", action="store_true", help="also with uncommitted changes")
     parser.add_argument("--out", type=Path, default=root / "build/dist", metavar="FOLDER")
     options = parser.parse_args(arguments)
-    os.environ["TZ"] = "UTC"
     try:
         if not options.dirty:
             require_clean(root)

@@ -29,7 +29,8 @@ def files_below(root: Path) -> Iterator[Path]:
 
 def digest_of_tree(root: Path, folders: Sequence[str] = ()) -> str:
     """SHA-256 over the names and contents of all files, or of those in some folders."""
-    places = [root / folder for folder in folders] or [root]
+    asked = [root / folder for folder in folders] or [root]
+    places = [place for place in asked if place.is_dir()]
     whole = hashlib.sha256()
     for place in places:
         for path in files_below(place):

@@ -19,7 +19,7 @@ from pydantic import BaseModel, ConfigDict
 from common.source import STAMP
 
 Kind = Literal["requirement", "function", "unit", "goal", "harness", "test", "mutant", "assumption",
-               "objective", "tool", "image", "file", "deviation"]  # fmt: skip
+               "objective", "tool", "image", "file", "deviation", "constraint", "part"]  # fmt: skip
 State = Literal["good", "bad", "open", "told"]  # told: a fact that is neither, a limit for example
 
 

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from common.source import STAMP, stamp_of
 from toolchain import Found
 
 from . import cbmc_answers, determined
@@ -141,6 +142,13 @@ class Gathered:
     outcomes: list[Outcome] = field(default_factory=list)
     # What the report of a shard has besides; it says nothing about the whole.
     shard: dict[str, Any] = field(default_factory=dict)
+    # The source as it was when the run began: a change meanwhile must not pass as proved.
+    stamp: dict[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Look at the project that the units are of."""
+        roots = {result.unit.root for result in self.units.values()}
+        self.stamp = stamp_of(min(roots)) if roots else {}
 
     def add(self, outcome: Outcome) -> None:
         """Take in a job's result."""
@@ -320,6 +328,7 @@ def content(
         "units": {name: _unit(result, gathered.engines) for name, result in gathered.units.items()},
         "tools": {name: _tool(found) for name, found in tools.items()},
         "seconds": round(seconds, 1),
+        STAMP: gathered.stamp,
     }
 
 

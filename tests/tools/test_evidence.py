@@ -1,0 +1,457 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of the evidence package's frame: what is wrong is named, and nothing wrong is packed.
+
+    python3 tests/tools/test_evidence.py
+
+The parts are a small sample's; each part's own faults are in test_evidence_<part>.py.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.util
+import io
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from collections.abc import Callable, Sequence
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+from unittest import mock
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from evidence_sample import (  # noqa: E402
+    SOURCE,
+    STAMP,
+    assembled,
+    context_in,
+    formal,
+    sample_tests,
+)
+
+from common.errors import ToolError  # noqa: E402
+from common.run import Ended  # noqa: E402
+from common.source import STAMP as MADE_FROM  # noqa: E402
+from common.source import stamp_of  # noqa: E402
+from evidence.assemble import PARTS, maker_of  # noqa: E402
+from evidence.commands import Command, run_commands  # noqa: E402
+from evidence.package import (  # noqa: E402
+    ATTESTATION,
+    MANIFEST,
+    SUMS,
+    Source,
+    digests,
+    source_of,
+    write_package,
+)
+from evidence.part import Context, Item, Part, Table  # noqa: E402
+from evidence.verify import verify  # noqa: E402
+from toolchain import ToolchainError  # noqa: E402
+
+
+def the_program() -> ModuleType:
+    """tools/evidence.py, whose name its package has as well."""
+    spec = importlib.util.spec_from_file_location("evidence_program", ROOT / "tools/evidence.py")
+    assert spec and spec.loader
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def write_sample(folder: Path) -> Path:
+    """Make the sample's package."""
+    place = folder / "evidence"
+    write_package(place, assembled(folder), SOURCE, {"cbmc": "6.6.0"})
+    return place
+
+
+@cache
+def sample_package() -> Path:
+    """The sample's package, made once."""
+    folder = tempfile.mkdtemp()
+    unittest.addModuleCleanup(shutil.rmtree, folder)
+    return write_sample(Path(folder))
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def problems(self, **parts: Callable[[Context], Part]) -> list[str]:
+        """What is wrong with the sample when some parts are others."""
+        return assembled(self.folder, **parts).problems
+
+    def package(self) -> Path:
+        """A copy of the sample's package, whole and sealed."""
+        return Path(shutil.copytree(sample_package(), self.folder / "evidence", dirs_exist_ok=True))
+
+
+def added(*items: Item, **facts: Any) -> Callable[[Context], Part]:
+    """The sample's tests with more items, or other facts."""
+    part = sample_tests()
+    return lambda _: part.model_copy(update={"items": (*part.items, *items), **facts})
+
+
+class Parts(InFolder):
+    def test_a_sound_sample_has_no_problem(self) -> None:
+        self.assertEqual(self.problems(), [])
+
+    def test_what_a_part_finds_is_told_with_its_name(self) -> None:
+        self.assertEqual(self.problems(tests=added(problems=("test_x fails",))),
+                         ["tests: test_x fails"])  # fmt: skip
+
+    def test_an_absent_part(self) -> None:
+        with self.assertRaisesRegex(ToolError, r"no tools/evidence/parts/nonesuch\.py"):
+            maker_of("nonesuch")
+
+        def absent(_: Context) -> Part:
+            raise ToolError("is missing")
+
+        self.assertIn("formal: is missing", self.problems(formal=absent))
+
+    def test_a_missing_tool(self) -> None:
+        def without(_: Context) -> Part:
+            raise ToolchainError("frama-c is missing; run: tools/toolchain.py ensure prove")
+
+        told = self.problems(formal=without)
+        self.assertTrue(any("formal: frama-c is missing" in line for line in told), told)
+
+    def test_a_report_with_another_content_than_its_reader_takes_for_granted(self) -> None:
+        def stumbles(_: Context) -> Part:
+            report: dict[str, str] = {}
+            return Part(name="tests", title=report["units"])
+
+        self.assertEqual(self.problems(tests=stumbles),
+                         ["tests: cannot be made: KeyError: 'units'"])  # fmt: skip
+
+    def test_a_link_that_leads_nowhere(self) -> None:
+        lost = Item(kind="test", id="unit/x/y", title="y", links=("requirement:QUE-999",))
+        self.assertEqual(self.problems(tests=added(lost)),
+                         ["tests: test:unit/x/y links to requirement:QUE-999, which is nowhere"])  # fmt: skip
+
+    def test_a_cell_that_leads_nowhere_and_a_row_that_is_too_short(self) -> None:
+        table = Table(title="T", columns=("a", "b"), rows=(("goal:no/where", "1"), ("x",)))
+        self.assertEqual(self.problems(tests=added(tables=(table,))),
+                         ["tests: table 'T' names goal:no/where, which is nowhere",
+                          "tests: table 'T' has an uneven row: ('x',)"])  # fmt: skip
+
+    def test_a_removed_harness_leaves_links_to_nothing(self) -> None:
+        part = formal()
+        left = tuple(item for item in part.items if item.kind != "harness")
+        told = self.problems(formal=lambda _: part.model_copy(update={"items": left}))
+        self.assertTrue(any("harness:queue/keel_queue_init_harness, which is nowhere" in line
+                            for line in told), told)  # fmt: skip
+
+    def test_an_item_twice_in_one_part(self) -> None:
+        self.assertEqual(self.problems(tests=added(sample_tests().items[0])),
+                         ["tests: test:unit/test_queue/test_0_adds is there twice"])  # fmt: skip
+
+    def test_something_bad_of_which_no_problem_speaks(self) -> None:
+        failed = Item(kind="test", id="unit/x/y", title="expected 1, was 2", state="bad")
+        self.assertEqual(self.problems(tests=added(failed)),
+                         ["tests: test:unit/x/y is bad: expected 1, was 2"])  # fmt: skip
+        told = added(failed, problems=("unit/x/y: expected 1, was 2",))
+        self.assertEqual(self.problems(tests=told), ["tests: unit/x/y: expected 1, was 2"])
+
+    def test_a_file_that_is_not_there(self) -> None:
+        gone = self.folder / "gone.xml"
+        self.assertEqual(self.problems(tests=added(files={"junit.xml": gone})),
+                         [f"tests: junit.xml: is missing: {gone}"])  # fmt: skip
+
+    def test_parts_that_speak_of_one_thing_are_joined(self) -> None:
+        more = Item(kind="function", id="keel_queue_init", title="", text="Not reached: line 7",
+                    state="open", links=("assumption:A-01",))  # fmt: skip
+        entry = assembled(self.folder, tests=added(more)).entries["function:keel_queue_init"]
+        self.assertEqual([part for part, _ in entry.items], ["formal", "tests"])
+        self.assertEqual((entry.title, entry.state), ("Empties a queue", "open"))
+        self.assertIn("unit:queue", entry.links)
+        self.assertIn("assumption:A-01", entry.links)
+        self.assertIn("harness:queue/keel_queue_init_harness", entry.back)
+
+    def test_every_part_of_the_package_has_a_module(self) -> None:
+        there = {path.stem for path in (ROOT / "tools/evidence/parts").glob("[a-z]*.py")}
+        self.assertLessEqual(there, set(PARTS))
+
+
+class Commands(InFolder):
+    """What is run, with a make that only notes it."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.ran: list[str] = []
+        self.command = Command("test/report.json", ("test",))
+
+    def write(self, text: str) -> None:
+        path = self.folder / "build/test/report.json"
+        path.parent.mkdir(parents=True)
+        path.write_text(text, encoding="utf-8")
+
+    def run_with(self, ended: Ended) -> list[str]:
+        def start(words: Sequence[str], _: Path) -> Ended:
+            self.ran += words
+            return ended
+
+        return run_commands(context_in(self.folder), [self.command], start)
+
+    def ran_for(self, **report: Any) -> bool:
+        self.write(json.dumps(report))
+        self.assertEqual(self.run_with(Ended(0, "")), [])
+        return bool(self.ran)
+
+    def test_a_good_report_of_this_source_is_kept(self) -> None:
+        self.assertFalse(self.ran_for(passed=3, failed=0, **{MADE_FROM: STAMP}))
+
+    def test_a_report_of_another_source_is_made_anew(self) -> None:
+        self.assertTrue(self.ran_for(failed=0, **{MADE_FROM: {**STAMP, "tree": "0" * 64}}))
+
+    def test_a_report_without_a_stamp_is_made_anew(self) -> None:
+        self.assertTrue(self.ran_for(failed=0))
+
+    def test_a_failed_report_is_made_anew(self) -> None:
+        self.assertTrue(self.ran_for(failed=1, **{MADE_FROM: STAMP}))
+
+    def test_a_proof_that_failed_is_made_anew(self) -> None:
+        self.assertTrue(self.ran_for(verdict="failed", **{MADE_FROM: STAMP}))
+
+    def test_a_report_of_a_few_suites_is_made_anew(self) -> None:
+        self.assertTrue(self.ran_for(failed=0, filter="unit/", **{MADE_FROM: STAMP}))
+
+    def test_a_half_written_report_is_made_anew(self) -> None:
+        self.write('{"failed": 0, "made')
+        self.run_with(Ended(0, ""))
+        self.assertEqual(self.ran, ["test"])
+
+    def test_a_command_that_fails_is_named_with_its_last_line(self) -> None:
+        [told] = self.run_with(Ended(1, "much\n3 of 4 tests passed\n"))
+        self.assertIn("make test: exit status 1: 3 of 4 tests passed", told)
+        [log] = (self.folder / "work/logs").iterdir()
+        self.assertIn("much", log.read_text(encoding="utf-8"))
+
+
+class Reports(InFolder):
+    """What a part is told of a report that cannot serve."""
+
+    def told(self, text: str | None) -> list[str]:
+        context = context_in(self.folder)
+        if text is not None:
+            (context.build / "x.json").write_text(text, encoding="utf-8")
+        problems: list[str] = []
+        context.report("x.json", problems)
+        return problems
+
+    def test_missing(self) -> None:
+        self.assertEqual(self.told(None), ["build/x.json: is missing"])
+
+    def test_half_written(self) -> None:
+        self.assertRegex(self.told('{"units": {')[0], r"^build/x\.json: is not whole: ")
+
+    def test_stale(self) -> None:
+        for stamp in ({}, {**STAMP, "commit": "0" * 40}, {**STAMP, "tree": "0" * 64}):
+            told = self.told(json.dumps({MADE_FROM: stamp}))
+            self.assertEqual(told, ["build/x.json: speaks of another source than the one that is"
+                                    " here"])  # fmt: skip
+
+    def test_good(self) -> None:
+        self.assertEqual(self.told(json.dumps({MADE_FROM: STAMP})), [])
+
+
+class Packages(InFolder):
+    """What a finished package is, and whether a change of it is noticed."""
+
+    def test_one_that_nobody_touched_is_verified(self) -> None:
+        place = self.package()
+        self.assertEqual(verify(place, STAMP), [])
+        for name in ("index.html", "evidence.pdf", MANIFEST, SUMS, ATTESTATION, "tests/part.json"):
+            self.assertTrue((place / name).is_file(), name)
+
+    def test_two_of_one_source_are_the_same_bytes(self) -> None:
+        first = digests(self.package())
+        self.assertEqual(first, digests(write_sample(self.folder / "again")))
+        self.assertGreater(len(first), 40)
+
+    def test_an_altered_file(self) -> None:
+        place = self.package()
+        page = place / "site/style.css"
+        page.write_text(page.read_text(encoding="utf-8") + " ", encoding="utf-8")
+        told = verify(place, STAMP)
+        self.assertIn(f"site/style.css: was altered, {SUMS} has another digest", told)
+        self.assertIn(f"site/style.css: was altered, {ATTESTATION} has another digest", told)
+
+    def test_a_missing_file(self) -> None:
+        place = self.package()
+        (place / "formal/part.json").unlink()
+        self.assertIn(f"formal/part.json: is missing, {SUMS} has it", verify(place, STAMP))
+
+    def test_an_added_file(self) -> None:
+        place = self.package()
+        (place / "tests/more.txt").write_text("x", encoding="utf-8")
+        self.assertIn(f"tests/more.txt: was added, {SUMS} does not have it", verify(place, STAMP))
+
+    def test_checksums_that_were_made_anew_after_a_change(self) -> None:
+        place = self.package()
+        (place / "index.html").write_text("all is well", encoding="utf-8")
+        lines = [f"{digest}  {name}\n" for name, digest in digests(place, (SUMS,)).items()]
+        (place / SUMS).write_text("".join(lines), encoding="utf-8")
+        self.assertEqual(verify(place, STAMP),
+                         [f"index.html: was altered, {ATTESTATION} has another digest"])  # fmt: skip
+
+    def test_half_written_checksums_attestation_and_manifest(self) -> None:
+        place = self.package()
+        sums = (place / SUMS).read_text(encoding="utf-8")
+        (place / SUMS).write_text(sums[: sums.rindex("\n", 0, -1) + 11], encoding="utf-8")
+        with self.assertRaisesRegex(ToolError, rf"{SUMS}:\d+: expected a SHA-256 and a name"):
+            verify(place, STAMP)
+        place = self.package()
+        (place / ATTESTATION).write_text('{"subject": ', encoding="utf-8")
+        self.assertTrue(any(line.startswith(f"{ATTESTATION}: is missing or not whole")
+                            for line in verify(place, STAMP)))  # fmt: skip
+        (place / MANIFEST).write_text('{"schema"', encoding="utf-8")
+        with self.assertRaisesRegex(ToolError, f"{MANIFEST}: is not whole"):
+            verify(place, STAMP)
+
+    def test_one_of_another_commit_or_source(self) -> None:
+        place = self.package()
+        other = {**STAMP, "commit": "0" * 40}
+        self.assertEqual(verify(place, other),
+                         [f"made from commit {'c' * 40}, here is {'0' * 40}"])  # fmt: skip
+        self.assertEqual(verify(place, {**STAMP, "tree": "0" * 64}),
+                         ["the source here is not the one that the package was made from"])  # fmt: skip
+
+    def test_a_folder_that_is_none(self) -> None:
+        with self.assertRaisesRegex(ToolError, "there is no such folder"):
+            verify(self.folder / "x", STAMP)
+        with self.assertRaisesRegex(ToolError, "is no evidence package"):
+            verify(self.folder, STAMP)
+
+    def test_the_attestation_names_each_file_and_the_source(self) -> None:
+        place = self.package()
+        read = json.loads((place / ATTESTATION).read_text(encoding="utf-8"))
+        self.assertEqual(read["_type"], "https://in-toto.io/Statement/v1")
+        named = {one["name"]: one["digest"]["sha256"] for one in read["subject"]}
+        self.assertEqual(named, digests(place, (SUMS, ATTESTATION)))
+        source = read["predicate"]["buildDefinition"]["resolvedDependencies"][0]
+        self.assertEqual(source["digest"]["gitCommit"], STAMP["commit"])
+
+    def test_the_json_of_a_part_says_all_that_it_says(self) -> None:
+        report = self.folder / "junit.xml"
+        report.write_text("<testsuite/>", encoding="utf-8")
+        made = assembled(self.folder, tests=added(files={"a/junit.xml": report}))
+        write_package(self.folder / "evidence", made, SOURCE, {})
+        part = json.loads((self.folder / "evidence/tests/part.json").read_text(encoding="utf-8"))
+        self.assertEqual(part["schema"], 1)
+        self.assertEqual(len(part["items"]), len(sample_tests().items))
+        self.assertEqual(list(part["files"]), ["a/junit.xml"])
+        self.assertTrue((self.folder / "evidence/tests/a/junit.xml").is_file())
+
+    def test_a_file_that_would_lead_out_of_the_package(self) -> None:
+        report = self.folder / "junit.xml"
+        report.write_text("<testsuite/>", encoding="utf-8")
+        made = assembled(self.folder, tests=added(files={"../../x": report}))
+        with self.assertRaisesRegex(ToolError, "leads out of the package"):
+            write_package(self.folder / "evidence", made, SOURCE, {})
+        self.assertFalse((self.folder / "evidence").exists())
+
+
+class Program(InFolder):
+    """tools/evidence.py with the sample's parts."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.program = the_program()
+        self.out = self.folder / "out"
+
+    def run_it(self, *words: str, **parts: Callable[[Context], Part]) -> tuple[int, list[str]]:
+        def sample(context: Context) -> Any:
+            return assembled(self.folder, **parts)
+
+        said = io.StringIO()
+        with mock.patch.object(self.program, "assemble", sample), \
+                mock.patch.object(self.program, "stamp_of", lambda _: STAMP), \
+                mock.patch.object(self.program, "source_of", lambda *_: self.source), \
+                contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):  # fmt: skip
+            status = self.program.main(["--as-is", "--out", str(self.out), *words])
+        return status, said.getvalue().splitlines()
+
+    source = SOURCE
+
+    def test_it_writes_a_package_and_verifies_it(self) -> None:
+        status, lines = self.run_it()
+        self.assertEqual(status, 0, lines)
+        self.assertRegex(lines[-1], r"^evidence: .*/out is written, in \d+ s$")
+        status, lines = self.run_it("--verify", str(self.out))
+        self.assertEqual((status, len(lines)), (0, 1), lines)
+        self.assertIn(f"evidence: {self.out} is as it was made", lines[0])
+        (self.out / "index.html").unlink()
+        status, lines = self.run_it("--verify", str(self.out))
+        self.assertEqual(status, 1)
+        self.assertIn(f"FAILED index.html: is missing, {SUMS} has it", lines)
+
+    def test_with_a_problem_it_leaves_what_was_there(self) -> None:
+        self.run_it()
+        before = digests(self.out)
+        status, lines = self.run_it(tests=added(problems=("test_x fails",)))
+        self.assertEqual(status, 1)
+        self.assertIn("FAILED tests: test_x fails", lines)
+        self.assertRegex(lines[-1], r"^evidence: 1 problem, nothing is written")
+        self.assertEqual(digests(self.out), before)
+        self.assertEqual([path.name for path in self.folder.glob(".*")], [])
+
+    def test_a_draft_shows_the_problems_and_is_not_sealed(self) -> None:
+        draft = self.folder / "draft"
+        lost = Item(kind="test", id="unit/x/y", title="y", links=("requirement:QUE-999",))
+        status, _ = self.run_it("--draft", str(draft), tests=added(lost))
+        self.assertEqual(status, 1)
+        self.assertIn("requirement:QUE-999, which is nowhere",
+                      (draft / "index.html").read_text(encoding="utf-8"))  # fmt: skip
+        self.assertFalse((draft / SUMS).exists())
+        self.assertFalse(self.out.exists())
+
+    def test_a_source_that_is_not_committed_is_refused(self) -> None:
+        self.source = Source(STAMP, 1, ("src/rtos/queue.c",))
+        status, lines = self.run_it()
+        self.assertEqual(status, 1)
+        self.assertIn("FAILED src/rtos/queue.c: is not as the commit has it: commit it, or say"
+                      " --dirty", lines)  # fmt: skip
+        self.assertEqual(self.run_it("--dirty")[0], 0)
+        told = json.loads((self.out / MANIFEST).read_text(encoding="utf-8"))
+        self.assertEqual(told["not_as_committed"], ["src/rtos/queue.c"])
+
+
+class Sources(InFolder):
+    def git(self, *words: str) -> None:
+        who = ["-c", "user.name=a", "-c", "user.email=a@b"]
+        subprocess.run(["git", *who, *words], cwd=self.folder, check=True, capture_output=True)
+
+    def test_a_change_after_the_commit_is_seen_and_changes_the_stamp(self) -> None:
+        (self.folder / "src").mkdir()
+        code = self.folder / "src/a.c"
+        code.write_text("int a;\n", encoding="utf-8")
+        self.git("init", "-q")
+        self.git("add", "-A")
+        self.git("commit", "-q", "-m", "x", "--date=2026-01-02T03:04:05Z")
+        first = stamp_of(self.folder)
+        self.assertEqual(source_of(self.folder, first).changed, ())
+        self.assertGreater(source_of(self.folder, first).seconds, 0)
+        code.write_text("int b;\n", encoding="utf-8")
+        second = stamp_of(self.folder)
+        self.assertNotEqual(first["product"], second["product"])
+        self.assertEqual(source_of(self.folder, second).changed, ("src/a.c",))
+
+    def test_an_archive_has_no_commit_and_no_time(self) -> None:
+        (self.folder / "a").write_text("a", encoding="utf-8")
+        stamp = stamp_of(self.folder)
+        self.assertEqual((stamp["commit"], source_of(self.folder, stamp).seconds), ("", 0))
+
+
+if __name__ == "__main__":
+    unittest.main()

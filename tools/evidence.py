@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Make the evidence package of the present commit, or verify one: docs/evidence.md.
+
+    python3 tools/evidence.py                     # run what has to be run, write build/evidence
+    python3 tools/evidence.py --as-is             # run nothing: the reports as they are
+    python3 tools/evidence.py --draft FOLDER      # the same, problems included, and unsealed
+    python3 tools/evidence.py --verify FOLDER     # is a package as it was made?
+
+A package is written as a whole, and only when nothing is wrong; else the one that was there stays,
+and each problem is told in a line.
+
+Exit status: 0 when the package is written or is as it was made, 1 when something is wrong, 2 when
+it could not be tried.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from common.arguments import Parser
+from common.errors import ROOT, ToolError, program
+from common.packages import provide
+from common.source import stamp_of
+from toolchain import Toolchain
+
+provide("common")
+provide("evidence")
+
+from evidence.assemble import assemble  # noqa: E402
+from evidence.commands import run_commands  # noqa: E402
+from evidence.package import Source, source_of, write_package  # noqa: E402
+from evidence.part import Context  # noqa: E402
+from evidence.verify import verify  # noqa: E402
+
+BEGUN = time.monotonic()
+
+
+def tell(line: str) -> None:
+    """Progress, at once."""
+    print(line, flush=True)
+
+
+def context_of(root: Path, out: Path) -> Context:
+    """What the parts may look at."""
+    work = out.with_name(f"{out.name}-work")
+    work.mkdir(parents=True, exist_ok=True)
+    return Context(root, root / "build", work, stamp_of(root), tell)
+
+
+def versions() -> dict[str, str]:
+    """The tools that are here, with their versions."""
+    return {name: found.version for name, found in sorted(Toolchain().versions().items())}
+
+
+def refused(source: Source) -> list[str]:
+    """A package is made of a commit."""
+    return [f"{name}: is not as the commit has it: commit it, or say --dirty"
+            for name in source.changed]  # fmt: skip
+
+
+def closing(problems: Sequence[str], done: str) -> int:
+    """Tell the problems, and end with one line."""
+    for problem in problems:
+        tell(f"FAILED {problem}")
+    many = f"{len(problems)} problem{'s' * (len(problems) > 1)}, " if problems else ""
+    tell(f"evidence: {many}{done}, in {time.monotonic() - BEGUN:.0f} s")
+    return 1 if problems else 0
+
+
+def make(out: Path, as_is: bool, dirty: bool) -> int:
+    """Make the package."""
+    context = context_of(ROOT, out)
+    source = source_of(ROOT, context.stamp)
+    problems = [] if dirty else refused(source)
+    if not as_is and not problems:
+        problems = run_commands(context)
+    made = assemble(context)
+    problems += made.problems
+    if not problems and stamp_of(ROOT) != context.stamp:
+        problems = ["the source has changed meanwhile"]
+    if problems:
+        return closing(problems, "nothing is written")
+    write_package(out, made, source, versions())
+    return closing([], f"{out} is written")
+
+
+def make_draft(out: Path, draft: Path) -> int:
+    """Make what there is, with its problems on every page."""
+    if draft.resolve() == out.resolve():
+        raise ToolError("a draft has a folder of its own")
+    context = context_of(ROOT, out)
+    made = assemble(context)
+    write_package(draft, made, source_of(ROOT, context.stamp), versions(), sealed=False)
+    return closing(made.problems, f"a draft is in {draft}")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Entry point."""
+    parser = Parser("Make the evidence package, or verify one.", "evidence")
+    parser.add_argument("--as-is", action="store_true", help="run no command before")
+    parser.add_argument("--dirty", action="store_true", help="also with uncommitted changes")
+    parser.add_argument("--draft", type=Path, metavar="FOLDER", help="write one with its problems")
+    parser.add_argument("--verify", type=Path, metavar="FOLDER", help="look at a package only")
+    parser.add_argument("--out", type=Path, default=ROOT / "build/evidence", metavar="FOLDER")
+    options = parser.parse_args(arguments)
+
+    def work() -> int:
+        if options.verify:
+            problems = verify(options.verify, stamp_of(ROOT))
+            return closing(problems, f"{options.verify} is {'not ' * bool(problems)}as it was made")
+        if options.draft:
+            return make_draft(options.out, options.draft)
+        return make(options.out, options.as_is, options.dirty)
+
+    return program("evidence", work)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The commands whose reports the package is made from: each is run unless its report still holds."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from common.files import write_text
+from common.run import Ended, run
+
+from evidence.part import Context
+
+GOOD_VERDICTS = ("proved", "passed", "good")
+TIMEOUT_S = 3600.0
+
+
+@dataclass(frozen=True)
+class Command:
+    """A target of make, and the report below build/ that says how it ended."""
+
+    report: str
+    words: tuple[str, ...]
+
+    @property
+    def shown(self) -> str:
+        """As one types it."""
+        return " ".join(["make", *self.words])
+
+
+# In the order in which they run: an image is built before it is looked into.
+COMMANDS = (
+    Command("prove/report.json", ("prove",)),
+    Command("firmware/mps2_an500/report.json", ("firmware", "BOARD=mps2_an500")),
+    Command("firmware/nucleo_f767zi/report.json", ("firmware", "BOARD=nucleo_f767zi")),
+    Command("test-target/report.json", ("test-target",)),
+    Command("test/report.json", ("test",)),
+    Command("coverage/report.json", ("coverage",)),
+    Command("lint/report.json", ("lint",)),
+    Command("stack/mps2_an500.json", ("stack", "BOARD=mps2_an500")),
+    Command("bench/report.json", ("bench",)),
+)
+
+Start = Callable[[Sequence[str], Path], Ended]
+
+
+def start_make(words: Sequence[str], root: Path) -> Ended:
+    """Run make, without the variables of the make that may have started us."""
+    outside = {"MAKEFLAGS": "", "MAKELEVEL": "", "MFLAGS": "", "ARGS": "", "UNIT": "", "BOARD": ""}
+    return run(["make", "--no-print-directory", *words], TIMEOUT_S, cwd=root, environment=outside)
+
+
+def is_whole_and_good(report: dict[str, Any]) -> bool:
+    """Whether a report speaks of everything, and well. One without a verdict counts what failed."""
+    if report.get("partial") or report.get("filter"):
+        return False
+    if "verdict" in report:
+        return report["verdict"] in GOOD_VERDICTS
+    return not (report.get("failed") or report.get("problems") or report.get("findings"))
+
+
+def still_holds(context: Context, command: Command) -> bool:
+    """Whether a report is of the tree as it is now, and good."""
+    problems: list[str] = []
+    report = context.report(command.report, problems)
+    return not problems and is_whole_and_good(report)
+
+
+def run_commands(
+    context: Context, commands: Sequence[Command] = COMMANDS, start: Start = start_make
+) -> list[str]:
+    """Run what has to be run, with progress; gives what went wrong."""
+    problems: list[str] = []
+    for number, command in enumerate(commands, 1):
+        place = f"[{number}/{len(commands)}] {command.shown}"
+        if still_holds(context, command):
+            context.say(f"{place}: holds, build/{command.report} is of this source")
+            continue
+        context.say(f"{place} ...")
+        begun = time.monotonic()
+        ended = start(command.words, context.root)
+        context.say(f"{place}: {ended.how}, {time.monotonic() - begun:.0f} s")
+        log = context.work / "logs" / f"{'-'.join(command.words)}.txt".replace("/", "_")
+        write_text(log, ended.output)
+        if not ended.good:
+            last = (ended.output.strip().splitlines() or ["it said nothing"])[-1]
+            problems.append(f"{command.shown}: {ended.how}: {last} (all of it: {log})")
+    return problems

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The part `configuration`: the commit, the digest of every configuration item, the tools' bill."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+import dist
+from common.errors import ToolError
+from common.files import sha256_of, write_json, write_text
+from common.run import output_of
+from common.source import files_below
+
+from evidence.part import Context, Item, Part, Table
+
+NO_TIME = "1970-01-01T00:00:00Z"  # Of an archive, which has no commit to ask.
+TEXT = """\
+The configuration items are all files of the commit, each with its SHA-256. The source's digest on
+each page is over their names and contents, so it tells also whether a file was added or removed.
+
+The bill of materials (CycloneDX) lists the tools that tools/toolchain.lock.json admits. Keel itself
+contains no code of others, so none of them is flown."""
+
+
+def names(root: Path) -> list[str]:
+    """All files of the commit, or of the archive."""
+    if (root / ".git").exists():
+        listed = output_of(["git", "ls-files", "-z"], cwd=root).split("\0")
+        return sorted(name for name in listed if name)
+    return [path.relative_to(root).as_posix() for path in files_below(root)]
+
+
+def items_of(root: Path) -> Iterator[Item]:
+    """Every configuration item; one that was deleted and not committed has no digest."""
+    for name in names(root):
+        path = root / name
+        digest = sha256_of(path) if path.is_file() else "is missing here"
+        yield Item(kind="file", id=name, title="", facts={"SHA-256": digest})
+
+
+def folders(items: tuple[Item, ...]) -> Table:
+    """How many items each folder has."""
+    counted = Counter(item.id.split("/")[0] if "/" in item.id else "." for item in items)
+    rows = tuple((name, str(number)) for name, number in sorted(counted.items()))
+    return Table(title="Configuration items", columns=("folder", "files"), rows=rows)
+
+
+def make(context: Context) -> Part:
+    """What the package was made of."""
+    items = tuple(items_of(context.root))
+    sums = context.work / "items.sha256"
+    write_text(sums, "".join(f"{item.facts['SHA-256']}  {item.id}\n" for item in items))
+    bill = context.work / "tools.cdx.json"
+    try:
+        version = dist.version(context.root)
+        time = dist.time_of(context.root)[1] if context.stamp["commit"] else NO_TIME
+        write_json(bill, dist.bill(context.root, version, time))
+    except dist.DistError as error:
+        raise ToolError(str(error)) from error
+    summary = {
+        "version": version, "commit": context.stamp["commit"] or "none, from an archive",
+        "source, SHA-256": context.stamp["tree"], "product, SHA-256": context.stamp["product"],
+        "configuration items": str(len(items)),
+    }  # fmt: skip
+    return Part(
+        name="configuration", title="Configuration", text=TEXT, items=items, summary=summary,
+        tables=(folders(items),), files={"items.sha256": sums, "tools.cdx.json": bill},
+    )  # fmt: skip

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The summary as a PDF: what each part shows, in figures, words and tables.
+
+The same parts give the same bytes: its only time is that of the commit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from pathlib import Path
+
+from fpdf import FPDF
+from fpdf.enums import XPos, YPos
+from fpdf.fonts import FontFace
+
+from common.files import write_bytes
+from toolchain import Toolchain
+
+from evidence.assemble import Assembled
+from evidence.part import Part, Table
+
+ROWS = 40  # Of a table; the site and the JSON have all.
+FONT = "DejaVu"
+HEAD = FontFace(emphasis="BOLD", fill_color=(232, 236, 240))
+
+
+class Paper(FPDF):
+    """A4, with the commit and the number at the foot of each page."""
+
+    def __init__(self, foot: str, when: datetime) -> None:
+        super().__init__(format="A4")
+        self.foot = foot
+        self.set_creation_date(when)
+        self.set_title("Keel evidence")
+        self.set_lang("en")
+        folder = Path(Toolchain().command("evidence-font")[0])
+        for style, file in (("", "DejaVuSans.ttf"), ("B", "DejaVuSans-Bold.ttf")):
+            self.add_font(FONT, style, folder / file)
+        self.set_auto_page_break(True, 18)
+        self.set_margin(18)
+        self.add_page()
+
+    def footer(self) -> None:
+        """Below each page."""
+        self.set_y(-13)
+        self.set_font(FONT, size=7)
+        self.cell(0, 5, f"{self.foot}   {self.page_no()}", align="R")
+
+    def heading(self, text: str, size: float, level: int) -> None:
+        """A heading, which is in the outline, too."""
+        self.set_font(FONT, "B", size)
+        self.ln(3)
+        self.start_section(text, level)
+        self.words(text, size / 2)
+
+    def words(self, text: str, height: float = 4.6) -> None:
+        """A paragraph in the present font."""
+        self.multi_cell(0, height, text, new_x=XPos.LMARGIN, new_y=YPos.NEXT, align="L")
+
+    def plain(self, text: str) -> None:
+        """A paragraph of the text."""
+        self.set_font(FONT, size=9)
+        self.words(text)
+
+    def rows(self, columns: tuple[str, ...], rows: tuple[tuple[str, ...], ...]) -> None:
+        """A table that goes on over pages."""
+        self.set_font(FONT, size=7.5)
+        with self.table(headings_style=HEAD, line_height=4, text_align="LEFT", padding=0.8) as grid:
+            for row in (columns, *rows):
+                line = grid.row()
+                for text in row:
+                    line.cell(text)
+
+
+def add_table(paper: Paper, table: Table) -> None:
+    """A table, or the begin of a long one."""
+    paper.heading(table.title, 10, 1)
+    if table.note:
+        paper.plain(table.note)
+    if table.rows:
+        paper.rows(table.columns, table.rows[:ROWS])
+    if len(table.rows) > ROWS:
+        paper.plain(f"{len(table.rows) - ROWS} more rows are on the site and in the JSON.")
+
+
+def add_part(paper: Paper, part: Part) -> None:
+    """A part, from a new page on."""
+    paper.add_page()
+    paper.heading(part.title, 15, 0)
+    for name, value in part.summary.items():
+        paper.plain(f"{name}: {value}")
+    if part.text:
+        paper.ln(2)
+        paper.plain(part.text)
+    for table in part.tables:
+        add_table(paper, table)
+
+
+def add_cover(paper: Paper, made: Assembled, stamp: Mapping[str, str], when: datetime) -> None:
+    """What this is, of what, and what it has."""
+    paper.heading("Keel: what shows that it is right", 20, 0)
+    paper.plain(f"Commit {stamp['commit'] or 'none, from an archive'}, {when:%Y-%m-%d %H:%M UTC}")
+    paper.plain(f"Source, SHA-256: {stamp['tree']}")
+    paper.ln(3)
+    for problem in made.problems:
+        paper.plain(f"Problem: {problem}")
+    figures = tuple((part.title, "\n".join(f"{name}: {value}" for name, value in
+                                           part.summary.items())) for part in made.parts)  # fmt: skip
+    paper.rows(("Part", "Figures"), figures)
+
+
+def summary_pdf(path: Path, made: Assembled, stamp: Mapping[str, str], seconds: int) -> None:
+    """Write the summary."""
+    when = datetime.fromtimestamp(seconds, UTC)
+    paper = Paper(f"Keel evidence, commit {stamp['commit'][:12]}", when)
+    add_cover(paper, made, stamp, when)
+    for part in made.parts:
+        add_part(paper, part)
+    write_bytes(path, bytes(paper.output()))
