@@ -96,7 +96,7 @@ mutate: python ## break the code and see whether the proofs notice (UNIT=queue; 
 fuzz: python ## fuzz the scheduler against its reference model (SECONDS=60)
 	@python3 tools/run_tests.py --filter fuzz --fuzz $(SECONDS)
 
-trace: python ## requirement, clause, harness, test: fail when one stands alone
+trace: python ## requirement, function, clause, harness, test: fail when one stands alone
 	@python3 tools/requirements_trace.py $(ARGS)
 
 registers: python ## hold the register headers against two independent register databases
