@@ -99,7 +99,7 @@ fuzz: python ## fuzz the scheduler against its reference model (SECONDS=60)
 soak: python ## 10^9 random calls of each stateful unit beside the specification (half an hour)
 	@python3 tools/soak.py $(ARGS)
 
-trace: python ## requirement, clause, harness, test: fail when one stands alone
+trace: python ## requirement, function, clause, harness, test: fail when one stands alone
 	@python3 tools/requirements_trace.py $(ARGS)
 
 registers: python ## hold the register headers against two independent register databases

@@ -5,13 +5,19 @@
     python3 tools/requirements_trace.py             # every orphan, one a line
     python3 tools/requirements_trace.py --update    # first bring specs/requirements up to date
 
-A requirement is an entry of specs/requirements/*.sdoc, say QUE-003. The ACSL clauses that state
-it carry its id in their labels (QUE_003, QUE_003_count), and so do the assertions of the CBMC
-harnesses and the names of the tests (tests/unit, tests/bsp, tests/reference) that check it; a
-requirement may also list unit tests by name under TESTS, or the file of a test that checks far
-more. Where a harness compares the code with its model (specs/model), which it includes, a comment
-of the model that names a requirement counts as an assertion does. An orphan is
+A high-level requirement is an entry of specs/requirements/high_level.sdoc, say HLR-003: what Keel
+takes from the paper, or adds. A low-level requirement is an entry of another document there, say
+QUE-003; its parents are high-level ones. The ACSL clauses that state it carry its id in their
+labels (QUE_003, QUE_003_count), and so do the assertions of the CBMC harnesses and the names of the
+tests (tests/unit, tests/bsp, tests/reference) that check it; a requirement may also list unit tests
+by name under TESTS, or the file of a test that checks far more. Where a harness compares the code
+with its model (specs/model), which it includes, a comment of the model that names a requirement
+counts as an assertion does. An orphan is
 
+    a low-level requirement without a parent and without a reason (DERIVED);
+    a high-level requirement without a source in the paper and without a reason, without what
+        VERIFICATION says, or with a departure from the paper that docs/paper.md does not list;
+    a function of the product without a requirement (tracing/functions.py);
     a label, an assertion, a test or a comment of a header or a model that names no requirement;
     a model that no harness includes or links;
     a requirement without a clause, unless VERIFICATION says test (it then needs a test) or
@@ -31,7 +37,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import refusals
@@ -40,6 +46,8 @@ from common.errors import ROOT, program
 from common.files import write_text
 from proofs import csource, determined
 from proofs.project import closure
+from tracing.functions import Function, function_problems, read_functions
+from tracing.requirements import FOLDER, Requirement, level_problems, read_requirements
 
 LABEL = r"[A-Z]{3,4}_\d{3}(?:_\w+)?"
 KEYWORD = r"\b(?:ensures|lemma|assert|check|invariant)"
@@ -50,42 +58,12 @@ TEST = re.compile(r"\bRUN_TEST\((\w+)\)")
 REFERENCE = re.compile(rf'"({LABEL})"')
 MENTION = re.compile(r"\b[A-Z]{3,4}-\d{3}\b")
 LINKED = re.compile(r"(?<=specs/model/)\w+(?=\.c\b)")
-FIELD = re.compile(r"^([A-Z]+): ?(.*)$", re.MULTILINE)
 
 
 def id_of(label: str) -> str:
     """QUE_003_count names QUE-003; what names none gives an empty text."""
     match = re.match(r"([A-Z]{3,4})_(\d{3})(?![0-9])", label)
     return f"{match[1]}-{match[2]}" if match else ""
-
-
-@dataclass
-class Requirement:
-    """One entry, with what names it."""
-
-    uid: str
-    verification: str
-    listed_clauses: list[str]
-    listed_tests: list[str]
-    clauses: list[str] = field(default_factory=list)
-    harnesses: list[str] = field(default_factory=list)
-    tests: list[str] = field(default_factory=list)
-
-
-def names(text: str) -> list[str]:
-    """The names in a list with commas."""
-    return re.findall(r"[^\s,]+", text)
-
-
-def read_requirements(root: Path) -> list[Requirement]:
-    """Every entry of specs/requirements, in order."""
-    found = []
-    for path in sorted((root / "specs/requirements").glob("*.sdoc")):
-        for entry in path.read_text(encoding="utf-8").split("\n[REQUIREMENT]\n")[1:]:
-            of = {match[1]: match[2].strip() for match in FIELD.finditer(entry)}
-            clauses, tests = names(of.get("CLAUSES", "")), names(of.get("TESTS", ""))
-            found.append(Requirement(of["UID"], of.get("VERIFICATION", ""), clauses, tests))
-    return found
 
 
 def collect(root: Path, pattern: re.Pattern[str], *globs: str) -> list[tuple[str, str]]:
@@ -128,6 +106,7 @@ class Trace:
     """The join: requirements by id, and what names one that does not exist."""
 
     requirements: dict[str, Requirement]
+    functions: list[Function]
     orphans: list[str]
     clauses: int = 0
     harnesses: int = 0
@@ -136,7 +115,7 @@ class Trace:
 
 def join(root: Path) -> Trace:
     """Read everything and bring it together."""
-    trace = Trace({}, [])
+    trace = Trace({}, read_functions(root), [])
     for entry in read_requirements(root):
         if entry.uid in trace.requirements:
             trace.orphans.append(f"{entry.uid}: two requirements have this id")
@@ -172,6 +151,10 @@ def join(root: Path) -> Trace:
     theorems = MENTION.findall(soundness.read_text(encoding="utf-8")) if soundness.exists() else []
     for entry in trace.requirements.values():
         trace.orphans += [f"{entry.uid}: {text}" for text in lacks(entry, known, theorems)]
+    paper = root / "docs/paper.md"
+    departures = paper.read_text(encoding="utf-8") if paper.exists() else ""
+    trace.orphans += level_problems(trace.requirements, departures)
+    trace.orphans += function_problems(trace.functions)
     trace.orphans += refusals.problems(root)
     trace.orphans += [text for one in determined.of_tree(root) for text in one.problems]
     return trace
@@ -181,16 +164,16 @@ def lacks(entry: Requirement, tests: set[str], theorems: Sequence[str]) -> Itera
     """What a requirement lacks."""
     for name in sorted(set(entry.listed_tests) - tests):
         yield f"TESTS lists {name}, which is no test"
-    if entry.verification not in ("proof", "test", "theorem"):
-        yield "VERIFICATION is neither proof, test nor theorem"
-    if entry.verification == "proof" and not entry.clauses:
+    if entry.high:
+        return
+    if "proof" in entry.verification and not entry.clauses:
         yield "no clause states it"
-    if entry.verification == "theorem" and entry.uid not in theorems:
+    if "theorem" in entry.verification and entry.uid not in theorems:
         yield "specs/soundness.md does not name it"
     tested = entry.tests or set(entry.listed_tests) & tests
-    if entry.verification == "test" and not tested:
+    if "test" in entry.verification and not tested:
         yield "no test checks it"
-    if entry.clauses and entry.verification != "theorem" and not (entry.harnesses or tested):
+    if entry.clauses and "theorem" not in entry.verification and not (entry.harnesses or tested):
         yield "neither a harness nor a test names it"
     if entry.listed_clauses != list(dict.fromkeys(entry.clauses)):
         yield "CLAUSES is not what the headers say (tools/requirements_trace.py --update)"
@@ -199,7 +182,7 @@ def lacks(entry: Requirement, tests: set[str], theorems: Sequence[str]) -> Itera
 def update(root: Path) -> None:
     """Write the labels of its clauses into each entry."""
     requirements = join(root).requirements
-    for path in sorted((root / "specs/requirements").glob("*.sdoc")):
+    for path in sorted((root / FOLDER).glob("*.sdoc")):
         lines: list[str] = []
         uid = ""
         for line in path.read_text(encoding="utf-8").splitlines():
@@ -225,6 +208,7 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
             print(orphan)
         print(f"traced {len(trace.requirements)} requirements: {trace.clauses} clauses, "
               f"{trace.harnesses} harnesses, {trace.tests} tests, "
+                  f"{len(trace.functions)} functions, "
               f"{len(trace.orphans)} orphans")  # fmt: skip
         return 1 if trace.orphans or not trace.requirements else 0
 

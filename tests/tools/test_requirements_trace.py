@@ -32,6 +32,9 @@ CLAUSES: WID_001_range, WID_001_turns
 STATEMENT: >>>
 It shall turn.
 <<<
+RELATIONS:
+- TYPE: Parent
+  VALUE: HLR-001
 
 [REQUIREMENT]
 UID: WID-002
@@ -39,12 +42,37 @@ TITLE: Looping
 VERIFICATION: test
 TESTS: it_loops
 STATEMENT: It shall loop.
+RELATIONS:
+- TYPE: Parent
+  VALUE: HLR-002
 
 [REQUIREMENT]
 UID: WID-003
 TITLE: Forever
 VERIFICATION: theorem
 STATEMENT: It shall turn for ever.
+DERIVED: Nobody asked for an end.
+"""
+HIGH = """\
+[DOCUMENT]
+TITLE: High-level requirements
+
+[REQUIREMENT]
+UID: HLR-001
+TITLE: Moving
+VERIFICATION: proof
+SOURCE: eq. 1; section III-A
+STATEMENT: It shall move.
+RATIONALE: Widgets that stand still are no use.
+
+[REQUIREMENT]
+UID: HLR-002
+TITLE: Surprising
+VERIFICATION: test
+STATEMENT: It shall loop and more.
+RATIONALE: Someone may look.
+DEPARTURE: The paper's widgets do not loop.
+DERIVED: The paper does not say it.
 """
 HEADER = """\
 /** Turns (requirement WID-001). */
@@ -53,10 +81,29 @@ HEADER = """\
   @ ensures WID_001_turns:
   @     \\true;
   @*/
+void keel_widget_turn(void);
+"""
+SOURCE = """\
+static void nudge(void)
+{
+}
+
+static void push(void)
+{
+    nudge();
+}
+
+void keel_widget_turn(void)
+{
+    push();
+}
 """
 FILES = {
     "specs/requirements/widget.sdoc": SDOC,
+    "specs/requirements/high_level.sdoc": HIGH,
     "specs/soundness.md": "The theorem (WID-003).\n",
+    "docs/paper.md": "| HLR-002 | no loops | loops |\n",
+    "src/rtos/widget.c": SOURCE,
     "include/keel/widget.h": HEADER,
     "proofs/widget/turn_harness.c": '__CPROVER_assert(x, "WID_001_turns: it turns");\n',
     "tests/unit/test_widget.c": "RUN_TEST(it_loops);\n",
@@ -101,7 +148,7 @@ class TraceTest(unittest.TestCase):
     def test_no_orphan(self) -> None:
         self.assertEqual(
             self.run_trace(),
-            (0, ["traced 3 requirements: 2 clauses, 1 harnesses, 1 tests, 0 orphans"]),
+            (0, ["traced 5 requirements: 2 clauses, 1 harnesses, 1 tests, 3 functions, 0 orphans"]),
         )
 
     def test_label_without_requirement(self) -> None:
@@ -141,6 +188,7 @@ class TraceTest(unittest.TestCase):
 
     def test_requirement_without_clause(self) -> None:
         self.write("include/keel/widget.h", "/** Turns. */\n")
+        self.write("src/rtos/widget.c", "")
         self.assertEqual(self.orphans(), [
             "WID-001: CLAUSES is not what the headers say (tools/requirements_trace.py --update)",
             "WID-001: no clause states it"])  # fmt: skip
@@ -185,7 +233,10 @@ class TraceTest(unittest.TestCase):
 
     def test_requirement_to_be_tested_without_test(self) -> None:
         self.change("specs/requirements/widget.sdoc", "TESTS: it_loops\n", "")
-        self.assertEqual(self.orphans(), ["WID-002: no test checks it"])
+        self.assertEqual(self.orphans(), [
+            "HLR-002: VERIFICATION says test, and neither it nor a low-level requirement of it"
+            " has tests",
+            "WID-002: no test checks it"])  # fmt: skip
 
     def test_listed_test_that_does_not_exist(self) -> None:
         self.change("specs/requirements/widget.sdoc", "it_loops", "it_loops, it_stops")
@@ -203,7 +254,7 @@ class TraceTest(unittest.TestCase):
     def test_unknown_verification(self) -> None:
         self.change("specs/requirements/widget.sdoc", ": theorem", ": hope")
         self.assertEqual(self.orphans(), [
-            "WID-003: VERIFICATION is neither proof, test nor theorem"])  # fmt: skip
+            "WID-003: VERIFICATION is not of proof, test, theorem"])  # fmt: skip
 
     def test_two_requirements_with_one_id(self) -> None:
         self.change("specs/requirements/widget.sdoc", "WID-003", "WID-002")
@@ -218,6 +269,78 @@ class TraceTest(unittest.TestCase):
         self.assertEqual(self.run_trace("--update")[0], 0)
         text = (self.root / "specs/requirements/widget.sdoc").read_text(encoding="utf-8")
         self.assertEqual(text, SDOC)
+
+    low = "specs/requirements/widget.sdoc"
+    high = "specs/requirements/high_level.sdoc"
+
+    def test_a_requirement_without_a_parent(self) -> None:
+        self.change(self.low, "<<<\nRELATIONS:\n- TYPE: Parent\n  VALUE: HLR-001\n", "<<<\n")
+        self.assertEqual(self.orphans(), [
+            "HLR-001: VERIFICATION says proof, and none of its low-level requirements is proved",
+            "HLR-001: no low-level requirement has it as its parent, and it lists no tests",
+            "WID-001: it has no parent, and no DERIVED says why"])  # fmt: skip
+
+    def test_a_parent_that_does_not_exist(self) -> None:
+        self.change(self.low, "VALUE: HLR-001", "VALUE: HLR-001\n- TYPE: Parent\n  VALUE: HLR-009")
+        self.assertEqual(self.orphans(), ["WID-001: its parent HLR-009 does not exist"])
+
+    def test_a_parent_of_the_same_level(self) -> None:
+        self.change(self.low, "VALUE: HLR-001", "VALUE: HLR-001\n- TYPE: Parent\n  VALUE: WID-002")
+        self.assertEqual(self.orphans(), [
+            "WID-001: its parent WID-002 is no high-level requirement"])  # fmt: skip
+
+    def test_what_has_a_parent_is_not_derived(self) -> None:
+        self.change(self.low, "loop.\n", "loop.\nDERIVED: For fun.\n")
+        self.assertEqual(self.orphans(), ["WID-002: it has a parent, so it is not DERIVED"])
+
+    def test_a_requirement_that_nobody_refines(self) -> None:
+        more = "\n[REQUIREMENT]\nUID: HLR-003\nTITLE: More\nVERIFICATION: test\nSOURCE: fig. 2\n"
+        self.write(self.high, HIGH + more + "STATEMENT: More.\nRATIONALE: More is more.\n")
+        self.assertEqual(self.orphans(), [
+            "HLR-003: VERIFICATION says test, and neither it nor a low-level requirement of it"
+            " has tests",
+            "HLR-003: no low-level requirement has it as its parent, and it lists no tests",
+        ])  # fmt: skip
+
+    def test_a_source_that_cites_nothing(self) -> None:
+        self.change(self.high, "eq. 1; section III-A", "the paper")
+        self.assertEqual(self.orphans(), [
+            "HLR-001: its SOURCE cites no equation, section, figure or table, and no DERIVED says"
+            " why"])  # fmt: skip
+
+    def test_a_requirement_without_its_texts(self) -> None:
+        self.write(self.high, HIGH.replace("STATEMENT: It shall move.\n", "").replace(
+            "RATIONALE: Widgets that stand still are no use.\n", ""))  # fmt: skip
+        self.assertEqual(self.orphans(), [
+            "HLR-001: it has no RATIONALE", "HLR-001: it has no STATEMENT"])  # fmt: skip
+
+    def test_a_departure_that_the_document_does_not_tell(self) -> None:
+        text = "DEPARTURE and docs/paper.md do not agree on whether it departs from the paper"
+        self.write("docs/paper.md", "| HLR-001 | |\n")
+        self.assertEqual(self.orphans(), [f"HLR-001: {text}", f"HLR-002: {text}"])
+
+    def test_a_function_without_a_requirement(self) -> None:
+        self.write("src/rtos/widget.c", SOURCE + "\nvoid keel_widget_stop(void)\n{\n}\n")
+        self.assertEqual(self.orphans(), [
+            "src/rtos/widget.c: keel_widget_stop: no clause of its contract bears a requirement's"
+            " id"])  # fmt: skip
+
+    def test_a_dropped_label(self) -> None:
+        self.write("include/keel/widget.h", HEADER.replace("WID_001_turns", "turns"))
+        self.write(self.low, SDOC.replace(", WID_001_turns", ""))
+        self.assertEqual(self.orphans(), [
+            "src/rtos/widget.c: keel_widget_turn: no clause of its contract bears a requirement's"
+            " id",
+            "src/rtos/widget.c: nudge: not all of its callers trace to a requirement: push",
+            "src/rtos/widget.c: push: not all of its callers trace to a requirement:"
+            " keel_widget_turn",
+        ])  # fmt: skip
+
+    def test_a_static_function_that_nobody_calls(self) -> None:
+        self.change("src/rtos/widget.c", "    push();\n", "")
+        self.assertEqual(self.orphans(), [
+            "src/rtos/widget.c: nudge: not all of its callers trace to a requirement: push",
+            "src/rtos/widget.c: push: nothing calls this static function"])  # fmt: skip
 
     def test_no_requirement_at_all(self) -> None:
         with tempfile.TemporaryDirectory() as empty, contextlib.redirect_stdout(io.StringIO()):
