@@ -23,7 +23,7 @@ endif
 
 # The targets of `make help` by their use; those that are not named here are for every day.
 BOARDS := firmware model stack flash registers test-target
-EVIDENCE := evidence coverage mutate fuzz soak fuzztasks trace status dist
+EVIDENCE := evidence coverage mutate review fuzz soak fuzztasks trace status dist
 RESEARCH := timing campaign pictures
 
 ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
@@ -92,6 +92,10 @@ coverage: python ## lines, branches and MC/DC that the unit tests reach
 mutate: python ## break the code and see whether the proofs notice (UNIT=queue; ARGS=--status; DASK=tcp://host:8786)
 	@$(if $(DASK),DASK=$(DASK) python3 tools/with_packages.py dask,python3) tools/mutate.py \
 	    $(if $(UNIT),--unit $(UNIT)) $(ARGS)
+
+.PHONY: review
+review: python ## who has reviewed the proofs (UNIT=queue: what to look at; ARGS='--sign NAME --remarks TEXT')
+	@python3 tools/review.py $(if $(UNIT),--unit $(UNIT)) $(ARGS)
 
 fuzz: python ## fuzz the scheduler against its reference model (SECONDS=60)
 	@python3 tools/run_tests.py --filter fuzz --fuzz $(SECONDS)

@@ -7,6 +7,7 @@
     python3 tools/mutate.py --unit queue --engine both   # each engine by itself
     python3 tools/mutate.py --unit queue --list          # the mutants, without trying them
     python3 tools/mutate.py --status                     # the last results, and which are stale
+    python3 tools/mutate.py --record                     # keep the results in specs/mutation
     DASK=tcp://host:8786 python3 tools/mutate.py         # on a Dask cluster (make mutate)
 
 Mutants are slips of the pen (another operator, a number beside the right one, a statement left out)
@@ -51,7 +52,7 @@ from proofs.settings import read_exceptions  # noqa: E402
 from proofs.times import Times  # noqa: E402
 from toolchain import TARGET_FLAGS, Toolchain, ToolchainError  # noqa: E402
 
-from proofs import clauses, mutant_slips, mutant_verdicts  # noqa: E402
+from proofs import clauses, mutant_records, mutant_slips, mutant_verdicts  # noqa: E402
 
 ENGINES = {"wp": ("wp",), "cbmc": ("cbmc",), "both": ("cbmc", "wp"), None: ("cbmc", "wp")}
 
@@ -77,11 +78,15 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--quick", action="store_true",
                         help="short limits for WP; what they leave open is not killed")  # fmt: skip
     parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")
+    parser.add_argument("--record", action="store_true",
+                        help="keep the results in specs/mutation, for make evidence")  # fmt: skip
     parser.add_argument("--order", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
     for name in options.unit:
         if name not in names:
             parser.error(f"no such unit: {name} (there are: {', '.join(names)})")
+    if options.record and (options.function or options.quick or options.engine):
+        parser.error("--record keeps whole results: without --function, --quick and --engine")
     if options.jobs < 1:
         parser.error("--jobs needs at least 1")
     return options
@@ -131,6 +136,7 @@ class Measurement:
         self._options = options
         self.engines = ENGINES[options.engine]
         self.stamp = stamp_of(tools)
+        self._tools = tools
         root = units[0].root
         self._build = root / "build" / "mutate"
         self._scratch = Path(tempfile.mkdtemp(prefix="keel-mutate-"))
@@ -204,6 +210,11 @@ class Measurement:
             )
             if not self._options.function:
                 write_text(self.report_of(one.unit), text)
+            if self._options.record:
+                harnesses = mutant_records.all_harnesses(one.unit.root)
+                versions = self._tools.versions("prove")
+                made_of = mutant_records.origin(one.unit, harnesses, versions)
+                print(mutant_records.write(one.unit, verdicts, problems, made_of))
             print(f"{one.unit.name}: dropped {one.dropped} that say the same as another")
             status = max(status, conclude(verdicts, problems, self.engines))
         return status

@@ -2,6 +2,8 @@
 // cbmc: --unwind 2
 // sources: src/rtos/admission.c specs/model/admission.c
 // covers: keel_admission_init model_admission_init
+//
+// For every guard and limit that the precondition allows: a guard is below 2^31 us.
 #include "../../specs/model/admission.h"
 #include "../common/admission_contracts.h"
 

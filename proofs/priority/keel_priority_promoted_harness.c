@@ -2,6 +2,8 @@
 // cbmc: --unwind 2 --z3
 // sources: src/rtos/priority.c specs/model/priority.c
 // covers: keel_priority_promoted saturation model_priority_promoted saturation_us
+//
+// For all ages and periods; four bits and 1 are all priorities, 1 to 16.
 #include "../../specs/model/priority.h"
 #include "../common/keel_proof.h"
 

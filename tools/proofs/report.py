@@ -39,6 +39,8 @@ class UnitResult:
     problems: list[str] = field(default_factory=list)
     # What determines each function.
     outcomes: list[determined.Outcome] = field(default_factory=list)
+    # How long each job took when its verdict was had: KIND/NAME.
+    seconds: dict[str, float] = field(default_factory=dict)
 
     @property
     def wp_total(self) -> int:
@@ -82,8 +84,9 @@ class UnitResult:
         """Take in a job's result."""
         job, result = outcome.job, outcome.result
         self.problems += outcome.problems
+        self.seconds[f"{job.kind}/{job.name}"] = float(result["seconds"])
         if job.kind == "wp":
-            self.goals += result["goals"]
+            self.goals += [{**goal, "target": job.name} for goal in result["goals"]]
             self.smoke += result["smoke"]
             self.stale += result["stale"]
             self.unrecorded += result["unrecorded"]
@@ -335,7 +338,10 @@ def content(
 def _unit(result: UnitResult, engines: Sequence[str]) -> dict[str, Any]:
     exceptions = result.exceptions
     outcomes = [outcome.as_dict() for outcome in result.outcomes]
-    entry: dict[str, Any] = {"problems": result.problems, "determined": outcomes}
+    entry: dict[str, Any] = {
+        "problems": result.problems, "determined": outcomes,
+        "seconds": dict(sorted(result.seconds.items())),
+    }  # fmt: skip
     if "wp" in engines:
         entry["wp"] = {
             "goals": result.wp_total,

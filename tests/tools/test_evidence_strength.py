@@ -1,0 +1,170 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of the evidence part `strength`: what weakens the trust in the proofs must be a problem.
+
+    python3 tests/tools/test_evidence_strength.py
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import shutil
+import sys
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/tools")]
+
+from evidence_proofs import EvidenceTest  # noqa: E402
+
+import mutate  # noqa: E402
+from evidence.part import Item, Part  # noqa: E402
+from evidence.parts import strength  # noqa: E402
+from evidence.strength import mutants as recorded  # noqa: E402
+from proofs import mutant_records  # noqa: E402
+from proofs.mutant_verdicts import Verdict  # noqa: E402
+from proofs.mutants import mutants  # noqa: E402
+from proofs.project import Unit, find_units  # noqa: E402
+
+RECORD = "specs/mutation/range.json"
+KILLED = {"cbmc": "killed: keel_range_clamp_harness: RNG_002_model"}
+
+
+class StrengthTest(EvidenceTest):
+    """A tree with a result of mutation on the unit range."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        shutil.rmtree(self.root / mutant_records.FOLDER, ignore_errors=True)
+        self.report["tools"] = {"cbmc": {"version": "6.6.0", "sha256": "c", "parts": []}}
+        self.verdicts = [Verdict(mutant, "killed", "", dict(KILLED))
+                         for mutant in mutants(self.unit.header)][:4]  # fmt: skip
+
+    @property
+    def unit(self) -> Unit:
+        """The unit whose mutants were run."""
+        return find_units(self.root)["range"]
+
+    def record(self) -> str:
+        """Keep the verdicts as the result."""
+        harnesses = mutant_records.all_harnesses(self.root)
+        made_of = mutant_records.origin(self.unit, harnesses, recorded.found_of(self.report))
+        return mutant_records.write(self.unit, self.verdicts, [], made_of)
+
+    def part(self) -> Part:
+        """The part, made from tree and report as they are now."""
+        return strength.make(self.context())
+
+    def row(self) -> tuple[str, ...]:
+        """The unit's row in the table of mutants."""
+        rows = next(table.rows for table in self.part().tables if table.title == "Mutants")
+        return next(row for row in rows if row[0] == "unit:range")
+
+    def item(self, name: str) -> Item:
+        """An item of the part."""
+        return next(item for item in self.part().items if item.id == name)
+
+
+class Mutants(StrengthTest):
+    """Recorded results."""
+
+    def test_units_without_a_result_are_shown_as_such(self) -> None:
+        part = self.part()
+        self.assertEqual(part.problems, ())
+        self.assertEqual(part.summary["units whose mutants were run"], "0 of 17")
+        self.assertEqual(self.row()[1], "not run")
+
+    def test_a_result_is_scored(self) -> None:
+        self.verdicts[3] = Verdict(self.verdicts[3].mutant, "equivalent", "no difference")
+        self.record()
+        self.assertEqual(self.part().problems, ())
+        self.assertEqual(self.row()[1:], ("current", "3 of 3", "3", "0", "1", "0"))
+        self.assertEqual(self.part().summary["mutants killed"], "3 of 3")
+        item = self.item("range/1")
+        self.assertEqual((item.state, item.facts["verdict"]), ("good", "killed"))
+        self.assertIn("keel_range_clamp_harness", item.facts["noticed by"])
+
+    def test_a_result_on_another_source_is_stale_and_does_not_count(self) -> None:
+        self.record()
+        self.replace("include/keel/middleware/range.h", "RNG_001", "RNG_009")
+        self.assert_problem(self.part(), RECORD, "stale", "source")
+        self.assertIn("STALE", self.row()[1])
+        self.assertEqual(self.part().summary["mutants killed"], "0 of 0")
+        self.assertEqual(self.item("range/1").state, "open")
+
+    def test_a_result_on_other_proofs_or_tools_is_stale(self) -> None:
+        self.record()
+        self.report["tools"]["cbmc"]["version"] = "6.7.0"
+        self.assert_problem(self.part(), RECORD, "stale", "tools")
+        self.replace("proofs/range/keel_range_clamp_harness.c", "__CPROVER_assert(", "(void)(")
+        self.assert_problem(self.part(), RECORD, "stale", "proofs")
+
+    def test_comments_of_harnesses_and_provers_of_goals_make_nothing_stale(self) -> None:
+        self.record()
+        self.replace("proofs/range/keel_range_clamp_harness.c", "// Every", "// Really every")
+        self.replace("proofs/range/goals.txt", " qed", " z3")
+        self.assertEqual(self.row()[1], "current")
+
+    def test_a_survivor_that_nobody_has_explained(self) -> None:
+        self.verdicts[1] = Verdict(self.verdicts[1].mutant, "survived", "", {"cbmc": "survived"})
+        self.record()
+        self.assert_problem(self.part(), RECORD, "survived, unexplained", "->")
+        self.assertEqual(self.item("range/2").state, "bad")
+
+    def test_a_result_that_is_not_whole(self) -> None:
+        self.record()
+        path = self.root / RECORD
+        text = path.read_text(encoding="utf-8")
+        path.write_text(text[: len(text) // 2], encoding="utf-8")
+        self.assert_problem(self.part(), RECORD, "is not whole")
+        path.write_text("{}", encoding="utf-8")
+        self.assert_problem(self.part(), RECORD, "lacks unit")
+
+    def test_what_was_not_tried_whole_is_not_recorded(self) -> None:
+        self.verdicts[0].status = "skipped"
+        self.assertIn("left alone", self.record())
+        self.assertFalse((self.root / RECORD).exists())
+
+    def test_a_record_has_a_line_for_each_mutant(self) -> None:
+        self.record()
+        text = (self.root / RECORD).read_text(encoding="utf-8")
+        self.assertEqual(len(json.loads(text)["mutants"]), 4)
+        self.assertEqual(sum('"function"' in line for line in text.splitlines()), 4)
+
+    def test_the_command_records_nothing_by_halves(self) -> None:
+        for option in (["--quick"], ["--function", "f"], ["--engine", "wp"]):
+            with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()):
+                mutate.parse(["--record", *option], ["range"])
+
+
+class Mistakes(StrengthTest):
+    """Wrong bodies and wrong bounds."""
+
+    def test_a_mistake_says_what_it_is_and_who_refuses_it(self) -> None:
+        item = self.item("queue/wrong-add_overwrites")
+        self.assertIn("overwrites the slot", item.text)
+        self.assertIn("harness:queue/keel_queue_add_harness", item.links)
+        bound = self.item("voter/wrong-mean_rounds_twice")
+        self.assertEqual(bound.text, "One rounding more than there is.")
+
+    def test_a_mistake_that_nobody_refuses(self) -> None:
+        self.report["units"]["queue"]["cbmc"]["negative"]["list"]["add_overwrites"] = False
+        self.assert_problem(self.part(), "queue/wrong-add_overwrites", "is not refused",
+                            "keel_queue_add_harness")  # fmt: skip
+
+    def test_a_mistake_without_a_verdict(self) -> None:
+        del self.report["units"]["voter"]["gappa"]["negative"]["list"]["mean_rounds_twice.g"]
+        self.assert_problem(self.part(), "voter/wrong-mean_rounds_twice", "no verdict")
+
+    def test_a_mistake_that_says_nothing(self) -> None:
+        path = self.root / "proofs/queue/wrong/add_overwrites.toml"
+        text = path.read_text(encoding="utf-8")
+        path.write_text(text.partition("\n")[2], encoding="utf-8")
+        self.assert_problem(self.part(), "queue/wrong-add_overwrites", "does not say")
+
+
+if __name__ == "__main__":
+    unittest.main()

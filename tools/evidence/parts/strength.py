@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Would the proofs notice? Mutants, and mistakes made on purpose."""
+
+from __future__ import annotations
+
+from common.errors import ToolError
+
+from evidence.part import Context, Part
+from evidence.strength import mutants, wrong
+
+TEXT = """\
+A proof is worth something only if it would fail when the code were wrong. Two things show that.
+
+Mutants are small changes of the code, made by rule: slips of the pen and of thought. One that no \
+proof notices shows a contract or a model that is too weak, or makes no difference, for which a \
+person has to give the reason. A run over all units takes hours, so its results are kept in the \
+repository, with digests of the sources, the proofs and the tools that they were had from; where \
+one of these has changed, the result is shown as stale and does not count.
+
+Wrong bodies are mistakes that people make, put into the code as it is now by each make prove; the \
+harness named with each must refute it, by the assertion named with it."""
+
+
+def make(context: Context) -> Part:
+    """The part."""
+    problems: list[str] = []
+    report = context.report("prove/report.json", problems)
+    standings = mutants.standings(context.root, report, problems) if report else []
+    problems += mutants.problems(standings)
+    try:
+        mistakes = wrong.read_mistakes(context.root, report)
+    except ToolError as error:
+        mistakes = []
+        problems += str(error).splitlines()
+    problems += wrong.problems(mistakes) if report else []
+    current = [one for one in standings if one.current]
+    return Part(
+        name="strength", title="Strength of the proofs",
+        summary={
+            "units whose mutants were run": f"{len(current)} of {len(standings)}",
+            "mutants killed": mutants.score(current),
+            "survivors unexplained": str(sum(len(one.with_status(*mutants.OPEN))
+                                             for one in current)),
+            "mistakes on purpose refused": f"{sum(one.refused is True for one in mistakes)}"
+                                           f" of {len(mistakes)}",
+        },
+        text=TEXT,
+        tables=(mutants.table(standings), mutants.survivors(standings), wrong.table(mistakes)),
+        items=(*mutants.items(standings), *wrong.items(mistakes)),
+        problems=tuple(dict.fromkeys(problems)),
+    )  # fmt: skip

@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Recorded results of mutation (specs/mutation): scores, survivors, and what has gone stale."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from common.errors import ToolError
+from common.files import read_text
+from proofs import mutant_records
+from proofs.project import find_units
+from toolchain import Found
+
+from evidence.part import Item, State, Table
+
+Report = Mapping[str, Any]
+
+OPEN = ("survived", "undecided", "skipped")
+STATES: Mapping[str, State] = {"killed": "good", "equivalent": "told"}
+NOT_RUN = "not run"
+CURRENT = "current"
+HEAD = ("unit", "made_of", "problems", "summary", "mutants")
+MUTANT = ("function", "kind", "line", "original", "mutant", "status", "engines")
+
+
+@dataclass(frozen=True)
+class Standing:
+    """A unit, the result that is kept of it, and what of it is stale."""
+
+    unit: str
+    record: Report | None
+    stale: tuple[str, ...] = ()
+
+    @property
+    def shown(self) -> str:
+        """The file."""
+        return f"{mutant_records.FOLDER}/{self.unit}.json"
+
+    @property
+    def current(self) -> bool:
+        """Whether there is a result, about what is there now."""
+        return self.record is not None and not self.stale
+
+    @property
+    def how(self) -> str:
+        """For people."""
+        if self.record is None:
+            return NOT_RUN
+        return f"STALE: {', '.join(self.stale)} changed since" if self.stale else CURRENT
+
+    @property
+    def counted(self) -> list[Report]:
+        """The mutants that compile and make a difference."""
+        every = self.record["mutants"] if self.record else []
+        return [one for one in every if one["status"] not in ("stillborn", "equivalent")]
+
+    def with_status(self, *statuses: str) -> list[Report]:
+        """The mutants with a status."""
+        every = self.record["mutants"] if self.record else []
+        return [one for one in every if one["status"] in statuses]
+
+
+def found_of(report: Report) -> dict[str, Found]:
+    """The tools of the last make prove."""
+    return {
+        name: Found(name, tool["version"], "", "", tool["sha256"], 0, 0, {}, {}, tool["parts"])
+        for name, tool in report.get("tools", {}).items()
+    }
+
+
+def read_record(path: Path) -> Report:
+    """A result that is kept; one that is not whole is refused."""
+    shown = f"{mutant_records.FOLDER}/{path.name}"
+    try:
+        read = json.loads(read_text(path))
+    except ValueError as error:
+        raise ToolError(f"{shown}: is not whole: {error}") from error
+    lacking = [name for name in HEAD if not isinstance(read, dict) or name not in read]
+    lacking += [name for one in ([] if lacking else read["mutants"]) for name in MUTANT
+                if name not in one][:1]  # fmt: skip
+    if lacking:
+        raise ToolError(f"{shown}: lacks {lacking[0]}: write it with make mutate ARGS=--record")
+    record: Report = read
+    return record
+
+
+def standings(root: Path, report: Report, problems: list[str]) -> list[Standing]:
+    """Every unit with proofs; what cannot be read is a problem."""
+    harnesses = mutant_records.all_harnesses(root)
+    found = []
+    for unit in find_units(root).values():
+        path = mutant_records.record_of(unit)
+        if not unit.folder.is_dir():
+            continue
+        record, stale = None, []
+        try:
+            record = read_record(path) if path.is_file() else None
+        except ToolError as error:
+            problems.append(str(error))
+        if record:
+            now = mutant_records.origin(unit, harnesses, found_of(report))
+            stale = [name for name, value in now.items() if record["made_of"].get(name) != value]
+        found.append(Standing(unit.name, record, tuple(stale)))
+    return found
+
+
+def change(mutant: Report) -> str:
+    """What was changed, for people."""
+    return f"{mutant['original']}  ->  {mutant['mutant']}"
+
+
+def problems(every: Sequence[Standing]) -> Iterator[str]:
+    """A result that is stale, and a survivor that nobody has explained."""
+    for one in every:
+        if one.stale:
+            yield f"{one.shown}: is stale, {', '.join(one.stale)} changed since: make mutate again"
+        for mutant in one.with_status(*OPEN):
+            yield (f"{one.shown}: {mutant['function']}:{mutant['line']}: {mutant['status']},"
+                   f" unexplained: {change(mutant)}")  # fmt: skip
+        for mutant in one.with_status("equivalent"):
+            if not mutant.get("reason"):
+                yield f"{one.shown}: {mutant['function']}:{mutant['line']}: without a reason"
+        if one.record:
+            yield from (f"{one.shown}: {text}" for text in one.record["problems"])
+
+
+def killer(mutant: Report) -> str:
+    """Who noticed a mutant."""
+    said = [f"{engine.upper()} {text.removeprefix('killed: ')}"
+            for engine, text in mutant["engines"].items() if text.startswith("killed")]  # fmt: skip
+    return said[0] if said else ""
+
+
+def items(every: Sequence[Standing]) -> Iterator[Item]:
+    """Each mutant of each result; of a stale result none is good."""
+    for one in every:
+        for number, mutant in enumerate(one.record["mutants"] if one.record else [], 1):
+            if mutant["status"] == "stillborn":
+                continue
+            state = STATES.get(mutant["status"], "bad")
+            yield Item(
+                kind="mutant", id=f"{one.unit}/{number}",
+                title=f"{mutant['function']}:{mutant['line']}: {mutant['kind']}",
+                text=change(mutant), state=state if one.current else "open",
+                facts={
+                    "verdict": mutant["status"], "noticed by": killer(mutant) or "nobody",
+                    "why it makes no difference": mutant.get("reason", ""), "result": one.how,
+                },
+                links=(f"unit:{one.unit}",),
+            )  # fmt: skip
+
+
+def killed_by(every: Sequence[Standing], engine: str) -> int:
+    """How many mutants an engine killed; where one has, the other is not asked as a rule."""
+    return sum(mutant["engines"].get(engine, "").startswith("killed")
+               for one in every for mutant in one.with_status("killed"))  # fmt: skip
+
+
+def score(every: Sequence[Standing]) -> str:
+    """Killed of counted."""
+    killed = sum(len(one.with_status("killed")) for one in every)
+    return f"{killed} of {sum(len(one.counted) for one in every)}"
+
+
+def table(every: Sequence[Standing]) -> Table:
+    """A line for each unit, and one for all results that are current."""
+    rows = [
+        (
+            f"unit:{one.unit}", one.how, score([one]), str(killed_by([one], "cbmc")),
+            str(killed_by([one], "wp")), str(len(one.with_status("equivalent"))),
+            str(len(one.with_status(*OPEN))),
+        )
+        if one.record
+        else (f"unit:{one.unit}", one.how, "", "", "", "", "")
+        for one in every
+    ]  # fmt: skip
+    current = [one for one in every if one.current]
+    rows.append(
+        ("all that are current", f"{len(current)} of {len(every)} units", score(current),
+         str(killed_by(current, "cbmc")), str(killed_by(current, "wp")),
+         str(sum(len(one.with_status("equivalent")) for one in current)),
+         str(sum(len(one.with_status(*OPEN)) for one in current)))
+    )  # fmt: skip
+    return Table(
+        title="Mutants",
+        columns=("unit", "result", "killed", "by CBMC", "by WP", "make no difference", "open"),
+        rows=tuple(rows),
+        note="Counted are mutants that compile and make a difference. WP is asked for what CBMC"
+             " does not notice in little time, so these are not two independent scores. A unit"
+             " whose mutants were not run shows nothing about the strength of its proofs.",
+    )  # fmt: skip
+
+
+def survivors(every: Sequence[Standing]) -> Table:
+    """What nobody notices, each with the reason that a person gave."""
+    rows = [
+        (f"unit:{one.unit}", f"{mutant['function']}:{mutant['line']}", change(mutant),
+         mutant["status"] if mutant["status"] in OPEN else "makes no difference",
+         mutant.get("reason", ""))
+        for one in every
+        for mutant in one.with_status("equivalent", *OPEN)
+        if mutant.get("reason") != "same object code"
+    ]  # fmt: skip
+    return Table(
+        title="Survivors, adjudicated", columns=("unit", "place", "change", "verdict", "reason"),
+        rows=tuple(rows),
+        note="Those that compile to the same object code are left out here, and counted above.",
+    )

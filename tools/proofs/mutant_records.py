@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Results of mutation that are kept in the repository, as having them takes hours.
+
+`make mutate ARGS=--record` writes specs/mutation/UNIT.json: every mutant with its line, change,
+verdict and who killed it, and digests of the sources, the proofs and the tools that the result was
+had from. Where one of these has changed, the result is stale: it says nothing about what is there.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from common.files import write_text
+from toolchain import Found
+
+from . import csource
+from .cache import digest
+from .goals import read_goals
+from .harness import MODELS, Harness, read_harness
+from .mutant_verdicts import STATUSES, Verdict
+from .project import Unit, closure, find_units
+from .session import tool_stamp
+
+FOLDER = "specs/mutation"
+
+
+def record_of(unit: Unit) -> Path:
+    """Where the result on a unit is kept."""
+    return unit.root / FOLDER / f"{unit.name}.json"
+
+
+def all_harnesses(root: Path) -> list[tuple[Harness, frozenset[Path]]]:
+    """The harnesses of all units, each with the files that it is made of."""
+    read = [read_harness(unit, path)
+            for unit in find_units(root).values() for path in unit.harnesses]  # fmt: skip
+    return [(one, frozenset(closure(root, [one.path, *one.sources]))) for one in read]
+
+
+def origin(
+    unit: Unit, harnesses: Sequence[tuple[Harness, frozenset[Path]]], tools: Mapping[str, Found]
+) -> dict[str, str]:
+    """Digests of all that a result on a unit depends on.
+
+    The sources count with their contracts, which are comments; harnesses and models without. Who
+    proved a goal last does not matter, nor do the wrong bodies.
+    """
+    root = unit.root
+    own = {path.resolve() for path in unit.own_files}
+    linked = [(one, files) for one, files in harnesses if own & files]
+    source = set(closure(root, unit.own_files))
+    apart = set().union(*(files for _, files in linked)) - source
+    texts = {path: path.read_text(encoding="utf-8") for path in (*source, *apart)}
+    equivalent = unit.folder / "equivalent.toml"
+    return {
+        "source": digest({_shown(path, root): texts[path] for path in source}),
+        "proofs": digest({
+            "texts": {_shown(path, root): csource.essence(texts[path]) for path in apart},
+            "options": {one.name: [*one.options, *one.defines, *one.replaces, *one.covers]
+                        for one, _ in linked},
+            "goals": read_goals(unit.goal_list, unit.goal_list.name).names,
+            "equivalent": equivalent.read_text(encoding="utf-8") if equivalent.is_file() else "",
+        }),
+        "tools": digest(tool_stamp(dict(tools))),
+    }  # fmt: skip
+
+
+def _shown(path: Path, root: Path) -> str:
+    return path.relative_to(root.resolve()).as_posix()
+
+
+def whole(verdicts: Sequence[Verdict]) -> bool:
+    """Whether every mutant was tried."""
+    return bool(verdicts) and not any(one.status == "skipped" for one in verdicts)
+
+
+def write(
+    unit: Unit, verdicts: Sequence[Verdict], problems: Sequence[str], made_of: Mapping[str, str]
+) -> str:
+    """Keep a result, a line for each mutant; what was done, in words."""
+    shown = record_of(unit).relative_to(unit.root).as_posix()
+    if not whole(verdicts):
+        return f"{unit.name}: {shown} left alone: not every mutant was tried"
+    head = {
+        "unit": unit.name, "made_of": dict(made_of), "problems": list(problems),
+        "summary": {name: sum(one.status == name for one in verdicts) for name in STATUSES},
+    }  # fmt: skip
+    lines = ",\n".join(json.dumps(_line(one), ensure_ascii=False) for one in verdicts)
+    text = json.dumps(head, indent=1)[:-2] + f',\n "mutants": [\n{lines}\n ]\n}}\n'
+    write_text(record_of(unit), text)
+    return f"{unit.name}: {shown} written"
+
+
+def _line(verdict: Verdict) -> dict[str, Any]:
+    """A mutant, without what says nothing."""
+    return {name: value for name, value in verdict.as_dict().items() if value != ""}
