@@ -44,8 +44,9 @@ from boards.placement import Check, check_image, usage
 from common.arguments import Parser
 from common.build import Build
 from common.errors import ROOT, ToolError, program
-from common.files import sha256_of, write_json
+from common.files import sha256_of
 from common.run import output_of
+from common.source import write_report
 from toolchain import TARGET_FLAGS, Toolchain
 
 WARNINGS = ("-Wall", "-Wextra", "-Werror", "-Wconversion", "-Wdouble-promotion", "-Wundef")
@@ -178,7 +179,7 @@ def build(tools: Toolchain, name: str, application: Sequence[str], root: Path = 
     builder = Builder(tools, board, folder, root)
     image = builder.link("keel", builder.objects(application or board.application))
     contents, checks = examine(builder, image)
-    write_json(report, report_of(builder, image, contents, checks))
+    write_report(report, report_of(builder, image, contents, checks), root)
     print_usage(board, contents)
     size = image.binary.stat().st_size
     print(f"firmware: {FIRMWARE}/{name}/keel.elf, {size} bytes to load at "

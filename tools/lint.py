@@ -11,6 +11,9 @@ checks; what it finds stays in build/lint/cppcheck.sarif. A finding stands unles
 specs/misra_deviations.toml covers it; deviations and marks that cover nothing are findings
 themselves. The texts of the guidelines cannot be distributed, so findings name the rule only.
 
+build/lint/results.sarif has all findings with file and line, build/lint/report.json these, what
+each deviation allows, and the rules that nothing looks for; an unfinished run leaves neither.
+
 The rules of the house: see HOUSE_CHECKS in tools/linting/house.py.
 
 Exit status: 0 without findings, 1 with, 2 when something could not be checked.
@@ -26,8 +29,9 @@ from pathlib import Path
 from common.arguments import Parser
 from common.errors import ROOT, ToolError, program
 from common.run import run
+from linting import record
 from linting.house import check_house
-from linting.misra import check_misra, read_deviations
+from linting.misra import find_violations, judge, read_deviations
 from linting.texts import Finding, Text, read_texts
 from toolchain import Toolchain
 
@@ -61,16 +65,18 @@ def fix_layout(tools: Toolchain, root: Path, texts: Sequence[Text]) -> None:
 
 
 def lint(tools: Toolchain, root: Path, fix: bool) -> list[Finding]:
-    """Every finding, in the order of files and lines."""
+    """Every finding, in the order of files and lines; what was found is written down."""
     if fix:
         fix_layout(tools, root, read_texts(root))
     texts = read_texts(root)
-    findings = [
-        *check_layout(tools, root, texts),
-        *check_misra(tools, root, texts),
-        *check_house(texts),
-    ]
-    return sorted(set(findings))
+    violations = find_violations(tools, root, texts)
+    findings = {
+        "layout": list(check_layout(tools, root, texts)),
+        "misra": list(judge(violations, read_deviations(root), texts)),
+        "house": list(check_house(texts)),
+    }
+    record.write(tools, root, texts, findings, violations)
+    return sorted({one for every in findings.values() for one in every})
 
 
 def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
@@ -80,6 +86,7 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     options = parser.parse_args(arguments)
 
     def work() -> int:
+        record.clear(root)
         deviations = len(read_deviations(root))
         tools = Toolchain()
         tools.ensure("lint")

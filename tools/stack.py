@@ -40,7 +40,8 @@ from boards.stack_bounds import EXCEPTION_FRAME_B, TABLE, StackTable, analyse, m
 from common.arguments import Parser
 from common.config import read_toml
 from common.errors import ROOT, program
-from common.files import sha256_of, write_json
+from common.files import sha256_of
+from common.source import write_report
 from toolchain import Toolchain
 
 REPORT = "build/stack"
@@ -104,7 +105,7 @@ def conclude(report: Mapping[str, object], root: Path) -> int:
     for name, stack in stacks.items():
         print(f"  stack {name:<27} {stack['bound']:6d} of {stack['size']} bytes: "
               f"{' > '.join(item.rpartition(':')[2] for item in stack['path'])}")  # fmt: skip
-    write_json(root / REPORT / f"{report['board']}.json", report)
+    write_report(root / REPORT / f"{report['board']}.json", report, root)
     short = [name for name, stack in stacks.items() if stack["bound"] > stack["size"]]
     verdict = f"TOO LITTLE ROOM: {', '.join(short)}" if short else "every stack has room"
     deepest = report.get("painted")

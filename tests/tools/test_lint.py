@@ -11,19 +11,22 @@ from __future__ import annotations
 
 import contextlib
 import io
+import json
 import os
 import sys
 import tempfile
 import unittest
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import lint  # noqa: E402
 from common.errors import ToolError  # noqa: E402
-from linting import house, misra  # noqa: E402
+from common.source import STAMP, stamp_of  # noqa: E402
+from linting import house, misra, record  # noqa: E402
 from linting.misra import Deviation, Violation  # noqa: E402
 from linting.texts import Finding, Text  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
@@ -366,6 +369,42 @@ class ToolTest(unittest.TestCase):
         )
         self.assertTrue(lines[-1].startswith("lint: 3 findings"))
 
+    def report(self) -> dict[str, Any]:
+        found = json.loads((self.root / record.REPORT).read_text())
+        assert isinstance(found, dict)
+        return found
+
+    def test_the_report_and_sarif_have_every_finding_with_its_place(self) -> None:
+        self.write("src/rtos/clock.c", TWO_ON_A_LINE)
+        self.lint()
+        found = [(one["rule"], one["file"], one["line"]) for one in self.report()["findings"]]
+        rules = [("misra-c2012-14.4", 5), ("misra-c2012-10.4", 6), ("misra-c2012-15.5", 6)]
+        self.assertEqual(found, [(rule, "src/rtos/clock.c", line) for rule, line in rules])
+        results = json.loads((self.root / record.RESULTS).read_text())["runs"][0]["results"]
+        places = [result["locations"][0]["physicalLocation"] for result in results]
+        self.assertEqual([place["region"]["startLine"] for place in places], [5, 6, 6])
+        self.assertEqual({place["artifactLocation"]["uri"] for place in places},
+                         {"src/rtos/clock.c"})  # fmt: skip
+
+    def test_the_report_tells_what_deviations_allow_and_what_nothing_looks_for(self) -> None:
+        self.write("src/rtos/clock.c", BARE)
+        self.lint()
+        report = self.report()
+        self.assertEqual(report["findings"], [])
+        (deviation,) = report["deviations"]
+        self.assertEqual(deviation["id"], "MD-002")
+        self.assertEqual(deviation["allows"], {"src/rtos/clock.c": 1})
+        self.assertEqual(report["rules_without_checker"], ["1.1", "3.2"])
+        self.assertEqual(report[STAMP], stamp_of(self.root))
+
+    def test_a_run_that_does_not_end_leaves_no_report(self) -> None:
+        self.write("src/rtos/clock.c", BARE)
+        self.lint()
+        self.write(misra.DEVIATIONS, "[[deviation]")
+        self.assertEqual(self.lint()[0], 2)
+        self.assertFalse((self.root / record.REPORT).exists())
+        self.assertFalse((self.root / record.RESULTS).exists())
+
     def test_a_deviation_of_no_use_fails(self) -> None:
         self.write("src/rtos/clock.c", BARE)
         self.write(misra.DEVIATIONS, LIBRARY + ENTRY)
@@ -382,6 +421,7 @@ class ToolTest(unittest.TestCase):
         self.assertEqual((self.root / "src/rtos/clock.c").read_text(), BARE)
 
     def test_the_layout_of_reference_tests_is_checked(self) -> None:
+        self.write("src/rtos/clock.c", BARE)
         self.write("tests/reference/test_x.cpp", "int main() { return 0;}\n")
         status, lines = self.lint()
         self.assertEqual(status, 1)

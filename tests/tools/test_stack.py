@@ -43,6 +43,7 @@ from boards.stack_bounds import (  # noqa: E402
 from common.config import read_toml  # noqa: E402
 from common.errors import ToolError  # noqa: E402
 from common.run import output_of  # noqa: E402
+from common.source import PRODUCT, STAMP, stamp_of  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 
@@ -302,6 +303,8 @@ class AnalysisTest(unittest.TestCase):
 class FilesTest(unittest.TestCase):
     def setUp(self) -> None:
         self.root = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        for folder in PRODUCT:
+            (self.root / folder).mkdir()
 
     def table(self, text: str) -> StackTable:
         path = self.root / "stack.toml"
@@ -343,7 +346,8 @@ class FilesTest(unittest.TestCase):
             self.assertEqual(stack.conclude(report, self.root), 1)
         self.assertIn("101 of 100 bytes: reset > work", out.getvalue())
         self.assertIn("TOO LITTLE ROOM: main", out.getvalue())
-        self.assertEqual(json.loads((self.root / stack.REPORT / "some.json").read_text()), report)
+        written = json.loads((self.root / stack.REPORT / "some.json").read_text())
+        self.assertEqual(written, {**report, STAMP: stamp_of(self.root)})
 
     def test_a_painted_stack_below_and_above_the_bound(self) -> None:
         report = {

@@ -4,6 +4,8 @@
 board              a board's file
 built              the image that `make firmware` left, as its report vouches for it
 elf, placement     what is in an image, and whether it lies where the board's file asks
+rebuilt            whether an image depends on the folder that it was built in
+semantics          the flags of the compiler that the proofs rest on
 call_graph         who calls whom, and with which frame: from the compiler and from instructions
 stack_bounds       the deepest paths, with what the compiler cannot know of calls
 register_headers   the facts that the register headers state

@@ -76,9 +76,14 @@ class Board(Shared):
         return next(region for region in self.region if region.name == name)
 
 
+def board_names(root: Path, file: str = BOARD_FILE) -> list[str]:
+    """The boards that have such a file."""
+    return sorted(path.parent.name for path in (root / "bsp").glob(f"*/{file}"))
+
+
 def board_folder(root: Path, name: str, file: str = BOARD_FILE) -> Path:
     """The folder of a board that has such a file; the error tells which there are."""
-    known = sorted(path.parent.name for path in (root / "bsp").glob(f"*/{file}"))
+    known = board_names(root, file)
     if name not in known:
         raise ToolError(unknown("board", name, known))
     return root / "bsp" / name

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import re
+import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
@@ -13,7 +14,7 @@ from typing import Annotated, Literal, NamedTuple
 from common.config import Field, Mistake, Table, read_toml
 from common.errors import ToolError
 from common.files import read_text
-from common.run import run
+from common.run import output_of, run
 from common.toml_lines import line_index
 from linting.texts import Finding, Text
 from toolchain import Toolchain
@@ -171,14 +172,20 @@ def covers(deviation: Deviation, violation: Violation, line: str, marks: Sequenc
     )
 
 
-def judge(
+class Match(NamedTuple):
+    """A violation, the deviations that allow it, and the marks in the source that say so."""
+
+    violation: Violation
+    deviations: tuple[Deviation, ...]
+    marks: tuple[Mark, ...]
+
+
+def matched(
     violations: Sequence[Violation], deviations: Sequence[Deviation], texts: Sequence[Text]
-) -> Iterator[Finding]:
-    """The violations that no deviation covers, then the deviations and marks without use."""
+) -> Iterator[Match]:
+    """Each violation with what covers it."""
     lines = {text.path: text.lines for text in texts}
     marks = read_marks(texts)
-    used: set[str] = set()
-    used_marks: set[Mark] = set()
     for violation in violations:
         known = lines.get(violation.file, [])
         line = known[violation.line - 1] if 0 < violation.line <= len(known) else ""
@@ -187,19 +194,38 @@ def judge(
             for mark in marks
             if mark.file == violation.file and violation.line - mark.line in (0, 1)
         ]
-        covering = [item for item in deviations if covers(item, violation, line, near)]
-        used.update(item.id for item in covering)
-        used_marks.update(mark for mark in near for item in covering if mark.id == item.id)
+        covering = tuple(item for item in deviations if covers(item, violation, line, near))
+        names = {item.id for item in covering}
+        yield Match(violation, covering, tuple(mark for mark in near if mark.id in names))
+
+
+def judge(
+    violations: Sequence[Violation], deviations: Sequence[Deviation], texts: Sequence[Text]
+) -> Iterator[Finding]:
+    """The violations that no deviation covers, then the deviations and marks without use."""
+    matches = list(matched(violations, deviations, texts))
+    used = {item.id for match in matches for item in match.deviations}
+    used_marks = {mark for match in matches for mark in match.marks}
+    for violation, covering, _ in matches:
         if not covering:
             yield Finding(violation.file, violation.line, f"{violation.rule}: {violation.message}")
     for item in deviations:
         if item.id not in used:
             yield Finding(DEVIATIONS, item.declared, f"{item.id} covers no finding")
-    for mark in marks:
+    for mark in read_marks(texts):
         if mark not in used_marks:
             yield Finding(mark.file, mark.line, f"the mark of {mark.id} covers no finding")
 
 
-def check_misra(tools: Toolchain, root: Path, texts: Sequence[Text]) -> Iterator[Finding]:
-    if any(text.path.startswith("src/") and text.is_c for text in texts):
-        yield from judge(run_cppcheck(tools, root), read_deviations(root), texts)
+def find_violations(tools: Toolchain, root: Path, texts: Sequence[Text]) -> list[Violation]:
+    """What Cppcheck finds in the project; nothing where there is no kernel."""
+    sources = any(text.path.startswith("src/") and text.is_c for text in texts)
+    return run_cppcheck(tools, root) if sources else []
+
+
+def rules_without_checker(tools: Toolchain) -> list[str]:
+    """The rules that neither Cppcheck nor its addon looks for, as the addon itself tells."""
+    program = Path(tools.versions("lint")["cppcheck"].location)
+    addon = program.parent / "addons/misra.py"
+    table = output_of([sys.executable, "-B", addon, "-generate-table"]).splitlines()
+    return [row[0] for row in map(str.split, table) if len(row) == 1]
