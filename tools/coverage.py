@@ -8,7 +8,8 @@ The unit tests are built with clang's source-based coverage and run; counted are
 inline functions of include/. Each must be covered in full: every line executed, every branch
 taken both ways, every condition of every decision shown to decide it alone. What no test can
 reach is listed, with the reason, in specs/coverage_exclusions.toml; an exclusion that excludes
-nothing is an error. build/coverage/report.json holds the figures and every gap.
+nothing is an error. build/coverage/report.json holds the figures of every file and function, and
+every gap.
 
 Exit status: 0 when all is covered or excluded, 1 when not, 2 when it could not be measured.
 """
@@ -17,7 +18,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -26,8 +27,8 @@ from common.arguments import Parser
 from common.build import Build, source_files
 from common.config import Table, Text, read_toml
 from common.errors import ROOT, ToolError, program
-from common.files import write_json
 from common.run import output_of
+from common.source import write_report
 from toolchain import Toolchain
 
 BUILD = ROOT / "build/coverage"
@@ -76,6 +77,7 @@ class FileCoverage:
     branches: tuple[int, int] = (0, 0)
     mcdc: tuple[int, int] = (0, 0)
     gaps: list[Gap] = field(default_factory=list)
+    functions: dict[str, FileCoverage] = field(default_factory=dict)
 
     def count(self, metric: str) -> tuple[int, int]:
         """Covered and total of a metric."""
@@ -155,6 +157,28 @@ def coverage_of(
     return FileCoverage(*covered, sorted(gaps, key=lambda item: (item.line, item.what)))
 
 
+def spans_of(functions: Iterable[Mapping[str, Any]]) -> dict[str, dict[str, range]]:
+    """The lines of each function, by file and name. A static one's name begins with its file, or
+    with the file that includes it."""
+    found: dict[str, dict[str, range]] = {}
+    for item in functions:
+        first, _, last = item["regions"][0][:3]
+        name = item["name"].rpartition(":")[2]
+        found.setdefault(item["filenames"][0], {})[name] = range(first, last + 1)
+    return found
+
+
+def within(
+    span: range, name: str, text: str, lines: dict[int, int], branches: Iterable[Sequence[int]],
+    decisions: Iterable[Sequence[Any]],
+) -> FileCoverage:  # fmt: skip
+    """The coverage of one function of a file."""
+    return coverage_of(
+        name, text, {line: count for line, count in lines.items() if line in span},
+        [row for row in branches if row[0] in span], [row for row in decisions if row[0] in span],
+    )  # fmt: skip
+
+
 # --- Exclusions ----------------------------------------------------------------------------------
 
 
@@ -217,16 +241,18 @@ class Measurement:
     def files(self) -> dict[str, FileCoverage]:
         """The coverage of every file that has code."""
         lines = line_counts(self.export("lcov"))
-        exported = json.loads(self.export("text"))["data"][0]["files"]
+        exported = json.loads(self.export("text"))["data"][0]
+        spans = spans_of(exported["functions"])
         found = {}
-        for item in exported:
+        for item in exported["files"]:
             path = Path(item["filename"])
             name = str(path.relative_to(ROOT))
-            counts = lines.get(str(path), {})
-            measured = coverage_of(
-                name, path.read_text(), counts, item["branches"], item["mcdc_records"]
-            )
+            told = (name, path.read_text(), lines.get(str(path), {}), item["branches"],
+                    item["mcdc_records"])  # fmt: skip
+            measured = coverage_of(*told)
             if measured.lines[1] > 0:
+                for function, span in spans.get(str(path), {}).items():
+                    measured.functions[function] = within(span, *told)
                 found[name] = measured
         absent = [source for source in source_files(["src"]) if source not in found]
         if absent:
@@ -257,23 +283,31 @@ def table(files: dict[str, FileCoverage]) -> str:
     return "\n".join(f"{row[0]:<32}{row[1]:>16}{row[2]:>16}{row[3]:>16}" for row in rows)
 
 
-def write_report(
-    files: dict[str, FileCoverage], remaining: list[Gap], excluded: list[Gap],
-    unused: list[Exclusion],
-) -> None:  # fmt: skip
-    """Write the report in one go."""
-    report = {
+def counts_of(item: FileCoverage) -> dict[str, tuple[int, int]]:
+    """Covered and total of every metric."""
+    return {metric: item.count(metric) for metric in METRICS}
+
+
+def report_of(files: dict[str, FileCoverage], exclusions: Sequence[Exclusion]) -> dict[str, object]:
+    """The figures of each file and function, and every gap, with its reason if it has one."""
+    gaps = [gap for _, item in sorted(files.items()) for gap in item.gaps]
+    remaining, excluded, unused = apply(exclusions, gaps)
+    return {
         "ok": not remaining and not unused,
         "total": {metric: total_of(files, metric) for metric in METRICS},
         "files": {
-            name: {metric: item.count(metric) for metric in METRICS}
+            name: {**counts_of(item), "functions": {
+                function: counts_of(own) for function, own in sorted(item.functions.items())
+            }}
             for name, item in sorted(files.items())
         },
         "gaps": [asdict(gap) for gap in remaining],
-        "excluded": [asdict(gap) for gap in excluded],
+        "excluded": [
+            {**asdict(gap), "reason": next(it.reason for it in exclusions if it.excludes(gap))}
+            for gap in excluded
+        ],
         "unused_exclusions": [item.model_dump() for item in unused],
-    }
-    write_json(REPORT, report)
+    }  # fmt: skip
 
 
 def judge(files: dict[str, FileCoverage], exclusions: Sequence[Exclusion]) -> int:
@@ -285,7 +319,7 @@ def judge(files: dict[str, FileCoverage], exclusions: Sequence[Exclusion]) -> in
         print(f"{gap.file}:{gap.line}: {gap.what}: {gap.text}")
     for item in unused:
         print(f"{EXCLUSIONS.name}: excludes nothing: {item.file}: {item.line}")
-    write_report(files, remaining, excluded, unused)
+    write_report(REPORT, report_of(files, exclusions))
     if remaining or unused:
         print(f"coverage: {len(remaining)} gaps, {len(unused)} unused exclusions")
         return 1

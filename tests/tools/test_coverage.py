@@ -14,6 +14,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -21,6 +22,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import coverage  # noqa: E402
 from common.errors import ToolError  # noqa: E402
+from common.source import STAMP, stamp_of  # noqa: E402
 from coverage import (  # noqa: E402
     Exclusion,
     FileCoverage,
@@ -32,6 +34,8 @@ from coverage import (  # noqa: E402
     mcdc_conditions,
     read_exclusions,
     share,
+    spans_of,
+    within,
 )
 
 TEXT = "#define LIMIT 3\nif (a && b) {\n    return 1;\n}\nreturn 0;\n"
@@ -101,6 +105,27 @@ class Gaps(unittest.TestCase):
         self.assertEqual(self.measure({1: 7, 2: 5}, 1, [True, True]).lines, (1, 1))
 
 
+class Functions(unittest.TestCase):
+    """Each function is measured by its lines, whoever includes it."""
+
+    def test_names_and_lines(self) -> None:
+        functions = [
+            {"name": "/src/x.c:small", "filenames": ["/src/x.c"], "regions": [[2, 1, 4, 2, 0]]},
+            {"name": "b.c:keel_y", "filenames": ["/include/y.h"], "regions": [[7, 1, 9, 2, 3]]},
+        ]
+        self.assertEqual(
+            spans_of(functions),
+            {"/src/x.c": {"small": range(2, 5)}, "/include/y.h": {"keel_y": range(7, 10)}},
+        )
+
+    def test_what_lies_outside_of_it_does_not_count(self) -> None:
+        branches = [[2, 5, 2, 6, 0, 4, 0, 0, 4], [5, 1, 5, 2, 0, 0, 0, 0, 4]]
+        decisions = [[2, 5, 2, 11, 0, 5, [True, False]], [5, 1, 5, 9, 0, 5, [False, False]]]
+        told = ("src/x.c", TEXT, {2: 5, 3: 0, 5: 0}, branches, decisions)
+        found = within(range(2, 5), *told)
+        self.assertEqual((found.lines, found.branches, found.mcdc), ((1, 2), (1, 2), (1, 2)))
+
+
 class Exclusions(unittest.TestCase):
     """Exclusions hold for a line's text, need a reason, and must be of use."""
 
@@ -145,6 +170,8 @@ class Exclusions(unittest.TestCase):
 class Verdict(unittest.TestCase):
     """The exit status and the report tell the truth."""
 
+    report: dict[str, Any]
+
     def judge(self, gaps: list[Gap], exclusions: list[Exclusion]) -> tuple[int, str, bool]:
         """Exit status, output, and what the report says."""
         folder = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
@@ -153,8 +180,8 @@ class Verdict(unittest.TestCase):
         with mock.patch.object(coverage, "REPORT", folder / "report.json"):
             with contextlib.redirect_stdout(output):
                 status = coverage.judge(files, exclusions)
-            report = json.loads((folder / "report.json").read_text())
-        return status, output.getvalue(), bool(report["ok"])
+            self.report = json.loads((folder / "report.json").read_text())
+        return status, output.getvalue(), bool(self.report["ok"])
 
     def test_a_gap_fails_and_is_shown_with_its_place(self) -> None:
         status, output, good = self.judge([gap()], [])
@@ -166,6 +193,8 @@ class Verdict(unittest.TestCase):
         status, output, good = self.judge([gap()], [excluding("src/x.c")])
         self.assertEqual((status, good), (0, True))
         self.assertIn("1 gaps excluded", output)
+        self.assertEqual(self.report["excluded"][0]["reason"], "why")
+        self.assertEqual(self.report[STAMP], stamp_of())
 
     def test_an_unused_exclusion_fails(self) -> None:
         status, output, good = self.judge([], [excluding("src/x.c")])

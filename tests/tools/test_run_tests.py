@@ -24,6 +24,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 import run_tests  # noqa: E402
 from common.build import BuildError  # noqa: E402
 from common.run import Ended, run  # noqa: E402
+from common.source import STAMP, stamp_of  # noqa: E402
 from run_tests import BUILD, HostBuilds  # noqa: E402
 from suites import running  # noqa: E402
 from suites.outcomes import (  # noqa: E402
@@ -176,7 +177,9 @@ class Pytest(unittest.TestCase):
         self.assertEqual(
             outcome.failures, ["tests/test_y.py:7: t.a: failure: 1 is 2", "t.b: skipped: later"]
         )
-        self.assertEqual(self.outcome(cases, 1, may_skip=True).tests, {"t.a": "failed"})
+        skipping = self.outcome(cases, 1, may_skip=True)
+        self.assertEqual(skipping.tests, {"t.a": "failed"})
+        self.assertEqual(skipping.as_dict()["skipped"], {"t.b": "later"})
 
     def test_no_report_no_test_and_a_status_that_does_not_fit_are_failures(self) -> None:
         missing = pytest_outcome("timing/y", Path("nowhere.xml"), Ended(2, "usage"))
@@ -258,6 +261,7 @@ class Everything(unittest.TestCase):
         report = json.loads((self.folder / BUILD / running.REPORT).read_text())
         self.assertEqual((report["passed"], report["failed"]), (3, 1))
         self.assertEqual(report["suites"]["b"]["tests"], {"good0": "passed", "bad0": "failed"})
+        self.assertEqual(report[STAMP], stamp_of())
         cases = {
             case.get("name"): [part.get("message") for part in case]
             for case in ElementTree.parse(self.folder / BUILD / running.JUNIT).iter("testcase")

@@ -235,6 +235,17 @@ static void VOT_006_weights_of_two_and_four(void)
     TEST_ASSERT_EQUAL_UINT8(KEEL_VOTER_OUTVOTED, voter.vote.reason[3]);
 }
 
+static void VOT_006_a_weight_is_the_mean_of_agreements(void)
+{
+    const float agreement[3] = {1.0f, 0.5f, 0.0f};
+    const float none[2] = {0.0f, 0.0f};
+
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, keel_voter_weight(agreement, 1u));
+    TEST_ASSERT_EQUAL_FLOAT(0.75f, keel_voter_weight(agreement, 2u));
+    TEST_ASSERT_EQUAL_FLOAT(0.5f, keel_voter_weight(agreement, 3u));
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, keel_voter_weight(none, 2u));
+}
+
 static void VOT_007_not_finite(void)
 {
     vote(NAN, 1.0f, 2.0f);
@@ -435,6 +446,20 @@ static void is_refused(float a, float b, float c, uint32_t oldest_us)
     TEST_ASSERT_EQUAL_MEMORY(&before, &voter, sizeof voter);
 }
 
+static void VOT_018_within_a_of_each_other(void)
+{
+    TEST_ASSERT_TRUE(keel_voter_within(-0.5f, 0.5f, 1.0f));
+    TEST_ASSERT_FALSE(keel_voter_within(0.0f, nextafterf(1.0f, 2.0f), 1.0f));
+}
+
+static void VOT_018_mean_of_samples_of_full_weight(void)
+{
+    const keel_voter_sample_t sample[3] = {{1.0f, 0u, true}, {1.5f, 0u, true}, {3.5f, 0u, true}};
+
+    TEST_ASSERT_EQUAL_FLOAT(1.25f, keel_voter_plain_mean(sample, 2u, 1.0f, 1.5f));
+    TEST_ASSERT_EQUAL_FLOAT(2.0f, keel_voter_plain_mean(sample, 3u, 1.0f, 3.5f));
+}
+
 static void VOT_018_unanimous(void)
 {
     is_refused(1.0f, 1.5f, 2.0f, 0u); /* There was no vote before. */
@@ -527,6 +552,7 @@ int main(void)
     RUN_TEST(VOT_006_all_agree_up_to_a);
     RUN_TEST(VOT_006_counts_what_contributes);
     RUN_TEST(VOT_006_weights_of_two_and_four);
+    RUN_TEST(VOT_006_a_weight_is_the_mean_of_agreements);
     RUN_TEST(VOT_007_not_finite);
     RUN_TEST(VOT_007_implausible);
     RUN_TEST(VOT_007_missing_and_late);
@@ -544,6 +570,8 @@ int main(void)
     RUN_TEST(VOT_013_alone_is_not_frozen);
     RUN_TEST(VOT_014_readmission_on_request);
     RUN_TEST(VOT_015_influence_of_one_faulty_sensor);
+    RUN_TEST(VOT_018_within_a_of_each_other);
+    RUN_TEST(VOT_018_mean_of_samples_of_full_weight);
     RUN_TEST(VOT_018_unanimous);
     RUN_TEST(VOT_018_leaves_the_others);
     RUN_TEST(VOT_018_not_after_a_doubt);

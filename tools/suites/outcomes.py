@@ -21,6 +21,7 @@ class Outcome:
     failures: list[str] = field(default_factory=list)
     seconds: float = 0.0
     texts: dict[str, str] = field(default_factory=dict)  # Of the tests that failed.
+    skipped: dict[str, str] = field(default_factory=dict)  # Tests that tell nothing, and why.
 
     def add(self, name: str, failure: str = "") -> None:
         """Count one test."""
@@ -39,6 +40,7 @@ class Outcome:
             "seconds": round(self.seconds, 1),
             "tests": self.tests,
             "failures": self.failures,
+            "skipped": self.skipped,
         }
 
     def add_end(self, name: str, ended: Ended, good: bool) -> None:
@@ -105,6 +107,7 @@ def pytest_outcome(name: str, report: Path, ended: Ended, may_skip: bool = False
         test = f"{case.get('classname')}.{case.get('name')}"
         wrong = [part for part in case if part.tag in ("failure", "error", "skipped")]
         if may_skip and [part.tag for part in wrong] == ["skipped"]:
+            outcome.skipped[test] = wrong[0].get("message", "")
             continue
         told = "; ".join(f"{part.tag}: {part.get('message', '')}" for part in wrong)
         places = PYTHON_PLACE.findall("".join(part.text or "" for part in wrong))

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from common.errors import ToolError, nearest
-from common.files import write_json
 from common.junit import JUnitSuite, write_junit
+from common.source import write_report
 from suites.outcomes import Outcome
 from toolchain import Toolchain
 
@@ -90,7 +90,7 @@ def end(
         for name, outcome in outcomes.items()
     })  # fmt: skip
     counted = {"passed": passed, "failed": failed}
-    write_json(folder / REPORT, {**counted, **facts, "suites": suites})
+    write_report(folder / REPORT, {**counted, **facts, "suites": suites})
     sys.stderr.flush()
     print(f"{passed} passed, {failed} failed")
     return 0 if passed > 0 and failed == 0 else 1
