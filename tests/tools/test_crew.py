@@ -18,7 +18,7 @@ import os
 import sys
 import tempfile
 import unittest
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -31,7 +31,8 @@ from proofs.cache import Cache  # noqa: E402
 from proofs.mutant_crew import Dask, Threads, answer_order, archive, orders  # noqa: E402
 from proofs.mutant_verdicts import Verdict, report, standing, table  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
-from proofs.mutation import NO_ANSWER, Tools, Trees, Trial  # noqa: E402
+from proofs.mutant_trees import Trees  # noqa: E402
+from proofs.mutation import BY_CBMC, BY_WP, NO_ANSWER, Tools, Trial  # noqa: E402
 from proofs.project import ProjectError, Unit, find_units  # noqa: E402
 from proofs.settings import Exceptions  # noqa: E402
 from proofs.times import Times  # noqa: E402
@@ -84,7 +85,10 @@ class TrialCase(TreeTest):
         self.unit = find_units(self.root)["box"]
         self.trial = self.make_trial()
 
-    def make_trial(self, stamp: str = "1", patient: bool = True) -> Trial:
+    def make_trial(
+        self, stamp: str = "1", patient: bool = True, driver: str = "d",
+        wp: str = "1",
+    ) -> Trial:  # fmt: skip
         scratch = Path(tempfile.mkdtemp(dir=self.root.parent, prefix="scratch"))
         self.addCleanup(lambda: __import__("shutil").rmtree(scratch, ignore_errors=True))
         tools = Tools(
@@ -92,7 +96,7 @@ class TrialCase(TreeTest):
         )
         return Trial(
             self.unit, tools, Trees(self.root, scratch, 1), ("cbmc", "wp"), False,
-            Cache(self.root / "cache"), {"tool": stamp, "mutants": "m"}, Exceptions(),
+            Cache(self.root / "cache"), {"tool": "t", BY_CBMC: stamp, BY_WP: wp, "driver": driver}, Exceptions(),
             Times(self.root / "times.json"), patient,
         )  # fmt: skip
 
@@ -139,6 +143,20 @@ class Order(TrialCase):
         self.assertEqual(asked[begun:], ["keel_box_put__slow_harness", "keel_box_get_harness"])
 
 
+class FirstOfAll(TrialCase):
+    def test_who_is_killed_by_a_small_harness_is_shown_to_nobody_else(self) -> None:
+        said = "killed: keel_box_put_harness: BOX_001 (KEEL_QUEUE_CAPACITY=2u)"
+        others = mock.Mock(side_effect=AssertionError("asked"))
+        with (
+            mock.patch.object(Trial, "_compare", lambda *_: None),
+            mock.patch.object(Trial, "_by_small", lambda *_: said),
+            mock.patch.object(Trial, "_by_cbmc", others),
+            mock.patch.object(Trial, "_by_wp", others),
+        ):
+            verdict = self.trial.try_mutant(self.mutant())
+        self.assertEqual((verdict.status, verdict.engines), ("killed", {"cbmc": said}))
+
+
 class Unchanged(TrialCase):
     def test_a_harness_that_fails_unchanged_kills_nothing_and_is_proved_once(self) -> None:
         proofs: list[str] = []
@@ -159,7 +177,7 @@ class Unchanged(TrialCase):
             ("goto-cc",), ("cbmc",), jobs.Runner({}, self.root), self.root, self.root
         )
         read = harness.read_harness(self.unit, self.unit.folder / "keel_box_put_harness.c")
-        key = engines.cbmc_key(read, checker, self.root, {"tool": "1"})
+        key = engines.cbmc_key(read, checker, self.root, {"tool": "t", "driver": "d"})
         self.assertEqual([path.stem for path in (self.root / "verdicts").iterdir()], [key])
         self.assertEqual(proofs.count("keel_box_put_harness"), 1)
         self.assertEqual(proofs.count("keel_box_put__slow_harness"), 2)
@@ -170,15 +188,30 @@ class Kept(TrialCase):
         mutant = self.mutant()
         self.assertIsNone(self.trial.known(mutant))
         for status in ("killed", "survived", "equivalent"):
-            self.trial.keep(Verdict(mutant, status, "why", {"cbmc": "killed: x"}))
+            self.trial.keep(Verdict(mutant, status, "why", {"cbmc": "no answer", "wp": "x"}))
             known = self.make_trial().known(mutant)
             assert known
             self.assertEqual((known.status, known.reason), (status, "why"))
+        self.assertIsNotNone(self.make_trial(driver="e").known(mutant))
         self.assertIsNone(self.make_trial(stamp="2").known(mutant))
+        self.assertIsNone(self.make_trial(wp="2").known(mutant))
         self.assertIsNone(self.make_trial(patient=False).known(mutant))
         path = self.root / "proofs/sail/keel_sail_set_harness.c"
         path.write_text(path.read_text() + "/* new */\n")
         self.assertIsNone(self.make_trial().known(mutant))
+
+    def test_a_counterexample_depends_on_its_harness_and_on_no_contract(self) -> None:
+        mutant = self.mutant()
+        killed = {"cbmc": "killed: keel_box_put_harness: BOX_001: as the model says"}
+        self.trial.keep(Verdict(mutant, "killed", "", killed))
+        self.assertIsNotNone(self.make_trial(wp="2", patient=False).known(mutant))
+        self.assertIsNone(self.make_trial(stamp="2").known(mutant))
+        for name, kept in (("keel_box_put__slow_harness", True), ("keel_box_put_harness", False)):
+            path = self.unit.folder / f"{name}.c"
+            path.write_text(path.read_text() + "/* a remark */\n")
+            self.assertIsNotNone(self.make_trial().known(mutant))
+            path.write_text(path.read_text() + "int more;\n")
+            self.assertEqual(self.make_trial().known(mutant) is not None, kept)
 
     def test_what_was_not_tried_is_not_kept(self) -> None:
         self.trial.keep(Verdict(self.mutant(), "skipped", "out of time"))
@@ -188,19 +221,28 @@ class Kept(TrialCase):
         path = self.root / "box.json"
         self.assertEqual(standing("box", path, "d"), "box          no result")
         verdicts = [Verdict(self.mutant(), "killed"), Verdict(self.mutant(), "survived")]
-        path.write_text(report("box", verdicts, [], 3, self.trial.digest))
+        made = [self.mutant()]
+
+        def digest(trial: Trial) -> str:
+            return trial.digest_of(made, "")
+
+        now = digest(self.trial)
+        path.write_text(report("box", verdicts, [], 3, now))
         line = "box          killed 1 of 2, 0 equivalent, 1 open"
-        self.assertEqual(standing("box", path, self.trial.digest), line)
+        self.assertEqual(standing("box", path, now), line)
         for name in ("include/keel/rtos/box.h", "proofs/box/keel_box_put_harness.c"):
             file = self.root / name
             text = file.read_text()
             file.write_text(text + "/* changed */\n")
             with self.subTest(name):
-                self.assertIn("STALE", standing("box", path, self.make_trial().digest))
+                self.assertIn("STALE", standing("box", path, digest(self.make_trial())))
             file.write_text(text)
-        self.assertIn("STALE", standing("box", path, self.make_trial(stamp="2").digest))
+        self.assertEqual(standing("box", path, digest(self.make_trial(driver="e"))), line)
+        for other in (digest(self.make_trial(stamp="2")), self.trial.digest_of([], ""),
+                      self.trial.digest_of(made, "[[equivalent]]")):  # fmt: skip
+            self.assertIn("STALE", standing("box", path, other))
         path.write_text(path.read_text()[:-20])
-        self.assertEqual(standing("box", path, self.trial.digest), "box          no result")
+        self.assertEqual(standing("box", path, now), "box          no result")
 
     def test_kinds_are_counted_apart(self) -> None:
         verdicts = [
@@ -217,7 +259,6 @@ class FakeTrial:
         self.kept: dict[Mutant, Verdict] = {}
         self.unusable: list[str] = []
         self.interrupted = False
-        self.digest = "d"
 
     def try_mutant(self, mutant: Mutant) -> Verdict:
         self.tried.append(mutant)
@@ -231,6 +272,9 @@ class FakeTrial:
         if len(self.kept) == 2 and not self.interrupted:
             self.interrupted = True
             raise KeyboardInterrupt
+
+    def digest_of(self, mutants: Sequence[Mutant], accepted: str) -> str:
+        return f"{len(mutants)} {accepted}"
 
     def stop(self) -> None:
         pass

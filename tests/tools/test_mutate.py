@@ -27,7 +27,8 @@ import mutate  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
 from proofs.mutant_verdicts import Verdict  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
-from proofs.mutation import Tools, Trees, Trial  # noqa: E402
+from proofs.mutant_trees import Trees  # noqa: E402
+from proofs.mutation import Tools, Trial  # noqa: E402
 from proofs.project import ProjectError, Unit  # noqa: E402
 from proofs.settings import Exceptions  # noqa: E402
 from proofs.times import Times  # noqa: E402
