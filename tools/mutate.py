@@ -43,10 +43,10 @@ from common.files import write_text  # noqa: E402
 from proofs.cache import Cache, digest  # noqa: E402
 from proofs.jobs import end_as_by_ctrl_c  # noqa: E402
 from proofs.mutant_crew import Dask, Job, Threads, answer_order  # noqa: E402
-from proofs.mutant_verdicts import Verdict  # noqa: E402
-from proofs.mutants import Mutant, generate  # noqa: E402
 from proofs.mutant_harnesses import survey  # noqa: E402
 from proofs.mutant_trees import Trees  # noqa: E402
+from proofs.mutant_verdicts import Verdict  # noqa: E402
+from proofs.mutants import Mutant, generate  # noqa: E402
 from proofs.mutation import BY_CBMC, BY_WP, DRIVER, Tools, Trial  # noqa: E402
 from proofs.project import RECORDED_TIMES, ProjectError, Unit, find_units  # noqa: E402
 from proofs.session import judges_digest, own_digest, prover_answers, tool_stamp  # noqa: E402

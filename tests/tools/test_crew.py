@@ -29,11 +29,11 @@ sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 import mutate  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
 from proofs.mutant_crew import Dask, Threads, answer_order, archive, orders  # noqa: E402
+from proofs.mutant_trees import Trees  # noqa: E402
 from proofs.mutant_verdicts import Verdict, report, standing, table  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
-from proofs.mutant_trees import Trees  # noqa: E402
 from proofs.mutation import BY_CBMC, BY_WP, NO_ANSWER, Tools, Trial  # noqa: E402
-from proofs.project import ProjectError, Unit, find_units  # noqa: E402
+from proofs.project import ProjectError, find_units  # noqa: E402
 from proofs.settings import Exceptions  # noqa: E402
 from proofs.times import Times  # noqa: E402
 from test_prove import HARNESS, SOURCE, TreeTest  # noqa: E402
@@ -96,7 +96,8 @@ class TrialCase(TreeTest):
         )
         return Trial(
             self.unit, tools, Trees(self.root, scratch, 1), ("cbmc", "wp"), False,
-            Cache(self.root / "cache"), {"tool": "t", BY_CBMC: stamp, BY_WP: wp, "driver": driver}, Exceptions(),
+            Cache(self.root / "cache"),
+            {"tool": "t", BY_CBMC: stamp, BY_WP: wp, "driver": driver}, Exceptions(),
             Times(self.root / "times.json"), patient,
         )  # fmt: skip
 

@@ -189,7 +189,9 @@ def _commute(first: str, second: str) -> bool:
 def _are_apart(first: str, second: str, code: str) -> bool:
     """Whether two local variables are computed, neither from the other."""
     one, two = COMPUTES.fullmatch(first), COMPUTES.fullmatch(second)
-    if not one or not two or CALL.search(first + second) or any(SIDE_EFFECT.search(given[2] or "") for given in (one, two)):
+    if not one or not two or CALL.search(first + second):
+        return False
+    if any(SIDE_EFFECT.search(value) for value in (one[2] or "", two[2] or "")):
         return False
     others = ((one[1], second), (two[1], first))
     return not any(re.search(rf"\b{name}\b", text) or re.search(rf"&\s*{name}\b", code)
