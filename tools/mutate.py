@@ -79,6 +79,8 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--status", action="store_true", help="print the last results, try none")
     parser.add_argument("--quick", action="store_true",
                         help="short limits for WP; what they leave open is not killed")  # fmt: skip
+    parser.add_argument("--small", action="store_true",
+                        help="ask small harnesses alone; what they leave is not tried")  # fmt: skip
     parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")
     parser.add_argument("--order", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
@@ -159,7 +161,7 @@ class Measurement:
         for unit in units:
             trial = Trial(
                 unit, programs, trees, self.engines, options.engine == "both", cache, self.stamp,
-                exceptions[unit.name], times, not options.quick, seen,
+                exceptions[unit.name], times, not options.quick, seen, options.small,
             )  # fmt: skip
             made = [generate(path, around) for path in unit.own_files]
             found = [mutant for one in made for mutant in one.mutants
@@ -254,7 +256,7 @@ def measure(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolc
             tell(measurement, options)
             return 0
         if address := os.environ.get("DASK"):
-            order = {"engine": options.engine, "quick": options.quick}
+            order = {"engine": options.engine, "quick": options.quick, "small": options.small}
             crew = Dask(address, units[0].root, digest(measurement.stamp), order)
         else:
             end = time.monotonic() + options.max_seconds
@@ -282,6 +284,7 @@ def carry_out(
 ) -> dict[str, Any]:  # fmt: skip
     """Try the mutants that an order from another machine names."""
     line = ["--unit", order["unit"], "--jobs", "1", *(["--quick"] if order["quick"] else [])]
+    line += ["--small"] if order["small"] else []
     line += ["--engine", order["engine"]] if order["engine"] else []
     measurement = Measurement([units[order["unit"]]], parse(line, list(units)), toolchain)
     [one] = measurement.units

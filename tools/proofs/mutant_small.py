@@ -24,7 +24,7 @@ from .mutant_harnesses import in_tree
 # The capacities that a build may choose, and those of a small harness.
 CAPACITIES = {"KEEL_QUEUE_CAPACITY": 2, "KEEL_VOTER_SENSORS": 3}
 BEYOND = "unwinding assertion"  # what CBMC says of a loop that goes on
-TIME = 10.0  # seconds, for a question that is meant to be easy
+TIME = 20.0  # seconds, for a question that is meant to be easy
 
 
 def small(harness: Harness, files: Iterable[Path]) -> Harness:

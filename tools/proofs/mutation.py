@@ -59,14 +59,15 @@ class Trial:
     A mutant is tried first by small harnesses, the one that killed most mutants of its function
     before the others. Then by the harnesses that compare its function with the model, by the
     others that cover it, and by WP, which asks the function alone: what its callers rely on is its
-    contract, not its body. What is left are the harnesses that were too slow and, with little time
-    each, those that only call it. Among equals the one that is usually fastest comes first.
+    contract, not its body. What is left are the harnesses that were too slow and, in their small
+    form, those that only call it. Among equals the one that is usually fastest comes first.
     """
 
     def __init__(
         self, unit: Unit, tools: Tools, trees: Trees, asked: Sequence[str], every: bool,
         cache: Cache, stamp: Mapping[str, str], exceptions: Exceptions,
         times: Times, patient: bool = True, seen: Sequence[Seen] | None = None,
+        small_only: bool = False,
     ) -> None:  # fmt: skip
         self._unit = unit
         self._tools = tools
@@ -79,6 +80,7 @@ class Trial:
         self._exceptions = exceptions
         self._times = times
         self._patient = patient
+        self._small_only = small_only
         self._allowed = list(exceptions.warnings)
         self._baseline = threading.Lock()
         self._proved = Cache(tools.verdicts)
@@ -167,11 +169,11 @@ class Trial:
         In the latter case CBMC has little time at first: some mutants that are very hard for it
         are easy for WP.
         """
-        if "cbmc" in self._engines and (failure := self._by_small(verdict.mutant, unit, runner)):
-            verdict.engines["cbmc"] = failure
-            verdict.status = "killed"
-            if not self._every:
-                return
+        if "cbmc" in self._engines and self._killed_by_small(verdict, unit, runner, False):
+            return
+        if self._small_only:
+            verdict.status, verdict.reason = "skipped", "left by the small harnesses"
+            return
         said: dict[str, str] = {}
         asked = self._engines
         if not self._every and asked == ["cbmc", "wp"]:
@@ -190,6 +192,8 @@ class Trial:
                     return
             elif verdict.engines[engine].startswith(UNDECIDED) and verdict.status != "killed":
                 verdict.status = "undecided"
+        if "cbmc" in self._engines and verdict.status != "killed":
+            self._killed_by_small(verdict, unit, runner, True)
 
     def _runner(self, folder: Path) -> Runner:
         runner = Runner(dict(self._tools.environment), folder)
@@ -261,15 +265,15 @@ class Trial:
     def _by_cbmc(
         self, mutant: Mutant, unit: Unit, runner: Runner, patient: bool, asked: dict[str, str]
     ) -> str:  # fmt: skip
-        """Whether a harness that reaches the function fails; `asked` has what each said."""
+        """Whether a harness that covers the function fails; `asked` has what each said."""
         checker = self._checker(unit.root, runner)
-        for original in self._ranked(mutant, patient):
+        covering = [one for one in self._ranked(mutant) if mutant.function in one.covers]
+        for original in covering:
             if asked.get(original.name, NO_ANSWER) != NO_ANSWER:
                 continue
             harness = in_tree(original, unit.root)
             binary, complaint = checker.build(harness, harness.name)
-            thorough = patient and mutant.function in harness.covers
-            limited = replace(harness, timeout=self._limit(harness) if thorough else IMPATIENT)
+            limited = replace(harness, timeout=self._limit(harness) if patient else IMPATIENT)
             asked[harness.name] = NO_ANSWER
             if complaint:
                 continue
@@ -282,14 +286,22 @@ class Trial:
             return "no harness" if patient else NO_ANSWER
         return NO_ANSWER if not patient or NO_ANSWER in asked.values() else "survived"
 
-    def _by_small(self, mutant: Mutant, unit: Unit, runner: Runner) -> str:
-        """What a small harness that covers the function says against the mutant, if any does."""
-        asked = self._small.ranked(mutant.function, self._ranked(mutant, False))
+    def _killed_by_small(
+        self, verdict: Verdict, unit: Unit, runner: Runner, callers: bool
+    ) -> bool:  # fmt: skip
+        """Ask small harnesses: those that cover the function, or those that only call it.
+
+        Whether no other engine need be asked.
+        """
+        mutant = verdict.mutant
+        ranked = [one for one in self._ranked(mutant) if (mutant.function in one.covers) != callers]
         checker = self._checker(unit.root, runner)
-        for harness in asked:
+        for harness in self._small.ranked(mutant.function, ranked):
             if text := self._small.kills(harness, mutant.function, checker, unit.root):
-                return text
-        return ""
+                verdict.engines["cbmc"] = text
+                verdict.status = "killed"
+                return not self._every
+        return False
 
     def _unchanged(self) -> cbmc.Cbmc:
         """What asks about the tree itself."""
@@ -322,7 +334,7 @@ class Trial:
         usual = self._times.of("cbmc", harness.unit.name, harness.name)
         return min(harness.timeout, max(IMPATIENT, LAST_PATIENCE * (usual or harness.timeout)))
 
-    def _ranked(self, mutant: Mutant, patient: bool) -> list[Harness]:
+    def _ranked(self, mutant: Mutant) -> list[Harness]:
         """The harnesses to ask: those that compare the function with its model first."""
 
         def rank(harness: Harness) -> tuple[int, float, str]:
@@ -334,9 +346,7 @@ class Trial:
             return place, UNTIMED if usual is None else usual, harness.name
 
         found = [one for one in self._linked if mutant.function in self._reached[one.name]]
-        return sorted(
-            (one for one in found if patient or mutant.function in one.covers), key=rank
-        )  # fmt: skip
+        return sorted(found, key=rank)
 
     def _by_wp(self, mutant: Mutant, unit: Unit, runner: Runner) -> str:
         """Whether a goal of the function is not proved any more."""
