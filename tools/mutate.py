@@ -12,8 +12,9 @@
 
 Mutants are slips of the pen (another operator, a number beside the right one, a statement left out)
 and of thought (order, a stale value, the neighbour's field or index, a check that comes too late, a
-clause forgotten; tools/proofs/mutant_slips.py). One is killed by a counterexample of CBMC, or by a
-goal that WP leaves open within its full limits. A mutant that nobody notices shows a contract that
+clause forgotten; tools/proofs/mutant_slips.py). One is killed by a counterexample of CBMC, first
+looked for at small capacities (tools/proofs/mutant_small.py), or by a goal that WP leaves open
+within its full limits. A mutant that nobody notices shows a contract that
 is too weak, or a change that makes no difference; the latter is accepted with its reason in
 proofs/UNIT/equivalent.toml. What does not compile, or compiles to the same code, does not count.
 
@@ -21,7 +22,7 @@ The tree is never touched. build/mutate/UNIT.json has the details, and a digest 
 found with: sources, contracts, harnesses, tools. Each verdict is kept there as it comes: who was
 interrupted calls the program again, and it goes on.
 
-Exit status: 0 when every mutant is killed or explained, 1 when not, 2 for a wrong command line.
+Exit status: 0 when every mutant is killed or explained, 1 when not, 2 for a wrong input.
 """
 
 from __future__ import annotations
@@ -40,14 +41,16 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from common.files import write_text  # noqa: E402
-from proofs.cache import Cache, digest, digest_of_files  # noqa: E402
+from proofs.cache import Cache, digest  # noqa: E402
 from proofs.jobs import end_as_by_ctrl_c  # noqa: E402
 from proofs.mutant_crew import Dask, Job, Threads, answer_order  # noqa: E402
+from proofs.mutant_harnesses import survey  # noqa: E402
+from proofs.mutant_trees import Trees  # noqa: E402
 from proofs.mutant_verdicts import Verdict  # noqa: E402
 from proofs.mutants import Mutant, generate  # noqa: E402
-from proofs.mutation import MAKERS, Tools, Trees, Trial, survey  # noqa: E402
-from proofs.project import KEEL, RECORDED_TIMES, ProjectError, Unit, find_units  # noqa: E402
-from proofs.session import own_digest, prover_answers, tool_stamp  # noqa: E402
+from proofs.mutation import BY_CBMC, BY_WP, DRIVER, Tools, Trial  # noqa: E402
+from proofs.project import RECORDED_TIMES, ProjectError, Unit, find_units  # noqa: E402
+from proofs.session import judges_digest, own_digest, prover_answers, tool_stamp  # noqa: E402
 from proofs.settings import read_exceptions  # noqa: E402
 from proofs.times import Times  # noqa: E402
 from toolchain import TARGET_FLAGS, Toolchain, ToolchainError  # noqa: E402
@@ -77,6 +80,8 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--status", action="store_true", help="print the last results, try none")
     parser.add_argument("--quick", action="store_true",
                         help="short limits for WP; what they leave open is not killed")  # fmt: skip
+    parser.add_argument("--small", action="store_true",
+                        help="ask small harnesses alone; what they leave is not tried")  # fmt: skip
     parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")
     parser.add_argument("--record", action="store_true",
                         help="keep the results in specs/mutation, for make evidence")  # fmt: skip
@@ -110,10 +115,10 @@ def tools_for(toolchain: Toolchain, root: Path, scratch: Path) -> Tools:
 
 
 def stamp_of(toolchain: Toolchain) -> dict[str, str]:
-    """What identifies the tools of a verdict, those that make mutants included."""
-    own = digest_of_files(sorted((KEEL / "tools/proofs").glob("muta*.py")), KEEL)
+    """What identifies the tools of a verdict."""
     tools = tool_stamp(toolchain.versions("prove"))
-    return {**tools, "driver": own_digest(), MAKERS: digest(own)}
+    judges = {BY_CBMC: judges_digest("cbmc"), BY_WP: judges_digest("wp")}
+    return {**tools, **judges, DRIVER: own_digest()}
 
 
 @dataclass
@@ -125,6 +130,17 @@ class Measured:
     found: list[Mutant]
     dropped: int
     verdicts: dict[int, Verdict]
+
+    @property
+    def reasons(self) -> Path:
+        """Why survivors make no difference."""
+        return self.unit.folder / "equivalent.toml"
+
+    @property
+    def digest(self) -> str:
+        """Of all that the report depends on."""
+        text = self.reasons.read_text(encoding="utf-8") if self.reasons.is_file() else ""
+        return self.trial.digest_of(self.found, text)
 
 
 class Measurement:
@@ -151,7 +167,7 @@ class Measurement:
         for unit in units:
             trial = Trial(
                 unit, programs, trees, self.engines, options.engine == "both", cache, self.stamp,
-                exceptions[unit.name], times, not options.quick, seen,
+                exceptions[unit.name], times, not options.quick, seen, options.small,
             )  # fmt: skip
             made = [generate(path, around) for path in unit.own_files]
             found = [mutant for one in made for mutant in one.mutants
@@ -201,12 +217,12 @@ class Measurement:
         """Report on each unit; the exit status."""
         status = 0
         for one in self.units:
-            accepted = mutant_verdicts.read_equivalent(one.unit.folder / "equivalent.toml")
+            accepted = mutant_verdicts.read_equivalent(one.reasons)
             verdicts = [one.verdicts[place] for place in sorted(one.verdicts)]
             problems = [f"{name} is not proved even unchanged" for name in one.trial.unusable]
             problems += mutant_verdicts.settle(verdicts, accepted, not self._options.function)
             text = mutant_verdicts.report(
-                one.unit.name, verdicts, problems, one.dropped, one.trial.digest
+                one.unit.name, verdicts, problems, one.dropped, one.digest
             )
             if not self._options.function:
                 write_text(self.report_of(one.unit), text)
@@ -251,7 +267,7 @@ def measure(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolc
             tell(measurement, options)
             return 0
         if address := os.environ.get("DASK"):
-            order = {"engine": options.engine, "quick": options.quick}
+            order = {"engine": options.engine, "quick": options.quick, "small": options.small}
             crew = Dask(address, units[0].root, digest(measurement.stamp), order)
         else:
             end = time.monotonic() + options.max_seconds
@@ -269,7 +285,7 @@ def tell(measurement: Measurement, options: argparse.Namespace) -> None:
     for one in measurement.units:
         if options.status:
             report = measurement.report_of(one.unit)
-            print(mutant_verdicts.standing(one.unit.name, report, one.trial.digest))
+            print(mutant_verdicts.standing(one.unit.name, report, one.digest))
         else:
             print("\n".join(f"{mutant.kind:<10} {mutant}" for mutant in one.found))
 
@@ -279,6 +295,7 @@ def carry_out(
 ) -> dict[str, Any]:  # fmt: skip
     """Try the mutants that an order from another machine names."""
     line = ["--unit", order["unit"], "--jobs", "1", *(["--quick"] if order["quick"] else [])]
+    line += ["--small"] if order["small"] else []
     line += ["--engine", order["engine"]] if order["engine"] else []
     measurement = Measurement([units[order["unit"]]], parse(line, list(units)), toolchain)
     [one] = measurement.units
@@ -308,7 +325,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return measure([units[name] for name in options.unit], options, toolchain)
     except (ProjectError, ToolchainError) as error:
         print(f"mutate: {error}", file=sys.stderr)
-        return 1
+        return 2
     except KeyboardInterrupt:
         print("mutate: interrupted; what was decided is kept, call it again to go on",
               file=sys.stderr)  # fmt: skip

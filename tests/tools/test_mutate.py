@@ -19,15 +19,17 @@ import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import mutate  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
+from proofs.mutant_trees import Trees  # noqa: E402
 from proofs.mutant_verdicts import Verdict  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
-from proofs.mutation import Tools, Trees, Trial  # noqa: E402
+from proofs.mutation import Tools, Trial  # noqa: E402
 from proofs.project import ProjectError, Unit  # noqa: E402
 from proofs.settings import Exceptions  # noqa: E402
 from proofs.times import Times  # noqa: E402
@@ -290,6 +292,15 @@ class CommandLine(unittest.TestCase):
             mutate.parse(["--unit", "kite"], ["box"])
         self.assertEqual(stopped.exception.code, 2)
         self.assertIn("no such unit: kite (there are: box)", error.getvalue())
+
+    def test_what_cannot_be_read_is_no_failed_check(self) -> None:
+        error = io.StringIO()
+        with (
+            mock.patch.object(mutate, "find_units", side_effect=ProjectError("units.toml: no")),
+            contextlib.redirect_stderr(error),
+        ):
+            self.assertEqual(mutate.main([]), 2)
+        self.assertEqual(error.getvalue(), "mutate: units.toml: no\n")
 
 
 if __name__ == "__main__":

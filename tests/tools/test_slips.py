@@ -87,6 +87,15 @@ class Slips(unittest.TestCase):
             ("p->o[a] = 1;\n    p->o[b] = 2;", True),
             ("p->x = g(1);\n    p->y = g(2);", True),
             ("p->x = 1;\n    q->y = 2;", True),
+            ("b = a;\n    c += 2;", False),
+            ("b++;\n    c = p->x;", False),
+            ("const int b = p->x;\n    const int *const c = p->q;", False),
+            ("int b = 1;\n    int c = b;", True),
+            ("b = c;\n    c = 2;", True),
+            ("b = a++;\n    c = 2;", True),
+            ("b = g(1);\n    c = 2;", True),
+            ("b = 1;\n    c = *p;\n    g(&b);", True),
+            ("b = 1;\n    *p = 2;", True),
         ):
             with self.subTest(body):
                 self.assertEqual(bool(made(body, "order")), exchanged)

@@ -23,6 +23,12 @@ ASSIGNED = re.compile(
 )
 # A field of an object is written, and a variable that is no object.
 WRITES = re.compile(r"(?P<left>\w+(?:->|\.|\[)[\w.\[\]>+ -]*?)\s*[-+*/|&]?=(?!=)[^;]*;", re.S)
+# A variable is written, or declared with a value; and what else may write in a value.
+COMPUTES = re.compile(
+    r"(?:(?:const\s+)?\w+(?:\s*\*\s*(?:const\s+)?|\s+))?(\w+)\s*"
+    r"(?:[-+*/|&]?=(?!=)([^;]*)|\+\+|--);", re.S
+)  # fmt: skip
+SIDE_EFFECT = re.compile(r"\+\+|--|(?<![=!<>])=(?!=)")
 LOCAL = re.compile(r"(?:[\w ]+[\s*]+)?\w+\s*[-+*/|&]?=(?!=)")
 ENUM = re.compile(r"\benum(?:\s+\w+)?\s*\{(?P<body>[^}]*)\}")
 DEFINE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+([A-Z][A-Z0-9]*_[A-Z0-9_]+)[ \t]+\S")
@@ -160,7 +166,9 @@ def _order(text: str, code: str, own: list[Item]) -> Iterator[Change]:
         if one.word == "if" and re.search(r"\breturn\b", first):
             if not LOCAL.match(second):
                 yield Change("early", one.start, two.end, exchanged)
-        elif not one.word and not DECLARED.fullmatch(first) and not _commute(first, second):
+        elif not one.word and not DECLARED.fullmatch(first) and not (
+            _commute(first, second) or _are_apart(first, second, code)
+        ):
             yield Change("order", one.start, two.end, exchanged)
 
 
@@ -176,6 +184,18 @@ def _commute(first: str, second: str) -> bool:
     if left[0] != right[0] or left[:length] == right[:length]:
         return False
     return not (re.search(rf"\b{left[-1]}\b", second) or re.search(rf"\b{right[-1]}\b", first))
+
+
+def _are_apart(first: str, second: str, code: str) -> bool:
+    """Whether two local variables are computed, neither from the other."""
+    one, two = COMPUTES.fullmatch(first), COMPUTES.fullmatch(second)
+    if not one or not two or CALL.search(first + second):
+        return False
+    if any(SIDE_EFFECT.search(value) for value in (one[2] or "", two[2] or "")):
+        return False
+    others = ((one[1], second), (two[1], first))
+    return not any(re.search(rf"\b{name}\b", text) or re.search(rf"&\s*{name}\b", code)
+                   for name, text in others)  # fmt: skip
 
 
 def _branches(code: str, own: list[Item]) -> Iterator[Change]:

@@ -5,21 +5,22 @@ from __future__ import annotations
 
 import json
 import math
-import re
 import shutil
 import threading
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from . import cbmc, csource, engines, frames, targets, wp
 from .cache import Cache, digest
-from .harness import MODELS, Harness, read_harness
+from .harness import Harness
 from .jobs import Runner
+from .mutant_harnesses import Seen, in_tree, survey
+from .mutant_small import Small
+from .mutant_trees import Trees
 from .mutant_verdicts import Verdict
 from .mutants import Mutant
-from .project import ProjectError, Unit, closure, find_units
+from .project import ProjectError, Unit, closure
 from .settings import Exceptions
 from .times import Times
 
@@ -31,42 +32,11 @@ IMPATIENT = 20.0
 UNTIMED = 60.0  # what a harness counts for whose time nobody knows
 LAST_PATIENCE = 10.0  # for the attempt after which a mutant is said to survive
 NO_ANSWER = "no answer"
-# In a stamp, what makes the mutants: proofs of what is unchanged do not depend on it.
-MAKERS = "mutants"
+# In a stamp, what judges mutants by each engine, and what judges what is unchanged: the latter is
+# more, and the kept proofs of `make prove` alone depend on it.
+BY_CBMC, BY_WP, DRIVER = "judges by CBMC", "judges by WP", "driver"
 # A goal that is not proved within the limits above may be one that takes longer.
 UNDECIDED = "not proved in the short limit"
-
-
-class Trees:
-    """Copies of the tree, one for each trial at a time: the tree itself is never touched."""
-
-    def __init__(self, root: Path, scratch: Path, count: int) -> None:
-        self._root = root
-        self._free = [scratch / f"tree{number}" for number in range(count)]
-        self._lock = threading.Lock()
-
-    @contextmanager
-    def with_mutant(self, mutant: Mutant, root: Path) -> Iterator[Path]:
-        """A tree in which the mutant has taken its file's place."""
-        with self._lock:
-            tree = self._free.pop()
-        self._fill(tree)
-        file = tree / mutant.file.relative_to(root)
-        text = file.read_text(encoding="utf-8")
-        try:
-            file.write_text(mutant.apply(text), encoding="utf-8")
-            yield tree
-        finally:
-            file.write_text(text, encoding="utf-8")
-            with self._lock:
-                self._free.append(tree)
-
-
-    def _fill(self, tree: Path) -> None:
-        """Copy what proofs are made of, when the tree is used for the first time."""
-        for name in ("include", "src", "proofs", MODELS):
-            if (self._root / name).is_dir() and not (tree / name).is_dir():
-                shutil.copytree(self._root / name, tree / name)
 
 
 @dataclass(frozen=True)
@@ -83,63 +53,26 @@ class Tools:
     verdicts: Path
 
 
-@dataclass(frozen=True)
-class Seen:
-    """A harness, the files that its binary is made of, and the functions that it may call."""
-
-    harness: Harness
-    files: frozenset[Path]
-    reached: frozenset[str]
-
-
-def survey(root: Path) -> list[Seen]:
-    """All harnesses of all units."""
-    read = [read_harness(unit, path)
-            for unit in find_units(root).values() for path in unit.harnesses]  # fmt: skip
-    found = []
-    for harness in read:
-        files = closure(root, [harness.path, *harness.sources])
-        found.append(Seen(harness, frozenset(files), _reached(harness, files)))
-    return found
-
-
-def _reached(harness: Harness, files: Sequence[Path]) -> frozenset[str]:
-    """The functions that a harness may call, in whichever of its files."""
-    bodies: dict[str, str] = {}
-    for path in files:
-        text = path.read_text(encoding="utf-8")
-        code = csource.code_only(text)
-        for function in csource.defined(text):
-            if function.body:
-                bodies[function.name] = bodies.get(function.name, "") + code[slice(*function.body)]
-    seen: set[str] = set()
-    waiting = [harness.name]
-    while waiting:
-        for name in re.findall(r"\b\w+\b", bodies.get(waiting.pop(), "")):
-            if name in bodies and name not in seen and name not in harness.replaces:
-                seen.add(name)
-                waiting.append(name)
-    return frozenset(seen)
-
-
 class Trial:
     """Tries the mutants of one unit.
 
-    A mutant is tried first by the harnesses that compare its function with the model, then by the
-    others that cover it, then by WP, which asks the function alone: what its callers rely on is its
-    contract, not its body. What is left are the harnesses that were too slow and, with little time
-    each, those that only call it. Among equals the one that is usually fastest comes first.
+    A mutant is tried first by small harnesses, the one that killed most mutants of its function
+    before the others. Then by the harnesses that compare its function with the model, by the
+    others that cover it, and by WP, which asks the function alone: what its callers rely on is its
+    contract, not its body. What is left are the harnesses that were too slow and, in their small
+    form, those that only call it. Among equals the one that is usually fastest comes first.
     """
 
     def __init__(
         self, unit: Unit, tools: Tools, trees: Trees, asked: Sequence[str], every: bool,
         cache: Cache, stamp: Mapping[str, str], exceptions: Exceptions,
         times: Times, patient: bool = True, seen: Sequence[Seen] | None = None,
+        small_only: bool = False,
     ) -> None:  # fmt: skip
         self._unit = unit
         self._tools = tools
         self._trees = trees
-        self._engines = asked
+        self._engines = list(asked)
         self._every = every
         self._cache = cache
         self._stamp = dict(stamp)
@@ -147,6 +80,7 @@ class Trial:
         self._exceptions = exceptions
         self._times = times
         self._patient = patient
+        self._small_only = small_only
         self._allowed = list(exceptions.warnings)
         self._baseline = threading.Lock()
         self._proved = Cache(tools.verdicts)
@@ -157,6 +91,9 @@ class Trial:
         linked = [one for one in seen or survey(unit.root) if own & one.files]
         self._linked = [one.harness for one in linked]
         self._reached = {one.harness.name: one.reached for one in linked}
+        self._seen = {one.harness.name: one for one in linked}
+        self._beside: dict[tuple[str, Path], str] = {}
+        self._small = Small({one.harness.name: one.files for one in linked}, self._unchanged)
         files = {*closure(unit.root, unit.own_files)}.union(*(one.files for one in linked))
         self._texts = {path: path.read_text(encoding="utf-8") for path in sorted(files)}
 
@@ -189,20 +126,29 @@ class Trial:
         target = next(item for item in targets.targets(unit) if item.function == function)
         return frames.restricted(target, self._exceptions)
 
-    @property
-    def digest(self) -> str:
-        """Of all that the verdicts depend on, mutants aside."""
-        return self._digest(self._texts, "")
+    def digest_of(self, mutants: Sequence[Mutant], accepted: str) -> str:
+        """Of all that a report on mutants depends on, accepted reasons included."""
+        names = [list(mutant.identity) for mutant in mutants]
+        return digest([self._digest(self._texts, ""), names, accepted])
 
     def known(self, mutant: Mutant) -> Verdict | None:
         """The verdict that was kept, if nothing that it depends on has changed."""
-        kept = self._cache.get(self._key(mutant))
+        keys = [self._key(mutant)]
+        if self._engines[:1] == ["cbmc"] and not self._every:
+            keys += [self._kill_key(mutant, one) for one in self._linked
+                     if mutant.function in self._reached[one.name]]  # fmt: skip
+        kept = next((found for key in keys if (found := self._cache.get(key))), None)
         return Verdict.of(mutant, kept) if kept else None
 
     def keep(self, verdict: Verdict) -> None:
         """Keep a verdict, so that whoever goes on need not ask again."""
-        if verdict.status != "skipped":
-            self._cache.put(self._key(verdict.mutant), verdict.outcome)
+        if verdict.status == "skipped":
+            return
+        key = self._key(verdict.mutant)
+        if verdict.status == "killed" and list(verdict.engines) == ["cbmc"]:
+            name = verdict.engines["cbmc"].split(": ")[1]
+            key = self._kill_key(verdict.mutant, next(x for x in self._linked if x.name == name))
+        self._cache.put(key, verdict.outcome)
 
     def try_mutant(self, mutant: Mutant) -> Verdict:
         """Which engine notices the mutant, if any."""
@@ -223,8 +169,13 @@ class Trial:
         In the latter case CBMC has little time at first: some mutants that are very hard for it
         are easy for WP.
         """
+        if "cbmc" in self._engines and self._killed_by_small(verdict, unit, runner, False):
+            return
+        if self._small_only:
+            verdict.status, verdict.reason = "skipped", "left by the small harnesses"
+            return
         said: dict[str, str] = {}
-        asked = list(self._engines)
+        asked = self._engines
         if not self._every and asked == ["cbmc", "wp"]:
             asked = ["cbmc", "wp", "cbmc"]
         for number, engine in enumerate(asked):
@@ -241,11 +192,25 @@ class Trial:
                     return
             elif verdict.engines[engine].startswith(UNDECIDED) and verdict.status != "killed":
                 verdict.status = "undecided"
+        if "cbmc" in self._engines and verdict.status != "killed":
+            self._killed_by_small(verdict, unit, runner, True)
 
     def _runner(self, folder: Path) -> Runner:
         runner = Runner(dict(self._tools.environment), folder)
         self._runners.append(runner)
         return runner
+
+    def _kill_key(self, mutant: Mutant, harness: Harness) -> str:
+        """All that the counterexample of a harness depends on: contracts are comments to CBMC."""
+        place = (harness.name, mutant.file)
+        if place not in self._beside:
+            root = self._unit.root
+            texts = {path.relative_to(root).as_posix(): csource.essence(self._texts[path])
+                     for path in self._seen[harness.name].files if path != mutant.file}  # fmt: skip
+            self._beside[place] = digest([texts, self._seen[harness.name].command])
+        changed = csource.essence(mutant.apply(self._texts[mutant.file]))
+        stamp = self._stamp_without(DRIVER, BY_WP)
+        return digest([self._beside[place], mutant.function, changed, stamp])
 
     def _key(self, mutant: Mutant) -> str:
         """All that a verdict depends on, with the mutant in it."""
@@ -257,9 +222,14 @@ class Trial:
         return digest(
             {"mutant": function, "texts": {str(path.relative_to(root)): text
                                            for path, text in texts.items()},
-             "stamp": self._stamp, "engines": list(self._engines), "every": self._every,
+             "harnesses": [one.command for one in self._seen.values()],
+             "exceptions": asdict(self._exceptions), "stamp": self._stamp_without(DRIVER),
+             "engines": self._engines, "every": self._every,
              "stages": str(wp.THOROUGH), "patient": self._patient}
         )  # fmt: skip
+
+    def _stamp_without(self, *apart: str) -> dict[str, str]:
+        return {name: text for name, text in self._stamp.items() if name not in apart}
 
     def _compare(self, unit: Unit, runner: Runner) -> tuple[str, str] | None:
         """Whether the mutant does not compile, or compiles to what the original compiles to."""
@@ -295,17 +265,15 @@ class Trial:
     def _by_cbmc(
         self, mutant: Mutant, unit: Unit, runner: Runner, patient: bool, asked: dict[str, str]
     ) -> str:  # fmt: skip
-        """Whether a harness that reaches the function fails; `asked` has what each said."""
-        scratch = self._tools.scratch / unit.root.name
-        checker = cbmc.Cbmc(self._tools.goto_cc, self._tools.cbmc, runner, unit.root, scratch)
-        for original in self._ranked(mutant, patient):
+        """Whether a harness that covers the function fails; `asked` has what each said."""
+        checker = self._checker(unit.root, runner)
+        covering = [one for one in self._ranked(mutant) if mutant.function in one.covers]
+        for original in covering:
             if asked.get(original.name, NO_ANSWER) != NO_ANSWER:
                 continue
-            own = Unit(unit.root, original.unit.layer, original.unit.name)
-            harness = read_harness(own, own.folder / original.path.name)
+            harness = in_tree(original, unit.root)
             binary, complaint = checker.build(harness, harness.name)
-            thorough = patient and mutant.function in harness.covers
-            limited = replace(harness, timeout=self._limit(harness) if thorough else IMPATIENT)
+            limited = replace(harness, timeout=self._limit(harness) if patient else IMPATIENT)
             asked[harness.name] = NO_ANSWER
             if complaint:
                 continue
@@ -318,15 +286,39 @@ class Trial:
             return "no harness" if patient else NO_ANSWER
         return NO_ANSWER if not patient or NO_ANSWER in asked.values() else "survived"
 
+    def _killed_by_small(
+        self, verdict: Verdict, unit: Unit, runner: Runner, callers: bool
+    ) -> bool:  # fmt: skip
+        """Ask small harnesses: those that cover the function, or those that only call it.
+
+        Whether no other engine need be asked.
+        """
+        mutant = verdict.mutant
+        ranked = [one for one in self._ranked(mutant) if (mutant.function in one.covers) != callers]
+        checker = self._checker(unit.root, runner)
+        for harness in self._small.ranked(mutant.function, ranked):
+            if text := self._small.kills(harness, mutant.function, checker, unit.root):
+                verdict.engines["cbmc"] = text
+                verdict.status = "killed"
+                return not self._every
+        return False
+
+    def _unchanged(self) -> cbmc.Cbmc:
+        """What asks about the tree itself."""
+        return self._checker(self._unit.root, self._runner(self._unit.root))
+
+    def _checker(self, root: Path, runner: Runner) -> cbmc.Cbmc:
+        tools = self._tools
+        scratch = tools.scratch if root == self._unit.root else tools.scratch / root.name
+        return cbmc.Cbmc(tools.goto_cc, tools.cbmc, runner, root, scratch)
+
     def _passes_unchanged(self, name: str) -> bool:
         """Whether a harness proves the original: if not, its failure shows nothing."""
         with self._baseline:
             if name not in self._sound:
-                tools, root = self._tools, self._unit.root
-                runner = self._runner(root)
-                checker = cbmc.Cbmc(tools.goto_cc, tools.cbmc, runner, root, tools.scratch)
+                root, checker = self._unit.root, self._unchanged()
                 harness = next(item for item in self._linked if item.name == name)
-                stamp = {name: text for name, text in self._stamp.items() if name != MAKERS}
+                stamp = self._stamp_without(BY_CBMC, BY_WP)
                 key = engines.cbmc_key(harness, checker, root, stamp)  # that of make prove
                 if self._proved.get(key) is None:
                     result = checker.prove(harness)
@@ -342,7 +334,7 @@ class Trial:
         usual = self._times.of("cbmc", harness.unit.name, harness.name)
         return min(harness.timeout, max(IMPATIENT, LAST_PATIENCE * (usual or harness.timeout)))
 
-    def _ranked(self, mutant: Mutant, patient: bool) -> list[Harness]:
+    def _ranked(self, mutant: Mutant) -> list[Harness]:
         """The harnesses to ask: those that compare the function with its model first."""
 
         def rank(harness: Harness) -> tuple[int, float, str]:
@@ -354,9 +346,7 @@ class Trial:
             return place, UNTIMED if usual is None else usual, harness.name
 
         found = [one for one in self._linked if mutant.function in self._reached[one.name]]
-        return sorted(
-            (one for one in found if patient or mutant.function in one.covers), key=rank
-        )  # fmt: skip
+        return sorted(found, key=rank)
 
     def _by_wp(self, mutant: Mutant, unit: Unit, runner: Runner) -> str:
         """Whether a goal of the function is not proved any more."""

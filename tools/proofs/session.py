@@ -10,7 +10,7 @@ import shutil
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -78,19 +78,36 @@ def tool_stamp(tools: dict[str, Found]) -> dict[str, str]:
     return stamp
 
 
+OWN = Path(__file__).resolve().parent
 # Makes mutants, or tells what others found: no verdict depends on it.
 NO_JUDGES = ("muta", "explain", "counterexample", "sequents", "exports", "report", "times")
 
 
-def own_digest() -> str:
+# What judges a mutant: how each engine is asked, how its answers are read, what follows. What finds
+# functions and harnesses, makes mutants or prints is none of these: the key of a verdict has what
+# it finds, and a report its list of mutants.
+JUDGES = {
+    "cbmc": ("mutation.py", "mutant_small.py", "cbmc.py", "cbmc_answers.py"),
+    "wp": ("wp.py", "wplog.py", "verdict.py", "ask_recorded.ml", "../toolchain/provers.py"),
+}
+
+
+def own_digest(folder: Path = OWN) -> str:
     """SHA-256 over the driver's source: another driver may judge differently. How the provers are
     installed does not matter, how they are started does."""
-    folder = Path(__file__).resolve().parent
-    state = hashlib.sha256()
     own = [*folder.glob("*.py"), *folder.glob("*.ml"), folder.parent / "toolchain/provers.py"]
-    for path in sorted(own):
-        if not path.stem.startswith(NO_JUDGES):
-            state.update(path.read_bytes())
+    return _digest_of(path for path in sorted(own) if not path.stem.startswith(NO_JUDGES))
+
+
+def judges_digest(engine: str, folder: Path = OWN) -> str:
+    """SHA-256 over what judges mutants by an engine."""
+    return _digest_of(folder / name for name in JUDGES[engine])
+
+
+def _digest_of(files: Iterable[Path]) -> str:
+    state = hashlib.sha256()
+    for path in files:
+        state.update(path.read_bytes())
     return state.hexdigest()
 
 

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of the small harnesses that mutants are tried by first, and of what judges a mutant.
+
+    python3 tests/tools/test_small_harnesses.py
+
+No prover is run.
+"""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
+
+from proofs.cbmc_answers import Answer  # noqa: E402
+from proofs.harness import Harness, read_harness  # noqa: E402
+from proofs.mutant_small import Small, small  # noqa: E402
+from test_prove import HARNESS, TreeTest  # noqa: E402
+
+from proofs import session  # noqa: E402
+
+
+class SmallHarness(TreeTest):
+    def made(self, directives: str, header: str = "#define KEEL_QUEUE_CAPACITY 32u\n") -> Harness:
+        """The small form of a harness with these directives, beside a header with a capacity."""
+        path = self.unit.folder / "keel_box_put_harness.c"
+        own = [line for line in HARNESS.splitlines() if not line.startswith("// cbmc:")]
+        path.write_text("\n".join([directives, *own]), encoding="utf-8")
+        capacity = self.root / "include/keel/rtos/capacity.h"
+        capacity.write_text(header, encoding="utf-8")
+        return small(read_harness(self.unit, path), [capacity])
+
+    def test_capacity_and_unwinding_shrink_together(self) -> None:
+        made = self.made("// cbmc: --unwind 34 --slice-formula")
+        self.assertEqual(made.defines, ("-DKEEL_QUEUE_CAPACITY=2u",))
+        self.assertEqual(made.options[:3], ("--unwind", "4", "--slice-formula"))
+        self.assertTrue(made.assertions_only)
+
+    def test_what_a_harness_chose_shrinks_too_and_never_grows(self) -> None:
+        for chosen, expected in (("8u", "2u"), ("1u", "1u")):
+            made = self.made(f"// defines: -DKEEL_QUEUE_CAPACITY={chosen} -DX=1")
+            self.assertEqual(made.defines, (f"-DKEEL_QUEUE_CAPACITY={expected}", "-DX=1"))
+
+    def test_loops_over_something_else_are_unwound_as_before(self) -> None:
+        self.assertEqual(self.made("// cbmc: --unwind 7").options[:2], ("--unwind", "7"))
+
+    def test_where_there_is_no_capacity_none_is_defined(self) -> None:
+        self.assertEqual(self.made("// cbmc: --unwind 34", "/* none */\n").defines, ())
+
+    def test_the_solver_in_cbmc_takes_small_formulas_and_z3_stays(self) -> None:
+        self.assertNotIn("cadical", self.made("// cbmc: --external-sat-solver cadical").options)
+        self.assertIn("--z3", self.made("// cbmc: --z3 --fpa").options)
+
+
+def answer(failure: str = "", complete: bool = True) -> Answer:
+    """What CBMC says."""
+    trace = [{"stepType": "failure", "reason": failure}] if failure else []
+    return Answer([], [], [], complete, bool(failure), trace)
+
+
+class Checker:
+    """CBMC that gives the same answer to everything."""
+
+    def __init__(self, said: Answer) -> None:
+        self.said = said
+        self.asked = 0
+
+    def build(self, _harness: Harness, name: str) -> tuple[Path, str]:
+        return Path(name), ""
+
+    def check(self, _harness: Harness, _binary: Path, _extra: object) -> Answer:
+        self.asked += 1
+        return self.said
+
+
+class Kills(TreeTest):
+    def kill(self, mutated: Answer, unchanged: Answer) -> str:
+        """What a small harness says of a mutant, with these answers on it and on the original."""
+        harness = read_harness(self.unit, self.unit.folder / "keel_box_put_harness.c")
+        first: Any = Checker(mutated)
+        second: Any = Checker(unchanged)
+        made = Small({harness.name: []}, lambda: second)
+        said = made.kills(harness, "keel_box_put", first, self.root)
+        self.assertEqual(made.kills(harness, "keel_box_put", first, self.root), said)
+        self.assertLessEqual(second.asked, 1)
+        return said
+
+    def test_a_failing_assertion_kills(self) -> None:
+        killed = "killed: keel_box_put_harness: BOX_001"
+        self.assertEqual(self.kill(answer("BOX_001"), answer()), killed)
+
+    def test_not_when_it_fails_unchanged_or_when_nobody_knows(self) -> None:
+        self.assertEqual(self.kill(answer("BOX_001"), answer("BOX_001")), "")
+        self.assertEqual(self.kill(answer("BOX_001"), answer(complete=False)), "")
+
+    def test_nor_does_no_answer_kill_or_a_loop_that_goes_on(self) -> None:
+        self.assertEqual(self.kill(answer(), answer()), "")
+        self.assertEqual(self.kill(answer("BOX_001", complete=False), answer()), "")
+        self.assertEqual(self.kill(answer("unwinding assertion loop 0"), answer()), "")
+
+    def test_who_killed_most_is_asked_first(self) -> None:
+        harness = read_harness(self.unit, self.unit.folder / "keel_box_put_harness.c")
+        checker: Any = Checker(answer("BOX_001"))
+        unchanged: Any = Checker(answer())
+        made = Small({harness.name: []}, lambda: unchanged)
+        other: Any = type("Other", (), {"name": "other"})()
+        self.assertEqual(made.ranked("keel_box_put", [other, harness]), [other, harness])
+        made.kills(harness, "keel_box_put", checker, self.root)
+        self.assertEqual(made.ranked("keel_box_put", [other, harness]), [harness, other])
+        self.assertEqual(made.ranked("elsewhere", [other, harness]), [other, harness])
+
+
+class Judges(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.tools = Path(folder.name) / "tools"
+        for name in ("proofs", "toolchain"):
+            shutil.copytree(ROOT / "tools" / name, self.tools / name)
+
+    def changed_by(self, name: str) -> list[str]:
+        """By which engines kept verdicts are void when a file of the tools changes."""
+        folder = self.tools / "proofs"
+        before = [session.judges_digest(engine, folder) for engine in session.JUDGES]
+        with (self.tools / name).open("a", encoding="utf-8") as file:
+            file.write("# a comment\n")
+        after = [session.judges_digest(engine, folder) for engine in session.JUDGES]
+        return [engine for engine, one, two in zip(session.JUDGES, before, after, strict=True)
+                if one != two]  # fmt: skip
+
+    def test_another_judge_may_say_something_else(self) -> None:
+        for name in ("cbmc.py", "cbmc_answers.py", "mutation.py", "mutant_small.py"):
+            self.assertEqual(self.changed_by(f"proofs/{name}"), ["cbmc"], name)
+        for name in ("proofs/wp.py", "proofs/verdict.py", "toolchain/provers.py"):
+            self.assertEqual(self.changed_by(name), ["wp"], name)
+
+    def test_who_finds_makes_or_prints_judges_nothing(self) -> None:
+        for name in ("csource.py", "mutants.py", "mutant_slips.py", "report.py", "clauses.py"):
+            self.assertEqual(self.changed_by(f"proofs/{name}"), [], name)
+
+
+if __name__ == "__main__":
+    unittest.main()
