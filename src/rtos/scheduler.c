@@ -58,9 +58,17 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
   @*/
 static keel_status_t admit_queue(const keel_scheduler_t *scheduler, keel_admission_t *admission)
 {
+    keel_status_t status;
+
     keel_admission_init(admission, scheduler->config.guard_us,
                         scheduler->config.utilisation_limit_ppm);
-    return keel_admission_queue(admission, &scheduler->queue);
+    status = keel_admission_queue(admission, &scheduler->queue);
+    /*@ assert demand: demand_holds(&scheduler->queue, admission->tasks,
+      @     scheduler->config.guard_us); */
+    /*@ assert gap: gap_holds(&scheduler->queue, admission->tasks, scheduler->config.guard_us); */
+    /*@ assert utilisation: utilisation_holds(&scheduler->queue, admission->tasks,
+      @     scheduler->config.utilisation_limit_ppm); */
+    return status;
 }
 
 keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *admitted)

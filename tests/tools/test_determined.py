@@ -310,6 +310,18 @@ class Sameness(DeterminedTest):
                 self.write("proofs/common/same_box.h", part.replace(old, new))
                 self.assertNotEqual(self.problems(), [])
 
+    def test_a_copy_stands_for_what_it_copies(self) -> None:
+        copies = SAME.replace("(&a->lid, &b->lid)", "(&lid_a, &lid_b)").replace(
+            "    bool same", "    const keel_lid_t lid_a = a->lid;\n"
+            "    const keel_lid_t lid_b = b->lid;\n    bool same")  # fmt: skip
+        self.write("proofs/common/same_box.h", copies)
+        self.assertEqual(self.problems(), [])
+        for old, new in (("= b->lid", "= a->lid"), ("&lid_b", "&lid_a"), ("const keel_lid_t lid_b",
+                         "keel_lid_t lid_b")):  # fmt: skip
+            with self.subTest(new):
+                self.write("proofs/common/same_box.h", copies.replace(old, new))
+                self.assert_found("keel_box_t.lid is not compared")
+
     def test_a_new_field_must_be_compared(self) -> None:
         self.change("rtos/box.h", "    keel_lid_t lid;\n", "    keel_lid_t lid;\n    bool shut;\n")
         self.assert_found("box_same: keel_box_t.shut is not compared")

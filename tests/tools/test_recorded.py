@@ -34,13 +34,13 @@ class Lists(TreeTest):
         return goals.read_goals(self.unit.goal_list, "goals.txt")
 
     def test_a_goal_has_a_prover_or_none(self) -> None:
-        read = self.read("a cvc4\nb\nc qed\n")
-        self.assertEqual(read.names, ["a", "b", "c"])
-        self.assertEqual(read.provers, {"a": "cvc4", "c": "qed"})
+        read = self.read("a cvc4\nb\nc qed\nd pruned\n")
+        self.assertEqual(read.names, ["a", "b", "c", "d"])
+        self.assertEqual(read.provers, {"a": "cvc4", "c": "qed", "d": "pruned"})
 
     def test_an_unknown_prover_is_an_error_that_names_the_line(self) -> None:
         for text in ("a\nb simplify\n", "a\nb cvc4 z3\n"):
-            with self.assertRaisesRegex(ProjectError, r"goals\.txt:2: .*alt-ergo, cvc4, z3, qed"):
+            with self.assertRaisesRegex(ProjectError, r"goals\.txt:2: .*alt-ergo, cvc4, z3, qed, pruned"):
                 self.read(text)
 
     def test_it_is_written_as_it_is_read(self) -> None:
@@ -61,15 +61,19 @@ class Judgement(TreeTest):
         target = targets.Target(self.unit, self.unit.source, PUT)
         return verdict.judge(target, log, report, self.root, (), recorded, frozenset([2]))
 
-    def test_what_only_a_search_for_dead_branches_proves_is_not_recorded(self) -> None:
+    def test_what_only_a_search_for_dead_branches_proves_is_pruned(self) -> None:
         running = "[wp] Running WP plugin..."
         tried = "[wp] [Alt-Ergo 2.0.0] Goal typed_keel_box_put_assigns : Timeout (2s)"
         early = self.judge(wp_log(running, *GOOD), wp_report(3, 3), {})
-        self.assertEqual(early.unrecorded, [])
+        self.assertEqual(early.pruned, [])
         late = wp_log(running, GOOD[0], tried, running, *GOOD[1:])
-        self.assertEqual(self.judge(late, wp_report(3, 3), {}).unrecorded, [f"{PUT}_assigns"])
+        self.assertEqual(self.judge(late, wp_report(3, 3), {}).pruned, [f"{PUT}_assigns"])
         later = wp_log(running, GOOD[0], tried, running, tried, running, *GOOD[1:])
-        self.assertEqual(self.judge(later, wp_report(3, 3), {}).unrecorded, [])
+        self.assertEqual(self.judge(later, wp_report(3, 3), {}).pruned, [])
+
+    def test_whoever_proves_what_is_recorded_as_pruned_is_right(self) -> None:
+        result = self.judge(wp_log(*GOOD), wp_report(3, 3), {f"{PUT}_assigns": "pruned"})
+        self.assertEqual(result.stale, [])
 
     def test_another_prover_than_the_recorded_one_is_told(self) -> None:
         recorded = {f"{PUT}_assigns": "cvc4", f"{PUT}_ensures_BOX_001": "qed"}
@@ -169,6 +173,25 @@ class Asking(TreeTest):
             [command] = run.call_args.args
             self.assertEqual(sum(word.endswith("ask_recorded.ml") for word in command), expected)
 
+    def test_the_search_for_dead_branches_comes_first_where_a_goal_is_recorded_for_it(self) -> None:
+        for name, expected in (("cvc4", [False, True, False]), ("pruned", [True, False, False])):
+            run = mock.Mock(return_value=Finished(0, ""))
+            with mock.patch.object(Runner, "run", run), mock.patch.object(wp, "judge") as judged:
+                recorded = {f"{PUT}_assigns": name, f"{PUT}_b": "z3"}
+                self.prover.prove(self.function, wp.THOROUGH, False, recorded=recorded)
+            [command] = run.call_args.args
+            searched = [word == "-wp-pruning" for word in command[command.index("-then") :]
+                        if word.endswith("-pruning") or word == "-wp-no-pruning"]  # fmt: skip
+            self.assertEqual(searched, expected)
+            self.assertEqual(judged.call_args.args[-1], frozenset([expected.index(True) + 1]))
+
+    def test_a_goal_of_another_function_does_not_change_the_order(self) -> None:
+        run = mock.Mock(return_value=Finished(0, ""))
+        with mock.patch.object(Runner, "run", run):
+            self.prover.prove(self.function, wp.THOROUGH, recorded={"helper_b": "pruned"})
+        [command] = run.call_args.args
+        self.assertLess(command.index("-wp-no-pruning"), command.index("-wp-pruning"))
+
     def recorded(self, provers: dict[str, str]) -> list[str]:
         file = self.prover._recorded_file(self.function, provers)
         return file.read_text(encoding="utf-8").splitlines() if file else []
@@ -180,6 +203,7 @@ class Asking(TreeTest):
 
     def test_goals_that_qed_proves_need_no_pass_of_their_own(self) -> None:
         self.assertEqual(self.recorded({f"{PUT}_b": "qed", "helper_a": "z3"}), [])
+        self.assertEqual(self.recorded({f"{PUT}_b": "pruned"}), [])
 
 
 class Recording(WholeRunCase):
@@ -189,17 +213,18 @@ class Recording(WholeRunCase):
         self.assertIn("keel_box_put_assigns alt-ergo\n", text)
         self.assertEqual(self.prove()[0], 0)
 
-    def test_a_prover_that_would_be_asked_in_vain_is_dropped(self) -> None:
+    def test_a_prover_that_would_be_asked_in_vain_is_not_recorded(self) -> None:
         self.unit.goal_list.write_text(f"{PUT}_assigns alt-ergo\n", encoding="utf-8")
 
         def late(*arguments: Any) -> targets.Result:
             result = verdict.judge(*arguments)
-            result.unrecorded = [f"{PUT}_assigns"]
+            result.pruned = [f"{PUT}_assigns"]
             return result
 
         with mock.patch.object(wp, "judge", late):
             self.prove(update=True)
-        self.assertIn(f"{PUT}_assigns\n", self.unit.goal_list.read_text(encoding="utf-8"))
+        text = self.unit.goal_list.read_text(encoding="utf-8")
+        self.assertIn(f"{PUT}_assigns pruned\n", text)
 
     def test_a_goal_that_is_not_proved_keeps_its_prover(self) -> None:
         broken: dict[str, Any] = {**GOALS, PUT: {"ensures_BOX_001": "Timeout", "assigns": "Valid"}}

@@ -4,9 +4,12 @@
     keel_box_put_assigns qed
     keel_box_put_ensures_BOX_001 alt-ergo
     keel_box_put_ensures_BOX_002
+    keel_box_put_ensures_BOX_003 pruned
 
 The prover is a hint, and may be missing: it is asked first, alone, and when it fails, or none is
-recorded, all of them race. So a wrong one costs time and nothing else.
+recorded, all of them race. So a wrong one costs time and nothing else. A goal
+that is `pruned` needs WP's search for branches that cannot be taken: the pass that does so then
+comes before the one that does not.
 """
 
 from __future__ import annotations
@@ -18,6 +21,7 @@ from pathlib import Path
 from .project import ProjectError
 
 QED = "qed"  # WP's own simplifier, which is asked in any case.
+PRUNED = "pruned"  # Any of them, after WP's search for branches that cannot be taken.
 PROVERS = ("alt-ergo", "cvc4", "z3", QED)
 
 
@@ -45,10 +49,10 @@ def read_goals(path: Path, shown: str) -> GoalList:
         if not words:
             continue
         found.names.append(words[0])
-        if len(words) == 2 and words[1] in PROVERS:
+        if len(words) == 2 and words[1] in (*PROVERS, PRUNED):
             found.provers[words[0]] = words[1]
         elif len(words) > 1:
-            known = ", ".join(PROVERS)
+            known = ", ".join((*PROVERS, PRUNED))
             raise ProjectError(f"{shown}:{number}: a goal and its prover, one of {known}: {line}")
     return found
 

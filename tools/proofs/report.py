@@ -32,6 +32,7 @@ class UnitResult:
     accepted: list[str] = field(default_factory=list)
     stale: list[str] = field(default_factory=list)
     unrecorded: list[str] = field(default_factory=list)
+    pruned: list[str] = field(default_factory=list)
     harnesses: dict[str, dict[str, Any]] = field(default_factory=dict)
     negative: dict[str, bool] = field(default_factory=dict)
     bounds: list[dict[str, str]] = field(default_factory=list)
@@ -90,6 +91,7 @@ class UnitResult:
             self.smoke += result["smoke"]
             self.stale += result["stale"]
             self.unrecorded += result["unrecorded"]
+            self.pruned += result["pruned"]
             self.accepted += [text for text in result["allowed"] if text not in self.accepted]
         elif job.kind == "cbmc":
             self.harnesses[job.name] = _harness(result, not outcome.problems)

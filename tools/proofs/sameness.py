@@ -4,7 +4,7 @@
 What it does not compare may be anything after a call, and no harness would notice. A field is
 compared by == (or by != where the function then gives false), a float by float_same, a structure
 by a function X_same of its own, an array so at an index, which is a parameter of the function or
-the variable of a loop over the whole array.
+the variable of a loop over the whole array. A const copy of a field stands for the field.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from . import csource
 from .declarations import Field, Parameter, Structures, macros, resolved, signatures
 
 FLOATS = frozenset(["float", "double"])
+COPY = re.compile(r"\bconst\s+\w+\s+(\w+)\s*=\s*(\w+\s*->[^;&]*);")
 
 
 @dataclass(frozen=True)
@@ -131,9 +132,16 @@ def _found(text: str, structures: Structures) -> Iterable[Same]:
         if not name.endswith("_same") or len(objects) < 2 or not _pair(objects, structures):
             continue
         indices = tuple(parameter.name for parameter in signature.parameters[2:])
-        body = csource.body_of(text, name)
+        body = _without_copies(csource.body_of(text, name))
         if body:
             yield Same(name, objects[0].base, objects[0].name, objects[1].name, indices, body)
+
+
+def _without_copies(body: str) -> str:
+    """A body in which the address of what was copied stands in place of that of its copy."""
+    for copy in COPY.finditer(body):
+        body = re.sub(rf"&\s*{copy[1]}\b", f"&{copy[2]}", body)
+    return body
 
 
 def _pair(objects: tuple[Parameter, ...], structures: Structures) -> bool:

@@ -37,7 +37,7 @@ from . import (
 )
 from .cache import Cache
 from .declarations import structures
-from .goals import as_text, read_goals, short_name
+from .goals import PRUNED, as_text, read_goals, short_name
 from .harness import read_harness, unchecked
 from .jobs import Runner
 from .project import RECORDED_TIMES, Unit, closure, find_units
@@ -351,6 +351,7 @@ class Session:
         provers = read_goals(path, shown).provers | {
             goal["name"]: short_name(goal["prover"]) for goal in result.goals if goal["prover"]
         }
+        provers |= dict.fromkeys(result.pruned, PRUNED)
         for name in result.unrecorded:
             provers.pop(name, None)
         text = as_text(seen, provers)

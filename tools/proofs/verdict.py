@@ -46,7 +46,7 @@ def judge(
     result.problems += loop_problems(target, log)
     result.stale = _stale(log, recorded or {})
     # Their prover would be asked in vain in the pass for recorded provers, which does not search.
-    result.unrecorded = [goal.name for goal in log.goals.values() if goal.passes in pruned]
+    result.pruned = [goal.name for goal in log.goals.values() if goal.passes in pruned]
     return result
 
 
@@ -55,7 +55,7 @@ def _stale(log: wplog.Log, recorded: Mapping[str, str]) -> list[str]:
     found = []
     for goal in log.goals.values():
         before, now = recorded.get(goal.name), goals.short_name(goal.prover)
-        if goal.proved and before and now not in (before, goals.QED):
+        if goal.proved and before and now not in (before, goals.QED) and before != goals.PRUNED:
             found.append(f"{goal.name}: recorded is {before}, but {now} proved it")
     return found
 

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import wplog
-from .goals import QED
+from .goals import PRUNED, QED
 from .jobs import Runner
 from .project import include_options
 from .targets import Result, Target
@@ -136,7 +136,7 @@ class Wp:
         groups: dict[str, list[str]] = {}
         for name in target.lemmas:
             groups.setdefault(recorded.get(f"lemma_{name}", QED), []).append(name)
-        if target.function or QED in groups:
+        if target.function or not groups.keys().isdisjoint((PRUNED, QED)):
             return None
         passes = [
             (Stage((prover,), RECORDED_SECONDS), ["-wp-prop", ",".join(names)])
@@ -150,6 +150,8 @@ class Wp:
         recorded: Mapping[str, str],
     ) -> Result:  # fmt: skip
         report = self._report_of(target)
+        if PRUNED in _own_provers(target, recorded).values():
+            stages = sorted(stages, key=lambda stage: not stage.pruning)
         file = self._recorded_file(target, recorded)
         extra = {"KEEL_RECORDED": str(file)} if file else None
         command = self.command(target, stages, smoke, report, file is not None)
@@ -180,7 +182,8 @@ class Wp:
         """
         if target.function is None:
             return None
-        own = {goal: name for goal, name in recorded.items() if goal.startswith(target.function)}
+        provers = _own_provers(target, recorded)
+        own = {goal: name for goal, name in provers.items() if name != PRUNED}
         asked = sorted({name for name in own.values() if name != QED})
         if not asked:
             return None
@@ -300,3 +303,10 @@ class Wp:
                 keep = False
             if not keep:
                 path.unlink(missing_ok=True)
+
+
+def _own_provers(target: Target, recorded: Mapping[str, str]) -> dict[str, str]:
+    """The recorded provers of a function's goals; none for lemmas."""
+    if target.function is None:
+        return {}
+    return {goal: name for goal, name in recorded.items() if goal.startswith(target.function)}
