@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 7
+// cbmc: --unwind 7 --no-array-field-sensitivity
 // sources: src/rtos/pass.c
 // replaces: keel_pass_next keel_pass_finish
 // covers: keel_pass_run run_task

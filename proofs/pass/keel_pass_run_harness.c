@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 7 --external-sat-solver cadical
+// cbmc: --unwind 7 --no-array-field-sensitivity --external-sat-solver cadical
 // sources: src/rtos/pass.c specs/model/pass_run.c
 // replaces: keel_pass_next keel_pass_finish
 // covers: keel_pass_run run_task model_pass_run

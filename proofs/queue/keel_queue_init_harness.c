@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 34
+// cbmc: --unwind 34 --no-array-field-sensitivity
 // sources: src/rtos/queue.c specs/model/queue.c
 // covers: keel_queue_init model_queue_init
 #include "../../specs/model/queue.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 34
+// cbmc: --unwind 34 --no-array-field-sensitivity
 // sources: src/rtos/scheduler.c src/rtos/pass.c src/rtos/queue.c src/rtos/task.c
 // sources: src/rtos/decision.c src/rtos/priority.c src/rtos/admission.c src/rtos/stats.c
 // sources: specs/model/scheduler.c specs/model/pass.c specs/model/queue.c specs/model/clock.c

@@ -15,11 +15,12 @@ import sys
 import unittest
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from proofs.jobs import Runner  # noqa: E402
+from proofs.jobs import Finished, Runner  # noqa: E402
 from proofs.project import ProjectError, find_units  # noqa: E402
 from test_prove import (  # noqa: E402
     ASSERTED,
@@ -71,6 +72,14 @@ class Directive(TreeTest):
         self.assertIn("--unwinding-assertions", alone)
         self.assertNotIn("--bounds-check", alone)
         self.assertEqual(cbmc.checks_of(self.read(HARNESS)), cbmc.CHECKS)
+
+    def test_the_formula_is_sliced_but_for_a_trace_which_is_to_show_all(self) -> None:
+        checker = cbmc.Cbmc(["goto-cc"], ["cbmc"], Runner({}, self.root), self.root, self.root)
+        run = mock.Mock(return_value=Finished(0, "[]"))
+        for extra, sliced in (((), True), (("--property", "a"), True), (("--trace",), False)):
+            with self.subTest(extra), mock.patch.object(Runner, "run", run):
+                checker.check(self.read(HARNESS), self.root / "harness.gb", extra)
+                self.assertEqual(cbmc.SLICE in run.call_args.args[0], sliced)
 
     def test_the_choice_is_part_of_the_key(self) -> None:
         checker = cbmc.Cbmc(["goto-cc"], ["cbmc"], Runner({}, self.root), self.root, self.root)

@@ -45,7 +45,7 @@ DIRECTIVE = re.compile(r"^// ?(\w+): *(.*?)\s*$")
 OPTIONS = {
     "--unwind": True, "--unwindset": True, "--object-bits": True, "--external-sat-solver": True,
     "--z3": False, "--fpa": False,
-    "--no-sat-preprocessor": False, "--slice-formula": False, "--no-simplify": False,
+    "--no-sat-preprocessor": False, "--no-simplify": False,
     "--arrays-uf-always": False, "--arrays-uf-never": False, "--refine": False,
     "--max-field-sensitivity-array-size": True, "--no-array-field-sensitivity": False,
 }  # fmt: skip
