@@ -23,7 +23,7 @@ endif
 
 # The targets of `make help` by their use; those that are not named here are for every day.
 BOARDS := firmware model stack flash registers test-target
-EVIDENCE := evidence coverage mutate review fuzz soak fuzztasks trace status dist
+EVIDENCE := evidence coverage coverage-target mutate review fuzz soak fuzztasks trace status dist
 RESEARCH := timing campaign pictures
 
 ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
@@ -43,7 +43,7 @@ help: ## this list
 	        for (n = split(words, list, " "); n > 0; n--) of[list[n]] = use } \
 	    BEGIN { group(boards, "Boards"); group(evidence, "Evidence"); group(research, "Research") } \
 	    /^[a-z-]+:[^#]*## / { use = ($$1 in of) ? of[$$1] : "Everyday"; \
-	        lines[use] = lines[use] sprintf("  make %-13s %s\n", $$1, $$2) } \
+	        lines[use] = lines[use] sprintf("  make %-15s %s\n", $$1, $$2) } \
 	    END { print "Everyday\n" lines["Everyday"] "\nBoards\n" lines["Boards"] \
 	        "\nEvidence\n" lines["Evidence"] "\nResearch\n" lines["Research"] }' \
 	    $(firstword $(MAKEFILE_LIST))
@@ -88,6 +88,10 @@ pictures: campaign timing ## the pictures of the documents, in docs/pictures
 
 coverage: python ## lines, branches and MC/DC that the unit tests reach
 	@python3 tools/coverage.py $(ARGS)
+
+.PHONY: coverage-target
+coverage-target: python ## object-code branches that the unit tests take on an emulated Cortex-M7
+	@python3 tools/object_coverage.py $(ARGS)
 
 mutate: python ## break the code and see whether the proofs notice (UNIT=queue; ARGS=--status; DASK=tcp://host:8786)
 	@$(if $(DASK),DASK=$(DASK) python3 tools/with_packages.py dask,python3) tools/mutate.py \

@@ -8,8 +8,8 @@ The unit tests are built as firmware is (the board mps2_an500) and run on the Co
 emulates, one instruction at a time. Counted are the conditional instructions in the object code of
 src/, inlined functions of include/ among them: branches (b<condition>, cbz, cbnz), the instructions
 of IT blocks, and selections (vsel). Each must be seen with its condition true (taken) and false
-(not taken); a computed jump is refused, for it has no two outcomes. Images of the same function must
-agree, and every function of src/ must be in one of them.
+(not taken); a computed jump is refused, for it has no two outcomes. Images of the same function
+must agree, and every function of src/ must be in one of them.
 
 What no test can show stands in specs/object_coverage.toml:
 
@@ -17,9 +17,11 @@ What no test can show stands in specs/object_coverage.toml:
     function = "keel_x"           the function of the object code; a clone (.part, .isra) too
     line = "if (a && b) {"        the text of the source line, without its indentation
     never = "taken"               or "not taken"
+    instructions = 2              how many of that line it is about; 1 unless set
     reason = "why it cannot be"
 
-An entry that fits no gap is an error. build/coverage-target/report.json holds all of it.
+An entry that fits no gap, or another number of them, is an error. build/coverage-target/report.json
+holds all of it.
 
 Exit status: 0 when all is seen or has a reason, 1 when not, 2 when it could not be measured.
 """
@@ -31,13 +33,13 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
-from boards.conditions import Conditional, Conditions
+from boards.conditions import BLOCK, BRANCH, SELECTION, Conditional, Conditions
 from boards.elf import Symbol, read_contents
 from boards.lines import read_lines
 from common.arguments import Parser
-from common.config import Table, Text, read_toml
+from common.config import Field, Table, Text, read_toml
 from common.errors import ROOT, ToolError, program
 from common.files import read_text
 from common.source import write_report
@@ -53,6 +55,7 @@ REASONS = ROOT / "specs/object_coverage.toml"
 SOURCE = "src"
 # A million random steps; instruction by instruction they would take an hour.
 UNTRACED = ("specified",)
+SHOWN = {BRANCH: "branches", BLOCK: "in IT blocks", SELECTION: "selections"}
 NEVER: dict[bool, Literal["taken", "not taken"]] = {True: "taken", False: "not taken"}
 
 Key = tuple[str, str, int]  # Source file, function, offset: an instruction, whatever the image.
@@ -99,11 +102,12 @@ class Gap:
 
 
 class Reason(Table):
-    """An outcome that no test can show, and why."""
+    """An outcome that no test can show, of one or more instructions of a line, and why."""
 
     function: Text
     line: Text
     never: Literal["taken", "not taken"]
+    instructions: Annotated[int, Field(ge=1)] = 1
     reason: Text
 
     def explains(self, gap: Gap) -> bool:
@@ -196,7 +200,8 @@ class Measurement:
         calls."""
         absent = [f"{unit}: {name}" for unit, name in self.compiled() - self.functions]
         if absent:
-            raise UncoveredError(f"in no image, so nothing of it is seen: {', '.join(sorted(absent))}")
+            names = ", ".join(sorted(absent))
+            raise UncoveredError(f"in no image, so nothing of it is seen: {names}")
 
     def compiled(self) -> set[tuple[str, str]]:
         """The functions that src/ has as object code."""
@@ -244,17 +249,26 @@ def counts(conditions: Iterable[Condition]) -> dict[str, int]:
             "seen": sum(len(item.seen) for item in items)}  # fmt: skip
 
 
+def apply(
+    reasons: Sequence[Reason], gaps: Sequence[Gap]
+) -> tuple[list[Gap], list[dict[str, object]], list[Reason]]:
+    """Gaps without a reason, gaps with theirs, and reasons that fit none or another number."""
+    explained = [
+        {**asdict(gap), "reason": item.reason.strip()}
+        for gap in gaps for item in reasons if item.explains(gap)
+    ]  # fmt: skip
+    remaining = [gap for gap in gaps if not any(item.explains(gap) for item in reasons)]
+    stale = [item for item in reasons
+             if sum(map(item.explains, gaps)) != item.instructions]  # fmt: skip
+    return remaining, explained, stale
+
+
 def report_of(
     conditions: Sequence[Condition], reasons: Sequence[Reason], facts: Mapping[str, object]
 ) -> dict[str, object]:
     """The figures of each file and function, and every gap, with its reason if it has one."""
     gaps = gaps_of(conditions)
-    explained = [
-        {**asdict(gap), "reason": reason.reason}
-        for gap in gaps for reason in reasons[:] if reason.explains(gap)
-    ]  # fmt: skip
-    remaining = [gap for gap in gaps if not any(item.explains(gap) for item in reasons)]
-    unused = [item for item in reasons if not any(item.explains(gap) for gap in gaps)]
+    remaining, explained, stale = apply(reasons, gaps)
     units: dict[str, dict[str, object]] = {}
     for unit in dict.fromkeys(item.unit for item in conditions):
         own = [item for item in conditions if item.unit == unit]
@@ -263,9 +277,9 @@ def report_of(
             name: counts(item for item in own if item.function == name) for name in names
         }}  # fmt: skip
     return {
-        "ok": bool(conditions) and not remaining and not unused, "total": counts(conditions),
+        "ok": bool(conditions) and not remaining and not stale, "total": counts(conditions),
         "files": units, "gaps": [asdict(gap) for gap in remaining], "explained": explained,
-        "unused_reasons": [item.model_dump() for item in unused], **facts,
+        "stale_reasons": [item.model_dump() for item in stale], **facts,
     }  # fmt: skip
 
 
@@ -282,23 +296,21 @@ def judge(
     conditions: Sequence[Condition], reasons: Sequence[Reason], facts: Mapping[str, object]
 ) -> int:
     """Print table, gaps and verdict, write the report, and give the exit status."""
-    report = report_of(conditions, reasons, facts)
+    remaining, explained, stale = apply(reasons, gaps_of(conditions))
     print_table(conditions)
-    gaps = [gap for gap in gaps_of(conditions) if asdict(gap) in report["gaps"]]
-    for gap in gaps:
+    for gap in remaining:
         print(f"{gap.file}:{gap.line}: {gap.function}+0x{gap.offset:x} {gap.instruction}: never "
               f"{gap.never}: {gap.text}")  # fmt: skip
-    unused = report["unused_reasons"]
-    for item in unused:
-        print(f"{REASONS.name}: fits no gap: {item['function']}: never {item['never']}: "
-              f"{item['line']}")  # fmt: skip
+    for item in stale:
+        print(f"{REASONS.name}: fits another number of gaps than {item.instructions}: "
+              f"{item.function}: never {item.never}: {item.line}")  # fmt: skip
+    report = report_of(conditions, reasons, facts)
     write_report(REPORT, report)
     total = counts(conditions)
-    told = ", ".join(f"{total[kind]} {kind}" for kind in total
-                     if kind not in ("conditions", "outcomes", "seen"))  # fmt: skip
+    told = ", ".join(f"{total[kind]} {name}" for kind, name in SHOWN.items() if kind in total)
     print(f"coverage-target: {total['seen']} of {total['outcomes']} outcomes of conditional "
-          f"instructions ({told}), {len(report['explained'])} cannot be, {len(gaps)} gaps, "
-          f"{len(unused)} unused reasons")  # fmt: skip
+          f"instructions ({told}); {len(explained)} cannot be, {len(remaining)} gaps, "
+          f"{len(stale)} stale reasons")  # fmt: skip
     return 0 if report["ok"] else 1
 
 

@@ -43,6 +43,17 @@ def coverage_report() -> dict[str, Any]:
             "excluded": [], "unused_exclusions": []}  # fmt: skip
 
 
+CODE_GAP = {"file": "src/x.c", "line": 3, "text": "if (a) {", "function": "keel_x", "offset": 4,
+            "instruction": "bhi", "never": "taken"}  # fmt: skip
+
+
+def code_report() -> dict[str, Any]:
+    """One branch, seen both ways."""
+    counts = {"branch": 1, "conditions": 1, "outcomes": 2, "seen": 2}
+    return {"total": counts, "files": {"src/x.c": {**counts, "functions": {"keel_x": counts}}},
+            "gaps": [], "explained": [], "stale_reasons": [], "untraced": ["long"]}  # fmt: skip
+
+
 class Tests(unittest.TestCase):
     """A build folder with good reports, into which each test puts one fault."""
 
@@ -52,6 +63,7 @@ class Tests(unittest.TestCase):
             self.write(f"{folder}/report.json", run_report())
             self.junit(folder)
         self.write("coverage/report.json", coverage_report())
+        self.write("coverage-target/report.json", code_report())
 
     def write(self, name: str, report: dict[str, Any]) -> None:
         """Write a report with this tree's stamp, or the one that it has."""
@@ -83,7 +95,9 @@ class Tests(unittest.TestCase):
         self.assertEqual(item.links, ("requirement:QUE-003",))
         self.assertEqual(set(item.facts.values()), {"passed"})
         self.assertIn(("src/x.c", "function:keel_x", "3 of 3", "4 of 4", "–"), part.tables[1].rows)
-        self.assertEqual(len(part.files), 5)
+        row = ("src/x.c", "function:keel_x", "1", "0", "0", "2 of 2")
+        self.assertIn(row, part.tables[3].rows)
+        self.assertEqual(len(part.files), 6)
 
     def test_a_failing_test(self) -> None:
         report = run_report()
@@ -157,6 +171,25 @@ class Tests(unittest.TestCase):
             self.problem(),
             "specs/coverage_exclusions.toml: excludes nothing: src/x.c: return 2;",
         )
+
+    def test_a_branch_without_a_reason(self) -> None:
+        self.write("coverage-target/report.json", {**code_report(), "gaps": [CODE_GAP]})
+        self.assertEqual(self.problem(), "src/x.c:3: keel_x+0x4 bhi: never taken, and no reason is "
+                                         "given: if (a) {")  # fmt: skip
+
+    def test_a_branch_with_a_reason(self) -> None:
+        report = {**code_report(), "explained": [{**CODE_GAP, "reason": "why"}]}
+        self.write("coverage-target/report.json", report)
+        part = self.make()
+        self.assertEqual(part.problems, ())
+        self.assertEqual(part.tables[4].rows[0][2:], ("keel_x+0x4 bhi", "taken", "why"))
+
+    def test_a_stale_reason_for_a_branch(self) -> None:
+        stale = {"function": "keel_x", "line": "if (b) {", "never": "taken", "instructions": 1,
+                 "reason": "why"}  # fmt: skip
+        self.write("coverage-target/report.json", {**code_report(), "stale_reasons": [stale]})
+        self.assertIn("specs/object_coverage.toml: fits another number of gaps than 1: keel_x",
+                      self.problem())  # fmt: skip
 
 
 if __name__ == "__main__":

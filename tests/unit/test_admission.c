@@ -141,6 +141,13 @@ static void ADM_003_gap_with_the_realtime_task_last(void)
     admitted(KEEL_PRIORITY_REALTIME, 200u, 100u);
 }
 
+static void ADM_003_a_longer_period_than_the_shortest_may_leave_no_gap(void)
+{
+    begin(0u);
+    admitted(KEEL_PRIORITY_REALTIME, 1000u, 100u);
+    refused(KEEL_ERR_REALTIME_DEMAND, KEEL_PRIORITY_REALTIME, 2000u, 2000u);
+}
+
 static void ADM_003_gap_of_the_longest_budget_counts(void)
 {
     begin(40u);
@@ -292,6 +299,7 @@ int main(void)
     RUN_TEST(ADM_003_others_make_no_demand);
     RUN_TEST(ADM_003_gap_with_the_other_task_last);
     RUN_TEST(ADM_003_gap_with_the_realtime_task_last);
+    RUN_TEST(ADM_003_a_longer_period_than_the_shortest_may_leave_no_gap);
     RUN_TEST(ADM_003_gap_of_the_longest_budget_counts);
     RUN_TEST(ADM_003_no_gap_at_all);
     RUN_TEST(ADM_003_without_realtime_every_budget_has_a_gap);

@@ -128,6 +128,12 @@ static void OVS_006_counts_saturate(void)
     channel.missed = UINT32_MAX - 1u;
     TEST_ASSERT_EQUAL(KEEL_ERR_STATE, keel_oversample_take(&channel, &mean));
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, channel.missed);
+    channel.extra = UINT32_MAX;
+    for (uint32_t i = 0u; i < 3u; i++) {
+        add(1.0f);
+    }
+    take(1.0f);
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, channel.extra);
 }
 
 int main(void)

@@ -145,6 +145,21 @@ static void SCH_016_waits_when_it_is_one_microsecond_too_long(void)
     ran("AO"); /* Now there are 990 us. */
 }
 
+static void SCH_016_nothing_runs_within_the_guard(void)
+{
+    board_init(20u);
+    a.config.phase_us = 110u;
+    o.config.phase_us = 100u;
+    add(&a);
+    add(&o);
+    start();
+    step(); /* Nothing is due; both releases are known now. */
+    step_at(100u);
+    ran("");
+    step_at(110u);
+    ran("AO");
+}
+
 static void SCH_016_no_other_task_while_a_realtime_task_is_due(void)
 {
     board_init(0u);
@@ -550,6 +565,7 @@ int main(void)
     RUN_TEST(SCH_016_released_tasks_only);
     RUN_TEST(SCH_016_runs_when_guard_and_worst_case_just_fit);
     RUN_TEST(SCH_016_waits_when_it_is_one_microsecond_too_long);
+    RUN_TEST(SCH_016_nothing_runs_within_the_guard);
     RUN_TEST(SCH_016_no_other_task_while_a_realtime_task_is_due);
     RUN_TEST(SCH_016_worst_case_is_the_longest_run);
     RUN_TEST(SCH_014_releases_stay_on_the_grid);

@@ -84,12 +84,14 @@ static void PID_001_bad_limits_are_refused(void)
 {
     refuses_limit(&config.output_min, 100.0f); /* not below output_max */
     refuses_limit(&config.output_min, -1.1e9f);
+    refuses_limit(&config.output_min, 1.1e9f);
     refuses_limit(&config.output_min, -INFINITY);
     refuses_limit(&config.output_max, -50.0f);
     refuses_limit(&config.output_max, 1.1e9f);
     refuses_limit(&config.output_max, INFINITY);
     refuses_limit(&config.integral_min, 0.001f);
     refuses_limit(&config.integral_min, -1.1e9f);
+    refuses_limit(&config.integral_min, 1.1e9f);
     refuses_limit(&config.integral_max, -0.001f);
     refuses_limit(&config.integral_max, 1.1e9f);
     config.output_min = -KEEL_PID_OUTPUT_LIMIT;
@@ -137,11 +139,17 @@ static void PID_003_output_is_the_limit_next_to_0(void)
     config.output_min = 5.0f;
     make(0.0f, 0.0f, 0.0f, 0.0f);
     TEST_ASSERT_EQUAL_FLOAT(5.0f, pid.output);
+    pid.output = 6.0f;
+    keel_pid_reset(&pid);
+    TEST_ASSERT_EQUAL_FLOAT(5.0f, pid.output);
     config.output_min = -50.0f;
     config.output_max = -5.0f;
     make(0.0f, 0.0f, 0.0f, 0.0f);
     TEST_ASSERT_EQUAL_FLOAT(-5.0f, pid.output);
     TEST_ASSERT_EQUAL(KEEL_PID_FREE, pid.saturation);
+    pid.output = -6.0f;
+    keel_pid_reset(&pid);
+    TEST_ASSERT_EQUAL_FLOAT(-5.0f, pid.output);
 }
 
 static void set_gains_refuses(keel_pid_gains_t gains)
@@ -199,6 +207,10 @@ static void PID_005_takes_over_up_to_its_limits(void)
     step_to(50.0f, 5.0f, 0.0f);
     TEST_ASSERT_EQUAL(KEEL_OK, keel_pid_set_gains(&pid, &gains));
     TEST_ASSERT_EQUAL_FLOAT(30.0f, pid.integral);
+    make(10.0f, 0.0f, 0.0f, 0.0f);
+    step_to(-40.0f, -4.0f, 0.0f);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_pid_set_gains(&pid, &gains));
+    TEST_ASSERT_EQUAL_FLOAT(-20.0f, pid.integral);
 }
 
 static void PID_006_integral_stays_within_its_limits(void)
@@ -313,6 +325,15 @@ static void PID_010_no_wind_up_below(void)
     step_to(-29.0f + 10.0f, 0.0f, -1.0f); /* 1 - 30 + 10 */
 }
 
+/* Without what the integral would add, the output stays short of its limit, and is free. */
+static void PID_010_an_integral_that_stays_may_free_the_output(void)
+{
+    make(1.0f, 10.0f, 0.0f, 0.0f);
+    step_to(-47.0f, -47.0f, 0.0f); /* -47 - 4.7 would be beyond -50. */
+    TEST_ASSERT_EQUAL(KEEL_PID_FREE, pid.saturation);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, pid.integral);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -335,5 +356,6 @@ int main(void)
     RUN_TEST(PID_010_no_wind_up_above);
     RUN_TEST(PID_010_may_leave_a_limit);
     RUN_TEST(PID_010_no_wind_up_below);
+    RUN_TEST(PID_010_an_integral_that_stays_may_free_the_output);
     return UNITY_END();
 }

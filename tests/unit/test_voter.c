@@ -125,6 +125,8 @@ static void VOT_001_limits(void)
     refuses(KEEL_ERR_LIMITS);
     config.lowest = -INFINITY;
     refuses(KEEL_ERR_LIMITS);
+    config.lowest = 1000001.0f;
+    refuses(KEEL_ERR_LIMITS);
     config.lowest = -100.0f;
     config.highest = 1000001.0f;
     refuses(KEEL_ERR_LIMITS);
@@ -374,6 +376,11 @@ static void VOT_012_density_is_off_by_default(void)
     vote(0.0f, 0.0f, 9.0f);
     TEST_ASSERT_FALSE(voter.sensor[2].latched);
     TEST_ASSERT_EQUAL_UINT16(UINT16_MAX, voter.sensor[2].density);
+    config.latch_count = 1u;
+    restart();
+    voter.sensor[2].density = UINT16_MAX;
+    vote(0.0f, 0.0f, 9.0f); /* The consecutive votes still count. */
+    TEST_ASSERT_TRUE(voter.sensor[2].latched);
 }
 
 static void VOT_013_frozen_while_others_move(void)
@@ -389,6 +396,23 @@ static void VOT_013_frozen_while_others_move(void)
     expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_STALE);
     vote(0.3f, 0.5f, 0.6f); /* It moves again. */
     expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_USED);
+}
+
+static void VOT_013_the_first_may_be_frozen(void)
+{
+    config.stale_count = 1u;
+    restart();
+    vote(0.5f, 0.0f, 0.0f);
+    vote(0.5f, 0.1f, 0.2f);
+    expect_reasons(KEEL_VOTER_STALE, KEEL_VOTER_USED, KEEL_VOTER_USED);
+}
+
+static void VOT_013_count_saturates(void)
+{
+    vote(0.5f, 0.0f, 0.0f);
+    voter.sensor[0].unchanged_votes = UINT16_MAX;
+    vote(0.5f, 0.1f, 0.2f);
+    TEST_ASSERT_EQUAL_UINT16(UINT16_MAX, voter.sensor[0].unchanged_votes);
 }
 
 static void VOT_013_all_at_rest_is_not_frozen(void)
@@ -455,9 +479,11 @@ static void VOT_018_within_a_of_each_other(void)
 static void VOT_018_mean_of_samples_of_full_weight(void)
 {
     const keel_voter_sample_t sample[3] = {{1.0f, 0u, true}, {1.5f, 0u, true}, {3.5f, 0u, true}};
+    const keel_voter_sample_t equal[2] = {{1.5f, 0u, true}, {1.5f, 0u, true}};
 
     TEST_ASSERT_EQUAL_FLOAT(1.25f, keel_voter_plain_mean(sample, 2u, 1.0f, 1.5f));
     TEST_ASSERT_EQUAL_FLOAT(2.0f, keel_voter_plain_mean(sample, 3u, 1.0f, 3.5f));
+    TEST_ASSERT_EQUAL_FLOAT(1.5f, keel_voter_plain_mean(&equal[0], 2u, 1.5f, 1.5f));
 }
 
 static void VOT_018_unanimous(void)
@@ -472,6 +498,8 @@ static void VOT_018_unanimous(void)
     TEST_ASSERT_TRUE(unanimous(3.0f, 2.0f, 2.5f, 0u)); /* Just within a. */
     expect(KEEL_VOTER_MEAN, 2.5f);
     TEST_ASSERT_EQUAL_FLOAT(2.0f, voter.sensor[1].last);
+    TEST_ASSERT_TRUE(unanimous(4.0f, 4.0f, 4.0f, 0u)); /* All the same. */
+    expect(KEEL_VOTER_MEAN, 4.0f);
 }
 
 static void VOT_018_leaves_the_others(void)
@@ -566,6 +594,8 @@ int main(void)
     RUN_TEST(VOT_012_density_finds_what_agrees_now_and_then);
     RUN_TEST(VOT_012_density_is_off_by_default);
     RUN_TEST(VOT_013_frozen_while_others_move);
+    RUN_TEST(VOT_013_the_first_may_be_frozen);
+    RUN_TEST(VOT_013_count_saturates);
     RUN_TEST(VOT_013_all_at_rest_is_not_frozen);
     RUN_TEST(VOT_013_alone_is_not_frozen);
     RUN_TEST(VOT_014_readmission_on_request);

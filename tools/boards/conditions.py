@@ -69,8 +69,10 @@ class Conditions:
         )
         self.machine.detail = True
         prefix = "ARM_CC_"
-        self.names = {value: name.removeprefix(prefix).lower()
-                      for name, value in vars(self.arm).items() if name.startswith(prefix)}  # fmt: skip
+        self.names = {
+            value: name.removeprefix(prefix).lower()
+            for name, value in vars(self.arm).items() if name.startswith(prefix)
+        }  # fmt: skip
 
     def of(self, contents: Contents, function: Symbol) -> Iterator[Conditional]:
         """Those of one function, in the order of their addresses."""

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What was tested, on the host and on the emulated Cortex-M7, and how much of the code was reached:
-from the reports of make test, test-target and coverage.
+from the reports of make test, test-target, coverage and coverage-target.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from evidence.part import Context, Item, Part, Table
 HOST, TARGET = "on the host", "on the emulated Cortex-M7"
 RUNS = {HOST: "test", TARGET: "test-target"}  # The folder of each run's reports below build/.
 LABEL = re.compile(r"([A-Z]{3,4})_(\d{3})(?!\d)")
+CONDITIONALS = {"branch": "branches", "IT block": "in IT blocks", "selection": "selections"}
 METRICS = {"lines": "statements", "branches": "branches", "mcdc": "MC/DC"}
 
 Report = Mapping[str, Any]
@@ -29,7 +30,14 @@ QEMU emulates.
 
 Structural coverage is that of the unit tests alone, by LLVM's source-based instrumentation: a \
 statement counts by its line, a branch by each condition and each of its two outcomes, and MC/DC \
-by each condition of a decision with more than one, with unique cause.
+by each condition of a decision with more than one: two evaluations that differ in it, and in \
+what C then does not evaluate, give the decision different values.
+
+Coverage of the object code is that of the same tests, built as firmware is and run on the \
+emulated Cortex-M7 one instruction at a time. Counted are the conditional instructions of src/ \
+with the inlined functions of include/: branches (b<condition>, cbz, cbnz), instructions of IT \
+blocks, and selections (vsel). Each has two outcomes, its condition true and false, evaluated on \
+the registers and flags that the processor had.
 
 The emulator executes instructions; it models neither the processor's pipeline and caches nor the \
 board's peripherals. No test of this package ran on hardware."""
@@ -178,10 +186,55 @@ def check_coverage(report: Report, problems: list[str]) -> None:
                         f"{item['line']}")  # fmt: skip
 
 
+# --- Coverage of the object code -----------------------------------------------------------------
+
+
+def object_rows(report: Report) -> Iterator[tuple[str, ...]]:
+    """A row for each file, and one for each of its functions."""
+    for file, item in report["files"].items():
+        own = {"all": item, **item["functions"]}
+        for name, counts in own.items():
+            shown = f"function:{name}" if name.startswith("keel_") and "." not in name else name
+            kinds = tuple(str(counts.get(kind, 0)) for kind in CONDITIONALS)
+            yield (file, shown, *kinds, shown_share((counts["seen"], counts["outcomes"])))
+
+
+def object_tables(report: Report) -> list[Table]:
+    """The figures, and the outcomes that no test can show."""
+    if not report:
+        return []
+    columns = ("file", "function", *CONDITIONALS.values(), "outcomes seen")
+    untraced = ", ".join(f"unit/{name}" for name in report["untraced"])
+    note = f"Of the unit tests this one did not run here, for it is too long: {untraced}."
+    figures = Table(title="Conditional instructions of the object code, on the emulated Cortex-M7",
+                    columns=columns, rows=tuple(object_rows(report)), note=note)  # fmt: skip
+    gaps = tuple(
+        (f"{gap['file']}:{gap['line']}", gap["text"],
+         f"{gap['function']}+0x{gap['offset']:x} {gap['instruction']}", gap["never"], gap["reason"])
+        for gap in report["explained"]
+    )  # fmt: skip
+    titles = ("place", "source", "instruction", "never", "reason")
+    return [figures, Table(title="Outcomes that no test can show, with their reasons",
+                           columns=titles, rows=gaps)]  # fmt: skip
+
+
+def check_object(report: Report, problems: list[str]) -> None:
+    """An outcome that was not seen and has no reason is a problem, and a reason that fits none."""
+    for gap in report.get("gaps", []):
+        problems.append(
+            f"{gap['file']}:{gap['line']}: {gap['function']}+0x{gap['offset']:x} "
+            f"{gap['instruction']}: never {gap['never']}, and no reason is given: {gap['text']}"
+        )
+    for item in report.get("stale_reasons", []):
+        problems.append(f"specs/object_coverage.toml: fits another number of gaps than "
+                        f"{item['instructions']}: {item['function']}: never {item['never']}: "
+                        f"{item['line']}")  # fmt: skip
+
+
 # --- All of it -----------------------------------------------------------------------------------
 
 
-def summary_of(reports: Mapping[str, Report], coverage: Report) -> dict[str, str]:
+def summary_of(reports: Mapping[str, Report], coverage: Report, code: Report) -> dict[str, str]:
     """The figures that a reader wants first."""
     found = {
         f"Tests {run}": f"{report['passed']} passed, {report['failed']} failed"
@@ -191,6 +244,11 @@ def summary_of(reports: Mapping[str, Report], coverage: Report) -> dict[str, str
         if coverage:
             covered, total = coverage["total"][metric]
             found[f"{title[0].upper()}{title[1:]} covered"] = f"{covered} of {total}"
+    if code:
+        total = code["total"]
+        found["Outcomes of conditional instructions seen"] = (
+            f"{total['seen']} of {total['outcomes']}; {len(code['explained'])} cannot be"
+        )
     return found
 
 
@@ -198,7 +256,8 @@ def files_of(context: Context) -> dict[str, Path]:
     """The reports as they were written."""
     names = {f"{folder}-{file}": f"{folder}/{file}" for folder in RUNS.values()
              for file in ("report.json", "junit.xml")}  # fmt: skip
-    names["coverage-report.json"] = "coverage/report.json"
+    names |= {f"{folder}-report.json": f"{folder}/report.json"
+              for folder in ("coverage", "coverage-target")}  # fmt: skip
     return {shown: context.build / name for shown, name in names.items()
             if (context.build / name).is_file()}  # fmt: skip
 
@@ -211,10 +270,12 @@ def make(context: Context) -> Part:
         check_run(context, run, report, problems)
     coverage = context.report("coverage/report.json", problems)
     check_coverage(coverage, problems)
+    code = context.report("coverage-target/report.json", problems)
+    check_object(code, problems)
     return Part(
         name="tests", title="Tests and coverage", text=TEXT,
-        summary=summary_of(reports, coverage),
-        tables=(suite_table(reports), *coverage_tables(coverage)),
+        summary=summary_of(reports, coverage, code),
+        tables=(suite_table(reports), *coverage_tables(coverage), *object_tables(code)),
         items=tuple(test_items(verdicts_of(reports), requirements(context.root))),
         files=files_of(context), problems=tuple(problems),
     )  # fmt: skip
