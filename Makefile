@@ -23,7 +23,7 @@ endif
 
 # The targets of `make help` by their use; those that are not named here are for every day.
 BOARDS := firmware model stack flash registers test-target
-EVIDENCE := evidence coverage coverage-target mutate review fuzz soak fuzztasks trace status dist
+EVIDENCE := eva evidence coverage coverage-target mutate review fuzz soak fuzztasks trace status dist
 RESEARCH := timing campaign pictures
 
 ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
@@ -66,6 +66,10 @@ bench: python ## instructions per pass and per step, code size and RAM; over the
 
 lint: python ## layout, MISRA C:2012 and the rules of the house (ARGS=--fix: lay out first)
 	@python3 tools/lint.py $(ARGS)
+
+.PHONY: eva
+eva: python ## abstract interpretation: undefined behaviour, writes that no contract names
+	@python3 tools/eva.py $(ARGS)
 
 analyze: python ## does a task set hold? (TASKSET=file.toml, ARGS=--phases, ARGS=--synthesize)
 	@$(TIMING) analyze "$(TASKSET)" $(ARGS)

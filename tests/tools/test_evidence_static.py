@@ -52,6 +52,13 @@ def bench_report() -> dict[str, Any]:
     return {"cortex_m7": {"figures": {"no_task": figure}, "over_budget": []}}
 
 
+def eva_report() -> dict[str, Any]:
+    """One function, whose contract names what it writes."""
+    writes = {"function": "keel_x", "verdict": "within", "run": "alone", "reached": 1.0}
+    return {"problems": [], "alarms": [], "analyzed": 3, "functions": 4, "reach": {"main": [3, 4]},
+            "assigns": [writes], "explained": {"alarm": [], "writes": []}}  # fmt: skip
+
+
 class Static(unittest.TestCase):
     """A build folder with good reports, into which each test puts one fault."""
 
@@ -61,6 +68,7 @@ class Static(unittest.TestCase):
         for name in board_names(ROOT):
             self.write(f"stack/{name}.json", stack_report())
         self.write("bench/report.json", bench_report())
+        self.write("eva/report.json", eva_report())
 
     def write(self, name: str, report: dict[str, Any]) -> None:
         """Write a report with this tree's stamp, or the one that it has."""
@@ -96,6 +104,16 @@ class Static(unittest.TestCase):
         self.write("lint/report.json", {**lint_report(), "findings": [FINDING]})
         self.assertEqual(self.problem(), "src/x.c:7: misra-c2012-15.5: 15.5: is not met")
 
+    def test_what_eva_leaves_to_explain(self) -> None:
+        alarm = "src/x.c:7: keel_x: index_bound: i < 4"
+        writes = "keel_x: may write what its contract does not name"
+        self.write("eva/report.json", {**eva_report(), "problems": [alarm, writes]})
+        self.assertEqual(list(self.make().problems), [alarm, writes])
+
+    def test_what_eva_reached_and_compared(self) -> None:
+        self.assertEqual(self.table("Statements"), [("main", "3", "4")])
+        self.assertEqual(self.table("What is written"), [("keel_x", "within", "alone", "100 %")])
+
     def test_a_stack_without_room(self) -> None:
         report = stack_report()
         report["stacks"]["main"]["size"] = 207
@@ -126,10 +144,11 @@ class Static(unittest.TestCase):
     def test_a_report_that_is_missing_stale_or_broken(self) -> None:
         (self.build / "stack/fmuv5.json").unlink()
         self.write("bench/report.json", {**bench_report(), STAMP: {**HERE, "tree": "other"}})
+        (self.build / "eva/report.json").unlink()
         (self.build / "lint/report.json").write_text('{"findings": [')
         shown = [problem.partition(": ")[0] for problem in self.make().problems]
         self.assertEqual(shown, [f"build/{name}.json" for name in
-                                 ("lint/report", "stack/fmuv5", "bench/report")])  # fmt: skip
+                                 ("lint/report", "eva/report", "stack/fmuv5", "bench/report")])  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What was found without running the code: MISRA C, the depth of every stack, and what passes and
-steps cost, from the reports of make lint, stack and bench.
+"""What was found without running the code: MISRA C, undefined behaviour by abstract interpretation,
+writes against contracts, the depth of every stack, and what passes and steps cost, from the reports
+of make lint, eva, stack and bench.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from boards.board import board_names
+from eva import UNKNOWN
 
 from evidence.part import Context, Item, Part, Table
 
@@ -17,6 +19,12 @@ TEXT = """\
 MISRA C:2012 is checked by Cppcheck and its addon over the kernel, the headers it includes and the \
 drivers that also run on simulated hardware. A finding stands unless a numbered deviation covers \
 it; a deviation that covers nothing is a finding itself. Code for a target alone is not checked.
+
+Eva, the abstract interpretation of Frama-C, follows the demo from its start without any contract, \
+and looks for undefined behaviour: another method than that of the proofs, over one application. \
+From, upon Eva, computes a superset of what each public function writes, and compares it with what \
+its contract names. Both over-approximate: what they call good is good in the contexts that were \
+analysed, what they cannot tell is told here. They share the front end of Frama-C with the proofs.
 
 The bound of a stack is the deepest path of the compiler's own call graph and frames, with a table \
 of what may be called through a pointer; recursion, a frame without a bound and a function that no \
@@ -64,6 +72,38 @@ def deviation_table(lint: Report) -> Table:
         columns=("deviation", "rule or check", "file", "findings"), rows=rows,
         note=f"The checker has nothing for the rules {without}, and does not look for the "
              "directives, which are not decidable; the amendments' chapters are not checked.",
+    )  # fmt: skip
+
+
+# --- Abstract interpretation ---------------------------------------------------------------------
+
+
+def eva_tables(eva: Report) -> Iterator[Table]:
+    """What was found, how far it reached, and what may be written."""
+    rows = [
+        (f"{one['file']} {one['function']}", "alarm", one["text"], one["reason"])
+        for one in eva["explained"]["alarm"]
+    ] + [(one["function"], "writes", "", one["reason"]) for one in eva["explained"]["writes"]]
+    yield Table(title="Abstract interpretation: what is explained",
+                columns=("where", "kind", "what", "reason"), rows=tuple(rows),
+                note="Unsigned overflow is no undefined behaviour and not looked for here; the "
+                     "proofs exclude it where it is not meant.")  # fmt: skip
+    yield Table(
+        title="Statements of the demo and the kernel that Eva reached",
+        columns=("function", "reached", "of"),
+        rows=tuple((name, str(reached), str(of)) for name, (reached, of) in eva["reach"].items()),
+        note="An inline function has a number for each file that uses it. Functions that the demo "
+             "does not call are not analysed; what was not reached cannot be reached from the "
+             "demo's start, such as the refusals of a wrong configuration.",
+    )  # fmt: skip
+    yield Table(
+        title="What is written, against what the contract names",
+        columns=("function", "verdict", "context", "reached of it"),
+        rows=tuple((one["function"], one["verdict"], one["run"], f"{100 * one['reached']:.0f} %")
+                   for one in eva["assigns"]),
+        note="Alone: called once, with objects that hold anything; what is not reached there was "
+             "not compared. As far as arrays: the clause names an element by an index that is not "
+             "known there, and the array is compared. WP proves every clause for all contexts.",
     )  # fmt: skip
 
 
@@ -154,6 +194,7 @@ def make(context: Context) -> Part:
     """The part."""
     problems: list[str] = []
     lint = context.report("lint/report.json", problems)
+    eva = context.report("eva/report.json", problems)
     stacks = read_stacks(context, problems)
     bench = context.report("bench/report.json", problems)
     summary: dict[str, str] = {}
@@ -168,6 +209,15 @@ def make(context: Context) -> Part:
         summary["MISRA C findings without a deviation"] = str(len(lint["findings"]))
         summary["MISRA C deviations"] = str(len(lint["deviations"]))
         summary["files checked for MISRA C"] = str(len(lint["files"]))
+    if eva:
+        problems += eva["problems"]
+        tables += eva_tables(eva)
+        summary["alarms of Eva"] = str(len(eva["alarms"]))
+        summary["functions that Eva analysed from the demo's start"] = (
+            f"{eva['analyzed']} of {eva['functions']}"
+        )
+        within = sum(one["verdict"] != UNKNOWN for one in eva["assigns"])
+        summary["contracts that name all that is written"] = f"{within} of {len(eva['assigns'])}"
     if stacks:
         problems += [line for name, one in stacks.items() for line in stack_problems(name, one)]
         tables.append(stack_table(stacks))
