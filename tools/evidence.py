@@ -31,7 +31,7 @@ provide("common")
 provide("evidence")
 
 from evidence.assemble import assemble  # noqa: E402
-from evidence.commands import run_commands  # noqa: E402
+from evidence.commands import commands_of, run_commands  # noqa: E402
 from evidence.package import Source, source_of, write_package  # noqa: E402
 from evidence.part import Context  # noqa: E402
 from evidence.verify import verify  # noqa: E402
@@ -77,7 +77,7 @@ def make(out: Path, as_is: bool, dirty: bool) -> int:
     source = source_of(ROOT, context.stamp)
     problems = [] if dirty else refused(source)
     if not as_is and not problems:
-        problems = run_commands(context)
+        problems = run_commands(context, commands_of(ROOT))
     made = assemble(context)
     problems += made.problems
     if not problems and stamp_of(ROOT) != context.stamp:
