@@ -8,7 +8,8 @@
     python3 tools/evidence.py --verify FOLDER     # is a package as it was made?
 
 A package is written as a whole, and only when nothing is wrong; else the one that was there stays,
-and each problem is told in a line.
+and each problem is told in a line. build/evidence-work has the logs of the commands that were run, and
+summary.md, a short table for CI.
 
 Exit status: 0 when the package is written or is as it was made, 1 when something is wrong, 2 when
 it could not be tried.
@@ -23,6 +24,7 @@ from pathlib import Path
 
 from common.arguments import Parser
 from common.errors import ROOT, ToolError, program
+from common.files import write_text
 from common.packages import provide
 from common.source import stamp_of
 from toolchain import Toolchain
@@ -31,7 +33,8 @@ provide("common")
 provide("evidence")
 
 from evidence.assemble import assemble  # noqa: E402
-from evidence.commands import run_commands  # noqa: E402
+from evidence.commands import commands_of, run_commands  # noqa: E402
+from evidence.digest import as_markdown  # noqa: E402
 from evidence.package import Source, source_of, write_package  # noqa: E402
 from evidence.part import Context  # noqa: E402
 from evidence.verify import verify  # noqa: E402
@@ -77,11 +80,12 @@ def make(out: Path, as_is: bool, dirty: bool) -> int:
     source = source_of(ROOT, context.stamp)
     problems = [] if dirty else refused(source)
     if not as_is and not problems:
-        problems = run_commands(context)
+        problems = run_commands(context, commands_of(ROOT))
     made = assemble(context)
     problems += made.problems
     if not problems and stamp_of(ROOT) != context.stamp:
         problems = ["the source has changed meanwhile"]
+    write_text(context.work / "summary.md", as_markdown(made, problems))
     if problems:
         return closing(problems, "nothing is written")
     write_package(out, made, source, versions())

@@ -23,6 +23,7 @@ FLAGS = ("--remote-debugging-pipe", "--disable-gpu", "--no-first-run", "--mute-a
          "--disable-background-networking", "--disable-dev-shm-usage")  # fmt: skip
 # Chromium reads commands from descriptor 3 and writes answers to 4.
 START = 'exec "$@" 3<&{} 4>&{}'
+KEYS = {"Enter": (13, "\r")}  # Its code, and what it types.
 
 
 class Browser:
@@ -128,11 +129,9 @@ class Browser:
 
     def press(self, key: str) -> None:
         """Press a key that is no letter."""
-        codes = {"Enter": 13, "Tab": 9}
-        text = {"text": "\r"} if key == "Enter" else {}
-        for kind in ("keyDown", "keyUp"):
-            self.send("Input.dispatchKeyEvent", type=kind, key=key, code=key,
-                      windowsVirtualKeyCode=codes[key], **(text if kind == "keyDown" else {}))  # fmt: skip
+        common = {"key": key, "code": key, "windowsVirtualKeyCode": KEYS[key][0]}
+        self.send("Input.dispatchKeyEvent", type="keyDown", text=KEYS[key][1], **common)
+        self.send("Input.dispatchKeyEvent", type="keyUp", **common)
 
     def window(self, width: int, height: int, dark: bool = False) -> None:
         """Set the page's size and its colours."""

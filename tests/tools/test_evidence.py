@@ -42,7 +42,7 @@ from common.run import Ended  # noqa: E402
 from common.source import STAMP as MADE_FROM  # noqa: E402
 from common.source import stamp_of  # noqa: E402
 from evidence.assemble import PARTS, maker_of  # noqa: E402
-from evidence.commands import Command, run_commands  # noqa: E402
+from evidence.commands import Command, commands_of, run_commands  # noqa: E402
 from evidence.package import (  # noqa: E402
     ATTESTATION,
     MANIFEST,
@@ -136,8 +136,8 @@ class Parts(InFolder):
 
     def test_a_link_that_leads_nowhere(self) -> None:
         lost = Item(kind="test", id="unit/x/y", title="y", links=("requirement:QUE-999",))
-        self.assertEqual(self.problems(tests=added(lost)),
-                         ["tests: test:unit/x/y links to requirement:QUE-999, which is nowhere"])  # fmt: skip
+        told = "tests: test:unit/x/y links to requirement:QUE-999, which is nowhere"
+        self.assertEqual(self.problems(tests=added(lost)), [told])
 
     def test_a_cell_that_leads_nowhere_and_a_row_that_is_too_short(self) -> None:
         table = Table(title="T", columns=("a", "b"), rows=(("goal:no/where", "1"), ("x",)))
@@ -226,6 +226,17 @@ class Commands(InFolder):
     def test_a_report_of_a_few_suites_is_made_anew(self) -> None:
         self.assertTrue(self.ran_for(failed=0, filter="unit/", **{MADE_FROM: STAMP}))
 
+    def test_a_report_with_a_goal_that_is_not_met_is_made_anew(self) -> None:
+        goals = [{"name": "instructions", "met": False}]
+        self.assertTrue(self.ran_for(goals=goals, **{MADE_FROM: STAMP}))
+
+    def test_every_command_is_a_target_of_make(self) -> None:
+        makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+        commands = commands_of(ROOT)
+        self.assertGreater(len(commands), 8)
+        for command in commands:
+            self.assertRegex(makefile, rf"(?m)^{command.words[0]}:")
+
     def test_a_half_written_report_is_made_anew(self) -> None:
         self.write('{"failed": 0, "made')
         self.run_with(Ended(0, ""))
@@ -302,8 +313,8 @@ class Packages(InFolder):
         (place / "index.html").write_text("all is well", encoding="utf-8")
         lines = [f"{digest}  {name}\n" for name, digest in digests(place, (SUMS,)).items()]
         (place / SUMS).write_text("".join(lines), encoding="utf-8")
-        self.assertEqual(verify(place, STAMP),
-                         [f"index.html: was altered, {ATTESTATION} has another digest"])  # fmt: skip
+        told = f"index.html: was altered, {ATTESTATION} has another digest"
+        self.assertEqual(verify(place, STAMP), [told])
 
     def test_half_written_checksums_attestation_and_manifest(self) -> None:
         place = self.package()
@@ -324,8 +335,8 @@ class Packages(InFolder):
         other = {**STAMP, "commit": "0" * 40}
         self.assertEqual(verify(place, other),
                          [f"made from commit {'c' * 40}, here is {'0' * 40}"])  # fmt: skip
-        self.assertEqual(verify(place, {**STAMP, "tree": "0" * 64}),
-                         ["the source here is not the one that the package was made from"])  # fmt: skip
+        told = ["the source here is not the one that the package was made from"]
+        self.assertEqual(verify(place, {**STAMP, "tree": "0" * 64}), told)
 
     def test_a_folder_that_is_none(self) -> None:
         with self.assertRaisesRegex(ToolError, "there is no such folder"):
@@ -388,6 +399,9 @@ class Program(InFolder):
         status, lines = self.run_it()
         self.assertEqual(status, 0, lines)
         self.assertRegex(lines[-1], r"^evidence: .*/out is written, in \d+ s$")
+        short = (self.folder / "out-work/summary.md").read_text(encoding="utf-8")
+        self.assertIn("**Complete.**", short)
+        self.assertIn("| Requirements | requirements: 24 |", short)
         status, lines = self.run_it("--verify", str(self.out))
         self.assertEqual((status, len(lines)), (0, 1), lines)
         self.assertIn(f"evidence: {self.out} is as it was made", lines[0])
@@ -403,6 +417,9 @@ class Program(InFolder):
         self.assertEqual(status, 1)
         self.assertIn("FAILED tests: test_x fails", lines)
         self.assertRegex(lines[-1], r"^evidence: 1 problem, nothing is written")
+        short = (self.folder / "out-work/summary.md").read_text(encoding="utf-8")
+        self.assertIn("**Failed: 1 problems.**", short)
+        self.assertIn("- tests: test_x fails", short)
         self.assertEqual(digests(self.out), before)
         self.assertEqual([path.name for path in self.folder.glob(".*")], [])
 

@@ -85,6 +85,23 @@ class Workflows(unittest.TestCase):
         self.assertIn("bash .ci/run", text)
         self.assertTrue((ROOT / ".ci/run").is_file())
 
+    def test_the_evidence_rests_on_the_other_jobs_and_is_kept(self) -> None:
+        job = jobs()["evidence"]
+        self.assertLessEqual({"verdict", "check"}, set(job["needs"]))
+        kept = [step["with"]["path"] for step in job["steps"]
+                if "upload-artifact" in step.get("uses", "")]  # fmt: skip
+        self.assertIn("build/evidence", kept)
+        text = " ".join(str(step.get("run", "")) for step in job["steps"])
+        self.assertIn("build/evidence-work/summary.md", text)
+        program = (ROOT / "tools/evidence.py").read_text("utf-8")
+        self.assertIn('context.work / "summary.md"', program)
+
+    def test_the_verdicts_of_all_shards_are_fetched_for_the_evidence(self) -> None:
+        keys = [str(step["with"]["key"]) for step in jobs()["evidence"]["steps"]
+                if "verdicts" in str(step.get("with", {}).get("key", ""))]  # fmt: skip
+        shards = jobs()["prove"]["strategy"]["matrix"]["shard"]
+        self.assertEqual([key.split("-")[1] for key in keys], [str(shard) for shard in shards])
+
 
 if __name__ == "__main__":
     unittest.main()

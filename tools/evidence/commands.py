@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The commands whose reports the package is made from: each is run unless its report still holds."""
+"""The commands whose reports the package is made from; each is run, unless its report holds."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from boards.board import BOARD_FILE
 from common.files import write_text
 from common.run import Ended, run
 
 from evidence.part import Context
 
-GOOD_VERDICTS = ("proved", "passed", "good")
+GOOD_VERDICTS = ("proved", "passed")
+WRONG = ("failed", "problems", "findings", "gaps")  # What a report says of what is wrong.
 TIMEOUT_S = 3600.0
 
 
@@ -31,18 +33,21 @@ class Command:
         return " ".join(["make", *self.words])
 
 
-# In the order in which they run: an image is built before it is looked into.
-COMMANDS = (
-    Command("prove/report.json", ("prove",)),
-    Command("firmware/mps2_an500/report.json", ("firmware", "BOARD=mps2_an500")),
-    Command("firmware/nucleo_f767zi/report.json", ("firmware", "BOARD=nucleo_f767zi")),
-    Command("test-target/report.json", ("test-target",)),
-    Command("test/report.json", ("test",)),
-    Command("coverage/report.json", ("coverage",)),
-    Command("lint/report.json", ("lint",)),
-    Command("stack/mps2_an500.json", ("stack", "BOARD=mps2_an500")),
-    Command("bench/report.json", ("bench",)),
-)
+def commands_of(root: Path) -> tuple[Command, ...]:
+    """In the order in which they run: images are built before they are run and looked into."""
+    boards = sorted(path.parent.name for path in (root / "bsp").glob(f"*/{BOARD_FILE}"))
+    return (
+        Command("prove/report.json", ("prove",)),
+        *(Command(f"firmware/{name}/report.json", ("firmware", f"BOARD={name}"))
+          for name in boards),
+        Command("test-target/report.json", ("test-target",)),
+        Command("test/report.json", ("test",)),
+        Command("coverage/report.json", ("coverage",)),
+        Command("lint/report.json", ("lint",)),
+        *(Command(f"stack/{name}.json", ("stack", f"BOARD={name}")) for name in boards),
+        Command("bench/report.json", ("bench",)),
+    )  # fmt: skip
+
 
 Start = Callable[[Sequence[str], Path], Ended]
 
@@ -54,12 +59,15 @@ def start_make(words: Sequence[str], root: Path) -> Ended:
 
 
 def is_whole_and_good(report: dict[str, Any]) -> bool:
-    """Whether a report speaks of everything, and well. One without a verdict counts what failed."""
-    if report.get("partial") or report.get("filter"):
+    """Whether a report speaks of everything, and well. One without a verdict lists what is wrong,
+    or counts it, or has goals that are met or not."""
+    if report.get("partial") or report.get("filter") or report.get("ok") is False:
         return False
-    if "verdict" in report:
-        return report["verdict"] in GOOD_VERDICTS
-    return not (report.get("failed") or report.get("problems") or report.get("findings"))
+    if report.get("verdict", GOOD_VERDICTS[0]) not in GOOD_VERDICTS:
+        return False
+    goals = report["goals"] if isinstance(report.get("goals"), list) else []
+    unmet = [goal for goal in goals if not goal.get("met", True)]
+    return not (unmet or any(report.get(what) for what in WRONG))
 
 
 def still_holds(context: Context, command: Command) -> bool:
@@ -70,7 +78,7 @@ def still_holds(context: Context, command: Command) -> bool:
 
 
 def run_commands(
-    context: Context, commands: Sequence[Command] = COMMANDS, start: Start = start_make
+    context: Context, commands: Sequence[Command], start: Start = start_make
 ) -> list[str]:
     """Run what has to be run, with progress; gives what went wrong."""
     problems: list[str] = []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads from a document of the project what parts need: sections, tables, and words without marks."""
+"""Reads from a document what parts need: sections, tables, and words without marks."""
 
 from __future__ import annotations
 

@@ -105,9 +105,8 @@ def add_cover(paper: Paper, made: Assembled, stamp: Mapping[str, str], when: dat
     paper.ln(3)
     for problem in made.problems:
         paper.plain(f"Problem: {problem}")
-    figures = tuple((part.title, "\n".join(f"{name}: {value}" for name, value in
-                                           part.summary.items())) for part in made.parts)  # fmt: skip
-    paper.rows(("Part", "Figures"), figures)
+    rows = [(part.title, "\n".join(map(": ".join, part.summary.items()))) for part in made.parts]
+    paper.rows(("Part", "Figures"), tuple(rows))
 
 
 def summary_pdf(path: Path, made: Assembled, stamp: Mapping[str, str], seconds: int) -> None:

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from evidence.assemble import KINDS, Assembled, Entry
@@ -11,7 +12,6 @@ from evidence.assemble import KINDS, Assembled, Entry
 # What a reader of one thing looks for, in this order.
 ORDER = ("requirement", "unit", "function", "goal", "harness", "test", "mutant", "assumption",
          "constraint", "deviation", "objective", "tool", "image", "file")  # fmt: skip
-PLURALS = {"mutant": "mutants", "file": "files"}
 IN_MATRIX = ("requirement", "function", "goal", "harness", "test", "mutant", "deviation")
 
 
@@ -87,17 +87,14 @@ class Model:
         return linked or (first if first in self.units else "")
 
     def _units(self) -> dict[str, str]:
-        """The unit of each thing: its own, or that of the first neighbour that has one."""
+        """The unit of each thing: its own, or that of most of what it is linked with."""
         own = {key: self._own_unit(entry) for key, entry in self.entries.items()}
+        units = dict(own)
         for key, entry in self.entries.items():
             if not own[key] and entry.kind in IN_MATRIX:
-                near = (own.get(link, "") for link in entry.links)
-                own[key] = next((unit for unit in near if unit), "")
-        for key, entry in self.entries.items():
-            if not own[key] and entry.kind in IN_MATRIX:
-                near = (own.get(link, "") for link in entry.back)
-                own[key] = next((unit for unit in near if unit), "")
-        return own
+                near = Counter(own[link] for link in entry.near if own.get(link))
+                units[key] = near.most_common(1)[0][0] if near else ""
+        return units
 
     def _members(self) -> dict[str, list[Entry]]:
         found: dict[str, list[Entry]] = {unit: [] for unit in self.units}
@@ -131,8 +128,3 @@ class Model:
             near += [one for one in self.existing(far) if one.kind in keep]
         unique = {one.key: one for one in near if one.key != entry.key}
         return by_kind(unique.values())
-
-
-def shown_first(entries: Sequence[Entry], state_order: Mapping[str, int]) -> list[Entry]:
-    """What is not good comes first; else the order stays."""
-    return sorted(entries, key=lambda one: state_order[one.state])

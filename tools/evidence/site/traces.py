@@ -70,8 +70,6 @@ class Tracer:
                 address = f"{self.places[owner].seen_from(self.root)}#{kind}"
                 nodes.append(self._bundle(key, kind, owned, address, COLUMNS[kind]))
                 edges.append((owner, key))
-                reached = {near for one in owned for near in one.near if near in keys}
-                edges += [(near, key) for near in sorted(reached) if near != owner]
         return nodes, edges
 
     @staticmethod
