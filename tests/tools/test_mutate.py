@@ -52,7 +52,9 @@ def made(body: str, result: str = "void") -> list[Mutant]:
     """The mutants of a function with this body."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "f.c"
-        path.write_text(f"static {result} f(int a, int *p)\n{{\n    {body}\n}}\n", encoding="utf-8")
+        end = "}\n" * (1 + body.count("{") - body.count("}"))
+        text = f"static {result} f(int a, int *p)\n{{\n    {body}\n{end}"
+        path.write_text(text, encoding="utf-8")
         return mutants(path)
 
 
@@ -86,7 +88,7 @@ class Generation(unittest.TestCase):
         found = results("if ((a < b) && c) {", kind="condition")
         self.assertEqual(found, ["if (!((a < b) && c)) {"])
         self.assertEqual(results("if (a < b) {", kind="condition"), [])
-        self.assertEqual(results("a = c ? 1 : 2;", kind="condition"), ["a =!(c)? 1 : 2;"])
+        self.assertEqual(results("a = c ? 1 : 2;", kind="condition"), ["a = !(c) ? 1 : 2;"])
         self.assertEqual(results("if (!c) {", kind="negation"), ["if (c) {"])
 
     def test_statements_are_left_out(self) -> None:

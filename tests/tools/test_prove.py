@@ -34,6 +34,7 @@ from proofs.cbmc_answers import read_answer, refutation_problems  # noqa: E402
 from proofs.jobs import Runner, in_pool  # noqa: E402
 from proofs.project import ProjectError, Unit, closure, find_units  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
+from proofs.syntax import SyntaxProblem  # noqa: E402
 from proofs.times import Times  # noqa: E402
 from toolchain import Toolchain, ToolchainError  # noqa: E402
 
@@ -179,12 +180,44 @@ class CSource(unittest.TestCase):
 
     def test_includes_in_comments_do_not_count(self) -> None:
         text = '/* #include "a.h" */\n#include "b.h"\n#include <c.h>\n'
-        self.assertEqual(csource.includes(text), ["b.h"])
+        self.assertEqual(csource.includes(text), ("b.h",))
 
     def test_essence_keeps_literals_and_drops_comments(self) -> None:
         self.assertEqual(
             csource.essence('/*@ x */\nint a; // y\n\nf("//z");\n'), 'int a;\nf("//z");'
         )
+
+    def test_all_c_of_keel_is_parsed(self) -> None:
+        # A type as the argument of a macro, and an attribute behind a macro of the file's own.
+        hidden = {"tests/property/lockstep.c", "tests/target/faults.c"}
+        folders = ("include", "src", "proofs", "specs/model", "tests", "examples")
+        files = [path for name in folders for path in (ROOT / name).rglob("*.[ch]")]
+        self.assertGreater(len(files), 200)
+        for path in files:
+            if str(path.relative_to(ROOT)) in hidden:
+                with self.assertRaises(SyntaxProblem):
+                    csource.read(path)
+            else:
+                csource.read(path)
+
+    def test_what_is_no_c_is_an_error_with_file_and_line(self) -> None:
+        wrong = {
+            "int f(void)\n{\n    return 1 +;\n}\n": 3,
+            "int f(void)\n{\n    return 1\n}\nint g(void);\n": 3,
+            "int e;\nLIBRARY int f(void);\n": 2,
+            "int e;\n/*@ ghost\nvoid f(void)\n{\n    int = 1;\n} */\n": 5,
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "wrong.c"
+            for text, line in wrong.items():
+                path.write_text(text, encoding="utf-8")
+                with self.subTest(text), self.assertRaises(SyntaxProblem) as caught:
+                    csource.read(path)
+                self.assertIn(f"{path}:{line}: this is no C", str(caught.exception))
+
+    def test_places_do_not_depend_on_what_letters_are_in_comments(self) -> None:
+        text = "/* \u00b5s, \u2264 */ int f(void)\n{\n    return 1;\n}\n"
+        self.assertEqual(csource.body_of(text, "f"), "{\n    return 1;\n}")
 
     def test_code_that_knows_a_prover_is_found(self) -> None:
         self.assertEqual(csource.prover_code("#ifdef __FRAMAC__\n#endif\n"), [(1, "__FRAMAC__")])
@@ -1066,7 +1099,7 @@ class WholeRun(WholeRunCase):
         self.assertEqual((negative["bodies"], negative["refuted"]), (1, 1))
 
     def test_a_function_that_only_frama_c_sees_fails(self) -> None:
-        text = SOURCE.replace("static int helper", "static int MACRO(helper")
+        text = SOURCE.replace("static int helper", "static int MACRO(helper)")
         self.unit.source.write_text(text, encoding="utf-8")
         self.assertIn("Frama-C sees the function helper", self.prove()[1])
 

@@ -45,7 +45,9 @@ def generated(body: str) -> Generated:
     """The mutants of a function with this body, and what was dropped."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "f.c"
-        path.write_text(f"static int f(int a, box_t *p)\n{{\n    {body}\n}}\n", encoding="utf-8")
+        end = "}\n" * (1 + body.count("{") - body.count("}"))
+        text = f"static int f(int a, box_t *p)\n{{\n    {body}\n{end}"
+        path.write_text(text, encoding="utf-8")
         return generate(path, surroundings([HEADER]))
 
 

@@ -74,7 +74,7 @@ def _contract(unit: Unit, function: str, texts: Iterable[str]) -> _Contract:
     every = list(texts)
     raw = next(
         (contract for path in unit.own_files if path.suffix == ".h"
-         for name, contract in frames.contracts(path.read_text(encoding="utf-8"))
+         for name, contract in frames.contracts(csource.read(path))
          if name == function), "",
     )  # fmt: skip
     parts = _clauses(" ".join(re.sub(r"(^|\s)@(?=\s)", " ", raw).split()))

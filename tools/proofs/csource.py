@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads C text just well enough for the driver: comments, functions, loops, annotations.
-
-Keel's style (one declaration per line, functions at the left margin, no macro that hides a brace)
-makes a scanner of a few lines reliable. Where it matters, what it says is compared with what the
-prover says.
-"""
+"""Reads C: comments and annotations as text, functions, loops and calls by its syntax."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from common.files import read_text
+
+from .syntax import Node, SyntaxProblem, found, parse, span, written
 
 TOKEN = re.compile(
     r"""
@@ -18,19 +20,23 @@ TOKEN = re.compile(
     """,
     re.DOTALL | re.VERBOSE,
 )
-INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+"([^"]+)"', re.MULTILINE)
 # The two macros of c_declarations.h stand for a directive: they are nothing to C.
 DIRECTIVE = re.compile(r"^(?:[ \t]*#(?:\\\n|[^\n])*|KEEL_C_(?:BEGIN|END)$)", re.MULTILINE)
-FUNCTION = re.compile(
-    r"^(?P<head>[A-Za-z_][\w \t\n*]*?[ \t\n*])(?P<name>[A-Za-z_]\w*)[ \t\n]*"
-    r"\((?P<parameters>[^;{}]*)\)[ \t\n]*(?P<end>[{;])",
-    re.MULTILINE,
-)
 GHOST = re.compile(r"/\*@\s*ghost\b(?P<code>.*?)\*/", re.DOTALL)
 GHOST_LINE = re.compile(r"//@\s*ghost\b(?P<code>[^\n]*)")
-NOT_A_FUNCTION = frozenset("if for while switch return sizeof typedef".split())
-LOOP = re.compile(r"\b(?:for|while)\b")
+LOOPS = ("for_statement", "while_statement", "do_statement")
 LEMMA = re.compile(r"\blemma\s+(\w+)")
+
+
+def read(path: Path) -> str:
+    """The text of a file of C, its ghost code being C, too."""
+    text = read_text(path)
+    try:
+        parse(text)
+        parse(with_ghosts(text))
+    except SyntaxProblem as error:
+        raise SyntaxProblem(f"{path}:{error}") from error
+    return text
 
 
 def blanked(match: re.Match[str]) -> str:
@@ -38,6 +44,7 @@ def blanked(match: re.Match[str]) -> str:
     return re.sub(r"[^\n]", " ", match.group())
 
 
+@lru_cache(maxsize=1024)
 def without_comments(text: str) -> str:
     """The text with comments, annotations and the insides of literals blanked, places kept."""
 
@@ -55,12 +62,14 @@ def comments(text: str) -> list[str]:
     return [match.group("comment") for match in TOKEN.finditer(text) if match.group("comment")]
 
 
+@lru_cache(maxsize=1024)
 def essence(text: str) -> str:
     """The text without comments and blank lines: what a compiler sees of it, places aside."""
     bare = TOKEN.sub(lambda match: " " if match.group("comment") else match.group(), text)
     return "\n".join(line.rstrip() for line in bare.splitlines() if line.strip())
 
 
+@lru_cache(maxsize=1024)
 def code_only(text: str) -> str:
     """The text without comments, literals and preprocessor directives, places kept."""
     return DIRECTIVE.sub(blanked, without_comments(text))
@@ -76,34 +85,44 @@ class Function:
     body: tuple[int, int] | None
 
 
-def closing(code: str, start: int) -> int:
-    """The index behind the brace that closes the one at `start`."""
-    depth = 0
-    for match in re.finditer(r"[{}]", code[start:]):
-        depth += 1 if match.group() == "{" else -1
-        if depth == 0:
-            return start + match.end()
-    return len(code)
+def declarators(node: Node) -> Iterator[Node]:
+    """The functions that a definition or a declaration is of: name and parameters of each."""
+    for one in node.children_by_field_name("declarator"):
+        inner: Node | None = one
+        while inner and inner.type == "pointer_declarator":
+            inner = inner.child_by_field_name("declarator")
+        name = inner.child_by_field_name("declarator") if inner else None
+        if inner and inner.type == "function_declarator" and name and name.type == "identifier":
+            yield inner
 
 
-def functions(text: str) -> list[Function]:
+def at_file_level(text: str) -> Iterator[tuple[Node, Node]]:
+    """Each function of a text, in its order: the definition or declaration, and the declarator."""
+    last = 0
+    for node in found(parse(text), "function_definition", "declaration"):
+        if node.start_byte >= last:
+            yield from ((node, declarator) for declarator in declarators(node))
+            last = node.end_byte if node.type == "function_definition" else last
+
+
+@lru_cache(maxsize=1024)
+def functions(text: str) -> tuple[Function, ...]:
     """The functions that a text defines or declares, in its order."""
-    code = code_only(text)
-    found: list[Function] = []
-    position = 0
-    while match := FUNCTION.search(code, position):
-        position = match.end()
-        name, head = match.group("name"), match.group("head")
-        words = head.split()
-        if name in NOT_A_FUNCTION or not words or words[0] in NOT_A_FUNCTION:
-            continue
-        body: tuple[int, int] | None = None
-        if match.group("end") == "{":
-            body = (match.end() - 1, closing(code, match.end() - 1))
-            position = body[1]
-        line = code.count("\n", 0, match.start("name")) + 1
-        found.append(Function(name, line, "static" in words, body))
-    return found
+    every = []
+    for node, declarator in at_file_level(text):
+        name = declarator.children[0]
+        words = [written(child) for child in node.children]
+        body = node.child_by_field_name("body")
+        line = name.start_point.row + 1
+        place = span(body) if body else None
+        every.append(Function(written(name), line, "static" in words, place))
+    return tuple(every)
+
+
+def block(text: str, body: tuple[int, int]) -> Node:
+    """The tree of a body."""
+    blocks = found(parse(text), "compound_statement")
+    return next(one for one in blocks if span(one) == body)
 
 
 def defined(text: str) -> list[Function]:
@@ -111,6 +130,7 @@ def defined(text: str) -> list[Function]:
     return [function for function in functions(text) if function.body]
 
 
+@lru_cache(maxsize=1024)
 def with_ghosts(text: str) -> str:
     """The text with ghost code laid open, its annotations too.
 
@@ -164,8 +184,8 @@ def without_other_bodies(text: str, keep: frozenset[str]) -> str:
 
 
 def loops(body: str) -> int:
-    """How many loops a body of code has (a do loop shows by its `while`)."""
-    return len(LOOP.findall(body))
+    """How many loops a body of code has."""
+    return len(found(parse(body), *LOOPS))
 
 
 def acsl(text: str) -> list[tuple[int, str]]:
@@ -184,16 +204,40 @@ def lemmas(text: str) -> list[str]:
     return [name for _, inner in acsl(text) for name in LEMMA.findall(inner)]
 
 
-def includes(text: str) -> list[str]:
+@lru_cache(maxsize=1024)
+def includes(text: str) -> tuple[str, ...]:
     """The files that a text includes with quotation marks."""
-    return INCLUDE.findall(
-        TOKEN.sub(lambda m: blanked(m) if m.group("comment") else m.group(), text)
-    )
+    paths = (node.child_by_field_name("path") for node in found(parse(text), "preproc_include"))
+    return tuple(written(path)[1:-1] for path in paths if path and path.type == "string_literal")
 
 
-def calls(body: str, name: str) -> int:
-    """How often a body of code calls a function."""
-    return len(re.findall(rf"\b{re.escape(name)}\s*\(", body))
+@dataclass(frozen=True)
+class Call:
+    """A call in a text of C, with its arguments, white space in them made one."""
+
+    node: Node
+    arguments: tuple[str, ...]
+
+    @property
+    def start(self) -> int:
+        """Where its name starts."""
+        return self.node.start_byte
+
+    @property
+    def end(self) -> int:
+        """Behind its parentheses."""
+        return self.node.end_byte
+
+
+def calls(code: str | Node, pattern: str) -> list[Call]:
+    """The calls, in a text or a tree, of functions whose name a pattern matches."""
+    every = []
+    for node in found(parse(code) if isinstance(code, str) else code, "call_expression"):
+        name, given = (node.child_by_field_name(field) for field in ("function", "arguments"))
+        if name and given and re.fullmatch(pattern, written(name)):
+            arguments = (one for one in given.named_children if one.type != "comment")
+            every.append(Call(node, tuple(map(written, arguments))))
+    return every
 
 
 # What takes a claim for granted, or states one that no caller may rely on. Every one of them is a

@@ -1,30 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads declarations of Keel's headers: structures, signatures, macros.
 
-They are in one style, a declaration a line, which a few expressions can read. What they cannot is
-an error, never left out.
+Of a structure, plain fields are understood, and arrays of one dimension. Any other is an error,
+never left out.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from . import csource
 from .project import ProjectError
+from .syntax import Node, found, parse, written
 
-STRUCT = re.compile(r"^typedef struct \w+ \{\n(?P<body>.*?)^\} (?P<name>\w+);", re.M | re.S)
-FIELD = re.compile(
-    r"(?:const )?(?P<type>\w+)\s+(?:const )?(?P<pointer>\*?)\s*(?P<name>\w+)\s*"
-    r"(?:\[(?P<size>\w+)\])?"
-)
-MACRO = re.compile(
-    r"^[ \t]*#[ \t]*define[ \t]+(?P<name>\w+)(?P<parameters>\([^)]*\))?[ \t]+"
-    r"(?P<text>(?:\\\n|[^\n])*)",
-    re.M,
-)
+PLAIN_TYPES = ("type_identifier", "primitive_type")
 STORAGE = frozenset(["static", "inline", "extern"])
 
 
@@ -39,6 +32,8 @@ class Field:
 
 
 Structures = dict[str, tuple[Field, ...]]
+# The parameters and the text of each.
+Macros = dict[str, tuple[tuple[str, ...], str]]
 
 
 @dataclass(frozen=True)
@@ -74,61 +69,107 @@ class Signature:
 
 def structures(texts: Iterable[str]) -> Structures:
     """The structures that texts declare, by the names of their types."""
-    found: Structures = {}
+    every: Structures = {}
     for text in texts:
-        for match in STRUCT.finditer(csource.without_comments(text)):
-            lines = match["body"].split(";")
-            found[match["name"]] = tuple(_field(match["name"], line) for line in lines[:-1])
-    return found
+        every |= _structures(text)
+    return every
 
 
-def _field(struct: str, text: str) -> Field:
-    match = FIELD.fullmatch(" ".join(text.split()))
-    if not match:
-        raise ProjectError(f"{struct}: what is {' '.join(text.split())!r}? One plain field a line")
-    return Field(match["name"], match["type"], bool(match["pointer"]), match["size"] or "")
+@lru_cache(maxsize=1024)
+def _structures(text: str) -> Structures:
+    every: Structures = {}
+    for node in found(parse(text), "type_definition"):
+        struct, name = (node.child_by_field_name(field) for field in ("type", "declarator"))
+        body = struct.child_by_field_name("body") if struct else None
+        if struct and struct.type == "struct_specifier" and body:
+            fields = (one for one in body.named_children if one.type != "comment")
+            every[written(name)] = tuple(_field(written(name), one) for one in fields)
+    return every
 
 
+@dataclass(frozen=True)
+class _Declared:
+    """What a declarator says: the name, None if there is none, and what it is besides its type."""
+
+    name: Node | None
+    pointer: bool
+    sizes: tuple[str, ...]
+
+
+def _declared(node: Node | None) -> _Declared:
+    pointer, sizes = False, []
+    while node and node.type in ("pointer_declarator", "array_declarator"):
+        pointer = pointer or node.type == "pointer_declarator"
+        if node.type == "array_declarator":
+            sizes.append(written(node.child_by_field_name("size")))
+        node = node.child_by_field_name("declarator")
+    return _Declared(node, pointer, tuple(sizes))
+
+
+def _field(struct: str, node: Node) -> Field:
+    type_ = node.child_by_field_name("type")
+    every = [_declared(one) for one in node.children_by_field_name("declarator")]
+    plain = type_ and type_.type in PLAIN_TYPES and len(every) == 1 and len(every[0].sizes) < 2
+    bits = [one for one in node.named_children if one.type == "bitfield_clause"]
+    if not plain or bits or not every[0].name or every[0].name.type != "field_identifier":
+        raise ProjectError(f"{struct}: what is {written(node)!r}? One plain field a line")
+    [one] = every
+    return Field(written(one.name), written(type_), one.pointer, "".join(one.sizes))
+
+
+@lru_cache(maxsize=1024)
 def signatures(text: str) -> dict[str, Signature]:
     """The functions that a text declares or defines."""
     code = csource.code_only(text)
-    found = {}
-    for match in csource.FUNCTION.finditer(code):
-        words = match["head"].replace("*", " * ").split()
-        if words[0] in csource.NOT_A_FUNCTION:
-            continue
+    every = {}
+    for node, declarator in csource.at_file_level(text):
+        name, parameters = declarator.children[:2]
+        words = _words(code[node.start_byte : name.start_byte])
         result = " ".join(word for word in words if word not in STORAGE)
-        parameters = match["parameters"].strip()
-        parts = [] if parameters in ("", "void") else parameters.split(",")
-        found[match["name"]] = Signature(result, tuple(_parameter(part) for part in parts))
-    return found
+        given = [one for one in parameters.named_children if one.type == "parameter_declaration"]
+        every[written(name)] = Signature(
+            result, tuple(_parameter(one, code) for one in given if written(one) != "void")
+        )
+    return every
 
 
-def _parameter(text: str) -> Parameter:
-    plain, array, _ = text.partition("[")
-    words = plain.replace("*", " * ").split()
-    name = words.pop()
-    if "*" in words and words[-1] == "const":
+def _words(text: str) -> list[str]:
+    return text.replace("*", " * ").split()
+
+
+def _parameter(node: Node, code: str) -> Parameter:
+    one = _declared(node.child_by_field_name("declarator"))
+    words = _words(code[node.start_byte : one.name.start_byte if one.name else node.end_byte])
+    if one.pointer and words[-1] == "const":
         words.pop()
-    if "*" not in words and not array:
+    if not one.pointer and not one.sizes:
         words = [word for word in words if word != "const"]
-    return Parameter(name, " ".join([*words, *(["*"] if array else [])]))
+    return Parameter(written(one.name), " ".join([*words, *(["*"] if one.sizes else [])]))
 
 
-def macros(texts: Iterable[str]) -> dict[str, tuple[tuple[str, ...], str]]:
+@lru_cache(maxsize=1024)
+def _macros(text: str) -> Macros:
+    bare = csource.without_comments(text)
+    every: Macros = {}
+    for node in found(parse(text), "preproc_def", "preproc_function_def"):
+        name, parameters = (node.child_by_field_name(field) for field in ("name", "parameters"))
+        last = parameters or name
+        if name and last:
+            meant = " ".join(bare[last.end_byte : node.end_byte].replace("\\\n", " ").split())
+            names = found(parameters, "identifier") if parameters else []
+            every |= {written(name): (tuple(map(written, names)), meant)} if meant else {}
+    return every
+
+
+def macros(texts: Iterable[str]) -> Macros:
     """Macros by name: parameters and text."""
-    found = {}
+    every: Macros = {}
     for text in texts:
-        for match in MACRO.finditer(csource.without_comments(text)):
-            parameters = tuple(re.findall(r"\w+", match["parameters"] or ""))
-            found[match["name"]] = (
-                parameters,
-                " ".join(match["text"].replace("\\\n", " ").split()),
-            )
-    return found
+        every |= _macros(text)
+    return every
 
 
-def resolved(word: str, known: dict[str, tuple[tuple[str, ...], str]]) -> str:
+def resolved(word: str, known: Macros) -> str:
     """The last name that a plain macro leads to; numbers, which may be chosen anew, are none."""
     seen: set[str] = set()
     while word in known and not known[word][0] and word not in seen:
@@ -138,23 +179,6 @@ def resolved(word: str, known: dict[str, tuple[tuple[str, ...], str]]) -> str:
             break
         word = text
     return word
-
-
-@dataclass(frozen=True)
-class Call:
-    """A call in a body of code."""
-
-    start: int
-    end: int
-    arguments: tuple[str, ...]
-
-
-def calls(body: str, pattern: str) -> Iterator[Call]:
-    """The calls of functions whose name a pattern matches."""
-    for match in re.finditer(rf"\b(?:{pattern})\s*\(", body):
-        end = closing(body, match.end() - 1)
-        arguments = split(body[match.end() : end - 1], ",")
-        yield Call(match.start(), end, tuple(arguments))
 
 
 def closing(text: str, start: int) -> int:
@@ -183,14 +207,6 @@ def split(text: str, separator: str) -> list[str]:
     return [" ".join(part.split()) for part in parts if part.strip()]
 
 
-def bare(text: str) -> str:
-    """An expression without parentheses around the whole of it."""
-    text = text.strip()
-    while text.startswith("(") and closing(text, 0) == len(text):
-        text = text[1:-1].strip()
-    return text
-
-
 def read(paths: Iterable[Path]) -> list[str]:
-    """The texts of files."""
-    return [path.read_text(encoding="utf-8") for path in paths]
+    """The texts of files of C."""
+    return [csource.read(path) for path in paths]

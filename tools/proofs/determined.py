@@ -17,7 +17,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from . import clauses
+from . import clauses, csource
 from .declarations import Signature, Structures, signatures, structures
 from .equality import Reader, Reading
 from .harness import MODELS, read_harness
@@ -52,7 +52,7 @@ def public_functions(unit: Unit, exceptions: Exceptions) -> dict[str, Signature]
     found: dict[str, Signature] = {}
     for path in unit.own_files:
         if path.suffix == ".h":
-            found |= signatures(path.read_text(encoding="utf-8"))
+            found |= signatures(csource.read(path))
     return {
         name: signature
         for name, signature in found.items()
@@ -69,7 +69,7 @@ def outcomes(unit: Unit, exceptions: Exceptions, known: Structures) -> list[Outc
     """Every public function of a unit, with what determines it."""
     functions = public_functions(unit, exceptions)
     model = model_of(unit)
-    declared = signatures(model.read_text(encoding="utf-8")) if model.is_file() else None
+    declared = signatures(csource.read(model)) if model.is_file() else None
     chosen = {key.split()[0]: (key.split()[1], why) for key, why in exceptions.determined.items()}
     found = []
     for name, signature in functions.items():

@@ -119,7 +119,7 @@ def cbmc_key(
     So do a wrong body's replacements, by what they make of the file as it is now.
     """
     texts = {
-        shown(path, root): csource.essence(path.read_text(encoding="utf-8"))
+        shown(path, root): csource.essence(csource.read(path))
         for path in cbmc.dependencies(harness, root)
     }
     expected: tuple[object, ...] = ()
@@ -133,7 +133,7 @@ def cbmc_key(
     directives = [harness.name, harness.options, sources, harness.covers, harness.defines,
                   harness.replaces, harness.assertions_only]
     # What is replaced is proved by other harnesses, at whose text this one's verdict looks.
-    others = {shown(path, root): csource.essence(path.read_text(encoding="utf-8"))
+    others = {shown(path, root): csource.essence(csource.read(path))
               for name in harness.replaces for path in harnesses_of(root, name)}  # fmt: skip
     return digest(
         {"kind": "cbmc", "stamp": dict(stamp), "options": placeless(checker.options(), root),

@@ -10,30 +10,26 @@ every field. Neither result nor object may be written between the calls and the 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from . import csource
-from .declarations import (
-    Call,
-    Parameter,
-    Signature,
-    Structures,
-    bare,
-    calls,
-    closing,
-    read,
-    signatures,
-    split,
-)
+from . import csource, syntax
+from .csource import Call
+from .declarations import Parameter, Signature, Structures, read, signatures
 from .harness import Harness
 from .project import closure
 from .sameness import FLOATS, Comparers
+from .syntax import Node, written
 
 # What may be anything, as far as there is room.
-ANY = r"(?:(?:nondet|any)_\w+\(\s*\)|any_below\(\s*[A-Z]\w*\s*\))"
-RETURNED = re.compile(r"\{\s*return\b([^;]*);\s*\}")
-NARROWED = re.compile(r"\bany_bits\w*\(\s*\w+\s*\)")
+ANY = re.compile(r"(?:nondet|any)_\w+\(\)|any_below\([A-Z]\w*\)")
+
+# What writes a variable.
+WRITES = ("assignment_expression", "update_expression", "init_declarator")
+# What is around a place that not every execution reaches.
+CONDITIONAL = frozenset([
+    "if_statement", "while_statement", "do_statement", "switch_statement", "conditional_expression",
+])  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -41,9 +37,8 @@ class Claim:
     """Something asserted in every execution: a part of an assertion that holds by itself."""
 
     text: str
-    # Where the assertion starts and ends, in the body.
-    start: int
-    end: int
+    # The assertion.
+    call: Call
 
 
 @dataclass
@@ -70,13 +65,13 @@ class Reader:
     def read(self, harness: Harness) -> Reading:
         """What a harness shows; if it does not call the model, it shows nothing here."""
         reading = Reading(harness.name)
-        body = csource.body_of(harness.path.read_text(encoding="utf-8"), harness.name)
-        code = [*calls(body, self._function)]
-        model = [*calls(body, self._model)]
+        body = csource.body_of(csource.read(harness.path), harness.name)
+        code = csource.calls(body, self._function)
+        model = csource.calls(body, self._model)
         reading.compares = bool(model)
         if not model:
             return reading
-        reading.bounds = bounds(harness, body, code[0].start if code else 0)
+        reading.bounds = bounds(harness, body, code[0] if code else None)
         if len(code) != 1 or len(model) != 1:
             reading.problems.append(f"must call {self._function} and {self._model} once each")
             return reading
@@ -103,21 +98,20 @@ class _Comparison:
 
     def start(self) -> list[str]:
         """What keeps a claim from being about both calls."""
-        found = []
+        problems = []
         for call in (self._code, self._model):
-            if loops(self._body, call.start) is None:
-                found.append(f"{self._text(call)} is not called in every execution")
-        if re.search(r"\breturn\b", self._body):
-            found.append("a harness that returns early may assert nothing")
-        return found
-
-    def _text(self, call: Call) -> str:
-        return " ".join(self._body[call.start : call.end].split())
+            if loops(call.node) is None:
+                problems.append(f"{written(call.node)} is not called in every execution")
+        if syntax.found(syntax.parse(self._body), "return_statement"):
+            problems.append("a harness that returns early may assert nothing")
+        return problems
 
     def _taken(self, call: Call) -> str:
         """What holds a call's result: a variable, or the call itself."""
-        match = re.search(r"(\w+)\s*=\s*$", self._body[: call.start])
-        return match[1] if match else self._text(call)
+        around = call.node.parent
+        if around and around.type in ("init_declarator", "assignment_expression"):
+            return written(around.children[0])
+        return written(call.node)
 
     def results(self, type_: str, structures: Structures) -> list[str]:
         """Whether the results are asserted to be equal."""
@@ -145,10 +139,10 @@ class _Comparison:
         self, pair: tuple[str, str], type_: str, structures: Structures, what: str
     ) -> list[str]:
         """Whether two things are asserted to be the same after both calls."""
-        last = max(self._code.start, self._model.start)
-        place = loops(self._body, last)
+        last = max(self._code, self._model, key=lambda call: call.start)
+        place = loops(last.node)
         for claim in self._claims:
-            if claim.end <= last or loops(self._body, claim.start) != place:
+            if claim.call.end <= last.start or loops(claim.call.node) != place:
                 continue
             name = _compares(claim.text, pair, type_ in structures or type_ in FLOATS)
             if name is not None:
@@ -159,79 +153,119 @@ class _Comparison:
         self, pair: tuple[str, str], claim: Claim, name: str, type_: str, structures: Structures
     ) -> list[str]:
         """What is wrong with a claim that two things are the same."""
-        found = []
-        first = min(self._code.end, self._model.end)
-        between = self._body[first : claim.end]
+        problems = []
+        calls = (self._code, self._model)
+        between = (min(call.end for call in calls), claim.call.end)
         for one in pair:
             root = re.match(r"\w+", one)
-            calls_it = one in (self._text(self._code), self._text(self._model))
-            if root and not calls_it and _written(root[0], between, self._own(one)):
-                found.append(f"{root[0]} is written between the calls and the assertion")
+            calls_it = one in [written(call.node) for call in calls]
+            if root and not calls_it and self._written(root[0], *between):
+                problems.append(f"{root[0]} is written between the calls and the assertion")
         if type_ in structures:
             same = self._comparers.of(name, type_)
             if not same:
-                return [*found, f"{name} does not compare two {type_}"]
-            found += self._comparers.problems(same)
-            found += [f"{name}: {index} is not arbitrary" for index in self._indices(claim.text)]
+                return [*problems, f"{name} does not compare two {type_}"]
+            problems += self._comparers.problems(same)
+            problems += [f"{name}: {index} is not arbitrary" for index in self._indices(claim)]
         elif type_ in FLOATS and name != "float_same":
-            found.append(f"{' and '.join(pair)}: floats are compared by float_same")
-        return found
+            problems.append(f"{' and '.join(pair)}: floats are compared by float_same")
+        return problems
 
-    def _own(self, variable: str) -> Sequence[str]:
-        """The calls whose result a variable may take."""
-        wanted = (self._code, self._model)
-        return [self._text(call) for call in wanted if self._taken(call) == variable]
+    def _written(self, variable: str, first: int, last: int) -> bool:
+        """Whether a variable or a part of it is written there, other than by the calls' results."""
+        results = [call.node for call in (self._code, self._model)]
+        return any(
+            first <= node.start_byte < last and name == variable and value not in results
+            for node, name, value in _assigned(self._body)
+        )
 
-    def _indices(self, claim: str) -> list[str]:
+    def _indices(self, claim: Claim) -> list[str]:
         """The indices of a claim that are not just any."""
-        [call] = calls(claim, r"\w+_same")
-        return [
-            index
-            for index in call.arguments[2:]
-            if not re.search(rf"\b{re.escape(index)}\s*=\s*{ANY}", self._body)
-        ]
+        [call] = csource.calls(syntax.expression(claim.text), r"\w+_same")
+        arbitrary = {
+            name
+            for _, name, value in _assigned(self._body)
+            if value and ANY.fullmatch(written(value))
+        }
+        return [index for index in call.arguments[2:] if index not in arbitrary]
+
+
+def _root(node: Node | None) -> str:
+    """The variable that an expression is a part of, or that a declarator declares."""
+    return next(map(written, syntax.found(node, "identifier")), "") if node else ""
+
+
+def _assigned(body: str) -> Iterator[tuple[Node, str, Node | None]]:
+    """What writes a variable: where, which, and the value if it is one that is given."""
+    for node in syntax.found(syntax.parse(body), *WRITES):
+        target, value = (
+            next(filter(None, map(node.child_by_field_name, names)), None)
+            for names in (("left", "argument", "declarator"), ("right", "value"))
+        )
+        yield node, _root(target), value
+
+
+def _bare(node: Node) -> Node:
+    """An expression without parentheses around the whole of it."""
+    while node.type == "parenthesized_expression":
+        [node] = [one for one in node.named_children if one.type != "comment"]
+    return node
+
+
+def _sides(node: Node, operator: str) -> list[Node]:
+    """What an operator stands between; an expression of any other kind by itself."""
+    node = _bare(node)
+    sign, *sides = (node.child_by_field_name(name) for name in ("operator", "left", "right"))
+    if node.type != "binary_expression" or written(sign) != operator:
+        return [node]
+    return [part for side in sides if side for part in _sides(side, operator)]
 
 
 def _object(argument: str) -> str:
     """What an argument points to, or would if it were not null."""
-    match = re.fullmatch(r"\(?\w+\)? \? (.+) : NULL", bare(argument))
-    return (match[1] if match else argument).removeprefix("&")
+    node = _bare(syntax.expression(argument))
+    if node.type == "conditional_expression" and written(node.children[-1]) == "NULL":
+        node = _bare(node.children[2])
+    return written(node).removeprefix("&")
+
+
+def _dense(text: str) -> str:
+    return re.sub(r"\s+", "", text)
 
 
 def _compares(claim: str, pair: tuple[str, str], by_function: bool) -> str | None:
     """How a claim says that two things are the same: the function's name, "" for ==."""
-    wanted = {re.sub(r"\s+", "", text) for text in pair}
-    sides = split(claim, "==")
+    wanted = {_dense(text) for text in pair}
+    node = _bare(syntax.expression(claim))
+    sides = _sides(node, "==")
     if len(sides) == 2 and not by_function:
-        given = {re.sub(r"\s+", "", bare(side)) for side in sides}
-        return "" if given == wanted else None
-    match = re.fullmatch(r"(\w+_same)\s*\(.*\)", claim, re.S)
-    if match and closing(claim, claim.index("(")) == len(claim):
-        [call] = [call for call in calls(claim, r"\w+_same") if call.start == 0]
-        given = {re.sub(r"\s+", "", text).removeprefix("&") for text in call.arguments[:2]}
-        return match[1] if given == wanted else None
+        return "" if {_dense(written(side)) for side in sides} == wanted else None
+    for call in csource.calls(node, r"\w+_same"):
+        if call.node == node:
+            given = {_dense(text).removeprefix("&") for text in call.arguments[:2]}
+            return written(call.node.children[0]) if given == wanted else None
     return None
 
 
-def _written(name: str, text: str, allowed: Sequence[str]) -> bool:
-    """Whether a text writes a variable or a part of it, other than by the calls allowed."""
-    for match in re.finditer(rf"(?<![\w.>&]){name}\b[\w.\[\]\s>-]*?(?<![=!<>])=(?!=)", text):
-        rest = " ".join(text[match.end() :].split())
-        if not any(rest.startswith(call) for call in allowed):
-            return True
-    return False
-
-
-def loops(body: str, place: int) -> tuple[str, ...] | None:
-    """The heads of the loops around a place; None if a block that is no loop is around it."""
+def loops(node: Node) -> tuple[str, ...] | None:
+    """The heads of the loops around a node; None if a block that is no loop is around it."""
     heads: list[str] = []
-    for match in re.finditer(r"[{}]", body[:place]):
-        if match.group() == "}":
-            heads.pop()
-        else:
-            head = re.search(r"\bfor\s*(\([^{};]*;[^{};]*;[^{};]*\))\s*$", body[: match.start()])
-            heads.append(" ".join(head[1].split()) if head else "")
-    return tuple(heads[1:]) if all(heads[1:]) else None
+    while node.parent and node.parent.parent and node.parent.parent.parent:
+        around = node.parent
+        body = around.child_by_field_name("body")
+        if around.type == "for_statement" and body and around.text:
+            head = around.text[: body.start_byte - around.start_byte].decode()
+            heads.insert(0, " ".join(head.split()).removeprefix("for "))
+        elif around.type in CONDITIONAL or _skipped(around, node):
+            return None
+        node = around
+    return tuple(heads)
+
+
+def _skipped(around: Node, node: Node) -> bool:
+    """Whether a node is the second side of && or ||."""
+    operator, right = (around.child_by_field_name(name) for name in ("operator", "right"))
+    return right == node and written(operator) in ("&&", "||")
 
 
 def claims(body: str, texts: Sequence[str] = ()) -> Sequence[Claim]:
@@ -239,46 +273,59 @@ def claims(body: str, texts: Sequence[str] = ()) -> Sequence[Claim]:
 
     A contract that stand-ins share, F_does(...), counts as the expression that it returns.
     """
-    found = []
-    for call in calls(body, "__CPROVER_assert"):
-        if call.arguments and loops(body, call.start) is not None:
-            waiting = [call.arguments[0]]
-            while waiting:
-                text = bare(waiting.pop())
-                parts = split(text, "&&")
-                meant = _unfolded(text, texts)
-                if len(parts) > 1:
-                    waiting += parts
-                elif meant:
-                    waiting.append(meant)
-                else:
-                    found.append(Claim(text, call.start, call.end))
-    return found
+    every = []
+    for call in csource.calls(body, "__CPROVER_assert"):
+        waiting = [call.arguments[0]] if call.arguments and loops(call.node) is not None else []
+        while waiting:
+            parts = [written(one) for one in _sides(syntax.expression(waiting.pop()), "&&")]
+            meant = _unfolded(parts[0], texts)
+            if len(parts) > 1:
+                waiting += parts
+            elif meant:
+                waiting.append(meant)
+            else:
+                every.append(Claim(parts[0], call))
+    return every
 
 
 def _unfolded(text: str, texts: Sequence[str]) -> str:
     """What a call of F_does stands for; "" if it is none, or does more than return it."""
-    match = re.match(r"(\w+_does)\s*\(", text)
-    if not match or closing(text, match.end() - 1) != len(text):
-        return ""
-    given = split(text[match.end() : -1], ",")
-    for one in texts:
-        returned = RETURNED.fullmatch(csource.body_of(one, match[1]))
-        if returned:
-            names = [parameter.name for parameter in signatures(one)[match[1]].parameters]
-            values = dict(zip(names, given, strict=True))
-            return re.sub(r"(?<![\w.>])\w+", lambda word: values.get(word[0], word[0]), returned[1])
+    node = _bare(syntax.expression(text))
+    for call in csource.calls(node, r"\w+_does"):
+        name = written(call.node.children[0])
+        for one in texts if call.node == node else ():
+            returned = _returned(csource.body_of(one, name))
+            if returned:
+                names = [parameter.name for parameter in signatures(one)[name].parameters]
+                return _replaced(returned, dict(zip(names, call.arguments, strict=True)))
     return ""
 
 
-def bounds(harness: Harness, body: str, place: int) -> list[str]:
+def _returned(body: str) -> Node | None:
+    """The expression that a function does nothing but return."""
+    statements = [one for block in syntax.parse(body).children for one in block.named_children]
+    if len(statements) != 1 or statements[0].type != "return_statement":
+        return None
+    return next(iter(statements[0].named_children), None)
+
+
+def _replaced(node: Node, values: Mapping[str, str]) -> str:
+    """An expression with values in the place of variables."""
+    words = (one for one in syntax.within(node) if not one.children)
+    return " ".join(
+        values.get(written(one), written(one)) if one.type == "identifier" else written(one)
+        for one in words
+    )
+
+
+def bounds(harness: Harness, body: str, call: Call | None) -> list[str]:
     """What a harness narrows: numbers it defines and draws, what it assumes and takes as proved."""
-    around = loops(body, place) or ()
-    assumed = [call.arguments[0] for call in calls(body, "__CPROVER_assume") if call.arguments]
+    narrowed = csource.calls(body, r"any_bits\w*")
+    assumed = [one.arguments[0] for one in csource.calls(body, "__CPROVER_assume")]
     return [
         *(word.removeprefix("-D") for word in harness.defines),
-        *dict.fromkeys(NARROWED.findall(body)),
+        *dict.fromkeys(written(one.node) for one in narrowed),
         *assumed,
-        *(f"for {head}" for head in around),
+        *(f"for {head}" for head in (loops(call.node) if call else None) or ()),
         *(f"{name} by its contract" for name in harness.replaces),
     ]

@@ -69,7 +69,7 @@ def preconditions(units: Iterable[Unit]) -> dict[str, str]:
     found: dict[str, str] = {}
     for unit in units:
         for path in unit.own_files:
-            for name, contract in contracts(path.read_text(encoding="utf-8")):
+            for name, contract in contracts(csource.read(path)):
                 found.update(dict.fromkeys(REQUIRES.findall(contract), name))
     return found
 
@@ -91,7 +91,7 @@ def contracts(text: str) -> list[tuple[str, str]]:
 def _body(unit: Unit, function: str) -> tuple[str, str]:
     """The body of a function: as code, and as it stands there."""
     for path in unit.own_files:
-        text = path.read_text(encoding="utf-8")
+        text = csource.read(path)
         for found in csource.defined(text):
             if found.name == function and found.body:
                 return csource.body_of(text, function), text[slice(*found.body)]
@@ -106,7 +106,7 @@ def _complaint(
     if function not in harness.covers:
         return f"{harness.name} does not cover {function}"
     if clause in INVARIANT.findall(text):
-        asserted = f'"{clause}:' in harness.path.read_text(encoding="utf-8")
+        asserted = f'"{clause}:' in csource.read(harness.path)
         return "" if asserted else f"{harness.name} has no assertion {clause}"
     callee = contracts.get(clause, "")
     if not callee or not csource.calls(code, callee):
@@ -120,7 +120,7 @@ def _unproved_postconditions(unit: Unit, exceptions: Exceptions) -> list[str]:
     """A static function has no harness of its own that would prove its postcondition."""
     found = []
     for path in unit.own_files:
-        text = path.read_text(encoding="utf-8")
+        text = csource.read(path)
         static = {function.name for function in csource.functions(text) if function.static}
         found += [
             f"{path.relative_to(unit.root)}: {name}: WP leaves its postcondition, which no harness"

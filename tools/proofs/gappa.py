@@ -142,7 +142,7 @@ def tie_problems(statement: Statement, root: Path) -> list[str]:
     problems = []
     for line in statement.directives.get("rounds", []):
         file, _, function = line.partition(" ")
-        body = csource.body_of((root / file).read_text(encoding="utf-8"), function)
+        body = csource.body_of(csource.read(root / file), function)
         if not OPERATION.search(body):
             problems.append(f"{file} defines no {function} with an operation per constant")
             continue

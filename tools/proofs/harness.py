@@ -160,15 +160,14 @@ def read_harness(unit: Unit, path: Path) -> Harness:
 
 def text_problems(harness: Harness) -> list[str]:
     """What is wrong with a harness before it runs."""
-    text = harness.path.read_text(encoding="utf-8")
+    text = csource.read(harness.path)
     place = harness.path.relative_to(harness.unit.root)
-    code = csource.code_only(text)
     problems = []
     if not csource.body_of(text, harness.name):
         problems.append(f"{place}: defines no {harness.name}")
-    elif csource.calls(csource.body_of(text, harness.name), harness.function) != 1:
+    elif len(csource.calls(csource.body_of(text, harness.name), harness.function)) != 1:
         problems.append(f"{place}: must call {harness.function} exactly once")
-    elif csource.calls(code, harness.function) != 1:
+    elif len(csource.calls(text, harness.function)) != 1:
         problems.append(f"{place}: calls {harness.function} outside {harness.name}, too")
     if harness.unit.source.is_file() and harness.unit.source not in harness.sources:
         problems.append(
@@ -184,7 +183,7 @@ def replacement_problems(harness: Harness) -> list[str]:
     root = harness.unit.root
     place = harness.path.relative_to(root)
     files = closure(harness.unit.root, [harness.path])
-    texts = [path.read_text(encoding="utf-8") for path in files]
+    texts = [csource.read(path) for path in files]
     problems = []
     for name in harness.replaces:
         if name == harness.function or name in harness.covers:
@@ -192,7 +191,9 @@ def replacement_problems(harness: Harness) -> list[str]:
         stand_in = "".join(csource.body_of(text, f"{name}_stand_in") for text in texts)
         lacking = _lacks(stand_in, name, "assert", "assume")
         problems += [f"{place}: {name}_stand_in lacks {text}...)" for text in lacking]
-        proofs = [csource.body_of(path.read_text(), path.stem) for path in harnesses_of(root, name)]
+        proofs = [
+            csource.body_of(csource.read(path), path.stem) for path in harnesses_of(root, name)
+        ]
         lacks = [_lacks(proof, name, "assume", "assert") for proof in proofs or [""]]
         problems += [f"{place}: {name}_harness lacks {text}...)" for text in min(lacks, key=len)]
     return problems
@@ -216,7 +217,7 @@ def unchecked(harnesses: Iterable[Harness]) -> list[str]:
             function.name
             for path in one.sources
             if path.is_relative_to(models)
-            for function in csource.defined(path.read_text(encoding="utf-8"))
+            for function in csource.defined(csource.read(path))
         }
         place = one.path.relative_to(one.unit.root)
         problems += [

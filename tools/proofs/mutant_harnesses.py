@@ -45,7 +45,7 @@ def _reached(harness: Harness, files: Sequence[Path]) -> frozenset[str]:
     """The functions that a harness may call, in whichever of its files."""
     bodies: dict[str, str] = {}
     for path in files:
-        text = path.read_text(encoding="utf-8")
+        text = csource.read(path)
         code = csource.code_only(text)
         for function in csource.defined(text):
             if function.body:

@@ -12,15 +12,17 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from . import csource, declarations
-from .declarations import Structures
+from . import csource
+from .declarations import Structures, structures
+from .syntax import Node, found, parse, span, written
 
-KEYWORD = re.compile(r"(if|else|for|while|do|switch)\b")
+COMPOUND = (
+    "if_statement", "for_statement", "while_statement", "do_statement", "switch_statement",
+)  # fmt: skip
+NO_STATEMENT = ("comment", "preproc_")
+JUNCTIONS = ("&&", "||")
 DECLARED = re.compile(r"(?:const\s+)?[A-Za-z_]\w*(?:\s*\*+\s*|\s+)(?:const\s+)?[A-Za-z_]\w*\s*;")
 LEAVES = re.compile(r"(?:return|break|continue|goto)\b")
-ASSIGNED = re.compile(
-    r"(?P<left>[A-Za-z_*(][\w.\[\]>() -]*?)\s*(?<![=!<>])=(?!=)\s*(?P<right>.*);", re.S
-)
 # A field of an object is written, and a variable that is no object.
 WRITES = re.compile(r"(?P<left>\w+(?:->|\.|\[)[\w.\[\]>+ -]*?)\s*[-+*/|&]?=(?!=)[^;]*;", re.S)
 # A variable is written, or declared with a value; and what else may write in a value.
@@ -30,12 +32,9 @@ COMPUTES = re.compile(
 )  # fmt: skip
 SIDE_EFFECT = re.compile(r"\+\+|--|(?<![=!<>])=(?!=)")
 LOCAL = re.compile(r"(?:[\w ]+[\s*]+)?\w+\s*[-+*/|&]?=(?!=)")
-ENUM = re.compile(r"\benum(?:\s+\w+)?\s*\{(?P<body>[^}]*)\}")
-DEFINE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+([A-Z][A-Z0-9]*_[A-Z0-9_]+)[ \t]+\S")
-INDEX = re.compile(r"\[\s*([A-Za-z_]\w*)\s*\]")
-MEMBER = re.compile(r"(?:->|\.)\s*([A-Za-z_]\w*)\b(?!\s*\()")
 CALL = re.compile(r"\b([a-z_]\w*)\s*\(")
-CONSTANT = re.compile(r"\b[A-Z][A-Z0-9]*_[A-Z0-9_]+\b")
+CONSTANT = re.compile(r"[A-Z][A-Z0-9]*_[A-Z0-9_]+")
+FUNCTION = re.compile(r"[a-z_]\w*")
 
 
 @dataclass(frozen=True)
@@ -60,97 +59,86 @@ def surroundings(texts: Iterable[str]) -> Surroundings:
     """Structures and families of constants of these texts."""
     every = list(texts)
     families = [family for text in every for family in _families(text)]
-    return Surroundings(declarations.structures(every), tuple(families))
+    return Surroundings(structures(every), tuple(families))
 
 
 def _families(text: str) -> Iterator[tuple[str, ...]]:
     """Enumerations, and macros that stand line by line and begin alike."""
-    bare = csource.without_comments(text)
-    for match in ENUM.finditer(bare):
-        names = [part.partition("=")[0].strip() for part in match["body"].split(",")]
-        yield tuple(name for name in names if name)
+    for node in found(parse(text), "enumerator_list"):
+        yield tuple(written(one.children[0]) for one in found(node, "enumerator"))
     block: list[str] = []
-    for line in [*bare.splitlines(), ""]:
-        found = DEFINE.match(line)
-        if found and (not block or found[1].split("_")[:2] == block[0].split("_")[:2]):
-            block.append(found[1])
+    last = -1
+    for node in found(parse(text), "preproc_def"):
+        name, value = (written(node.child_by_field_name(field)) for field in ("name", "value"))
+        if not value or not CONSTANT.fullmatch(name):
             continue
-        if len(block) > 1:
+        follows = node.start_point.row == last and name.split("_")[:2] == block[0].split("_")[:2]
+        if not follows and len(block) > 1:
             yield tuple(block)
-        block = [found[1]] if found else []
+        block = [*(block if follows else ()), name]
+        last = node.start_point.row + 1
+    if len(block) > 1:
+        yield tuple(block)
 
 
 @dataclass(frozen=True)
 class Item:
     """A statement of a block: `word` is the keyword of one that has blocks of its own."""
 
-    start: int
-    end: int
+    node: Node
     word: str
-    blocks: tuple[tuple[int, int], ...] = ()
+    blocks: tuple[Node, ...] = ()
+
+    @property
+    def start(self) -> int:
+        """Where it starts."""
+        return self.node.start_byte
+
+    @property
+    def end(self) -> int:
+        """Behind its brace or semicolon."""
+        return self.node.end_byte
 
 
-def items(code: str, start: int, end: int) -> list[Item]:
+def items(block: Node) -> list[Item]:
     """The statements between two braces."""
-    found: list[Item] = []
-    position = start
-    while match := re.compile(r"\S").search(code, position, end):
-        place = match.start()
-        keyword = KEYWORD.match(code, place)
-        if code[place] in "{}":
-            position = place + 1
-            continue
-        item = _compound(code, place, end, keyword[1]) if keyword else None
-        item = item or Item(place, _semicolon(code, place, end), "")
-        if item.word == "else" and found:
-            before = found.pop()
-            item = Item(before.start, item.end, before.word, before.blocks + item.blocks)
-        found.append(item)
-        position = item.end
-    return found
+    statements = (one for one in block.named_children if not one.type.startswith(NO_STATEMENT))
+    return [Item(one, _word(one), tuple(_blocks(one))) for one in statements]
 
 
-def _semicolon(code: str, start: int, end: int) -> int:
-    """The index behind the semicolon that ends the statement at `start`."""
-    depth = 0
-    for position in range(start, end):
-        depth += {"(": 1, "{": 1, "[": 1, ")": -1, "}": -1, "]": -1}.get(code[position], 0)
-        if depth == 0 and code[position] == ";":
-            return position + 1
-    return end
+def _word(node: Node) -> str:
+    return node.type.removesuffix("_statement") if node.type in COMPOUND else ""
 
 
-def _compound(code: str, start: int, end: int, word: str) -> Item | None:
-    """A statement with a block: up to its closing brace; None if it has no braces."""
-    brace = code.find("{", start, end)
-    if brace < 0:
-        return None
-    last = csource.closing(code, brace)
-    stop = _semicolon(code, last, end) if word == "do" else last
-    return Item(start, stop, word, ((brace + 1, last - 1),))
+def _blocks(node: Node) -> Iterator[Node]:
+    """The blocks of a statement, those of what else it does, too."""
+    if node.type == "compound_statement":
+        yield node
+    elif node.type in (*COMPOUND, "else_clause"):
+        for child in node.named_children:
+            yield from _blocks(child)
 
 
-def blocks(code: str, start: int, end: int) -> Iterator[list[Item]]:
+def blocks(block: Node) -> Iterator[list[Item]]:
     """The statements of a block, and of all blocks in it."""
-    own = items(code, start, end)
+    own = items(block)
     yield own
     for item in own:
         for inner in item.blocks:
-            yield from blocks(code, *inner)
+            yield from blocks(inner)
 
 
-def changes(text: str, code: str, body: tuple[int, int], around: Surroundings) -> Iterator[Change]:
+def changes(text: str, code: str, block: Node, around: Surroundings) -> Iterator[Change]:
     """All slips of thought in the body of a function."""
-    start, end = body
-    for own in blocks(code, start + 1, end - 1):
+    for own in blocks(block):
         yield from _order(text, code, own)
         yield from _branches(code, own)
         yield from _stale(code, own)
-    yield from _clauses(code, start, end)
-    yield from _members(code, start, end, around.structures)
-    yield from _indices(code, start, end)
-    yield from _arguments(code, start, end)
-    yield from _constants(code, start, end, around.families)
+    yield from _clauses(block)
+    yield from _members(block, around.structures)
+    yield from _indices(block)
+    yield from _arguments(code, block)
+    yield from _constants(block, around.families)
 
 
 def _order(text: str, code: str, own: list[Item]) -> Iterator[Change]:
@@ -205,65 +193,29 @@ def _branches(code: str, own: list[Item]) -> Iterator[Change]:
             continue
         yield Change("branch", item.start, item.end, ";")
         for inner in item.blocks[1:]:
-            if code[slice(*inner)].strip():
-                yield Change("branch", *inner, "")
+            if inner.named_children:
+                yield Change("branch", inner.start_byte + 1, inner.end_byte - 1, "")
 
 
 def _stale(code: str, own: list[Item]) -> Iterator[Change]:
     """A value that is computed, but not taken: what was there before is used on."""
     for item in own:
-        match = None if item.word else ASSIGNED.fullmatch(code, item.start, item.end)
-        if (
-            match
-            and "(" in match["right"]
-            and not re.match(r"(?:const\s+)?\w+\s+\**\w", match["left"])
-        ):
-            yield Change("stale", item.start, item.end, f"(void)({match['right']});")
+        one = item.node.named_children[0] if item.node.type == "expression_statement" else None
+        right = one.child_by_field_name("right") if one else None
+        if one and right and written(one.child_by_field_name("operator")) == "=":
+            value = code[right.start_byte : right.end_byte]
+            if "(" in value:
+                yield Change("stale", item.start, item.end, f"(void)({value});")
 
 
-def _clauses(code: str, start: int, end: int) -> Iterator[Change]:
+def _clauses(block: Node) -> Iterator[Change]:
     """One clause of a condition forgotten."""
-    for match in re.finditer(r"&&|\|\|", code[start:end]):
-        first, last = start + match.start(), start + match.end()
-        left, chained = _left_end(code, first, start)
-        if not chained:
-            yield Change("clause", left, last, " ")
-        yield Change("clause", first, _right_end(code, last, end), " ")
-
-
-def _left_end(code: str, position: int, start: int) -> tuple[int, bool]:
-    """Where the clause before an operator starts, and whether another operator precedes it."""
-    depth = 0
-    for place in range(position - 1, start, -1):
-        character = code[place]
-        depth += {")": 1, "]": 1, "(": -1, "[": -1}.get(character, 0)
-        if depth < 0 or (depth == 0 and character in ",;{}?:"):
-            return place + 1, False
-        if depth == 0 and code[place - 1 : place + 1] in ("&&", "||"):
-            return place + 1, True
-        if (
-            depth == 0
-            and character == "="
-            and code[place - 1] not in "=!<>"
-            and code[place + 1] != "="
-        ):
-            return place + 1, False
-        if depth == 0 and re.match(r"return\b", code[place : place + 7]):
-            return place + len("return"), False
-    return start + 1, False
-
-
-def _right_end(code: str, position: int, end: int) -> int:
-    """Where the clause behind an operator ends."""
-    depth = 0
-    for place in range(position, end):
-        character = code[place]
-        depth += {"(": 1, "[": 1, ")": -1, "]": -1}.get(character, 0)
-        if depth < 0 or (
-            depth == 0 and (character in ",;?:" or code[place : place + 2] in ("&&", "||"))
-        ):
-            return place
-    return end
+    for node in found(block, "binary_expression"):
+        left, operator, right = node.children
+        if operator.type in JUNCTIONS:
+            if written(left.child_by_field_name("operator")) not in JUNCTIONS:
+                yield Change("clause", left.start_byte, operator.end_byte, " ")
+            yield Change("clause", operator.start_byte, right.end_byte, " ")
 
 
 def _neighbours(names: list[str], name: str) -> list[str]:
@@ -273,48 +225,48 @@ def _neighbours(names: list[str], name: str) -> list[str]:
     return [other for other in dict.fromkeys(found) if other != name]
 
 
-def _members(code: str, start: int, end: int, structures: Structures) -> Iterator[Change]:
+def _members(block: Node, structures: Structures) -> Iterator[Change]:
     """Another field of the same type, of a structure that has the field."""
-    for match in MEMBER.finditer(code, start, end):
-        for fields in structures.values():
-            own = next((one for one in fields if one.name == match[1]), None)
+    for node in found(block, "field_identifier"):
+        name = written(node)
+        called = node.parent and node.parent.parent and node.parent.parent.type == "call_expression"
+        for fields in () if called else structures.values():
+            own = next((one for one in fields if one.name == name), None)
             if not own:
                 continue
             kind = (own.type, own.pointer, own.size)
             alike = [one.name for one in fields if (one.type, one.pointer, one.size) == kind]
             for other in _neighbours(alike, own.name):
-                yield Change("field", *match.span(1), other)
+                yield Change("field", *span(node), other)
 
 
-def _indices(code: str, start: int, end: int) -> Iterator[Change]:
+def _indices(block: Node) -> Iterator[Change]:
     """Another index: of another variable, the next one, the first one."""
-    used = list(dict.fromkeys(match[1] for match in INDEX.finditer(code, start, end)))
-    for match in INDEX.finditer(code, start, end):
-        others = [name for name in used if name != match[1] and not CONSTANT.match(name)]
-        for other in (*others, f"{match[1]} + 1u", "0u"):
-            yield Change("index", *match.span(1), other)
+    every = (one.child_by_field_name("index") for one in found(block, "subscript_expression"))
+    indices = [one for one in every if one and one.type == "identifier"]
+    used = list(dict.fromkeys(map(written, indices)))
+    for node in indices:
+        name = written(node)
+        others = [other for other in used if other != name and not CONSTANT.fullmatch(other)]
+        for other in (*others, f"{name} + 1u", "0u"):
+            yield Change("index", *span(node), other)
 
 
-def _arguments(code: str, start: int, end: int) -> Iterator[Change]:
+def _arguments(code: str, block: Node) -> Iterator[Change]:
     """Two arguments of a call exchanged."""
-    for match in CALL.finditer(code, start, end):
-        if match[1] in csource.NOT_A_FUNCTION:
-            continue
-        first = match.end()
-        last = declarations.closing(code, first - 1) - 1
-        given = declarations.split(code[first:last], ",")
+    for call in csource.calls(block, FUNCTION.pattern):
+        nodes = call.node.children[1].named_children
+        given = [" ".join(code[one.start_byte : one.end_byte].split()) for one in nodes]
         for place, (one, two) in enumerate(zip(given, given[1:], strict=False)):
             if one != two:
-                exchanged = [*given[:place], two, one, *given[place + 2 :]]
-                yield Change("arguments", first, last, ", ".join(exchanged))
+                exchanged = ", ".join([*given[:place], two, one, *given[place + 2 :]])
+                yield Change("arguments", nodes[0].start_byte, nodes[-1].end_byte, exchanged)
 
 
-def _constants(
-    code: str, start: int, end: int, families: tuple[tuple[str, ...], ...]
-) -> Iterator[Change]:
+def _constants(block: Node, families: tuple[tuple[str, ...], ...]) -> Iterator[Change]:
     """Another constant of the same family."""
-    for match in CONSTANT.finditer(code, start, end):
+    for node in found(block, "identifier"):
         for family in families:
-            if match.group() in family:
-                for other in _neighbours(list(family), match.group()):
-                    yield Change("family", *match.span(), other)
+            if written(node) in family:
+                for other in _neighbours(list(family), written(node)):
+                    yield Change("family", *span(node), other)

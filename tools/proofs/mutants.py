@@ -17,37 +17,33 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import csource, mutant_slips
+from . import csource, declarations, mutant_slips
 from .mutant_slips import Change, Surroundings
+from .syntax import Node, found, span, within, written
 
-RELATIONS = {
+Others = dict[str, tuple[str, ...]]
+
+RELATIONS: Others = {
     "<": ("<=", ">="), "<=": ("<", ">"), ">": (">=", "<="), ">=": (">", "<"),
     "==": ("!=",), "!=": ("==",),
 }  # fmt: skip
-ARITHMETIC = {
+ARITHMETIC: Others = {
     "+": ("-",), "-": ("+",), "*": ("/",), "/": ("*",), "%": ("/",), "<<": (">>",), ">>": ("<<",),
     "++": ("--",), "--": ("++",), "+=": ("-=",), "-=": ("+=",), "*=": ("/=",), "/=": ("*=",),
 }  # fmt: skip
-LOGIC = {"&&": ("||",), "||": ("&&",), "&": ("|",), "|": ("&",)}
+LOGIC: Others = {"&&": ("||",), "||": ("&&",), "&": ("|",), "|": ("&",)}
+KINDS = {"relation": RELATIONS, "logic": LOGIC, "arithmetic": ARITHMETIC}
+# Other results, by type.
+OTHERS = {"bool": ["true", "false"], "keel_status_t": ["KEEL_OK", "KEEL_ERR_STATE"]}
 
-TOKEN = re.compile(
-    r"(?P<name>[A-Za-z_]\w*)|(?P<number>0[xX][0-9A-Fa-f]+|\d+)(?P<suffix>[uUlL]*)(?![\w.])"
-    r"|(?P<sign>->|\+\+|--|<<=|>>=|[-+*/%&|^<>=!]=|<<|>>|&&|\|\||[-+*/%&|<>!?:;,=(){}\[\]~.^])"
-)
+
+NUMBER = re.compile(r"(0[xX][0-9A-Fa-f]+|\d+)([uUlL]*)")
 CONSTANT = re.compile(r"[A-Z][A-Z0-9_]{2,}$")
 NO_CONSTANT = re.compile(r"NULL$|KEEL_OK$|KEEL_ERR_")
-CONDITION = re.compile(r"\b(if|while)\s*\(|\bfor\s*\([^;]*;")
+SIGNS = ("binary_expression", "assignment_expression", "update_expression")
+PARENTHESIZED = ("if_statement", "while_statement", "do_statement")
+CONDITIONAL = (*PARENTHESIZED, "for_statement", "conditional_expression")
 RELATION = re.compile(r"[=!<>]=|(?<![-<])[<>](?![<>])")
-RETURN = re.compile(r"\breturn\b\s*([^;]*);")
-STATEMENT = re.compile(
-    r"(?<=[;{}])(?P<space>\s*)(?P<text>[A-Za-z_*(][^;{}]*?(?:[^=!<>]=[^=]|\+\+|--|\))[^;{}]*);"
-)
-NO_STATEMENT = re.compile(
-    r"(return|if|for|while|do|switch|case|default|else|break|continue|const|static)\b"
-)
-DECLARATION = re.compile(
-    r"[A-Za-z_]\w*(?:\s+|\s*\*\s*(?:const\s+)?)[A-Za-z_]\w*(?:\[[^]]*\])?\s*(?:=|$)"
-)
 
 
 # Nothing but the file itself is known.
@@ -97,16 +93,17 @@ def mutants(file: Path, around: Surroundings = ALONE) -> list[Mutant]:
 
 def generate(file: Path, around: Surroundings = ALONE) -> Generated:
     """The same, without those that say the same as another or as the original."""
-    text = file.read_text(encoding="utf-8")
+    text = csource.read(file)
     code = csource.code_only(text)
+    results = declarations.signatures(text)
     made = Generated([])
     texts = {_plain(code)}
     seen: Counter[tuple[str, str, str]] = Counter()
     for function in csource.defined(text):
         assert function.body
-        head = code[: function.body[0]].rpartition(f"{function.name}")[0]
-        changes = set(_changes(code, *function.body, _result_type(head)))
-        changes |= set(mutant_slips.changes(text, code, function.body, around))
+        block = csource.block(text, function.body)
+        changes = set(_changes(code, block, results[function.name].result))
+        changes |= set(mutant_slips.changes(text, code, block, around))
         for change in sorted(changes, key=lambda c: (c.start, c.end, c.kind, c.replacement)):
             replacement = csource.without_comments(change.replacement)
             changed = _plain(code[: change.start] + replacement + code[change.end :])
@@ -131,12 +128,6 @@ def _plain(code: str) -> int:
     return hash("".join(code.split()))
 
 
-def _result_type(head: str) -> str:
-    """The type before a function's name."""
-    words = re.split(r"[;}]", head)[-1].replace("*", " * ").split()
-    return " ".join(word for word in words if word not in ("static", "inline", "const", "extern"))
-
-
 def _lines(text: str, change: Change) -> tuple[str, str]:
     """The lines of a change before and after it, on one line each, comments aside."""
     first = text.rfind("\n", 0, change.start) + 1
@@ -151,119 +142,68 @@ def _one_line(text: str) -> str:
     return " ".join(csource.essence(text).split())
 
 
-def _changes(code: str, start: int, end: int, result: str) -> Iterator[Change]:
-    yield from _token_changes(code, start, end)
-    yield from _conditions(code, start, end)
-    yield from _returns(code, start, end, result)
-    yield from _deletions(code, start, end)
+def _changes(code: str, block: Node, result: str) -> Iterator[Change]:
+    yield from _token_changes(block)
+    yield from _conditions(code, block)
+    yield from _returns(code, block, result)
+    yield from _deletions(block)
 
 
-def _token_changes(code: str, start: int, end: int) -> Iterator[Change]:
+def _token_changes(block: Node) -> Iterator[Change]:
     """Operators and constants."""
-    before = ""
-    for match in TOKEN.finditer(code, start, end):
-        token = match.group()
-        if match["number"]:
-            yield from _number_changes(match)
-        elif match["name"] and CONSTANT.match(token) and not NO_CONSTANT.match(token):
+    for node in within(block):
+        token = written(node)
+        around = node.parent.type if node.parent else ""
+        if node.type == "number_literal":
+            yield from _number_changes(node)
+        elif node.type == "identifier" and CONSTANT.match(token) and not NO_CONSTANT.match(token):
             for operator in "+-":
-                yield Change("constant", *match.span(), f"({token} {operator} 1u)")
-        elif match["sign"]:
-            yield from _sign_changes(match, before)
-        before = token
+                yield Change("constant", *span(node), f"({token} {operator} 1u)")
+        elif node.type == "!" and around == "unary_expression":
+            yield Change("negation", *span(node), "")
+        elif around in SIGNS:
+            for kind, signs in KINDS.items():
+                for other in signs.get(node.type, ()):
+                    yield Change(kind, *span(node), other)
 
 
-def _number_changes(match: re.Match[str]) -> Iterator[Change]:
-    value = int(match["number"], 0)
-    for other in sorted({value + 1, max(value - 1, 0), 0} - {value}):
-        yield Change("constant", *match.span(), f"{other}{match['suffix']}")
+def _number_changes(node: Node) -> Iterator[Change]:
+    match = NUMBER.fullmatch(written(node))
+    value = int(match[1], 0) if match else 0
+    for other in sorted({value + 1, max(value - 1, 0), 0} - {value}) if match else ():
+        yield Change("constant", *span(node), f"{other}{match[2] if match else ''}")
 
 
-def _sign_changes(match: re.Match[str], before: str) -> Iterator[Change]:
-    token = match["sign"]
-    binary = bool(re.match(r"[\w)\]]", before[-1:])) and before not in ("return", "sizeof")
-    if token in RELATIONS:
-        for other in RELATIONS[token]:
-            yield Change("relation", *match.span(), other)
-    elif token in LOGIC and binary:
-        for other in LOGIC[token]:
-            yield Change("logic", *match.span(), other)
-    elif token in ARITHMETIC and (binary or len(token) > 1):
-        for other in ARITHMETIC[token]:
-            yield Change("arithmetic", *match.span(), other)
-    elif token == "!":
-        yield Change("negation", *match.span(), "")
-
-
-def _closing_parenthesis(code: str, start: int) -> int:
-    depth = 0
-    for match in re.finditer(r"[()]", code[start:]):
-        depth += 1 if match.group() == "(" else -1
-        if depth == 0:
-            return start + match.start()
-    return len(code)
-
-
-def _conditions(code: str, start: int, end: int) -> Iterator[Change]:
+def _conditions(code: str, block: Node) -> Iterator[Change]:
     """Conditions of branches, loops and choices, negated.
 
     Where that is what another relation does, the relations do it already.
     """
-    for first, last in _condition_places(code, start, end):
-        condition = code[first:last].strip()
-        if condition and not (RELATION.search(condition) and not re.search(r"&&|\|\|", condition)):
-            yield Change("condition", first, last, f"!({condition})")
+    for node in found(block, *CONDITIONAL):
+        condition = node.child_by_field_name("condition")
+        if condition and node.type in PARENTHESIZED:
+            condition = condition.named_children[0]
+        text = code[slice(*span(condition))] if condition else ""
+        if condition and not (RELATION.search(text) and not re.search(r"&&|\|\|", text)):
+            yield Change("condition", *span(condition), f"!({text})")
 
 
-def _condition_places(code: str, start: int, end: int) -> Iterator[tuple[int, int]]:
-    for match in CONDITION.finditer(code, start, end):
-        if match[1]:
-            yield match.end(), _closing_parenthesis(code, match.end() - 1)
-        else:
-            yield match.end(), code.index(";", match.end())
-    for match in re.finditer(r"\?", code[start:end]):
-        last = start + match.start()
-        yield _start_of_operand(code, last), last
-
-
-def _start_of_operand(code: str, end: int) -> int:
-    """Where the expression that ends before a question mark starts."""
-    depth = 0
-    for position in range(end - 1, -1, -1):
-        character = code[position]
-        depth += {")": 1, "(": -1}.get(character, 0)
-        if depth < 0 or (depth == 0 and character in "=,;{}:?"):
-            return position + 1
-        if depth == 0 and code.startswith("return", position):
-            return position + len("return ")
-    return 0
-
-
-def _returns(code: str, start: int, end: int, result: str) -> Iterator[Change]:
+def _returns(code: str, block: Node, result: str) -> Iterator[Change]:
     """Other results of the same type."""
-    for match in RETURN.finditer(code, start, end):
-        value = match[1].strip()
-        if result.endswith("*"):
-            others = ["NULL"]
-        elif result == "bool":
-            others = ["true", "false"]
-        elif result == "keel_status_t":
-            others = ["KEEL_OK", "KEEL_ERR_STATE"]
-        elif result == "void" or not value:
-            others = []
-        else:
-            others = ["0u", f"({value}) + 1u"]
-        for other in others:
-            if other != value:
-                yield Change("result", *match.span(1), other)
+    for node in found(block, "return_statement"):
+        for value in node.named_children:
+            text = code[slice(*span(value))]
+            if result.endswith("*"):
+                others = ["NULL"]
+            else:
+                others = OTHERS.get(result, ["0u", f"({text}) + 1u"])
+            for other in others:
+                if other != text:
+                    yield Change("result", *span(value), other)
 
 
-def _deletions(code: str, start: int, end: int) -> Iterator[Change]:
+def _deletions(block: Node) -> Iterator[Change]:
     """Statements left out: assignments, increments, calls."""
-    for match in STATEMENT.finditer(code, start, end):
-        text = match["text"]
-        if NO_STATEMENT.match(text) or DECLARATION.match(text):
-            continue
-        if code.count("(", start, match.start()) != code.count(")", start, match.start()):
-            continue  # between the parentheses of a for
-        yield Change("deletion", match.start("text"), match.end("text"), "")
+    for node in found(block, "expression_statement"):
+        for one in node.named_children:
+            yield Change("deletion", *span(one), "")

@@ -162,5 +162,5 @@ def closure(root: Path, files: list[Path]) -> list[Path]:
         path = waiting.pop()
         if path not in seen:
             seen.add(path)
-            waiting += [resolve(root, path, name) for name in csource.includes(path.read_text())]
+            waiting += [resolve(root, path, name) for name in csource.includes(csource.read(path))]
     return sorted(seen)

@@ -16,7 +16,7 @@ def assumptions_in(files: Iterable[Path], root: Path) -> list[str]:
     """Annotations that take something for granted, and code that tells provers apart."""
     problems = []
     for path in dict.fromkeys(files):
-        text = path.read_text(encoding="utf-8")
+        text = csource.read(path)
         for line, word in csource.forbidden(text):
             place = f"{path.relative_to(root)}:{line}"
             problems.append(
@@ -33,7 +33,7 @@ def endless_ghosts(files: Iterable[Path]) -> list[str]:
     """Ghost functions that lead back to themselves: each would rest on its own contract."""
     bodies: dict[str, str] = {}
     for path in dict.fromkeys(files):
-        bodies |= csource.ghosts(path.read_text(encoding="utf-8"))
+        bodies |= csource.ghosts(csource.read(path))
     called = {name: {other for other in bodies if csource.calls(body, other)}
               for name, body in bodies.items()}  # fmt: skip
     problems = []
@@ -62,7 +62,7 @@ def switched_off_checks(files: Iterable[Path], root: Path) -> list[str]:
 
 def undefined_functions(unit: Unit, excepted: Mapping[str, str], root: Path) -> list[str]:
     """Functions whose contract is stated but whose body nobody proves."""
-    own = [(path, path.read_text(encoding="utf-8")) for path in unit.own_files]
+    own = [(path, csource.read(path)) for path in unit.own_files]
     bodies = {function.name for _, text in own for function in csource.defined(text)}
     problems = []
     for path, text in own:
@@ -80,7 +80,7 @@ def missing_harnesses(unit: Unit, excepted: Mapping[str, str], root: Path) -> li
     proved = {read_harness(unit, path).function for path in unit.harnesses}
     problems = []
     names = set()
-    for function in csource.functions(unit.header.read_text(encoding="utf-8")):
+    for function in csource.functions(csource.read(unit.header)):
         names.add(function.name)
         if function.name not in proved and function.name not in excepted:
             wanted = unit.folder / f"{function.name}_harness.c"
@@ -97,7 +97,7 @@ def left_by_wp(unit: Unit, excepted: Mapping[str, str], root: Path) -> list[str]
     names = {
         function.name
         for path in (*unit.own_files, *unit.theorems)
-        for function in csource.defined(path.read_text(encoding="utf-8"))
+        for function in csource.defined(csource.read(path))
     }
     covered = {name for path in unit.harnesses for name in read_harness(unit, path).covers}
     problems = []

@@ -274,7 +274,7 @@ class Session:
             function.name
             for unit in (*everything.values(), *find_units().values())
             for path in (*unit.own_files, *unit.theorems)
-            for function in csource.proved(path.read_text(encoding="utf-8"))
+            for function in csource.proved(csource.read(path))
         )
         stages = wp.QUICK if choice.quick else wp.THOROUGH
         place = (self._root, stamp)

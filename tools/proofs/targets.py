@@ -87,7 +87,7 @@ def targets(unit: Unit) -> Iterator[Target]:
 
 
 def _targets_of(unit: Unit, main: Path, files: Sequence[Path]) -> Iterator[Target]:
-    texts = [path.read_text(encoding="utf-8") for path in files]
+    texts = [csource.read(path) for path in files]
     for text in texts:
         for function in csource.proved(text):
             yield Target(unit, main, function.name)
@@ -100,6 +100,6 @@ def dependencies(target: Target, root: Path) -> dict[str, str]:
     """The text that a target's verdict depends on, file by file."""
     keep = frozenset([target.function] if target.function else [])
     return {
-        shown(path, root): csource.without_other_bodies(path.read_text(), keep)
+        shown(path, root): csource.without_other_bodies(csource.read(path), keep)
         for path in closure(root, [target.file, *target.unit.own_files])
     }

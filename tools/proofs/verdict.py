@@ -112,7 +112,7 @@ def loop_problems(target: Target, log: wplog.Log) -> list[str]:
     if not target.function:
         return []
     for path in (target.file, *target.unit.own_files):
-        text = csource.with_ghosts(path.read_text(encoding="utf-8"))
+        text = csource.with_ghosts(csource.read(path))
         body = csource.body_of(text, target.function)
         if body:
             loops = csource.loops(body)
@@ -132,7 +132,7 @@ def place_of(target: Target, goal: str, root: Path) -> str:
     files = [*dict.fromkeys([*target.unit.own_files, target.file])]
     fallback = ""
     for path in files:
-        text = path.read_text(encoding="utf-8")
+        text = csource.read(path)
         for first, last, line in _regions(text, target.function):
             fallback = f"{shown(path, root)}:{line}"
             for number, clause in enumerate(text.splitlines()[first:last], first + 1):
