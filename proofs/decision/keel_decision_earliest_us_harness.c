@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 34 --no-array-field-sensitivity
+// cbmc: --unwind 34
 // sources: src/rtos/decision.c src/rtos/priority.c specs/model/decision.c specs/model/priority.c
 // covers: keel_decision_earliest_us model_decision_earliest_us
 // defines: -DKEEL_QUEUE_CAPACITY=8u

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 34 --no-array-field-sensitivity
+// cbmc: --unwind 34
 // sources: src/rtos/decision.c src/rtos/priority.c specs/model/decision.c
 // replaces: keel_priority_promotion_age_us
 // covers: keel_decision_event_us model_decision_event_us

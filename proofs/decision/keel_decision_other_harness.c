@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 34 --no-array-field-sensitivity
+// cbmc: --unwind 34
 // sources: src/rtos/decision.c src/rtos/priority.c specs/model/decision.c
 // replaces: keel_priority_dynamic
 // covers: keel_decision_other priority_of fits model_decision_other

@@ -309,6 +309,13 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
     /*@ assert others: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==>
       @     k != scheduler->running ==> left_alone{Pre, Here}(scheduler, k);
       @*/
+    /*@ assert time: scheduler->clock.now_us == \at(scheduler->clock.now_us, Pre) &&
+      @     scheduler->busy_us == \at(scheduler->busy_us, Pre);
+      @*/
+    /*@ assert uncounted: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==>
+      @     k != scheduler->running ==> scheduler->queue.skipped[scheduler->queue.order[k]] ==
+      @         \at(scheduler->queue.skipped[scheduler->queue.order[k]], Pre);
+      @*/
     return task;
 }
 
