@@ -18,23 +18,23 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from proofs import csource
+from proofs.syntax import written
 
 EXCEPTION = re.compile(r"^- (\w+) (keel_\w+), (?:KEEL_ERR_\w+|any): ", re.MULTILINE)
+STATUS = "keel_status_t"
 KEPT = re.compile(r"assigns \\nothing|\b[A-Z]{3,4}_\d{3}_(?:kept|unchanged)\b")
-FALLIBLE = re.compile(r"\bkeel_status_t\s+$")
 
 
 def fallible(root: Path) -> Iterator[tuple[str, str]]:
     """Every function of Keel's headers that returns a status, with its contract."""
     for path in sorted((root / "include").glob("keel/**/*.h")):
-        text = path.read_text(encoding="utf-8")
-        code = csource.code_only(text)
-        for match in re.finditer(r"\b(keel_\w+)\s*\(", code):
-            if FALLIBLE.search(code[: match.start()]):
-                comments = [*csource.TOKEN.finditer(text, 0, match.start())]
-                contract = next((c.group() for c in reversed(comments)
-                                 if c.group().startswith("/*@")), "")  # fmt: skip
-                yield match[1], contract
+        text = csource.read(path)
+        for node, declarator in csource.at_file_level(text):
+            name = written(declarator.children[0])
+            if name.startswith("keel_") and written(node.child_by_field_name("type")) == STATUS:
+                comments = csource.comments(text[: node.start_byte])
+                contracts = [comment for comment in comments if comment.startswith("/*@")]
+                yield name, contracts[-1] if contracts else ""
 
 
 def evidence(root: Path, function: str, contract: str) -> str:

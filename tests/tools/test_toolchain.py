@@ -43,6 +43,9 @@ def quiet(line: str) -> None:
     del line
 
 
+OUTSIDE = dict(os.environ)
+
+
 class Sandbox(unittest.TestCase):
     """A PATH of scripts, a cache and a lock file of the test's own."""
 
@@ -478,13 +481,15 @@ class Verdicts(Sandbox):
                 stream.write("# A comment.\n")
         script = "from proofs.session import own_digest; print(own_digest())"
         command = [sys.executable, "-c", script]
-        return subprocess.check_output(command, cwd=tools, text=True)
+        return subprocess.check_output(command, cwd=tools, text=True, env=OUTSIDE)
 
     def test_the_way_provers_are_started_counts_and_the_installer_does_not(self) -> None:
         before = self.digest()
         for file in ("toolchain/apt.py", "toolchain/tools.py", "toolchain.py"):
             self.assertEqual(self.digest(file), before, file)
-        self.assertNotEqual(self.digest("toolchain/provers.py"), before)
+        started = self.digest("toolchain/provers.py")
+        self.assertNotEqual(started, before)
+        self.assertNotEqual(self.digest("proofs/requirements.txt"), started)
 
 
 class TheLockFile(Sandbox):

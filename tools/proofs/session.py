@@ -95,7 +95,9 @@ JUDGES = {
 def own_digest(folder: Path = OWN) -> str:
     """SHA-256 over the driver's source: another driver may judge differently. How the provers are
     installed does not matter, how they are started does."""
-    own = [*folder.glob("*.py"), *folder.glob("*.ml"), folder.parent / "toolchain/provers.py"]
+    # The parser of C is pinned there: another one may see other functions.
+    others = (folder / "requirements.txt", folder.parent / "toolchain/provers.py")
+    own = [*folder.glob("*.py"), *folder.glob("*.ml"), *others]
     return _digest_of(path for path in sorted(own) if not path.stem.startswith(NO_JUDGES))
 
 
