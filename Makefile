@@ -121,7 +121,7 @@ status: python ## write what the last run of 'make prove' proved into docs/statu
 	@python3 tools/status.py
 
 .PHONY: test-target
-test-target: python ## the unit tests, faults, demo and host's results on an emulated Cortex-M7
+test-target: python ## the unit tests, faults, demo and model's results on an emulated Cortex-M7
 	@python3 tools/emulated_tests.py $(ARGS)
 
 firmware: python ## build a board's image (BOARD=mps2_an500; ARGS='--app FOLDER': another main)

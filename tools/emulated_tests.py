@@ -14,7 +14,8 @@ Suites, each one image or more of the board mps2_an500, built as its firmware is
                          time: each task has run once for each of its periods, in time; the
                          inertial unit that froze is latched, and hardly moved the voted values
     differential/<unit>  tests/target/differential.c: 10^5 random vectors of each unit give the same
-                         bits in the host's build and in the target's
+                         bits on the target as the executable specification (specs/model) does,
+                         built for the host
 
 The emulator counts instructions, four nanoseconds each, so that every run is the same. A program
 that hangs is killed and counts as failed. Each image tells how deep its stack was: the painted
@@ -35,7 +36,7 @@ from boards.elf import read_contents
 from common.arguments import Parser
 from common.build import Build
 from common.errors import ROOT, ToolError, program
-from common.files import sha256_of
+from common.files import read_text, sha256_of
 from common.run import Ended, run
 from firmware import Image, examine
 from suites import running
@@ -150,7 +151,7 @@ def demo_suite(board: EmulatedBoard, name: str) -> Outcome:
     return outcome
 
 
-# --- The same results as on the host -------------------------------------------------------------
+# --- The same results as the executable specification --------------------------------------------
 
 DRIVER = "tests/target/differential.c"
 UNITS = ("queue", "priority", "voter", "filter", "pid")
@@ -158,6 +159,8 @@ VECTORS = 100_000  # of each unit
 BLOCKS = 50
 HOST_FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-Iinclude", "-Ibsp")
 HOST_SOURCES = ("tests/target/host_console.c", "bsp/console.c")
+MODELS = "specs/model"
+CALL = re.compile(rf"\bkeel_((?:{'|'.join(UNITS)})_\w+)\(")
 BLOCK = re.compile(r"^(\w+) block (\d+) (0x\w+)$", re.MULTILINE)
 VECTOR = re.compile(r"^\w+ vector (\d+) (0x\w+)$", re.MULTILINE)
 
@@ -167,21 +170,25 @@ def digests(output: str) -> dict[tuple[str, int], str]:
     return {(unit, int(block)): text for unit, block, text in BLOCK.findall(output)}
 
 
-def first_difference(host: Mapping[tuple[str, int], str], target: Mapping[tuple[str, int], str],
+def first_difference(model: Mapping[tuple[str, int], str], target: Mapping[tuple[str, int], str],
                      unit: str) -> int | None:  # fmt: skip
     """The first block of a unit in which the two differ; one that is missing differs."""
     for block in range(BLOCKS):
-        ours = host.get((unit, block))
+        ours = model.get((unit, block))
         if ours is None or ours != target.get((unit, block)):
             return block
     return None
 
 
-def run_host(board: EmulatedBoard, defines: Sequence[str] = ()) -> str:
-    """What the driver prints on this host."""
+def run_model(board: EmulatedBoard, defines: Sequence[str] = ()) -> str:
+    """What the driver prints on this host when it calls the model of each function instead: the
+    kernel itself is not linked."""
     folder = board.root / BUILD / "host"
     build = Build(board.tools, "gcc", [*HOST_FLAGS, *defines], folder, board.root)
-    ended = run([build.program("differential", ["src", DRIVER, *HOST_SOURCES])], LONG_TIMEOUT_S)
+    called = sorted(set(CALL.findall(read_text(board.root / DRIVER))))
+    driver = build.object(DRIVER, [f"-Dkeel_{name}=model_{name}" for name in called])
+    program = build.link("differential", [*build.objects([MODELS, *HOST_SOURCES]), driver], ["-lm"])
+    ended = run([program], LONG_TIMEOUT_S)
     if not ended.good:
         raise ToolError(f"the host's build of {DRIVER}: {ended.how}")
     return ended.output
@@ -197,22 +204,22 @@ def run_target(board: EmulatedBoard, defines: Sequence[str] = ()) -> Ended:
 def differing_vector(board: EmulatedBoard, unit: str, block: int) -> str:
     """The first vector of a block on which the two differ, with both digests."""
     defines = [f"-DDETAIL_UNIT={UNITS.index(unit)}u", f"-DDETAIL_BLOCK={block}u"]
-    host = VECTOR.findall(run_host(board, defines))
+    model = VECTOR.findall(run_model(board, defines))
     target = VECTOR.findall(run_target(board, defines).output)
-    for ours, theirs in zip(host, target, strict=False):
+    for ours, theirs in zip(model, target, strict=False):
         if ours != theirs:
-            return f"vector {ours[0]}: the host has {ours[1]}, the target {theirs[1]}"
-    return f"block {block}: the target printed {len(target)} vectors, the host {len(host)}"
+            return f"vector {ours[0]}: the model has {ours[1]}, the target {theirs[1]}"
+    return f"block {block}: the target printed {len(target)} vectors, the model {len(model)}"
 
 
 def differential_suite(board: EmulatedBoard, name: str) -> Outcome:
     """All units, each a test of its own."""
-    host = digests(run_host(board))
+    model = digests(run_model(board))
     ended = run_target(board)
     target = digests(ended.output)
     outcome = Outcome()
     for unit in UNITS:
-        block = first_difference(host, target, unit)
+        block = first_difference(model, target, unit)
         what = "" if block is None else differing_vector(board, unit, block)
         outcome.add(f"{name}/{unit}", f"{name}/{unit}: {what}" if what else "")
     counted = f"all vectors {len(UNITS) * VECTORS} " in ended.output

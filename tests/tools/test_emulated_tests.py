@@ -8,6 +8,7 @@ program which hangs or computes something else is a failure.
 
 from __future__ import annotations
 
+import shutil
 import sys
 import unittest
 from pathlib import Path
@@ -235,10 +236,26 @@ class Emulated(unittest.TestCase):
     def test_the_first_vector_that_differs_is_named(self) -> None:
         with mock.patch.object(emulated_tests, "DRIVER", self.changed_driver()):
             defines = ["-DDETAIL_UNIT=1u", "-DDETAIL_BLOCK=0u"]
-            host = emulated_tests.run_host(self.board, defines)
-        with mock.patch.object(emulated_tests, "run_host", lambda *_: host):
+            model = emulated_tests.run_model(self.board, defines)
+        with mock.patch.object(emulated_tests, "run_model", lambda *_: model):
             told = emulated_tests.differing_vector(self.board, "priority", 0)
-        self.assertRegex(told, r"^vector 1234: the host has 0x\w+, the target 0x\w+$")
+        self.assertRegex(told, r"^vector 1234: the model has 0x\w+, the target 0x\w+$")
+
+    def test_what_is_compared_with_is_the_model(self) -> None:
+        folder = ROOT / BUILD / "tool_model"
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.copytree(ROOT / emulated_tests.MODELS, folder)
+        priority = folder / "priority.c"
+        text = priority.read_text()
+        old = "    return (saturation_us(period_us) + (sp - 1u)) / sp;\n"
+        self.assertEqual(text.count(old), 1)
+        priority.write_text(text.replace(old, "    return saturation_us(period_us) / sp;\n"))
+        model = emulated_tests.digests(emulated_tests.run_model(self.board))
+        with mock.patch.object(emulated_tests, "MODELS", folder.relative_to(ROOT).as_posix()):
+            wrong = emulated_tests.digests(emulated_tests.run_model(self.board))
+        found = {unit: emulated_tests.first_difference(model, wrong, unit)
+                 for unit in emulated_tests.UNITS}  # fmt: skip
+        self.assertEqual(found, {**dict.fromkeys(emulated_tests.UNITS), "priority": 0})
 
     def changed_driver(self) -> str:
         """The driver with one vector of the unit priority changed."""
