@@ -147,8 +147,8 @@ class Static(unittest.TestCase):
         (self.build / "eva/report.json").unlink()
         (self.build / "lint/report.json").write_text('{"findings": [')
         shown = [problem.partition(": ")[0] for problem in self.make().problems]
-        self.assertEqual(shown, [f"build/{name}.json" for name in
-                                 ("lint/report", "eva/report", "stack/fmuv5", "bench/report")])  # fmt: skip
+        names = ("lint/report", "eva/report", "stack/fmuv5", "bench/report")
+        self.assertEqual(shown, [f"build/{name}.json" for name in names])
 
 
 if __name__ == "__main__":

@@ -19,7 +19,9 @@ INDEX = re.compile(r"\[[^][]*\]")
 FIELD = re.compile(r"(\[\.\.\]|\))(?:\.\w+)+")
 MACRO = re.compile(r"\b([A-Z][A-Z_]+)\(")
 DEFINITION = re.compile(r"^#define (\w+)\([^)]*\)(?:[^\n]*\\\n)*[^\n]*", re.MULTILINE)
-NO_CONTRACT = re.compile(r"/\*@\s*(?:ghost|loop|for|predicate|logic|lemma|assert|inductive|calls)\b")
+NO_CONTRACT = re.compile(
+    r"/\*@\s*(?:ghost|loop|for|predicate|logic|lemma|assert|inductive|calls)\b"
+)
 # It stands for the scheduler that runs, and exists as a ghost only.
 GHOST = "running_scheduler"
 PUBLIC = re.compile(

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How each tool is asked about a text: as the commands of the project ask it.
+
+A trial gives what the tool complains about, piece by piece; nothing if it finds all well.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+from boards.call_graph import Graph, StackError, parse
+from boards.stack_bounds import Bounds
+from common.build import BuildError
+from common.errors import ToolError
+from common.files import read_text
+from common.run import output_of, run
+from interpretation.analysis import Eva
+from proofs.cbmc import CHECKS as CBMC_CHECKS
+from suites.emulated import EmulatedBoard
+from toolchain import MACHDEP_FILE, TARGET_FLAGS, Toolchain
+
+Trial = Callable[[Toolchain, Path, str], list[str]]  # The tools, the text's file, the option.
+
+GOAL = re.compile(r"Goal (\S+) : (?!Valid|Trivial)", re.MULTILINE)
+PROVED = re.compile(r"Proved goals: +\d+ */ *\d+")
+FAILED = re.compile(r"^\[([\w.]+)\] .*: FAILURE$", re.MULTILINE)
+SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+PROVER_SECONDS = "10"
+UNWIND = "6"
+
+
+def wp(tools: Toolchain, file: Path, prover: str) -> list[str]:
+    """The goals that WP does not prove with a prover."""
+    tools.ensure("prove", say=lambda _: None)  # Another clone may have made why3's file anew.
+    command = tools.frama_c()
+    script = file.with_name(MACHDEP_FILE.name)  # Frama-C compiles it beside its source.
+    shutil.copyfile(MACHDEP_FILE, script)
+    command[command.index(str(MACHDEP_FILE))] = str(script)
+    words = ["-wp", "-wp-rte", "-wp-cache", "none", "-wp-prover", prover, "-wp-timeout",
+             PROVER_SECONDS, "-wp-status-all", file.name]  # fmt: skip
+    environment = {**tools.environment(), "PWD": str(file.parent), "LC_ALL": "C"}
+    said = output_of([*command, *words], cwd=file.parent, environment=environment)
+    if not PROVED.search(said):
+        raise ToolError(f"frama-c: no verdict:\n{said.strip()}")
+    return GOAL.findall(said)
+
+
+def eva(tools: Toolchain, file: Path, option: str) -> list[str]:
+    """The alarms, and the contracts that do not name what is written."""
+    found = Eva(tools, file.parent).analyse([file.name], ["."], ["main"])["main"]
+    writes = [f"assigns of {one.function}: {one.status}" for one in found.properties
+              if one.kind == "assigns clause" and one.status == "Unknown"]  # fmt: skip
+    return [*(one.kind for one in found.alarms), *writes]
+
+
+def cbmc(tools: Toolchain, file: Path, solver: str) -> list[str]:
+    """The properties that fail."""
+    binary = file.with_suffix(".gb")
+    output_of([*tools.goto_cc(), file, "--function", "harness", "-o", binary])
+    words = [*CBMC_CHECKS, "--unwind", UNWIND]
+    words += ["--external-sat-solver", *tools.command(solver)] if solver else []
+    done = run([*tools.command("cbmc"), *words, binary], environment=tools.environment())
+    if "VERIFICATION SUCCESSFUL" not in done.output and "VERIFICATION FAILED" not in done.output:
+        raise ToolError(f"cbmc: no verdict:\n{done.output.strip()}")
+    return FAILED.findall(done.output)
+
+
+def gappa(tools: Toolchain, file: Path, option: str) -> list[str]:
+    """What Gappa does not prove."""
+    done = run([*tools.command("gappa"), file])
+    return done.output.splitlines() if not done.good else []
+
+
+def cppcheck(tools: Toolchain, file: Path, option: str) -> list[str]:
+    """The checks that find something."""
+    report = file.with_suffix(".sarif")
+    words = ["--addon=misra", "--quiet", "--std=c99", "--enable=warning,style",
+             "--check-level=exhaustive", "--output-format=sarif", f"--output-file={report}"]  # fmt: skip
+    output_of([*tools.command("cppcheck"), *words, file])
+    results = json.loads(read_text(report))["runs"][0]["results"]
+    return [result["ruleId"] for result in results]
+
+
+def stack(tools: Toolchain, file: Path, option: str) -> list[str]:
+    """Why the stack of `left` has no bound."""
+    words = ["-std=c99", "-O2", *TARGET_FLAGS, "-fcallgraph-info=su,da", "-c", file.name]
+    output_of([*tools.command("arm-none-eabi-gcc"), *words], cwd=file.parent)
+    graph: Graph = {}
+    try:
+        parse(read_text(file.with_suffix(".ci")), graph, file.name)
+        Bounds(graph).of("left")
+    except StackError as error:
+        return [str(error)]
+    return []
+
+
+def sanitizers(tools: Toolchain, file: Path, option: str) -> list[str]:
+    """What the sanitizers say while the program runs."""
+    program = file.with_suffix("")
+    output_of([*tools.command("gcc"), "-std=c99", "-O1", *SANITIZERS, file, "-o", program])
+    done = run([program])
+    return [] if done.good else [done.evidence]
+
+
+def coverage(tools: Toolchain, file: Path, option: str) -> list[str]:
+    """The lines with a branch that the program does not take."""
+    program, raw, data = (file.with_suffix(end) for end in ("", ".profraw", ".profdata"))
+    flags = ["-fprofile-instr-generate", "-fcoverage-mapping"]
+    output_of([*tools.command("clang-19"), *flags, file, "-o", program])
+    run([program], environment={**os.environ, "LLVM_PROFILE_FILE": str(raw)})
+    output_of([*tools.command("llvm-profdata-19"), "merge", raw, "-o", data])
+    told = output_of([*tools.command("llvm-cov-19"), "export", program, f"-instr-profile={data}"])
+    branches = json.loads(told)["data"][0]["files"][0]["branches"]
+    return [f"line {branch[0]}: not taken" for branch in branches if 0 in branch[4:6]]
+
+
+def emulated(tools: Toolchain, file: Path, option: str) -> list[str]:
+    """What the unit tests of an image say when it runs."""
+    board = EmulatedBoard(tools)
+    test = board.builder.object(str(file), [*board.unity_flags(), "-w"])
+    image = board.builder.link(f"qualify-{file.parent.name}", [board.unity(), test])
+    ended = board.run(image)
+    if not re.search(r"^\d+ Tests", ended.output, re.MULTILINE):
+        raise ToolError(f"qemu: {ended.how}\n{ended.evidence}")
+    return [line for line in ended.output.splitlines() if ":FAIL" in line]
+
+
+TRIALS: dict[str, Trial] = {
+    "wp": wp, "eva": eva, "cbmc": cbmc, "gappa": gappa, "cppcheck": cppcheck, "stack": stack,
+    "sanitizers": sanitizers, "coverage": coverage, "emulated": emulated,
+}  # fmt: skip
+
+
+def ask(tools: Toolchain, trial: str, text: str, option: str, folder: Path) -> list[str]:
+    """What a tool says of a text."""
+    folder.mkdir(parents=True)
+    file = folder / ("seed.g" if trial == "gappa" else "seed.c")
+    file.write_text(text, encoding="utf-8")
+    try:
+        return TRIALS[trial](tools, file, option)
+    except BuildError as error:
+        raise ToolError(f"{trial}: {error}") from error
