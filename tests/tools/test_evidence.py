@@ -61,7 +61,7 @@ def the_program() -> ModuleType:
     """tools/evidence.py, whose name its package has as well."""
     spec = importlib.util.spec_from_file_location("evidence_program", ROOT / "tools/evidence.py")
     assert spec and spec.loader
-    module = importlib.util.module_from_spec(spec)
+    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 

@@ -66,7 +66,7 @@ def make(context: Context) -> Part:
             own = report["units"][unit]
             items += goals(unit, own, functions)
             items += harnesses(context.root, unit, own, functions)
-    problems += [text for text in report.get("problems", ())]
+    problems += report.get("problems", ())
     summary = {"verdict": report.get("verdict", "none"), "goals": str(report.get("goals", 0)),
                "proved": str(report.get("proved", 0))}  # fmt: skip
     return Part(name="proofs", title="Formal verification", items=tuple(items), summary=summary,

@@ -29,4 +29,4 @@ def make(context: Context) -> Part:
     table = Table(title="Tasks", columns=("task", "class", "period, us", "budget, us"), rows=rows)
     problems = () if analysis.schedulable else tuple(f"{FILE}: {why}" for why in analysis.reasons)
     return Part(name="tasks", title="Task table", tables=(table,), problems=problems,
-                files={"analysis.json": written}, summary={"verdict": verdict(analysis)})  # fmt: skip
+                files={written.name: written}, summary={"verdict": verdict(analysis)})  # fmt: skip
