@@ -6,7 +6,7 @@
     python3 tools/evidence.py --as-is             # run nothing: the reports as they are
     python3 tools/evidence.py --draft FOLDER      # the same, problems included, and unsealed
     python3 tools/evidence.py --verify FOLDER     # is a package as it was made?
-    python3 tools/evidence.py --project FOLDER    # of a project that uses Keel, from its own reports
+    python3 tools/evidence.py --project FOLDER    # the package of a project that uses Keel
 
 A package is written as a whole, and only when nothing is wrong; else the one that was there stays,
 and each problem is told in a line. build/evidence-work has the logs of the commands that were run,
