@@ -6,10 +6,11 @@
     python3 tools/evidence.py --as-is             # run nothing: the reports as they are
     python3 tools/evidence.py --draft FOLDER      # the same, problems included, and unsealed
     python3 tools/evidence.py --verify FOLDER     # is a package as it was made?
+    python3 tools/evidence.py --project FOLDER    # the package of a project that uses Keel
 
 A package is written as a whole, and only when nothing is wrong; else the one that was there stays,
-and each problem is told in a line. build/evidence-work has the logs of the commands that were run, and
-summary.md, a short table for CI.
+and each problem is told in a line. build/evidence-work has the logs of the commands that were run,
+and summary.md, a short table for CI.
 
 Exit status: 0 when the package is written or is as it was made, 1 when something is wrong, 2 when
 it could not be tried.
@@ -20,6 +21,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from common.arguments import Parser
@@ -32,8 +34,18 @@ from toolchain import Toolchain
 provide("common")
 provide("evidence")
 
-from evidence.assemble import assemble  # noqa: E402
-from evidence.commands import commands_of, run_commands  # noqa: E402
+from evidence.assemble import (  # noqa: E402
+    OWN_PARTS,
+    Assembled,
+    assemble,
+    own_maker_of,
+)
+from evidence.commands import (  # noqa: E402
+    Command,
+    commands_of,
+    own_commands,
+    run_commands,
+)
 from evidence.digest import as_markdown  # noqa: E402
 from evidence.package import Source, source_of, write_package  # noqa: E402
 from evidence.part import Context  # noqa: E402
@@ -74,31 +86,57 @@ def closing(problems: Sequence[str], done: str) -> int:
     return 1 if problems else 0
 
 
-def make(out: Path, as_is: bool, dirty: bool) -> int:
+@dataclass(frozen=True)
+class Choice:
+    """Keel itself, or a project that uses it."""
+
+    root: Path
+    out: Path
+    as_is: bool
+    dirty: bool
+
+    @property
+    def own(self) -> bool:
+        """Whether it is a project of a user's."""
+        return self.root != ROOT
+
+    def commands(self) -> tuple[Command, ...]:
+        """What makes the reports."""
+        return own_commands() if self.own else commands_of(self.root)
+
+    def assemble(self, context: Context) -> Assembled:
+        """All parts."""
+        if not self.own:
+            return assemble(context)
+        return replace(assemble(context, OWN_PARTS, own_maker_of), product=self.root.name)
+
+
+def make(choice: Choice) -> int:
     """Make the package."""
-    context = context_of(ROOT, out)
-    source = source_of(ROOT, context.stamp)
-    problems = [] if dirty else refused(source)
-    if not as_is and not problems:
-        problems = run_commands(context, commands_of(ROOT))
-    made = assemble(context)
+    context = context_of(choice.root, choice.out)
+    source = source_of(choice.root, context.stamp)
+    problems = [] if choice.dirty else refused(source)
+    if not choice.as_is and not problems:
+        problems = run_commands(context, choice.commands())
+    made = choice.assemble(context)
     problems += made.problems
-    if not problems and stamp_of(ROOT) != context.stamp:
+    if not problems and stamp_of(choice.root) != context.stamp:
         problems = ["the source has changed meanwhile"]
     write_text(context.work / "summary.md", as_markdown(made, problems))
     if problems:
         return closing(problems, "nothing is written")
-    write_package(out, made, source, versions())
-    return closing([], f"{out} is written")
+    write_package(choice.out, made, source, versions())
+    return closing([], f"{choice.out} is written")
 
 
-def make_draft(out: Path, draft: Path) -> int:
+def make_draft(choice: Choice, draft: Path) -> int:
     """Make what there is, with its problems on every page."""
-    if draft.resolve() == out.resolve():
+    if draft.resolve() == choice.out.resolve():
         raise ToolError("a draft has a folder of its own")
-    context = context_of(ROOT, out)
-    made = assemble(context)
-    write_package(draft, made, source_of(ROOT, context.stamp), versions(), sealed=False)
+    context = context_of(choice.root, choice.out)
+    made = choice.assemble(context)
+    source = source_of(choice.root, context.stamp)
+    write_package(draft, made, source, versions(), sealed=False)
     return closing(made.problems, f"a draft is in {draft}")
 
 
@@ -109,16 +147,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--dirty", action="store_true", help="also with uncommitted changes")
     parser.add_argument("--draft", type=Path, metavar="FOLDER", help="write one with its problems")
     parser.add_argument("--verify", type=Path, metavar="FOLDER", help="look at a package only")
-    parser.add_argument("--out", type=Path, default=ROOT / "build/evidence", metavar="FOLDER")
+    parser.add_argument("--out", type=Path, metavar="FOLDER", help="build/evidence unless said")
+    parser.add_argument("--project", type=Path, default=ROOT, metavar="FOLDER",
+                        help="a project that uses Keel, rather than Keel itself")  # fmt: skip
     options = parser.parse_args(arguments)
+    root = options.project.resolve()
 
     def work() -> int:
         if options.verify:
-            problems = verify(options.verify, stamp_of(ROOT))
+            problems = verify(options.verify, stamp_of(root))
             return closing(problems, f"{options.verify} is {'not ' * bool(problems)}as it was made")
-        if options.draft:
-            return make_draft(options.out, options.draft)
-        return make(options.out, options.as_is, options.dirty)
+        out = options.out or root / "build/evidence"
+        choice = Choice(root, out, options.as_is, options.dirty)
+        return make_draft(choice, options.draft) if options.draft else make(choice)
 
     return program("evidence", work)
 

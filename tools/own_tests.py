@@ -5,7 +5,7 @@
     python3 tools/own_tests.py --project FOLDER
 
 Each file is a program, linked with all of the project's src/ and of Keel's. build/test/junit.xml in
-the project has the results.
+the project has the results, report.json beside it the same with the source that they are of.
 
 Exit status: 0 when all tests pass, 1 when one fails, 2 when they cannot be built.
 """
@@ -24,6 +24,7 @@ from common.build import Build, source_files  # noqa: E402
 from common.errors import ROOT, ToolError, program  # noqa: E402
 from common.junit import JUnitSuite, write_junit  # noqa: E402
 from common.run import run  # noqa: E402
+from common.source import write_report  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 FLAGS = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-g", "-fsanitize=address,undefined",
@@ -54,7 +55,10 @@ def test(arguments: Sequence[str] | None) -> int:
     shared.append(build.object(f"{unity}/unity.c"))
     suites = {path.stem: outcome(build, path, shared) for path in tests}
     write_junit(root / "build/test/junit.xml", "unit tests", suites)
-    return conclude(suites)
+    status = conclude(suites)
+    told = {name: suite.tests for name, suite in suites.items()}
+    write_report(root / "build/test/report.json", {"failed": status, "suites": told}, root)
+    return status
 
 
 def keel(tools: Toolchain, root: Path) -> Build:

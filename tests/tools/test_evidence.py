@@ -38,10 +38,12 @@ from evidence_sample import (  # noqa: E402
 )
 
 from common.errors import ToolError  # noqa: E402
+from common.packages import provide  # noqa: E402
 from common.run import Ended  # noqa: E402
 from common.source import STAMP as MADE_FROM  # noqa: E402
 from common.source import stamp_of  # noqa: E402
 from evidence.assemble import PARTS, maker_of  # noqa: E402
+from evidence.attestation import PREDICATE  # noqa: E402
 from evidence.commands import Command, commands_of, run_commands  # noqa: E402
 from evidence.package import (  # noqa: E402
     ATTESTATION,
@@ -61,7 +63,7 @@ def the_program() -> ModuleType:
     """tools/evidence.py, whose name its package has as well."""
     spec = importlib.util.spec_from_file_location("evidence_program", ROOT / "tools/evidence.py")
     assert spec and spec.loader
-    module = importlib.util.module_from_spec(spec)
+    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 
@@ -352,6 +354,21 @@ class Packages(InFolder):
         self.assertEqual(named, digests(place, (SUMS, ATTESTATION)))
         source = read["predicate"]["buildDefinition"]["resolvedDependencies"][0]
         self.assertEqual(source["digest"]["gitCommit"], STAMP["commit"])
+
+    def test_the_attestation_is_one_of_in_totos_with_slsas_provenance(self) -> None:
+        provide("attestation")
+        from google.protobuf.json_format import Parse, ParseDict
+        from in_toto_attestation.predicates.provenance.v1.provenance_pb2 import Provenance
+        from in_toto_attestation.v1.statement import Statement
+        from in_toto_attestation.v1.statement_pb2 import Statement as Read
+
+        text = (self.package() / ATTESTATION).read_text(encoding="utf-8")
+        Statement.copy_from_pb(Parse(text, Read())).validate()
+        made = ParseDict(json.loads(text)["predicate"], Provenance())
+        self.assertEqual(made.build_definition.external_parameters["command"], "make evidence")
+        bare = text.replace('"predicateType"', '"predicate_type"').replace(PREDICATE, "")
+        with self.assertRaisesRegex(ValueError, "Predicate type required"):
+            Statement.copy_from_pb(Parse(bare, Read())).validate()
 
     def test_the_json_of_a_part_says_all_that_it_says(self) -> None:
         report = self.folder / "junit.xml"

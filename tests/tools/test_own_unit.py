@@ -74,6 +74,46 @@ class OwnUnit(unittest.TestCase):
         self.assertIn("monitor.low = 6 (before: 5)", output)
         self.assertIn("before: 5", output)
 
+    def test_its_evidence_has_its_own_requirements_tasks_and_proofs(self) -> None:
+        status, output = self.make("evidence")
+        self.assertEqual(status, 0, output)
+        place = self.project / "build/evidence"
+        page = (place / "site/function-battery_monitor_step.html").read_text(encoding="utf-8")
+        for proof in ("@ ensures BAT_002_", "battery_monitor_step_harness", "BAT-002"):
+            self.assertIn(proof, page)
+        index = (place / "index.html").read_text(encoding="utf-8")
+        self.assertIn("schedulable: every task meets its deadline", index)
+        self.assertIn("constraints kept", index)
+        status, output = self.make("evidence", "VERIFY=build/evidence")
+        self.assertEqual(status, 0, output)
+        (place / "proofs/part.json").write_text("{}", encoding="utf-8")
+        status, output = self.make("evidence", "VERIFY=build/evidence")
+        self.assertNotEqual(status, 0)
+        self.assertIn("FAILED proofs/part.json: was altered", output)
+
+    def change(self, name: str, old: str, new: str) -> str:
+        """What make evidence says after a change of one of the project's files."""
+        path = self.project / name
+        text = path.read_text(encoding="utf-8")
+        self.assertEqual(text.count(old), 1)
+        path.write_text(text.replace(old, new), encoding="utf-8")
+        status, output = self.make("evidence")
+        self.assertNotEqual(status, 0, output)
+        self.assertFalse((self.project / "build/evidence").exists())
+        return output
+
+    def test_its_evidence_needs_each_requirement_shown(self) -> None:
+        output = self.change("specs/requirements.toml", 'id = "BAT-002"', 'id = "BAT-003"')
+        self.assertIn("requirements: BAT-003: no proof names it", output)
+        self.assertIn("requirements: BAT-003: no test names it", output)
+        self.assertIn("requirements: BAT-002: a test names it, but", output)
+
+    def test_its_evidence_needs_a_table_that_holds_and_every_constraint_kept(self) -> None:
+        output = self.change("specs/tasks.toml", "budget_us = 50", "budget_us = 950")
+        self.assertIn("FAILED tasks: specs/tasks.toml: ", output)
+        output = self.change("specs/constraints.toml", 'id = "SC-07"', 'id = "SC-99"')
+        self.assertIn("SC-99: there is no such constraint", output)
+
     def test_a_folder_that_is_no_project_is_refused_in_one_line(self) -> None:
         shutil.rmtree(self.project / "include")
         output = self.make("prove")[1]

@@ -22,6 +22,11 @@ WORST: tuple[State, ...] = ("bad", "open", "good", "told")
 KINDS: tuple[str, ...] = get_args(Kind)
 REFERENCE = re.compile(rf"(?:{'|'.join(KINDS)}):\S+")
 
+# Those of a project that uses Keel.
+OWN_PARTS = ("requirements", "contracts", "proofs", "tests", "tasks", "constraints",
+             "configuration")  # fmt: skip
+PARTS_OF_BOTH = ("contracts", "configuration")
+
 Maker = Callable[[Context], Part]
 
 
@@ -69,6 +74,7 @@ class Assembled:
     parts: list[Part]
     entries: dict[str, Entry]
     problems: list[str]
+    product: str = "Keel"
 
     def of_kind(self, kind: str) -> list[Entry]:
         """All things of a kind, in order."""
@@ -84,6 +90,14 @@ def maker_of(name: str) -> Maker:
         if error.name != module:
             raise
         raise ToolError(f"is missing: there is no tools/evidence/parts/{name}.py") from error
+    return made
+
+
+def own_maker_of(name: str) -> Maker:
+    """The same for a project that uses Keel; what says nothing of Keel alone serves both."""
+    made: Maker = importlib.import_module(
+        f"evidence.{'parts' if name in PARTS_OF_BOTH else 'own'}.{name}"
+    ).make
     return made
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from boards.board import BOARD_FILE
+from common.errors import ROOT
 from common.files import write_text
 from common.run import Ended, run
 
@@ -47,6 +48,13 @@ def commands_of(root: Path) -> tuple[Command, ...]:
         *(Command(f"stack/{name}.json", ("stack", f"BOARD={name}")) for name in boards),
         Command("bench/report.json", ("bench",)),
     )  # fmt: skip
+
+
+def own_commands() -> tuple[Command, ...]:
+    """Those of a project that uses Keel."""
+    rules = ("-f", str(ROOT / "keel.mk"))
+    return (Command("prove/report.json", (*rules, "prove")),
+            Command("test/report.json", (*rules, "test")))  # fmt: skip
 
 
 Start = Callable[[Sequence[str], Path], Ended]
@@ -91,7 +99,7 @@ def run_commands(
         begun = time.monotonic()
         ended = start(command.words, context.root)
         context.say(f"{place}: {ended.how}, {time.monotonic() - begun:.0f} s")
-        log = context.work / "logs" / f"{'-'.join(command.words)}.txt".replace("/", "_")
+        log = context.work / "logs" / f"{command.report.replace('/', '-')}.txt"
         write_text(log, ended.output)
         if not ended.good:
             last = (ended.output.strip().splitlines() or ["it said nothing"])[-1]

@@ -32,7 +32,7 @@ class Paper(FPDF):
         super().__init__(format="A4")
         self.foot = foot
         self.set_creation_date(when)
-        self.set_title("Keel evidence")
+        self.set_title(foot)
         self.set_lang("en")
         folder = Path(Toolchain().command("evidence-font")[0])
         for style, file in (("", "DejaVuSans.ttf"), ("B", "DejaVuSans-Bold.ttf")):
@@ -99,7 +99,7 @@ def add_part(paper: Paper, part: Part) -> None:
 
 def add_cover(paper: Paper, made: Assembled, stamp: Mapping[str, str], when: datetime) -> None:
     """What this is, of what, and what it has."""
-    paper.heading("Keel: what shows that it is right", 20, 0)
+    paper.heading(f"{made.product}: what shows that it is right", 20, 0)
     paper.plain(f"Commit {stamp['commit'] or 'none, from an archive'}, {when:%Y-%m-%d %H:%M UTC}")
     paper.plain(f"Source, SHA-256: {stamp['tree']}")
     paper.ln(3)
@@ -112,7 +112,7 @@ def add_cover(paper: Paper, made: Assembled, stamp: Mapping[str, str], when: dat
 def summary_pdf(path: Path, made: Assembled, stamp: Mapping[str, str], seconds: int) -> None:
     """Write the summary."""
     when = datetime.fromtimestamp(seconds, UTC)
-    paper = Paper(f"Keel evidence, commit {stamp['commit'][:12]}", when)
+    paper = Paper(f"{made.product} evidence, commit {stamp['commit'][:12]}", when)
     add_cover(paper, made, stamp, when)
     for part in made.parts:
         add_part(paper, part)

@@ -20,8 +20,8 @@ TEXT = """\
 The configuration items are all files of the commit, each with its SHA-256. The source's digest on
 each page is over their names and contents, so it tells also whether a file was added or removed.
 
-The bill of materials (CycloneDX) lists the tools that tools/toolchain.lock.json admits. Keel itself
-contains no code of others, so none of them is flown."""
+The bill of materials (CycloneDX) lists the tools that Keel's tools/toolchain.lock.json admits. Keel
+itself contains no code of others, so none of them is flown."""
 
 
 def names(root: Path) -> list[str]:
@@ -47,24 +47,32 @@ def folders(items: tuple[Item, ...]) -> Table:
     return Table(title="Configuration items", columns=("folder", "files"), rows=rows)
 
 
+def bill(context: Context) -> dict[str, Path]:
+    """The bill of materials; a project's tools are those of its Keel."""
+    path = context.work / "tools.cdx.json"
+    time = dist.time_of(context.root)[1] if context.stamp["commit"] else NO_TIME
+    write_json(path, dist.bill(context.root, dist.version(context.root), time))
+    return {path.name: path}
+
+
 def make(context: Context) -> Part:
     """What the package was made of."""
     items = tuple(items_of(context.root))
     sums = context.work / "items.sha256"
     write_text(sums, "".join(f"{item.facts['SHA-256']}  {item.id}\n" for item in items))
-    bill = context.work / "tools.cdx.json"
+    files, summary = {sums.name: sums}, {}
     try:
-        version = dist.version(context.root)
-        time = dist.time_of(context.root)[1] if context.stamp["commit"] else NO_TIME
-        write_json(bill, dist.bill(context.root, version, time))
+        if (context.root / dist.LOCK).is_file():
+            summary = {"version": dist.version(context.root)}
+            files |= bill(context)
     except dist.DistError as error:
         raise ToolError(str(error)) from error
-    summary = {
-        "version": version, "commit": context.stamp["commit"] or "none, from an archive",
+    summary |= {
+        "commit": context.stamp["commit"] or "none, from an archive",
         "source, SHA-256": context.stamp["tree"], "product, SHA-256": context.stamp["product"],
         "configuration items": str(len(items)),
     }  # fmt: skip
     return Part(
         name="configuration", title="Configuration", text=TEXT, items=items, summary=summary,
-        tables=(folders(items),), files={"items.sha256": sums, "tools.cdx.json": bill},
+        tables=(folders(items),), files=files,
     )  # fmt: skip

@@ -106,7 +106,7 @@ def table_of(standard: Standard) -> Table:
 
 def figures(standard: Standard) -> str:
     """How many objectives have which status."""
-    counted = Counter(one.status for one in standard.objective)
+    counted = Counter[str](one.status for one in standard.objective)
     return ", ".join(f"{counted[status]} {words}" for status, words in WORDS.items())
 
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 
@@ -37,24 +37,27 @@ def columns_of(nodes: Sequence[Node]) -> list[list[Node]]:
     return [[node for node in nodes if node.column == number] for number in numbers]
 
 
+def middle(near: Iterable[str], places: Mapping[str, int], otherwise: float) -> float:
+    """Where the neighbours that have a place stand on the average."""
+    seen = [places[key] for key in near if key in places]
+    return sum(seen) / len(seen) if seen else otherwise
+
+
 def sorted_by_neighbours(
     columns: list[list[Node]], edges: Iterable[tuple[str, str]]
 ) -> list[list[Node]]:
     """Each column in the order of what it is linked with to its left, so that few lines cross."""
-    left_of: dict[str, list[str]] = {}
+    near: dict[str, list[str]] = {}
     for start, end in edges:
-        left_of.setdefault(end, []).append(start)
-        left_of.setdefault(start, []).append(end)
-    places: dict[str, float] = {}
-    ordered = []
+        near.setdefault(end, []).append(start)
+        near.setdefault(start, []).append(end)
+    places: dict[str, int] = {}
+    ordered: list[list[Node]] = []
     for column in columns:
-        def middle(node: Node) -> float:
-            seen = [places[key] for key in left_of.get(node.key, ()) if key in places]
-            return sum(seen) / len(seen) if seen else float(len(places))
-
-        column = sorted(column, key=middle) if ordered else column
-        places |= {node.key: number for number, node in enumerate(column)}
-        ordered.append(column)
+        heights = {node.key: middle(near.get(node.key, ()), places, len(places)) for node in column}
+        kept = sorted(column, key=lambda node: heights[node.key]) if ordered else column
+        places |= {node.key: number for number, node in enumerate(kept)}
+        ordered.append(kept)
     return ordered
 
 
