@@ -166,5 +166,40 @@ class Mistakes(StrengthTest):
         self.assert_problem(self.part(), "queue/wrong-add_overwrites", "does not say")
 
 
+class Blocks(StrengthTest):
+    """What the harnesses reach."""
+
+    def coverage(self, unit: str, name: str) -> dict[str, int]:
+        """What a harness reaches, in the report."""
+        harness = self.report["units"][unit]["cbmc"]["harnesses"][name]
+        coverage: dict[str, int] = harness["coverage"]
+        return coverage
+
+    def test_a_block_that_is_not_reached_without_a_reason(self) -> None:
+        self.coverage("queue", "keel_queue_add_harness")["reached"] -= 1
+        self.assert_problem(self.part(), "queue/keel_queue_add_harness", "does not reach 1 blocks",
+                            "a reason for 0")  # fmt: skip
+
+    def test_a_reason_for_what_is_reached(self) -> None:
+        self.coverage("pass", "keel_pass_run_harness")["reached"] = 30
+        self.assert_problem(self.part(), "pass/keel_pass_run_harness", "0 blocks", "for 22")
+
+    def test_a_function_that_no_harness_covers(self) -> None:
+        self.replace("src/rtos/queue.c", "static ", "static void lonely(void)\n{\n}\n\nstatic ")
+        self.assert_problem(self.part(), "function lonely", "no harness covers it")
+        reasons = self.root / "specs/unreached.toml"
+        entry = '\n[[unreached]]\nfunction = "lonely"\nreason = "nobody calls it"\n'
+        reasons.write_text(reasons.read_text("utf-8") + entry, "utf-8")
+        self.assertEqual(self.part().problems, ())
+
+    def test_an_entry_without_a_reason(self) -> None:
+        self.replace("specs/unreached.toml", '"as in keel_pass_run_harness"', '""')
+        self.assert_problem(self.part(), "specs/unreached.toml", "reason")
+
+    def test_an_entry_that_is_of_nothing(self) -> None:
+        self.replace("specs/unreached.toml", "keel_pass_run__once_harness", "keel_gone_harness")
+        self.assert_problem(self.part(), "there is no harness pass/keel_gone_harness")
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Would the proofs notice? Mutants, and mistakes made on purpose."""
+"""Would the proofs notice? Mutants, mistakes made on purpose, and what the harnesses reach."""
 
 from __future__ import annotations
 
 from common.errors import ToolError
 
+from evidence.formal import bounds
 from evidence.part import Context, Part
-from evidence.strength import mutants, wrong
+from evidence.strength import blocks, mutants, wrong
 
 TEXT = """\
 A proof is worth something only if it would fail when the code were wrong. Two things show that.
@@ -18,7 +19,10 @@ repository, with digests of the sources, the proofs and the tools that they were
 one of these has changed, the result is shown as stale and does not count.
 
 Wrong bodies are mistakes that people make, put into the code as it is now by each make prove; the \
-harness named with each must refute it, by the assertion named with it."""
+harness named with each must refute it, by the assertion named with it.
+
+And for every basic block of what a harness covers CBMC has to find an execution that reaches it: \
+assumptions that contradict each other would prove anything, and reach nothing."""
 
 
 def make(context: Context) -> Part:
@@ -27,11 +31,17 @@ def make(context: Context) -> Part:
     report = context.report("prove/report.json", problems)
     standings = mutants.standings(context.root, report, problems) if report else []
     problems += mutants.problems(standings)
+    mistakes: list[wrong.Mistake] = []
+    harnesses: list[bounds.Bounded] = []
+    reasons: list[blocks.Unreached] = []
     try:
         mistakes = wrong.read_mistakes(context.root, report)
+        harnesses = bounds.read_all(context.root)
+        reasons = blocks.read_reasons(context.root)
     except ToolError as error:
-        mistakes = []
         problems += str(error).splitlines()
+    functions = blocks.functions_of(context.root)
+    problems += blocks.problems(report, harnesses, list(functions), reasons) if report else []
     problems += wrong.problems(mistakes) if report else []
     current = [one for one in standings if one.current]
     return Part(
@@ -41,11 +51,13 @@ def make(context: Context) -> Part:
             "mutants killed": mutants.score(current),
             "survivors unexplained": str(sum(len(one.with_status(*mutants.OPEN))
                                              for one in current)),
+            "blocks reached by harnesses": blocks.summary(report),
             "mistakes on purpose refused": f"{sum(one.refused is True for one in mistakes)}"
                                            f" of {len(mistakes)}",
         },
         text=TEXT,
-        tables=(mutants.table(standings), mutants.survivors(standings), wrong.table(mistakes)),
+        tables=(mutants.table(standings), mutants.survivors(standings), wrong.table(mistakes),
+                *blocks.tables(harnesses, functions, reasons)),
         items=(*mutants.items(standings), *wrong.items(mistakes)),
         problems=tuple(dict.fromkeys(problems)),
     )  # fmt: skip
