@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """Traces each function of the product up to requirements.
 
-What a header offers traces by the labels of its contract's clauses: QUE_003_order stands for
-QUE-003. A static function of a source has no meaning of its own: it traces by its callers, if there
-are any and all of them trace.
+What a header offers traces by the labels of its contract's clauses, also those that a macro stands
+for: QUE_003_order stands for QUE-003. A static function of a source has no meaning of its own: it
+traces by its callers, if there are any and all of them trace.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from proofs import csource, frames
+from proofs.declarations import macros
 
 LABEL = re.compile(r"\bensures\s+([A-Z]{3,4})_(\d{3})(?:_\w+)?\s*:")
 
@@ -33,18 +35,25 @@ def read_functions(root: Path) -> list[Function]:
     """Every function of src and include, with the requirements that it traces to."""
     headers = sorted((root / "include").glob("keel/**/*.h"))
     sources = sorted((root / "src").glob("**/*.c"))
+    texts = [path.read_text(encoding="utf-8") for path in headers]
+    short = {name: text for name, (_, text) in macros(texts).items()}
     labels: dict[str, tuple[str, ...]] = {}
-    for path in headers:
-        for name, contract in frames.contracts(path.read_text(encoding="utf-8")):
-            labels[name] = labels.get(name, ()) + _uids(contract)
+    for text in texts:
+        for name, contract in frames.contracts(text):
+            labels[name] = labels.get(name, ()) + _uids(contract, short)
     found = []
     for path in headers + sources:
         found += _of_file(root, path, labels)
     return found
 
 
-def _uids(contract: str) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(f"{unit}-{number}" for unit, number in LABEL.findall(contract)))
+def _uids(contract: str, short: Mapping[str, str]) -> tuple[str, ...]:
+    """The requirements that a contract names, each once, its macros laid open."""
+    words = dict.fromkeys(re.findall(r"\b[A-Z]\w+", contract))
+    opened = [contract, *(short[word] for word in words if "ensures" in short.get(word, ""))]
+    uids = [f"{unit}-{number}" for text in opened for unit, number in LABEL.findall(text)]
+    inner = [uid for text in opened[1:] for uid in _uids(text, short)]
+    return tuple(dict.fromkeys(uids + inner))
 
 
 def _of_file(root: Path, path: Path, labels: dict[str, tuple[str, ...]]) -> list[Function]:

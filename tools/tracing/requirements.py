@@ -130,7 +130,7 @@ def _high(one: Requirement, below: list[Requirement], paper: str) -> Iterator[st
         yield "no low-level requirement has it as its parent, and it lists no tests"
     if "proof" in one.verification and not any(_proved(low) for low in below):
         yield "VERIFICATION says proof, and none of its low-level requirements is proved"
-    tested = one.listed_tests or [low for low in below if low.tests or low.listed_tests]
+    tested = one.listed_tests or any(low.tests or low.listed_tests for low in below)
     if "test" in one.verification and not tested:
         yield "VERIFICATION says test, and neither it nor a low-level requirement of it has tests"
     if bool(one.of("DEPARTURE")) != bool(re.search(rf"\b{one.uid}\b", paper)):
