@@ -12,7 +12,7 @@ from typing import Any
 
 from common.files import read_text
 from proofs import csource
-from proofs.declarations import calls
+from proofs.csource import calls
 from proofs.harness import Harness, read_harness
 from proofs.project import find_units
 
