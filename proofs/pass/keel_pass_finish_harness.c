@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 34 --no-array-field-sensitivity
+// cbmc: --unwind 34
 // sources: src/rtos/pass.c src/rtos/queue.c src/rtos/decision.c src/rtos/priority.c src/rtos/stats.c
 // sources: specs/model/pass.c specs/model/clock.c
 // replaces: keel_stats_record

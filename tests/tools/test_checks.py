@@ -73,13 +73,17 @@ class Directive(TreeTest):
         self.assertNotIn("--bounds-check", alone)
         self.assertEqual(cbmc.checks_of(self.read(HARNESS)), cbmc.CHECKS)
 
-    def test_the_formula_is_sliced_but_for_a_trace_which_is_to_show_all(self) -> None:
+    def test_the_formula_is_sliced_but_for_z3_and_a_trace_which_is_to_show_all(self) -> None:
         checker = cbmc.Cbmc(["goto-cc"], ["cbmc"], Runner({}, self.root), self.root, self.root)
         run = mock.Mock(return_value=Finished(0, "[]"))
         for extra, sliced in (((), True), (("--property", "a"), True), (("--trace",), False)):
             with self.subTest(extra), mock.patch.object(Runner, "run", run):
                 checker.check(self.read(HARNESS), self.root / "harness.gb", extra)
                 self.assertEqual(cbmc.SLICE in run.call_args.args[0], sliced)
+        with mock.patch.object(Runner, "run", run):
+            z3 = HARNESS.replace("--external-sat-solver cadical", "--z3")
+            checker.check(self.read(z3), self.root / "harness.gb")
+        self.assertNotIn(cbmc.SLICE, run.call_args.args[0])
 
     def test_the_choice_is_part_of_the_key(self) -> None:
         checker = cbmc.Cbmc(["goto-cc"], ["cbmc"], Runner({}, self.root), self.root, self.root)

@@ -38,7 +38,8 @@ CHECKS = (
 # What a harness that checks assertions alone is checked for.
 ASSERTIONS = ("--no-standard-checks", "--unwinding-assertions", "--drop-unused-functions")
 # Leaves out of the formula the assignments on which nothing that is asked depends: it saves time,
-# most of it where one assertion is asked for. Assumptions stay. A trace would lack them, too.
+# most of it where one assertion is asked for. Assumptions stay. A trace would lack them, too, and
+# z3 gains nothing.
 SLICE = "--slice-formula"
 # The coverage run asks what can be reached at all. CBMC takes assertions for assumptions there.
 COVERAGE = ("--cover", "location", "--no-standard-checks", "--drop-unused-functions", SLICE)
@@ -126,7 +127,9 @@ class Cbmc:
     def check(self, harness: Harness, binary: Path, extra: Sequence[str] = ()) -> Answer:
         """Ask for the status of every property."""
         command = [*self._cbmc, str(binary), "--json-ui", *checks_of(harness)]
-        command += [*harness.options, *extra, *([] if "--trace" in extra else [SLICE])]
+        command += [*harness.options, *extra]
+        whole = "--trace" in extra or "--z3" in harness.options
+        command += [] if whole else [SLICE]
         return self._answer(self._runner.run(command, harness.timeout, merged=False), harness)
 
     def counterexample(
