@@ -23,7 +23,7 @@ endif
 
 # The targets of `make help` by their use; those that are not named here are for every day.
 BOARDS := firmware model stack flash registers test-target
-EVIDENCE := eva evidence coverage coverage-target mutate review fuzz soak fuzztasks trace status dist
+EVIDENCE := eva qualify evidence coverage coverage-target mutate review fuzz soak fuzztasks trace status dist
 RESEARCH := timing campaign pictures
 
 ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
@@ -70,6 +70,10 @@ lint: python ## layout, MISRA C:2012 and the rules of the house (ARGS=--fix: lay
 .PHONY: eva
 eva: python ## abstract interpretation: undefined behaviour, writes that no contract names
 	@python3 tools/eva.py $(ARGS)
+
+.PHONY: qualify
+qualify: python ## seeded faults: does each tool still detect what it is trusted to detect?
+	@python3 tools/qualify.py $(ARGS)
 
 analyze: python ## does a task set hold? (TASKSET=file.toml, ARGS=--phases, ARGS=--synthesize)
 	@$(TIMING) analyze "$(TASKSET)" $(ARGS)

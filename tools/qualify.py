@@ -91,8 +91,8 @@ def main(
         tools = Toolchain()
         tools.ensure(*GROUPS)
         runs = qualify(tools, seeds, Cache(root / KNOWN, options.fresh))
-        problems = [f"{one['tool']}: {one['fault']}: {one['wrong']}"
-                    for one in runs if one["wrong"]]  # fmt: skip
+        failed = [one for one in runs if one["wrong"]]
+        problems = [f"{one['tool']}: {one['fault']}: {one['wrong']}" for one in failed]
         verdict = "failed" if problems else "good"
         write_report(root / REPORT, {"verdict": verdict, "problems": problems, "runs": runs}, root)
         for problem in problems:

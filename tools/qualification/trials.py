@@ -80,9 +80,8 @@ def cppcheck(tools: Toolchain, file: Path, option: str) -> list[str]:
     """The checks that find something."""
     report = file.with_suffix(".sarif")
     words = ["--addon=misra", "--quiet", "--std=c99", "--enable=warning,style",
-             "--check-level=exhaustive", "--output-format=sarif",
-             f"--output-file={report}"]  # fmt: skip
-    output_of([*tools.command("cppcheck"), *words, file])
+             "--check-level=exhaustive", "--output-format=sarif"]  # fmt: skip
+    output_of([*tools.command("cppcheck"), *words, f"--output-file={report}", file])
     results = json.loads(read_text(report))["runs"][0]["results"]
     return [result["ruleId"] for result in results]
 

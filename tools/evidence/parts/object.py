@@ -35,10 +35,10 @@ floating-point results, no contraction of a multiplication and an addition, and 
 signs of types as the proofs have them. What C leaves undefined is proved not to happen, so that \
 an optimiser may not build on it.
 
-The object code was executed: 100 000 random vectors of each unit give the same bits in the host's \
-build and in the build for the target, on a Cortex-M7 that QEMU emulates; the unit tests run \
-there, too. That is a test, no proof: a fault of the compiler that these inputs do not show stays \
-unseen, and so does one of the processor that the emulator does not have.
+The object code was executed: 100 000 random vectors of each unit give the same bits in the \
+host's build and in the build for the target, on a Cortex-M7 that QEMU emulates; the unit tests \
+run there, too. That is a test, no proof: a fault of the compiler that these inputs do not show \
+stays unseen, and so does one of the processor that the emulator does not have.
 
 An image is built a second time in another folder, and must be the same byte for byte."""
 

@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of the part `tools` of the evidence package, and of tools/qualify.py: wrong versions, other
+files, entries that are missing, and tools that no longer detect a fault.
+
+python3 tests/tools/test_evidence_tools.py
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import sys
+import tempfile
+import unittest
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from common.packages import provide  # noqa: E402
+
+provide()
+
+import qualify  # noqa: E402
+from common.errors import ToolError  # noqa: E402
+from common.source import PRODUCT, STAMP  # noqa: E402
+from evidence.part import Context, Part  # noqa: E402
+from evidence.parts import tools as part_tools  # noqa: E402
+from evidence.parts.tools import SETTINGS, Settings  # noqa: E402
+from qualification.seeds import SEEDS  # noqa: E402
+from toolchain import Found, Toolchain  # noqa: E402
+from toolchain.lock import Spec  # noqa: E402
+
+HERE = {"commit": "c0", "tree": "7ree", "product": "p0"}
+RUN = {"tool": "cbmc", "fault": "an overflow", "how": "cbmc", "version": "6.6.0", "wrong": ""}
+PINNED = Spec("cbmc", "deb", at_least="6.6", below="6.7", sha256="aa")
+
+
+def cbmc(version: str = "6.6.0", digest: str = "aa", program: str = "01") -> dict[str, Found]:
+    """What is found of one tool."""
+    parts = [{"name": "cbmc", "version": version, "sha256": digest}]
+    return {"cbmc": Found("cbmc", version, "cache", "/x", program, 1, 1, {}, {}, parts)}
+
+
+class Rules(unittest.TestCase):
+    """One rule, one fault."""
+
+    specs = {"cbmc": PINNED}
+
+    def identity(self, found: dict[str, Found]) -> list[str]:
+        return list(part_tools.identity_problems(self.specs, found))
+
+    def test_the_locked_tool_is_good(self) -> None:
+        self.assertEqual(self.identity(cbmc()), [])
+
+    def test_a_wrong_version(self) -> None:
+        told = "cbmc: is 6.7.1, locked is 6.6 or later, before 6.7"
+        self.assertEqual(self.identity(cbmc("6.7.1")), [told])
+
+    def test_another_package_than_the_pinned_one(self) -> None:
+        told = "cbmc: what was fetched is not what is pinned (aa)"
+        self.assertEqual(self.identity(cbmc(digest="bb")), [told])
+
+    def test_a_tool_that_is_missing(self) -> None:
+        self.assertEqual(self.identity({}), ["cbmc: is missing on this machine"])
+
+    def report(self, told: Any) -> list[str]:
+        report = {"tools": {"cbmc": told, "stranger": "1"}}
+        return list(part_tools.report_problems("x.json", report, self.specs, cbmc()))
+
+    def test_a_report_made_with_the_tools_that_are_here(self) -> None:
+        self.assertEqual(self.report("6.6.0"), [])
+        self.assertEqual(self.report({"version": "6.6.0", "sha256": "01"}), [])
+
+    def test_a_report_made_with_another_version_or_file(self) -> None:
+        for told, problem in (
+            ("6.5.0", "build/x.json: was made with cbmc 6.5.0, locked is 6.6 or later, before 6.7"),
+            ("6.6.1", "build/x.json: was made with cbmc 6.6.1, here is 6.6.0"),
+            ({"version": "6.6.0", "sha256": "02"},
+             "build/x.json: was made with another file of cbmc than the one that is here"),
+        ):  # fmt: skip
+            self.assertEqual(self.report(told), [problem])
+
+    def test_a_tool_without_an_entry_and_an_entry_without_a_tool(self) -> None:
+        problems = part_tools.entry_problems(Settings(tool=[]), self.specs, ROOT)
+        self.assertEqual(list(problems), ["specs/tools.toml: tool cbmc has no entry"])
+
+
+class Entries(unittest.TestCase):
+    """The file of tools."""
+
+    def test_a_known_problem_of_no_tool_is_refused_with_its_line(self) -> None:
+        with tempfile.TemporaryDirectory(prefix="keel-test-") as folder:
+            (Path(folder) / "specs").mkdir()
+            text = (ROOT / SETTINGS).read_text()
+            text += '\n[[problem]]\ntool = "cmbc"\nsource = "s"\nwhat = "w"\nhere = "h"\n'
+            (Path(folder) / SETTINGS).write_text(text)
+            context = Context(Path(folder), Path(folder), Path(folder), HERE, lambda _: None)
+            with self.assertRaisesRegex(ToolError, "there is no tool cmbc"):
+                part_tools.make(context)
+
+    def test_a_test_that_is_not_there(self) -> None:
+        read = part_tools.read_settings(ROOT)
+        changed = [one.model_copy(update={"tests": ["test_lint/test_nothing"]})
+                   if one.name == "cppcheck" else one for one in read.tool]  # fmt: skip
+        specs = part_tools.wanted(Toolchain().lock)
+        problems = list(part_tools.entry_problems(Settings(tool=changed), specs, ROOT))
+        told = "specs/tools.toml: tool cppcheck: there is no test test_lint/test_nothing"
+        self.assertEqual(problems, [told])
+
+
+class Whole(unittest.TestCase):
+    """The part, on good reports with one fault each."""
+
+    def setUp(self) -> None:
+        self.build = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        for name in part_tools.VERSIONED:
+            self.write(name, {"tools": {}})
+        self.write(part_tools.QUALIFY, {"verdict": "good", "problems": [], "runs": [RUN]})
+
+    def write(self, name: str, report: dict[str, Any]) -> None:
+        path = self.build / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps({STAMP: HERE, **report}))
+
+    def make(self) -> Part:
+        work = self.build / "work"
+        return part_tools.make(Context(ROOT, self.build, work, HERE, lambda _: None))
+
+    def mine(self) -> list[str]:
+        """The problems, but for tools that are not installed on this machine."""
+        return [one for one in self.make().problems if "is missing on this machine" not in one]
+
+    def test_good_reports_give_no_problem_and_an_item_for_each_tool(self) -> None:
+        self.assertEqual(self.mine(), [])
+        names = {item.id for item in self.make().items}
+        self.assertEqual(names, set(part_tools.wanted(Toolchain().lock)))
+
+    def test_a_fault_that_is_no_longer_detected(self) -> None:
+        wrong = "cbmc: an overflow: does not say 'x', but: nothing"
+        runs = [{**RUN, "wrong": "does not say 'x', but: nothing"}]
+        self.write(part_tools.QUALIFY, {"problems": [wrong], "runs": runs})
+        self.assertEqual(self.mine(), [wrong])
+        (item,) = [one for one in self.make().items if one.id == "cbmc"]
+        self.assertEqual(item.state, "bad")
+
+    def test_reports_that_are_missing_or_of_another_source(self) -> None:
+        (self.build / part_tools.QUALIFY).unlink()
+        self.write("lint/report.json", {STAMP: {**HERE, "tree": "other"}})
+        shown = [one.partition(": ")[0] for one in self.mine()]
+        self.assertEqual(shown, ["build/qualify/report.json", "build/lint/report.json"])
+
+
+class Qualify(unittest.TestCase):
+    """Seeded faults, asked of a real tool."""
+
+    gappa = next(seed for seed in SEEDS if seed.tool == "gappa")
+
+    def setUp(self) -> None:
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        for folder in PRODUCT:
+            (self.root / folder).mkdir()
+
+    def qualify(self, **changes: str) -> tuple[int, dict[str, Any]]:
+        with contextlib.redirect_stdout(io.StringIO()):
+            status = qualify.main([], self.root, [replace(self.gappa, **changes)])
+        report = json.loads((self.root / qualify.REPORT).read_text())
+        assert isinstance(report, dict)
+        return status, report
+
+    def test_a_fault_that_is_detected_is_known_afterwards(self) -> None:
+        status, report = self.qualify()
+        self.assertEqual((status, report["problems"]), (0, []))
+        self.assertEqual(len(list((self.root / qualify.KNOWN).iterdir())), 1)
+
+    def test_a_fault_that_is_not_detected(self) -> None:
+        status, report = self.qualify(new="|d - 1| <= 0x1p-23")
+        self.assertEqual((status, report["verdict"]), (1, "failed"))
+        self.assertIn("gappa: a bound that is too narrow: does not say", report["problems"][0])
+        self.assertFalse((self.root / qualify.KNOWN).exists())
+
+    def test_a_tool_that_refuses_everything_detects_nothing(self) -> None:
+        text = self.gappa.text.replace("|e| <= 0x1p-24", "|e| <= 0x1p-20")
+        status, report = self.qualify(text=text)
+        self.assertEqual(status, 1)
+        self.assertIn("also where there is no fault", report["problems"][0])
+
+    def test_every_fault_can_be_put_into_its_text_and_has_a_name_of_its_own(self) -> None:
+        self.assertEqual(len({seed.name for seed in SEEDS}), len(SEEDS))
+        for seed in SEEDS:
+            self.assertNotEqual(seed.faulty, seed.text)
+
+
+if __name__ == "__main__":
+    unittest.main()
