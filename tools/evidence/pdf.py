@@ -6,7 +6,7 @@ The same parts give the same bytes: its only time is that of the commit.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -17,9 +17,10 @@ from fpdf.fonts import FontFace
 from common.files import write_bytes
 from toolchain import Toolchain
 
-from evidence.assemble import Assembled
+from evidence.assemble import REFERENCE, Assembled
 from evidence.part import Part, Table
 
+NARROW, WIDE = 10, 50  # Characters of a column.
 ROWS = 40  # Of a table; the site and the JSON have all.
 FONT = "DejaVu"
 HEAD = FontFace(emphasis="BOLD", fill_color=(232, 236, 240))
@@ -63,14 +64,29 @@ class Paper(FPDF):
         self.set_font(FONT, size=9)
         self.words(text)
 
-    def rows(self, columns: tuple[str, ...], rows: tuple[tuple[str, ...], ...]) -> None:
-        """A table that goes on over pages."""
+    def rows(self, columns: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> None:
+        """A table that goes on over pages; an item is named by its id alone."""
         self.set_font(FONT, size=7.5)
-        with self.table(headings_style=HEAD, line_height=4, text_align="LEFT", padding=0.8) as grid:
-            for row in (columns, *rows):
+        shown = [tuple(shortened(text) for text in row) for row in (columns, *rows)]
+        layout = {"col_widths": widths(shown), "borders_layout": "HORIZONTAL_LINES",
+                  "line_height": 4, "padding": 0.8}  # fmt: skip
+        with self.table(headings_style=HEAD, text_align="LEFT", v_align="TOP", **layout) as grid:
+            for row in shown:
                 line = grid.row()
                 for text in row:
                     line.cell(text)
+
+
+def shortened(text: str) -> str:
+    """A cell as one reads it."""
+    return text.partition(":")[2] if REFERENCE.fullmatch(text) else text
+
+
+def widths(rows: Sequence[tuple[str, ...]]) -> tuple[int, ...]:
+    """The columns' shares: by their longest lines, but a long one does not starve the others."""
+    longest = [max(len(line) for cell in column for line in (cell.splitlines() or [""]))
+               for column in zip(*rows, strict=True)]  # fmt: skip
+    return tuple(min(max(length, NARROW), WIDE) for length in longest)
 
 
 def add_table(paper: Paper, table: Table) -> None:
@@ -97,23 +113,26 @@ def add_part(paper: Paper, part: Part) -> None:
         add_table(paper, table)
 
 
-def add_cover(paper: Paper, made: Assembled, stamp: Mapping[str, str], when: datetime) -> None:
+def add_cover(paper: Paper, made: Assembled, source: str, stamp: Mapping[str, str]) -> None:
     """What this is, of what, and what it has."""
     paper.heading(f"{made.product}: what shows that it is right", 20, 0)
-    paper.plain(f"Commit {stamp['commit'] or 'none, from an archive'}, {when:%Y-%m-%d %H:%M UTC}")
+    paper.plain(source)
     paper.plain(f"Source, SHA-256: {stamp['tree']}")
     paper.ln(3)
     for problem in made.problems:
         paper.plain(f"Problem: {problem}")
     rows = [(part.title, "\n".join(map(": ".join, part.summary.items()))) for part in made.parts]
-    paper.rows(("Part", "Figures"), tuple(rows))
+    paper.rows(("Part", "Figures"), rows)
 
 
 def summary_pdf(path: Path, made: Assembled, stamp: Mapping[str, str], seconds: int) -> None:
     """Write the summary."""
     when = datetime.fromtimestamp(seconds, UTC)
-    paper = Paper(f"{made.product} evidence, commit {stamp['commit'][:12]}", when)
-    add_cover(paper, made, stamp, when)
+    source = f"Commit {stamp['commit']}, {when:%Y-%m-%d %H:%M UTC}"
+    if not stamp["commit"]:
+        source = "From an archive, without a commit"
+    paper = Paper(f"{made.product} evidence, source {stamp['tree'][:16]}", when)
+    add_cover(paper, made, source, stamp)
     for part in made.parts:
         add_part(paper, part)
     write_bytes(path, bytes(paper.output()))
