@@ -12,7 +12,7 @@ from typing import Any
 
 from common.files import read_text
 from proofs import csource
-from proofs.declarations import calls
+from proofs.declarations import closing
 from proofs.harness import Harness, read_harness
 from proofs.project import find_units
 
@@ -22,6 +22,7 @@ Report = Mapping[str, Any]
 
 SIZE = re.compile(r"^-D(KEEL_\w+)=(\d+)u?$")
 DRAWN = re.compile(r"\b(?:any_bits\w*|narrow_\w+)\((?:[^()]*,)?\s*(\d+)u?\s*\)")
+ASSUMED = re.compile(r"\b__CPROVER_assume\(")
 # What a function asks of its caller, or another one's contract: no bound of the harness.
 CONTRACT = re.compile(r"^!?\w*(?:_may|_does|valid_here)\(")
 NUMBER = re.compile(r"(?<![\w.])(?!0u?\b)\d[\w.]*")
@@ -87,8 +88,8 @@ def read_bounds(harness: Harness) -> Bounded:
     code = csource.code_only(read_text(harness.path))
     sizes = [f"{match[1]}={match[2]}" for word in harness.defines if (match := SIZE.match(word))]
     drawn = [" ".join(match[0].split()) for match in DRAWN.finditer(code)]
-    assumed = [" ".join(call.arguments[0].split()) for call in calls(code, "__CPROVER_assume")
-               if call.arguments]  # fmt: skip
+    assumed = [" ".join(code[match.end() : closing(code, match.end() - 1) - 1].split())
+               for match in ASSUMED.finditer(code)]  # fmt: skip
     own = [text for text in assumed if not CONTRACT.match(text) and NUMBER.search(text)]
     case = harness.name.removesuffix("_harness").partition("__")[2]
     return Bounded(
