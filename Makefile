@@ -23,12 +23,12 @@ endif
 
 # The targets of `make help` by their use; those that are not named here are for every day.
 BOARDS := firmware model stack flash registers test-target
-EVIDENCE := eva qualify evidence coverage coverage-target mutate review fuzz soak fuzztasks trace status dist
+EVIDENCE := eva qualify evidence coverage coverage-target mutate opinion review fuzz soak fuzztasks trace status dist
 RESEARCH := timing campaign pictures
 
 ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
              flash-openocd flash-pyocd flash-st-flash flash-px4 timing tools-tests timing-tests \
-             consumer evidence browser attestation
+             consumer opinion evidence browser attestation
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
 TIMING := python3 tools/with_packages.py timing -m timing
@@ -104,6 +104,10 @@ coverage-target: python ## object-code branches that the unit tests take on an e
 mutate: python ## break the code and see whether the proofs notice (UNIT=queue; ARGS=--status; DASK=tcp://host:8786)
 	@$(if $(DASK),DASK=$(DASK) python3 tools/with_packages.py dask,python3) tools/mutate.py \
 	    $(if $(UNIT),--unit $(UNIT)) $(ARGS)
+
+.PHONY: opinion
+opinion: python ## ask ESBMC, a third engine, about some of the harnesses (ARGS=--fresh)
+	@python3 tools/third_opinion.py $(ARGS)
 
 .PHONY: review
 review: python ## who has reviewed the proofs (UNIT=queue: what to look at; ARGS='--sign NAME --remarks TEXT')

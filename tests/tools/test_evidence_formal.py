@@ -11,17 +11,21 @@ import contextlib
 import io
 import sys
 import unittest
+import unittest.mock
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/tools")]
 
-from evidence_proofs import EvidenceTest  # noqa: E402
+from evidence_proofs import NOW, EvidenceTest  # noqa: E402
 
 import review  # noqa: E402
-from evidence.formal import bounds, ledger, reviews  # noqa: E402
+import third_opinion  # noqa: E402
+from common.source import STAMP  # noqa: E402
+from evidence.formal import bounds, esbmc, ledger, opinion, reviews  # noqa: E402
 from evidence.part import Item, Part  # noqa: E402
 from evidence.parts import formal  # noqa: E402
+from proofs.cache import Cache  # noqa: E402
 from proofs.project import find_units  # noqa: E402
 
 QUEUE_GOAL = "keel_queue_add_ensures_QUE_003_order"
@@ -30,8 +34,17 @@ QUEUE_GOAL = "keel_queue_add_ensures_QUE_003_order"
 class FormalTest(EvidenceTest):
     """A test with the part."""
 
+    def setUp(self) -> None:
+        super().setUp()
+        asked = opinion.read_opinions(self.root).ask
+        answer = {"verdict": "proved", "wrong": "refuted", "properties": 9, "bounds": "",
+                  "wrong_body": "w"}  # fmt: skip
+        self.answers = {one.harness: dict(answer) for one in asked}
+        self.opinions = {"harnesses": self.answers, STAMP: NOW}
+
     def part(self) -> Part:
         """The part, made from tree and report as they are now."""
+        self.write("opinion/report.json", self.opinions)
         return formal.make(self.context())
 
     def item(self, kind: str, name: str) -> Item:
@@ -173,6 +186,100 @@ class Ledger(FormalTest):
     def test_a_theorem_that_assumes_what_the_ledger_lacks(self) -> None:
         self.replace("specs/theorems.toml", '["A-08"]', '["A-88"]')
         self.assert_problem(self.part(), "theorem adding", "the ledger has no A-88")
+
+
+CLOCK = "clock/keel_clock_init_harness"
+OUTPUT = """\
+  PASSED       [f.overflow.1]            line  28  arithmetic overflow on add
+  PASSED       [h.assertion.1]           line  17  CLK_002_model: as the model says
+
+** 0 of 2 properties failed, 2 passed
+
+VERIFICATION SUCCESSFUL
+"""
+REFUTED = """\
+  FAILED       [h.assertion.1]           line  17  CLK_002_model: as the model says
+
+VERIFICATION FAILED
+"""
+
+
+class Opinions(FormalTest):
+    """What ESBMC says."""
+
+    def test_an_engine_that_does_not_agree(self) -> None:
+        self.answers[CLOCK]["verdict"] = "failed: CLK_001"
+        self.assert_problem(self.part(), "ESBMC does not prove", CLOCK, "CLK_001")
+        self.answers[CLOCK] |= {"verdict": "proved", "wrong": "proved"}
+        self.assert_problem(self.part(), "ESBMC does not refute", CLOCK)
+
+    def test_an_answer_that_is_missing(self) -> None:
+        del self.answers[CLOCK]
+        self.assert_problem(self.part(), "build/opinion/report.json", "no answer", CLOCK)
+
+    def test_a_harness_that_nobody_asks_about_without_a_reason(self) -> None:
+        entry = f'[[ask]]\nharness = "{CLOCK}"\n'
+        self.replace(opinion.FILE, entry, "")
+        self.assert_problem(self.part(), opinion.FILE, CLOCK, "nor is there a reason")
+
+    def test_a_harness_that_does_not_exist(self) -> None:
+        self.replace(opinion.FILE, CLOCK, "clock/keel_clock_gone_harness")
+        self.assert_problem(self.part(), opinion.FILE, "there is no harness clock/keel_clock_gone")
+
+    def test_why_a_harness_is_not_asked_about(self) -> None:
+        harnesses = {one.id: one.harness for one in bounds.read_all(self.root)}
+        self.assertIn("stand-ins", opinion.why_not(harnesses["pass/keel_pass_run_harness"]))
+        clamp = harnesses["range/keel_range_clamp_harness"]
+        self.assertIn("__CPROVER_equal", opinion.why_not(clamp))
+        self.assertEqual(opinion.why_not(harnesses[CLOCK]), "")
+
+    def test_a_verdict_counts_only_with_what_was_asked(self) -> None:
+        self.assertEqual(esbmc.judged(OUTPUT, ()), ("proved", 2))
+        self.assertEqual(esbmc.judged(OUTPUT.replace("CLK_002_model:", "some"), ())[0],
+                         "checked no assertion")  # fmt: skip
+        unknown = "WARNING: no body for function __CPROVER_equal\n"
+        self.assertEqual(esbmc.judged(unknown + OUTPUT, ())[0], "does not know __CPROVER_equal")
+        self.assertEqual(esbmc.judged("ERROR: PARSING ERROR\n", ())[0], "ERROR: PARSING ERROR")
+
+    def test_a_refutation_counts_only_at_the_assertion_that_must_fail(self) -> None:
+        self.assertEqual(esbmc.judged(REFUTED, ["CLK_002_model"])[0], "refuted")
+        self.assertTrue(esbmc.judged(REFUTED, ["CLK_003_model"])[0].startswith("failed: line 17"))
+        self.assertTrue(esbmc.judged(REFUTED, ())[0].startswith("failed"))
+
+
+class Kept(FormalTest):
+    """Answers that are kept."""
+
+    def asked(self, says: str) -> tuple[dict[str, object], int]:
+        """What is answered on a harness when ESBMC would say this, and how often it was asked."""
+        harnesses = bounds.read_all(self.root)
+        question = next(iter(opinion.questions(opinion.read_opinions(self.root), harnesses)))
+        program = unittest.mock.Mock()
+        program.ask.return_value = {"verdict": says, "properties": 2, "wrong": "refuted"}
+        found = third_opinion.answer(question, program, Cache(self.root / "cache"), "ESBMC 8.4")
+        return found, program.ask.call_count
+
+    def test_agreement_is_kept_until_what_it_is_of_changes(self) -> None:
+        self.assertEqual(self.asked("proved")[1], 1)
+        answer, times = self.asked("failed")
+        self.assertEqual((answer["verdict"], times), ("proved", 0))
+        self.replace("include/keel/rtos/clock.h", "? (to_us - from_us)", "? (to_us - from_us + 0u)")
+        self.assertEqual(self.asked("failed")[0]["verdict"], "failed")
+
+    def test_a_failure_is_asked_about_again(self) -> None:
+        self.assertEqual([self.asked("failed")[1] for _ in range(2)], [1, 1])
+
+    def test_a_harness_is_asked_with_its_wrong_body_in_place(self) -> None:
+        harnesses = bounds.read_all(self.root)
+        asked = opinion.questions(opinion.read_opinions(self.root), harnesses)
+        question = next(one for one in asked if one.harness.name == "keel_queue_init_harness")
+        program = esbmc.Esbmc(["esbmc"], Path("h"), unittest.mock.Mock(), self.root,
+                              self.root / "scratch")  # fmt: skip
+        words = program.command(question, question.wrong)
+        changed = self.root / "scratch/init_skips_last/src/rtos/queue.c"
+        self.assertIn(str(changed), words)
+        self.assertNotEqual(changed.read_text(), (self.root / "src/rtos/queue.c").read_text())
+        self.assertIn("-DKEEL_QUEUE_CAPACITY=3u", words)
 
 
 class Reviews(FormalTest):

@@ -13,6 +13,7 @@ import json
 import shutil
 import sys
 import unittest
+from dataclasses import replace
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -107,6 +108,12 @@ class Mutants(StrengthTest):
         self.replace("proofs/range/keel_range_clamp_harness.c", "// Every", "// Really every")
         self.replace("proofs/range/goals.txt", " qed", " z3")
         self.assertEqual(self.row()[1], "current")
+
+    def test_a_statement_left_out_leaves_nothing_in_its_place(self) -> None:
+        first = self.verdicts[0]
+        self.verdicts[0] = replace(first, mutant=replace(first.mutant, after=""))
+        self.record()
+        self.assertEqual(self.part().problems, ())
 
     def test_a_survivor_that_nobody_has_explained(self) -> None:
         self.verdicts[1] = Verdict(self.verdicts[1].mutant, "survived", "", {"cbmc": "survived"})

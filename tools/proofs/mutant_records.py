@@ -94,5 +94,6 @@ def write(
 
 
 def _line(verdict: Verdict) -> dict[str, Any]:
-    """A mutant, without what says nothing."""
-    return {name: value for name, value in verdict.as_dict().items() if value != ""}
+    """A mutant; only a survivor has a reason."""
+    entry = verdict.as_dict()
+    return {name: value for name, value in entry.items() if value or name != "reason"}

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 from common.errors import ToolError
 from common.files import read_text
 
-from evidence.formal import bounds, goals, ledger, reviews, theorems
+from evidence.formal import bounds, goals, ledger, opinion, reviews, theorems
 from evidence.part import Context, Item, Part, Table
 
 Report = Mapping[str, Any]
@@ -78,7 +78,7 @@ def prover_table(items: Sequence[Item]) -> Table:
                      if item.state == "good")  # fmt: skip
     rows = [(engine, prover, str(count)) for (engine, prover), count in sorted(counts.items())]
     return Table(title="Goals by prover", columns=("engine", "prover", "goals"), rows=tuple(rows),
-                 note="CBMC's are its labelled assertions alone.")  # fmt: skip
+                 note="CBMC's are the labels of its assertions, each counted once.")  # fmt: skip
 
 
 def determined_table(report: Report) -> Table:
@@ -110,11 +110,12 @@ def summary(
     checks = sum(unit["cbmc"]["properties"] for unit in units)
     signed = sum(one.state == "good" for one in reviewed)
     engines = Counter(item.facts["engine"] for item in items if item.state == "good")
+    asserted = sum(int(item.facts.get("places", 0)) for item in items)
     return {
         "verdict of make prove": str(report.get("verdict", "none")),
         "goals proved": f"{report.get('proved', 0)} of {report.get('goals', 0)}",
         "WP goals proved": str(engines["WP"]),
-        "CBMC properties": f"{checks}, of which labelled assertions {engines['CBMC']}",
+        "CBMC properties": f"{checks}, of which {asserted} labelled assertions",
         "Gappa bounds proved": str(engines["Gappa"]),
         "smoke tests": str(sum(unit["wp"]["smoke_tests"] for unit in units)),
         "units reviewed by a person": f"{signed} of {len(reviewed)}",
@@ -144,13 +145,18 @@ def make(context: Context) -> Part:
     claims = _kept(problems, lambda: theorems.read_theorems(context.root))
     known = [one.id for one in assumptions]
     problems += theorems.problems(claims, items, known) if report else []
+    asked = _kept(problems, lambda: [opinion.read_opinions(context.root)])
+    answers = context.report(opinion.REPORT, problems)
+    problems += [text for one in asked for text in opinion.problems(answers, one, harnesses)]
     reviewed = _kept(problems, lambda: reviews.read_reviews(context.root))
     problems += reviews.problems(context.root, reviewed)
     return Part(
-        name="formal", title="Formal verification", summary=summary(report, items, reviewed),
+        name="formal", title="Formal verification",
+        summary=summary(report, items, reviewed) | opinion.summary(answers, harnesses),
         text=TEXT + ledger.prose_of(soundness),
         tables=(
             theorems.table(claims, items), determined_table(report),
+            *(opinion.table(answers, one, harnesses) for one in asked),
             bounds.table(harnesses, report), smoke_table(report), left_table(report),
             prover_table(items), ledger.ledger_table(assumptions), reviews.table(reviewed),
             *ledger.tables(soundness),
