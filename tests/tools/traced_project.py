@@ -10,6 +10,7 @@ import unittest
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
@@ -53,6 +54,11 @@ class TracedProject(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
         self.reports = copy.deepcopy(REPORTS)
+        # What StrictDoc and LOBSTER do is tested in test_tracing_tools.py.
+        for place in ("requirements.written", "trace.second_look"):
+            patch = mock.patch(f"evidence.parts.{place}", return_value={})
+            patch.start()
+            self.addCleanup(patch.stop)
         for name, text in small.FILES.items():
             self.write(name, text)
 
@@ -72,12 +78,16 @@ class TracedProject(unittest.TestCase):
         """What the report says of the unit."""
         return self.reports["prove/report.json"]["units"]["widget"]
 
-    def part(self, make: Callable[[Context], Part]) -> Part:
-        """The part, made from the project and its reports."""
+    def context(self) -> Context:
+        """The project, with its reports as they are now."""
         build = self.root / "build"
         for name, report in self.reports.items():
             write_json(build / name, {"made_from": STAMP, **report})
-        return make(Context(self.root, build, build / "work", STAMP))
+        return Context(self.root, build, build / "work", STAMP)
+
+    def part(self, make: Callable[[Context], Part]) -> Part:
+        """The part, made from the project and its reports."""
+        return make(self.context())
 
     def problems(self, make: Callable[[Context], Part]) -> list[str]:
         """What the part says is wrong."""

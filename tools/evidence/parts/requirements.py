@@ -5,8 +5,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import cast
 
+from common.errors import ToolError
+from tracing import strictdoc
+from tracing.packages import packages
 from tracing.requirements import Requirement
 from tracing.verdicts import problems
 
@@ -110,13 +114,23 @@ def levels(known: Mapping[str, Requirement], below: Mapping[str, list[Requiremen
     )  # fmt: skip
 
 
+def written(context: Context, problems: list[str]) -> dict[str, Path]:
+    """The requirements as StrictDoc writes them."""
+    try:
+        return strictdoc.export(context.root, context.work, packages())
+    except ToolError as error:
+        problems.append(str(error).splitlines()[0])
+        return {}
+
+
 def make(context: Context) -> Part:
     """The part."""
     trouble: list[str] = []
     traced = read(context, trouble)
     known, state = traced.trace.requirements, traced.state
-    if not trouble:
+    if not trouble:  # Without a report all would be open.
         trouble += problems(known, traced.verdicts)
+    files = written(context, trouble)
     if not known:
         trouble.append("specs/requirements: has no requirement")
     every = list(known.values())
@@ -133,5 +147,5 @@ def make(context: Context) -> Part:
                 listing("Departures from the paper", "DEPARTURE", every),
                 listing("Derived requirements", "DERIVED", every, derived)),
         items=tuple(item_of(one, traced) for one in every),
-        problems=tuple(trouble),
+        files=files, problems=tuple(trouble),
     )  # fmt: skip

@@ -5,10 +5,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import Any
 
+from common.errors import ToolError
+from tracing import lobster
 from tracing.functions import Function
+from tracing.packages import packages
 from tracing.requirements import Requirement
 from tracing.verdicts import CBMC, GAPPA, HARNESS, TEST, WP, Verdict
 
@@ -175,11 +178,24 @@ def without_harness(traced: Traced, report: dict[str, Any]) -> list[str]:
             if report and not one.helper and one.name not in proved | excepted]  # fmt: skip
 
 
+def second_look(context: Context, traced: Traced, problems: list[str]) -> dict[str, Path]:
+    """What LOBSTER finds, and its report. Without the reports on proofs it would find all alone."""
+    levels = lobster.items(traced.trace.requirements, traced.trace.functions, traced.verdicts)
+    try:
+        found = lobster.gate(context.work, packages(), levels)
+    except ToolError as error:
+        problems.append(str(error).splitlines()[0])
+        return {}
+    problems += [] if problems else found
+    return {name: context.work / name for name in (lobster.PAGE, lobster.REPORT)}
+
+
 def make(context: Context) -> Part:
     """The part."""
     trouble: list[str] = []
     traced = read(context, trouble)
     trace = traced.trace
+    files = second_look(context, traced, trouble)
     trouble += alone(traced)
     proofs = context.report("prove/report.json", [])
     open_clauses, unnamed = unstated(traced, proofs)
@@ -198,5 +214,5 @@ def make(context: Context) -> Part:
         },
         tables=(units_table(traced, mutants), requirements_table(traced, mutants), open_clauses),
         items=tuple({one.name: function_item(one, traced) for one in trace.functions}.values()),
-        problems=tuple(trouble),
+        files=files, problems=tuple(trouble),
     )  # fmt: skip
