@@ -90,6 +90,15 @@ class RequirementsTest(TracedProject):
         self.assertEqual(self.problems(make), [
             "WID-001: VERIFICATION says proof, and no report has one"])  # fmt: skip
 
+    def test_a_harness_that_compares_with_a_model_proves_what_the_model_names(self) -> None:
+        self.proofs["wp"]["goal_list"] = []
+        self.proofs["cbmc"]["harnesses"]["keel_widget_turn_harness"]["assertions"] = []
+        self.assertEqual(self.states()["WID-001"], "open")
+        self.write("specs/model/widget.c", "// WID-001: turns\n")
+        self.write("specs/model/widget.h", "")
+        self.write("proofs/widget/turn_harness.c", '#include "../../specs/model/widget.h"\n')
+        self.assertEqual(self.states()["WID-001"], "good")
+
     def test_a_missing_parent_leaves_the_one_above_open(self) -> None:
         self.change(LOW, "<<<\nRELATIONS:\n- TYPE: Parent\n  VALUE: HLR-001\n", "<<<\n")
         self.assertEqual(self.states()["HLR-001"], "open")

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,7 @@ from common.run import Ended, run
 
 from tracing.functions import Function
 from tracing.requirements import FOLDER, Requirement
-from tracing.verdicts import TEST, Verdict, Verdicts
+from tracing.verdicts import HARNESS, TEST, Verdict, Verdicts, modelled
 
 POLICY = """\
 requirements "High-level requirements" {
@@ -112,15 +112,20 @@ def of_tests(known: Mapping[str, Requirement], verdicts: Verdicts) -> Iterator[d
             yield activity_item(verdict, named[verdict.key])
 
 
-def items(known: Mapping[str, Requirement], functions: Iterable[Function],
+def items(known: Mapping[str, Requirement], functions: Sequence[Function],
           verdicts: Verdicts) -> dict[str, list[dict[str, Any]]]:  # fmt: skip
     """What LOBSTER reads, by file."""
-    proofs = [one for one in verdicts.every if one.by != TEST and one.uids]
+    proofs = [one for one in verdicts.every if one.by != TEST]
+    told = {one.name: [uid for uid in one.requirements if uid in known and modelled(known[uid])]
+            for one in functions if not one.helper}  # fmt: skip
+    stated = {one.key: dict.fromkeys([*one.uids, *(told.get(one.function, ())
+                                                   if one.by == HARNESS else ())])
+              for one in proofs}  # fmt: skip
     return {
         "high": [requirement_item(one) for one in known.values() if one.high],
         "low": [requirement_item(one) for one in known.values() if not one.high],
         "functions": [function_item(one) for one in functions],
-        "proofs": [activity_item(one, one.uids) for one in proofs],
+        "proofs": [activity_item(one, stated[one.key]) for one in proofs if stated[one.key]],
         "tests": list(of_tests(known, verdicts)),
     }
 

@@ -139,13 +139,19 @@ class Verdicts:
         return list({verdict.key: verdict for verdict in own}.values())
 
 
+def modelled(one: Requirement) -> bool:
+    """Whether a model with which harnesses compare the code names the requirement."""
+    return any(name.startswith("specs/model/") for name in one.harnesses)
+
+
 def state_of(one: Requirement, own: Iterable[Verdict]) -> str:
     """How a low-level requirement stands: bad, open, told (composed by hand), or good."""
     verdicts = list(own)
     if any(not verdict.good for verdict in verdicts):
         return "bad"
     kinds = {verdict.by for verdict in verdicts}
-    needed = {"proof": {WP, CBMC, GAPPA}, "test": {TEST}}
+    # A harness that compares the function with a model proves what the model says.
+    needed = {"proof": {WP, CBMC, GAPPA, *([HARNESS] if modelled(one) else [])}, "test": {TEST}}
     if any(way in needed and not kinds & needed[way] for way in one.verification):
         return "open"
     return "told" if "theorem" in one.verification else "good"

@@ -25,11 +25,11 @@ say what the code shall do, so precisely that the clauses of contracts can bear 
 names the high-level ones that it serves, or says why it is derived.
 
 How a requirement stands follows from the reports of the provers and the tests: good, when all \
-that bears its id holds, and there is a goal or an assertion of it where it is to be proved, or a \
-test where it is to be tested. Told means a theorem that people have put together from proved \
-parts; specs/soundness.md has the argument. A high-level requirement stands as the worst below \
-it. Whether the low-level requirements together are enough for their parent no tool can say: that \
-is for a review."""
+that bears its id holds, and there is a goal or an assertion of it, or a harness that compares \
+the code with a model that names it, where it is to be proved, or a test where it is to be \
+tested. Told means a theorem that people have put together from proved parts; specs/soundness.md \
+has the argument. A high-level requirement stands as the worst below it. Whether the low-level \
+requirements together are enough for their parent no tool can say: that is for a review."""
 
 def text_of(one: Requirement) -> str:
     """A requirement's texts, as paragraphs."""
