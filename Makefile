@@ -97,7 +97,7 @@ coverage-target: python ## object-code branches that the unit tests take on an e
 contracts-run: python ## the unit tests, calling through contracts that E-ACSL made executable
 	@python3 tools/contracts_run.py $(ARGS)
 
-mutate: python ## break the code and see whether the proofs notice (UNIT=queue; ARGS=--status; DASK=tcp://host:8786)
+mutate: python ## break the code and see whether proofs notice (UNIT=queue; ARGS=--status; DASK=tcp://host:8786)
 	@$(if $(DASK),DASK=$(DASK) python3 tools/with_packages.py dask,python3) tools/mutate.py \
 	    $(if $(UNIT),--unit $(UNIT)) $(ARGS)
 
