@@ -23,7 +23,7 @@ endif
 
 # The targets of `make help` by their use; those that are not named here are for every day.
 BOARDS := firmware model stack flash registers test-target
-EVIDENCE := eva qualify evidence coverage coverage-target mutate opinion review fuzz soak fuzztasks trace status dist
+EVIDENCE := eva qualify evidence coverage coverage-target contracts-run mutate opinion review fuzz soak fuzztasks trace status dist
 RESEARCH := timing campaign pictures
 
 ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
@@ -101,7 +101,11 @@ coverage: python ## lines, branches and MC/DC that the unit tests reach
 coverage-target: python ## object-code branches that the unit tests take on an emulated Cortex-M7
 	@python3 tools/object_coverage.py $(ARGS)
 
-mutate: python ## break the code and see whether the proofs notice (UNIT=queue; ARGS=--status; DASK=tcp://host:8786)
+.PHONY: contracts-run
+contracts-run: python ## the unit tests, calling through contracts that E-ACSL made executable
+	@python3 tools/contracts_run.py $(ARGS)
+
+mutate: python ## break the code and see whether proofs notice (UNIT=queue; ARGS=--status; DASK=tcp://host:8786)
 	@$(if $(DASK),DASK=$(DASK) python3 tools/with_packages.py dask,python3) tools/mutate.py \
 	    $(if $(UNIT),--unit $(UNIT)) $(ARGS)
 

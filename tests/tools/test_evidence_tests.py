@@ -54,6 +54,14 @@ def code_report() -> dict[str, Any]:
             "gaps": [], "explained": [], "stale_reasons": [], "untraced": ["long"]}  # fmt: skip
 
 
+def contracts_report() -> dict[str, Any]:
+    """One contract that ran, with a clause left out, and one that did not run."""
+    clause = {"function": "keel_x", "file": "src/x.c", "line": 3, "construct": "assigns"}
+    unit = {"functions": ["keel_x"], "ignored": [clause], "failures": []}
+    absent = {"unit": "src/x.c", "functions": ["keel_y"], "reason": "It does not end."}
+    return {"units": {"src/x.c": unit}, "left_out": [absent]}
+
+
 class Tests(unittest.TestCase):
     """A build folder with good reports, into which each test puts one fault."""
 
@@ -64,6 +72,7 @@ class Tests(unittest.TestCase):
             self.junit(folder)
         self.write("coverage/report.json", coverage_report())
         self.write("coverage-target/report.json", code_report())
+        self.write("contracts-run/report.json", contracts_report())
 
     def write(self, name: str, report: dict[str, Any]) -> None:
         """Write a report with this tree's stamp, or the one that it has."""
@@ -97,7 +106,9 @@ class Tests(unittest.TestCase):
         self.assertIn(("src/x.c", "function:keel_x", "3 of 3", "4 of 4", "–"), part.tables[1].rows)
         row = ("src/x.c", "function:keel_x", "1", "0", "0", "2 of 2")
         self.assertIn(row, part.tables[3].rows)
-        self.assertEqual(len(part.files), 6)
+        self.assertEqual(part.summary["Contracts that ran with the unit tests"], "1; 1 did not")
+        self.assertEqual(part.tables[7].rows, (("keel_y", "It does not end."),))
+        self.assertEqual(len(part.files), 7)
 
     def test_a_failing_test(self) -> None:
         report = run_report()
@@ -190,6 +201,14 @@ class Tests(unittest.TestCase):
         self.write("coverage-target/report.json", {**code_report(), "stale_reasons": [stale]})
         self.assertIn("specs/object_coverage.toml: fits another number of gaps than 1: keel_x",
                       self.problem())  # fmt: skip
+
+    def test_a_violated_contract(self) -> None:
+        report = contracts_report()
+        report["units"]["src/x.c"]["failures"] = ["keel_x: x.h:3: Error: Postcondition failed:"]
+        self.write("contracts-run/report.json", report)
+        self.assertEqual(
+            self.problem(), "contracts-run: keel_x: x.h:3: Error: Postcondition failed:"
+        )
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What was tested, on the host and on the emulated Cortex-M7, and how much of the code was reached:
-from the reports of make test, test-target, coverage and coverage-target.
+from the reports of make test, test-target, coverage, coverage-target and contracts-run.
 """
 
 from __future__ import annotations
@@ -38,6 +38,11 @@ emulated Cortex-M7 one instruction at a time. Counted are the conditional instru
 with the inlined functions of include/: branches (b<condition>, cbz, cbnz), instructions of IT \
 blocks, and selections (vsel). Each has two outcomes, its condition true and false, evaluated on \
 the registers and flags that the processor had.
+
+Some contracts also run: Frama-C's E-ACSL turns their clauses into code, through which the unit \
+tests of the file call. This asks whether a clause, proved or not, holds in what the tests do. \
+E-ACSL supports part of ACSL only; what it leaves out is listed. Pointers are compared with null \
+alone.
 
 The emulator executes instructions; it models neither the processor's pipeline and caches nor the \
 board's peripherals. No test of this package ran on hardware."""
@@ -231,10 +236,44 @@ def check_object(report: Report, problems: list[str]) -> None:
                         f"{item['line']}")  # fmt: skip
 
 
+# --- Contracts that run ---------------------------------------------------------------------------
+
+
+def contract_tables(report: Report) -> list[Table]:
+    """What ran, the clauses that did not, and the functions that did not."""
+    if not report:
+        return []
+    rows = tuple(
+        (f"function:{name}", unit, "no clause was violated" if not item["failures"] else "VIOLATED")
+        for unit, item in report["units"].items() for name in item["functions"]
+    )  # fmt: skip
+    ignored = tuple(
+        (f"function:{clause['function']}", f"{clause['file']}:{clause['line']}",
+         clause["construct"])
+        for item in report["units"].values() for clause in item["ignored"]
+    )  # fmt: skip
+    absent = tuple((", ".join(item["functions"]), item["reason"]) for item in report["left_out"])
+    return [
+        Table(title="Contracts that ran with the unit tests", rows=rows,
+              columns=("function", "file", "outcome")),
+        Table(title="Clauses of these that E-ACSL leaves out", rows=ignored,
+              columns=("function", "place", "construct that it does not support")),
+        Table(title="Contracts that did not run", columns=("functions", "reason"), rows=absent),
+    ]  # fmt: skip
+
+
+def check_contracts(report: Report, problems: list[str]) -> None:
+    """A clause that was violated is a problem."""
+    for item in report.get("units", {}).values():
+        problems.extend(f"contracts-run: {failure}" for failure in item["failures"])
+
+
 # --- All of it -----------------------------------------------------------------------------------
 
 
-def summary_of(reports: Mapping[str, Report], coverage: Report, code: Report) -> dict[str, str]:
+def summary_of(
+    reports: Mapping[str, Report], coverage: Report, code: Report, contracts: Report
+) -> dict[str, str]:
     """The figures that a reader wants first."""
     found = {
         f"Tests {run}": f"{report['passed']} passed, {report['failed']} failed"
@@ -249,6 +288,10 @@ def summary_of(reports: Mapping[str, Report], coverage: Report, code: Report) ->
         found["Outcomes of conditional instructions seen"] = (
             f"{total['seen']} of {total['outcomes']}; {len(code['explained'])} cannot be"
         )
+    if contracts:
+        ran = sum(len(item["functions"]) for item in contracts["units"].values())
+        absent = sum(len(item["functions"]) for item in contracts["left_out"])
+        found["Contracts that ran with the unit tests"] = f"{ran}; {absent} did not"
     return found
 
 
@@ -257,7 +300,7 @@ def files_of(context: Context) -> dict[str, Path]:
     names = {f"{folder}-{file}": f"{folder}/{file}" for folder in RUNS.values()
              for file in ("report.json", "junit.xml")}  # fmt: skip
     names |= {f"{folder}-report.json": f"{folder}/report.json"
-              for folder in ("coverage", "coverage-target")}  # fmt: skip
+              for folder in ("coverage", "coverage-target", "contracts-run")}  # fmt: skip
     return {shown: context.build / name for shown, name in names.items()
             if (context.build / name).is_file()}  # fmt: skip
 
@@ -272,10 +315,13 @@ def make(context: Context) -> Part:
     check_coverage(coverage, problems)
     code = context.report("coverage-target/report.json", problems)
     check_object(code, problems)
+    contracts = context.report("contracts-run/report.json", problems)
+    check_contracts(contracts, problems)
     return Part(
         name="tests", title="Tests and coverage", text=TEXT,
-        summary=summary_of(reports, coverage, code),
-        tables=(suite_table(reports), *coverage_tables(coverage), *object_tables(code)),
+        summary=summary_of(reports, coverage, code, contracts),
+        tables=(suite_table(reports), *coverage_tables(coverage), *object_tables(code),
+                *contract_tables(contracts)),
         items=tuple(test_items(verdicts_of(reports), requirements(context.root))),
         files=files_of(context), problems=tuple(problems),
     )  # fmt: skip
