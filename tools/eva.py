@@ -37,6 +37,7 @@ from typing import Any
 from common.arguments import Parser
 from common.config import Table, Text, read_toml
 from common.errors import ROOT, program
+from common.files import sha256_of
 from common.source import digest_of_tree, write_report
 from interpretation.analysis import ANY_CONTEXT, PRECISION, Analysis, Eva
 from interpretation.reduced import public_functions, write_tree
@@ -175,6 +176,7 @@ def key_of(tools: Toolchain, root: Path) -> str:
     return digest({
         "tools": {name: [found[name].version, found[name].sha256] for name in JUDGES},
         "driver": digest_of_tree(own, ("interpretation", "machdep")),
+        "own": [sha256_of(own / "eva.py"), sha256_of(own / "toolchain/provers.py")],
         "source": digest_of_tree(root, ("include", "src", DEMO)),
         "precision": PRECISION,
     })  # fmt: skip
