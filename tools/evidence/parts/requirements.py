@@ -31,6 +31,7 @@ tested. Told means a theorem that people have put together from proved parts; sp
 has the argument. A high-level requirement stands as the worst below it. Whether the low-level \
 requirements together are enough for their parent no tool can say: that is for a review."""
 
+
 def text_of(one: Requirement) -> str:
     """A requirement's texts, as paragraphs."""
     named = {"RATIONALE": "Rationale", "DEPARTURE": "Departure from the paper",
