@@ -45,6 +45,7 @@ def commands_of(root: Path) -> tuple[Command, ...]:
         Command("test/report.json", ("test",)),
         Command("coverage/report.json", ("coverage",)),
         Command("coverage-target/report.json", ("coverage-target",)),
+        Command("contracts-run/report.json", ("contracts-run",)),
         Command("eva/report.json", ("eva",)),
         Command("qualify/report.json", ("qualify",)),
         Command("opinion/report.json", ("opinion",)),
