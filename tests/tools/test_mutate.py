@@ -244,6 +244,7 @@ class Trials(unittest.TestCase):
 
     def test_what_does_not_compile_is_stillborn(self) -> None:
         self.assertEqual(self.status("a <"), "stillborn")
+        self.assertEqual(self.status("keel_box_small((int *)0)"), "stillborn")
 
     def test_what_nobody_notices_survives(self) -> None:
         self.assertEqual(self.status("a < 4"), "survived")

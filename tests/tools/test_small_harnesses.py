@@ -49,7 +49,9 @@ class SmallHarness(TreeTest):
             self.assertEqual(made.defines, (f"-DKEEL_QUEUE_CAPACITY={expected}", "-DX=1"))
 
     def test_loops_over_something_else_are_unwound_as_before(self) -> None:
-        self.assertEqual(self.made("// cbmc: --unwind 7").options[:2], ("--unwind", "7"))
+        for bound in ("7", "35"):
+            made = self.made(f"// cbmc: --unwind {bound}")
+            self.assertEqual(made.options[:2], ("--unwind", bound))
 
     def test_where_there_is_no_capacity_none_is_defined(self) -> None:
         self.assertEqual(self.made("// cbmc: --unwind 34", "/* none */\n").defines, ())

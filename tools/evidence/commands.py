@@ -16,7 +16,7 @@ from common.run import Ended, run
 
 from evidence.part import Context
 
-GOOD_VERDICTS = ("proved", "passed")
+GOOD_VERDICTS = ("proved", "passed", "good")
 WRONG = ("failed", "problems", "findings", "gaps")  # What a report says of what is wrong.
 TIMEOUT_S = 3600.0
 

@@ -23,6 +23,7 @@ from .mutant_harnesses import in_tree
 
 # The capacities that a build may choose, and those of a small harness.
 CAPACITIES = {"KEEL_QUEUE_CAPACITY": 2, "KEEL_VOTER_SENSORS": 3}
+MARGIN = 2  # how often at most a loop over a whole capacity is unwound beyond it
 BEYOND = "unwinding assertion"  # what CBMC says of a loop that goes on
 TIME = 20.0  # seconds, for a question that is meant to be easy
 
@@ -62,12 +63,15 @@ def _usual(name: str, texts: Iterable[str]) -> int | None:
 
 
 def _unwound(options: tuple[str, ...], usual: int, least: int) -> tuple[str, ...]:
-    """Options that unwind loops over a whole capacity less, as it is less, and others as before."""
+    """Options that unwind loops over a whole capacity less, as it is less, and others as before.
+
+    A bound further above the capacity than MARGIN is not the capacity's, but that of other loops.
+    """
     if "--unwind" not in options:
         return options
     place = options.index("--unwind") + 1
     bound = int(options[place])
-    if bound <= usual:
+    if not usual < bound <= usual + MARGIN:
         return options
     return (*options[:place], str(bound - usual + least), *options[place + 1 :])
 

@@ -32,6 +32,8 @@ IMPATIENT = 20.0
 UNTIMED = 60.0  # what a harness counts for whose time nobody knows
 LAST_PATIENCE = 10.0  # for the attempt after which a mutant is said to survive
 NO_ANSWER = "no answer"
+# C allows no pointer for a number, nor one for another type's: who mixes them up is stillborn.
+NO_MIXTURE = ("-Werror=int-conversion", "-Werror=incompatible-pointer-types")
 # In a stamp, what judges mutants by each engine, and what judges what is unchanged: the latter is
 # more, and the kept proofs of `make prove` alone depend on it.
 BY_CBMC, BY_WP, DRIVER = "judges by CBMC", "judges by WP", "driver"
@@ -251,7 +253,7 @@ class Trial:
         keep = ("-fkeep-inline-functions", "-fkeep-static-functions")
         options = [
             "-O2",
-            "-w",
+            *NO_MIXTURE,
             *keep,
             "-Iinclude",
             "-S",
