@@ -38,9 +38,9 @@ class SmallHarness(TreeTest):
         return small(read_harness(self.unit, path), [capacity])
 
     def test_capacity_and_unwinding_shrink_together(self) -> None:
-        made = self.made("// cbmc: --unwind 34 --slice-formula")
+        made = self.made("// cbmc: --unwind 34 --refine")
         self.assertEqual(made.defines, ("-DKEEL_QUEUE_CAPACITY=2u",))
-        self.assertEqual(made.options[:3], ("--unwind", "4", "--slice-formula"))
+        self.assertEqual(made.options[:3], ("--unwind", "4", "--refine"))
         self.assertTrue(made.assertions_only)
 
     def test_what_a_harness_chose_shrinks_too_and_never_grows(self) -> None:
