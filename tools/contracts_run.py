@@ -246,7 +246,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         REPORT.unlink(missing_ok=True)
         choice = read_toml(CHOICE, Choice, mistakes)
         tools = Toolchain()
-        tools.ensure("prove", "test")
+        tools.ensure("prove", "test", "contracts-run")
         runner = Runner(tools)
         runs = {}
         for unit in choice.executed:
