@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from boards.board import BOARD_FILE
+from boards.board import board_names
 from common.errors import ROOT
 from common.files import write_text
 from common.run import Ended, run
@@ -36,7 +36,7 @@ class Command:
 
 def commands_of(root: Path) -> tuple[Command, ...]:
     """In the order in which they run: images are built before they are run and looked into."""
-    boards = sorted(path.parent.name for path in (root / "bsp").glob(f"*/{BOARD_FILE}"))
+    boards = board_names(root)
     return (
         Command("prove/report.json", ("prove",)),
         *(Command(f"firmware/{name}/report.json", ("firmware", f"BOARD={name}"))

@@ -12,7 +12,6 @@ from typing import Any
 
 from common.files import read_text
 from proofs import csource
-from proofs.csource import calls
 from proofs.harness import Harness, read_harness
 from proofs.project import find_units
 
@@ -87,8 +86,8 @@ def read_bounds(harness: Harness) -> Bounded:
     code = csource.code_only(read_text(harness.path))
     sizes = [f"{match[1]}={match[2]}" for word in harness.defines if (match := SIZE.match(word))]
     drawn = [" ".join(match[0].split()) for match in DRAWN.finditer(code)]
-    assumed = [" ".join(call.arguments[0].split()) for call in calls(code, "__CPROVER_assume")
-               if call.arguments]  # fmt: skip
+    assumptions = csource.calls(code, "__CPROVER_assume")
+    assumed = [" ".join(call.arguments[0].split()) for call in assumptions if call.arguments]
     own = [text for text in assumed if not CONTRACT.match(text) and NUMBER.search(text)]
     case = harness.name.removesuffix("_harness").partition("__")[2]
     return Bounded(
