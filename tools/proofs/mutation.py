@@ -59,10 +59,10 @@ class Trial:
     """Tries the mutants of one unit.
 
     A mutant is tried first by small harnesses, the one that killed most mutants of its function
-    before the others. Then by the harnesses that compare its function with the model, by the
+    before the others; then by the harnesses that compare its function with the model, by the
     others that cover it, and by WP, which asks the function alone: what its callers rely on is its
-    contract, not its body. What is left are the harnesses that were too slow and, in their small
-    form, those that only call it. Among equals the one that is usually fastest comes first.
+    contract, not its body. What is left are the harnesses that were too slow. Among equals the one
+    that is usually fastest comes first.
     """
 
     def __init__(
@@ -171,7 +171,7 @@ class Trial:
         In the latter case CBMC has little time at first: some mutants that are very hard for it
         are easy for WP.
         """
-        if "cbmc" in self._engines and self._killed_by_small(verdict, unit, runner, False):
+        if "cbmc" in self._engines and self._killed_by_small(verdict, unit, runner):
             return
         if self._small_only:
             verdict.status, verdict.reason = "skipped", "left by the small harnesses"
@@ -194,8 +194,6 @@ class Trial:
                     return
             elif verdict.engines[engine].startswith(UNDECIDED) and verdict.status != "killed":
                 verdict.status = "undecided"
-        if "cbmc" in self._engines and verdict.status != "killed":
-            self._killed_by_small(verdict, unit, runner, True)
 
     def _runner(self, folder: Path) -> Runner:
         runner = Runner(dict(self._tools.environment), folder)
@@ -288,17 +286,11 @@ class Trial:
             return "no harness" if patient else NO_ANSWER
         return NO_ANSWER if not patient or NO_ANSWER in asked.values() else "survived"
 
-    def _killed_by_small(
-        self, verdict: Verdict, unit: Unit, runner: Runner, callers: bool
-    ) -> bool:  # fmt: skip
-        """Ask small harnesses: those that cover the function, or those that only call it.
-
-        Whether no other engine need be asked.
-        """
+    def _killed_by_small(self, verdict: Verdict, unit: Unit, runner: Runner) -> bool:
+        """Ask small harnesses; whether no other engine need be asked."""
         mutant = verdict.mutant
-        ranked = [one for one in self._ranked(mutant) if (mutant.function in one.covers) != callers]
         checker = self._checker(unit.root, runner)
-        for harness in self._small.ranked(mutant.function, ranked):
+        for harness in self._small.ranked(mutant.function, self._ranked(mutant)):
             if text := self._small.kills(harness, mutant.function, checker, unit.root):
                 verdict.engines["cbmc"] = text
                 verdict.status = "killed"
