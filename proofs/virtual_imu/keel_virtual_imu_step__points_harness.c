@@ -4,8 +4,8 @@
 // sources: specs/model/voter.c specs/model/voter_parts.c specs/model/range.c
 // covers: keel_virtual_imu_step note model_virtual_imu_step
 //
-// A chosen vote: all units are present, and one is off in a channel where the first bad vote
-// latches.
+// A chosen vote: one unit is late for the accelerometer alone, and another one is off in a channel
+// of the gyroscope, where the first bad vote latches.
 #include "chosen_vote.h"
 
 void keel_virtual_imu_step__points_harness(void)
@@ -15,6 +15,7 @@ void keel_virtual_imu_step__points_harness(void)
     keel_virtual_imu_t model = imu;
 
     all_present(sample);
+    sample[1].age_us = 1500u;
     sample[2].value[5] += 20.0f;
     model_virtual_imu_step(&model, sample, 900u);
 
