@@ -7,7 +7,7 @@ import json
 import math
 import shutil
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
@@ -18,7 +18,7 @@ from .jobs import Runner
 from .mutant_harnesses import Seen, in_tree, survey
 from .mutant_small import Small
 from .mutant_trees import Trees
-from .mutant_verdicts import Verdict
+from .mutant_verdicts import Identity, Verdict
 from .mutants import Mutant
 from .project import ProjectError, Unit, closure
 from .settings import Exceptions
@@ -30,7 +30,7 @@ PATIENCE = 3.0
 SHORTEST, LONGEST = 2, 30
 IMPATIENT = 20.0
 UNTIMED = 60.0  # what a harness counts for whose time nobody knows
-LAST_PATIENCE = 10.0  # for the attempt after which a mutant is said to survive
+LAST_PATIENCE = 4.0  # for the attempt after which a mutant is said to survive
 NO_ANSWER = "no answer"
 # C allows no pointer for a number, nor one for another type's: who mixes them up is stillborn.
 NO_MIXTURE = ("-Werror=int-conversion", "-Werror=incompatible-pointer-types")
@@ -62,14 +62,15 @@ class Trial:
     before the others; then by the harnesses that compare its function with the model, by the
     others that cover it, and by WP, which asks the function alone: what its callers rely on is its
     contract, not its body. What is left are the harnesses that were too slow. Among equals the one
-    that is usually fastest comes first.
+    that is usually fastest comes first. A mutant whose reason to be none is accepted is tried by the
+    small harnesses alone: they tell a wrong reason.
     """
 
     def __init__(
         self, unit: Unit, tools: Tools, trees: Trees, asked: Sequence[str], every: bool,
         cache: Cache, stamp: Mapping[str, str], exceptions: Exceptions,
         times: Times, patient: bool = True, seen: Sequence[Seen] | None = None,
-        small_only: bool = False,
+        small_only: bool = False, accepted: Collection[Identity] = (),
     ) -> None:  # fmt: skip
         self._unit = unit
         self._tools = tools
@@ -83,6 +84,7 @@ class Trial:
         self._times = times
         self._patient = patient
         self._small_only = small_only
+        self._accepted = frozenset(accepted)
         self._allowed = list(exceptions.warnings)
         self._baseline = threading.Lock()
         self._proved = Cache(tools.verdicts)
@@ -176,6 +178,9 @@ class Trial:
         if self._small_only:
             verdict.status, verdict.reason = "skipped", "left by the small harnesses"
             return
+        if verdict.mutant.identity in self._accepted:
+            verdict.engines = dict.fromkeys(self._engines, "not asked: the reason is accepted")
+            return
         said: dict[str, str] = {}
         asked = self._engines
         if not self._every and asked == ["cbmc", "wp"]:
@@ -215,7 +220,8 @@ class Trial:
     def _key(self, mutant: Mutant) -> str:
         """All that a verdict depends on, with the mutant in it."""
         changed = mutant.apply(self._texts[mutant.file])
-        return self._digest({**self._texts, mutant.file: changed}, mutant.function)
+        accepted = " accepted" if mutant.identity in self._accepted else ""
+        return self._digest({**self._texts, mutant.file: changed}, mutant.function + accepted)
 
     def _digest(self, texts: Mapping[Path, str], function: str) -> str:
         root = self._unit.root
