@@ -31,7 +31,7 @@ title = "A standard"
 note = "In our words."
 source = [ { id = "Book", address = "https://a.org/b", on = 2026-11-22, what = "Its annex" } ]
 objective = [
-  { id = "1", checked = "Book", what = "It is proved", status = "input", by = ["part:formal", "file:a.md"] },
+  { id = "1", checked = "Book", what = "Proved", status = "input", by = ["part:formal", "file:a.md"] },
   { id = "2", what = "It flies", status = "partly", by = ["part:tests"], why = "Not yet" },
   { id = "3", what = "It lands", status = "no", why = "No ground" },
 ]

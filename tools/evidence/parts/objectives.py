@@ -31,9 +31,9 @@ mean that a system, or Keel, complies with a standard: compliance is shown by an
 whole system, to an authority or an assessor. "Partly" says what is missing. "Not addressed" says
 why.
 
-The standards were not at hand when this was written. "Number compared with" names the public source
-that was read for the number of a row and what it is about, below each table; where it says "nothing",
-both are from memory. Whoever uses a row looks it up in the standard first."""
+The standards were not at hand when this was written. "Number compared with" names the public text
+that was read for the number of a row and its subject; it is told below each table. Where it says
+"nothing", both are from memory. Whoever uses a row looks it up in the standard first."""
 UNCHECKED = "nothing"
 
 

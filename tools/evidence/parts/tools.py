@@ -42,9 +42,9 @@ operational use, no proof of it.
 Two engines with nothing in common but the source and its preprocessor judge each function of the \
 kernel: WP with its provers, and CBMC. That is why most detection is TD2 and not TD3.
 
-Known problems were reviewed as far as each tool's page says. "Read" means that the vendor's list or \
-release notes were read; "searched", that single problems were found by a search, and no whole list \
-was read; "open", that nothing was found. None of the three means that there is no other problem."""
+Known problems were reviewed as far as each tool's page says. "Read" means that the vendor's list \
+or release notes were read; "searched", that single problems were found by a search, and no whole \
+list was read; "open", that nothing was found. None of them means that there is no other problem."""
 
 
 class Tool(Table):
@@ -282,7 +282,7 @@ def make(context: Context) -> Part:
         summary={
             "tools": str(len(settings.tool)),
             "seeded faults detected": f"{sum(not run['wrong'] for run in runs)} of {len(runs)}",
-            "known problems that concern Keel": str(len(settings.problem)),
+            "known problems that were looked at": str(len(settings.problem)),
             "tools by review of their known problems": reviews(settings),
         },
         text=TEXT, tables=tuple(tables(settings, specs, found, report)),
