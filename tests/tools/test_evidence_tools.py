@@ -103,6 +103,33 @@ class Entries(unittest.TestCase):
             with self.assertRaisesRegex(ToolError, "there is no tool cmbc"):
                 part_tools.make(context)
 
+    def refused(self, tool: str, old: str, new: str) -> str:
+        """What the file is refused with when the entry of a tool is changed."""
+        head, _, rest = (ROOT / SETTINGS).read_text().partition(f'name = "{tool}"\n')
+        self.assertIn(old, rest.partition("[[")[0])
+        with tempfile.TemporaryDirectory(prefix="keel-test-") as folder:
+            (Path(folder) / "specs").mkdir()
+            text = f'{head}name = "{tool}"\n{rest.replace(old, new, 1)}'
+            (Path(folder) / SETTINGS).write_text(text)
+            with self.assertRaises(ToolError) as caught:
+                part_tools.read_settings(Path(folder))
+        return str(caught.exception)
+
+    def test_a_review_that_does_not_say_when_where_or_what_it_left(self) -> None:
+        for old, new, told in (
+            ("on = 2026-11-22\n", "", "read, but on does not say when"),
+            ('left = "The vendor\'s tracker"\n', "", "left does not say what was not read"),
+            ('known = "read"', 'known = "complete"', "known"),
+            ("on = 2026-11-22", "on = 2026-13-22", "no TOML"),
+        ):
+            self.assertRegex(self.refused("why3", old, new), rf"tools\.toml:\d+: .*({told})")
+        without = self.refused("cadical", "sources = [", "#")
+        self.assertRegex(without, r"tool cadical: .*read, but no source is named")
+
+    def test_an_open_review_needs_no_source_but_says_what_was_searched(self) -> None:
+        told = self.refused("binutils", "left = ", "#")
+        self.assertRegex(told, r"binutils: .*open, but left does not say")
+
     def test_a_test_that_is_not_there(self) -> None:
         read = part_tools.read_settings(ROOT)
         changed = [one.model_copy(update={"tests": ["test_lint/test_nothing"]})
@@ -139,6 +166,20 @@ class Whole(unittest.TestCase):
         self.assertEqual(self.mine(), [])
         names = {item.id for item in self.make().items}
         self.assertEqual(names, set(part_tools.wanted(Toolchain().lock)))
+
+    def test_each_page_tells_how_far_known_problems_were_reviewed(self) -> None:
+        part = self.make()
+        items = {item.id: item for item in part.items}
+        self.assertEqual(items["why3"].facts["known problems"], "read, 2026-11-22")
+        self.assertEqual(items["gappa"].facts["known problems"], "open, 2026-11-22")
+        self.assertIn("tracker", items["why3"].facts["what was not"])
+        self.assertNotIn("where", items["binutils"].facts)
+        (table,) = [one for one in part.tables if one.title == "Reviews of known problems"]
+        told = [row[1] for row in table.rows]
+        counts = (f"{told.count(how)} {how}" for how in ("read", "searched", "open", "not needed"))
+        shown = part.summary["tools by review of their known problems"]
+        self.assertEqual(shown, ", ".join(counts))
+        self.assertEqual(len(told), len(items))
 
     def test_a_fault_that_is_no_longer_detected(self) -> None:
         wrong = "cbmc: an overflow: does not say 'x', but: nothing"
