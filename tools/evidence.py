@@ -43,6 +43,7 @@ from evidence.assemble import (  # noqa: E402
 from evidence.commands import (  # noqa: E402
     Command,
     commands_of,
+    not_good,
     own_commands,
     run_commands,
 )
@@ -118,6 +119,7 @@ def make(choice: Choice) -> int:
     problems = [] if choice.dirty else refused(source)
     if not choice.as_is and not problems:
         problems = run_commands(context, choice.commands())
+    problems += not_good(context, choice.commands())
     made = choice.assemble(context)
     problems += made.problems
     if not problems and stamp_of(choice.root) != context.stamp:
@@ -135,6 +137,7 @@ def make_draft(choice: Choice, draft: Path) -> int:
         raise ToolError("a draft has a folder of its own")
     context = context_of(choice.root, choice.out)
     made = choice.assemble(context)
+    made.problems[:0] = not_good(context, choice.commands())
     source = source_of(choice.root, context.stamp)
     write_package(draft, made, source, versions(), sealed=False)
     return closing(made.problems, f"a draft is in {draft}")

@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -32,19 +32,15 @@ from evidence_sample import (  # noqa: E402
     SOURCE,
     STAMP,
     assembled,
-    context_in,
     formal,
     sample_tests,
 )
 
 from common.errors import ToolError  # noqa: E402
 from common.packages import provide  # noqa: E402
-from common.run import Ended  # noqa: E402
-from common.source import STAMP as MADE_FROM  # noqa: E402
 from common.source import stamp_of  # noqa: E402
 from evidence.assemble import PARTS, maker_of  # noqa: E402
 from evidence.attestation import PREDICATE  # noqa: E402
-from evidence.commands import Command, commands_of, run_commands  # noqa: E402
 from evidence.package import (  # noqa: E402
     ATTESTATION,
     MANIFEST,
@@ -183,99 +179,6 @@ class Parts(InFolder):
     def test_every_part_of_the_package_has_a_module(self) -> None:
         there = {path.stem for path in (ROOT / "tools/evidence/parts").glob("[a-z]*.py")}
         self.assertLessEqual(there, set(PARTS))
-
-
-class Commands(InFolder):
-    """What is run, with a make that only notes it."""
-
-    def setUp(self) -> None:
-        super().setUp()
-        self.ran: list[str] = []
-        self.command = Command("test/report.json", ("test",))
-
-    def write(self, text: str) -> None:
-        path = self.folder / "build/test/report.json"
-        path.parent.mkdir(parents=True)
-        path.write_text(text, encoding="utf-8")
-
-    def run_with(self, ended: Ended) -> list[str]:
-        def start(words: Sequence[str], _: Path) -> Ended:
-            self.ran += words
-            return ended
-
-        return run_commands(context_in(self.folder), [self.command], start)
-
-    def ran_for(self, **report: Any) -> bool:
-        self.write(json.dumps(report))
-        self.assertEqual(self.run_with(Ended(0, "")), [])
-        return bool(self.ran)
-
-    def test_a_good_report_of_this_source_is_kept(self) -> None:
-        self.assertFalse(self.ran_for(passed=3, failed=0, **{MADE_FROM: STAMP}))
-
-    def test_a_report_of_another_source_is_made_anew(self) -> None:
-        self.assertTrue(self.ran_for(failed=0, **{MADE_FROM: {**STAMP, "tree": "0" * 64}}))
-
-    def test_a_report_without_a_stamp_is_made_anew(self) -> None:
-        self.assertTrue(self.ran_for(failed=0))
-
-    def test_a_failed_report_is_made_anew(self) -> None:
-        self.assertTrue(self.ran_for(failed=1, **{MADE_FROM: STAMP}))
-
-    def test_a_proof_that_failed_is_made_anew(self) -> None:
-        self.assertTrue(self.ran_for(verdict="failed", **{MADE_FROM: STAMP}))
-
-    def test_a_report_of_a_few_suites_is_made_anew(self) -> None:
-        self.assertTrue(self.ran_for(failed=0, filter="unit/", **{MADE_FROM: STAMP}))
-
-    def test_a_report_with_a_goal_that_is_not_met_is_made_anew(self) -> None:
-        goals = [{"name": "instructions", "met": False}]
-        self.assertTrue(self.ran_for(goals=goals, **{MADE_FROM: STAMP}))
-
-    def test_every_command_is_a_target_of_make(self) -> None:
-        makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
-        commands = commands_of(ROOT)
-        self.assertGreater(len(commands), 8)
-        for command in commands:
-            self.assertRegex(makefile, rf"(?m)^{command.words[0]}:")
-
-    def test_a_half_written_report_is_made_anew(self) -> None:
-        self.write('{"failed": 0, "made')
-        self.run_with(Ended(0, ""))
-        self.assertEqual(self.ran, ["test"])
-
-    def test_a_command_that_fails_is_named_with_its_last_line(self) -> None:
-        [told] = self.run_with(Ended(1, "much\n3 of 4 tests passed\n"))
-        self.assertIn("make test: exit status 1: 3 of 4 tests passed", told)
-        [log] = (self.folder / "work/logs").iterdir()
-        self.assertIn("much", log.read_text(encoding="utf-8"))
-
-
-class Reports(InFolder):
-    """What a part is told of a report that cannot serve."""
-
-    def told(self, text: str | None) -> list[str]:
-        context = context_in(self.folder)
-        if text is not None:
-            (context.build / "x.json").write_text(text, encoding="utf-8")
-        problems: list[str] = []
-        context.report("x.json", problems)
-        return problems
-
-    def test_missing(self) -> None:
-        self.assertEqual(self.told(None), ["build/x.json: is missing"])
-
-    def test_half_written(self) -> None:
-        self.assertRegex(self.told('{"units": {')[0], r"^build/x\.json: is not whole: ")
-
-    def test_stale(self) -> None:
-        for stamp in ({}, {**STAMP, "commit": "0" * 40}, {**STAMP, "tree": "0" * 64}):
-            told = self.told(json.dumps({MADE_FROM: stamp}))
-            self.assertEqual(told, ["build/x.json: speaks of another source than the one that is"
-                                    " here"])  # fmt: skip
-
-    def test_good(self) -> None:
-        self.assertEqual(self.told(json.dumps({MADE_FROM: STAMP})), [])
 
 
 class Packages(InFolder):

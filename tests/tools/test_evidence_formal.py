@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import json
 import sys
 import unittest
 import unittest.mock
@@ -266,6 +267,20 @@ class Kept(FormalTest):
         self.assertEqual((answer["verdict"], times), ("proved", 0))
         self.replace("include/keel/rtos/clock.h", "? (to_us - from_us)", "? (to_us - from_us + 0u)")
         self.assertEqual(self.asked("failed")[0]["verdict"], "failed")
+
+    def test_the_report_says_whether_it_agrees(self) -> None:
+        for says, ends in (("proved", (0, "good")), ("no answer in 120 s", (1, "failed"))):
+            answers = {CLOCK: {"verdict": says, "wrong": ""}}
+            tools = unittest.mock.Mock()
+            tools().versions.return_value = {"esbmc": unittest.mock.Mock(version="8", sha256="a")}
+            with (
+                unittest.mock.patch.object(third_opinion, "ask_all", return_value=answers),
+                unittest.mock.patch.object(third_opinion, "Toolchain", tools),
+                contextlib.redirect_stdout(io.StringIO()),
+            ):
+                status = third_opinion.run([], self.root)
+            report = json.loads((self.root / "build" / opinion.REPORT).read_text("utf-8"))
+            self.assertEqual((status, report["verdict"]), ends)
 
     def test_a_failure_is_asked_about_again(self) -> None:
         self.assertEqual([self.asked("failed")[1] for _ in range(2)], [1, 1])
