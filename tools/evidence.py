@@ -6,6 +6,7 @@
     python3 tools/evidence.py --as-is             # run nothing: the reports as they are
     python3 tools/evidence.py --draft FOLDER      # the same, problems included, and unsealed
     python3 tools/evidence.py --verify FOLDER     # is a package as it was made?
+    python3 tools/evidence.py --same ONE OTHER    # do two differ in measured seconds alone?
     python3 tools/evidence.py --project FOLDER    # the package of a project that uses Keel
 
 A package is written as a whole, and only when nothing is wrong; else the one that was there stays,
@@ -50,7 +51,7 @@ from evidence.commands import (  # noqa: E402
 from evidence.digest import as_markdown  # noqa: E402
 from evidence.package import Source, source_of, write_package  # noqa: E402
 from evidence.part import Context  # noqa: E402
-from evidence.verify import verify  # noqa: E402
+from evidence.verify import reproduced, verify  # noqa: E402
 
 BEGUN = time.monotonic()
 
@@ -150,6 +151,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--dirty", action="store_true", help="also with uncommitted changes")
     parser.add_argument("--draft", type=Path, metavar="FOLDER", help="write one with its problems")
     parser.add_argument("--verify", type=Path, metavar="FOLDER", help="look at a package only")
+    parser.add_argument("--same", type=Path, nargs=2, metavar=("ONE", "OTHER"),
+                        help="do two packages of one source differ in measured seconds alone?")
     parser.add_argument("--out", type=Path, metavar="FOLDER", help="build/evidence unless said")
     parser.add_argument("--project", type=Path, default=ROOT, metavar="FOLDER",
                         help="a project that uses Keel, rather than Keel itself")  # fmt: skip
@@ -160,6 +163,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if options.verify:
             problems = verify(options.verify, stamp_of(root))
             return closing(problems, f"{options.verify} is {'not ' * bool(problems)}as it was made")
+        if options.same:
+            problems = reproduced(*options.same)
+            return closing(problems, f"{'not ' * bool(problems)}the same but for measured seconds")
         out = options.out or root / "build/evidence"
         choice = Choice(root, out, options.as_is, options.dirty)
         return make_draft(choice, options.draft) if options.draft else make(choice)

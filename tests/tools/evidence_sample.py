@@ -44,7 +44,7 @@ def formal() -> Part:
                     state="good", links=("unit:queue", "requirement:QUE-001"))  # fmt: skip
     other = Item(kind="function", id=LONG, title="The earliest", links=("unit:queue",))
     harness = Item(kind="harness", id="queue/keel_queue_init_harness", title="Any queue",
-                   text=BOUNDS, state="good", facts={"unwound": "completely", "seconds": "3"},
+                   text=BOUNDS, state="good", facts={"unwound": "completely"},
                    links=("function:keel_queue_init",))  # fmt: skip
     goals = [
         Item(kind="goal", id=f"queue/keel_queue_init_ensures_QUE_001_{number}", title="count is 0",

@@ -37,10 +37,14 @@ from evidence_sample import (  # noqa: E402
 )
 
 from common.errors import ToolError  # noqa: E402
+from common.files import write_json  # noqa: E402
+from common.junit import JUnitSuite, write_junit  # noqa: E402
 from common.packages import provide  # noqa: E402
+from common.source import STAMP as MADE_FROM  # noqa: E402
 from common.source import stamp_of  # noqa: E402
 from evidence.assemble import PARTS, maker_of  # noqa: E402
 from evidence.attestation import PREDICATE  # noqa: E402
+from evidence.measured import copied  # noqa: E402
 from evidence.package import (  # noqa: E402
     ATTESTATION,
     MANIFEST,
@@ -51,7 +55,7 @@ from evidence.package import (  # noqa: E402
     write_package,
 )
 from evidence.part import Context, Item, Part, Table  # noqa: E402
-from evidence.verify import verify  # noqa: E402
+from evidence.verify import reproduced, verify  # noqa: E402
 from toolchain import ToolchainError  # noqa: E402
 
 
@@ -291,6 +295,66 @@ class Packages(InFolder):
         with self.assertRaisesRegex(ToolError, "leads out of the package"):
             write_package(self.folder / "evidence", made, SOURCE, {})
         self.assertFalse((self.folder / "evidence").exists())
+
+
+class Measured(InFolder):
+    """Two packages of one source, made from reports with other times."""
+
+    def made(self, name: str, times: float, **facts: Any) -> Path:
+        """The sample, with a report of the tests that took this long."""
+        folder = self.folder / name
+        folder.mkdir()
+        report = {"suites": {"unit/queue": {"seconds": times, "passed": 1}}, MADE_FROM: STAMP}
+        write_json(folder / "report.json", report)
+        write_junit(folder / "junit.xml", "Keel", {"queue": JUnitSuite({"it_adds": ""}, times)})
+        files = {one: folder / one for one in ("report.json", "junit.xml")}
+        took = {"queue/wp/lemmas": times}
+        part = added(files=files, measured=took, **facts)
+        write_package(folder / "evidence", assembled(folder, tests=part), SOURCE, {})
+        return folder / "evidence"
+
+    def test_they_differ_in_one_file_and_its_digest(self) -> None:
+        one, other = self.made("one", 1.5), self.made("other", 22.25)
+        self.assertEqual(reproduced(one, other), [])
+        before, after = digests(one), digests(other)
+        self.assertEqual(before.keys(), after.keys())
+        self.assertEqual({name for name in before if before[name] != after[name]},
+                         {"measured.json", ATTESTATION, SUMS})  # fmt: skip
+        read = json.loads((other / "measured.json").read_text(encoding="utf-8"))
+        self.assertEqual(read["seconds"]["tests"], {"queue/wp/lemmas": 22.25,
+                                                    "report.json/suites/unit/queue": 22.25})
+        for name in ("report.json", "junit.xml"):
+            self.assertNotIn("22.25", (other / "tests" / name).read_text(encoding="utf-8"))
+        self.assertIn('"passed": 1', (other / "tests/report.json").read_text(encoding="utf-8"))
+        self.assertEqual(verify(other, STAMP), [])
+
+    def test_a_time_anywhere_else_is_found(self) -> None:
+        one = self.made("one", 1.5, summary={"seconds": "1.5"})
+        told = reproduced(one, self.made("other", 2.5, summary={"seconds": "2.5"}))
+        for name in ("tests/part.json", MANIFEST, "index.html", "evidence.pdf"):
+            self.assertIn(f"{name}: was altered, {one} has another digest", told)
+
+    def test_an_attestation_or_checksums_that_state_something_else(self) -> None:
+        one, other = self.made("one", 1.5), self.made("other", 2.5)
+        text = (other / ATTESTATION).read_text(encoding="utf-8")
+        (other / ATTESTATION).write_text(text.replace('"tools": {}', '"tools": {"z3": "4"}'),
+                                         encoding="utf-8")  # fmt: skip
+        told = f"{ATTESTATION}: states something else than in {one}"
+        self.assertEqual(reproduced(one, other), [told])
+        sums = (other / SUMS).read_text(encoding="utf-8").splitlines(keepends=True)
+        (other / SUMS).write_text("".join(sums[:-1]), encoding="utf-8")
+        self.assertIn(f"{SUMS}: states other digests than in {one}", reproduced(one, other))
+
+    def test_one_of_another_source(self) -> None:
+        one, other = self.made("one", 1.5), self.made("other", 1.5)
+        read = json.loads((other / MANIFEST).read_text(encoding="utf-8"))
+        write_json(other / MANIFEST, {**read, MADE_FROM: {**STAMP, "commit": "0" * 40}})
+        self.assertEqual(reproduced(one, other), [f"{other}: is of another source than {one}"])
+
+    def test_what_is_no_report_is_packed_as_it_is(self) -> None:
+        path = self.folder / "lock.json"
+        path.write_text('{"seconds": 3}', encoding="utf-8")
+        self.assertEqual(copied("lock.json", path), (b'{"seconds": 3}', {}))
 
 
 class Program(InFolder):

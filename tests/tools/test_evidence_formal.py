@@ -65,6 +65,15 @@ class Goals(FormalTest):
     def test_all_is_well_with_the_tree_as_it_is(self) -> None:
         self.assertEqual(self.part().problems, ())
 
+    def test_how_long_it_took_is_told_apart_from_all_else(self) -> None:
+        before = self.part()
+        self.assertEqual(before.measured["queue/wp/lemmas"], 1.5)
+        for unit in self.report["units"].values():
+            unit["seconds"] = dict.fromkeys(unit["seconds"], 77.7)
+        after = self.part()
+        self.assertEqual(after.measured["queue/wp/lemmas"], 77.7)
+        self.assertEqual(after.model_copy(update={"measured": before.measured}), before)
+
     def test_a_goal_says_who_proved_it_and_what_for(self) -> None:
         item = self.item("goal", f"queue/{QUEUE_GOAL}")
         self.assertEqual(item.state, "good")
