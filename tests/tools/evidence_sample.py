@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import importlib.util
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
@@ -93,3 +95,12 @@ def assembled(folder: Path, **parts: Callable[[Context], Part]) -> Assembled:
     """The sample, with other parts beside or instead of its own."""
     makers = {**SAMPLE, **parts}
     return assemble(context_in(folder), list(makers), lambda name: makers[name])
+
+
+def the_program() -> ModuleType:
+    """tools/evidence.py, whose name its package has as well."""
+    spec = importlib.util.spec_from_file_location("evidence_program", ROOT / "tools/evidence.py")
+    assert spec and spec.loader
+    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module

@@ -10,7 +10,6 @@ The parts are a small sample's; each part's own faults are in test_evidence_<par
 from __future__ import annotations
 
 import contextlib
-import importlib.util
 import io
 import json
 import shutil
@@ -21,7 +20,6 @@ import unittest
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 from unittest import mock
 
@@ -34,6 +32,7 @@ from evidence_sample import (  # noqa: E402
     assembled,
     formal,
     sample_tests,
+    the_program,
 )
 
 from common.errors import ToolError  # noqa: E402
@@ -57,15 +56,6 @@ from evidence.package import (  # noqa: E402
 from evidence.part import Context, Item, Part, Table  # noqa: E402
 from evidence.verify import reproduced, verify  # noqa: E402
 from toolchain import ToolchainError  # noqa: E402
-
-
-def the_program() -> ModuleType:
-    """tools/evidence.py, whose name its package has as well."""
-    spec = importlib.util.spec_from_file_location("evidence_program", ROOT / "tools/evidence.py")
-    assert spec and spec.loader
-    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def write_sample(folder: Path) -> Path:
