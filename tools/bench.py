@@ -254,7 +254,8 @@ def measure(tools: Toolchain) -> list[Goal]:
     check_target_steps(tools)
     steps = measure_steps(tools)
     goals = goals_of(sets, target)
-    write_report(REPORT, report_of(tools, sets, target, steps))
+    # No verdict yet: the budgets are of the figures that benchmark.emulated adds.
+    write_report(REPORT, report_of(tools, sets, target, steps), good=False)
     print("Instructions of a pass, host build, scheduler code only")
     for tasks, kinds in sets.items():
         tables.print_set(tasks, SETS[tasks], kinds)

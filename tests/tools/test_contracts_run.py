@@ -26,6 +26,7 @@ import contracts_run  # noqa: E402
 from common.config import parse_toml, read_toml  # noqa: E402
 from common.errors import ToolError  # noqa: E402
 from common.run import Ended  # noqa: E402
+from common.source import VERDICT  # noqa: E402
 from contracts_run import BUILD, CHOICE, Choice, Run, Runner, ignored_in, mistakes  # noqa: E402
 from contracts_run import violation as violated  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
@@ -136,7 +137,7 @@ class Verdict(unittest.TestCase):
         ):
             status = contracts_run.judge(runs, choice, {})
         report: dict[str, Any] = json.loads(path.read_text())
-        self.assertEqual(report["ok"], status == 0)
+        self.assertEqual(report[VERDICT], "failed" if status else "good")
         return status, report
 
     def test_good(self) -> None:

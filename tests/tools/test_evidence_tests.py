@@ -130,6 +130,13 @@ class Tests(unittest.TestCase):
         path.write_text(path.read_text()[:-9])
         self.assertIn("build/test/report.json: is not whole", self.problem())
 
+    def test_seconds_are_in_no_table(self) -> None:
+        before = self.make()
+        report = run_report()
+        report["suites"][QUEUE]["seconds"] = 77.7
+        self.write("test/report.json", report)
+        self.assertEqual(self.make(), before)
+
     def test_half_a_junit_file(self) -> None:
         path = self.build / "test/junit.xml"
         path.write_text(path.read_text()[:-9])

@@ -35,7 +35,7 @@ from boards.conditions import (  # noqa: E402
 from boards.elf import Contents, Symbol, read_contents  # noqa: E402
 from boards.lines import Lines, Place, read_lines  # noqa: E402
 from common.errors import ToolError  # noqa: E402
-from common.source import STAMP, stamp_of  # noqa: E402
+from common.source import STAMP, VERDICT, stamp_of  # noqa: E402
 from object_coverage import (  # noqa: E402
     Condition,
     Measurement,
@@ -205,7 +205,7 @@ class Verdict(unittest.TestCase):
         ):
             status = object_coverage.judge(conditions, reasons, {"tests": ["t.c"]})
         self.report = json.loads((folder / "report.json").read_text())
-        self.assertEqual(self.report["ok"], status == 0)
+        self.assertEqual(self.report[VERDICT], "failed" if status else "good")
         return status, output.getvalue()
 
     def test_all_seen(self) -> None:

@@ -18,6 +18,7 @@ from typing import Annotated
 from common.config import Field, Mistake, Table, read_toml
 from common.errors import ROOT, ToolError
 from common.files import read_text, write_json, write_text
+from common.source import VERDICT, verdict_of
 from suites.emulated import EmulatedBoard
 from toolchain import Toolchain
 
@@ -189,6 +190,7 @@ def add(tools: Toolchain, report_file: Path, accepting: bool = False) -> list[st
         },
         "over_budget": over,
     }
+    report[VERDICT] = verdict_of(not over)
     write_json(report_file, report)
     print_table(report, figures, budget)
     return over

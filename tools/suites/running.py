@@ -90,7 +90,9 @@ def end(
         for name, outcome in outcomes.items()
     })  # fmt: skip
     counted = {"passed": passed, "failed": failed}
-    write_report(folder / REPORT, {**counted, **facts, "suites": suites})
+    good = passed > 0 and failed == 0
+    write_report(folder / REPORT, {**counted, **facts, "suites": suites}, good=good,
+                 whole=not facts.get("filter"))  # fmt: skip
     sys.stderr.flush()
     print(f"{passed} passed, {failed} failed")
-    return 0 if passed > 0 and failed == 0 else 1
+    return 0 if good else 1
