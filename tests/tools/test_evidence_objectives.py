@@ -29,9 +29,9 @@ STANDARD = """\
 id = "S-1"
 title = "A standard"
 note = "In our words."
-source = [ { id = "Book", address = "https://a.org/b", on = 2026-11-22, what = "Its annex" } ]
+source = [ { id = "A", address = "https://a.org/b", on = 2026-11-22, what = "Its annex" } ]
 objective = [
-  { id = "1", checked = "Book", what = "Proved", status = "input", by = ["part:formal", "file:a.md"] },
+  { id = "1", checked = "A", what = "Proved", status = "input", by = ["part:formal", "file:a.md"] },
   { id = "2", what = "It flies", status = "partly", by = ["part:tests"], why = "Not yet" },
   { id = "3", what = "It lands", status = "no", why = "No ground" },
 ]
@@ -122,15 +122,15 @@ class Objectives(Parts):
         self.assertEqual(self.make(), "")
         (table,) = self.part.tables
         place = table.columns.index("number compared with")
-        self.assertEqual([row[place] for row in table.rows], ["Book", "nothing", "nothing"])
-        self.assertIn("Book (https://a.org/b, read on 2026-11-22): Its annex.", table.note)
+        self.assertEqual([row[place] for row in table.rows], ["A", "nothing", "nothing"])
+        self.assertIn("A (https://a.org/b, read on 2026-11-22): Its annex.", table.note)
         told = [item.facts["number compared with"] for item in self.part.items]
         memory = "nothing: it is from memory"
-        self.assertEqual(told, ["Book, 2026-11-22: https://a.org/b", memory, memory])
+        self.assertEqual(told, ["A, 2026-11-22: https://a.org/b", memory, memory])
 
     def test_a_comparison_with_a_source_that_is_not_there(self) -> None:
-        told = self.make('checked = "Book"', 'checked = "Boook"')
-        self.assertRegex(told, r"s\.toml:\d+: objective 1.*there is no source Boook$")
+        told = self.make('checked = "A"', 'checked = "B"')
+        self.assertRegex(told, r"s\.toml:\d+: objective 1.*there is no source B$")
         self.assertIn("on", self.make("on = 2026-11-22, ", ""))
 
     def test_an_artefact_that_does_not_exist(self) -> None:
