@@ -39,6 +39,7 @@ from common.errors import ROOT, ToolError, program
 from common.files import read_text, sha256_of
 from common.run import Ended, run
 from firmware import Image, examine
+from proofs.jobs import end_as_by_ctrl_c
 from suites import running
 from suites.emulated import BOARD, BUILD, SHIFT, EmulatedBoard
 from suites.faults import FAULTS, SAFE_STATUS, judge_fault, read_record
@@ -183,7 +184,7 @@ def first_difference(model: Mapping[tuple[str, int], str], target: Mapping[tuple
 def run_model(board: EmulatedBoard, defines: Sequence[str] = ()) -> str:
     """What the driver prints on this host when it calls the model of each function instead: the
     kernel itself is not linked."""
-    folder = board.root / BUILD / "host"
+    folder = board.root / board.folder / "host"
     build = Build(board.tools, "gcc", [*HOST_FLAGS, *defines], folder, board.root)
     called = sorted(set(CALL.findall(read_text(board.root / DRIVER))))
     driver = build.object(DRIVER, [f"-Dkeel_{name}=model_{name}" for name in called])
@@ -232,7 +233,7 @@ def differential_suite(board: EmulatedBoard, name: str) -> Outcome:
 
 
 def all_suites(board: EmulatedBoard) -> list[Suite]:
-    """Every suite, the fastest first."""
+    """Every suite, in the order of the reports."""
     suites = []
     files = [*sorted((ROOT / "tests/unit").glob("test_*.c")), ROOT / "tests/target/test_core.c"]
     for path in files:
@@ -276,9 +277,10 @@ def print_stacks(board: EmulatedBoard) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
+    end_as_by_ctrl_c()
     parser = Parser("Run Keel's tests on an emulated Cortex-M7.", "test-target")
-    parser.add_argument("--filter", default="", metavar="TEXT", help="suites whose name has this")
-    options = parser.parse_args(arguments)
+    running.add_options(parser)
+    options = running.parse(parser, arguments)
 
     def work() -> int:
         running.begin(ROOT / BUILD)
@@ -286,7 +288,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         tools.ensure("target")
         board = EmulatedBoard(tools)
         suites = running.chosen(all_suites(board), options.filter)
-        outcomes = running.run_all(tools, suites)
+        outcomes = running.run_all(tools, suites, options.jobs)
         print_stacks(board)
         return running.end(
             ROOT / BUILD, "Keel, emulated", outcomes, facts_of(board, options.filter)
