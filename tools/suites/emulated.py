@@ -36,13 +36,14 @@ class EmulatedBoard:
 
     tools: Toolchain
     root: Path = ROOT
+    folder: Path = BUILD  # Below the root; two runs at once need one each.
     stacks: dict[str, int] = field(default_factory=dict)  # by image, in bytes
     stack_size: int = 0
     demo_sha256: str = ""  # Of the image whose stack is the demo's.
 
     def __post_init__(self) -> None:
         self.board = read_board(self.root, BOARD)
-        folder = self.root / BUILD
+        folder = self.root / self.folder
         folder.mkdir(parents=True, exist_ok=True)
         self.builder = Builder(self.tools, self.board, folder, self.root)
 
