@@ -203,6 +203,25 @@ class Blocks(StrengthTest):
         self.replace("specs/unreached.toml", '"as in keel_pass_run_harness"', '""')
         self.assert_problem(self.part(), "specs/unreached.toml", "reason")
 
+    def test_unreached_blocks_are_listed_by_function_and_line(self) -> None:
+        source = (self.root / "src/rtos/pass.c").read_text("utf-8").splitlines()
+        line = source.index("    task->run(task->context);") + 1
+        (table,) = [one for one in self.part().tables if one.title.startswith("Blocks that")]
+        rows = {row[0]: row[1:3] for row in table.rows}
+        blocks, places = rows["harness:pass/keel_pass_run__once_harness"]
+        self.assertEqual(blocks, "6")
+        self.assertIn(f"run_task at src/rtos/pass.c:{line}", places.split("; "))
+        self.assertNotIn("specs/model", places)
+
+    def test_blocks_where_there_is_no_call_through_a_pointer(self) -> None:
+        self.coverage("queue", "keel_queue_add_harness")["reached"] -= 1
+        reasons = self.root / "specs/unreached.toml"
+        entry = ('\n[[unreached]]\nharness = "queue/keel_queue_add_harness"\nblocks = 1\n'
+                 'reason = "as in keel_pass_run_harness"\n')  # fmt: skip
+        reasons.write_text(reasons.read_text("utf-8") + entry, "utf-8")
+        self.assert_problem(self.part(), "specs/unreached.toml: queue/keel_queue_add_harness",
+                            "nothing that it covers calls through a pointer")  # fmt: skip
+
     def test_an_entry_that_is_of_nothing(self) -> None:
         self.replace("specs/unreached.toml", "keel_pass_run__once_harness", "keel_gone_harness")
         self.assert_problem(self.part(), "there is no harness pass/keel_gone_harness")
