@@ -22,6 +22,7 @@ sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/tools")]
 from evidence_proofs import EvidenceTest  # noqa: E402
 
 import mutate  # noqa: E402
+from common.source import STAMP  # noqa: E402
 from evidence.part import Item, Part  # noqa: E402
 from evidence.parts import strength  # noqa: E402
 from evidence.strength import mutants as recorded  # noqa: E402
@@ -165,6 +166,12 @@ class Mistakes(StrengthTest):
     def test_a_mistake_without_a_verdict(self) -> None:
         del self.report["units"]["voter"]["gappa"]["negative"]["list"]["mean_rounds_twice.g"]
         self.assert_problem(self.part(), "voter/wrong-mean_rounds_twice", "no verdict")
+
+    def test_without_a_report_the_report_is_the_problem_and_not_each_mistake(self) -> None:
+        self.report[STAMP] = {"commit": "", "tree": "", "product": ""}
+        part = self.part()
+        self.assertEqual({one.state for one in part.items if "/wrong-" in one.id}, {"open"})
+        self.assert_problem(part, "build/prove/report.json", "speaks of another source")
 
     def test_a_mistake_that_says_nothing(self) -> None:
         path = self.root / "proofs/queue/wrong/add_overwrites.toml"
