@@ -63,9 +63,10 @@ def tell(line: str) -> None:
 
 def context_of(root: Path, out: Path) -> Context:
     """What the parts may look at."""
+    stamp = stamp_of(root)
     work = out.with_name(f"{out.name}-work")
     work.mkdir(parents=True, exist_ok=True)
-    return Context(root, root / "build", work, stamp_of(root), tell)
+    return Context(root, root / "build", work, stamp, tell)
 
 
 def versions() -> dict[str, str]:

@@ -162,6 +162,12 @@ class Faults(WholeProject):
         self.program.assemble = and_then_it_changes
         self.refused("the source has changed meanwhile")
 
+    def test_a_project_that_is_not_there_is_not_made(self) -> None:
+        absent = self.folder / "projct"
+        status, lines = self.run_it("--as-is", "--project", str(absent))
+        self.assertEqual((status, lines), (2, [f"evidence: {absent}: there is no such folder"]))
+        self.assertFalse(absent.exists())
+
     def test_a_tool_of_a_wrong_version(self) -> None:
         self.write_reports()
         self.report("lint/report.json", tools={"cbmc": "6.5.0"})

@@ -11,7 +11,6 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import sys
 import tempfile
 import unittest
 from dataclasses import replace
@@ -19,23 +18,19 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-
-from common.packages import provide  # noqa: E402
-
-provide()
+from evidence_sample import STAMP, PartTest  # noqa: E402
 
 import qualify  # noqa: E402
 from common.errors import ToolError  # noqa: E402
-from common.source import PRODUCT, STAMP  # noqa: E402
-from evidence.part import Context, Part  # noqa: E402
+from common.source import PRODUCT  # noqa: E402
+from common.source import STAMP as MADE_FROM  # noqa: E402
+from evidence.part import Context  # noqa: E402
 from evidence.parts import tools as part_tools  # noqa: E402
 from evidence.parts.tools import SETTINGS, Settings  # noqa: E402
 from qualification.seeds import SEEDS  # noqa: E402
 from toolchain import Found, Toolchain  # noqa: E402
 from toolchain.lock import Spec  # noqa: E402
 
-HERE = {"commit": "c0", "tree": "7ree", "product": "p0"}
 RUN = {"tool": "cbmc", "fault": "an overflow", "how": "cbmc", "version": "6.6.0", "wrong": ""}
 PINNED = Spec("cbmc", "deb", at_least="6.6", below="6.7", sha256="aa")
 
@@ -99,7 +94,7 @@ class Entries(unittest.TestCase):
             text = (ROOT / SETTINGS).read_text()
             text += '\n[[problem]]\ntool = "cmbc"\nsource = "s"\nwhat = "w"\nhere = "h"\n'
             (Path(folder) / SETTINGS).write_text(text)
-            context = Context(Path(folder), Path(folder), Path(folder), HERE, lambda _: None)
+            context = Context(Path(folder), Path(folder), Path(folder), STAMP, lambda _: None)
             with self.assertRaisesRegex(ToolError, "there is no tool cmbc"):
                 part_tools.make(context)
 
@@ -140,23 +135,16 @@ class Entries(unittest.TestCase):
         self.assertEqual(problems, [told])
 
 
-class Whole(unittest.TestCase):
+class Whole(PartTest):
     """The part, on good reports with one fault each."""
 
+    maker = staticmethod(part_tools.make)
+
     def setUp(self) -> None:
-        self.build = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        super().setUp()
         for name in part_tools.VERSIONED:
             self.write(name, {"tools": {}})
         self.write(part_tools.QUALIFY, {"verdict": "good", "problems": [], "runs": [RUN]})
-
-    def write(self, name: str, report: dict[str, Any]) -> None:
-        path = self.build / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(json.dumps({STAMP: HERE, **report}))
-
-    def make(self) -> Part:
-        work = self.build / "work"
-        return part_tools.make(Context(ROOT, self.build, work, HERE, lambda _: None))
 
     def mine(self) -> list[str]:
         """The problems, but for tools that are not installed on this machine."""
@@ -191,7 +179,7 @@ class Whole(unittest.TestCase):
 
     def test_reports_that_are_missing_or_of_another_source(self) -> None:
         (self.build / part_tools.QUALIFY).unlink()
-        self.write("lint/report.json", {STAMP: {**HERE, "tree": "other"}})
+        self.write("lint/report.json", {MADE_FROM: {**STAMP, "tree": "other"}})
         shown = [one.partition(": ")[0] for one in self.mine()]
         self.assertEqual(shown, ["build/qualify/report.json", "build/lint/report.json"])
 

@@ -7,7 +7,7 @@ import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from common.errors import ROOT
+from common.errors import ROOT, ToolError
 from common.files import sha256_of, write_json
 from common.run import run
 
@@ -49,6 +49,8 @@ def commit_of(root: Path) -> str:
 
 def stamp_of(root: Path = ROOT) -> dict[str, str]:
     """What the tree is now: its commit, the digest of all of it, and that of the product."""
+    if not root.is_dir():
+        raise ToolError(f"{root}: there is no such folder")
     return {
         "commit": commit_of(root),
         "tree": digest_of_tree(root),
