@@ -44,6 +44,7 @@ from proofs.jobs import end_as_by_ctrl_c
 from suites import running
 from suites.needs import Needs, read_needs
 from suites.outcomes import (
+    EXACT_FLOATS,
     Outcome,
     program_outcome,
     pytest_outcome,
@@ -151,7 +152,7 @@ def unit_suite(builds: HostBuilds, name: str, source: str) -> Outcome:
     folder = builds.tools.command("unity")[0]
     own = driver_sources() if name.startswith("bsp/") else []
     objects = [*builds.objects([*KERNEL, *own]), builds.unity()]
-    objects += builds.objects([source], ["-isystem", folder])
+    objects += builds.objects([source], ["-isystem", folder, EXACT_FLOATS])
     return unity_outcome(name, run([builds.link(name, objects)], SUITE_TIMEOUT_S))
 
 

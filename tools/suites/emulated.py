@@ -11,6 +11,7 @@ from boards.board import Board, read_board
 from common.errors import ROOT
 from common.run import Ended, run
 from firmware import Builder, Image
+from suites.outcomes import EXACT_FLOATS
 from toolchain import Toolchain
 
 BOARD = "mps2_an500"
@@ -56,7 +57,7 @@ class EmulatedBoard:
         """What makes a file find Unity, and Unity the console."""
         return [
             "-isystem", self.tools.command("unity")[0],
-            "-DUNITY_SUPPORT_64", "-DUNITY_INCLUDE_DOUBLE",
+            "-DUNITY_SUPPORT_64", "-DUNITY_INCLUDE_DOUBLE", EXACT_FLOATS,
             "-DUNITY_OUTPUT_CHAR(c)=keel_board_put((char)(c))",
             "-DUNITY_OUTPUT_CHAR_HEADER_DECLARATION=keel_board_put(char c)",
         ]  # fmt: skip
