@@ -303,13 +303,15 @@ class Measured(InFolder):
         write_package(folder / "evidence", assembled(folder, tests=part), SOURCE, {})
         return folder / "evidence"
 
-    def test_they_differ_in_one_file_and_its_digest(self) -> None:
+    def test_they_differ_in_one_file_its_page_and_their_digests(self) -> None:
         one, other = self.made("one", 1.5), self.made("other", 22.25)
         self.assertEqual(reproduced(one, other), [])
         before, after = digests(one), digests(other)
         self.assertEqual(before.keys(), after.keys())
         self.assertEqual({name for name in before if before[name] != after[name]},
-                         {"measured.json", ATTESTATION, SUMS})  # fmt: skip
+                         {"measured.json", "site/measured.html", ATTESTATION, SUMS})  # fmt: skip
+        page = (other / "site/measured.html").read_text(encoding="utf-8")
+        self.assertIn("<td>22.2</td><td>queue/wp/lemmas</td>", page)
         read = json.loads((other / "measured.json").read_text(encoding="utf-8"))
         self.assertEqual(read["seconds"]["tests"], {"queue/wp/lemmas": 22.25,
                                                     "report.json/suites/unit/queue": 22.25})

@@ -2,7 +2,7 @@
 """Keeps measured seconds apart: they are all that differs between two packages of one source.
 
 Parts give theirs as `measured`; those of a report that is packed are taken out of the copy. All of
-them stand in one file of the package, and nowhere else.
+them stand in one file of the package and on the page that shows it, and nowhere else.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ from typing import Any
 from common.source import STAMP
 
 FILE = "measured.json"
+PAGE = "site/measured.html"
+FILES = (FILE, PAGE)
 KEY = "seconds"  # What every report calls them.
 TIME = re.compile(rb'(<testsuites?\b[^>]*?) time="[\d.]+"')  # JUnit has the report's once more.
 

@@ -97,7 +97,7 @@ def write_content(folder: Path, made: Assembled, source: Source) -> None:
     seconds = {part.name: write_part(folder / part.name, part) for part in made.parts}
     write_json(folder / measured.FILE, {"schema": SCHEMA, "seconds": seconds})
     write_json(folder / MANIFEST, manifest(made, source))
-    write_site(folder, made, source.stamp, source.seconds)
+    write_site(folder, made, source.stamp, source.seconds, seconds)
     summary_pdf(folder / PDF, made, source.stamp, source.seconds)
 
 
