@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 15
+// cbmc: --unwind 15 --external-sat-solver cadical
 // sources: src/flight/mode.c specs/model/mode.c
 // covers: keel_mode_step look forget settle read_frame has_frame add_us has heed_mode_switch
 // covers: heed_arm_switch is_piloted blocking try_to_arm when is_time_up requests events_of

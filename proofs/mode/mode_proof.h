@@ -91,9 +91,24 @@ static bool valid_here(const keel_mode_t *mode)
         valid = valid && (mode->settle_us[i] == settle_us[i]);
     }
     return valid && (mode->motors == runs(mode)) && ((mode->settled & ~mode->seen & PILOT) == 0u) &&
-           (!up || (mode->silence_us < c->loss_us)) && (!mode->ready || up) &&
+           ((mode->overridden & ~ALARMS) == 0u) &&
+           (!up || (mode->silence_us < c->loss_us)) && 
+           (!mode->ready || (up && !is_set(mode->settled, KEEL_MODE_IS_ON))) &&
            (!piloted(mode) || (up && (mode->asked != KEEL_MODE_NONE))) &&
-           ((mode->mode == KEEL_MODE_NONE) == !runs(mode));
+           ((mode->mode == KEEL_MODE_NONE) == !runs(mode)) &&
+           ((mode->state == KEEL_MODE_DISARMED) || (mode->cause != 0u));
+}
+
+static uint32_t sum_here(uint32_t a_us, uint32_t b_us)
+{
+    const uint64_t sum = (uint64_t)a_us + b_us;
+
+    return (sum < UINT32_MAX) ? (uint32_t)sum : UINT32_MAX;
+}
+
+static bool frame_here(const keel_mode_input_t *input)
+{
+    return is_set(input->facts, KEEL_MODE_IS_LINKED) && (input->asked < KEEL_MODE_NONE);
 }
 
 static bool mode_config_same(const keel_mode_config_t *a, const keel_mode_config_t *b)

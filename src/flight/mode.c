@@ -88,17 +88,26 @@ static const mode_row_t modes[KEEL_MODE_NONE + 1u] = {
 
 /* --- Facts ------------------------------------------------------------------------------------ */
 
+/*@ assigns \nothing;
+  @ ensures \result == \min(UINT32_MAX, time_us + more_us);
+  @*/
 static uint32_t add_us(uint32_t time_us, uint32_t more_us)
 {
     return (time_us <= (UINT32_MAX - more_us)) ? (time_us + more_us) : UINT32_MAX;
 }
 
+/*@ requires \valid_read(input);
+  @ assigns \nothing;
+  @*/
 static bool has_frame(const keel_mode_input_t *input)
 {
     return ((input->facts & KEEL_MODE_IS_LINKED) != 0u) && (input->asked < KEEL_MODE_NONE);
 }
 
 /* What a good frame says. A switch that is both on and off is neither. */
+/*@ requires \valid(mode) && \valid_read(input) && \separated(mode, input);
+  @ assigns mode->rests_at;
+  @*/
 static uint32_t read_frame(keel_mode_t *mode, const keel_mode_input_t *input)
 {
     uint32_t facts = input->facts & (PILOT & ~KEEL_MODE_IS_AT);
@@ -115,6 +124,9 @@ static uint32_t read_frame(keel_mode_t *mode, const keel_mode_input_t *input)
 
 /* After too long a silence what the pilot said is forgotten; after too long without a look all
  * facts begin to settle anew. */
+/*@ requires \valid(mode);
+  @ assigns mode->silence_us, mode->seen, mode->settled;
+  @*/
 static void forget(keel_mode_t *mode, uint32_t elapsed_us)
 {
     mode->silence_us = add_us(mode->silence_us, elapsed_us);
@@ -128,12 +140,19 @@ static void forget(keel_mode_t *mode, uint32_t elapsed_us)
 }
 
 /* Counts for how long the facts that are seen have been so; those of `may` can settle. */
+/*@ requires \valid(mode);
+  @ assigns mode->settled, mode->seen, mode->held_us[0 .. KEEL_MODE_FACTS - 1];
+  @*/
 static void settle(keel_mode_t *mode, uint32_t now, uint32_t may, uint32_t elapsed_us)
 {
     uint32_t waiting;
 
     mode->settled &= now;
     waiting = now & ~mode->settled;
+    /*@ loop invariant 0 <= i <= KEEL_MODE_FACTS;
+      @ loop assigns i, mode->settled, mode->held_us[0 .. KEEL_MODE_FACTS - 1];
+      @ loop variant KEEL_MODE_FACTS - i;
+      @*/
     for (uint32_t i = 0u; i < KEEL_MODE_FACTS; i++) {
         const uint32_t bit = (uint32_t)1u << i;
 
@@ -148,6 +167,10 @@ static void settle(keel_mode_t *mode, uint32_t now, uint32_t may, uint32_t elaps
     mode->seen = now;
 }
 
+/*@ requires \valid(mode) && \valid_read(input) && \separated(mode, input);
+  @ assigns mode->settled, mode->seen, mode->held_us[0 .. KEEL_MODE_FACTS - 1], mode->silence_us,
+  @     mode->rests_at;
+  @*/
 static void look(keel_mode_t *mode, const keel_mode_input_t *input, bool frame)
 {
     uint32_t now = input->facts & AIRCRAFT;
@@ -162,6 +185,9 @@ static void look(keel_mode_t *mode, const keel_mode_input_t *input, bool frame)
     settle(mode, now, frame ? (PILOT | AIRCRAFT) : AIRCRAFT, input->elapsed_us);
 }
 
+/*@ requires \valid_read(mode);
+  @ assigns \nothing;
+  @*/
 static bool has(const keel_mode_t *mode, uint32_t facts)
 {
     return (mode->settled & facts) == facts;
@@ -170,6 +196,9 @@ static bool has(const keel_mode_t *mode, uint32_t facts)
 /* --- What the pilot asks for ------------------------------------------------------------------ */
 
 /* Whether the mode switch was moved. Where it is when the link comes up is no move. */
+/*@ requires \valid(mode);
+  @ assigns mode->asked;
+  @*/
 static bool heed_mode_switch(keel_mode_t *mode, bool frame)
 {
     bool moved = false;
@@ -186,6 +215,9 @@ static bool heed_mode_switch(keel_mode_t *mode, bool frame)
 }
 
 /* Whether the arm switch was switched on after it was seen off, both with a link. */
+/*@ requires \valid(mode);
+  @ assigns mode->ready;
+  @*/
 static bool heed_arm_switch(keel_mode_t *mode)
 {
     const bool up = has(mode, KEEL_MODE_IS_LINKED);
@@ -196,12 +228,19 @@ static bool heed_arm_switch(keel_mode_t *mode)
     return attempt;
 }
 
+/*@ assigns \nothing;
+  @ ensures \result <==> asked != KEEL_MODE_LAND && asked < KEEL_MODE_RETURN;
+  @*/
 static bool is_piloted(uint8_t asked)
 {
     return (asked != KEEL_MODE_LAND) && (asked < KEEL_MODE_RETURN);
 }
 
 /* What stands in the way of arming. */
+/*@ requires \valid_read(mode) && asked: mode->asked <= KEEL_MODE_NONE;
+  @ requires \separated(mode, &modes[0 .. KEEL_MODE_NONE]);
+  @ assigns \nothing;
+  @*/
 static keel_mode_refusal_t blocking(const keel_mode_t *mode, uint32_t checks, bool attempt)
 {
     uint32_t good = mode->settled & (NEEDED & ~(KEEL_MODE_IS_OFF | KEEL_MODE_IS_AT));
@@ -219,6 +258,10 @@ static keel_mode_refusal_t blocking(const keel_mode_t *mode, uint32_t checks, bo
 }
 
 /* Whether an attempt to arm succeeds. In all states but DISARMED nothing is refused. */
+/*@ requires \valid(mode) && asked: mode->asked <= KEEL_MODE_NONE;
+  @ requires \separated(mode, &modes[0 .. KEEL_MODE_NONE]);
+  @ assigns mode->blocking, mode->refused;
+  @*/
 static bool try_to_arm(keel_mode_t *mode, uint32_t checks, bool attempt)
 {
     const keel_mode_refusal_t none = {0u, 0u};
@@ -236,11 +279,17 @@ static bool try_to_arm(keel_mode_t *mode, uint32_t checks, bool attempt)
 
 /* --- What has come ---------------------------------------------------------------------------- */
 
+/*@ assigns \nothing;
+  @ ensures \result == (condition ? event : 0);
+  @*/
 static uint32_t when(bool condition, uint32_t event)
 {
     return condition ? event : 0u;
 }
 
+/*@ requires \valid_read(mode);
+  @ assigns \nothing;
+  @*/
 static bool is_time_up(const keel_mode_t *mode)
 {
     uint32_t limit_us = mode->config.idle_us;
@@ -256,6 +305,9 @@ static bool is_time_up(const keel_mode_t *mode)
 }
 
 /* A pilot who flies asks for what his switch says; else he must move it. */
+/*@ requires \valid_read(mode);
+  @ assigns \nothing;
+  @*/
 static uint32_t requests(const keel_mode_t *mode, bool moved)
 {
     const bool asks = moved || (mode->state == KEEL_MODE_FLYING);
@@ -267,6 +319,9 @@ static uint32_t requests(const keel_mode_t *mode, bool moved)
 }
 
 /* All that has come. What the pilot says counts in a step with a frame alone. */
+/*@ requires \valid_read(mode);
+  @ assigns \nothing;
+  @*/
 static uint32_t events_of(const keel_mode_t *mode, bool frame)
 {
     const bool landed = has(mode, KEEL_MODE_IS_LANDED);
@@ -282,12 +337,18 @@ static uint32_t events_of(const keel_mode_t *mode, bool frame)
 
 /* --- Where it leads --------------------------------------------------------------------------- */
 
+/*@ assigns \nothing;
+  @ ensures \result <==> mode_alone(state);
+  @*/
 static bool is_failsafe(uint8_t state)
 {
     return (state >= KEEL_MODE_HOLDING) && (state <= KEEL_MODE_LANDING);
 }
 
 /* Takes an exit. What first led away from the pilot stays told until he flies again. */
+/*@ requires \valid(mode) && \valid_read(way) && \separated(mode, way);
+  @ assigns mode->state, mode->state_us, mode->cause, mode->overridden;
+  @*/
 static void leave(keel_mode_t *mode, const mode_exit_t *way, uint32_t events)
 {
     const uint32_t cause = way->any & events;
@@ -303,10 +364,19 @@ static void leave(keel_mode_t *mode, const mode_exit_t *way, uint32_t events)
     mode->state_us = 0u;
 }
 
+/*@ requires \valid(mode) && state: mode->state < KEEL_MODE_STATES;
+  @ requires \separated(mode, &exits[0 .. KEEL_MODE_STATES - 1][0 .. EXITS - 1]);
+  @ assigns mode->state, mode->state_us, mode->cause, mode->overridden;
+  @*/
 static void move(keel_mode_t *mode, uint32_t events)
 {
     const mode_exit_t *const way = exits[mode->state];
 
+    /*@ loop invariant 0 <= i <= EXITS;
+      @ loop invariant mode->state == \at(mode->state, Pre);
+      @ loop assigns i;
+      @ loop variant EXITS - i;
+      @*/
     for (uint32_t i = 0u; (i < EXITS) && (way[i].any != 0u); i++) {
         if (((way[i].any & events) != 0u) && ((way[i].all & events) == way[i].all)) {
             leave(mode, &way[i], events);
@@ -316,12 +386,22 @@ static void move(keel_mode_t *mode, uint32_t events)
 }
 
 /* The mode in force: the one that is wanted, or what takes its place. */
+/*@ requires \valid(mode) && state: mode->state < KEEL_MODE_STATES;
+  @ requires asked: mode->asked <= KEEL_MODE_NONE;
+  @ requires \separated(mode, &modes[0 .. KEEL_MODE_NONE]);
+  @ requires \separated(mode, &state_wants[0 .. KEEL_MODE_STATES - 1]);
+  @ assigns mode->missing, mode->mode, mode->motors;
+  @*/
 static void choose(keel_mode_t *mode)
 {
     const bool piloted = (mode->state == KEEL_MODE_ARMED) || (mode->state == KEEL_MODE_FLYING);
     uint8_t chosen = piloted ? mode->asked : state_wants[mode->state];
 
     mode->missing = modes[chosen].needs & ~mode->settled;
+    /*@ loop invariant chosen <= KEEL_MODE_NONE;
+      @ loop assigns chosen;
+      @ loop variant chosen;
+      @*/
     while ((modes[chosen].needs & ~mode->settled) != 0u) {
         chosen = piloted ? modes[chosen].piloted : modes[chosen].alone;
     }
@@ -349,17 +429,28 @@ void keel_mode_step(keel_mode_t *mode, const keel_mode_input_t *input)
 
 /* --- The beginning ---------------------------------------------------------------------------- */
 
+/*@ assigns \nothing;
+  @ ensures \result <==> least <= value <= most;
+  @*/
 static bool is_between(uint32_t least, uint32_t value, uint32_t most)
 {
     return (least <= value) && (value <= most);
 }
 
 /* What has to hold for a time holds for at least the longest silence. */
+/*@ requires \valid_read(config);
+  @ assigns \nothing;
+  @ ensures \result <==> mode_settling(*config, time_us);
+  @*/
 static bool is_settling(const keel_mode_config_t *config, uint32_t time_us)
 {
     return is_between(config->loss_us, time_us, KEEL_MODE_TIME_MOST_US);
 }
 
+/*@ requires \valid_read(config);
+  @ assigns \nothing;
+  @ ensures \result <==> mode_times_valid(*config);
+  @*/
 static bool are_times_valid(const keel_mode_config_t *config)
 {
     return is_between(KEEL_MODE_LOSS_LEAST_US, config->loss_us, KEEL_MODE_LOSS_MOST_US) &&
@@ -371,6 +462,9 @@ static bool are_times_valid(const keel_mode_config_t *config)
 }
 
 /* How long the fact of a bit takes to settle. */
+/*@ requires \valid_read(config);
+  @ assigns \nothing;
+  @*/
 static uint32_t settle_us_of(const keel_mode_config_t *config, uint32_t bit)
 {
     uint32_t time_us = config->alarm_us;
@@ -402,6 +496,11 @@ keel_status_t keel_mode_init(keel_mode_t *mode, const keel_mode_config_t *config
         return KEEL_ERR_INPUT;
     }
     mode->config = *config;
+    /*@ loop invariant 0 <= i <= KEEL_MODE_FACTS;
+      @ loop assigns i, mode->settle_us[0 .. KEEL_MODE_FACTS - 1],
+      @     mode->held_us[0 .. KEEL_MODE_FACTS - 1];
+      @ loop variant KEEL_MODE_FACTS - i;
+      @*/
     for (uint32_t i = 0u; i < KEEL_MODE_FACTS; i++) {
         mode->settle_us[i] = settle_us_of(config, (uint32_t)1u << i);
         mode->held_us[i] = 0u;
