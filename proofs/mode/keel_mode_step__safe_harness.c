@@ -59,8 +59,8 @@ static void check_arming(void)
     __CPROVER_assert(!starts || (counts(KEEL_MODE_IS_LOW | KEEL_MODE_IS_LANDED) &&
                                  !is_set(mode.seen, KEEL_MODE_IS_KILL | ALARMS)),
                      "MOD_004_facts: throttle low, landed, no kill, no alarm");
-    __CPROVER_assert(!starts || ((mode.asked < KEEL_MODE_RETURN) && (mode.asked != KEEL_MODE_LAND) &&
-                                 (mode.mode == mode.asked)),
+    __CPROVER_assert(!starts || ((mode.asked < KEEL_MODE_RETURN) &&
+                                 (mode.asked != KEEL_MODE_LAND) && (mode.mode == mode.asked)),
                      "MOD_004_mode: the mode that is asked for is in force");
     __CPROVER_assert(!mode.ready || old.ready || counts(KEEL_MODE_IS_OFF | KEEL_MODE_IS_LINKED),
                      "MOD_004_off: ready only after off was seen with a link");

@@ -77,11 +77,10 @@ static bool config_valid_here(const keel_mode_config_t *c)
 static bool valid_here(const keel_mode_t *mode)
 {
     const keel_mode_config_t *const c = &mode->config;
-    const uint32_t settle_us[FACTS] = {c->regain_us,   c->request_us,  c->request_us,
-                                       c->request_us,  c->kill_us,     c->request_us,
-                                       c->landed_us,   c->alarm_us,    c->estimate_us,
-                                       c->estimate_us, c->estimate_us, c->alarm_us,
-                                       c->alarm_us,    c->alarm_us};
+    const uint32_t settle_us[FACTS] = {
+        c->regain_us,   c->request_us, c->request_us, c->request_us,  c->kill_us,
+        c->request_us,  c->landed_us,  c->alarm_us,   c->estimate_us, c->estimate_us,
+        c->estimate_us, c->alarm_us,   c->alarm_us,   c->alarm_us};
     const bool up = is_set(mode->settled, KEEL_MODE_IS_LINKED);
     bool valid = config_valid_here(c) && (mode->state < KEEL_MODE_STATES) &&
                  (mode->mode <= KEEL_MODE_NONE) && (mode->asked <= KEEL_MODE_NONE) &&
@@ -91,8 +90,7 @@ static bool valid_here(const keel_mode_t *mode)
         valid = valid && (mode->settle_us[i] == settle_us[i]);
     }
     return valid && (mode->motors == runs(mode)) && ((mode->settled & ~mode->seen & PILOT) == 0u) &&
-           ((mode->overridden & ~ALARMS) == 0u) &&
-           (!up || (mode->silence_us < c->loss_us)) && 
+           ((mode->overridden & ~ALARMS) == 0u) && (!up || (mode->silence_us < c->loss_us)) &&
            (!mode->ready || (up && !is_set(mode->settled, KEEL_MODE_IS_ON))) &&
            (!piloted(mode) || (up && (mode->asked != KEEL_MODE_NONE))) &&
            ((mode->mode == KEEL_MODE_NONE) == !runs(mode)) &&
@@ -134,9 +132,9 @@ static bool mode_same(const keel_mode_t *a, const keel_mode_t *b)
         same = same && (a->settle_us[i] == b->settle_us[i]) && (a->held_us[i] == b->held_us[i]);
     }
     return same && (a->silence_us == b->silence_us) && (a->state_us == b->state_us) &&
-           (a->seen == b->seen) && (a->settled == b->settled) &&
-           (a->overridden == b->overridden) && (a->cause == b->cause) &&
-           (a->missing == b->missing) && mode_refusal_same(&a->blocking, &b->blocking) &&
+           (a->seen == b->seen) && (a->settled == b->settled) && (a->overridden == b->overridden) &&
+           (a->cause == b->cause) && (a->missing == b->missing) &&
+           mode_refusal_same(&a->blocking, &b->blocking) &&
            mode_refusal_same(&a->refused, &b->refused) && (a->state == b->state) &&
            (a->mode == b->mode) && (a->asked == b->asked) && (a->rests_at == b->rests_at) &&
            (a->ready == b->ready) && (a->motors == b->motors);

@@ -209,8 +209,7 @@ static void put_in_force(keel_mode_t *mode)
         mode->mode = wanted;
     } else if ((mode->state == KEEL_MODE_ARMED) || (mode->state == KEEL_MODE_FLYING)) {
         mode->mode = instead_with_pilot(mode, wanted);
-    } else if ((mode->state == KEEL_MODE_HOLDING) &&
-               (missing_of(mode, KEEL_MODE_ALTITUDE) == 0u)) {
+    } else if ((mode->state == KEEL_MODE_HOLDING) && (missing_of(mode, KEEL_MODE_ALTITUDE) == 0u)) {
         mode->mode = KEEL_MODE_ALTITUDE;
     } else {
         mode->mode = KEEL_MODE_LAND;
@@ -297,9 +296,9 @@ static void go_home_or_down(keel_mode_t *mode, uint32_t cause)
 
 static void from_armed(keel_mode_t *mode, const happens_t *happens)
 {
-    const uint32_t disarms =
-        if_so(happens->frame && counts(mode, KEEL_MODE_IS_OFF), KEEL_MODE_IS_OFF) |
-        if_so(lasts(mode, mode->config.idle_us), KEEL_MODE_TIME_UP);
+    const uint32_t disarms = if_so(happens->frame && counts(mode, KEEL_MODE_IS_OFF),
+                                   KEEL_MODE_IS_OFF) |
+                             if_so(lasts(mode, mode->config.idle_us), KEEL_MODE_TIME_UP);
 
     if (!counts(mode, KEEL_MODE_IS_LINKED)) {
         go_to(mode, KEEL_MODE_LANDING, KEEL_MODE_LINK_LOST);
@@ -376,8 +375,8 @@ static void go_on(keel_mode_t *mode, const happens_t *happens)
 {
     const bool motors = (mode->state != KEEL_MODE_DISARMED) &&
                         (mode->state != KEEL_MODE_TERMINATED);
-    const bool alone = (mode->state == KEEL_MODE_HOLDING) ||
-                       (mode->state == KEEL_MODE_RETURNING) || (mode->state == KEEL_MODE_LANDING);
+    const bool alone = (mode->state == KEEL_MODE_HOLDING) || (mode->state == KEEL_MODE_RETURNING) ||
+                       (mode->state == KEEL_MODE_LANDING);
 
     if (motors && happens->frame && counts(mode, KEEL_MODE_IS_KILL)) {
         go_to(mode, KEEL_MODE_TERMINATED, KEEL_MODE_IS_KILL); /* MOD-010 */
@@ -440,8 +439,7 @@ void model_mode_step(keel_mode_t *mode, const keel_mode_input_t *input)
     if (mode->state == KEEL_MODE_DISARMED) {
         mode->blocking = in_the_way(mode, input->checks, attempt);
         mode->refused = attempt ? mode->blocking : old.refused;
-        happens.arms =
-            attempt && (mode->blocking.checks == 0u) && (mode->blocking.facts == 0u);
+        happens.arms = attempt && (mode->blocking.checks == 0u) && (mode->blocking.facts == 0u);
     }
     go_on(mode, &happens);
     put_in_force(mode);

@@ -42,14 +42,15 @@ static const mode_exit_t exits[KEEL_MODE_STATES][EXITS] = {
                            KEEL_MODE_RETURNING},
                           {KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL, 0u, KEEL_MODE_LANDING},
                           {KEEL_MODE_TOUCHES_DOWN, 0u, KEEL_MODE_ARMED}},
-    [KEEL_MODE_HOLDING] =
-        {{KEEL_MODE_IS_KILL, 0u, KEEL_MODE_TERMINATED},
-         {KEEL_MODE_TAKES_OVER, 0u, KEEL_MODE_FLYING},
-         {KEEL_MODE_IS_EMPTY | KEEL_MODE_IS_LANDED | KEEL_MODE_ASKS_LAND, 0u, KEEL_MODE_LANDING},
-         {KEEL_MODE_ASKS_RETURN, 0u, KEEL_MODE_RETURNING},
-         {KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL | KEEL_MODE_TIME_UP, KEEL_MODE_CAN_RETURN,
-          KEEL_MODE_RETURNING},
-         {KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL | KEEL_MODE_TIME_UP, 0u, KEEL_MODE_LANDING}},
+    [KEEL_MODE_HOLDING] = {{KEEL_MODE_IS_KILL, 0u, KEEL_MODE_TERMINATED},
+                           {KEEL_MODE_TAKES_OVER, 0u, KEEL_MODE_FLYING},
+                           {KEEL_MODE_IS_EMPTY | KEEL_MODE_IS_LANDED | KEEL_MODE_ASKS_LAND, 0u,
+                            KEEL_MODE_LANDING},
+                           {KEEL_MODE_ASKS_RETURN, 0u, KEEL_MODE_RETURNING},
+                           {KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL | KEEL_MODE_TIME_UP,
+                            KEEL_MODE_CAN_RETURN, KEEL_MODE_RETURNING},
+                           {KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL | KEEL_MODE_TIME_UP, 0u,
+                            KEEL_MODE_LANDING}},
     [KEEL_MODE_RETURNING] = {{KEEL_MODE_IS_KILL, 0u, KEEL_MODE_TERMINATED},
                              {KEEL_MODE_TAKES_OVER, 0u, KEEL_MODE_FLYING},
                              {KEEL_MODE_IS_EMPTY | KEEL_MODE_IS_LANDED | KEEL_MODE_IS_HOME |
@@ -145,25 +146,28 @@ static void forget(keel_mode_t *mode, uint32_t elapsed_us)
   @*/
 static void settle(keel_mode_t *mode, uint32_t now, uint32_t may, uint32_t elapsed_us)
 {
-    uint32_t waiting;
+    const uint32_t before = mode->seen;
+    const uint32_t waiting = now & ~mode->settled;
+    uint32_t settled = mode->settled & now;
 
-    mode->settled &= now;
-    waiting = now & ~mode->settled;
     /*@ loop invariant 0 <= i <= KEEL_MODE_FACTS;
-      @ loop assigns i, mode->settled, mode->held_us[0 .. KEEL_MODE_FACTS - 1];
+      @ loop assigns i, settled, mode->held_us[0 .. KEEL_MODE_FACTS - 1];
       @ loop variant KEEL_MODE_FACTS - i;
       @*/
-    for (uint32_t i = 0u; i < KEEL_MODE_FACTS; i++) {
+    for (uint32_t i = 0u; (i < KEEL_MODE_FACTS) && ((waiting >> i) != 0u); i++) {
         const uint32_t bit = (uint32_t)1u << i;
 
         if ((waiting & bit) != 0u) {
-            mode->held_us[i] =
-                ((mode->seen & bit) != 0u) ? add_us(mode->held_us[i], elapsed_us) : 0u;
-            if (((may & bit) != 0u) && (mode->held_us[i] >= mode->settle_us[i])) {
-                mode->settled |= bit;
+            const uint32_t held_us = ((before & bit) != 0u) ? add_us(mode->held_us[i], elapsed_us)
+                                                            : 0u;
+
+            mode->held_us[i] = held_us;
+            if (held_us >= mode->settle_us[i]) {
+                settled |= bit & may;
             }
         }
     }
+    mode->settled = settled;
     mode->seen = now;
 }
 

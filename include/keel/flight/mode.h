@@ -173,11 +173,11 @@ typedef struct keel_mode {
     keel_mode_refusal_t blocking;        /**< In DISARMED: what stands in the way now. */
     keel_mode_refusal_t refused;         /**< What stood in it at the last attempt to arm. */
     uint8_t state;
-    uint8_t mode;    /**< The mode in force. */
-    uint8_t asked;   /**< The mode that the pilot asks for; KEEL_MODE_NONE without a link. */
+    uint8_t mode;     /**< The mode in force. */
+    uint8_t asked;    /**< The mode that the pilot asks for; KEEL_MODE_NONE without a link. */
     uint8_t rests_at; /**< Where the mode switch was in the last frame. */
-    bool ready;      /**< The arm switch was seen off: switching on is an attempt to arm. */
-    bool motors;     /**< Motors may turn. */
+    bool ready;       /**< The arm switch was seen off: switching on is an attempt to arm. */
+    bool motors;      /**< Motors may turn. */
 } keel_mode_t;
 
 /*@ predicate mode_has(integer word, integer bits) = (word & bits) == bits;
