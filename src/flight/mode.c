@@ -87,6 +87,44 @@ static const mode_row_t modes[KEEL_MODE_NONE + 1u] = {
     [KEEL_MODE_RETURN] = {ESTIMATES, KEEL_MODE_ALTITUDE, KEEL_MODE_LAND},
     [KEEL_MODE_NONE] = {0u, KEEL_MODE_NONE, KEEL_MODE_NONE}};
 
+/* The tables are read through these alone, so what is known of them stands here. */
+/*@ requires state < KEEL_MODE_STATES && i < EXITS;
+  @ assigns \nothing;
+  @ ensures \result.to < KEEL_MODE_STATES;
+  @*/
+static mode_exit_t exit_of(uint8_t state, uint32_t i)
+{
+    return exits[state][i];
+}
+
+/*@ requires state < KEEL_MODE_STATES;
+  @ assigns \nothing;
+  @ ensures \result <= KEEL_MODE_NONE;
+  @*/
+static uint8_t wanted_by(uint8_t state)
+{
+    return state_wants[state];
+}
+
+/*@ requires mode <= KEEL_MODE_NONE;
+  @ assigns \nothing;
+  @ ensures mode <= KEEL_MODE_LAND || mode == KEEL_MODE_NONE ==> \result == 0;
+  @*/
+static uint32_t needs_of(uint8_t mode)
+{
+    return modes[mode].needs;
+}
+
+/*@ requires mode <= KEEL_MODE_NONE;
+  @ assigns \nothing;
+  @ ensures \result <= KEEL_MODE_NONE;
+  @ ensures KEEL_MODE_LAND < mode < KEEL_MODE_NONE ==> \result < mode;
+  @*/
+static uint8_t instead_of(uint8_t mode, bool piloted)
+{
+    return piloted ? modes[mode].piloted : modes[mode].alone;
+}
+
 /* --- Facts ------------------------------------------------------------------------------------ */
 
 /*@ assigns \nothing;
@@ -99,6 +137,7 @@ static uint32_t add_us(uint32_t time_us, uint32_t more_us)
 
 /*@ requires \valid_read(input);
   @ assigns \nothing;
+  @ ensures \result ==> input->asked < KEEL_MODE_NONE;
   @*/
 static bool has_frame(const keel_mode_input_t *input)
 {
@@ -108,6 +147,7 @@ static bool has_frame(const keel_mode_input_t *input)
 /* What a good frame says. A switch that is both on and off is neither. */
 /*@ requires \valid(mode) && \valid_read(input) && \separated(mode, input);
   @ assigns mode->rests_at;
+  @ ensures mode->rests_at == input->asked;
   @*/
 static uint32_t read_frame(keel_mode_t *mode, const keel_mode_input_t *input)
 {
@@ -172,8 +212,11 @@ static void settle(keel_mode_t *mode, uint32_t now, uint32_t may, uint32_t elaps
 }
 
 /*@ requires \valid(mode) && \valid_read(input) && \separated(mode, input);
+  @ requires frame: frame ==> input->asked < KEEL_MODE_NONE;
+  @ requires rests: mode->rests_at <= KEEL_MODE_NONE;
   @ assigns mode->settled, mode->seen, mode->held_us[0 .. KEEL_MODE_FACTS - 1], mode->silence_us,
   @     mode->rests_at;
+  @ ensures mode->rests_at <= KEEL_MODE_NONE;
   @*/
 static void look(keel_mode_t *mode, const keel_mode_input_t *input, bool frame)
 {
@@ -201,7 +244,9 @@ static bool has(const keel_mode_t *mode, uint32_t facts)
 
 /* Whether the mode switch was moved. Where it is when the link comes up is no move. */
 /*@ requires \valid(mode);
+  @ requires rests: mode->rests_at <= KEEL_MODE_NONE && mode->asked <= KEEL_MODE_NONE;
   @ assigns mode->asked;
+  @ ensures mode->asked <= KEEL_MODE_NONE;
   @*/
 static bool heed_mode_switch(keel_mode_t *mode, bool frame)
 {
@@ -242,7 +287,6 @@ static bool is_piloted(uint8_t asked)
 
 /* What stands in the way of arming. */
 /*@ requires \valid_read(mode) && asked: mode->asked <= KEEL_MODE_NONE;
-  @ requires \separated(mode, &modes[0 .. KEEL_MODE_NONE]);
   @ assigns \nothing;
   @*/
 static keel_mode_refusal_t blocking(const keel_mode_t *mode, uint32_t checks, bool attempt)
@@ -253,7 +297,7 @@ static keel_mode_refusal_t blocking(const keel_mode_t *mode, uint32_t checks, bo
     if (attempt || mode->ready) {
         good |= KEEL_MODE_IS_OFF;
     }
-    if (has(mode, KEEL_MODE_IS_AT | modes[mode->asked].needs) && is_piloted(mode->asked)) {
+    if (has(mode, KEEL_MODE_IS_AT | needs_of(mode->asked)) && is_piloted(mode->asked)) {
         good |= KEEL_MODE_IS_AT;
     }
     refusal.checks = mode->config.required & ~checks;
@@ -263,7 +307,6 @@ static keel_mode_refusal_t blocking(const keel_mode_t *mode, uint32_t checks, bo
 
 /* Whether an attempt to arm succeeds. In all states but DISARMED nothing is refused. */
 /*@ requires \valid(mode) && asked: mode->asked <= KEEL_MODE_NONE;
-  @ requires \separated(mode, &modes[0 .. KEEL_MODE_NONE]);
   @ assigns mode->blocking, mode->refused;
   @*/
 static bool try_to_arm(keel_mode_t *mode, uint32_t checks, bool attempt)
@@ -350,40 +393,42 @@ static bool is_failsafe(uint8_t state)
 }
 
 /* Takes an exit. What first led away from the pilot stays told until he flies again. */
-/*@ requires \valid(mode) && \valid_read(way) && \separated(mode, way);
+/*@ requires \valid(mode);
   @ assigns mode->state, mode->state_us, mode->cause, mode->overridden;
+  @ ensures mode->state == way.to && mode->state_us == 0;
   @*/
-static void leave(keel_mode_t *mode, const mode_exit_t *way, uint32_t events)
+static void leave(keel_mode_t *mode, mode_exit_t way, uint32_t events)
 {
-    const uint32_t cause = way->any & events;
+    const uint32_t cause = way.any & events;
 
-    if (!is_failsafe(mode->state) || !is_failsafe(way->to)) {
+    if (!is_failsafe(mode->state) || !is_failsafe(way.to)) {
         mode->cause = 0u;
     }
     mode->cause |= cause;
     if ((cause & KEEL_MODE_TAKES_OVER) != 0u) {
         mode->overridden = mode->settled & ALARMS;
     }
-    mode->state = way->to;
+    mode->state = way.to;
     mode->state_us = 0u;
 }
 
 /*@ requires \valid(mode) && state: mode->state < KEEL_MODE_STATES;
-  @ requires \separated(mode, &exits[0 .. KEEL_MODE_STATES - 1][0 .. EXITS - 1]);
   @ assigns mode->state, mode->state_us, mode->cause, mode->overridden;
+  @ ensures mode->state < KEEL_MODE_STATES;
   @*/
 static void move(keel_mode_t *mode, uint32_t events)
 {
-    const mode_exit_t *const way = exits[mode->state];
+    const uint8_t state = mode->state;
 
     /*@ loop invariant 0 <= i <= EXITS;
-      @ loop invariant mode->state == \at(mode->state, Pre);
       @ loop assigns i;
       @ loop variant EXITS - i;
       @*/
-    for (uint32_t i = 0u; (i < EXITS) && (way[i].any != 0u); i++) {
-        if (((way[i].any & events) != 0u) && ((way[i].all & events) == way[i].all)) {
-            leave(mode, &way[i], events);
+    for (uint32_t i = 0u; (i < EXITS) && (exit_of(state, i).any != 0u); i++) {
+        const mode_exit_t way = exit_of(state, i);
+
+        if (((way.any & events) != 0u) && ((way.all & events) == way.all)) {
+            leave(mode, way, events);
             return;
         }
     }
@@ -392,22 +437,21 @@ static void move(keel_mode_t *mode, uint32_t events)
 /* The mode in force: the one that is wanted, or what takes its place. */
 /*@ requires \valid(mode) && state: mode->state < KEEL_MODE_STATES;
   @ requires asked: mode->asked <= KEEL_MODE_NONE;
-  @ requires \separated(mode, &modes[0 .. KEEL_MODE_NONE]);
-  @ requires \separated(mode, &state_wants[0 .. KEEL_MODE_STATES - 1]);
   @ assigns mode->missing, mode->mode, mode->motors;
+  @ ensures mode->mode <= KEEL_MODE_NONE;
   @*/
 static void choose(keel_mode_t *mode)
 {
     const bool piloted = (mode->state == KEEL_MODE_ARMED) || (mode->state == KEEL_MODE_FLYING);
-    uint8_t chosen = piloted ? mode->asked : state_wants[mode->state];
+    uint8_t chosen = piloted ? mode->asked : wanted_by(mode->state);
 
-    mode->missing = modes[chosen].needs & ~mode->settled;
+    mode->missing = needs_of(chosen) & ~mode->settled;
     /*@ loop invariant chosen <= KEEL_MODE_NONE;
       @ loop assigns chosen;
       @ loop variant chosen;
       @*/
-    while ((modes[chosen].needs & ~mode->settled) != 0u) {
-        chosen = piloted ? modes[chosen].piloted : modes[chosen].alone;
+    while ((needs_of(chosen) & ~mode->settled) != 0u) {
+        chosen = instead_of(chosen, piloted);
     }
     mode->mode = chosen;
     mode->motors = piloted || is_failsafe(mode->state);
