@@ -17,17 +17,17 @@
 
 /* --- The tables ------------------------------------------------------------------------------- */
 
-/* An exit of a state: taken when any of some events has come, and all of others. */
+/* An exit of a state: taken when any of these events has come, and also all of those. */
 typedef struct mode_exit {
     uint32_t any;
-    uint32_t all;
+    uint32_t also;
     uint8_t to;
 } mode_exit_t;
 
-#define EXITS 8u
+#define EXITS 7u
 
-/* Of each state the exits, the first that applies is taken; the last is followed by one that never
- * applies. TERMINATED has none. */
+/* Of each state the exits; the first that applies is taken. Those that a state does not need are
+ * zeros, which never apply. TERMINATED has none. */
 static const mode_exit_t exits[KEEL_MODE_STATES][EXITS] = {
     [KEEL_MODE_DISARMED] = {{KEEL_MODE_ARMS, 0u, KEEL_MODE_ARMED}},
     [KEEL_MODE_ARMED] = {{KEEL_MODE_IS_KILL, 0u, KEEL_MODE_TERMINATED},
@@ -427,7 +427,7 @@ static void move(keel_mode_t *mode, uint32_t events)
     for (uint32_t i = 0u; (i < EXITS) && (exit_of(state, i).any != 0u); i++) {
         const mode_exit_t way = exit_of(state, i);
 
-        if (((way.any & events) != 0u) && ((way.all & events) == way.all)) {
+        if (((way.any & events) != 0u) && ((way.also & events) == way.also)) {
             leave(mode, way, events);
             return;
         }

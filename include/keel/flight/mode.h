@@ -326,6 +326,8 @@ keel_status_t keel_mode_init(keel_mode_t *mode, const keel_mode_config_t *config
   @     mode->state == KEEL_MODE_TERMINATED && !mode->motors;
   @ ensures MOD_011_overridden: mode_has(\old(mode->overridden), mode->overridden) ||
   @     mode->state == KEEL_MODE_FLYING;
+  @ ensures MOD_012_exit: \old(mode->motors) && mode_frame(input) &&
+  @     mode_has(mode->settled, KEEL_MODE_IS_KILL) ==> mode->state == KEEL_MODE_TERMINATED;
   @*/
 void keel_mode_step(keel_mode_t *mode, const keel_mode_input_t *input);
 
