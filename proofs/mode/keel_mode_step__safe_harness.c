@@ -100,6 +100,14 @@ static void check_stopping(void)
                      "MOD_010_obeys: a kill switch held terminates from every state");
 }
 
+/* In a state its time begins at 0, goes on by what elapsed, and is not up. */
+static bool lasts(uint8_t state, uint32_t limit_us)
+{
+    const uint32_t now_us = sum_here(old.state_us, input.elapsed_us);
+
+    return was(state) ? ((mode.state_us == now_us) && (now_us < limit_us)) : (mode.state_us == 0u);
+}
+
 static void check_link(void)
 {
     __CPROVER_assert(!broken || !piloted(&mode), "MOD_007_lost: without a link no pilot flies");
@@ -107,11 +115,9 @@ static void check_link(void)
                      "MOD_007_holds: it holds when the link is lost");
     __CPROVER_assert(!broken || !was(KEEL_MODE_ARMED) || is(KEEL_MODE_LANDING),
                      "MOD_007_lands: it lands if it was still on the ground");
-    __CPROVER_assert(!is(KEEL_MODE_HOLDING) || (mode.state_us == 0u) ||
-                         (mode.state_us < mode.config.hold_us),
+    __CPROVER_assert(!is(KEEL_MODE_HOLDING) || lasts(KEEL_MODE_HOLDING, mode.config.hold_us),
                      "MOD_007_hold_ends: holding ends when its time is up");
-    __CPROVER_assert(!is(KEEL_MODE_RETURNING) || (mode.state_us == 0u) ||
-                         (mode.state_us < mode.config.return_us),
+    __CPROVER_assert(!is(KEEL_MODE_RETURNING) || lasts(KEEL_MODE_RETURNING, mode.config.return_us),
                      "MOD_007_return_ends: returning ends when its time is up");
     __CPROVER_assert(!alone(&old) || !piloted(&mode) ||
                          (frame && counts(KEEL_MODE_IS_LINKED | KEEL_MODE_IS_AT) &&

@@ -23,7 +23,11 @@ static const keel_mode_config_t usual = {
     .idle_us = 5000000u,
     .hold_us = 2000000u,
     .return_us = 3000000u,
-    .required = KEEL_MODE_CHECK_GYROSCOPE | KEEL_MODE_CHECK_MOTORS,
+    .required = KEEL_MODE_CHECK_GYROSCOPE | KEEL_MODE_CHECK_ACCELEROMETER |
+                KEEL_MODE_CHECK_MAGNETOMETER | KEEL_MODE_CHECK_BAROMETER |
+                KEEL_MODE_CHECK_POSITIONING | KEEL_MODE_CHECK_CALIBRATION | KEEL_MODE_CHECK_LEVEL |
+                KEEL_MODE_CHECK_BATTERY | KEEL_MODE_CHECK_MOTORS | KEEL_MODE_CHECK_LOAD |
+                KEEL_MODE_CHECK_STORAGE | KEEL_MODE_CHECK_HOME,
     .returns = true,
 };
 
@@ -295,9 +299,11 @@ static void MOD_005_each_refusal_is_named(void)
     const uint32_t is_so[] = {KEEL_MODE_IS_KILL, KEEL_MODE_IS_OUTSIDE, KEEL_MODE_IS_CRITICAL,
                               KEEL_MODE_IS_EMPTY};
 
-    in.checks = KEEL_MODE_CHECK_MOTORS;
-    run(150u);
-    attempt_refused(KEEL_MODE_CHECK_GYROSCOPE, 0u);
+    for (uint32_t check = 0x0001u; check <= KEEL_MODE_CHECK_HOME; check <<= 1) {
+        in.checks = usual.required & ~check;
+        run(150u);
+        attempt_refused(check, 0u);
+    }
     in.checks = usual.required;
     for (size_t i = 0u; i < (sizeof not_so / sizeof not_so[0]); i++) {
         clear(not_so[i]);

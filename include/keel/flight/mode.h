@@ -307,9 +307,13 @@ keel_status_t keel_mode_init(keel_mode_t *mode, const keel_mode_config_t *config
   @ ensures MOD_007_lost: \old(mode->silence_us) + input->elapsed_us >= mode->config.loss_us ==>
   @     !mode_piloted(mode->state);
   @ ensures MOD_007_hold_ends: mode->state == KEEL_MODE_HOLDING ==>
-  @     mode->state_us == 0 || mode->state_us < mode->config.hold_us;
+  @     (\old(mode->state) == KEEL_MODE_HOLDING ?
+  @         mode->state_us == \old(mode->state_us) + input->elapsed_us < mode->config.hold_us :
+  @         mode->state_us == 0);
   @ ensures MOD_007_return_ends: mode->state == KEEL_MODE_RETURNING ==>
-  @     mode->state_us == 0 || mode->state_us < mode->config.return_us;
+  @     (\old(mode->state) == KEEL_MODE_RETURNING ?
+  @         mode->state_us == \old(mode->state_us) + input->elapsed_us < mode->config.return_us :
+  @         mode->state_us == 0);
   @ ensures MOD_008_moves: mode_alone(\old(mode->state)) && mode_piloted(mode->state) ==>
   @     mode_frame(input) && \old(mode->asked) != KEEL_MODE_NONE &&
   @     mode->asked != \old(mode->asked) &&
