@@ -18,7 +18,17 @@ void keel_mode_init_harness(void)
     __CPROVER_assert(mode_same(&mode, &model), "MOD_001_model: in every field");
     __CPROVER_assert((status == KEEL_OK) == config_valid_here(&config),
                      "MOD_001_accepted: exactly the valid configurations");
+    __CPROVER_assert((status == KEEL_ERR_LIMITS) == !times_valid_here(&config),
+                     "MOD_001_times: a time that is out of its range is told first");
+    __CPROVER_assert((status == KEEL_ERR_INPUT) ==
+                         (times_valid_here(&config) && (config.required == 0u)),
+                     "MOD_001_required: then that no check is required");
+    __CPROVER_assert((status != KEEL_OK) || mode_config_same(&mode.config, &config),
+                     "MOD_001_made: the configuration is kept");
     __CPROVER_assert((status != KEEL_OK) || valid_here(&mode), "MOD_002_valid: it is valid");
     __CPROVER_assert((status != KEEL_OK) || (!mode.motors && (mode.state == KEEL_MODE_DISARMED)),
                      "MOD_002_still: disarmed, and motors stand still");
+    __CPROVER_assert((status != KEEL_OK) ||
+                         ((mode.seen == 0u) && (mode.settled == 0u) && !mode.ready),
+                     "MOD_002_unseen: nothing is seen, nor the switch off");
 }

@@ -59,8 +59,8 @@ static bool piloted(const keel_mode_t *mode)
     return (mode->state == KEEL_MODE_ARMED) || (mode->state == KEEL_MODE_FLYING);
 }
 
-/* mode_config_valid */
-static bool config_valid_here(const keel_mode_config_t *c)
+/* mode_times_valid */
+static bool times_valid_here(const keel_mode_config_t *c)
 {
     const uint32_t time_us[] = {c->regain_us,   c->request_us, c->kill_us, c->landed_us,
                                 c->estimate_us, c->alarm_us,   c->idle_us};
@@ -70,7 +70,13 @@ static bool config_valid_here(const keel_mode_config_t *c)
         valid = valid && (c->loss_us <= time_us[i]) && (time_us[i] <= KEEL_MODE_TIME_MOST_US);
     }
     return valid && (c->hold_us <= KEEL_MODE_TIME_MOST_US) &&
-           (c->return_us <= KEEL_MODE_TIME_MOST_US) && (c->required != 0u);
+           (c->return_us <= KEEL_MODE_TIME_MOST_US);
+}
+
+/* mode_config_valid */
+static bool config_valid_here(const keel_mode_config_t *c)
+{
+    return times_valid_here(c) && (c->required != 0u);
 }
 
 /* mode_valid */
