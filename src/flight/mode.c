@@ -127,6 +127,17 @@ static uint8_t instead_of(uint8_t mode, bool piloted)
 
 /* --- Facts ------------------------------------------------------------------------------------ */
 
+/*@ requires i < KEEL_MODE_FACTS;
+  @ assigns \nothing;
+  @ ensures bit: \result == 1 << i;
+  @*/
+static uint32_t bit_of(uint32_t i)
+{
+    //@ assert i == 0 || i == 1 || i == 2 || i == 3 || i == 4 || i == 5 || i == 6 || 7 <= i;
+    //@ assert i <= 6 || i == 7 || i == 8 || i == 9 || i == 10 || i == 11 || i == 12 || i == 13;
+    return (uint32_t)1u << i;
+}
+
 /*@ assigns \nothing;
   @ ensures \result == \min(UINT32_MAX, time_us + more_us);
   @*/
@@ -195,7 +206,7 @@ static void settle(keel_mode_t *mode, uint32_t now, uint32_t may, uint32_t elaps
       @ loop variant KEEL_MODE_FACTS - i;
       @*/
     for (uint32_t i = 0u; (i < KEEL_MODE_FACTS) && ((waiting >> i) != 0u); i++) {
-        const uint32_t bit = (uint32_t)1u << i;
+        const uint32_t bit = bit_of(i);
 
         if ((waiting & bit) != 0u) {
             const uint32_t held_us = ((before & bit) != 0u) ? add_us(mode->held_us[i], elapsed_us)
@@ -550,7 +561,7 @@ keel_status_t keel_mode_init(keel_mode_t *mode, const keel_mode_config_t *config
       @ loop variant KEEL_MODE_FACTS - i;
       @*/
     for (uint32_t i = 0u; i < KEEL_MODE_FACTS; i++) {
-        mode->settle_us[i] = settle_us_of(config, (uint32_t)1u << i);
+        mode->settle_us[i] = settle_us_of(config, bit_of(i));
         mode->held_us[i] = 0u;
     }
     mode->silence_us = UINT32_MAX;
