@@ -4,10 +4,10 @@
 // covers: keel_filter_init set_coefficients tangent model_filter_init tan_of
 //
 // The coefficients for some cut-offs at 1000 Hz, of which 250 Hz (g = 1) is the last below the
-// change of formula; the lowest and the highest rate, the lowest cut-off of a rate, and what is just
-// beyond them. The numbers are those of filter.h in double precision; how near the coefficients are
-// everywhere else is tested. Wrong bodies are refuted here: where floats differ, z3 finds no
-// example.
+// change of formula; the lowest and the highest rate, the lowest cut-off of a rate, and what is
+// just beyond them. The numbers are those of filter.h in double precision; how near the
+// coefficients are everywhere else is tested. Wrong bodies are refuted here: where floats differ,
+// z3 finds no example.
 #include "../../specs/model/filter.h"
 #include "../common/keel_flight_proof.h"
 

@@ -16,8 +16,8 @@
 /* A channel of unit 1 that is latched; all others were unanimous. */
 #define LATCHED 2u
 
-static const keel_voter_config_t accelerometer = {1.0f,  3.0f,  -100.0f, 100.0f, 1.5f,
-                                                  1000u, 2u,    0u,      0u,     UNITS};
+static const keel_voter_config_t accelerometer = {1.0f,  3.0f, -100.0f, 100.0f, 1.5f,
+                                                  1000u, 2u,   0u,      0u,     UNITS};
 static const keel_voter_config_t gyroscope = {2.0f,  2.0f, -50.0f, 60.0f, -0.5f,
                                               2000u, 1u,   3u,     9u,    UNITS};
 

@@ -4,9 +4,9 @@
 // sources: specs/model/voter.c specs/model/voter_parts.c specs/model/range.c
 // covers: keel_virtual_imu_step note model_virtual_imu_step
 //
-// Two chosen votes from one state: a unit is late for the accelerometer alone, another one is off in
-// a channel of the gyroscope, where the first bad vote latches, and the third gives its sample or
-// not.
+// Two chosen votes from one state: a unit is late for the accelerometer alone, another one is off
+// in a channel of the gyroscope, where the first bad vote latches, and the third gives its sample
+// or not.
 #include "chosen_vote.h"
 
 void keel_virtual_imu_step__points_harness(void)

@@ -6,11 +6,7 @@
 
 #include <string.h>
 
-/* The model is part of this test: the kernel that it is linked with has none. */
-#include "../../specs/model/mode.c"
-
 #define STEP_US 10000u
-#define STEPS   1000000u
 
 static const keel_mode_config_t usual = {
     .loss_us = 250000u,
@@ -552,102 +548,6 @@ static void MOD_011_the_pilot_overrides_an_alarm(void)
     expect_after(61u, KEEL_MODE_RETURNING);
 }
 
-static uint64_t random_state = 20261123u;
-
-/* SplitMix64. */
-static uint32_t any(void)
-{
-    uint64_t z;
-
-    random_state += 0x9E3779B97F4A7C15u;
-    z = random_state;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return (uint32_t)((z ^ (z >> 31)) >> 16);
-}
-
-/* Phrases of a flight that last long enough for facts to settle, with faults in between. */
-static void change(void)
-{
-    const uint32_t estimates = any() & (KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT);
-    const uint32_t ground = KEEL_MODE_IS_LINKED | KEEL_MODE_IS_LOW | KEEL_MODE_IS_LANDED |
-                            KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT | KEEL_MODE_HAS_PLACE;
-
-    switch (any() % 256u) {
-    case 0u:
-    case 1u:
-        in.facts = ground | KEEL_MODE_IS_OFF;
-        in.asked = (uint8_t)(any() % 5u);
-        break;
-    case 2u:
-    case 3u:
-        in.facts = ground | KEEL_MODE_IS_ON;
-        break;
-    case 4u:
-    case 5u:
-        in.facts = KEEL_MODE_IS_LINKED | KEEL_MODE_IS_ON | KEEL_MODE_HAS_PLACE | estimates;
-        break;
-    case 6u:
-        in.facts &= ~KEEL_MODE_IS_LINKED;
-        break;
-    case 7u:
-        in.facts |= KEEL_MODE_IS_LINKED;
-        break;
-    case 8u:
-    case 9u:
-        in.asked = (uint8_t)(any() % 7u);
-        break;
-    case 10u:
-    case 11u:
-        in.facts ^= (uint32_t)1u << (any() % 16u);
-        break;
-    default:
-        break;
-    }
-    in.checks = ((any() % 16u) == 0u) ? any() : UINT32_MAX;
-    in.elapsed_us = ((any() % 4096u) == 0u) ? any() : (any() % 4000u);
-}
-
-static keel_mode_config_t short_times(void)
-{
-    return (keel_mode_config_t){.loss_us = 10000u,
-                                .regain_us = 10000u + (any() % 5000u),
-                                .request_us = 10000u + (any() % 5000u),
-                                .kill_us = 40000u,
-                                .landed_us = 10000u + (any() % 9000u),
-                                .estimate_us = 12000u,
-                                .alarm_us = 30000u,
-                                .idle_us = 50000u,
-                                .hold_us = any() % 50000u,
-                                .return_us = any() % 50000u,
-                                .required = any(),
-                                .returns = (any() % 2u) == 0u};
-}
-
-static void MOD_003_a_million_steps_beside_the_specification(void)
-{
-    uint32_t visits[KEEL_MODE_STATES] = {0u};
-    keel_mode_t model;
-
-    memset(&machine, 0, sizeof machine);
-    memset(&model, 0, sizeof model);
-    for (uint32_t i = 0u; i < STEPS; i++) {
-        if ((i % 4096u) == 0u) {
-            const keel_mode_config_t config = short_times();
-
-            TEST_ASSERT_EQUAL(model_mode_init(&model, &config), keel_mode_init(&machine, &config));
-        }
-        change();
-        model_mode_step(&model, &in);
-        keel_mode_step(&machine, &in);
-        TEST_ASSERT_EQUAL_MEMORY(&model, &machine, sizeof model);
-        visits[machine.state]++;
-    }
-    for (uint32_t i = 0u; i < KEEL_MODE_STATES; i++) {
-        TEST_ASSERT_GREATER_THAN_UINT32(100u, visits[i]);
-    }
-}
-
 int main(void)
 {
     UNITY_BEGIN();
@@ -683,6 +583,5 @@ int main(void)
     RUN_TEST(MOD_010_kill_terminates_without_a_pilot);
     RUN_TEST(MOD_011_alarms_lead_home_or_down);
     RUN_TEST(MOD_011_the_pilot_overrides_an_alarm);
-    RUN_TEST(MOD_003_a_million_steps_beside_the_specification);
     return UNITY_END();
 }

@@ -62,8 +62,8 @@ class Trial:
     before the others; then by the harnesses that compare its function with the model, by the
     others that cover it, and by WP, which asks the function alone: what its callers rely on is its
     contract, not its body. What is left are the harnesses that were too slow. Among equals the one
-    that is usually fastest comes first. A mutant whose reason to be none is accepted is tried by the
-    small harnesses alone: they tell a wrong reason.
+    that is usually fastest comes first. A mutant whose reason to be none is accepted is tried by
+    the small harnesses alone: they tell a wrong reason.
     """
 
     def __init__(
