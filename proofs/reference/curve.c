@@ -69,8 +69,8 @@
   @ lemma REF_008_clamped: \forall real a, b; a <= b ==> 0 <= clamped(a) <= clamped(b) <= 1;
   @
   @ // x and y are sizes of sticks, a and b what they are beyond the dead band.
-  @ lemma REF_008_u: \forall real x, y, d, scale, a, b; a == rounded(x - d) && b == rounded(y - d) &&
-  @     0 <= x <= y <= 1 && 0 < d <= 0.5 && 1 <= scale <= 2.5 ==>
+  @ lemma REF_008_u: \forall real x, y, d, scale, a, b;
+  @     a == rounded(x - d) && b == rounded(y - d) && 0 <= x <= y <= 1 && 0 < d <= 0.5 && 1 <= scale <= 2.5 ==>
   @     -1 <= a <= b <= 1 && product(a, scale) <= product(b, scale) &&
   @     0 <= clamped(product(a, scale)) <= clamped(product(b, scale)) <= 1;
   @
@@ -92,7 +92,8 @@
   @ lemma REF_008_sum: \forall real l, a, b; 0 <= a <= b <= 1 && 0 <= l <= 1 ==>
   @     rounded(0.0) <= rounded(l + a) <= rounded(l + b);
   @
-  @ lemma REF_008_factor: \forall real u, v, l, e; 0 <= u <= v <= 1 && 0 <= l <= 1 && 0 <= e <= 1 ==>
+  @ lemma REF_008_factor: \forall real u, v, l, e;
+  @     0 <= u <= v <= 1 && 0 <= l <= 1 && 0 <= e <= 1 ==>
   @     0 <= factor(u, l, e) <= factor(v, l, e);
   @
   @ // At the end of the stick the curve is 1: e is a float, and so REF_003_sum has it of the sum.
@@ -108,6 +109,16 @@
   @     0 <= f <= g <= 1 && 0 <= product(u, f) <= product(v, g) <= 1;
   @
   @ lemma REF_007_centre: \forall real l, e; bent(0, l, e) == 0;
+  @
+  @ // The deflection, d, scale, l and e being the curve: that of the size, with the stick's sign.
+  @ logic real deflected(real x, real d, real scale, real l, real e) =
+  @     bent(clamped(product(rounded(x - d), scale)), l, e);
+  @
+  @ logic real deflection(real x, real d, real scale, real l, real e) =
+  @     x < 0 ? -deflected(-x, d, scale, l, e) : deflected(x, d, scale, l, e);
+  @
+  @ lemma REF_009_odd: \forall real x, d, scale, l, e; x != 0 ==>
+  @     deflection(-x, d, scale, l, e) == -deflection(x, d, scale, l, e);
   @
   @ // The disc: 1 less the sum of both squares, with s^2 = a and t^2 = b.
   @ lemma REF_010_disc: \forall real a, b, k, v, w;

@@ -53,17 +53,9 @@ static void is_made(float dead_band)
 
 void keel_reference_init__exact_harness(void)
 {
-    const float dead_bands[11] = {KEEL_REFERENCE_DEAD_BAND_MIN,
-                                  0.01f,
-                                  0.03f,
-                                  0.05f,
-                                  0.07f,
-                                  0.1f,
-                                  0.13f,
-                                  0.2f,
-                                  0.3f,
-                                  0.45f,
-                                  KEEL_REFERENCE_DEAD_BAND_MAX};
+    const float dead_bands[11] = {
+        KEEL_REFERENCE_DEAD_BAND_MIN, 0.01f, 0.03f, 0.05f, 0.07f, 0.1f, 0.13f, 0.2f, 0.3f, 0.45f,
+        KEEL_REFERENCE_DEAD_BAND_MAX};
     keel_reference_config_t config = configuration(0.5f);
 
     for (unsigned i = 0u; i < 11u; i++) {

@@ -51,8 +51,7 @@ static void are_exact(const keel_reference_setpoints_t *setpoints, int roll, int
     __CPROVER_assert(is_exactly(setpoints->roll_rate, 2 * s_roll), "REF_005_roll_rate: exact");
     __CPROVER_assert(is_exactly(setpoints->pitch_rate, 3 * s_pitch), "REF_005_pitch_rate: exact");
     __CPROVER_assert(is_exactly(setpoints->yaw_rate, 5 * s_yaw), "REF_005_yaw_rate: exact");
-    __CPROVER_assert(is_exactly(setpoints->heading_rate, 7 * s_yaw),
-                     "REF_005_heading_rate: exact");
+    __CPROVER_assert(is_exactly(setpoints->heading_rate, 7 * s_yaw), "REF_005_heading_rate: exact");
     __CPROVER_assert(is_exactly(setpoints->roll, s_roll), "REF_005_roll: exact");
     __CPROVER_assert(is_exactly(setpoints->pitch, s_pitch), "REF_005_pitch: exact");
     __CPROVER_assert(is_exactly(setpoints->forward, -11 * s_pitch), "REF_005_forward: exact");

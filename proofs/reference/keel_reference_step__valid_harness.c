@@ -3,10 +3,10 @@
 // sources: src/flight/reference.c
 // covers: keel_reference_step are_sticks deflection rounded_off
 //
-// Any bit pattern for the roll stick, with any curve of it, the others centred: all sticks go through
-// the same functions. +0 within the dead band, else of the stick's sign or so small that it is 0; no
-// operation overflows or gives a NaN. That set-points are bounded, monotone, and 0 in the dead band
-// alone is proved in curve.c; what the step computes, for all sticks, in keel_reference_step_harness.
+// Any bit pattern for the roll stick, with any curve of it, the others centred: all sticks go
+// through the same functions. +0 within the dead band, else not of the other sign; no operation
+// overflows or gives a NaN. That set-points are bounded and monotone is proved in curve.c; what the
+// step computes, for all sticks, in keel_reference_step_harness.
 #include "../common/unchanged.h"
 #include "reference_proof.h"
 
@@ -15,7 +15,7 @@ static bool is_dead(const keel_reference_curve_t *curve, float stick)
     return within(stick, -curve->dead_band, curve->dead_band);
 }
 
-/* Of the sign that the stick has; +0, not -0, within its dead band. */
+/* Not of the sign that the stick has not; +0, not -0, within its dead band. */
 static bool follows(float setpoint, const keel_reference_curve_t *curve, float stick)
 {
     if (is_dead(curve, stick)) {

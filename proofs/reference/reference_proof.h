@@ -61,8 +61,7 @@ static bool limits_same(const keel_reference_limits_t *x, const keel_reference_l
     return float_same(x->roll_rate, y->roll_rate) && float_same(x->pitch_rate, y->pitch_rate) &&
            float_same(x->yaw_rate, y->yaw_rate) && float_same(x->heading_rate, y->heading_rate) &&
            float_same(x->tilt, y->tilt) && float_same(x->speed, y->speed) &&
-           float_same(x->climb_rate, y->climb_rate) &&
-           float_same(x->descent_rate, y->descent_rate);
+           float_same(x->climb_rate, y->climb_rate) && float_same(x->descent_rate, y->descent_rate);
 }
 
 static bool setpoints_same(const keel_reference_setpoints_t *x, const keel_reference_setpoints_t *y)

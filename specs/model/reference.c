@@ -114,7 +114,7 @@ keel_status_t model_reference_step(keel_reference_t *reference,
     reference->setpoints.pitch = reference->limits.tilt * in_disc(pitch, roll);
     reference->setpoints.forward = 0.0f - (reference->limits.speed * in_disc(pitch, roll));
     reference->setpoints.right = reference->limits.speed * in_disc(roll, pitch);
-    reference->setpoints.climb_rate =
-        climb * ((climb < 0.0f) ? reference->limits.descent_rate : reference->limits.climb_rate);
+    reference->setpoints.climb_rate = climb * ((climb < 0.0f) ? reference->limits.descent_rate
+                                                              : reference->limits.climb_rate);
     return KEEL_OK;
 }

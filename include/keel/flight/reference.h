@@ -125,11 +125,11 @@ typedef struct keel_reference_curve {
 
 /** A reference generator. */
 typedef struct keel_reference {
-    keel_reference_curve_t roll;         /**< Of the roll stick. */
-    keel_reference_curve_t pitch;        /**< Of the pitch stick. */
-    keel_reference_curve_t yaw;          /**< Of the yaw stick. */
-    keel_reference_curve_t climb;        /**< Of the climb stick. */
-    keel_reference_limits_t limits;      /**< As checked by init. */
+    keel_reference_curve_t roll;          /**< Of the roll stick. */
+    keel_reference_curve_t pitch;         /**< Of the pitch stick. */
+    keel_reference_curve_t yaw;           /**< Of the yaw stick. */
+    keel_reference_curve_t climb;         /**< Of the climb stick. */
+    keel_reference_limits_t limits;       /**< As checked by init. */
     keel_reference_setpoints_t setpoints; /**< What the last sticks asked for; all 0 before. */
 } keel_reference_t;
 
@@ -185,6 +185,28 @@ typedef struct keel_reference {
   @
   @ predicate reference_within(float setpoint, real limit) =
   @     reference_between(setpoint, -limit, limit);
+  @
+  @ // u, a stick's deflection, and what is left of one beside that across: the formulas above,
+  @ // rounded after each operation.
+  @ logic float reference_stretched(keel_reference_curve_t curve, float stick) = (float)(
+  @     (float)((stick < 0 ? -stick : stick) - curve.dead_band) * curve.scale);
+  @
+  @ logic float reference_u(keel_reference_curve_t curve, float stick) = (float)\min(1,
+  @     \max(0, reference_stretched(curve, stick)));
+  @
+  @ logic float reference_bent(keel_reference_curve_t curve, float u) = (float)(
+  @     u * (float)(curve.linear + (float)(curve.expo * (float)(u * u))));
+  @
+  @ logic float reference_deflection(keel_reference_curve_t curve, float stick) = (float)(
+  @     stick < 0 ? -reference_bent(curve, reference_u(curve, stick))
+  @               : reference_bent(curve, reference_u(curve, stick)));
+  @
+  @ logic float reference_rounded_off(float own, float across) = (float)(
+  @     own * (float)(1 - (float)(KEEL_REFERENCE_CORNER * (float)(across * across))));
+  @
+  @ // What a limit makes of a deflection.
+  @ predicate reference_asked(float setpoint, float limit, float deflection) =
+  @     setpoint == (float)(limit * deflection);
   @
   @ // No set-point is beyond its limit.
   @ predicate reference_bounded(keel_reference_setpoints_t setpoints,
@@ -255,6 +277,26 @@ keel_status_t keel_reference_init(keel_reference_t *reference,
   @ behavior taken:
   @   assumes reference_sticks(*sticks);
   @   ensures REF_004_ok: \result == KEEL_OK;
+  @   ensures REF_005_rates:
+  @     reference_asked(reference->setpoints.roll_rate, reference->limits.roll_rate,
+  @         reference_deflection(reference->roll, sticks->roll)) &&
+  @     reference_asked(reference->setpoints.pitch_rate, reference->limits.pitch_rate,
+  @         reference_deflection(reference->pitch, sticks->pitch)) &&
+  @     reference_asked(reference->setpoints.yaw_rate, reference->limits.yaw_rate,
+  @         reference_deflection(reference->yaw, sticks->yaw)) &&
+  @     reference_asked(reference->setpoints.heading_rate, reference->limits.heading_rate,
+  @         reference_deflection(reference->yaw, sticks->yaw));
+  @   ensures REF_005_angles:
+  @     reference_asked(reference->setpoints.roll, reference->limits.tilt, reference_rounded_off(
+  @         reference_deflection(reference->roll, sticks->roll),
+  @         reference_deflection(reference->pitch, sticks->pitch))) &&
+  @     reference_asked(reference->setpoints.pitch, reference->limits.tilt, reference_rounded_off(
+  @         reference_deflection(reference->pitch, sticks->pitch),
+  @         reference_deflection(reference->roll, sticks->roll)));
+  @   ensures REF_005_climb:
+  @     reference_asked(reference->setpoints.climb_rate,
+  @         sticks->climb < 0 ? reference->limits.descent_rate : reference->limits.climb_rate,
+  @         reference_deflection(reference->climb, sticks->climb));
   @   ensures REF_006_bounded: reference_bounded(reference->setpoints, reference->limits);
   @ complete behaviors;
   @ disjoint behaviors;
