@@ -4,21 +4,26 @@
 // covers: keel_reference_init are_expos is_expo are_dead_bands is_dead_band are_limits is_limit
 // covers: curve_of
 //
-// Any bit pattern for the shape of the roll stick and for one limit, the rest good: all shapes go
-// through the same functions. What is made is valid, and no operation overflows or gives a NaN.
-// What the reference generator is, for every configuration, is in keel_reference_init_harness.
+// Any bit pattern for the shape of the roll stick and for all limits; the other shapes are good or
+// bad ones, since all go through the same functions. What is made is valid, and no operation
+// overflows or gives a NaN. What the reference generator is, for every configuration, is in
+// keel_reference_init_harness.
 #include "../common/unchanged.h"
 #include "reference_proof.h"
 
+static keel_reference_shape_t good_or_bad(void)
+{
+    return (keel_reference_shape_t){nondet_bool() ? 0.125f : 0.75f, nondet_bool() ? 0.5f : -0.5f};
+}
+
 void keel_reference_init__valid_harness(void)
 {
-    const keel_reference_shape_t good = {0.125f, 0.5f};
-    const keel_reference_config_t config = {
-        .roll = {nondet_float(), nondet_float()},
-        .pitch = good,
-        .yaw = good,
-        .climb = good,
-        .limits = {1.0f, 1.0f, 1.0f, 1.0f, nondet_float(), 1.0f, 1.0f, 1.0f}};
+    const keel_reference_config_t any = nondet_reference_config();
+    const keel_reference_config_t config = {.roll = any.roll,
+                                            .pitch = good_or_bad(),
+                                            .yaw = good_or_bad(),
+                                            .climb = good_or_bad(),
+                                            .limits = any.limits};
     keel_reference_t reference = nondet_reference();
     const keel_reference_t before = reference;
     const keel_status_t status = keel_reference_init(&reference, &config);

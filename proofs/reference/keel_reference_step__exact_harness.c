@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 21 --external-sat-solver cadical
+// cbmc: --unwind 77 --external-sat-solver cadical
 // sources: src/flight/reference.c
 // covers: keel_reference_step are_sticks deflection rounded_off
 //
@@ -60,32 +60,26 @@ static void are_exact(const keel_reference_setpoints_t *setpoints, int roll, int
                      "REF_005_climb_rate: exact");
 }
 
-static void one_step(int roll, int pitch, int yaw, int climb, bool in_range)
-{
-    const keel_reference_sticks_t sticks = {(float)roll / 8.0f, (float)pitch / 8.0f,
-                                            (float)yaw / 8.0f, (float)climb / 8.0f};
-    const keel_reference_t before = generator();
-    keel_reference_t reference = before;
-    const keel_status_t status = keel_reference_step(&reference, &sticks);
-
-    __CPROVER_assert((status == KEEL_OK) == in_range,
-                     "REF_004_ok: taken when every stick is in its range");
-    if (status == KEEL_OK) {
-        are_exact(&reference.setpoints, roll, pitch, yaw, climb);
-    } else {
-        __CPROVER_assert(reference_same(&reference, &before),
-                         "STA_001_kept: a refusal changes nothing");
-    }
-}
-
 void keel_reference_step__exact_harness(void)
 {
-    for (int eighths = -9; eighths <= 9; eighths++) {
-        const bool in_range = (eighths >= -8) && (eighths <= 8);
+    /* Four sticks, 19 places of each. */
+    for (int i = 0; i < 76; i++) {
+        const int eighths = (i / 4) - 9;
+        const int at[4] = {((i % 4) == 0) ? eighths : 0, ((i % 4) == 1) ? eighths : 0,
+                           ((i % 4) == 2) ? eighths : 0, ((i % 4) == 3) ? eighths : 0};
+        const keel_reference_sticks_t sticks = {(float)at[0] / 8.0f, (float)at[1] / 8.0f,
+                                                (float)at[2] / 8.0f, (float)at[3] / 8.0f};
+        const keel_reference_t before = generator();
+        keel_reference_t reference = before;
+        const keel_status_t status = keel_reference_step(&reference, &sticks);
 
-        one_step(eighths, 0, 0, 0, in_range);
-        one_step(0, eighths, 0, 0, in_range);
-        one_step(0, 0, eighths, 0, in_range);
-        one_step(0, 0, 0, eighths, in_range);
+        __CPROVER_assert((status == KEEL_OK) == ((eighths >= -8) && (eighths <= 8)),
+                         "REF_004_ok: taken when every stick is in its range");
+        if (status == KEEL_OK) {
+            are_exact(&reference.setpoints, at[0], at[1], at[2], at[3]);
+        } else {
+            __CPROVER_assert(reference_same(&reference, &before),
+                             "STA_001_kept: a refusal changes nothing");
+        }
     }
 }

@@ -2,7 +2,7 @@
 // cbmc: --unwind 9 --external-sat-solver cadical
 // sources: src/flight/reference.c specs/model/reference.c
 // covers: keel_reference_step deflection rounded_off
-// covers: model_reference_step deflected in_disc
+// covers: deflected in_disc
 //
 // Chosen curves and sticks, where sums and products are rounded: the same as the model's. All of
 // them are dealt with in keel_reference_step_harness; wrong bodies are refuted here, for where

@@ -3,8 +3,8 @@
 // sources: src/flight/reference.c
 // covers: keel_reference_step are_sticks deflection rounded_off
 //
-// Any bit pattern for the roll stick, with any curve of it, the others centred: all sticks go
-// through the same functions. +0 within the dead band, else not of the other sign; no operation
+// Any bit pattern for the roll stick, with any curve of it, the others centred or out of range: all
+// sticks go through the same functions. +0 within the dead band, else not of the other sign; no operation
 // overflows or gives a NaN. That set-points are bounded and monotone is proved in curve.c; what the
 // step computes, for all sticks, in keel_reference_step_harness.
 #include "../common/unchanged.h"
@@ -24,10 +24,16 @@ static bool follows(float setpoint, const keel_reference_curve_t *curve, float s
     return (stick < 0.0f) ? (setpoint <= 0.0f) : (setpoint >= 0.0f);
 }
 
+static float centred_or_bad(void)
+{
+    return nondet_bool() ? 0.0f : 2.0f;
+}
+
 void keel_reference_step__valid_harness(void)
 {
     const keel_reference_curve_t straight = {0.125f, 1.25f, 1.0f, 0.0f};
-    const keel_reference_sticks_t sticks = {.roll = nondet_float()};
+    const keel_reference_sticks_t sticks = {nondet_float(), centred_or_bad(), centred_or_bad(),
+                                            centred_or_bad()};
     keel_reference_t reference = nondet_reference();
     keel_reference_t before;
     keel_status_t status;
@@ -41,7 +47,7 @@ void keel_reference_step__valid_harness(void)
 
     status = keel_reference_step(&reference, &sticks);
 
-    __CPROVER_assert((status == KEEL_OK) == magnitude(sticks.roll, 1.0f),
+    __CPROVER_assert((status == KEEL_OK) == sticks_here(&sticks),
                      "REF_004_ok: taken when every stick is in its range");
     if (status != KEEL_OK) {
         __CPROVER_assert(unchanged(&reference, &before, sizeof(reference)),

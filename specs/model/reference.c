@@ -4,36 +4,36 @@
 #include <stdbool.h>
 
 /* No comparison with NaN holds. */
-static bool between(float value, float least, float greatest)
+static bool is_between(float value, float least, float greatest)
 {
     return (value >= least) && (value <= greatest);
 }
 
 static bool expo_valid(float expo)
 {
-    return between(expo, 0.0f, 1.0f);
+    return is_between(expo, 0.0f, 1.0f);
 }
 
 static bool dead_band_valid(float dead_band)
 {
-    return between(dead_band, KEEL_REFERENCE_DEAD_BAND_MIN, KEEL_REFERENCE_DEAD_BAND_MAX);
+    return is_between(dead_band, KEEL_REFERENCE_DEAD_BAND_MIN, KEEL_REFERENCE_DEAD_BAND_MAX);
 }
 
-static bool limit_valid(float limit, float greatest)
+static bool demand_valid(float limit, float greatest)
 {
-    return between(limit, KEEL_REFERENCE_LIMIT_MIN, greatest);
+    return is_between(limit, KEEL_REFERENCE_LIMIT_MIN, greatest);
 }
 
-static bool limits_valid(const keel_reference_limits_t *limits)
+static bool demands_valid(const keel_reference_limits_t *limits)
 {
-    return limit_valid(limits->roll_rate, KEEL_REFERENCE_RATE_MAX) &&
-           limit_valid(limits->pitch_rate, KEEL_REFERENCE_RATE_MAX) &&
-           limit_valid(limits->yaw_rate, KEEL_REFERENCE_RATE_MAX) &&
-           limit_valid(limits->heading_rate, KEEL_REFERENCE_RATE_MAX) &&
-           limit_valid(limits->tilt, KEEL_REFERENCE_TILT_MAX) &&
-           limit_valid(limits->speed, KEEL_REFERENCE_SPEED_MAX) &&
-           limit_valid(limits->climb_rate, KEEL_REFERENCE_SPEED_MAX) &&
-           limit_valid(limits->descent_rate, KEEL_REFERENCE_SPEED_MAX);
+    return demand_valid(limits->roll_rate, KEEL_REFERENCE_RATE_MAX) &&
+           demand_valid(limits->pitch_rate, KEEL_REFERENCE_RATE_MAX) &&
+           demand_valid(limits->yaw_rate, KEEL_REFERENCE_RATE_MAX) &&
+           demand_valid(limits->heading_rate, KEEL_REFERENCE_RATE_MAX) &&
+           demand_valid(limits->tilt, KEEL_REFERENCE_TILT_MAX) &&
+           demand_valid(limits->speed, KEEL_REFERENCE_SPEED_MAX) &&
+           demand_valid(limits->climb_rate, KEEL_REFERENCE_SPEED_MAX) &&
+           demand_valid(limits->descent_rate, KEEL_REFERENCE_SPEED_MAX);
 }
 
 /* REF-003 */
@@ -55,7 +55,7 @@ keel_status_t model_reference_init(keel_reference_t *reference,
     }
     if (!(dead_band_valid(config->roll.dead_band) && dead_band_valid(config->pitch.dead_band) &&
           dead_band_valid(config->yaw.dead_band) && dead_band_valid(config->climb.dead_band) &&
-          limits_valid(&config->limits))) {
+          demands_valid(&config->limits))) {
         return KEEL_ERR_LIMITS;
     }
     set_curve(&reference->roll, &config->roll);
@@ -102,8 +102,8 @@ keel_status_t model_reference_step(keel_reference_t *reference,
     const float climb = deflected(&reference->climb, sticks->climb);
 
     /* REF-004: a refusal changes nothing. */
-    if (!(between(sticks->roll, -1.0f, 1.0f) && between(sticks->pitch, -1.0f, 1.0f) &&
-          between(sticks->yaw, -1.0f, 1.0f) && between(sticks->climb, -1.0f, 1.0f))) {
+    if (!(is_between(sticks->roll, -1.0f, 1.0f) && is_between(sticks->pitch, -1.0f, 1.0f) &&
+          is_between(sticks->yaw, -1.0f, 1.0f) && is_between(sticks->climb, -1.0f, 1.0f))) {
         return KEEL_ERR_INPUT;
     }
     reference->setpoints.roll_rate = reference->limits.roll_rate * roll;
