@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 14 --external-sat-solver cadical
+// cbmc: --unwind 15 --external-sat-solver cadical
 // sources: src/flight/reference.c specs/model/reference.c
-// covers: curve_of set_curve
+// covers: keel_reference_init curve_of set_curve
 //
 // Chosen configurations: four curves that are all different, dead bands that are round numbers and
 // such that 1 / (1 - d) and its product with 1 - d are rounded down; bad ones. Wrong bodies are
@@ -9,9 +9,9 @@
 #include "../../specs/model/reference.h"
 #include "reference_proof.h"
 
-#define POINTS 13u
+#define POINTS 14u
 
-/* Four curves that are all different; the last two are refused. */
+/* Four curves that are all different; the last three are refused. */
 static keel_reference_config_t configuration(unsigned point)
 {
     static const float dead_bands[POINTS] = {
@@ -20,9 +20,9 @@ static keel_reference_config_t configuration(unsigned point)
     const keel_reference_config_t config = {
         .roll = {dead_bands[point], 0.25f},
         .pitch = {0.25f, 1.0f},
-        .yaw = {0.0625f, (point == (POINTS - 2u)) ? -0.5f : 0.5f},
+        .yaw = {0.0625f, (point == (POINTS - 3u)) ? -0.5f : 0.5f},
         .climb = {0.125f, 0.0f},
-        .limits = {2.0f, 3.0f, 5.0f, 7.0f, (point == (POINTS - 1u)) ? 1.6f : 1.0f, 11.0f, 13.0f,
+        .limits = {2.0f, 3.0f, 5.0f, 7.0f, (point == (POINTS - 2u)) ? 1.6f : 1.0f, 11.0f, 13.0f,
                    17.0f}};
 
     return config;
