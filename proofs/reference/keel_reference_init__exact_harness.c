@@ -16,7 +16,7 @@ static keel_reference_config_t configuration(unsigned point)
 {
     static const float dead_bands[POINTS] = {
         KEEL_REFERENCE_DEAD_BAND_MIN, 0.01f, 0.03f, 0.05f, 0.07f, 0.1f, 0.13f, 0.2f, 0.3f, 0.45f,
-        KEEL_REFERENCE_DEAD_BAND_MAX, 0.1f,  0.1f};
+        KEEL_REFERENCE_DEAD_BAND_MAX, 0.1f,  0.1f,  0.6f};
     const keel_reference_config_t config = {
         .roll = {dead_bands[point], 0.25f},
         .pitch = {0.25f, 1.0f},

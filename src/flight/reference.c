@@ -88,9 +88,6 @@ static keel_reference_curve_t curve_of(const keel_reference_shape_t *shape)
 keel_status_t keel_reference_init(keel_reference_t *reference,
                                   const keel_reference_config_t *config)
 {
-    const keel_reference_setpoints_t centred = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
-                                                0.0f, 0.0f, 0.0f, 0.0f};
-
     if (!are_expos(config)) {
         return KEEL_ERR_GAIN;
     }
@@ -102,7 +99,15 @@ keel_status_t keel_reference_init(keel_reference_t *reference,
     reference->yaw = curve_of(&config->yaw);
     reference->climb = curve_of(&config->climb);
     reference->limits = config->limits;
-    reference->setpoints = centred;
+    reference->setpoints.roll_rate = 0.0f;
+    reference->setpoints.pitch_rate = 0.0f;
+    reference->setpoints.yaw_rate = 0.0f;
+    reference->setpoints.heading_rate = 0.0f;
+    reference->setpoints.roll = 0.0f;
+    reference->setpoints.pitch = 0.0f;
+    reference->setpoints.forward = 0.0f;
+    reference->setpoints.right = 0.0f;
+    reference->setpoints.climb_rate = 0.0f;
     return KEEL_OK;
 }
 
