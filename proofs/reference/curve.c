@@ -70,7 +70,8 @@
   @
   @ // x and y are sizes of sticks, a and b what they are beyond the dead band.
   @ lemma REF_008_u: \forall real x, y, d, scale, a, b;
-  @     a == rounded(x - d) && b == rounded(y - d) && 0 <= x <= y <= 1 && 0 < d <= 0.5 && 1 <= scale <= 2.5 ==>
+  @     a == rounded(x - d) && b == rounded(y - d) && 0 <= x <= y <= 1 &&
+  @     0 < d <= 0.5 && 1 <= scale <= 2.5 ==>
   @     -1 <= a <= b <= 1 && product(a, scale) <= product(b, scale) &&
   @     0 <= clamped(product(a, scale)) <= clamped(product(b, scale)) <= 1;
   @

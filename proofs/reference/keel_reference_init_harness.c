@@ -2,7 +2,7 @@
 // cbmc: --z3 --fpa
 // checks: assertions
 // sources: src/flight/reference.c specs/model/reference.c
-// covers: keel_reference_init are_expos is_expo are_dead_bands is_dead_band are_limits is_limit
+// covers: keel_reference_init are_expos is_expo are_dead_bands is_dead_band are_stick_limits is_stick_limit
 // covers: curve_of model_reference_init
 //
 // Any bit pattern for all of a configuration: the same as the model's, bit for bit. The solver sees

@@ -48,7 +48,7 @@ static bool are_dead_bands(const keel_reference_config_t *config)
   @ assigns \nothing;
   @ ensures \result <==> reference_limit(limit, greatest);
   @*/
-static bool is_limit(float limit, float greatest)
+static bool is_stick_limit(float limit, float greatest)
 {
     return keel_range_contains(limit, KEEL_REFERENCE_LIMIT_MIN, greatest);
 }
@@ -57,16 +57,16 @@ static bool is_limit(float limit, float greatest)
   @ assigns \nothing;
   @ ensures \result <==> reference_limits(*limits);
   @*/
-static bool are_limits(const keel_reference_limits_t *limits)
+static bool are_stick_limits(const keel_reference_limits_t *limits)
 {
-    return is_limit(limits->roll_rate, KEEL_REFERENCE_RATE_MAX) &&
-           is_limit(limits->pitch_rate, KEEL_REFERENCE_RATE_MAX) &&
-           is_limit(limits->yaw_rate, KEEL_REFERENCE_RATE_MAX) &&
-           is_limit(limits->heading_rate, KEEL_REFERENCE_RATE_MAX) &&
-           is_limit(limits->tilt, KEEL_REFERENCE_TILT_MAX) &&
-           is_limit(limits->speed, KEEL_REFERENCE_SPEED_MAX) &&
-           is_limit(limits->climb_rate, KEEL_REFERENCE_SPEED_MAX) &&
-           is_limit(limits->descent_rate, KEEL_REFERENCE_SPEED_MAX);
+    return is_stick_limit(limits->roll_rate, KEEL_REFERENCE_RATE_MAX) &&
+           is_stick_limit(limits->pitch_rate, KEEL_REFERENCE_RATE_MAX) &&
+           is_stick_limit(limits->yaw_rate, KEEL_REFERENCE_RATE_MAX) &&
+           is_stick_limit(limits->heading_rate, KEEL_REFERENCE_RATE_MAX) &&
+           is_stick_limit(limits->tilt, KEEL_REFERENCE_TILT_MAX) &&
+           is_stick_limit(limits->speed, KEEL_REFERENCE_SPEED_MAX) &&
+           is_stick_limit(limits->climb_rate, KEEL_REFERENCE_SPEED_MAX) &&
+           is_stick_limit(limits->descent_rate, KEEL_REFERENCE_SPEED_MAX);
 }
 
 /* The only division, once for each stick. */
@@ -91,7 +91,7 @@ keel_status_t keel_reference_init(keel_reference_t *reference,
     if (!are_expos(config)) {
         return KEEL_ERR_GAIN;
     }
-    if (!(are_dead_bands(config) && are_limits(&config->limits))) {
+    if (!(are_dead_bands(config) && are_stick_limits(&config->limits))) {
         return KEEL_ERR_LIMITS;
     }
     reference->roll = curve_of(&config->roll);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Voter, filter, PID and reference generator beside their executable specification (specs/model): random and adversarial
- * calls on both, of which result and every bit of the object must be the same after each. */
+/* Voter, filter, PID and reference generator beside their executable specification (specs/model):
+ * random and adversarial calls on both, of which result and every bit of the object must be the
+ * same after each. */
 #include "keel/flight/filter.h"
 #include "keel/flight/pid.h"
 #include "keel/flight/reference.h"
