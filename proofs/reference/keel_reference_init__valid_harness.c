@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/reference.c
-// covers: keel_reference_init are_expos is_expo are_dead_bands is_dead_band are_stick_limits is_stick_limit
-// covers: curve_of
+// covers: keel_reference_init are_expos is_expo are_dead_bands is_dead_band
+// covers: are_stick_limits is_stick_limit curve_of
 //
 // Any bit pattern for the shape of the roll stick and for all limits; the other shapes are good or
 // bad ones, since all go through the same functions. What is made is valid, and no operation

@@ -2,8 +2,8 @@
 // cbmc: --z3 --fpa
 // checks: assertions
 // sources: src/flight/reference.c specs/model/reference.c
-// covers: keel_reference_init are_expos is_expo are_dead_bands is_dead_band are_stick_limits is_stick_limit
-// covers: curve_of model_reference_init
+// covers: keel_reference_init are_expos is_expo are_dead_bands is_dead_band
+// covers: are_stick_limits is_stick_limit curve_of model_reference_init
 //
 // Any bit pattern for all of a configuration: the same as the model's, bit for bit. The solver sees
 // that both compute the same only where nothing else is asked: overflow and NaN are checked in

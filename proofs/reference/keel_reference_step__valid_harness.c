@@ -5,8 +5,8 @@
 //
 // Any bit pattern for the roll stick, with any curve of it, the others centred or out of range: all
 // sticks go through the same functions. +0 within the dead band, else not of the other sign; no
-// operation overflows or gives a NaN. That set-points are bounded and monotone is proved in curve.c;
-// what the step computes, for all sticks, in keel_reference_step_harness.
+// operation overflows or gives a NaN. That set-points are bounded and monotone is proved in
+// curve.c; what the step computes, for all sticks, in keel_reference_step_harness.
 #include "../common/unchanged.h"
 #include "reference_proof.h"
 
