@@ -67,6 +67,8 @@ CAPACITIES = (32, 64)
 STEPS: dict[str, tuple[str, str, int]] = {
     "filter": ("filter", "keel_filter_step", 30),
     "pid": ("PID", "keel_pid_step", 110),
+    "mode": ("mode, in flight", "keel_mode_step", 250),
+    "mode_worst": ("mode, all facts waiting", "keel_mode_step", 250),
     "imu": ("virtual IMU, 3 x 6, all agree", "keel_virtual_imu_step", 900),
     "imu_worst": ("virtual IMU, 3 x 6, one outvoted", "keel_virtual_imu_step", 900),
 }
@@ -254,7 +256,8 @@ def measure(tools: Toolchain) -> list[Goal]:
     check_target_steps(tools)
     steps = measure_steps(tools)
     goals = goals_of(sets, target)
-    write_report(REPORT, report_of(tools, sets, target, steps))
+    # No verdict yet: the budgets are of the figures that benchmark.emulated adds.
+    write_report(REPORT, report_of(tools, sets, target, steps), good=False)
     print("Instructions of a pass, host build, scheduler code only")
     for tasks, kinds in sets.items():
         tables.print_set(tasks, SETS[tasks], kinds)

@@ -18,6 +18,7 @@ from typing import Annotated
 from common.config import Field, Mistake, Table, read_toml
 from common.errors import ROOT, ToolError
 from common.files import read_text, write_json, write_text
+from common.source import VERDICT, verdict_of
 from suites.emulated import EmulatedBoard
 from toolchain import Toolchain
 
@@ -42,6 +43,8 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
                   ("steps", "imu_worst")),
     "filter": ("filter step", ("filter",), 30, ("steps", "filter")),
     "pid": ("PID step, its filter included", ("pid",), 110, ("steps", "pid")),
+    "mode": ("mode, in flight", ("mode",), 250, ("steps", "mode")),
+    "mode_worst": ("mode, all facts waiting", ("mode_worst",), 250, ("steps", "mode_worst")),
 }  # fmt: skip
 
 
@@ -189,6 +192,7 @@ def add(tools: Toolchain, report_file: Path, accepting: bool = False) -> list[st
         },
         "over_budget": over,
     }
+    report[VERDICT] = verdict_of(not over)
     write_json(report_file, report)
     print_table(report, figures, budget)
     return over
