@@ -5,9 +5,9 @@
  * (requirements REF-006 to REF-009); and the disc (REF-010), over the reals.
  *
  * Each operation of the curve is a real one and a rounding. Rounding is monotone and leaves floats
- * as they are (REF_008_rounding to REF_008_above); products of what is not negative are monotone.
- * So each step of the curve is monotone, and with it the whole, for all floats. The formulas are
- * those of `deflection` in src/flight/reference.c, in the same order, which
+ * as they are (REF_008_rounding to REF_008_minus_one); products of what is not negative are
+ * monotone. So each step of the curve is monotone, and with it the whole, for all floats. The
+ * formulas are those of `deflection` in src/flight/reference.c, in the same order, which
  * keel_reference_step_harness shows to be the model's, bit for bit.
  */
 
