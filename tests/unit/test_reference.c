@@ -233,6 +233,42 @@ static void REF_006_the_end_is_reached_whatever_the_curve(void)
     }
 }
 
+static void none_is_beyond(float stick)
+{
+    const keel_reference_limits_t *const limits = &config.limits;
+    const keel_reference_setpoints_t setpoints = at(stick, -0.5f * stick, stick, stick);
+
+    TEST_ASSERT_TRUE(fabsf(setpoints.roll_rate) <= limits->roll_rate);
+    TEST_ASSERT_TRUE(fabsf(setpoints.pitch_rate) <= limits->pitch_rate);
+    TEST_ASSERT_TRUE(fabsf(setpoints.yaw_rate) <= limits->yaw_rate);
+    TEST_ASSERT_TRUE(fabsf(setpoints.heading_rate) <= limits->heading_rate);
+    TEST_ASSERT_TRUE(fabsf(setpoints.roll) <= limits->tilt);
+    TEST_ASSERT_TRUE(fabsf(setpoints.pitch) <= limits->tilt);
+    TEST_ASSERT_TRUE(fabsf(setpoints.forward) <= limits->speed);
+    TEST_ASSERT_TRUE(fabsf(setpoints.right) <= limits->speed);
+    TEST_ASSERT_TRUE(setpoints.climb_rate <= limits->climb_rate);
+    TEST_ASSERT_TRUE(setpoints.climb_rate >= -limits->descent_rate);
+}
+
+/* The last floats before the end are where rounding could lead beyond it. */
+static void REF_006_no_setpoint_is_beyond_its_limit(void)
+{
+    config.limits = (keel_reference_limits_t){3.3f, 3.7f, 2.1f, 1.7f, 0.61f, 7.3f, 4.1f, 1.9f};
+    for (uint32_t i = 1u; i < 500u; i++) {
+        const keel_reference_shape_t shape = {(float)i / 1001.0f, (float)i / 503.0f};
+
+        config.roll = shape;
+        config.pitch = shape;
+        config.yaw = shape;
+        config.climb = shape;
+        make();
+        for (uint32_t ulps = 0u; ulps < 16u; ulps++) {
+            none_is_beyond(1.0f - ((float)ulps / 16777216.0f));
+            none_is_beyond(((float)ulps / 16777216.0f) - 1.0f);
+        }
+    }
+}
+
 static void REF_007_zero_within_the_dead_band(void)
 {
     make();
@@ -420,6 +456,7 @@ int main(void)
     RUN_TEST(REF_005_the_formulas_by_hand);
     RUN_TEST(REF_006_the_end_of_the_stick_is_exactly_the_limit);
     RUN_TEST(REF_006_the_end_is_reached_whatever_the_curve);
+    RUN_TEST(REF_006_no_setpoint_is_beyond_its_limit);
     RUN_TEST(REF_007_zero_within_the_dead_band);
     RUN_TEST(REF_007_nothing_but_the_dead_band_is_zero);
     RUN_TEST(REF_007_no_setpoint_is_too_small);

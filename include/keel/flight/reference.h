@@ -26,11 +26,13 @@
  * between the aircraft's vertical axis and the true one, and the horizontal speed, are limited in
  * total, without a square root or a trigonometric function (requirement REF-010).
  *
- * Proved for every configuration that is taken and every bit pattern of the sticks: a set-point is
- * within its limit; exactly 0, and that +0, within the dead band, and only there; odd in its stick
- * bit for bit (up to the sign of 0, and for the climb rate up to its two limits); monotone in its
- * stick as floats; exactly the limit at the stick's end. Sticks that are not finite or beyond 1 are
- * refused with KEEL_ERR_INPUT, all four: every set-point stays what it was.
+ * For every configuration that is taken and every bit pattern of the sticks, a set-point is within
+ * its limit; exactly 0, and that +0, within the dead band, and only there; odd in its stick bit for
+ * bit (up to the sign of 0, and for the climb rate up to its two limits); monotone in its stick as
+ * floats; exactly the limit at the stick's end. This is proved of each operation, as rounded, and
+ * put together by hand (specs/soundness.md); that a step computes these operations, bit for bit, is
+ * proved. Sticks that are not finite or beyond 1 are refused with KEEL_ERR_INPUT, all four: every
+ * set-point stays what it was.
  *
  * No division and no library call in a step. Single precision throughout. Sources must be compiled
  * without contraction of products and sums, as all builds of Keel do.
@@ -183,9 +185,6 @@ typedef struct keel_reference {
   @     reference_stick(sticks.roll) && reference_stick(sticks.pitch) &&
   @     reference_stick(sticks.yaw) && reference_stick(sticks.climb);
   @
-  @ predicate reference_within(float setpoint, real limit) =
-  @     reference_between(setpoint, -limit, limit);
-  @
   @ // u, a stick's deflection, and what is left of one beside that across: the formulas above,
   @ // rounded after each operation.
   @ logic float reference_stretched(keel_reference_curve_t curve, float stick) = (float)(
@@ -207,19 +206,6 @@ typedef struct keel_reference {
   @ // What a limit makes of a deflection.
   @ predicate reference_asked(float setpoint, float limit, float deflection) =
   @     setpoint == (float)(limit * deflection);
-  @
-  @ // No set-point is beyond its limit.
-  @ predicate reference_bounded(keel_reference_setpoints_t setpoints,
-  @                             keel_reference_limits_t limits) =
-  @     reference_within(setpoints.roll_rate, limits.roll_rate) &&
-  @     reference_within(setpoints.pitch_rate, limits.pitch_rate) &&
-  @     reference_within(setpoints.yaw_rate, limits.yaw_rate) &&
-  @     reference_within(setpoints.heading_rate, limits.heading_rate) &&
-  @     reference_within(setpoints.roll, limits.tilt) &&
-  @     reference_within(setpoints.pitch, limits.tilt) &&
-  @     reference_within(setpoints.forward, limits.speed) &&
-  @     reference_within(setpoints.right, limits.speed) &&
-  @     reference_between(setpoints.climb_rate, -limits.descent_rate, limits.climb_rate);
   @*/
 
 /**
@@ -297,7 +283,6 @@ keel_status_t keel_reference_init(keel_reference_t *reference,
   @     reference_asked(reference->setpoints.climb_rate,
   @         sticks->climb < 0 ? reference->limits.descent_rate : reference->limits.climb_rate,
   @         reference_deflection(reference->climb, sticks->climb));
-  @   ensures REF_006_bounded: reference_bounded(reference->setpoints, reference->limits);
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
