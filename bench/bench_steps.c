@@ -9,6 +9,7 @@
  */
 #include "keel/flight/mode.h"
 #include "keel/flight/pid.h"
+#include "keel/flight/reference.h"
 #include "keel/middleware/virtual_imu.h"
 
 #include <stdint.h>
@@ -23,6 +24,7 @@
 static keel_filter_t bench_filter;
 static keel_pid_t bench_pid;
 static keel_mode_t bench_mode;
+static keel_reference_t bench_reference;
 static keel_virtual_imu_t bench_imu;
 
 static void bench_require(int condition, const char *what)
@@ -37,6 +39,12 @@ static void bench_require(int condition, const char *what)
 static float bench_signal(uint32_t n)
 {
     return (float)((n * 37u) % 101u) / 101.0f;
+}
+
+/* A stick that keeps moving, from -1 to 1. */
+static float bench_stick(uint32_t n)
+{
+    return (2.0f * bench_signal(n)) - 1.0f;
 }
 
 static void bench_dump(const char *name)
@@ -84,6 +92,38 @@ static void bench_run_pid(void)
         bench_require(status == KEEL_OK, "PID step");
     }
     bench_dump("pid");
+}
+
+/* Sticks on both sides of their centres, in their dead bands now and then. */
+static void bench_run_reference(void)
+{
+    const keel_reference_config_t config = {.roll = {0.05f, 0.3f},
+                                            .pitch = {0.05f, 0.3f},
+                                            .yaw = {0.05f, 0.3f},
+                                            .climb = {0.05f, 0.3f},
+                                            .limits = {.roll_rate = 6.0f,
+                                                       .pitch_rate = 6.0f,
+                                                       .yaw_rate = 3.0f,
+                                                       .heading_rate = 1.5f,
+                                                       .tilt = 0.6f,
+                                                       .speed = 8.0f,
+                                                       .climb_rate = 4.0f,
+                                                       .descent_rate = 2.0f}};
+
+    bench_require(keel_reference_init(&bench_reference, &config) == KEEL_OK, "reference");
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        const keel_reference_sticks_t sticks = {.roll = bench_stick(n),
+                                                .pitch = bench_stick(n + 7u),
+                                                .yaw = bench_stick(n + 14u),
+                                                .climb = bench_stick(n + 21u)};
+        keel_status_t status;
+
+        CALLGRIND_TOGGLE_COLLECT;
+        status = keel_reference_step(&bench_reference, &sticks);
+        CALLGRIND_TOGGLE_COLLECT;
+        bench_require(status == KEEL_OK, "reference step");
+    }
+    bench_dump("reference");
 }
 
 /* In flight, with a frame at each step; or on the ground, with every
@@ -165,6 +205,7 @@ int main(void)
 {
     bench_run_filter();
     bench_run_pid();
+    bench_run_reference();
     bench_run_mode("mode", 250000u, KEEL_MODE_FLYING);
     bench_run_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
     bench_run_imu("imu", 0.0f, UNITS);

@@ -16,6 +16,7 @@
 #include "console.h"
 #include "keel/flight/mode.h"
 #include "keel/flight/pid.h"
+#include "keel/flight/reference.h"
 #include "keel/middleware/virtual_imu.h"
 #include "keel/rtos/scheduler.h"
 #include "urpilot_tasks.h"
@@ -288,6 +289,42 @@ static void bench_pid(void)
     print(&steps);
 }
 
+static float stick_at(uint32_t n)
+{
+    return (2.0f * signal_at(n)) - 1.0f;
+}
+
+/* Sticks on both sides of their centres, in their dead bands now and then: as in bench_steps.c. */
+static void bench_reference(void)
+{
+    static keel_reference_t reference KEEL_REALTIME_ZERO;
+    const keel_reference_config_t settings = {.roll = {0.05f, 0.3f},
+                                              .pitch = {0.05f, 0.3f},
+                                              .yaw = {0.05f, 0.3f},
+                                              .climb = {0.05f, 0.3f},
+                                              .limits = {.roll_rate = 6.0f,
+                                                         .pitch_rate = 6.0f,
+                                                         .yaw_rate = 3.0f,
+                                                         .heading_rate = 1.5f,
+                                                         .tilt = 0.6f,
+                                                         .speed = 8.0f,
+                                                         .climb_rate = 4.0f,
+                                                         .descent_rate = 2.0f}};
+    kind_t steps = {"reference", 0u, 0u, 0u};
+
+    require(keel_reference_init(&reference, &settings) == KEEL_OK);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        keel_reference_sticks_t sticks = {.roll = stick_at(n),
+                                          .pitch = stick_at(n + 7u),
+                                          .yaw = stick_at(n + 14u),
+                                          .climb = stick_at(n + 21u)};
+
+        add(&steps,
+            measure((function_t)keel_reference_step, &reference, (uint32_t)&sticks, 0u, true));
+    }
+    print(&steps);
+}
+
 /* In flight, with a frame at each step; or on the ground, with every
  * fact that can be seen waiting to settle: as in bench_steps.c. */
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
@@ -386,6 +423,7 @@ int main(void)
     bench_passes();
     bench_filter();
     bench_pid();
+    bench_reference();
     bench_mode("mode", 250000u, KEEL_MODE_FLYING);
     bench_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
     bench_imu("imu", 0.0f, UNITS);

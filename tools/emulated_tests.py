@@ -157,7 +157,7 @@ def demo_suite(board: EmulatedBoard, name: str) -> Outcome:
 # --- The same results as the executable specification --------------------------------------------
 
 DRIVER = "tests/target/differential.c"
-UNITS = ("queue", "priority", "voter", "filter", "pid")
+UNITS = ("queue", "priority", "voter", "filter", "pid", "reference")
 VECTORS = 100_000  # of each unit
 BLOCKS = 50
 HOST_FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-Iinclude", "-Ibsp")

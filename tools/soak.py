@@ -74,7 +74,7 @@ def work(steps: int) -> int:
     report.unlink(missing_ok=True)
     commands = {
         **{f"scheduler/{size}": scheduler(tools, size, steps) for size in CAPACITIES},
-        "voter, filter and pid": floats(tools, steps),
+        "voter, filter, pid and reference": floats(tools, steps),
     }
     results = {name: soak(name, command) for name, command in commands.items()}
     good = all(ended.good for ended, _ in results.values())

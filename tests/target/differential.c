@@ -13,6 +13,7 @@
 #include "console.h"
 #include "keel/flight/filter.h"
 #include "keel/flight/pid.h"
+#include "keel/flight/reference.h"
 #include "keel/middleware/voter.h"
 #include "keel/rtos/priority.h"
 #include "keel/rtos/queue.h"
@@ -23,7 +24,7 @@
 #define VECTORS       2000u /* Of a block: 100 000 of each unit. */
 #define QUEUE_TASKS   (KEEL_QUEUE_CAPACITY + 4u)
 #define FILL_EVERY    256u
-#define SETUP_EVERY   64u                 /* A new configuration of voter, filter and PID. */
+#define SETUP_EVERY   64u                 /* A new configuration of those that have one. */
 #define DIGEST_SEED   0xCBF29CE484222325u /* FNV-1a. */
 #define DIGEST_PRIME  0x00000100000001B3u
 #define RANDOM_FACTOR 0x2545F4914F6CDD1Du /* xorshift64*. */
@@ -46,10 +47,12 @@ static keel_task_config_t task[QUEUE_TASKS];
 static keel_voter_t voter;
 static keel_filter_t filter;
 static keel_pid_t pid;
+static keel_reference_t reference;
 static uint32_t frozen; /* The sensor whose sample never changes, if there is such. */
 static bool voter_made;
 static bool filter_made;
 static bool pid_made;
+static bool reference_made;
 
 /* --- Randomness ------------------------------------------------------------------------------- */
 
@@ -362,6 +365,61 @@ static void vector_pid(stream_t *s)
     }
 }
 
+static keel_reference_shape_t any_shape(stream_t *s)
+{
+    return (keel_reference_shape_t){.dead_band = mostly_between(s, 0.001f, 0.5f),
+                                    .expo = mostly_between(s, 0.0f, 1.0f)};
+}
+
+static void setup_reference(stream_t *s)
+{
+    const keel_reference_config_t config = {.roll = any_shape(s),
+                                            .pitch = any_shape(s),
+                                            .yaw = any_shape(s),
+                                            .climb = any_shape(s),
+                                            .limits = {.roll_rate = between(s, 0.1f, 64.0f),
+                                                       .pitch_rate = between(s, 0.1f, 64.0f),
+                                                       .yaw_rate = between(s, 0.1f, 64.0f),
+                                                       .heading_rate = between(s, 0.1f, 64.0f),
+                                                       .tilt = between(s, 0.1f, 1.5f),
+                                                       .speed = between(s, 0.1f, 100.0f),
+                                                       .climb_rate = between(s, 0.1f, 100.0f),
+                                                       .descent_rate = between(s, 0.1f, 100.0f)}};
+    const keel_status_t status = keel_reference_init(&reference, &config);
+
+    reference_made = reference_made || (status == KEEL_OK);
+    digest(s, (uint64_t)status);
+}
+
+static void digest_setpoints(stream_t *s)
+{
+    digest_float(s, reference.setpoints.roll_rate);
+    digest_float(s, reference.setpoints.pitch_rate);
+    digest_float(s, reference.setpoints.yaw_rate);
+    digest_float(s, reference.setpoints.heading_rate);
+    digest_float(s, reference.setpoints.roll);
+    digest_float(s, reference.setpoints.pitch);
+    digest_float(s, reference.setpoints.forward);
+    digest_float(s, reference.setpoints.right);
+    digest_float(s, reference.setpoints.climb_rate);
+}
+
+static void vector_reference(stream_t *s)
+{
+    if ((s->vector % SETUP_EVERY) == 0u) {
+        setup_reference(s);
+    }
+    if (reference_made) {
+        const keel_reference_sticks_t sticks = {.roll = mostly_between(s, -1.0f, 1.0f),
+                                                .pitch = mostly_between(s, -1.0f, 1.0f),
+                                                .yaw = mostly_between(s, -1.0f, 1.0f),
+                                                .climb = mostly_between(s, -1.0f, 1.0f)};
+
+        digest(s, (uint64_t)keel_reference_step(&reference, &sticks));
+        digest_setpoints(s);
+    }
+}
+
 /* --- All of them ------------------------------------------------------------------------------ */
 
 typedef struct unit {
@@ -369,11 +427,9 @@ typedef struct unit {
     void (*vector)(stream_t *s);
 } unit_t;
 
-static const unit_t unit[] = {{"queue", vector_queue},
-                              {"priority", vector_priority},
-                              {"voter", vector_voter},
-                              {"filter", vector_filter},
-                              {"pid", vector_pid}};
+static const unit_t unit[] = {{"queue", vector_queue}, {"priority", vector_priority},
+                              {"voter", vector_voter}, {"filter", vector_filter},
+                              {"pid", vector_pid},     {"reference", vector_reference}};
 
 #define UNITS (sizeof unit / sizeof unit[0])
 

@@ -35,6 +35,9 @@ bench several passes 30 instructions 45000 longest 1700
 bench four passes 2 instructions 5800 longest 2909
 bench filter passes 1000 instructions 35000 longest 35
 bench pid passes 1000 instructions 116000 longest 116
+bench reference passes 1000 instructions 178000 longest 183
+bench mode passes 1000 instructions 241000 longest 241
+bench mode_worst passes 1000 instructions 464000 longest 464
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
 bench ended
@@ -48,6 +51,9 @@ FIGURES = {
     "imu_worst": Figure(1000, 4035011, 4046),
     "filter": Figure(1000, 35000, 35),
     "pid": Figure(1000, 116000, 116),
+    "reference": Figure(1000, 178000, 183),
+    "mode": Figure(1000, 241000, 241),
+    "mode_worst": Figure(1000, 464000, 464),
 }
 GOOD = """\
 # About the budget.
@@ -62,6 +68,9 @@ imu = 1457
 imu_worst = 4036
 filter = 35
 pid = 116
+reference = 178
+mode = 241
+mode_worst = 464
 """
 
 
@@ -147,6 +156,9 @@ class Budgets(unittest.TestCase):
                 "imu_worst": 4035.0,
                 "filter": 35.0,
                 "pid": 116.0,
+                "reference": 178.0,
+                "mode": 241.0,
+                "mode_worst": 464.0,
             },
         )
 

@@ -45,7 +45,7 @@ def test_a_difference_is_told_and_reported(
     report = json.loads((own_folder / "report.json").read_text(encoding="utf-8"))
     assert report["verdict"] == "failed"
     assert [name for name, one in report["programs"].items() if not one["good"]] == [
-        "voter, filter and pid"
+        "voter, filter, pid and reference"
     ]
     assert "PID_008" in capsys.readouterr().out
 

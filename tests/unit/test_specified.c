@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Voter, filter and PID beside their executable specification (specs/model): random and adversarial
- * calls on both, of which result and every bit of the object must be the same after each. */
+/* Voter, filter, PID and reference generator beside their executable specification (specs/model):
+ * random and adversarial calls on both, of which result and every bit of the object must be the
+ * same after each. */
 #include "keel/flight/filter.h"
 #include "keel/flight/pid.h"
+#include "keel/flight/reference.h"
 #include "keel/middleware/voter.h"
 #include "unity.h"
 
@@ -14,6 +16,7 @@
 #include "../../specs/model/filter.c"
 #include "../../specs/model/pid.c"
 #include "../../specs/model/range.c"
+#include "../../specs/model/reference.c"
 #include "../../specs/model/voter.c"
 #include "../../specs/model/voter_parts.c"
 
@@ -300,11 +303,68 @@ static void PID_008_every_step_is_the_specified_one(void)
     TEST_ASSERT_GREATER_THAN_UINT32(1000u, saturated);
 }
 
+static keel_reference_t reference;
+static keel_reference_t reference_model;
+
+static keel_reference_shape_t any_shape(void)
+{
+    return (keel_reference_shape_t){.dead_band = usually(between(0.001f, 0.5f)),
+                                    .expo = usually(between(0.0f, 1.0f))};
+}
+
+static bool set_up_reference(void)
+{
+    const keel_reference_config_t config = {.roll = any_shape(),
+                                            .pitch = any_shape(),
+                                            .yaw = any_shape(),
+                                            .climb = any_shape(),
+                                            .limits = {.roll_rate = between(0.1f, 64.0f),
+                                                       .pitch_rate = between(0.1f, 64.0f),
+                                                       .yaw_rate = between(0.1f, 64.0f),
+                                                       .heading_rate = between(0.1f, 64.0f),
+                                                       .tilt = usually(between(0.1f, 1.5f)),
+                                                       .speed = usually(between(0.1f, 99.0f)),
+                                                       .climb_rate = between(0.1f, 100.0f),
+                                                       .descent_rate = between(0.1f, 100.0f)}};
+    const keel_status_t expected = model_reference_init(&reference_model, &config);
+
+    TEST_ASSERT_EQUAL(expected, keel_reference_init(&reference, &config));
+    return expected == KEEL_OK;
+}
+
+static void REF_005_every_step_is_the_specified_one(void)
+{
+    bool made = false;
+    uint32_t refused = 0u;
+
+    memset(&reference, 0, sizeof reference);
+    memset(&reference_model, 0, sizeof reference_model);
+    for (uint32_t i = 0u; i < STEPS; i++) {
+        if ((i % SETUP_EVERY) == 0u) {
+            made = set_up_reference() || made;
+        }
+        if (made) {
+            const keel_reference_sticks_t sticks = {.roll = usually(between(-1.0f, 1.0f)),
+                                                    .pitch = usually(between(-1.0f, 1.0f)),
+                                                    .yaw = usually(between(-1.0f, 1.0f)),
+                                                    .climb = usually(between(-1.0f, 1.0f))};
+            const keel_status_t expected = model_reference_step(&reference_model, &sticks);
+
+            TEST_ASSERT_EQUAL(expected, keel_reference_step(&reference, &sticks));
+            refused += (expected != KEEL_OK) ? 1u : 0u;
+        }
+        TEST_ASSERT_EQUAL_MEMORY(&reference_model, &reference, sizeof reference);
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(1000u, refused);
+    TEST_ASSERT_LESS_THAN_UINT32(STEPS / 2u, refused);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(VOT_018_every_vote_is_the_specified_one);
     RUN_TEST(FLT_009_every_step_is_the_specified_one);
     RUN_TEST(PID_008_every_step_is_the_specified_one);
+    RUN_TEST(REF_005_every_step_is_the_specified_one);
     return UNITY_END();
 }

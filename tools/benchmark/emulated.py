@@ -43,6 +43,7 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
                   ("steps", "imu_worst")),
     "filter": ("filter step", ("filter",), 30, ("steps", "filter")),
     "pid": ("PID step, its filter included", ("pid",), 110, ("steps", "pid")),
+    "reference": ("reference generator, four sticks", ("reference",), 150, ("steps", "reference")),
     "mode": ("mode, in flight", ("mode",), 250, ("steps", "mode")),
     "mode_worst": ("mode, all facts waiting", ("mode_worst",), 250, ("steps", "mode_worst")),
 }  # fmt: skip

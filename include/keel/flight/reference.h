@@ -1,0 +1,294 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file reference.h
+ * @brief Reference generator: from the pilot's sticks to set-points (section III-D.2, fig. 8).
+ *
+ * Each stick is a number from -1 to 1, 0 at its centre, positive in the sense of what it asks for:
+ *
+ *     roll   right side down, to the right      pitch  nose up, backwards: the stick is pulled
+ *     yaw    nose to the right                  climb  up (the throttle stick about its middle)
+ *
+ * A stick x is first made a deflection s, by a curve of its own with dead band d and expo e:
+ *
+ *     u = min(max(|x| - d, 0) / (1 - d), 1)     0 within the dead band, from there without a step
+ *     s = sign(x) u ((1 - e) + e u^2)           the field's cubic expo; 1 at the end of the stick
+ *
+ * and then set-points, of which the flight mode takes those that it needs:
+ *
+ *     body rates             limit s                         of roll, pitch and yaw
+ *     roll and pitch angle   tilt limit q                    with the deflections s, t of both
+ *     velocity               speed limit q                   sticks q = s (1 - k t^2)
+ *     heading's rate         limit s                         beside angles and velocities
+ *     climb rate             climb limit s or descent limit s
+ *
+ * A stick in a corner asks for both angles at once. k = 1 - 1/sqrt(2) rounds the corners off: the
+ * square of the sticks becomes nearly a disc (to 1.1 %), whose radius is the limit. So the angle
+ * between the aircraft's vertical axis and the true one, and the horizontal speed, are limited in
+ * total, without a square root or a trigonometric function (requirement REF-010).
+ *
+ * For every configuration that is taken and every bit pattern of the sticks, a set-point is within
+ * its limit; exactly 0, and that +0, within the dead band, and only there; odd in its stick bit for
+ * bit (up to the sign of 0, and for the climb rate up to its two limits); monotone in its stick as
+ * floats; exactly the limit at the stick's end. This is proved of each operation, as rounded, and
+ * put together by hand (specs/soundness.md); that a step computes these operations, bit for bit, is
+ * proved. Sticks that are not finite or beyond 1 are refused with KEEL_ERR_INPUT, all four: every
+ * set-point stays what it was.
+ *
+ * No division and no library call in a step. Single precision throughout. Sources must be compiled
+ * without contraction of products and sums, as all builds of Keel do.
+ */
+#ifndef KEEL_FLIGHT_REFERENCE_H
+#define KEEL_FLIGHT_REFERENCE_H
+
+#include "keel/c_declarations.h"
+#include "keel/status.h"
+
+KEEL_C_BEGIN
+
+/** Dead bands, as a part of the stick's way from its centre. The least, 2^-12, is below half a step
+ * of a receiver with 11 bits; with it no set-point is too small to be exact. */
+#define KEEL_REFERENCE_DEAD_BAND_MIN 0.000244140625f
+#define KEEL_REFERENCE_DEAD_BAND_MAX 0.5f
+
+/** The greatest expo: the cubic alone, flat at the centre. More would not be monotone. */
+#define KEEL_REFERENCE_EXPO_MAX 1.0f
+
+/** The least of each limit, in its own unit: 2^-10. */
+#define KEEL_REFERENCE_LIMIT_MIN 0.0009765625f
+
+/** The greatest limits: of a rate, in rad/s (3667 degrees per second); of the tilt, in rad (just
+ * below a right angle); of a climb rate or speed, in m/s. */
+#define KEEL_REFERENCE_RATE_MAX  64.0f
+#define KEEL_REFERENCE_TILT_MAX  1.5f
+#define KEEL_REFERENCE_SPEED_MAX 100.0f
+
+/** k, 1 - 1/sqrt(2) rounded up, so that a corner is not beyond the disc. */
+#define KEEL_REFERENCE_CORNER 0.292893230915069580078125f
+
+/** What makes up for the rounding of 1 / (1 - d): 1 + 2^-22. So the end of the stick is reached,
+ * some 2^-22 before it is. */
+#define KEEL_REFERENCE_REACH 1.0000002384185791015625f
+
+/** How a stick feels. */
+typedef struct keel_reference_shape {
+    float dead_band; /**< From KEEL_REFERENCE_DEAD_BAND_MIN to KEEL_REFERENCE_DEAD_BAND_MAX. */
+    float expo;      /**< From 0, straight, to KEEL_REFERENCE_EXPO_MAX. */
+} keel_reference_shape_t;
+
+/** What full sticks ask for, each from KEEL_REFERENCE_LIMIT_MIN to the greatest of its kind. */
+typedef struct keel_reference_limits {
+    float roll_rate;    /**< Body rate, in rad/s. */
+    float pitch_rate;   /**< Body rate, in rad/s. */
+    float yaw_rate;     /**< Body rate, in rad/s. */
+    float heading_rate; /**< Yaw rate beside angles and velocities, in rad/s. */
+    float tilt;         /**< Angle from the vertical, of roll and pitch together, in rad. */
+    float speed;        /**< Horizontal, in total, in m/s. */
+    float climb_rate;   /**< Upwards, in m/s. */
+    float descent_rate; /**< Downwards, a positive number, in m/s. */
+} keel_reference_limits_t;
+
+/** What a reference generator is made from. */
+typedef struct keel_reference_config {
+    keel_reference_shape_t roll;    /**< The roll stick. */
+    keel_reference_shape_t pitch;   /**< The pitch stick. */
+    keel_reference_shape_t yaw;     /**< The yaw stick. */
+    keel_reference_shape_t climb;   /**< The climb stick. */
+    keel_reference_limits_t limits; /**< What full sticks ask for. */
+} keel_reference_config_t;
+
+/** The sticks, each from -1 to 1. */
+typedef struct keel_reference_sticks {
+    float roll;  /**< Positive: right side down, to the right. */
+    float pitch; /**< Positive: nose up, backwards. */
+    float yaw;   /**< Positive: nose to the right. */
+    float climb; /**< Positive: up. */
+} keel_reference_sticks_t;
+
+/** What the sticks ask for. Body axes: x forwards, y to the right, z down. */
+typedef struct keel_reference_setpoints {
+    float roll_rate;    /**< About x, in rad/s. */
+    float pitch_rate;   /**< About y, in rad/s. */
+    float yaw_rate;     /**< About z, in rad/s. */
+    float heading_rate; /**< Yaw rate beside angles and velocities, in rad/s. */
+    float roll;         /**< Positive: right side down, in rad. */
+    float pitch;        /**< Positive: nose up, in rad. */
+    float forward;      /**< Velocity in the direction of the heading, in m/s. */
+    float right;        /**< Velocity to the right of the heading, in m/s. */
+    float climb_rate;   /**< Positive: up, in m/s. */
+} keel_reference_setpoints_t;
+
+/** A stick's curve, as worked out by init. */
+typedef struct keel_reference_curve {
+    float dead_band; /**< d. */
+    float scale;     /**< KEEL_REFERENCE_REACH / (1 - d). */
+    float linear;    /**< 1 - e. */
+    float expo;      /**< e. */
+} keel_reference_curve_t;
+
+/** A reference generator. */
+typedef struct keel_reference {
+    keel_reference_curve_t roll;          /**< Of the roll stick. */
+    keel_reference_curve_t pitch;         /**< Of the pitch stick. */
+    keel_reference_curve_t yaw;           /**< Of the yaw stick. */
+    keel_reference_curve_t climb;         /**< Of the climb stick. */
+    keel_reference_limits_t limits;       /**< As checked by init. */
+    keel_reference_setpoints_t setpoints; /**< What the last sticks asked for; all 0 before. */
+} keel_reference_t;
+
+/*@ predicate reference_between(float value, real least, real greatest) =
+  @     \is_finite(value) && least <= value <= greatest;
+  @
+  @ predicate reference_expo(keel_reference_shape_t shape) =
+  @     reference_between(shape.expo, 0, KEEL_REFERENCE_EXPO_MAX);
+  @
+  @ predicate reference_expos(keel_reference_config_t config) =
+  @     reference_expo(config.roll) && reference_expo(config.pitch) &&
+  @     reference_expo(config.yaw) && reference_expo(config.climb);
+  @
+  @ predicate reference_dead_band(keel_reference_shape_t shape) =
+  @     reference_between(shape.dead_band, KEEL_REFERENCE_DEAD_BAND_MIN,
+  @         KEEL_REFERENCE_DEAD_BAND_MAX);
+  @
+  @ predicate reference_dead_bands(keel_reference_config_t config) =
+  @     reference_dead_band(config.roll) && reference_dead_band(config.pitch) &&
+  @     reference_dead_band(config.yaw) && reference_dead_band(config.climb);
+  @
+  @ predicate reference_limit(float limit, real greatest) =
+  @     reference_between(limit, KEEL_REFERENCE_LIMIT_MIN, greatest);
+  @
+  @ predicate reference_limits(keel_reference_limits_t limits) =
+  @     reference_limit(limits.roll_rate, KEEL_REFERENCE_RATE_MAX) &&
+  @     reference_limit(limits.pitch_rate, KEEL_REFERENCE_RATE_MAX) &&
+  @     reference_limit(limits.yaw_rate, KEEL_REFERENCE_RATE_MAX) &&
+  @     reference_limit(limits.heading_rate, KEEL_REFERENCE_RATE_MAX) &&
+  @     reference_limit(limits.tilt, KEEL_REFERENCE_TILT_MAX) &&
+  @     reference_limit(limits.speed, KEEL_REFERENCE_SPEED_MAX) &&
+  @     reference_limit(limits.climb_rate, KEEL_REFERENCE_SPEED_MAX) &&
+  @     reference_limit(limits.descent_rate, KEEL_REFERENCE_SPEED_MAX);
+  @
+  @ // What a step needs of a curve; the end is reached: REF-003 has it.
+  @ predicate reference_curve(keel_reference_curve_t curve) =
+  @     reference_between(curve.dead_band, KEEL_REFERENCE_DEAD_BAND_MIN,
+  @         KEEL_REFERENCE_DEAD_BAND_MAX) &&
+  @     reference_between(curve.scale, 1, 2.5) && reference_between(curve.linear, 0, 1) &&
+  @     reference_between(curve.expo, 0, 1) && curve.linear == (float)(1 - curve.expo);
+  @
+  @ // What init establishes and every step keeps.
+  @ predicate reference_valid(keel_reference_t reference) =
+  @     reference_curve(reference.roll) && reference_curve(reference.pitch) &&
+  @     reference_curve(reference.yaw) && reference_curve(reference.climb) &&
+  @     reference_limits(reference.limits);
+  @
+  @ predicate reference_stick(float stick) = reference_between(stick, -1, 1);
+  @
+  @ predicate reference_sticks(keel_reference_sticks_t sticks) =
+  @     reference_stick(sticks.roll) && reference_stick(sticks.pitch) &&
+  @     reference_stick(sticks.yaw) && reference_stick(sticks.climb);
+  @
+  @ // u, a stick's deflection, and what is left of one beside that across: the formulas above,
+  @ // rounded after each operation.
+  @ logic float reference_stretched(keel_reference_curve_t curve, float stick) = (float)(
+  @     (float)((stick < 0 ? -stick : stick) - curve.dead_band) * curve.scale);
+  @
+  @ logic float reference_u(keel_reference_curve_t curve, float stick) = (float)\min(1,
+  @     \max(0, reference_stretched(curve, stick)));
+  @
+  @ logic float reference_bent(keel_reference_curve_t curve, float u) = (float)(
+  @     u * (float)(curve.linear + (float)(curve.expo * (float)(u * u))));
+  @
+  @ logic float reference_deflection(keel_reference_curve_t curve, float stick) = (float)(
+  @     stick < 0 ? -reference_bent(curve, reference_u(curve, stick))
+  @               : reference_bent(curve, reference_u(curve, stick)));
+  @
+  @ logic float reference_rounded_off(float own, float across) = (float)(
+  @     own * (float)(1 - (float)(KEEL_REFERENCE_CORNER * (float)(across * across))));
+  @
+  @ // What a limit makes of a deflection.
+  @ predicate reference_asked(float setpoint, float limit, float deflection) =
+  @     setpoint == (float)(limit * deflection);
+  @*/
+
+/**
+ * Makes a reference generator, whose set-points are all 0 (requirements REF-001 to REF-003).
+ *
+ * @param reference the reference generator
+ * @param config    what it is made from; copied
+ * @return KEEL_OK; KEEL_ERR_GAIN when an expo, else KEEL_ERR_LIMITS when a dead band or a limit, is
+ *         not as keel_reference_config_t says, NaN included: then nothing is changed
+ */
+/*@ requires \valid(reference) && \valid_read(config) && \separated(reference, config);
+  @ assigns *reference;
+  @ behavior bad_expo:
+  @   assumes !reference_expos(*config);
+  @   assigns \nothing;
+  @   ensures REF_001_expo: \result == KEEL_ERR_GAIN;
+  @ behavior bad_limit:
+  @   assumes reference_expos(*config) &&
+  @       !(reference_dead_bands(*config) && reference_limits(config->limits));
+  @   assigns \nothing;
+  @   ensures REF_001_limits: \result == KEEL_ERR_LIMITS;
+  @ behavior made:
+  @   assumes reference_expos(*config) && reference_dead_bands(*config) &&
+  @       reference_limits(config->limits);
+  @   ensures REF_002_ok: \result == KEEL_OK;
+  @   ensures REF_002_valid: reference_valid(*reference);
+  @   ensures REF_002_limits: reference->limits == config->limits;
+  @   ensures REF_002_zero: reference->setpoints.roll_rate == 0 &&
+  @       reference->setpoints.pitch_rate == 0 && reference->setpoints.yaw_rate == 0 &&
+  @       reference->setpoints.heading_rate == 0 && reference->setpoints.roll == 0 &&
+  @       reference->setpoints.pitch == 0 && reference->setpoints.forward == 0 &&
+  @       reference->setpoints.right == 0 && reference->setpoints.climb_rate == 0;
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_reference_init(keel_reference_t *reference,
+                                  const keel_reference_config_t *config);
+
+/**
+ * Makes set-points of the sticks; the result is reference->setpoints (requirements REF-004 to
+ * REF-010).
+ *
+ * @param reference the reference generator
+ * @param sticks    where the sticks are, any bit patterns
+ * @return KEEL_OK; KEEL_ERR_INPUT when one is not from -1 to 1, NaN included: then nothing is
+ *         changed, the set-points are held
+ */
+/*@ requires \valid(reference) && \valid_read(sticks) && \separated(reference, sticks);
+  @ requires reference_valid(*reference);
+  @ assigns reference->setpoints;
+  @ behavior refused:
+  @   assumes !reference_sticks(*sticks);
+  @   assigns \nothing;
+  @   ensures REF_004_refused: \result == KEEL_ERR_INPUT;
+  @ behavior taken:
+  @   assumes reference_sticks(*sticks);
+  @   ensures REF_004_ok: \result == KEEL_OK;
+  @   ensures REF_005_rates:
+  @     reference_asked(reference->setpoints.roll_rate, reference->limits.roll_rate,
+  @         reference_deflection(reference->roll, sticks->roll)) &&
+  @     reference_asked(reference->setpoints.pitch_rate, reference->limits.pitch_rate,
+  @         reference_deflection(reference->pitch, sticks->pitch)) &&
+  @     reference_asked(reference->setpoints.yaw_rate, reference->limits.yaw_rate,
+  @         reference_deflection(reference->yaw, sticks->yaw)) &&
+  @     reference_asked(reference->setpoints.heading_rate, reference->limits.heading_rate,
+  @         reference_deflection(reference->yaw, sticks->yaw));
+  @   ensures REF_005_angles:
+  @     reference_asked(reference->setpoints.roll, reference->limits.tilt, reference_rounded_off(
+  @         reference_deflection(reference->roll, sticks->roll),
+  @         reference_deflection(reference->pitch, sticks->pitch))) &&
+  @     reference_asked(reference->setpoints.pitch, reference->limits.tilt, reference_rounded_off(
+  @         reference_deflection(reference->pitch, sticks->pitch),
+  @         reference_deflection(reference->roll, sticks->roll)));
+  @   ensures REF_005_climb:
+  @     reference_asked(reference->setpoints.climb_rate,
+  @         sticks->climb < 0 ? reference->limits.descent_rate : reference->limits.climb_rate,
+  @         reference_deflection(reference->climb, sticks->climb));
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_reference_step(keel_reference_t *reference,
+                                  const keel_reference_sticks_t *sticks);
+
+KEEL_C_END
+
+#endif
