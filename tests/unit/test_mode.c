@@ -548,6 +548,34 @@ static void MOD_011_the_pilot_overrides_an_alarm(void)
     expect_after(61u, KEEL_MODE_RETURNING);
 }
 
+/* Sums of time stop at the greatest number: the link does not come back by itself. */
+static void MOD_003_sums_of_time_do_not_wrap(void)
+{
+    run(150u);
+    clear(KEEL_MODE_IS_LINKED);
+    in.elapsed_us = UINT32_MAX;
+    run(2u);
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, machine.silence_us);
+    in.elapsed_us = STEP_US;
+    run(2u);
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, machine.silence_us);
+    TEST_ASSERT_FALSE(machine.ready);
+    set(KEEL_MODE_IS_LINKED);
+    run(100u);
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, machine.state_us);
+}
+
+static void MOD_010_terminated_for_longer_than_can_be_counted(void)
+{
+    fly();
+    set(KEEL_MODE_IS_KILL);
+    run(60u);
+    in.elapsed_us = UINT32_MAX;
+    run(2u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_TERMINATED, machine.state);
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, machine.state_us);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -559,6 +587,7 @@ int main(void)
     RUN_TEST(MOD_003_silence_forgets_the_pilot);
     RUN_TEST(MOD_003_a_stall_begins_anew);
     RUN_TEST(MOD_003_a_frame_with_no_mode_is_none);
+    RUN_TEST(MOD_003_sums_of_time_do_not_wrap);
     RUN_TEST(MOD_004_arms_when_switched_on);
     RUN_TEST(MOD_004_a_switch_that_was_never_off_arms_nothing);
     RUN_TEST(MOD_004_both_positions_are_neither);
@@ -581,6 +610,7 @@ int main(void)
     RUN_TEST(MOD_009_alone_it_lands_rather_than_wait_for_a_throttle);
     RUN_TEST(MOD_010_kill_terminates_for_good);
     RUN_TEST(MOD_010_kill_terminates_without_a_pilot);
+    RUN_TEST(MOD_010_terminated_for_longer_than_can_be_counted);
     RUN_TEST(MOD_011_alarms_lead_home_or_down);
     RUN_TEST(MOD_011_the_pilot_overrides_an_alarm);
     return UNITY_END();

@@ -265,6 +265,28 @@ static void REF_007_no_setpoint_is_too_small(void)
     TEST_ASSERT_TRUE(isnormal(at(farther(least), 0.0f, 0.0f, 0.0f).roll_rate));
 }
 
+/* Each stick on either side and in the centre, with each side of the others: every set-point has
+ * the sign of its stick, and none is beyond its limit. */
+static void REF_006_each_side_of_each_stick(void)
+{
+    make();
+    for (int i = 0; i < 81; i++) {
+        const float roll = (float)((i % 3) - 1);
+        const float pitch = (float)(((i / 3) % 3) - 1);
+        const float yaw = (float)(((i / 9) % 3) - 1);
+        const float climb = (float)((i / 27) - 1);
+        const keel_reference_setpoints_t setpoints = at(roll, pitch, yaw, climb);
+
+        TEST_ASSERT_EQUAL_FLOAT(2.0f * roll, setpoints.roll_rate);
+        TEST_ASSERT_EQUAL_FLOAT(3.0f * pitch, setpoints.pitch_rate);
+        TEST_ASSERT_EQUAL_FLOAT(5.0f * yaw, setpoints.yaw_rate);
+        TEST_ASSERT_EQUAL_FLOAT(7.0f * yaw, setpoints.heading_rate);
+        TEST_ASSERT_EQUAL_FLOAT((climb > 0.0f) ? 13.0f : (17.0f * climb), setpoints.climb_rate);
+        TEST_ASSERT_TRUE(fabsf(setpoints.roll) <= 0.5f);
+        TEST_ASSERT_TRUE(fabsf(setpoints.forward) <= 11.0f);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -276,6 +298,7 @@ int main(void)
     RUN_TEST(REF_004_bad_sticks_are_held);
     RUN_TEST(REF_005_the_formulas_by_hand);
     RUN_TEST(REF_006_the_end_of_the_stick_is_exactly_the_limit);
+    RUN_TEST(REF_006_each_side_of_each_stick);
     RUN_TEST(REF_007_zero_within_the_dead_band);
     RUN_TEST(REF_007_nothing_but_the_dead_band_is_zero);
     RUN_TEST(REF_007_no_setpoint_is_too_small);

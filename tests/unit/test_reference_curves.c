@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Curves of keel/flight/reference.h over the whole of the sticks: bounded, monotone, odd, and limited
- * together. These are a million steps; the others are in test_reference.c. */
+/* Curves of keel/flight/reference.h over the whole of the sticks: bounded, monotone, odd, and
+ * limited together. These are a million steps; the others are in test_reference.c. */
 #include "keel/flight/reference.h"
 #include "unity.h"
 
