@@ -62,6 +62,7 @@ impact = "TI2"
 detection = "TD2"
 instead = "tests"
 tests = []
+known = "not needed"
 reviewed = "all"
 """
 OPINION = """\

@@ -323,7 +323,8 @@ class Reviews(FormalTest):
         self.assertEqual(self.state()[1], "not reviewed")
         self.sign()
         self.assertEqual(self.state()[1:], ("signed", "A. Reader", "2026-11-30", 'read "all"'))
-        self.assertEqual(self.part().summary["units reviewed by a person"], "1 of 17")
+        units = len(list((ROOT / "specs/reviews").glob("*.toml")))
+        self.assertEqual(self.part().summary["units reviewed by a person"], f"1 of {units}")
 
     def test_a_signature_is_stale_when_what_it_is_of_has_changed(self) -> None:
         self.sign()
