@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 15 --external-sat-solver cadical
 // sources: src/flight/mode.c specs/model/mode.c
-// covers: keel_mode_init are_times_valid is_settling is_between settle_us_of bit_of
+// covers: keel_mode_init are_times_valid are_pilot_times_valid are_aircraft_times_valid is_settling
+// covers: is_between settle_us_of bit_of
 // covers: model_mode_init
 //
 // Every bit pattern of the configuration, and of what the machine was before.

@@ -506,15 +506,36 @@ static bool is_settling(const keel_mode_config_t *config, uint32_t time_us)
 
 /*@ requires \valid_read(config);
   @ assigns \nothing;
+  @ ensures \result <==> mode_settling(*config, config->regain_us) &&
+  @     mode_settling(*config, config->request_us) && mode_settling(*config, config->kill_us) &&
+  @     mode_settling(*config, config->idle_us);
+  @*/
+static bool are_pilot_times_valid(const keel_mode_config_t *config)
+{
+    return is_settling(config, config->regain_us) && is_settling(config, config->request_us) &&
+           is_settling(config, config->kill_us) && is_settling(config, config->idle_us);
+}
+
+/*@ requires \valid_read(config);
+  @ assigns \nothing;
+  @ ensures \result <==> mode_settling(*config, config->landed_us) &&
+  @     mode_settling(*config, config->estimate_us) && mode_settling(*config, config->alarm_us);
+  @*/
+static bool are_aircraft_times_valid(const keel_mode_config_t *config)
+{
+    return is_settling(config, config->landed_us) && is_settling(config, config->estimate_us) &&
+           is_settling(config, config->alarm_us);
+}
+
+/*@ requires \valid_read(config);
+  @ assigns \nothing;
   @ ensures \result <==> mode_times_valid(*config);
   @*/
 static bool are_times_valid(const keel_mode_config_t *config)
 {
     return is_between(KEEL_MODE_LOSS_LEAST_US, config->loss_us, KEEL_MODE_LOSS_MOST_US) &&
-           is_settling(config, config->regain_us) && is_settling(config, config->request_us) &&
-           is_settling(config, config->kill_us) && is_settling(config, config->landed_us) &&
-           is_settling(config, config->estimate_us) && is_settling(config, config->alarm_us) &&
-           is_settling(config, config->idle_us) && (config->hold_us <= KEEL_MODE_TIME_MOST_US) &&
+           are_pilot_times_valid(config) && are_aircraft_times_valid(config) &&
+           (config->hold_us <= KEEL_MODE_TIME_MOST_US) &&
            (config->return_us <= KEEL_MODE_TIME_MOST_US);
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The mode machine beside its executable specification (specs/model): phrases of flights with
  * faults in between, and all of the machine must be the same after each step. */
+#include "any.h"
 #include "keel/flight/mode.h"
 #include "unity.h"
 
@@ -16,24 +17,11 @@ static keel_mode_input_t in;
 
 void setUp(void)
 {
+    any_from(20261123u);
 }
 
 void tearDown(void)
 {
-}
-
-static uint64_t random_state = 20261123u;
-
-/* SplitMix64. */
-static uint32_t any(void)
-{
-    uint64_t z;
-
-    random_state += 0x9E3779B97F4A7C15u;
-    z = random_state;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return (uint32_t)((z ^ (z >> 31)) >> 16);
 }
 
 /* Phrases of a flight that last long enough for facts to settle, with faults in between. */

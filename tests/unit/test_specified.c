@@ -2,6 +2,7 @@
 /* Voter, filter, PID and reference generator beside their executable specification (specs/model):
  * random and adversarial calls on both, of which result and every bit of the object must be the
  * same after each. */
+#include "any.h"
 #include "keel/flight/filter.h"
 #include "keel/flight/pid.h"
 #include "keel/flight/reference.h"
@@ -30,27 +31,13 @@
 #define SMALLEST    0x1p-149f /* Above 0, and not normal. */
 #define SETUP_EVERY 256u
 
-static uint64_t random_state;
-
 void setUp(void)
 {
-    random_state = SEED;
+    any_from(SEED);
 }
 
 void tearDown(void)
 {
-}
-
-/* SplitMix64. */
-static uint32_t any(void)
-{
-    uint64_t z;
-
-    random_state += 0x9E3779B97F4A7C15u;
-    z = random_state;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return (uint32_t)((z ^ (z >> 31)) >> 16);
 }
 
 static uint32_t below(uint32_t limit)
