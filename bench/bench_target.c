@@ -14,23 +14,18 @@
  */
 #include "board.h"
 #include "console.h"
-#include "keel/flight/mode.h"
-#include "keel/flight/pid.h"
-#include "keel/flight/reference.h"
-#include "keel/middleware/virtual_imu.h"
 #include "keel/rtos/scheduler.h"
 #include "urpilot_tasks.h"
+#include "workload.h"
 
 #include <string.h>
 
 #define SIMULATED_US       100000u
 #define POLL_US            5u
-#define STEPS              1000u
 #define CLOCK_INSTRUCTIONS 5u  /* Of bench_clock. */
 #define BODY_INSTRUCTIONS  10u /* Of bench_body. */
 #define TICK_NS            40u
 #define INSTRUCTION_NS     1024u
-#define UNITS              3u
 #define PRESCALE           (*(volatile uint32_t *)0x4002801Cu)
 
 typedef void (*function_t)(void);
@@ -249,12 +244,6 @@ static void bench_passes(void)
 
 /* --- Steps ------------------------------------------------------------------------------------ */
 
-/* A signal that keeps moving, within 0 to 1, as in bench_steps.c. */
-static float signal_at(uint32_t n)
-{
-    return (float)((n * 37u) % 101u) / 101.0f;
-}
-
 static void bench_filter(void)
 {
     static keel_filter_t filter KEEL_REALTIME_ZERO;
@@ -271,16 +260,9 @@ static void bench_filter(void)
 static void bench_pid(void)
 {
     static keel_pid_t pid KEEL_REALTIME_ZERO;
-    const keel_pid_config_t settings = {.gains = {2.0f, 5.0f, 0.02f, 0.5f},
-                                        .rate_hz = 1000.0f,
-                                        .cutoff_hz = 80.0f,
-                                        .output_min = -100.0f,
-                                        .output_max = 100.0f,
-                                        .integral_min = -10.0f,
-                                        .integral_max = 10.0f};
     kind_t steps = {"pid", 0u, 0u, 0u};
 
-    require(keel_pid_init(&pid, &settings) == KEEL_OK);
+    require(keel_pid_init(&pid, &pid_workload) == KEEL_OK);
     require(keel_pid_step(&pid, 0.5f, 0.5f) == KEEL_OK);
     for (uint32_t n = 0u; n < STEPS; n++) {
         add(&steps,
@@ -289,35 +271,14 @@ static void bench_pid(void)
     print(&steps);
 }
 
-static float stick_at(uint32_t n)
-{
-    return (2.0f * signal_at(n)) - 1.0f;
-}
-
-/* Sticks on both sides of their centres, in their dead bands now and then: as in bench_steps.c. */
 static void bench_reference(void)
 {
     static keel_reference_t reference KEEL_REALTIME_ZERO;
-    const keel_reference_config_t settings = {.roll = {0.05f, 0.3f},
-                                              .pitch = {0.05f, 0.3f},
-                                              .yaw = {0.05f, 0.3f},
-                                              .climb = {0.05f, 0.3f},
-                                              .limits = {.roll_rate = 6.0f,
-                                                         .pitch_rate = 6.0f,
-                                                         .yaw_rate = 3.0f,
-                                                         .heading_rate = 1.5f,
-                                                         .tilt = 0.6f,
-                                                         .speed = 8.0f,
-                                                         .climb_rate = 4.0f,
-                                                         .descent_rate = 2.0f}};
     kind_t steps = {"reference", 0u, 0u, 0u};
 
-    require(keel_reference_init(&reference, &settings) == KEEL_OK);
+    require(keel_reference_init(&reference, &reference_workload) == KEEL_OK);
     for (uint32_t n = 0u; n < STEPS; n++) {
-        keel_reference_sticks_t sticks = {.roll = stick_at(n),
-                                          .pitch = stick_at(n + 7u),
-                                          .yaw = stick_at(n + 14u),
-                                          .climb = stick_at(n + 21u)};
+        keel_reference_sticks_t sticks = sticks_at(n);
 
         add(&steps,
             measure((function_t)keel_reference_step, &reference, (uint32_t)&sticks, 0u, true));
@@ -325,72 +286,29 @@ static void bench_reference(void)
     print(&steps);
 }
 
-/* In flight, with a frame at each step; or on the ground, with every
- * fact that can be seen waiting to settle: as in bench_steps.c. */
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     static keel_mode_t mode KEEL_REALTIME_ZERO;
-    const keel_mode_config_t settings = {.loss_us = 250000u,
-                                         .regain_us = settle_us,
-                                         .request_us = settle_us,
-                                         .kill_us = settle_us,
-                                         .landed_us = settle_us,
-                                         .estimate_us = settle_us,
-                                         .alarm_us = settle_us,
-                                         .idle_us = settle_us,
-                                         .required = 1u};
-    const bool flies = state == KEEL_MODE_FLYING;
-    keel_mode_input_t input = {.elapsed_us = 1000u, .facts = 0x074Du, .checks = 1u, .asked = 4u};
+    keel_mode_input_t input = mode_workload(&mode, settle_us, state == KEEL_MODE_FLYING);
     kind_t steps = {name, 0u, 0u, 0u};
 
-    require(keel_mode_init(&mode, &settings) == KEEL_OK);
-    for (uint32_t n = 0u; flies && (n < STEPS); n++) {
-        keel_mode_step(&mode, &input);
-    }
-    input.facts ^= KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF;
-    for (uint32_t n = 0u; flies && (n < STEPS); n++) {
-        input.facts ^= (n == (STEPS / 2u)) ? (KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW) : 0u;
-        keel_mode_step(&mode, &input);
-    }
     for (uint32_t n = 0u; n < STEPS; n++) {
-        input.facts = flies ? input.facts : 0x3FFBu;
         add(&steps, measure((function_t)keel_mode_step, &mode, (uint32_t)&input, 0u, false));
         require(mode.state == state);
     }
     print(&steps);
 }
 
-/* Three units that differ a little, the last by an offset more: as in bench_steps.c. */
-static void fill(keel_virtual_imu_sample_t sample[UNITS], uint32_t n, float offset)
-{
-    for (uint32_t i = 0u; i < UNITS; i++) {
-        sample[i].age_us = 100u;
-        sample[i].present = true;
-        for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
-            sample[i].value[k] = (0.2f * signal_at((3u * n) + (7u * i) + k)) +
-                                 ((i == (UNITS - 1u)) ? offset : 0.0f);
-        }
-    }
-}
-
 static void bench_imu(const char *name, float offset, uint8_t contributing)
 {
     static keel_virtual_imu_t imu KEEL_REALTIME_ZERO;
     static keel_virtual_imu_sample_t sample[UNITS];
-    const keel_voter_config_t voter = {.agree = 0.25f,
-                                       .cutoff = 3.0f,
-                                       .lowest = -160.0f,
-                                       .highest = 160.0f,
-                                       .max_age_us = 10000u,
-                                       .latch_count = UINT16_MAX,
-                                       .stale_count = 50u,
-                                       .sensors = UNITS};
-    const keel_virtual_imu_config_t settings = {voter, voter};
+    const keel_virtual_imu_config_t settings = {voter_workload, voter_workload};
     kind_t steps = {name, 0u, 0u, 0u};
 
     require(keel_virtual_imu_init(&imu, &settings) == KEEL_OK);
     for (uint32_t n = 0u; n < STEPS; n++) {
-        fill(sample, n, offset);
+        samples_at(sample, n, offset);
         add(&steps,
             measure((function_t)keel_virtual_imu_step, &imu, (uint32_t)sample, 1000u, false));
         for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {

@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file workload.h
+ * @brief What the steps of the layers above the RTOS are measured with, on the host and on the
+ *        Cortex-M7: configurations, and inputs that keep a step on its longest usual path.
+ */
+#ifndef KEEL_BENCH_WORKLOAD_H
+#define KEEL_BENCH_WORKLOAD_H
+
+#include "keel/flight/mode.h"
+#include "keel/flight/pid.h"
+#include "keel/flight/reference.h"
+#include "keel/middleware/virtual_imu.h"
+
+#define STEPS 1000u
+#define UNITS 3u
+
+/* A signal that keeps moving, within 0 to 1. */
+static float signal_at(uint32_t n)
+{
+    return (float)((n * 37u) % 101u) / 101.0f;
+}
+
+/* --- PID -------------------------------------------------------------------------------------- */
+
+static const keel_pid_config_t pid_workload = {.gains = {2.0f, 5.0f, 0.02f, 0.5f},
+                                               .rate_hz = 1000.0f,
+                                               .cutoff_hz = 80.0f,
+                                               .output_min = -100.0f,
+                                               .output_max = 100.0f,
+                                               .integral_min = -10.0f,
+                                               .integral_max = 10.0f};
+
+/* --- Reference generator ---------------------------------------------------------------------- */
+
+static const keel_reference_config_t reference_workload = {.roll = {0.05f, 0.3f},
+                                                           .pitch = {0.05f, 0.3f},
+                                                           .yaw = {0.05f, 0.3f},
+                                                           .climb = {0.05f, 0.3f},
+                                                           .limits = {.roll_rate = 6.0f,
+                                                                      .pitch_rate = 6.0f,
+                                                                      .yaw_rate = 3.0f,
+                                                                      .heading_rate = 1.5f,
+                                                                      .tilt = 0.6f,
+                                                                      .speed = 8.0f,
+                                                                      .climb_rate = 4.0f,
+                                                                      .descent_rate = 2.0f}};
+
+/* A stick that keeps moving, from -1 to 1. */
+static float stick_at(uint32_t n)
+{
+    return (2.0f * signal_at(n)) - 1.0f;
+}
+
+/* Sticks on both sides of their centres, in their dead bands now and then. */
+static keel_reference_sticks_t sticks_at(uint32_t n)
+{
+    const keel_reference_sticks_t sticks = {.roll = stick_at(n),
+                                            .pitch = stick_at(n + 7u),
+                                            .yaw = stick_at(n + 14u),
+                                            .climb = stick_at(n + 21u)};
+
+    return sticks;
+}
+
+/* --- Mode ------------------------------------------------------------------------------------- */
+
+/* With what the mode machine is told at each step from then on: in flight a frame each; on the
+ * ground every fact that can be seen, waiting to settle. */
+static keel_mode_input_t mode_workload(keel_mode_t *mode, uint32_t settle_us, bool flies)
+{
+    const keel_mode_config_t config = {.loss_us = 250000u,
+                                       .regain_us = settle_us,
+                                       .request_us = settle_us,
+                                       .kill_us = settle_us,
+                                       .landed_us = settle_us,
+                                       .estimate_us = settle_us,
+                                       .alarm_us = settle_us,
+                                       .idle_us = settle_us,
+                                       .required = 1u};
+    keel_mode_input_t input = {.elapsed_us = 1000u, .facts = 0x074Du, .checks = 1u, .asked = 4u};
+
+    (void)keel_mode_init(mode, &config);
+    if (!flies) {
+        input.facts = 0x3FFBu;
+        return input;
+    }
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        keel_mode_step(mode, &input);
+    }
+    input.facts ^= KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF;
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        input.facts ^= (n == (STEPS / 2u)) ? (KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW) : 0u;
+        keel_mode_step(mode, &input);
+    }
+    return input;
+}
+
+/* --- Virtual IMU ------------------------------------------------------------------------------ */
+
+static const keel_voter_config_t voter_workload = {.agree = 0.25f,
+                                                   .cutoff = 3.0f,
+                                                   .lowest = -160.0f,
+                                                   .highest = 160.0f,
+                                                   .max_age_us = 10000u,
+                                                   .latch_count = UINT16_MAX,
+                                                   .stale_count = 50u,
+                                                   .sensors = UNITS};
+
+/* Samples that keep moving: with no offset all units' within the distance of full agreement; the
+ * last unit's differ by the offset more. */
+static void samples_at(keel_virtual_imu_sample_t sample[UNITS], uint32_t n, float offset)
+{
+    for (uint32_t i = 0u; i < UNITS; i++) {
+        sample[i].age_us = 100u;
+        sample[i].present = true;
+        for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
+            sample[i].value[k] = (0.2f * signal_at((3u * n) + (7u * i) + k)) +
+                                 ((i == (UNITS - 1u)) ? offset : 0.0f);
+        }
+    }
+}
+
+#endif
