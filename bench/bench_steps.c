@@ -7,6 +7,7 @@
  * Each step is taken many times with inputs that keep it on its longest usual path; what is dumped
  * is labelled with its name and the number of steps.
  */
+#include "keel/flight/mixer.h"
 #include "keel/flight/pid.h"
 #include "keel/middleware/virtual_imu.h"
 
@@ -21,6 +22,7 @@
 
 static keel_filter_t bench_filter;
 static keel_pid_t bench_pid;
+static keel_mixer_t bench_mixer;
 static keel_virtual_imu_t bench_imu;
 
 static void bench_require(int condition, const char *what)
@@ -84,6 +86,29 @@ static void bench_run_pid(void)
     bench_dump("pid");
 }
 
+/* A quadcopter's X, with torques of up to so much each way about a middling thrust: with little, all
+ * that is asked for fits; with much, everything gives way. */
+static void bench_run_mixer(const char *name, float torque, uint8_t limited)
+{
+    const keel_mixer_config_t config = {keel_mixer_quad_x, 0.05f, 1.0f};
+
+    bench_require(keel_mixer_init(&bench_mixer, &config) == KEEL_OK, "mixer");
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        const keel_mixer_command_t command = {
+            .roll = torque * (1.0f + bench_signal(n)),
+            .pitch = -torque * (1.0f + bench_signal(n + 1u)),
+            .yaw = torque * (1.0f + bench_signal(n + 2u)),
+            .thrust = 0.4f + (0.2f * bench_signal(n + 3u)),
+        };
+
+        CALLGRIND_TOGGLE_COLLECT;
+        keel_mixer_step(&bench_mixer, &command, true);
+        CALLGRIND_TOGGLE_COLLECT;
+        bench_require(bench_mixer.limited == limited, "mixer step");
+    }
+    bench_dump(name);
+}
+
 /* Samples that keep moving: of all units within the distance of full agreement, or with the last
  * unit's beyond that of none. */
 static void bench_fill(keel_virtual_imu_sample_t sample[UNITS], uint32_t n, float offset)
@@ -128,6 +153,8 @@ int main(void)
 {
     bench_run_filter();
     bench_run_pid();
+    bench_run_mixer("mixer", 0.05f, 0u);
+    bench_run_mixer("mixer_worst", 0.4f, KEEL_MIXER_YAW | KEEL_MIXER_TILT | KEEL_MIXER_RAISED);
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;

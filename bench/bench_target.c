@@ -14,6 +14,7 @@
  */
 #include "board.h"
 #include "console.h"
+#include "keel/flight/mixer.h"
 #include "keel/flight/pid.h"
 #include "keel/middleware/virtual_imu.h"
 #include "keel/rtos/scheduler.h"
@@ -287,6 +288,29 @@ static void bench_pid(void)
     print(&steps);
 }
 
+/* A quadcopter's X, with torques of up to so much each way about a middling thrust: with little, all
+ * that is asked for fits; with much, everything gives way. */
+static void bench_mixer(const char *name, float torque, uint8_t limited)
+{
+    static keel_mixer_t mixer KEEL_REALTIME_ZERO;
+    const keel_mixer_config_t settings = {keel_mixer_quad_x, 0.05f, 1.0f};
+    kind_t steps = {name, 0u, 0u, 0u};
+
+    require(keel_mixer_init(&mixer, &settings) == KEEL_OK);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        const keel_mixer_command_t command = {
+            .roll = torque * (1.0f + signal_at(n)),
+            .pitch = -torque * (1.0f + signal_at(n + 1u)),
+            .yaw = torque * (1.0f + signal_at(n + 2u)),
+            .thrust = 0.4f + (0.2f * signal_at(n + 3u)),
+        };
+
+        add(&steps, measure((function_t)keel_mixer_step, &mixer, (uint32_t)&command, 1u, false));
+        require(mixer.limited == limited);
+    }
+    print(&steps);
+}
+
 /* Three units that differ a little, the last by an offset more: as in bench_steps.c. */
 static void fill(keel_virtual_imu_sample_t sample[UNITS], uint32_t n, float offset)
 {
@@ -350,6 +374,8 @@ int main(void)
     bench_passes();
     bench_filter();
     bench_pid();
+    bench_mixer("mixer", 0.05f, 0u);
+    bench_mixer("mixer_worst", 0.4f, KEEL_MIXER_YAW | KEEL_MIXER_TILT | KEEL_MIXER_RAISED);
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
     keel_console_text(bad ? "bench failed\n" : "bench ended\n");

@@ -67,6 +67,8 @@ CAPACITIES = (32, 64)
 STEPS: dict[str, tuple[str, str, int]] = {
     "filter": ("filter", "keel_filter_step", 30),
     "pid": ("PID", "keel_pid_step", 110),
+    "mixer": ("mixer, 4 motors, all fits", "keel_mixer_step", 200),
+    "mixer_worst": ("mixer, 4 motors, all gives way", "keel_mixer_step", 200),
     "imu": ("virtual IMU, 3 x 6, all agree", "keel_virtual_imu_step", 900),
     "imu_worst": ("virtual IMU, 3 x 6, one outvoted", "keel_virtual_imu_step", 900),
 }

@@ -3,11 +3,17 @@
 
 #include "range.h"
 
+/* No comparison with NaN holds. */
+static bool contains(float value, float least, float greatest)
+{
+    return (value >= least) && (value <= greatest);
+}
+
 static bool factors_are_valid(const keel_mixer_motor_t *motor)
 {
-    return model_range_contains(motor->roll, -1.0f, 1.0f) &&
-           model_range_contains(motor->pitch, -1.0f, 1.0f) &&
-           model_range_contains(motor->yaw, -1.0f, 1.0f);
+    return contains(motor->roll, -1.0f, 1.0f) &&
+           contains(motor->pitch, -1.0f, 1.0f) &&
+           contains(motor->yaw, -1.0f, 1.0f);
 }
 
 /* MIX-001: about each axis some motor turns the craft one way, and some the other. */
@@ -41,8 +47,8 @@ keel_status_t model_mixer_check(const keel_mixer_config_t *config)
     if (!(valid && left && right && up && down && clockwise && counter)) {
         return KEEL_ERR_GEOMETRY;
     }
-    if (!model_range_contains(config->idle, KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX) ||
-        !model_range_contains(config->highest, KEEL_MIXER_HIGHEST_MIN, 1.0f)) {
+    if (!contains(config->idle, KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX) ||
+        !contains(config->highest, KEEL_MIXER_HIGHEST_MIN, 1.0f)) {
         return KEEL_ERR_LIMITS;
     }
     return KEEL_OK;
@@ -70,135 +76,138 @@ keel_status_t model_mixer_init(keel_mixer_t *mixer, const keel_mixer_config_t *c
     return KEEL_OK;
 }
 
-/* MIX-005: what is taken for a part of a command. */
-static float part_of(float part, float lowest, float highest)
-{
-    if (!model_range_contains(part, -KEEL_RANGE_LARGEST, KEEL_RANGE_LARGEST)) {
-        return 0.0f;
-    }
-    return model_range_clamp(part, lowest, highest);
-}
-
 static bool command_is_valid(const keel_mixer_command_t *command)
 {
-    return model_range_contains(command->roll, -1.0f, 1.0f) &&
-           model_range_contains(command->pitch, -1.0f, 1.0f) &&
-           model_range_contains(command->yaw, -1.0f, 1.0f) &&
-           model_range_contains(command->thrust, 0.0f, 1.0f);
+    return contains(command->roll, -1.0f, 1.0f) &&
+           contains(command->pitch, -1.0f, 1.0f) &&
+           contains(command->yaw, -1.0f, 1.0f) &&
+           contains(command->thrust, 0.0f, 1.0f);
 }
 
-/* The least of the motors' values, or the greatest. */
-static float least_of(const float value[], uint32_t motors)
+/* MIX-005: 0 for what is not finite, the end that is next to what is out of range. */
+static float part_of(float part, float lowest)
 {
-    float least = value[0];
+    const bool finite = contains(part, -KEEL_RANGE_LARGEST, KEEL_RANGE_LARGEST);
 
-    for (uint32_t i = 1u; i < KEEL_MIXER_MOTORS; i++) {
-        if (i < motors) {
-            least = (value[i] < least) ? value[i] : least;
-        }
-    }
-    return least;
+    return finite ? model_range_clamp(part, lowest, 1.0f) : 0.0f;
 }
 
-static float greatest_of(const float value[], uint32_t motors)
+static keel_mixer_command_t command_of(const keel_mixer_command_t *command)
 {
-    float greatest = value[0];
-
-    for (uint32_t i = 1u; i < KEEL_MIXER_MOTORS; i++) {
-        if (i < motors) {
-            greatest = (value[i] > greatest) ? value[i] : greatest;
-        }
-    }
-    return greatest;
+    return (keel_mixer_command_t){part_of(command->roll, -1.0f), part_of(command->pitch, -1.0f),
+                                  part_of(command->yaw, -1.0f), part_of(command->thrust, 0.0f)};
 }
 
-/* MIX-008: the part of its yaw that a motor can do. */
+/* MIX-007: thrust, moved as far as roll and pitch need. */
+static float base_of(const keel_mixer_config_t *config, float thrust, float least, float greatest,
+                     uint8_t *limited)
+{
+    const float asked = config->idle + (thrust * (config->highest - config->idle));
+
+    if (asked < (config->idle - least)) {
+        *limited |= KEEL_MIXER_RAISED;
+        return config->idle - least;
+    }
+    if (asked > (config->highest - greatest)) {
+        *limited |= (greatest > 0.0f) ? KEEL_MIXER_LOWERED : 0u;
+        return config->highest - greatest;
+    }
+    return asked;
+}
+
+/* The part of its yaw that a motor can do. */
 static float yaw_part(float turn, float room)
 {
     const float need = (turn < 0.0f) ? -turn : turn;
 
-    if (need <= room) {
-        return 1.0f;
-    }
-    return (room > 0.0f) ? (room / need) : 0.0f;
+    return (need > room) ? (room / need) : 1.0f;
 }
 
-void model_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, bool armed)
+/* Whether every motor can do all that it is asked for; that is put out then. */
+static bool all_fits(const keel_mixer_config_t *config, const float tilt[], float base, float yaw,
+                     float output[])
 {
-    const keel_mixer_geometry_t *const geometry = &mixer->config.geometry;
-    const uint32_t motors = geometry->motors;
-    const float idle = mixer->config.idle;
-    const float highest = mixer->config.highest;
-    const float span = highest - idle;
-    const float roll = part_of(command->roll, -1.0f, 1.0f);
-    const float pitch = part_of(command->pitch, -1.0f, 1.0f);
-    const float yaw = part_of(command->yaw, -1.0f, 1.0f);
-    const float thrust = part_of(command->thrust, 0.0f, 1.0f);
-    float tilt[KEEL_MIXER_MOTORS] = {0.0f};
-    float least;
-    float greatest;
-    float base;
+    for (uint32_t i = 0u; i < config->geometry.motors; i++) {
+        const float all = (base + tilt[i]) + (config->geometry.motor[i].yaw * yaw);
+
+        if (!contains(all, config->idle, config->highest)) {
+            return false;
+        }
+        output[i] = all;
+    }
+    return true;
+}
+
+/* As much yaw as every motor can do. */
+static void put_out(const keel_mixer_config_t *config, const float tilt[], float base, float yaw,
+                    uint8_t *limited, float output[])
+{
+    const keel_mixer_motor_t *const motor = config->geometry.motor;
+    const float idle = config->idle;
+    const float highest = config->highest;
     float part = 1.0f;
 
-    if (!armed) {
-        stop(mixer);
-        return;
+    for (uint32_t i = 0u; i < config->geometry.motors; i++) {
+        const float turned = motor[i].yaw * yaw;
+        const float done = model_range_clamp(base + tilt[i], idle, highest);
+        const float fitting = yaw_part(turned, (turned < 0.0f) ? (done - idle) : (highest - done));
+
+        part = (fitting < part) ? fitting : part;
     }
-    mixer->limited = command_is_valid(command) ? 0u : KEEL_MIXER_COMMAND; /* MIX-005 */
+    if (part < 1.0f) {
+        *limited |= KEEL_MIXER_YAW;
+    }
+    for (uint32_t i = 0u; i < config->geometry.motors; i++) {
+        const float done = model_range_clamp(base + tilt[i], idle, highest);
+
+        output[i] = model_range_clamp(done + ((motor[i].yaw * yaw) * part), idle, highest);
+    }
+}
+
+/* MIX-004: the outputs of armed motors, and what gave way. */
+static void turn(keel_mixer_t *mixer, const keel_mixer_command_t *command)
+{
+    const keel_mixer_config_t *const config = &mixer->config;
+    const keel_mixer_motor_t *const motor = config->geometry.motor;
+    const uint32_t motors = config->geometry.motors;
+    const float span = config->highest - config->idle;
+    const bool valid = command_is_valid(command);
+    const keel_mixer_command_t wish = valid ? *command : command_of(command);
+    uint8_t limited = valid ? 0u : KEEL_MIXER_COMMAND; /* MIX-005 */
+    float tilt[KEEL_MIXER_MOTORS];
+    float least = 2.0f;
+    float greatest = -2.0f;
+    float base;
 
     /* MIX-006: roll and pitch, both scaled where they need more than the span. */
-    for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
-        if (i < motors) {
-            tilt[i] = (geometry->motor[i].roll * roll) + (geometry->motor[i].pitch * pitch);
-        }
+    for (uint32_t i = 0u; i < motors; i++) {
+        tilt[i] = (motor[i].roll * wish.roll) + (motor[i].pitch * wish.pitch);
+        least = (tilt[i] >= least) ? least : tilt[i];
+        greatest = (tilt[i] > greatest) ? tilt[i] : greatest;
     }
-    least = least_of(tilt, motors);
-    greatest = greatest_of(tilt, motors);
-    if (!((greatest - least) <= span)) {
+    if ((greatest - least) > span) {
         const float scale = span / (greatest - least);
 
-        mixer->limited |= KEEL_MIXER_TILT;
-        for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
-            if (i < motors) {
-                tilt[i] = tilt[i] * scale;
-            }
+        limited |= KEEL_MIXER_TILT;
+        for (uint32_t i = 0u; i < motors; i++) {
+            tilt[i] = tilt[i] * scale;
         }
         least = least * scale;
         greatest = greatest * scale;
     }
-
-    /* MIX-007: thrust, moved as far as roll and pitch need. */
-    base = idle + (thrust * span);
-    if (base < (idle - least)) {
-        base = idle - least;
-        mixer->limited |= KEEL_MIXER_RAISED;
+    base = base_of(config, wish.thrust, least, greatest, &limited);
+    /* MIX-008: yaw, all of it or as much as every motor can do. */
+    if (!all_fits(config, tilt, base, wish.yaw, mixer->output)) {
+        put_out(config, tilt, base, wish.yaw, &limited, mixer->output);
     }
-    if (base > (highest - greatest)) {
-        base = highest - greatest;
-        mixer->limited |= KEEL_MIXER_LOWERED;
-    }
+    mixer->limited = limited;
+}
 
-    /* MIX-008: yaw, as much of it as every motor can do. */
-    for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
-        if (i < motors) {
-            const float turn = geometry->motor[i].yaw * yaw;
-            const float done = base + tilt[i];
-            const float fits = yaw_part(turn, (turn < 0.0f) ? (done - idle) : (highest - done));
-
-            part = (fits < part) ? fits : part;
-        }
-    }
-    if (part < 1.0f) {
-        mixer->limited |= KEEL_MIXER_YAW;
-    }
-
-    /* MIX-004 */
-    for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
-        mixer->output[i] = 0.0f;
-        if (i < motors) {
-            mixer->output[i] =
-                model_range_clamp((base + tilt[i]) + (geometry->motor[i].yaw * (part * yaw)), idle,
-                                  highest);
-        }
+void model_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, bool armed)
+{
+    if (armed) {
+        turn(mixer, command);
+    } else {
+        stop(mixer);
     }
 }

@@ -165,116 +165,145 @@ keel_status_t keel_mixer_init(keel_mixer_t *mixer, const keel_mixer_config_t *co
     return status;
 }
 
-/* What the motors are to do, before yaw and the last clamp; and what gave way. */
-typedef struct mix {
-    float tilt[KEEL_MIXER_MOTORS]; /* for roll and pitch */
-    float yaw;                     /* as much of it as fits */
-    float base;                    /* for thrust */
-    uint8_t limited;
-} mix_t;
-
-/* A part of a command: not finite counts as 0, beyond its range as the end next to it. */
-/*@ requires \is_finite(lowest) && \is_finite(highest) && lowest <= 0 <= highest;
-  @ requires \valid(limited);
-  @ assigns *limited;
-  @ ensures MIX_005_part: \is_finite(\result) && lowest <= \result <= highest;
-  @ ensures MIX_005_told: *limited == (range_contains(part, lowest, highest)
-  @     ? \old(*limited) : (\old(*limited) | KEEL_MIXER_COMMAND));
+/*@ requires \valid_read(command);
+  @ assigns \nothing;
+  @ ensures \result <==> mixer_command(*command);
   @*/
-static float taken(float part, float lowest, float highest, uint8_t *limited)
+static bool is_command(const keel_mixer_command_t *command)
 {
-    if (keel_range_contains(part, lowest, highest)) {
-        return part;
-    }
-    *limited |= KEEL_MIXER_COMMAND;
+    return is_factor(command->roll) && is_factor(command->pitch) && is_factor(command->yaw) &&
+           keel_range_contains(command->thrust, 0.0f, 1.0f);
+}
+
+/* What stands for a part of a command: 0 for what is not finite, the end that is next to what is out
+ * of range. */
+/*@ requires \is_finite(lowest) && lowest <= 0;
+  @ assigns \nothing;
+  @ ensures MIX_005_part: range_contains(\result, lowest, 1);
+  @ ensures MIX_005_same: range_contains(part, lowest, 1) ==> \result == part;
+  @ ensures MIX_005_zero: !\is_finite(part) ==> \result == 0;
+  @*/
+static float tamed(float part, float lowest)
+{
     return keel_range_contains(part, -KEEL_RANGE_LARGEST, KEEL_RANGE_LARGEST)
-               ? keel_range_clamp(part, lowest, highest)
+               ? keel_range_clamp(part, lowest, 1.0f)
                : 0.0f;
 }
 
-/* What each motor adds for roll and pitch, before any limit. */
-/*@ requires \valid_read(geometry) && mixer_geometry(*geometry) && \valid(mix);
-  @ requires \separated(geometry, mix);
-  @ assigns mix->tilt[0 .. KEEL_MIXER_MOTORS - 1];
+/* What is done for a command that is out of range. */
+/*@ requires \valid_read(command);
+  @ assigns \nothing;
+  @ ensures MIX_005_command: mixer_command(\result);
   @*/
-static void tilt(const keel_mixer_geometry_t *geometry, float roll, float pitch, mix_t *mix)
+static keel_mixer_command_t tame(const keel_mixer_command_t *command)
 {
-    /*@ loop invariant 0 <= i <= geometry->motors;
-      @ loop assigns i, mix->tilt[0 .. KEEL_MIXER_MOTORS - 1];
-      @ loop variant geometry->motors - i;
-      @*/
-    for (uint32_t i = 0u; i < geometry->motors; i++) {
-        mix->tilt[i] = (geometry->motor[i].roll * roll) + (geometry->motor[i].pitch * pitch);
-    }
+    const keel_mixer_command_t within = {
+        .roll = tamed(command->roll, -1.0f),
+        .pitch = tamed(command->pitch, -1.0f),
+        .yaw = tamed(command->yaw, -1.0f),
+        .thrust = tamed(command->thrust, 0.0f),
+    };
+
+    return within;
 }
 
-/* The least and the greatest of some values. */
+/* The least and the greatest of what motors do for roll and pitch. */
 typedef struct ends {
     float least;
     float greatest;
 } ends_t;
 
-/*@ requires \valid_read(value + (0 .. count - 1)) && 1 <= count <= KEEL_MIXER_MOTORS;
-  @ assigns \nothing;
+/* What each motor is to do for roll and pitch, before any limit. */
+/*@ requires \valid_read(geometry) && mixer_geometry(*geometry);
+  @ requires \valid(tilt + (0 .. KEEL_MIXER_MOTORS - 1)) && \separated(geometry, tilt + (..));
+  @ assigns tilt[0 .. KEEL_MIXER_MOTORS - 1];
   @*/
-static ends_t ends_of(const float value[], uint32_t count)
+static ends_t set_tilt(const keel_mixer_geometry_t *geometry, const keel_mixer_command_t *command,
+                       float tilt[])
 {
-    ends_t ends = {value[0], value[0]};
+    ends_t ends = {2.0f, -2.0f}; /* as factors and torques are from -1 to 1 */
 
-    /*@ loop invariant 1 <= i <= count;
-      @ loop assigns i, ends;
-      @ loop variant count - i;
+    /*@ loop invariant 0 <= i <= geometry->motors;
+      @ loop assigns i, ends, tilt[0 .. KEEL_MIXER_MOTORS - 1];
+      @ loop variant geometry->motors - i;
       @*/
-    for (uint32_t i = 1u; i < count; i++) {
-        ends.least = (value[i] < ends.least) ? value[i] : ends.least;
-        ends.greatest = (value[i] > ends.greatest) ? value[i] : ends.greatest;
+    for (uint32_t i = 0u; i < geometry->motors; i++) {
+        const keel_mixer_motor_t *const motor = &geometry->motor[i];
+        const float both = (motor->roll * command->roll) + (motor->pitch * command->pitch);
+
+        ends.least = (both >= ends.least) ? ends.least : both;
+        ends.greatest = (both > ends.greatest) ? both : ends.greatest;
+        tilt[i] = both;
     }
     return ends;
 }
 
-/* Scales roll and pitch by one factor where they need more than the span; what they need then. */
-/*@ requires \valid(mix) && 1 <= motors <= KEEL_MIXER_MOTORS;
-  @ assigns mix->tilt[0 .. KEEL_MIXER_MOTORS - 1], mix->limited;
+/* Scales roll and pitch by one factor. */
+/*@ requires motors <= KEEL_MIXER_MOTORS;
+  @ requires \valid(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
+  @ assigns tilt[0 .. KEEL_MIXER_MOTORS - 1];
   @*/
-static ends_t fit_tilt(float span, uint32_t motors, mix_t *mix)
+static ends_t scale_tilt(ends_t ends, float scale, uint32_t motors, float tilt[])
 {
-    const ends_t ends = ends_of(mix->tilt, motors);
-    const float need = ends.greatest - ends.least;
-    float scale;
+    const ends_t scaled = {ends.least * scale, ends.greatest * scale};
 
-    if (need <= span) {
-        return ends;
-    }
-    scale = span / need;
-    mix->limited |= KEEL_MIXER_TILT;
     /*@ loop invariant 0 <= i <= motors;
-      @ loop assigns i, mix->tilt[0 .. KEEL_MIXER_MOTORS - 1];
+      @ loop assigns i, tilt[0 .. KEEL_MIXER_MOTORS - 1];
       @ loop variant motors - i;
       @*/
     for (uint32_t i = 0u; i < motors; i++) {
-        mix->tilt[i] = mix->tilt[i] * scale;
+        tilt[i] = tilt[i] * scale;
     }
-    return (ends_t){ends.least * scale, ends.greatest * scale};
+    return scaled;
 }
 
-/* Thrust as asked for, or as near to it as roll and pitch allow. */
-/*@ requires \valid_read(config) && \valid(mix) && \separated(config, mix);
-  @ assigns mix->base, mix->limited;
+/* What all motors do alike: thrust as asked for, or as near to it as roll and pitch allow. */
+/*@ requires \valid_read(config) && mixer_range(*config) && \valid(limited);
+  @ requires \separated(config, limited);
+  @ assigns *limited;
   @*/
-static void fit_thrust(const keel_mixer_config_t *config, float thrust, ends_t tilt, mix_t *mix)
+static float fit_thrust(const keel_mixer_config_t *config, float thrust, ends_t tilt,
+                        uint8_t *limited)
 {
+    const float asked = config->idle + (thrust * (config->highest - config->idle));
     const float lowest = config->idle - tilt.least;
     const float highest = config->highest - tilt.greatest;
 
-    mix->base = config->idle + (thrust * (config->highest - config->idle));
-    if (mix->base < lowest) {
-        mix->base = lowest;
-        mix->limited |= KEEL_MIXER_RAISED;
+    if (asked < lowest) {
+        *limited |= KEEL_MIXER_RAISED;
+        return lowest;
     }
-    if (mix->base > highest) {
-        mix->base = highest;
-        mix->limited |= KEEL_MIXER_LOWERED;
+    if (asked > highest) {
+        /* Without tilt it is full thrust, rounded upwards: nothing gives way. */
+        *limited |= (tilt.greatest > 0.0f) ? KEEL_MIXER_LOWERED : 0u;
+        return highest;
     }
+    return asked;
+}
+
+/* Puts out all that is asked for, unless some motor cannot do it. */
+/*@ requires \valid(mixer) && mixer_valid(*mixer);
+  @ requires \valid_read(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
+  @ requires \separated(mixer, tilt + (..));
+  @ assigns mixer->output[0 .. KEEL_MIXER_MOTORS - 1];
+  @*/
+static bool fits(keel_mixer_t *mixer, const float tilt[], float base, float yaw)
+{
+    const keel_mixer_config_t *const config = &mixer->config;
+
+    /*@ loop invariant 0 <= i <= config->geometry.motors;
+      @ loop assigns i, mixer->output[0 .. KEEL_MIXER_MOTORS - 1];
+      @ loop variant config->geometry.motors - i;
+      @*/
+    for (uint32_t i = 0u; i < config->geometry.motors; i++) {
+        const float output = (base + tilt[i]) + (config->geometry.motor[i].yaw * yaw);
+
+        if (!keel_range_contains(output, config->idle, config->highest)) {
+            return false;
+        }
+        mixer->output[i] = output;
+    }
+    return true;
 }
 
 /* The part of a motor's yaw that fits between what it does already and the end of its range. */
@@ -283,79 +312,65 @@ static float fitting(float turn, float room)
 {
     const float need = (turn < 0.0f) ? -turn : turn;
 
-    if (need <= room) {
-        return 1.0f;
-    }
-    return (room > 0.0f) ? (room / need) : 0.0f;
+    return (need > room) ? (room / need) : 1.0f;
 }
 
-/* As much yaw as fits for every motor. */
-/*@ requires \valid_read(config) && mixer_geometry(config->geometry);
-  @ requires \valid(mix) && \separated(config, mix);
-  @ assigns mix->yaw, mix->limited;
+/* Puts out as much yaw as fits for every motor. Sums that should lie at the ends of the range are
+ * rounded beyond them: the clamps take care of just that. */
+/*@ requires \valid(mixer) && mixer_valid(*mixer);
+  @ requires \valid(tilt + (0 .. KEEL_MIXER_MOTORS - 1)) && \valid(limited);
+  @ requires \separated(mixer, tilt + (..), limited);
+  @ assigns mixer->output[0 .. KEEL_MIXER_MOTORS - 1], tilt[0 .. KEEL_MIXER_MOTORS - 1], *limited;
   @*/
-static void fit_yaw(const keel_mixer_config_t *config, float yaw, mix_t *mix)
+static void fit_yaw(keel_mixer_t *mixer, float tilt[], float base, float yaw, uint8_t *limited)
 {
+    const keel_mixer_config_t *const config = &mixer->config;
     float part = 1.0f;
 
-    /*@ loop invariant 0 <= i <= config->geometry.motors;
-      @ loop assigns i, part;
-      @ loop variant config->geometry.motors - i;
-      @*/
     for (uint32_t i = 0u; i < config->geometry.motors; i++) {
         const float turn = config->geometry.motor[i].yaw * yaw;
-        const float done = mix->base + mix->tilt[i];
+        const float done = keel_range_clamp(base + tilt[i], config->idle, config->highest);
         const float room = (turn < 0.0f) ? (done - config->idle) : (config->highest - done);
-        const float fits = fitting(turn, room);
+        const float share = fitting(turn, room);
 
-        part = (fits < part) ? fits : part;
+        part = (share < part) ? share : part;
     }
     if (part < 1.0f) {
-        mix->limited |= KEEL_MIXER_YAW;
+        *limited |= KEEL_MIXER_YAW;
     }
-    mix->yaw = part * yaw;
+    for (uint32_t i = 0u; i < config->geometry.motors; i++) {
+        const float done = keel_range_clamp(base + tilt[i], config->idle, config->highest);
+        const float output = done + ((config->geometry.motor[i].yaw * yaw) * part);
+
+        mixer->output[i] = keel_range_clamp(output, config->idle, config->highest);
+    }
 }
 
 /*@ requires \valid(mixer) && \valid_read(command) && \separated(mixer, command);
   @ requires mixer_valid(*mixer);
   @ assigns mixer->output[0 .. KEEL_MIXER_MOTORS - 1], mixer->limited;
   @ ensures mixer_turning(*mixer);
-  @ ensures \forall integer i; mixer->config.geometry.motors <= i < KEEL_MIXER_MOTORS ==>
-  @     \is_finite(mixer->output[i]) && mixer->output[i] == 0;
   @*/
 static void turn(keel_mixer_t *mixer, const keel_mixer_command_t *command)
 {
     const keel_mixer_config_t *const config = &mixer->config;
-    const keel_mixer_geometry_t *const geometry = &config->geometry;
-    mix_t mix = {.limited = 0u};
-    const float roll = taken(command->roll, -1.0f, 1.0f, &mix.limited);
-    const float pitch = taken(command->pitch, -1.0f, 1.0f, &mix.limited);
-    const float yaw = taken(command->yaw, -1.0f, 1.0f, &mix.limited);
-    const float thrust = taken(command->thrust, 0.0f, 1.0f, &mix.limited);
-    ends_t ends;
+    const float span = config->highest - config->idle;
+    const bool valid = is_command(command);
+    const keel_mixer_command_t wish = valid ? *command : tame(command);
+    uint8_t limited = valid ? 0u : KEEL_MIXER_COMMAND;
+    float tilt[KEEL_MIXER_MOTORS];
+    ends_t ends = set_tilt(&config->geometry, &wish, tilt);
+    float base;
 
-    tilt(geometry, roll, pitch, &mix);
-    ends = fit_tilt(config->highest - config->idle, geometry->motors, &mix);
-    fit_thrust(config, thrust, ends, &mix);
-    fit_yaw(config, yaw, &mix);
-    /*@ loop invariant 0 <= i <= KEEL_MIXER_MOTORS;
-      @ loop invariant \forall integer j; 0 <= j < i && j < geometry->motors ==>
-      @     \is_finite(mixer->output[j]) && config->idle <= mixer->output[j] <= config->highest;
-      @ loop invariant \forall integer j; geometry->motors <= j < i ==>
-      @     \is_finite(mixer->output[j]) && mixer->output[j] == 0;
-      @ loop assigns i, mixer->output[0 .. KEEL_MIXER_MOTORS - 1];
-      @ loop variant KEEL_MIXER_MOTORS - i;
-      @*/
-    for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
-        float output = 0.0f;
-
-        if (i < geometry->motors) {
-            output = (mix.base + mix.tilt[i]) + (geometry->motor[i].yaw * mix.yaw);
-            output = keel_range_clamp(output, config->idle, config->highest);
-        }
-        mixer->output[i] = output; /* once: whoever interrupts sees no output in between */
+    if ((ends.greatest - ends.least) > span) {
+        limited |= KEEL_MIXER_TILT;
+        ends = scale_tilt(ends, span / (ends.greatest - ends.least), config->geometry.motors, tilt);
     }
-    mixer->limited = mix.limited;
+    base = fit_thrust(config, wish.thrust, ends, &limited);
+    if (!fits(mixer, tilt, base, wish.yaw)) {
+        fit_yaw(mixer, tilt, base, wish.yaw, &limited);
+    }
+    mixer->limited = limited;
 }
 
 void keel_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, bool armed)

@@ -42,6 +42,9 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
                   ("steps", "imu_worst")),
     "filter": ("filter step", ("filter",), 30, ("steps", "filter")),
     "pid": ("PID step, its filter included", ("pid",), 110, ("steps", "pid")),
+    "mixer": ("mixer, 4 motors, all fits", ("mixer",), 200, ("steps", "mixer")),
+    "mixer_worst": ("mixer, 4 motors, all gives way", ("mixer_worst",), None,
+                    ("steps", "mixer_worst")),
 }  # fmt: skip
 
 
