@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 9 --external-sat-solver cadical
 // sources: src/flight/mixer.c
-// covers: keel_mixer_step turn stop taken tilt ends_of fit_tilt fit_thrust fit_yaw fitting
+// covers: keel_mixer_step turn is_command is_factor tame tamed set_tilt scale_tilt fit_thrust fits
+// covers: fit_yaw fitting
+// covers: stop
 //
-// Every valid mixer, every bit pattern of the command: outputs are 0 or in range, and no operation
-// overflows or gives a NaN.
+// Any valid mixer, every bit pattern of the command: outputs are 0 or in range, the mixer stays
+// valid, and no operation overflows or gives a NaN.
 #include "mixer_proof.h"
 
 void keel_mixer_step__valid_harness(void)
@@ -18,6 +20,7 @@ void keel_mixer_step__valid_harness(void)
 
     keel_mixer_step(&mixer, &command, armed);
 
+    __CPROVER_assert(mixer_valid_here(&mixer), "MIX_004_valid: it stays valid");
     if (armed && (i < mixer.config.geometry.motors)) {
         __CPROVER_assert(between(mixer.output[i], mixer.config.idle, mixer.config.highest),
                          "MIX_004_turning: from idle to highest");

@@ -23,10 +23,9 @@ static bool between(float value, float least, float greatest)
     return (least <= value) && (value <= greatest);
 }
 
-/* mixer_valid */
-static bool mixer_valid_here(const keel_mixer_t *mixer)
+/* mixer_geometry, mixer_range */
+static bool config_valid_here(const keel_mixer_config_t *config)
 {
-    const keel_mixer_config_t *const config = &mixer->config;
     bool valid = (config->geometry.motors >= KEEL_MIXER_MOTORS_MIN) &&
                  (config->geometry.motors <= KEEL_MIXER_MOTORS) &&
                  between(config->idle, KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX) &&
@@ -38,6 +37,17 @@ static bool mixer_valid_here(const keel_mixer_t *mixer)
         valid = valid && ((i >= config->geometry.motors) ||
                           (between(motor->roll, -1.0f, 1.0f) && between(motor->pitch, -1.0f, 1.0f) &&
                            between(motor->yaw, -1.0f, 1.0f)));
+    }
+    return valid;
+}
+
+/* mixer_valid */
+static bool mixer_valid_here(const keel_mixer_t *mixer)
+{
+    bool valid = config_valid_here(&mixer->config);
+
+    for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
+        valid = valid && ((i < mixer->config.geometry.motors) || (mixer->output[i] == 0.0f));
     }
     return valid;
 }

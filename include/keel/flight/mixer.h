@@ -11,7 +11,7 @@
  *
  *     t_i = roll_i roll + pitch_i pitch, all scaled by span / (max t - min t) where that is below 1
  *     base = idle + thrust span, moved into [idle - min t, highest - max t]
- *     output_i = base + t_i + k yaw_i yaw, with the largest k from 0 to 1 that leaves all outputs
+ *     output_i = base + t_i + k yaw_i yaw, with the largest k from 0 to 1 for which all outputs are
  *                in [idle, highest]
  *
  * Flags tell what gave way, so that the integrators above stop for just these axes. Whatever the
@@ -112,7 +112,13 @@ typedef struct keel_mixer {
   @
   @ // What init establishes and every step keeps.
   @ predicate mixer_valid(keel_mixer_t mixer) =
-  @     mixer_geometry(mixer.config.geometry) && mixer_range(mixer.config);
+  @     mixer_geometry(mixer.config.geometry) && mixer_range(mixer.config) &&
+  @     \forall integer i; mixer.config.geometry.motors <= i < KEEL_MIXER_MOTORS ==>
+  @         \is_finite(mixer.output[i]) && mixer.output[i] == 0;
+  @
+  @ predicate mixer_command(keel_mixer_command_t command) =
+  @     mixer_factor(command.roll) && mixer_factor(command.pitch) && mixer_factor(command.yaw) &&
+  @     \is_finite(command.thrust) && 0 <= command.thrust <= 1;
   @
   @ // Disarmed: nothing turns. The comparison excludes NaN.
   @ predicate mixer_stopped(keel_mixer_t mixer) =
@@ -170,9 +176,7 @@ keel_status_t keel_mixer_init(keel_mixer_t *mixer, const keel_mixer_config_t *co
   @ assigns mixer->output[0 .. KEEL_MIXER_MOTORS - 1], mixer->limited;
   @ ensures MIX_003_stopped: !armed ==> mixer_stopped(*mixer) && mixer->limited == 0;
   @ ensures MIX_004_turning: armed ==> mixer_turning(*mixer);
-  @ ensures MIX_004_absent: \forall integer i;
-  @     mixer->config.geometry.motors <= i < KEEL_MIXER_MOTORS ==>
-  @         \is_finite(mixer->output[i]) && mixer->output[i] == 0;
+  @ ensures MIX_004_valid: mixer_valid(*mixer);
   @*/
 void keel_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, bool armed);
 
