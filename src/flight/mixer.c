@@ -215,7 +215,7 @@ typedef struct ends {
 
 /* What each motor is to do for roll and pitch, before any limit. */
 /*@ requires \valid_read(geometry) && mixer_geometry(*geometry);
-  @ requires \valid(tilt + (0 .. KEEL_MIXER_MOTORS - 1)) && \separated(geometry, tilt + (..));
+  @ requires \valid(tilt + (0 .. KEEL_MIXER_MOTORS - 1)) && \separated(geometry, tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ assigns tilt[0 .. KEEL_MIXER_MOTORS - 1];
   @*/
 static ends_t set_tilt(const keel_mixer_geometry_t *geometry, const keel_mixer_command_t *command,
@@ -284,15 +284,18 @@ static float fit_thrust(const keel_mixer_config_t *config, float thrust, ends_t 
 /* Puts out all that is asked for, unless some motor cannot do it. */
 /*@ requires \valid(mixer) && mixer_valid(*mixer);
   @ requires \valid_read(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
-  @ requires \separated(mixer, tilt + (..));
-  @ assigns mixer->output[0 .. KEEL_MIXER_MOTORS - 1];
+  @ requires \separated(mixer, tilt + (0 .. KEEL_MIXER_MOTORS - 1));
+  @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1];
+  @ ensures \result ==> mixer_turning(*mixer);
   @*/
 static bool fits(keel_mixer_t *mixer, const float tilt[], float base, float yaw)
 {
     const keel_mixer_config_t *const config = &mixer->config;
 
     /*@ loop invariant 0 <= i <= config->geometry.motors;
-      @ loop assigns i, mixer->output[0 .. KEEL_MIXER_MOTORS - 1];
+      @ loop invariant \forall integer j; 0 <= j < i ==>
+      @     range_contains(mixer->output[j], config->idle, config->highest);
+      @ loop assigns i, mixer->output[0 .. mixer->config.geometry.motors - 1];
       @ loop variant config->geometry.motors - i;
       @*/
     for (uint32_t i = 0u; i < config->geometry.motors; i++) {
@@ -318,15 +321,20 @@ static float fitting(float turn, float room)
 /* Puts out as much yaw as fits for every motor. Sums that should lie at the ends of the range are
  * rounded beyond them: the clamps take care of just that. */
 /*@ requires \valid(mixer) && mixer_valid(*mixer);
-  @ requires \valid(tilt + (0 .. KEEL_MIXER_MOTORS - 1)) && \valid(limited);
-  @ requires \separated(mixer, tilt + (..), limited);
-  @ assigns mixer->output[0 .. KEEL_MIXER_MOTORS - 1], tilt[0 .. KEEL_MIXER_MOTORS - 1], *limited;
+  @ requires \valid_read(tilt + (0 .. KEEL_MIXER_MOTORS - 1)) && \valid(limited);
+  @ requires \separated(mixer, tilt + (0 .. KEEL_MIXER_MOTORS - 1), limited);
+  @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1], *limited;
+  @ ensures mixer_turning(*mixer);
   @*/
-static void fit_yaw(keel_mixer_t *mixer, float tilt[], float base, float yaw, uint8_t *limited)
+static void fit_yaw(keel_mixer_t *mixer, const float tilt[], float base, float yaw, uint8_t *limited)
 {
     const keel_mixer_config_t *const config = &mixer->config;
     float part = 1.0f;
 
+    /*@ loop invariant 0 <= i <= config->geometry.motors;
+      @ loop assigns i, part;
+      @ loop variant config->geometry.motors - i;
+      @*/
     for (uint32_t i = 0u; i < config->geometry.motors; i++) {
         const float turn = config->geometry.motor[i].yaw * yaw;
         const float done = keel_range_clamp(base + tilt[i], config->idle, config->highest);
@@ -338,6 +346,12 @@ static void fit_yaw(keel_mixer_t *mixer, float tilt[], float base, float yaw, ui
     if (part < 1.0f) {
         *limited |= KEEL_MIXER_YAW;
     }
+    /*@ loop invariant 0 <= i <= config->geometry.motors;
+      @ loop invariant \forall integer j; 0 <= j < i ==>
+      @     range_contains(mixer->output[j], config->idle, config->highest);
+      @ loop assigns i, mixer->output[0 .. mixer->config.geometry.motors - 1];
+      @ loop variant config->geometry.motors - i;
+      @*/
     for (uint32_t i = 0u; i < config->geometry.motors; i++) {
         const float done = keel_range_clamp(base + tilt[i], config->idle, config->highest);
         const float output = done + ((config->geometry.motor[i].yaw * yaw) * part);
@@ -348,7 +362,7 @@ static void fit_yaw(keel_mixer_t *mixer, float tilt[], float base, float yaw, ui
 
 /*@ requires \valid(mixer) && \valid_read(command) && \separated(mixer, command);
   @ requires mixer_valid(*mixer);
-  @ assigns mixer->output[0 .. KEEL_MIXER_MOTORS - 1], mixer->limited;
+  @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1], mixer->limited;
   @ ensures mixer_turning(*mixer);
   @*/
 static void turn(keel_mixer_t *mixer, const keel_mixer_command_t *command)
