@@ -179,9 +179,9 @@ static bool is_command(const keel_mixer_command_t *command)
  * of range. */
 /*@ requires \is_finite(lowest) && lowest <= 0;
   @ assigns \nothing;
-  @ ensures MIX_005_part: range_contains(\result, lowest, 1);
-  @ ensures MIX_005_same: range_contains(part, lowest, 1) ==> \result == part;
-  @ ensures MIX_005_zero: !\is_finite(part) ==> \result == 0;
+  @ ensures tamed_part: range_contains(\result, lowest, 1);
+  @ ensures tamed_same: range_contains(part, lowest, 1) ==> \result == part;
+  @ ensures tamed_zero: !\is_finite(part) ==> \result == 0;
   @*/
 static float tamed(float part, float lowest)
 {
@@ -193,7 +193,7 @@ static float tamed(float part, float lowest)
 /* What is done for a command that is out of range. */
 /*@ requires \valid_read(command);
   @ assigns \nothing;
-  @ ensures MIX_005_command: mixer_command(\result);
+  @ ensures tame_command: mixer_command(\result);
   @*/
 static keel_mixer_command_t tame(const keel_mixer_command_t *command)
 {

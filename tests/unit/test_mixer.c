@@ -111,7 +111,7 @@ static void expect_table(const keel_mixer_geometry_t *geometry, uint32_t motors,
     }
 }
 
-static void MIX_009_tables_are_those_of_their_arms(void)
+static void MIX_001_tables_are_those_of_their_arms(void)
 {
     const int turns[] = {1, -1, 1, -1, 1, -1, 1, -1};
 
@@ -127,7 +127,7 @@ static void MIX_009_tables_are_those_of_their_arms(void)
 }
 
 /* What is asked of one axis reaches no other, and does not change thrust. */
-static void MIX_009_axes_of_tables_are_independent(void)
+static void MIX_001_axes_of_tables_are_independent(void)
 {
     const keel_mixer_geometry_t *const tables[] = {
         &keel_mixer_quad_x, &keel_mixer_quad_plus, &keel_mixer_hexa_x, &keel_mixer_hexa_plus,
@@ -466,8 +466,8 @@ static void MIX_004_outputs_are_those_of_the_equations(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(MIX_009_tables_are_those_of_their_arms);
-    RUN_TEST(MIX_009_axes_of_tables_are_independent);
+    RUN_TEST(MIX_001_tables_are_those_of_their_arms);
+    RUN_TEST(MIX_001_axes_of_tables_are_independent);
     RUN_TEST(MIX_001_bad_numbers_of_motors_are_refused);
     RUN_TEST(MIX_001_bad_factors_are_refused);
     RUN_TEST(MIX_001_axes_without_authority_are_refused);

@@ -177,6 +177,8 @@ keel_status_t keel_mixer_init(keel_mixer_t *mixer, const keel_mixer_config_t *co
   @ ensures MIX_003_stopped: !armed ==> mixer_stopped(*mixer) && mixer->limited == 0;
   @ ensures MIX_004_turning: armed ==> mixer_turning(*mixer);
   @ ensures MIX_004_valid: mixer_valid(*mixer);
+  @ ensures MIX_005_told: armed ==>
+  @     ((mixer->limited & KEEL_MIXER_COMMAND) == 0 <==> mixer_command(*command));
   @*/
 void keel_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, bool armed);
 
