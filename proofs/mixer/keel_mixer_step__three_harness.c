@@ -2,14 +2,14 @@
 // cbmc: --unwind 9 --z3 --fpa
 // checks: assertions
 // sources: src/flight/mixer.c specs/model/mixer.c specs/model/range.c
-// covers: keel_mixer_step turn is_command is_factor tame tamed set_tilt scale_tilt fit_thrust fits
-// covers: fit_yaw fitting stop
+// covers: keel_mixer_step turn is_command is_factor tame tamed set_tilt fit_tilt fit_thrust fits
+// covers: with_yaw with_part without_yaw part_of_yaw fitting_part put_out stop
 // covers: model_mixer_step
 //
-// An armed mixer of three motors, any bit pattern of everything else: the same as the model's step, bit
-// for bit. Each number of motors has a harness of its own: with one number both sides are the same
-// terms, and z3 sees at once that they are equal. Disarmed: keel_mixer_step_harness; overflow and
-// NaN: keel_mixer_step__valid_harness.
+// An armed mixer of three motors, any bit pattern of everything else: the same as the model's step,
+// bit for bit. Each number of motors has a harness of its own: with one number both sides are the same
+// terms, and z3 sees at once that they are equal. Disarmed: keel_mixer_step_harness; all
+// other checks: keel_mixer_step__points_harness.
 #include "mixer_proof.h"
 
 void keel_mixer_step__three_harness(void)

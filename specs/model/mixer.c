@@ -100,7 +100,7 @@ static keel_mixer_command_t command_of(const keel_mixer_command_t *command)
 
 /* MIX-007: thrust, moved as far as roll and pitch need. */
 static float base_of(const keel_mixer_config_t *config, float thrust, float least, float greatest,
-                     uint8_t *limited)
+                     uint32_t *limited)
 {
     const float asked = config->idle + (thrust * (config->highest - config->idle));
 
@@ -140,7 +140,7 @@ static bool all_fits(const keel_mixer_config_t *config, const float tilt[], floa
 
 /* As much yaw as every motor can do. */
 static void put_out(const keel_mixer_config_t *config, const float tilt[], float base, float yaw,
-                    uint8_t *limited, float output[])
+                    uint32_t *limited, float output[])
 {
     const keel_mixer_motor_t *const motor = config->geometry.motor;
     const float idle = config->idle;
@@ -154,9 +154,7 @@ static void put_out(const keel_mixer_config_t *config, const float tilt[], float
 
         part = (fitting < part) ? fitting : part;
     }
-    if (part < 1.0f) {
-        *limited |= KEEL_MIXER_YAW;
-    }
+    *limited |= (part < 1.0f) ? KEEL_MIXER_YAW : 0u;
     for (uint32_t i = 0u; i < config->geometry.motors; i++) {
         const float done = model_range_clamp(base + tilt[i], idle, highest);
 
@@ -173,7 +171,7 @@ static void turn(keel_mixer_t *mixer, const keel_mixer_command_t *command)
     const float span = config->highest - config->idle;
     const bool valid = command_is_valid(command);
     const keel_mixer_command_t wish = valid ? *command : command_of(command);
-    uint8_t limited = valid ? 0u : KEEL_MIXER_COMMAND; /* MIX-005 */
+    uint32_t limited = valid ? 0u : KEEL_MIXER_COMMAND; /* MIX-005 */
     float tilt[KEEL_MIXER_MOTORS];
     float least = 2.0f;
     float greatest = -2.0f;

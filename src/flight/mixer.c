@@ -238,23 +238,34 @@ static ends_t set_tilt(const keel_mixer_geometry_t *geometry, const keel_mixer_c
     return ends;
 }
 
-/* Scales roll and pitch by one factor. */
-/*@ requires motors <= KEEL_MIXER_MOTORS;
-  @ requires \valid(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
-  @ assigns tilt[0 .. KEEL_MIXER_MOTORS - 1];
+/* Scales roll and pitch by one factor where they need more than the span. */
+/*@ requires \valid_read(config) && config->geometry.motors <= KEEL_MIXER_MOTORS;
+  @ requires \valid(tilt + (0 .. KEEL_MIXER_MOTORS - 1)) && \valid(limited);
+  @ requires \separated(config, tilt + (0 .. KEEL_MIXER_MOTORS - 1), limited);
+  @ assigns tilt[0 .. KEEL_MIXER_MOTORS - 1], *limited;
   @*/
-static ends_t scale_tilt(ends_t ends, float scale, uint32_t motors, float tilt[])
+static ends_t fit_tilt(const keel_mixer_config_t *config, ends_t ends, float tilt[],
+                       uint32_t *limited)
 {
-    const ends_t scaled = {ends.least * scale, ends.greatest * scale};
+    const float span = config->highest - config->idle;
+    const float need = ends.greatest - ends.least;
+    ends_t fitting = ends;
 
-    /*@ loop invariant 0 <= i <= motors;
-      @ loop assigns i, tilt[0 .. KEEL_MIXER_MOTORS - 1];
-      @ loop variant motors - i;
-      @*/
-    for (uint32_t i = 0u; i < motors; i++) {
-        tilt[i] = tilt[i] * scale;
+    if (need > span) {
+        const float scale = span / need;
+
+        *limited |= KEEL_MIXER_TILT;
+        /*@ loop invariant 0 <= i <= config->geometry.motors;
+          @ loop assigns i, tilt[0 .. KEEL_MIXER_MOTORS - 1];
+          @ loop variant config->geometry.motors - i;
+          @*/
+        for (uint32_t i = 0u; i < config->geometry.motors; i++) {
+            tilt[i] = tilt[i] * scale;
+        }
+        fitting.least = ends.least * scale;
+        fitting.greatest = ends.greatest * scale;
     }
-    return scaled;
+    return fitting;
 }
 
 /* What all motors do alike: thrust as asked for, or as near to it as roll and pitch allow. */
@@ -263,7 +274,7 @@ static ends_t scale_tilt(ends_t ends, float scale, uint32_t motors, float tilt[]
   @ assigns *limited;
   @*/
 static float fit_thrust(const keel_mixer_config_t *config, float thrust, ends_t tilt,
-                        uint8_t *limited)
+                        uint32_t *limited)
 {
     const float asked = config->idle + (thrust * (config->highest - config->idle));
     const float lowest = config->idle - tilt.least;
@@ -279,6 +290,27 @@ static float fit_thrust(const keel_mixer_config_t *config, float thrust, ends_t 
         return highest;
     }
     return asked;
+}
+
+/* The output of a motor whose yaw comes on top of all else. */
+/*@ assigns \nothing; */
+static float with_yaw(float done, float factor, float yaw)
+{
+    return done + (factor * yaw);
+}
+
+/* That for a part of the yaw. */
+/*@ assigns \nothing; */
+static float with_part(float done, float factor, float yaw, float part)
+{
+    return done + ((factor * yaw) * part);
+}
+
+/* What a motor does but for yaw. */
+/*@ assigns \nothing; */
+static float without_yaw(float base, float tilt)
+{
+    return base + tilt;
 }
 
 /* Puts out all that is asked for, unless some motor cannot do it. */
@@ -299,7 +331,8 @@ static bool fits(keel_mixer_t *mixer, const float tilt[], float base, float yaw)
       @ loop variant config->geometry.motors - i;
       @*/
     for (uint32_t i = 0u; i < config->geometry.motors; i++) {
-        const float output = (base + tilt[i]) + (config->geometry.motor[i].yaw * yaw);
+        const float done = without_yaw(base, tilt[i]);
+        const float output = with_yaw(done, config->geometry.motor[i].yaw, yaw);
 
         if (!keel_range_contains(output, config->idle, config->highest)) {
             return false;
@@ -311,24 +344,21 @@ static bool fits(keel_mixer_t *mixer, const float tilt[], float base, float yaw)
 
 /* The part of a motor's yaw that fits between what it does already and the end of its range. */
 /*@ assigns \nothing; */
-static float fitting(float turn, float room)
+static float fitting_part(float turn, float room)
 {
     const float need = (turn < 0.0f) ? -turn : turn;
 
     return (need > room) ? (room / need) : 1.0f;
 }
 
-/* Puts out as much yaw as fits for every motor. Sums that should lie at the ends of the range are
- * rounded beyond them: the clamps take care of just that. */
-/*@ requires \valid(mixer) && mixer_valid(*mixer);
-  @ requires \valid_read(tilt + (0 .. KEEL_MIXER_MOTORS - 1)) && \valid(limited);
-  @ requires \separated(mixer, tilt + (0 .. KEEL_MIXER_MOTORS - 1), limited);
-  @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1], *limited;
-  @ ensures mixer_turning(*mixer);
+/* The part of the yaw that fits for every motor. */
+/*@ requires \valid_read(config) && mixer_geometry(config->geometry) && mixer_range(*config);
+  @ requires \valid_read(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
+  @ assigns \nothing;
   @*/
-static void fit_yaw(keel_mixer_t *mixer, const float tilt[], float base, float yaw, uint8_t *limited)
+static float part_of_yaw(const keel_mixer_config_t *config, const float tilt[], float base,
+                         float yaw)
 {
-    const keel_mixer_config_t *const config = &mixer->config;
     float part = 1.0f;
 
     /*@ loop invariant 0 <= i <= config->geometry.motors;
@@ -339,13 +369,25 @@ static void fit_yaw(keel_mixer_t *mixer, const float tilt[], float base, float y
         const float turn = config->geometry.motor[i].yaw * yaw;
         const float done = keel_range_clamp(base + tilt[i], config->idle, config->highest);
         const float room = (turn < 0.0f) ? (done - config->idle) : (config->highest - done);
-        const float share = fitting(turn, room);
+        const float share = fitting_part(turn, room);
 
         part = (share < part) ? share : part;
     }
-    if (part < 1.0f) {
-        *limited |= KEEL_MIXER_YAW;
-    }
+    return part;
+}
+
+/* Puts out a part of the yaw. Sums that should lie at the ends of the range are rounded beyond them:
+ * the clamps take care of just that. */
+/*@ requires \valid(mixer) && mixer_valid(*mixer);
+  @ requires \valid_read(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
+  @ requires \separated(mixer, tilt + (0 .. KEEL_MIXER_MOTORS - 1));
+  @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1];
+  @ ensures mixer_turning(*mixer);
+  @*/
+static void put_out(keel_mixer_t *mixer, const float tilt[], float base, float yaw, float part)
+{
+    const keel_mixer_config_t *const config = &mixer->config;
+
     /*@ loop invariant 0 <= i <= config->geometry.motors;
       @ loop invariant \forall integer j; 0 <= j < i ==>
       @     range_contains(mixer->output[j], config->idle, config->highest);
@@ -353,8 +395,9 @@ static void fit_yaw(keel_mixer_t *mixer, const float tilt[], float base, float y
       @ loop variant config->geometry.motors - i;
       @*/
     for (uint32_t i = 0u; i < config->geometry.motors; i++) {
-        const float done = keel_range_clamp(base + tilt[i], config->idle, config->highest);
-        const float output = done + ((config->geometry.motor[i].yaw * yaw) * part);
+        const float done =
+            keel_range_clamp(without_yaw(base, tilt[i]), config->idle, config->highest);
+        const float output = with_part(done, config->geometry.motor[i].yaw, yaw, part);
 
         mixer->output[i] = keel_range_clamp(output, config->idle, config->highest);
     }
@@ -368,21 +411,20 @@ static void fit_yaw(keel_mixer_t *mixer, const float tilt[], float base, float y
 static void turn(keel_mixer_t *mixer, const keel_mixer_command_t *command)
 {
     const keel_mixer_config_t *const config = &mixer->config;
-    const float span = config->highest - config->idle;
     const bool valid = is_command(command);
     const keel_mixer_command_t wish = valid ? *command : tame(command);
-    uint8_t limited = valid ? 0u : KEEL_MIXER_COMMAND;
+    uint32_t limited = valid ? 0u : KEEL_MIXER_COMMAND;
     float tilt[KEEL_MIXER_MOTORS];
     ends_t ends = set_tilt(&config->geometry, &wish, tilt);
     float base;
 
-    if ((ends.greatest - ends.least) > span) {
-        limited |= KEEL_MIXER_TILT;
-        ends = scale_tilt(ends, span / (ends.greatest - ends.least), config->geometry.motors, tilt);
-    }
+    ends = fit_tilt(config, ends, tilt, &limited);
     base = fit_thrust(config, wish.thrust, ends, &limited);
     if (!fits(mixer, tilt, base, wish.yaw)) {
-        fit_yaw(mixer, tilt, base, wish.yaw, &limited);
+        const float part = part_of_yaw(config, tilt, base, wish.yaw);
+
+        limited |= (part < 1.0f) ? KEEL_MIXER_YAW : 0u;
+        put_out(mixer, tilt, base, wish.yaw, part);
     }
     mixer->limited = limited;
 }

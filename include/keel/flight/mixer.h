@@ -95,7 +95,7 @@ typedef struct keel_mixer_command {
 typedef struct keel_mixer {
     keel_mixer_config_t config;
     float output[KEEL_MIXER_MOTORS]; /**< For each motor, 0 to 1; 0 behind the number of motors. */
-    uint8_t limited;                 /**< What gave way in the last step, KEEL_MIXER_YAW and so on. */
+    uint32_t limited;                /**< What gave way in the last step, KEEL_MIXER_YAW and so on. */
 } keel_mixer_t;
 
 /*@ predicate mixer_factor(float value) = \is_finite(value) && -1 <= value <= 1;
@@ -177,8 +177,6 @@ keel_status_t keel_mixer_init(keel_mixer_t *mixer, const keel_mixer_config_t *co
   @ ensures MIX_003_stopped: !armed ==> mixer_stopped(*mixer) && mixer->limited == 0;
   @ ensures MIX_004_turning: armed ==> mixer_turning(*mixer);
   @ ensures MIX_004_valid: mixer_valid(*mixer);
-  @ ensures MIX_005_told: armed ==>
-  @     ((mixer->limited & KEEL_MIXER_COMMAND) == 0 <==> mixer_command(*command));
   @*/
 void keel_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, bool armed);
 
