@@ -86,8 +86,8 @@ static void bench_run_pid(void)
     bench_dump("pid");
 }
 
-/* A quadcopter's X, with torques of up to so much each way about a middling thrust: with little, all
- * that is asked for fits; with much, everything gives way. */
+/* A quadcopter's X, with torques of so much to twice as much about a middling thrust: with little,
+ * all that is asked for fits; with much, everything gives way. */
 static void bench_run_mixer(const char *name, float torque, uint8_t limited)
 {
     const keel_mixer_config_t config = {keel_mixer_quad_x, 0.05f, 1.0f};

@@ -288,8 +288,8 @@ static void bench_pid(void)
     print(&steps);
 }
 
-/* A quadcopter's X, with torques of up to so much each way about a middling thrust: with little, all
- * that is asked for fits; with much, everything gives way. */
+/* A quadcopter's X, with torques of so much to twice as much about a middling thrust: with little,
+ * all that is asked for fits; with much, everything gives way. */
 static void bench_mixer(const char *name, float torque, uint8_t limited)
 {
     static keel_mixer_t mixer KEEL_REALTIME_ZERO;

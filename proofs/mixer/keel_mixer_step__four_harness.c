@@ -5,8 +5,8 @@
 // covers: keel_mixer_step model_mixer_step
 //
 // An armed mixer of four motors, any bit pattern of everything else: the same as the model's step,
-// bit for bit. Each number of motors has a harness of its own: with one number both sides are the same
-// terms, and z3 sees at once that they are equal. Disarmed: keel_mixer_step_harness; all
+// bit for bit. Each number of motors has a harness of its own: with one number both sides are the
+// same terms, and z3 sees at once that they are equal. Disarmed: keel_mixer_step_harness; all
 // other checks: keel_mixer_step__points_harness.
 #include "mixer_proof.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 13 --external-sat-solver cadical
 // sources: src/flight/mixer.c specs/model/mixer.c specs/model/range.c
-// covers: keel_mixer_step turn is_command is_factor tame tamed set_tilt fit_tilt fit_thrust fits
-// covers: with_yaw with_part without_yaw part_of_yaw fitting_part put_out stop model_mixer_step
+// covers: keel_mixer_step turn is_command is_factor tame tamed set_tilt fit_tilt fit_thrust put_out_all
+// covers: with_yaw with_part without_yaw part_of_yaw fitting_part put_out_part stop model_mixer_step
 //
-// Chosen commands, with all that can give way: the same as the model's, and no operation overflows or
-// gives a NaN. All commands are dealt with in the harnesses of each number of motors; wrong bodies
-// are refuted here, for where floats differ z3 finds no example.
+// Chosen commands, with all that can give way: the same as the model's, and no operation overflows
+// or gives a NaN. All commands are dealt with in the harnesses of each number of motors; wrong
+// bodies are refuted here, for where floats differ z3 finds no example.
 #include "mixer_proof.h"
 
 #define POINTS 12u
@@ -27,9 +27,10 @@ void keel_mixer_step__points_harness(void)
 
     for (uint32_t n = 0u; n < POINTS; n++) {
         keel_mixer_command_t command = points[n];
-        keel_mixer_t mixer = {.config = {.geometry = {.motors = 4u}, .idle = 0.055f,
-                                         .highest = 0.93f},
-                              .output = {0.1f, 0.2f, 0.3f, 0.4f}, .limited = 31u};
+        keel_mixer_t mixer = {
+            .config = {.geometry = {.motors = 4u}, .idle = 0.055f, .highest = 0.93f},
+            .output = {0.1f, 0.2f, 0.3f, 0.4f},
+            .limited = 31u};
         keel_mixer_t model;
 
         for (uint32_t i = 0u; i < 4u; i++) {

@@ -35,8 +35,8 @@ static bool config_valid_here(const keel_mixer_config_t *config)
         const keel_mixer_motor_t *const motor = &config->geometry.motor[i];
 
         valid = valid && ((i >= config->geometry.motors) ||
-                          (between(motor->roll, -1.0f, 1.0f) && between(motor->pitch, -1.0f, 1.0f) &&
-                           between(motor->yaw, -1.0f, 1.0f)));
+                          (between(motor->roll, -1.0f, 1.0f) &&
+                           between(motor->pitch, -1.0f, 1.0f) && between(motor->yaw, -1.0f, 1.0f)));
     }
     return valid;
 }

@@ -11,8 +11,7 @@ static bool contains(float value, float least, float greatest)
 
 static bool factors_are_valid(const keel_mixer_motor_t *motor)
 {
-    return contains(motor->roll, -1.0f, 1.0f) &&
-           contains(motor->pitch, -1.0f, 1.0f) &&
+    return contains(motor->roll, -1.0f, 1.0f) && contains(motor->pitch, -1.0f, 1.0f) &&
            contains(motor->yaw, -1.0f, 1.0f);
 }
 
@@ -78,10 +77,8 @@ keel_status_t model_mixer_init(keel_mixer_t *mixer, const keel_mixer_config_t *c
 
 static bool command_is_valid(const keel_mixer_command_t *command)
 {
-    return contains(command->roll, -1.0f, 1.0f) &&
-           contains(command->pitch, -1.0f, 1.0f) &&
-           contains(command->yaw, -1.0f, 1.0f) &&
-           contains(command->thrust, 0.0f, 1.0f);
+    return contains(command->roll, -1.0f, 1.0f) && contains(command->pitch, -1.0f, 1.0f) &&
+           contains(command->yaw, -1.0f, 1.0f) && contains(command->thrust, 0.0f, 1.0f);
 }
 
 /* MIX-005: 0 for what is not finite, the end that is next to what is out of range. */

@@ -5,23 +5,40 @@
 
 /* Lever arms are parts of the largest about the same axis. In an octocopter's X the motors stand
  * 22.5 degrees from the axes: sine by cosine is the tangent. */
-#define TAN_22 0.41421356f
-#define SIN_45 0.70710678f
+#define TAN_22 0x1.a8279ap-2f /* 0.414 */
+#define SIN_45 0x1.6a09e6p-1f /* 0.707 */
 
-const keel_mixer_geometry_t keel_mixer_quad_x = {
-    .motor = {{-1.0f, 1.0f, 1.0f}, {-1.0f, -1.0f, -1.0f}, {1.0f, -1.0f, 1.0f}, {1.0f, 1.0f, -1.0f}},
-    .motors = 4u};
+/* No motor. */
+#define NONE {0.0f, 0.0f, 0.0f}
 
-const keel_mixer_geometry_t keel_mixer_quad_plus = {
-    .motor = {{0.0f, 1.0f, 1.0f}, {-1.0f, 0.0f, -1.0f}, {0.0f, -1.0f, 1.0f}, {1.0f, 0.0f, -1.0f}},
-    .motors = 4u};
+const keel_mixer_geometry_t keel_mixer_quad_x = {.motor = {{-1.0f, 1.0f, 1.0f},
+                                                           {-1.0f, -1.0f, -1.0f},
+                                                           {1.0f, -1.0f, 1.0f},
+                                                           {1.0f, 1.0f, -1.0f},
+                                                           NONE,
+                                                           NONE,
+                                                           NONE,
+                                                           NONE},
+                                                 .motors = 4u};
+
+const keel_mixer_geometry_t keel_mixer_quad_plus = {.motor = {{0.0f, 1.0f, 1.0f},
+                                                              {-1.0f, 0.0f, -1.0f},
+                                                              {0.0f, -1.0f, 1.0f},
+                                                              {1.0f, 0.0f, -1.0f},
+                                                              NONE,
+                                                              NONE,
+                                                              NONE,
+                                                              NONE},
+                                                    .motors = 4u};
 
 const keel_mixer_geometry_t keel_mixer_hexa_x = {.motor = {{-0.5f, 1.0f, 1.0f},
                                                            {-1.0f, 0.0f, -1.0f},
                                                            {-0.5f, -1.0f, 1.0f},
                                                            {0.5f, -1.0f, -1.0f},
                                                            {1.0f, 0.0f, 1.0f},
-                                                           {0.5f, 1.0f, -1.0f}},
+                                                           {0.5f, 1.0f, -1.0f},
+                                                           NONE,
+                                                           NONE},
                                                  .motors = 6u};
 
 const keel_mixer_geometry_t keel_mixer_hexa_plus = {.motor = {{0.0f, 1.0f, 1.0f},
@@ -29,7 +46,9 @@ const keel_mixer_geometry_t keel_mixer_hexa_plus = {.motor = {{0.0f, 1.0f, 1.0f}
                                                               {-1.0f, -0.5f, 1.0f},
                                                               {0.0f, -1.0f, -1.0f},
                                                               {1.0f, -0.5f, 1.0f},
-                                                              {1.0f, 0.5f, -1.0f}},
+                                                              {1.0f, 0.5f, -1.0f},
+                                                              NONE,
+                                                              NONE},
                                                     .motors = 6u};
 
 const keel_mixer_geometry_t keel_mixer_octo_x = {.motor = {{-TAN_22, 1.0f, 1.0f},
@@ -57,7 +76,9 @@ const keel_mixer_geometry_t keel_mixer_y6 = {.motor = {{-1.0f, 0.5f, 1.0f},
                                                        {0.0f, -1.0f, 1.0f},
                                                        {0.0f, -1.0f, -1.0f},
                                                        {1.0f, 0.5f, 1.0f},
-                                                       {1.0f, 0.5f, -1.0f}},
+                                                       {1.0f, 0.5f, -1.0f},
+                                                       NONE,
+                                                       NONE},
                                              .motors = 6u};
 
 /*@ assigns \nothing;
@@ -175,8 +196,8 @@ static bool is_command(const keel_mixer_command_t *command)
            keel_range_contains(command->thrust, 0.0f, 1.0f);
 }
 
-/* What stands for a part of a command: 0 for what is not finite, the end that is next to what is out
- * of range. */
+/* What stands for a part of a command: 0 for what is not finite, the end that is next to what is
+ * out of range. */
 /*@ requires \is_finite(lowest) && lowest <= 0;
   @ assigns \nothing;
   @ ensures tamed_part: range_contains(\result, lowest, 1);
@@ -215,7 +236,8 @@ typedef struct ends {
 
 /* What each motor is to do for roll and pitch, before any limit. */
 /*@ requires \valid_read(geometry) && mixer_geometry(*geometry);
-  @ requires \valid(tilt + (0 .. KEEL_MIXER_MOTORS - 1)) && \separated(geometry, tilt + (0 .. KEEL_MIXER_MOTORS - 1));
+  @ requires \valid(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
+  @ requires \separated(geometry, tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ assigns tilt[0 .. KEEL_MIXER_MOTORS - 1];
   @*/
 static ends_t set_tilt(const keel_mixer_geometry_t *geometry, const keel_mixer_command_t *command,
@@ -320,7 +342,7 @@ static float without_yaw(float base, float tilt)
   @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1];
   @ ensures \result ==> mixer_turning(*mixer);
   @*/
-static bool fits(keel_mixer_t *mixer, const float tilt[], float base, float yaw)
+static bool put_out_all(keel_mixer_t *mixer, const float tilt[], float base, float yaw)
 {
     const keel_mixer_config_t *const config = &mixer->config;
 
@@ -376,15 +398,15 @@ static float part_of_yaw(const keel_mixer_config_t *config, const float tilt[], 
     return part;
 }
 
-/* Puts out a part of the yaw. Sums that should lie at the ends of the range are rounded beyond them:
- * the clamps take care of just that. */
+/* Puts out a part of the yaw. Sums that should lie at the ends of the range are rounded beyond
+ * them: the clamps take care of just that. */
 /*@ requires \valid(mixer) && mixer_valid(*mixer);
   @ requires \valid_read(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ requires \separated(mixer, tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1];
   @ ensures mixer_turning(*mixer);
   @*/
-static void put_out(keel_mixer_t *mixer, const float tilt[], float base, float yaw, float part)
+static void put_out_part(keel_mixer_t *mixer, const float tilt[], float base, float yaw, float part)
 {
     const keel_mixer_config_t *const config = &mixer->config;
 
@@ -395,8 +417,8 @@ static void put_out(keel_mixer_t *mixer, const float tilt[], float base, float y
       @ loop variant config->geometry.motors - i;
       @*/
     for (uint32_t i = 0u; i < config->geometry.motors; i++) {
-        const float done =
-            keel_range_clamp(without_yaw(base, tilt[i]), config->idle, config->highest);
+        const float done = keel_range_clamp(without_yaw(base, tilt[i]), config->idle,
+                                            config->highest);
         const float output = with_part(done, config->geometry.motor[i].yaw, yaw, part);
 
         mixer->output[i] = keel_range_clamp(output, config->idle, config->highest);
@@ -420,11 +442,11 @@ static void turn(keel_mixer_t *mixer, const keel_mixer_command_t *command)
 
     ends = fit_tilt(config, ends, tilt, &limited);
     base = fit_thrust(config, wish.thrust, ends, &limited);
-    if (!fits(mixer, tilt, base, wish.yaw)) {
+    if (!put_out_all(mixer, tilt, base, wish.yaw)) {
         const float part = part_of_yaw(config, tilt, base, wish.yaw);
 
         limited |= (part < 1.0f) ? KEEL_MIXER_YAW : 0u;
-        put_out(mixer, tilt, base, wish.yaw, part);
+        put_out_part(mixer, tilt, base, wish.yaw, part);
     }
     mixer->limited = limited;
 }

@@ -89,7 +89,7 @@ static void expect(uint8_t limited, float m0, float m1, float m2, float m3)
 
 /* Arms stand at angles from the front, clockwise; turns are 1 for counter-clockwise. A motor's
  * thrust on the right (sine) rolls to the left, in front (cosine) it raises the nose; turning
- * counter-clockwise, it turns the craft clockwise. Factors are parts of the largest of their axis. */
+ * counter-clockwise, it turns the craft clockwise. Factors are parts of the largest of an axis. */
 static void expect_table(const keel_mixer_geometry_t *geometry, uint32_t motors,
                          const double degrees[], const int turns[])
 {
@@ -198,27 +198,33 @@ static void MIX_001_axes_without_authority_are_refused(void)
     const float weak = 0x1.fffffep-4f;
 
     for (uint32_t i = 0u; i < 4u; i++) {
-        config.geometry.motor[i].roll = (float)smaller((double)config.geometry.motor[i].roll, (double)weak);
+        config.geometry.motor[i].roll = (float)smaller((double)config.geometry.motor[i].roll,
+                                                       (double)weak);
     }
     refuses(KEEL_ERR_GEOMETRY);
     for (uint32_t i = 0u; i < 4u; i++) {
-        config.geometry.motor[i].roll = (float)larger((double)config.geometry.motor[i].roll, (double)-weak);
+        config.geometry.motor[i].roll = (float)larger((double)config.geometry.motor[i].roll,
+                                                      (double)-weak);
     }
     refuses(KEEL_ERR_GEOMETRY);
     for (uint32_t i = 0u; i < 4u; i++) {
-        config.geometry.motor[i].pitch = (float)smaller((double)config.geometry.motor[i].pitch, (double)weak);
+        config.geometry.motor[i].pitch = (float)smaller((double)config.geometry.motor[i].pitch,
+                                                        (double)weak);
     }
     refuses(KEEL_ERR_GEOMETRY);
     for (uint32_t i = 0u; i < 4u; i++) {
-        config.geometry.motor[i].pitch = (float)larger((double)config.geometry.motor[i].pitch, (double)-weak);
+        config.geometry.motor[i].pitch = (float)larger((double)config.geometry.motor[i].pitch,
+                                                       (double)-weak);
     }
     refuses(KEEL_ERR_GEOMETRY);
     for (uint32_t i = 0u; i < 4u; i++) {
-        config.geometry.motor[i].yaw = (float)smaller((double)config.geometry.motor[i].yaw, (double)weak);
+        config.geometry.motor[i].yaw = (float)smaller((double)config.geometry.motor[i].yaw,
+                                                      (double)weak);
     }
     refuses(KEEL_ERR_GEOMETRY);
     for (uint32_t i = 0u; i < 4u; i++) {
-        config.geometry.motor[i].yaw = (float)larger((double)config.geometry.motor[i].yaw, (double)-weak);
+        config.geometry.motor[i].yaw = (float)larger((double)config.geometry.motor[i].yaw,
+                                                     (double)-weak);
     }
     refuses(KEEL_ERR_GEOMETRY);
 }
@@ -445,8 +451,8 @@ static void MIX_004_outputs_are_those_of_the_equations(void)
 
     for (uint32_t n = 0u; n < CASES; n++) {
         const float size = any(0.0f, 1.0f);
-        const keel_mixer_command_t command = {any(-size, size), any(-size, size),
-                                              any(-1.0f, 1.0f), any(0.0f, 1.0f)};
+        const keel_mixer_command_t command = {any(-size, size), any(-size, size), any(-1.0f, 1.0f),
+                                              any(0.0f, 1.0f)};
         double expected[KEEL_MIXER_MOTORS];
 
         config.geometry = *tables[n % 7u];

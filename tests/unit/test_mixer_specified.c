@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The mixer beside its executable specification (specs/model): random and adversarial calls on both,
- * of which result and every bit of the object must be the same after each. */
+/* The mixer beside its executable specification (specs/model): random and adversarial calls on
+ * both, of which result and every bit of the object must be the same after each. */
 #include "keel/flight/mixer.h"
 #include "unity.h"
 
@@ -65,9 +65,9 @@ static float any_bits(void)
 /* A usual value, or one that breaks arithmetic that did not expect it. */
 static float usually(float value, uint32_t chances)
 {
-    const float values[] = {NAN,      INFINITY, -INFINITY, 0.0f,    -0.0f,      FLT_MIN,
-                            -FLT_MIN, FLT_MAX,  -FLT_MAX,  1.0f,    -1.0f,      2.0f,
-                            -2.0f,    0x1p-149f, 0.125f,   -0.125f, any_bits(), any_bits()};
+    const float values[] = {NAN,      INFINITY,  -INFINITY, 0.0f,    -0.0f,      FLT_MIN,
+                            -FLT_MIN, FLT_MAX,   -FLT_MAX,  1.0f,    -1.0f,      2.0f,
+                            -2.0f,    0x1p-149f, 0.125f,    -0.125f, any_bits(), any_bits()};
 
     return one_in(chances) ? values[any() % (sizeof values / sizeof values[0])] : value;
 }

@@ -94,8 +94,8 @@ typedef struct keel_mixer_command {
 /** A mixer, and what it puts out. */
 typedef struct keel_mixer {
     keel_mixer_config_t config;
-    float output[KEEL_MIXER_MOTORS]; /**< For each motor, 0 to 1; 0 behind the number of motors. */
-    uint32_t limited;                /**< What gave way in the last step, KEEL_MIXER_YAW and so on. */
+    float output[KEEL_MIXER_MOTORS]; /**< For each motor; 0 behind their number. */
+    uint32_t limited;                /**< What gave way in the last step, in bits */
 } keel_mixer_t;
 
 /*@ predicate mixer_factor(float value) = \is_finite(value) && -1 <= value <= 1;
@@ -136,8 +136,8 @@ typedef struct keel_mixer {
  * Whether a configuration can be flown (requirement MIX-001).
  *
  * @param config the configuration, any bit pattern
- * @return KEEL_OK; KEEL_ERR_MOTORS for a number of motors out of its range; KEEL_ERR_GEOMETRY when a
- *         factor is not from -1 to 1, or no motor turns the craft about some axis one way by
+ * @return KEEL_OK; KEEL_ERR_MOTORS for a number of motors out of its range; KEEL_ERR_GEOMETRY when
+ *         a factor is not from -1 to 1, or no motor turns the craft about some axis one way by
  *         KEEL_MIXER_AUTHORITY; KEEL_ERR_LIMITS when idle or highest is out of its range
  */
 /*@ requires \valid_read(config);
@@ -163,13 +163,14 @@ keel_status_t keel_mixer_check(const keel_mixer_config_t *config);
 keel_status_t keel_mixer_init(keel_mixer_t *mixer, const keel_mixer_config_t *config);
 
 /**
- * Puts out one command (requirements MIX-003 to MIX-008). The last operation on each output brings it
- * into its range, as sums may be rounded beyond it.
+ * Puts out one command (requirements MIX-003 to MIX-008). The last operation on each output brings
+ * it into its range, as sums may be rounded beyond it.
  *
  * @param mixer   the mixer
- * @param command the command, any bit pattern: a part that is not finite counts as 0, one out of its
- *                range as the end that is next to it, and KEEL_MIXER_COMMAND tells
- * @param armed   whether motors may turn; if not, the command is not looked at, and nothing gave way
+ * @param command the command, any bit pattern: a part that is not finite counts as 0, one out of
+ *                its range as the end that is next to it, and KEEL_MIXER_COMMAND tells
+ * @param armed   whether motors may turn; if not, the command is not looked at, and nothing gave
+ *                way
  */
 /*@ requires \valid(mixer) && \valid_read(command) && \separated(mixer, command);
   @ requires mixer_valid(*mixer);
