@@ -2,7 +2,8 @@
 // cbmc: --unwind 9 --z3 --fpa
 // checks: assertions
 // sources: src/flight/mixer.c specs/model/mixer.c specs/model/range.c
-// covers: keel_mixer_step turn is_command is_factor tame tamed set_tilt fit_tilt fit_thrust put_out_all
+// covers: keel_mixer_step turn is_command is_factor tame tamed
+// covers: set_tilt fit_tilt fit_thrust put_out_all
 // covers: with_yaw with_part without_yaw part_of_yaw fitting_part put_out_part stop
 // covers: model_mixer_step
 //

@@ -2,8 +2,10 @@
 // cbmc: --unwind 9 --external-sat-solver cadical
 // checks: assertions
 // sources: src/flight/mixer.c specs/model/mixer.c specs/model/range.c
-// covers: keel_mixer_step turn is_command is_factor tame tamed set_tilt fit_tilt fit_thrust put_out_all
-// covers: with_yaw with_part without_yaw part_of_yaw fitting_part put_out_part stop model_mixer_step
+// covers: keel_mixer_step turn is_command is_factor tame tamed
+// covers: set_tilt fit_tilt fit_thrust put_out_all
+// covers: with_yaw with_part without_yaw part_of_yaw fitting_part put_out_part
+// covers: stop model_mixer_step
 //
 // Disarmed, any bit pattern of everything: the same as the model's step. Armed: the harnesses of
 // each number of motors, keel_mixer_step__three_harness to keel_mixer_step__eight_harness.
