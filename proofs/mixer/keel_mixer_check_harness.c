@@ -16,5 +16,5 @@ void keel_mixer_check_harness(void)
     __CPROVER_assert(status == expected, "MIX_001_model: as the model says");
     __CPROVER_assert(config_same(&config, &before), "MIX_001_read: it is only read");
     __CPROVER_assert((status != KEEL_OK) || config_valid_here(&config),
-                     "MIX_001_valid: what is taken is valid");
+                     "MIX_001_ok: what is taken is valid");
 }

@@ -92,9 +92,6 @@ static bool is_factor(float value)
 /* Whether all factors are in range. */
 /*@ requires \valid_read(geometry) && geometry->motors <= KEEL_MIXER_MOTORS;
   @ assigns \nothing;
-  @ ensures \result <==> \forall integer i; 0 <= i < geometry->motors ==>
-  @     mixer_factor(geometry->motor[i].roll) && mixer_factor(geometry->motor[i].pitch) &&
-  @     mixer_factor(geometry->motor[i].yaw);
   @*/
 static bool has_factors(const keel_mixer_geometry_t *geometry)
 {
@@ -118,7 +115,6 @@ static bool has_factors(const keel_mixer_geometry_t *geometry)
 /* Whether some motors turn the craft about each axis by at least so much; by as much the other way,
  * if it is negative. */
 /*@ requires \valid_read(geometry) && geometry->motors <= KEEL_MIXER_MOTORS;
-  @ requires mixer_geometry(*geometry);
   @ assigns \nothing;
   @*/
 static bool turns(const keel_mixer_geometry_t *geometry, float way)
