@@ -396,7 +396,8 @@ static float part_of_yaw(const keel_mixer_config_t *config, const float tilt[], 
 
 /* Puts out a part of the yaw. Sums that should lie at the ends of the range are rounded beyond
  * them: the clamps take care of just that. */
-/*@ requires \valid(mixer) && mixer_valid(*mixer);
+/*@ requires \valid(mixer);
+  @ requires mixer_geometry(mixer->config.geometry) && mixer_range(mixer->config);
   @ requires \valid_read(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ requires \separated(mixer, tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1];
@@ -451,6 +452,11 @@ void keel_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, b
 {
     if (armed) {
         turn(mixer, command);
+        /*@ assert step_config: mixer_geometry(mixer->config.geometry) &&
+          @     mixer_range(mixer->config); */
+        /*@ assert step_behind: \forall integer i;
+          @     mixer->config.geometry.motors <= i < KEEL_MIXER_MOTORS ==>
+          @     \is_finite(mixer->output[i]) && mixer->output[i] == 0; */
     } else {
         stop(mixer);
     }
