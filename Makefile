@@ -28,7 +28,7 @@ RESEARCH := timing campaign pictures
 
 ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
              flash-openocd flash-pyocd flash-st-flash flash-px4 timing tools-tests timing-tests \
-             consumer opinion evidence browser attestation
+             consumer opinion evidence browser attestation contracts-run trace c-syntax dask ci
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
 TIMING := python3 tools/with_packages.py timing -m timing
@@ -51,7 +51,7 @@ help: ## this list
 prove: python ## prove every contract and harness (UNIT=queue: one unit; ARGS=--update-goals)
 	@python3 tools/prove.py $(if $(UNIT),--unit $(UNIT)) $(ARGS)
 
-test: python ## build and run all tests (ARGS='--filter unit/': some of them)
+test: python ## build and run all tests (ARGS='--filter unit/': some of them; ARGS='--jobs 1': one by one)
 	@python3 tools/run_tests.py $(ARGS)
 
 demo: python ## the paper's 21 tasks, one simulated minute on this host

@@ -8,6 +8,7 @@
  * is labelled with its name and the number of steps.
  */
 #include "keel/flight/mixer.h"
+#include "keel/flight/mode.h"
 #include "keel/flight/pid.h"
 #include "keel/middleware/virtual_imu.h"
 
@@ -23,6 +24,7 @@
 static keel_filter_t bench_filter;
 static keel_pid_t bench_pid;
 static keel_mixer_t bench_mixer;
+static keel_mode_t bench_mode;
 static keel_virtual_imu_t bench_imu;
 
 static void bench_require(int condition, const char *what)
@@ -110,6 +112,41 @@ static void bench_run_mixer(const char *name, float torque, uint8_t limited)
     bench_dump(name);
 }
 
+/* In flight, with a frame at each step; or on the ground, with every
+ * fact that can be seen waiting to settle. */
+static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
+{
+    const keel_mode_config_t config = {.loss_us = 250000u,
+                                       .regain_us = settle_us,
+                                       .request_us = settle_us,
+                                       .kill_us = settle_us,
+                                       .landed_us = settle_us,
+                                       .estimate_us = settle_us,
+                                       .alarm_us = settle_us,
+                                       .idle_us = settle_us,
+                                       .required = 1u};
+    const int flies = state == KEEL_MODE_FLYING;
+    keel_mode_input_t input = {.elapsed_us = 1000u, .facts = 0x074Du, .checks = 1u, .asked = 4u};
+
+    bench_require(keel_mode_init(&bench_mode, &config) == KEEL_OK, "mode");
+    for (uint32_t n = 0u; flies && (n < STEPS); n++) {
+        keel_mode_step(&bench_mode, &input);
+    }
+    input.facts ^= KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF;
+    for (uint32_t n = 0u; flies && (n < STEPS); n++) {
+        input.facts ^= (n == (STEPS / 2u)) ? (KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW) : 0u;
+        keel_mode_step(&bench_mode, &input);
+    }
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        input.facts = flies ? input.facts : 0x3FFBu;
+        CALLGRIND_TOGGLE_COLLECT;
+        keel_mode_step(&bench_mode, &input);
+        CALLGRIND_TOGGLE_COLLECT;
+        bench_require(bench_mode.state == state, "mode step");
+    }
+    bench_dump(name);
+}
+
 /* Samples that keep moving: of all units within the distance of full agreement, or with the last
  * unit's beyond that of none. */
 static void bench_fill(keel_virtual_imu_sample_t sample[UNITS], uint32_t n, float offset)
@@ -156,6 +193,8 @@ int main(void)
     bench_run_pid();
     bench_run_mixer("mixer", 0.05f, 0u);
     bench_run_mixer("mixer_worst", 0.4f, KEEL_MIXER_YAW | KEEL_MIXER_TILT);
+    bench_run_mode("mode", 250000u, KEEL_MODE_FLYING);
+    bench_run_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;

@@ -15,6 +15,7 @@
 #include "board.h"
 #include "console.h"
 #include "keel/flight/mixer.h"
+#include "keel/flight/mode.h"
 #include "keel/flight/pid.h"
 #include "keel/middleware/virtual_imu.h"
 #include "keel/rtos/scheduler.h"
@@ -311,6 +312,41 @@ static void bench_mixer(const char *name, float torque, uint8_t limited)
     print(&steps);
 }
 
+/* In flight, with a frame at each step; or on the ground, with every
+ * fact that can be seen waiting to settle: as in bench_steps.c. */
+static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
+{
+    static keel_mode_t mode KEEL_REALTIME_ZERO;
+    const keel_mode_config_t settings = {.loss_us = 250000u,
+                                         .regain_us = settle_us,
+                                         .request_us = settle_us,
+                                         .kill_us = settle_us,
+                                         .landed_us = settle_us,
+                                         .estimate_us = settle_us,
+                                         .alarm_us = settle_us,
+                                         .idle_us = settle_us,
+                                         .required = 1u};
+    const bool flies = state == KEEL_MODE_FLYING;
+    keel_mode_input_t input = {.elapsed_us = 1000u, .facts = 0x074Du, .checks = 1u, .asked = 4u};
+    kind_t steps = {name, 0u, 0u, 0u};
+
+    require(keel_mode_init(&mode, &settings) == KEEL_OK);
+    for (uint32_t n = 0u; flies && (n < STEPS); n++) {
+        keel_mode_step(&mode, &input);
+    }
+    input.facts ^= KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF;
+    for (uint32_t n = 0u; flies && (n < STEPS); n++) {
+        input.facts ^= (n == (STEPS / 2u)) ? (KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW) : 0u;
+        keel_mode_step(&mode, &input);
+    }
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        input.facts = flies ? input.facts : 0x3FFBu;
+        add(&steps, measure((function_t)keel_mode_step, &mode, (uint32_t)&input, 0u, false));
+        require(mode.state == state);
+    }
+    print(&steps);
+}
+
 /* Three units that differ a little, the last by an offset more: as in bench_steps.c. */
 static void fill(keel_virtual_imu_sample_t sample[UNITS], uint32_t n, float offset)
 {
@@ -376,6 +412,8 @@ int main(void)
     bench_pid();
     bench_mixer("mixer", 0.05f, 0u);
     bench_mixer("mixer_worst", 0.4f, KEEL_MIXER_YAW | KEEL_MIXER_TILT);
+    bench_mode("mode", 250000u, KEEL_MODE_FLYING);
+    bench_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
     keel_console_text(bad ? "bench failed\n" : "bench ended\n");

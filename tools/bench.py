@@ -69,6 +69,8 @@ STEPS: dict[str, tuple[str, str, int]] = {
     "pid": ("PID", "keel_pid_step", 110),
     "mixer": ("mixer, 4 motors, all fits", "keel_mixer_step", 200),
     "mixer_worst": ("mixer, 4 motors, all gives way", "keel_mixer_step", 200),
+    "mode": ("mode, in flight", "keel_mode_step", 250),
+    "mode_worst": ("mode, all facts waiting", "keel_mode_step", 250),
     "imu": ("virtual IMU, 3 x 6, all agree", "keel_virtual_imu_step", 900),
     "imu_worst": ("virtual IMU, 3 x 6, one outvoted", "keel_virtual_imu_step", 900),
 }
@@ -256,7 +258,8 @@ def measure(tools: Toolchain) -> list[Goal]:
     check_target_steps(tools)
     steps = measure_steps(tools)
     goals = goals_of(sets, target)
-    write_report(REPORT, report_of(tools, sets, target, steps))
+    # No verdict yet: the budgets are of the figures that benchmark.emulated adds.
+    write_report(REPORT, report_of(tools, sets, target, steps), good=False)
     print("Instructions of a pass, host build, scheduler code only")
     for tasks, kinds in sets.items():
         tables.print_set(tasks, SETS[tasks], kinds)

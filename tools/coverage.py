@@ -293,7 +293,6 @@ def report_of(files: dict[str, FileCoverage], exclusions: Sequence[Exclusion]) -
     gaps = [gap for _, item in sorted(files.items()) for gap in item.gaps]
     remaining, excluded, unused = apply(exclusions, gaps)
     return {
-        "ok": not remaining and not unused,
         "total": {metric: total_of(files, metric) for metric in METRICS},
         "files": {
             name: {**counts_of(item), "functions": {
@@ -314,13 +313,14 @@ def judge(files: dict[str, FileCoverage], exclusions: Sequence[Exclusion]) -> in
     """Print table, gaps and verdict, write the report, and give the exit status."""
     gaps = [gap for _, item in sorted(files.items()) for gap in item.gaps]
     remaining, excluded, unused = apply(exclusions, gaps)
+    good = not remaining and not unused
     print(table(files))
     for gap in remaining:
         print(f"{gap.file}:{gap.line}: {gap.what}: {gap.text}")
     for item in unused:
         print(f"{EXCLUSIONS.name}: excludes nothing: {item.file}: {item.line}")
-    write_report(REPORT, report_of(files, exclusions))
-    if remaining or unused:
+    write_report(REPORT, report_of(files, exclusions), good=good)
+    if not good:
         print(f"coverage: {len(remaining)} gaps, {len(unused)} unused exclusions")
         return 1
     print(f"coverage: all lines, branches and MC/DC conditions, {len(excluded)} gaps excluded")

@@ -188,10 +188,10 @@ def conclude(root: Path, tools: Toolchain, found: Mapping[str, Any]) -> int:
     problems = list(judge(found, settings))
     versions = tools.versions("prove")
     write_report(root / REPORT, {
-        "verdict": "failed" if problems else "good", "problems": problems, **found,
+        "problems": problems, **found,
         "explained": settings.model_dump(), "precision": PRECISION,
         "tools": {name: versions[name].version for name in JUDGES},
-    }, root)  # fmt: skip
+    }, root, good=not problems)  # fmt: skip
     for problem in problems:
         print(f"FAILED {problem}")
     within = sum(one["verdict"] != UNKNOWN for one in found["assigns"])

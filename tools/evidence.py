@@ -6,6 +6,7 @@
     python3 tools/evidence.py --as-is             # run nothing: the reports as they are
     python3 tools/evidence.py --draft FOLDER      # the same, problems included, and unsealed
     python3 tools/evidence.py --verify FOLDER     # is a package as it was made?
+    python3 tools/evidence.py --same ONE OTHER    # do two differ in measured seconds alone?
     python3 tools/evidence.py --project FOLDER    # the package of a project that uses Keel
 
 A package is written as a whole, and only when nothing is wrong; else the one that was there stays,
@@ -43,13 +44,14 @@ from evidence.assemble import (  # noqa: E402
 from evidence.commands import (  # noqa: E402
     Command,
     commands_of,
+    not_good,
     own_commands,
     run_commands,
 )
 from evidence.digest import as_markdown  # noqa: E402
 from evidence.package import Source, source_of, write_package  # noqa: E402
 from evidence.part import Context  # noqa: E402
-from evidence.verify import verify  # noqa: E402
+from evidence.verify import reproduced, verify  # noqa: E402
 
 BEGUN = time.monotonic()
 
@@ -61,9 +63,10 @@ def tell(line: str) -> None:
 
 def context_of(root: Path, out: Path) -> Context:
     """What the parts may look at."""
+    stamp = stamp_of(root)
     work = out.with_name(f"{out.name}-work")
     work.mkdir(parents=True, exist_ok=True)
-    return Context(root, root / "build", work, stamp_of(root), tell)
+    return Context(root, root / "build", work, stamp, tell)
 
 
 def versions() -> dict[str, str]:
@@ -118,6 +121,7 @@ def make(choice: Choice) -> int:
     problems = [] if choice.dirty else refused(source)
     if not choice.as_is and not problems:
         problems = run_commands(context, choice.commands())
+    problems += not_good(context, choice.commands())
     made = choice.assemble(context)
     problems += made.problems
     if not problems and stamp_of(choice.root) != context.stamp:
@@ -135,6 +139,7 @@ def make_draft(choice: Choice, draft: Path) -> int:
         raise ToolError("a draft has a folder of its own")
     context = context_of(choice.root, choice.out)
     made = choice.assemble(context)
+    made.problems[:0] = not_good(context, choice.commands())
     source = source_of(choice.root, context.stamp)
     write_package(draft, made, source, versions(), sealed=False)
     return closing(made.problems, f"a draft is in {draft}")
@@ -147,6 +152,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--dirty", action="store_true", help="also with uncommitted changes")
     parser.add_argument("--draft", type=Path, metavar="FOLDER", help="write one with its problems")
     parser.add_argument("--verify", type=Path, metavar="FOLDER", help="look at a package only")
+    parser.add_argument("--same", type=Path, nargs=2, metavar=("ONE", "OTHER"),
+                        help="do two packages of one source differ in measured seconds alone?")
     parser.add_argument("--out", type=Path, metavar="FOLDER", help="build/evidence unless said")
     parser.add_argument("--project", type=Path, default=ROOT, metavar="FOLDER",
                         help="a project that uses Keel, rather than Keel itself")  # fmt: skip
@@ -157,6 +164,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if options.verify:
             problems = verify(options.verify, stamp_of(root))
             return closing(problems, f"{options.verify} is {'not ' * bool(problems)}as it was made")
+        if options.same:
+            problems = reproduced(*options.same)
+            return closing(problems, f"{'not ' * bool(problems)}the same but for measured seconds")
         out = options.out or root / "build/evidence"
         choice = Choice(root, out, options.as_is, options.dirty)
         return make_draft(choice, options.draft) if options.draft else make(choice)

@@ -179,7 +179,9 @@ def build(tools: Toolchain, name: str, application: Sequence[str], root: Path = 
     builder = Builder(tools, board, folder, root)
     image = builder.link("keel", builder.objects(application or board.application))
     contents, checks = examine(builder, image)
-    write_report(report, report_of(builder, image, contents, checks), root)
+    # What is wrong has raised an error. Another application than the board's is not its firmware.
+    write_report(report, report_of(builder, image, contents, checks), root, good=True,
+                 whole=not application)  # fmt: skip
     print_usage(board, contents)
     size = image.binary.stat().st_size
     print(f"firmware: {FIRMWARE}/{name}/keel.elf, {size} bytes to load at "

@@ -165,9 +165,10 @@ class Measurement:
         self.units: list[Measured] = []
         seen = survey(root)
         for unit in units:
+            accepted = mutant_verdicts.read_equivalent(unit.folder / "equivalent.toml")
             trial = Trial(
                 unit, programs, trees, self.engines, options.engine == "both", cache, self.stamp,
-                exceptions[unit.name], times, not options.quick, seen, options.small,
+                exceptions[unit.name], times, not options.quick, seen, options.small, accepted,
             )  # fmt: skip
             made = [generate(path, around) for path in unit.own_files]
             found = [mutant for one in made for mutant in one.mutants

@@ -4,6 +4,7 @@
 
     python3 tools/run_tests.py                    # everything but the fuzzer
     python3 tools/run_tests.py --filter unit/     # the suites whose name contains this
+    python3 tools/run_tests.py --jobs 1           # one after another
     python3 tools/run_tests.py --fuzz 60          # everything, and 60 seconds of fuzzing
 
 Suites: unit/<unit> (Unity), bsp/<driver> (Unity, on simulated hardware), property/<size> (the
@@ -12,6 +13,11 @@ Eigen in double precision), machdep (Frama-C's data model against the compiler),
 timing/<part> (Python), fuzz (libFuzzer). The C and C++ suites are built with the address and
 undefined-behaviour sanitizers; where their libraries are missing this is said, in the output and
 in the report.
+
+Suites run side by side, as many as there are cores; tests/suites.toml says which tools they need
+and which take long. So whatever a suite writes lies in a folder of its own: a temporary one, or one
+below build/test. Each is told as a whole when it ends, the longest begin; the reports have them in
+their order here.
 
 A suite that does not build, crashes, hangs, or runs no test counts as a failed test of its own
 name. build/test/report.json holds the verdicts, build/test/junit.xml the same for CI systems; an
@@ -24,7 +30,9 @@ from __future__ import annotations
 
 import re
 import sys
+import threading
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -32,8 +40,11 @@ from common.arguments import Parser
 from common.build import Build
 from common.errors import ROOT, program
 from common.run import run
+from proofs.jobs import end_as_by_ctrl_c
 from suites import running
+from suites.needs import Needs, read_needs
 from suites.outcomes import (
+    EXACT_FLOATS,
     Outcome,
     program_outcome,
     pytest_outcome,
@@ -72,26 +83,32 @@ KERNEL = ["src"]
 
 
 class HostBuilds:
-    """Builds test programs, each file once a run."""
+    """Builds test programs, each file once a run, for suites that run side by side."""
 
     def __init__(self, tools: Toolchain) -> None:
         self.tools = tools
+        self._lock = threading.RLock()
         self._sanitizers: list[str] | None = None
         self._builds: dict[str, Build] = {}
 
     @property
     def sanitizers(self) -> list[str]:
         """The sanitizers' flags, or none where a program cannot be built and run with them."""
-        if self._sanitizers is None:
-            probe = ROOT / BUILD / "probe.c"
-            probe.write_text("int main(void)\n{\n    return 0;\n}\n")
-            trial = probe.with_suffix("")
-            command = [*self.tools.command("gcc"), *SANITIZERS, str(probe), "-o", str(trial)]
-            works = run(command).good and run([trial]).good
-            self._sanitizers = SANITIZERS if works else []
-            if not works:
-                print("run_tests: WITHOUT sanitizers: their libraries are missing", flush=True)
-        return self._sanitizers
+        with self._lock:
+            if self._sanitizers is None:
+                self._sanitizers = SANITIZERS if self._sanitizers_work() else []
+            return self._sanitizers
+
+    def _sanitizers_work(self) -> bool:
+        """Whether a program can be built and run with them; that it cannot is said."""
+        probe = ROOT / BUILD / "probe.c"
+        probe.write_text("int main(void)\n{\n    return 0;\n}\n")
+        trial = probe.with_suffix("")
+        command = [*self.tools.command("gcc"), *SANITIZERS, str(probe), "-o", str(trial)]
+        works = run(command).good and run([trial]).good
+        if not works:
+            print("run_tests: WITHOUT sanitizers: their libraries are missing", flush=True)
+        return works
 
     @property
     def sanitized(self) -> bool | None:
@@ -100,13 +117,14 @@ class HostBuilds:
 
     def build(self, compiler: str) -> Build:
         """What gcc or g++ builds."""
-        if compiler not in self._builds:
-            flags = [*(CPP_FLAGS if compiler == "g++" else FLAGS), *self.sanitizers]
-            folder = ROOT / BUILD
-            self._builds[compiler] = Build(
-                self.tools, compiler, flags, folder, ROOT, self.sanitizers
-            )
-        return self._builds[compiler]
+        with self._lock:
+            if compiler not in self._builds:
+                flags = [*(CPP_FLAGS if compiler == "g++" else FLAGS), *self.sanitizers]
+                folder = ROOT / BUILD
+                self._builds[compiler] = Build(
+                    self.tools, compiler, flags, folder, ROOT, self.sanitizers
+                )
+            return self._builds[compiler]
 
     def objects(self, names: Sequence[str], extra: Sequence[str] = ()) -> list[Path]:
         """Compile C files and folders."""
@@ -134,7 +152,7 @@ def unit_suite(builds: HostBuilds, name: str, source: str) -> Outcome:
     folder = builds.tools.command("unity")[0]
     own = driver_sources() if name.startswith("bsp/") else []
     objects = [*builds.objects([*KERNEL, *own]), builds.unity()]
-    objects += builds.objects([source], ["-isystem", folder])
+    objects += builds.objects([source], ["-isystem", folder, EXACT_FLOATS])
     return unity_outcome(name, run([builds.link(name, objects)], SUITE_TIMEOUT_S))
 
 
@@ -210,18 +228,18 @@ def c_suites(
     return suites
 
 
-def python_suites(folder: str, group: str, may_skip: bool) -> list[Suite]:
-    """One for each file of a folder of tests in Python."""
+def python_suites(folder: str, groups: tuple[str, ...], may_skip: bool) -> list[Suite]:
+    """One for each file of a folder of tests in Python; the first group brings what runs them."""
     suites = []
     for path in sorted((ROOT / "tests" / folder).glob("test_*.py")):
         name = f"{folder}/{path.stem.removeprefix('test_')}"
-        run_it = partial(python_suite, name, path, group, may_skip)
-        suites.append(Suite(name, (group,), run_it))
+        run_it = partial(python_suite, name, path, groups[0], may_skip)
+        suites.append(Suite(name, groups, run_it))
     return suites
 
 
-def all_suites(builds: HostBuilds, fuzz_seconds: int) -> list[Suite]:
-    """Every suite, in the order in which they run: what fails fastest comes first."""
+def all_suites(builds: HostBuilds, fuzz_seconds: int, needs: Needs) -> list[Suite]:
+    """Every suite, in the order of the reports."""
     unit, reference = partial(unit_suite, builds), partial(reference_suite, builds)
     suites = [*c_suites("unit", ".c", unit), *c_suites("bsp", ".c", unit),
               *c_suites("reference", ".cpp", reference)]  # fmt: skip
@@ -229,26 +247,33 @@ def all_suites(builds: HostBuilds, fuzz_seconds: int) -> list[Suite]:
         name = f"property/{size}"
         suites.append(Suite(name, ("test",), partial(property_suite, builds, name, size)))
     suites.append(Suite("machdep", ("prove",), machdep_suite))
-    suites += [*python_suites("tools", "tools-tests", True),
-               *python_suites("timing", "timing-tests", False)]  # fmt: skip
+    suites += [*python_suites("tools", ("tools-tests", "c-syntax"), True),
+               *python_suites("timing", ("timing-tests",), False)]  # fmt: skip
     if fuzz_seconds > 0:
         run_it = partial(fuzz_suite, builds.tools, fuzz_seconds)
         suites.append(Suite("fuzz", ("fuzz",), run_it))
-    return suites
+    return [with_needs(suite, needs) for suite in suites]
+
+
+def with_needs(suite: Suite, needs: Needs) -> Suite:
+    """A suite with what tests/suites.toml says of it."""
+    need = needs.of(suite.name)
+    return replace(suite, groups=(*suite.groups, *need.groups), seconds=need.seconds)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
+    end_as_by_ctrl_c()
     parser = Parser("Build and run Keel's tests.", "test")
-    parser.add_argument("--filter", default="", metavar="TEXT", help="suites whose name has this")
+    running.add_options(parser)
     parser.add_argument("--fuzz", type=int, default=0, metavar="SECONDS", help="fuzz as well")
-    options = parser.parse_args(arguments)
+    options = running.parse(parser, arguments)
 
     def work() -> int:
         running.begin(ROOT / BUILD)
         builds = HostBuilds(Toolchain())
-        suites = running.chosen(all_suites(builds, options.fuzz), options.filter)
-        outcomes = running.run_all(builds.tools, suites)
+        suites = running.chosen(all_suites(builds, options.fuzz, read_needs()), options.filter)
+        outcomes = running.run_all(builds.tools, suites, options.jobs)
         facts = {"filter": options.filter, "sanitizers": builds.sanitized}
         return running.end(ROOT / BUILD, "Keel", outcomes, facts)
 

@@ -79,10 +79,10 @@ def work(steps: int) -> int:
     results = {name: soak(name, command) for name, command in commands.items()}
     good = all(ended.good for ended, _ in results.values())
     write_report(report, {
-        "verdict": "no difference" if good else "DIFFER", "steps": steps, "seed": SEED,
+        "steps": steps, "seed": SEED,
         "programs": {name: {"good": ended.good, "seconds": round(seconds)}
                      for name, (ended, seconds) in results.items()},
-    })  # fmt: skip
+    }, good=good)  # fmt: skip
     calls = f"{steps:,} calls of each".replace(",", " ")
     print(f"soak: {'no difference' if good else 'code and specification DIFFER'}, {calls}")
     return 0 if good else 1

@@ -105,7 +105,6 @@ def conclude(report: Mapping[str, object], root: Path) -> int:
     for name, stack in stacks.items():
         print(f"  stack {name:<27} {stack['bound']:6d} of {stack['size']} bytes: "
               f"{' > '.join(item.rpartition(':')[2] for item in stack['path'])}")  # fmt: skip
-    write_report(root / REPORT / f"{report['board']}.json", report, root)
     short = [name for name, stack in stacks.items() if stack["bound"] > stack["size"]]
     verdict = f"TOO LITTLE ROOM: {', '.join(short)}" if short else "every stack has room"
     deepest = report.get("painted")
@@ -117,6 +116,7 @@ def conclude(report: Mapping[str, object], root: Path) -> int:
         if deepest > limit:
             short.append("main")
             verdict = "THE BOUND IS WRONG: the painted stack was deeper"
+    write_report(root / REPORT / f"{report['board']}.json", report, root, good=not short)
     print(f"stack: {report['functions']} functions of {report['board']}, {len(tasks)} bodies of "
           f"tasks: {verdict}.")  # fmt: skip
     return 1 if short else 0

@@ -89,11 +89,12 @@ def run(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     tools.ensure("opinion")
     answers = ask_all(root, tools, options.fresh)
     tool = tools.versions("opinion")["esbmc"]
-    write_report(report, {"esbmc": {"version": tool.version, "sha256": tool.sha256},
-                          "harnesses": answers}, root)  # fmt: skip
     agreed = sum(opinion.good(one) for one in answers.values())
+    good = agreed == len(answers)
+    write_report(report, {"esbmc": {"version": tool.version, "sha256": tool.sha256},
+                          "harnesses": answers}, root, good=good)  # fmt: skip
     print(f"ESBMC agrees on {agreed} of {len(answers)} harnesses")
-    return 0 if agreed == len(answers) else 1
+    return 0 if good else 1
 
 
 if __name__ == "__main__":

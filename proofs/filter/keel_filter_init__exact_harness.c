@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 12 --external-sat-solver cadical
+// cbmc: --unwind 18 --external-sat-solver cadical
 // sources: src/flight/filter.c specs/model/filter.c
 // covers: keel_filter_init set_coefficients tangent model_filter_init tan_of
 //
 // The coefficients for some cut-offs at 1000 Hz, of which 250 Hz (g = 1) is the last below the
-// change of formula. The numbers are those of filter.h in double precision; how near the
-// coefficients are everywhere else is tested. Wrong bodies are refuted here: where floats differ,
-// z3 finds no example.
+// change of formula; the lowest and the highest rate, the lowest cut-off of a rate, and what is just
+// beyond them. The numbers are those of filter.h in double precision; how near the coefficients are
+// everywhere else is tested. Wrong bodies are refuted here: where floats differ, z3 finds no
+// example.
 #include "../../specs/model/filter.h"
 #include "../common/keel_flight_proof.h"
 
-#define POINTS 11u
+#define POINTS 17u
 
 typedef struct point {
     keel_status_t status;
@@ -41,6 +42,14 @@ static const point_t points[POINTS] = {
      KEEL_FILTER_HIGH_ENERGY_LIMIT},
     {KEEL_OK, 1000.0f, 499.0f, 0.995566972f, 0.004423202f, -0.999980348f,
      KEEL_FILTER_HIGH_ENERGY_LIMIT},
+    {KEEL_OK, KEEL_FILTER_RATE_MIN_HZ, 0.000244140625f, 0.292893219f, 0.414213562f, -0.414213562f,
+     KEEL_FILTER_LOW_ENERGY_LIMIT},
+    {KEEL_OK, KEEL_FILTER_RATE_MAX_HZ, 250000.0f, 0.292893219f, 0.414213562f, -0.414213562f,
+     KEEL_FILTER_LOW_ENERGY_LIMIT},
+    {KEEL_OK, 524288.0f, 0.5f, 0.0f, 0.000004237f, 0.999991526f, KEEL_FILTER_LOW_ENERGY_LIMIT},
+    {KEEL_ERR_CUTOFF, 524288.0f, 0.49999997f, 0.0f, 0.0f, 0.0f, 0.0f},
+    {KEEL_ERR_RATE, 0.00097656244f, 0.000244140625f, 0.0f, 0.0f, 0.0f, 0.0f},
+    {KEEL_ERR_RATE, 1000000.0625f, 250000.0f, 0.0f, 0.0f, 0.0f, 0.0f},
     {KEEL_ERR_RATE, 0.0f, 100.0f, 0.0f, 0.0f, 0.0f, 0.0f},
     {KEEL_ERR_CUTOFF, 1000.0f, 500.0f, 0.0f, 0.0f, 0.0f, 0.0f},
 };

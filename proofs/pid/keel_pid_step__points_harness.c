@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 14 --external-sat-solver cadical
+// cbmc: --unwind 16 --external-sat-solver cadical
 // sources: src/flight/pid.c src/flight/filter.c specs/model/pid.c specs/model/filter.c
 // covers: keel_pid_step differentiate put_out limit_reached direct_terms
 // covers: model_pid_step without_integral side_of differentiated
@@ -10,7 +10,7 @@
 #include "../../specs/model/pid.h"
 #include "pid_proof.h"
 
-#define POINTS 13u
+#define POINTS 15u
 
 typedef struct point {
     float setpoint;
@@ -23,7 +23,7 @@ typedef struct point {
 
 /* The first and later steps, within the limits, the integral beyond those of the output; beyond
  * each limit, with the integral free, at its own limit, held, and held so that the output is free
- * again; refused inputs, one of them by the low-pass. */
+ * again; refused inputs, one of them by the low-pass, and two that the low-pass does not see. */
 static const point_t points[POINTS] = {
     {1.1f, 0.3f, 0.013f, 0.7f, 0.3f, false},   {1.1f, 0.3f, 0.013f, 0.7f, 0.3f, true},
     {9.1f, 0.3f, 0.013f, 0.7f, 0.3f, true},    {-9.1f, 0.3f, 0.013f, 0.7f, 0.3f, true},
@@ -31,7 +31,8 @@ static const point_t points[POINTS] = {
     {-1.1f, -0.3f, 10.0f, -0.7f, 0.3f, false}, {1.0e7f, 0.3f, 0.013f, 0.7f, 0.3f, true},
     {1.1f, -1.0e7f, 0.013f, 0.7f, 0.3f, true}, {1.1f, 0.3f, 0.013f, 0.7f, 2.0e7f, true},
     {1.1f, 9.3f, 0.013f, 7.9f, 0.3f, false},   {0.37f, 1.9f, 0.013f, 0.7f, 0.3f, true},
-    {2.3f, -0.45f, 0.013f, 0.7f, 0.3f, true},
+    {2.3f, -0.45f, 0.013f, 0.7f, 0.3f, true},  {1.1f, 6.0e5f, 0.013f, 0.7f, 0.3f, false},
+    {6.0e5f, 0.3f, 0.013f, 0.7f, 0.3f, false},
 };
 
 static keel_pid_t controller(const point_t *point)

@@ -16,6 +16,7 @@ from __future__ import annotations
 import argparse
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -133,7 +134,10 @@ def compiler_values(tools: Toolchain, source: Path) -> list[int]:
 
 def frama_c_values(tools: Toolchain, source: Path, machdep: Path) -> tuple[list[int], str]:
     """The facts as Frama-C folds them, and its description of the machine."""
-    command = [str(machdep) if word == str(MACHDEP_FILE) else word for word in tools.frama_c()]
+    # Frama-C compiles a script beside its source, where two processes would collide.
+    script = source.with_name(machdep.name)
+    shutil.copyfile(machdep, script)
+    command = [str(script) if word == str(MACHDEP_FILE) else word for word in tools.frama_c()]
     environment = {**os.environ, **tools.environment()}
     text = output_of([*command, "-constfold", str(source), "-print"], environment, "frama-c")
     machine = output_of([*command, "-print-machdep"], environment, "frama-c")

@@ -156,7 +156,8 @@ class Report(Budgets):
 
     def add(self, figures: dict[str, Figure] | Exception) -> list[str]:
         self.report = self.file.with_name("report.json")
-        self.report.write_text(json.dumps({"sets": {"21": {"no_task": {"mean": 33.5}}}}))
+        host = {"verdict": "failed", "sets": {"21": {"no_task": {"mean": 33.5}}}}
+        self.report.write_text(json.dumps(host))
         self.file.write_text(GOOD)
         effect = {"side_effect": figures} if isinstance(figures, Exception) else {
             "return_value": figures}  # fmt: skip
@@ -175,12 +176,14 @@ class Report(Budgets):
         report = json.loads(self.report.read_text())
         self.assertEqual(report["cortex_m7"]["figures"]["filter"]["mean"], 35.0)
         self.assertEqual(report["sets"]["21"]["no_task"]["mean"], 33.5)
+        self.assertEqual(report["verdict"], "good")
         self.assertRegex(self.said.getvalue(), r"pass, no task +33\.5 +125\.0 \( +700\) +125\.0")
 
     def test_what_is_over_its_budget_is_told(self) -> None:
         over = self.add({**FIGURES, "filter": Figure(1000, 40000, 40)})
         self.assertEqual(over, ["filter step 40.0 > 36.8"])
-        self.assertEqual(json.loads(self.report.read_text())["cortex_m7"]["over_budget"], over)
+        report = json.loads(self.report.read_text())
+        self.assertEqual((report["cortex_m7"]["over_budget"], report["verdict"]), (over, "failed"))
 
     def test_an_error_leaves_no_report(self) -> None:
         with self.assertRaisesRegex(ToolError, "broken"):

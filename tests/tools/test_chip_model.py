@@ -12,7 +12,9 @@ from __future__ import annotations
 import contextlib
 import io
 import re
+import shutil
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -24,6 +26,7 @@ import firmware  # noqa: E402
 import stack  # noqa: E402
 from boards import chip  # noqa: E402
 from boards.chip import PWR, RCC, Chip, ModelError  # noqa: E402
+from boards.rebuilt import SOURCES  # noqa: E402
 from boards.stack_bounds import EXCEPTION_FRAME_B  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
@@ -32,14 +35,19 @@ class ImageTest(unittest.TestCase):
     """Every fault ends in the safe state, with the outputs off and its record told."""
 
     tools: Toolchain
+    root: Path  # A copy: its images do not replace the user's.
 
     @classmethod
     def setUpClass(cls) -> None:
         cls.tools = Toolchain()
         cls.tools.ensure("firmware", "stack", "model")
+        folder = cls.enterClassContext(tempfile.TemporaryDirectory(prefix="keel-test-"))
+        cls.root = Path(folder)
+        for part in (*SOURCES, "specs"):
+            shutil.copytree(ROOT / part, cls.root / part)
         for board in chip_model.CONSOLES:
             with contextlib.redirect_stdout(io.StringIO()):
-                firmware.build(cls.tools, board, [])
+                firmware.build(cls.tools, board, [], cls.root)
 
     def run_image(
         self, seconds: float = 0.2, keys: str = "", board: str = "nucleo_f767zi",
@@ -47,7 +55,7 @@ class ImageTest(unittest.TestCase):
     ) -> Chip:  # fmt: skip
         """Run an image; keys come a millisecond apart from 0.16 s on."""
         pressed = [(160_000 + 1000 * i, key) for i, key in enumerate(keys)]
-        return chip_model.simulate(self.tools, ROOT, board, seconds, pressed, broken, step_us)
+        return chip_model.simulate(self.tools, self.root, board, seconds, pressed, broken, step_us)
 
     def safe(self, board: Chip, *parts: str) -> None:
         self.assertRegex(board.text, "(?s)safe state: fault 1 .*outputs are off")
@@ -83,19 +91,20 @@ class ImageTest(unittest.TestCase):
         self.assertTrue(all(28 <= runs <= 36 for runs in fast), rows)
         used = re.search(r"stack used (\d+) bytes", board.text)
         assert used is not None
-        stacks = stack.measure(self.tools, ROOT, "nucleo_f767zi")["stacks"]
+        stacks = stack.measure(self.tools, self.root, "nucleo_f767zi")["stacks"]
         assert isinstance(stacks, dict)
         self.assertLessEqual(int(used[1]), stacks["main"]["bound"] - EXCEPTION_FRAME_B)
 
     def test_the_brown_out_level_is_set_by_hand_and_once(self) -> None:
         delivered = 0xFFFF_AAFD
         board = chip_model.simulate(
-            self.tools, ROOT, "nucleo_f767zi", 0.2, [(170_000, "b")], step_us=4, options=delivered
-        )
+            self.tools, self.root, "nucleo_f767zi", 0.2, [(170_000, "b")], step_us=4,
+            options=delivered,
+        )  # fmt: skip
         self.assertIn("b within 2 s sets 2.7 V for good\r\nbrown-out status 0", board.text)
         self.assertEqual(board.options, 0xFFFF_AAF1)  # The level, and nothing else.
         board = chip_model.simulate(
-            self.tools, ROOT, "nucleo_f767zi", 0.16, [], step_us=4, options=delivered
+            self.tools, self.root, "nucleo_f767zi", 0.16, [], step_us=4, options=delivered
         )
         self.assertEqual(board.options, delivered)
         self.assertNotIn("brown-out", self.run_image().text)

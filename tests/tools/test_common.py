@@ -16,6 +16,8 @@ import tempfile
 import threading
 import time
 import unittest
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Annotated, NoReturn
 from unittest import mock
@@ -278,6 +280,18 @@ class Builds(FolderTest):
         self.assertEqual(self.build.object("main.c"), first)
         self.assertEqual(first.stat().st_mtime_ns, stamp)
         self.assertNotEqual(self.build.object("main.c", ["-UVALUE", "-DVALUE=3"]), first)
+
+    def test_threads_share_a_compilation(self) -> None:
+        begun: list[int] = []
+
+        def compile_slowly(_: Build, words: Sequence[str]) -> None:
+            begun.append(1)
+            time.sleep(0.2)
+            Path(self.folder, words[-1]).touch()
+
+        with mock.patch.object(Build, "compile", compile_slowly), ThreadPoolExecutor(4) as pool:
+            paths = set(pool.map(self.build.object, ["main.c"] * 4))
+        self.assertEqual((len(begun), [path.is_file() for path in paths]), (1, [True]))
 
     def test_the_compilers_words_are_the_error_and_nothing_half_remains(self) -> None:
         self.file("int main(void) { return x; }\n", "wrong.c")

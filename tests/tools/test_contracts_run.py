@@ -26,10 +26,12 @@ import contracts_run  # noqa: E402
 from common.config import parse_toml, read_toml  # noqa: E402
 from common.errors import ToolError  # noqa: E402
 from common.run import Ended  # noqa: E402
-from contracts_run import BUILD, CHOICE, Choice, Run, Runner, ignored_in, mistakes  # noqa: E402
+from common.source import VERDICT  # noqa: E402
+from contracts_run import CHOICE, GROUPS, Choice, Run, Runner, ignored_in, mistakes  # noqa: E402
 from contracts_run import violation as violated  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
+OWN = ROOT / "build/test/contracts_run"
 SAID = """\
 [e-acsl] beginning translation.
 [e-acsl] src/rtos/load.c:9: Warning:
@@ -101,9 +103,9 @@ class Running(unittest.TestCase):
     def run_one(self, name: str, old: str = "", new: str = "") -> Run:
         """Run the contract of keel_load_begin, with a change of the file."""
         tools = Toolchain()
-        tools.ensure("prove", "test", say=lambda _: None)
-        runner = Runner(tools)
-        place = BUILD / name / "load.c"
+        tools.ensure(*GROUPS, say=lambda _: None)
+        runner = Runner(tools, OWN)
+        place = OWN / name / "load.c"
         place.parent.mkdir(exist_ok=True)
         text = (ROOT / "src/rtos/load.c").read_text()
         self.assertTrue(not old or text.count(old) == 1)
@@ -136,7 +138,7 @@ class Verdict(unittest.TestCase):
         ):
             status = contracts_run.judge(runs, choice, {})
         report: dict[str, Any] = json.loads(path.read_text())
-        self.assertEqual(report["ok"], status == 0)
+        self.assertEqual(report[VERDICT], "failed" if status else "good")
         return status, report
 
     def test_good(self) -> None:

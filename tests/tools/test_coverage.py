@@ -22,7 +22,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import coverage  # noqa: E402
 from common.errors import ToolError  # noqa: E402
-from common.source import STAMP, stamp_of  # noqa: E402
+from common.source import STAMP, VERDICT, stamp_of  # noqa: E402
 from coverage import (  # noqa: E402
     Exclusion,
     FileCoverage,
@@ -181,7 +181,7 @@ class Verdict(unittest.TestCase):
             with contextlib.redirect_stdout(output):
                 status = coverage.judge(files, exclusions)
             self.report = json.loads((folder / "report.json").read_text())
-        return status, output.getvalue(), bool(self.report["ok"])
+        return status, output.getvalue(), self.report[VERDICT] == "good"
 
     def test_a_gap_fails_and_is_shown_with_its_place(self) -> None:
         status, output, good = self.judge([gap()], [])

@@ -17,6 +17,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
+from common.files import write_text  # noqa: E402
 from proofs.project import ProjectError  # noqa: E402
 from test_prove import WholeRunCase  # noqa: E402
 
@@ -128,9 +129,7 @@ class DeterminedTest(unittest.TestCase):
             self.write(name, text)
 
     def write(self, name: str, text: str) -> None:
-        path = self.root / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+        write_text(self.root / name, text)
 
     def change(self, name: str, old: str, new: str) -> None:
         path = next(path for path in FILES if path.endswith(name))

@@ -19,11 +19,12 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import emulated_tests  # noqa: E402
 from common.run import Ended  # noqa: E402
-from suites.emulated import BUILD, EmulatedBoard  # noqa: E402
+from suites.emulated import EmulatedBoard  # noqa: E402
 from suites.faults import FAULTS, judge_fault, read_record  # noqa: E402
 from suites.outcomes import unity_outcome  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
+OWN = Path("build/test/emulated_tests")
 DIVISION = """\
 breaking
 safe state: fault 1 exception 6 code 0x00000000 task breaker
@@ -199,11 +200,11 @@ class Emulated(unittest.TestCase):
     def setUpClass(cls) -> None:
         tools = Toolchain()
         tools.ensure("target")
-        cls.board = EmulatedBoard(tools)
+        cls.board = EmulatedBoard(tools, folder=OWN)
 
     def program(self, name: str, text: str) -> Ended:
         """Build a program, and run it for two seconds at most."""
-        source = ROOT / BUILD / f"{name}.c"
+        source = ROOT / OWN / f"{name}.c"
         source.write_text(text)
         made = self.board.builder.object(source.relative_to(ROOT).as_posix())
         return self.board.run(self.board.builder.link(name, [made]), 2.0)
@@ -220,7 +221,7 @@ class Emulated(unittest.TestCase):
         self.assertEqual((outcome.passed, len(outcome.failures)), (0, 1))
 
     def test_a_test_that_fails_is_counted(self) -> None:
-        source = ROOT / BUILD / "tool_unity.c"
+        source = ROOT / OWN / "tool_unity.c"
         source.write_text(
             '#include "unity.h"\nvoid setUp(void)\n{\n}\nvoid tearDown(void)\n{\n}\n'
             "static void good(void)\n{\n    TEST_ASSERT_EQUAL(1, 1);\n}\n"
@@ -242,7 +243,7 @@ class Emulated(unittest.TestCase):
         self.assertRegex(told, r"^vector 1234: the model has 0x\w+, the target 0x\w+$")
 
     def test_what_is_compared_with_is_the_model(self) -> None:
-        folder = ROOT / BUILD / "tool_model"
+        folder = ROOT / OWN / "tool_model"
         shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(ROOT / emulated_tests.MODELS, folder)
         priority = folder / "priority.c"
@@ -262,7 +263,7 @@ class Emulated(unittest.TestCase):
         text = (ROOT / emulated_tests.DRIVER).read_text()
         old = "    digest(s, promotion_us);\n"
         self.assertEqual(text.count(old), 1)
-        place = BUILD / "tool_differential.c"
+        place = OWN / "tool_differential.c"
         changed = text.replace(old, "    digest(s, promotion_us + (s->vector == 1234u));\n")
         (ROOT / place).write_text(changed)
         return place.as_posix()

@@ -10,7 +10,6 @@ The parts are a small sample's; each part's own faults are in test_evidence_<par
 from __future__ import annotations
 
 import contextlib
-import importlib.util
 import io
 import json
 import shutil
@@ -18,10 +17,9 @@ import subprocess
 import sys
 import tempfile
 import unittest
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 from unittest import mock
 
@@ -32,19 +30,20 @@ from evidence_sample import (  # noqa: E402
     SOURCE,
     STAMP,
     assembled,
-    context_in,
     formal,
     sample_tests,
+    the_program,
 )
 
 from common.errors import ToolError  # noqa: E402
+from common.files import write_json  # noqa: E402
+from common.junit import JUnitSuite, write_junit  # noqa: E402
 from common.packages import provide  # noqa: E402
-from common.run import Ended  # noqa: E402
 from common.source import STAMP as MADE_FROM  # noqa: E402
 from common.source import stamp_of  # noqa: E402
 from evidence.assemble import PARTS, maker_of  # noqa: E402
 from evidence.attestation import PREDICATE  # noqa: E402
-from evidence.commands import Command, commands_of, run_commands  # noqa: E402
+from evidence.measured import copied  # noqa: E402
 from evidence.package import (  # noqa: E402
     ATTESTATION,
     MANIFEST,
@@ -55,17 +54,8 @@ from evidence.package import (  # noqa: E402
     write_package,
 )
 from evidence.part import Context, Item, Part, Table  # noqa: E402
-from evidence.verify import verify  # noqa: E402
+from evidence.verify import reproduced, verify  # noqa: E402
 from toolchain import ToolchainError  # noqa: E402
-
-
-def the_program() -> ModuleType:
-    """tools/evidence.py, whose name its package has as well."""
-    spec = importlib.util.spec_from_file_location("evidence_program", ROOT / "tools/evidence.py")
-    assert spec and spec.loader
-    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def write_sample(folder: Path) -> Path:
@@ -185,99 +175,6 @@ class Parts(InFolder):
         self.assertLessEqual(there, set(PARTS))
 
 
-class Commands(InFolder):
-    """What is run, with a make that only notes it."""
-
-    def setUp(self) -> None:
-        super().setUp()
-        self.ran: list[str] = []
-        self.command = Command("test/report.json", ("test",))
-
-    def write(self, text: str) -> None:
-        path = self.folder / "build/test/report.json"
-        path.parent.mkdir(parents=True)
-        path.write_text(text, encoding="utf-8")
-
-    def run_with(self, ended: Ended) -> list[str]:
-        def start(words: Sequence[str], _: Path) -> Ended:
-            self.ran += words
-            return ended
-
-        return run_commands(context_in(self.folder), [self.command], start)
-
-    def ran_for(self, **report: Any) -> bool:
-        self.write(json.dumps(report))
-        self.assertEqual(self.run_with(Ended(0, "")), [])
-        return bool(self.ran)
-
-    def test_a_good_report_of_this_source_is_kept(self) -> None:
-        self.assertFalse(self.ran_for(passed=3, failed=0, **{MADE_FROM: STAMP}))
-
-    def test_a_report_of_another_source_is_made_anew(self) -> None:
-        self.assertTrue(self.ran_for(failed=0, **{MADE_FROM: {**STAMP, "tree": "0" * 64}}))
-
-    def test_a_report_without_a_stamp_is_made_anew(self) -> None:
-        self.assertTrue(self.ran_for(failed=0))
-
-    def test_a_failed_report_is_made_anew(self) -> None:
-        self.assertTrue(self.ran_for(failed=1, **{MADE_FROM: STAMP}))
-
-    def test_a_proof_that_failed_is_made_anew(self) -> None:
-        self.assertTrue(self.ran_for(verdict="failed", **{MADE_FROM: STAMP}))
-
-    def test_a_report_of_a_few_suites_is_made_anew(self) -> None:
-        self.assertTrue(self.ran_for(failed=0, filter="unit/", **{MADE_FROM: STAMP}))
-
-    def test_a_report_with_a_goal_that_is_not_met_is_made_anew(self) -> None:
-        goals = [{"name": "instructions", "met": False}]
-        self.assertTrue(self.ran_for(goals=goals, **{MADE_FROM: STAMP}))
-
-    def test_every_command_is_a_target_of_make(self) -> None:
-        makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
-        commands = commands_of(ROOT)
-        self.assertGreater(len(commands), 8)
-        for command in commands:
-            self.assertRegex(makefile, rf"(?m)^{command.words[0]}:")
-
-    def test_a_half_written_report_is_made_anew(self) -> None:
-        self.write('{"failed": 0, "made')
-        self.run_with(Ended(0, ""))
-        self.assertEqual(self.ran, ["test"])
-
-    def test_a_command_that_fails_is_named_with_its_last_line(self) -> None:
-        [told] = self.run_with(Ended(1, "much\n3 of 4 tests passed\n"))
-        self.assertIn("make test: exit status 1: 3 of 4 tests passed", told)
-        [log] = (self.folder / "work/logs").iterdir()
-        self.assertIn("much", log.read_text(encoding="utf-8"))
-
-
-class Reports(InFolder):
-    """What a part is told of a report that cannot serve."""
-
-    def told(self, text: str | None) -> list[str]:
-        context = context_in(self.folder)
-        if text is not None:
-            (context.build / "x.json").write_text(text, encoding="utf-8")
-        problems: list[str] = []
-        context.report("x.json", problems)
-        return problems
-
-    def test_missing(self) -> None:
-        self.assertEqual(self.told(None), ["build/x.json: is missing"])
-
-    def test_half_written(self) -> None:
-        self.assertRegex(self.told('{"units": {')[0], r"^build/x\.json: is not whole: ")
-
-    def test_stale(self) -> None:
-        for stamp in ({}, {**STAMP, "commit": "0" * 40}, {**STAMP, "tree": "0" * 64}):
-            told = self.told(json.dumps({MADE_FROM: stamp}))
-            self.assertEqual(told, ["build/x.json: speaks of another source than the one that is"
-                                    " here"])  # fmt: skip
-
-    def test_good(self) -> None:
-        self.assertEqual(self.told(json.dumps({MADE_FROM: STAMP})), [])
-
-
 class Packages(InFolder):
     """What a finished package is, and whether a change of it is noticed."""
 
@@ -388,6 +285,68 @@ class Packages(InFolder):
         with self.assertRaisesRegex(ToolError, "leads out of the package"):
             write_package(self.folder / "evidence", made, SOURCE, {})
         self.assertFalse((self.folder / "evidence").exists())
+
+
+class Measured(InFolder):
+    """Two packages of one source, made from reports with other times."""
+
+    def made(self, name: str, times: float, **facts: Any) -> Path:
+        """The sample, with a report of the tests that took this long."""
+        folder = self.folder / name
+        folder.mkdir()
+        report = {"suites": {"unit/queue": {"seconds": times, "passed": 1}}, MADE_FROM: STAMP}
+        write_json(folder / "report.json", report)
+        write_junit(folder / "junit.xml", "Keel", {"queue": JUnitSuite({"it_adds": ""}, times)})
+        files = {one: folder / one for one in ("report.json", "junit.xml")}
+        took = {"queue/wp/lemmas": times}
+        part = added(files=files, measured=took, **facts)
+        write_package(folder / "evidence", assembled(folder, tests=part), SOURCE, {})
+        return folder / "evidence"
+
+    def test_they_differ_in_one_file_its_page_and_their_digests(self) -> None:
+        one, other = self.made("one", 1.5), self.made("other", 22.25)
+        self.assertEqual(reproduced(one, other), [])
+        before, after = digests(one), digests(other)
+        self.assertEqual(before.keys(), after.keys())
+        self.assertEqual({name for name in before if before[name] != after[name]},
+                         {"measured.json", "site/measured.html", ATTESTATION, SUMS})  # fmt: skip
+        page = (other / "site/measured.html").read_text(encoding="utf-8")
+        self.assertIn("<td>22.2</td><td>queue/wp/lemmas</td>", page)
+        read = json.loads((other / "measured.json").read_text(encoding="utf-8"))
+        self.assertEqual(read["seconds"]["tests"], {"queue/wp/lemmas": 22.25,
+                                                    "report.json/suites/unit/queue": 22.25})
+        for name in ("report.json", "junit.xml"):
+            self.assertNotIn("22.25", (other / "tests" / name).read_text(encoding="utf-8"))
+        self.assertIn('"passed": 1', (other / "tests/report.json").read_text(encoding="utf-8"))
+        self.assertEqual(verify(other, STAMP), [])
+
+    def test_a_time_anywhere_else_is_found(self) -> None:
+        one = self.made("one", 1.5, summary={"seconds": "1.5"})
+        told = reproduced(one, self.made("other", 2.5, summary={"seconds": "2.5"}))
+        for name in ("tests/part.json", MANIFEST, "index.html", "evidence.pdf"):
+            self.assertIn(f"{name}: was altered, {one} has another digest", told)
+
+    def test_an_attestation_or_checksums_that_state_something_else(self) -> None:
+        one, other = self.made("one", 1.5), self.made("other", 2.5)
+        text = (other / ATTESTATION).read_text(encoding="utf-8")
+        (other / ATTESTATION).write_text(text.replace('"tools": {}', '"tools": {"z3": "4"}'),
+                                         encoding="utf-8")  # fmt: skip
+        told = f"{ATTESTATION}: states something else than in {one}"
+        self.assertEqual(reproduced(one, other), [told])
+        sums = (other / SUMS).read_text(encoding="utf-8").splitlines(keepends=True)
+        (other / SUMS).write_text("".join(sums[:-1]), encoding="utf-8")
+        self.assertIn(f"{SUMS}: states other digests than in {one}", reproduced(one, other))
+
+    def test_one_of_another_source(self) -> None:
+        one, other = self.made("one", 1.5), self.made("other", 1.5)
+        read = json.loads((other / MANIFEST).read_text(encoding="utf-8"))
+        write_json(other / MANIFEST, {**read, MADE_FROM: {**STAMP, "commit": "0" * 40}})
+        self.assertEqual(reproduced(one, other), [f"{other}: is of another source than {one}"])
+
+    def test_what_is_no_report_is_packed_as_it_is(self) -> None:
+        path = self.folder / "lock.json"
+        path.write_text('{"seconds": 3}', encoding="utf-8")
+        self.assertEqual(copied("lock.json", path), (b'{"seconds": 3}', {}))
 
 
 class Program(InFolder):

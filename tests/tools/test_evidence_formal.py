@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import json
 import sys
 import unittest
 import unittest.mock
@@ -63,6 +64,15 @@ class Goals(FormalTest):
 
     def test_all_is_well_with_the_tree_as_it_is(self) -> None:
         self.assertEqual(self.part().problems, ())
+
+    def test_how_long_it_took_is_told_apart_from_all_else(self) -> None:
+        before = self.part()
+        self.assertEqual(before.measured["queue/wp/lemmas"], 1.5)
+        for unit in self.report["units"].values():
+            unit["seconds"] = dict.fromkeys(unit["seconds"], 77.7)
+        after = self.part()
+        self.assertEqual(after.measured["queue/wp/lemmas"], 77.7)
+        self.assertEqual(after.model_copy(update={"measured": before.measured}), before)
 
     def test_a_goal_says_who_proved_it_and_what_for(self) -> None:
         item = self.item("goal", f"queue/{QUEUE_GOAL}")
@@ -266,6 +276,20 @@ class Kept(FormalTest):
         self.assertEqual((answer["verdict"], times), ("proved", 0))
         self.replace("include/keel/rtos/clock.h", "? (to_us - from_us)", "? (to_us - from_us + 0u)")
         self.assertEqual(self.asked("failed")[0]["verdict"], "failed")
+
+    def test_the_report_says_whether_it_agrees(self) -> None:
+        for says, ends in (("proved", (0, "good")), ("no answer in 120 s", (1, "failed"))):
+            answers = {CLOCK: {"verdict": says, "wrong": ""}}
+            tools = unittest.mock.Mock()
+            tools().versions.return_value = {"esbmc": unittest.mock.Mock(version="8", sha256="a")}
+            with (
+                unittest.mock.patch.object(third_opinion, "ask_all", return_value=answers),
+                unittest.mock.patch.object(third_opinion, "Toolchain", tools),
+                contextlib.redirect_stdout(io.StringIO()),
+            ):
+                status = third_opinion.run([], self.root)
+            report = json.loads((self.root / "build" / opinion.REPORT).read_text("utf-8"))
+            self.assertEqual((status, report["verdict"]), ends)
 
     def test_a_failure_is_asked_about_again(self) -> None:
         self.assertEqual([self.asked("failed")[1] for _ in range(2)], [1, 1])

@@ -11,9 +11,7 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import io
-import json
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -21,22 +19,16 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-
-from common.packages import provide  # noqa: E402
-
-provide()
+from evidence_sample import STAMP, PartTest  # noqa: E402
 
 import firmware  # noqa: E402
 from boards.board import board_names  # noqa: E402
 from boards.rebuilt import SOURCES, differences  # noqa: E402
 from boards.semantics import COMPILED_AS_PROVED, flag_problems  # noqa: E402
-from common.source import STAMP  # noqa: E402
-from evidence.part import Context, Part  # noqa: E402
+from common.source import STAMP as MADE_FROM  # noqa: E402
 from evidence.parts import object as part_object  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
-HERE = {"commit": "c0", "tree": "7ree", "product": "p0"}
 IMAGE = b"image"
 FLAGS = [*COMPILED_AS_PROVED, "-O2"]
 
@@ -59,11 +51,13 @@ def target_report() -> dict[str, Any]:
     return {"vectors_per_unit": 100000, "suites": {"differential": {"tests": tests}}}
 
 
-class Object(unittest.TestCase):
+class Object(PartTest):
     """A build folder with good reports, into which each test puts one fault."""
 
+    maker = staticmethod(part_object.make)
+
     def setUp(self) -> None:
-        self.build = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        super().setUp()
         self.write("prove/report.json", {"verdict": "proved"})
         for name in board_names(ROOT):
             self.write(f"firmware/{name}/report.json", firmware_report())
@@ -72,22 +66,6 @@ class Object(unittest.TestCase):
         self.write("test-target/report.json", target_report())
         self.same = self.enterContext(mock.patch.object(part_object, "differences"))
         self.same.return_value = []
-
-    def write(self, name: str, report: dict[str, Any]) -> None:
-        """Write a report with this tree's stamp, or the one that it has."""
-        path = self.build / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(json.dumps({STAMP: HERE, **report}))
-
-    def make(self) -> Part:
-        """The part."""
-        work = self.build / "work"
-        return part_object.make(Context(ROOT, self.build, work, HERE, lambda _: None))
-
-    def problem(self) -> str:
-        """The one problem that there is."""
-        (problem,) = self.make().problems
-        return problem
 
     def test_good_reports_give_a_part_without_problems(self) -> None:
         part = self.make()
@@ -98,11 +76,10 @@ class Object(unittest.TestCase):
         self.assertEqual(part.summary["units with the same bits on host and target"], "1 of 1")
 
     def test_a_source_that_changed_after_its_proof(self) -> None:
-        self.write("prove/report.json", {STAMP: {**HERE, "product": "older"}})
-        names = board_names(ROOT)
-        self.assertEqual(list(self.make().problems), [
-            f"{name}: the source built (p0) is not the source proved (older)" for name in names
-        ])  # fmt: skip
+        self.write("prove/report.json", {MADE_FROM: {**STAMP, "product": "older"}})
+        told = f"the source built ({STAMP['product'][:12]}) is not the source proved (older)"
+        problems = list(self.make().problems)
+        self.assertEqual(problems, [f"{name}: {told}" for name in board_names(ROOT)])
 
     def test_proofs_that_are_missing(self) -> None:
         (self.build / "prove/report.json").unlink()
@@ -137,8 +114,8 @@ class Object(unittest.TestCase):
         self.assertIn("host and target were not compared", self.problem())
 
     def test_a_report_of_another_source(self) -> None:
-        stamp = {**HERE, "tree": "other"}
-        self.write("firmware/fmuv5/report.json", {**firmware_report(), STAMP: stamp})
+        stamp = {**STAMP, "tree": "other"}
+        self.write("firmware/fmuv5/report.json", {**firmware_report(), MADE_FROM: stamp})
         self.assertIn("build/firmware/fmuv5/report.json: speaks of another", self.problem())
 
 

@@ -29,8 +29,9 @@ STANDARD = """\
 id = "S-1"
 title = "A standard"
 note = "In our words."
+source = [ { id = "A", address = "https://a.org/b", on = 2026-11-22, what = "Its annex" } ]
 objective = [
-  { id = "1", what = "It is proved", status = "input", by = ["part:formal", "file:a.md"] },
+  { id = "1", checked = "A", what = "Proved", status = "input", by = ["part:formal", "file:a.md"] },
   { id = "2", what = "It flies", status = "partly", by = ["part:tests"], why = "Not yet" },
   { id = "3", what = "It lands", status = "no", why = "No ground" },
 ]
@@ -111,10 +112,26 @@ class Objectives(Parts):
     def test_statuses_are_counted_and_never_called_compliant(self) -> None:
         self.assertEqual(self.make(), "")
         self.assertEqual(self.part.summary,
-                         {"A standard": "1 met as input, 1 partly, 1 not addressed"})  # fmt: skip
+                         {"A standard": "1 met as input, 1 partly, 1 not addressed; "
+                                        "2 of 3 numbers from memory alone"})  # fmt: skip
         first = self.part.items[0]
         self.assertEqual((first.id, first.links), ("S-1/1", ("part:formal", "file:a.md")))
         self.assertEqual([item.state for item in self.part.items], ["good", "open", "open"])
+
+    def test_each_row_tells_what_its_number_was_compared_with(self) -> None:
+        self.assertEqual(self.make(), "")
+        (table,) = self.part.tables
+        place = table.columns.index("number compared with")
+        self.assertEqual([row[place] for row in table.rows], ["A", "nothing", "nothing"])
+        self.assertIn("A (https://a.org/b, read on 2026-11-22): Its annex.", table.note)
+        told = [item.facts["number compared with"] for item in self.part.items]
+        memory = "nothing: it is from memory"
+        self.assertEqual(told, ["A, 2026-11-22: https://a.org/b", memory, memory])
+
+    def test_a_comparison_with_a_source_that_is_not_there(self) -> None:
+        told = self.make('checked = "A"', 'checked = "B"')
+        self.assertRegex(told, r"s\.toml:\d+: objective 1.*there is no source B$")
+        self.assertIn("on", self.make("on = 2026-11-22, ", ""))
 
     def test_an_artefact_that_does_not_exist(self) -> None:
         for old, new in (("part:formal", "part:magic"), ("file:a.md", "file:b.md"),

@@ -8,26 +8,17 @@ python3 tests/tools/test_evidence_static.py
 
 from __future__ import annotations
 
-import json
-import sys
-import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-
-from common.packages import provide  # noqa: E402
-
-provide()
+from evidence_sample import STAMP, PartTest  # noqa: E402
 
 from boards.board import board_names  # noqa: E402
-from common.source import STAMP  # noqa: E402
-from evidence.part import Context, Part  # noqa: E402
+from common.source import STAMP as MADE_FROM  # noqa: E402
 from evidence.parts import static  # noqa: E402
 
-HERE = {"commit": "c0", "tree": "7ree", "product": "p0"}
 FINDING = {"rule": "misra-c2012-15.5", "file": "src/x.c", "line": 7, "reason": "15.5: is not met"}
 
 
@@ -59,31 +50,18 @@ def eva_report() -> dict[str, Any]:
             "assigns": [writes], "explained": {"alarm": [], "writes": []}}  # fmt: skip
 
 
-class Static(unittest.TestCase):
+class Static(PartTest):
     """A build folder with good reports, into which each test puts one fault."""
 
+    maker = staticmethod(static.make)
+
     def setUp(self) -> None:
-        self.build = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        super().setUp()
         self.write("lint/report.json", lint_report())
         for name in board_names(ROOT):
             self.write(f"stack/{name}.json", stack_report())
         self.write("bench/report.json", bench_report())
         self.write("eva/report.json", eva_report())
-
-    def write(self, name: str, report: dict[str, Any]) -> None:
-        """Write a report with this tree's stamp, or the one that it has."""
-        path = self.build / name
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(json.dumps({STAMP: HERE, **report}))
-
-    def make(self) -> Part:
-        """The part."""
-        return static.make(Context(ROOT, self.build, self.build / "work", HERE, lambda _: None))
-
-    def problem(self) -> str:
-        """The one problem that there is."""
-        (problem,) = self.make().problems
-        return problem
 
     def table(self, title: str) -> list[tuple[str, ...]]:
         """The rows of the table whose title begins so."""
@@ -143,7 +121,7 @@ class Static(unittest.TestCase):
 
     def test_a_report_that_is_missing_stale_or_broken(self) -> None:
         (self.build / "stack/fmuv5.json").unlink()
-        self.write("bench/report.json", {**bench_report(), STAMP: {**HERE, "tree": "other"}})
+        self.write("bench/report.json", {**bench_report(), MADE_FROM: {**STAMP, "tree": "other"}})
         (self.build / "eva/report.json").unlink()
         (self.build / "lint/report.json").write_text('{"findings": [')
         shown = [problem.partition(": ")[0] for problem in self.make().problems]

@@ -22,6 +22,7 @@ sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/tools")]
 from evidence_proofs import EvidenceTest  # noqa: E402
 
 import mutate  # noqa: E402
+from common.source import STAMP  # noqa: E402
 from evidence.part import Item, Part  # noqa: E402
 from evidence.parts import strength  # noqa: E402
 from evidence.strength import mutants as recorded  # noqa: E402
@@ -166,6 +167,12 @@ class Mistakes(StrengthTest):
         del self.report["units"]["voter"]["gappa"]["negative"]["list"]["mean_rounds_twice.g"]
         self.assert_problem(self.part(), "voter/wrong-mean_rounds_twice", "no verdict")
 
+    def test_without_a_report_the_report_is_the_problem_and_not_each_mistake(self) -> None:
+        self.report[STAMP] = {"commit": "", "tree": "", "product": ""}
+        part = self.part()
+        self.assertEqual({one.state for one in part.items if "/wrong-" in one.id}, {"open"})
+        self.assert_problem(part, "build/prove/report.json", "speaks of another source")
+
     def test_a_mistake_that_says_nothing(self) -> None:
         path = self.root / "proofs/queue/wrong/add_overwrites.toml"
         text = path.read_text(encoding="utf-8")
@@ -202,6 +209,25 @@ class Blocks(StrengthTest):
     def test_an_entry_without_a_reason(self) -> None:
         self.replace("specs/unreached.toml", '"as in keel_pass_run_harness"', '""')
         self.assert_problem(self.part(), "specs/unreached.toml", "reason")
+
+    def test_unreached_blocks_are_listed_by_function_and_line(self) -> None:
+        source = (self.root / "src/rtos/pass.c").read_text("utf-8").splitlines()
+        line = source.index("    task->run(task->context);") + 1
+        (table,) = [one for one in self.part().tables if one.title.startswith("Blocks that")]
+        rows = {row[0]: row[1:3] for row in table.rows}
+        blocks, places = rows["harness:pass/keel_pass_run__once_harness"]
+        self.assertEqual(blocks, "6")
+        self.assertIn(f"run_task at src/rtos/pass.c:{line}", places.split("; "))
+        self.assertNotIn("specs/model", places)
+
+    def test_blocks_where_there_is_no_call_through_a_pointer(self) -> None:
+        self.coverage("queue", "keel_queue_add_harness")["reached"] -= 1
+        reasons = self.root / "specs/unreached.toml"
+        entry = ('\n[[unreached]]\nharness = "queue/keel_queue_add_harness"\nblocks = 1\n'
+                 'reason = "as in keel_pass_run_harness"\n')  # fmt: skip
+        reasons.write_text(reasons.read_text("utf-8") + entry, "utf-8")
+        self.assert_problem(self.part(), "specs/unreached.toml: queue/keel_queue_add_harness",
+                            "nothing that it covers calls through a pointer")  # fmt: skip
 
     def test_an_entry_that_is_of_nothing(self) -> None:
         self.replace("specs/unreached.toml", "keel_pass_run__once_harness", "keel_gone_harness")

@@ -8,22 +8,15 @@ python3 tests/tools/test_evidence_tests.py
 
 from __future__ import annotations
 
-import json
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
+from evidence_sample import STAMP, PartTest
 
-from common.junit import JUnitSuite, write_junit  # noqa: E402
-from common.source import STAMP  # noqa: E402
-from evidence.part import Context, Part  # noqa: E402
-from evidence.parts import tests  # noqa: E402
+from common.junit import JUnitSuite, write_junit
+from common.source import STAMP as MADE_FROM
+from evidence.parts import tests
 
-HERE = {"commit": "c0", "tree": "7ree", "product": "p0"}
 QUEUE, TEST = "unit/queue", "QUE_003_order"
 GAP = {"file": "src/x.c", "line": 3, "text": "return 1;", "what": "line not executed"}
 
@@ -62,11 +55,13 @@ def contracts_report() -> dict[str, Any]:
     return {"units": {"src/x.c": unit}, "left_out": [absent]}
 
 
-class Tests(unittest.TestCase):
+class Tests(PartTest):
     """A build folder with good reports, into which each test puts one fault."""
 
+    maker = staticmethod(tests.make)
+
     def setUp(self) -> None:
-        self.build = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        super().setUp()
         for folder in ("test", "test-target"):
             self.write(f"{folder}/report.json", run_report())
             self.junit(folder)
@@ -74,25 +69,9 @@ class Tests(unittest.TestCase):
         self.write("coverage-target/report.json", code_report())
         self.write("contracts-run/report.json", contracts_report())
 
-    def write(self, name: str, report: dict[str, Any]) -> None:
-        """Write a report with this tree's stamp, or the one that it has."""
-        path = self.build / name
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(json.dumps({STAMP: HERE, **report}))
-
     def junit(self, folder: str, said: str = "") -> None:
         """Write a run's other report."""
         write_junit(self.build / folder / "junit.xml", "Keel", {QUEUE: JUnitSuite({TEST: said})})
-
-    def make(self) -> Part:
-        """The part."""
-        return tests.make(Context(ROOT, self.build, self.build / "work", HERE, lambda _: None))
-
-    def problem(self) -> str:
-        """The one problem of the part."""
-        problems = self.make().problems
-        self.assertEqual(len(problems), 1, problems)
-        return problems[0]
 
     def test_good_reports_make_a_whole_part(self) -> None:
         part = self.make()
@@ -130,6 +109,13 @@ class Tests(unittest.TestCase):
         path.write_text(path.read_text()[:-9])
         self.assertIn("build/test/report.json: is not whole", self.problem())
 
+    def test_seconds_are_in_no_table(self) -> None:
+        before = self.make()
+        report = run_report()
+        report["suites"][QUEUE]["seconds"] = 77.7
+        self.write("test/report.json", report)
+        self.assertEqual(self.make(), before)
+
     def test_half_a_junit_file(self) -> None:
         path = self.build / "test/junit.xml"
         path.write_text(path.read_text()[:-9])
@@ -140,7 +126,7 @@ class Tests(unittest.TestCase):
         self.assertEqual(self.problem(), "build/coverage/report.json: is missing")
 
     def test_a_stale_report(self) -> None:
-        self.write("test/report.json", {**run_report(), STAMP: {**HERE, "tree": "0ther"}})
+        self.write("test/report.json", {**run_report(), MADE_FROM: {**STAMP, "tree": "0ther"}})
         self.assertIn("build/test/report.json: speaks of another source", self.problem())
 
     def test_some_of_the_suites(self) -> None:

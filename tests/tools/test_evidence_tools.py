@@ -11,7 +11,6 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import sys
 import tempfile
 import unittest
 from dataclasses import replace
@@ -19,23 +18,19 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-
-from common.packages import provide  # noqa: E402
-
-provide()
+from evidence_sample import STAMP, PartTest  # noqa: E402
 
 import qualify  # noqa: E402
 from common.errors import ToolError  # noqa: E402
-from common.source import PRODUCT, STAMP  # noqa: E402
-from evidence.part import Context, Part  # noqa: E402
+from common.source import PRODUCT  # noqa: E402
+from common.source import STAMP as MADE_FROM  # noqa: E402
+from evidence.part import Context  # noqa: E402
 from evidence.parts import tools as part_tools  # noqa: E402
 from evidence.parts.tools import SETTINGS, Settings  # noqa: E402
 from qualification.seeds import SEEDS  # noqa: E402
 from toolchain import Found, Toolchain  # noqa: E402
 from toolchain.lock import Spec  # noqa: E402
 
-HERE = {"commit": "c0", "tree": "7ree", "product": "p0"}
 RUN = {"tool": "cbmc", "fault": "an overflow", "how": "cbmc", "version": "6.6.0", "wrong": ""}
 PINNED = Spec("cbmc", "deb", at_least="6.6", below="6.7", sha256="aa")
 
@@ -99,9 +94,36 @@ class Entries(unittest.TestCase):
             text = (ROOT / SETTINGS).read_text()
             text += '\n[[problem]]\ntool = "cmbc"\nsource = "s"\nwhat = "w"\nhere = "h"\n'
             (Path(folder) / SETTINGS).write_text(text)
-            context = Context(Path(folder), Path(folder), Path(folder), HERE, lambda _: None)
+            context = Context(Path(folder), Path(folder), Path(folder), STAMP, lambda _: None)
             with self.assertRaisesRegex(ToolError, "there is no tool cmbc"):
                 part_tools.make(context)
+
+    def refused(self, tool: str, old: str, new: str) -> str:
+        """What the file is refused with when the entry of a tool is changed."""
+        head, _, rest = (ROOT / SETTINGS).read_text().partition(f'name = "{tool}"\n')
+        self.assertIn(old, rest.partition("[[")[0])
+        with tempfile.TemporaryDirectory(prefix="keel-test-") as folder:
+            (Path(folder) / "specs").mkdir()
+            text = f'{head}name = "{tool}"\n{rest.replace(old, new, 1)}'
+            (Path(folder) / SETTINGS).write_text(text)
+            with self.assertRaises(ToolError) as caught:
+                part_tools.read_settings(Path(folder))
+        return str(caught.exception)
+
+    def test_a_review_that_does_not_say_when_where_or_what_it_left(self) -> None:
+        for old, new, told in (
+            ("on = 2026-11-22\n", "", "read, but on does not say when"),
+            ('left = "The vendor\'s tracker"\n', "", "left does not say what was not read"),
+            ('known = "read"', 'known = "complete"', "known"),
+            ("on = 2026-11-22", "on = 2026-13-22", "no TOML"),
+        ):
+            self.assertRegex(self.refused("why3", old, new), rf"tools\.toml:\d+: .*({told})")
+        without = self.refused("cadical", "sources = [", "#")
+        self.assertRegex(without, r"tool cadical: .*read, but no source is named")
+
+    def test_an_open_review_needs_no_source_but_says_what_was_searched(self) -> None:
+        told = self.refused("binutils", "left = ", "#")
+        self.assertRegex(told, r"binutils: .*open, but left does not say")
 
     def test_a_test_that_is_not_there(self) -> None:
         read = part_tools.read_settings(ROOT)
@@ -113,23 +135,16 @@ class Entries(unittest.TestCase):
         self.assertEqual(problems, [told])
 
 
-class Whole(unittest.TestCase):
+class Whole(PartTest):
     """The part, on good reports with one fault each."""
 
+    maker = staticmethod(part_tools.make)
+
     def setUp(self) -> None:
-        self.build = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        super().setUp()
         for name in part_tools.VERSIONED:
             self.write(name, {"tools": {}})
         self.write(part_tools.QUALIFY, {"verdict": "good", "problems": [], "runs": [RUN]})
-
-    def write(self, name: str, report: dict[str, Any]) -> None:
-        path = self.build / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(json.dumps({STAMP: HERE, **report}))
-
-    def make(self) -> Part:
-        work = self.build / "work"
-        return part_tools.make(Context(ROOT, self.build, work, HERE, lambda _: None))
 
     def mine(self) -> list[str]:
         """The problems, but for tools that are not installed on this machine."""
@@ -139,6 +154,20 @@ class Whole(unittest.TestCase):
         self.assertEqual(self.mine(), [])
         names = {item.id for item in self.make().items}
         self.assertEqual(names, set(part_tools.wanted(Toolchain().lock)))
+
+    def test_each_page_tells_how_far_known_problems_were_reviewed(self) -> None:
+        part = self.make()
+        items = {item.id: item for item in part.items}
+        self.assertEqual(items["why3"].facts["known problems"], "read, 2026-11-22")
+        self.assertEqual(items["gappa"].facts["known problems"], "open, 2026-11-22")
+        self.assertIn("tracker", items["why3"].facts["what was not"])
+        self.assertNotIn("where", items["binutils"].facts)
+        (table,) = [one for one in part.tables if one.title == "Reviews of known problems"]
+        told = [row[1] for row in table.rows]
+        counts = (f"{told.count(how)} {how}" for how in ("read", "searched", "open", "not needed"))
+        shown = part.summary["tools by review of their known problems"]
+        self.assertEqual(shown, ", ".join(counts))
+        self.assertEqual(len(told), len(items))
 
     def test_a_fault_that_is_no_longer_detected(self) -> None:
         wrong = "cbmc: an overflow: does not say 'x', but: nothing"
@@ -150,7 +179,7 @@ class Whole(unittest.TestCase):
 
     def test_reports_that_are_missing_or_of_another_source(self) -> None:
         (self.build / part_tools.QUALIFY).unlink()
-        self.write("lint/report.json", {STAMP: {**HERE, "tree": "other"}})
+        self.write("lint/report.json", {MADE_FROM: {**STAMP, "tree": "other"}})
         shown = [one.partition(": ")[0] for one in self.mine()]
         self.assertEqual(shown, ["build/qualify/report.json", "build/lint/report.json"])
 

@@ -377,6 +377,7 @@ class ToolTest(unittest.TestCase):
     def test_the_report_and_sarif_have_every_finding_with_its_place(self) -> None:
         self.write("src/rtos/clock.c", TWO_ON_A_LINE)
         self.lint()
+        self.assertEqual(self.report()["verdict"], "failed")
         found = [(one["rule"], one["file"], one["line"]) for one in self.report()["findings"]]
         rules = [("misra-c2012-14.4", 5), ("misra-c2012-10.4", 6), ("misra-c2012-15.5", 6)]
         self.assertEqual(found, [(rule, "src/rtos/clock.c", line) for rule, line in rules])
@@ -396,6 +397,7 @@ class ToolTest(unittest.TestCase):
         self.assertEqual(deviation["allows"], {"src/rtos/clock.c": 1})
         self.assertEqual(report["rules_without_checker"], ["1.1", "3.2"])
         self.assertEqual(report[STAMP], stamp_of(self.root))
+        self.assertEqual(report["verdict"], "good")
 
     def test_a_run_that_does_not_end_leaves_no_report(self) -> None:
         self.write("src/rtos/clock.c", BARE)

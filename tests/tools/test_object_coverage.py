@@ -35,7 +35,7 @@ from boards.conditions import (  # noqa: E402
 from boards.elf import Contents, Symbol, read_contents  # noqa: E402
 from boards.lines import Lines, Place, read_lines  # noqa: E402
 from common.errors import ToolError  # noqa: E402
-from common.source import STAMP, stamp_of  # noqa: E402
+from common.source import STAMP, VERDICT, stamp_of  # noqa: E402
 from object_coverage import (  # noqa: E402
     Condition,
     Measurement,
@@ -43,10 +43,11 @@ from object_coverage import (  # noqa: E402
     UncoveredError,
     read_reasons,
 )
-from suites.emulated import BUILD, EmulatedBoard  # noqa: E402
+from suites.emulated import EmulatedBoard  # noqa: E402
 from suites.trace import one_by_one, outcomes_of, traced  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
+OWN = Path("build/test/object_coverage")
 N, Z, C, V = 1 << 31, 1 << 30, 1 << 29, 1 << 28
 LOG = """\
 R00=00000000 R01=00000005 R02=00000003 R03=00000001
@@ -121,11 +122,11 @@ class Running(unittest.TestCase):
     def setUpClass(cls) -> None:
         tools = Toolchain()
         tools.ensure("target", "stack")
-        cls.board = EmulatedBoard(tools)
+        cls.board = EmulatedBoard(tools, folder=OWN)
 
     def found(self, name: str, code: str) -> tuple[Contents, Symbol, Path]:
         """Build a program; its function `known`."""
-        source = ROOT / BUILD / f"{name}.c"
+        source = ROOT / OWN / f"{name}.c"
         source.write_text(code)
         made = self.board.builder.object(source.relative_to(ROOT).as_posix(), ["-Wno-error"])
         image = self.board.builder.link(name, [made])
@@ -143,8 +144,8 @@ class Running(unittest.TestCase):
         self.assertEqual(
             [seen[item.address] for item in items], [{False}, {True, False}, {True}, {False}]
         )
-        places = read_lines(self.board.tools, elf, (BUILD.as_posix(),))
-        self.assertEqual(places.at(function.address).unit, f"{BUILD}/tool_known.c")
+        places = read_lines(self.board.tools, elf, (OWN.as_posix(),))
+        self.assertEqual(places.at(function.address).unit, f"{OWN}/tool_known.c")
 
     def test_a_selection_counts_and_a_computed_jump_is_refused(self) -> None:
         for text, kind in (("vselgt.f32 s0, s0, s1", SELECTION), ("tbb [pc, r0]", ""),
@@ -166,7 +167,7 @@ class Running(unittest.TestCase):
             measurement.check_all_functions()
 
     def test_tests_that_fail_are_no_evidence(self) -> None:
-        source = ROOT / BUILD / "tool_fails.c"
+        source = ROOT / OWN / "tool_fails.c"
         source.write_text(
             '#include "unity.h"\nvoid setUp(void)\n{\n}\nvoid tearDown(void)\n{\n}\n'
             "static void bad(void)\n{\n    TEST_ASSERT_EQUAL(1, 2);\n}\n"
@@ -205,7 +206,7 @@ class Verdict(unittest.TestCase):
         ):
             status = object_coverage.judge(conditions, reasons, {"tests": ["t.c"]})
         self.report = json.loads((folder / "report.json").read_text())
-        self.assertEqual(self.report["ok"], status == 0)
+        self.assertEqual(self.report[VERDICT], "failed" if status else "good")
         return status, output.getvalue()
 
     def test_all_seen(self) -> None:

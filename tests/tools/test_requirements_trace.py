@@ -19,6 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import requirements_trace  # noqa: E402
+from common.files import write_text  # noqa: E402
 
 SDOC = """\
 [DOCUMENT]
@@ -122,9 +123,7 @@ class TraceTest(unittest.TestCase):
 
     def write(self, name: str, text: str) -> None:
         """Write a file of the project."""
-        path = self.root / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+        write_text(self.root / name, text)
 
     def change(self, name: str, old: str, new: str) -> None:
         """Replace a text that must be there."""

@@ -24,7 +24,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 import run_tests  # noqa: E402
 from common.build import BuildError  # noqa: E402
 from common.run import Ended, run  # noqa: E402
-from common.source import STAMP, stamp_of  # noqa: E402
+from common.source import STAMP, VERDICT, stamp_of  # noqa: E402
 from run_tests import BUILD, HostBuilds  # noqa: E402
 from suites import running  # noqa: E402
 from suites.outcomes import (  # noqa: E402
@@ -253,6 +253,12 @@ class Everything(unittest.TestCase):
             outcome.add(f"bad{i}", f"t.c:{i}: bad{i}: it failed")
         return outcome
 
+    def test_a_run_of_some_suites_does_not_pass_for_all(self) -> None:
+        for arguments, verdict in (((), "good"), (("--filter", "a"), "partial")):
+            self.assertEqual(self.main({"a": self.outcome(2)}, *arguments)[0], 0)
+            report = json.loads((self.folder / BUILD / running.REPORT).read_text())
+            self.assertEqual(report[VERDICT], verdict)
+
     def test_totals_and_report(self) -> None:
         status, output = self.main({"a": self.outcome(2), "b": self.outcome(1, 1)})
         self.assertEqual(status, 1)
@@ -260,6 +266,7 @@ class Everything(unittest.TestCase):
         self.assertIn("t.c:0: bad0: it failed", output)
         report = json.loads((self.folder / BUILD / running.REPORT).read_text())
         self.assertEqual((report["passed"], report["failed"]), (3, 1))
+        self.assertEqual(report[VERDICT], "failed")
         self.assertEqual(report["suites"]["b"]["tests"], {"good0": "passed", "bad0": "failed"})
         self.assertEqual(report[STAMP], stamp_of())
         cases = {

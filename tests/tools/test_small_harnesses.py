@@ -13,6 +13,7 @@ import shutil
 import sys
 import tempfile
 import unittest
+from unittest import mock
 from pathlib import Path
 from typing import Any
 
@@ -56,9 +57,14 @@ class SmallHarness(TreeTest):
     def test_where_there_is_no_capacity_none_is_defined(self) -> None:
         self.assertEqual(self.made("// cbmc: --unwind 34", "/* none */\n").defines, ())
 
-    def test_the_solver_in_cbmc_takes_small_formulas_and_z3_stays(self) -> None:
+    def test_the_solver_in_cbmc_takes_small_formulas(self) -> None:
         self.assertNotIn("cadical", self.made("// cbmc: --external-sat-solver cadical").options)
-        self.assertIn("--z3", self.made("// cbmc: --z3 --fpa").options)
+
+    def test_who_finds_no_examples_is_not_asked(self) -> None:
+        made = Small({}, mock.Mock())
+        solver: Any = type("Solver", (), {"name": "solver", "options": ("--z3", "--fpa")})()
+        other: Any = type("Other", (), {"name": "other", "options": ("--unwind", "3")})()
+        self.assertEqual(made.ranked("keel_box_put", [solver, other]), [other])
 
 
 def answer(failure: str = "", complete: bool = True) -> Answer:
@@ -112,7 +118,7 @@ class Kills(TreeTest):
         checker: Any = Checker(answer("BOX_001"))
         unchanged: Any = Checker(answer())
         made = Small({harness.name: []}, lambda: unchanged)
-        other: Any = type("Other", (), {"name": "other"})()
+        other: Any = type("Other", (), {"name": "other", "options": ()})()
         self.assertEqual(made.ranked("keel_box_put", [other, harness]), [other, harness])
         made.kills(harness, "keel_box_put", checker, self.root)
         self.assertEqual(made.ranked("keel_box_put", [other, harness]), [harness, other])

@@ -43,7 +43,7 @@ def test_a_difference_is_told_and_reported(
     monkeypatch.setattr(soak, "KERNEL", [*others, str(broken)])
     assert soak.main(["--steps", str(FEW)]) == 1
     report = json.loads((own_folder / "report.json").read_text(encoding="utf-8"))
-    assert report["verdict"] == "DIFFER"
+    assert report["verdict"] == "failed"
     assert [name for name, one in report["programs"].items() if not one["good"]] == [
         "voter, filter and pid"
     ]
@@ -53,5 +53,5 @@ def test_a_difference_is_told_and_reported(
 def test_the_code_as_it_is_passes(own_folder: Path) -> None:
     assert soak.main(["--steps", str(FEW)]) == 0
     report = json.loads((own_folder / "report.json").read_text(encoding="utf-8"))
-    assert report["verdict"] == "no difference"
+    assert report["verdict"] == "good"
     assert report["steps"] == FEW

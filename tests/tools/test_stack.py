@@ -347,7 +347,7 @@ class FilesTest(unittest.TestCase):
         self.assertIn("101 of 100 bytes: reset > work", out.getvalue())
         self.assertIn("TOO LITTLE ROOM: main", out.getvalue())
         written = json.loads((self.root / stack.REPORT / "some.json").read_text())
-        self.assertEqual(written, {**report, STAMP: stamp_of(self.root)})
+        self.assertEqual(written, {**report, "verdict": "failed", STAMP: stamp_of(self.root)})
 
     def test_a_painted_stack_below_and_above_the_bound(self) -> None:
         report = {

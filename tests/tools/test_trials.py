@@ -13,6 +13,7 @@ import json
 import sys
 import tempfile
 import unittest
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -22,7 +23,7 @@ sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from proofs.cache import Cache  # noqa: E402
 from proofs.mutant_trees import Trees  # noqa: E402
-from proofs.mutant_verdicts import Verdict, report, standing, table  # noqa: E402
+from proofs.mutant_verdicts import Identity, Verdict, report, standing, table  # noqa: E402
 from proofs.mutants import Mutant  # noqa: E402
 from proofs.mutation import BY_CBMC, BY_WP, NO_ANSWER, Tools, Trial  # noqa: E402
 from proofs.project import find_units  # noqa: E402
@@ -78,7 +79,7 @@ class TrialCase(TreeTest):
 
     def make_trial(
         self, stamp: str = "1", patient: bool = True, driver: str = "d",
-        wp: str = "1",
+        wp: str = "1", accepted: Collection[Identity] = (),
     ) -> Trial:  # fmt: skip
         scratch = Path(tempfile.mkdtemp(dir=self.root.parent, prefix="scratch"))
         self.addCleanup(lambda: __import__("shutil").rmtree(scratch, ignore_errors=True))
@@ -89,7 +90,7 @@ class TrialCase(TreeTest):
             self.unit, tools, Trees(self.root, scratch, 1), ("cbmc", "wp"), False,
             Cache(self.root / "cache"),
             {"tool": "t", BY_CBMC: stamp, BY_WP: wp, "driver": driver}, Exceptions(),
-            Times(self.root / "times.json"), patient,
+            Times(self.root / "times.json"), patient, accepted=accepted,
         )  # fmt: skip
 
     def mutant(self, text: str = "*box = value;") -> Mutant:
@@ -150,20 +151,29 @@ class SmallFirst(TrialCase):
         verdict = self.tried(lambda *_: self.killed, others)
         self.assertEqual((verdict.status, verdict.engines), ("killed", {"cbmc": self.killed}))
 
-    def test_who_only_calls_the_function_is_asked_last(self) -> None:
+    def test_a_small_harness_that_only_calls_the_function_is_asked_before_a_whole_one(self) -> None:
         seen: list[str] = []
 
         def kills(_self: object, harness: Any, *_: object) -> str:
             seen.append(harness.name)
             return self.killed if harness.name == "keel_box_get_harness" else ""
 
-        def others(*_: object) -> str:
-            seen.append("other")
-            return "survived"
-
-        verdict = self.tried(kills, others)
+        verdict = self.tried(kills, mock.Mock(side_effect=AssertionError("asked")))
         self.assertEqual((verdict.status, verdict.engines["cbmc"]), ("killed", self.killed))
-        self.assertEqual(seen[5:], ["other", "other", "keel_box_get_harness"])
+        self.assertEqual(seen[-1], "keel_box_get_harness")
+
+    def test_of_an_accepted_reason_small_harnesses_alone_are_asked(self) -> None:
+        self.trial = self.make_trial(accepted=[self.mutant().identity])
+        others = mock.Mock(side_effect=AssertionError("asked"))
+        verdict = self.tried(lambda *_: "", others)
+        self.assertEqual(verdict.status, "survived")
+        self.assertEqual(self.tried(lambda *_: self.killed, others).status, "killed")
+
+    def test_what_was_kept_with_a_reason_is_not_taken_without_it(self) -> None:
+        accepting = self.make_trial(accepted=[self.mutant().identity])
+        accepting.keep(Verdict(self.mutant()))
+        self.assertIsNotNone(accepting.known(self.mutant()))
+        self.assertIsNone(self.make_trial().known(self.mutant()))
 
     def test_what_small_harnesses_leave_is_not_tried_when_only_they_are_asked(self) -> None:
         verdict = self.tried(lambda *_: "", mock.Mock(side_effect=AssertionError("asked")), True)

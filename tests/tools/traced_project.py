@@ -20,7 +20,7 @@ from common.packages import provide  # noqa: E402
 provide("common")
 
 import test_requirements_trace as small  # noqa: E402
-from common.files import write_json  # noqa: E402
+from common.files import write_json, write_text  # noqa: E402
 from evidence.part import Context, Part  # noqa: E402
 
 STAMP = {"commit": "c", "tree": "t", "product": "p"}
@@ -64,9 +64,7 @@ class TracedProject(unittest.TestCase):
 
     def write(self, name: str, text: str) -> None:
         """Write a file of the project."""
-        path = self.root / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+        write_text(self.root / name, text)
 
     def change(self, name: str, old: str, new: str) -> None:
         """Replace a text that must be there."""

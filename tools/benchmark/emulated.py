@@ -18,6 +18,7 @@ from typing import Annotated
 from common.config import Field, Mistake, Table, read_toml
 from common.errors import ROOT, ToolError
 from common.files import read_text, write_json, write_text
+from common.source import VERDICT, verdict_of
 from suites.emulated import EmulatedBoard
 from toolchain import Toolchain
 
@@ -45,6 +46,8 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "mixer": ("mixer, 4 motors, all fits", ("mixer",), 200, ("steps", "mixer")),
     "mixer_worst": ("mixer, 4 motors, all gives way", ("mixer_worst",), None,
                     ("steps", "mixer_worst")),
+    "mode": ("mode, in flight", ("mode",), 250, ("steps", "mode")),
+    "mode_worst": ("mode, all facts waiting", ("mode_worst",), 250, ("steps", "mode_worst")),
 }  # fmt: skip
 
 
@@ -192,6 +195,7 @@ def add(tools: Toolchain, report_file: Path, accepting: bool = False) -> list[st
         },
         "over_budget": over,
     }
+    report[VERDICT] = verdict_of(not over)
     write_json(report_file, report)
     print_table(report, figures, budget)
     return over

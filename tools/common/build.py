@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import hashlib
+import threading
+from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
@@ -44,7 +46,8 @@ def source_files(names: Iterable[str], root: Path = ROOT) -> list[str]:
 
 @dataclass
 class Build:
-    """A compiler with its flags, and a folder for what it makes."""
+    """A compiler with its flags, and a folder for what it makes. Threads may share it: who asks for
+    an object that another one is compiling waits for it."""
 
     tools: Commands
     compiler: str
@@ -53,20 +56,31 @@ class Build:
     root: Path = ROOT
     link_flags: Sequence[str] = ()
     made: dict[tuple[str, ...], Path] = field(default_factory=dict)
+    _makers: defaultdict[tuple[str, ...], threading.Lock] = field(
+        default_factory=lambda: defaultdict(threading.Lock), repr=False
+    )
+    _lock: threading.Lock = field(default_factory=threading.Lock, repr=False)
 
     def object(self, source: str, extra: Sequence[str] = ()) -> Path:
         """Compile a file; the object's path ends as the source's does. One outside of the root is
         named `foreign`."""
         key = (source, *extra)
-        if key not in self.made:
-            kind = hashlib.sha256(" ".join(extra).encode()).hexdigest()[:8] if extra else "obj"
-            foreign = Path(source).is_absolute()
-            inner = Path("foreign", Path(source).name) if foreign else Path(source)
-            target = (self.folder / kind / inner).with_suffix(".o")
-            target.parent.mkdir(parents=True, exist_ok=True)
-            self.compile([*self.flags, *extra, "-c", source, "-o", self.shown(target)])
-            self.made[key] = target
-        return self.made[key]
+        with self._lock:
+            maker = self._makers[key]
+        with maker:
+            if key not in self.made:
+                self.made[key] = self._compiled(source, extra)
+            return self.made[key]
+
+    def _compiled(self, source: str, extra: Sequence[str]) -> Path:
+        """The object of a file, made now."""
+        kind = hashlib.sha256(" ".join(extra).encode()).hexdigest()[:8] if extra else "obj"
+        foreign = Path(source).is_absolute()
+        inner = Path("foreign", Path(source).name) if foreign else Path(source)
+        target = (self.folder / kind / inner).with_suffix(".o")
+        target.parent.mkdir(parents=True, exist_ok=True)
+        self.compile([*self.flags, *extra, "-c", source, "-o", self.shown(target)])
+        return target
 
     def objects(
         self, names: Iterable[str], extra: Sequence[str] = (), width: int = 1
@@ -93,7 +107,7 @@ class Build:
 
     def sources(self) -> dict[Path, str]:
         """The source file of each object that was compiled."""
-        return {path: key[0] for key, path in self.made.items()}
+        return {path: key[0] for key, path in dict(self.made).items()}
 
     def compile(self, words: Sequence[str]) -> None:
         """Start the compiler."""

@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import subprocess
+import threading
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +18,7 @@ from common.errors import ROOT, ToolError
 TIMEOUT_S = 300.0
 LINES_OF_A_CRASH = 12
 NOT_STARTED = 127
+GRACE_S = 5.0
 SANITIZER = ("runtime error:", "ERROR: AddressSanitizer")
 
 
@@ -51,6 +55,67 @@ class Ended:
         return "\n".join(lines[-LINES_OF_A_CRASH:])
 
 
+class Stopped(BaseException):
+    """Everything is being stopped; nothing new may start. As Ctrl-C, it is nobody's to handle."""
+
+
+class Running:
+    """The programs that run now, whichever threads wait for them."""
+
+    def __init__(self) -> None:
+        self._children: set[subprocess.Popen[str]] = set()
+        self._lock = threading.Lock()
+        self._stopped = False
+
+    def start(
+        self, command: Sequence[str], cwd: Path, environment: Mapping[str, str], apart: bool
+    ) -> subprocess.Popen[str]:
+        """Start a program, unless everything is being stopped."""
+        with self._lock:
+            if self._stopped:
+                raise Stopped
+            child = subprocess.Popen(
+                command, cwd=cwd, env=environment, stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE, stderr=subprocess.PIPE if apart else subprocess.STDOUT,
+                text=True, errors="replace", start_new_session=True,
+            )  # fmt: skip
+            self._children.add(child)
+        return child
+
+    def ended(self, child: subprocess.Popen[str]) -> None:
+        """Somebody has waited for the end of a program."""
+        with self._lock:
+            self._children.discard(child)
+
+    def stop(self, grace_s: float) -> None:
+        """End every program and start no other. First as Ctrl-C does, so that one which has started
+        others itself can end them; then for certain, at once when Ctrl-C comes again."""
+        with self._lock:
+            self._stopped = True
+        try:
+            self._signal(signal.SIGINT)
+            until = time.monotonic() + grace_s
+            while self._children and time.monotonic() < until:
+                time.sleep(0.05)
+        finally:
+            self._signal(signal.SIGKILL)
+
+    def _signal(self, number: signal.Signals) -> None:
+        """Signal the sessions of all programs."""
+        with self._lock:
+            for child in self._children:
+                with contextlib.suppress(ProcessLookupError):
+                    os.killpg(child.pid, number)
+
+
+RUNNING = Running()
+
+
+def stop_all(grace_s: float = GRACE_S) -> None:
+    """End every program that `run` has started in any thread, and let it start no other."""
+    RUNNING.stop(grace_s)
+
+
 def run(
     command: Sequence[str | Path], timeout_s: float | None = TIMEOUT_S, *, cwd: Path = ROOT,
     environment: Mapping[str, str] | None = None, apart: bool = False,
@@ -58,15 +123,14 @@ def run(
     """Run a program. Variables are added to ours. Its two output streams are one, unless `apart`.
     A program that is missing ends with 127."""
     try:
-        child = subprocess.Popen(
-            [str(word) for word in command], cwd=cwd, env={**os.environ, **(environment or {})},
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE if apart else subprocess.STDOUT,
-            text=True, errors="replace", start_new_session=True,
-        )  # fmt: skip
+        words = [str(word) for word in command]
+        child = RUNNING.start(words, cwd, {**os.environ, **(environment or {})}, apart)
     except OSError as error:
         return Ended(NOT_STARTED, f"{command[0]}: {error.strerror}")
-    return _end_of(child, timeout_s)
+    try:
+        return _end_of(child, timeout_s)
+    finally:
+        RUNNING.ended(child)
 
 
 def _end_of(child: subprocess.Popen[str], timeout_s: float | None) -> Ended:

@@ -7,13 +7,15 @@ import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from common.errors import ROOT
+from common.errors import ROOT, ToolError
 from common.files import sha256_of, write_json
 from common.run import run
 
 PRODUCT = ("include", "src")  # What is proved, and what goes into a firmware.
 MADE = ("build", "__pycache__", ".git", ".mypy_cache", ".ruff_cache")  # Nobody's source.
 STAMP = "made_from"
+VERDICT = "verdict"
+GOOD, FAILED, PARTIAL = "good", "failed", "partial"  # Partial: good, but not all was looked at.
 
 
 def files_below(root: Path) -> Iterator[Path]:
@@ -47,6 +49,8 @@ def commit_of(root: Path) -> str:
 
 def stamp_of(root: Path = ROOT) -> dict[str, str]:
     """What the tree is now: its commit, the digest of all of it, and that of the product."""
+    if not root.is_dir():
+        raise ToolError(f"{root}: there is no such folder")
     return {
         "commit": commit_of(root),
         "tree": digest_of_tree(root),
@@ -54,6 +58,16 @@ def stamp_of(root: Path = ROOT) -> dict[str, str]:
     }
 
 
-def write_report(path: Path, report: Mapping[str, object], root: Path = ROOT) -> None:
-    """Write a report with the stamp of the source that it speaks of."""
-    write_json(path, {**report, STAMP: stamp_of(root)})
+def verdict_of(good: bool, whole: bool = True) -> str:
+    """The one word by which a report says how its run ended."""
+    if not good:
+        return FAILED
+    return GOOD if whole else PARTIAL
+
+
+def write_report(
+    path: Path, report: Mapping[str, object], root: Path = ROOT, *, good: bool, whole: bool = True
+) -> None:
+    """Write a report with its verdict, and with the stamp of the source that it speaks of."""
+    said = {VERDICT: verdict_of(good, whole), STAMP: stamp_of(root)}
+    write_json(path, {**report, **said})

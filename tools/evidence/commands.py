@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,11 +13,11 @@ from boards.board import board_names
 from common.errors import ROOT
 from common.files import write_text
 from common.run import Ended, run
+from common.source import GOOD, VERDICT
 
 from evidence.part import Context
 
-GOOD_VERDICTS = ("proved", "passed", "good")
-WRONG = ("failed", "problems", "findings", "gaps")  # What a report says of what is wrong.
+PROVED = "proved"  # The word of make prove, whose reports are joined from those of shards.
 TIMEOUT_S = 3600.0
 
 
@@ -71,23 +71,27 @@ def start_make(words: Sequence[str], root: Path) -> Ended:
     return run(["make", "--no-print-directory", *words], TIMEOUT_S, cwd=root, environment=outside)
 
 
-def is_whole_and_good(report: dict[str, Any]) -> bool:
-    """Whether a report speaks of everything, and well. One without a verdict lists what is wrong,
-    or counts it, or has goals that are met or not."""
-    if report.get("partial") or report.get("filter") or report.get("ok") is False:
-        return False
-    if report.get("verdict", GOOD_VERDICTS[0]) not in GOOD_VERDICTS:
-        return False
-    goals = report["goals"] if isinstance(report.get("goals"), list) else []
-    unmet = [goal for goal in goals if not goal.get("met", True)]
-    return not (unmet or any(report.get(what) for what in WRONG))
+def is_good(report: Mapping[str, Any]) -> bool:
+    """Whether a report says of itself that all was looked at, and is good."""
+    said = report.get(VERDICT)
+    return said == GOOD or (said == PROVED and not report.get("partial"))
 
 
 def still_holds(context: Context, command: Command) -> bool:
     """Whether a report is of the tree as it is now, and good."""
     problems: list[str] = []
     report = context.report(command.report, problems)
-    return not problems and is_whole_and_good(report)
+    return not problems and is_good(report)
+
+
+def not_good(context: Context, commands: Sequence[Command]) -> Iterator[str]:
+    """Reports that do not say that they are good; of those that cannot serve the parts tell."""
+    for command in commands:
+        report = context.report(command.report, [])
+        if report and not is_good(report):
+            said = f"its verdict is {report[VERDICT]!r}" if VERDICT in report else "has no verdict"
+            partial = ", of a part alone" * bool(report.get("partial"))
+            yield f"build/{command.report}: {said}{partial}: {command.shown}"
 
 
 def run_commands(

@@ -15,7 +15,7 @@ from common.errors import ToolError
 from common.files import sha256_of, write_bytes, write_json, write_text
 from common.run import run
 
-from evidence import attestation
+from evidence import attestation, measured
 from evidence.assemble import Assembled
 from evidence.part import Part
 from evidence.pdf import summary_pdf
@@ -60,16 +60,20 @@ def digests(folder: Path, without: Sequence[str] = ()) -> dict[str, str]:
     return {name: sha256_of(path) for name, path in named.items() if name not in without}
 
 
-def write_part(folder: Path, part: Part) -> None:
-    """A part's files, and what it says as JSON."""
+def write_part(folder: Path, part: Part) -> measured.Measured:
+    """A part's files, and what it says as JSON; gives what was measured, which is in neither."""
+    found = dict(part.measured)
     for name, path in part.files.items():
         place = Path(os.path.normpath(folder / name))
         if not place.is_relative_to(folder):
             raise ToolError(f"{part.name}: {name}: leads out of the package")
-        write_bytes(place, path.read_bytes())
-    said = part.model_dump(mode="json", exclude={"files", "problems"})
+        data, own = measured.copied(name, path)
+        write_bytes(place, data)
+        found |= own
+    said = part.model_dump(mode="json", exclude={"files", "measured", "problems"})
     files = {name: sha256_of(folder / name) for name in sorted(part.files)}
     write_json(folder / "part.json", {"schema": SCHEMA, **said, "files": files})
+    return found
 
 
 def manifest(made: Assembled, source: Source) -> dict[str, Any]:
@@ -90,10 +94,10 @@ def manifest(made: Assembled, source: Source) -> dict[str, Any]:
 
 def write_content(folder: Path, made: Assembled, source: Source) -> None:
     """All that is for people and for machines to read."""
-    for part in made.parts:
-        write_part(folder / part.name, part)
+    seconds = {part.name: write_part(folder / part.name, part) for part in made.parts}
+    write_json(folder / measured.FILE, {"schema": SCHEMA, "seconds": seconds})
     write_json(folder / MANIFEST, manifest(made, source))
-    write_site(folder, made, source.stamp, source.seconds)
+    write_site(folder, made, source.stamp, source.seconds, seconds)
     summary_pdf(folder / PDF, made, source.stamp, source.seconds)
 
 

@@ -60,6 +60,7 @@ class Part(Frozen):
     tables: tuple[Table, ...] = ()
     items: tuple[Item, ...] = ()
     files: dict[str, Path] = {}  # name in the folder, and where the file is now
+    measured: dict[str, float] = {}  # seconds, which stand nowhere else (evidence.measured)
     problems: tuple[str, ...] = ()
 
 

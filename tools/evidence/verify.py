@@ -11,7 +11,7 @@ from pathlib import Path
 from common.errors import ToolError
 from common.source import STAMP
 
-from evidence import attestation
+from evidence import attestation, measured
 from evidence.package import ATTESTATION, SUMS, digests, read_manifest
 
 LINE = re.compile(r"([0-9a-f]{64})  (\S.*)")
@@ -74,3 +74,30 @@ def verify(folder: Path, stamp: Mapping[str, str]) -> list[str]:
     elif made.get("tree") != stamp["tree"]:
         problems.append("the source here is not the one that the package was made from")
     return problems
+
+
+def stated_in(folder: Path) -> dict[str, object]:
+    """The attestation, but for the digests of what was measured."""
+    path = folder / ATTESTATION
+    try:
+        read: dict[str, object] = json.loads(path.read_text(encoding="utf-8"))
+        subjects = attestation.subjects(read)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise ToolError(f"{path}: is missing or not whole: {type(error).__name__}") from error
+    return {**read, "subject": {**subjects, **dict.fromkeys(measured.FILES, "")}}
+
+
+def reproduced(one: Path, other: Path) -> list[str]:
+    """All in which two packages of one source differ, but for what was measured: its files, and
+    their digests in the checksums and in the attestation."""
+    if read_manifest(one)[STAMP] != read_manifest(other)[STAMP]:
+        return [f"{other}: is of another source than {one}"]
+    apart = (*measured.FILES, ATTESTATION, SUMS)
+    found = [*differences(digests(one, apart), digests(other, apart), str(one))]
+    sums = [{**read_sums(folder / SUMS), **dict.fromkeys((*measured.FILES, ATTESTATION), "")}
+            for folder in (one, other)]  # fmt: skip
+    if sums[0] != sums[1] and not found:
+        found.append(f"{SUMS}: states other digests than in {one}")
+    if stated_in(one) != stated_in(other) and not found:
+        found.append(f"{ATTESTATION}: states something else than in {one}")
+    return found

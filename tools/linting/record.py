@@ -83,4 +83,4 @@ def write(
         for one in report["findings"]
     ]
     write_sarif(root / RESULTS, "lint", results)
-    write_report(root / REPORT, report, root)
+    write_report(root / REPORT, report, root, good=not report["findings"])

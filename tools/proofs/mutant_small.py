@@ -89,13 +89,12 @@ class Small:
         self._lock = threading.Lock()
 
     def ranked(self, function: str, harnesses: Sequence[Harness]) -> list[Harness]:
-        """The harnesses, first those that killed most mutants of a function.
+        """The harnesses worth asking, first those that killed most mutants of a function.
 
-        Among equals a solver of equations comes last: where floats differ, it finds no example.
+        A solver of equations is not: where floats differ, it finds no example.
         """
-        return sorted(
-            harnesses, key=lambda one: (-self._kills[function, one.name], "--z3" in one.options)
-        )
+        searching = [one for one in harnesses if "--z3" not in one.options]
+        return sorted(searching, key=lambda one: -self._kills[function, one.name])
 
     def kills(self, original: Harness, function: str, checker: Cbmc, root: Path) -> str:
         """What the small harness says against a mutant of a function in a tree; or nothing."""

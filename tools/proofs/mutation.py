@@ -7,7 +7,7 @@ import json
 import math
 import shutil
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
@@ -18,7 +18,7 @@ from .jobs import Runner
 from .mutant_harnesses import Seen, in_tree, survey
 from .mutant_small import Small
 from .mutant_trees import Trees
-from .mutant_verdicts import Verdict
+from .mutant_verdicts import Identity, Verdict
 from .mutants import Mutant
 from .project import ProjectError, Unit, closure
 from .settings import Exceptions
@@ -30,7 +30,7 @@ PATIENCE = 3.0
 SHORTEST, LONGEST = 2, 30
 IMPATIENT = 20.0
 UNTIMED = 60.0  # what a harness counts for whose time nobody knows
-LAST_PATIENCE = 10.0  # for the attempt after which a mutant is said to survive
+LAST_PATIENCE = 4.0  # for the attempt after which a mutant is said to survive
 NO_ANSWER = "no answer"
 # C allows no pointer for a number, nor one for another type's: who mixes them up is stillborn.
 NO_MIXTURE = ("-Werror=int-conversion", "-Werror=incompatible-pointer-types")
@@ -59,17 +59,18 @@ class Trial:
     """Tries the mutants of one unit.
 
     A mutant is tried first by small harnesses, the one that killed most mutants of its function
-    before the others. Then by the harnesses that compare its function with the model, by the
+    before the others; then by the harnesses that compare its function with the model, by the
     others that cover it, and by WP, which asks the function alone: what its callers rely on is its
-    contract, not its body. What is left are the harnesses that were too slow and, in their small
-    form, those that only call it. Among equals the one that is usually fastest comes first.
+    contract, not its body. What is left are the harnesses that were too slow. Among equals the one
+    that is usually fastest comes first. A mutant whose reason to be none is accepted is tried by the
+    small harnesses alone: they tell a wrong reason.
     """
 
     def __init__(
         self, unit: Unit, tools: Tools, trees: Trees, asked: Sequence[str], every: bool,
         cache: Cache, stamp: Mapping[str, str], exceptions: Exceptions,
         times: Times, patient: bool = True, seen: Sequence[Seen] | None = None,
-        small_only: bool = False,
+        small_only: bool = False, accepted: Collection[Identity] = (),
     ) -> None:  # fmt: skip
         self._unit = unit
         self._tools = tools
@@ -83,6 +84,7 @@ class Trial:
         self._times = times
         self._patient = patient
         self._small_only = small_only
+        self._accepted = frozenset(accepted)
         self._allowed = list(exceptions.warnings)
         self._baseline = threading.Lock()
         self._proved = Cache(tools.verdicts)
@@ -171,10 +173,13 @@ class Trial:
         In the latter case CBMC has little time at first: some mutants that are very hard for it
         are easy for WP.
         """
-        if "cbmc" in self._engines and self._killed_by_small(verdict, unit, runner, False):
+        if "cbmc" in self._engines and self._killed_by_small(verdict, unit, runner):
             return
         if self._small_only:
             verdict.status, verdict.reason = "skipped", "left by the small harnesses"
+            return
+        if verdict.mutant.identity in self._accepted:
+            verdict.engines = dict.fromkeys(self._engines, "not asked: the reason is accepted")
             return
         said: dict[str, str] = {}
         asked = self._engines
@@ -194,8 +199,6 @@ class Trial:
                     return
             elif verdict.engines[engine].startswith(UNDECIDED) and verdict.status != "killed":
                 verdict.status = "undecided"
-        if "cbmc" in self._engines and verdict.status != "killed":
-            self._killed_by_small(verdict, unit, runner, True)
 
     def _runner(self, folder: Path) -> Runner:
         runner = Runner(dict(self._tools.environment), folder)
@@ -217,7 +220,8 @@ class Trial:
     def _key(self, mutant: Mutant) -> str:
         """All that a verdict depends on, with the mutant in it."""
         changed = mutant.apply(self._texts[mutant.file])
-        return self._digest({**self._texts, mutant.file: changed}, mutant.function)
+        accepted = " accepted" if mutant.identity in self._accepted else ""
+        return self._digest({**self._texts, mutant.file: changed}, mutant.function + accepted)
 
     def _digest(self, texts: Mapping[Path, str], function: str) -> str:
         root = self._unit.root
@@ -288,17 +292,11 @@ class Trial:
             return "no harness" if patient else NO_ANSWER
         return NO_ANSWER if not patient or NO_ANSWER in asked.values() else "survived"
 
-    def _killed_by_small(
-        self, verdict: Verdict, unit: Unit, runner: Runner, callers: bool
-    ) -> bool:  # fmt: skip
-        """Ask small harnesses: those that cover the function, or those that only call it.
-
-        Whether no other engine need be asked.
-        """
+    def _killed_by_small(self, verdict: Verdict, unit: Unit, runner: Runner) -> bool:
+        """Ask small harnesses; whether no other engine need be asked."""
         mutant = verdict.mutant
-        ranked = [one for one in self._ranked(mutant) if (mutant.function in one.covers) != callers]
         checker = self._checker(unit.root, runner)
-        for harness in self._small.ranked(mutant.function, ranked):
+        for harness in self._small.ranked(mutant.function, self._ranked(mutant)):
             if text := self._small.kills(harness, mutant.function, checker, unit.root):
                 verdict.engines["cbmc"] = text
                 verdict.status = "killed"

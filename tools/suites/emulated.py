@@ -11,6 +11,7 @@ from boards.board import Board, read_board
 from common.errors import ROOT
 from common.run import Ended, run
 from firmware import Builder, Image
+from suites.outcomes import EXACT_FLOATS
 from toolchain import Toolchain
 
 BOARD = "mps2_an500"
@@ -36,13 +37,14 @@ class EmulatedBoard:
 
     tools: Toolchain
     root: Path = ROOT
+    folder: Path = BUILD  # Below the root; two runs at once need one each.
     stacks: dict[str, int] = field(default_factory=dict)  # by image, in bytes
     stack_size: int = 0
     demo_sha256: str = ""  # Of the image whose stack is the demo's.
 
     def __post_init__(self) -> None:
         self.board = read_board(self.root, BOARD)
-        folder = self.root / BUILD
+        folder = self.root / self.folder
         folder.mkdir(parents=True, exist_ok=True)
         self.builder = Builder(self.tools, self.board, folder, self.root)
 
@@ -55,7 +57,7 @@ class EmulatedBoard:
         """What makes a file find Unity, and Unity the console."""
         return [
             "-isystem", self.tools.command("unity")[0],
-            "-DUNITY_SUPPORT_64", "-DUNITY_INCLUDE_DOUBLE",
+            "-DUNITY_SUPPORT_64", "-DUNITY_INCLUDE_DOUBLE", EXACT_FLOATS,
             "-DUNITY_OUTPUT_CHAR(c)=keel_board_put((char)(c))",
             "-DUNITY_OUTPUT_CHAR_HEADER_DECLARATION=keel_board_put(char c)",
         ]  # fmt: skip

@@ -50,6 +50,8 @@ class Outcome:
             self.add(name, f"{name}: {ended.how}, after {last[0]}\n{ended.evidence}")
 
 
+# Floats are equal when they are: Unity takes 1e-5 of them for nothing unless it is told.
+EXACT_FLOATS = "-DUNITY_FLOAT_PRECISION=0.0f"
 UNITY_LINE = re.compile(r"^(.+?):(\d+):(\w+):(PASS|FAIL|IGNORE)(?::? ?(.*))?$", re.MULTILINE)
 UNITY_SUMMARY = re.compile(r"^(\d+) Tests (\d+) Failures (\d+) Ignored", re.MULTILINE)
 

@@ -156,7 +156,6 @@ def items(harnesses: Iterable[Bounded], report: Report) -> Iterator[Item]:
                 "built-in checks": str(result["properties"] - labelled),
                 "proved": f"{result['proved']} of {result['properties']}",
                 "checked": "everything" if result["checks"] == "all" else "assertions, unwinding",
-                "seconds": f"{unit['seconds'].get(f'cbmc/{one.harness.name}', 0):g}",
             }
         function = one.harness.function
         own = [f"function:{function}"] if function in public else []

@@ -43,7 +43,7 @@ def public_functions(unit: Report) -> set[str]:
 
 
 def wp_items(name: str, unit: Report) -> Iterator[Item]:
-    """WP's goals; how long WP took is known of a function as a whole."""
+    """WP's goals."""
     public = public_functions(unit)
     for goal in unit["wp"]["goal_list"]:
         theorem, function = target_of(goal)
@@ -51,9 +51,6 @@ def wp_items(name: str, unit: Report) -> Iterator[Item]:
         facts = {"engine": "WP", "prover": goal["prover"] or "none", "of": goal["target"]}
         if theorem:
             facts["theorem"] = f"proofs/{name}/{theorem}.c"
-        seconds = unit["seconds"].get(f"wp/{goal['target']}")
-        if seconds is not None:
-            facts["seconds for all goals of this function"] = f"{seconds:g}"
         links = [*own, *_required(goal["name"])]
         yield Item(
             kind="goal", id=f"{name}/{goal['name']}", title=goal["name"],
@@ -108,6 +105,12 @@ def items(report: Report) -> list[Item]:
     for name, unit in report.get("units", {}).items():
         found += [*wp_items(name, unit), *cbmc_items(name, unit), *gappa_items(name, unit)]
     return found
+
+
+def measured(report: Report) -> dict[str, float]:
+    """How long each job took: WP on a function, CBMC on a harness, Gappa on a file."""
+    return {f"{name}/{job}": seconds for name, unit in report.get("units", {}).items()
+            for job, seconds in unit["seconds"].items()}  # fmt: skip
 
 
 def problems(report: Report, goals: Sequence[Item]) -> list[str]:

@@ -165,5 +165,5 @@ def make(context: Context) -> Part:
                *(one.item for one in assumptions)),
         files={"soundness.md": context.root / ledger.FILE,
                "theorems.toml": context.root / theorems.FILE},
-        problems=tuple(dict.fromkeys(problems)),
+        measured=goals.measured(report), problems=tuple(dict.fromkeys(problems)),
     )  # fmt: skip

@@ -40,8 +40,9 @@ def make(context: Context) -> Part:
         reasons = blocks.read_reasons(context.root)
     except ToolError as error:
         problems += str(error).splitlines()
-    functions = blocks.functions_of(context.root)
-    problems += blocks.problems(report, harnesses, list(functions), reasons) if report else []
+    functions, calls = blocks.functions_of(context.root), blocks.pointer_calls(context.root)
+    if report:
+        problems += blocks.problems(report, harnesses, list(functions), reasons, calls)
     problems += wrong.problems(mistakes) if report else []
     current = [one for one in standings if one.current]
     return Part(
@@ -57,7 +58,7 @@ def make(context: Context) -> Part:
         },
         text=TEXT,
         tables=(mutants.table(standings), mutants.survivors(standings), wrong.table(mistakes),
-                *blocks.tables(harnesses, functions, reasons)),
+                *blocks.tables(harnesses, functions, reasons, calls)),
         items=(*mutants.items(standings), *wrong.items(mistakes)),
         problems=tuple(dict.fromkeys(problems)),
     )  # fmt: skip

@@ -133,8 +133,7 @@ def test_items(verdicts: Verdicts, known: set[str]) -> Iterator[Item]:
 def suite_table(reports: Mapping[str, Report]) -> Table:
     """A row for each suite and run."""
     rows = [
-        (suite, run, str(outcome["passed"]), str(outcome["failed"]),
-         str(len(outcome["skipped"])), f"{outcome['seconds']:.1f}")
+        (suite, run, str(outcome["passed"]), str(outcome["failed"]), str(len(outcome["skipped"])))
         for run, report in reports.items() for suite, outcome in report.get("suites", {}).items()
     ]  # fmt: skip
     skipped = [
@@ -143,7 +142,7 @@ def suite_table(reports: Mapping[str, Report]) -> Table:
         for test, why in outcome["skipped"].items()
     ]  # fmt: skip
     note = f"Skipped, and so no evidence: {'; '.join(skipped)}." if skipped else ""
-    columns = ("suite", "where", "passed", "failed", "skipped", "seconds")
+    columns = ("suite", "where", "passed", "failed", "skipped")
     return Table(title="Suites of tests", columns=columns, rows=tuple(rows), note=note)
 
 
@@ -296,7 +295,7 @@ def summary_of(
 
 
 def files_of(context: Context) -> dict[str, Path]:
-    """The reports as they were written."""
+    """The reports."""
     names = {f"{folder}-{file}": f"{folder}/{file}" for folder in RUNS.values()
              for file in ("report.json", "junit.xml")}  # fmt: skip
     names |= {f"{folder}-report.json": f"{folder}/report.json"

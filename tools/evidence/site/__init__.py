@@ -14,6 +14,7 @@ from markupsafe import Markup
 
 from common.files import write_text
 
+from evidence import measured
 from evidence.assemble import REFERENCE, Assembled, Entry
 from evidence.part import Part
 
@@ -35,10 +36,12 @@ class Site:
     """The pages of one package."""
 
     def __init__(
-        self, folder: Path, made: Assembled, stamp: Mapping[str, str], seconds: int
-    ) -> None:
+        self, folder: Path, made: Assembled, stamp: Mapping[str, str], seconds: int,
+        took: Mapping[str, measured.Measured],
+    ) -> None:  # fmt: skip
         self.folder = folder
         self.made = made
+        self.took = took
         self.model = Model(made)
         self.places = addresses(made.entries)
         self.tracer = Tracer(self.model, self.places, BELOW)
@@ -67,6 +70,7 @@ class Site:
                        entries=entries)  # fmt: skip
         self._traces()
         self._things()
+        self._times()
 
     def _of(self, part: Part) -> list[Entry]:
         return [self.made.entries[f"{item.kind}:{item.id}"] for item in part.items]
@@ -93,6 +97,12 @@ class Site:
         for group, entries in groups.items():
             page = self.places[entries[0].key].page
             self._page("group.html", page, BELOW, group=group, entries=entries)
+
+    def _times(self) -> None:
+        """What was measured, the longest first: the one page that is not the same every time."""
+        rows = {name: sorted(took.items(), key=lambda one: (-one[1], one[0]))
+                for name, took in self.took.items() if took}  # fmt: skip
+        self._page("measured.html", measured.PAGE, BELOW, rows=rows, file=measured.FILE)
 
     def _page(self, template: str, page: str, root: str, **facts: Any) -> None:
         def link(key: str) -> Markup:
@@ -123,6 +133,9 @@ class Site:
         return f"window.found({json.dumps(found, ensure_ascii=False, separators=(',', ':'))});\n"
 
 
-def write_site(folder: Path, made: Assembled, stamp: Mapping[str, str], seconds: int) -> None:
-    """Write the site of what was assembled."""
-    Site(folder, made, stamp, seconds).write()
+def write_site(
+    folder: Path, made: Assembled, stamp: Mapping[str, str], seconds: int,
+    took: Mapping[str, measured.Measured],
+) -> None:  # fmt: skip
+    """Write the site of what was assembled, and of the seconds that each part measured."""
+    Site(folder, made, stamp, seconds, took).write()

@@ -2,8 +2,9 @@
 """What the harnesses reach: a proof about what nobody reaches would be worth nothing.
 
 make prove has CBMC look for an execution through every block of what a harness covers, and fails
-where there is none, but for what CBMC itself makes of calls through pointers. Here each such block
-needs a reason (specs/unreached.toml), and each function of the product a harness that covers it.
+where there is none, but for what CBMC itself makes of calls through pointers, on the line of such a
+call. Here each such block needs a reason (specs/unreached.toml), the lines are listed, and each
+function of the product needs a harness that covers it.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from typing import Any
 from common.config import Table, Text, model_validator, read_toml
 from common.files import read_text
 from proofs import csource
+from proofs.cbmc_answers import POINTER_CALL
 from proofs.harness import MODELS
 from proofs.project import find_units
 
@@ -64,6 +66,27 @@ def functions_of(root: Path) -> dict[str, str]:
     }
 
 
+def pointer_calls(root: Path) -> dict[str, list[str]]:
+    """The lines with a call through a pointer, as make prove knows one, by function."""
+    files = [path for unit in find_units(root).values() for path in unit.own_files]
+    found: dict[str, list[str]] = {}
+    for path in (*files, *sorted((root / MODELS).glob("*.c"))):
+        text = read_text(path)
+        lines = text.splitlines()
+        for function in csource.defined(text):
+            begin, end = (text.count("\n", 0, place) for place in function.body or (0, 0))
+            found.setdefault(function.name, []).extend(
+                f"{path.relative_to(root).as_posix()}:{number + 1}"
+                for number in range(begin, end + 1) if POINTER_CALL.search(lines[number])
+            )  # fmt: skip
+    return found
+
+
+def places_of(one: Bounded, calls: Mapping[str, Sequence[str]]) -> list[str]:
+    """Where a harness may leave blocks unreached: function and line."""
+    return [f"{name} at {place}" for name in one.harness.covers for place in calls.get(name, ())]
+
+
 def missing(report: Report, one: Bounded) -> int:
     """How many blocks a harness does not reach."""
     harnesses = report["units"].get(one.unit, {}).get("cbmc", {}).get("harnesses", {})
@@ -83,11 +106,13 @@ def covered_by(functions: Sequence[str], harnesses: Sequence[Bounded]) -> dict[s
 
 def problems(
     report: Report, harnesses: Sequence[Bounded], functions: Sequence[str],
-    reasons: Sequence[Unreached],
+    reasons: Sequence[Unreached], calls: Mapping[str, Sequence[str]],
 ) -> Iterator[str]:  # fmt: skip
     """A block or a function that nobody reaches without a reason, and a reason without these."""
     blocks = {one.harness: one.blocks for one in reasons if one.harness}
     for one in harnesses:
+        if one.id in blocks and not places_of(one, calls):
+            yield f"{FILE}: {one.id}: nothing that it covers calls through a pointer"
         seen, given = missing(report, one), blocks.pop(one.id, 0)
         if seen != given:
             yield (f"harness {one.id}: does not reach {seen} blocks of what it covers, and {FILE}"
@@ -104,9 +129,10 @@ def problems(
 
 def tables(
     harnesses: Sequence[Bounded], functions: Mapping[str, str],
-    reasons: Sequence[Unreached],
+    reasons: Sequence[Unreached], calls: Mapping[str, Sequence[str]],
 ) -> Iterator[Shown]:  # fmt: skip
     """What each function is reached by, and what is not reached."""
+    places = {one.id: "; ".join(places_of(one, calls)) for one in harnesses}
     rows = [
         (f"unit:{functions[name]}", name, "; ".join(f"harness:{one}" for one in by) or "nobody")
         for name, by in covered_by(list(functions), harnesses).items()
@@ -117,11 +143,13 @@ def tables(
         note=f"Models ({MODELS}) that a harness covers are reached, too, but are not listed.",
     )  # fmt: skip
     yield Shown(
-        title="Blocks that a harness does not reach", columns=("harness", "blocks", "reason"),
+        title="Blocks that a harness does not reach",
+        columns=("harness", "blocks", "all at these calls through a pointer", "reason"),
         rows=tuple((f"harness:{one.harness}" if one.harness else one.function, str(one.blocks),
-                    " ".join(one.reason.split())) for one in reasons),
-        note="All other blocks of what a harness covers are reached: CBMC has found an execution"
-             " through each. That is a check against contradictory assumptions.",
+                    places.get(one.harness, ""), " ".join(one.reason.split())) for one in reasons),
+        note="All other blocks of what a harness covers are reached, and each of these lines, too:"
+             " CBMC has found an execution through each. make prove fails on an unreached block"
+             " that stands elsewhere. That is a check against contradictory assumptions.",
     )  # fmt: skip
 
 

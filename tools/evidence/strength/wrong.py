@@ -13,11 +13,15 @@ from common.files import read_text
 from proofs.project import find_units
 from proofs.wrong import read_wrong_body
 
-from evidence.part import Item, Table
+from evidence.part import Item, State, Table
 
 Report = Mapping[str, Any]
 
 COMMENT = re.compile(r"^#(?: (?!\w+: )(.*))?$", re.MULTILINE)
+# Where the report says nothing, the report is what is wrong, and not each mistake.
+VERDICTS: Mapping[bool | None, tuple[str, State]] = {
+    True: ("refused", "good"), False: ("not refused", "bad"), None: ("no verdict", "open"),
+}  # fmt: skip
 EXPECTED = re.compile(r"^# expect: *(\S+)", re.MULTILINE)
 
 
@@ -81,10 +85,10 @@ def items(every: list[Mistake]) -> Iterator[Item]:
     """Each mistake."""
     for one in every:
         harness = (one.by,) if one.by.startswith("harness:") else ()
-        verdict = "refused" if one.refused else "not refused"
+        verdict, state = VERDICTS[one.refused]
         yield Item(
             kind="mutant", id=one.id, title=f"{one.unit}: {one.name.replace('_', ' ')}",
-            text=one.mistake, state="good" if one.refused else "bad",
+            text=one.mistake, state=state,
             facts={"must fail": one.expected, "verdict": verdict},
             links=(f"unit:{one.unit}", *harness),
         )  # fmt: skip
@@ -93,7 +97,7 @@ def items(every: list[Mistake]) -> Iterator[Item]:
 def table(every: list[Mistake]) -> Table:
     """All mistakes."""
     rows = tuple((f"mutant:{one.id}", one.mistake, one.by, one.expected,
-                  "refused" if one.refused else "NOT REFUSED") for one in every)  # fmt: skip
+                  VERDICTS[one.refused][0]) for one in every)  # fmt: skip
     return Table(
         title="Mistakes made on purpose", rows=rows,
         columns=("wrong body", "mistake", "refused by", "what must fail", "verdict"),

@@ -1,0 +1,340 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file mode.h
+ * @brief Arming, flight modes, failsafe and termination: one machine, driven by tables.
+ *
+ * Each step is told plain facts: what the pilot's last good frame said, what the estimators, the
+ * landing detector, the fence and the battery say, and which of the checks before arming hold. It
+ * tells whether motors may turn, which mode is in force, why it is not another, and what keeps the
+ * aircraft from being armed.
+ *
+ * A fact counts only once it has settled: it was seen at each look for its time without a break.
+ * One that is not seen counts no longer, at once. What the pilot says is looked at in frames
+ * alone: between two of them it stays as it was, and settles only in a step that has a frame. As no
+ * time to settle is shorter than the longest silence that the link is allowed, it takes at least
+ * three good frames in a row, so one or two frames, a glitch, or silence move nothing. After that
+ * silence all that the pilot said is forgotten.
+ *
+ * Time is counted in what passed between steps (keel_clock_elapsed_us gives it across the wrap of
+ * a counter), in sums that stay at their end, so nothing here ever wraps.
+ *
+ *                arms                 leaves the ground
+ *     DISARMED ---------> ARMED ---------------------------> FLYING
+ *         ^                 |  <-------------------------      | link lost
+ *         | lands,          |         touches down             v
+ *         | disarmed        | link lost                      HOLDING ---> RETURNING
+ *         |                 v                                  |              |
+ *         +------------- LANDING <-----------------------------+--------------+
+ *
+ * Besides, a pilot who moves the mode switch takes over from HOLDING, RETURNING and LANDING, and a
+ * kill switch held leads from each state in which motors may turn to TERMINATED, which is left by
+ * keel_mode_init alone: it latches until the power is off. A pilot's return and landing, and those
+ * for the fence and the battery, are the same states.
+ */
+#ifndef KEEL_FLIGHT_MODE_H
+#define KEEL_FLIGHT_MODE_H
+
+#include "keel/c_declarations.h"
+#include "keel/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/** @name States. */
+/** @{ */
+#define KEEL_MODE_DISARMED   0u /**< On the ground; motors stand still. */
+#define KEEL_MODE_ARMED      1u /**< On the ground; motors may turn. */
+#define KEEL_MODE_FLYING     2u /**< The pilot flies. */
+#define KEEL_MODE_HOLDING    3u /**< The link is lost: stays where it is for a time. */
+#define KEEL_MODE_RETURNING  4u /**< Flies home. */
+#define KEEL_MODE_LANDING    5u /**< Descends, until it is on the ground. */
+#define KEEL_MODE_TERMINATED 6u /**< Motors stand still for good. */
+#define KEEL_MODE_STATES     7u
+/** @} */
+
+/** @name Modes. One that lacks an estimate gives way to one with a lower number. */
+/** @{ */
+#define KEEL_MODE_ACRO     0u /**< The pilot commands rates. */
+#define KEEL_MODE_LAND     1u /**< Descends with what estimates there are: the last resort. */
+#define KEEL_MODE_ANGLE    2u /**< The pilot commands angles. */
+#define KEEL_MODE_ALTITUDE 3u /**< Holds its altitude. */
+#define KEEL_MODE_POSITION 4u /**< Holds its position. */
+#define KEEL_MODE_RETURN   5u /**< Flies home. */
+#define KEEL_MODE_NONE     6u /**< None: motors stand still, or the pilot has not said. */
+/** @} */
+
+/** @name Facts of the pilot: of frames. */
+/** @{ */
+#define KEEL_MODE_IS_LINKED 0x0001u /**< A whole frame came, without its failsafe flag. */
+#define KEEL_MODE_IS_ON     0x0002u /**< The arm switch is on. */
+#define KEEL_MODE_IS_OFF    0x0004u /**< The arm switch is off. Between the two it is neither. */
+#define KEEL_MODE_IS_LOW    0x0008u /**< The throttle is low. */
+#define KEEL_MODE_IS_KILL   0x0010u /**< The kill switch is on. */
+#define KEEL_MODE_IS_AT     0x0020u /**< The mode switch is where it was. Not an input. */
+/** @} */
+
+/** @name Facts of the aircraft: at every step. */
+/** @{ */
+#define KEEL_MODE_IS_LANDED   0x0040u /**< It stands on the ground. */
+#define KEEL_MODE_IS_HOME     0x0080u /**< It is where a return leads to. */
+#define KEEL_MODE_HAS_ANGLE   0x0100u /**< The attitude is estimated well. */
+#define KEEL_MODE_HAS_HEIGHT  0x0200u /**< The altitude is estimated well. */
+#define KEEL_MODE_HAS_PLACE   0x0400u /**< The position is estimated well. */
+#define KEEL_MODE_IS_OUTSIDE  0x0800u /**< The fence is breached. */
+#define KEEL_MODE_IS_CRITICAL 0x1000u /**< The battery is just enough to return. */
+#define KEEL_MODE_IS_EMPTY    0x2000u /**< The battery is just enough to land. */
+#define KEEL_MODE_FACTS       14u
+/** @} */
+
+/** @name What else moves the machine. Told in keel_mode_t.cause. */
+/** @{ */
+#define KEEL_MODE_ARMS         0x00010000u /**< The pilot arms, and nothing is in the way. */
+#define KEEL_MODE_LINK_LOST    0x00020000u /**< IS_LINKED has not settled. */
+#define KEEL_MODE_LEAVES       0x00040000u /**< Not landed, or the throttle not low. */
+#define KEEL_MODE_TOUCHES_DOWN 0x00080000u /**< Landed and throttle low, both settled. */
+#define KEEL_MODE_SITS         0x00100000u /**< Landed, settled, for that time in this state. */
+#define KEEL_MODE_TIME_UP      0x00200000u /**< The state has lasted for its time. */
+#define KEEL_MODE_TAKES_OVER   0x00400000u /**< The pilot moved the mode switch to fly himself. */
+#define KEEL_MODE_ASKS_LAND    0x00800000u /**< The pilot asks for LAND. */
+#define KEEL_MODE_ASKS_RETURN  0x01000000u /**< The pilot asks for RETURN, with a position. */
+#define KEEL_MODE_CAN_RETURN   0x02000000u /**< There is a position, and the failsafe returns. */
+/** @} */
+
+/** @name Checks before arming, by the application. All other bits are free for it. */
+/** @{ */
+#define KEEL_MODE_CHECK_GYROSCOPE     0x0001u
+#define KEEL_MODE_CHECK_ACCELEROMETER 0x0002u
+#define KEEL_MODE_CHECK_MAGNETOMETER  0x0004u
+#define KEEL_MODE_CHECK_BAROMETER     0x0008u
+#define KEEL_MODE_CHECK_POSITIONING   0x0010u
+#define KEEL_MODE_CHECK_CALIBRATION   0x0020u
+#define KEEL_MODE_CHECK_LEVEL         0x0040u
+#define KEEL_MODE_CHECK_BATTERY       0x0080u
+#define KEEL_MODE_CHECK_MOTORS        0x0100u
+#define KEEL_MODE_CHECK_LOAD          0x0200u
+#define KEEL_MODE_CHECK_STORAGE       0x0400u
+#define KEEL_MODE_CHECK_HOME          0x0800u
+/** @} */
+
+/** Range of the longest silence, in us: it catches a time in ms. */
+#define KEEL_MODE_LOSS_LEAST_US 10000u
+#define KEEL_MODE_LOSS_MOST_US  2000000u
+
+/** The longest of all other times, in us: an hour. */
+#define KEEL_MODE_TIME_MOST_US 3600000000u
+
+/** How a machine behaves. */
+typedef struct keel_mode_config {
+    uint32_t loss_us;     /**< The link is lost after so long without a good frame. */
+    uint32_t regain_us;   /**< It is up again after so long with good ones. */
+    uint32_t request_us;  /**< How long switches and the throttle must rest to count. */
+    uint32_t kill_us;     /**< How long the kill switch must be held. */
+    uint32_t landed_us;   /**< How long it must stand on the ground to have landed. */
+    uint32_t estimate_us; /**< How long an estimate must be good before a mode rests on it. */
+    uint32_t alarm_us;    /**< How long fence, battery and home must say so. */
+    uint32_t idle_us;     /**< Disarms itself after so long armed on the ground. */
+    uint32_t hold_us;     /**< How long HOLDING lasts. */
+    uint32_t return_us;   /**< How long RETURNING lasts at most. */
+    uint32_t required;    /**< The checks that must hold, not 0. */
+    bool returns;         /**< The failsafe returns where it can; it lands otherwise. */
+} keel_mode_config_t;
+
+/** What a step is told. */
+typedef struct keel_mode_input {
+    uint32_t elapsed_us; /**< Since the last step. */
+    uint32_t facts;      /**< KEEL_MODE_IS_ and KEEL_MODE_HAS_ bits; unknown ones are ignored. */
+    uint32_t checks;     /**< The checks that hold now: a bit not set has not been shown. */
+    uint8_t asked;       /**< Where the mode switch is; a frame with no such mode is none. */
+} keel_mode_input_t;
+
+/** What stands in the way of arming. */
+typedef struct keel_mode_refusal {
+    uint32_t checks; /**< Required checks that do not hold. */
+    uint32_t facts;  /**< IS_LINKED, IS_LOW, IS_LANDED: not settled; IS_OFF: the switch was not seen
+                          off since the link came up or since the last attempt; IS_AT: the mode
+                          switch does not rest at a mode that the pilot can fly now; IS_KILL,
+                          IS_OUTSIDE, IS_CRITICAL, IS_EMPTY: it is so. */
+} keel_mode_refusal_t;
+
+/** A machine. Written by the functions below alone; all of it may be read. */
+typedef struct keel_mode {
+    keel_mode_config_t config;
+    uint32_t settle_us[KEEL_MODE_FACTS]; /**< How long each fact takes to settle. */
+    uint32_t held_us[KEEL_MODE_FACTS];   /**< How long it was seen, until it settled. */
+    uint32_t silence_us;                 /**< Since the last good frame. */
+    uint32_t state_us;                   /**< In this state. */
+    uint32_t seen;                       /**< Facts at the last look. */
+    uint32_t settled;                    /**< Facts that count. */
+    uint32_t overridden;                 /**< Alarms that the pilot took over from. */
+    uint32_t cause;                      /**< What led to this state: facts, and what moves. */
+    uint32_t missing;                    /**< Estimates that the wanted mode lacks. */
+    keel_mode_refusal_t blocking;        /**< In DISARMED: what stands in the way now. */
+    keel_mode_refusal_t refused;         /**< What stood in it at the last attempt to arm. */
+    uint8_t state;
+    uint8_t mode;     /**< The mode in force. */
+    uint8_t asked;    /**< The mode that the pilot asks for; KEEL_MODE_NONE without a link. */
+    uint8_t rests_at; /**< Where the mode switch was in the last frame. */
+    bool ready;       /**< The arm switch was seen off: switching on is an attempt to arm. */
+    bool motors;      /**< Motors may turn. */
+} keel_mode_t;
+
+/*@ predicate mode_has(integer word, integer bits) = (word & bits) == bits;
+  @
+  @ predicate mode_lacks(integer word, integer bits) = (word & bits) == 0;
+  @
+  @ predicate mode_runs(keel_mode_t *m) =
+  @     m->state != KEEL_MODE_DISARMED && m->state < KEEL_MODE_TERMINATED;
+  @
+  @ predicate mode_piloted(integer state) =
+  @     state == KEEL_MODE_ARMED || state == KEEL_MODE_FLYING;
+  @
+  @ // Nobody flies it: it holds, returns or lands.
+  @ predicate mode_alone(integer state) = KEEL_MODE_HOLDING <= state <= KEEL_MODE_LANDING;
+  @
+  @ // A good frame: one that tells a mode.
+  @ predicate mode_frame(keel_mode_input_t *i) =
+  @     mode_has(i->facts, KEEL_MODE_IS_LINKED) && i->asked < KEEL_MODE_NONE;
+  @
+  @ // What has to hold for a time holds for at least the longest silence.
+  @ predicate mode_settling(keel_mode_config_t c, integer time_us) =
+  @     c.loss_us <= time_us <= KEEL_MODE_TIME_MOST_US;
+  @
+  @ predicate mode_times_valid(keel_mode_config_t c) =
+  @     KEEL_MODE_LOSS_LEAST_US <= c.loss_us <= KEEL_MODE_LOSS_MOST_US &&
+  @     mode_settling(c, c.regain_us) && mode_settling(c, c.request_us) &&
+  @     mode_settling(c, c.kill_us) && mode_settling(c, c.landed_us) &&
+  @     mode_settling(c, c.estimate_us) && mode_settling(c, c.alarm_us) &&
+  @     mode_settling(c, c.idle_us) && c.hold_us <= KEEL_MODE_TIME_MOST_US &&
+  @     c.return_us <= KEEL_MODE_TIME_MOST_US;
+  @
+  @ predicate mode_config_valid(keel_mode_config_t c) = mode_times_valid(c) && c.required != 0;
+  @
+  @ predicate mode_numbers_valid(keel_mode_t *m) =
+  @     m->state < KEEL_MODE_STATES && m->mode <= KEEL_MODE_NONE && m->asked <= KEEL_MODE_NONE &&
+  @     m->rests_at <= KEEL_MODE_NONE;
+  @
+  @ // What each fact takes to settle.
+  @ predicate mode_settle_valid(keel_mode_t *m) =
+  @     m->settle_us[0] == m->config.regain_us && m->settle_us[1] == m->config.request_us &&
+  @     m->settle_us[2] == m->config.request_us && m->settle_us[3] == m->config.request_us &&
+  @     m->settle_us[4] == m->config.kill_us && m->settle_us[5] == m->config.request_us &&
+  @     m->settle_us[6] == m->config.landed_us && m->settle_us[7] == m->config.alarm_us &&
+  @     m->settle_us[8] == m->config.estimate_us && m->settle_us[9] == m->config.estimate_us &&
+  @     m->settle_us[10] == m->config.estimate_us && m->settle_us[11] == m->config.alarm_us &&
+  @     m->settle_us[12] == m->config.alarm_us && m->settle_us[13] == m->config.alarm_us;
+  @
+  @ // What init establishes and every step keeps.
+  @ predicate mode_valid(keel_mode_t *m) =
+  @     mode_config_valid(m->config) && mode_numbers_valid(m) && mode_settle_valid(m) &&
+  @     (m->motors <==> mode_runs(m)) && (m->mode == KEEL_MODE_NONE <==> !mode_runs(m)) &&
+  @     mode_lacks(m->settled & ~m->seen, 0x3F) && mode_lacks(m->overridden, ~0x3800) &&
+  @     (mode_has(m->settled, KEEL_MODE_IS_LINKED) ==> m->silence_us < m->config.loss_us) &&
+  @     (m->ready ==> mode_has(m->settled, KEEL_MODE_IS_LINKED) &&
+  @         mode_lacks(m->settled, KEEL_MODE_IS_ON)) &&
+  @     (mode_piloted(m->state) ==> mode_has(m->settled, KEEL_MODE_IS_LINKED) &&
+  @         m->asked != KEEL_MODE_NONE) &&
+  @     (m->state != KEEL_MODE_DISARMED ==> m->cause != 0);
+  @*/
+
+/**
+ * Makes a machine: disarmed, nothing seen yet (requirements MOD-001 and MOD-002). It is the only
+ * way out of TERMINATED.
+ *
+ * @param mode   the machine
+ * @param config how it behaves
+ * @return KEEL_OK; KEEL_ERR_LIMITS when a time is out of its range; KEEL_ERR_INPUT when no check is
+ *         required. Nothing changes then
+ */
+/*@ requires \valid(mode) && \valid_read(config) && \separated(mode, config);
+  @ assigns *mode;
+  @ behavior bad_times:
+  @   assumes !mode_times_valid(*config);
+  @   assigns \nothing;
+  @   ensures MOD_001_times: \result == KEEL_ERR_LIMITS;
+  @ behavior no_checks:
+  @   assumes mode_times_valid(*config) && config->required == 0;
+  @   assigns \nothing;
+  @   ensures MOD_001_required: \result == KEEL_ERR_INPUT;
+  @ behavior made:
+  @   assumes mode_config_valid(*config);
+  @   ensures MOD_001_made: \result == KEEL_OK && mode->config == *config;
+  @   ensures MOD_002_still: !mode->motors && mode->state == KEEL_MODE_DISARMED;
+  @   ensures MOD_002_unseen: mode->seen == 0 && mode->settled == 0 && !mode->ready;
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_mode_init(keel_mode_t *mode, const keel_mode_config_t *config);
+
+/**
+ * Takes a step (requirements MOD-003 to MOD-012).
+ *
+ * @param mode  the machine, initialised
+ * @param input what is so now, any bit pattern
+ */
+/*@ requires \valid(mode) && mode_valid(mode);
+  @ requires \valid_read(input) && \separated(mode, input);
+  @ assigns *mode;
+  @ ensures MOD_003_valid: mode_valid(mode);
+  @ ensures MOD_004_attempt: !\old(mode->motors) && mode->motors ==>
+  @     \old(mode->state) == KEEL_MODE_DISARMED && \old(mode->ready) && mode_frame(input) &&
+  @     mode_has(mode->settled, KEEL_MODE_IS_ON | KEEL_MODE_IS_LINKED);
+  @ ensures MOD_004_checks: !\old(mode->motors) && mode->motors ==>
+  @     mode_has(input->checks, mode->config.required);
+  @ ensures MOD_004_facts: !\old(mode->motors) && mode->motors ==>
+  @     mode_has(mode->settled, KEEL_MODE_IS_LOW | KEEL_MODE_IS_LANDED) &&
+  @     mode_lacks(mode->seen, KEEL_MODE_IS_KILL | KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL |
+  @         KEEL_MODE_IS_EMPTY);
+  @ ensures MOD_004_mode: !\old(mode->motors) && mode->motors ==> mode->mode == mode->asked;
+  @ ensures MOD_004_off: mode->ready && !\old(mode->ready) ==>
+  @     mode_has(mode->settled, KEEL_MODE_IS_OFF | KEEL_MODE_IS_LINKED);
+  @ ensures MOD_004_once: mode->ready ==> mode_has(mode->settled, KEEL_MODE_IS_LINKED) &&
+  @     mode_lacks(mode->settled, KEEL_MODE_IS_ON);
+  @ ensures MOD_005_named: \old(mode->state) == KEEL_MODE_DISARMED && \old(mode->ready) &&
+  @     mode_has(mode->settled, KEEL_MODE_IS_ON | KEEL_MODE_IS_LINKED) && !mode->motors ==>
+  @         (mode->refused.checks != 0 || mode->refused.facts != 0) &&
+  @         mode->refused == mode->blocking;
+  @ ensures MOD_006_stops: \old(mode->motors) && !mode->motors ==>
+  @     mode->state == KEEL_MODE_TERMINATED ||
+  @     (\old(mode->state) == KEEL_MODE_LANDING &&
+  @         mode_has(mode->settled, KEEL_MODE_IS_LANDED)) ||
+  @     (\old(mode->state) == KEEL_MODE_ARMED &&
+  @         mode_has(mode->seen, KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW));
+  @ ensures MOD_006_ground: \old(mode->state) == KEEL_MODE_FLYING &&
+  @     mode->state == KEEL_MODE_ARMED ==>
+  @         mode_has(mode->settled, KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW);
+  @ ensures MOD_007_lost: \old(mode->silence_us) + input->elapsed_us >= mode->config.loss_us ==>
+  @     !mode_piloted(mode->state);
+  @ ensures MOD_007_hold_ends: mode->state == KEEL_MODE_HOLDING ==>
+  @     (\old(mode->state) == KEEL_MODE_HOLDING ?
+  @         mode->state_us == \old(mode->state_us) + input->elapsed_us < mode->config.hold_us :
+  @         mode->state_us == 0);
+  @ ensures MOD_007_return_ends: mode->state == KEEL_MODE_RETURNING ==>
+  @     (\old(mode->state) == KEEL_MODE_RETURNING ?
+  @         mode->state_us == \old(mode->state_us) + input->elapsed_us < mode->config.return_us :
+  @         mode->state_us == 0);
+  @ ensures MOD_008_moves: mode_alone(\old(mode->state)) && mode_piloted(mode->state) ==>
+  @     mode_frame(input) && \old(mode->asked) != KEEL_MODE_NONE &&
+  @     mode->asked != \old(mode->asked) &&
+  @     mode_has(mode->settled, KEEL_MODE_IS_LINKED | KEEL_MODE_IS_AT);
+  @ ensures MOD_009_why: mode_piloted(mode->state) ==>
+  @     mode->mode == mode->asked || mode->missing != 0;
+  @ ensures MOD_009_alone: mode_alone(mode->state) ==> mode->mode == KEEL_MODE_LAND ||
+  @     KEEL_MODE_ALTITUDE <= mode->mode <= KEEL_MODE_RETURN;
+  @ ensures MOD_009_cause: mode_alone(mode->state) ==> mode->cause != 0;
+  @ ensures MOD_010_kill: mode->state == KEEL_MODE_TERMINATED &&
+  @     \old(mode->state) != KEEL_MODE_TERMINATED ==>
+  @         mode_frame(input) && mode_has(mode->settled, KEEL_MODE_IS_KILL);
+  @ ensures MOD_010_latches: \old(mode->state) == KEEL_MODE_TERMINATED ==>
+  @     mode->state == KEEL_MODE_TERMINATED && !mode->motors;
+  @ ensures MOD_011_overridden: mode_has(\old(mode->overridden), mode->overridden) ||
+  @     mode->state == KEEL_MODE_FLYING;
+  @ ensures MOD_012_exit: \old(mode->motors) && mode_frame(input) &&
+  @     mode_has(mode->settled, KEEL_MODE_IS_KILL) ==> mode->state == KEEL_MODE_TERMINATED;
+  @*/
+void keel_mode_step(keel_mode_t *mode, const keel_mode_input_t *input);
+
+KEEL_C_END
+
+#endif

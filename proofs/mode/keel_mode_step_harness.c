@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// cbmc: --unwind 15 --external-sat-solver cadical
+// sources: src/flight/mode.c specs/model/mode.c
+// covers: keel_mode_step look forget settle read_frame has_frame add_us has exit_of wanted_by
+// covers: needs_of instead_of heed_mode_switch heed_arm_switch is_piloted blocking try_to_arm when
+// covers: is_time_up requests events_of is_failsafe leave move choose model_mode_step
+//
+// Every valid machine, every input of any bit pattern.
+#include "mode_proof.h"
+
+void keel_mode_step_harness(void)
+{
+    const keel_mode_input_t input = nondet_mode_input();
+    keel_mode_t mode = any_mode();
+    keel_mode_t model = mode;
+
+    __CPROVER_assume(valid_here(&mode));
+    model_mode_step(&model, &input);
+
+    keel_mode_step(&mode, &input);
+
+    __CPROVER_assert(mode_same(&mode, &model), "MOD_003_model: in every field");
+    __CPROVER_assert(valid_here(&mode), "MOD_003_valid: it stays valid");
+}

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of what the evidence package is made from: which reports serve, which commands are run.
+
+    python3 tests/tools/test_evidence_commands.py
+
+The make that is started only notes what it was asked.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import tempfile
+import unittest
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from evidence_sample import STAMP, context_in  # noqa: E402
+
+from common.run import Ended  # noqa: E402
+from common.source import STAMP as MADE_FROM  # noqa: E402
+from common.source import VERDICT, stamp_of, write_report  # noqa: E402
+from evidence.commands import Command, commands_of, not_good, run_commands  # noqa: E402
+
+
+class InFolder(unittest.TestCase):
+    """A folder with the report of one command."""
+
+    command = Command("test/report.json", ("test",))
+
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def write(self, text: str) -> None:
+        path = self.folder / "build" / self.command.report
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
+class Commands(InFolder):
+    """What is run."""
+
+    def run_with(self, ended: Ended) -> list[str]:
+        self.ran: list[str] = []
+
+        def start(words: Sequence[str], _: Path) -> Ended:
+            self.ran += words
+            return ended
+
+        return run_commands(context_in(self.folder), [self.command], start)
+
+    def ran_for(self, **report: Any) -> bool:
+        self.write(json.dumps({MADE_FROM: STAMP, **report}))
+        self.assertEqual(self.run_with(Ended(0, "")), [])
+        return bool(self.ran)
+
+    def test_a_good_report_of_this_source_is_kept(self) -> None:
+        self.assertFalse(self.ran_for(verdict="good"))
+        self.assertFalse(self.ran_for(verdict="proved"))
+
+    def test_a_report_of_another_source_is_made_anew(self) -> None:
+        self.assertTrue(self.ran_for(verdict="good", **{MADE_FROM: {**STAMP, "tree": "0" * 64}}))
+        self.write(json.dumps({VERDICT: "good"}))
+        self.run_with(Ended(0, ""))
+        self.assertEqual(self.ran, ["test"])
+
+    def test_a_report_that_is_not_good_is_made_anew(self) -> None:
+        for said in ("failed", "partial", "GOOD", "", None, True):
+            self.assertTrue(self.ran_for(verdict=said), said)
+
+    def test_a_report_without_a_verdict_is_made_anew(self) -> None:
+        self.assertTrue(self.ran_for(passed=3, failed=0, ok=True))
+
+    def test_a_report_of_some_proofs_is_made_anew(self) -> None:
+        self.assertTrue(self.ran_for(verdict="proved", partial=True))
+
+    def test_every_command_is_a_target_of_make(self) -> None:
+        makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+        commands = commands_of(ROOT)
+        self.assertGreater(len(commands), 8)
+        for command in commands:
+            self.assertRegex(makefile, rf"(?m)^{command.words[0]}:")
+
+    def test_a_half_written_report_is_made_anew(self) -> None:
+        self.write('{"verdict": "good", "made')
+        self.run_with(Ended(0, ""))
+        self.assertEqual(self.ran, ["test"])
+
+    def test_a_command_that_fails_is_named_with_its_last_line(self) -> None:
+        [told] = self.run_with(Ended(1, "much\n3 of 4 tests passed\n"))
+        self.assertIn("make test: exit status 1: 3 of 4 tests passed", told)
+        [log] = (self.folder / "work/logs").iterdir()
+        self.assertIn("much", log.read_text(encoding="utf-8"))
+
+
+class Verdicts(InFolder):
+    """What reports say of themselves, also when nothing is run."""
+
+    def told(self, **report: Any) -> list[str]:
+        self.write(json.dumps({MADE_FROM: STAMP, **report}))
+        return list(not_good(context_in(self.folder), [self.command]))
+
+    def test_a_good_one(self) -> None:
+        self.assertEqual(self.told(verdict="good"), [])
+
+    def test_one_that_says_that_it_failed(self) -> None:
+        told = "build/test/report.json: its verdict is 'failed': make test"
+        self.assertEqual(self.told(verdict="failed"), [told])
+
+    def test_one_without_the_field(self) -> None:
+        told = "build/test/report.json: has no verdict: make test"
+        self.assertEqual(self.told(passed=3), [told])
+
+    def test_one_of_a_part_alone(self) -> None:
+        told = "build/test/report.json: its verdict is 'partial': make test"
+        self.assertEqual(self.told(verdict="partial"), [told])
+        told = "build/test/report.json: its verdict is 'proved', of a part alone: make test"
+        self.assertEqual(self.told(verdict="proved", partial=True), [told])
+
+    def test_what_a_report_is_written_with(self) -> None:
+        path = self.folder / "report.json"
+        for good, whole, said in ((True, True, "good"), (True, False, "partial"),
+                                  (False, True, "failed"), (False, False, "failed")):  # fmt: skip
+            # What the report itself calls its verdict does not count.
+            write_report(path, {VERDICT: "good", "x": 1}, self.folder, good=good, whole=whole)
+            read = json.loads(path.read_text(encoding="utf-8"))
+            path.unlink()
+            expected = {VERDICT: said, "x": 1, MADE_FROM: stamp_of(self.folder)}
+            self.assertEqual(read, expected)
+
+
+class Reports(InFolder):
+    """What a part is told of a report that cannot serve."""
+
+    def told(self, text: str | None) -> list[str]:
+        context = context_in(self.folder)
+        if text is not None:
+            self.write(text)
+        problems: list[str] = []
+        context.report(self.command.report, problems)
+        return problems
+
+    def test_missing(self) -> None:
+        self.assertEqual(self.told(None), ["build/test/report.json: is missing"])
+
+    def test_half_written(self) -> None:
+        self.assertRegex(self.told('{"units": {')[0], r"^build/test/report\.json: is not whole: ")
+
+    def test_stale(self) -> None:
+        for stamp in ({}, {**STAMP, "commit": "0" * 40}, {**STAMP, "tree": "0" * 64}):
+            told = self.told(json.dumps({MADE_FROM: stamp}))
+            self.assertEqual(told, ["build/test/report.json: speaks of another source than the one"
+                                    " that is here"])  # fmt: skip
+
+    def test_good(self) -> None:
+        self.assertEqual(self.told(json.dumps({MADE_FROM: STAMP})), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,688 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Unit tests of keel/flight/mode.h. Steps are 10 ms apart and times in the configuration whole
+ * tenths of a second, so that expected steps are counted by hand. */
+#include "keel/flight/mode.h"
+#include "unity.h"
+
+#include <string.h>
+
+/* The model is part of this test: the kernel that it is linked with has none. */
+#include "../../specs/model/mode.c"
+
+#define STEP_US 10000u
+#define STEPS   1000000u
+
+static const keel_mode_config_t usual = {
+    .loss_us = 250000u,
+    .regain_us = 500000u,
+    .request_us = 300000u,
+    .kill_us = 400000u,
+    .landed_us = 1000000u,
+    .estimate_us = 700000u,
+    .alarm_us = 600000u,
+    .idle_us = 5000000u,
+    .hold_us = 2000000u,
+    .return_us = 3000000u,
+    .required = KEEL_MODE_CHECK_GYROSCOPE | KEEL_MODE_CHECK_ACCELEROMETER |
+                KEEL_MODE_CHECK_MAGNETOMETER | KEEL_MODE_CHECK_BAROMETER |
+                KEEL_MODE_CHECK_POSITIONING | KEEL_MODE_CHECK_CALIBRATION | KEEL_MODE_CHECK_LEVEL |
+                KEEL_MODE_CHECK_BATTERY | KEEL_MODE_CHECK_MOTORS | KEEL_MODE_CHECK_LOAD |
+                KEEL_MODE_CHECK_STORAGE | KEEL_MODE_CHECK_HOME,
+    .returns = true,
+};
+
+static keel_mode_t machine;
+static keel_mode_input_t in;
+
+static void begin(const keel_mode_config_t *config)
+{
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_mode_init(&machine, config));
+    in.elapsed_us = STEP_US;
+    in.facts = KEEL_MODE_IS_LINKED | KEEL_MODE_IS_OFF | KEEL_MODE_IS_LOW | KEEL_MODE_IS_LANDED |
+               KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT | KEEL_MODE_HAS_PLACE;
+    in.checks = usual.required;
+    in.asked = KEEL_MODE_POSITION;
+}
+
+void setUp(void)
+{
+    begin(&usual);
+}
+
+void tearDown(void)
+{
+}
+
+static void set(uint32_t facts)
+{
+    in.facts |= facts;
+}
+
+static void clear(uint32_t facts)
+{
+    in.facts &= ~facts;
+}
+
+static void run(uint32_t steps)
+{
+    for (uint32_t i = 0u; i < steps; i++) {
+        keel_mode_step(&machine, &in);
+    }
+}
+
+static void switch_on(void)
+{
+    clear(KEEL_MODE_IS_OFF);
+    set(KEEL_MODE_IS_ON);
+}
+
+static void switch_off(void)
+{
+    clear(KEEL_MODE_IS_ON);
+    set(KEEL_MODE_IS_OFF);
+}
+
+/* The next n steps end in this state, and the one before them did not. */
+static void expect_after(uint32_t steps, uint8_t state)
+{
+    run(steps - 1u);
+    TEST_ASSERT_NOT_EQUAL(state, machine.state);
+    run(1u);
+    TEST_ASSERT_EQUAL_UINT8(state, machine.state);
+}
+
+static void arm(void)
+{
+    run(150u);
+    switch_on();
+    run(31u); /* The first look, and 300 ms. */
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ARMED, machine.state);
+}
+
+static void fly(void)
+{
+    arm();
+    clear(KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW);
+    run(100u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_FLYING, machine.state);
+}
+
+/* In flight, with the link lost just now. */
+static void lose_link(void)
+{
+    fly();
+    clear(KEEL_MODE_IS_LINKED);
+    expect_after(25u, KEEL_MODE_HOLDING); /* 250 ms. */
+}
+
+static void refuse(keel_mode_config_t config, keel_status_t expected)
+{
+    const keel_mode_t before = machine;
+
+    TEST_ASSERT_EQUAL(expected, keel_mode_init(&machine, &config));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &machine, sizeof before);
+}
+
+static void MOD_001_each_time_is_checked(void)
+{
+    const size_t settling[] = {
+        offsetof(keel_mode_config_t, regain_us),   offsetof(keel_mode_config_t, request_us),
+        offsetof(keel_mode_config_t, kill_us),     offsetof(keel_mode_config_t, landed_us),
+        offsetof(keel_mode_config_t, estimate_us), offsetof(keel_mode_config_t, alarm_us),
+        offsetof(keel_mode_config_t, idle_us)};
+    const size_t lasting[] = {offsetof(keel_mode_config_t, hold_us),
+                              offsetof(keel_mode_config_t, return_us)};
+    const uint32_t short_us = 249999u;
+    const uint32_t long_us = 3600000001u;
+    keel_mode_config_t config = usual;
+
+    arm();
+    for (size_t i = 0u; i < (sizeof settling / sizeof settling[0]); i++) {
+        config = usual;
+        memcpy((char *)&config + settling[i], &short_us, sizeof short_us);
+        refuse(config, KEEL_ERR_LIMITS);
+        memcpy((char *)&config + settling[i], &long_us, sizeof long_us);
+        refuse(config, KEEL_ERR_LIMITS);
+    }
+    for (size_t i = 0u; i < (sizeof lasting / sizeof lasting[0]); i++) {
+        config = usual;
+        memcpy((char *)&config + lasting[i], &long_us, sizeof long_us);
+        refuse(config, KEEL_ERR_LIMITS);
+    }
+    config = usual;
+    config.loss_us = 9999u;
+    refuse(config, KEEL_ERR_LIMITS);
+    config.loss_us = 2000001u;
+    refuse(config, KEEL_ERR_LIMITS);
+    config = usual;
+    config.required = 0u;
+    refuse(config, KEEL_ERR_INPUT);
+}
+
+static void MOD_001_ends_of_ranges_are_accepted(void)
+{
+    keel_mode_config_t config = usual;
+
+    config.loss_us = 10000u;
+    config.regain_us = 10000u;
+    config.idle_us = 3600000000u;
+    config.hold_us = 0u;
+    config.return_us = 3600000000u;
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_mode_init(&machine, &config));
+}
+
+static void MOD_002_begins_disarmed(void)
+{
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_DISARMED, machine.state);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_NONE, machine.mode);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_NONE, machine.asked);
+    TEST_ASSERT_FALSE(machine.motors);
+    TEST_ASSERT_FALSE(machine.ready);
+    TEST_ASSERT_EQUAL_HEX32(0u, machine.seen | machine.settled);
+}
+
+static void MOD_003_a_fact_counts_after_its_time(void)
+{
+    run(70u); /* The first look, and 690 ms. */
+    TEST_ASSERT_EQUAL_HEX32(0u, machine.settled & KEEL_MODE_HAS_ANGLE);
+    run(1u);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_HAS_ANGLE, machine.settled & KEEL_MODE_HAS_ANGLE);
+    clear(KEEL_MODE_HAS_ANGLE);
+    run(1u);
+    TEST_ASSERT_EQUAL_HEX32(0u, machine.settled & KEEL_MODE_HAS_ANGLE);
+    set(KEEL_MODE_HAS_ANGLE);
+    run(70u);
+    TEST_ASSERT_EQUAL_HEX32(0u, machine.settled & KEEL_MODE_HAS_ANGLE);
+}
+
+static void MOD_003_two_frames_do_not_count(void)
+{
+    fly();
+    set(KEEL_MODE_IS_KILL); /* kill_us is 400 ms. */
+    run(1u);
+    clear(KEEL_MODE_IS_LINKED);
+    run(23u);
+    set(KEEL_MODE_IS_LINKED);
+    run(1u); /* The second frame, 240 ms later. */
+    clear(KEEL_MODE_IS_LINKED);
+    run(24u); /* Held for 480 ms, but by two frames. */
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_FLYING, machine.state);
+    set(KEEL_MODE_IS_LINKED);
+    in.elapsed_us = 9999u; /* Just within the longest silence. */
+    run(1u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_TERMINATED, machine.state);
+}
+
+static void MOD_003_silence_forgets_the_pilot(void)
+{
+    run(100u);
+    TEST_ASSERT_TRUE(machine.ready);
+    clear(KEEL_MODE_IS_LINKED);
+    run(24u);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_IS_LINKED, machine.settled & KEEL_MODE_IS_LINKED);
+    run(1u);
+    TEST_ASSERT_EQUAL_HEX32(0u, (machine.settled | machine.seen) & 0x3Fu);
+    TEST_ASSERT_FALSE(machine.ready);
+}
+
+static void MOD_003_a_stall_begins_anew(void)
+{
+    set(KEEL_MODE_IS_HOME);
+    run(2u); /* Counts after 600 ms of looks. */
+    in.elapsed_us = 10000000u;
+    run(1u);
+    TEST_ASSERT_EQUAL_HEX32(0u, machine.settled);
+}
+
+static void MOD_003_a_frame_with_no_mode_is_none(void)
+{
+    in.asked = KEEL_MODE_NONE;
+    run(200u);
+    TEST_ASSERT_EQUAL_HEX32(0u, machine.seen & 0x3Fu);
+}
+
+static void MOD_004_arms_when_switched_on(void)
+{
+    run(150u);
+    switch_on();
+    expect_after(31u, KEEL_MODE_ARMED);
+    TEST_ASSERT_TRUE(machine.motors);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_POSITION, machine.mode);
+}
+
+static void MOD_004_a_switch_that_was_never_off_arms_nothing(void)
+{
+    switch_on();
+    run(1000u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_DISARMED, machine.state);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_IS_OFF, machine.blocking.facts);
+}
+
+static void MOD_004_both_positions_are_neither(void)
+{
+    run(150u);
+    set(KEEL_MODE_IS_ON);
+    run(100u);
+    TEST_ASSERT_EQUAL_HEX32(0u, machine.seen & (KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF));
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_DISARMED, machine.state);
+}
+
+static void MOD_004_an_attempt_needs_off_before(void)
+{
+    in.checks = 0u;
+    run(150u);
+    switch_on();
+    run(50u);
+    in.checks = usual.required; /* Too late: the attempt was refused. */
+    run(1000u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_DISARMED, machine.state);
+    switch_off();
+    run(31u);
+    switch_on();
+    expect_after(31u, KEEL_MODE_ARMED);
+}
+
+/* An attempt in which something is not as it must be. */
+static void attempt_refused(uint32_t checks, uint32_t facts)
+{
+    switch_on();
+    run(31u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_DISARMED, machine.state);
+    TEST_ASSERT_EQUAL_HEX32(checks, machine.refused.checks);
+    TEST_ASSERT_EQUAL_HEX32(facts, machine.refused.facts);
+    switch_off();
+}
+
+static void MOD_005_each_refusal_is_named(void)
+{
+    const uint32_t not_so[] = {KEEL_MODE_IS_LOW, KEEL_MODE_IS_LANDED};
+    const uint32_t is_so[] = {KEEL_MODE_IS_KILL, KEEL_MODE_IS_OUTSIDE, KEEL_MODE_IS_CRITICAL,
+                              KEEL_MODE_IS_EMPTY};
+
+    for (uint32_t check = 0x0001u; check <= KEEL_MODE_CHECK_HOME; check <<= 1) {
+        in.checks = usual.required & ~check;
+        run(150u);
+        attempt_refused(check, 0u);
+    }
+    in.checks = usual.required;
+    for (size_t i = 0u; i < (sizeof not_so / sizeof not_so[0]); i++) {
+        clear(not_so[i]);
+        run(150u);
+        attempt_refused(0u, not_so[i]);
+        set(not_so[i]);
+    }
+    for (size_t i = 0u; i < (sizeof is_so / sizeof is_so[0]); i++) {
+        set(is_so[i]);
+        run(150u);
+        attempt_refused(0u, is_so[i]);
+        clear(is_so[i]);
+    }
+}
+
+static void MOD_005_a_mode_that_cannot_be_flown_refuses(void)
+{
+    const uint8_t asked[] = {KEEL_MODE_LAND, KEEL_MODE_RETURN};
+
+    for (size_t i = 0u; i < (sizeof asked / sizeof asked[0]); i++) {
+        in.asked = asked[i];
+        run(150u);
+        attempt_refused(0u, KEEL_MODE_IS_AT);
+    }
+    in.asked = KEEL_MODE_POSITION;
+    clear(KEEL_MODE_HAS_PLACE);
+    run(150u);
+    attempt_refused(0u, KEEL_MODE_IS_AT);
+    in.asked = KEEL_MODE_ALTITUDE;
+    run(150u);
+    switch_on();
+    expect_after(31u, KEEL_MODE_ARMED);
+}
+
+static void MOD_005_without_a_link_that_is_named(void)
+{
+    clear(KEEL_MODE_IS_LINKED);
+    run(150u);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_IS_LINKED | KEEL_MODE_IS_OFF | KEEL_MODE_IS_LOW |
+                                KEEL_MODE_IS_AT,
+                            machine.blocking.facts);
+}
+
+static void MOD_006_the_switch_disarms_on_the_ground(void)
+{
+    arm();
+    switch_off();
+    expect_after(31u, KEEL_MODE_DISARMED);
+    TEST_ASSERT_FALSE(machine.motors);
+}
+
+static void MOD_006_the_switch_disarms_nothing_in_flight(void)
+{
+    fly();
+    switch_off();
+    run(10000u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_FLYING, machine.state);
+}
+
+static void MOD_006_false_landing_with_throttle_stops_nothing(void)
+{
+    fly();
+    set(KEEL_MODE_IS_LANDED);
+    switch_off();
+    run(10000u);
+    TEST_ASSERT_TRUE(machine.motors);
+}
+
+static void MOD_006_lands_and_disarms(void)
+{
+    fly();
+    set(KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW);
+    expect_after(101u, KEEL_MODE_ARMED);
+    expect_after(500u, KEEL_MODE_DISARMED); /* Idle for 5 s. */
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_TIME_UP, machine.cause);
+}
+
+static void MOD_007_holds_returns_lands_disarms(void)
+{
+    lose_link();
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_POSITION, machine.mode);
+    expect_after(200u, KEEL_MODE_RETURNING);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_RETURN, machine.mode);
+    expect_after(300u, KEEL_MODE_LANDING);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_LAND, machine.mode);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_LINK_LOST | KEEL_MODE_TIME_UP, machine.cause);
+    run(10000u);
+    TEST_ASSERT_TRUE(machine.motors);
+    set(KEEL_MODE_IS_LANDED);
+    expect_after(101u, KEEL_MODE_DISARMED);
+}
+
+static void MOD_007_returns_until_home(void)
+{
+    lose_link();
+    run(200u);
+    set(KEEL_MODE_IS_HOME);
+    expect_after(61u, KEEL_MODE_LANDING);
+}
+
+static void MOD_007_lands_where_it_cannot_return(void)
+{
+    keel_mode_config_t config = usual;
+
+    lose_link();
+    clear(KEEL_MODE_HAS_PLACE);
+    expect_after(200u, KEEL_MODE_LANDING);
+    config.returns = false;
+    begin(&config);
+    switch_off();
+    lose_link();
+    expect_after(200u, KEEL_MODE_LANDING);
+}
+
+static void MOD_007_lands_from_the_ground(void)
+{
+    arm();
+    clear(KEEL_MODE_IS_LINKED);
+    expect_after(25u, KEEL_MODE_LANDING);
+    expect_after(100u, KEEL_MODE_DISARMED); /* Landed for long, but so long in this state. */
+}
+
+static void MOD_008_link_that_is_back_resumes_nothing(void)
+{
+    lose_link();
+    set(KEEL_MODE_IS_LINKED);
+    in.asked = KEEL_MODE_ANGLE; /* Moved while there was no link. */
+    run(150u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_HOLDING, machine.state);
+    in.asked = KEEL_MODE_ALTITUDE;
+    expect_after(32u, KEEL_MODE_FLYING);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ALTITUDE, machine.mode);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_TAKES_OVER, machine.cause);
+}
+
+/* A move counts after the frame that moves, the first that rests, and 300 ms. */
+static void MOD_008_taking_over_from_return_and_landing(void)
+{
+    fly();
+    in.asked = KEEL_MODE_RETURN;
+    expect_after(32u, KEEL_MODE_RETURNING);
+    in.asked = KEEL_MODE_ANGLE;
+    expect_after(32u, KEEL_MODE_FLYING);
+    in.asked = KEEL_MODE_LAND;
+    expect_after(32u, KEEL_MODE_LANDING);
+    in.asked = KEEL_MODE_RETURN;
+    expect_after(32u, KEEL_MODE_RETURNING);
+    in.asked = KEEL_MODE_LAND;
+    expect_after(32u, KEEL_MODE_LANDING);
+    in.asked = KEEL_MODE_ACRO;
+    expect_after(32u, KEEL_MODE_FLYING);
+}
+
+static void MOD_009_gives_way_at_once_and_comes_back_later(void)
+{
+    fly();
+    clear(KEEL_MODE_HAS_PLACE);
+    run(1u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ALTITUDE, machine.mode);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_POSITION, machine.asked);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_HAS_PLACE, machine.missing);
+    clear(KEEL_MODE_HAS_HEIGHT);
+    run(1u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ANGLE, machine.mode);
+    clear(KEEL_MODE_HAS_ANGLE);
+    run(1u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ACRO, machine.mode);
+    set(KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT | KEEL_MODE_HAS_PLACE);
+    run(70u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ACRO, machine.mode);
+    run(1u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_POSITION, machine.mode);
+}
+
+static void MOD_009_return_without_a_position_holds_the_altitude(void)
+{
+    fly();
+    clear(KEEL_MODE_HAS_PLACE);
+    in.asked = KEEL_MODE_RETURN;
+    run(100u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_FLYING, machine.state);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ALTITUDE, machine.mode);
+}
+
+static void MOD_009_alone_it_lands_rather_than_wait_for_a_throttle(void)
+{
+    lose_link();
+    clear(KEEL_MODE_HAS_PLACE);
+    run(1u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ALTITUDE, machine.mode);
+    clear(KEEL_MODE_HAS_HEIGHT);
+    run(1u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_LAND, machine.mode);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_HOLDING, machine.state);
+}
+
+static void MOD_010_kill_terminates_for_good(void)
+{
+    fly();
+    set(KEEL_MODE_IS_KILL);
+    expect_after(41u, KEEL_MODE_TERMINATED);
+    TEST_ASSERT_FALSE(machine.motors);
+    begin(&usual);
+    arm();
+    set(KEEL_MODE_IS_KILL);
+    expect_after(41u, KEEL_MODE_TERMINATED);
+    clear(KEEL_MODE_IS_KILL);
+    set(KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW);
+    switch_off();
+    run(1000u);
+    switch_on();
+    run(1000u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_TERMINATED, machine.state);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_IS_KILL, machine.cause);
+}
+
+static void MOD_010_kill_terminates_without_a_pilot(void)
+{
+    lose_link();
+    set(KEEL_MODE_IS_LINKED | KEEL_MODE_IS_KILL);
+    expect_after(41u, KEEL_MODE_TERMINATED);
+}
+
+static void MOD_011_alarms_lead_home_or_down(void)
+{
+    fly();
+    set(KEEL_MODE_IS_CRITICAL);
+    expect_after(61u, KEEL_MODE_RETURNING);
+    set(KEEL_MODE_IS_EMPTY);
+    expect_after(61u, KEEL_MODE_LANDING);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_IS_CRITICAL | KEEL_MODE_IS_EMPTY, machine.cause);
+}
+
+static void MOD_011_the_pilot_overrides_an_alarm(void)
+{
+    fly();
+    set(KEEL_MODE_IS_OUTSIDE);
+    expect_after(61u, KEEL_MODE_RETURNING);
+    in.asked = KEEL_MODE_ANGLE;
+    expect_after(32u, KEEL_MODE_FLYING);
+    run(1000u);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_FLYING, machine.state);
+    clear(KEEL_MODE_IS_OUTSIDE);
+    run(1u);
+    set(KEEL_MODE_IS_OUTSIDE); /* Another breach. */
+    expect_after(61u, KEEL_MODE_RETURNING);
+}
+
+static uint64_t random_state = 20261123u;
+
+/* SplitMix64. */
+static uint32_t any(void)
+{
+    uint64_t z;
+
+    random_state += 0x9E3779B97F4A7C15u;
+    z = random_state;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return (uint32_t)((z ^ (z >> 31)) >> 16);
+}
+
+/* Phrases of a flight that last long enough for facts to settle, with faults in between. */
+static void change(void)
+{
+    const uint32_t estimates = any() & (KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT);
+    const uint32_t ground = KEEL_MODE_IS_LINKED | KEEL_MODE_IS_LOW | KEEL_MODE_IS_LANDED |
+                            KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT | KEEL_MODE_HAS_PLACE;
+
+    switch (any() % 256u) {
+    case 0u:
+    case 1u:
+        in.facts = ground | KEEL_MODE_IS_OFF;
+        in.asked = (uint8_t)(any() % 5u);
+        break;
+    case 2u:
+    case 3u:
+        in.facts = ground | KEEL_MODE_IS_ON;
+        break;
+    case 4u:
+    case 5u:
+        in.facts = KEEL_MODE_IS_LINKED | KEEL_MODE_IS_ON | KEEL_MODE_HAS_PLACE | estimates;
+        break;
+    case 6u:
+        in.facts &= ~KEEL_MODE_IS_LINKED;
+        break;
+    case 7u:
+        in.facts |= KEEL_MODE_IS_LINKED;
+        break;
+    case 8u:
+    case 9u:
+        in.asked = (uint8_t)(any() % 7u);
+        break;
+    case 10u:
+    case 11u:
+        in.facts ^= (uint32_t)1u << (any() % 16u);
+        break;
+    default:
+        break;
+    }
+    in.checks = ((any() % 16u) == 0u) ? any() : UINT32_MAX;
+    in.elapsed_us = ((any() % 4096u) == 0u) ? any() : (any() % 4000u);
+}
+
+static keel_mode_config_t short_times(void)
+{
+    return (keel_mode_config_t){.loss_us = 10000u,
+                                .regain_us = 10000u + (any() % 5000u),
+                                .request_us = 10000u + (any() % 5000u),
+                                .kill_us = 40000u,
+                                .landed_us = 10000u + (any() % 9000u),
+                                .estimate_us = 12000u,
+                                .alarm_us = 30000u,
+                                .idle_us = 50000u,
+                                .hold_us = any() % 50000u,
+                                .return_us = any() % 50000u,
+                                .required = any(),
+                                .returns = (any() % 2u) == 0u};
+}
+
+static void MOD_003_a_million_steps_beside_the_specification(void)
+{
+    uint32_t visits[KEEL_MODE_STATES] = {0u};
+    keel_mode_t model;
+
+    memset(&machine, 0, sizeof machine);
+    memset(&model, 0, sizeof model);
+    for (uint32_t i = 0u; i < STEPS; i++) {
+        if ((i % 4096u) == 0u) {
+            const keel_mode_config_t config = short_times();
+
+            TEST_ASSERT_EQUAL(model_mode_init(&model, &config), keel_mode_init(&machine, &config));
+        }
+        change();
+        model_mode_step(&model, &in);
+        keel_mode_step(&machine, &in);
+        TEST_ASSERT_EQUAL_MEMORY(&model, &machine, sizeof model);
+        visits[machine.state]++;
+    }
+    for (uint32_t i = 0u; i < KEEL_MODE_STATES; i++) {
+        TEST_ASSERT_GREATER_THAN_UINT32(100u, visits[i]);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(MOD_001_each_time_is_checked);
+    RUN_TEST(MOD_001_ends_of_ranges_are_accepted);
+    RUN_TEST(MOD_002_begins_disarmed);
+    RUN_TEST(MOD_003_a_fact_counts_after_its_time);
+    RUN_TEST(MOD_003_two_frames_do_not_count);
+    RUN_TEST(MOD_003_silence_forgets_the_pilot);
+    RUN_TEST(MOD_003_a_stall_begins_anew);
+    RUN_TEST(MOD_003_a_frame_with_no_mode_is_none);
+    RUN_TEST(MOD_004_arms_when_switched_on);
+    RUN_TEST(MOD_004_a_switch_that_was_never_off_arms_nothing);
+    RUN_TEST(MOD_004_both_positions_are_neither);
+    RUN_TEST(MOD_004_an_attempt_needs_off_before);
+    RUN_TEST(MOD_005_each_refusal_is_named);
+    RUN_TEST(MOD_005_a_mode_that_cannot_be_flown_refuses);
+    RUN_TEST(MOD_005_without_a_link_that_is_named);
+    RUN_TEST(MOD_006_the_switch_disarms_on_the_ground);
+    RUN_TEST(MOD_006_the_switch_disarms_nothing_in_flight);
+    RUN_TEST(MOD_006_false_landing_with_throttle_stops_nothing);
+    RUN_TEST(MOD_006_lands_and_disarms);
+    RUN_TEST(MOD_007_holds_returns_lands_disarms);
+    RUN_TEST(MOD_007_returns_until_home);
+    RUN_TEST(MOD_007_lands_where_it_cannot_return);
+    RUN_TEST(MOD_007_lands_from_the_ground);
+    RUN_TEST(MOD_008_link_that_is_back_resumes_nothing);
+    RUN_TEST(MOD_008_taking_over_from_return_and_landing);
+    RUN_TEST(MOD_009_gives_way_at_once_and_comes_back_later);
+    RUN_TEST(MOD_009_return_without_a_position_holds_the_altitude);
+    RUN_TEST(MOD_009_alone_it_lands_rather_than_wait_for_a_throttle);
+    RUN_TEST(MOD_010_kill_terminates_for_good);
+    RUN_TEST(MOD_010_kill_terminates_without_a_pilot);
+    RUN_TEST(MOD_011_alarms_lead_home_or_down);
+    RUN_TEST(MOD_011_the_pilot_overrides_an_alarm);
+    RUN_TEST(MOD_003_a_million_steps_beside_the_specification);
+    return UNITY_END();
+}
