@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 11 --external-sat-solver cadical
 // sources: src/flight/mixer.c
-// covers: keel_mixer_step turn set_tilt fit_tilt fit_thrust put_out_all put_out_part part_of_yaw
+// covers: keel_mixer_step stop set_tilt fit_tilt fit_thrust put_out_all put_out_part part_of_yaw
 //
 // What gives way in which order, by hand: a quadcopter's X whose outputs are from 1/4 to 3/4, with
 // commands that lead to exact sums.
@@ -48,6 +48,8 @@ static bool as_expected(const keel_mixer_t *mixer, const example_t *expected)
 
 void keel_mixer_step__exact_harness(void)
 {
+    keel_mixer_t still = {.config = {keel_mixer_quad_x, 0.25f, 0.75f}, .output = {0.5f, 0.5f}};
+
     for (uint32_t n = 0u; n < CASES; n++) {
         keel_mixer_t mixer = {.config = {keel_mixer_quad_x, 0.25f, 0.75f}};
 
@@ -61,4 +63,7 @@ void keel_mixer_step__exact_harness(void)
             __CPROVER_assert(as_expected(&mixer, &examples[n]), "MIX_006_ratio: one factor");
         }
     }
+    keel_mixer_step(&still, &examples[0].command, false);
+    __CPROVER_assert((still.output[0] == 0.0f) && (still.output[1] == 0.0f),
+                     "MIX_003_stopped: nothing turns");
 }

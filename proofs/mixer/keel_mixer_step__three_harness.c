@@ -2,15 +2,13 @@
 // cbmc: --unwind 9 --z3 --fpa
 // checks: assertions
 // sources: src/flight/mixer.c specs/model/mixer.c specs/model/range.c
-// covers: keel_mixer_step turn is_command is_factor tame tamed
-// covers: set_tilt fit_tilt fit_thrust put_out_all
-// covers: with_yaw with_part without_yaw part_of_yaw fitting_part put_out_part stop
-// covers: model_mixer_step
+// covers: keel_mixer_step model_mixer_step
 //
-// An armed mixer of three motors, any bit pattern of everything else: the same as the model's step,
-// bit for bit. Each number of motors has a harness of its own: with one number both sides are the
-// same terms, and z3 sees at once that they are equal. Disarmed: keel_mixer_step_harness; all
-// other checks: keel_mixer_step__points_harness.
+// An armed mixer of three motors, the fewest, any bit pattern of everything else: the same as the
+// model's step, bit for bit. Each number of motors needs a harness: with one number both sides are
+// the same terms, and z3 sees at once that they are equal. From five motors on there is none, as
+// to find what it reaches takes CBMC minutes; these take the same loops, and are tested. Disarmed:
+// keel_mixer_step_harness; all other checks, for chosen commands: keel_mixer_step__points_harness.
 #include "mixer_proof.h"
 
 void keel_mixer_step__three_harness(void)

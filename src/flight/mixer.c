@@ -451,10 +451,15 @@ static void turn(keel_mixer_t *mixer, const keel_mixer_command_t *command)
 void keel_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, bool armed)
 {
     if (armed) {
+        /*@ assert before: \forall integer i;
+          @     mixer->config.geometry.motors <= i < KEEL_MIXER_MOTORS ==>
+          @     \is_finite(mixer->output[i]) && mixer->output[i] == 0; */
         turn(mixer, command);
-        /*@ assert step_config: mixer_geometry(mixer->config.geometry) &&
+        /*@ assert config: mixer_geometry(mixer->config.geometry) &&
           @     mixer_range(mixer->config); */
-        /*@ assert step_behind: \forall integer i;
+        /*@ assert same_motors: mixer->config.geometry.motors ==
+          @     \at(mixer->config.geometry.motors, Pre); */
+        /*@ assert behind: \forall integer i;
           @     mixer->config.geometry.motors <= i < KEEL_MIXER_MOTORS ==>
           @     \is_finite(mixer->output[i]) && mixer->output[i] == 0; */
     } else {
