@@ -8,8 +8,8 @@
 //
 // Chosen commands, with all that can give way: the same as the model's, and no operation overflows
 // or gives a NaN: that is shown for these commands alone. That the step is the model's for every
-// command is shown in keel_mixer_step__four_harness and the like; wrong bodies are refuted here, for
-// where floats differ z3 finds no example.
+// command is shown in keel_mixer_step__three_harness and keel_mixer_step__four_harness; wrong bodies
+// are refuted here, for where floats differ z3 finds no example.
 #include "mixer_proof.h"
 
 #define POINTS 12u

@@ -155,7 +155,7 @@ keel_status_t keel_mixer_check(const keel_mixer_config_t *config)
 
 /*@ requires \valid(mixer);
   @ assigns mixer->output[0 .. KEEL_MIXER_MOTORS - 1], mixer->limited;
-  @ ensures mixer_stopped(*mixer) && mixer->limited == 0;
+  @ ensures mixer_stopped(mixer) && mixer->limited == 0;
   @*/
 static void stop(keel_mixer_t *mixer)
 {
@@ -332,7 +332,7 @@ static float without_yaw(float base, float tilt)
 }
 
 /* Puts out all that is asked for, unless some motor cannot do it. */
-/*@ requires \valid(mixer) && mixer_valid(*mixer);
+/*@ requires \valid(mixer) && mixer_valid(mixer);
   @ requires \valid_read(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ requires \separated(mixer, tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1];
@@ -423,7 +423,7 @@ static void put_out_part(keel_mixer_t *mixer, const float tilt[], float base, fl
 }
 
 /*@ requires \valid(mixer) && \valid_read(command) && \separated(mixer, command);
-  @ requires mixer_valid(*mixer);
+  @ requires mixer_valid(mixer);
   @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1], mixer->limited;
   @ ensures mixer_turning(*mixer);
   @*/
@@ -451,9 +451,6 @@ static void turn(keel_mixer_t *mixer, const keel_mixer_command_t *command)
 void keel_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, bool armed)
 {
     if (armed) {
-        /*@ assert before: \forall integer i;
-          @     mixer->config.geometry.motors <= i < KEEL_MIXER_MOTORS ==>
-          @     \is_finite(mixer->output[i]) && mixer->output[i] == 0; */
         turn(mixer, command);
         /*@ assert config: mixer_geometry(mixer->config.geometry) &&
           @     mixer_range(mixer->config); */

@@ -111,19 +111,19 @@ typedef struct keel_mixer {
   @     \is_finite(config.highest) && KEEL_MIXER_HIGHEST_MIN <= config.highest <= 1;
   @
   @ // What init establishes and every step keeps.
-  @ predicate mixer_valid(keel_mixer_t mixer) =
-  @     mixer_geometry(mixer.config.geometry) && mixer_range(mixer.config) &&
-  @     \forall integer i; mixer.config.geometry.motors <= i < KEEL_MIXER_MOTORS ==>
-  @         \is_finite(mixer.output[i]) && mixer.output[i] == 0;
+  @ predicate mixer_valid(keel_mixer_t *mixer) =
+  @     mixer_geometry(mixer->config.geometry) && mixer_range(mixer->config) &&
+  @     \forall integer i; mixer->config.geometry.motors <= i < KEEL_MIXER_MOTORS ==>
+  @         \is_finite(mixer->output[i]) && mixer->output[i] == 0;
   @
   @ predicate mixer_command(keel_mixer_command_t command) =
   @     mixer_factor(command.roll) && mixer_factor(command.pitch) && mixer_factor(command.yaw) &&
   @     \is_finite(command.thrust) && 0 <= command.thrust <= 1;
   @
   @ // Disarmed: nothing turns. The comparison excludes NaN.
-  @ predicate mixer_stopped(keel_mixer_t mixer) =
+  @ predicate mixer_stopped(keel_mixer_t *mixer) =
   @     \forall integer i; 0 <= i < KEEL_MIXER_MOTORS ==>
-  @         \is_finite(mixer.output[i]) && mixer.output[i] == 0;
+  @         \is_finite(mixer->output[i]) && mixer->output[i] == 0;
   @
   @ // Armed: everything turns.
   @ predicate mixer_turning(keel_mixer_t mixer) =
@@ -156,7 +156,7 @@ keel_status_t keel_mixer_check(const keel_mixer_config_t *config);
  */
 /*@ requires \valid(mixer) && \valid_read(config) && \separated(mixer, config);
   @ assigns *mixer;
-  @ ensures MIX_002_made: \result == KEEL_OK ==> mixer_valid(*mixer) && mixer_stopped(*mixer) &&
+  @ ensures MIX_002_made: \result == KEEL_OK ==> mixer_valid(mixer) && mixer_stopped(mixer) &&
   @     mixer->limited == 0;
   @ ensures MIX_002_unchanged: \result != KEEL_OK ==> *mixer == \old(*mixer);
   @*/
@@ -173,11 +173,11 @@ keel_status_t keel_mixer_init(keel_mixer_t *mixer, const keel_mixer_config_t *co
  *                way
  */
 /*@ requires \valid(mixer) && \valid_read(command) && \separated(mixer, command);
-  @ requires mixer_valid(*mixer);
+  @ requires mixer_valid(mixer);
   @ assigns mixer->output[0 .. KEEL_MIXER_MOTORS - 1], mixer->limited;
-  @ ensures MIX_003_stopped: !armed ==> mixer_stopped(*mixer) && mixer->limited == 0;
+  @ ensures MIX_003_stopped: !armed ==> mixer_stopped(mixer) && mixer->limited == 0;
   @ ensures MIX_004_turning: armed ==> mixer_turning(*mixer);
-  @ ensures MIX_004_valid: mixer_valid(*mixer);
+  @ ensures MIX_004_valid: mixer_valid(mixer);
   @*/
 void keel_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, bool armed);
 
