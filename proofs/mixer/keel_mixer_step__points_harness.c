@@ -6,10 +6,10 @@
 // covers: with_yaw with_part without_yaw part_of_yaw fitting_part put_out_part
 // covers: stop model_mixer_step
 //
-// Chosen commands, with all that can give way: the same as the model's, and no operation overflows
-// or gives a NaN: that is shown for these commands alone. That the step is the model's for every
-// command is shown in keel_mixer_step__three_harness and keel_mixer_step__four_harness; wrong bodies
-// are refuted here, for where floats differ z3 finds no example.
+// Chosen commands to four motors, with all that can give way: the same as the model's, and no
+// operation overflows or gives a NaN: that is shown for these commands alone. With three motors the
+// step is the model's for every command (keel_mixer_step__three_harness); wrong bodies are refuted
+// here, for where floats differ z3 finds no example.
 #include "mixer_proof.h"
 
 #define POINTS 12u

@@ -6,7 +6,7 @@
 //
 // Disarmed, any bit pattern of everything but the number of motors: the same as the model's step.
 // There is no motor here, which makes the armed step short, and would show if only motors were
-// stopped. Armed: keel_mixer_step__three_harness and keel_mixer_step__four_harness.
+// stopped. Armed: keel_mixer_step__three_harness.
 #include "mixer_proof.h"
 
 void keel_mixer_step_harness(void)
