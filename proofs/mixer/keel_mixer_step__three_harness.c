@@ -4,11 +4,12 @@
 // sources: src/flight/mixer.c specs/model/mixer.c specs/model/range.c
 // covers: keel_mixer_step model_mixer_step
 //
-// An armed mixer of three motors, the fewest, any bit pattern of everything else: the same as the
-// model's step, bit for bit. Each number of motors would need a harness: with one number both sides
-// are the same terms, and z3 sees at once that they are equal. From four motors on there is none, as
-// to find what it reaches takes CBMC minutes; these take the same loops, and are tested. Disarmed:
-// keel_mixer_step_harness; all other checks, for chosen commands: keel_mixer_step__points_harness.
+// An armed mixer of three motors, the fewest, any bit pattern of everything else: the same as
+// the model's step, bit for bit. Each number of motors would need a harness: with one number
+// both sides are the same terms, and z3 sees at once that they are equal. From four motors on
+// there is none, as to find what it reaches takes CBMC minutes; they take the same loops, and
+// are tested. Disarmed: keel_mixer_step_harness; all other checks, for chosen commands:
+// keel_mixer_step__points_harness.
 #include "mixer_proof.h"
 
 void keel_mixer_step__three_harness(void)
