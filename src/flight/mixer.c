@@ -231,7 +231,7 @@ typedef struct ends {
 } ends_t;
 
 /* What each motor is to do for roll and pitch, before any limit. */
-/*@ requires \valid_read(geometry) && mixer_geometry(*geometry);
+/*@ requires \valid_read(geometry) && mixer_geometry(*geometry) && \valid_read(command);
   @ requires \valid(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ requires \separated(geometry, tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ assigns tilt[0 .. KEEL_MIXER_MOTORS - 1];
