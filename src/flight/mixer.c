@@ -168,6 +168,7 @@ static void stop(keel_mixer_t *mixer)
       @*/
     for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
         mixer->output[i] = 0.0f;
+        //@ assert written: \is_finite(mixer->output[i]) && mixer->output[i] == 0;
     }
 }
 
