@@ -7,6 +7,7 @@
  * Each step is taken many times with inputs that keep it on its longest usual path; what is dumped
  * is labelled with its name and the number of steps.
  */
+#include "keel/flight/mixer.h"
 #include "keel/flight/mode.h"
 #include "keel/flight/pid.h"
 #include "keel/flight/reference.h"
@@ -23,6 +24,7 @@
 
 static keel_filter_t bench_filter;
 static keel_pid_t bench_pid;
+static keel_mixer_t bench_mixer;
 static keel_mode_t bench_mode;
 static keel_reference_t bench_reference;
 static keel_virtual_imu_t bench_imu;
@@ -126,6 +128,30 @@ static void bench_run_reference(void)
     bench_dump("reference");
 }
 
+/* A quadcopter's X, with torques of so much to twice as much about a middling thrust: with little,
+ * all that is asked for fits; with much, everything gives way. */
+static void bench_run_mixer(const char *name, float torque, uint8_t limited)
+{
+    const keel_mixer_config_t config = {keel_mixer_quad_x, 0.05f, 1.0f};
+
+    bench_require(keel_mixer_init(&bench_mixer, &config) == KEEL_OK, "mixer");
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        const keel_mixer_command_t command = {
+            .roll = torque * (1.0f + bench_signal(n)),
+            .pitch = -torque * (1.0f + bench_signal(n + 1u)),
+            .yaw = torque * (1.0f + bench_signal(n + 2u)),
+            .thrust = 0.4f + (0.2f * bench_signal(n + 3u)),
+        };
+
+        CALLGRIND_TOGGLE_COLLECT;
+        keel_mixer_step(&bench_mixer, &command, true);
+        CALLGRIND_TOGGLE_COLLECT;
+        bench_require((bench_mixer.limited & (KEEL_MIXER_YAW | KEEL_MIXER_TILT)) == limited,
+                      "mixer step");
+    }
+    bench_dump(name);
+}
+
 /* In flight, with a frame at each step; or on the ground, with every
  * fact that can be seen waiting to settle. */
 static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
@@ -206,6 +232,8 @@ int main(void)
     bench_run_filter();
     bench_run_pid();
     bench_run_reference();
+    bench_run_mixer("mixer", 0.05f, 0u);
+    bench_run_mixer("mixer_worst", 0.4f, KEEL_MIXER_YAW | KEEL_MIXER_TILT);
     bench_run_mode("mode", 250000u, KEEL_MODE_FLYING);
     bench_run_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
     bench_run_imu("imu", 0.0f, UNITS);

@@ -14,6 +14,7 @@
  */
 #include "board.h"
 #include "console.h"
+#include "keel/flight/mixer.h"
 #include "keel/flight/mode.h"
 #include "keel/flight/pid.h"
 #include "keel/flight/reference.h"
@@ -325,6 +326,29 @@ static void bench_reference(void)
     print(&steps);
 }
 
+/* A quadcopter's X, with torques of so much to twice as much about a middling thrust: with little,
+ * all that is asked for fits; with much, everything gives way. */
+static void bench_mixer(const char *name, float torque, uint8_t limited)
+{
+    static keel_mixer_t mixer KEEL_REALTIME_ZERO;
+    const keel_mixer_config_t settings = {keel_mixer_quad_x, 0.05f, 1.0f};
+    kind_t steps = {name, 0u, 0u, 0u};
+
+    require(keel_mixer_init(&mixer, &settings) == KEEL_OK);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        const keel_mixer_command_t command = {
+            .roll = torque * (1.0f + signal_at(n)),
+            .pitch = -torque * (1.0f + signal_at(n + 1u)),
+            .yaw = torque * (1.0f + signal_at(n + 2u)),
+            .thrust = 0.4f + (0.2f * signal_at(n + 3u)),
+        };
+
+        add(&steps, measure((function_t)keel_mixer_step, &mixer, (uint32_t)&command, 1u, false));
+        require((mixer.limited & (KEEL_MIXER_YAW | KEEL_MIXER_TILT)) == limited);
+    }
+    print(&steps);
+}
+
 /* In flight, with a frame at each step; or on the ground, with every
  * fact that can be seen waiting to settle: as in bench_steps.c. */
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
@@ -424,6 +448,8 @@ int main(void)
     bench_filter();
     bench_pid();
     bench_reference();
+    bench_mixer("mixer", 0.05f, 0u);
+    bench_mixer("mixer_worst", 0.4f, KEEL_MIXER_YAW | KEEL_MIXER_TILT);
     bench_mode("mode", 250000u, KEEL_MODE_FLYING);
     bench_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
     bench_imu("imu", 0.0f, UNITS);
