@@ -49,7 +49,9 @@ typedef enum keel_status {
     KEEL_ERR_CUTOFF,    /**< A filter's cut-off or a voter's factor n is out of its range. */
     KEEL_ERR_GAIN,      /**< A gain is negative, not finite or above its limit. */
     KEEL_ERR_LIMITS,    /**< Limits are not finite, out of range or in the wrong order. */
-    KEEL_ERR_INPUT      /**< An input is not finite or out of its range: nothing moves. */
+    KEEL_ERR_INPUT,     /**< An input is not finite or out of its range: nothing moves. */
+    KEEL_ERR_MOTORS,    /**< The number of motors is out of its range. */
+    KEEL_ERR_GEOMETRY   /**< A motor's factor is out of range, or an axis cannot be turned about. */
 } keel_status_t;
 
 #endif
