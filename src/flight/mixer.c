@@ -162,13 +162,12 @@ static void stop(keel_mixer_t *mixer)
     mixer->limited = 0u;
     /*@ loop invariant 0 <= i <= KEEL_MIXER_MOTORS;
       @ loop invariant \forall integer j; 0 <= j < i ==>
-      @     \is_finite(mixer->output[j]) && mixer->output[j] == 0;
+      @     range_contains(mixer->output[j], 0, 0);
       @ loop assigns i, mixer->output[0 .. KEEL_MIXER_MOTORS - 1];
       @ loop variant KEEL_MIXER_MOTORS - i;
       @*/
     for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
         mixer->output[i] = 0.0f;
-        //@ assert written: \is_finite(mixer->output[i]) && mixer->output[i] == 0;
     }
 }
 
