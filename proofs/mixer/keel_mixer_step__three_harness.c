@@ -4,11 +4,12 @@
 // sources: src/flight/mixer.c specs/model/mixer.c specs/model/range.c
 // covers: keel_mixer_step model_mixer_step
 //
-// An armed mixer of three motors, the fewest, any bit pattern of everything else: the same as
-// the model's step, bit for bit. Each number of motors would need a harness: with one number
-// both sides are the same terms, and z3 sees at once that they are equal. From four motors on
-// there is none, as to find what it reaches takes CBMC minutes; they take the same loops, and
-// are tested. Disarmed: keel_mixer_step_harness; all other checks, for chosen commands:
+// An armed mixer of three motors, the fewest, any bit pattern of everything else: the same as the
+// model's step, bit for bit. With one number of motors both sides are the same terms, and z3 sees
+// at once that they are equal. From four motors on it does so, too, but to find what the harness
+// reaches takes CBMC minutes of dividing: there the factors are those of the airframes in X and plus
+// (keel_mixer_step__quad_x_harness and its like). On a Y6's, whose motors stand in pairs, z3 does
+// not come to an end. Disarmed: keel_mixer_step_harness; all other checks, for chosen commands:
 // keel_mixer_step__points_harness.
 #include "mixer_proof.h"
 
@@ -25,8 +26,6 @@ void keel_mixer_step__three_harness(void)
 
     keel_mixer_step(&mixer, &command, armed);
 
-    if (armed) {
-        __CPROVER_assert(mixer_same(&mixer, &model),
-                         "MIX_004_model: outputs and flags are what the model says");
-    }
+    __CPROVER_assert(!armed || mixer_same(&mixer, &model),
+                     "MIX_004_model: outputs and flags are what the model says");
 }
