@@ -7,10 +7,10 @@
 // An armed mixer of three motors, the fewest, any bit pattern of everything else: the same as the
 // model's step, bit for bit. With one number of motors both sides are the same terms, and z3 sees
 // at once that they are equal. From four motors on it does so, too, but to find what the harness
-// reaches takes CBMC minutes of dividing: there the factors are those of the airframes in X and plus
-// (keel_mixer_step__quad_x_harness and its like). On a Y6's, whose motors stand in pairs, z3 does
-// not come to an end. Disarmed: keel_mixer_step_harness; all other checks, for chosen commands:
-// keel_mixer_step__points_harness.
+// reaches takes CBMC minutes of dividing: there the factors are those of the airframes in X and
+// plus (keel_mixer_step__quad_x_harness and its like). On a Y6's, whose motors stand in pairs, z3
+// does not come to an end. Disarmed: keel_mixer_step_harness; all other checks, for chosen
+// commands: keel_mixer_step__points_harness.
 #include "mixer_proof.h"
 
 void keel_mixer_step__three_harness(void)
