@@ -17,6 +17,7 @@
 
 static keel_filter_t bench_filter;
 static keel_pid_t bench_pid;
+static keel_mixer_t bench_mixer;
 static keel_mode_t bench_mode;
 static keel_reference_t bench_reference;
 static keel_virtual_imu_t bench_imu;
@@ -84,6 +85,23 @@ static void bench_run_reference(void)
     bench_dump("reference");
 }
 
+static void bench_run_mixer(const char *name, float torque, uint8_t limited)
+{
+    const keel_mixer_config_t config = {keel_mixer_quad_x, 0.05f, 1.0f};
+
+    bench_require(keel_mixer_init(&bench_mixer, &config) == KEEL_OK, "mixer");
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        const keel_mixer_command_t command = command_at(n, torque);
+
+        CALLGRIND_TOGGLE_COLLECT;
+        keel_mixer_step(&bench_mixer, &command, true);
+        CALLGRIND_TOGGLE_COLLECT;
+        bench_require((bench_mixer.limited & (KEEL_MIXER_YAW | KEEL_MIXER_TILT)) == limited,
+                      "mixer step");
+    }
+    bench_dump(name);
+}
+
 static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     const keel_mode_input_t input = mode_workload(&bench_mode, settle_us,
@@ -121,6 +139,8 @@ int main(void)
     bench_run_filter();
     bench_run_pid();
     bench_run_reference();
+    bench_run_mixer("mixer", 0.05f, 0u);
+    bench_run_mixer("mixer_worst", 0.4f, KEEL_MIXER_YAW | KEEL_MIXER_TILT);
     bench_run_mode("mode", 250000u, KEEL_MODE_FLYING);
     bench_run_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
     bench_run_imu("imu", 0.0f, UNITS);

@@ -286,6 +286,22 @@ static void bench_reference(void)
     print(&steps);
 }
 
+static void bench_mixer(const char *name, float torque, uint8_t limited)
+{
+    static keel_mixer_t mixer KEEL_REALTIME_ZERO;
+    const keel_mixer_config_t settings = {keel_mixer_quad_x, 0.05f, 1.0f};
+    kind_t steps = {name, 0u, 0u, 0u};
+
+    require(keel_mixer_init(&mixer, &settings) == KEEL_OK);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        const keel_mixer_command_t command = command_at(n, torque);
+
+        add(&steps, measure((function_t)keel_mixer_step, &mixer, (uint32_t)&command, 1u, false));
+        require((mixer.limited & (KEEL_MIXER_YAW | KEEL_MIXER_TILT)) == limited);
+    }
+    print(&steps);
+}
+
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     static keel_mode_t mode KEEL_REALTIME_ZERO;
@@ -342,6 +358,8 @@ int main(void)
     bench_filter();
     bench_pid();
     bench_reference();
+    bench_mixer("mixer", 0.05f, 0u);
+    bench_mixer("mixer_worst", 0.4f, KEEL_MIXER_YAW | KEEL_MIXER_TILT);
     bench_mode("mode", 250000u, KEEL_MODE_FLYING);
     bench_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
     bench_imu("imu", 0.0f, UNITS);

@@ -7,6 +7,7 @@
 #ifndef KEEL_BENCH_WORKLOAD_H
 #define KEEL_BENCH_WORKLOAD_H
 
+#include "keel/flight/mixer.h"
 #include "keel/flight/mode.h"
 #include "keel/flight/pid.h"
 #include "keel/flight/reference.h"
@@ -61,6 +62,20 @@ static keel_reference_sticks_t sticks_at(uint32_t n)
                                             .climb = stick_at(n + 21u)};
 
     return sticks;
+}
+
+/* --- Mixer ------------------------------------------------------------------------------------ */
+
+/* Torques of so much to twice as much about a middling thrust: with little, all that is asked for
+ * fits; with much, everything gives way. */
+static keel_mixer_command_t command_at(uint32_t n, float torque)
+{
+    const keel_mixer_command_t command = {.roll = torque * (1.0f + signal_at(n)),
+                                          .pitch = -torque * (1.0f + signal_at(n + 1u)),
+                                          .yaw = torque * (1.0f + signal_at(n + 2u)),
+                                          .thrust = 0.4f + (0.2f * signal_at(n + 3u))};
+
+    return command;
 }
 
 /* --- Mode ------------------------------------------------------------------------------------- */

@@ -68,6 +68,8 @@ STEPS: dict[str, tuple[str, str, int]] = {
     "filter": ("filter", "keel_filter_step", 30),
     "pid": ("PID", "keel_pid_step", 110),
     "reference": ("reference generator, four sticks", "keel_reference_step", 150),
+    "mixer": ("mixer, 4 motors, all fits", "keel_mixer_step", 200),
+    "mixer_worst": ("mixer, 4 motors, all gives way", "keel_mixer_step", 200),
     "mode": ("mode, in flight", "keel_mode_step", 250),
     "mode_worst": ("mode, all facts waiting", "keel_mode_step", 250),
     "imu": ("virtual IMU, 3 x 6, all agree", "keel_virtual_imu_step", 900),

@@ -36,6 +36,8 @@ bench four passes 2 instructions 5800 longest 2909
 bench filter passes 1000 instructions 35000 longest 35
 bench pid passes 1000 instructions 116000 longest 116
 bench reference passes 1000 instructions 178000 longest 183
+bench mixer passes 1000 instructions 199000 longest 199
+bench mixer_worst passes 1000 instructions 410500 longest 428
 bench mode passes 1000 instructions 241000 longest 241
 bench mode_worst passes 1000 instructions 464000 longest 464
 bench imu passes 1000 instructions 1456300 longest 1509
@@ -52,6 +54,8 @@ FIGURES = {
     "filter": Figure(1000, 35000, 35),
     "pid": Figure(1000, 116000, 116),
     "reference": Figure(1000, 178000, 183),
+    "mixer": Figure(1000, 199000, 199),
+    "mixer_worst": Figure(1000, 410500, 428),
     "mode": Figure(1000, 241000, 241),
     "mode_worst": Figure(1000, 464000, 464),
 }
@@ -69,6 +73,8 @@ imu_worst = 4036
 filter = 35
 pid = 116
 reference = 178
+mixer = 199
+mixer_worst = 410.5
 mode = 241
 mode_worst = 464
 """
@@ -124,8 +130,8 @@ class Budgets(unittest.TestCase):
             ("pid = 116\n", "", "budget.toml:4: instructions: pid: is missing"),
             (
                 "pid = 116\n",
-                "pid = 116\nmixer = 3\n",
-                "budget.toml:13: instructions: mixer: is no figure",
+                "pid = 116\nrotor = 3\n",
+                "budget.toml:13: instructions: rotor: is no figure",
             ),
             (
                 "pid = 116\n",
@@ -157,6 +163,8 @@ class Budgets(unittest.TestCase):
                 "filter": 35.0,
                 "pid": 116.0,
                 "reference": 178.0,
+                "mixer": 199.0,
+                "mixer_worst": 410.5,
                 "mode": 241.0,
                 "mode_worst": 464.0,
             },

@@ -44,6 +44,9 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "filter": ("filter step", ("filter",), 30, ("steps", "filter")),
     "pid": ("PID step, its filter included", ("pid",), 110, ("steps", "pid")),
     "reference": ("reference generator, four sticks", ("reference",), 150, ("steps", "reference")),
+    "mixer": ("mixer, 4 motors, all fits", ("mixer",), 200, ("steps", "mixer")),
+    "mixer_worst": ("mixer, 4 motors, all gives way", ("mixer_worst",), 200,
+                    ("steps", "mixer_worst")),
     "mode": ("mode, in flight", ("mode",), 250, ("steps", "mode")),
     "mode_worst": ("mode, all facts waiting", ("mode_worst",), 250, ("steps", "mode_worst")),
 }  # fmt: skip

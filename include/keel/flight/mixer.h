@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file mixer.h
+ * @brief From torques and thrust to motors: the mixer of fig. 8.
+ *
+ * A command asks for a torque about each axis and for thrust; a geometry says what a motor adds to
+ * each torque. What the motors cannot give is given up in a fixed order: yaw first, then thrust
+ * moves as far as roll and pitch need, and only what is beyond all motors' span scales roll and
+ * pitch, both by one factor, so that the craft tilts about the axis that was asked for. With range
+ * idle to highest, span = highest - idle, and sums over motors i:
+ *
+ *     t_i = roll_i roll + pitch_i pitch, all scaled by span / (max t - min t) where that is below 1
+ *     base = idle + thrust span, moved into [idle - min t, highest - max t]
+ *     output_i = base + t_i + k yaw_i yaw, with the largest k from 0 to 1 for which all outputs are
+ *                in [idle, highest]
+ *
+ * Flags tell what gave way, so that the integrators above stop for just these axes. Whatever the
+ * command's bits are, an armed motor's output stays in [idle, highest], so that no motor of an
+ * armed craft stands still, and a disarmed one's is exactly 0.
+ *
+ * Body axes are those of the field: x forward, y right, z down. A positive roll torque lowers the
+ * right side, a positive pitch torque raises the nose, a positive yaw torque turns the nose right.
+ */
+#ifndef KEEL_FLIGHT_MIXER_H
+#define KEEL_FLIGHT_MIXER_H
+
+#include "keel/c_declarations.h"
+#include "keel/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/** The most motors, and the fewest. */
+#define KEEL_MIXER_MOTORS     8u
+#define KEEL_MIXER_MOTORS_MIN 3u
+
+/** The range of the idle output, and the least highest output; the greatest is 1. */
+#define KEEL_MIXER_IDLE_MIN    0.03125f
+#define KEEL_MIXER_IDLE_MAX    0.25f
+#define KEEL_MIXER_HIGHEST_MIN 0.5f
+
+/** About each axis some motor must turn the craft one way by this part of the strongest possible,
+ * and some motor the other way. */
+#define KEEL_MIXER_AUTHORITY 0.125f
+
+/** What gave way in a step: bits of keel_mixer_t.limited. */
+#define KEEL_MIXER_YAW     1u  /**< Yaw torque is less than asked for. */
+#define KEEL_MIXER_RAISED  2u  /**< Thrust is more than asked for. */
+#define KEEL_MIXER_LOWERED 4u  /**< Thrust is less than asked for. */
+#define KEEL_MIXER_TILT    8u  /**< Roll and pitch torque are less than asked for. */
+#define KEEL_MIXER_COMMAND 16u /**< A part of the command was not finite or out of its range. */
+
+/** What a motor adds to its output for each unit of torque that is asked for, from -1 to 1. */
+typedef struct keel_mixer_motor {
+    float roll;
+    float pitch;
+    float yaw;
+} keel_mixer_motor_t;
+
+/** Where the motors are; those behind the number of motors are not looked at. */
+typedef struct keel_mixer_geometry {
+    keel_mixer_motor_t motor[KEEL_MIXER_MOTORS];
+    uint8_t motors; /**< KEEL_MIXER_MOTORS_MIN to KEEL_MIXER_MOTORS. */
+} keel_mixer_geometry_t;
+
+/** The usual airframes. Motors are numbered clockwise as seen from above, from the front, or the
+ * first to the right of it; the first, third and so on turn counter-clockwise. A Y6 has an upper
+ * and a lower motor on each arm, numbered in this order; the upper ones turn counter-clockwise. */
+extern const keel_mixer_geometry_t keel_mixer_quad_x;
+extern const keel_mixer_geometry_t keel_mixer_quad_plus;
+extern const keel_mixer_geometry_t keel_mixer_hexa_x;
+extern const keel_mixer_geometry_t keel_mixer_hexa_plus;
+extern const keel_mixer_geometry_t keel_mixer_octo_x;
+extern const keel_mixer_geometry_t keel_mixer_octo_plus;
+extern const keel_mixer_geometry_t keel_mixer_y6;
+
+/** Outputs are parts of the greatest that a motor takes. */
+typedef struct keel_mixer_config {
+    keel_mixer_geometry_t geometry; /**< One of the above, or your own. */
+    float idle;                     /**< The least output of an armed motor. */
+    float highest;                  /**< The greatest. */
+} keel_mixer_config_t;
+
+/** What is asked for. */
+typedef struct keel_mixer_command {
+    float roll;   /**< Torque, -1 to 1. */
+    float pitch;  /**< Torque, -1 to 1. */
+    float yaw;    /**< Torque, -1 to 1. */
+    float thrust; /**< 0 to 1. */
+} keel_mixer_command_t;
+
+/** A mixer, and what it puts out. */
+typedef struct keel_mixer {
+    keel_mixer_config_t config;
+    float output[KEEL_MIXER_MOTORS]; /**< For each motor; 0 behind their number. */
+    uint32_t limited;                /**< What gave way in the last step, in bits */
+} keel_mixer_t;
+
+/*@ predicate mixer_factor(float value) = \is_finite(value) && -1 <= value <= 1;
+  @
+  @ predicate mixer_geometry(keel_mixer_geometry_t geometry) =
+  @     KEEL_MIXER_MOTORS_MIN <= geometry.motors <= KEEL_MIXER_MOTORS &&
+  @     \forall integer i; 0 <= i < geometry.motors ==>
+  @         mixer_factor(geometry.motor[i].roll) && mixer_factor(geometry.motor[i].pitch) &&
+  @         mixer_factor(geometry.motor[i].yaw);
+  @
+  @ predicate mixer_range(keel_mixer_config_t config) =
+  @     \is_finite(config.idle) && KEEL_MIXER_IDLE_MIN <= config.idle <= KEEL_MIXER_IDLE_MAX &&
+  @     \is_finite(config.highest) && KEEL_MIXER_HIGHEST_MIN <= config.highest <= 1;
+  @
+  @ // What init establishes and every step keeps.
+  @ predicate mixer_valid(keel_mixer_t *mixer) =
+  @     mixer_geometry(mixer->config.geometry) && mixer_range(mixer->config) &&
+  @     \forall integer i; mixer->config.geometry.motors <= i < KEEL_MIXER_MOTORS ==>
+  @         \is_finite(mixer->output[i]) && mixer->output[i] == 0;
+  @
+  @ predicate mixer_command(keel_mixer_command_t command) =
+  @     mixer_factor(command.roll) && mixer_factor(command.pitch) && mixer_factor(command.yaw) &&
+  @     \is_finite(command.thrust) && 0 <= command.thrust <= 1;
+  @
+  @ // Disarmed: nothing turns. The comparison excludes NaN.
+  @ predicate mixer_stopped(keel_mixer_t *mixer) =
+  @     \forall integer i; 0 <= i < KEEL_MIXER_MOTORS ==>
+  @         \is_finite(mixer->output[i]) && mixer->output[i] == 0;
+  @
+  @ // Armed: everything turns.
+  @ predicate mixer_turning(keel_mixer_t mixer) =
+  @     \forall integer i; 0 <= i < mixer.config.geometry.motors ==>
+  @         \is_finite(mixer.output[i]) &&
+  @         mixer.config.idle <= mixer.output[i] <= mixer.config.highest;
+  @*/
+
+/**
+ * Whether a configuration can be flown (requirement MIX-001).
+ *
+ * @param config the configuration, any bit pattern
+ * @return KEEL_OK; KEEL_ERR_MOTORS for a number of motors out of its range; KEEL_ERR_GEOMETRY when
+ *         a factor is not from -1 to 1, or no motor turns the craft about some axis one way by
+ *         KEEL_MIXER_AUTHORITY; KEEL_ERR_LIMITS when idle or highest is out of its range
+ */
+/*@ requires \valid_read(config);
+  @ assigns \nothing;
+  @ ensures MIX_001_ok: \result == KEEL_OK ==>
+  @     mixer_geometry(config->geometry) && mixer_range(*config);
+  @*/
+keel_status_t keel_mixer_check(const keel_mixer_config_t *config);
+
+/**
+ * Makes a mixer, disarmed (requirement MIX-002).
+ *
+ * @param mixer  the mixer
+ * @param config its configuration; it is copied
+ * @return what keel_mixer_check says: unless that is KEEL_OK, nothing is changed
+ */
+/*@ requires \valid(mixer) && \valid_read(config) && \separated(mixer, config);
+  @ assigns *mixer;
+  @ ensures MIX_002_made: \result == KEEL_OK ==> mixer_valid(mixer) && mixer_stopped(mixer) &&
+  @     mixer->limited == 0;
+  @ ensures MIX_002_unchanged: \result != KEEL_OK ==> *mixer == \old(*mixer);
+  @*/
+keel_status_t keel_mixer_init(keel_mixer_t *mixer, const keel_mixer_config_t *config);
+
+/**
+ * Puts out one command (requirements MIX-003 to MIX-008). The last operation on each output brings
+ * it into its range, as sums may be rounded beyond it.
+ *
+ * @param mixer   the mixer
+ * @param command the command, any bit pattern: a part that is not finite counts as 0, one out of
+ *                its range as the end that is next to it, and KEEL_MIXER_COMMAND tells
+ * @param armed   whether motors may turn; if not, the command is not looked at, and nothing gave
+ *                way
+ */
+/*@ requires \valid(mixer) && \valid_read(command) && \separated(mixer, command);
+  @ requires mixer_valid(mixer);
+  @ assigns mixer->output[0 .. KEEL_MIXER_MOTORS - 1], mixer->limited;
+  @ ensures MIX_003_stopped: !armed ==> mixer_stopped(mixer) && mixer->limited == 0;
+  @ ensures MIX_004_turning: armed ==> mixer_turning(*mixer);
+  @ ensures MIX_004_valid: mixer_valid(mixer);
+  @*/
+void keel_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, bool armed);
+
+KEEL_C_END
+
+#endif

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file mixer_proof.h
+ * @brief What the harnesses of the mixer share: any valid mixer, and what is the same.
+ */
+#ifndef MIXER_PROOF_H
+#define MIXER_PROOF_H
+
+#include "../../specs/model/mixer.h"
+#include "../common/same.h"
+
+#include <stdbool.h>
+
+bool nondet_bool(void);
+uint32_t nondet_u32(void);
+float nondet_float(void);
+keel_mixer_t nondet_mixer(void);
+keel_mixer_config_t nondet_config(void);
+keel_mixer_command_t nondet_command(void);
+
+static bool between(float value, float least, float greatest)
+{
+    return (least <= value) && (value <= greatest);
+}
+
+/* mixer_geometry, mixer_range */
+static bool config_valid_here(const keel_mixer_config_t *config)
+{
+    bool valid = (config->geometry.motors >= KEEL_MIXER_MOTORS_MIN) &&
+                 (config->geometry.motors <= KEEL_MIXER_MOTORS) &&
+                 between(config->idle, KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX) &&
+                 between(config->highest, KEEL_MIXER_HIGHEST_MIN, 1.0f);
+
+    for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
+        const keel_mixer_motor_t *const motor = &config->geometry.motor[i];
+
+        valid = valid && ((i >= config->geometry.motors) ||
+                          (between(motor->roll, -1.0f, 1.0f) &&
+                           between(motor->pitch, -1.0f, 1.0f) && between(motor->yaw, -1.0f, 1.0f)));
+    }
+    return valid;
+}
+
+/* mixer_valid */
+static bool mixer_valid_here(const keel_mixer_t *mixer)
+{
+    bool valid = config_valid_here(&mixer->config);
+
+    for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
+        valid = valid && ((i < mixer->config.geometry.motors) || (mixer->output[i] == 0.0f));
+    }
+    return valid;
+}
+
+static bool motor_same(const keel_mixer_motor_t *x, const keel_mixer_motor_t *y)
+{
+    return float_same(x->roll, y->roll) && float_same(x->pitch, y->pitch) &&
+           float_same(x->yaw, y->yaw);
+}
+
+static bool geometry_same(const keel_mixer_geometry_t *x, const keel_mixer_geometry_t *y)
+{
+    bool same = x->motors == y->motors;
+
+    for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
+        same = same && motor_same(&x->motor[i], &y->motor[i]);
+    }
+    return same;
+}
+
+static bool config_same(const keel_mixer_config_t *x, const keel_mixer_config_t *y)
+{
+    return geometry_same(&x->geometry, &y->geometry) && float_same(x->idle, y->idle) &&
+           float_same(x->highest, y->highest);
+}
+
+static bool mixer_same(const keel_mixer_t *x, const keel_mixer_t *y)
+{
+    bool same = config_same(&x->config, &y->config) && (x->limited == y->limited);
+
+    for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
+        same = same && float_same(x->output[i], y->output[i]);
+    }
+    return same;
+}
+
+#endif

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The equations at the head of keel/flight/mixer.h in double precision, beside the mixer. These are
+ * hundreds of thousands of steps; the others are in test_mixer.c. */
+#include "keel/flight/mixer.h"
+#include "unity.h"
+
+#include <string.h>
+
+#define CASES  100000u
+#define MARGIN 0x1p-21 /* What rounding may add up to, in parts of the greatest output. */
+
+static keel_mixer_config_t config;
+static keel_mixer_t mixer;
+static uint32_t random_state;
+
+void setUp(void)
+{
+    random_state = 1u;
+    config = (keel_mixer_config_t){keel_mixer_quad_x, 0.25f, 0.75f};
+    memset(&mixer, 0x55, sizeof mixer);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_mixer_init(&mixer, &config));
+}
+
+void tearDown(void)
+{
+}
+
+/* From low to high. */
+static float any(float low, float high)
+{
+    random_state = (random_state * 1664525u) + 1013904223u;
+    return low + ((high - low) * ((float)(random_state >> 8) / 16777216.0f));
+}
+
+static double smaller(double x, double y)
+{
+    return (x < y) ? x : y;
+}
+
+static double larger(double x, double y)
+{
+    return (x > y) ? x : y;
+}
+
+static double magnitude(double x)
+{
+    return (x < 0.0) ? -x : x;
+}
+
+static void step(float roll, float pitch, float yaw, float thrust)
+{
+    const keel_mixer_command_t command = {roll, pitch, yaw, thrust};
+
+    keel_mixer_step(&mixer, &command, true);
+}
+
+/* What the rounding of idle + (highest - idle) adds is not taken for a lack of thrust. */
+static void MIX_007_full_thrust_alone_never_gives_way(void)
+{
+    for (uint32_t n = 0u; n < CASES; n++) {
+        config.idle = any(KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX);
+        config.highest = any(KEEL_MIXER_HIGHEST_MIN, 1.0f);
+        TEST_ASSERT_EQUAL(KEEL_OK, keel_mixer_init(&mixer, &config));
+        step(0.0f, 0.0f, 0.0f, 1.0f);
+        TEST_ASSERT_EQUAL_HEX8(0u, mixer.limited);
+        TEST_ASSERT_TRUE(magnitude((double)mixer.output[0] - (double)config.highest) < MARGIN);
+    }
+}
+
+/* The torques that outputs amount to: those of a quadcopter's X are a quarter of the sums. */
+static void MIX_006_the_ratio_holds_within_rounding(void)
+{
+    uint32_t scaled = 0u;
+
+    for (uint32_t n = 0u; n < CASES; n++) {
+        const double roll = (double)any(-1.0f, 1.0f);
+        const double pitch = (double)any(-1.0f, 1.0f);
+        double rolled = 0.0;
+        double pitched = 0.0;
+        double part;
+
+        step((float)roll, (float)pitch, 0.0f, any(0.0f, 1.0f));
+        for (uint32_t i = 0u; i < 4u; i++) {
+            rolled += (double)mixer.output[i] * (double)config.geometry.motor[i].roll / 4.0;
+            pitched += (double)mixer.output[i] * (double)config.geometry.motor[i].pitch / 4.0;
+        }
+        /* The quadcopter's tilts span twice the sum of both torques. */
+        part = smaller(1.0, 0.5 / (2.0 * (magnitude(roll) + magnitude(pitch))));
+        TEST_ASSERT_TRUE(magnitude(rolled - (part * roll)) < MARGIN);
+        TEST_ASSERT_TRUE(magnitude(pitched - (part * pitch)) < MARGIN);
+        TEST_ASSERT_BITS((uint8_t)KEEL_MIXER_YAW, 0u, mixer.limited);
+        scaled += ((mixer.limited & KEEL_MIXER_TILT) != 0u) ? 1u : 0u;
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(CASES / 2u, scaled);
+}
+
+/* Without any last clamp. */
+static void expected_of(const keel_mixer_command_t *command, double output[])
+{
+    const keel_mixer_geometry_t *const geometry = &mixer.config.geometry;
+    const double idle = (double)mixer.config.idle;
+    const double highest = (double)mixer.config.highest;
+    const double span = highest - idle;
+    double tilt[KEEL_MIXER_MOTORS];
+    double least = 9.0;
+    double most = -9.0;
+    double part = 1.0;
+    double base = idle + ((double)command->thrust * span);
+
+    for (uint32_t i = 0u; i < geometry->motors; i++) {
+        tilt[i] = ((double)geometry->motor[i].roll * (double)command->roll) +
+                  ((double)geometry->motor[i].pitch * (double)command->pitch);
+        least = smaller(least, tilt[i]);
+        most = larger(most, tilt[i]);
+    }
+    part = smaller(1.0, span / larger(most - least, 1.0e-9));
+    base = smaller(larger(base, idle - (part * least)), highest - (part * most));
+    for (uint32_t i = 0u; i < geometry->motors; i++) {
+        output[i] = base + (part * tilt[i]);
+    }
+    part = 1.0;
+    for (uint32_t i = 0u; i < geometry->motors; i++) {
+        const double turn = (double)geometry->motor[i].yaw * (double)command->yaw;
+        const double room = (turn < 0.0) ? (output[i] - idle) : (highest - output[i]);
+
+        part = smaller(part, larger(room, 0.0) / larger(magnitude(turn), 1.0e-9));
+    }
+    for (uint32_t i = 0u; i < geometry->motors; i++) {
+        output[i] += part * (double)geometry->motor[i].yaw * (double)command->yaw;
+    }
+}
+
+static void MIX_004_outputs_are_those_of_the_equations(void)
+{
+    const keel_mixer_geometry_t *const tables[] = {
+        &keel_mixer_quad_x, &keel_mixer_quad_plus, &keel_mixer_hexa_x, &keel_mixer_hexa_plus,
+        &keel_mixer_octo_x, &keel_mixer_octo_plus, &keel_mixer_y6,
+    };
+
+    for (uint32_t n = 0u; n < CASES; n++) {
+        const float size = any(0.0f, 1.0f);
+        const keel_mixer_command_t command = {any(-size, size), any(-size, size), any(-1.0f, 1.0f),
+                                              any(0.0f, 1.0f)};
+        double expected[KEEL_MIXER_MOTORS];
+
+        config.geometry = *tables[n % 7u];
+        config.idle = any(KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX);
+        config.highest = any(KEEL_MIXER_HIGHEST_MIN, 1.0f);
+        TEST_ASSERT_EQUAL(KEEL_OK, keel_mixer_init(&mixer, &config));
+        keel_mixer_step(&mixer, &command, true);
+        expected_of(&command, expected);
+        for (uint32_t i = 0u; i < config.geometry.motors; i++) {
+            TEST_ASSERT_TRUE(magnitude((double)mixer.output[i] - expected[i]) < MARGIN);
+            TEST_ASSERT_TRUE(mixer.output[i] >= config.idle);
+            TEST_ASSERT_TRUE(mixer.output[i] <= config.highest);
+        }
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(MIX_007_full_thrust_alone_never_gives_way);
+    RUN_TEST(MIX_006_the_ratio_holds_within_rounding);
+    RUN_TEST(MIX_004_outputs_are_those_of_the_equations);
+    return UNITY_END();
+}
