@@ -4,12 +4,25 @@
 // covers: keel_reference_init curve_of set_curve
 //
 // Chosen configurations: four curves that are all different, dead bands that are round numbers and
-// such that 1 / (1 - d) and its product with 1 - d are rounded down; bad ones. Wrong bodies are
-// refuted here, for where floats differ z3 finds no example.
+// such that 1 / (1 - d) and its product with 1 - d are rounded down; all limits as large as they may
+// be; bad ones. Wrong bodies are refuted here, for where floats differ z3 finds no example.
 #include "../../specs/model/reference.h"
 #include "reference_proof.h"
 
 #define POINTS 14u
+
+/* The same with every limit as large as it may be. */
+static keel_reference_config_t greatest(keel_reference_config_t config)
+{
+    const keel_reference_limits_t limits = {
+        KEEL_REFERENCE_RATE_MAX,  KEEL_REFERENCE_RATE_MAX,  KEEL_REFERENCE_RATE_MAX,
+        KEEL_REFERENCE_RATE_MAX,  KEEL_REFERENCE_TILT_MAX,  KEEL_REFERENCE_SPEED_MAX,
+        KEEL_REFERENCE_SPEED_MAX, KEEL_REFERENCE_SPEED_MAX,
+    };
+
+    config.limits = limits;
+    return config;
+}
 
 /* Four curves that are all different; the last three are refused. */
 static keel_reference_config_t configuration(unsigned point)
@@ -25,7 +38,7 @@ static keel_reference_config_t configuration(unsigned point)
         .limits = {2.0f, 3.0f, 5.0f, 7.0f, (point == (POINTS - 2u)) ? 1.6f : 1.0f, 11.0f, 13.0f,
                    17.0f}};
 
-    return config;
+    return (point == 0u) ? greatest(config) : config;
 }
 
 static void is_made(const keel_reference_t *reference, float dead_band)
