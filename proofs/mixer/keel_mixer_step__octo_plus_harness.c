@@ -20,6 +20,8 @@ void keel_mixer_step__octo_plus_harness(void)
 
     keel_mixer_step(&mixer, &command, armed);
 
-    __CPROVER_assert(!armed || mixer_same(&mixer, &model),
+    /* Not before the step: z3 would not end. Disarmed: keel_mixer_step_harness. */
+    __CPROVER_assume(armed);
+    __CPROVER_assert(mixer_same(&mixer, &model),
                      "MIX_004_model: outputs and flags are what the model says");
 }
