@@ -4,8 +4,8 @@
 // covers: keel_reference_init curve_of set_curve
 //
 // Chosen configurations: four curves that are all different, dead bands that are round numbers and
-// such that 1 / (1 - d) and its product with 1 - d are rounded down; all limits as large as they may
-// be; bad ones. Wrong bodies are refuted here, for where floats differ z3 finds no example.
+// such that 1 / (1 - d) and its product with 1 - d are rounded down; all limits as large as they
+// may be; bad ones. Wrong bodies are refuted here, for where floats differ z3 finds no example.
 #include "../../specs/model/reference.h"
 #include "reference_proof.h"
 

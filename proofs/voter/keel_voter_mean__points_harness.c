@@ -4,8 +4,8 @@
 // checks: assertions
 // covers: keel_voter_mean model_voter_mean
 //
-// Chosen quotients: one that is no number, one that is rounded, one on each side of the limits. All:
-// keel_voter_mean_harness.c, where z3 finds no example.
+// Chosen quotients: one that is no number, one that is rounded, one on each side of the limits.
+// All: keel_voter_mean_harness.c, where z3 finds no example.
 #include "../common/voter_proof.h"
 
 #define POINTS 4u
