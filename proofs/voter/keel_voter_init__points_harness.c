@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 12 --object-bits 10
 // sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
-// checks: assertions
 // covers: keel_voter_init keel_voter_check model_voter_init model_voter_check
 //
 // Chosen configurations: one within all limits, one at them, and one beyond each of them, of which
