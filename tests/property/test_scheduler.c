@@ -8,6 +8,7 @@
  * On a difference the string of bytes that led to it is made as short as it will go, and what it
  * does is told operation by operation.
  */
+#include "../unit/any.h"
 #include "drive.h"
 
 #include <inttypes.h>
@@ -17,20 +18,6 @@
 #define LONGEST          4096u /* Bytes of one session. */
 #define SHRINK_TRIALS    20000u
 #define ENOUGH_FOR_TALLY 100000u /* Steps after which everything must have happened. */
-
-static uint64_t random_state;
-
-/* SplitMix64. */
-static uint64_t random_word(void)
-{
-    uint64_t z;
-
-    random_state += 0x9E3779B97F4A7C15u;
-    z = random_state;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-}
 
 static char difference[256];
 
@@ -128,12 +115,12 @@ static int test(uint64_t seed, uint64_t steps)
     uint64_t told = 0;
 
     memset(&tally, 0, sizeof tally);
-    random_state = seed;
+    any_from(seed);
     while (tally.operations < steps) {
-        const size_t size = 64 + (size_t)(random_word() % (LONGEST - 64));
+        const size_t size = 64 + (size_t)(any_64() % (LONGEST - 64));
 
         for (size_t i = 0; i < size; i++) {
-            bytes[i] = (uint8_t)random_word();
+            bytes[i] = (uint8_t)any_64();
         }
         if (!drive(bytes, size, &tally, difference, sizeof difference, NULL)) {
             return report_difference(bytes, size, seed, tally.operations);

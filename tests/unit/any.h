@@ -10,15 +10,16 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 static uint64_t any_state;
 
-static void any_from(uint64_t seed)
+static inline void any_from(uint64_t seed)
 {
     any_state = seed;
 }
 
-static uint64_t any_64(void)
+static inline uint64_t any_64(void)
 {
     uint64_t z;
 
@@ -29,9 +30,28 @@ static uint64_t any_64(void)
     return z ^ (z >> 31);
 }
 
-static uint32_t any(void)
+static inline uint32_t any(void)
 {
     return (uint32_t)(any_64() >> 16);
+}
+
+static inline bool one_in(uint32_t chances)
+{
+    return (any() % chances) == 0u;
+}
+
+static inline float between(float low, float high)
+{
+    return low + ((high - low) * ((float)(any() & 0xFFFFFFu) / 16777216.0f));
+}
+
+static inline float any_bits(void)
+{
+    const uint32_t bits = any();
+    float value;
+
+    memcpy(&value, &bits, sizeof value);
+    return value;
 }
 
 #endif

@@ -182,40 +182,31 @@ static void MIX_001_bad_factors_are_refused(void)
 }
 
 /* Without the motors that turn it one way about an axis. */
+/* A motor's factor about roll, pitch or yaw. */
+static float *factor(uint32_t motor, uint32_t axis)
+{
+    keel_mixer_motor_t *const factors = &config.geometry.motor[motor];
+    float *const axes[] = {&factors->roll, &factors->pitch, &factors->yaw};
+
+    return axes[axis];
+}
+
 static void MIX_001_axes_without_authority_are_refused(void)
 {
-    const float weak = 0x1.fffffep-4f;
+    const double weak = 0x1.fffffep-4;
 
-    for (uint32_t i = 0u; i < 4u; i++) {
-        config.geometry.motor[i].roll = (float)smaller((double)config.geometry.motor[i].roll,
-                                                       (double)weak);
+    for (uint32_t axis = 0u; axis < 3u; axis++) {
+        config.geometry = keel_mixer_quad_x;
+        for (uint32_t i = 0u; i < 4u; i++) {
+            *factor(i, axis) = (float)smaller((double)*factor(i, axis), weak);
+        }
+        refuses(KEEL_ERR_GEOMETRY);
+        config.geometry = keel_mixer_quad_x;
+        for (uint32_t i = 0u; i < 4u; i++) {
+            *factor(i, axis) = (float)larger((double)*factor(i, axis), -weak);
+        }
+        refuses(KEEL_ERR_GEOMETRY);
     }
-    refuses(KEEL_ERR_GEOMETRY);
-    for (uint32_t i = 0u; i < 4u; i++) {
-        config.geometry.motor[i].roll = (float)larger((double)config.geometry.motor[i].roll,
-                                                      (double)-weak);
-    }
-    refuses(KEEL_ERR_GEOMETRY);
-    for (uint32_t i = 0u; i < 4u; i++) {
-        config.geometry.motor[i].pitch = (float)smaller((double)config.geometry.motor[i].pitch,
-                                                        (double)weak);
-    }
-    refuses(KEEL_ERR_GEOMETRY);
-    for (uint32_t i = 0u; i < 4u; i++) {
-        config.geometry.motor[i].pitch = (float)larger((double)config.geometry.motor[i].pitch,
-                                                       (double)-weak);
-    }
-    refuses(KEEL_ERR_GEOMETRY);
-    for (uint32_t i = 0u; i < 4u; i++) {
-        config.geometry.motor[i].yaw = (float)smaller((double)config.geometry.motor[i].yaw,
-                                                      (double)weak);
-    }
-    refuses(KEEL_ERR_GEOMETRY);
-    for (uint32_t i = 0u; i < 4u; i++) {
-        config.geometry.motor[i].yaw = (float)larger((double)config.geometry.motor[i].yaw,
-                                                     (double)-weak);
-    }
-    refuses(KEEL_ERR_GEOMETRY);
 }
 
 static void MIX_001_bad_ranges_are_refused(void)

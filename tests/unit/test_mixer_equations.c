@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The equations at the head of keel/flight/mixer.h in double precision, beside the mixer. These are
  * hundreds of thousands of steps; the others are in test_mixer.c. */
+#include "any.h"
 #include "keel/flight/mixer.h"
 #include "unity.h"
 
@@ -11,11 +12,10 @@
 
 static keel_mixer_config_t config;
 static keel_mixer_t mixer;
-static uint32_t random_state;
 
 void setUp(void)
 {
-    random_state = 1u;
+    any_from(1u);
     config = (keel_mixer_config_t){keel_mixer_quad_x, 0.25f, 0.75f};
     memset(&mixer, 0x55, sizeof mixer);
     TEST_ASSERT_EQUAL(KEEL_OK, keel_mixer_init(&mixer, &config));
@@ -23,13 +23,6 @@ void setUp(void)
 
 void tearDown(void)
 {
-}
-
-/* From low to high. */
-static float any(float low, float high)
-{
-    random_state = (random_state * 1664525u) + 1013904223u;
-    return low + ((high - low) * ((float)(random_state >> 8) / 16777216.0f));
 }
 
 static double smaller(double x, double y)
@@ -58,8 +51,8 @@ static void step(float roll, float pitch, float yaw, float thrust)
 static void MIX_007_full_thrust_alone_never_gives_way(void)
 {
     for (uint32_t n = 0u; n < CASES; n++) {
-        config.idle = any(KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX);
-        config.highest = any(KEEL_MIXER_HIGHEST_MIN, 1.0f);
+        config.idle = between(KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX);
+        config.highest = between(KEEL_MIXER_HIGHEST_MIN, 1.0f);
         TEST_ASSERT_EQUAL(KEEL_OK, keel_mixer_init(&mixer, &config));
         step(0.0f, 0.0f, 0.0f, 1.0f);
         TEST_ASSERT_EQUAL_HEX8(0u, mixer.limited);
@@ -73,13 +66,13 @@ static void MIX_006_the_ratio_holds_within_rounding(void)
     uint32_t scaled = 0u;
 
     for (uint32_t n = 0u; n < CASES; n++) {
-        const double roll = (double)any(-1.0f, 1.0f);
-        const double pitch = (double)any(-1.0f, 1.0f);
+        const double roll = (double)between(-1.0f, 1.0f);
+        const double pitch = (double)between(-1.0f, 1.0f);
         double rolled = 0.0;
         double pitched = 0.0;
         double part;
 
-        step((float)roll, (float)pitch, 0.0f, any(0.0f, 1.0f));
+        step((float)roll, (float)pitch, 0.0f, between(0.0f, 1.0f));
         for (uint32_t i = 0u; i < 4u; i++) {
             rolled += (double)mixer.output[i] * (double)config.geometry.motor[i].roll / 4.0;
             pitched += (double)mixer.output[i] * (double)config.geometry.motor[i].pitch / 4.0;
@@ -138,14 +131,14 @@ static void MIX_004_outputs_are_those_of_the_equations(void)
     };
 
     for (uint32_t n = 0u; n < CASES; n++) {
-        const float size = any(0.0f, 1.0f);
-        const keel_mixer_command_t command = {any(-size, size), any(-size, size), any(-1.0f, 1.0f),
-                                              any(0.0f, 1.0f)};
+        const float size = between(0.0f, 1.0f);
+        const keel_mixer_command_t command = {between(-size, size), between(-size, size),
+                                              between(-1.0f, 1.0f), between(0.0f, 1.0f)};
         double expected[KEEL_MIXER_MOTORS];
 
         config.geometry = *tables[n % 7u];
-        config.idle = any(KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX);
-        config.highest = any(KEEL_MIXER_HIGHEST_MIN, 1.0f);
+        config.idle = between(KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX);
+        config.highest = between(KEEL_MIXER_HIGHEST_MIN, 1.0f);
         TEST_ASSERT_EQUAL(KEEL_OK, keel_mixer_init(&mixer, &config));
         keel_mixer_step(&mixer, &command, true);
         expected_of(&command, expected);

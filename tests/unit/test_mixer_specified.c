@@ -31,25 +31,6 @@ void tearDown(void)
 {
 }
 
-static bool one_in(uint32_t chances)
-{
-    return (any() % chances) == 0u;
-}
-
-static float between(float low, float high)
-{
-    return low + ((high - low) * ((float)(any() & 0xFFFFFFu) / 16777216.0f));
-}
-
-static float any_bits(void)
-{
-    const uint32_t bits = any();
-    float value;
-
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 /* A usual value, or one that breaks arithmetic that did not expect it. */
 static float usually(float value, uint32_t chances)
 {

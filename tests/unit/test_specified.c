@@ -45,25 +45,6 @@ static uint32_t below(uint32_t limit)
     return any() % limit;
 }
 
-static bool one_in(uint32_t chances)
-{
-    return below(chances) == 0u;
-}
-
-static float between(float low, float high)
-{
-    return low + ((high - low) * ((float)(any() & 0xFFFFFFu) / 16777216.0f));
-}
-
-static float any_bits(void)
-{
-    const uint32_t bits = any();
-    float value;
-
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 /* What breaks arithmetic that did not expect it. */
 static float awkward(void)
 {
