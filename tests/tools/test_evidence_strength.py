@@ -197,7 +197,8 @@ class Blocks(StrengthTest):
 
     def test_a_reason_for_what_is_reached(self) -> None:
         self.coverage("pass", "keel_pass_run_harness")["reached"] = 30
-        self.assert_problem(self.part(), "pass/keel_pass_run_harness", "0 blocks", "a reason for 20")
+        self.assert_problem(self.part(), "pass/keel_pass_run_harness", "0 blocks",
+                            "a reason for 20")  # fmt: skip
 
     def test_a_function_that_no_harness_covers(self) -> None:
         self.replace("src/rtos/queue.c", "static ", "static void lonely(void)\n{\n}\n\nstatic ")
