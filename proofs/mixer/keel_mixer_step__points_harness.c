@@ -30,17 +30,9 @@ void keel_mixer_step__points_harness(void)
 
     for (uint32_t n = 0u; n < POINTS; n++) {
         keel_mixer_command_t command = points[n];
-        keel_mixer_t mixer = {
-            .config = {.geometry = {.motors = 4u}, .idle = 0.055f, .highest = 0.93f},
-            .output = {0.1f, 0.2f, 0.3f, 0.4f},
-            .limited = 31u};
+        keel_mixer_t mixer = four_motors(0.055f);
         keel_mixer_t model;
 
-        for (uint32_t i = 0u; i < 4u; i++) {
-            mixer.config.geometry.motor[i].roll = ((i == 0u) || (i == 1u)) ? -0.9f : 0.8f;
-            mixer.config.geometry.motor[i].pitch = ((i == 0u) || (i == 3u)) ? 1.0f : -0.7f;
-            mixer.config.geometry.motor[i].yaw = ((i % 2u) == 0u) ? 0.6f : -0.5f;
-        }
         if (n == 8u) {
             command.roll = infinity;
         }

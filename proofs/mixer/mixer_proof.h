@@ -84,4 +84,19 @@ static bool mixer_same(const keel_mixer_t *x, const keel_mixer_t *y)
     return same;
 }
 
+/* A valid mixer of four motors, each with other factors, that was put to use before. */
+static keel_mixer_t four_motors(float idle)
+{
+    keel_mixer_t mixer = {.config = {.geometry = {.motors = 4u}, .idle = idle, .highest = 0.93f},
+                          .output = {0.1f, 0.2f, 0.3f, 0.4f},
+                          .limited = 31u};
+
+    for (uint32_t i = 0u; i < 4u; i++) {
+        mixer.config.geometry.motor[i].roll = ((i == 0u) || (i == 1u)) ? -0.9f : 0.8f;
+        mixer.config.geometry.motor[i].pitch = ((i == 0u) || (i == 3u)) ? 1.0f : -0.7f;
+        mixer.config.geometry.motor[i].yaw = ((i % 2u) == 0u) ? 0.6f : -0.5f;
+    }
+    return mixer;
+}
+
 #endif
