@@ -15,6 +15,7 @@
 
 #define LABEL_SIZE 64u
 
+static keel_attitude_t bench_attitude;
 static keel_filter_t bench_filter;
 static keel_pid_t bench_pid;
 static keel_mixer_t bench_mixer;
@@ -102,6 +103,24 @@ static void bench_run_mixer(const char *name, float torque, uint8_t limited)
     bench_dump(name);
 }
 
+static void bench_run_attitude(void)
+{
+    bench_require(keel_attitude_init(&bench_attitude, &attitude_workload) == KEEL_OK, "attitude");
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const keel_attitude_sample_t sample = attitude_sample_at(n);
+
+        if (n < STEPS) {
+            keel_attitude_step(&bench_attitude, &sample);
+        } else {
+            bench_require(bench_attitude.heading_valid, "attitude is not valid");
+            CALLGRIND_TOGGLE_COLLECT;
+            keel_attitude_step(&bench_attitude, &sample);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_dump("attitude");
+}
+
 static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     const keel_mode_input_t input = mode_workload(&bench_mode, settle_us,
@@ -143,6 +162,7 @@ int main(void)
     bench_run_mixer("mixer_worst", 0.4f, KEEL_MIXER_YAW | KEEL_MIXER_TILT);
     bench_run_mode("mode", 250000u, KEEL_MODE_FLYING);
     bench_run_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
+    bench_run_attitude();
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;

@@ -302,6 +302,26 @@ static void bench_mixer(const char *name, float torque, uint8_t limited)
     print(&steps);
 }
 
+static void bench_attitude(void)
+{
+    static keel_attitude_t attitude KEEL_REALTIME_ZERO;
+    kind_t steps = {"attitude", 0u, 0u, 0u};
+
+    require(keel_attitude_init(&attitude, &attitude_workload) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        keel_attitude_sample_t sample = attitude_sample_at(n);
+
+        if (n < STEPS) {
+            keel_attitude_step(&attitude, &sample);
+        } else {
+            require(attitude.heading_valid);
+            add(&steps,
+                measure((function_t)keel_attitude_step, &attitude, (uint32_t)&sample, 0u, false));
+        }
+    }
+    print(&steps);
+}
+
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     static keel_mode_t mode KEEL_REALTIME_ZERO;
@@ -362,6 +382,7 @@ int main(void)
     bench_mixer("mixer_worst", 0.4f, KEEL_MIXER_YAW | KEEL_MIXER_TILT);
     bench_mode("mode", 250000u, KEEL_MODE_FLYING);
     bench_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
+    bench_attitude();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
     keel_console_text(bad ? "bench failed\n" : "bench ended\n");

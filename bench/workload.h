@@ -7,6 +7,7 @@
 #ifndef KEEL_BENCH_WORKLOAD_H
 #define KEEL_BENCH_WORKLOAD_H
 
+#include "keel/flight/attitude.h"
 #include "keel/flight/mixer.h"
 #include "keel/flight/mode.h"
 #include "keel/flight/pid.h"
@@ -109,6 +110,41 @@ static keel_mode_input_t mode_workload(keel_mode_t *mode, uint32_t settle_us, bo
         keel_mode_step(mode, &input);
     }
     return input;
+}
+
+/* --- Attitude --------------------------------------------------------------------------------- */
+
+static const keel_attitude_config_t attitude_workload = {.rate_hz = 1000.0f,
+                                                         .tilt_gain = 0.5f,
+                                                         .heading_gain = 0.5f,
+                                                         .align_gain = 8.0f,
+                                                         .bias_gain = 0.02f,
+                                                         .bias_limit = 0.1f,
+                                                         .quiet_rate = 0.3f,
+                                                         .gate_rate = 3.0f,
+                                                         .clip_rate = 34.0f,
+                                                         .still_rate = 0.05f,
+                                                         .still_acceleration = 0.5f,
+                                                         .tolerance = 0.02f,
+                                                         .north = 21.6f,
+                                                         .still_steps = 10u,
+                                                         .settle_steps = 10u,
+                                                         .lost_steps = 10u,
+                                                         .field_steps = 100u};
+
+/* At rest but for a little; the magnetometer gives a tenth as many samples as the others. */
+static keel_attitude_sample_t attitude_sample_at(uint32_t n)
+{
+    const keel_attitude_sample_t sample = {.gyroscope = {.x = 0.04f * signal_at(n)},
+                                           .accelerometer = {0.0f, 0.0f, -9.8f},
+                                           .magnetometer = {21.6f, 0.0f, 43.0f},
+                                           .acceleration = {.y = 0.1f * signal_at(n)},
+                                           .has_gyroscope = true,
+                                           .has_accelerometer = true,
+                                           .has_magnetometer = (n % 10u) == 0u,
+                                           .has_acceleration = true};
+
+    return sample;
 }
 
 /* --- Virtual IMU ------------------------------------------------------------------------------ */

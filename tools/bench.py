@@ -72,6 +72,7 @@ STEPS: dict[str, tuple[str, str, int]] = {
     "mixer_worst": ("mixer, 4 motors, all gives way", "keel_mixer_step", 200),
     "mode": ("mode, in flight", "keel_mode_step", 250),
     "mode_worst": ("mode, all facts waiting", "keel_mode_step", 250),
+    "attitude": ("attitude, all sensors in each", "keel_attitude_step", 400),
     "imu": ("virtual IMU, 3 x 6, all agree", "keel_virtual_imu_step", 900),
     "imu_worst": ("virtual IMU, 3 x 6, one outvoted", "keel_virtual_imu_step", 900),
 }

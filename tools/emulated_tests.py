@@ -234,8 +234,10 @@ def differential_suite(board: EmulatedBoard, name: str) -> Outcome:
 # --- All of them ---------------------------------------------------------------------------------
 
 # In seconds, alone; of the others none takes two. They begin, so that none is left at the end.
-LONG_S = {"demo": 20.0, "differential": 20.0, "unit/specified": 10.0, "unit/mixer_specified": 10.0,
-          "unit/mode_specified": 10.0}  # fmt: skip
+LONG_S = {
+    "demo": 20.0, "differential": 20.0, "unit/specified": 10.0, "unit/mixer_specified": 10.0,
+    "unit/mode_specified": 10.0, "unit/attitude_specified": 10.0, "unit/attitude_motion": 5.0,
+}  # fmt: skip
 
 
 def all_suites(board: EmulatedBoard) -> list[Suite]:

@@ -54,7 +54,8 @@ REPORT = ROOT / "build/coverage-target/report.json"
 REASONS = ROOT / "specs/object_coverage.toml"
 SOURCE = "src"
 # A million random steps each; instruction by instruction they would take an hour.
-UNTRACED = ("specified", "mode_specified", "mixer_specified", "mixer_equations", "reference_curves")
+UNTRACED = ("specified", "mode_specified", "mixer_specified", "mixer_equations", "reference_curves",
+            "attitude_specified", "attitude_motion")  # fmt: skip
 SHOWN = {BRANCH: "branches", BLOCK: "in IT blocks", SELECTION: "selections"}
 NEVER: dict[bool, Literal["taken", "not taken"]] = {True: "taken", False: "not taken"}
 

@@ -137,7 +137,7 @@ class HostBuilds:
 
     def link(self, name: str, objects: Sequence[Path], compiler: str = "gcc") -> Path:
         """Link a program."""
-        return self.build(compiler).link(name.replace("/", "-"), objects)
+        return self.build(compiler).link(name.replace("/", "-"), objects, ["-lm"])
 
 
 def driver_sources() -> list[str]:

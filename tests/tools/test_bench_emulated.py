@@ -40,6 +40,7 @@ bench mixer passes 1000 instructions 199000 longest 199
 bench mixer_worst passes 1000 instructions 410500 longest 428
 bench mode passes 1000 instructions 241000 longest 241
 bench mode_worst passes 1000 instructions 464000 longest 464
+bench attitude passes 1000 instructions 392900 longest 412
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
 bench ended
@@ -58,6 +59,7 @@ FIGURES = {
     "mixer_worst": Figure(1000, 410500, 428),
     "mode": Figure(1000, 241000, 241),
     "mode_worst": Figure(1000, 464000, 464),
+    "attitude": Figure(1000, 392900, 412),
 }
 GOOD = """\
 # About the budget.
@@ -77,6 +79,7 @@ mixer = 199
 mixer_worst = 410.5
 mode = 241
 mode_worst = 464
+attitude = 392.9
 """
 
 
@@ -167,6 +170,7 @@ class Budgets(unittest.TestCase):
                 "mixer_worst": 410.5,
                 "mode": 241.0,
                 "mode_worst": 464.0,
+                "attitude": 392.9,
             },
         )
 

@@ -49,6 +49,7 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
                     ("steps", "mixer_worst")),
     "mode": ("mode, in flight", ("mode",), 250, ("steps", "mode")),
     "mode_worst": ("mode, all facts waiting", ("mode_worst",), 250, ("steps", "mode_worst")),
+    "attitude": ("attitude, all sensors in each", ("attitude",), 400, ("steps", "attitude")),
 }  # fmt: skip
 
 

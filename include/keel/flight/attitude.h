@@ -1,0 +1,411 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file attitude.h
+ * @brief Attitude estimator: a quaternion from voted inertial samples and a magnetometer.
+ *
+ * The complementary filter on the rotation group of R. Mahony, T. Hamel and J.-M. Pflimlin
+ * ("Nonlinear complementary filters on the special orthogonal group", IEEE Transactions on
+ * Automatic Control 53(5), 2008, section IV-B), with gravity and the horizontal part of the
+ * Earth's field as its two directions.
+ *
+ * Frames: the Earth's is north, east, down; the body's is forward, right, down. The quaternion
+ * q = (w, x, y, z) turns body to Earth: v_E = q v_B q*. Its matrix has the rows n, e and v, which
+ * are north, east and down as the body sees them:
+ *
+ *     n = (1 - 2 (y^2 + z^2), 2 (xy - wz), 2 (xz + wy))
+ *     e = (2 (xy + wz), 1 - 2 (x^2 + z^2), 2 (yz - wx))
+ *     v = (2 (xz - wy), 2 (yz + wx), 1 - 2 (x^2 + y^2))
+ *
+ * A step, T = 1 / rate_hz, from the angular rate W, the specific force f, the field b and, where it
+ * is known, the acceleration a of the vehicle in the Earth's frame:
+ *
+ *     m = (a_N n + a_E e + a_D v - f) / g             down, as measured
+ *     E = m x v        while |m|^2 is 0.719 to 1.32 and |W - B| at most gate_rate, else 0
+ *     H = (b.n, b.e) x (north, east) / |(north, east)|^2   the sine of the heading's error; it is
+ *                      taken from samples whose cosine C has H^2 + C^2 from 0.5 to 1.5, as +-1 when
+ *                      C is not above 0, and kept until the next sample for field_steps at most
+ *     B <- clamp(B - bias_gain T (E + H v))           the bias, while |W - B| is at most quiet_rate
+ *     h = clamp(T/2 (W - B + tilt_gain E + heading_gain H v), 2^-4)    half of the angle to turn
+ *     p = q + q (0, h),  q <- p (3/2 - |p|^2 / 2)
+ *
+ * Where m.v < 0, at which m x v gets smaller while the error grows, KEEL_ATTITUDE_NUDGE is added to
+ * E: upside down by exactly half a turn is no point of rest.
+ *
+ * No division, square root or trigonometry in a step: the last line is Newton's iteration for
+ * 1 / |p|. As q (0, h) is orthogonal to q, |p|^2 = |q|^2 (1 + |h|^2) in exact arithmetic, from
+ * which one iteration leads back to 1 - 3/4 (|p|^2 - 1)^2 nearly. In single precision |q|^2
+ * therefore stays between 1 - 1.30e-4 and 1 + 7.7e-6 for ever (requirement ATT-010).
+ *
+ * In lasting accelerated flight an accelerometer measures thrust, not gravity, at about the right
+ * magnitude: no gate sees that, and the estimate creeps towards thrust. The remedy is a, from GPS
+ * or from what is commanded.
+ *
+ * From the start, or a restart, an estimator goes through three phases:
+ *
+ * - KEEL_ATTITUDE_STILL: until gyroscope and accelerometer have been within still_rate and
+ *   still_acceleration of where they began for still_steps samples in a row. The mean rate is then
+ *   the bias. Meanwhile the attitude is turned to the accelerometer, with align_gain.
+ * - KEEL_ATTITUDE_ALIGNING: until E has been within tolerance for settle_steps samples in a row.
+ * - KEEL_ATTITUDE_RUNNING: tilt is valid. Back to aligning when a count up per lost or clipped
+ *   sample, down per good one, comes to lost_steps; or when one down per measured direction that is
+ *   more than 60 degrees from the estimated, up per other one, comes from settle_steps to 0.
+ *
+ * The heading has a validity of its own, heading_valid, which begins and ends in the same way while
+ * running, with the field's samples; it ends when none has come for field_steps. Without a
+ * magnetometer (north = east = 0) it is never valid, and turns with what is left of the bias.
+ *
+ * A rate that does not come is held, until lost_steps; from then on the vehicle is taken not to
+ * turn.
+ *
+ * Single precision throughout. Sources must be compiled without contraction of products and sums
+ * (ISO C mode, -std=c99, as all builds of Keel do).
+ */
+#ifndef KEEL_FLIGHT_ATTITUDE_H
+#define KEEL_FLIGHT_ATTITUDE_H
+
+#include "keel/c_declarations.h"
+#include "keel/middleware/virtual_imu.h"
+#include "keel/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/** Steps per second. From 500 Hz on, no rate and gain that are taken reach the clamp of h. */
+#define KEEL_ATTITUDE_RATE_MIN_HZ 500.0f
+#define KEEL_ATTITUDE_RATE_MAX_HZ 32000.0f
+
+/** The greatest gain of tilt, heading and alignment, in 1/s, and of the bias, in 1/s^2. */
+#define KEEL_ATTITUDE_GAIN_LIMIT 8.0f
+
+/** The greatest limit of the bias, in rad/s. */
+#define KEEL_ATTITUDE_BIAS_LIMIT 0.5f
+
+/** The greatest rate that is taken from a gyroscope, in rad/s: 2292 degrees per second. */
+#define KEEL_ATTITUDE_RATE_LIMIT 40.0f
+
+/** The greatest acceleration of the vehicle that is taken, and the greatest specific force that
+ * counts as a still sample, in m/s^2. */
+#define KEEL_ATTITUDE_FORCE_LIMIT 320.0f
+
+/** The greatest component of the expected field, and its least horizontal part, in the
+ * magnetometer's unit (gauss, microtesla). */
+#define KEEL_ATTITUDE_FIELD_LIMIT 1000.0f
+#define KEEL_ATTITUDE_FIELD_MIN   0.0625f
+
+/** The greatest spread of samples that count as still: rad/s, m/s^2. */
+#define KEEL_ATTITUDE_STILL_RATE_LIMIT         1.0f
+#define KEEL_ATTITUDE_STILL_ACCELERATION_LIMIT 10.0f
+
+/** |m|^2 within these is taken for gravity: a specific force of 0.848 g to 1.149 g. */
+#define KEEL_ATTITUDE_DOWN_MIN 0.71875f
+#define KEEL_ATTITUDE_DOWN_MAX 1.3203125f
+
+/** The same of the field's horizontal part, over that of the expected one: 0.707 to 1.224. */
+#define KEEL_ATTITUDE_FIELD_RATIO_MIN 0.5f
+#define KEEL_ATTITUDE_FIELD_RATIO_MAX 1.5f
+
+/** Half of the greatest angle turned in a step, per axis, in rad. */
+#define KEEL_ATTITUDE_HALF_ANGLE_LIMIT 0.0625f
+
+/** What is added to E about the body's x and y axes where m.v < 0. */
+#define KEEL_ATTITUDE_NUDGE_X 0.25f
+#define KEEL_ATTITUDE_NUDGE_Y 0.125f
+
+/** The cosine of the angle between measured and estimated down below which they contradict. */
+#define KEEL_ATTITUDE_AGREEMENT 0.5f
+
+/** What |q|^2 is kept within, as computed: a quaternion beyond was not left by a step. */
+#define KEEL_ATTITUDE_NORM_MIN 0.999755859375f
+#define KEEL_ATTITUDE_NORM_MAX 1.000244140625f
+
+/* What the last step did: keel_attitude_t, flags. */
+#define KEEL_ATTITUDE_LOST        0x01u /**< No rate came, or none that can be: the last is held. */
+#define KEEL_ATTITUDE_CLIPPED     0x02u /**< A rate is beyond clip_rate: it may have been more. */
+#define KEEL_ATTITUDE_COMPENSATED 0x04u /**< The vehicle's acceleration was taken off. */
+#define KEEL_ATTITUDE_DOWN        0x08u /**< The accelerometer was taken for gravity. */
+#define KEEL_ATTITUDE_FIELD       0x10u /**< The magnetometer's sample was taken. */
+#define KEEL_ATTITUDE_BIASED      0x20u /**< Still, but the mean rate is beyond bias_limit. */
+#define KEEL_ATTITUDE_CORRUPTED   0x40u /**< No unit quaternion was found: begun anew. */
+
+/** A vector in the body's frame (forward, right, down) or the Earth's (north, east, down). */
+typedef struct keel_attitude_vector {
+    float x;
+    float y;
+    float z;
+} keel_attitude_vector_t;
+
+/** A quaternion, w its scalar part. */
+typedef struct keel_attitude_quaternion {
+    float w;
+    float x;
+    float y;
+    float z;
+} keel_attitude_quaternion_t;
+
+/** What an estimator is made from. */
+typedef struct keel_attitude_config {
+    float rate_hz;            /**< Steps per second, RATE_MIN_HZ to RATE_MAX_HZ. */
+    float tilt_gain;          /**< Of E while running, 0 to GAIN_LIMIT, in 1/s. */
+    float heading_gain;       /**< Of H while the heading is valid, 0 to GAIN_LIMIT, in 1/s. */
+    float align_gain;         /**< Of both before, 0 to GAIN_LIMIT, in 1/s. */
+    float bias_gain;          /**< Of both in the bias, 0 to GAIN_LIMIT, in 1/s^2. */
+    float bias_limit;         /**< |B| per axis, 0 to BIAS_LIMIT, in rad/s. */
+    float quiet_rate;         /**< The bias moves up to this rate, 0 to gate_rate, in rad/s. */
+    float gate_rate;          /**< Gravity is measured up to this rate, to clip_rate, in rad/s. */
+    float clip_rate;          /**< A rate beyond, per axis, is clipped; to RATE_LIMIT, in rad/s. */
+    float still_rate;         /**< Spread of the rates, 0 to STILL_RATE_LIMIT, in rad/s. */
+    float still_acceleration; /**< Of the forces, 0 to STILL_ACCELERATION_LIMIT, in m/s^2. */
+    float tolerance;          /**< Sine of the error that counts as converged, 0 to 1. */
+    float north;              /**< The expected field's horizontal part; both 0: */
+    float east;               /**< no magnetometer. In the magnetometer's unit. */
+    uint16_t still_steps;     /**< Still samples in a row that make a bias; at least 1. */
+    uint16_t settle_steps;    /**< Samples in a row that make an attitude valid; at least 1. */
+    uint16_t lost_steps;      /**< Lost samples that make it invalid; at least 1. */
+    uint16_t field_steps;     /**< Steps for which a field's sample is good; at least 1. */
+} keel_attitude_config_t;
+
+/** What was measured. Values may be any bit pattern. */
+typedef struct keel_attitude_sample {
+    keel_attitude_vector_t gyroscope; /**< Angular rate, body, in rad/s. */
+    keel_attitude_vector_t
+        accelerometer;                   /**< Specific force, body, in m/s^2: (0, 0, -g) at rest. */
+    keel_attitude_vector_t magnetometer; /**< Field, body, in its own unit. */
+    keel_attitude_vector_t acceleration; /**< Of the vehicle, Earth, in m/s^2: 0 at rest. */
+    bool has_gyroscope;                  /**< Whether there is a new one of each. */
+    bool has_accelerometer;
+    bool has_magnetometer;
+    bool has_acceleration;
+} keel_attitude_sample_t;
+
+/** How far an estimator is. */
+typedef enum keel_attitude_phase {
+    KEEL_ATTITUDE_STILL = 0, /**< Waits for the vehicle to be still. */
+    KEEL_ATTITUDE_ALIGNING,  /**< Has a bias, converges. */
+    KEEL_ATTITUDE_RUNNING    /**< Tilt and rate are valid. */
+} keel_attitude_phase_t;
+
+/** What init computes from a configuration. */
+typedef struct keel_attitude_scale {
+    float half_step; /**< T / 2, in s. */
+    float bias_step; /**< bias_gain T, in 1/s. */
+    float gate;      /**< gate_rate^2. */
+    float quiet;     /**< quiet_rate^2. */
+    float tolerance; /**< tolerance^2. */
+    float north;     /**< north / (north^2 + east^2). */
+    float east;      /**< east / (north^2 + east^2). */
+    float still;     /**< 1 / still_steps. */
+} keel_attitude_scale_t;
+
+/** An estimator. Written by the functions below alone; all of it may be read. */
+typedef struct keel_attitude {
+    keel_attitude_config_t config;         /**< As checked by init. */
+    keel_attitude_scale_t scale;           /**< What follows from it. */
+    keel_attitude_quaternion_t quaternion; /**< From body to Earth. */
+    keel_attitude_vector_t bias;           /**< B, of the gyroscope, in rad/s. */
+    keel_attitude_vector_t rate;           /**< W - B of the last step: for rate control. */
+    keel_attitude_vector_t gyroscope;      /**< W, the last rate that came. */
+    keel_attitude_vector_t first_rate;     /**< The first of the still samples. */
+    keel_attitude_vector_t first_force;    /**< The first of the still samples. */
+    keel_attitude_vector_t sum;            /**< Of the still rates less the first. */
+    float heading_error;                   /**< H; 0 when no sample is recent enough. */
+    uint16_t still;                        /**< Still samples in a row. */
+    uint16_t settled;                      /**< Samples that agree in tilt, to settle_steps. */
+    uint16_t heading_settled;              /**< Samples that agree in heading. */
+    uint16_t lost;                         /**< Up per lost sample, down per good, to lost_steps. */
+    uint16_t field_age;                    /**< Steps since the field was taken, to field_steps. */
+    uint32_t flags;                        /**< KEEL_ATTITUDE_LOST, ...: what the last step did. */
+    bool heading_valid;                    /**< Whether the heading is that of the field. */
+    keel_attitude_phase_t phase;           /**< Whether tilt and rate are valid. */
+} keel_attitude_t;
+
+/*@ predicate attitude_number(float value, real least, real most) =
+  @     \is_finite(value) && least <= value <= most;
+  @
+  @ predicate attitude_rate(keel_attitude_config_t c) = attitude_number(
+  @     c.rate_hz, KEEL_ATTITUDE_RATE_MIN_HZ, KEEL_ATTITUDE_RATE_MAX_HZ);
+  @
+  @ predicate attitude_gains(keel_attitude_config_t c) =
+  @     attitude_number(c.tilt_gain, 0, KEEL_ATTITUDE_GAIN_LIMIT) &&
+  @     attitude_number(c.heading_gain, 0, KEEL_ATTITUDE_GAIN_LIMIT) &&
+  @     attitude_number(c.align_gain, 0, KEEL_ATTITUDE_GAIN_LIMIT) &&
+  @     attitude_number(c.bias_gain, 0, KEEL_ATTITUDE_GAIN_LIMIT);
+  @
+  @ predicate attitude_limits(keel_attitude_config_t c) =
+  @     attitude_number(c.bias_limit, 0, KEEL_ATTITUDE_BIAS_LIMIT) &&
+  @     attitude_number(c.clip_rate, 0, KEEL_ATTITUDE_RATE_LIMIT) &&
+  @     attitude_number(c.gate_rate, 0, c.clip_rate) &&
+  @     attitude_number(c.quiet_rate, 0, c.gate_rate) &&
+  @     attitude_number(c.still_rate, 0, KEEL_ATTITUDE_STILL_RATE_LIMIT) &&
+  @     attitude_number(c.still_acceleration, 0, KEEL_ATTITUDE_STILL_ACCELERATION_LIMIT) &&
+  @     attitude_number(c.tolerance, 0, 1);
+  @
+  @ predicate attitude_within(keel_attitude_vector_t v, real most) =
+  @     attitude_number(v.x, -most, most) && attitude_number(v.y, -most, most) &&
+  @     attitude_number(v.z, -most, most);
+  @
+  @ // What |q|^2, as computed, leaves a component of a unit quaternion: 1 + 2^-10 at most.
+  @ predicate attitude_components(keel_attitude_quaternion_t q) =
+  @     attitude_number(q.w, -0x1.004p+0, 0x1.004p+0) &&
+  @     attitude_number(q.x, -0x1.004p+0, 0x1.004p+0) &&
+  @     attitude_number(q.y, -0x1.004p+0, 0x1.004p+0) &&
+  @     attitude_number(q.z, -0x1.004p+0, 0x1.004p+0);
+  @
+  @ predicate attitude_steps(keel_attitude_config_t c) =
+  @     c.still_steps > 0 && c.settle_steps > 0 && c.lost_steps > 0 && c.field_steps > 0;
+  @*/
+
+/**
+ * Makes an estimator, which then waits for the vehicle to be still (requirements ATT-001 to
+ * ATT-003).
+ *
+ * @param attitude the estimator
+ * @param config   what it is made from; copied
+ * @return KEEL_OK; KEEL_ERR_RATE (rate_hz), KEEL_ERR_GAIN, KEEL_ERR_LIMITS (a limit, a rate, a
+ *         spread, the tolerance, or a number of steps that is 0) or KEEL_ERR_INPUT (the field is
+ *         not finite, too large, or too small and not 0), the first that applies, NaN included:
+ *         then nothing is changed
+ */
+/*@ requires \valid(attitude) && \valid_read(config) && \separated(attitude, config);
+  @ assigns *attitude;
+  @ ensures ATT_001_rate: !attitude_rate(*config) ==> \result == KEEL_ERR_RATE;
+  @ ensures ATT_001_gains: attitude_rate(*config) && !attitude_gains(*config) ==>
+  @     \result == KEEL_ERR_GAIN;
+  @ ensures ATT_001_limits: attitude_rate(*config) && attitude_gains(*config) &&
+  @     !(attitude_limits(*config) && attitude_steps(*config)) ==> \result == KEEL_ERR_LIMITS;
+  @ ensures ATT_001_kept: \result != KEEL_OK ==> *attitude == \old(*attitude);
+  @ ensures ATT_002_taken: \result == KEEL_OK ==> attitude->config == *config;
+  @*/
+keel_status_t keel_attitude_init(keel_attitude_t *attitude, const keel_attitude_config_t *config);
+
+/**
+ * Begins anew: level, without bias, waiting for the vehicle to be still (requirement ATT-003). Not
+ * in flight.
+ *
+ * @param attitude the estimator, initialised
+ */
+/*@ requires \valid(attitude);
+  @ assigns attitude->quaternion, attitude->bias, attitude->rate, attitude->gyroscope,
+  @     attitude->first_rate, attitude->first_force, attitude->sum, attitude->heading_error,
+  @     attitude->still, attitude->settled, attitude->heading_settled, attitude->lost,
+  @     attitude->field_age, attitude->flags, attitude->heading_valid, attitude->phase;
+  @ ensures ATT_003_level: attitude->quaternion.w == 1 && attitude->quaternion.x == 0 &&
+  @     attitude->quaternion.y == 0 && attitude->quaternion.z == 0;
+  @ ensures ATT_003_unbiased: attitude->bias.x == 0 && attitude->bias.y == 0 &&
+  @     attitude->bias.z == 0;
+  @ ensures ATT_003_still: attitude->phase == KEEL_ATTITUDE_STILL && !attitude->heading_valid;
+  @*/
+void keel_attitude_restart(keel_attitude_t *attitude);
+
+/**
+ * Fills in what a virtual inertial unit's last vote gave (requirement ATT-004). Rate and force are
+ * there when a sensor contributed to each of their three channels; a held output is none.
+ *
+ * @param sample the sample; magnetometer and acceleration stay as they are
+ * @param imu    the virtual unit, initialised
+ */
+/*@ requires \valid(sample) && \valid_read(imu) && \separated(sample, imu);
+  @ assigns sample->gyroscope, sample->accelerometer, sample->has_gyroscope,
+  @     sample->has_accelerometer;
+  @ ensures ATT_004_there: sample->has_gyroscope <==>
+  @     imu->channel[KEEL_VIRTUAL_IMU_ACCELEROMETER].vote.contributing > 0 &&
+  @     imu->channel[KEEL_VIRTUAL_IMU_ACCELEROMETER + 1].vote.contributing > 0 &&
+  @     imu->channel[KEEL_VIRTUAL_IMU_ACCELEROMETER + 2].vote.contributing > 0;
+  @*/
+void keel_attitude_take(keel_attitude_sample_t *sample, const keel_virtual_imu_t *imu);
+
+/**
+ * One step of the estimator (requirements ATT-005 to ATT-018). Call it at the configured rate,
+ * whether there are samples or not; what it could do is told in attitude->flags.
+ *
+ * @param attitude the estimator, initialised
+ * @param sample   what was measured since the last step
+ */
+/*@ requires \valid(attitude) && \valid_read(sample) && \separated(attitude, sample);
+  @ requires attitude_number(attitude->config.bias_limit, 0, KEEL_ATTITUDE_BIAS_LIMIT);
+  @ requires \is_finite(attitude->config.clip_rate) &&
+  @     \is_finite(attitude->config.still_rate) &&
+  @     \is_finite(attitude->config.still_acceleration);
+  @ assigns attitude->quaternion, attitude->bias, attitude->rate, attitude->gyroscope,
+  @     attitude->first_rate, attitude->first_force, attitude->sum, attitude->heading_error,
+  @     attitude->still, attitude->settled, attitude->heading_settled, attitude->lost,
+  @     attitude->field_age, attitude->flags, attitude->heading_valid, attitude->phase;
+  @ ensures ATT_005_lost: !sample->has_gyroscope ==> (attitude->flags & KEEL_ATTITUDE_LOST) != 0;
+  @ ensures ATT_006_down: (attitude->flags & KEEL_ATTITUDE_DOWN) != 0 ==> sample->has_accelerometer;
+  @ ensures ATT_007_compensated: (attitude->flags & KEEL_ATTITUDE_COMPENSATED) != 0 ==>
+  @     sample->has_acceleration &&
+  @     attitude_within(sample->acceleration, KEEL_ATTITUDE_FORCE_LIMIT);
+  @ ensures ATT_008_field: (attitude->flags & KEEL_ATTITUDE_FIELD) != 0 ==>
+  @     sample->has_magnetometer && attitude->field_age == 0;
+  @ ensures ATT_009_rate: attitude_within(\old(attitude->bias), KEEL_ATTITUDE_BIAS_LIMIT) &&
+  @     attitude_within(attitude->gyroscope, KEEL_ATTITUDE_RATE_LIMIT) ==>
+  @     attitude->rate.x == (float)(attitude->gyroscope.x - \old(attitude->bias.x)) &&
+  @     attitude->rate.y == (float)(attitude->gyroscope.y - \old(attitude->bias.y)) &&
+  @     attitude->rate.z == (float)(attitude->gyroscope.z - \old(attitude->bias.z));
+  @ ensures ATT_011_components: attitude_components(attitude->quaternion);
+  @ ensures ATT_012_limit: attitude_within(\old(attitude->bias), attitude->config.bias_limit) ==>
+  @     attitude_within(attitude->bias, attitude->config.bias_limit);
+  @ ensures ATT_012_rests: (attitude->flags & KEEL_ATTITUDE_DOWN) == 0 &&
+  @     \old(attitude->phase) != KEEL_ATTITUDE_STILL &&
+  @     attitude_within(\old(attitude->bias), attitude->config.bias_limit) ==>
+  @     attitude->bias.x == \old(attitude->bias.x) && attitude->bias.y == \old(attitude->bias.y) &&
+  @     attitude->bias.z == \old(attitude->bias.z);
+  @ ensures ATT_013_mean: \old(attitude->phase) == KEEL_ATTITUDE_STILL &&
+  @     attitude->phase != KEEL_ATTITUDE_STILL ==>
+  @     attitude->phase == KEEL_ATTITUDE_ALIGNING && attitude->still == 0;
+  @ ensures ATT_014_begins: attitude->phase == KEEL_ATTITUDE_RUNNING &&
+  @     \old(attitude->phase) != KEEL_ATTITUDE_RUNNING ==>
+  @     \old(attitude->phase) == KEEL_ATTITUDE_ALIGNING && attitude->lost == 0 &&
+  @     attitude->settled == attitude->config.settle_steps;
+  @ ensures ATT_014_ends: \old(attitude->phase) == KEEL_ATTITUDE_RUNNING &&
+  @     attitude->phase != KEEL_ATTITUDE_RUNNING ==>
+  @     attitude->phase == KEEL_ATTITUDE_ALIGNING && attitude->settled == 0 &&
+  @     !attitude->heading_valid;
+  @ ensures ATT_015_begins: attitude->heading_valid && !\old(attitude->heading_valid) ==>
+  @     attitude->phase == KEEL_ATTITUDE_RUNNING &&
+  @     (attitude->flags & KEEL_ATTITUDE_FIELD) != 0 &&
+  @     attitude->heading_settled == attitude->config.settle_steps;
+  @ ensures ATT_016_told: (attitude->flags & KEEL_ATTITUDE_CORRUPTED) != 0 ==>
+  @     attitude->quaternion.w == 1 && attitude->quaternion.x == 0 &&
+  @     attitude->quaternion.y == 0 && attitude->quaternion.z == 0 &&
+  @     attitude->phase != KEEL_ATTITUDE_RUNNING;
+  @*/
+void keel_attitude_step(keel_attitude_t *attitude, const keel_attitude_sample_t *sample);
+
+/**
+ * Whether a quaternion is one that steps leave: |q|^2, as computed, lies between
+ * KEEL_ATTITUDE_NORM_MIN and KEEL_ATTITUDE_NORM_MAX (requirement ATT-016). A step asks it of what
+ * it leaves; so may whoever keeps a copy.
+ *
+ * @param q any bit pattern
+ * @return false for what is no number, too
+ */
+/*@ assigns \nothing;
+  @ ensures ATT_011_unit: \result ==> attitude_components(q);
+  @ ensures ATT_016_unit: attitude_components(q) ==> (\result <==>
+  @     attitude_number((float)((float)((float)(q.w * q.w) + (float)(q.x * q.x)) +
+  @                             (float)((float)(q.y * q.y) + (float)(q.z * q.z))),
+  @                     KEEL_ATTITUDE_NORM_MIN, KEEL_ATTITUDE_NORM_MAX));
+  @*/
+bool keel_attitude_is_unit(keel_attitude_quaternion_t q);
+
+/**
+ * Down as the body sees it, v (requirement ATT-019): what tilt is controlled by. Its z component is
+ * the cosine of the tilt.
+ *
+ * @param attitude the estimator, initialised
+ * @return a vector of length 1, but for what |q|^2 is off (requirement ATT-010)
+ */
+/*@ requires \valid_read(attitude);
+  @ assigns \nothing;
+  @ ensures ATT_019_down: attitude_components(attitude->quaternion) ==>
+  @     \result.z == (float)(1 - (float)(
+  @         (float)(attitude->quaternion.x * (2 * attitude->quaternion.x)) +
+  @         (float)(attitude->quaternion.y * (2 * attitude->quaternion.y))));
+  @*/
+keel_attitude_vector_t keel_attitude_down(const keel_attitude_t *attitude);
+
+KEEL_C_END
+
+#endif

@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file attitude_points.h
+ * @brief Chosen estimators and samples: between them they reach all that a step does.
+ */
+#ifndef ATTITUDE_POINTS_H
+#define ATTITUDE_POINTS_H
+
+#include "attitude_proof.h"
+
+#define POINTS 30u
+
+/* Running, with a valid heading, in no special attitude; 1000 Hz. */
+static const keel_attitude_t running = {.config = {.rate_hz = 1000.0f,
+                                                   .tilt_gain = 0.5f,
+                                                   .heading_gain = 0.25f,
+                                                   .align_gain = 4.0f,
+                                                   .bias_gain = 0.125f,
+                                                   .bias_limit = 0.0625f,
+                                                   .quiet_rate = 0.5f,
+                                                   .gate_rate = 2.0f,
+                                                   .clip_rate = 32.0f,
+                                                   .still_rate = 0.25f,
+                                                   .still_acceleration = 0.5f,
+                                                   .tolerance = 0.25f,
+                                                   .north = 1.0f,
+                                                   .still_steps = 3u,
+                                                   .settle_steps = 3u,
+                                                   .lost_steps = 3u,
+                                                   .field_steps = 3u},
+                                        .scale = {.half_step = 0.0005f,
+                                                  .bias_step = 0.000125f,
+                                                  .gate = 4.0f,
+                                                  .quiet = 0.25f,
+                                                  .tolerance = 0.0625f,
+                                                  .north = 1.0f,
+                                                  .still = 0.33333334f},
+                                        .quaternion = {0.9f, 0.1f, -0.2f, 0.374165739f},
+                                        .bias = {0.01f, -0.02f, 0.03f},
+                                        .gyroscope = {0.1f, 0.2f, -0.3f},
+                                        .first_rate = {0.1f, 0.1f, 0.1f},
+                                        .first_force = {2.9f, 3.2f, -8.7f},
+                                        .sum = {0.01f, 0.02f, 0.03f},
+                                        .heading_error = 0.2f,
+                                        .still = 1u,
+                                        .settled = 2u,
+                                        .heading_settled = 2u,
+                                        .field_age = 1u,
+                                        .heading_valid = true,
+                                        .phase = KEEL_ATTITUDE_RUNNING};
+
+/* Near what that attitude would measure, and all of it. */
+static const keel_attitude_sample_t measured = {.gyroscope = {0.11f, 0.12f, 0.07f},
+                                                .accelerometer = {3.0f, 3.3f, -8.6f},
+                                                .magnetometer = {0.6f, -0.8f, 0.3f},
+                                                .acceleration = {0.4f, -0.7f, 0.2f},
+                                                .has_gyroscope = true,
+                                                .has_accelerometer = true,
+                                                .has_magnetometer = true,
+                                                .has_acceleration = true};
+
+/* One thing is different in each; the first is as it is. */
+static void make_point(unsigned point, keel_attitude_t *attitude, keel_attitude_sample_t *sample)
+{
+    *attitude = running;
+    *sample = measured;
+    switch (point) {
+    case 1u: /* Lost, and held. */
+        sample->has_gyroscope = false;
+        break;
+    case 2u: /* Lost once too often. */
+        sample->has_gyroscope = false;
+        attitude->lost = 2u;
+        break;
+    case 3u: /* Clipped. */
+        sample->gyroscope.x = 33.0f;
+        break;
+    case 4u: /* A rate that cannot be. */
+        sample->gyroscope.y = -41.0f;
+        break;
+    case 5u: /* Too fast for gravity. */
+        sample->gyroscope.z = 2.5f;
+        break;
+    case 6u: /* Too fast for the bias. */
+        sample->gyroscope.z = 0.7f;
+        break;
+    case 7u: /* Upside down. */
+        sample->accelerometer.z = 8.6f;
+        attitude->settled = 1u;
+        break;
+    case 8u: /* No gravity. */
+        sample->accelerometer.z = -3.0f;
+        break;
+    case 9u: /* The bias at its limit. */
+        attitude->bias.x = 0.0625f;
+        attitude->bias.y = -0.0625f;
+        attitude->bias.z = 0.0625f;
+        attitude->scale.bias_step = 1.0f;
+        break;
+    case 10u: /* The field from behind, or away. */
+        sample->magnetometer.x = -0.6f;
+        sample->magnetometer.y = 0.8f;
+        sample->has_acceleration = false;
+        break;
+    case 11u:
+        sample->has_magnetometer = false;
+        attitude->field_age = 2u;
+        break;
+    case 12u: /* Aligning, at the end of it. */
+        attitude->phase = KEEL_ATTITUDE_ALIGNING;
+        attitude->heading_valid = false;
+        sample->accelerometer.x = -4.2f;
+        sample->accelerometer.y = -0.3f;
+        break;
+    case 13u: /* Still, at the end of it; and moved. */
+        attitude->phase = KEEL_ATTITUDE_STILL;
+        attitude->still = 2u;
+        attitude->config.bias_limit = 0.5f;
+        break;
+    case 14u:
+        attitude->phase = KEEL_ATTITUDE_STILL;
+        sample->accelerometer.x = 3.6f;
+        break;
+    case 15u: /* No quaternion. */
+        attitude->quaternion.w = 0.5f;
+        break;
+    case 16u: /* Aligning, and near, while a lost rate is still counted. */
+        attitude->phase = KEEL_ATTITUDE_ALIGNING;
+        attitude->lost = 2u;
+        sample->accelerometer.x = -4.2f;
+        sample->accelerometer.y = -0.3f;
+        break;
+    case 17u: /* The heading becomes valid; not when its error is large. */
+        attitude->heading_valid = false;
+        sample->magnetometer.x = 0.8f;
+        sample->magnetometer.y = -0.6f;
+        break;
+    case 18u:
+        attitude->heading_valid = false;
+        attitude->config.north = 0.0f;
+        attitude->scale.north = 0.0f;
+        attitude->scale.east = 1.0f;
+        break;
+    case 19u: /* A field that is none. */
+        sample->magnetometer.x = 9.0f;
+        break;
+    case 20u: /* Still, but the mean rate is too large for a bias. */
+        attitude->phase = KEEL_ATTITUDE_STILL;
+        attitude->still = 2u;
+        break;
+    case 21u: /* Not still: no rate. */
+        attitude->phase = KEEL_ATTITUDE_STILL;
+        sample->has_gyroscope = false;
+        break;
+    case 22u: /* Not still: no force that can be one. */
+        attitude->phase = KEEL_ATTITUDE_STILL;
+        sample->accelerometer.y = 321.0f;
+        break;
+    case 23u: /* Aligning, without quaternion, accelerometer and field. */
+        attitude->phase = KEEL_ATTITUDE_ALIGNING;
+        attitude->quaternion.w = 0.5f;
+        attitude->lost = 2u;
+        sample->has_gyroscope = false;
+        sample->has_accelerometer = false;
+        sample->has_magnetometer = false;
+        break;
+    case 24u: /* An acceleration that is none. */
+        sample->acceleration.z = 321.0f;
+        break;
+    case 25u: /* Not still: no force; the first of the samples; a turn. */
+        attitude->phase = KEEL_ATTITUDE_STILL;
+        sample->has_accelerometer = false;
+        break;
+    case 26u:
+        attitude->phase = KEEL_ATTITUDE_STILL;
+        attitude->still = 0u;
+        break;
+    case 27u:
+        attitude->phase = KEEL_ATTITUDE_STILL;
+        sample->gyroscope.y = 0.5f;
+        break;
+    case 28u: /* Aligning, upside down; and far off. */
+        attitude->phase = KEEL_ATTITUDE_ALIGNING;
+        sample->accelerometer.z = 8.6f;
+        break;
+    case 29u:
+        attitude->phase = KEEL_ATTITUDE_ALIGNING;
+        sample->accelerometer.x = 6.0f;
+        sample->accelerometer.y = 6.0f;
+        sample->accelerometer.z = -5.0f;
+        break;
+    default:
+        break;
+    }
+}
+
+#endif

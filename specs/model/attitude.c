@@ -1,0 +1,471 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "attitude.h"
+
+typedef keel_attitude_vector_t vector_t;
+typedef keel_attitude_quaternion_t quaternion_t;
+
+/* No comparison with NaN holds. */
+static bool from_to(float value, float least, float most)
+{
+    return (value >= least) && (value <= most);
+}
+
+static bool vector_to(vector_t v, float most)
+{
+    return from_to(v.x, -most, most) && from_to(v.y, -most, most) && from_to(v.z, -most, most);
+}
+
+static float product_of(vector_t a, vector_t b)
+{
+    return ((a.x * b.x) + (a.y * b.y)) + (a.z * b.z);
+}
+
+/* a + k b, each product rounded before its sum. */
+static vector_t sum_of(vector_t a, float k, vector_t b)
+{
+    const vector_t sum = {a.x + (k * b.x), a.y + (k * b.y), a.z + (k * b.z)};
+
+    return sum;
+}
+
+static vector_t apart(vector_t a, vector_t b)
+{
+    const vector_t difference = {a.x - b.x, a.y - b.y, a.z - b.z};
+
+    return difference;
+}
+
+static float nearest(float value, float most)
+{
+    const float above = (value > -most) ? value : -most;
+
+    return (above < most) ? above : most;
+}
+
+static vector_t nearest_vector(vector_t v, float most)
+{
+    const vector_t near = {nearest(v.x, most), nearest(v.y, most), nearest(v.z, most)};
+
+    return near;
+}
+
+/* A count that goes up to `most` and down to 0. */
+static uint16_t next_count(uint16_t count, bool up, uint16_t most)
+{
+    if (up) {
+        return (count < most) ? (uint16_t)(count + 1u) : most;
+    }
+    return (count > 0u) ? (uint16_t)(count - 1u) : 0u;
+}
+
+/* n, e and v of attitude.h, each product taken with the double of its second factor. */
+static vector_t north_of(quaternion_t q)
+{
+    const float y2 = q.y + q.y;
+    const float z2 = q.z + q.z;
+    const vector_t n = {1.0f - ((q.y * y2) + (q.z * z2)), (q.x * y2) - (q.w * z2),
+                        (q.x * z2) + (q.w * y2)};
+
+    return n;
+}
+
+static vector_t east_of(quaternion_t q)
+{
+    const float x2 = q.x + q.x;
+    const float y2 = q.y + q.y;
+    const float z2 = q.z + q.z;
+    const vector_t e = {(q.x * y2) + (q.w * z2), 1.0f - ((q.x * x2) + (q.z * z2)),
+                        (q.y * z2) - (q.w * x2)};
+
+    return e;
+}
+
+static vector_t down_of(quaternion_t q)
+{
+    const float x2 = q.x + q.x;
+    const float y2 = q.y + q.y;
+    const float z2 = q.z + q.z;
+    const vector_t v = {(q.x * z2) - (q.w * y2), (q.y * z2) + (q.w * x2),
+                        1.0f - ((q.x * x2) + (q.y * y2))};
+
+    return v;
+}
+
+static bool gains_valid(const keel_attitude_config_t *c)
+{
+    const float most = KEEL_ATTITUDE_GAIN_LIMIT;
+
+    return from_to(c->tilt_gain, 0.0f, most) && from_to(c->heading_gain, 0.0f, most) &&
+           from_to(c->align_gain, 0.0f, most) && from_to(c->bias_gain, 0.0f, most);
+}
+
+static bool limits_valid(const keel_attitude_config_t *c)
+{
+    return from_to(c->bias_limit, 0.0f, KEEL_ATTITUDE_BIAS_LIMIT) &&
+           from_to(c->clip_rate, 0.0f, KEEL_ATTITUDE_RATE_LIMIT) &&
+           from_to(c->gate_rate, 0.0f, c->clip_rate) &&
+           from_to(c->quiet_rate, 0.0f, c->gate_rate) &&
+           from_to(c->still_rate, 0.0f, KEEL_ATTITUDE_STILL_RATE_LIMIT) &&
+           from_to(c->still_acceleration, 0.0f, KEEL_ATTITUDE_STILL_ACCELERATION_LIMIT) &&
+           from_to(c->tolerance, 0.0f, 1.0f) && (c->still_steps > 0u) && (c->settle_steps > 0u) &&
+           (c->lost_steps > 0u) && (c->field_steps > 0u);
+}
+
+/* None, or one that can be divided by. */
+static bool field_valid(const keel_attitude_config_t *c)
+{
+    const float most = KEEL_ATTITUDE_FIELD_LIMIT;
+    const bool none = (c->north == 0.0f) && (c->east == 0.0f);
+
+    return none || (from_to(c->north, -most, most) && from_to(c->east, -most, most) &&
+                    (((c->north * c->north) + (c->east * c->east)) >=
+                     (KEEL_ATTITUDE_FIELD_MIN * KEEL_ATTITUDE_FIELD_MIN)));
+}
+
+keel_status_t model_attitude_init(keel_attitude_t *attitude, const keel_attitude_config_t *config)
+{
+    const float square = (config->north * config->north) + (config->east * config->east);
+
+    /* ATT-001: a refusal changes nothing. */
+    if (!from_to(config->rate_hz, KEEL_ATTITUDE_RATE_MIN_HZ, KEEL_ATTITUDE_RATE_MAX_HZ)) {
+        return KEEL_ERR_RATE;
+    }
+    if (!gains_valid(config)) {
+        return KEEL_ERR_GAIN;
+    }
+    if (!limits_valid(config)) {
+        return KEEL_ERR_LIMITS;
+    }
+    if (!field_valid(config)) {
+        return KEEL_ERR_INPUT;
+    }
+    /* ATT-002 */
+    attitude->config = *config;
+    attitude->scale.half_step = 0.5f / config->rate_hz;
+    attitude->scale.bias_step = config->bias_gain / config->rate_hz;
+    attitude->scale.gate = config->gate_rate * config->gate_rate;
+    attitude->scale.quiet = config->quiet_rate * config->quiet_rate;
+    attitude->scale.tolerance = config->tolerance * config->tolerance;
+    attitude->scale.north = (square == 0.0f) ? 0.0f : (config->north / square);
+    attitude->scale.east = (square == 0.0f) ? 0.0f : (config->east / square);
+    attitude->scale.still = 1.0f / (float)config->still_steps;
+    model_attitude_restart(attitude);
+    return KEEL_OK;
+}
+
+/* ATT-003 */
+void model_attitude_restart(keel_attitude_t *attitude)
+{
+    const vector_t zero = {0.0f, 0.0f, 0.0f};
+    const quaternion_t level = {1.0f, 0.0f, 0.0f, 0.0f};
+
+    attitude->quaternion = level;
+    attitude->bias = zero;
+    attitude->rate = zero;
+    attitude->gyroscope = zero;
+    attitude->first_rate = zero;
+    attitude->first_force = zero;
+    attitude->sum = zero;
+    attitude->heading_error = 0.0f;
+    attitude->still = 0u;
+    attitude->settled = 0u;
+    attitude->heading_settled = 0u;
+    attitude->lost = 0u;
+    attitude->field_age = attitude->config.field_steps;
+    attitude->flags = 0u;
+    attitude->heading_valid = false;
+    attitude->phase = KEEL_ATTITUDE_STILL;
+}
+
+/* ATT-004: channels 0 to 2 are the accelerometer's, 3 to 5 the gyroscope's. */
+void model_attitude_take(keel_attitude_sample_t *sample, const keel_virtual_imu_t *imu)
+{
+    const keel_voter_t *const c = imu->channel;
+
+    sample->accelerometer.x = c[0].vote.output;
+    sample->accelerometer.y = c[1].vote.output;
+    sample->accelerometer.z = c[2].vote.output;
+    sample->has_accelerometer = (c[0].vote.contributing > 0u) && (c[1].vote.contributing > 0u) &&
+                                (c[2].vote.contributing > 0u);
+    sample->gyroscope.x = c[3].vote.output;
+    sample->gyroscope.y = c[4].vote.output;
+    sample->gyroscope.z = c[5].vote.output;
+    sample->has_gyroscope = (c[3].vote.contributing > 0u) && (c[4].vote.contributing > 0u) &&
+                            (c[5].vote.contributing > 0u);
+}
+
+/* ATT-014, ATT-015: back to aligning. */
+static void align_again(keel_attitude_t *attitude)
+{
+    attitude->phase = KEEL_ATTITUDE_ALIGNING;
+    attitude->settled = 0u;
+    attitude->heading_settled = 0u;
+    attitude->heading_valid = false;
+}
+
+/* ATT-005: W, and W - B. */
+static void rate_step(keel_attitude_t *attitude, const keel_attitude_sample_t *sample)
+{
+    const bool fits = sample->has_gyroscope &&
+                      vector_to(sample->gyroscope, attitude->config.clip_rate);
+    const bool came = fits || (sample->has_gyroscope &&
+                               vector_to(sample->gyroscope, KEEL_ATTITUDE_RATE_LIMIT));
+    const uint16_t most = attitude->config.lost_steps;
+
+    if (fits) {
+        attitude->flags = 0u;
+    } else if (came) {
+        attitude->flags = KEEL_ATTITUDE_CLIPPED;
+    } else {
+        attitude->flags = KEEL_ATTITUDE_LOST;
+    }
+    attitude->lost = next_count(attitude->lost, !fits, most);
+    if (came) {
+        attitude->gyroscope = sample->gyroscope;
+    } else if (attitude->lost >= most) {
+        attitude->gyroscope = attitude->bias;
+    }
+    if ((attitude->lost >= most) && (attitude->phase == KEEL_ATTITUDE_RUNNING)) {
+        align_again(attitude);
+    }
+    attitude->rate = apart(attitude->gyroscope, attitude->bias);
+}
+
+/* ATT-015 */
+static void heading_validity(keel_attitude_t *attitude, bool ahead)
+{
+    const uint16_t most = attitude->config.settle_steps;
+    const float square = attitude->heading_error * attitude->heading_error;
+
+    if (attitude->heading_valid) {
+        attitude->heading_settled = next_count(attitude->heading_settled, ahead, most);
+        attitude->heading_valid = attitude->heading_settled > 0u;
+    } else if (attitude->phase == KEEL_ATTITUDE_RUNNING) {
+        const bool near = ahead && (square <= attitude->scale.tolerance);
+
+        attitude->heading_settled = near ? next_count(attitude->heading_settled, true, most) : 0u;
+        attitude->heading_valid = attitude->heading_settled >= most;
+    }
+}
+
+/* ATT-008: no sample; the last one is too old after a while. */
+static void field_missing(keel_attitude_t *attitude)
+{
+    attitude->field_age = next_count(attitude->field_age, true, attitude->config.field_steps);
+    if (attitude->field_age >= attitude->config.field_steps) {
+        attitude->heading_error = 0.0f;
+        attitude->heading_settled = 0u;
+        attitude->heading_valid = false;
+    }
+}
+
+/* ATT-008: H, and what becomes of it. */
+static void field_step(keel_attitude_t *attitude, const keel_attitude_sample_t *sample)
+{
+    const vector_t b = sample->magnetometer;
+    const float north = product_of(north_of(attitude->quaternion), b);
+    const float east = product_of(east_of(attitude->quaternion), b);
+    const float sine = (north * attitude->scale.east) - (east * attitude->scale.north);
+    const float cosine = (north * attitude->scale.north) + (east * attitude->scale.east);
+
+    if (sample->has_magnetometer) {
+        if (from_to((sine * sine) + (cosine * cosine), KEEL_ATTITUDE_FIELD_RATIO_MIN,
+                    KEEL_ATTITUDE_FIELD_RATIO_MAX)) {
+            attitude->heading_error = (cosine > 0.0f) ? sine : ((sine < 0.0f) ? -1.0f : 1.0f);
+            attitude->field_age = 0u;
+            attitude->flags |= KEEL_ATTITUDE_FIELD;
+            heading_validity(attitude, cosine > 0.0f);
+        } else {
+            field_missing(attitude);
+        }
+    } else {
+        field_missing(attitude);
+    }
+}
+
+/* ATT-006 and ATT-007: m, told by a flag when it is taken for down. */
+static vector_t down_measured(keel_attitude_t *attitude, const keel_attitude_sample_t *sample)
+{
+    const quaternion_t q = attitude->quaternion;
+    const float per_gravity = 0.101971618831157684326171875f; /* 1 / g */
+    const vector_t f = sample->accelerometer;
+    const vector_t a = sample->acceleration;
+    vector_t pull = {-1.0f * f.x, -1.0f * f.y, -1.0f * f.z};
+    vector_t m;
+
+    if (sample->has_acceleration && vector_to(a, KEEL_ATTITUDE_FORCE_LIMIT)) {
+        pull = sum_of(pull, a.x, north_of(q));
+        pull = sum_of(pull, a.y, east_of(q));
+        pull = sum_of(pull, a.z, down_of(q));
+        attitude->flags |= KEEL_ATTITUDE_COMPENSATED;
+    }
+    m.x = per_gravity * pull.x;
+    m.y = per_gravity * pull.y;
+    m.z = per_gravity * pull.z;
+    if (sample->has_accelerometer &&
+        from_to(product_of(m, m), KEEL_ATTITUDE_DOWN_MIN, KEEL_ATTITUDE_DOWN_MAX) &&
+        (product_of(attitude->rate, attitude->rate) <= attitude->scale.gate)) {
+        attitude->flags |= KEEL_ATTITUDE_DOWN;
+    }
+    return m;
+}
+
+/* ATT-014 */
+static void tilt_validity(keel_attitude_t *attitude, vector_t error, float cosine)
+{
+    const uint16_t most = attitude->config.settle_steps;
+
+    if (attitude->phase == KEEL_ATTITUDE_RUNNING) {
+        attitude->settled = next_count(attitude->settled, cosine >= KEEL_ATTITUDE_AGREEMENT, most);
+        if (attitude->settled == 0u) {
+            align_again(attitude);
+        }
+    } else if (attitude->phase == KEEL_ATTITUDE_ALIGNING) {
+        const bool near = (cosine > 0.0f) &&
+                          (product_of(error, error) <= attitude->scale.tolerance) &&
+                          (attitude->lost == 0u);
+
+        attitude->settled = near ? next_count(attitude->settled, true, most) : 0u;
+        attitude->phase = (attitude->settled >= most) ? KEEL_ATTITUDE_RUNNING
+                                                      : KEEL_ATTITUDE_ALIGNING;
+    }
+}
+
+/* ATT-012: B. */
+static void bias_step(keel_attitude_t *attitude, vector_t error, vector_t v, float cosine)
+{
+    const float heading = attitude->heading_valid ? attitude->heading_error : 0.0f;
+    const vector_t whole = sum_of(error, heading, v);
+
+    if ((attitude->phase == KEEL_ATTITUDE_RUNNING) && (attitude->lost == 0u) &&
+        (cosine >= KEEL_ATTITUDE_AGREEMENT) &&
+        (product_of(attitude->rate, attitude->rate) <= attitude->scale.quiet)) {
+        attitude->bias = nearest_vector(sum_of(attitude->bias, -attitude->scale.bias_step, whole),
+                                        attitude->config.bias_limit);
+    }
+}
+
+/* ATT-009: the rate to turn with. */
+static vector_t rate_to_turn(keel_attitude_t *attitude, const keel_attitude_sample_t *sample)
+{
+    const vector_t v = down_of(attitude->quaternion);
+    const vector_t m = down_measured(attitude, sample);
+    vector_t rate = attitude->rate;
+    float gain;
+
+    if ((attitude->flags & KEEL_ATTITUDE_DOWN) != 0u) {
+        const float cosine = product_of(m, v);
+        const vector_t nudge = {KEEL_ATTITUDE_NUDGE_X, KEEL_ATTITUDE_NUDGE_Y, 0.0f};
+        vector_t error = {(m.y * v.z) - (m.z * v.y), (m.z * v.x) - (m.x * v.z),
+                          (m.x * v.y) - (m.y * v.x)};
+
+        tilt_validity(attitude, error, cosine);
+        bias_step(attitude, error, v, cosine);
+        if (cosine < 0.0f) {
+            error = sum_of(error, 1.0f, nudge);
+        }
+        gain = (attitude->phase == KEEL_ATTITUDE_RUNNING) ? attitude->config.tilt_gain
+                                                          : attitude->config.align_gain;
+        rate = sum_of(rate, gain, error);
+    }
+    gain = attitude->heading_valid ? attitude->config.heading_gain : attitude->config.align_gain;
+    return sum_of(rate, attitude->heading_error * gain, v);
+}
+
+/* ATT-016 */
+bool model_attitude_is_unit(keel_attitude_quaternion_t q)
+{
+    return from_to(((q.w * q.w) + (q.x * q.x)) + ((q.y * q.y) + (q.z * q.z)),
+                   KEEL_ATTITUDE_NORM_MIN, KEEL_ATTITUDE_NORM_MAX);
+}
+
+/* ATT-009 and ATT-016: the next quaternion. */
+static void turn_step(keel_attitude_t *attitude, vector_t rate)
+{
+    const quaternion_t level = {1.0f, 0.0f, 0.0f, 0.0f};
+    const float k = attitude->scale.half_step;
+    const vector_t angles = {k * rate.x, k * rate.y, k * rate.z};
+    const vector_t h = nearest_vector(angles, KEEL_ATTITUDE_HALF_ANGLE_LIMIT);
+    const quaternion_t q = attitude->quaternion;
+    /* p = q + q (0, h) */
+    const float w = q.w - (((q.x * h.x) + (q.y * h.y)) + (q.z * h.z));
+    const float x = q.x + (((q.w * h.x) + (q.y * h.z)) - (q.z * h.y));
+    const float y = q.y + (((q.w * h.y) - (q.x * h.z)) + (q.z * h.x));
+    const float z = q.z + (((q.w * h.z) + (q.x * h.y)) - (q.y * h.x));
+    /* one step of Newton's iteration towards 1 / |p| */
+    const float r = 1.5f - (0.5f * (((w * w) + (x * x)) + ((y * y) + (z * z))));
+    const quaternion_t next = {w * r, x * r, y * r, z * r};
+
+    if (model_attitude_is_unit(next)) {
+        attitude->quaternion = next;
+    } else {
+        attitude->quaternion = level;
+        attitude->flags |= KEEL_ATTITUDE_CORRUPTED;
+        if (attitude->phase == KEEL_ATTITUDE_RUNNING) {
+            align_again(attitude);
+        }
+    }
+}
+
+/* ATT-013: the mean of enough still samples in a row is the bias. */
+static void mean_of_still(keel_attitude_t *attitude)
+{
+    const vector_t mean = sum_of(attitude->first_rate, attitude->scale.still, attitude->sum);
+
+    attitude->still = 0u;
+    if (vector_to(mean, attitude->config.bias_limit)) {
+        attitude->bias = mean;
+        attitude->phase = KEEL_ATTITUDE_ALIGNING;
+    } else {
+        attitude->flags |= KEEL_ATTITUDE_BIASED;
+    }
+}
+
+static bool force_came(const keel_attitude_sample_t *sample)
+{
+    return sample->has_accelerometer && vector_to(sample->accelerometer, KEEL_ATTITUDE_FORCE_LIMIT);
+}
+
+/* ATT-013: is this sample near the first of those that were still? */
+static void still_step(keel_attitude_t *attitude, const keel_attitude_sample_t *sample)
+{
+    const vector_t zero = {0.0f, 0.0f, 0.0f};
+    const vector_t w = attitude->gyroscope;
+    const vector_t f = sample->accelerometer;
+    const vector_t moved = apart(w, attitude->first_rate);
+
+    if (((attitude->flags & (KEEL_ATTITUDE_LOST | KEEL_ATTITUDE_CLIPPED)) != 0u) ||
+        !force_came(sample)) {
+        attitude->still = 0u;
+    } else {
+        if ((attitude->still > 0u) && vector_to(moved, attitude->config.still_rate) &&
+            vector_to(apart(f, attitude->first_force), attitude->config.still_acceleration)) {
+            attitude->sum = sum_of(attitude->sum, 1.0f, moved);
+            attitude->still = next_count(attitude->still, true, attitude->config.still_steps);
+        } else {
+            attitude->first_rate = w;
+            attitude->first_force = f;
+            attitude->sum = zero;
+            attitude->still = 1u;
+        }
+        if (attitude->still >= attitude->config.still_steps) {
+            mean_of_still(attitude);
+        }
+    }
+}
+
+void model_attitude_step(keel_attitude_t *attitude, const keel_attitude_sample_t *sample)
+{
+    rate_step(attitude, sample);
+    field_step(attitude, sample);
+    turn_step(attitude, rate_to_turn(attitude, sample));
+    if (attitude->phase == KEEL_ATTITUDE_STILL) {
+        still_step(attitude, sample);
+    }
+}
+
+/* ATT-019 */
+keel_attitude_vector_t model_attitude_down(const keel_attitude_t *attitude)
+{
+    return down_of(attitude->quaternion);
+}
