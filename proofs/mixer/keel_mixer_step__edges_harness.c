@@ -16,10 +16,11 @@
  * leaves little room for yaw; one part alone of a command is out of range, each in turn; full
  * thrust that is rounded to more than that; disarmed, and no number. */
 static const keel_mixer_command_t edges[EDGES] = {
-    {-0.06f, -0.22f, 0.17f, 0.86f}, {0.4f, 0.25f, 0.0f, 0.99f},     {0.0f, 0.0f, 1.0f, 0.5f},
-    {-0.2f, 0.2f, 0.3f, 0.5f},      {-1.5f, 0.2f, 0.1f, 0.5f},      {0.3f, INFINITE, 0.1f, 0.5f},
-    {0.2f, 0.1f, -INFINITE, 0.5f},  {0.1f, 0.2f, 0.05f, INFINITE}, {0.0f, 0.0f, 0.0f, 1.0f},
-    {INFINITE, INFINITE, INFINITE, INFINITE},
+    {-0.06f, -0.22f, 0.17f, 0.86f}, {0.4f, 0.25f, 0.0f, 0.99f},
+    {0.0f, 0.0f, 1.0f, 0.5f},       {-0.2f, 0.2f, 0.3f, 0.5f},
+    {-1.5f, 0.2f, 0.1f, 0.5f},      {0.3f, INFINITE, 0.1f, 0.5f},
+    {0.2f, 0.1f, -INFINITE, 0.5f},  {0.1f, 0.2f, 0.05f, INFINITE},
+    {0.0f, 0.0f, 0.0f, 1.0f},       {INFINITE, INFINITE, INFINITE, INFINITE},
 };
 
 void keel_mixer_step__edges_harness(void)
