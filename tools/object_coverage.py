@@ -53,7 +53,7 @@ from toolchain import Toolchain
 REPORT = ROOT / "build/coverage-target/report.json"
 REASONS = ROOT / "specs/object_coverage.toml"
 SOURCE = "src"
-# A million random steps each; instruction by instruction they would take an hour.
+# Hundreds of thousands of steps each; instruction by instruction they would take an hour.
 UNTRACED = ("specified", "mode_specified", "mixer_specified", "mixer_equations", "reference_curves",
             "attitude_specified", "attitude_motion")  # fmt: skip
 SHOWN = {BRANCH: "branches", BLOCK: "in IT blocks", SELECTION: "selections"}

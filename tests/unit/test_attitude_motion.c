@@ -2,6 +2,7 @@
 /* The estimator of keel/flight/attitude.h against the truth: a vehicle that turns as it is told,
  * whose attitude is integrated in double precision, by the closed form of a turn at a constant
  * rate, and whose sensors see what that attitude gives. Nothing here is the estimator's own. */
+#include "any.h"
 #include "keel/flight/attitude.h"
 #include "unity.h"
 
@@ -31,7 +32,6 @@ static double noise;          /* Of the accelerometer, in m/s^2, at most. */
 static bool knows;            /* Whether the estimator is told the acceleration. */
 static uint32_t field_every;  /* A field sample in so many steps. */
 static uint32_t steps;
-static uint64_t random_state;
 
 /* What was left when it said that it had converged, in degrees, and how long the longest took. */
 static double worst_tilt;
@@ -41,21 +41,15 @@ static double longest_s;
 /* The field in Zuerich, in microtesla: horizontal 21.6, 3 degrees east of north, 43.3 down. */
 static const vector_t FIELD = {21.57, 1.13, 43.3};
 
-/* SplitMix64, from 0 to 1. */
-static double any(void)
+/* From 0 to 1, with all of a double's bits. */
+static double part(void)
 {
-    uint64_t z;
-
-    random_state += 0x9E3779B97F4A7C15u;
-    z = random_state;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return (double)((z ^ (z >> 31)) >> 11) / 9007199254740992.0;
+    return (double)(any_64() >> 11) / 9007199254740992.0;
 }
 
-static double between(double low, double high)
+static double from_to(double low, double high)
 {
-    return low + ((high - low) * any());
+    return low + ((high - low) * part());
 }
 
 static quaternion_t times(quaternion_t a, quaternion_t b)
@@ -97,9 +91,9 @@ static vector_t to_body(quaternion_t q, vector_t v)
 /* Uniform over all attitudes (K. Shoemake). */
 static quaternion_t any_attitude(void)
 {
-    const double u = any();
-    const double a = 2.0 * PI * any();
-    const double b = 2.0 * PI * any();
+    const double u = part();
+    const double a = 2.0 * PI * part();
+    const double b = 2.0 * PI * part();
     const quaternion_t q = {sqrt(1.0 - u) * sin(a), sqrt(1.0 - u) * cos(a), sqrt(u) * sin(b),
                             sqrt(u) * cos(b)};
 
@@ -159,9 +153,9 @@ static void step(void)
         truth = times(truth, turn_about(rate.x, rate.y, rate.z, fast / RATE_HZ));
     }
     felt = to_body(truth, force);
-    felt.x += noise * between(-1.0, 1.0);
-    felt.y += noise * between(-1.0, 1.0);
-    felt.z += noise * between(-1.0, 1.0);
+    felt.x += noise * from_to(-1.0, 1.0);
+    felt.y += noise * from_to(-1.0, 1.0);
+    felt.z += noise * from_to(-1.0, 1.0);
     sample.gyroscope = single(turning);
     sample.accelerometer = single(felt);
     sample.magnetometer = single(to_body(truth, FIELD));
@@ -219,7 +213,7 @@ void setUp(void)
     const vector_t zero = {0.0, 0.0, 0.0};
 
     config = usual;
-    random_state = 20261122u;
+    any_from(20261122u);
     truth = turn_about(1.0, 0.0, 0.0, 0.0);
     rate = zero;
     bias = zero;
@@ -418,9 +412,9 @@ static void ATT_010_length_stays_for_ever(void)
 
         least = fmin(least, square);
         most = fmax(most, square);
-        sample.gyroscope.x = (float)between(-reach, reach);
-        sample.gyroscope.y = (n < 200000u) ? (float)between(-reach, reach) : 40.0f;
-        sample.gyroscope.z = (n < 200000u) ? (float)between(-reach, reach) : -40.0f;
+        sample.gyroscope.x = (float)from_to(-reach, reach);
+        sample.gyroscope.y = (n < 200000u) ? (float)from_to(-reach, reach) : 40.0f;
+        sample.gyroscope.z = (n < 200000u) ? (float)from_to(-reach, reach) : -40.0f;
         keel_attitude_step(&attitude, &sample);
         TEST_ASSERT_EQUAL_UINT32(0u, attitude.flags & KEEL_ATTITUDE_CORRUPTED);
     }

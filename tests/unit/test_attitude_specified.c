@@ -2,6 +2,7 @@
 /* The attitude estimator beside its executable specification (specs/model): random and adversarial
  * samples to both, after each of which every bit of the estimator must be the same; and, in double
  * precision, within its bounds. */
+#include "any.h"
 #include "keel/flight/attitude.h"
 #include "unity.h"
 
@@ -16,50 +17,18 @@
 #define SETUP_EVERY 4096u
 #define SEED        20241123u
 
-static uint64_t random_state;
 static keel_attitude_t attitude;
 static keel_attitude_t model;
 
 void setUp(void)
 {
-    random_state = SEED;
+    any_from(SEED);
     memset(&attitude, 0, sizeof attitude);
     memset(&model, 0, sizeof model);
 }
 
 void tearDown(void)
 {
-}
-
-/* SplitMix64. */
-static uint32_t any(void)
-{
-    uint64_t z;
-
-    random_state += 0x9E3779B97F4A7C15u;
-    z = random_state;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return (uint32_t)((z ^ (z >> 31)) >> 16);
-}
-
-static bool one_in(uint32_t chances)
-{
-    return (any() % chances) == 0u;
-}
-
-static float between(float low, float high)
-{
-    return low + ((high - low) * ((float)(any() & 0xFFFFFFu) / 16777216.0f));
-}
-
-static float any_bits(void)
-{
-    const uint32_t bits = any();
-    float value;
-
-    memcpy(&value, &bits, sizeof value);
-    return value;
 }
 
 /* What breaks arithmetic that did not expect it. */

@@ -181,7 +181,6 @@ static void MIX_001_bad_factors_are_refused(void)
     }
 }
 
-/* Without the motors that turn it one way about an axis. */
 /* A motor's factor about roll, pitch or yaw. */
 static float *factor(uint32_t motor, uint32_t axis)
 {
@@ -191,6 +190,7 @@ static float *factor(uint32_t motor, uint32_t axis)
     return axes[axis];
 }
 
+/* Without the motors that turn it one way about an axis. */
 static void MIX_001_axes_without_authority_are_refused(void)
 {
     const double weak = 0x1.fffffep-4;
