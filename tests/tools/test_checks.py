@@ -217,15 +217,15 @@ class PlayedSolver(TreeTest):
         runner = Runner(variables, self.root)
         return cbmc.Cbmc(tools.goto_cc(), tools.command("cbmc"), runner, self.root, self.root)
 
-    def read(self, text: str, timeout: int = 2) -> harness.Harness:
+    def read(self, text: str, timeout: int) -> harness.Harness:
         path = self.unit.folder / "keel_box_put_harness.c"
         path.write_text(f"// checks: assertions\n// timeout: {timeout}\n{text}", encoding="utf-8")
         return harness.read_harness(find_units(self.root)["box"], path)
 
-    def prove(self, answer: str) -> list[str]:
-        """What is wrong with a proof by CBMC, with this answer of z3."""
+    def prove(self, answer: str, timeout: int = 60) -> list[str]:
+        """What is wrong with a proof by CBMC, with this answer of z3, in so many seconds."""
         checker = self.checker(answer)
-        read = self.read(SUM)
+        read = self.read(SUM, timeout)
         binary, complaint = checker.build(read, read.name)
         self.assertEqual(complaint, "")
         return cbmc_answers.proof_problems(checker.check(read, binary))
@@ -235,15 +235,18 @@ class PlayedSolver(TreeTest):
 
     def test_what_is_not_to_be_covered_does_not_hold_up_the_coverage_run(self) -> None:
         """Whether a product differs with its factors swapped takes a SAT solver for ever."""
-        result = self.checker("echo unsat").prove(self.read(HARD, 20))
+        result = self.checker("echo unsat").prove(self.read(HARD, 60))
         self.assertEqual(result.problems, [])
         self.assertEqual((result.covered, result.blocks), (1, 1))
 
     def test_anything_else_is_a_failure(self) -> None:
-        for answer in ("echo unknown", "kill -SEGV $$", "exit 1", "sleep 20", "echo timeout",
+        for answer in ("echo unknown", "kill -SEGV $$", "exit 1", "echo timeout",
                        "echo '(error \"no such logic\")'; echo unsat"):  # fmt: skip
             with self.subTest(answer):
                 self.assertIn("CBMC did not finish", self.prove(answer))
+
+    def test_no_answer_in_time_is_a_failure(self) -> None:
+        self.assertIn("CBMC did not finish", self.prove("sleep 20", 2))
 
 
 if __name__ == "__main__":

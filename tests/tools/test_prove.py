@@ -1143,9 +1143,9 @@ class Pool(unittest.TestCase):
             mock.patch.object(subprocess.Popen, "communicate", interrupt),
             self.assertRaises(KeyboardInterrupt),
         ):
-            runner.run(["sleep", "60"])
+            runner.run(["sleep", "600"])
         try:
-            self.assertEqual(started[0].wait(timeout=10), -signal.SIGKILL)
+            self.assertEqual(started[0].wait(timeout=120), -signal.SIGKILL)
         finally:
             started[0].kill()
             assert started[0].stdout
@@ -1186,7 +1186,7 @@ class Interruption(TreeTest):
         )  # fmt: skip
         self.assertTrue(wait_for(lambda: bool(running(str(self.root)))), "nothing was started")
         os.kill(process.pid, number)
-        process.wait(timeout=20)
+        process.wait(timeout=120)
         self.assertTrue(wait_for(lambda: not running(str(self.root))), running(str(self.root)))
         self.assertFalse((self.root / "build" / "prove" / "report.json").exists())
         self.assertEqual(list((self.root / "tmp").iterdir()), [])
@@ -1203,7 +1203,7 @@ def running(text: str) -> list[str]:
     return found
 
 
-def wait_for(condition: Callable[[], bool], seconds: float = 10) -> bool:
+def wait_for(condition: Callable[[], bool], seconds: float = 120) -> bool:
     """Wait until a condition holds; False if it does not in time."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:

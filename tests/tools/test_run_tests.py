@@ -55,8 +55,8 @@ class Programs(unittest.TestCase):
         self.assertEqual(len(program_outcome("p", ended).failures), 1)
 
     def test_a_hang_is_ended_with_its_children(self) -> None:
-        code = "import subprocess; print('so far', flush=True); subprocess.run(['sleep', '60'])"
-        ended = run(python(code), timeout_s=1.0)
+        code = "import subprocess; print('so far', flush=True); subprocess.run(['sleep', '600'])"
+        ended = run(python(code), timeout_s=5.0)
         self.assertTrue(ended.timed_out)
         self.assertIn("hung", ended.how)
         self.assertIn("so far", ended.output)

@@ -38,7 +38,7 @@ from suites.running import Suite  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 from toolchain.lock import Lock  # noqa: E402
 
-WAIT_S = 20.0
+WAIT_S = 120.0
 
 
 def passed() -> Outcome:
@@ -202,6 +202,19 @@ class CommandLine(unittest.TestCase):
             parser = Parser("x", "test")
             running.add_options(parser)
         self.assertEqual(running.parse(parser, []).jobs, 7)
+
+
+class Totals(unittest.TestCase):
+    """How a run ends."""
+
+    def test_what_failed_is_named_again_at_the_end(self) -> None:
+        bad = passed()
+        bad.add("holds", "x.c:7: 1 is not 2")
+        output = io.StringIO()
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(output):
+            status = running.end(Path(folder), "t", {"unit/a": passed(), "unit/b": bad}, {})
+        self.assertEqual(status, 1)
+        self.assertEqual(output.getvalue(), "FAILED unit/b: holds\n2 passed, 1 failed\n")
 
 
 # Two suites of programs, of which one runs programs itself, and a third that must not begin.

@@ -138,7 +138,7 @@ def run_all(tools: Toolchain, suites: Sequence[Suite], jobs: int) -> dict[str, O
 def end(
     folder: Path, title: str, outcomes: Mapping[str, Outcome], facts: Mapping[str, object]
 ) -> int:
-    """Write the reports, print the totals; the exit status."""
+    """Write the reports, print what failed by name, and the totals; the exit status."""
     passed = sum(outcome.passed for outcome in outcomes.values())
     failed = sum(len(outcome.failures) for outcome in outcomes.values())
     suites = {name: outcome.as_dict() for name, outcome in outcomes.items()}
@@ -152,5 +152,8 @@ def end(
     write_report(folder / REPORT, {**counted, **facts, "suites": suites}, good=good,
                  whole=not facts.get("filter"))  # fmt: skip
     sys.stderr.flush()
+    for name, outcome in outcomes.items():
+        for test in outcome.texts:
+            print(f"FAILED {name}: {test}")
     print(f"{passed} passed, {failed} failed")
     return 0 if good else 1
