@@ -53,7 +53,7 @@ class HouseTest(unittest.TestCase):
 
     def test_a_path_of_one_machine_is_found(self) -> None:
         item = text(
-            "a.md", "see /ro" + "ot/x", "cd /wo" + "rk/main", "/ho" + "me/ann/y", "src/work/z"
+            "a.md", "see /ro" + "ot/x", "cd /wo" + "rk/x", "/ho" + "me/ann/y", "src/work/z"
         )
         self.assertEqual(self.lines_of(house.check_words, item), [1, 2, 3])
 

@@ -17,7 +17,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -26,7 +25,7 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 import prove  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
@@ -37,6 +36,7 @@ from proofs.session import Choice, Session  # noqa: E402
 from proofs.syntax import SyntaxProblem  # noqa: E402
 from proofs.times import Times  # noqa: E402
 from toolchain import Toolchain, ToolchainError  # noqa: E402
+from waiting import WAIT_S, wait_for  # noqa: E402
 
 from proofs import (  # noqa: E402
     cbmc,
@@ -944,7 +944,7 @@ if name == "frama-c":
         sys.exit()
     if "sleep" in play:
         print("started", flush=True)
-        time.sleep(60)
+        time.sleep(600)
     function = arguments[arguments.index("-wp-fct") + 1]
     goals = play["goals"][function]
     print("[rte:annot] annotating function " + function)
@@ -1145,7 +1145,7 @@ class Pool(unittest.TestCase):
         ):
             runner.run(["sleep", "600"])
         try:
-            self.assertEqual(started[0].wait(timeout=120), -signal.SIGKILL)
+            self.assertEqual(started[0].wait(timeout=WAIT_S), -signal.SIGKILL)
         finally:
             started[0].kill()
             assert started[0].stdout
@@ -1186,7 +1186,7 @@ class Interruption(TreeTest):
         )  # fmt: skip
         self.assertTrue(wait_for(lambda: bool(running(str(self.root)))), "nothing was started")
         os.kill(process.pid, number)
-        process.wait(timeout=120)
+        process.wait(timeout=WAIT_S)
         self.assertTrue(wait_for(lambda: not running(str(self.root))), running(str(self.root)))
         self.assertFalse((self.root / "build" / "prove" / "report.json").exists())
         self.assertEqual(list((self.root / "tmp").iterdir()), [])
@@ -1201,16 +1201,6 @@ def running(text: str) -> list[str]:
             if f"{text}/fake.py frama-c" in line and "-wp " in line:
                 found.append(line)
     return found
-
-
-def wait_for(condition: Callable[[], bool], seconds: float = 120) -> bool:
-    """Wait until a condition holds; False if it does not in time."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if condition():
-            return True
-        time.sleep(0.05)
-    return False
 
 
 class CommandLine(unittest.TestCase):

@@ -16,7 +16,6 @@ import subprocess
 import sys
 import tempfile
 import threading
-import time
 import unittest
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -37,8 +36,7 @@ from suites.outcomes import Outcome  # noqa: E402
 from suites.running import Suite  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 from toolchain.lock import Lock  # noqa: E402
-
-WAIT_S = 120.0
+from waiting import WAIT_S, wait_for  # noqa: E402
 
 
 def passed() -> Outcome:
@@ -123,17 +121,20 @@ class SideBySide(unittest.TestCase):
         self.assertEqual([line.split()[0] for line in output.splitlines()], begun)
 
     def test_the_report_has_its_order_whoever_ends_first(self) -> None:
-        last = threading.Event()
+        told = threading.Event()
+        tell = running.tell
+
+        def tell_first(name: str, outcome: Outcome) -> None:
+            tell(name, outcome)
+            told.set()
 
         def late() -> Outcome:
-            self.assertTrue(last.wait(WAIT_S))
+            self.assertTrue(told.wait(WAIT_S))
             return passed()
 
-        def early() -> Outcome:
-            last.set()
-            return passed()
-
-        found, output = self.run_all([Suite("late", (), late), Suite("early", (), early)])
+        suites = [Suite("late", (), late), Suite("early", (), passed)]
+        with mock.patch.object(running, "tell", tell_first):
+            found, output = self.run_all(suites)
         self.assertEqual(list(found), ["late", "early"])
         self.assertEqual([line.split()[0] for line in output.splitlines()], ["early", "late"])
 
@@ -254,14 +255,6 @@ def alive(mark: str) -> list[str]:
             if words[0] == "sleep" and words[1].startswith(mark):
                 found.append(words[1])
     return sorted(found)
-
-
-def wait_for(condition: Callable[[], bool]) -> bool:
-    """Whether a condition comes true in time."""
-    until = time.monotonic() + WAIT_S
-    while not condition() and time.monotonic() < until:
-        time.sleep(0.05)
-    return condition()
 
 
 class Interruption(unittest.TestCase):
