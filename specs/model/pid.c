@@ -172,3 +172,39 @@ keel_status_t model_pid_step(keel_pid_t *pid, float setpoint, float measurement)
     pid->started = true;
     return KEEL_OK;
 }
+
+keel_status_t model_pid_enter(keel_pid_t *pid, float setpoint, float measurement, float output)
+{
+    const float error = setpoint - measurement;
+    const float first = without_integral(&pid->config.gains, setpoint, error, 0.0f) +
+                        (pid->integral_gain * error);
+
+    /* PID-011 */
+    if (!(input_valid(setpoint) && input_valid(measurement) && limit_valid(output))) {
+        return KEEL_ERR_INPUT;
+    }
+    model_pid_reset(pid);
+    pid->output = clamped(output, pid->config.output_min, pid->config.output_max);
+    /* What the first step adds up is made up for; with ki = 0 it would be so for ever. */
+    if (pid->integral_gain > 0.0f) {
+        pid->integral = clamped(pid->output - first, pid->config.integral_min,
+                                pid->config.integral_max);
+    }
+    return KEEL_OK;
+}
+
+keel_status_t model_pid_step_within(keel_pid_t *pid, float setpoint, float measurement, bool rises,
+                                    bool falls)
+{
+    const float before = pid->integral;
+    const keel_status_t status = model_pid_step(pid, setpoint, measurement);
+
+    /* PID-012: it moves only where it may. */
+    if (!rises && (pid->integral > before)) {
+        pid->integral = before;
+    }
+    if (!falls && (pid->integral < before)) {
+        pid->integral = before;
+    }
+    return status;
+}

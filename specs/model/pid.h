@@ -16,4 +16,9 @@ keel_status_t model_pid_set_gains(keel_pid_t *pid, const keel_pid_gains_t *gains
 
 keel_status_t model_pid_step(keel_pid_t *pid, float setpoint, float measurement);
 
+keel_status_t model_pid_enter(keel_pid_t *pid, float setpoint, float measurement, float output);
+
+keel_status_t model_pid_step_within(keel_pid_t *pid, float setpoint, float measurement, bool rises,
+                                    bool falls);
+
 #endif

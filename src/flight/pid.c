@@ -198,3 +198,36 @@ keel_status_t keel_pid_step(keel_pid_t *pid, float setpoint, float measurement)
     pid->started = true;
     return KEEL_OK;
 }
+
+keel_status_t keel_pid_enter(keel_pid_t *pid, float setpoint, float measurement, float output)
+{
+    float error;
+    float direct;
+
+    if (!(is_input(setpoint) && is_input(measurement) && is_limit(output))) {
+        return KEEL_ERR_INPUT;
+    }
+    keel_pid_reset(pid);
+    pid->output = keel_range_clamp(output, pid->config.output_min, pid->config.output_max);
+    if (pid->integral_gain > 0.0f) {
+        /* What the first step adds up besides: its derivative is 0, and its integral moves. */
+        error = setpoint - measurement;
+        direct = direct_terms(&pid->config.gains, setpoint, error, 0.0f) +
+                 (pid->integral_gain * error);
+        pid->integral = keel_range_clamp(pid->output - direct, pid->config.integral_min,
+                                         pid->config.integral_max);
+    }
+    return KEEL_OK;
+}
+
+keel_status_t keel_pid_step_within(keel_pid_t *pid, float setpoint, float measurement, bool rises,
+                                   bool falls)
+{
+    const float before = pid->integral;
+    const keel_status_t status = keel_pid_step(pid, setpoint, measurement);
+
+    if (((pid->integral > before) && !rises) || ((pid->integral < before) && !falls)) {
+        pid->integral = before;
+    }
+    return status;
+}

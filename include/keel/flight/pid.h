@@ -219,6 +219,63 @@ keel_status_t keel_pid_set_gains(keel_pid_t *pid, const keel_pid_gains_t *gains)
   @*/
 keel_status_t keel_pid_step(keel_pid_t *pid, float setpoint, float measurement);
 
+/**
+ * Begins at a given output: as after a reset, but that the integral is what makes the first step
+ * with the same set-point and measurement put out this (requirement PID-011). It does as far as its
+ * limits let it, and not at all with ki = 0, where nothing would take that share away again.
+ *
+ * @param pid         the controller
+ * @param setpoint    the first set-point, any bit pattern
+ * @param measurement the first measurement, any bit pattern
+ * @param output      the output to begin at, any bit pattern; beyond the output's limits it counts
+ *                    as the limit next to it
+ * @return KEEL_OK; KEEL_ERR_INPUT when set-point or measurement is not as keel_pid_step takes it, or
+ *         the output not finite or beyond KEEL_PID_OUTPUT_LIMIT: then nothing is changed
+ */
+/*@ requires \valid(pid);
+  @ requires enter_valid: pid_valid(*pid);
+  @ assigns pid->integral, pid->setpoint, pid->error, pid->derivative, pid->output, pid->saturation,
+  @     pid->started;
+  @ ensures PID_011_bounded: pid_valid(*pid);
+  @ ensures PID_011_status: \result == KEEL_OK || \result == KEEL_ERR_INPUT;
+  @ ensures PID_011_ok: \result == KEEL_OK <==> pid_input(setpoint) && pid_input(measurement) &&
+  @     filter_magnitude(output, KEEL_PID_OUTPUT_LIMIT);
+  @ ensures PID_011_held: \result == KEEL_ERR_INPUT ==> *pid == \old(*pid);
+  @ ensures PID_011_fresh: \result == KEEL_OK ==> !pid->started &&
+  @     pid->saturation == KEEL_PID_FREE;
+  @ ensures PID_011_output: \result == KEEL_OK &&
+  @     pid_within(output, pid->config.output_min, pid->config.output_max) ==>
+  @     pid->output == output;
+  @*/
+keel_status_t keel_pid_enter(keel_pid_t *pid, float setpoint, float measurement, float output);
+
+/**
+ * One step like keel_pid_step, of a controller whose output is taken by something with limits of
+ * its own: where that is at one, the integral does not move further towards it (requirement
+ * PID-012). The output is that of the step; what it would have added to the integral is put back.
+ *
+ * @param pid         the controller
+ * @param setpoint    where the measurement should be, any bit pattern
+ * @param measurement where it is, any bit pattern
+ * @param rises       whether the integral may rise
+ * @param falls       whether it may fall
+ * @return as keel_pid_step
+ */
+/*@ requires \valid(pid);
+  @ requires within_valid: pid_valid(*pid);
+  @ assigns pid->filter.s1, pid->filter.s2, pid->filter.output, pid->integral, pid->setpoint,
+  @     pid->error, pid->derivative, pid->output, pid->saturation, pid->started;
+  @ ensures PID_012_bounded: pid_valid(*pid);
+  @ ensures PID_012_status: \result == KEEL_OK || \result == KEEL_ERR_INPUT;
+  @ ensures PID_012_input: \result == KEEL_OK ==> pid_input(setpoint) && pid_input(measurement);
+  @ ensures PID_012_held: \result == KEEL_ERR_INPUT ==> *pid == \old(*pid);
+  @ ensures PID_012_started: \result == KEEL_OK ==> pid->started && pid->setpoint == setpoint;
+  @ ensures PID_012_rises: !rises ==> pid->integral <= \old(pid->integral);
+  @ ensures PID_012_falls: !falls ==> pid->integral >= \old(pid->integral);
+  @*/
+keel_status_t keel_pid_step_within(keel_pid_t *pid, float setpoint, float measurement, bool rises,
+                                   bool falls);
+
 KEEL_C_END
 
 #endif

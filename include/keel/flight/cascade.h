@@ -1,0 +1,449 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file cascade.h
+ * @brief The chained PID controllers of fig. 8: position, velocity, angle and rate.
+ *
+ * Eleven controllers (pid.h), one an axis, in four stages. Each stage has a step of its own, to be
+ * called by a task of its own rate: set-points go down, limits go up.
+ *
+ *     position  north, east, height         ->  velocities            -> cascade.velocity
+ *     velocity  north, east, climb          ->  tilt, thrust          -> cascade.tilt, .thrust
+ *     angle     roll, pitch                 ->  body rates            -> cascade.rates
+ *     rate      roll, pitch, yaw            ->  torques, thrust       -> cascade.command
+ *
+ * What a stage is asked for is an argument, so that the pilot's set-points (reference.h) go in at
+ * any of them: keel_cascade_angle_step(&c, c.tilt, ...) follows the stage above, with the sticks'
+ * angles in the place of c.tilt it follows the pilot.
+ *
+ * Reach: an axis takes set-points up to its reach; beyond they count as that. A configuration whose
+ * outputs could be beyond what takes them is refused, so no stage asks for more than the next one
+ * takes, and the rate stage for no more than the mixer does.
+ *
+ * Wind-up: an axis is at its limit when its output is, when it is asked for more than its reach, and
+ * when what takes its output is at its limit in that direction, down to the mixer's flags. While the
+ * axis below is at its limit, an integral does not move further in that direction. For north and
+ * east an axis of the body counts that has more than half of its size in that direction.
+ *
+ * Modes: keel_cascade_enter tells which axes the mode flies. An axis that begins to run begins at
+ * what is flown: its first output is the set-point that the axis below has, as far as its integral's
+ * limits let it (keel_pid_enter). One whose estimate is not there stops, and asks for 0: no torque,
+ * no turning, level, hovering, no speed. An axis that is given NaN, or a number beyond
+ * KEEL_PID_INPUT_LIMIT, holds its output, and says so.
+ *
+ * Angles are sines, which the rows of the attitude's matrix give without trigonometry: roll is v_y,
+ * pitch -v_x (attitude.h). A set-point of x rad taken as a sine is an angle of asin x: 1 % more at
+ * 0.24, 4.7 % at 0.5, 13.1 % at KEEL_CASCADE_TILT_MAX. Accelerations become sines by a / g, which at
+ * such angles is less than tan: 3 % at 0.24, 15 % at 0.5. They are turned by the direction of the
+ * body's forward axis, (n_x, e_x), whose length is the cosine of pitch. Loops around these see a
+ * gain that is off by as much. Both accelerations are limited to 1/sqrt 2 of what the reach of roll
+ * and pitch allows, so that the tilt that the velocity stage asks for is within that in total.
+ *
+ * Fence: the reach of north, east and height is that of a box about home, height both above and
+ * below. From position x and speed v towards a side at L, a set-point towards that side counts as 0,
+ * so that the aircraft brakes, unless
+ *
+ *     x' = x + v T + A T^2 / 2,  v' = max(v + A T, 0):   x' <= L and v'^2 <= 2 a (L - x')
+ *
+ * A being the greatest acceleration of the vehicle towards the side, a what it brakes with at least,
+ * T the reaction time, from a measurement to when the braking works that follows from the next one.
+ * What this keeps is proved over the reals (proofs/cascade/fence.c): inside of the fence, with way to
+ * brake, at all times. That the aircraft does A, a and T is an assumption (A-34).
+ *
+ * No division, square root or trigonometry in a step. Single precision throughout. Sources must be
+ * compiled without contraction of products and sums, as all builds of Keel do.
+ */
+#ifndef KEEL_FLIGHT_CASCADE_H
+#define KEEL_FLIGHT_CASCADE_H
+
+#include "keel/c_declarations.h"
+#include "keel/flight/attitude.h"
+#include "keel/flight/mixer.h"
+#include "keel/flight/pid.h"
+#include "keel/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/** @name Axes: from set-points to outputs. */
+/** @{ */
+#define KEEL_CASCADE_ROLL_RATE   0u  /**< rad/s about x to torque. */
+#define KEEL_CASCADE_PITCH_RATE  1u  /**< rad/s about y to torque. */
+#define KEEL_CASCADE_YAW_RATE    2u  /**< rad/s about z to torque. */
+#define KEEL_CASCADE_ROLL        3u  /**< Sine, right side down, to rad/s. */
+#define KEEL_CASCADE_PITCH       4u  /**< Sine, nose up, to rad/s. */
+#define KEEL_CASCADE_NORTH_SPEED 5u  /**< m/s to m/s^2. */
+#define KEEL_CASCADE_EAST_SPEED  6u  /**< m/s to m/s^2. */
+#define KEEL_CASCADE_CLIMB       7u  /**< m/s, positive up, to thrust beside that of hovering. */
+#define KEEL_CASCADE_NORTH       8u  /**< m from home to m/s. */
+#define KEEL_CASCADE_EAST        9u  /**< m from home to m/s. */
+#define KEEL_CASCADE_HEIGHT      10u /**< m above home to m/s. */
+#define KEEL_CASCADE_AXES        11u
+/** @} */
+
+/** The greatest reach: of rates, in rad/s; of sines; of speeds, in m/s; of distances, in m. */
+#define KEEL_CASCADE_RATE_MAX     64.0f
+#define KEEL_CASCADE_TILT_MAX     0.75f
+#define KEEL_CASCADE_SPEED_MAX    100.0f
+#define KEEL_CASCADE_DISTANCE_MAX 16384.0f
+
+/** The greatest acceleration, in m/s^2, and the least braking. */
+#define KEEL_CASCADE_ACCELERATION_MAX 64.0f
+#define KEEL_CASCADE_BRAKING_MIN      0.25f
+
+/** The longest reaction time, in s. */
+#define KEEL_CASCADE_REACTION_MAX_S 4.0f
+
+/** What an acceleration in m/s^2 is as a sine: 1/g. */
+#define KEEL_CASCADE_PER_GRAVITY 0.101971621297792824f
+
+/** g in m/s^2; and g / sqrt 2, rounded down. */
+#define KEEL_CASCADE_GRAVITY  9.80665f
+#define KEEL_CASCADE_DIAGONAL 6.934347f
+
+/** What a component of the body's forward axis never exceeds. */
+#define KEEL_CASCADE_HEADING_MAX 1.001f
+
+/** From this part on, an axis of the body at its limit counts for north or east. */
+#define KEEL_CASCADE_SHARE 0.5f
+
+/** What a cascade is made from. */
+typedef struct keel_cascade_config {
+    keel_pid_config_t pid[KEEL_CASCADE_AXES]; /**< Each at the rate of its stage. */
+    float reach[KEEL_CASCADE_AXES];           /**< Greatest set-points, in the unit of the axis. */
+    float hover;                              /**< Thrust that hovers, 0 to 1. */
+    float acceleration;                       /**< A, in m/s^2. */
+    float braking;                            /**< a, in m/s^2. */
+    float reaction_s;                         /**< T, in s: at least a period of the speeds. */
+} keel_cascade_config_t;
+
+/** Whether something is at its limits. */
+typedef struct keel_cascade_limit {
+    bool at_min; /**< It, or what it acts on, goes no lower. */
+    bool at_max; /**< It, or what it acts on, goes no higher. */
+} keel_cascade_limit_t;
+
+/** One controller of the cascade. */
+typedef struct keel_cascade_axis {
+    keel_pid_t pid;
+    float reach;                /**< The greatest set-point. */
+    keel_cascade_limit_t limit; /**< For the axis above: do not ask for more. */
+    bool running;               /**< It controls; if not, it is entered anew. */
+    bool held;                  /**< The last step was none: the output is that before. */
+} keel_cascade_axis_t;
+
+/** What an axis is told in a step. */
+typedef struct keel_cascade_input {
+    float setpoint;             /**< Any bit pattern. */
+    float measured;             /**< Any bit pattern. */
+    float flown;                /**< What the axis below is asked for now. */
+    keel_cascade_limit_t below; /**< Whether the axis below, or the mixer, is at its limit. */
+    bool valid;                 /**< Whether there is a measurement, and the mode flies this axis. */
+} keel_cascade_input_t;
+
+/** The fence, as a step needs it. */
+typedef struct keel_cascade_fence {
+    float gain;          /**< A T, in m/s. */
+    float half_gain;     /**< A T / 2, in m/s. */
+    float reaction_s;    /**< T, in s. */
+    float twice_braking; /**< 2 a, in m/s^2. */
+} keel_cascade_fence_t;
+
+/** Along north, east and up: in m from home, or in m/s. */
+typedef struct keel_cascade_vector {
+    float north;
+    float east;
+    float up;
+} keel_cascade_vector_t;
+
+/** Of roll and pitch: sines of angles, or rates in rad/s. */
+typedef struct keel_cascade_tilt {
+    float roll;
+    float pitch;
+} keel_cascade_tilt_t;
+
+/** What the rate stage is asked for. */
+typedef struct keel_cascade_rates {
+    float roll;   /**< About x, in rad/s. */
+    float pitch;  /**< About y, in rad/s. */
+    float yaw;    /**< About z, in rad/s. */
+    float thrust; /**< 0 to 1. */
+} keel_cascade_rates_t;
+
+/** Where the aircraft is. */
+typedef struct keel_cascade_estimate {
+    keel_cascade_vector_t position; /**< In m from home. */
+    keel_cascade_vector_t velocity; /**< In m/s. */
+    float forward_north;            /**< The body's forward axis: n_x of attitude.h. */
+    float forward_east;             /**< e_x of attitude.h. */
+    bool has_place;                 /**< North and east are known, and the forward axis. */
+    bool has_height;                /**< Height and climb rate are known. */
+} keel_cascade_estimate_t;
+
+/** A cascade, and what its stages ask for. */
+typedef struct keel_cascade {
+    keel_cascade_axis_t axis[KEEL_CASCADE_AXES];
+    keel_cascade_fence_t fence;
+    float hover;
+    uint32_t axes;                  /**< Which axes the mode flies: bit 1u << axis. */
+    uint32_t gave_way;              /**< What the mixer gave up for the last command. */
+    keel_cascade_vector_t velocity; /**< The position stage asks for this, in m/s. */
+    keel_cascade_tilt_t tilt;       /**< The velocity stage asks for this, in sines. */
+    float thrust;                   /**< And for this. */
+    keel_cascade_tilt_t rates;      /**< The angle stage asks for this, in rad/s. */
+    keel_mixer_command_t command;   /**< The rate stage asks for this. */
+} keel_cascade_t;
+
+/*@ predicate cascade_number(float value, real least, real most) =
+  @     \is_finite(value) && least <= value <= most;
+  @
+  @ logic real cascade_reach_max(integer axis) =
+  @     axis <= KEEL_CASCADE_YAW_RATE ? KEEL_CASCADE_RATE_MAX :
+  @     axis <= KEEL_CASCADE_PITCH ? KEEL_CASCADE_TILT_MAX :
+  @     axis <= KEEL_CASCADE_CLIMB ? KEEL_CASCADE_SPEED_MAX : KEEL_CASCADE_DISTANCE_MAX;
+  @
+  @ predicate cascade_axis_valid(keel_cascade_axis_t *a) =
+  @     pid_valid(a->pid) && cascade_number(a->reach, 0, KEEL_CASCADE_DISTANCE_MAX);
+  @
+  @ // An axis asks for no more than this, in either direction.
+  @ predicate cascade_asks_within(keel_cascade_axis_t *a, real most) =
+  @     -most <= a->pid.config.output_min && a->pid.config.output_max <= most;
+  @
+  @ predicate cascade_fence_valid(keel_cascade_fence_t f) =
+  @     cascade_number(f.gain, 0, KEEL_CASCADE_ACCELERATION_MAX * KEEL_CASCADE_REACTION_MAX_S) &&
+  @     cascade_number(f.half_gain, 0,
+  @         KEEL_CASCADE_ACCELERATION_MAX * KEEL_CASCADE_REACTION_MAX_S) &&
+  @     cascade_number(f.reaction_s, 0, KEEL_CASCADE_REACTION_MAX_S) &&
+  @     cascade_number(f.twice_braking, 0, 2 * KEEL_CASCADE_ACCELERATION_MAX);
+  @
+  @ // What init establishes, and every step keeps.
+  @ predicate cascade_valid(keel_cascade_t *c) =
+  @     (\forall integer i; 0 <= i < KEEL_CASCADE_AXES ==> cascade_axis_valid(&c->axis[i])) &&
+  @     (\forall integer i; 0 <= i <= KEEL_CASCADE_YAW_RATE ==>
+  @         cascade_asks_within(&c->axis[i], 1)) &&
+  @     (\forall integer i; KEEL_CASCADE_ROLL <= i <= KEEL_CASCADE_PITCH ==>
+  @         cascade_asks_within(&c->axis[i], c->axis[i - 3].reach)) &&
+  @     (\forall integer i; KEEL_CASCADE_NORTH_SPEED <= i <= KEEL_CASCADE_EAST_SPEED ==>
+  @         cascade_asks_within(&c->axis[i], KEEL_CASCADE_GRAVITY)) &&
+  @     cascade_asks_within(&c->axis[KEEL_CASCADE_CLIMB], 1) &&
+  @     (\forall integer i; KEEL_CASCADE_NORTH <= i <= KEEL_CASCADE_HEIGHT ==>
+  @         cascade_asks_within(&c->axis[i], c->axis[i - 3].reach)) &&
+  @     cascade_fence_valid(c->fence) && cascade_number(c->hover, 0, 1) &&
+  @     mixer_command(c->command);
+  @
+  @ // Whether a set-point towards a side is no longer admitted, `way` being the distance to it and
+  @ // `speed` that towards it: the formula above, rounded after each operation.
+  @ logic float cascade_fastest(keel_cascade_fence_t f, float speed) = (float)(speed + f.gain);
+  @
+  @ logic float cascade_left(keel_cascade_fence_t f, float way, float speed) = (float)(
+  @     way - (float)(f.reaction_s * (float)(speed + f.half_gain)));
+  @
+  @ logic float cascade_square(float speed) = (float)(speed > 0 ? (float)(speed * speed) : 0);
+  @
+  @ predicate cascade_near(keel_cascade_fence_t f, float way, float speed) =
+  @     !(cascade_square(cascade_fastest(f, speed)) <=
+  @         (float)(f.twice_braking * cascade_left(f, way, speed)));
+  @
+  @ // Where a side is near, an axis of the velocity stage says so and is not asked to go there.
+  @ predicate cascade_fenced(keel_cascade_t *c, integer axis, float position, float speed) =
+  @     (cascade_near(c->fence, (float)(c->axis[axis + 3].reach - position), speed) ==>
+  @         c->axis[axis].limit.at_max &&
+  @         (c->axis[axis].held || c->axis[axis].pid.setpoint <= 0)) &&
+  @     (cascade_near(c->fence, (float)(c->axis[axis + 3].reach + position), (float)-speed) ==>
+  @         c->axis[axis].limit.at_min &&
+  @         (c->axis[axis].held || c->axis[axis].pid.setpoint >= 0));
+  @
+  @ // The axes that a mode flies.
+  @ logic integer cascade_axes(integer mode) =
+  @     mode == 0 ? 0x07 : mode == 1 ? 0x9F : mode == 2 ? 0x1F : mode == 3 ? 0x49F :
+  @     mode == 4 || mode == 5 ? 0x7FF : 0;
+  @*/
+
+/**
+ * Whether one axis of a configuration can be flown (requirement CAS-001): its controller can be
+ * made, its reach is from 0 to the greatest, and its outputs are within what takes them. The other
+ * numbers are looked at with each axis.
+ *
+ * @param config the configuration, any bit pattern
+ * @param axis   the axis
+ * @return KEEL_OK; KEEL_ERR_INPUT when there is no such axis; KEEL_ERR_LIMITS when a number is out
+ *         of its range, the output's limits are beyond the reach of the axis below, -1 to 1 for a
+ *         torque, 0 to 1 for the thrust, or for an acceleration beyond what the tilt allows or A, or
+ *         within a, or the reaction time is below a period of the speeds; what keel_pid_init says
+ *         of the controller
+ */
+/*@ requires \valid_read(config);
+  @ assigns \nothing;
+  @ ensures CAS_001_axis: axis >= KEEL_CASCADE_AXES ==> \result == KEEL_ERR_INPUT;
+  @ ensures CAS_001_reach: \result == KEEL_OK ==> axis < KEEL_CASCADE_AXES &&
+  @     cascade_number(config->reach[axis], 0, cascade_reach_max(axis));
+  @ ensures CAS_001_limits: \result == KEEL_OK ==> pid_limits(config->pid[axis]);
+  @*/
+keel_status_t keel_cascade_check(const keel_cascade_config_t *config, uint32_t axis);
+
+/**
+ * Makes a cascade, no axis of which runs (requirement CAS-002).
+ *
+ * @param cascade the cascade
+ * @param config  what it is made from; copied
+ * @return KEEL_OK, or what keel_cascade_check says of the first axis that is not good: then nothing
+ *         is changed
+ */
+/*@ requires \valid(cascade) && \valid_read(config) && \separated(cascade, config);
+  @ assigns *cascade;
+  @ ensures CAS_002_valid: \result == KEEL_OK ==> cascade_valid(cascade);
+  @ ensures CAS_002_still: \result == KEEL_OK ==> cascade->axes == 0 &&
+  @     \forall integer i; 0 <= i < KEEL_CASCADE_AXES ==> !cascade->axis[i].running;
+  @ ensures CAS_002_kept: \result != KEEL_OK ==> *cascade == \old(*cascade);
+  @*/
+keel_status_t keel_cascade_init(keel_cascade_t *cascade, const keel_cascade_config_t *config);
+
+/**
+ * Flies the axes of a mode; the others stop (requirement CAS-003). Calling it again with the same
+ * mode changes nothing. The sticks may go in at any stage of those that the mode flies:
+ *
+ *     ACRO            rates
+ *     ANGLE           rates, roll and pitch
+ *     LAND            rates, roll and pitch, climb
+ *     ALTITUDE        rates, roll and pitch, climb and height
+ *     POSITION, RETURN all
+ *     any other       none: torques and thrust are 0
+ *
+ * @param cascade the cascade
+ * @param mode    the mode in force (mode.h), any number
+ */
+/*@ requires \valid(cascade);
+  @ assigns cascade->axes, cascade->axis[0 .. KEEL_CASCADE_AXES - 1].running, cascade->command;
+  @ ensures CAS_003_axes: cascade->axes == cascade_axes(mode);
+  @ ensures CAS_003_stopped: \forall integer i; 0 <= i < KEEL_CASCADE_AXES ==>
+  @     (cascade->axis[i].running ==> \old(cascade->axis[i].running));
+  @ ensures CAS_003_none: cascade->axes == 0 ==> mixer_command(cascade->command) &&
+  @     cascade->command.roll == 0 && cascade->command.pitch == 0 && cascade->command.yaw == 0 &&
+  @     cascade->command.thrust == 0;
+  @*/
+void keel_cascade_enter(keel_cascade_t *cascade, uint8_t mode);
+
+/**
+ * One step of one axis (requirements CAS-004 to CAS-007). The stages do this for all of theirs.
+ *
+ * @param axis  the axis
+ * @param input what it is told
+ */
+/*@ requires \valid(axis) && \valid_read(input) && \separated(axis, input);
+  @ requires axis_valid: cascade_axis_valid(axis);
+  @ assigns axis->pid.filter.s1, axis->pid.filter.s2, axis->pid.filter.output, axis->pid.integral,
+  @     axis->pid.setpoint, axis->pid.error, axis->pid.derivative, axis->pid.output,
+  @     axis->pid.saturation, axis->pid.started, axis->limit, axis->running, axis->held;
+  @ ensures CAS_004_valid: cascade_axis_valid(axis);
+  @ ensures CAS_004_output: pid_within(axis->pid.output, axis->pid.config.output_min,
+  @     axis->pid.config.output_max);
+  @ ensures CAS_005_stops: !input->valid ==> !axis->running;
+  @ ensures CAS_005_held: axis->held && \old(axis->running) ==>
+  @     axis->pid.output == \old(axis->pid.output) &&
+  @     axis->pid.integral == \old(axis->pid.integral);
+  @ ensures CAS_005_taken: !axis->held ==> axis->running &&
+  @     -axis->reach <= axis->pid.setpoint <= axis->reach;
+  @ ensures CAS_006_rises: \old(axis->running) && input->below.at_max ==>
+  @     axis->pid.integral <= \old(axis->pid.integral);
+  @ ensures CAS_006_falls: \old(axis->running) && input->below.at_min ==>
+  @     axis->pid.integral >= \old(axis->pid.integral);
+  @ ensures CAS_006_told: (input->below.at_max ==> axis->limit.at_max) &&
+  @     (input->below.at_min ==> axis->limit.at_min);
+  @ ensures CAS_007_entered: !\old(axis->running) && axis->running ==> input->valid;
+  @*/
+void keel_cascade_axis_step(keel_cascade_axis_t *axis, const keel_cascade_input_t *input);
+
+/**
+ * One step of the rate stage; the result is cascade->command (requirement CAS-008).
+ *
+ * @param cascade  the cascade
+ * @param asked    rates and thrust, any bit patterns; a thrust out of its range counts as the end
+ *                 that is next to it, NaN as 0
+ * @param rate     the body's rates, in rad/s, any bit patterns
+ * @param gave_way what the mixer gave up for the last command: its flags
+ */
+/*@ requires \valid(cascade) && cascade_valid(cascade);
+  @ assigns cascade->axis[KEEL_CASCADE_ROLL_RATE .. KEEL_CASCADE_YAW_RATE], cascade->gave_way,
+  @     cascade->command;
+  @ ensures CAS_004_rate: cascade_valid(cascade);
+  @ ensures CAS_008_command: mixer_command(cascade->command);
+  @*/
+void keel_cascade_rate_step(keel_cascade_t *cascade, keel_cascade_rates_t asked,
+                            keel_attitude_vector_t rate, uint32_t gave_way);
+
+/**
+ * One step of the angle stage; the result is cascade->rates (requirement CAS-009).
+ *
+ * @param cascade the cascade
+ * @param asked   sines of roll and pitch, any bit patterns
+ * @param down    down as the body sees it, v of attitude.h, any bit patterns
+ * @param valid   whether that is known
+ */
+/*@ requires \valid(cascade) && cascade_valid(cascade);
+  @ assigns cascade->axis[KEEL_CASCADE_ROLL .. KEEL_CASCADE_PITCH], cascade->rates;
+  @ ensures CAS_004_angle: cascade_valid(cascade);
+  @ ensures CAS_009_rates:
+  @     cascade_number(cascade->rates.roll, -cascade->axis[KEEL_CASCADE_ROLL_RATE].reach,
+  @         cascade->axis[KEEL_CASCADE_ROLL_RATE].reach) &&
+  @     cascade_number(cascade->rates.pitch, -cascade->axis[KEEL_CASCADE_PITCH_RATE].reach,
+  @         cascade->axis[KEEL_CASCADE_PITCH_RATE].reach);
+  @*/
+void keel_cascade_angle_step(keel_cascade_t *cascade, keel_cascade_tilt_t asked,
+                             keel_attitude_vector_t down, bool valid);
+
+/**
+ * One step of the velocity stage; the results are cascade->tilt and cascade->thrust (requirements
+ * CAS-010, CAS-011).
+ *
+ * @param cascade  the cascade
+ * @param asked    velocities, any bit patterns; those towards a side of the fence that is near count
+ *                 as 0
+ * @param estimate where the aircraft is, any bit patterns
+ */
+/*@ requires \valid(cascade) && \valid_read(estimate) && \separated(cascade, estimate);
+  @ requires cascade_valid(cascade);
+  @ assigns cascade->axis[KEEL_CASCADE_NORTH_SPEED .. KEEL_CASCADE_CLIMB], cascade->tilt,
+  @     cascade->thrust;
+  @ ensures CAS_004_velocity: cascade_valid(cascade);
+  @ ensures CAS_010_tilt:
+  @     cascade_number(cascade->tilt.roll, -cascade->axis[KEEL_CASCADE_ROLL].reach,
+  @         cascade->axis[KEEL_CASCADE_ROLL].reach) &&
+  @     cascade_number(cascade->tilt.pitch, -cascade->axis[KEEL_CASCADE_PITCH].reach,
+  @         cascade->axis[KEEL_CASCADE_PITCH].reach);
+  @ ensures CAS_010_thrust: cascade_number(cascade->thrust, 0, 1);
+  @ ensures CAS_011_fence:
+  @     cascade_fenced(cascade, KEEL_CASCADE_NORTH_SPEED, estimate->position.north,
+  @         estimate->velocity.north) &&
+  @     cascade_fenced(cascade, KEEL_CASCADE_EAST_SPEED, estimate->position.east,
+  @         estimate->velocity.east) &&
+  @     cascade_fenced(cascade, KEEL_CASCADE_CLIMB, estimate->position.up, estimate->velocity.up);
+  @*/
+void keel_cascade_velocity_step(keel_cascade_t *cascade, keel_cascade_vector_t asked,
+                                const keel_cascade_estimate_t *estimate);
+
+/**
+ * One step of the position stage; the result is cascade->velocity (requirement CAS-013).
+ *
+ * @param cascade  the cascade
+ * @param asked    a place, any bit patterns; one beyond the fence counts as the next one within
+ * @param estimate where the aircraft is, any bit patterns
+ */
+/*@ requires \valid(cascade) && \valid_read(estimate) && \separated(cascade, estimate);
+  @ requires cascade_valid(cascade);
+  @ assigns cascade->axis[KEEL_CASCADE_NORTH .. KEEL_CASCADE_HEIGHT], cascade->velocity;
+  @ ensures CAS_004_position: cascade_valid(cascade);
+  @ ensures CAS_013_speeds:
+  @     cascade_number(cascade->velocity.north, -cascade->axis[KEEL_CASCADE_NORTH_SPEED].reach,
+  @         cascade->axis[KEEL_CASCADE_NORTH_SPEED].reach) &&
+  @     cascade_number(cascade->velocity.east, -cascade->axis[KEEL_CASCADE_EAST_SPEED].reach,
+  @         cascade->axis[KEEL_CASCADE_EAST_SPEED].reach) &&
+  @     cascade_number(cascade->velocity.up, -cascade->axis[KEEL_CASCADE_CLIMB].reach,
+  @         cascade->axis[KEEL_CASCADE_CLIMB].reach);
+  @*/
+void keel_cascade_position_step(keel_cascade_t *cascade, keel_cascade_vector_t asked,
+                                const keel_cascade_estimate_t *estimate);
+
+KEEL_C_END
+
+#endif
