@@ -11,9 +11,31 @@ static bool lies_within(float value, float least, float greatest)
 }
 
 /* CAS-001: the greatest reach of each axis. */
-static const float reach_limit[KEEL_CASCADE_AXES] = {64.0f,  64.0f,  64.0f,    0.75f,
-                                                     0.75f,  100.0f, 100.0f,   100.0f,
-                                                     16384.0f, 16384.0f, 16384.0f};
+static float reach_limit(uint32_t axis)
+{
+    float limit;
+
+    switch (axis) {
+    case KEEL_CASCADE_ROLL_RATE:
+    case KEEL_CASCADE_PITCH_RATE:
+    case KEEL_CASCADE_YAW_RATE:
+        limit = 64.0f;
+        break;
+    case KEEL_CASCADE_ROLL:
+    case KEEL_CASCADE_PITCH:
+        limit = 0.75f;
+        break;
+    case KEEL_CASCADE_NORTH_SPEED:
+    case KEEL_CASCADE_EAST_SPEED:
+    case KEEL_CASCADE_CLIMB:
+        limit = 100.0f;
+        break;
+    default:
+        limit = 16384.0f;
+        break;
+    }
+    return limit;
+}
 
 static bool numbers_valid(const keel_cascade_config_t *config)
 {
@@ -70,7 +92,7 @@ keel_status_t model_cascade_check(const keel_cascade_config_t *config, uint32_t 
     if (axis >= KEEL_CASCADE_AXES) {
         return KEEL_ERR_INPUT;
     }
-    if (!numbers_valid(config) || !lies_within(config->reach[axis], 0.0f, reach_limit[axis]) ||
+    if (!numbers_valid(config) || !lies_within(config->reach[axis], 0.0f, reach_limit(axis)) ||
         !output_valid(config, axis)) {
         return KEEL_ERR_LIMITS;
     }
