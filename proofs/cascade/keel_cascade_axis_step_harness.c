@@ -2,7 +2,7 @@
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c specs/model/cascade_parts.c
 // replaces: keel_pid_enter keel_pid_step_within
-// covers: keel_cascade_axis_step within_reach model_cascade_axis_step lies_within
+// covers: keel_cascade_axis_step within_reach model_cascade_axis_step lies_within next_to
 //
 // Any valid axis, any bit pattern of what it is told. What its controller does is unknown: the
 // model's does anything that its contract allows; the code must ask the same of it in the same

@@ -5,7 +5,7 @@
 // covers: keel_cascade_velocity_step drive drive_with is_direction is_near near_sides admitted holds
 // covers: shared_limit keel_cascade_axis_step within_reach asks_for is_asked_for is_flown
 // covers: model_cascade_velocity_step driven side_near no_more axis_output output_of setpoint_of
-// covers: number_within nearest_within model_cascade_axis_step lies_within
+// covers: number_within nearest_within model_cascade_axis_step lies_within next_to
 //
 // A chosen cascade at chosen places, one after another: the same as the model's. All of them are
 // dealt with in keel_cascade_velocity_step_harness; wrong bodies are refuted here, for where floats

@@ -10,6 +10,14 @@ static bool lies_within(float value, float least, float greatest)
     return (value >= least) && (value <= greatest);
 }
 
+/* The nearest number of a range; NaN has none. */
+static float next_to(float value, float least, float greatest)
+{
+    const float above = (value > least) ? value : least;
+
+    return (above < greatest) ? above : greatest;
+}
+
 /* CAS-001: the greatest reach of each axis. */
 static float reach_limit(uint32_t axis)
 {
@@ -109,17 +117,11 @@ void model_cascade_axis_step(keel_cascade_axis_t *axis, const keel_cascade_input
     const bool is_input = lies_within(input->setpoint, -KEEL_PID_INPUT_LIMIT, KEEL_PID_INPUT_LIMIT);
     const bool above = input->setpoint > axis->reach;
     const bool below = input->setpoint < -axis->reach;
-    float setpoint = input->setpoint;
+    /* CAS-004: what is beyond the reach counts as that; what is no number is refused. */
+    const float setpoint =
+        is_input ? next_to(input->setpoint, -axis->reach, axis->reach) : input->setpoint;
     bool taken = false;
 
-    /* CAS-004: what is beyond the reach counts as that; what is no number is refused. */
-    if (is_input && above) {
-        setpoint = axis->reach;
-    } else if (is_input && below) {
-        setpoint = -axis->reach;
-    } else {
-        /* As it is. */
-    }
     /* CAS-007: an axis begins at what is flown. CAS-005: without a measurement it stops. */
     if (!input->valid) {
         axis->running = false;

@@ -37,7 +37,6 @@ static void configure(void)
     static const float reach[AXES] = {6.0f, 5.0f, 3.0f,  0.5f,  0.75f, 8.0f,
                                       7.0f, 4.0f, 90.0f, 80.0f, 70.0f};
 
-    memset(&cascade, 0, sizeof cascade);
     memset(&config, 0, sizeof config);
     memcpy(config.reach, reach, sizeof reach);
     config.pid[KEEL_CASCADE_ROLL_RATE] = controller(0.125f, 256.0f, 1024.0f, -0.75f, 1.0f);
@@ -55,11 +54,6 @@ static void configure(void)
     config.acceleration = 4.0f;
     config.braking = 2.5f;
     config.reaction_s = 0.25f;
-}
-
-static void make(void)
-{
-    TEST_ASSERT_EQUAL(KEEL_OK, keel_cascade_init(&cascade, &config));
 }
 
 #endif
