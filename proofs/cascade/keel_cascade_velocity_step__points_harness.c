@@ -13,6 +13,8 @@
 #include "cascade_points.h"
 #include "keel/flight/mode.h"
 
+#include <math.h>
+
 #define POINTS 13u
 
 typedef struct point {
@@ -52,7 +54,7 @@ static const point_t points[POINTS] = {
      true}, NONE, LEAST, 0u, KEEL_MODE_POSITION},
     {{4.0f, 4.0f, 3.0f}, {{1.0e7f, 4.0f, 5.0f}, {0.4f, 1.0e7f, 0.3f}, 0.6f, 0.8f, true, true},
      NONE, NONE, 0u, KEEL_MODE_POSITION},
-    {{4.0f, 4.0f, 3.0f}, {{3.0f, 4.0f, 5.0f}, {0.4f, 0.4f, 0.3f}, 1.0e7f, 0.8f, true, true},
+    {{4.0f, 4.0f, 3.0f}, {{3.0f, 4.0f, 5.0f}, {0.4f, 0.4f, 0.3f}, NAN, 0.8f, true, true},
      NONE, NONE, 0u, KEEL_MODE_POSITION},
     {{4.0f, 4.0f, 3.0f}, {{3.0f, 4.0f, 5.0f}, {0.4f, 0.4f, 0.3f}, 0.6f, 0.8f, false, true},
      NONE, NONE, 0u, KEEL_MODE_POSITION},

@@ -334,6 +334,116 @@ static void PID_010_an_integral_that_stays_may_free_the_output(void)
     TEST_ASSERT_EQUAL_FLOAT(0.0f, pid.integral);
 }
 
+/* --- PID-011: kp 2, ki T 0.1, kff 0.5; the integral from -20 to 30. ------------------------------ */
+
+static void enter(float setpoint, float measurement, float output)
+{
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_pid_enter(&pid, setpoint, measurement, output));
+}
+
+static void PID_011_the_first_output_is_the_one_to_begin_at(void)
+{
+    make(2.0f, 10.0f, 3.0f, 0.5f);
+    step_to(24.0f + 6.0f + 1.2f, 12.0f, 0.0f);
+    step_to(-50.0f, 12.0f, 12.0f);
+    enter(4.0f, 1.0f, 15.0f);
+    TEST_ASSERT_EQUAL_FLOAT(15.0f, pid.output);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 15.0f - 6.0f - 2.0f - 0.3f, pid.integral);
+    TEST_ASSERT_TRUE(!pid.started && (pid.saturation == KEEL_PID_FREE));
+    TEST_ASSERT_TRUE((pid.setpoint == 0.0f) && (pid.error == 0.0f) && (pid.derivative == 0.0f));
+    step_to(15.0f, 4.0f, 1.0f);
+    step_to(15.3f, 4.0f, 1.0f);
+}
+
+static void PID_011_as_far_as_the_integral_goes(void)
+{
+    make(2.0f, 10.0f, 0.0f, 0.0f);
+    enter(0.0f, 0.0f, 90.0f);
+    TEST_ASSERT_EQUAL_FLOAT(30.0f, pid.integral);
+    TEST_ASSERT_EQUAL_FLOAT(90.0f, pid.output);
+    step_to(30.0f, 0.0f, 0.0f);
+    enter(0.0f, 0.0f, -40.0f);
+    TEST_ASSERT_EQUAL_FLOAT(-20.0f, pid.integral);
+}
+
+static void PID_011_within_the_limits_of_the_output(void)
+{
+    make(2.0f, 10.0f, 0.0f, 0.0f);
+    enter(50.0f, 0.0f, 1000.0f);
+    TEST_ASSERT_EQUAL_FLOAT(100.0f, pid.output);
+    TEST_ASSERT_EQUAL_FLOAT(-5.0f, pid.integral);
+    enter(-20.0f, 0.0f, -1.0e9f);
+    TEST_ASSERT_EQUAL_FLOAT(-50.0f, pid.output);
+    TEST_ASSERT_EQUAL_FLOAT(-8.0f, pid.integral);
+}
+
+/* Nothing would take the share of the integral away again. */
+static void PID_011_without_ki_the_integral_is_0(void)
+{
+    make(2.0f, 0.0f, 0.0f, 0.0f);
+    enter(1.0f, 0.0f, 10.0f);
+    TEST_ASSERT_EQUAL_FLOAT(10.0f, pid.output);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, pid.integral);
+    step_to(2.0f, 1.0f, 0.0f);
+}
+
+static void enter_refuses(float setpoint, float measurement, float output)
+{
+    keel_pid_t before;
+
+    memcpy(&before, &pid, sizeof before);
+    TEST_ASSERT_EQUAL(KEEL_ERR_INPUT, keel_pid_enter(&pid, setpoint, measurement, output));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &pid, sizeof pid);
+}
+
+static void PID_011_bad_inputs_change_nothing(void)
+{
+    const float bad[] = {500001.0f, -500001.0f, INFINITY, NAN};
+
+    make(2.0f, 10.0f, 0.0f, 0.0f);
+    step_to(2.1f, 1.0f, 0.0f);
+    for (size_t i = 0u; i < (sizeof bad / sizeof bad[0]); i++) {
+        enter_refuses(bad[i], 0.0f, 0.0f);
+        enter_refuses(0.0f, bad[i], 0.0f);
+    }
+    enter_refuses(0.0f, 0.0f, 1.1e9f);
+    enter_refuses(0.0f, 0.0f, -1.1e9f);
+    enter_refuses(0.0f, 0.0f, NAN);
+}
+
+/* --- PID-012 ---------------------------------------------------------------------------------- */
+
+static void within(float output, float integral, float setpoint, bool rises, bool falls)
+{
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_pid_step_within(&pid, setpoint, 0.0f, rises, falls));
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, output, pid.output);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, integral, pid.integral);
+}
+
+static void PID_012_the_integral_moves_where_it_may(void)
+{
+    make(2.0f, 100.0f, 0.0f, 0.0f);
+    within(3.0f, 1.0f, 1.0f, true, true);
+    within(4.0f, 1.0f, 1.0f, false, true);
+    within(4.0f, 2.0f, 1.0f, true, false);
+    within(-1.0f, 1.0f, -1.0f, false, true);
+    within(-2.0f, 1.0f, -1.0f, true, false);
+    within(-2.0f, 1.0f, -1.0f, false, false);
+    within(4.0f, 1.0f, 1.0f, false, false);
+}
+
+static void PID_012_bad_inputs_are_held(void)
+{
+    keel_pid_t before;
+
+    make(2.0f, 100.0f, 0.0f, 0.0f);
+    within(3.0f, 1.0f, 1.0f, true, true);
+    memcpy(&before, &pid, sizeof before);
+    TEST_ASSERT_EQUAL(KEEL_ERR_INPUT, keel_pid_step_within(&pid, NAN, 0.0f, false, false));
+    TEST_ASSERT_EQUAL(KEEL_ERR_INPUT, keel_pid_step_within(&pid, 0.0f, 6.0e5f, true, true));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &pid, sizeof pid);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -357,5 +467,12 @@ int main(void)
     RUN_TEST(PID_010_may_leave_a_limit);
     RUN_TEST(PID_010_no_wind_up_below);
     RUN_TEST(PID_010_an_integral_that_stays_may_free_the_output);
+    RUN_TEST(PID_011_the_first_output_is_the_one_to_begin_at);
+    RUN_TEST(PID_011_as_far_as_the_integral_goes);
+    RUN_TEST(PID_011_within_the_limits_of_the_output);
+    RUN_TEST(PID_011_without_ki_the_integral_is_0);
+    RUN_TEST(PID_011_bad_inputs_change_nothing);
+    RUN_TEST(PID_012_the_integral_moves_where_it_may);
+    RUN_TEST(PID_012_bad_inputs_are_held);
     return UNITY_END();
 }
