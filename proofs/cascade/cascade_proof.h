@@ -7,8 +7,8 @@
 #define CASCADE_PROOF_H
 
 #include "../../specs/model/cascade.h"
-#include "keel/middleware/range.h"
 #include "../common/pid_contracts.h"
+#include "keel/middleware/range.h"
 
 #define AXES KEEL_CASCADE_AXES
 
@@ -172,7 +172,7 @@ static keel_cascade_estimate_t any_estimate(void)
     return estimate;
 }
 
-/* --- The contract of keel_cascade_axis_step ---------------------------------------------------- */
+/* --- The contract of keel_cascade_axis_step --------------------------------------------------- */
 
 static bool keel_cascade_axis_step_may(const keel_cascade_axis_t *axis)
 {
@@ -183,9 +183,9 @@ static bool keel_cascade_axis_step_does(const keel_cascade_axis_t *axis,
                                         const keel_cascade_axis_t *before,
                                         const keel_cascade_input_t *input)
 {
-    const bool taken = axis->running && float_same(axis->pid.setpoint,
-                                                   keel_range_clamp(input->setpoint, -axis->reach,
-                                                                    axis->reach));
+    const bool taken = axis->running &&
+                       float_same(axis->pid.setpoint,
+                                  keel_range_clamp(input->setpoint, -axis->reach, axis->reach));
 
     return axis_valid_here(axis) && float_same(axis->reach, before->reach) &&
            pid_made_as_before(&axis->pid, &before->pid) && (axis->held || taken) &&

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // wp: theorem
 /**
- * The fence's law, over the reals (requirement CAS-012): from inside, with way to brake, the aircraft
- * never leaves it.
+ * The fence's law, over the reals (requirement CAS-012): from inside, with way to brake, the
+ * aircraft never leaves it.
  *
  * x is a position, v a speed, both towards a side at L. inside(x, v) says that full braking, by a,
  * stops before the side. At each step the velocity stage looks whether the side is near; if it is
  * not, the aircraft may do anything with an acceleration up to A for the reaction time T
- * (CAS_012_free); if it is, it is braked from then on, and so it is after T at the latest, from when
- * on each further step of it keeps what is needed (CAS_012_braked), at the steps and in between.
+ * (CAS_012_free); if it is, it is braked from then on, and so it is after T at the latest, from
+ * when on each further step of it keeps what is needed (CAS_012_braked), at the steps and in
+ * between.
  */
 
 /*@ predicate inside(real L, real a, real x, real v) =
@@ -45,9 +46,9 @@
   @     0 < a && 0 <= A && 0 <= t <= T && x <= L && admits(L, a, x, v, A, T) &&
   @     y <= farthest(x, v, A, t) && w <= v + A * t ==> inside(L, a, y, w);
   @
-  @ // Braked for a time t by a at least: slower by a t at least, and where it still moves towards the
-  @ // side, no farther than braking by a leads. Where it does not, it went no farther than to where
-  @ // that braking stops.
+  @ // Braked for a time t by a at least: slower by a t at least, and where it still moves towards
+  @ // the side, no farther than braking by a leads. Where it does not, it went no farther than to
+  @ // where that braking stops.
   @ predicate braked(real a, real x, real v, real t, real y, real w) =
   @     w <= v - a * t && y <= x + v * t - a * t * t / 2;
   @

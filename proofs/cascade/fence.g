@@ -20,5 +20,5 @@ fastest rnd= v + gain;
 square rnd= fastest * fastest;
 CAS_011_left = left - ((L - x) - T * (v + 0.5 * (A * T)));
 CAS_011_square = square - (v + A * T) * (v + A * T);
-{ L in [0, 0x1p+14] /\ |x| <= 0x1p+14 /\ |v| <= 0x1p+7 /\ A in [0, 0x1p+6] /\ T in [0, 0x1p+2]
+{ |L| <= 0x1p+14 /\ |x| <= 0x1p+14 /\ |v| <= 0x1p+7 /\ |A| <= 0x1p+6 /\ |T| <= 0x1p+2
   -> |CAS_011_left| <= 0x1p-8 /\ |CAS_011_square| <= 0x1p-5 }

@@ -2,9 +2,9 @@
 // cbmc: --unwind 12 --external-sat-solver cadical
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c
 // sources: specs/model/cascade_parts.c specs/model/pid.c specs/model/filter.c
-// covers: keel_cascade_check greatest_reach is_speed most_taken is_output_taken is_braking is_in_time
-// covers: are_numbers model_cascade_check numbers_valid acceleration_valid output_valid reach_limit
-// covers: lies_within
+// covers: keel_cascade_check greatest_reach is_speed most_taken is_output_taken is_braking
+// is_in_time covers: are_numbers model_cascade_check numbers_valid acceleration_valid output_valid
+// reach_limit covers: lies_within
 //
 // Any bit pattern of the cascade's own numbers and of what limits the controllers' outputs; the
 // rest of these is good, or a gain is not: keel_pid_init has harnesses of its own. One axis after
@@ -32,8 +32,8 @@ static void check(uint32_t axis)
         __CPROVER_assert((axis != KEEL_CASCADE_CLIMB) ||
                              ((pid->output_min >= -config.hover) && (pid->output_max <= 1.0f)),
                          "CAS_001_thrust: from 0 to 1");
-        __CPROVER_assert((axis > KEEL_CASCADE_YAW_RATE) || (magnitude(pid->output_min, 1.0f) &&
-                                                            magnitude(pid->output_max, 1.0f)),
+        __CPROVER_assert((axis > KEEL_CASCADE_YAW_RATE) ||
+                             (magnitude(pid->output_min, 1.0f) && magnitude(pid->output_max, 1.0f)),
                          "CAS_001_torque: what the mixer takes");
     }
 }

@@ -4,8 +4,8 @@
 // sources: specs/model/cascade.c specs/model/cascade_parts.c specs/model/pid.c specs/model/filter.c
 // covers: keel_cascade_init model_cascade_init
 //
-// Chosen configurations: one that is good, and one with two axes that are not. All of them are dealt
-// with in keel_cascade_init_harness; wrong bodies are refuted here.
+// Chosen configurations: one that is good, and one with two axes that are not. All of them are
+// dealt with in keel_cascade_init_harness; wrong bodies are refuted here.
 #include "cascade_points.h"
 
 static keel_cascade_config_t config;

@@ -5,8 +5,8 @@
 //
 // Any bit pattern for the cascade's own numbers, and for the roll axis' controller but for its
 // rate and cut-off; these and the other controllers are chosen ones, since all go through the same
-// functions. What is made is valid, a refusal changes nothing, and no operation overflows or gives a
-// NaN.
+// functions. What is made is valid, a refusal changes nothing, and no operation overflows or gives
+// a NaN.
 #include "../common/unchanged.h"
 #include "cascade_points.h"
 

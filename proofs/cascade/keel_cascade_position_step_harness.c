@@ -5,7 +5,8 @@
 // covers: keel_cascade_position_step lead_with is_asked_for is_flown asks_for
 // covers: model_cascade_position_step asked_below setpoint_of axis_output output_of
 //
-// Any valid cascade, any bit pattern of what it is told; what an axis does is unknown (asked_axes.h).
+// Any valid cascade, any bit pattern of what it is told; what an axis does is unknown
+// (asked_axes.h).
 #include "asked_axes.h"
 
 void keel_cascade_position_step_harness(void)
@@ -22,10 +23,11 @@ void keel_cascade_position_step_harness(void)
     __CPROVER_assert(cascade_same(&cascade, &model),
                      "CAS_013_model: every field is what the model says");
     __CPROVER_assert(estimate_same(&estimate, &before), "CAS_013_frame: the estimate is only read");
-    __CPROVER_assert(
-        magnitude(cascade.velocity.north, cascade.axis[KEEL_CASCADE_NORTH_SPEED].reach) &&
-            magnitude(cascade.velocity.east, cascade.axis[KEEL_CASCADE_EAST_SPEED].reach) &&
-            magnitude(cascade.velocity.up, cascade.axis[KEEL_CASCADE_CLIMB].reach),
-        "CAS_013_speeds: within what the velocity stage takes");
+    __CPROVER_assert(magnitude(cascade.velocity.north,
+                               cascade.axis[KEEL_CASCADE_NORTH_SPEED].reach) &&
+                         magnitude(cascade.velocity.east,
+                                   cascade.axis[KEEL_CASCADE_EAST_SPEED].reach) &&
+                         magnitude(cascade.velocity.up, cascade.axis[KEEL_CASCADE_CLIMB].reach),
+                     "CAS_013_speeds: within what the velocity stage takes");
     __CPROVER_assert(cascade_valid_here(&cascade), "CAS_004_position: the cascade stays valid");
 }

@@ -5,7 +5,8 @@
 // covers: keel_cascade_rate_step turn_with torque_limit is_flown asks_for
 // covers: model_cascade_rate_step torque_of axis_output output_of nearest_within
 //
-// Any valid cascade, any bit pattern of what it is told; what an axis does is unknown (asked_axes.h).
+// Any valid cascade, any bit pattern of what it is told; what an axis does is unknown
+// (asked_axes.h).
 #include "asked_axes.h"
 
 void keel_cascade_rate_step_harness(void)

@@ -52,12 +52,12 @@ void keel_cascade_velocity_step__fence_harness(void)
 
     keel_cascade_velocity_step(&cascade, asked, &estimate);
 
-    __CPROVER_assert(
-        fenced_here(KEEL_CASCADE_NORTH_SPEED, estimate.position.north, estimate.velocity.north),
-        "CAS_011_fence: not towards a side in the north or south that is near");
-    __CPROVER_assert(
-        fenced_here(KEEL_CASCADE_EAST_SPEED, estimate.position.east, estimate.velocity.east),
-        "CAS_011_fence: nor in the east or west");
+    __CPROVER_assert(fenced_here(KEEL_CASCADE_NORTH_SPEED, estimate.position.north,
+                                 estimate.velocity.north),
+                     "CAS_011_fence: not towards a side in the north or south that is near");
+    __CPROVER_assert(fenced_here(KEEL_CASCADE_EAST_SPEED, estimate.position.east,
+                                 estimate.velocity.east),
+                     "CAS_011_fence: nor in the east or west");
     __CPROVER_assert(fenced_here(KEEL_CASCADE_CLIMB, estimate.position.up, estimate.velocity.up),
                      "CAS_011_fence: nor above or below");
 }

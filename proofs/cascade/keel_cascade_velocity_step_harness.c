@@ -5,10 +5,10 @@
 // replaces: keel_cascade_axis_step
 // covers: keel_cascade_velocity_step model_cascade_velocity_step
 //
-// Any valid cascade, any bit pattern of what it is told; what an axis does is unknown (asked_axes.h).
-// The solver sees that both compute the same only where nothing else is asked: all that a step calls
-// is reached in keel_cascade_velocity_step__points_harness, bounds and fence are in
-// keel_cascade_velocity_step__valid_harness.
+// Any valid cascade, any bit pattern of what it is told; what an axis does is unknown
+// (asked_axes.h). The solver sees that both compute the same only where nothing else is asked: all
+// that a step calls is reached in keel_cascade_velocity_step__points_harness, bounds and fence are
+// in keel_cascade_velocity_step__valid_harness.
 #include "asked_axes.h"
 
 void keel_cascade_velocity_step_harness(void)

@@ -28,9 +28,9 @@ static bool keel_pid_init_may(void)
 static bool keel_pid_init_does(keel_status_t status, const keel_pid_t *pid,
                                const keel_pid_config_t *config)
 {
-    return (status != KEEL_OK) || (pid_valid_here(pid) && !pid->started &&
-                                   (pid->saturation == KEEL_PID_FREE) &&
-                                   pid_config_same(&pid->config, config));
+    return (status != KEEL_OK) ||
+           (pid_valid_here(pid) && !pid->started && (pid->saturation == KEEL_PID_FREE) &&
+            pid_config_same(&pid->config, config));
 }
 
 static bool keel_pid_enter_may(const keel_pid_t *pid)
@@ -59,8 +59,7 @@ static bool keel_pid_step_within_may(const keel_pid_t *pid)
 static bool keel_pid_step_within_does(keel_status_t status, const keel_pid_t *pid,
                                       const keel_pid_t *before, float setpoint)
 {
-    const bool stepped =
-        (status == KEEL_OK) && pid->started && float_same(pid->setpoint, setpoint);
+    const bool stepped = (status == KEEL_OK) && pid->started && float_same(pid->setpoint, setpoint);
     const bool refused = (status == KEEL_ERR_INPUT) && pid_same(pid, before);
 
     return pid_valid_here(pid) && pid_made_as_before(pid, before) && (stepped || refused);

@@ -23,9 +23,9 @@ void keel_pid_enter__any_harness(void)
 
     __CPROVER_assert(keel_pid_enter_does(status, &pid, &before),
                      "PID_011_any: begun anew, or as it was");
-    __CPROVER_assert((status == KEEL_OK) == (pid_input_here(setpoint) &&
-                                             pid_input_here(measurement) &&
-                                             magnitude(output, KEEL_PID_OUTPUT_LIMIT)),
+    __CPROVER_assert((status == KEEL_OK) ==
+                         (pid_input_here(setpoint) && pid_input_here(measurement) &&
+                          magnitude(output, KEEL_PID_OUTPUT_LIMIT)),
                      "PID_011_ok: taken when all are in range");
     __CPROVER_assert((status != KEEL_OK) ||
                          !within(output, pid.config.output_min, pid.config.output_max) ||

@@ -3,9 +3,9 @@
 // sources: src/flight/pid.c src/flight/filter.c specs/model/pid.c specs/model/filter.c
 // covers: keel_pid_step_within keel_pid_step model_pid_step_within model_pid_step
 //
-// On small whole numbers: the integral moves by ki T e where it may, and stays elsewhere; the output
-// is that of the step. The model does the same. Wrong bodies are refuted here: where floats differ,
-// z3 finds no example.
+// On small whole numbers: the integral moves by ki T e where it may, and stays elsewhere; the
+// output is that of the step. The model does the same. Wrong bodies are refuted here: where floats
+// differ, z3 finds no example.
 #include "../../specs/model/pid.h"
 #include "pid_proof.h"
 
@@ -34,8 +34,7 @@ void keel_pid_step_within__exact_harness(void)
                       .integral = (float)old};
     keel_pid_t model = pid;
     const float setpoint = far ? 1.0e6f : (float)r;
-    const keel_status_t status =
-        keel_pid_step_within(&pid, setpoint, (float)y, rises, falls);
+    const keel_status_t status = keel_pid_step_within(&pid, setpoint, (float)y, rises, falls);
 
     __CPROVER_assert(status == model_pid_step_within(&model, setpoint, (float)y, rises, falls),
                      "PID_012_taken: taken or refused as the model says");

@@ -18,8 +18,7 @@ void keel_pid_step_within_harness(void)
     const bool falls = nondet_bool();
     keel_pid_t pid = any_pid_at_all();
     keel_pid_t model = pid;
-    const keel_status_t status =
-        keel_pid_step_within(&pid, setpoint, measurement, rises, falls);
+    const keel_status_t status = keel_pid_step_within(&pid, setpoint, measurement, rises, falls);
 
     __CPROVER_assert(status == model_pid_step_within(&model, setpoint, measurement, rises, falls),
                      "PID_012_taken: taken or refused as the model says");

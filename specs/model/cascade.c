@@ -7,7 +7,8 @@
 
 #define BIT(axis) (1u << (axis))
 
-#define RATES    (BIT(KEEL_CASCADE_ROLL_RATE) | BIT(KEEL_CASCADE_PITCH_RATE) | BIT(KEEL_CASCADE_YAW_RATE))
+#define RATES                                                                                      \
+    (BIT(KEEL_CASCADE_ROLL_RATE) | BIT(KEEL_CASCADE_PITCH_RATE) | BIT(KEEL_CASCADE_YAW_RATE))
 #define ANGLES   (BIT(KEEL_CASCADE_ROLL) | BIT(KEEL_CASCADE_PITCH))
 #define VERTICAL (BIT(KEEL_CASCADE_CLIMB) | BIT(KEEL_CASCADE_HEIGHT))
 #define LEVEL                                                                                      \
@@ -126,11 +127,8 @@ static float axis_output(keel_cascade_t *cascade, uint32_t axis, keel_cascade_in
 static float torque_of(keel_cascade_t *cascade, uint32_t axis, float asked, float rate, bool less,
                        float last)
 {
-    const keel_cascade_input_t input = {asked,
-                                        rate,
-                                        last,
-                                        {less && (last < 0.0f), less && (last > 0.0f)},
-                                        true};
+    const keel_cascade_input_t input = {
+        asked, rate, last, {less && (last < 0.0f), less && (last > 0.0f)}, true};
 
     return axis_output(cascade, axis, input);
 }
@@ -143,12 +141,12 @@ void model_cascade_rate_step(keel_cascade_t *cascade, keel_cascade_rates_t asked
     const bool yaw = (gave_way & KEEL_MIXER_YAW) != 0u;
 
     cascade->gave_way = gave_way;
-    cascade->command.roll =
-        torque_of(cascade, KEEL_CASCADE_ROLL_RATE, asked.roll, rate.x, tilt, last.roll);
-    cascade->command.pitch =
-        torque_of(cascade, KEEL_CASCADE_PITCH_RATE, asked.pitch, rate.y, tilt, last.pitch);
-    cascade->command.yaw =
-        torque_of(cascade, KEEL_CASCADE_YAW_RATE, asked.yaw, rate.z, yaw, last.yaw);
+    cascade->command.roll = torque_of(cascade, KEEL_CASCADE_ROLL_RATE, asked.roll, rate.x, tilt,
+                                      last.roll);
+    cascade->command.pitch = torque_of(cascade, KEEL_CASCADE_PITCH_RATE, asked.pitch, rate.y, tilt,
+                                       last.pitch);
+    cascade->command.yaw = torque_of(cascade, KEEL_CASCADE_YAW_RATE, asked.yaw, rate.z, yaw,
+                                     last.yaw);
     cascade->command.thrust = 0.0f;
     if (cascade->axes != 0u) {
         cascade->command.thrust = nearest_within(asked.thrust, 0.0f, 1.0f);
@@ -245,7 +243,8 @@ void model_cascade_velocity_step(keel_cascade_t *cascade, keel_cascade_vector_t 
     /* Nose down is forward. */
     const keel_cascade_limit_t forward = {pitch->limit.at_max, pitch->limit.at_min};
     const keel_cascade_limit_t right = roll->limit;
-    const bool valid = estimate->has_place && number_within(estimate->forward_north, -1.001f, 1.001f) &&
+    const bool valid = estimate->has_place &&
+                       number_within(estimate->forward_north, -1.001f, 1.001f) &&
                        number_within(estimate->forward_east, -1.001f, 1.001f);
     const float n = valid ? estimate->forward_north : 0.0f;
     const float e = valid ? estimate->forward_east : 0.0f;

@@ -118,16 +118,16 @@ void model_cascade_axis_step(keel_cascade_axis_t *axis, const keel_cascade_input
     const bool above = input->setpoint > axis->reach;
     const bool below = input->setpoint < -axis->reach;
     /* CAS-004: what is beyond the reach counts as that; what is no number is refused. */
-    const float setpoint =
-        is_input ? next_to(input->setpoint, -axis->reach, axis->reach) : input->setpoint;
+    const float setpoint = is_input ? next_to(input->setpoint, -axis->reach, axis->reach)
+                                    : input->setpoint;
     bool taken = false;
 
     /* CAS-007: an axis begins at what is flown. CAS-005: without a measurement it stops. */
     if (!input->valid) {
         axis->running = false;
     } else if (!axis->running) {
-        axis->running =
-            model_pid_enter(&axis->pid, setpoint, input->measured, input->flown) == KEEL_OK;
+        axis->running = model_pid_enter(&axis->pid, setpoint, input->measured, input->flown) ==
+                        KEEL_OK;
     } else {
         /* It runs already. */
     }
@@ -137,8 +137,6 @@ void model_cascade_axis_step(keel_cascade_axis_t *axis, const keel_cascade_input
                                       !input->below.at_min) == KEEL_OK;
     }
     axis->held = !taken;
-    axis->limit.at_max =
-        input->below.at_max || above || (axis->pid.saturation == KEEL_PID_AT_MAX);
-    axis->limit.at_min =
-        input->below.at_min || below || (axis->pid.saturation == KEEL_PID_AT_MIN);
+    axis->limit.at_max = input->below.at_max || above || (axis->pid.saturation == KEEL_PID_AT_MAX);
+    axis->limit.at_min = input->below.at_min || below || (axis->pid.saturation == KEEL_PID_AT_MIN);
 }

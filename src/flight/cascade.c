@@ -244,8 +244,8 @@ void keel_cascade_axis_step(keel_cascade_axis_t *axis, const keel_cascade_input_
     keel_status_t status = KEEL_ERR_INPUT;
 
     if (!axis->running && input->valid) {
-        axis->running =
-            (keel_pid_enter(&axis->pid, setpoint, input->measured, input->flown) == KEEL_OK);
+        axis->running = (keel_pid_enter(&axis->pid, setpoint, input->measured, input->flown) ==
+                         KEEL_OK);
     }
     axis->running = axis->running && input->valid;
     if (axis->running) {
@@ -299,9 +299,10 @@ static keel_cascade_limit_t torque_limit(bool limited, float torque)
 static float turn_with(keel_cascade_t *cascade, uint32_t axis, float asked, float rate,
                        bool limited, float last)
 {
-    const keel_cascade_input_t input = {asked, rate, last, torque_limit(limited, last),
-                                        is_flown(cascade, axis)};
+    keel_cascade_input_t input = {
+        .setpoint = asked, .measured = rate, .flown = last, .valid = is_flown(cascade, axis)};
 
+    input.below = torque_limit(limited, last);
     keel_cascade_axis_step(&cascade->axis[axis], &input);
     return asks_for(&cascade->axis[axis]);
 }
@@ -314,10 +315,10 @@ void keel_cascade_rate_step(keel_cascade_t *cascade, keel_cascade_rates_t asked,
     const bool yaw = (gave_way & KEEL_MIXER_YAW) != 0u;
 
     cascade->gave_way = gave_way;
-    command->roll =
-        turn_with(cascade, KEEL_CASCADE_ROLL_RATE, asked.roll, rate.x, tilt, command->roll);
-    command->pitch =
-        turn_with(cascade, KEEL_CASCADE_PITCH_RATE, asked.pitch, rate.y, tilt, command->pitch);
+    command->roll = turn_with(cascade, KEEL_CASCADE_ROLL_RATE, asked.roll, rate.x, tilt,
+                              command->roll);
+    command->pitch = turn_with(cascade, KEEL_CASCADE_PITCH_RATE, asked.pitch, rate.y, tilt,
+                               command->pitch);
     command->yaw = turn_with(cascade, KEEL_CASCADE_YAW_RATE, asked.yaw, rate.z, yaw, command->yaw);
     command->thrust = (cascade->axes != 0u) ? keel_range_clamp(asked.thrust, 0.0f, 1.0f) : 0.0f;
 }
@@ -331,9 +332,12 @@ static float lead_with(keel_cascade_t *cascade, uint32_t axis, float asked, floa
                        bool valid)
 {
     const keel_cascade_axis_t *const below = &cascade->axis[axis - STAGE];
-    const keel_cascade_input_t input = {asked, measured, is_asked_for(below), below->limit,
-                                        valid && is_flown(cascade, axis)};
+    keel_cascade_input_t input = {.setpoint = asked,
+                                  .measured = measured,
+                                  .flown = is_asked_for(below),
+                                  .valid = valid && is_flown(cascade, axis)};
 
+    input.below = below->limit;
     keel_cascade_axis_step(&cascade->axis[axis], &input);
     return asks_for(&cascade->axis[axis]);
 }
@@ -379,9 +383,8 @@ static bool is_near(const keel_cascade_fence_t *fence, float way, float speed)
 static keel_cascade_limit_t near_sides(const keel_cascade_fence_t *fence, float reach,
                                        float position, float speed)
 {
-    const bool known =
-        keel_range_contains(position, -KEEL_PID_INPUT_LIMIT, KEEL_PID_INPUT_LIMIT) &&
-        keel_range_contains(speed, -KEEL_PID_INPUT_LIMIT, KEEL_PID_INPUT_LIMIT);
+    const bool known = keel_range_contains(position, -KEEL_PID_INPUT_LIMIT, KEEL_PID_INPUT_LIMIT) &&
+                       keel_range_contains(speed, -KEEL_PID_INPUT_LIMIT, KEEL_PID_INPUT_LIMIT);
     const keel_cascade_limit_t near = {!known || is_near(fence, reach + position, -speed),
                                        !known || is_near(fence, reach - position, speed)};
 
@@ -407,8 +410,8 @@ static float drive_with(keel_cascade_t *cascade, uint32_t axis, keel_cascade_inp
                         float position)
 {
     keel_cascade_axis_t *const own = &cascade->axis[axis];
-    const keel_cascade_limit_t near = near_sides(
-        &cascade->fence, cascade->axis[axis + STAGE].reach, position, input->measured);
+    const keel_cascade_limit_t near = near_sides(&cascade->fence, cascade->axis[axis + STAGE].reach,
+                                                 position, input->measured);
 
     input->setpoint = admitted(near, input->setpoint);
     input->valid = input->valid && is_flown(cascade, axis);
@@ -432,9 +435,9 @@ static bool holds(keel_cascade_limit_t limit, float share)
 static keel_cascade_limit_t shared_limit(keel_cascade_limit_t forward, float forward_share,
                                          keel_cascade_limit_t right, float right_share)
 {
-    const keel_cascade_limit_t limit = {
-        holds(forward, -forward_share) || holds(right, -right_share),
-        holds(forward, forward_share) || holds(right, right_share)};
+    const keel_cascade_limit_t limit = {holds(forward, -forward_share) ||
+                                            holds(right, -right_share),
+                                        holds(forward, forward_share) || holds(right, right_share)};
 
     return limit;
 }
@@ -462,33 +465,40 @@ static void drive(keel_cascade_t *cascade, keel_cascade_vector_t asked,
     const float forward = -KEEL_CASCADE_GRAVITY * is_asked_for(pitch);
     const float right = KEEL_CASCADE_GRAVITY * is_asked_for(roll);
     const keel_cascade_limit_t ahead = {pitch->limit.at_max, pitch->limit.at_min};
-    keel_cascade_input_t north = {asked.north, estimate->velocity.north, (n * forward) - (e * right),
-                                  shared_limit(ahead, n, roll->limit, -e), valid};
-    keel_cascade_input_t east = {asked.east, estimate->velocity.east, (e * forward) + (n * right),
-                                 shared_limit(ahead, e, roll->limit, n), valid};
-    const float to_north =
-        drive_with(cascade, KEEL_CASCADE_NORTH_SPEED, &north, estimate->position.north);
-    const float to_east =
-        drive_with(cascade, KEEL_CASCADE_EAST_SPEED, &east, estimate->position.east);
+    keel_cascade_input_t north = {.setpoint = asked.north,
+                                  .measured = estimate->velocity.north,
+                                  .flown = (n * forward) - (e * right),
+                                  .valid = valid};
+    keel_cascade_input_t east = {.setpoint = asked.east,
+                                 .measured = estimate->velocity.east,
+                                 .flown = (e * forward) + (n * right),
+                                 .valid = valid};
+    float to_north;
+    float to_east;
 
-    cascade->tilt.roll =
-        keel_range_clamp(((n * to_east) - (e * to_north)) * KEEL_CASCADE_PER_GRAVITY, -roll->reach,
-                         roll->reach);
-    cascade->tilt.pitch =
-        keel_range_clamp(-((n * to_north) + (e * to_east)) * KEEL_CASCADE_PER_GRAVITY,
-                         -pitch->reach, pitch->reach);
+    north.below = shared_limit(ahead, n, roll->limit, -e);
+    east.below = shared_limit(ahead, e, roll->limit, n);
+    to_north = drive_with(cascade, KEEL_CASCADE_NORTH_SPEED, &north, estimate->position.north);
+    to_east = drive_with(cascade, KEEL_CASCADE_EAST_SPEED, &east, estimate->position.east);
+    cascade->tilt.roll = keel_range_clamp(((n * to_east) - (e * to_north)) *
+                                              KEEL_CASCADE_PER_GRAVITY,
+                                          -roll->reach, roll->reach);
+    cascade->tilt.pitch = keel_range_clamp(-((n * to_north) + (e * to_east)) *
+                                               KEEL_CASCADE_PER_GRAVITY,
+                                           -pitch->reach, pitch->reach);
 }
 
 void keel_cascade_velocity_step(keel_cascade_t *cascade, keel_cascade_vector_t asked,
                                 const keel_cascade_estimate_t *estimate)
 {
-    const keel_cascade_limit_t below = {(cascade->gave_way & KEEL_MIXER_RAISED) != 0u,
-                                        (cascade->gave_way & KEEL_MIXER_LOWERED) != 0u};
-    keel_cascade_input_t climb = {asked.up, estimate->velocity.up,
-                                  cascade->command.thrust - cascade->hover, below,
-                                  estimate->has_height};
+    keel_cascade_input_t climb = {.setpoint = asked.up,
+                                  .measured = estimate->velocity.up,
+                                  .flown = cascade->command.thrust - cascade->hover,
+                                  .valid = estimate->has_height};
     float lift;
 
+    climb.below.at_min = (cascade->gave_way & KEEL_MIXER_RAISED) != 0u;
+    climb.below.at_max = (cascade->gave_way & KEEL_MIXER_LOWERED) != 0u;
     drive(cascade, asked, estimate);
     lift = drive_with(cascade, KEEL_CASCADE_CLIMB, &climb, estimate->position.up);
     cascade->thrust = keel_range_clamp(cascade->hover + lift, 0.0f, 1.0f);

@@ -201,9 +201,6 @@ keel_status_t keel_pid_step(keel_pid_t *pid, float setpoint, float measurement)
 
 keel_status_t keel_pid_enter(keel_pid_t *pid, float setpoint, float measurement, float output)
 {
-    float first;
-    float direct;
-
     if (!(is_input(setpoint) && is_input(measurement) && is_limit(output))) {
         return KEEL_ERR_INPUT;
     }
@@ -211,9 +208,9 @@ keel_status_t keel_pid_enter(keel_pid_t *pid, float setpoint, float measurement,
     pid->output = keel_range_clamp(output, pid->config.output_min, pid->config.output_max);
     if (pid->integral_gain > 0.0f) {
         /* What the first step adds up besides: its derivative is 0, and its integral moves. */
-        first = setpoint - measurement;
-        direct = direct_terms(&pid->config.gains, setpoint, first, 0.0f) +
-                 (pid->integral_gain * first);
+        const float first = setpoint - measurement;
+        const float direct = direct_terms(&pid->config.gains, setpoint, first, 0.0f) +
+                             (pid->integral_gain * first);
         pid->integral = keel_range_clamp(pid->output - direct, pid->config.integral_min,
                                          pid->config.integral_max);
     }

@@ -103,8 +103,8 @@ static void CAS_001_the_reach_of_each_axis(void)
  * the lesser reach of roll and pitch, 0.5. */
 static void CAS_001_outputs_are_within_what_takes_them(void)
 {
-    static const float most[AXES] = {1.0f, 1.0f, 1.0f, 6.0f, 5.0f, 3.4671735f, 3.4671735f, 0.625f,
-                                     8.0f, 7.0f, 4.0f};
+    static const float most[AXES] = {1.0f,       1.0f,   1.0f, 6.0f, 5.0f, 3.4671735f,
+                                     3.4671735f, 0.625f, 8.0f, 7.0f, 4.0f};
 
     for (uint32_t i = 0u; i < AXES; i++) {
         const keel_pid_config_t good = config.pid[i];
@@ -820,9 +820,9 @@ static void is_near_at(float north, float east, float up, float speed, bool near
     }
 }
 
-/* With v = 1.5 m/s: v' is 2.5 m/s, for which 1.25 m are needed after 0.5 m, so the side is near from
- * 1.75 m on. With v = -1: v' = 0, and 0.125 m back. With v = -3, still moving away after T, 0.625 m
- * back: near from 0.625 m beyond the side on. */
+/* With v = 1.5 m/s: v' is 2.5 m/s, for which 1.25 m are needed after 0.5 m, so the side is near
+ * from 1.75 m on. With v = -1: v' = 0, and 0.125 m back. With v = -3, still moving away after T,
+ * 0.625 m back: near from 0.625 m beyond the side on. */
 static void CAS_011_no_way_towards_a_side_that_is_near(void)
 {
     for (uint32_t i = KEEL_CASCADE_NORTH_SPEED; i <= KEEL_CASCADE_CLIMB; i++) {

@@ -95,10 +95,9 @@ static keel_cascade_estimate_t any_estimate(void)
 static void step(void)
 {
     const keel_cascade_estimate_t estimate = any_estimate();
-    const keel_cascade_vector_t asked = one_in(2u)
-                                            ? cascade.velocity
-                                            : (keel_cascade_vector_t){about(8.0f), about(8.0f),
-                                                                      about(5.0f)};
+    const keel_cascade_vector_t asked = one_in(2u) ? cascade.velocity
+                                                   : (keel_cascade_vector_t){
+                                                         about(8.0f), about(8.0f), about(5.0f)};
     const keel_cascade_vector_t place = {about(100.0f), about(100.0f), about(100.0f)};
     const keel_cascade_tilt_t tilt = one_in(2u) ? cascade.tilt
                                                 : (keel_cascade_tilt_t){about(0.6f), about(0.6f)};

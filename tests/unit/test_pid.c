@@ -334,7 +334,7 @@ static void PID_010_an_integral_that_stays_may_free_the_output(void)
     TEST_ASSERT_EQUAL_FLOAT(0.0f, pid.integral);
 }
 
-/* --- PID-011: kp 2, ki T 0.1, kff 0.5; the integral from -20 to 30. ------------------------------ */
+/* --- PID-011: kp 2, ki T 0.1, kff 0.5; the integral from -20 to 30 ---------------------------- */
 
 static void enter(float setpoint, float measurement, float output)
 {

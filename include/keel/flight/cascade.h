@@ -19,35 +19,35 @@
  * outputs could be beyond what takes them is refused, so no stage asks for more than the next one
  * takes, and the rate stage for no more than the mixer does.
  *
- * Wind-up: an axis is at its limit when its output is, when it is asked for more than its reach, and
- * when what takes its output is at its limit in that direction, down to the mixer's flags. While the
- * axis below is at its limit, an integral does not move further in that direction. For north and
- * east an axis of the body counts that has more than half of its size in that direction.
+ * Wind-up: an axis is at its limit when its output is, when it is asked for more than its reach,
+ * and when what takes its output is at its limit in that direction, down to the mixer's flags.
+ * While the axis below is at its limit, an integral does not move further in that direction. For
+ * north and east an axis of the body counts that has more than half of its size in that direction.
  *
  * Modes: keel_cascade_enter tells which axes the mode flies. An axis that begins to run begins at
- * what is flown: its first output is the set-point that the axis below has, as far as its integral's
- * limits let it (keel_pid_enter). One whose estimate is not there stops, and asks for 0: no torque,
- * no turning, level, hovering, no speed. An axis that is given NaN, or a number beyond
+ * what is flown: its first output is the set-point that the axis below has, as far as its
+ * integral's limits let it (keel_pid_enter). One whose estimate is not there stops, and asks for 0:
+ * no torque, no turning, level, hovering, no speed. An axis that is given NaN, or a number beyond
  * KEEL_PID_INPUT_LIMIT, holds its output, and says so.
  *
  * Angles are sines, which the rows of the attitude's matrix give without trigonometry: roll is v_y,
  * pitch -v_x (attitude.h). A set-point of x rad taken as a sine is an angle of asin x: 1 % more at
- * 0.24, 4.7 % at 0.5, 13.1 % at KEEL_CASCADE_TILT_MAX. Accelerations become sines by a / g, which at
- * such angles is less than tan: 3 % at 0.24, 15 % at 0.5. They are turned by the direction of the
- * body's forward axis, (n_x, e_x), whose length is the cosine of pitch. Loops around these see a
- * gain that is off by as much. Both accelerations are limited to 1/sqrt 2 of what the reach of roll
- * and pitch allows, so that the tilt that the velocity stage asks for is within that in total.
+ * 0.24, 4.7 % at 0.5, 13.1 % at KEEL_CASCADE_TILT_MAX. Accelerations become sines by a / g, which
+ * at such angles is less than tan: 3 % at 0.24, 15 % at 0.5. They are turned by the direction of
+ * the body's forward axis, (n_x, e_x), whose length is the cosine of pitch. Loops around these see
+ * a gain that is off by as much. Both accelerations are limited to 1/sqrt 2 of what the reach of
+ * roll and pitch allows, so that the tilt that the velocity stage asks for is within that in total.
  *
  * Fence: the reach of north, east and height is that of a box about home, height both above and
- * below. From position x and speed v towards a side at L, a set-point towards that side counts as 0,
- * so that the aircraft brakes, unless
+ * below. From position x and speed v towards a side at L, a set-point towards that side counts as
+ * 0, so that the aircraft brakes, unless
  *
  *     x' = x + v T + A T^2 / 2,  v' = max(v + A T, 0):   x' <= L and v'^2 <= 2 a (L - x')
  *
- * A being the greatest acceleration of the vehicle towards the side, a what it brakes with at least,
- * T the reaction time, from a measurement to when the braking works that follows from the next one.
- * What this keeps is proved over the reals (proofs/cascade/fence.c): inside of the fence, with way to
- * brake, at all times. That the aircraft does A, a and T is an assumption (A-34).
+ * A being the greatest acceleration of the vehicle towards the side, a what it brakes with at
+ * least, T the reaction time, from a measurement to when the braking works that follows from the
+ * next one. What this keeps is proved over the reals (proofs/cascade/fence.c): inside of the fence,
+ * with way to brake, at all times. That the aircraft does A, a and T is an assumption (A-34).
  *
  * No division, square root or trigonometry in a step. Single precision throughout. Sources must be
  * compiled without contraction of products and sums, as all builds of Keel do.
@@ -139,7 +139,7 @@ typedef struct keel_cascade_input {
     float measured;             /**< Any bit pattern. */
     float flown;                /**< What the axis below is asked for now. */
     keel_cascade_limit_t below; /**< Whether the axis below, or the mixer, is at its limit. */
-    bool valid;                 /**< Whether there is a measurement, and the mode flies this axis. */
+    bool valid;                 /**< There is a measurement, and the mode flies this axis. */
 } keel_cascade_input_t;
 
 /** The fence, as a step needs it. */
@@ -269,9 +269,9 @@ typedef struct keel_cascade {
  * @param axis   the axis
  * @return KEEL_OK; KEEL_ERR_INPUT when there is no such axis; KEEL_ERR_LIMITS when a number is out
  *         of its range, the output's limits are beyond the reach of the axis below, -1 to 1 for a
- *         torque, 0 to 1 for the thrust, or for an acceleration beyond what the tilt allows or A, or
- *         within a, or the reaction time is below a period of the speeds; what keel_pid_init says
- *         of the controller
+ *         torque, 0 to 1 for the thrust, or for an acceleration beyond what the tilt allows or A,
+ *         or within a, or the reaction time is below a period of the speeds; what keel_pid_init
+ *         says of the controller
  */
 /*@ requires \valid_read(config);
   @ assigns \nothing;
@@ -397,8 +397,8 @@ void keel_cascade_angle_step(keel_cascade_t *cascade, keel_cascade_tilt_t asked,
  * CAS-010, CAS-011).
  *
  * @param cascade  the cascade
- * @param asked    velocities, any bit patterns; those towards a side of the fence that is near count
- *                 as 0
+ * @param asked    velocities, any bit patterns; those towards a side of the fence that is near
+ *                 count as 0
  * @param estimate where the aircraft is, any bit patterns
  */
 /*@ requires \valid(cascade) && \valid_read(estimate) && \separated(cascade, estimate);

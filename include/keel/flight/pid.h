@@ -229,7 +229,8 @@ keel_status_t keel_pid_step(keel_pid_t *pid, float setpoint, float measurement);
  * @param measurement the first measurement, any bit pattern
  * @param output      the output to begin at, any bit pattern; beyond the output's limits it counts
  *                    as the limit next to it
- * @return KEEL_OK; KEEL_ERR_INPUT when set-point or measurement is not as keel_pid_step takes it, or
+ * @return KEEL_OK; KEEL_ERR_INPUT when set-point or measurement is not as keel_pid_step takes it,
+ * or
  *         the output not finite or beyond KEEL_PID_OUTPUT_LIMIT: then nothing is changed
  */
 /*@ requires \valid(pid);
