@@ -16,6 +16,7 @@
 #define LABEL_SIZE 64u
 
 static keel_attitude_t bench_attitude;
+static keel_cascade_t bench_cascade;
 static keel_filter_t bench_filter;
 static keel_pid_t bench_pid;
 static keel_mixer_t bench_mixer;
@@ -121,6 +122,27 @@ static void bench_run_attitude(void)
     bench_dump("attitude");
 }
 
+static void bench_run_cascade(void)
+{
+    const keel_cascade_config_t config = cascade_workload();
+
+    bench_require(keel_cascade_init(&bench_cascade, &config) == KEEL_OK, "cascade");
+    keel_cascade_enter(&bench_cascade, KEEL_MODE_RETURN);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const keel_cascade_estimate_t estimate = place_at(n);
+
+        if (n < STEPS) {
+            cascade_steps(&bench_cascade, &estimate);
+        } else {
+            CALLGRIND_TOGGLE_COLLECT;
+            cascade_steps(&bench_cascade, &estimate);
+            CALLGRIND_TOGGLE_COLLECT;
+            bench_require(bench_cascade.axis[KEEL_CASCADE_NORTH].running, "cascade step");
+        }
+    }
+    bench_dump("cascade");
+}
+
 static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     const keel_mode_input_t input = mode_workload(&bench_mode, settle_us,
@@ -163,6 +185,7 @@ int main(void)
     bench_run_mode("mode", 250000u, KEEL_MODE_FLYING);
     bench_run_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
     bench_run_attitude();
+    bench_run_cascade();
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;

@@ -322,6 +322,28 @@ static void bench_attitude(void)
     print(&steps);
 }
 
+static void bench_cascade(void)
+{
+    static keel_cascade_t cascade KEEL_REALTIME_ZERO;
+    const keel_cascade_config_t config = cascade_workload();
+    kind_t steps = {"cascade", 0u, 0u, 0u};
+
+    require(keel_cascade_init(&cascade, &config) == KEEL_OK);
+    keel_cascade_enter(&cascade, KEEL_MODE_RETURN);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        keel_cascade_estimate_t estimate = place_at(n);
+
+        if (n < STEPS) {
+            cascade_steps(&cascade, &estimate);
+        } else {
+            add(&steps,
+                measure((function_t)cascade_steps, &cascade, (uint32_t)&estimate, 0u, false));
+            require(cascade.axis[KEEL_CASCADE_NORTH].running);
+        }
+    }
+    print(&steps);
+}
+
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     static keel_mode_t mode KEEL_REALTIME_ZERO;
@@ -383,6 +405,7 @@ int main(void)
     bench_mode("mode", 250000u, KEEL_MODE_FLYING);
     bench_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
     bench_attitude();
+    bench_cascade();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
     keel_console_text(bad ? "bench failed\n" : "bench ended\n");

@@ -8,6 +8,7 @@
 #define KEEL_BENCH_WORKLOAD_H
 
 #include "keel/flight/attitude.h"
+#include "keel/flight/cascade.h"
 #include "keel/flight/mixer.h"
 #include "keel/flight/mode.h"
 #include "keel/flight/pid.h"
@@ -145,6 +146,59 @@ static keel_attitude_sample_t attitude_sample_at(uint32_t n)
                                            .has_acceleration = true};
 
     return sample;
+}
+
+/* --- Cascade ---------------------------------------------------------------------------------- */
+
+static keel_cascade_config_t cascade_workload(void)
+{
+    static const float reach[KEEL_CASCADE_AXES] = {6.0f, 6.0f, 3.0f,  0.5f,  0.5f, 8.0f,
+                                                   8.0f, 3.0f, 90.0f, 90.0f, 60.0f};
+    static const float most[KEEL_CASCADE_AXES] = {1.0f, 1.0f, 1.0f, 5.0f, 5.0f, 3.4f,
+                                                  3.4f, 0.3f, 6.0f, 6.0f, 2.5f};
+    keel_cascade_config_t config = {
+        .hover = 0.375f, .acceleration = 4.0f, .braking = 1.5f, .reaction_s = 0.5f};
+
+    for (uint32_t i = 0u; i < KEEL_CASCADE_AXES; i++) {
+        config.reach[i] = reach[i];
+        config.pid[i] = pid_workload;
+        config.pid[i].output_min = -most[i];
+        config.pid[i].output_max = most[i];
+        config.pid[i].integral_min = -most[i];
+        config.pid[i].integral_max = most[i];
+    }
+    return config;
+}
+
+/* On the way somewhere, with numbers that keep moving. */
+static keel_cascade_estimate_t place_at(uint32_t n)
+{
+    const keel_cascade_estimate_t estimate = {
+        .position = {10.0f * signal_at(n), 5.0f, 3.0f},
+        .velocity = {signal_at(n), 0.5f, 0.1f * signal_at(n)},
+        .forward_north = 0.8f,
+        .forward_east = 0.6f,
+        .has_place = true,
+        .has_height = true};
+
+    return estimate;
+}
+
+/* What the tasks of a cascade do, once each: all four stages. */
+static void cascade_steps(keel_cascade_t *cascade, const keel_cascade_estimate_t *estimate)
+{
+    const keel_cascade_vector_t there = {12.0f, 4.0f, 3.5f};
+    const keel_attitude_vector_t down = {0.1f * estimate->velocity.north, -0.05f, 0.99f};
+    const keel_attitude_vector_t rate = {0.2f * estimate->velocity.north, 0.1f, -0.1f};
+    keel_cascade_rates_t rates = {.yaw = 0.3f};
+
+    keel_cascade_position_step(cascade, there, estimate);
+    keel_cascade_velocity_step(cascade, cascade->velocity, estimate);
+    keel_cascade_angle_step(cascade, cascade->tilt, down, true);
+    rates.roll = cascade->rates.roll;
+    rates.pitch = cascade->rates.pitch;
+    rates.thrust = cascade->thrust;
+    keel_cascade_rate_step(cascade, rates, rate, 0u);
 }
 
 /* --- Virtual IMU ------------------------------------------------------------------------------ */
