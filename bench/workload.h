@@ -173,13 +173,12 @@ static keel_cascade_config_t cascade_workload(void)
 /* On the way somewhere, with numbers that keep moving. */
 static keel_cascade_estimate_t place_at(uint32_t n)
 {
-    const keel_cascade_estimate_t estimate = {
-        .position = {10.0f * signal_at(n), 5.0f, 3.0f},
-        .velocity = {signal_at(n), 0.5f, 0.1f * signal_at(n)},
-        .forward_north = 0.8f,
-        .forward_east = 0.6f,
-        .has_place = true,
-        .has_height = true};
+    const keel_cascade_estimate_t estimate = {.position = {10.0f * signal_at(n), 5.0f, 3.0f},
+                                              .velocity = {signal_at(n), 0.5f, 0.1f * signal_at(n)},
+                                              .forward_north = 0.8f,
+                                              .forward_east = 0.6f,
+                                              .has_place = true,
+                                              .has_height = true};
 
     return estimate;
 }

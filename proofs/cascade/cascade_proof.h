@@ -23,21 +23,21 @@ keel_cascade_tilt_t nondet_tilt(void);
 keel_cascade_vector_t nondet_cascade_vector(void);
 keel_attitude_vector_t nondet_vector(void);
 
-static bool limit_same(keel_cascade_limit_t a, keel_cascade_limit_t b)
+static bool limit_same(const keel_cascade_limit_t *a, const keel_cascade_limit_t *b)
 {
-    return (a.at_min == b.at_min) && (a.at_max == b.at_max);
+    return (a->at_min == b->at_min) && (a->at_max == b->at_max);
 }
 
 static bool axis_same(const keel_cascade_axis_t *a, const keel_cascade_axis_t *b)
 {
     return pid_same(&a->pid, &b->pid) && float_same(a->reach, b->reach) &&
-           limit_same(a->limit, b->limit) && (a->running == b->running) && (a->held == b->held);
+           limit_same(&a->limit, &b->limit) && (a->running == b->running) && (a->held == b->held);
 }
 
 static bool input_same(const keel_cascade_input_t *a, const keel_cascade_input_t *b)
 {
     return float_same(a->setpoint, b->setpoint) && float_same(a->measured, b->measured) &&
-           float_same(a->flown, b->flown) && limit_same(a->below, b->below) &&
+           float_same(a->flown, b->flown) && limit_same(&a->below, &b->below) &&
            (a->valid == b->valid);
 }
 

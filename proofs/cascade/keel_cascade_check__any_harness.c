@@ -11,7 +11,16 @@
 // another, so that a rate is a number to the solver.
 #include "cascade_points.h"
 
+#include <math.h>
+
 static keel_cascade_config_t config;
+
+/* One that is a factor is a chosen number, or none: products of any are in
+ * keel_cascade_check_harness, to which both sides of a product are the same term. */
+static float chosen(float one, float other)
+{
+    return nondet_bool() ? one : (nondet_bool() ? other : NAN);
+}
 
 static void check(uint32_t axis)
 {
@@ -47,13 +56,15 @@ void keel_cascade_check__any_harness(void)
     config.hover = any.hover;
     config.acceleration = any.acceleration;
     config.braking = any.braking;
-    config.reaction_s = any.reaction_s;
     for (uint32_t i = 0u; i < AXES; i++) {
         config.reach[i] = any.reach[i];
         config.pid[i].gains.kp = nondet_bool() ? 1.0f : -1.0f;
         config.pid[i].output_min = any.pid[i].output_min;
         config.pid[i].output_max = any.pid[i].output_max;
     }
+    config.reach[KEEL_CASCADE_ROLL] = chosen(0.5f, 0.75f);
+    config.reach[KEEL_CASCADE_PITCH] = chosen(0.625f, 0.875f);
+    config.reaction_s = chosen(0.25f, 0.001f);
     for (uint32_t i = 0u; i < AXES; i++) {
         check(i);
     }
