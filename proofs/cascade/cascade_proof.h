@@ -172,6 +172,45 @@ static keel_cascade_estimate_t any_estimate(void)
     return estimate;
 }
 
+/* --- The contract of keel_cascade_check ------------------------------------------------------- */
+
+static bool keel_cascade_check_may(void)
+{
+    return true;
+}
+
+/* What the axis of a configuration may ask for, of those that cascade_valid bounds. */
+static float most_asked(const keel_cascade_config_t *config, uint32_t axis)
+{
+    return (axis <= KEEL_CASCADE_YAW_RATE) ? 1.0f
+           : (axis == KEEL_CASCADE_CLIMB)  ? 1.0f
+           : ((axis == KEEL_CASCADE_NORTH_SPEED) || (axis == KEEL_CASCADE_EAST_SPEED))
+               ? KEEL_CASCADE_GRAVITY
+               : config->reach[axis - 3u];
+}
+
+static float reach_of(uint32_t axis)
+{
+    return (axis <= KEEL_CASCADE_YAW_RATE) ? KEEL_CASCADE_RATE_MAX
+           : (axis <= KEEL_CASCADE_PITCH)  ? KEEL_CASCADE_TILT_MAX
+           : (axis <= KEEL_CASCADE_CLIMB)  ? KEEL_CASCADE_SPEED_MAX
+                                           : KEEL_CASCADE_DISTANCE_MAX;
+}
+
+static bool keel_cascade_check_does(keel_status_t status, const keel_cascade_config_t *config,
+                                    uint32_t axis)
+{
+    return (status != KEEL_OK) ||
+           ((axis < AXES) && within(config->reach[axis], 0.0f, reach_of(axis)) &&
+            limits_here(&config->pid[axis]) &&
+            (config->pid[axis].output_min >= -most_asked(config, axis)) &&
+            (config->pid[axis].output_max <= most_asked(config, axis)) &&
+            within(config->hover, 0.0f, 1.0f) &&
+            within(config->acceleration, KEEL_CASCADE_BRAKING_MIN, KEEL_CASCADE_ACCELERATION_MAX) &&
+            within(config->braking, KEEL_CASCADE_BRAKING_MIN, KEEL_CASCADE_ACCELERATION_MAX) &&
+            within(config->reaction_s, 0.0f, KEEL_CASCADE_REACTION_MAX_S));
+}
+
 /* --- The contract of keel_cascade_axis_step --------------------------------------------------- */
 
 static bool keel_cascade_axis_step_may(const keel_cascade_axis_t *axis)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The cascade in closed loop with a point mass that tilts, in double precision: it holds and reaches
- * places, does not jump when modes change, and stays inside of the fence (CAS-012 as far as a test
- * goes: the plant is one, and is known to keep A-34). */
+/* The cascade in closed loop with a point mass that tilts, in double precision: it holds and
+ * reaches places, does not jump when modes change, and stays inside of the fence (CAS-012 as far as
+ * a test goes: the plant is one, and is known to keep A-34). */
 #include "any.h"
 #include "cascades.h"
 
