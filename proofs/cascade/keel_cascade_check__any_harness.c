@@ -12,6 +12,7 @@ static keel_cascade_config_t config;
 
 void keel_cascade_check__any_harness(void)
 {
+    const uint32_t none = nondet_uint();
     const keel_cascade_config_t any = nondet_cascade_config();
 
     __CPROVER_assume(keel_cascade_check_may());
@@ -25,7 +26,9 @@ void keel_cascade_check__any_harness(void)
         config.pid[i].output_min = any.pid[i].output_min;
         config.pid[i].output_max = any.pid[i].output_max;
     }
-    for (uint32_t axis = 0u; axis < AXES; axis++) {
+    __CPROVER_assume(none >= AXES);
+    for (uint32_t i = 0u; i <= AXES; i++) {
+        const uint32_t axis = (i < AXES) ? i : none;
         const keel_status_t status = keel_cascade_check(&config, axis);
 
         __CPROVER_assert(keel_cascade_check_does(status, &config, axis),

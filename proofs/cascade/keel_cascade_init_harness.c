@@ -5,8 +5,8 @@
 // replaces: keel_cascade_check keel_pid_init
 // covers: keel_cascade_init model_cascade_init
 //
-// Any bit pattern for all of a configuration. What a check and the making of a controller come to is
-// unknown: anything to the model, within the contract; the code asks it of the same axes and
+// Any bit pattern for all of a configuration. What a check and the making of a controller come to
+// is unknown: anything to the model, within the contract; the code asks it of the same axes and
 // configurations, and is told the same.
 #include "cascade_proof.h"
 

@@ -59,7 +59,7 @@ static bool acceleration_valid(const keel_cascade_config_t *config, const keel_p
 {
     const float roll = config->reach[KEEL_CASCADE_ROLL];
     const float pitch = config->reach[KEEL_CASCADE_PITCH];
-    const float most = KEEL_CASCADE_DIAGONAL * ((roll < pitch) ? roll : pitch);
+    const float most = KEEL_CASCADE_DIAGONAL * next_to((roll < pitch) ? roll : pitch, 0.0f, 0.75f);
 
     return (pid->output_min >= -most) && (pid->output_max <= most) &&
            (pid->output_max >= config->braking) && (pid->output_max <= config->acceleration) &&

@@ -51,7 +51,8 @@ static float most_taken(const keel_cascade_config_t *config, uint32_t axis)
         return 1.0f;
     }
     if (is_speed(axis)) {
-        return KEEL_CASCADE_DIAGONAL * ((roll < pitch) ? roll : pitch);
+        return KEEL_CASCADE_DIAGONAL *
+               keel_range_clamp((roll < pitch) ? roll : pitch, 0.0f, KEEL_CASCADE_TILT_MAX);
     }
     return (axis == KEEL_CASCADE_CLIMB) ? (1.0f - config->hover) : config->reach[axis - STAGE];
 }
