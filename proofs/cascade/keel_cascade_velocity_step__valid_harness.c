@@ -3,7 +3,7 @@
 // checks: assertions
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c
 // replaces: keel_cascade_axis_step
-// covers: keel_cascade_velocity_step
+// covers: keel_cascade_velocity_step drive_with
 //
 // Any valid cascade, any bit pattern of what it is told: tilt and thrust are within their limits,
 // and the cascade stays valid. What they are is in keel_cascade_velocity_step_harness.

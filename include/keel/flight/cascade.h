@@ -96,14 +96,14 @@ KEEL_C_BEGIN
 #define KEEL_CASCADE_REACTION_MAX_S 4.0f
 
 /** What an acceleration in m/s^2 is as a sine: 1/g. */
-#define KEEL_CASCADE_PER_GRAVITY 0.101971621297792824f
+#define KEEL_CASCADE_PER_GRAVITY 0.101971618831157684326171875f
 
 /** g in m/s^2; and g / sqrt 2, rounded down. */
-#define KEEL_CASCADE_GRAVITY  9.80665f
-#define KEEL_CASCADE_DIAGONAL 6.934347f
+#define KEEL_CASCADE_GRAVITY  9.8066501617431640625f
+#define KEEL_CASCADE_DIAGONAL 6.93359375f
 
 /** What a component of the body's forward axis never exceeds. */
-#define KEEL_CASCADE_HEADING_MAX 1.001f
+#define KEEL_CASCADE_HEADING_MAX 1.0009765625f
 
 /** From this part on, an axis of the body at its limit counts for north or east. */
 #define KEEL_CASCADE_SHARE 0.5f
