@@ -5,17 +5,25 @@
  * aircraft never leaves it.
  *
  * x is a position, v a speed, both towards a side at L. inside(x, v) says that full braking, by a,
- * stops before the side. At each step the velocity stage looks whether the side is near; if it is
- * not, the aircraft may do anything with an acceleration up to A for the reaction time T
- * (CAS_012_free); if it is, it is braked from then on, and so it is after T at the latest, from
- * when on each further step of it keeps what is needed (CAS_012_braked), at the steps and in
- * between.
+ * stops before the side. `admits` is what the velocity stage asks for where it finds a side not
+ * near: the aircraft is inside after the reaction time T even with the worst acceleration, A.
+ *
+ * While it admits, every motion y, w after a time t up to T that is not beyond the worst one, p, q
+ * (y <= p, w <= q), is inside: where p still comes nearer, by CAS_012_sooner and CAS_012_slower it
+ * is not beyond that after T, which is inside (CAS_012_admitted), and so is what is less
+ * (CAS_012_less); where it does not, it went away only (CAS_012_away, CAS_012_resting). Braked by a
+ * at least from inside, it stays so while it comes nearer (CAS_012_kept for the motion braked by a,
+ * CAS_012_less for one braked more, CAS_012_before), and where it has stopped (CAS_012_stopped).
+ *
+ * Variables d and e stand for products, which are not negative by CAS_012_product: provers do not
+ * multiply by themselves.
  */
 
-/*@ predicate inside(real L, real a, real x, real v) =
+/*@ // Braking by a stops before the side.
+  @ predicate inside(real L, real a, real x, real v) =
   @     x <= L && (v > 0 ==> v * v <= 2 * a * (L - x));
   @
-  @ // What the code asks for, as in cascade.h.
+  @ // x' of cascade.h.
   @ logic real farthest(real x, real v, real A, real T) = x + v * T + A * T * T / 2;
   @
   @ predicate admits(real L, real a, real x, real v, real A, real T) =
@@ -26,41 +34,41 @@
   @ lemma CAS_012_left: \forall real L, x, v, A, T;
   @     L - farthest(x, v, A, T) == (L - x) - T * (v + A * T / 2);
   @
-  @ // With the worst acceleration for a time t up to T: the worst is at the end.
-  @ lemma CAS_012_sooner: \forall real x, v, A, t, T; 0 <= A && 0 <= t <= T && 0 <= v + A * t ==>
+  @ lemma CAS_012_product: \forall real a, b; 0 <= a && 0 <= b ==> 0 <= a * b;
+  @
+  @ // A motion that is less than one that is inside.
+  @ lemma CAS_012_less: \forall real L, a, p, q, y, w, d, e; 0 < a && inside(L, a, p, q) &&
+  @     y <= p && w <= q && d == 2 * a * (p - y) && 0 <= d &&
+  @     e == (q - w) * (q + w) && (0 < w ==> 0 <= e) ==> inside(L, a, y, w);
+  @
+  @ lemma CAS_012_sooner: \forall real x, v, A, t, T, d, e;
+  @     d == (T - t) * (v + A * t) && 0 <= d && e == A * ((T - t) * (T - t)) && 0 <= e ==>
+  @     farthest(x, v, A, t) + d + e / 2 == farthest(x, v, A, T) &&
   @     farthest(x, v, A, t) <= farthest(x, v, A, T);
   @
-  @ lemma CAS_012_slower: \forall real v, A, t, T; 0 <= A && 0 <= t <= T && 0 <= v + A * t ==>
-  @     v + A * t <= v + A * T &&
-  @     (v + A * t) * (v + A * t) <= (v + A * T) * (v + A * T);
+  @ lemma CAS_012_slower: \forall real v, A, t, T, d; d == A * (T - t) && 0 <= d ==>
+  @     v + A * t <= v + A * T;
   @
-  @ lemma CAS_012_way: \forall real L, a, p, q; 0 < a && p <= q ==>
-  @     2 * a * (L - q) <= 2 * a * (L - p);
+  @ lemma CAS_012_away: \forall real x, v, A, t, d, e; d == t * (-v - A * t) && 0 <= d &&
+  @     e == A * (t * t) && 0 <= e ==> farthest(x, v, A, t) <= x;
   @
-  @ // Where it still moves away at the end, it has only moved away.
-  @ lemma CAS_012_away: \forall real x, v, A, t; 0 <= A && 0 <= t && v + A * t <= 0 ==>
-  @     farthest(x, v, A, t) <= x;
+  @ lemma CAS_012_admitted: \forall real L, a, x, v, A, T;
+  @     admits(L, a, x, v, A, T) ==> inside(L, a, farthest(x, v, A, T), v + A * T);
   @
-  @ // Any motion y, w after t that is not faster than the worst one is inside.
-  @ lemma CAS_012_free: \forall real L, a, x, v, A, t, T, y, w;
-  @     0 < a && 0 <= A && 0 <= t <= T && x <= L && admits(L, a, x, v, A, T) &&
-  @     y <= farthest(x, v, A, t) && w <= v + A * t ==> inside(L, a, y, w);
+  @ lemma CAS_012_resting: \forall real L, a, y, w; y <= L && w <= 0 ==> inside(L, a, y, w);
   @
-  @ // Braked for a time t by a at least: slower by a t at least, and where it still moves towards
-  @ // the side, no farther than braking by a leads. Where it does not, it went no farther than to
-  @ // where that braking stops.
-  @ predicate braked(real a, real x, real v, real t, real y, real w) =
-  @     w <= v - a * t && y <= x + v * t - a * t * t / 2;
-  @
+  @ // It went no farther than to where braking by a stops.
   @ predicate stopped(real a, real x, real v, real y, real w) =
   @     w <= 0 && (v > 0 ==> 2 * a * (y - x) <= v * v) && (v <= 0 ==> y <= x);
   @
-  @ lemma CAS_012_square: \forall real a, v, t; 0 < a && 0 <= t && 0 <= v - a * t ==>
-  @     (v - a * t) * (v - a * t) == v * v - 2 * a * (v * t - a * t * t / 2);
+  @ // Braked by a for a time t.
+  @ lemma CAS_012_kept: \forall real L, a, x, v, t, d; 0 < v && inside(L, a, x, v) &&
+  @     d == 2 * a * (v * t - a * t * t / 2) ==>
+  @     (v - a * t) * (v - a * t) == v * v - d &&
+  @     (v - a * t) * (v - a * t) <= 2 * a * (L - (x + v * t - a * t * t / 2));
   @
-  @ lemma CAS_012_braked: \forall real L, a, x, v, t, y, w;
-  @     0 < a && 0 <= t && inside(L, a, x, v) && 0 < w && braked(a, x, v, t, y, w) ==>
-  @     inside(L, a, y, w);
+  @ lemma CAS_012_before: \forall real L, a, x, s; 0 < a && s * s <= 2 * a * (L - x) &&
+  @     0 <= s * s ==> x <= L;
   @
   @ lemma CAS_012_stopped: \forall real L, a, x, v, y, w;
   @     0 < a && inside(L, a, x, v) && stopped(a, x, v, y, w) ==> inside(L, a, y, w);

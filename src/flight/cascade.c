@@ -447,7 +447,8 @@ static bool is_direction(float part)
 
 /* North and east: accelerations, turned and made tilts. */
 /*@ requires \valid(cascade) && \valid_read(estimate) && \separated(cascade, estimate);
-  @ requires cascade_valid(cascade);
+  @ requires cascade_number(cascade->axis[KEEL_CASCADE_ROLL].reach, 0, KEEL_CASCADE_DISTANCE_MAX);
+  @ requires cascade_number(cascade->axis[KEEL_CASCADE_PITCH].reach, 0, KEEL_CASCADE_DISTANCE_MAX);
   @ assigns cascade->axis[KEEL_CASCADE_NORTH_SPEED .. KEEL_CASCADE_EAST_SPEED], cascade->tilt;
   @*/
 static void drive(keel_cascade_t *cascade, keel_cascade_vector_t asked,
