@@ -3,8 +3,8 @@
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c
 // sources: specs/model/cascade_parts.c specs/model/pid.c specs/model/filter.c
 // covers: keel_cascade_check greatest_reach is_speed most_taken is_output_taken is_braking
-// is_in_time covers: are_numbers model_cascade_check numbers_valid acceleration_valid output_valid
-// reach_limit covers: lies_within
+// covers: is_in_time are_numbers model_cascade_check numbers_valid acceleration_valid
+// covers: output_valid reach_limit lies_within next_to
 //
 // Any bit pattern of the cascade's own numbers and of what limits the controllers' outputs; the
 // rest of these is good, or a gain is not: keel_pid_init has harnesses of its own. One axis after

@@ -7,16 +7,29 @@
 //
 // Any valid cascade, any bit pattern of what it is told: where a side of the fence is near, by the
 // formula of cascade.h as rounded, an axis is not asked to go there, and says that it is at its
-// limit. What an axis does is unknown.
+// limit. What an axis does is unknown; that it does not go where it is not asked to go is in
+// keel_cascade_axis_step_harness.
 #include "cascade_proof.h"
 
 static keel_cascade_t cascade;
+static float asked_of[AXES];
+
+static uint32_t index_of(const keel_cascade_axis_t *axis)
+{
+    uint32_t index = 0u;
+
+    for (uint32_t i = 0u; i < AXES; i++) {
+        index = (axis == &cascade.axis[i]) ? i : index;
+    }
+    return index;
+}
 
 void keel_cascade_axis_step_stand_in(keel_cascade_axis_t *axis, const keel_cascade_input_t *input)
 {
     const keel_cascade_axis_t before = *axis;
 
     __CPROVER_assert(keel_cascade_axis_step_may(axis), "precondition: keel_cascade_axis_step");
+    asked_of[index_of(axis)] = input->setpoint;
     *axis = any_axis();
     __CPROVER_assume(keel_cascade_axis_step_does(axis, &before, input));
 }
@@ -33,13 +46,13 @@ static bool near_here(const keel_cascade_fence_t *fence, float way, float speed)
 /* cascade_fenced */
 static bool fenced_here(uint32_t i, float position, float speed)
 {
-    const keel_cascade_axis_t *const axis = &cascade.axis[i];
+    const keel_cascade_limit_t limit = cascade.axis[i].limit;
     const float reach = cascade.axis[i + 3u].reach;
     const bool above = near_here(&cascade.fence, reach - position, speed);
     const bool below = near_here(&cascade.fence, reach + position, -speed);
 
-    return (!above || (axis->limit.at_max && (axis->held || (axis->pid.setpoint <= 0.0f)))) &&
-           (!below || (axis->limit.at_min && (axis->held || (axis->pid.setpoint >= 0.0f))));
+    return (!above || (limit.at_max && !(asked_of[i] > 0.0f))) &&
+           (!below || (limit.at_min && !(asked_of[i] < 0.0f)));
 }
 
 void keel_cascade_velocity_step__fence_harness(void)
