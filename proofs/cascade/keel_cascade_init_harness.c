@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 12 --z3 --fpa
-// checks: assertions
+// cbmc: --unwind 12 --external-sat-solver cadical
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c specs/model/cascade.c
 // replaces: keel_cascade_check keel_pid_init
 // covers: keel_cascade_init model_cascade_init

@@ -84,7 +84,7 @@ static const point_t points[POINTS] = {
     {{4.0f, -4.0f, 3.0f},
      {{85.0f, -60.0f, 71.0f}, {-4.25f, -7.25f, 3.0f}, 0.95f, 0.3f, true, true},
      NONE,
-     LEAST,
+     MOST,
      0u,
      KEEL_MODE_POSITION},
     {{4.0f, 4.0f, 3.0f},
