@@ -85,6 +85,9 @@ static void change_axis(unsigned point, keel_axis_t *axis)
     case 9u:
         axis->bias = 0.75f;
         break;
+    case 21u:
+        axis->age = 200u;
+        break;
     default:
         break;
     }

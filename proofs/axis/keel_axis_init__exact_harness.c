@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 5 --external-sat-solver cadical
 // sources: src/flight/axis.c specs/model/axis.c
-// covers: keel_axis_init axis_gains_fit axis_limits_fit keel_axis_restart
-// covers: model_axis_init model_axis_restart axis_config_taken lies_in
+// covers: keel_axis_init keel_axis_restart model_axis_restart
 //
 // Chosen configurations: one that is taken, and one for each reason to refuse. Wrong bodies are
 // refuted here, for where floats differ z3 finds no example.

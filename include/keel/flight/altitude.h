@@ -61,6 +61,10 @@ typedef struct keel_altitude {
 
 /*@ predicate altitude_pressure(keel_altitude_sample_t *s) = s->has_pressure &&
   @     axis_number(s->pressure, KEEL_ALTITUDE_PRESSURE_MIN, KEEL_ALTITUDE_PRESSURE_MAX);
+  @
+  @ // What init establishes and every step keeps, besides its axis.
+  @ predicate altitude_referenced(keel_altitude_t *a) = a->has_reference ==>
+  @     axis_number(a->reference, KEEL_ALTITUDE_PRESSURE_MIN, KEEL_ALTITUDE_PRESSURE_MAX);
   @*/
 
 /**
@@ -106,14 +110,16 @@ void keel_altitude_zero(keel_altitude_t *altitude);
  * @param sample   what was measured since the last step
  */
 /*@ requires \valid(altitude) && \valid_read(sample) && \separated(altitude, sample);
-  @ requires axis_limited(&altitude->axis);
+  @ requires axis_limited(&altitude->axis) && altitude_referenced(altitude);
   @ assigns altitude->axis.position, altitude->axis.velocity, altitude->axis.bias,
   @     altitude->axis.age, altitude->axis.agreed, altitude->axis.jumped, altitude->axis.flags,
   @     altitude->axis.quality, altitude->reference, altitude->height, altitude->has_reference;
   @ ensures ALT_004_first: !\old(altitude->has_reference) && altitude_pressure(sample) ==>
   @     altitude->has_reference && altitude->reference == sample->pressure;
   @ ensures ALT_004_kept: \old(altitude->has_reference) || !altitude_pressure(sample) ==>
-  @     altitude->has_reference == \old(altitude->has_reference);
+  @     altitude->has_reference == \old(altitude->has_reference) &&
+  @     (altitude->has_reference ==> altitude->reference == \old(altitude->reference));
+  @ ensures ALT_004_pressure: altitude_referenced(altitude);
   @ ensures ALT_005_unusable: axis_told(&altitude->axis, KEEL_AXIS_UNUSABLE) <==>
   @     sample->has_pressure && !altitude_pressure(sample);
   @ ensures ALT_005_counts: altitude_pressure(sample) <==>
