@@ -33,6 +33,14 @@ void keel_axis_step__any_harness(void)
     jumped = is_told(&axis, KEEL_AXIS_JUMPED);
 
     __CPROVER_assert(keel_axis_step_does(&axis, &sample), "AXI_006_does: what callers know");
+    __CPROVER_assert(sample.has_fix || float_same(axis.bias, before.bias),
+                     "AXI_004_bias: without a fix the bias stays");
+    __CPROVER_assert(sample.has_fix || !is_told(&axis, KEEL_AXIS_BLIND) ||
+                         !within(before.velocity, -KEEL_AXIS_VELOCITY_LIMIT,
+                                 KEEL_AXIS_VELOCITY_LIMIT) ||
+                         !within(before.step, -FLT_MAX, FLT_MAX) ||
+                         (axis.velocity == before.velocity),
+                     "AXI_004_velocity: without an acceleration, the velocity, too");
     __CPROVER_assert(is_told(&axis, KEEL_AXIS_BLIND) !=
                          (sample.has_acceleration &&
                           within(sample.acceleration, -KEEL_AXIS_ACCELERATION_LIMIT,

@@ -27,16 +27,19 @@ void keel_position_init__valid_harness(void)
     keel_position_t position = any_position_at_all();
     const keel_position_t before = position;
     const keel_status_t status = keel_position_init(&position, &config);
-    const bool valid = axis_config_valid(&config.axis) && accuracies_valid(&config);
+    const bool accurate = accuracies_valid(&config);
+    const bool valid = accurate && axis_config_valid(&config.axis);
 
-    __CPROVER_assert(rate_fits(&config.axis) || (status == KEEL_ERR_RATE),
-                     "POS_001_rate: a rate out of range is refused");
-    __CPROVER_assert(!rate_fits(&config.axis) || gains_fit(&config.axis) ||
+    __CPROVER_assert(accurate || (status == KEEL_ERR_LIMITS),
+                     "POS_001_accuracies: an accuracy out of range is refused");
+    __CPROVER_assert(!accurate || rate_fits(&config.axis) || (status == KEEL_ERR_RATE),
+                     "POS_001_rate: then a rate out of range");
+    __CPROVER_assert(!accurate || !rate_fits(&config.axis) || gains_fit(&config.axis) ||
                          (status == KEEL_ERR_GAIN),
                      "POS_001_gains: then a gain out of range");
-    __CPROVER_assert(!rate_fits(&config.axis) || !gains_fit(&config.axis) || valid ||
+    __CPROVER_assert(!accurate || !rate_fits(&config.axis) || !gains_fit(&config.axis) || valid ||
                          (status == KEEL_ERR_LIMITS),
-                     "POS_001_limits: then limits, gates, numbers and accuracies");
+                     "POS_001_limits: then limits, gates and numbers");
     __CPROVER_assert((status == KEEL_OK) || unchanged(&position, &before, sizeof(position)),
                      "POS_001_kept: a refusal changes nothing");
     __CPROVER_assert(!valid || ((status == KEEL_OK) &&

@@ -18,12 +18,12 @@ keel_status_t model_position_init(keel_position_t *position, const keel_position
     const keel_status_t status = model_axis_init(&made.north, &config->axis);
 
     /* POS-001: a refusal changes nothing. */
-    if (status != KEEL_OK) {
-        return status;
-    }
     if (!(good_to(config->accuracy, KEEL_POSITION_ACCURACY_LIMIT) &&
           good_to(config->speed_accuracy, KEEL_POSITION_SPEED_ACCURACY_LIMIT))) {
         return KEEL_ERR_LIMITS;
+    }
+    if (status != KEEL_OK) {
+        return status;
     }
     /* POS-002: both directions alike, and no origin. */
     made.config = *config;
@@ -42,9 +42,8 @@ keel_status_t model_position_init(keel_position_t *position, const keel_position
 static float cosine_by_series(float f)
 {
     const float s = f * f;
-    const float sum = 0.5f - (s * (0.0416666679f - (s * (0.00138888892f -
-                                                         (s * (2.48015876e-5f -
-                                                               (s * 2.75573188e-7f)))))));
+    const float sum = 0.5f - (s * (0x1.555556p-5f - (s * (0x1.6c16c2p-10f -
+                                          (s * (0x1.a01a02p-16f - (s * 0x1.27e4fcp-22f)))))));
 
     return 1.0f - (s * sum);
 }
@@ -52,7 +51,7 @@ static float cosine_by_series(float f)
 keel_status_t model_position_set_origin(keel_position_t *position, int32_t latitude,
                                         int32_t longitude)
 {
-    const float c = cosine_by_series((float)latitude * 1.745329251994329577e-9f);
+    const float c = cosine_by_series((float)latitude * 0x1.dfc0ap-30f);
 
     /* POS-003: a refusal changes nothing. */
     if ((latitude < -800000000) || (latitude > 800000000) || (longitude < -1800000000) ||
@@ -61,9 +60,10 @@ keel_status_t model_position_set_origin(keel_position_t *position, int32_t latit
     }
     position->latitude = latitude;
     position->longitude = longitude;
-    /* POS-004: the formulas of position.h, for 1e-7 of a degree. */
-    position->north_scale = 0.0111132954f - (0.0000559822f * ((2.0f * (c * c)) - 1.0f));
-    position->east_scale = c * (0.011141284f - (0.00000935f * ((4.0f * (c * c)) - 3.0f)));
+    /* POS-004: the formulas of position.h, for 1e-7 of a degree: its numbers and pi / 180 times
+     * 1e-7, rounded. */
+    position->north_scale = 0x1.6c2914p-7f - (0x1.d59cdcp-15f * ((2.0f * (c * c)) - 1.0f));
+    position->east_scale = c * (0x1.6d13dep-7f - (0x1.39bbe4p-17f * ((4.0f * (c * c)) - 3.0f)));
     position->has_origin = true;
     model_axis_restart(&position->north);
     model_axis_restart(&position->east);

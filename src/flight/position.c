@@ -3,14 +3,20 @@
 
 #include "keel/middleware/range.h"
 
-/* 1e-7 degrees, in rad. */
-#define RADIANS 1.745329251994329577e-9f
+/* 1e-7 degrees in rad, 1.7453293e-9. */
+#define RADIANS 0x1.dfc0ap-30f
 
-/* The series of position.h, per 1e-7 degrees. */
-#define NORTH_EVEN   0.0111132954f
-#define NORTH_DOUBLE 0.0000559822f
-#define EAST_SINGLE  0.011141284f
-#define EAST_TRIPLE  0.00000935f
+/* The series of position.h, per 1e-7 degrees: 0.0111132954, 5.59822e-5, 0.011141284, 9.35e-6. */
+#define NORTH_EVEN   0x1.6c2914p-7f
+#define NORTH_DOUBLE 0x1.d59cdcp-15f
+#define EAST_SINGLE  0x1.6d13dep-7f
+#define EAST_TRIPLE  0x1.39bbe4p-17f
+
+/* 1 / 4!, 1 / 6!, 1 / 8! and 1 / 10!. */
+#define PER_4  0x1.555556p-5f
+#define PER_6  0x1.6c16c2p-10f
+#define PER_8  0x1.a01a02p-16f
+#define PER_10 0x1.27e4fcp-22f
 
 /*@ requires \valid_read(config);
   @ assigns \nothing;
@@ -24,18 +30,17 @@ static bool accuracies_fit(const keel_position_config_t *config)
 
 keel_status_t keel_position_init(keel_position_t *position, const keel_position_config_t *config)
 {
-    keel_axis_t axis;
-    const keel_status_t status = keel_axis_init(&axis, &config->axis);
+    keel_status_t status;
 
-    if (status != KEEL_OK) {
-        return status;
-    }
     if (!accuracies_fit(config)) {
         return KEEL_ERR_LIMITS;
     }
+    status = keel_axis_init(&position->north, &config->axis);
+    if (status != KEEL_OK) {
+        return status;
+    }
     position->config = *config;
-    position->north = axis;
-    position->east = axis;
+    position->east = position->north;
     position->latitude = 0;
     position->longitude = 0;
     position->north_scale = 0.0f;
@@ -50,9 +55,7 @@ keel_status_t keel_position_init(keel_position_t *position, const keel_position_
 static float cosine_of(float angle)
 {
     const float s = angle * angle;
-    const float rest = 0.5f - (s * (0.0416666679f - (s * (0.00138888892f -
-                                                          (s * (2.48015876e-5f -
-                                                                (s * 2.75573188e-7f)))))));
+    const float rest = 0.5f - (s * (PER_4 - (s * (PER_6 - (s * (PER_8 - (s * PER_10)))))));
 
     return 1.0f - (s * rest);
 }

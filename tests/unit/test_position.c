@@ -96,13 +96,16 @@ static void POS_001_bad_accuracies_are_refused(void)
     has_range(&config.speed_accuracy, 10.0f);
 }
 
-static void POS_001_refusals_of_the_axis_come_first(void)
+static void POS_001_refusals_of_the_axis_come_second(void)
 {
-    config.accuracy = NAN;
+    config.axis.jump_fixes = 0u;
+    init_refuses(KEEL_ERR_LIMITS);
     config.axis.bias_gain = NAN;
     init_refuses(KEEL_ERR_GAIN);
     config.axis.rate_hz = 1.0f;
     init_refuses(KEEL_ERR_RATE);
+    config.accuracy = NAN;
+    init_refuses(KEEL_ERR_LIMITS);
 }
 
 static void POS_002_made_with_nothing_known(void)
@@ -329,7 +332,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(POS_001_bad_accuracies_are_refused);
-    RUN_TEST(POS_001_refusals_of_the_axis_come_first);
+    RUN_TEST(POS_001_refusals_of_the_axis_come_second);
     RUN_TEST(POS_002_made_with_nothing_known);
     RUN_TEST(POS_003_origins_out_of_range_are_refused);
     RUN_TEST(POS_003_a_new_origin_forgets);

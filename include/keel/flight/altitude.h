@@ -35,9 +35,11 @@ KEEL_C_BEGIN
 #define KEEL_ALTITUDE_PRESSURE_MIN 30000.0f
 #define KEEL_ALTITUDE_PRESSURE_MAX 120000.0f
 
-/** 2 H, H = R T / (g M) at 288.15 K, and 1 / (2 M), M being 288.15 K over 6.5 K/km: ISO 2533. */
+/** 2 H, in m: H = R T / g at 288.15 K, R being that of the standard's air (ISO 2533). */
 #define KEEL_ALTITUDE_TWICE_SCALE 16869.0f
-#define KEEL_ALTITUDE_PER_LAPSE   1.1278848e-5f
+
+/** 1 / (2 M), 1.1278848e-5 per m: M is 288.15 K over 6.5 K per km (ISO 2533). */
+#define KEEL_ALTITUDE_PER_LAPSE 0x1.7a749p-17f
 
 /** 1 / 3. */
 #define KEEL_ALTITUDE_THIRD 0.333333343267440795898437500f

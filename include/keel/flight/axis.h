@@ -198,6 +198,11 @@ void keel_axis_restart(keel_axis_t *axis);
   @ requires axis_limits: axis_limited(axis);
   @ assigns axis->position, axis->velocity, axis->bias, axis->age, axis->agreed, axis->jumped,
   @     axis->flags, axis->quality;
+  @ ensures AXI_004_bias: !sample->has_fix && \is_finite(\old(axis->bias)) ==>
+  @     axis->bias == \old(axis->bias);
+  @ ensures AXI_004_velocity: !sample->has_fix && axis_told(axis, KEEL_AXIS_BLIND) &&
+  @     axis_number(\old(axis->velocity), -KEEL_AXIS_VELOCITY_LIMIT, KEEL_AXIS_VELOCITY_LIMIT) &&
+  @     \is_finite(axis->step) ==> axis->velocity == \old(axis->velocity);
   @ ensures AXI_005_blind: axis_told(axis, KEEL_AXIS_BLIND) <==> !(sample->has_acceleration &&
   @     axis_number(sample->acceleration, -KEEL_AXIS_ACCELERATION_LIMIT,
   @         KEEL_AXIS_ACCELERATION_LIMIT));

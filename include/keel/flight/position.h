@@ -106,17 +106,18 @@ typedef struct keel_position {
  *
  * @param position the estimator
  * @param config   what it is made from; copied
- * @return KEEL_OK; else KEEL_ERR_RATE, KEEL_ERR_GAIN or KEEL_ERR_LIMITS as keel_axis_init, or
- *         KEEL_ERR_LIMITS for an accuracy, the first that applies: then nothing is changed
+ * @return KEEL_OK; KEEL_ERR_LIMITS for an accuracy, else what keel_axis_init says, the first that
+ *         applies, NaN included: then nothing is changed
  */
 /*@ requires \valid(position) && \valid_read(config) && \separated(position, config);
   @ assigns *position;
-  @ ensures POS_001_rate: !axis_rate(config->axis) ==> \result == KEEL_ERR_RATE;
-  @ ensures POS_001_gains: axis_rate(config->axis) && !axis_gains(config->axis) ==>
-  @     \result == KEEL_ERR_GAIN;
-  @ ensures POS_001_limits: axis_rate(config->axis) && axis_gains(config->axis) &&
-  @     !(axis_limits(config->axis) && position_accuracies(*config)) ==>
-  @     \result == KEEL_ERR_LIMITS;
+  @ ensures POS_001_accuracies: !position_accuracies(*config) ==> \result == KEEL_ERR_LIMITS;
+  @ ensures POS_001_rate: position_accuracies(*config) && !axis_rate(config->axis) ==>
+  @     \result == KEEL_ERR_RATE;
+  @ ensures POS_001_gains: position_accuracies(*config) && axis_rate(config->axis) &&
+  @     !axis_gains(config->axis) ==> \result == KEEL_ERR_GAIN;
+  @ ensures POS_001_limits: position_accuracies(*config) && axis_rate(config->axis) &&
+  @     axis_gains(config->axis) && !axis_limits(config->axis) ==> \result == KEEL_ERR_LIMITS;
   @ ensures POS_001_kept: \result != KEEL_OK ==> *position == \old(*position);
   @ ensures POS_002_taken: axis_rate(config->axis) && axis_gains(config->axis) &&
   @     axis_limits(config->axis) && position_accuracies(*config) ==>
