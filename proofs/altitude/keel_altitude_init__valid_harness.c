@@ -38,12 +38,11 @@ void keel_altitude_init__valid_harness(void)
                      "ALT_001_limits: then limits, gates and numbers");
     __CPROVER_assert((status == KEEL_OK) || unchanged(&altitude, &before, sizeof(altitude)),
                      "ALT_001_kept: a refusal changes nothing");
-    __CPROVER_assert(!valid || ((status == KEEL_OK) &&
-                                axis_config_same(&altitude.axis.config, &config) &&
-                                altitude_valid(&altitude)),
+    __CPROVER_assert(!valid ||
+                         ((status == KEEL_OK) && axis_config_same(&altitude.axis.config, &config) &&
+                          altitude_valid(&altitude)),
                      "ALT_002_taken: all others are taken, and what is made is valid");
-    __CPROVER_assert((status != KEEL_OK) ||
-                         ((altitude.axis.quality == KEEL_AXIS_NONE) && !altitude.has_reference &&
-                          (altitude.height == 0.0f)),
+    __CPROVER_assert((status != KEEL_OK) || ((altitude.axis.quality == KEEL_AXIS_NONE) &&
+                                             !altitude.has_reference && (altitude.height == 0.0f)),
                      "ALT_002_unknown: nothing is known");
 }

@@ -26,9 +26,9 @@ static keel_altitude_t known_altitude(void)
 
 static void make_altitude(unsigned point, keel_altitude_t *altitude, keel_altitude_sample_t *sample)
 {
-    static const float pressures[ALTITUDES] = {99850.0f,  99850.0f, 99850.0f, 99000.0f,
+    static const float pressures[ALTITUDES] = {99850.0f,  99850.0f,  99850.0f, 99000.0f,
                                                30000.0f,  120000.0f, 29999.0f, 120001.0f,
-                                               101325.0f, 99860.0f, 99870.0f, 99840.0f};
+                                               101325.0f, 99860.0f,  99870.0f, 99840.0f};
     const keel_altitude_sample_t measured = {.pressure = pressures[point],
                                              .acceleration = 3.0f,
                                              .has_pressure = point != 9u,

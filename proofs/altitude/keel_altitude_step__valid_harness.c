@@ -19,8 +19,7 @@ void keel_altitude_step__valid_harness(void)
 
     __CPROVER_assume(axis_config_valid(&altitude.axis.config));
     __CPROVER_assume(!altitude.has_reference || is_pressure(altitude.reference));
-    __CPROVER_assume(
-        within(altitude.zero, -KEEL_AXIS_POSITION_LIMIT, KEEL_AXIS_POSITION_LIMIT));
+    __CPROVER_assume(within(altitude.zero, -KEEL_AXIS_POSITION_LIMIT, KEEL_AXIS_POSITION_LIMIT));
 
     keel_altitude_step(&altitude, &sample);
 
@@ -35,7 +34,8 @@ void keel_altitude_step__valid_harness(void)
                      "ALT_004_pressure: a reference is a pressure");
     __CPROVER_assert(is_told(axis, KEEL_AXIS_UNUSABLE) == (sample.has_pressure && !counting),
                      "ALT_005_unusable: a pressure that does not count is told");
-    __CPROVER_assert(counting == (is_told(axis, KEEL_AXIS_FIXED) || is_told(axis, KEEL_AXIS_JUMPED)),
+    __CPROVER_assert(counting ==
+                         (is_told(axis, KEEL_AXIS_FIXED) || is_told(axis, KEEL_AXIS_JUMPED)),
                      "ALT_005_counts: any other is judged");
     __CPROVER_assert(within(axis->position, -KEEL_AXIS_POSITION_LIMIT, KEEL_AXIS_POSITION_LIMIT),
                      "ALT_006_position: within its limit");

@@ -57,9 +57,7 @@ static keel_axis_t any_axis_at_all(void)
 {
     keel_axis_t axis = nondet_axis();
 
-    axis.quality = nondet_bool()   ? KEEL_AXIS_NONE
-                   : nondet_bool() ? KEEL_AXIS_POOR
-                                   : KEEL_AXIS_GOOD;
+    axis.quality = nondet_bool() ? KEEL_AXIS_NONE : nondet_bool() ? KEEL_AXIS_POOR : KEEL_AXIS_GOOD;
     return axis;
 }
 
@@ -96,8 +94,7 @@ static bool axis_valid(const keel_axis_t *axis)
            within(axis->position, -KEEL_AXIS_POSITION_LIMIT, KEEL_AXIS_POSITION_LIMIT) &&
            within(axis->velocity, -KEEL_AXIS_VELOCITY_LIMIT, KEEL_AXIS_VELOCITY_LIMIT) &&
            within(axis->bias, -axis->config.bias_limit, axis->config.bias_limit) &&
-           (axis->age <= axis->config.lost_steps) &&
-           (axis->agreed <= axis->config.settle_fixes) &&
+           (axis->age <= axis->config.lost_steps) && (axis->agreed <= axis->config.settle_fixes) &&
            (axis->jumped < axis->config.jump_fixes);
 }
 

@@ -47,7 +47,8 @@ void keel_axis_step_stand_in(keel_axis_t *axis, const keel_axis_sample_t *sample
     __CPROVER_assert(told < asked, "AXI_004_steps: as many steps as the model makes");
     __CPROVER_assert(keel_axis_step_may(axis), "precondition: keel_axis_step");
     __CPROVER_assert(axis_same(axis, &one->before), "AXI_004_state: of the same axis");
-    __CPROVER_assert(axis_sample_same(sample, &one->sample), "AXI_004_sample: the same was measured");
+    __CPROVER_assert(axis_sample_same(sample, &one->sample),
+                     "AXI_004_sample: the same was measured");
     *axis = one->after;
     __CPROVER_assume(keel_axis_step_does(axis, sample));
     told++;

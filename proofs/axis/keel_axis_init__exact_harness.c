@@ -40,7 +40,8 @@ void keel_axis_init__exact_harness(void)
                          "AXI_001_exact: taken or refused as the model says");
         __CPROVER_assert(axis_same(&axis, &model),
                          "AXI_002_exact: every field is what the model says");
-        __CPROVER_assert((status != KEEL_OK) || ((axis.step == 0.01f) && (axis.half_step == 0.005f)),
+        __CPROVER_assert((status != KEEL_OK) ||
+                             ((axis.step == 0.01f) && (axis.half_step == 0.005f)),
                          "AXI_002_step: the step is 1 / rate_hz");
     }
 }

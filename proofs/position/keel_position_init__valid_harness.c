@@ -42,9 +42,9 @@ void keel_position_init__valid_harness(void)
                      "POS_001_limits: then limits, gates and numbers");
     __CPROVER_assert((status == KEEL_OK) || unchanged(&position, &before, sizeof(position)),
                      "POS_001_kept: a refusal changes nothing");
-    __CPROVER_assert(!valid || ((status == KEEL_OK) &&
-                                position_config_same(&position.config, &config) &&
-                                position_valid(&position)),
+    __CPROVER_assert(!valid ||
+                         ((status == KEEL_OK) && position_config_same(&position.config, &config) &&
+                          position_valid(&position)),
                      "POS_002_taken: all others are taken, and what is made is valid");
     __CPROVER_assert((status != KEEL_OK) ||
                          (!position.has_origin && (position.quality == KEEL_AXIS_NONE)),

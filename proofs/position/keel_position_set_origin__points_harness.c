@@ -15,7 +15,7 @@ void keel_position_set_origin__points_harness(void)
 {
     static const int32_t latitudes[ORIGINS] = {0,          481000000, -337000000, 800000000,
                                                -800000000, 800000001, -800000001, 100000000};
-    static const int32_t longitudes[ORIGINS] = {0,          115000000, 1512000000, 1800000000,
+    static const int32_t longitudes[ORIGINS] = {0,           115000000, 1512000000, 1800000000,
                                                 -1800000000, 5,         5,          1800000001};
 
     for (unsigned point = 0u; point < ORIGINS; point++) {
@@ -24,8 +24,8 @@ void keel_position_set_origin__points_harness(void)
         const keel_status_t status = keel_position_set_origin(&position, latitudes[point],
                                                               longitudes[point]);
 
-        __CPROVER_assert(status == model_position_set_origin(&model, latitudes[point],
-                                                             longitudes[point]),
+        __CPROVER_assert(status ==
+                             model_position_set_origin(&model, latitudes[point], longitudes[point]),
                          "POS_003_points: taken or refused as the model says");
         __CPROVER_assert(position_same(&position, &model),
                          "POS_004_points: every field is what the model says");

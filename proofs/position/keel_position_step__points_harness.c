@@ -15,17 +15,16 @@
 
 static keel_position_t known_position(void)
 {
-    keel_position_t position = {.config = {.axis = known_axis().config,
-                                           .accuracy = 5.0f,
-                                           .speed_accuracy = 1.0f},
-                                .north = known_axis(),
-                                .east = known_axis(),
-                                .latitude = 481000000,
-                                .longitude = 115000000,
-                                .north_scale = 0.01112f,
-                                .east_scale = 0.0074f,
-                                .has_origin = true,
-                                .quality = KEEL_AXIS_GOOD};
+    keel_position_t position = {
+        .config = {.axis = known_axis().config, .accuracy = 5.0f, .speed_accuracy = 1.0f},
+        .north = known_axis(),
+        .east = known_axis(),
+        .latitude = 481000000,
+        .longitude = 115000000,
+        .north_scale = 0.01112f,
+        .east_scale = 0.0074f,
+        .has_origin = true,
+        .quality = KEEL_AXIS_GOOD};
 
     position.east.position = 5.0f;
     position.east.velocity = -1.0f;

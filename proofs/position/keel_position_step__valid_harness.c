@@ -36,7 +36,7 @@ void keel_position_step__valid_harness(void)
                      "POS_005_none: none is taken when none came");
     __CPROVER_assert(keeps_within(north), "POS_008_north: within the limits");
     __CPROVER_assert(keeps_within(east), "POS_008_east: within the limits");
-    __CPROVER_assert(position.quality == ((north->quality < east->quality) ? north->quality
-                                                                           : east->quality),
+    __CPROVER_assert(position.quality ==
+                         ((north->quality < east->quality) ? north->quality : east->quality),
                      "POS_009_worse: the quality is that of the worse direction");
 }

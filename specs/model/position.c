@@ -42,8 +42,10 @@ keel_status_t model_position_init(keel_position_t *position, const keel_position
 static float cosine_by_series(float f)
 {
     const float s = f * f;
-    const float sum = 0.5f - (s * (0x1.555556p-5f - (s * (0x1.6c16c2p-10f -
-                                          (s * (0x1.a01a02p-16f - (s * 0x1.27e4fcp-22f)))))));
+    const float sum = 0.5f -
+                      (s *
+                       (0x1.555556p-5f -
+                        (s * (0x1.6c16c2p-10f - (s * (0x1.a01a02p-16f - (s * 0x1.27e4fcp-22f)))))));
 
     return 1.0f - (s * sum);
 }
@@ -117,7 +119,6 @@ void model_position_step(keel_position_t *position, const keel_position_sample_t
     model_axis_step(&position->north, &along_north);
     model_axis_step(&position->east, &along_east);
     /* POS-009 */
-    position->quality = (position->north.quality < position->east.quality)
-                            ? position->north.quality
-                            : position->east.quality;
+    position->quality = (position->north.quality < position->east.quality) ? position->north.quality
+                                                                           : position->east.quality;
 }

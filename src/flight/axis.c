@@ -82,9 +82,9 @@ static void predict(keel_axis_t *axis, const keel_axis_sample_t *sample)
                                             -KEEL_AXIS_VELOCITY_LIMIT, KEEL_AXIS_VELOCITY_LIMIT);
 
     axis->flags = sees ? 0u : KEEL_AXIS_BLIND;
-    axis->position = keel_range_clamp(
-        axis->position + (axis->half_step * (axis->velocity + velocity)),
-        -KEEL_AXIS_POSITION_LIMIT, KEEL_AXIS_POSITION_LIMIT);
+    axis->position = keel_range_clamp(axis->position +
+                                          (axis->half_step * (axis->velocity + velocity)),
+                                      -KEEL_AXIS_POSITION_LIMIT, KEEL_AXIS_POSITION_LIMIT);
     axis->velocity = velocity;
 }
 
@@ -127,9 +127,9 @@ static void correct(keel_axis_t *axis, float way, float rate)
 
     axis->position = keel_range_clamp(axis->position + (config->position_gain * way),
                                       -KEEL_AXIS_POSITION_LIMIT, KEEL_AXIS_POSITION_LIMIT);
-    axis->velocity = keel_range_clamp(
-        axis->velocity + ((config->velocity_gain * way) + (config->rate_gain * rate)),
-        -KEEL_AXIS_VELOCITY_LIMIT, KEEL_AXIS_VELOCITY_LIMIT);
+    axis->velocity = keel_range_clamp(axis->velocity + ((config->velocity_gain * way) +
+                                                        (config->rate_gain * rate)),
+                                      -KEEL_AXIS_VELOCITY_LIMIT, KEEL_AXIS_VELOCITY_LIMIT);
     axis->bias = keel_range_clamp(axis->bias - (config->bias_gain * way), -config->bias_limit,
                                   config->bias_limit);
     axis->age = 0u;

@@ -134,7 +134,6 @@ void keel_position_step(keel_position_t *position, const keel_position_sample_t 
     measured.position = metres_of(east, position->east_scale);
     measured.velocity = fix->east;
     keel_axis_step(&position->east, &measured);
-    position->quality = (position->north.quality < position->east.quality)
-                            ? position->north.quality
-                            : position->east.quality;
+    position->quality = (position->north.quality < position->east.quality) ? position->north.quality
+                                                                           : position->east.quality;
 }

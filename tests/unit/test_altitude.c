@@ -124,7 +124,11 @@ static void ALT_004_nothing_measured_is_no_reference(void)
 
 static void ALT_005_pressures_out_of_range_do_not_count(void)
 {
-    const float bad[] = {NAN, INFINITY, -INFINITY, 0.0f, nextafterf(30000.0f, 0.0f),
+    const float bad[] = {NAN,
+                         INFINITY,
+                         -INFINITY,
+                         0.0f,
+                         nextafterf(30000.0f, 0.0f),
                          nextafterf(120000.0f, INFINITY)};
 
     for (size_t i = 0u; i < (sizeof bad / sizeof bad[0]); i++) {

@@ -30,15 +30,16 @@ void tearDown(void)
 static keel_altitude_sample_t any_sample(void)
 {
     static float pressure = 100000.0f;
-    const float odd[] = {NAN, INFINITY, -1.0f, 29999.0f, 120001.0f, 30000.0f, 120000.0f, any_bits()};
+    const float odd[] = {NAN,       INFINITY, -1.0f,     29999.0f,
+                         120001.0f, 30000.0f, 120000.0f, any_bits()};
 
     pressure += between(-20.0f, 20.0f);
     pressure = ((pressure > 119000.0f) || (pressure < 31000.0f)) ? 100000.0f : pressure;
-    const keel_altitude_sample_t measured = {
-        .pressure = one_in(64u) ? odd[any() % 8u] : pressure,
-        .acceleration = one_in(64u) ? any_bits() : between(-5.0f, 5.0f),
-        .has_pressure = one_in(3u),
-        .has_acceleration = !one_in(32u)};
+    const keel_altitude_sample_t measured = {.pressure = one_in(64u) ? odd[any() % 8u] : pressure,
+                                             .acceleration = one_in(64u) ? any_bits()
+                                                                         : between(-5.0f, 5.0f),
+                                             .has_pressure = one_in(3u),
+                                             .has_acceleration = !one_in(32u)};
 
     return measured;
 }

@@ -67,14 +67,13 @@ static void set_up(void)
 static keel_axis_sample_t any_sample(void)
 {
     const float wide = one_in(16u) ? 100.0f : 1.0f;
-    const keel_axis_sample_t sample = {
-        .acceleration = usually(between(-10.0f, 10.0f)),
-        .position = usually(axis.position + between(-wide, wide)),
-        .velocity = usually(axis.velocity + between(-wide, wide)),
-        .has_acceleration = !one_in(32u),
-        .has_fix = one_in(one_in(64u) ? 100u : 5u),
-        .has_velocity = one_in(2u),
-        .is_usable = !one_in(32u)};
+    const keel_axis_sample_t sample = {.acceleration = usually(between(-10.0f, 10.0f)),
+                                       .position = usually(axis.position + between(-wide, wide)),
+                                       .velocity = usually(axis.velocity + between(-wide, wide)),
+                                       .has_acceleration = !one_in(32u),
+                                       .has_fix = one_in(one_in(64u) ? 100u : 5u),
+                                       .has_velocity = one_in(2u),
+                                       .is_usable = !one_in(32u)};
 
     return sample;
 }

@@ -30,10 +30,9 @@ void setUp(void)
                                                    .jump_fixes = 3u},
                                           .accuracy = 5.0f,
                                           .speed_accuracy = 1.0f};
-    const keel_position_sample_t still = {.fix = {.accuracy = 2.0f,
-                                                  .speed_accuracy = 0.5f,
-                                                  .is_valid = true},
-                                          .has_acceleration = true};
+    const keel_position_sample_t still = {
+        .fix = {.accuracy = 2.0f, .speed_accuracy = 0.5f, .is_valid = true},
+        .has_acceleration = true};
 
     config = usual;
     sample = still;

@@ -30,8 +30,7 @@ static keel_position_sample_t any_sample(void)
 {
     const float odd[] = {NAN, INFINITY, -1.0f, any_bits()};
     const keel_position_sample_t measured = {
-        .fix = {.latitude = one_in(64u) ? (int32_t)any()
-                                        : (481000000 + (int32_t)(any() % 2000u)),
+        .fix = {.latitude = one_in(64u) ? (int32_t)any() : (481000000 + (int32_t)(any() % 2000u)),
                 .longitude = one_in(64u) ? (int32_t)any()
                                          : (int32_t)(1799999000 + (int32_t)(any() % 2000u)),
                 .north = one_in(64u) ? odd[any() % 4u] : between(-3.0f, 3.0f),

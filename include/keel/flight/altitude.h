@@ -54,11 +54,11 @@ typedef struct keel_altitude_sample {
 
 /** An altitude estimator. Written by the functions below alone; all of it may be read. */
 typedef struct keel_altitude {
-    keel_axis_t axis;    /**< Above the reference: climb rate, age, quality and flags are here. */
-    float reference;     /**< The first pressure, in Pa; 0 before. */
-    float zero;          /**< What is called 0, above the reference, in m. */
-    float height;        /**< Above what is called 0, in m. */
-    bool has_reference;  /**< Whether a pressure came. */
+    keel_axis_t axis;   /**< Above the reference: climb rate, age, quality and flags are here. */
+    float reference;    /**< The first pressure, in Pa; 0 before. */
+    float zero;         /**< What is called 0, above the reference, in m. */
+    float height;       /**< Above what is called 0, in m. */
+    bool has_reference; /**< Whether a pressure came. */
 } keel_altitude_t;
 
 /*@ predicate altitude_pressure(keel_altitude_sample_t *s) = s->has_pressure &&
