@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 23 --external-sat-solver cadical
 // sources: src/flight/axis.c specs/model/axis.c
-// covers: keel_axis_step predict counted_up fix_counts judge_fix set_to_fix correct quality_of
+// covers: keel_axis_step predict one_up_to fix_counts judge_fix set_to_fix correct quality_of
 // covers: model_axis_step integrate fix_usable begin_at make_up meet_fix next_in lies_in
 //
 // Chosen axes and samples, each in a case of its own: the same as the model's. All of them are

@@ -63,7 +63,7 @@ void keel_axis_restart(keel_axis_t *axis)
   @ ensures count < most ==> \result == count + 1;
   @ ensures count >= most ==> \result == most;
   @*/
-static uint16_t counted_up(uint16_t count, uint16_t most)
+static uint16_t one_up_to(uint16_t count, uint16_t most)
 {
     return (count < most) ? (uint16_t)(count + 1u) : most;
 }
@@ -133,7 +133,7 @@ static void correct(keel_axis_t *axis, float way, float rate)
     axis->bias = keel_range_clamp(axis->bias - (config->bias_gain * way), -config->bias_limit,
                                   config->bias_limit);
     axis->age = 0u;
-    axis->agreed = counted_up(axis->agreed, config->settle_fixes);
+    axis->agreed = one_up_to(axis->agreed, config->settle_fixes);
     axis->jumped = 0u;
     axis->flags |= KEEL_AXIS_FIXED;
 }
@@ -187,7 +187,7 @@ static keel_axis_quality_t quality_of(const keel_axis_t *axis)
 void keel_axis_step(keel_axis_t *axis, const keel_axis_sample_t *sample)
 {
     predict(axis, sample);
-    axis->age = counted_up(axis->age, axis->config.lost_steps);
+    axis->age = one_up_to(axis->age, axis->config.lost_steps);
     if (fix_counts(sample)) {
         judge_fix(axis, sample);
     } else if (sample->has_fix) {
