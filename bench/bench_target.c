@@ -322,6 +322,26 @@ static void bench_attitude(void)
     print(&steps);
 }
 
+static void bench_battery(void)
+{
+    static keel_battery_t battery KEEL_REALTIME_ZERO;
+    kind_t steps = {"battery", 0u, 0u, 0u};
+
+    require(keel_battery_init(&battery, &battery_workload) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        keel_battery_sample_t sample = battery_sample_at(n);
+
+        if (n < STEPS) {
+            keel_battery_step(&battery, &sample);
+        } else {
+            require(battery.level == KEEL_BATTERY_OK);
+            add(&steps,
+                measure((function_t)keel_battery_step, &battery, (uint32_t)&sample, 0u, false));
+        }
+    }
+    print(&steps);
+}
+
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     static keel_mode_t mode KEEL_REALTIME_ZERO;
@@ -383,6 +403,7 @@ int main(void)
     bench_mode("mode", 250000u, KEEL_MODE_FLYING);
     bench_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
     bench_attitude();
+    bench_battery();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
     keel_console_text(bad ? "bench failed\n" : "bench ended\n");
