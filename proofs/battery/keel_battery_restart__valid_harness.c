@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --external-sat-solver cadical
+// cbmc: --unwind 3 --external-sat-solver cadical
 // sources: src/flight/battery.c
 // covers: keel_battery_restart begin_battery clear_sum clear_alarm whole_of
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --z3 --fpa
+// cbmc: --unwind 3 --z3 --fpa
 // checks: assertions
 // sources: src/flight/battery.c specs/model/battery.c
 // covers: keel_battery_step model_battery_step
