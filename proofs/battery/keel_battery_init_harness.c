@@ -4,7 +4,7 @@
 // sources: src/flight/battery.c specs/model/battery.c
 // covers: keel_battery_init is_pack are_battery_ranges are_battery_levels set_battery_scale
 // covers: begin_battery clear_sum clear_alarm whole_of
-// covers: model_battery_init numbers_valid start_anew integer_of
+// covers: model_battery_init pack_valid ranges_valid levels_valid start_anew integer_of
 //
 // Any bit pattern for all of a configuration: the same as the model's, bit for bit. The solver sees
 // that both compute the same only where nothing else is asked: all other checks are in

@@ -20,25 +20,34 @@ static uint32_t integer_of(float value, float most)
     return (uint32_t)brought_between(value, 0.0f, most);
 }
 
-static bool numbers_valid(const keel_battery_config_t *c)
+static bool pack_valid(const keel_battery_config_t *c)
 {
-    const float volts = KEEL_BATTERY_VOLTAGE_LIMIT;
-    const float amperes = KEEL_BATTERY_CURRENT_LIMIT;
-    const float cell = KEEL_BATTERY_CELL_LIMIT;
-
     return lies_between(c->capacity_ah, KEEL_BATTERY_CAPACITY_MIN_AH,
                         KEEL_BATTERY_CAPACITY_MAX_AH) &&
            lies_between(c->resistance_ohm, 0.0f, KEEL_BATTERY_RESISTANCE_LIMIT) &&
-           (c->cells >= 1u) && (c->cells <= KEEL_BATTERY_CELLS_MAX) &&
-           lies_between(c->voltage_max, 0.0f, volts) &&
+           (c->cells > 0u) && (c->cells <= KEEL_BATTERY_CELLS_MAX);
+}
+
+static bool ranges_valid(const keel_battery_config_t *c)
+{
+    const float volts = KEEL_BATTERY_VOLTAGE_LIMIT;
+    const float amperes = KEEL_BATTERY_CURRENT_LIMIT;
+
+    return lies_between(c->voltage_max, 0.0f, volts) &&
            lies_between(c->voltage_min, 0.0f, c->voltage_max) &&
            lies_between(c->voltage_spread, 0.0f, volts) &&
            lies_between(c->current_min, -amperes, 0.0f) &&
            lies_between(c->current_max, 0.0f, amperes) &&
            lies_between(c->current_expected, 0.0f, KEEL_BATTERY_TOTAL_LIMIT) &&
            lies_between(c->cap_s, KEEL_BATTERY_CAP_MIN_S, KEEL_BATTERY_CAP_MAX_S) &&
-           (c->modules >= 1u) && (c->modules <= KEEL_BATTERY_MODULES) &&
-           lies_between(c->low_voltage, 0.0f, cell) &&
+           (c->modules > 0u) && (c->modules <= KEEL_BATTERY_MODULES);
+}
+
+static bool levels_valid(const keel_battery_config_t *c)
+{
+    const float cell = KEEL_BATTERY_CELL_LIMIT;
+
+    return lies_between(c->low_voltage, 0.0f, cell) &&
            lies_between(c->critical_voltage, 0.0f, c->low_voltage) &&
            lies_between(c->voltage_margin, 0.0f, cell) && lies_between(c->low_charge, 0.0f, 1.0f) &&
            lies_between(c->critical_charge, 0.0f, c->low_charge) &&
@@ -83,13 +92,13 @@ keel_status_t model_battery_init(keel_battery_t *battery, const keel_battery_con
     keel_battery_scale_t *const scale = &battery->scale;
 
     /* BAT-001: a refusal changes nothing. */
-    if ((config->rate_hz < 1u) || (config->rate_hz > KEEL_BATTERY_RATE_MAX_HZ)) {
+    if ((config->rate_hz == 0u) || (config->rate_hz > KEEL_BATTERY_RATE_MAX_HZ)) {
         return KEEL_ERR_RATE;
     }
-    if (!numbers_valid(config)) {
+    if (!(pack_valid(config) && ranges_valid(config) && levels_valid(config))) {
         return KEEL_ERR_LIMITS;
     }
-    if (config->hold_steps < 1u) {
+    if (config->hold_steps == 0u) {
         return KEEL_ERR_AGE;
     }
     if (!lies_between(config->initial, 0.0f, 1.0f)) {
