@@ -145,13 +145,13 @@ static bool current_of_module(keel_battery_t *b, uint32_t i, const keel_battery_
 
         b->module[i].current = negative ? 0.0f : reading->current;
         b->module[i].age = 0u;
-        b->flags |= negative ? (KEEL_BATTERY_REVERSED << i) : 0u;
+        b->flags |= negative ? (KEEL_BATTERY_REVERSED * (i + 1u)) : 0u;
     } else {
         b->module[i].age = one_step_older(b->module[i].age, b->config.hold_steps);
-        b->flags |= KEEL_BATTERY_NO_CURRENT << i;
+        b->flags |= KEEL_BATTERY_NO_CURRENT * (i + 1u);
     }
     lost = b->module[i].age >= b->config.hold_steps;
-    b->flags |= lost ? (KEEL_BATTERY_LOST << i) : 0u;
+    b->flags |= lost ? (KEEL_BATTERY_LOST * (i + 1u)) : 0u;
     return lost;
 }
 

@@ -187,7 +187,7 @@ static uint16_t counted_up(uint16_t count, uint16_t most)
     return (count < most) ? (uint16_t)(count + 1u) : most;
 }
 
-/* Whether the module is lost. */
+/* Whether the module is lost. The flags of module 1 are twice those of module 0. */
 /*@ requires \valid(battery) && \valid_read(reading) && \separated(battery, reading);
   @ requires index < KEEL_BATTERY_MODULES;
   @ requires \is_finite(battery->config.current_min) && \is_finite(battery->config.current_max);
@@ -198,6 +198,7 @@ static bool take_current(keel_battery_t *battery, uint32_t index,
 {
     keel_battery_module_t *const module = &battery->module[index];
     const keel_battery_config_t *const config = &battery->config;
+    const uint32_t own = index + 1u;
     bool is_lost;
 
     if (reading->has_current &&
@@ -206,13 +207,13 @@ static bool take_current(keel_battery_t *battery, uint32_t index,
 
         module->current = reversed ? 0.0f : reading->current;
         module->age = 0u;
-        battery->flags |= reversed ? (KEEL_BATTERY_REVERSED << index) : 0u;
+        battery->flags |= reversed ? (KEEL_BATTERY_REVERSED * own) : 0u;
     } else {
         module->age = counted_up(module->age, config->hold_steps);
-        battery->flags |= KEEL_BATTERY_NO_CURRENT << index;
+        battery->flags |= KEEL_BATTERY_NO_CURRENT * own;
     }
     is_lost = module->age >= config->hold_steps;
-    battery->flags |= is_lost ? (KEEL_BATTERY_LOST << index) : 0u;
+    battery->flags |= is_lost ? (KEEL_BATTERY_LOST * own) : 0u;
     return is_lost;
 }
 
@@ -410,11 +411,11 @@ static void unload_cell(keel_battery_t *battery, bool is_lost)
     battery->flags |= (drop > KEEL_BATTERY_SAG_LIMIT) ? KEEL_BATTERY_SAG : 0u;
 }
 
-/*@ requires \valid(alarm) && 0 < most && battery_alarm(*alarm, most);
+/*@ requires \valid(alarm);
   @ assigns *alarm;
-  @ ensures battery_alarm(*alarm, most);
-  @ ensures battery_steady(\old(*alarm), *alarm, most);
-  @ ensures \old(alarm->raised) && !alarm->raised ==> against && !speaks;
+  @ ensures 0 < most && battery_alarm(\old(*alarm), most) ==>
+  @     battery_alarm(*alarm, most) && battery_steady(\old(*alarm), *alarm, most) &&
+  @     (\old(alarm->raised) && !alarm->raised ==> against && !speaks);
   @*/
 static void weigh(keel_battery_alarm_t *alarm, bool speaks, bool against, uint16_t most)
 {
@@ -430,8 +431,6 @@ static void weigh(keel_battery_alarm_t *alarm, bool speaks, bool against, uint16
 
 /* The evidence for and against an alarm with these thresholds, and what it makes of it. */
 /*@ requires \valid(alarm) && \valid_read(battery);
-  @ requires 0 < battery->config.settle_steps &&
-  @     battery_alarm(*alarm, battery->config.settle_steps);
   @ assigns *alarm;
   @*/
 static void judge_alarm(keel_battery_alarm_t *alarm, const keel_battery_t *battery, bool fresh,
