@@ -18,6 +18,7 @@
 static keel_altitude_t bench_altitude;
 static keel_attitude_t bench_attitude;
 static keel_position_t bench_position;
+static keel_battery_t bench_battery;
 static keel_filter_t bench_filter;
 static keel_pid_t bench_pid;
 static keel_mixer_t bench_mixer;
@@ -161,6 +162,24 @@ static void bench_run_position(void)
     bench_dump("position");
 }
 
+static void bench_run_battery(void)
+{
+    bench_require(keel_battery_init(&bench_battery, &battery_workload) == KEEL_OK, "battery");
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const keel_battery_sample_t sample = battery_sample_at(n);
+
+        if (n < STEPS) {
+            keel_battery_step(&bench_battery, &sample);
+        } else {
+            bench_require(bench_battery.level == KEEL_BATTERY_OK, "battery is not well");
+            CALLGRIND_TOGGLE_COLLECT;
+            keel_battery_step(&bench_battery, &sample);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_dump("battery");
+}
+
 static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     const keel_mode_input_t input = mode_workload(&bench_mode, settle_us,
@@ -205,6 +224,7 @@ int main(void)
     bench_run_attitude();
     bench_run_altitude();
     bench_run_position();
+    bench_run_battery();
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;

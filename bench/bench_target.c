@@ -363,6 +363,26 @@ static void bench_position(void)
     print(&steps);
 }
 
+static void bench_battery(void)
+{
+    static keel_battery_t battery KEEL_REALTIME_ZERO;
+    kind_t steps = {"battery", 0u, 0u, 0u};
+
+    require(keel_battery_init(&battery, &battery_workload) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        keel_battery_sample_t sample = battery_sample_at(n);
+
+        if (n < STEPS) {
+            keel_battery_step(&battery, &sample);
+        } else {
+            require(battery.level == KEEL_BATTERY_OK);
+            add(&steps,
+                measure((function_t)keel_battery_step, &battery, (uint32_t)&sample, 0u, false));
+        }
+    }
+    print(&steps);
+}
+
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     static keel_mode_t mode KEEL_REALTIME_ZERO;
@@ -426,6 +446,7 @@ int main(void)
     bench_attitude();
     bench_altitude();
     bench_position();
+    bench_battery();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
     keel_console_text(bad ? "bench failed\n" : "bench ended\n");

@@ -9,6 +9,7 @@
 
 #include "keel/flight/altitude.h"
 #include "keel/flight/attitude.h"
+#include "keel/flight/battery.h"
 #include "keel/flight/mixer.h"
 #include "keel/flight/mode.h"
 #include "keel/flight/pid.h"
@@ -195,6 +196,40 @@ static keel_position_sample_t position_sample_at(uint32_t n)
                                            .east = 0.1f * signal_at(n),
                                            .has_fix = true,
                                            .has_acceleration = true};
+
+    return sample;
+}
+
+/* --- Battery ---------------------------------------------------------------------------------- */
+
+static const keel_battery_config_t battery_workload = {.capacity_ah = 5.0f,
+                                                       .initial = 1.0f,
+                                                       .resistance_ohm = 0.01f,
+                                                       .voltage_min = 6.0f,
+                                                       .voltage_max = 26.0f,
+                                                       .voltage_spread = 0.5f,
+                                                       .current_min = -1.0f,
+                                                       .current_max = 120.0f,
+                                                       .current_expected = 15.0f,
+                                                       .cap_s = 3600.0f,
+                                                       .low_voltage = 3.5f,
+                                                       .critical_voltage = 3.3f,
+                                                       .voltage_margin = 0.2f,
+                                                       .low_charge = 0.25f,
+                                                       .critical_charge = 0.15f,
+                                                       .rate_hz = 20u,
+                                                       .smoothing_steps = 100u,
+                                                       .settle_steps = 40u,
+                                                       .hold_steps = 10u,
+                                                       .cells = 4u,
+                                                       .modules = 2u};
+
+/* In flight, with all samples of both modules. */
+static keel_battery_sample_t battery_sample_at(uint32_t n)
+{
+    const keel_battery_sample_t sample = {
+        .module = {{15.8f, 7.0f + signal_at(n), true, true}, {15.9f, 7.5f, true, true}},
+        .running = true};
 
     return sample;
 }

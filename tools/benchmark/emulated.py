@@ -52,6 +52,7 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "attitude": ("attitude, all sensors in each", ("attitude",), 400, ("steps", "attitude")),
     "altitude": ("altitude, a pressure in each", ("altitude",), 150, ("steps", "altitude")),
     "position": ("position, a fix in each", ("position",), 300, ("steps", "position")),
+    "battery": ("battery, two modules", ("battery",), 400, ("steps", "battery")),
 }  # fmt: skip
 
 
