@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # goals: 2
 #
-# What rounding does to the fence's test (CAS-011), operation by operation as in `is_near` and
+# What rounding does to the fence's test (CAS-011), operation by operation as in `is_side_near` and
 # `near_sides` of src/flight/cascade.c and in keel_cascade_init, in single precision; `rnd=` rounds
 # each operation to nearest, ties to even. L is the reach, x the position and v the speed towards a
 # side, A, T and twice_braking those of the configuration. Goals: CAS_011_left, by how much L - x' as

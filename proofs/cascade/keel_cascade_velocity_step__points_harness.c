@@ -2,7 +2,7 @@
 // cbmc: --unwind 14 --external-sat-solver cadical
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c
 // sources: specs/model/cascade.c specs/model/cascade_parts.c specs/model/pid.c specs/model/filter.c
-// covers: keel_cascade_velocity_step drive drive_with is_direction is_near near_sides admitted
+// covers: keel_cascade_velocity_step drive drive_with is_direction is_side_near near_sides admitted
 // covers: holds shared_limit keel_cascade_axis_step within_reach asks_for is_asked_for is_flown
 // covers: model_cascade_velocity_step driven side_near no_more axis_output output_of setpoint_of
 // covers: number_within nearest_within model_cascade_axis_step lies_within next_to

@@ -365,7 +365,7 @@ void keel_cascade_position_step(keel_cascade_t *cascade, keel_cascade_vector_t a
 /*@ requires \valid_read(fence);
   @ assigns \nothing;
   @*/
-static bool is_near(const keel_cascade_fence_t *fence, float way, float speed)
+static bool is_side_near(const keel_cascade_fence_t *fence, float way, float speed)
 {
     const float fastest = speed + fence->gain;
     const float left = way - (fence->reaction_s * (speed + fence->half_gain));
@@ -383,8 +383,8 @@ static keel_cascade_limit_t near_sides(const keel_cascade_fence_t *fence, float 
 {
     const bool known = keel_range_contains(position, -KEEL_PID_INPUT_LIMIT, KEEL_PID_INPUT_LIMIT) &&
                        keel_range_contains(speed, -KEEL_PID_INPUT_LIMIT, KEEL_PID_INPUT_LIMIT);
-    const keel_cascade_limit_t near = {!known || is_near(fence, reach + position, -speed),
-                                       !known || is_near(fence, reach - position, speed)};
+    const keel_cascade_limit_t near = {!known || is_side_near(fence, reach + position, -speed),
+                                       !known || is_side_near(fence, reach - position, speed)};
 
     return near;
 }
