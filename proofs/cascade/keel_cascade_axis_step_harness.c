@@ -115,4 +115,8 @@ void keel_cascade_axis_step_harness(void)
     __CPROVER_assert((!input.below.at_max || axis.limit.at_max) &&
                          (!input.below.at_min || axis.limit.at_min),
                      "CAS_006_told: a limit goes up the chain");
+    __CPROVER_assert(axis.held || (input.setpoint > 0.0f) || !(axis.pid.setpoint > 0.0f),
+                     "CAS_011_above: not further up than it is asked to go");
+    __CPROVER_assert(axis.held || (input.setpoint < 0.0f) || !(axis.pid.setpoint < 0.0f),
+                     "CAS_011_below: nor further down");
 }

@@ -118,7 +118,7 @@ static float setpoint_of(const keel_cascade_axis_t *axis)
 /* One axis; the mode flies it or not. */
 static float axis_output(keel_cascade_t *cascade, uint32_t axis, keel_cascade_input_t input)
 {
-    input.valid = input.valid && ((cascade->axes & BIT(axis)) != 0u);
+    input.valid = input.valid && (((cascade->axes >> axis) & 1u) != 0u);
     model_cascade_axis_step(&cascade->axis[axis], &input);
     return output_of(&cascade->axis[axis]);
 }
@@ -202,21 +202,14 @@ static float driven(keel_cascade_t *cascade, uint32_t axis, keel_cascade_input_t
                        number_within(input.measured, -KEEL_PID_INPUT_LIMIT, KEEL_PID_INPUT_LIMIT);
     const bool above = !known || side_near(&cascade->fence, reach - position, input.measured);
     const bool below = !known || side_near(&cascade->fence, reach + position, -input.measured);
+    const bool towards = (above && (input.setpoint > 0.0f)) || (below && (input.setpoint < 0.0f));
+    keel_cascade_limit_t *const limit = &cascade->axis[axis].limit;
     float output;
 
-    if (above && (input.setpoint > 0.0f)) {
-        input.setpoint = 0.0f;
-    }
-    if (below && (input.setpoint < 0.0f)) {
-        input.setpoint = 0.0f;
-    }
+    input.setpoint = towards ? 0.0f : input.setpoint;
     output = axis_output(cascade, axis, input);
-    if (above) {
-        cascade->axis[axis].limit.at_max = true;
-    }
-    if (below) {
-        cascade->axis[axis].limit.at_min = true;
-    }
+    limit->at_min = limit->at_min || below;
+    limit->at_max = limit->at_max || above;
     return output;
 }
 
@@ -224,15 +217,7 @@ static float driven(keel_cascade_t *cascade, uint32_t axis, keel_cascade_input_t
  * limit. `part` is that of the body's axis which lies along the Earth's. */
 static bool no_more(keel_cascade_limit_t body, float part)
 {
-    bool none = false;
-
-    if (part > 0.5f) {
-        none = body.at_max;
-    }
-    if (part < -0.5f) {
-        none = body.at_min;
-    }
-    return none;
+    return (body.at_max && (part > 0.5f)) || (body.at_min && (part < -0.5f));
 }
 
 void model_cascade_velocity_step(keel_cascade_t *cascade, keel_cascade_vector_t asked,
