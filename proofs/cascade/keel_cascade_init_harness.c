@@ -15,15 +15,8 @@ static keel_cascade_t model;
 static keel_status_t checked[AXES];
 static keel_pid_t made[AXES];
 
-static uint32_t axis_of(const keel_pid_config_t *pid)
-{
-    uint32_t axis = AXES;
-
-    for (uint32_t i = 0u; i < AXES; i++) {
-        axis = (pid == &config.pid[i]) ? i : axis;
-    }
-    return axis;
-}
+static uint32_t making;
+static uint32_t told;
 
 keel_status_t model_cascade_check(const keel_cascade_config_t *whole, uint32_t axis)
 {
@@ -42,8 +35,11 @@ keel_status_t keel_cascade_check_stand_in(const keel_cascade_config_t *whole, ui
 
 keel_status_t model_pid_init(keel_pid_t *pid, const keel_pid_config_t *of)
 {
-    made[axis_of(of)] = any_pid_at_all();
-    *pid = made[axis_of(of)];
+    __CPROVER_assume(making < AXES);
+    __CPROVER_assert(of == &config.pid[making], "CAS_002_modelled: one axis after another");
+    made[making] = any_pid_at_all();
+    *pid = made[making];
+    making++;
     return KEEL_OK;
 }
 
@@ -51,9 +47,12 @@ keel_status_t keel_pid_init_stand_in(keel_pid_t *pid, const keel_pid_config_t *o
 {
     const keel_status_t status = nondet_bool() ? KEEL_OK : KEEL_ERR_GAIN;
 
+    __CPROVER_assert(told < AXES, "CAS_002_made: no more than there are");
+    __CPROVER_assert(of == &config.pid[told], "CAS_002_made: one axis after another");
     __CPROVER_assert(keel_pid_init_may(), "precondition: keel_pid_init");
-    *pid = made[axis_of(of)];
+    *pid = made[told];
     __CPROVER_assume(keel_pid_init_does(status, pid, of));
+    told++;
     return status;
 }
 
@@ -69,6 +68,7 @@ void keel_cascade_init_harness(void)
 
     status = keel_cascade_init(&cascade, &config);
 
+    __CPROVER_assert(told == making, "CAS_002_made: as many as the model makes");
     __CPROVER_assert(status == expected, "CAS_002_taken: taken or refused as the model says");
     __CPROVER_assert(cascade_same(&cascade, &model),
                      "CAS_002_model: every field is what the model says");
