@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 12 --external-sat-solver cadical
+// cbmc: --unwind 12 --refine
+// checks: assertions
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c
 // replaces: keel_cascade_check keel_pid_init
 // covers: keel_cascade_init make_axis command_nothing
 //
-// Any bit pattern for all of a configuration: what is made is valid, a refusal changes nothing, and
-// no operation overflows or gives a NaN. By hand: a controller is made of what keel_cascade_check
+// Any bit pattern for all of a configuration: what is made is valid, a refusal changes nothing. That
+// no operation overflows or gives a NaN is in keel_cascade_init_harness. By hand: a controller is made of what keel_cascade_check
 // has made one of before. Whether it can be made follows from its configuration alone
 // (keel_pid_init_harness), so it can.
 #include "../common/unchanged.h"

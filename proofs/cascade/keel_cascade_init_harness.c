@@ -22,6 +22,7 @@ keel_status_t model_cascade_check(const keel_cascade_config_t *whole, uint32_t a
 {
     __CPROVER_assert((whole == &config) && (axis < AXES), "CAS_002_checked: an axis of this");
     checked[axis] = nondet_bool() ? KEEL_OK : (nondet_bool() ? KEEL_ERR_LIMITS : KEEL_ERR_GAIN);
+    __CPROVER_assume(keel_cascade_check_does(checked[axis], whole, axis));
     return checked[axis];
 }
 

@@ -34,8 +34,9 @@ static bool near_here(const keel_cascade_fence_t *fence, float way, float speed)
 {
     const float fastest = speed + fence->gain;
     const float left = way - (fence->reaction_s * (speed + fence->half_gain));
+    const float square = (fastest > 0.0f) ? (fastest * fastest) : 0.0f;
 
-    return !(((fastest > 0.0f) ? (fastest * fastest) : 0.0f) <= (fence->twice_braking * left));
+    return !(square <= (fence->twice_braking * left));
 }
 
 /* What cascade_fenced says of limits. */
