@@ -111,11 +111,10 @@ static bool fence_valid_here(const keel_cascade_fence_t *fence)
            within(fence->twice_braking, 0.0f, 128.0f);
 }
 
-/* cascade_valid. */
-static bool cascade_valid_here(const keel_cascade_t *c)
+/* cascade_valid, but for the fence. */
+static bool axes_valid_here(const keel_cascade_t *c)
 {
-    bool valid = fence_valid_here(&c->fence) && within(c->hover, 0.0f, 1.0f) &&
-                 command_valid_here(&c->command);
+    bool valid = within(c->hover, 0.0f, 1.0f) && command_valid_here(&c->command);
 
     for (uint32_t i = 0u; i < AXES; i++) {
         const float most = (i <= KEEL_CASCADE_YAW_RATE) ? 1.0f
@@ -127,6 +126,12 @@ static bool cascade_valid_here(const keel_cascade_t *c)
         valid = valid && axis_valid_here(&c->axis[i]) && asks_within(&c->axis[i], most);
     }
     return valid;
+}
+
+/* cascade_valid. */
+static bool cascade_valid_here(const keel_cascade_t *c)
+{
+    return fence_valid_here(&c->fence) && axes_valid_here(c);
 }
 
 static keel_cascade_limit_t any_limit(void)

@@ -2,7 +2,7 @@
 // cbmc: --unwind 12 --external-sat-solver cadical
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c
 // sources: specs/model/cascade.c specs/model/cascade_parts.c specs/model/pid.c specs/model/filter.c
-// covers: keel_cascade_init model_cascade_init
+// covers: keel_cascade_init model_cascade_init make_axis command_nothing
 //
 // Chosen configurations: one that is good, and one with two axes that are not. All of them are
 // dealt with in keel_cascade_init_harness; wrong bodies are refuted here.
