@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file asked_in_order.h
- * @brief What the velocity stage asks of its axes, one after another, where what they do is unknown:
- *        as in asked_axes.h, but the model's axis does anything at all, and nothing is found by its
- *        address, so that a solver for floats has terms to compare and nothing else.
+ * @brief What the velocity stage asks of its axes, one after another, where what they do is
+ *        unknown: as in asked_axes.h, but the model's axis does anything at all, and nothing is
+ *        found by its address, so that a solver for floats has terms to compare and nothing else.
  */
 #ifndef ASKED_IN_ORDER_H
 #define ASKED_IN_ORDER_H

@@ -6,11 +6,12 @@
 // covers: keel_cascade_velocity_step model_cascade_velocity_step
 //
 // Any cascade whose axes of this stage are valid, any bit pattern of all else and of what it is
-// told; what an axis does is unknown: to the model it is anything at all, the code must ask the same
-// of the same axis, and is told the same. The solver sees that both compute the same only where
-// nothing else is asked: all that a step calls is reached in
+// told; what an axis does is unknown: to the model it is anything at all, the code must ask the
+// same of the same axis, and is told the same. The solver sees that both compute the same only
+// where nothing else is asked: all that a step calls is reached in
 // keel_cascade_velocity_step__points_harness, bounds are in
-// keel_cascade_velocity_step__valid_harness, the fence in keel_cascade_velocity_step__fence_harness.
+// keel_cascade_velocity_step__valid_harness, the fence is in
+// keel_cascade_velocity_step__fence_harness.
 #include "asked_in_order.h"
 
 void keel_cascade_velocity_step_harness(void)
