@@ -984,6 +984,36 @@ static void BAT_004_whatever_comes_is_told(void)
     }
 }
 
+/* Below and above what can be, of the only module. */
+static void BAT_004_a_voltage_out_of_range_of_one_module(void)
+{
+    config.modules = 1u;
+    make();
+    volts(0.0f, 16.0f);
+    steps(1u);
+    flags_are(KEEL_BATTERY_NO_VOLTAGE | KEEL_BATTERY_VOLTAGE_LOST);
+    volts(64.0f, 16.0f);
+    steps(1u);
+    flags_are(KEEL_BATTERY_NO_VOLTAGE | KEEL_BATTERY_VOLTAGE_LOST);
+}
+
+/* 2050518 A s over 49.5027 A are less than the cap, and the cap when rounded. */
+static void BAT_010_a_time_that_is_rounded_to_the_cap(void)
+{
+    config.capacity_ah = 1000.0f;
+    config.rate_hz = 1000u;
+    config.initial = 1.0f;
+    config.low_charge = 0.0f;
+    config.critical_charge = 0.0f;
+    config.current_expected = 49.5027008f;
+    config.cap_s = 41422.3477f;
+    make();
+    battery.charge.whole = 3600000000u - 2050517835u;
+    steps(1u);
+    TEST_ASSERT_EQUAL_UINT32(2050517835u, battery.left);
+    TEST_ASSERT_EQUAL_FLOAT(config.cap_s, battery.remaining_s);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -1039,5 +1069,7 @@ int main(void)
     RUN_TEST(BAT_015_the_greatest_of_all);
     RUN_TEST(BAT_015_the_least_of_all);
     RUN_TEST(BAT_004_whatever_comes_is_told);
+    RUN_TEST(BAT_004_a_voltage_out_of_range_of_one_module);
+    RUN_TEST(BAT_010_a_time_that_is_rounded_to_the_cap);
     return UNITY_END();
 }
