@@ -15,7 +15,10 @@
 
 #define LABEL_SIZE 64u
 
+static keel_altitude_t bench_altitude;
 static keel_attitude_t bench_attitude;
+static keel_position_t bench_position;
+static keel_battery_t bench_battery;
 static keel_filter_t bench_filter;
 static keel_pid_t bench_pid;
 static keel_mixer_t bench_mixer;
@@ -121,6 +124,62 @@ static void bench_run_attitude(void)
     bench_dump("attitude");
 }
 
+static void bench_run_altitude(void)
+{
+    bench_require(keel_altitude_init(&bench_altitude, &altitude_workload) == KEEL_OK, "altitude");
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const keel_altitude_sample_t sample = altitude_sample_at(n);
+
+        if (n < STEPS) {
+            keel_altitude_step(&bench_altitude, &sample);
+        } else {
+            bench_require(bench_altitude.axis.quality == KEEL_AXIS_GOOD, "altitude is not good");
+            CALLGRIND_TOGGLE_COLLECT;
+            keel_altitude_step(&bench_altitude, &sample);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_dump("altitude");
+}
+
+static void bench_run_position(void)
+{
+    bench_require(keel_position_init(&bench_position, &position_workload) == KEEL_OK, "position");
+    bench_require(keel_position_set_origin(&bench_position, 481000000, 115000000) == KEEL_OK,
+                  "origin");
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const keel_position_sample_t sample = position_sample_at(n);
+
+        if (n < STEPS) {
+            keel_position_step(&bench_position, &sample);
+        } else {
+            bench_require(bench_position.quality == KEEL_AXIS_GOOD, "position is not good");
+            CALLGRIND_TOGGLE_COLLECT;
+            keel_position_step(&bench_position, &sample);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_dump("position");
+}
+
+static void bench_run_battery(void)
+{
+    bench_require(keel_battery_init(&bench_battery, &battery_workload) == KEEL_OK, "battery");
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const keel_battery_sample_t sample = battery_sample_at(n);
+
+        if (n < STEPS) {
+            keel_battery_step(&bench_battery, &sample);
+        } else {
+            bench_require(bench_battery.level == KEEL_BATTERY_OK, "battery is not well");
+            CALLGRIND_TOGGLE_COLLECT;
+            keel_battery_step(&bench_battery, &sample);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_dump("battery");
+}
+
 static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     const keel_mode_input_t input = mode_workload(&bench_mode, settle_us,
@@ -163,6 +222,9 @@ int main(void)
     bench_run_mode("mode", 250000u, KEEL_MODE_FLYING);
     bench_run_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
     bench_run_attitude();
+    bench_run_altitude();
+    bench_run_position();
+    bench_run_battery();
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;

@@ -322,6 +322,67 @@ static void bench_attitude(void)
     print(&steps);
 }
 
+static void bench_altitude(void)
+{
+    static keel_altitude_t altitude KEEL_REALTIME_ZERO;
+    kind_t steps = {"altitude", 0u, 0u, 0u};
+
+    require(keel_altitude_init(&altitude, &altitude_workload) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        keel_altitude_sample_t sample = altitude_sample_at(n);
+
+        if (n < STEPS) {
+            keel_altitude_step(&altitude, &sample);
+        } else {
+            require(altitude.axis.quality == KEEL_AXIS_GOOD);
+            add(&steps,
+                measure((function_t)keel_altitude_step, &altitude, (uint32_t)&sample, 0u, false));
+        }
+    }
+    print(&steps);
+}
+
+static void bench_position(void)
+{
+    static keel_position_t position KEEL_REALTIME_ZERO;
+    kind_t steps = {"position", 0u, 0u, 0u};
+
+    require(keel_position_init(&position, &position_workload) == KEEL_OK);
+    require(keel_position_set_origin(&position, 481000000, 115000000) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        keel_position_sample_t sample = position_sample_at(n);
+
+        if (n < STEPS) {
+            keel_position_step(&position, &sample);
+        } else {
+            require(position.quality == KEEL_AXIS_GOOD);
+            add(&steps,
+                measure((function_t)keel_position_step, &position, (uint32_t)&sample, 0u, false));
+        }
+    }
+    print(&steps);
+}
+
+static void bench_battery(void)
+{
+    static keel_battery_t battery KEEL_REALTIME_ZERO;
+    kind_t steps = {"battery", 0u, 0u, 0u};
+
+    require(keel_battery_init(&battery, &battery_workload) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        keel_battery_sample_t sample = battery_sample_at(n);
+
+        if (n < STEPS) {
+            keel_battery_step(&battery, &sample);
+        } else {
+            require(battery.level == KEEL_BATTERY_OK);
+            add(&steps,
+                measure((function_t)keel_battery_step, &battery, (uint32_t)&sample, 0u, false));
+        }
+    }
+    print(&steps);
+}
+
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     static keel_mode_t mode KEEL_REALTIME_ZERO;
@@ -383,6 +444,9 @@ int main(void)
     bench_mode("mode", 250000u, KEEL_MODE_FLYING);
     bench_mode("mode_worst", KEEL_MODE_TIME_MOST_US, KEEL_MODE_DISARMED);
     bench_attitude();
+    bench_altitude();
+    bench_position();
+    bench_battery();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
     keel_console_text(bad ? "bench failed\n" : "bench ended\n");

@@ -7,10 +7,13 @@
 #ifndef KEEL_BENCH_WORKLOAD_H
 #define KEEL_BENCH_WORKLOAD_H
 
+#include "keel/flight/altitude.h"
 #include "keel/flight/attitude.h"
+#include "keel/flight/battery.h"
 #include "keel/flight/mixer.h"
 #include "keel/flight/mode.h"
 #include "keel/flight/pid.h"
+#include "keel/flight/position.h"
 #include "keel/flight/reference.h"
 #include "keel/middleware/virtual_imu.h"
 
@@ -143,6 +146,90 @@ static keel_attitude_sample_t attitude_sample_at(uint32_t n)
                                            .has_accelerometer = true,
                                            .has_magnetometer = (n % 10u) == 0u,
                                            .has_acceleration = true};
+
+    return sample;
+}
+
+/* --- Altitude and position -------------------------------------------------------------------- */
+
+#define AXIS_WORKLOAD                                                                              \
+    {.rate_hz = 100.0f,                                                                            \
+     .position_gain = 0.25f,                                                                       \
+     .velocity_gain = 0.25f,                                                                       \
+     .rate_gain = 0.25f,                                                                           \
+     .bias_gain = 0.03125f,                                                                        \
+     .bias_limit = 1.0f,                                                                           \
+     .position_gate = 50.0f,                                                                       \
+     .velocity_gate = 20.0f,                                                                       \
+     .late_steps = 20u,                                                                            \
+     .lost_steps = 200u,                                                                           \
+     .settle_fixes = 5u,                                                                           \
+     .jump_fixes = 5u}
+
+static const keel_axis_config_t altitude_workload = AXIS_WORKLOAD;
+
+static const keel_position_config_t position_workload = {
+    .axis = AXIS_WORKLOAD, .accuracy = 5.0f, .speed_accuracy = 1.0f};
+
+/* A pressure in each step: the most that there can be to do. */
+static keel_altitude_sample_t altitude_sample_at(uint32_t n)
+{
+    const keel_altitude_sample_t sample = {.pressure = 100000.0f + (10.0f * signal_at(n)),
+                                           .acceleration = 0.1f * signal_at(n),
+                                           .has_pressure = true,
+                                           .has_acceleration = true};
+
+    return sample;
+}
+
+/* A fix in each step. */
+static keel_position_sample_t position_sample_at(uint32_t n)
+{
+    const keel_position_sample_t sample = {.fix = {.latitude = 481000000 + (int32_t)(n % 100u),
+                                                   .longitude = 115000000 - (int32_t)(n % 50u),
+                                                   .north = 0.1f * signal_at(n),
+                                                   .east = -0.1f * signal_at(n),
+                                                   .accuracy = 2.0f,
+                                                   .speed_accuracy = 0.5f,
+                                                   .is_valid = true},
+                                           .north = 0.1f * signal_at(n),
+                                           .east = 0.1f * signal_at(n),
+                                           .has_fix = true,
+                                           .has_acceleration = true};
+
+    return sample;
+}
+
+/* --- Battery ---------------------------------------------------------------------------------- */
+
+static const keel_battery_config_t battery_workload = {.capacity_ah = 5.0f,
+                                                       .initial = 1.0f,
+                                                       .resistance_ohm = 0.01f,
+                                                       .voltage_min = 6.0f,
+                                                       .voltage_max = 26.0f,
+                                                       .voltage_spread = 0.5f,
+                                                       .current_min = -1.0f,
+                                                       .current_max = 120.0f,
+                                                       .current_expected = 15.0f,
+                                                       .cap_s = 3600.0f,
+                                                       .low_voltage = 3.5f,
+                                                       .critical_voltage = 3.3f,
+                                                       .voltage_margin = 0.2f,
+                                                       .low_charge = 0.25f,
+                                                       .critical_charge = 0.15f,
+                                                       .rate_hz = 20u,
+                                                       .smoothing_steps = 100u,
+                                                       .settle_steps = 40u,
+                                                       .hold_steps = 10u,
+                                                       .cells = 4u,
+                                                       .modules = 2u};
+
+/* In flight, with all samples of both modules. */
+static keel_battery_sample_t battery_sample_at(uint32_t n)
+{
+    const keel_battery_sample_t sample = {
+        .module = {{15.8f, 7.0f + signal_at(n), true, true}, {15.9f, 7.5f, true, true}},
+        .running = true};
 
     return sample;
 }

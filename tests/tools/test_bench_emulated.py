@@ -41,6 +41,9 @@ bench mixer_worst passes 1000 instructions 410500 longest 428
 bench mode passes 1000 instructions 241000 longest 241
 bench mode_worst passes 1000 instructions 464000 longest 464
 bench attitude passes 1000 instructions 392900 longest 412
+bench altitude passes 1000 instructions 220000 longest 220
+bench position passes 1000 instructions 441000 longest 441
+bench battery passes 1000 instructions 372000 longest 372
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
 bench ended
@@ -60,6 +63,9 @@ FIGURES = {
     "mode": Figure(1000, 241000, 241),
     "mode_worst": Figure(1000, 464000, 464),
     "attitude": Figure(1000, 392900, 412),
+    "altitude": Figure(1000, 220000, 220),
+    "position": Figure(1000, 441000, 441),
+    "battery": Figure(1000, 372000, 372),
 }
 GOOD = """\
 # About the budget.
@@ -80,6 +86,9 @@ mixer_worst = 410.5
 mode = 241
 mode_worst = 464
 attitude = 392.9
+altitude = 220.0
+position = 441.0
+battery = 372.0
 """
 
 
@@ -171,6 +180,9 @@ class Budgets(unittest.TestCase):
                 "mode": 241.0,
                 "mode_worst": 464.0,
                 "attitude": 392.9,
+                "altitude": 220.0,
+                "position": 441.0,
+                "battery": 372.0,
             },
         )
 

@@ -353,7 +353,10 @@ class Images(Folder):
         self.assertIn("src/rtos/scheduler.c", report["sources"])
         self.assertTrue(all(not check["wrong"] for check in report["checks"]))
         placed = {check["what"]: check["region"] for check in report["checks"]}
-        scheduler = "code of src/rtos, src/middleware, src/flight: keel_scheduler_step"
+        scheduler = (
+            "code of src/rtos, src/middleware, src/flight/attitude.c, src/flight/filter.c,"
+            " src/flight/mixer.c, src/flight/pid.c: keel_scheduler_step"
+        )
         self.assertEqual(placed[scheduler], "ITCM")
         stacks = folder / "obj/src/rtos/scheduler.su"
         self.assertIn("keel_scheduler_step", stacks.read_text())

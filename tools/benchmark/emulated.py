@@ -50,6 +50,9 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "mode": ("mode, in flight", ("mode",), 250, ("steps", "mode")),
     "mode_worst": ("mode, all facts waiting", ("mode_worst",), 250, ("steps", "mode_worst")),
     "attitude": ("attitude, all sensors in each", ("attitude",), 400, ("steps", "attitude")),
+    "altitude": ("altitude, a pressure in each", ("altitude",), 250, ("steps", "altitude")),
+    "position": ("position, a fix in each", ("position",), 500, ("steps", "position")),
+    "battery": ("battery, two modules", ("battery",), 400, ("steps", "battery")),
 }  # fmt: skip
 
 

@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file battery.h
+ * @brief Battery monitor: charge, energy, remaining flight time and level, from one or two power
+ *        modules (section II-A of the paper).
+ *
+ * The modules lie side by side between the battery, or the batteries of one voltage, and the
+ * aircraft: their currents add up to I. Of their voltages the lower one is V, as an alarm that
+ * comes too early costs a flight, and one that comes too late the aircraft; that they differ is
+ * told. A step, T = 1 / rate_hz, from V, I, a battery of n cells with resistance R, and its charge
+ * C, of which it had the part `initial` when the monitor began:
+ *
+ *     charge used    the sum of I T          energy used    the sum of V I T
+ *     charge left    initial C - charge used, not below 0
+ *     smoothed       J <- J + (I - J) / (1 + smoothing_steps), while the motors run
+ *     time left      (charge left - critical_charge C) / J, not below 0, at most cap_s
+ *     cell           V / n + min(I R / n, KEEL_BATTERY_SAG_LIMIT): what a cell has without load
+ *
+ * Sums are kept in integers, in quanta of 2^-20 A T and 2^-12 W T: a millisecond's charge is not
+ * lost beside an hour's, nothing overflows, and nothing runs backwards (requirements BAT-007 and
+ * BAT-008). A negative current is told and taken for none: a battery is not charged in flight. The
+ * time left is that until the level KEEL_BATTERY_CRITICAL, not that until the battery is empty.
+ *
+ * Two alarms, low and critical, look at the cell's voltage and at the charge left:
+ *
+ *     evidence for      the charge left is at most the alarm's part of C, or a new voltage came and
+ *                       the cell is at its threshold or below
+ *     evidence against  a new voltage came, and the cell is above the threshold; once the alarm is
+ *                       raised, above it by voltage_margin at least; and the charge is enough
+ *
+ * A count goes up by 1 with evidence for, to settle_steps, down by 1 with evidence against, to 0,
+ * and stays without any. At settle_steps the alarm is raised, at 0 it is taken back. So no single
+ * sample raises one, whatever it says, and what flutters about a threshold does not make the alarm
+ * flutter. An alarm for want of charge is not taken back, as no charge comes back.
+ *
+ * A module whose current does not come, is no number, or is out of the stated range is told; the
+ * current that came last is held. After hold_steps such steps the module is lost. What was used is
+ * then not known any more, until a restart: what is counted on with the held current is an
+ * estimate, and the level is not KEEL_BATTERY_OK. The modules may come late after a start, as long
+ * as no motor runs.
+ *
+ * For the mode machine, KEEL_BATTERY_LOW is KEEL_MODE_IS_CRITICAL (time to return), and
+ * KEEL_BATTERY_CRITICAL is KEEL_MODE_IS_EMPTY (time to land).
+ *
+ * Single precision; one division in a step, and no library call. Sources must be compiled without
+ * contraction of products and sums (ISO C mode, -std=c99, as all builds of Keel do).
+ */
+#ifndef KEEL_FLIGHT_BATTERY_H
+#define KEEL_FLIGHT_BATTERY_H
+
+#include "keel/c_declarations.h"
+#include "keel/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/** The most power modules. */
+#define KEEL_BATTERY_MODULES 2u
+
+/** The most cells in series. */
+#define KEEL_BATTERY_CELLS_MAX 14u
+
+/** The most steps per second. */
+#define KEEL_BATTERY_RATE_MAX_HZ 1000u
+
+/** The greatest voltage, of a module, in V; current, of a module and of all of them, in A. */
+#define KEEL_BATTERY_VOLTAGE_LIMIT 64.0f
+#define KEEL_BATTERY_CURRENT_LIMIT 512.0f
+#define KEEL_BATTERY_TOTAL_LIMIT   1024.0f
+
+/** The least and the greatest charge of a battery, in Ah. */
+#define KEEL_BATTERY_CAPACITY_MIN_AH 0.25f
+#define KEEL_BATTERY_CAPACITY_MAX_AH 1000.0f
+
+/** The greatest resistance of a battery, in ohm. */
+#define KEEL_BATTERY_RESISTANCE_LIMIT 1.0f
+
+/** The greatest voltage of a cell that is a threshold or a margin, in V. */
+#define KEEL_BATTERY_CELL_LIMIT 5.0f
+
+/** How much a cell's voltage is raised for its load at most, in V: a wrong current cannot hide an
+ * empty battery for longer than that. */
+#define KEEL_BATTERY_SAG_LIMIT 0.5f
+
+/** The least and the greatest cap of the time left, in s. */
+#define KEEL_BATTERY_CAP_MIN_S 1.0f
+#define KEEL_BATTERY_CAP_MAX_S 100000.0f
+
+/** The longest smoothing, in steps. Beyond, single precision would lose what a step adds: up to
+ * here the smoothed current comes within 2^-9 of a current that lasts. */
+#define KEEL_BATTERY_SMOOTHING_MAX 16384u
+
+/** The least number of steps that raise an alarm: one does not. */
+#define KEEL_BATTERY_SETTLE_MIN 2u
+
+/** Quanta in the unit of keel_battery_sum_t. */
+#define KEEL_BATTERY_QUANTA 1048576u
+
+/* What the last step met: keel_battery_t, flags. Those of module 1 are shifted by 1. */
+#define KEEL_BATTERY_NO_VOLTAGE   0x0001u /**< Of module 0: none came, or none that can be. */
+#define KEEL_BATTERY_NO_CURRENT   0x0004u /**< Of module 0: none came, or none that can be. */
+#define KEEL_BATTERY_LOST         0x0010u /**< Of module 0: its current has been held too long. */
+#define KEEL_BATTERY_REVERSED     0x0040u /**< Of module 0: a negative current, taken for none. */
+#define KEEL_BATTERY_VOLTAGE_LOST 0x0100u /**< No module's voltage came for hold_steps. */
+#define KEEL_BATTERY_SPREAD       0x0200u /**< The modules' voltages differ by too much. */
+#define KEEL_BATTERY_SAG          0x0400u /**< The load's part in a cell is at its limit. */
+#define KEEL_BATTERY_FULL         0x0800u /**< A sum is at its end, and stays there. */
+
+/** What a monitor is made from. */
+typedef struct keel_battery_config {
+    float capacity_ah;        /**< C, CAPACITY_MIN_AH to CAPACITY_MAX_AH, in Ah. */
+    float initial;            /**< The part of it that the battery has, 0 to 1. */
+    float resistance_ohm;     /**< R, 0 to RESISTANCE_LIMIT; too little is on the safe side. */
+    float voltage_min;        /**< A module's least voltage that can be, 0 to voltage_max, in V. */
+    float voltage_max;        /**< The greatest, to VOLTAGE_LIMIT, in V. */
+    float voltage_spread;     /**< By what modules may differ, 0 to VOLTAGE_LIMIT, in V. */
+    float current_min;        /**< What offset may do below 0, -CURRENT_LIMIT to 0, in A. */
+    float current_max;        /**< A module's greatest current, 0 to CURRENT_LIMIT, in A. */
+    float current_expected;   /**< J at the start, in flight, 0 to TOTAL_LIMIT, in A. */
+    float cap_s;              /**< The longest time left that is told, CAP_MIN_S to CAP_MAX_S. */
+    float low_voltage;        /**< Of a cell, critical_voltage to CELL_LIMIT, in V. */
+    float critical_voltage;   /**< Of a cell, 0 to CELL_LIMIT, in V. */
+    float voltage_margin;     /**< By what a cell must be above again, 0 to CELL_LIMIT, in V. */
+    float low_charge;         /**< Part of C, critical_charge to 1. */
+    float critical_charge;    /**< Part of C, 0 to 1. */
+    uint16_t rate_hz;         /**< Steps per second, 1 to RATE_MAX_HZ. */
+    uint16_t smoothing_steps; /**< Time constant of J, 0 to SMOOTHING_MAX, in steps. */
+    uint16_t settle_steps;    /**< Steps that make a level, from SETTLE_MIN on. */
+    uint16_t hold_steps;      /**< Steps without a sample that lose a module; at least 1. */
+    uint8_t cells;            /**< n, in series, 1 to CELLS_MAX. */
+    uint8_t modules;          /**< How many there are, 1 or 2. */
+} keel_battery_config_t;
+
+/** What a power module measured. Values may be any bit pattern. */
+typedef struct keel_battery_reading {
+    float voltage;    /**< In V. */
+    float current;    /**< In A, positive when it leaves the battery. */
+    bool has_voltage; /**< Whether there is a new one of each. */
+    bool has_current;
+} keel_battery_reading_t;
+
+/** What there is for a step. */
+typedef struct keel_battery_sample {
+    keel_battery_reading_t module[KEEL_BATTERY_MODULES]; /**< Those that there are. */
+    bool running; /**< Whether the motors run: then J follows the current. */
+} keel_battery_sample_t;
+
+/** What is known of the charge used. */
+typedef enum keel_battery_count {
+    KEEL_BATTERY_WAITING = 0, /**< Not all modules have come yet. */
+    KEEL_BATTERY_COUNTED,     /**< Every current since the start is in it, or was held shortly. */
+    KEEL_BATTERY_UNCOUNTED    /**< A module was lost: it is an estimate until a restart. */
+} keel_battery_count_t;
+
+/** How much the battery still has. */
+typedef enum keel_battery_level {
+    KEEL_BATTERY_UNKNOWN = 0, /**< No alarm, but voltage or charge are not known. */
+    KEEL_BATTERY_OK,          /**< All has been known for settle_steps, and there is no alarm. */
+    KEEL_BATTERY_LOW,         /**< Time to return. */
+    KEEL_BATTERY_CRITICAL     /**< Time to land. */
+} keel_battery_level_t;
+
+/** A sum over steps: whole + part / KEEL_BATTERY_QUANTA, of A T or of 256 W T. */
+typedef struct keel_battery_sum {
+    uint32_t whole;
+    uint32_t part; /**< Below KEEL_BATTERY_QUANTA. */
+} keel_battery_sum_t;
+
+/** An alarm. */
+typedef struct keel_battery_alarm {
+    uint16_t count; /**< Up with evidence, down without, 0 to settle_steps. */
+    bool raised;
+} keel_battery_alarm_t;
+
+/** The last current of a module. */
+typedef struct keel_battery_module {
+    float current; /**< What came last, 0 to CURRENT_LIMIT, in A. */
+    uint16_t age;  /**< Steps since, to hold_steps. */
+} keel_battery_module_t;
+
+/** What init computes from a configuration. */
+typedef struct keel_battery_scale {
+    float step_s;       /**< T, in s. */
+    float unit_j;       /**< 256 T: a unit of the sum of energy, in J. */
+    float gain;         /**< 1 / (1 + smoothing_steps). */
+    float per_cell;     /**< 1 / n. */
+    float sag;          /**< R / n, in ohm. */
+    float per_capacity; /**< 1 / capacity. */
+    uint32_t capacity;  /**< C, in A T. */
+    uint32_t low;       /**< low_charge C, in A T. */
+    uint32_t critical;  /**< critical_charge C, in A T. */
+} keel_battery_scale_t;
+
+/** A monitor. Written by the functions below alone; all of it may be read. */
+typedef struct keel_battery {
+    keel_battery_config_t config;                       /**< As checked by init. */
+    keel_battery_scale_t scale;                         /**< What follows from it. */
+    keel_battery_module_t module[KEEL_BATTERY_MODULES]; /**< The last currents. */
+    keel_battery_sum_t charge;                          /**< Used since the start, in A T. */
+    keel_battery_sum_t energy;                          /**< Used since the start, in 256 W T. */
+    uint32_t initial;                                   /**< Charge at the start, in A T. */
+    uint32_t left;                                      /**< Charge left, in A T. */
+    float voltage;                                      /**< V, in V; what came last, 0 before. */
+    float current;                 /**< I, in A; with what is held of a module. */
+    float smoothed;                /**< J, in A. */
+    float cell_voltage;            /**< Of a cell without load, in V. */
+    float charge_c;                /**< Charge used, in C. */
+    float energy_j;                /**< Energy used, in J. */
+    float remaining;               /**< Charge left as a part of C, 0 to 1. */
+    float remaining_s;             /**< Time left, 0 to cap_s, in s. */
+    keel_battery_alarm_t low;      /**< Its thresholds are low_voltage and low_charge. */
+    keel_battery_alarm_t critical; /**< critical_voltage and critical_charge. */
+    uint16_t voltage_age;          /**< Steps since a voltage came, to hold_steps. */
+    uint16_t known;                /**< Steps in a row in which all is known, to settle_steps. */
+    uint32_t flags;                /**< KEEL_BATTERY_NO_VOLTAGE, ...: what the last step met. */
+    keel_battery_count_t count;    /**< Whether the charge used is known. */
+    keel_battery_level_t level;    /**< How much the battery still has. */
+} keel_battery_t;
+
+/*@ predicate battery_number(float value, real least, real most) =
+  @     \is_finite(value) && least <= value <= most;
+  @
+  @ predicate battery_rate(keel_battery_config_t c) =
+  @     1 <= c.rate_hz <= KEEL_BATTERY_RATE_MAX_HZ;
+  @
+  @ predicate battery_pack(keel_battery_config_t c) =
+  @     battery_number(c.capacity_ah, KEEL_BATTERY_CAPACITY_MIN_AH,
+  @         KEEL_BATTERY_CAPACITY_MAX_AH) &&
+  @     battery_number(c.resistance_ohm, 0, KEEL_BATTERY_RESISTANCE_LIMIT) &&
+  @     1 <= c.cells <= KEEL_BATTERY_CELLS_MAX;
+  @
+  @ predicate battery_ranges(keel_battery_config_t c) =
+  @     battery_number(c.voltage_max, 0, KEEL_BATTERY_VOLTAGE_LIMIT) &&
+  @     battery_number(c.voltage_min, 0, c.voltage_max) &&
+  @     battery_number(c.voltage_spread, 0, KEEL_BATTERY_VOLTAGE_LIMIT) &&
+  @     battery_number(c.current_min, -KEEL_BATTERY_CURRENT_LIMIT, 0) &&
+  @     battery_number(c.current_max, 0, KEEL_BATTERY_CURRENT_LIMIT) &&
+  @     battery_number(c.current_expected, 0, KEEL_BATTERY_TOTAL_LIMIT) &&
+  @     battery_number(c.cap_s, KEEL_BATTERY_CAP_MIN_S, KEEL_BATTERY_CAP_MAX_S) &&
+  @     1 <= c.modules <= KEEL_BATTERY_MODULES;
+  @
+  @ predicate battery_levels(keel_battery_config_t c) =
+  @     battery_number(c.low_voltage, 0, KEEL_BATTERY_CELL_LIMIT) &&
+  @     battery_number(c.critical_voltage, 0, c.low_voltage) &&
+  @     battery_number(c.voltage_margin, 0, KEEL_BATTERY_CELL_LIMIT) &&
+  @     battery_number(c.low_charge, 0, 1) &&
+  @     battery_number(c.critical_charge, 0, c.low_charge) &&
+  @     c.smoothing_steps <= KEEL_BATTERY_SMOOTHING_MAX &&
+  @     KEEL_BATTERY_SETTLE_MIN <= c.settle_steps;
+  @
+  @ predicate battery_limits(keel_battery_config_t c) =
+  @     battery_pack(c) && battery_ranges(c) && battery_levels(c);
+  @
+  @ // An alarm that is raised ends with its count.
+  @ predicate battery_alarm(keel_battery_alarm_t a, integer most) =
+  @     a.count <= most && (a.raised ==> 0 < a.count);
+  @
+  @ // What a step asks of a monitor: what init establishes and every step keeps.
+  @ predicate battery_counts(keel_battery_t b) =
+  @     0 < b.config.hold_steps && 0 < b.config.settle_steps &&
+  @     b.charge.part < KEEL_BATTERY_QUANTA && b.energy.part < KEEL_BATTERY_QUANTA &&
+  @     battery_alarm(b.low, b.config.settle_steps) &&
+  @     battery_alarm(b.critical, b.config.settle_steps);
+  @
+  @ logic integer battery_quanta(keel_battery_sum_t s) =
+  @     s.whole * KEEL_BATTERY_QUANTA + s.part;
+  @
+  @ // Not down to 0 by one step, nor up to settle_steps.
+  @ predicate battery_steady(keel_battery_alarm_t was, keel_battery_alarm_t is, integer most) =
+  @     (is.raised && !was.raised ==> is.count == most && most - 1 <= was.count) &&
+  @     (!is.raised && was.raised ==> is.count == 0 && was.count <= 1);
+  @*/
+
+/**
+ * Makes a monitor (requirements BAT-001 to BAT-003).
+ *
+ * @param battery the monitor
+ * @param config  what it is made from; copied
+ * @return KEEL_OK; KEEL_ERR_RATE (rate_hz), KEEL_ERR_LIMITS (any other number), KEEL_ERR_AGE
+ *         (hold_steps) or KEEL_ERR_INITIAL (initial), the first that applies, NaN included: then
+ *         nothing is changed
+ */
+/*@ requires \valid(battery) && \valid_read(config) && \separated(battery, config);
+  @ assigns *battery;
+  @ ensures BAT_001_rate: !battery_rate(*config) ==> \result == KEEL_ERR_RATE;
+  @ ensures BAT_001_limits: battery_rate(*config) && !battery_limits(*config) ==>
+  @     \result == KEEL_ERR_LIMITS;
+  @ ensures BAT_001_age: battery_rate(*config) && battery_limits(*config) &&
+  @     config->hold_steps == 0 ==> \result == KEEL_ERR_AGE;
+  @ ensures BAT_001_initial: battery_rate(*config) && battery_limits(*config) &&
+  @     config->hold_steps > 0 && !battery_number(config->initial, 0, 1) ==>
+  @     \result == KEEL_ERR_INITIAL;
+  @ ensures BAT_001_kept: \result != KEEL_OK ==> *battery == \old(*battery);
+  @ ensures BAT_002_taken: \result == KEEL_OK ==> battery->config == *config;
+  @ ensures BAT_002_capacity: \result == KEEL_OK ==>
+  @     900 <= battery->scale.capacity <= 3600000000;
+  @*/
+keel_status_t keel_battery_init(keel_battery_t *battery, const keel_battery_config_t *config);
+
+/**
+ * Begins anew, with a battery that was changed or charged (requirement BAT-003). Not in flight.
+ *
+ * @param battery the monitor, initialised
+ * @param part    the part of its charge that the battery has, 0 to 1; any bit pattern
+ * @return KEEL_OK, or KEEL_ERR_INITIAL when it is not from 0 to 1: then nothing is changed
+ */
+/*@ requires \valid(battery);
+  @ assigns battery->module[0 .. KEEL_BATTERY_MODULES - 1], battery->charge, battery->energy,
+  @     battery->initial, battery->left, battery->voltage, battery->current, battery->smoothed,
+  @     battery->cell_voltage, battery->charge_c, battery->energy_j, battery->remaining,
+  @     battery->remaining_s, battery->low, battery->critical, battery->voltage_age,
+  @     battery->known, battery->flags, battery->count, battery->level;
+  @ ensures BAT_003_refused: !battery_number(part, 0, 1) ==>
+  @     \result == KEEL_ERR_INITIAL && *battery == \old(*battery);
+  @ ensures BAT_003_unused: battery_number(part, 0, 1) ==> \result == KEEL_OK &&
+  @     battery->charge.whole == 0 && battery->charge.part == 0 &&
+  @     battery->energy.whole == 0 && battery->energy.part == 0;
+  @ ensures BAT_003_unknown: battery_number(part, 0, 1) ==>
+  @     battery->level == KEEL_BATTERY_UNKNOWN && battery->count == KEEL_BATTERY_WAITING &&
+  @     !battery->low.raised && !battery->critical.raised;
+  @*/
+keel_status_t keel_battery_restart(keel_battery_t *battery, float part);
+
+/**
+ * One step of the monitor (requirements BAT-004 to BAT-016). Call it at the configured rate,
+ * whether there are samples or not; what it met is told in battery->flags.
+ *
+ * @param battery the monitor, initialised
+ * @param sample  what was measured since the last step
+ */
+/*@ requires \valid(battery) && \valid_read(sample) && \separated(battery, sample);
+  @ requires battery_ranges(battery->config) && battery_counts(*battery);
+  @ assigns battery->module[0 .. KEEL_BATTERY_MODULES - 1], battery->charge, battery->energy,
+  @     battery->left, battery->voltage, battery->current, battery->smoothed,
+  @     battery->cell_voltage, battery->charge_c, battery->energy_j, battery->remaining,
+  @     battery->remaining_s, battery->low, battery->critical, battery->voltage_age,
+  @     battery->known, battery->flags, battery->count, battery->level;
+  @ ensures BAT_004_told: (battery->flags & KEEL_BATTERY_NO_CURRENT) == 0 ==>
+  @     sample->module[0].has_current && battery_number(sample->module[0].current,
+  @         battery->config.current_min, battery->config.current_max);
+  @ ensures BAT_005_fresh: battery->voltage_age == 0 ==>
+  @     battery_number(battery->voltage, battery->config.voltage_min, battery->config.voltage_max);
+  @ ensures BAT_005_held: battery->voltage_age != 0 && \is_finite(\old(battery->voltage)) ==>
+  @     battery->voltage == \old(battery->voltage);
+  @ ensures BAT_006_lost: (battery->flags & KEEL_BATTERY_LOST) != 0 <==>
+  @     battery->module[0].age >= battery->config.hold_steps;
+  @ ensures BAT_007_forward: battery_quanta(\old(battery->charge)) <=
+  @     battery_quanta(battery->charge);
+  @ ensures BAT_007_whole: battery->charge.part < KEEL_BATTERY_QUANTA;
+  @ ensures BAT_008_forward: battery_quanta(\old(battery->energy)) <=
+  @     battery_quanta(battery->energy);
+  @ ensures BAT_008_whole: battery->energy.part < KEEL_BATTERY_QUANTA;
+  @ ensures BAT_009_left: battery->left == (battery->initial > battery->charge.whole
+  @     ? battery->initial - battery->charge.whole : 0);
+  @ ensures BAT_009_part: battery_number(battery->remaining, 0, 1);
+  @ ensures BAT_010_range: battery_number(battery->remaining_s, 0, KEEL_BATTERY_CAP_MAX_S);
+  @ ensures BAT_010_cap: battery->remaining_s <= battery->config.cap_s;
+  @ ensures BAT_010_none: battery->left <= battery->scale.critical ==> battery->remaining_s == 0;
+  @ ensures BAT_011_known: (battery->flags & KEEL_BATTERY_SAG) != 0 ==> (battery->flags &
+  @     (KEEL_BATTERY_LOST | KEEL_BATTERY_LOST << 1)) == 0;
+  @ ensures BAT_012_low: battery_steady(\old(battery->low), battery->low,
+  @     battery->config.settle_steps);
+  @ ensures BAT_012_critical: battery_steady(\old(battery->critical), battery->critical,
+  @     battery->config.settle_steps);
+  @ ensures BAT_013_low: \old(battery->low.raised) && !battery->low.raised ==>
+  @     battery->voltage_age == 0 && battery->left > battery->scale.low;
+  @ ensures BAT_013_critical: \old(battery->critical.raised) && !battery->critical.raised ==>
+  @     battery->voltage_age == 0 && battery->left > battery->scale.critical;
+  @ ensures BAT_014_alarm: (battery->level == KEEL_BATTERY_CRITICAL <==>
+  @     battery->critical.raised) && (battery->level == KEEL_BATTERY_LOW <==>
+  @     battery->low.raised && !battery->critical.raised);
+  @ ensures BAT_014_ok: battery->level == KEEL_BATTERY_OK ==>
+  @     battery->count == KEEL_BATTERY_COUNTED &&
+  @     battery->voltage_age < battery->config.hold_steps &&
+  @     battery->known == battery->config.settle_steps && (battery->flags &
+  @         (KEEL_BATTERY_LOST | KEEL_BATTERY_LOST << 1 | KEEL_BATTERY_VOLTAGE_LOST)) == 0;
+  @ ensures BAT_014_latched: \old(battery->count) == KEEL_BATTERY_UNCOUNTED ==>
+  @     battery->count == KEEL_BATTERY_UNCOUNTED;
+  @ ensures BAT_015_bounded: battery_number(battery->current, 0, KEEL_BATTERY_TOTAL_LIMIT) &&
+  @     battery_number(battery->smoothed, 0, KEEL_BATTERY_TOTAL_LIMIT);
+  @ ensures BAT_016_rests: !sample->running &&
+  @     battery_number(\old(battery->smoothed), 0, KEEL_BATTERY_TOTAL_LIMIT) ==>
+  @     battery->smoothed == \old(battery->smoothed);
+  @*/
+void keel_battery_step(keel_battery_t *battery, const keel_battery_sample_t *sample);
+
+KEEL_C_END
+
+#endif

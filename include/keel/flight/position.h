@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file position.h
+ * @brief Horizontal position and velocity, from a satellite receiver and acceleration.
+ *
+ * Latitude and longitude become metres north and east of an origin, on the plane that touches the
+ * ellipsoid of WGS 84 there. Per degree, f being the origin's latitude and c its cosine,
+ *
+ *     north  111132.954 - 559.822 cos 2f           cos 2f = 2 c^2 - 1
+ *     east   111412.84 cos f - 93.5 cos 3f         cos 3f = (4 c^2 - 3) c
+ *
+ * the series for the lengths of a degree on that ellipsoid, to 2e-5 of it (tested). c is a
+ * polynomial of f; it is worked out once, when the origin is set. A step computes two differences
+ * of integers and two products; longitudes are met across the 180th meridian.
+ *
+ * Each direction has an axis (axis.h) of its own, with the same configuration, which joins the
+ * receiver's positions and velocities with acceleration. The quality is that of the worse one. A
+ * fix can be used when the receiver calls it valid, its accuracy is not beyond what is configured,
+ * there is an origin, and it lies near that; its velocity when that is accurate enough, too. What
+ * is beyond the limits or the gates of an axis, that axis tells.
+ *
+ * No division and no library call in a step.
+ */
+#ifndef KEEL_FLIGHT_POSITION_H
+#define KEEL_FLIGHT_POSITION_H
+
+#include "keel/c_declarations.h"
+#include "keel/flight/axis.h"
+#include "keel/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/** Degrees are counted in 1e-7. */
+#define KEEL_POSITION_HALF_TURN INT32_C(1800000000)
+#define KEEL_POSITION_FULL_TURN INT64_C(3600000000)
+
+/** An origin's greatest latitude, north or south: 80 degrees. */
+#define KEEL_POSITION_LATITUDE_LIMIT INT32_C(800000000)
+
+/** Differences in degrees up to here are exact as floats, and further than an axis goes. */
+#define KEEL_POSITION_NEAR INT32_C(16777216)
+
+/** The greatest accuracies that may be asked for, in m and m/s. */
+#define KEEL_POSITION_ACCURACY_LIMIT       100.0f
+#define KEEL_POSITION_SPEED_ACCURACY_LIMIT 10.0f
+
+/** What a position estimator is made from. */
+typedef struct keel_position_config {
+    keel_axis_config_t axis; /**< Of both directions. */
+    float accuracy;          /**< Of a fix, at worst, 0 to ACCURACY_LIMIT, in m. */
+    float speed_accuracy;    /**< Of its velocity, 0 to SPEED_ACCURACY_LIMIT, in m/s. */
+} keel_position_config_t;
+
+/** What a receiver says. Numbers may be any bit pattern. */
+typedef struct keel_position_fix {
+    int32_t latitude;     /**< In 1e-7 degrees, north positive. */
+    int32_t longitude;    /**< In 1e-7 degrees, east positive. */
+    float north;          /**< Velocity, in m/s. */
+    float east;           /**< Velocity, in m/s. */
+    float accuracy;       /**< Of the position, one standard deviation, in m. */
+    float speed_accuracy; /**< Of the velocity, in m/s. */
+    bool is_valid;        /**< Whether the receiver calls it a good fix, in three dimensions. */
+} keel_position_fix_t;
+
+/** What was measured. Numbers may be any bit pattern. */
+typedef struct keel_position_sample {
+    keel_position_fix_t fix; /**< The receiver's. */
+    float north;             /**< Acceleration, in m/s^2. */
+    float east;              /**< Acceleration, in m/s^2. */
+    bool has_fix;            /**< Whether a fix came since the last step. */
+    bool has_acceleration;   /**< Whether there is one. */
+} keel_position_sample_t;
+
+/** A position estimator. Written by the functions below alone; all of it may be read. */
+typedef struct keel_position {
+    keel_position_config_t config; /**< As checked by init. */
+    keel_axis_t north;             /**< Position, velocity, age and flags. */
+    keel_axis_t east;              /**< Position, velocity, age and flags. */
+    int32_t latitude;              /**< The origin's, in 1e-7 degrees. */
+    int32_t longitude;             /**< The origin's, in 1e-7 degrees. */
+    float north_scale;             /**< Metres per 1e-7 degrees of latitude. */
+    float east_scale;              /**< Metres per 1e-7 degrees of longitude. */
+    bool has_origin;               /**< Whether there is one. */
+    keel_axis_quality_t quality;   /**< The worse of both directions'. */
+} keel_position_t;
+
+/*@ predicate position_accuracies(keel_position_config_t c) =
+  @     axis_number(c.accuracy, 0, KEEL_POSITION_ACCURACY_LIMIT) &&
+  @     axis_number(c.speed_accuracy, 0, KEEL_POSITION_SPEED_ACCURACY_LIMIT);
+  @
+  @ // Of an estimator, what a step needs.
+  @ predicate position_limited(keel_position_t *p) =
+  @     axis_limited(&p->north) && axis_limited(&p->east) &&
+  @     \is_finite(p->config.accuracy) && \is_finite(p->config.speed_accuracy);
+  @
+  @ predicate position_origin(integer latitude, integer longitude) =
+  @     -KEEL_POSITION_LATITUDE_LIMIT <= latitude <= KEEL_POSITION_LATITUDE_LIMIT &&
+  @     -KEEL_POSITION_HALF_TURN <= longitude <= KEEL_POSITION_HALF_TURN;
+  @*/
+
+/**
+ * Makes a position estimator without an origin (requirements POS-001, POS-002).
+ *
+ * @param position the estimator
+ * @param config   what it is made from; copied
+ * @return KEEL_OK; KEEL_ERR_LIMITS for an accuracy, else what keel_axis_init says, the first that
+ *         applies, NaN included: then nothing is changed
+ */
+/*@ requires \valid(position) && \valid_read(config) && \separated(position, config);
+  @ assigns *position;
+  @ ensures POS_001_accuracies: !position_accuracies(*config) ==> \result == KEEL_ERR_LIMITS;
+  @ ensures POS_001_rate: position_accuracies(*config) && !axis_rate(config->axis) ==>
+  @     \result == KEEL_ERR_RATE;
+  @ ensures POS_001_gains: position_accuracies(*config) && axis_rate(config->axis) &&
+  @     !axis_gains(config->axis) ==> \result == KEEL_ERR_GAIN;
+  @ ensures POS_001_limits: position_accuracies(*config) && axis_rate(config->axis) &&
+  @     axis_gains(config->axis) && !axis_limits(config->axis) ==> \result == KEEL_ERR_LIMITS;
+  @ ensures POS_001_kept: \result != KEEL_OK ==> *position == \old(*position);
+  @ ensures POS_002_taken: axis_rate(config->axis) && axis_gains(config->axis) &&
+  @     axis_limits(config->axis) && position_accuracies(*config) ==>
+  @     \result == KEEL_OK && position->config == *config && position_limited(position);
+  @ ensures POS_002_unknown: \result == KEEL_OK ==>
+  @     !position->has_origin && position->quality == KEEL_AXIS_NONE;
+  @*/
+keel_status_t keel_position_init(keel_position_t *position, const keel_position_config_t *config);
+
+/**
+ * Measures from here on from an origin; what was known before is forgotten (requirements POS-003,
+ * POS-004).
+ *
+ * @param position  the estimator, initialised
+ * @param latitude  in 1e-7 degrees
+ * @param longitude in 1e-7 degrees
+ * @return KEEL_OK; KEEL_ERR_VALUE when the latitude is beyond 80 degrees or the longitude beyond
+ *         180: then nothing is changed
+ */
+/*@ requires \valid(position);
+  @ assigns position->north.position, position->north.velocity, position->north.bias,
+  @     position->north.age, position->north.agreed, position->north.jumped,
+  @     position->north.flags, position->north.quality, position->east.position,
+  @     position->east.velocity, position->east.bias, position->east.age, position->east.agreed,
+  @     position->east.jumped, position->east.flags, position->east.quality, position->latitude,
+  @     position->longitude, position->north_scale, position->east_scale, position->has_origin,
+  @     position->quality;
+  @ behavior refused:
+  @   assumes !position_origin(latitude, longitude);
+  @   assigns \nothing;
+  @   ensures POS_003_refused: \result == KEEL_ERR_VALUE;
+  @ behavior set:
+  @   assumes position_origin(latitude, longitude);
+  @   ensures POS_003_ok: \result == KEEL_OK;
+  @   ensures POS_003_set: position->has_origin && position->latitude == latitude &&
+  @       position->longitude == longitude;
+  @   ensures POS_003_forgotten: position->quality == KEEL_AXIS_NONE &&
+  @       position->north.quality == KEEL_AXIS_NONE && position->east.quality == KEEL_AXIS_NONE;
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_position_set_origin(keel_position_t *position, int32_t latitude,
+                                       int32_t longitude);
+
+/**
+ * One step (requirements POS-005 to POS-009). Call it at the configured rate, whether something was
+ * measured or not.
+ *
+ * @param position the estimator, initialised
+ * @param sample   what was measured since the last step
+ */
+/*@ requires \valid(position) && \valid_read(sample) && \separated(position, sample);
+  @ requires position_limited(position);
+  @ assigns position->north.position, position->north.velocity, position->north.bias,
+  @     position->north.age, position->north.agreed, position->north.jumped,
+  @     position->north.flags, position->north.quality, position->east.position,
+  @     position->east.velocity, position->east.bias, position->east.age, position->east.agreed,
+  @     position->east.jumped, position->east.flags, position->east.quality, position->quality;
+  @ ensures POS_005_unusable: sample->has_fix && !(sample->fix.is_valid && position->has_origin &&
+  @     axis_number(sample->fix.accuracy, 0, position->config.accuracy)) ==>
+  @     axis_told(&position->north, KEEL_AXIS_UNUSABLE) &&
+  @     axis_told(&position->east, KEEL_AXIS_UNUSABLE);
+  @ ensures POS_005_none: !sample->has_fix ==>
+  @     !axis_told(&position->north, KEEL_AXIS_FIXED) &&
+  @     !axis_told(&position->east, KEEL_AXIS_FIXED);
+  @ ensures POS_008_north: axis_number(position->north.position, -KEEL_AXIS_POSITION_LIMIT,
+  @     KEEL_AXIS_POSITION_LIMIT) && axis_number(position->north.velocity,
+  @     -KEEL_AXIS_VELOCITY_LIMIT, KEEL_AXIS_VELOCITY_LIMIT);
+  @ ensures POS_008_east: axis_number(position->east.position, -KEEL_AXIS_POSITION_LIMIT,
+  @     KEEL_AXIS_POSITION_LIMIT) && axis_number(position->east.velocity,
+  @     -KEEL_AXIS_VELOCITY_LIMIT, KEEL_AXIS_VELOCITY_LIMIT);
+  @ ensures POS_009_worse: position->quality == (position->north.quality < position->east.quality ?
+  @     position->north.quality : position->east.quality);
+  @*/
+void keel_position_step(keel_position_t *position, const keel_position_sample_t *sample);
+
+KEEL_C_END
+
+#endif
