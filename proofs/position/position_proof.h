@@ -77,8 +77,7 @@ static bool accuracies_valid(const keel_position_config_t *config)
            within(config->speed_accuracy, 0.0f, KEEL_POSITION_SPEED_ACCURACY_LIMIT);
 }
 
-/* Metres per 1e-7 degrees: far from what would overflow. How long degrees are is a test's
- * (POS-004). */
+/* Metres per 1e-7 degrees, far from what would overflow. How long they are is tested: POS-004. */
 static bool scales_valid(const keel_position_t *position)
 {
     return within(position->north_scale, -1.0f, 1.0f) && within(position->east_scale, -1.0f, 1.0f);

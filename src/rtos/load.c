@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "keel/rtos/load.h"
 
+/* What is at most so many windows long comes to at most so many of them. */
+/*@ lemma LOD_quotient: \forall integer a, w, most;
+  @     0 <= a ==> 0 < w ==> a <= w * most ==> a / w <= most;
+  @*/
+
 void keel_load_begin(keel_load_t *load, uint64_t now_us, uint64_t busy_us)
 {
     load->start_us = now_us;
@@ -16,5 +21,7 @@ uint32_t keel_load_ppm(const keel_load_t *load, uint64_t now_us, uint64_t busy_u
     }
     /*@ assert share: (busy_us - load->busy_us) * KEEL_LOAD_FULL_PPM <=
       @     window_us * KEEL_LOAD_FULL_PPM; */
+    /*@ assert quotient: ((busy_us - load->busy_us) * KEEL_LOAD_FULL_PPM) / window_us <=
+      @     KEEL_LOAD_FULL_PPM; */
     return (uint32_t)(((busy_us - load->busy_us) * KEEL_LOAD_FULL_PPM) / window_us);
 }

@@ -318,12 +318,19 @@ static void AXI_006_a_fix_does_not_lead_beyond(void)
     fix(0.0f, 0.0f);
     fix(100.0f, 0.0f);
     TEST_ASSERT_EQUAL_FLOAT(256.0f, axis.velocity);
+    make();
+    fix(0.0f, 0.0f);
+    fix(-100.0f, 0.0f);
+    TEST_ASSERT_EQUAL_FLOAT(-256.0f, axis.velocity);
     config.position_gain = 1.0f;
     make();
     fix(0.0f, 0.0f);
-    sample.has_velocity = false;
     fix(16384.0f, 0.0f);
     TEST_ASSERT_EQUAL_FLOAT(16384.0f, axis.position);
+    make();
+    fix(0.0f, 0.0f);
+    fix(-16384.0f, 0.0f);
+    TEST_ASSERT_EQUAL_FLOAT(-16384.0f, axis.position);
 }
 
 static void AXI_006_corrupted_numbers_are_clamped(void)
@@ -457,6 +464,21 @@ static void AXI_009_the_last_of_some_jumps_is_believed(void)
     TEST_ASSERT_EQUAL(KEEL_AXIS_POOR, axis.quality);
 }
 
+static void AXI_009_a_jump_without_velocity_is_believed_at_rest(void)
+{
+    settle();
+    sample.acceleration = 100.0f;
+    steps(1u);
+    for (unsigned i = 0u; i < 3u; i++) {
+        sample.has_fix = true;
+        sample.position = 100.0f;
+        sample.velocity = 3.0f;
+        steps(1u);
+    }
+    TEST_ASSERT_EQUAL_FLOAT(100.0f, axis.position);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, axis.velocity);
+}
+
 static void AXI_009_jumps_count_in_a_row(void)
 {
     settle();
@@ -562,6 +584,7 @@ int main(void)
     RUN_TEST(AXI_009_the_first_fix_is_believed);
     RUN_TEST(AXI_009_without_velocity_it_begins_at_rest);
     RUN_TEST(AXI_009_the_last_of_some_jumps_is_believed);
+    RUN_TEST(AXI_009_a_jump_without_velocity_is_believed_at_rest);
     RUN_TEST(AXI_009_jumps_count_in_a_row);
     RUN_TEST(AXI_009_what_is_unusable_is_no_jump);
     RUN_TEST(AXI_010_the_age_counts_steps);

@@ -905,20 +905,113 @@ static void BAT_016_the_smoothed_current_follows_while_motors_run(void)
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 24.0f, battery.smoothed);
 }
 
-/* With the longest smoothing, too, a current that lasts is reached to within 2^-9 of it. */
-static void BAT_016_the_longest_smoothing_arrives(void)
+/* 64 V and 512 A from both: all that there can be. */
+static void BAT_015_the_greatest_of_all(void)
 {
-    config.smoothing_steps = 16384u;
-    config.current_expected = 10.0f;
     config.capacity_ah = 1000.0f;
+    config.initial = 1.0f;
+    config.voltage_max = 64.0f;
+    config.voltage_min = 64.0f;
+    config.current_max = 512.0f;
+    config.smoothing_steps = 0u;
+    config.rate_hz = 1000u;
     make();
-    amperes(20.0f, 0.0f);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_battery_restart(&battery, 1.0f));
+    TEST_ASSERT_EQUAL_UINT32(3600000000u, battery.initial);
+    volts(64.0f, 64.0f);
+    amperes(512.0f, 512.0f);
     sample.running = true;
-    steps(400000u);
-    TEST_ASSERT_FLOAT_WITHIN(20.0f / 512.0f, 20.0f, battery.smoothed);
-    amperes(10.0f, 0.0f);
-    steps(400000u);
-    TEST_ASSERT_FLOAT_WITHIN(10.0f / 512.0f, 10.0f, battery.smoothed);
+    steps(1u);
+    TEST_ASSERT_EQUAL_FLOAT(1024.0f, battery.current);
+    TEST_ASSERT_EQUAL_FLOAT(1024.0f, battery.smoothed);
+    TEST_ASSERT_EQUAL_FLOAT(1.024f, battery.charge_c);
+    TEST_ASSERT_EQUAL_FLOAT(65.536f, battery.energy_j);
+}
+
+/* Nothing drawn of a full battery, and one that is empty with thresholds of 0. */
+static void BAT_015_the_least_of_all(void)
+{
+    config.initial = 1.0f;
+    config.smoothing_steps = 0u;
+    make();
+    sample.running = true;
+    steps(1u);
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, battery.remaining);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, battery.smoothed);
+    config.initial = 0.0f;
+    config.low_charge = 0.0f;
+    config.critical_charge = 0.0f;
+    make();
+    TEST_ASSERT_EQUAL_UINT32(0u, battery.scale.low);
+    TEST_ASSERT_EQUAL_UINT32(0u, battery.scale.critical);
+    steps(1u);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, battery.remaining);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, battery.remaining_s);
+}
+
+/* What is told of a first step, whatever came: bits of `came` are the voltages and currents. */
+static void first_step_tells(uint8_t modules, uint32_t came, bool running)
+{
+    uint32_t expected = 0u;
+
+    config.modules = modules;
+    make();
+    for (uint32_t i = 0u; i < 2u; i++) {
+        sample.module[i].has_voltage = ((came >> i) & 1u) != 0u;
+        sample.module[i].has_current = ((came >> (i + 2u)) & 1u) != 0u;
+        if (i < modules) {
+            expected |= sample.module[i].has_voltage ? 0u : (KEEL_BATTERY_NO_VOLTAGE << i);
+            expected |= sample.module[i].has_current
+                            ? 0u
+                            : ((KEEL_BATTERY_NO_CURRENT | KEEL_BATTERY_LOST) << i);
+        }
+    }
+    if (!sample.module[0].has_voltage && ((modules == 1u) || !sample.module[1].has_voltage)) {
+        expected |= KEEL_BATTERY_VOLTAGE_LOST;
+    }
+    sample.running = running;
+    steps(1u);
+    TEST_ASSERT_EQUAL_HEX32(expected, battery.flags);
+}
+
+static void BAT_004_whatever_comes_is_told(void)
+{
+    for (uint32_t came = 0u; came < 16u; came++) {
+        first_step_tells(1u, came, false);
+        first_step_tells(1u, came, true);
+        first_step_tells(2u, came, false);
+        first_step_tells(2u, came, true);
+    }
+}
+
+/* Below and above what can be, of the only module. */
+static void BAT_004_a_voltage_out_of_range_of_one_module(void)
+{
+    config.modules = 1u;
+    make();
+    volts(0.0f, 16.0f);
+    steps(1u);
+    flags_are(KEEL_BATTERY_NO_VOLTAGE | KEEL_BATTERY_VOLTAGE_LOST);
+    volts(64.0f, 16.0f);
+    steps(1u);
+    flags_are(KEEL_BATTERY_NO_VOLTAGE | KEEL_BATTERY_VOLTAGE_LOST);
+}
+
+/* 2050518 A s over 49.5027 A are less than the cap, and the cap when rounded. */
+static void BAT_010_a_time_that_is_rounded_to_the_cap(void)
+{
+    config.capacity_ah = 1000.0f;
+    config.rate_hz = 1000u;
+    config.initial = 1.0f;
+    config.low_charge = 0.0f;
+    config.critical_charge = 0.0f;
+    config.current_expected = 49.5027008f;
+    config.cap_s = 41422.3477f;
+    make();
+    battery.charge.whole = 3600000000u - 2050517835u;
+    steps(1u);
+    TEST_ASSERT_EQUAL_UINT32(2050517835u, battery.left);
+    TEST_ASSERT_EQUAL_FLOAT(config.cap_s, battery.remaining_s);
 }
 
 int main(void)
@@ -973,6 +1066,10 @@ int main(void)
     RUN_TEST(BAT_014_an_estimate_is_enough_for_an_alarm);
     RUN_TEST(BAT_015_whatever_comes_all_stays_finite);
     RUN_TEST(BAT_016_the_smoothed_current_follows_while_motors_run);
-    RUN_TEST(BAT_016_the_longest_smoothing_arrives);
+    RUN_TEST(BAT_015_the_greatest_of_all);
+    RUN_TEST(BAT_015_the_least_of_all);
+    RUN_TEST(BAT_004_whatever_comes_is_told);
+    RUN_TEST(BAT_004_a_voltage_out_of_range_of_one_module);
+    RUN_TEST(BAT_010_a_time_that_is_rounded_to_the_cap);
     return UNITY_END();
 }

@@ -193,9 +193,40 @@ static void BAT_016_every_step_is_the_specified_one(void)
     TEST_ASSERT_EQUAL_HEX32(0x07FFu, told);
 }
 
+/* With the longest smoothing, too, a current that lasts is reached to within 2^-9 of it. */
+static void BAT_016_the_longest_smoothing_arrives(void)
+{
+    const keel_battery_config_t config = {.capacity_ah = 1000.0f,
+                                          .initial = 1.0f,
+                                          .voltage_max = 20.0f,
+                                          .current_max = 100.0f,
+                                          .current_expected = 10.0f,
+                                          .cap_s = 2000.0f,
+                                          .low_voltage = 3.5f,
+                                          .rate_hz = 10u,
+                                          .smoothing_steps = 16384u,
+                                          .settle_steps = 3u,
+                                          .hold_steps = 4u,
+                                          .cells = 4u,
+                                          .modules = 1u};
+    keel_battery_sample_t sample = {.module = {{16.0f, 20.0f, true, true}}, .running = true};
+
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_battery_init(&battery, &config));
+    for (uint32_t i = 0u; i < 400000u; i++) {
+        keel_battery_step(&battery, &sample);
+    }
+    TEST_ASSERT_FLOAT_WITHIN(20.0f / 512.0f, 20.0f, battery.smoothed);
+    sample.module[0].current = 10.0f;
+    for (uint32_t i = 0u; i < 400000u; i++) {
+        keel_battery_step(&battery, &sample);
+    }
+    TEST_ASSERT_FLOAT_WITHIN(10.0f / 512.0f, 10.0f, battery.smoothed);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(BAT_016_every_step_is_the_specified_one);
+    RUN_TEST(BAT_016_the_longest_smoothing_arrives);
     return UNITY_END();
 }

@@ -270,6 +270,9 @@ static void POS_005_velocities_count_when_accurate(void)
     sample.fix.speed_accuracy = 1.001f;
     measure(0, 0);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, position.north.velocity);
+    sample.fix.speed_accuracy = -1.0f;
+    measure(0, 0);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, position.north.velocity);
 }
 
 /* 1000 of 1e-7 degrees at 48 degrees north. */
