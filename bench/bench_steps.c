@@ -135,10 +135,10 @@ static void bench_run_cascade(void)
         const keel_cascade_estimate_t estimate = place_at(n);
 
         if (n < STEPS) {
-            cascade_steps(&bench_cascade, &estimate);
+            bench_cascade_steps(&bench_cascade, &estimate);
         } else {
             CALLGRIND_TOGGLE_COLLECT;
-            cascade_steps(&bench_cascade, &estimate);
+            bench_cascade_steps(&bench_cascade, &estimate);
             CALLGRIND_TOGGLE_COLLECT;
             bench_require(bench_cascade.axis[KEEL_CASCADE_NORTH].running, "cascade step");
         }

@@ -334,10 +334,10 @@ static void bench_cascade(void)
         keel_cascade_estimate_t estimate = place_at(n);
 
         if (n < STEPS) {
-            cascade_steps(&cascade, &estimate);
+            bench_cascade_steps(&cascade, &estimate);
         } else {
             add(&steps,
-                measure((function_t)cascade_steps, &cascade, (uint32_t)&estimate, 0u, false));
+                measure((function_t)bench_cascade_steps, &cascade, (uint32_t)&estimate, 0u, false));
             require(cascade.axis[KEEL_CASCADE_NORTH].running);
         }
     }

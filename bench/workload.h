@@ -187,7 +187,7 @@ static keel_cascade_estimate_t place_at(uint32_t n)
 }
 
 /* What the tasks of a cascade do, once each: all four stages. */
-static void cascade_steps(keel_cascade_t *cascade, const keel_cascade_estimate_t *estimate)
+static void bench_cascade_steps(keel_cascade_t *cascade, const keel_cascade_estimate_t *estimate)
 {
     const keel_cascade_vector_t there = {12.0f, 4.0f, 3.5f};
     const keel_attitude_vector_t down = {0.1f * estimate->velocity.north, -0.05f, 0.99f};

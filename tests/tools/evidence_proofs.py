@@ -61,7 +61,8 @@ def report_of(root: Path) -> dict[str, Any]:
     bounds = [f"VOT_016_p{i}_v{j}" for i in range(3) for j in (1, 2)]
     gappa_goals = {"voter": [*bounds, "VOT_017_agreement"],
                    "reference": ["REF_003_end", "REF_010_square"],
-                   "attitude": ["ATT_010_length", "ATT_010_guard"]}  # fmt: skip
+                   "attitude": ["ATT_010_length", "ATT_010_guard"],
+                   "cascade": ["CAS_011_left", "CAS_011_square"]}  # fmt: skip
     for unit in find_units(root).values():
         if unit.folder.is_dir():
             own = gappa_goals.get(unit.name, [])

@@ -43,6 +43,7 @@ bench mode_worst passes 1000 instructions 464000 longest 464
 bench attitude passes 1000 instructions 392900 longest 412
 bench altitude passes 1000 instructions 220000 longest 220
 bench position passes 1000 instructions 441000 longest 441
+bench cascade passes 1000 instructions 2851400 longest 2899
 bench battery passes 1000 instructions 372000 longest 372
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
@@ -65,6 +66,7 @@ FIGURES = {
     "attitude": Figure(1000, 392900, 412),
     "altitude": Figure(1000, 220000, 220),
     "position": Figure(1000, 441000, 441),
+    "cascade": Figure(1000, 2851400, 2899),
     "battery": Figure(1000, 372000, 372),
 }
 GOOD = """\
@@ -89,6 +91,7 @@ attitude = 392.9
 altitude = 220.0
 position = 441.0
 battery = 372.0
+cascade = 2851.4
 """
 
 
@@ -183,6 +186,7 @@ class Budgets(unittest.TestCase):
                 "altitude": 220.0,
                 "position": 441.0,
                 "battery": 372.0,
+                "cascade": 2851.4,
             },
         )
 

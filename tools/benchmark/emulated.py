@@ -52,6 +52,7 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "attitude": ("attitude, all sensors in each", ("attitude",), 400, ("steps", "attitude")),
     "altitude": ("altitude, a pressure in each", ("altitude",), 250, ("steps", "altitude")),
     "position": ("position, a fix in each", ("position",), 500, ("steps", "position")),
+    "cascade": ("cascade, all four stages", ("cascade",), 3000, ("steps", "cascade")),
     "battery": ("battery, two modules", ("battery",), 400, ("steps", "battery")),
 }  # fmt: skip
 
