@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/pid.c src/flight/filter.c specs/model/pid.c specs/model/filter.c
-// covers: keel_pid_enter keel_pid_step direct_terms is_input is_limit
+// covers: keel_pid_enter direct_terms is_input is_limit
 // covers: model_pid_enter without_integral
 //
 // Entered and stepped, on small whole numbers, whose sums and products are exact: the first output
-// is the one to begin at, where the integral's limits let it. 2 Hz, ki T instead of ki.
+// is the one to begin at, where the integral's limits let it. 2 Hz, ki T instead of ki. One
+// beyond all limits is refused.
 #include "../../specs/model/pid.h"
 #include "pid_proof.h"
 
@@ -33,6 +34,8 @@ void keel_pid_enter__exact_harness(void)
     const int r = any_small();
     const int y = any_small();
     const int output = any_small() * 4;
+    const bool bad = nondet_bool();
+    const float wanted = bad ? (2.0f * KEEL_PID_OUTPUT_LIMIT) : (float)output;
     const int begin = limited(output, -14, 9);
     const int first = (kp * (r - y)) + (kff * r) + (ki * (r - y));
     const int integral = (ki > 0) ? limited(begin - first, -16, 15) : 0;
@@ -53,11 +56,16 @@ void keel_pid_enter__exact_harness(void)
                       .started = nondet_bool()};
     keel_pid_t model = pid;
 
-    __CPROVER_assert(keel_pid_enter(&pid, (float)r, (float)y, (float)output) == KEEL_OK,
+    const keel_status_t status = keel_pid_enter(&pid, (float)r, (float)y, wanted);
+
+    __CPROVER_assert(status == (bad ? KEEL_ERR_INPUT : KEEL_OK),
                      "PID_011_taken: what is in range is taken");
-    __CPROVER_assert(model_pid_enter(&model, (float)r, (float)y, (float)output) == KEEL_OK,
+    __CPROVER_assert(model_pid_enter(&model, (float)r, (float)y, wanted) == status,
                      "PID_011_taken: the model takes it, too");
     __CPROVER_assert(pid_same(&pid, &model), "PID_011_model: every field is what the model says");
+    if (bad) {
+        return;
+    }
     __CPROVER_assert((pid.integral == (float)integral) && (pid.output == (float)begin),
                      "PID_011_integral: what the other terms lack");
     __CPROVER_assert((pid.setpoint == 0.0f) && (pid.error == 0.0f) && (pid.derivative == 0.0f) &&
