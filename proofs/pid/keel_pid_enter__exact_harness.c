@@ -5,8 +5,8 @@
 // covers: model_pid_enter without_integral
 //
 // Entered and stepped, on small whole numbers, whose sums and products are exact: the first output
-// is the one to begin at, where the integral's limits let it. 2 Hz, ki T instead of ki. One
-// beyond all limits is refused.
+// is the one to begin at, where the integral's limits let it. 2 Hz, ki T instead of ki. A
+// number beyond its limits is refused.
 #include "../../specs/model/pid.h"
 #include "pid_proof.h"
 
@@ -34,8 +34,10 @@ void keel_pid_enter__exact_harness(void)
     const int r = any_small();
     const int y = any_small();
     const int output = any_small() * 4;
-    const bool bad = nondet_bool();
-    const float wanted = bad ? (2.0f * KEEL_PID_OUTPUT_LIMIT) : (float)output;
+    const unsigned bad = nondet_u8() & 3u;
+    const float setpoint = (bad == 1u) ? (2.0f * KEEL_PID_INPUT_LIMIT) : (float)r;
+    const float measured = (bad == 2u) ? (2.0f * KEEL_PID_INPUT_LIMIT) : (float)y;
+    const float wanted = (bad == 3u) ? (2.0f * KEEL_PID_OUTPUT_LIMIT) : (float)output;
     const int begin = limited(output, -14, 9);
     const int first = (kp * (r - y)) + (kff * r) + (ki * (r - y));
     const int integral = (ki > 0) ? limited(begin - first, -16, 15) : 0;
@@ -55,15 +57,14 @@ void keel_pid_enter__exact_harness(void)
                       .saturation = KEEL_PID_AT_MAX,
                       .started = nondet_bool()};
     keel_pid_t model = pid;
+    const keel_status_t status = keel_pid_enter(&pid, setpoint, measured, wanted);
 
-    const keel_status_t status = keel_pid_enter(&pid, (float)r, (float)y, wanted);
-
-    __CPROVER_assert(status == (bad ? KEEL_ERR_INPUT : KEEL_OK),
+    __CPROVER_assert(status == ((bad > 0u) ? KEEL_ERR_INPUT : KEEL_OK),
                      "PID_011_taken: what is in range is taken");
-    __CPROVER_assert(model_pid_enter(&model, (float)r, (float)y, wanted) == status,
+    __CPROVER_assert(model_pid_enter(&model, setpoint, measured, wanted) == status,
                      "PID_011_taken: the model takes it, too");
     __CPROVER_assert(pid_same(&pid, &model), "PID_011_model: every field is what the model says");
-    if (bad) {
+    if (bad > 0u) {
         return;
     }
     __CPROVER_assert((pid.integral == (float)integral) && (pid.output == (float)begin),
