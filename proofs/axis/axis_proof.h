@@ -73,14 +73,22 @@ static keel_axis_sample_t any_axis_sample(void)
     return sample;
 }
 
-static bool axis_config_valid(const keel_axis_config_t *c)
+static bool rate_fits(const keel_axis_config_t *c)
 {
-    return within(c->rate_hz, KEEL_AXIS_RATE_MIN_HZ, KEEL_AXIS_RATE_MAX_HZ) &&
-           within(c->position_gain, 0.0f, KEEL_AXIS_PART_LIMIT) &&
+    return within(c->rate_hz, KEEL_AXIS_RATE_MIN_HZ, KEEL_AXIS_RATE_MAX_HZ);
+}
+
+static bool gains_fit(const keel_axis_config_t *c)
+{
+    return within(c->position_gain, 0.0f, KEEL_AXIS_PART_LIMIT) &&
            within(c->velocity_gain, 0.0f, KEEL_AXIS_VELOCITY_GAIN_LIMIT) &&
            within(c->rate_gain, 0.0f, KEEL_AXIS_PART_LIMIT) &&
-           within(c->bias_gain, 0.0f, KEEL_AXIS_BIAS_GAIN_LIMIT) &&
-           within(c->bias_limit, 0.0f, KEEL_AXIS_BIAS_LIMIT) &&
+           within(c->bias_gain, 0.0f, KEEL_AXIS_BIAS_GAIN_LIMIT);
+}
+
+static bool axis_config_valid(const keel_axis_config_t *c)
+{
+    return rate_fits(c) && gains_fit(c) && within(c->bias_limit, 0.0f, KEEL_AXIS_BIAS_LIMIT) &&
            within(c->position_gate, 0.0f, KEEL_AXIS_POSITION_LIMIT) &&
            within(c->velocity_gate, 0.0f, KEEL_AXIS_VELOCITY_LIMIT) && (c->late_steps > 0u) &&
            (c->late_steps <= c->lost_steps) && (c->settle_fixes > 0u) && (c->jump_fixes > 0u);

@@ -8,19 +8,6 @@
 #include "../common/unchanged.h"
 #include "position_proof.h"
 
-static bool rate_fits(const keel_axis_config_t *c)
-{
-    return within(c->rate_hz, KEEL_AXIS_RATE_MIN_HZ, KEEL_AXIS_RATE_MAX_HZ);
-}
-
-static bool gains_fit(const keel_axis_config_t *c)
-{
-    return within(c->position_gain, 0.0f, KEEL_AXIS_PART_LIMIT) &&
-           within(c->velocity_gain, 0.0f, KEEL_AXIS_VELOCITY_GAIN_LIMIT) &&
-           within(c->rate_gain, 0.0f, KEEL_AXIS_PART_LIMIT) &&
-           within(c->bias_gain, 0.0f, KEEL_AXIS_BIAS_GAIN_LIMIT);
-}
-
 void keel_position_init__valid_harness(void)
 {
     const keel_position_config_t config = nondet_position_config();
