@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Background and foreground barometer. */
+#include "copter.h"
+
+#define OVERSAMPLING 2u /* Background runs in a foreground period. */
+
+keel_status_t copter_air_init(copter_air_t *air)
+{
+    return keel_oversample_init(&air->pressure, OVERSAMPLING);
+}
+
+void copter_background_barometer(copter_t *copter)
+{
+    float pressure_pa;
+
+    if (copter->port->read_barometer(copter->port->context, &pressure_pa)) {
+        (void)keel_oversample_add(&copter->air.pressure, pressure_pa);
+    }
+}
+
+void copter_foreground_barometer(copter_t *copter)
+{
+    copter_air_t *const self = &copter->air;
+
+    if (keel_oversample_take(&self->pressure, &self->pressure_pa) == KEEL_OK) {
+        self->samples++;
+    }
+}

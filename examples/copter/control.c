@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Position control, angle control and angle rate control: the cascade of fig. 8 and the motors. */
+#include "copter.h"
+
+keel_status_t copter_control_init(copter_control_t *control)
+{
+    keel_mixer_config_t mixer = copter_settings.mixer;
+    const keel_status_t status = keel_cascade_init(&control->cascade, &copter_settings.cascade);
+
+    mixer.geometry = keel_mixer_quad_x;
+    control->mode = KEEL_MODE_NONE;
+    return (status == KEEL_OK) ? keel_mixer_init(&control->mixer, &mixer) : status;
+}
+
+static bool is_flown(const copter_t *copter)
+{
+    return copter->state.mode.state == KEEL_MODE_FLYING;
+}
+
+/* Whether the sticks ask for angles. */
+static bool sticks_tilt(const copter_t *copter)
+{
+    const uint8_t mode = copter->state.mode.mode;
+
+    return is_flown(copter) && ((mode == KEEL_MODE_ANGLE) || (mode == KEEL_MODE_ALTITUDE));
+}
+
+/* Whether the throttle is the thrust. */
+static bool sticks_thrust(const copter_t *copter)
+{
+    const uint8_t mode = copter->state.mode.mode;
+
+    return is_flown(copter) && ((mode == KEEL_MODE_ACRO) || (mode == KEEL_MODE_ANGLE));
+}
+
+/* The mode whose axes are flown. On the ground none leans against the wind, and before it is left
+ * none runs; a landing holds its place where it is known. */
+static uint8_t mode_of_axes(const copter_t *copter)
+{
+    const keel_mode_t *const machine = &copter->state.mode;
+    uint8_t mode = machine->mode;
+
+    if (machine->state == KEEL_MODE_ARMED) {
+        return KEEL_MODE_NONE;
+    }
+    if ((mode == KEEL_MODE_LAND) && ((machine->settled & KEEL_MODE_HAS_PLACE) != 0u)) {
+        mode = KEEL_MODE_POSITION;
+    }
+    if (((mode == KEEL_MODE_POSITION) || (mode == KEEL_MODE_RETURN)) &&
+        copter->estimate.is_landed) {
+        mode = KEEL_MODE_LAND;
+    }
+    return mode;
+}
+
+/* Where it comes to a stop from here. */
+static keel_cascade_vector_t stop_of(const keel_cascade_estimate_t *here)
+{
+    const float stop_s = copter_settings.stop_s;
+
+    return (keel_cascade_vector_t){.north = here->position.north + (here->velocity.north * stop_s),
+                                   .east = here->position.east + (here->velocity.east * stop_s),
+                                   .up = here->position.up + (here->velocity.up * stop_s)};
+}
+
+/* When a state begins, the place to be held is where it is; on the way home, home. */
+static void begin_state(copter_control_t *self, const copter_t *copter)
+{
+    const uint8_t state = copter->state.mode.state;
+    const keel_cascade_vector_t stop = stop_of(&copter->estimate.here);
+    const bool was_returning = self->state == KEEL_MODE_RETURNING;
+
+    if ((state == self->state) && (copter->state.mode.mode == self->mode)) {
+        return;
+    }
+    if (state == KEEL_MODE_RETURNING) {
+        self->place = (keel_cascade_vector_t){
+            0.0f, 0.0f,
+            (stop.up > copter_settings.return_height) ? stop.up : copter_settings.return_height};
+    } else if (!was_returning || (state != KEEL_MODE_LANDING)) {
+        self->place = stop;
+    } else {
+        /* A landing that ends a return is at home. */
+    }
+    self->state = state;
+    self->mode = copter->state.mode.mode;
+}
+
+static float descent_at(float height)
+{
+    return (height > copter_settings.land_near) ? -copter_settings.land_fast
+                                                : -copter_settings.land_slow;
+}
+
+/* What the pilot's sticks ask for takes the place of what holds the place, which follows. */
+static void follow_sticks(copter_control_t *self, const copter_t *copter)
+{
+    const keel_reference_setpoints_t *const pilot = &copter->pilot.reference.setpoints;
+    const keel_cascade_estimate_t *const here = &copter->estimate.here;
+    const keel_cascade_vector_t stop = stop_of(here);
+    const bool goes = (pilot->forward != 0.0f) || (pilot->right != 0.0f);
+    const bool climbs = pilot->climb_rate != 0.0f;
+
+    if (goes || copter->estimate.is_landed) {
+        self->asked.north = (pilot->forward * here->forward_north) -
+                            (pilot->right * here->forward_east);
+        self->asked.east = (pilot->forward * here->forward_east) +
+                           (pilot->right * here->forward_north);
+        self->place.north = stop.north;
+        self->place.east = stop.east;
+    }
+    if (climbs) {
+        self->asked.up = pilot->climb_rate;
+        self->place.up = stop.up;
+    }
+}
+
+void copter_position_control(copter_t *copter)
+{
+    copter_control_t *const self = &copter->control;
+    const keel_cascade_estimate_t *const here = &copter->estimate.here;
+
+    begin_state(self, copter);
+    keel_cascade_enter(&self->cascade, mode_of_axes(copter));
+    keel_cascade_position_step(&self->cascade, self->place, here);
+    self->asked = self->cascade.velocity;
+    if (is_flown(copter)) {
+        follow_sticks(self, copter);
+    } else if (self->state == KEEL_MODE_LANDING) {
+        self->asked.up = descent_at(here->position.up);
+    } else {
+        /* It goes where the position stage says. */
+    }
+    keel_cascade_velocity_step(&self->cascade, self->asked, here);
+}
+
+void copter_angle_control(copter_t *copter)
+{
+    keel_cascade_t *const cascade = &copter->control.cascade;
+    const keel_reference_setpoints_t *const pilot = &copter->pilot.reference.setpoints;
+    const keel_cascade_tilt_t sticks = {.roll = pilot->roll, .pitch = pilot->pitch};
+
+    keel_cascade_angle_step(cascade, sticks_tilt(copter) ? sticks : cascade->tilt,
+                            copter->inertia.down,
+                            copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING);
+}
+
+/* The throttle's middle hovers. */
+static float thrust_of(float stick)
+{
+    const float hover = copter_settings.cascade.hover;
+
+    return (stick < 0.0f) ? (hover + (hover * stick)) : (hover + ((1.0f - hover) * stick));
+}
+
+static keel_cascade_rates_t rates_of(const copter_t *copter)
+{
+    const keel_cascade_t *const cascade = &copter->control.cascade;
+    const keel_reference_setpoints_t *const pilot = &copter->pilot.reference.setpoints;
+    keel_cascade_rates_t asked = {
+        .roll = cascade->rates.roll, .pitch = cascade->rates.pitch, .thrust = cascade->thrust};
+
+    if (is_flown(copter)) {
+        asked.yaw = pilot->heading_rate;
+        if (copter->state.mode.mode == KEEL_MODE_ACRO) {
+            asked.roll = pilot->roll_rate;
+            asked.pitch = pilot->pitch_rate;
+            asked.yaw = pilot->yaw_rate;
+        }
+    }
+    if (sticks_thrust(copter)) {
+        asked.thrust = thrust_of(copter->pilot.sticks.climb);
+    } else if ((copter->state.mode.mode == KEEL_MODE_LAND) && !copter->estimate.here.has_height) {
+        asked.thrust = copter_settings.land_thrust;
+    } else {
+        /* The velocity stage's. */
+    }
+    return asked;
+}
+
+void copter_angle_rate_control(copter_t *copter)
+{
+    copter_control_t *const self = &copter->control;
+
+    keel_cascade_rate_step(&self->cascade, rates_of(copter), copter->inertia.attitude.rate,
+                           self->mixer.limited);
+    keel_mixer_step(&self->mixer, &self->cascade.command, copter->state.mode.motors);
+    copter->port->write_motors(copter->port->context, self->mixer.output);
+}

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "copter.h"
+
+/* What each task of table 2 does. */
+static void (*const bodies[URPILOT_TASK_COUNT])(copter_t *copter) = {
+    [URPILOT_SCHEDULER_ANALYSIS] = copter_scheduler_analysis,
+    [URPILOT_STACK] = copter_stack,
+    [URPILOT_ADC] = copter_adc,
+    [URPILOT_BACKGROUND_POWER_MODULE] = copter_background_power_module,
+    [URPILOT_FOREGROUND_POWER_MODULE] = copter_foreground_power_module,
+    [URPILOT_BACKGROUND_BAROMETER] = copter_background_barometer,
+    [URPILOT_FOREGROUND_BAROMETER] = copter_foreground_barometer,
+    [URPILOT_BACKGROUND_MAGNETOMETER] = copter_background_magnetometer,
+    [URPILOT_FOREGROUND_MAGNETOMETER] = copter_foreground_magnetometer,
+    [URPILOT_CALIBRATION_MAGNETOMETER] = copter_calibration_magnetometer,
+    [URPILOT_BACKGROUND_IMU] = copter_background_imu,
+    [URPILOT_FOREGROUND_IMU] = copter_foreground_imu,
+    [URPILOT_CALIBRATION_IMU] = copter_calibration_imu,
+    [URPILOT_GPS] = copter_gps,
+    [URPILOT_BACKGROUND_RADIO] = copter_background_radio,
+    [URPILOT_FOREGROUND_RADIO] = copter_foreground_radio,
+    [URPILOT_NAVIGATION] = copter_navigation,
+    [URPILOT_ANGLE_RATE_CONTROL] = copter_angle_rate_control,
+    [URPILOT_ANGLE_CONTROL] = copter_angle_control,
+    [URPILOT_POSITION_CONTROL] = copter_position_control,
+    [URPILOT_STATE_MACHINE] = copter_state_machine,
+};
+
+static void run(void *context)
+{
+    const copter_task_t *const task = context;
+    const copter_port_t *const port = task->copter->port;
+
+    task->body(task->copter);
+    port->end_run(port->context, task->row);
+}
+
+/* The first that is not KEEL_OK. */
+static keel_status_t first_of(const keel_status_t status[], uint32_t count)
+{
+    keel_status_t first = KEEL_OK;
+
+    for (uint32_t i = 0u; (i < count) && (first == KEEL_OK); i++) {
+        first = status[i];
+    }
+    return first;
+}
+
+static keel_status_t make(copter_t *copter)
+{
+    const keel_status_t status[] = {
+        copter_inertia_init(&copter->inertia),   copter_compass_init(&copter->compass),
+        copter_air_init(&copter->air),           copter_pilot_init(&copter->pilot),
+        copter_energy_init(&copter->energy),     copter_estimate_init(&copter->estimate),
+        copter_state_init(&copter->state),       copter_control_init(&copter->control)};
+
+    return first_of(status, sizeof status / sizeof status[0]);
+}
+
+static keel_status_t add_tasks(copter_t *copter)
+{
+    keel_status_t status = KEEL_OK;
+
+    for (uint32_t row = 0u; (row < URPILOT_TASK_COUNT) && (status == KEEL_OK); row++) {
+        copter_task_t *const task = &copter->task[row];
+
+        *task = (copter_task_t){.copter = copter, .body = bodies[row], .row = row};
+        copter->declaration[row] = urpilot_task_config(row, run, task);
+        status = keel_scheduler_add(&copter->scheduler, &copter->declaration[row]);
+    }
+    return status;
+}
+
+keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool plain_mean)
+{
+    const keel_scheduler_config_t config = urpilot_scheduler_config(port->read_clock,
+                                                                    port->context);
+    keel_status_t status;
+
+    *copter = (copter_t){.port = port, .plain_mean = plain_mean};
+    status = make(copter);
+    if (status == KEEL_OK) {
+        status = keel_scheduler_init(&copter->scheduler, &config);
+    }
+    if (status == KEEL_OK) {
+        status = add_tasks(copter);
+    }
+    return (status == KEEL_OK) ? keel_scheduler_start(&copter->scheduler) : status;
+}

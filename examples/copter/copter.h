@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file copter.h
+ * @brief A flight controller for a quadcopter: the 21 tasks of table 2 with bodies, on Keel's units.
+ *
+ * Which task hands what to whom. Each structure below is written by the tasks named beside it
+ * alone; what flows from left to right flows through it.
+ *
+ *     background IMU -> foreground IMU --(inertia)--> navigation --(estimate)--+
+ *     background, foreground magnetometer --(compass)--^   ^                   |
+ *     background, foreground barometer ----(air)-----------+                   v
+ *     GPS ---------------------------------(satellites)----+      +--- position control
+ *     background, foreground radio --------(pilot)--> state machine    angle control
+ *     background, foreground power module -(energy)------^   |    |    angle rate control
+ *                                                            +--(state)-----> | (control)
+ *                                                                             v
+ *                                                                           motors
+ *
+ * The tasks do not interrupt one another (they run to their end, one at a time), so a structure is
+ * never seen half written. No task computes what is a unit's to compute.
+ */
+#ifndef COPTER_H
+#define COPTER_H
+
+#include "keel/flight/altitude.h"
+#include "keel/flight/attitude.h"
+#include "keel/flight/battery.h"
+#include "keel/flight/cascade.h"
+#include "keel/flight/mixer.h"
+#include "keel/flight/mode.h"
+#include "keel/flight/position.h"
+#include "keel/flight/reference.h"
+#include "keel/middleware/oversample.h"
+#include "keel/middleware/virtual_imu.h"
+#include "keel/rtos/load.h"
+#include "keel/rtos/scheduler.h"
+#include "port.h"
+#include "settings.h"
+#include "urpilot_tasks.h"
+
+/** Written by background and foreground IMU. */
+typedef struct copter_inertia {
+    keel_oversample_t channel[COPTER_IMUS][KEEL_VIRTUAL_IMU_CHANNELS];
+    uint64_t sampled_us[COPTER_IMUS]; /**< When each unit last gave a sample. */
+    keel_virtual_imu_t imu;
+    keel_attitude_t attitude;
+    uint32_t field_taken;            /**< Of compass.samples, the last one taken. */
+    keel_attitude_vector_t down;     /**< As the body sees it. */
+    keel_attitude_vector_t force_sum; /**< Specific force, body, of the steps of this block. */
+    uint32_t forces;                 /**< How many are in it. */
+    uint32_t steps;                  /**< Of this block. */
+    keel_attitude_vector_t force;    /**< The mean of the last block that had some, in m/s^2. */
+    uint32_t blocks;                 /**< How many such blocks there were. */
+} copter_inertia_t;
+
+/** Written by background and foreground magnetometer. */
+typedef struct copter_compass {
+    keel_oversample_t axis[3];
+    keel_attitude_vector_t field; /**< Body, in microtesla. */
+    uint32_t samples;             /**< How many there were. */
+} copter_compass_t;
+
+/** Written by background and foreground barometer. */
+typedef struct copter_air {
+    keel_oversample_t pressure;
+    float pressure_pa;
+    uint32_t samples; /**< How many there were. */
+} copter_air_t;
+
+/** Written by GPS. */
+typedef struct copter_satellites {
+    copter_fix_t fix;
+    uint32_t fixes; /**< How many there were. */
+} copter_satellites_t;
+
+/** Written by background and foreground radio. */
+typedef struct copter_pilot {
+    copter_frame_t frame;       /**< The last one, as it came. */
+    uint32_t received;          /**< How many came. */
+    uint32_t frames;            /**< How many of them were whole, and are in what follows. */
+    uint32_t read;              /**< Of received, the last one looked at. */
+    keel_reference_sticks_t sticks;
+    keel_reference_t reference; /**< What the sticks ask for. */
+    uint32_t facts;             /**< KEEL_MODE_IS_LINKED, ... of the last whole frame. */
+    uint8_t asked;              /**< The mode that it asks for. */
+} copter_pilot_t;
+
+/** Written by background and foreground power module. */
+typedef struct copter_energy {
+    keel_battery_sample_t sample; /**< What came since the last step. */
+    keel_battery_t battery;
+} copter_energy_t;
+
+/** Written by navigation. */
+typedef struct copter_estimate {
+    keel_altitude_t altitude;
+    keel_position_t position;
+    keel_cascade_estimate_t here;     /**< For the cascade: from home. */
+    float home_north;                 /**< Of the position's origin, in m. */
+    float home_east;                  /**< Of the position's origin, in m. */
+    uint32_t blocks;                  /**< What was taken of inertia.blocks. */
+    uint32_t pressures;               /**< What was taken of air.samples. */
+    uint32_t fixes;                   /**< What was taken of satellites.fixes. */
+    uint32_t homes;                   /**< What was taken of state.homes. */
+    bool is_landed;                   /**< Nothing moves, and the motors hardly push. */
+} copter_estimate_t;
+
+/** Written by position control, angle control and angle rate control. */
+typedef struct copter_control {
+    keel_cascade_t cascade;
+    keel_mixer_t mixer;
+    keel_cascade_vector_t place;   /**< To be held or reached, in m from home. */
+    keel_cascade_vector_t asked;   /**< The velocity that is asked for, in m/s. */
+    uint8_t state;                 /**< Of the state machine, in the last run. */
+    uint8_t mode;                  /**< The mode in the last run. */
+} copter_control_t;
+
+/** Written by the state machine. */
+typedef struct copter_state {
+    keel_mode_t mode;
+    uint32_t frames; /**< What was taken of pilot.frames. */
+    uint32_t homes;  /**< Counts take-offs: home is where the last was. */
+    uint64_t stepped_us;
+} copter_state_t;
+
+/** Written by scheduler analysis, stack, ADC, calibration IMU and calibration magnetometer. */
+typedef struct copter_health {
+    keel_load_t window;
+    uint32_t load_ppm;    /**< In the last window. */
+    uint32_t stack_free;  /**< In bytes. */
+    uint32_t checks;      /**< KEEL_MODE_CHECK_CALIBRATION and _LOAD, as far as they hold. */
+    float supply_v;
+} copter_health_t;
+
+/** What a task's body is handed. */
+typedef struct copter copter_t;
+typedef struct copter_task {
+    copter_t *copter;
+    void (*body)(copter_t *copter);
+    uint32_t row; /**< Of urpilot_task. */
+} copter_task_t;
+
+/** A copter. Read it freely. */
+struct copter {
+    const copter_port_t *port;
+    copter_inertia_t inertia;
+    copter_compass_t compass;
+    copter_air_t air;
+    copter_satellites_t satellites;
+    copter_pilot_t pilot;
+    copter_energy_t energy;
+    copter_estimate_t estimate;
+    copter_state_t state;
+    copter_control_t control;
+    copter_health_t health;
+    keel_scheduler_t scheduler;
+    keel_task_config_t declaration[URPILOT_TASK_COUNT];
+    copter_task_t task[URPILOT_TASK_COUNT];
+    bool plain_mean; /**< The units' plain mean flies in place of their vote. */
+};
+
+/**
+ * Makes a copter and starts its scheduler; then call keel_scheduler_step for ever.
+ *
+ * @param copter     the copter
+ * @param port       what it runs on; kept
+ * @param plain_mean the units' plain mean in place of their vote: to compare, not to fly
+ * @return KEEL_OK, or what the first unit that refuses its settings says
+ */
+keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool plain_mean);
+
+/** @name The bodies of the tasks, by the files that have them. */
+/** @{ */
+keel_status_t copter_inertia_init(copter_inertia_t *inertia);
+void copter_background_imu(copter_t *copter);
+void copter_foreground_imu(copter_t *copter);
+
+keel_status_t copter_compass_init(copter_compass_t *compass);
+void copter_background_magnetometer(copter_t *copter);
+void copter_foreground_magnetometer(copter_t *copter);
+
+keel_status_t copter_air_init(copter_air_t *air);
+void copter_background_barometer(copter_t *copter);
+void copter_foreground_barometer(copter_t *copter);
+
+void copter_gps(copter_t *copter);
+
+keel_status_t copter_pilot_init(copter_pilot_t *pilot);
+void copter_background_radio(copter_t *copter);
+void copter_foreground_radio(copter_t *copter);
+
+keel_status_t copter_energy_init(copter_energy_t *energy);
+void copter_background_power_module(copter_t *copter);
+void copter_foreground_power_module(copter_t *copter);
+
+keel_status_t copter_estimate_init(copter_estimate_t *estimate);
+void copter_navigation(copter_t *copter);
+
+keel_status_t copter_state_init(copter_state_t *state);
+void copter_state_machine(copter_t *copter);
+
+keel_status_t copter_control_init(copter_control_t *control);
+void copter_position_control(copter_t *copter);
+void copter_angle_control(copter_t *copter);
+void copter_angle_rate_control(copter_t *copter);
+
+void copter_scheduler_analysis(copter_t *copter);
+void copter_stack(copter_t *copter);
+void copter_adc(copter_t *copter);
+void copter_calibration_imu(copter_t *copter);
+void copter_calibration_magnetometer(copter_t *copter);
+/** @} */
+
+#endif

@@ -1,0 +1,312 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "sim.h"
+
+#include "copter.h"
+#include "host/host_board.h"
+
+#include <stddef.h>
+#include <string.h>
+
+/* What the scheduler's own work costs, as the analysed task set has it (urpilot.toml), and a turn of
+ * the main loop. */
+#define TURN_NS     1000u
+#define PASS_NS     11000u
+#define DISPATCH_NS 1000u
+#define HUNDRED     100u
+
+/* What the copter took last of each device. */
+typedef struct taken {
+    uint32_t imu[SIM_IMUS];
+    uint32_t magnetometer;
+    uint32_t barometer;
+    uint32_t gps;
+    uint32_t radio;
+    uint32_t power[SIM_MODULES];
+} taken_t;
+
+/* Runs of a task that take longer. */
+typedef struct delay {
+    uint32_t runs;
+    uint32_t extra_us;
+} delay_t;
+
+static copter_t copter;
+static copter_port_t port;
+static host_board_t board;
+static sim_options_t options;
+static sim_sensors_t sensors;
+static sim_view_t view;
+static taken_t taken;
+static delay_t delay[SIM_TASKS];
+static sim_task_t tasks[SIM_TASKS];
+static float motors[COPTER_MOTORS];
+
+/* Whether a device's count has moved; it is taken then. */
+static bool is_new(uint32_t *last, uint32_t count)
+{
+    const bool moved = *last != count;
+
+    *last = count;
+    return moved;
+}
+
+static bool read_imu(void *context, uint32_t unit, copter_inertial_t *sample)
+{
+    const sim_imu_t *const imu = &sensors.imu[unit];
+    const bool there = is_new(&taken.imu[unit], imu->count);
+
+    (void)context;
+    if (there) {
+        memcpy(sample->accelerometer, imu->accelerometer, sizeof sample->accelerometer);
+        memcpy(sample->gyroscope, imu->gyroscope, sizeof sample->gyroscope);
+    }
+    return there;
+}
+
+static bool read_magnetometer(void *context, copter_field_t *sample)
+{
+    const bool there = is_new(&taken.magnetometer, sensors.magnetometer.count);
+
+    (void)context;
+    if (there) {
+        memcpy(sample->value, sensors.magnetometer.field, sizeof sample->value);
+    }
+    return there;
+}
+
+static bool read_barometer(void *context, float *pressure_pa)
+{
+    const bool there = is_new(&taken.barometer, sensors.barometer.count);
+
+    (void)context;
+    if (there) {
+        *pressure_pa = sensors.barometer.pressure;
+    }
+    return there;
+}
+
+static bool read_gps(void *context, copter_fix_t *fix)
+{
+    const sim_gps_t *const gps = &sensors.gps;
+    const bool there = is_new(&taken.gps, gps->count);
+
+    (void)context;
+    if (there) {
+        *fix = (copter_fix_t){.latitude = gps->latitude,
+                              .longitude = gps->longitude,
+                              .north = gps->north,
+                              .east = gps->east,
+                              .accuracy = gps->accuracy,
+                              .speed_accuracy = gps->speed_accuracy,
+                              .is_valid = gps->is_valid != 0u};
+    }
+    return there;
+}
+
+static bool read_radio(void *context, copter_frame_t *frame)
+{
+    const bool there = is_new(&taken.radio, sensors.radio.count);
+
+    (void)context;
+    if (there) {
+        memcpy(frame->channel, sensors.radio.channel, sizeof frame->channel);
+        frame->failsafe = sensors.radio.failsafe != 0u;
+    }
+    return there;
+}
+
+static bool read_power(void *context, uint32_t module, copter_power_reading_t *reading)
+{
+    const sim_power_t *const power = &sensors.power[module];
+    const bool there = is_new(&taken.power[module], power->count);
+
+    (void)context;
+    if (there) {
+        *reading = (copter_power_reading_t){.voltage = power->voltage, .current = power->current};
+    }
+    return there;
+}
+
+static uint32_t stack_free(void *context)
+{
+    (void)context;
+    return UINT32_MAX; /* This machine has enough. */
+}
+
+static void write_motors(void *context, const float output[COPTER_MOTORS])
+{
+    (void)context;
+    memcpy(motors, output, sizeof motors);
+}
+
+static void end_run(void *context, uint32_t row)
+{
+    uint64_t work_us = ((uint64_t)urpilot_task[row].wcet_us * options.costs_percent) / HUNDRED;
+
+    (void)context;
+    if (delay[row].runs > 0u) {
+        delay[row].runs--;
+        work_us += delay[row].extra_us;
+    }
+    host_board_work(&board, work_us * HOST_NS_PER_US);
+}
+
+int sim_start(const sim_options_t *chosen)
+{
+    const host_costs_t costs = {
+        .turn_ns = TURN_NS, .pass_ns = PASS_NS, .dispatch_ns = DISPATCH_NS};
+
+    options = *chosen;
+    memset(&sensors, 0, sizeof sensors);
+    memset(&taken, 0, sizeof taken);
+    memset(delay, 0, sizeof delay);
+    memset(motors, 0, sizeof motors);
+    host_board_init(&board, &copter.scheduler, &costs, 0u);
+    port = (copter_port_t){.context = &board,
+                           .read_clock = host_board_read,
+                           .read_imu = read_imu,
+                           .read_magnetometer = read_magnetometer,
+                           .read_barometer = read_barometer,
+                           .read_gps = read_gps,
+                           .read_radio = read_radio,
+                           .read_power = read_power,
+                           .stack_free = stack_free,
+                           .write_motors = write_motors,
+                           .end_run = end_run};
+    memset(&copter, 0, sizeof copter);
+    return (int)copter_start(&copter, &port, options.plain_mean != 0u);
+}
+
+sim_sensors_t *sim_sensors(void)
+{
+    return &sensors;
+}
+
+int sim_run_until(uint64_t time_us)
+{
+    const uint64_t end_ns = time_us * HOST_NS_PER_US;
+    keel_status_t status = KEEL_OK;
+
+    while ((board.now_ns < end_ns) && (status == KEEL_OK)) {
+        status = keel_scheduler_step(&copter.scheduler);
+        host_board_turn(&board);
+        host_board_idle(&board, end_ns);
+    }
+    return (int)status;
+}
+
+static void show_vector(float to[3], keel_attitude_vector_t from)
+{
+    to[0] = from.x;
+    to[1] = from.y;
+    to[2] = from.z;
+}
+
+static void show_place(float to[3], keel_cascade_vector_t from)
+{
+    to[0] = from.north;
+    to[1] = from.east;
+    to[2] = from.up;
+}
+
+static void show_state(void)
+{
+    const keel_mode_t *const mode = &copter.state.mode;
+
+    view.state = mode->state;
+    view.mode = mode->mode;
+    view.motors_on = mode->motors ? 1u : 0u;
+    view.cause = mode->cause;
+    view.blocking_checks = mode->blocking.checks;
+    view.blocking_facts = mode->blocking.facts;
+    view.battery_level = copter.energy.battery.level;
+    view.battery_left = copter.energy.battery.remaining;
+    view.load_ppm = copter.health.load_ppm;
+}
+
+static void show_inertia(void)
+{
+    const copter_inertia_t *const inertia = &copter.inertia;
+    const keel_attitude_t *const attitude = &inertia->attitude;
+
+    view.phase = attitude->phase;
+    view.heading_valid = attitude->heading_valid ? 1u : 0u;
+    view.attitude_flags = attitude->flags;
+    view.quaternion[0] = attitude->quaternion.w;
+    view.quaternion[1] = attitude->quaternion.x;
+    view.quaternion[2] = attitude->quaternion.y;
+    view.quaternion[3] = attitude->quaternion.z;
+    show_vector(view.bias, attitude->bias);
+    show_vector(view.rate, attitude->rate);
+    for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
+        view.vote[k] = inertia->imu.channel[k].vote.output;
+    }
+    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+        view.used[unit] = inertia->imu.used[unit];
+        view.latched[unit] = inertia->imu.latched[unit];
+    }
+}
+
+static void show_control(void)
+{
+    const keel_cascade_t *const cascade = &copter.control.cascade;
+
+    show_place(view.asked_place, copter.control.place);
+    show_place(view.asked_velocity, copter.control.asked);
+    view.asked_tilt[0] = cascade->axis[KEEL_CASCADE_ROLL].pid.setpoint;
+    view.asked_tilt[1] = cascade->axis[KEEL_CASCADE_PITCH].pid.setpoint;
+    for (uint32_t i = 0u; i < 3u; i++) {
+        view.asked_rate[i] = cascade->axis[KEEL_CASCADE_ROLL_RATE + i].pid.setpoint;
+    }
+    view.command[0] = cascade->command.roll;
+    view.command[1] = cascade->command.pitch;
+    view.command[2] = cascade->command.yaw;
+    view.command[3] = cascade->command.thrust;
+    view.limited = copter.control.mixer.limited;
+    memcpy(view.motor, motors, sizeof view.motor);
+}
+
+const sim_view_t *sim_view(void)
+{
+    const copter_estimate_t *const estimate = &copter.estimate;
+
+    show_state();
+    show_inertia();
+    show_control();
+    show_place(view.position, estimate->here.position);
+    show_place(view.velocity, estimate->here.velocity);
+    view.place_quality = estimate->position.quality;
+    view.height_quality = estimate->altitude.axis.quality;
+    return &view;
+}
+
+const sim_task_t *sim_tasks(void)
+{
+    for (uint32_t i = 0u; i < SIM_TASKS; i++) {
+        keel_task_report_t report = {0};
+
+        (void)keel_scheduler_report(&copter.scheduler, &copter.declaration[i], &report);
+        tasks[i] = (sim_task_t){.runs = report.stats.runs,
+                                .skipped = report.skipped,
+                                .overruns = report.stats.overruns,
+                                .longest_us = report.stats.longest_us};
+    }
+    return tasks;
+}
+
+void sim_overrun(uint32_t task, uint32_t runs, uint32_t extra_us)
+{
+    if (task < SIM_TASKS) {
+        delay[task] = (delay_t){.runs = runs, .extra_us = extra_us};
+    }
+}
+
+uint16_t sim_mode_channel(uint32_t mode)
+{
+    return (uint16_t)(1050u + (180u * mode));
+}
+
+const char *sim_task_name(uint32_t task)
+{
+    return (task < SIM_TASKS) ? urpilot_task[task].name : "";
+}

@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file sim.h
+ * @brief The copter on simulated devices and a virtual clock, as a shared library for a plant.
+ *
+ * Whoever owns time, a plant say, writes what the devices hold now into sim_sensors(), lets the
+ * copter run up to a time with sim_run_until(), and reads motors and all else from sim_view(). There
+ * is one copter in a process. Nothing here waits, starts a thread or reads a clock, so that equal
+ * inputs lead to equal flights, bit for bit.
+ *
+ * Frames: body is forward, right, down; Earth is north, east, down. A device has a new sample when
+ * its count differs from that of the last one that the copter took.
+ */
+#ifndef COPTER_HOST_SIM_H
+#define COPTER_HOST_SIM_H
+
+#include <stdint.h>
+
+#define SIM_IMUS     3
+#define SIM_MODULES  2
+#define SIM_CHANNELS 8
+#define SIM_MOTORS   4
+#define SIM_TASKS    21
+
+/** An inertial measurement unit. */
+typedef struct sim_imu {
+    float accelerometer[3]; /**< Specific force, body, in m/s^2: (0, 0, -9.81) at rest. */
+    float gyroscope[3];     /**< Body, in rad/s. */
+    uint32_t count;
+} sim_imu_t;
+
+/** A magnetometer. */
+typedef struct sim_magnetometer {
+    float field[3]; /**< Body, in microtesla. */
+    uint32_t count;
+} sim_magnetometer_t;
+
+/** A barometer. */
+typedef struct sim_barometer {
+    float pressure; /**< In Pa. */
+    uint32_t count;
+} sim_barometer_t;
+
+/** A satellite receiver. */
+typedef struct sim_gps {
+    int32_t latitude;     /**< In 1e-7 degrees. */
+    int32_t longitude;    /**< In 1e-7 degrees. */
+    float north;          /**< Velocity, in m/s. */
+    float east;           /**< Velocity, in m/s. */
+    float accuracy;       /**< Of the position, in m. */
+    float speed_accuracy; /**< Of the velocity, in m/s. */
+    uint32_t is_valid;    /**< 1: a fix in three dimensions. */
+    uint32_t count;
+} sim_gps_t;
+
+/** A receiver of the pilot's radio. Channels, each from 988 to 2012 with 1500 in the middle: roll
+ * (right), pitch (stick pulled, nose up), throttle (up), yaw (right), arm switch (off 1000, on 2000),
+ * mode switch (see sim_mode_channel), kill switch (off 1000, on 2000), free. */
+typedef struct sim_radio {
+    uint16_t channel[SIM_CHANNELS];
+    uint32_t failsafe; /**< 1: the receiver says that it hears no transmitter. */
+    uint32_t count;
+} sim_radio_t;
+
+/** A power module. */
+typedef struct sim_power {
+    float voltage; /**< In V. */
+    float current; /**< In A. */
+    uint32_t count;
+} sim_power_t;
+
+/** What all devices hold now. Values may be any bit pattern. */
+typedef struct sim_sensors {
+    sim_imu_t imu[SIM_IMUS];
+    sim_magnetometer_t magnetometer;
+    sim_barometer_t barometer;
+    sim_gps_t gps;
+    sim_radio_t radio;
+    sim_power_t power[SIM_MODULES];
+} sim_sensors_t;
+
+/** How a flight is made. */
+typedef struct sim_options {
+    uint32_t costs_percent; /**< Of its budget that a task's run takes: 100. */
+    uint32_t plain_mean;    /**< 1: the three units' mean in place of their vote, for comparison. */
+} sim_options_t;
+
+/** What became of a task. */
+typedef struct sim_task {
+    uint32_t runs;
+    uint32_t skipped;    /**< Periods without a run. */
+    uint32_t overruns;   /**< Runs longer than the budget. */
+    uint32_t longest_us;
+} sim_task_t;
+
+/** What the copter does and believes. Angles are sines where said, distances in m from home. */
+typedef struct sim_view {
+    float motor[SIM_MOTORS]; /**< 0 to 1: front right, aft right, aft left, front left. */
+    uint32_t state;          /**< KEEL_MODE_DISARMED, ... */
+    uint32_t mode;           /**< The mode in force: KEEL_MODE_ACRO, ... */
+    uint32_t motors_on;      /**< Whether motors may turn. */
+    uint32_t cause;          /**< What led to this state. */
+    uint32_t blocking_checks; /**< What stands in the way of arming. */
+    uint32_t blocking_facts;
+    uint32_t phase;          /**< Of the attitude: 2 is running. */
+    uint32_t heading_valid;
+    uint32_t attitude_flags;
+    float quaternion[4];     /**< w, x, y, z, from body to Earth. */
+    float bias[3];           /**< Of the gyroscopes, in rad/s. */
+    float rate[3];           /**< In rad/s. */
+    float vote[6];           /**< Accelerometer, gyroscope. */
+    uint32_t used[SIM_IMUS]; /**< Per unit: its channels that contributed, a bit each. */
+    uint32_t latched[SIM_IMUS];
+    float position[3];       /**< North, east, up, in m from home. */
+    float velocity[3];       /**< North, east, up, in m/s. */
+    uint32_t place_quality;  /**< 0 none, 1 poor, 2 good. */
+    uint32_t height_quality;
+    float asked_place[3];    /**< Set-points. */
+    float asked_velocity[3];
+    float asked_tilt[2];     /**< Roll, pitch: sines. */
+    float asked_rate[3];
+    float command[4];        /**< Roll, pitch, yaw, thrust. */
+    uint32_t limited;        /**< What the mixer gave up. */
+    uint32_t battery_level;  /**< 0 unknown, 1 ok, 2 low, 3 critical. */
+    float battery_left;      /**< 0 to 1. */
+    uint32_t load_ppm;       /**< In the last 100 ms. */
+} sim_view_t;
+
+/** Powers up a copter at time 0 with all devices silent; what was before is forgotten.
+ * @return 0, or the status with which the kernel refused */
+int sim_start(const sim_options_t *options);
+
+/** What the devices hold: to be written. */
+sim_sensors_t *sim_sensors(void);
+
+/** Runs the copter until the virtual clock reaches a time, in us since power-up.
+ * @return 0, or the status with which the scheduler refused */
+int sim_run_until(uint64_t time_us);
+
+/** What the copter does; made anew by each call. */
+const sim_view_t *sim_view(void);
+
+/** What became of each task, SIM_TASKS of them; made anew by each call. */
+const sim_task_t *sim_tasks(void);
+
+/** Makes the next runs of a task, from 0 in the order of table 2, longer by some time each. */
+void sim_overrun(uint32_t task, uint32_t runs, uint32_t extra_us);
+
+/** The channel of the mode switch that asks for a mode: KEEL_MODE_ACRO, ... */
+uint16_t sim_mode_channel(uint32_t mode);
+
+/** The name of a task. */
+const char *sim_task_name(uint32_t task);
+
+#endif

@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Background and foreground IMU: three units are oversampled, voted on, and become an attitude. */
+#include "copter.h"
+
+#define OVERSAMPLING   2u    /* Background runs in a foreground period. */
+#define VOTE_PERIOD_US 2000u /* Table 2: foreground IMU. */
+#define BLOCK          10u   /* Votes in a period of navigation. */
+#define ACCELEROMETER  KEEL_VIRTUAL_IMU_ACCELEROMETER
+
+keel_status_t copter_inertia_init(copter_inertia_t *inertia)
+{
+    keel_status_t status = keel_virtual_imu_init(&inertia->imu, &copter_settings.imu);
+
+    if (status == KEEL_OK) {
+        status = keel_attitude_init(&inertia->attitude, &copter_settings.attitude);
+    }
+    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+        for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
+            (void)keel_oversample_init(&inertia->channel[unit][k], OVERSAMPLING);
+        }
+    }
+    return status;
+}
+
+void copter_background_imu(copter_t *copter)
+{
+    copter_inertia_t *const self = &copter->inertia;
+
+    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+        copter_inertial_t sample;
+
+        if (copter->port->read_imu(copter->port->context, unit, &sample)) {
+            for (uint32_t k = 0u; k < ACCELEROMETER; k++) {
+                (void)keel_oversample_add(&self->channel[unit][k], sample.accelerometer[k]);
+                (void)keel_oversample_add(&self->channel[unit][ACCELEROMETER + k],
+                                          sample.gyroscope[k]);
+            }
+            self->sampled_us[unit] = copter->scheduler.clock.now_us;
+        }
+    }
+}
+
+/* What a unit has measured since the last vote; it is absent unless all its channels have. */
+static keel_virtual_imu_sample_t take(copter_inertia_t *self, uint32_t unit, uint64_t now_us)
+{
+    keel_virtual_imu_sample_t sample = {.age_us = (uint32_t)(now_us - self->sampled_us[unit]),
+                                        .present = true};
+
+    for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
+        if (keel_oversample_take(&self->channel[unit][k], &sample.value[k]) != KEEL_OK) {
+            sample.present = false;
+        }
+    }
+    return sample;
+}
+
+/* What an aircraft without a voter would fly with: the mean of the units that gave a sample. */
+static void take_mean(keel_attitude_sample_t *sample, const keel_virtual_imu_sample_t unit[])
+{
+    float sum[KEEL_VIRTUAL_IMU_CHANNELS] = {0.0f};
+    float count = 0.0f;
+
+    for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
+        for (uint32_t k = 0u; (k < KEEL_VIRTUAL_IMU_CHANNELS) && unit[i].present; k++) {
+            sum[k] += unit[i].value[k];
+        }
+        count += unit[i].present ? 1.0f : 0.0f;
+    }
+    sample->has_gyroscope = count > 0.0f;
+    sample->has_accelerometer = sample->has_gyroscope;
+    if (sample->has_gyroscope) {
+        sample->accelerometer =
+            (keel_attitude_vector_t){sum[0] / count, sum[1] / count, sum[2] / count};
+        sample->gyroscope =
+            (keel_attitude_vector_t){sum[3] / count, sum[4] / count, sum[5] / count};
+    }
+}
+
+/* Navigation looks once in a block of steps: it gets their mean. */
+static void keep_force(copter_inertia_t *self, const keel_attitude_sample_t *sample)
+{
+    if (sample->has_accelerometer) {
+        self->force_sum.x += sample->accelerometer.x;
+        self->force_sum.y += sample->accelerometer.y;
+        self->force_sum.z += sample->accelerometer.z;
+        self->forces++;
+    }
+    self->steps++;
+    if (self->steps < BLOCK) {
+        return;
+    }
+    if (self->forces > 0u) {
+        const float count = (float)self->forces;
+
+        self->force = (keel_attitude_vector_t){
+            self->force_sum.x / count, self->force_sum.y / count, self->force_sum.z / count};
+        self->blocks++;
+    }
+    self->force_sum = (keel_attitude_vector_t){0.0f, 0.0f, 0.0f};
+    self->forces = 0u;
+    self->steps = 0u;
+}
+
+void copter_foreground_imu(copter_t *copter)
+{
+    copter_inertia_t *const self = &copter->inertia;
+    keel_virtual_imu_sample_t unit[COPTER_IMUS];
+    keel_attitude_sample_t sample = {.has_magnetometer = false};
+
+    for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
+        unit[i] = take(self, i, copter->scheduler.clock.now_us);
+    }
+    keel_virtual_imu_step(&self->imu, unit, VOTE_PERIOD_US);
+    keel_attitude_take(&sample, &self->imu);
+    if (copter->plain_mean) {
+        take_mean(&sample, unit);
+    }
+    sample.has_magnetometer = copter->compass.samples != self->field_taken;
+    sample.magnetometer = copter->compass.field;
+    self->field_taken = copter->compass.samples;
+    keel_attitude_step(&self->attitude, &sample);
+    self->down = keel_attitude_down(&self->attitude);
+    keep_force(self, &sample);
+}

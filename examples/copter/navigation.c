@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Navigation: where the aircraft is and how it moves, from home. */
+#include "copter.h"
+
+/* The rows of the attitude's matrix: see attitude.h. */
+typedef struct frame {
+    keel_attitude_vector_t north;
+    keel_attitude_vector_t east;
+    keel_attitude_vector_t down;
+} frame_t;
+
+keel_status_t copter_estimate_init(copter_estimate_t *estimate)
+{
+    const keel_status_t status = keel_altitude_init(&estimate->altitude,
+                                                    &copter_settings.altitude);
+
+    return (status == KEEL_OK) ? keel_position_init(&estimate->position, &copter_settings.position)
+                               : status;
+}
+
+static frame_t frame_of(const keel_attitude_t *attitude)
+{
+    const keel_attitude_quaternion_t q = attitude->quaternion;
+    const frame_t frame = {
+        .north = {1.0f - (2.0f * ((q.y * q.y) + (q.z * q.z))),
+                  2.0f * ((q.x * q.y) - (q.w * q.z)), 2.0f * ((q.x * q.z) + (q.w * q.y))},
+        .east = {2.0f * ((q.x * q.y) + (q.w * q.z)),
+                 1.0f - (2.0f * ((q.x * q.x) + (q.z * q.z))),
+                 2.0f * ((q.y * q.z) - (q.w * q.x))},
+        .down = keel_attitude_down(attitude)};
+
+    return frame;
+}
+
+static float dot(keel_attitude_vector_t a, keel_attitude_vector_t b)
+{
+    return (a.x * b.x) + (a.y * b.y) + (a.z * b.z);
+}
+
+static keel_position_fix_t fix_of(const copter_fix_t *fix)
+{
+    return (keel_position_fix_t){.latitude = fix->latitude,
+                                 .longitude = fix->longitude,
+                                 .north = fix->north,
+                                 .east = fix->east,
+                                 .accuracy = fix->accuracy,
+                                 .speed_accuracy = fix->speed_accuracy,
+                                 .is_valid = fix->is_valid};
+}
+
+/* The first good fix is where positions are measured from. */
+static void find_origin(copter_estimate_t *self, const copter_fix_t *fix)
+{
+    if (!self->position.has_origin && fix->is_valid &&
+        (fix->accuracy <= copter_settings.position.accuracy)) {
+        (void)keel_position_set_origin(&self->position, fix->latitude, fix->longitude);
+    }
+}
+
+static void step_estimators(copter_t *copter, const frame_t *frame)
+{
+    copter_estimate_t *const self = &copter->estimate;
+    const keel_attitude_vector_t force = copter->inertia.force;
+    const bool has_force = (copter->inertia.blocks != self->blocks) &&
+                           (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING);
+    const keel_altitude_sample_t vertical = {
+        .pressure = copter->air.pressure_pa,
+        .acceleration = -dot(force, frame->down) - KEEL_CASCADE_GRAVITY,
+        .has_pressure = copter->air.samples != self->pressures,
+        .has_acceleration = has_force};
+    const keel_position_sample_t horizontal = {
+        .fix = fix_of(&copter->satellites.fix),
+        .north = dot(force, frame->north),
+        .east = dot(force, frame->east),
+        .has_fix = copter->satellites.fixes != self->fixes,
+        .has_acceleration = has_force && copter->inertia.attitude.heading_valid};
+
+    self->blocks = copter->inertia.blocks;
+    self->pressures = copter->air.samples;
+    self->fixes = copter->satellites.fixes;
+    if (horizontal.has_fix) {
+        find_origin(self, &copter->satellites.fix);
+    }
+    keel_altitude_step(&self->altitude, &vertical);
+    keel_position_step(&self->position, &horizontal);
+}
+
+/* Home is where the aircraft last took off. */
+static void find_home(copter_t *copter)
+{
+    copter_estimate_t *const self = &copter->estimate;
+
+    if (copter->state.homes != self->homes) {
+        self->homes = copter->state.homes;
+        self->home_north = self->position.north.position;
+        self->home_east = self->position.east.position;
+        keel_altitude_zero(&self->altitude);
+    }
+}
+
+static bool is_within(float value, float limit)
+{
+    return (value <= limit) && (value >= -limit);
+}
+
+/* On the ground nothing turns or sinks though the motors push far less than the weight. */
+static bool is_landed(const copter_t *copter)
+{
+    const keel_attitude_vector_t rate = copter->inertia.attitude.rate;
+    const bool calm = is_within(rate.x, copter_settings.landed_rate) &&
+                      is_within(rate.y, copter_settings.landed_rate) &&
+                      is_within(rate.z, copter_settings.landed_rate) &&
+                      is_within(copter->estimate.altitude.axis.velocity,
+                                copter_settings.landed_speed);
+
+    return !copter->state.mode.motors ||
+           (calm && (copter->control.cascade.command.thrust < copter_settings.landed_thrust));
+}
+
+void copter_navigation(copter_t *copter)
+{
+    copter_estimate_t *const self = &copter->estimate;
+    const frame_t frame = frame_of(&copter->inertia.attitude);
+
+    step_estimators(copter, &frame);
+    find_home(copter);
+    self->here = (keel_cascade_estimate_t){
+        .position = {self->position.north.position - self->home_north,
+                     self->position.east.position - self->home_east, self->altitude.height},
+        .velocity = {self->position.north.velocity, self->position.east.velocity,
+                     self->altitude.axis.velocity},
+        .forward_north = frame.north.x,
+        .forward_east = frame.east.x,
+        .has_place = self->position.quality != KEEL_AXIS_NONE,
+        .has_height = self->altitude.axis.quality != KEEL_AXIS_NONE};
+    self->is_landed = is_landed(copter);
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file settings.h
+ * @brief The numbers of one aircraft.
+ */
+#ifndef COPTER_SETTINGS_H
+#define COPTER_SETTINGS_H
+
+#include "keel/flight/attitude.h"
+#include "keel/flight/axis.h"
+#include "keel/flight/battery.h"
+#include "keel/flight/cascade.h"
+#include "keel/flight/mixer.h"
+#include "keel/flight/mode.h"
+#include "keel/flight/position.h"
+#include "keel/flight/reference.h"
+#include "keel/middleware/virtual_imu.h"
+
+#include <stdint.h>
+
+/** All that a unit is made from, and what the tasks decide by. */
+typedef struct copter_settings {
+    keel_virtual_imu_config_t imu;
+    keel_attitude_config_t attitude;
+    keel_axis_config_t altitude;
+    keel_position_config_t position;
+    keel_reference_config_t reference;
+    keel_battery_config_t battery;
+    keel_mode_config_t mode;
+    keel_cascade_config_t cascade;
+    keel_mixer_config_t mixer;
+    uint32_t load_limit_ppm; /**< The greatest load with which it may be armed. */
+    float level;             /**< The least cosine of the tilt with which it may be armed. */
+    float landed_rate;       /**< Less than this on the ground, in rad/s. */
+    float landed_speed;      /**< Less than this on the ground, up or down, in m/s. */
+    float landed_thrust;     /**< Less than this on the ground, 0 to 1. */
+    float home_radius;       /**< Within this of home, to either side, it is there, in m. */
+    float return_height;     /**< At least so high on the way home, in m. */
+    float land_fast;         /**< Landing, from high above, in m/s. */
+    float land_slow;         /**< Landing, near the ground, in m/s. */
+    float land_near;         /**< Below this height the ground is near, in m. */
+    float land_thrust;       /**< Landing without an altitude: less than what hovers. */
+    float stop_s;            /**< How far it goes on when the sticks are let go: in s. */
+} copter_settings_t;
+
+/** A quadcopter of 1.4 kg: the F450 that JSBSim comes with. */
+extern const copter_settings_t copter_settings;
+
+#endif

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The state machine: it is told plain facts, and says which mode flies and whether motors turn. */
+#include "copter.h"
+
+keel_status_t copter_state_init(copter_state_t *state)
+{
+    return keel_mode_init(&state->mode, &copter_settings.mode);
+}
+
+static uint32_t when(bool condition, uint32_t bit)
+{
+    return condition ? bit : 0u;
+}
+
+/* A good estimate stays one while it is known at all: single fixes may fail. */
+static bool is_good(keel_axis_quality_t quality, uint32_t before, uint32_t fact)
+{
+    return (quality == KEEL_AXIS_GOOD) ||
+           ((quality == KEEL_AXIS_POOR) && ((before & fact) != 0u));
+}
+
+static bool is_beyond(float distance, float limit)
+{
+    return (distance > limit) || (distance < -limit);
+}
+
+static bool is_outside(const copter_t *copter)
+{
+    const keel_cascade_vector_t place = copter->estimate.here.position;
+    const float *const reach = copter_settings.cascade.reach;
+
+    return is_beyond(place.north, reach[KEEL_CASCADE_NORTH]) ||
+           is_beyond(place.east, reach[KEEL_CASCADE_EAST]) ||
+           is_beyond(place.up, reach[KEEL_CASCADE_HEIGHT]);
+}
+
+static bool is_home(const copter_t *copter)
+{
+    const keel_cascade_vector_t place = copter->estimate.here.position;
+
+    return !is_beyond(place.north, copter_settings.home_radius) &&
+           !is_beyond(place.east, copter_settings.home_radius);
+}
+
+static uint32_t facts_of(const copter_t *copter)
+{
+    const copter_estimate_t *const estimate = &copter->estimate;
+    const keel_battery_level_t level = copter->energy.battery.level;
+    const uint32_t before = copter->state.mode.seen;
+    const bool has_place = is_good(estimate->position.quality, before, KEEL_MODE_HAS_PLACE) &&
+                           copter->inertia.attitude.heading_valid;
+
+    return when(estimate->is_landed, KEEL_MODE_IS_LANDED) |
+           when(has_place && is_home(copter), KEEL_MODE_IS_HOME) |
+           when(copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING, KEEL_MODE_HAS_ANGLE) |
+           when(is_good(estimate->altitude.axis.quality, before, KEEL_MODE_HAS_HEIGHT),
+                KEEL_MODE_HAS_HEIGHT) |
+           when(has_place, KEEL_MODE_HAS_PLACE) |
+           when(has_place && is_outside(copter), KEEL_MODE_IS_OUTSIDE) |
+           when(level >= KEEL_BATTERY_LOW, KEEL_MODE_IS_CRITICAL) |
+           when(level >= KEEL_BATTERY_CRITICAL, KEEL_MODE_IS_EMPTY);
+}
+
+/* Whether the votes of some channels are each confirmed by a second unit. */
+static bool are_confirmed(const keel_virtual_imu_t *imu, uint32_t from, uint32_t to)
+{
+    bool confirmed = true;
+
+    for (uint32_t k = from; k < to; k++) {
+        confirmed = confirmed && (imu->channel[k].vote.state == KEEL_VOTER_MEAN);
+    }
+    return confirmed;
+}
+
+static uint32_t checks_of(const copter_t *copter)
+{
+    const keel_virtual_imu_t *const imu = &copter->inertia.imu;
+    const copter_estimate_t *const estimate = &copter->estimate;
+
+    return copter->health.checks |
+           when(are_confirmed(imu, 0u, KEEL_VIRTUAL_IMU_ACCELEROMETER),
+                KEEL_MODE_CHECK_ACCELEROMETER) |
+           when(are_confirmed(imu, KEEL_VIRTUAL_IMU_ACCELEROMETER, KEEL_VIRTUAL_IMU_CHANNELS),
+                KEEL_MODE_CHECK_GYROSCOPE) |
+           when(estimate->altitude.axis.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_BAROMETER) |
+           when(estimate->position.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_POSITIONING) |
+           when(copter->inertia.down.z >= copter_settings.level, KEEL_MODE_CHECK_LEVEL) |
+           when(copter->energy.battery.level == KEEL_BATTERY_OK, KEEL_MODE_CHECK_BATTERY) |
+           when(estimate->position.has_origin, KEEL_MODE_CHECK_HOME);
+}
+
+void copter_state_machine(copter_t *copter)
+{
+    copter_state_t *const self = &copter->state;
+    const uint64_t now_us = copter->scheduler.clock.now_us;
+    const bool frame = copter->pilot.frames != self->frames;
+    const bool was_disarmed = self->mode.state == KEEL_MODE_DISARMED;
+    const keel_mode_input_t input = {
+        .elapsed_us = (uint32_t)(now_us - self->stepped_us),
+        .facts = facts_of(copter) | (frame ? copter->pilot.facts : 0u),
+        .checks = checks_of(copter),
+        .asked = copter->pilot.asked};
+
+    self->frames = copter->pilot.frames;
+    self->stepped_us = now_us;
+    keel_mode_step(&self->mode, &input);
+    if (was_disarmed && self->mode.motors) {
+        self->homes++;
+    }
+}
