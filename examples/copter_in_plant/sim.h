@@ -11,8 +11,8 @@
  * Frames: body is forward, right, down; Earth is north, east, down. A device has a new sample when
  * its count differs from that of the last one that the copter took.
  */
-#ifndef COPTER_HOST_SIM_H
-#define COPTER_HOST_SIM_H
+#ifndef COPTER_SIM_H
+#define COPTER_SIM_H
 
 #include <stdint.h>
 
