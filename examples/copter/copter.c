@@ -73,8 +73,7 @@ static keel_status_t add_tasks(copter_t *copter)
 
 keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool plain_mean)
 {
-    const keel_scheduler_config_t config = urpilot_scheduler_config(port->read_clock,
-                                                                    port->context);
+    const keel_scheduler_config_t config = urpilot_scheduler_config(port->read_clock, port->clock);
     keel_status_t status;
 
     *copter = (copter_t){.port = port, .plain_mean = plain_mean};

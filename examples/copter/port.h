@@ -9,7 +9,7 @@
 #ifndef COPTER_PORT_H
 #define COPTER_PORT_H
 
-#include "keel/rtos/clock.h"
+#include "keel/rtos/scheduler.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -53,10 +53,11 @@ typedef struct copter_power_reading {
     float current; /**< In A. */
 } copter_power_reading_t;
 
-/** The functions of a port; each is handed the context. */
+/** The functions of a port. */
 typedef struct copter_port {
-    void *context;
     keel_clock_fn_t read_clock;
+    void *clock;   /**< What read_clock is handed. */
+    void *context; /**< What all others are handed. */
     bool (*read_imu)(void *context, uint32_t unit, copter_inertial_t *sample);
     bool (*read_magnetometer)(void *context, copter_field_t *sample);
     bool (*read_barometer)(void *context, float *pressure_pa);

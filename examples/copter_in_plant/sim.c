@@ -162,8 +162,8 @@ int sim_start(const sim_options_t *chosen)
     memset(delay, 0, sizeof delay);
     memset(motors, 0, sizeof motors);
     host_board_init(&board, &copter.scheduler, &costs, 0u);
-    port = (copter_port_t){.context = &board,
-                           .read_clock = host_board_read,
+    port = (copter_port_t){.read_clock = host_board_read,
+                           .clock = &board,
                            .read_imu = read_imu,
                            .read_magnetometer = read_magnetometer,
                            .read_barometer = read_barometer,
