@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One flight: plant, devices and copter, millisecond by millisecond.
+
+    plant moves -> devices hold what they say -> copter runs up to now -> its motors, from now on
+
+Nothing here reads a clock or draws a number that does not come from the flight's seed, so that
+equal flights have equal traces, bit for bit.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from flight import plants, wind
+from flight.faults import Faults
+from flight.library import Copter, checks_of, facts_of, modes, states
+from flight.pilot import Pilot, Sight
+from flight.plants import Airframe, Plant
+from flight.power import Battery
+from flight.scenario import Scenario
+from flight.sensors import Broken, Inertial, Quality, Slow
+
+ROW_MS = 5  # A row of the trace.
+WIND_MS = round(1000 * wind.PERIOD_S)
+POWER_MS = 10
+ARMS_WITHIN_S = 30.0
+TRUTH = ("time", "north", "east", "up", "v_north", "v_east", "v_up", "roll", "pitch", "yaw",
+         "wind_north", "wind_east", "voltage", "current")  # fmt: skip
+
+
+class NotFlown(Exception):
+    """The flight did not begin, or the copter's scheduler refused to go on."""
+
+
+@dataclass(frozen=True)
+class Order:
+    """All that a flight depends on, beside the sources."""
+
+    scenario: Scenario
+    plant: str
+    seed: int
+    airframe: Airframe = Airframe()
+    quality: Quality = Quality()
+
+
+@dataclass
+class Trace:
+    """What a flight left: rows every ROW_MS, from the motors' start on."""
+
+    truth: Any = None
+    view: Any = None
+    digest: str = ""
+    problem: str = ""  # Why the flight was not flown to its end.
+    armed_s: float = 0.0  # When the motors started, since power-up.
+    tasks: list[str] = field(default_factory=list)
+    done: Any = None  # What became of each task, when the motors started and at the end.
+
+    def column(self, name: str) -> Any:
+        """A column of the truth."""
+        return self.truth[:, TRUTH.index(name)]
+
+
+def without_faults(order: Order) -> Order:
+    """The same flight, unbroken."""
+    scenario = order.scenario.model_copy(update={"fault": []})
+    return Order(scenario, order.plant, order.seed, order.airframe, order.quality)
+
+
+class Flight:
+    """A flight that is being made."""
+
+    def __init__(self, copter: Copter, order: Order) -> None:
+        scenario = order.scenario
+        self._copter, self._scenario = copter, scenario
+        copter.start(scenario.options.costs_percent, scenario.options.plain_mean)
+        seeds = np.random.SeedSequence(order.seed).spawn(3)
+        rng = [np.random.Generator(np.random.PCG64(seed)) for seed in seeds]
+        self._plant: Plant = plants.make(order.plant, order.airframe, scenario.heading_deg)
+        self._battery = Battery(left=scenario.battery_left)
+        self._battery.step([0.0] * plants.MOTORS, 0.0)
+        memory = copter.sensors
+        self._inertial = Inertial(memory["imu"], rng[0], order.quality)
+        self._slow = Slow(memory, seeds[1], order.quality)
+        self._radio = memory["radio"]
+        self._radio_ms = 1000 // scenario.radio_hz
+        self._pilot = Pilot(scenario, self._radio_ms / 1000.0)
+        self._faults = Faults(scenario.fault, copter, self._battery)
+        air = scenario.wind
+        self._wind = wind.drawn(
+            rng[2], ARMS_WITHIN_S + scenario.duration_s, air.speed, air.from_deg, air.turbulence,
+            [(gust.at_s, gust.length_s, gust.speed) for gust in air.gust],
+        )  # fmt: skip
+        self._still_air = scenario.wind == type(air)()
+        self._motors: Sequence[float] = [0.0] * plants.MOTORS
+        self._begun_ms = -1
+        self._mode_channels = {mode: copter.mode_channel(number)
+                               for number, mode in enumerate(modes())}  # fmt: skip
+        self._rows: list[tuple[float, ...]] = []
+        self._views: list[bytes] = []
+        self._done_before = copter.done()
+
+    def fly(self) -> Trace:
+        """To its end."""
+        problem = ""
+        try:
+            now_ms = 0
+            while not self._is_over(now_ms):
+                now_ms += 1
+                self._step(now_ms)
+        except NotFlown as error:
+            problem = str(error)
+        return self._trace(problem)
+
+    def _is_over(self, now_ms: int) -> bool:
+        """After the scenario's time, or when the motors do not start."""
+        if self._begun_ms >= 0:
+            return now_ms - self._begun_ms >= 1000.0 * self._scenario.duration_s
+        if now_ms > 1000.0 * ARMS_WITHIN_S:
+            self._copter.look()
+            view = self._copter.view
+            checks = ", ".join(checks_of(int(view["blocking_checks"]))) or "none"
+            facts = ", ".join(facts_of(int(view["blocking_facts"]))) or "none"
+            raise NotFlown(f"not armed after {ARMS_WITHIN_S:.0f} s: checks that do not hold: "
+                           f"{checks}; facts: {facts}")  # fmt: skip
+        return False
+
+    def _step(self, now_ms: int) -> None:
+        """A millisecond."""
+        time_s = self._time_s(now_ms)
+        plant, copter = self._plant, self._copter
+        plant.step(self._motors)
+        if time_s >= 0.0:
+            self._faults.step(time_s)
+        broken = self._faults.broken
+        thrust = sum(self._motors) / plants.MOTORS
+        self._inertial.step(plant.inertial(), thrust, broken)
+        self._slow.step(now_ms, plant, self._battery, broken)
+        if now_ms % POWER_MS == 0:
+            self._breathe(now_ms)
+        if now_ms % self._radio_ms == 0:
+            self._send(time_s, broken)
+        if status := copter.run_until(1000 * now_ms):
+            raise NotFlown(f"the scheduler refused to go on at {time_s:.3f} s: status {status}")
+        copter.look()
+        scale = self._battery.voltage / plants.NOMINAL_V
+        self._motors = [min(1.0, scale * share * motor) for share, motor in
+                        zip(self._faults.shares, copter.motor.tolist(), strict=True)]  # fmt: skip
+        if self._begun_ms < 0 and copter.view["motors_on"]:
+            self._begun_ms = now_ms
+            self._done_before = copter.done()
+        if self._begun_ms >= 0 and (now_ms - self._begun_ms) % ROW_MS == 0:
+            self._record(now_ms)
+
+    def _time_s(self, now_ms: int) -> float:
+        """Of the flight; negative before."""
+        return (now_ms - self._begun_ms) / 1000.0 if self._begun_ms >= 0 else -1.0
+
+    def _breathe(self, now_ms: int) -> None:
+        """Wind and battery. A scenario's gusts count from the motors' start."""
+        self._battery.step(self._motors, POWER_MS / 1000.0)
+        if not self._still_air:
+            flown_ms = max(0, now_ms - self._begun_ms) if self._begun_ms >= 0 else 0
+            self._plant.blow(*self._wind[flown_ms // WIND_MS].tolist())
+
+    def _send(self, time_s: float, broken: Broken) -> None:
+        """A frame of the radio."""
+        view = self._copter.view
+        ready = not view["blocking_checks"] and not view["blocking_facts"]
+        thrusts = int(view["mode"]) in (modes().index("acro"), modes().index("angle"))
+        sight = Sight(time_s, self._plant.truth(), bool(ready), thrusts, self._mode_channels)
+        channels = self._pilot.frame(sight)
+        if broken.radio_lost:
+            return
+        self._radio["channel"] = channels
+        self._radio["failsafe"] = int(broken.radio_failsafe)
+        self._radio["count"] += 1
+
+    def _record(self, now_ms: int) -> None:
+        """A row."""
+        truth = self._plant.truth()
+        time_s = (now_ms - self._begun_ms) / 1000.0
+        air = self._wind[(now_ms - self._begun_ms) // WIND_MS]
+        self._rows.append((time_s, *truth.place, *truth.speed, *truth.angles, air[0], air[1],
+                           self._battery.voltage, self._battery.current))  # fmt: skip
+        self._views.append(bytes(self._copter.view_bytes))
+
+    def _trace(self, problem: str) -> Trace:
+        """What was recorded."""
+        truth = np.array(self._rows, dtype=np.float64).reshape(-1, len(TRUTH))
+        views = b"".join(self._views)
+        digest = hashlib.sha256(truth.tobytes() + views).hexdigest()
+        return Trace(truth, np.frombuffer(views, self._copter.view_type), digest, problem,
+                     max(0, self._begun_ms) / 1000.0, self._copter.tasks,
+                     (self._done_before, self._copter.done()))  # fmt: skip
+
+
+def fly(copter: Copter, order: Order) -> Trace:
+    """Make a flight."""
+    return Flight(copter, order).fly()
+
+
+def state_names(trace: Trace) -> list[str]:
+    """The states that a flight went through, in order."""
+    return runs_of([states()[number] for number in trace.view["state"]])
+
+
+def runs_of(names: Sequence[str]) -> list[str]:
+    """Each name once for each time that it begins."""
+    return [name for number, name in enumerate(names) if number == 0 or names[number - 1] != name]

@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the devices say: a plant's truth with noise, bias, misalignment, delay, and what is broken.
+
+All noise comes from one seeded generator, in blocks, whatever the plant does and whichever fault
+is active: the same flight with and without a fault meets the same noise.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from flight.plants import EAST_M, NORTH_M, Plant
+from flight.power import Battery
+
+BLOCK = 1000
+UNITS = 3
+ACCELERATION_LIMIT, RATE_LIMIT = 156.9, 34.9  # Full scale: 16 g, 2000 degrees per second.
+
+
+@dataclass(frozen=True)
+class Quality:
+    """How good the devices are: factors of what is usual, and delays."""
+
+    noise: float = 1.0
+    bias: float = 1.0
+    vibration: float = 1.0
+    gps_delay_ms: int = 120
+    imu_delay_ms: int = 1
+    baro_delay_ms: int = 10
+    gps_noise: float = 1.0
+
+
+# Standard deviations of a sample, unit by unit: three parts of three makes.
+ACCELEROMETER_NOISE = (0.03, 0.05, 0.04)  # In m/s^2.
+GYROSCOPE_NOISE = (0.002, 0.003, 0.0025)  # In rad/s.
+ACCELEROMETER_BIAS, GYROSCOPE_BIAS = 0.04, 0.01
+MISALIGNMENT = math.radians(0.15)
+VIBRATION = (0.6, 0.02)  # With all motors at full: in m/s^2, in rad/s.
+FIELD_NOISE, FIELD_BIAS, FIELD_PER_AMPERE = 0.3, 0.3, 0.01  # In microtesla.
+PRESSURE_NOISE, PRESSURE_WANDER, PRESSURE_S = 1.5, 2.0, 100.0  # In Pa.
+PLACE_NOISE, PLACE_WANDER, PLACE_S, SPEED_NOISE = 0.03, 0.15, 120.0, 0.04  # In m, in m/s.
+
+
+@dataclass
+class Broken:
+    """What faults do to devices now."""
+
+    frozen: set[int] = field(default_factory=set)
+    silent: set[int] = field(default_factory=set)
+    shouting: set[int] = field(default_factory=set)
+    drift: dict[int, float] = field(default_factory=dict)  # By unit: rad/s.
+    gps_lost: bool = False
+    gps_jump: tuple[float, float] = (0.0, 0.0)
+    pascal: float = 0.0
+    microtesla_per_ampere: float = 0.0
+    radio_lost: bool = False
+    radio_failsafe: bool = False
+
+    @property
+    def imu(self) -> bool:
+        """Whether an inertial unit is broken."""
+        return bool(self.frozen or self.silent or self.shouting or self.drift)
+
+
+def turned(rng: np.random.Generator, most: float) -> Any:
+    """A small rotation about any axis."""
+    x, y, z = most * rng.standard_normal(3)
+    return np.array([[1.0, -z, y], [z, 1.0, -x], [-y, x, 1.0]])
+
+
+class Wander:
+    """A random walk that is drawn back to 0."""
+
+    def __init__(self, rng: np.random.Generator, deviation: float, time_s: float, step_s: float,
+                 size: int) -> None:  # fmt: skip
+        self._keep = math.exp(-step_s / time_s)
+        self._push = deviation * math.sqrt(1.0 - self._keep**2)
+        self._state = deviation * rng.standard_normal(size)
+
+    def step(self, drawn: Any) -> Any:
+        """The next value, of standard normal numbers."""
+        self._state = self._keep * self._state + self._push * drawn
+        return self._state
+
+
+class Inertial:
+    """Three units; each sample is what was so some milliseconds ago."""
+
+    def __init__(self, memory: Any, rng: np.random.Generator, quality: Quality) -> None:
+        self._force, self._rate = memory["accelerometer"], memory["gyroscope"]
+        self._count = memory["count"]
+        self._rng = rng
+        turns = [turned(rng, quality.bias * MISALIGNMENT) for _ in range(UNITS)]
+        self._turn = np.zeros((6 * UNITS, 6))
+        for unit, turn in enumerate(turns):
+            self._turn[6 * unit : 6 * unit + 3, :3] = turn
+            self._turn[6 * unit + 3 : 6 * unit + 6, 3:] = turn
+        spread = np.array([ACCELEROMETER_BIAS] * 3 + [GYROSCOPE_BIAS] * 3)
+        self._bias = (quality.bias * spread * rng.uniform(-1.0, 1.0, (UNITS, 6))).reshape(-1)
+        self._noise = quality.noise * np.array(
+            [[force] * 3 + [rate] * 3
+             for force, rate in zip(ACCELEROMETER_NOISE, GYROSCOPE_NOISE, strict=True)]
+        ).reshape(-1)  # fmt: skip
+        shake = np.array([VIBRATION[0]] * 3 + [VIBRATION[1]] * 3)
+        self._shake = quality.vibration * np.tile(shake, UNITS)
+        self._late: deque[Sequence[float]] = deque(maxlen=quality.imu_delay_ms + 1)
+        limits = np.array([ACCELERATION_LIMIT] * 3 + [RATE_LIMIT] * 3)
+        self._limits = np.tile(limits, UNITS)
+        self._draw()
+
+    def _draw(self) -> None:
+        """A second's noise at once."""
+        self._drawn = self._rng.standard_normal((BLOCK, 6 * UNITS))
+        self._next = 0
+
+    def step(self, true: Sequence[float], thrust: float, broken: Broken) -> None:
+        """A sample of each."""
+        if self._next == BLOCK:
+            self._draw()
+        drawn = self._drawn[self._next]
+        self._next += 1
+        self._late.append(true)
+        said = self._turn @ self._late[0] + self._bias + (self._noise + thrust * self._shake) * drawn
+        np.clip(said, -self._limits, self._limits, out=said)
+        units = said.reshape(UNITS, 6)
+        if broken.imu:
+            self._break(units, drawn, broken)
+            return
+        self._force[:] = units[:, :3]
+        self._rate[:] = units[:, 3:]
+        self._count += 1
+
+    def _break(self, units: Any, drawn: Any, broken: Broken) -> None:
+        """The same with units that fail. Those that freeze repeat their last sample."""
+        for unit in range(UNITS):
+            if unit in broken.silent:
+                continue
+            self._count[unit] += 1
+            if unit in broken.frozen:
+                continue
+            if unit in broken.shouting:
+                units[unit] = self._limits[:6] * np.sign(drawn[6 * unit : 6 * unit + 6])
+            units[unit, 3:] += broken.drift.get(unit, 0.0)
+            units[unit, :3] += 5.0 * broken.drift.get(unit, 0.0)
+            self._force[unit] = units[unit, :3]
+            self._rate[unit] = units[unit, 3:]
+
+
+class Slow:
+    """Magnetometer, barometer, satellites and power modules, each at its own pace."""
+
+    def __init__(self, memory: Any, seed: np.random.SeedSequence, quality: Quality) -> None:
+        own = [np.random.Generator(np.random.PCG64(part)) for part in seed.spawn(4)]
+        self._field_rng, self._air_rng, self._gps_rng, self._power_rng = own
+        self._memory, self._quality = memory, quality
+        self._field_turn = turned(self._field_rng, quality.bias * math.radians(0.3))
+        self._field_bias = quality.bias * FIELD_BIAS * self._field_rng.uniform(-1.0, 1.0, 3)
+        per_ampere = self._field_rng.uniform(-1.0, 1.0, 3)
+        self._per_ampere = per_ampere / np.linalg.norm(per_ampere)
+        self._air = Wander(self._air_rng, quality.noise * PRESSURE_WANDER, PRESSURE_S, 0.02, 1)
+        self._place = Wander(self._gps_rng, quality.gps_noise * PLACE_WANDER, PLACE_S, 0.1, 2)
+        self._start = [float(value) for value in self._place.step(np.zeros(2))]
+        self._late: deque[tuple[int, dict[str, Any]]] = deque()
+        self._pressures: deque[tuple[int, float]] = deque()
+
+    def step(self, now_ms: int, plant: Plant, battery: Battery, broken: Broken) -> None:
+        """What is due in this millisecond."""
+        if now_ms % 10 == 3:
+            self._magnetometer(plant, battery, broken)
+        if now_ms % 20 == 7:
+            self._barometer(now_ms, plant, broken)
+        if self._pressures and self._pressures[0][0] <= now_ms:
+            self._memory["barometer"]["pressure"] = self._pressures.popleft()[1]
+            self._memory["barometer"]["count"] += 1
+        if now_ms % 100 == 50:
+            self._satellites(now_ms, plant, broken)
+        if self._late and self._late[0][0] <= now_ms:
+            for key, value in self._late.popleft()[1].items():
+                self._memory["gps"][key] = value
+            self._memory["gps"]["count"] += 1
+        if now_ms % 10 == 9:
+            self._modules(battery)
+
+    def _magnetometer(self, plant: Plant, battery: Battery, broken: Broken) -> None:
+        noise = self._quality.noise * FIELD_NOISE * self._field_rng.standard_normal(3)
+        per_ampere = FIELD_PER_AMPERE + broken.microtesla_per_ampere
+        bias = self._field_bias + battery.current * per_ampere * self._per_ampere
+        self._memory["magnetometer"]["field"] = self._field_turn @ plant.field() + bias + noise
+        self._memory["magnetometer"]["count"] += 1
+
+    def _barometer(self, now_ms: int, plant: Plant, broken: Broken) -> None:
+        white, walk = self._air_rng.standard_normal(2)
+        noise = self._quality.noise * PRESSURE_NOISE * white
+        said = plant.pressure() + noise + self._air.step(walk)[0] + broken.pascal
+        self._pressures.append((now_ms + self._quality.baro_delay_ms, said))
+
+    def _satellites(self, now_ms: int, plant: Plant, broken: Broken) -> None:
+        drawn = self._gps_rng.standard_normal(6)
+        if broken.gps_lost:
+            fix: dict[str, Any] = {"is_valid": 0, "accuracy": 99.0, "speed_accuracy": 9.0}
+        else:
+            truth = plant.truth()
+            quality = self._quality.gps_noise
+            north, east = quality * PLACE_NOISE * drawn[:2] + self._place.step(drawn[2:4])
+            jump_north, jump_east = broken.gps_jump
+            latitude = truth.latitude + (north + jump_north) / NORTH_M
+            longitude = truth.longitude + (east + jump_east) / EAST_M
+            fix = {
+                "latitude": round(1e7 * latitude), "longitude": round(1e7 * longitude),
+                "north": truth.speed[0] + quality * SPEED_NOISE * drawn[4],
+                "east": truth.speed[1] + quality * SPEED_NOISE * drawn[5],
+                "accuracy": 0.8 * max(1.0, quality), "speed_accuracy": 0.2, "is_valid": 1,
+            }  # fmt: skip
+        self._late.append((now_ms + self._quality.gps_delay_ms, fix))
+
+    def _modules(self, battery: Battery) -> None:
+        """Side by side: each has half of the current."""
+        noise = self._power_rng.standard_normal((2, 2))
+        for unit, module in enumerate(self._memory["power"]):
+            module["voltage"] = battery.voltage + 0.02 * noise[unit, 0] + 0.03 * unit
+            module["current"] = battery.current / 2.0 + 0.05 * noise[unit, 1]
+            module["count"] += 1
