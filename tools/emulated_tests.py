@@ -30,7 +30,7 @@ from __future__ import annotations
 import re
 import sys
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -115,7 +115,17 @@ def demo_periods(text: str) -> dict[str, int]:
     return {task["name"]: task["period_us"] for task in tomllib.loads(text)["task"]}
 
 
-def judge_demo(periods: Mapping[str, int], output: str) -> list[str]:
+# A copter that lies on a desk, level: it has been armed, flies by position, and all motors turn.
+COPTER = ("examples/copter", "examples/copter_on_target", "examples/urpilot/urpilot_tasks.c")
+COPTER_LINE = re.compile(
+    r"^copter state 2 mode 4 phase 2 level 1 load \d+ motor (\d+) motor (\d+) motor (\d+) "
+    r"motor (\d+)$",
+    re.MULTILINE,
+)
+IDLE_MILLIONTHS = 50_000  # What an armed motor gets at least: examples/copter/settings.c.
+
+
+def judge_tasks(periods: Mapping[str, int], output: str) -> list[str]:
     """What is not as the periods ask."""
     wrong = []
     lines = {match[1]: [int(word) for word in match.groups()[1:]] for match in
@@ -128,23 +138,43 @@ def judge_demo(periods: Mapping[str, int], output: str) -> list[str]:
             wrong.append(f"{name}: period {period}, {runs} runs, not {wanted}")
         if skipped or overruns or promotions:
             wrong.append(f"{name}: skipped {skipped}, overruns {overruns}, promoted {promotions}")
-    flight = FLIGHT_LINE.search(output)
-    if not flight or int(flight[1]) > WORST_MILLIONTHS:
-        told = re.search(r"^flight .*$", output, re.MULTILINE)
-        wrong.append(f"votes and control: {told[0] if told else 'nothing was told'}")
     if "\ndemo ended\n" not in output:
         wrong.append("it did not come to its end")
     return wrong
 
 
-def demo_suite(board: EmulatedBoard, name: str) -> Outcome:
-    """The board's own application, for ten simulated seconds."""
-    image = board.builder.link("demo", board.builder.objects(board.board.application))
-    examine(board.builder, image)
-    board.demo_sha256 = sha256_of(image.elf)
+def told(label: str, output: str) -> str:
+    """The line with a label."""
+    line = re.search(rf"^{label} .*$", output, re.MULTILINE)
+    return line[0] if line else "nothing was told"
+
+
+def judge_demo(periods: Mapping[str, int], output: str) -> list[str]:
+    """What is not as it should be of the board's own application."""
+    wrong = judge_tasks(periods, output)
+    flight = FLIGHT_LINE.search(output)
+    if not flight or int(flight[1]) > WORST_MILLIONTHS:
+        wrong.append(f"votes and control: {told('flight', output)}")
+    return wrong
+
+
+def judge_copter(periods: Mapping[str, int], output: str) -> list[str]:
+    """What is not as it should be of the copter on its desk."""
+    wrong = judge_tasks(periods, output)
+    copter = COPTER_LINE.search(output)
+    if not copter or min(map(int, copter.groups())) <= IDLE_MILLIONTHS:
+        wrong.append(f"the copter: {told('copter', output)}")
+    return wrong
+
+
+def application_suite(
+    board: EmulatedBoard, image: Image, name: str,
+    judge: Callable[[Mapping[str, int], str], list[str]],
+) -> Outcome:  # fmt: skip
+    """An application with the 21 tasks, for ten simulated seconds."""
     periods = demo_periods((board.root / TASK_SET).read_text(encoding="utf-8"))
     ended = board.run(image, LONG_TIMEOUT_S)
-    wrong = judge_demo(periods, ended.output)
+    wrong = judge(periods, ended.output)
     if len(periods) != 21:
         wrong.append(f"table 2 has {len(periods)} tasks")
     if ended.status != 0 or ended.timed_out:
@@ -152,6 +182,20 @@ def demo_suite(board: EmulatedBoard, name: str) -> Outcome:
     outcome = Outcome()
     outcome.add(name, f"{name}: {'; '.join(wrong)}\n{ended.evidence}" if wrong else "")
     return outcome
+
+
+def demo_suite(board: EmulatedBoard, name: str) -> Outcome:
+    """The board's own application."""
+    image = board.builder.link("demo", board.builder.objects(board.board.application))
+    examine(board.builder, image)
+    board.demo_sha256 = sha256_of(image.elf)
+    return application_suite(board, image, name, judge_demo)
+
+
+def copter_suite(board: EmulatedBoard, name: str) -> Outcome:
+    """The copter, on a desk."""
+    image = board.builder.link("copter", board.builder.objects(COPTER))
+    return application_suite(board, image, name, judge_copter)
 
 
 # --- The same results as the executable specification --------------------------------------------
@@ -254,6 +298,7 @@ def all_suites(board: EmulatedBoard) -> list[Suite]:
         suites.append(Suite(name, (), partial(fault_suite, board, name, kind)))
     suites.append(Suite("differential", (), partial(differential_suite, board, "differential")))
     suites.append(Suite("demo", (), partial(demo_suite, board, "demo")))
+    suites.append(Suite("copter", (), partial(copter_suite, board, "copter")))
     return [replace(suite, seconds=LONG_S.get(suite.name, 0.0)) for suite in suites]
 
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* JSBSim's F450: 1.4 kg, arms of 0.23 m, 9.4 inch propellers, which hovers at 0.41 of its throttle.
+/* JSBSim's F450: 1.4 kg, arms of 0.23 m, 9.4 inch propellers, which hovers at 0.37 of its throttle on a full battery.
  * What follows for the gains stands beside them: a unit of roll or pitch torque turns it with about
  * 490 rad/s^2, of yaw with about 44 rad/s^2, and a unit of thrust lifts it with about 40 m/s^2. */
 #include "settings.h"
@@ -8,7 +8,7 @@
 #define POSITION_HZ 100.0f /* Position control. */
 #define NAVIGATION_HZ 50.0f
 
-#define HOVER 0.412f
+#define HOVER 0.37f
 
 /* A controller whose output and integral have limits that are even to both sides. */
 #define PID(p, i, d, hz, cutoff, most, integral)                                                   \
@@ -51,8 +51,8 @@ const copter_settings_t copter_settings = {
                  .still_rate = 0.05f,
                  .still_acceleration = 1.0f,
                  .tolerance = 0.05f,
-                 .north = 20.0f,
-                 .east = 0.0f,
+                 .north = 21.6f,
+                 .east = 1.25f,
                  .still_steps = 500u,
                  .settle_steps = 100u,
                  .lost_steps = 25u,

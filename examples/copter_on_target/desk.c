@@ -74,8 +74,8 @@ static bool read_magnetometer(void *context, copter_field_t *sample)
     if (!is_due(desk, &desk->magnetometer, MAGNETOMETER_US)) {
         return false;
     }
-    sample->value[0] = 20.0f + dither(desk, 0.2f);
-    sample->value[1] = dither(desk, 0.2f);
+    sample->value[0] = 21.6f + dither(desk, 0.2f);
+    sample->value[1] = 1.25f + dither(desk, 0.2f);
     sample->value[2] = 40.0f + dither(desk, 0.2f);
     return true;
 }

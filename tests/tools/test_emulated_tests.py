@@ -100,6 +100,10 @@ FLIGHT = (
     "flight votes 5000 steps 5000 refused 0 worst 70000 used 63 latched 0 used 63 latched 0 "
     "used 0 latched 63\n"
 )
+COPTER = (
+    "copter state 2 mode 4 phase 2 level 1 load 15350 motor 158525 motor 157566 motor 157868 "
+    "motor 50001\n"
+)
 LINE = "task {}: period {} runs {} longest 9 skipped {} overruns {} promotions {}\n"
 
 
@@ -123,6 +127,20 @@ class Demo(unittest.TestCase):
             wrong = self.judge(*lines, flight=FLIGHT.replace(old, new))
             self.assertEqual(len(wrong), 1, new)
             self.assertIn("votes and control", wrong[0])
+
+    def test_a_copter_on_its_desk(self) -> None:
+        lines = (LINE.format("IMU", 1000, 10000, 0, 0, 0), LINE.format("ADC", 1000000, 10, 0, 0, 0))
+        periods = {"IMU": 1000, "ADC": 1000000}
+        for old, new, count in (
+            ("", "", 0),
+            ("motor 50001", "motor 50000", 1),
+            ("state 2", "state 0", 1),
+            ("phase 2", "phase 1", 1),
+            (COPTER, "", 1),
+        ):
+            text = "".join([*lines, COPTER.replace(old, new), "demo ended\n"])
+            wrong = emulated_tests.judge_copter(periods, text)
+            self.assertEqual([told[:10] for told in wrong], ["the copter"] * count, new)
 
     def test_each_task_ran_once_per_period(self) -> None:
         lines = (LINE.format("IMU", 1000, 10000, 0, 0, 0), LINE.format("ADC", 1000000, 10, 0, 0, 0))
