@@ -26,6 +26,14 @@ static void (*const bodies[URPILOT_TASK_COUNT])(copter_t *copter) = {
     [URPILOT_STATE_MACHINE] = copter_state_machine,
 };
 
+/* The scheduler reads these as long as it runs. */
+static keel_task_config_t declaration[URPILOT_TASK_COUNT];
+
+const keel_task_config_t *copter_declaration(uint32_t row)
+{
+    return &declaration[row];
+}
+
 static void run(void *context)
 {
     const copter_task_t *const task = context;
@@ -49,10 +57,10 @@ static keel_status_t first_of(const keel_status_t status[], uint32_t count)
 static keel_status_t make(copter_t *copter)
 {
     const keel_status_t status[] = {
-        copter_inertia_init(&copter->inertia),   copter_compass_init(&copter->compass),
-        copter_air_init(&copter->air),           copter_pilot_init(&copter->pilot),
-        copter_energy_init(&copter->energy),     copter_estimate_init(&copter->estimate),
-        copter_state_init(&copter->state),       copter_control_init(&copter->control)};
+        copter_inertia_init(&copter->inertia), copter_compass_init(&copter->compass),
+        copter_air_init(&copter->air),         copter_pilot_init(&copter->pilot),
+        copter_energy_init(&copter->energy),   copter_estimate_init(&copter->estimate),
+        copter_state_init(&copter->state),     copter_control_init(&copter->control)};
 
     return first_of(status, sizeof status / sizeof status[0]);
 }
@@ -65,8 +73,8 @@ static keel_status_t add_tasks(copter_t *copter)
         copter_task_t *const task = &copter->task[row];
 
         *task = (copter_task_t){.copter = copter, .body = bodies[row], .row = row};
-        copter->declaration[row] = urpilot_task_config(row, run, task);
-        status = keel_scheduler_add(&copter->scheduler, &copter->declaration[row]);
+        declaration[row] = urpilot_task_config(row, run, task);
+        status = keel_scheduler_add(&copter->scheduler, &declaration[row]);
     }
     return status;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file copter.h
- * @brief A flight controller for a quadcopter: the 21 tasks of table 2 with bodies, on Keel's units.
+ * @brief A flight controller for a quadcopter: the 21 tasks of table 2 on Keel's units.
  *
  * Which task hands what to whom. Each structure below is written by the tasks named beside it
  * alone; what flows from left to right flows through it.
@@ -44,13 +44,13 @@ typedef struct copter_inertia {
     uint64_t sampled_us[COPTER_IMUS]; /**< When each unit last gave a sample. */
     keel_virtual_imu_t imu;
     keel_attitude_t attitude;
-    uint32_t field_taken;            /**< Of compass.samples, the last one taken. */
-    keel_attitude_vector_t down;     /**< As the body sees it. */
+    uint32_t field_taken;             /**< Of compass.samples, the last one taken. */
+    keel_attitude_vector_t down;      /**< As the body sees it. */
     keel_attitude_vector_t force_sum; /**< Specific force, body, of the steps of this block. */
-    uint32_t forces;                 /**< How many are in it. */
-    uint32_t steps;                  /**< Of this block. */
-    keel_attitude_vector_t force;    /**< The mean of the last block that had some, in m/s^2. */
-    uint32_t blocks;                 /**< How many such blocks there were. */
+    uint32_t forces;                  /**< How many are in it. */
+    uint32_t steps;                   /**< Of this block. */
+    keel_attitude_vector_t force;     /**< The mean of the last block that had some, in m/s^2. */
+    uint32_t blocks;                  /**< How many such blocks there were. */
 } copter_inertia_t;
 
 /** Written by background and foreground magnetometer. */
@@ -75,10 +75,10 @@ typedef struct copter_satellites {
 
 /** Written by background and foreground radio. */
 typedef struct copter_pilot {
-    copter_frame_t frame;       /**< The last one, as it came. */
-    uint32_t received;          /**< How many came. */
-    uint32_t frames;            /**< How many of them were whole, and are in what follows. */
-    uint32_t read;              /**< Of received, the last one looked at. */
+    copter_frame_t frame; /**< The last one, as it came. */
+    uint32_t received;    /**< How many came. */
+    uint32_t frames;      /**< How many of them were whole, and are in what follows. */
+    uint32_t read;        /**< Of received, the last one looked at. */
     keel_reference_sticks_t sticks;
     keel_reference_t reference; /**< What the sticks ask for. */
     uint32_t facts;             /**< KEEL_MODE_IS_LINKED, ... of the last whole frame. */
@@ -95,24 +95,24 @@ typedef struct copter_energy {
 typedef struct copter_estimate {
     keel_altitude_t altitude;
     keel_position_t position;
-    keel_cascade_estimate_t here;     /**< For the cascade: from home. */
-    float home_north;                 /**< Of the position's origin, in m. */
-    float home_east;                  /**< Of the position's origin, in m. */
-    uint32_t blocks;                  /**< What was taken of inertia.blocks. */
-    uint32_t pressures;               /**< What was taken of air.samples. */
-    uint32_t fixes;                   /**< What was taken of satellites.fixes. */
-    uint32_t homes;                   /**< What was taken of state.homes. */
-    bool is_landed;                   /**< Nothing moves, and the motors hardly push. */
+    keel_cascade_estimate_t here; /**< For the cascade: from home. */
+    float home_north;             /**< Of the position's origin, in m. */
+    float home_east;              /**< Of the position's origin, in m. */
+    uint32_t blocks;              /**< What was taken of inertia.blocks. */
+    uint32_t pressures;           /**< What was taken of air.samples. */
+    uint32_t fixes;               /**< What was taken of satellites.fixes. */
+    uint32_t homes;               /**< What was taken of state.homes. */
+    bool is_landed;               /**< Nothing moves, and the motors hardly push. */
 } copter_estimate_t;
 
 /** Written by position control, angle control and angle rate control. */
 typedef struct copter_control {
     keel_cascade_t cascade;
     keel_mixer_t mixer;
-    keel_cascade_vector_t place;   /**< To be held or reached, in m from home. */
-    keel_cascade_vector_t asked;   /**< The velocity that is asked for, in m/s. */
-    uint8_t state;                 /**< Of the state machine, in the last run. */
-    uint8_t mode;                  /**< The mode in the last run. */
+    keel_cascade_vector_t place; /**< To be held or reached, in m from home. */
+    keel_cascade_vector_t asked; /**< The velocity that is asked for, in m/s. */
+    uint8_t state;               /**< Of the state machine, in the last run. */
+    uint8_t mode;                /**< The mode in the last run. */
 } copter_control_t;
 
 /** Written by the state machine. */
@@ -126,9 +126,9 @@ typedef struct copter_state {
 /** Written by scheduler analysis, stack, ADC, calibration IMU and calibration magnetometer. */
 typedef struct copter_health {
     keel_load_t window;
-    uint32_t load_ppm;    /**< In the last window. */
-    uint32_t stack_free;  /**< In bytes. */
-    uint32_t checks;      /**< KEEL_MODE_CHECK_CALIBRATION and _LOAD, as far as they hold. */
+    uint32_t load_ppm;   /**< In the last window. */
+    uint32_t stack_free; /**< In bytes. */
+    uint32_t checks;     /**< KEEL_MODE_CHECK_CALIBRATION and _LOAD, as far as they hold. */
     float supply_v;
 } copter_health_t;
 
@@ -154,7 +154,6 @@ struct copter {
     copter_control_t control;
     copter_health_t health;
     keel_scheduler_t scheduler;
-    keel_task_config_t declaration[URPILOT_TASK_COUNT];
     copter_task_t task[URPILOT_TASK_COUNT];
     bool plain_mean; /**< The units' plain mean flies in place of their vote. */
 };
@@ -168,6 +167,13 @@ struct copter {
  * @return KEEL_OK, or what the first unit that refuses its settings says
  */
 keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool plain_mean);
+
+/**
+ * The declaration by which the scheduler knows a task: one set, for one copter.
+ *
+ * @param row which of urpilot_task
+ */
+const keel_task_config_t *copter_declaration(uint32_t row);
 
 /** @name The bodies of the tasks, by the files that have them. */
 /** @{ */

@@ -69,10 +69,10 @@ static void take_mean(keel_attitude_sample_t *sample, const keel_virtual_imu_sam
     sample->has_gyroscope = count > 0.0f;
     sample->has_accelerometer = sample->has_gyroscope;
     if (sample->has_gyroscope) {
-        sample->accelerometer =
-            (keel_attitude_vector_t){sum[0] / count, sum[1] / count, sum[2] / count};
-        sample->gyroscope =
-            (keel_attitude_vector_t){sum[3] / count, sum[4] / count, sum[5] / count};
+        sample->accelerometer = (keel_attitude_vector_t){sum[0] / count, sum[1] / count,
+                                                         sum[2] / count};
+        sample->gyroscope = (keel_attitude_vector_t){sum[3] / count, sum[4] / count,
+                                                     sum[5] / count};
     }
 }
 
@@ -92,8 +92,8 @@ static void keep_force(copter_inertia_t *self, const keel_attitude_sample_t *sam
     if (self->forces > 0u) {
         const float count = (float)self->forces;
 
-        self->force = (keel_attitude_vector_t){
-            self->force_sum.x / count, self->force_sum.y / count, self->force_sum.z / count};
+        self->force = (keel_attitude_vector_t){self->force_sum.x / count, self->force_sum.y / count,
+                                               self->force_sum.z / count};
         self->blocks++;
     }
     self->force_sum = (keel_attitude_vector_t){0.0f, 0.0f, 0.0f};

@@ -11,8 +11,7 @@ typedef struct frame {
 
 keel_status_t copter_estimate_init(copter_estimate_t *estimate)
 {
-    const keel_status_t status = keel_altitude_init(&estimate->altitude,
-                                                    &copter_settings.altitude);
+    const keel_status_t status = keel_altitude_init(&estimate->altitude, &copter_settings.altitude);
 
     return (status == KEEL_OK) ? keel_position_init(&estimate->position, &copter_settings.position)
                                : status;
@@ -22,10 +21,9 @@ static frame_t frame_of(const keel_attitude_t *attitude)
 {
     const keel_attitude_quaternion_t q = attitude->quaternion;
     const frame_t frame = {
-        .north = {1.0f - (2.0f * ((q.y * q.y) + (q.z * q.z))),
-                  2.0f * ((q.x * q.y) - (q.w * q.z)), 2.0f * ((q.x * q.z) + (q.w * q.y))},
-        .east = {2.0f * ((q.x * q.y) + (q.w * q.z)),
-                 1.0f - (2.0f * ((q.x * q.x) + (q.z * q.z))),
+        .north = {1.0f - (2.0f * ((q.y * q.y) + (q.z * q.z))), 2.0f * ((q.x * q.y) - (q.w * q.z)),
+                  2.0f * ((q.x * q.z) + (q.w * q.y))},
+        .east = {2.0f * ((q.x * q.y) + (q.w * q.z)), 1.0f - (2.0f * ((q.x * q.x) + (q.z * q.z))),
                  2.0f * ((q.y * q.z) - (q.w * q.x))},
         .down = keel_attitude_down(attitude)};
 
@@ -63,11 +61,11 @@ static void step_estimators(copter_t *copter, const frame_t *frame)
     const keel_attitude_vector_t force = copter->inertia.force;
     const bool has_force = (copter->inertia.blocks != self->blocks) &&
                            (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING);
-    const keel_altitude_sample_t vertical = {
-        .pressure = copter->air.pressure_pa,
-        .acceleration = -dot(force, frame->down) - KEEL_CASCADE_GRAVITY,
-        .has_pressure = copter->air.samples != self->pressures,
-        .has_acceleration = has_force};
+    const keel_altitude_sample_t vertical = {.pressure = copter->air.pressure_pa,
+                                             .acceleration = -dot(force, frame->down) -
+                                                             KEEL_CASCADE_GRAVITY,
+                                             .has_pressure = copter->air.samples != self->pressures,
+                                             .has_acceleration = has_force};
     const keel_position_sample_t horizontal = {
         .fix = fix_of(&copter->satellites.fix),
         .north = dot(force, frame->north),

@@ -15,8 +15,7 @@ static uint32_t when(bool condition, uint32_t bit)
 /* A good estimate stays one while it is known at all: single fixes may fail. */
 static bool is_good(keel_axis_quality_t quality, uint32_t before, uint32_t fact)
 {
-    return (quality == KEEL_AXIS_GOOD) ||
-           ((quality == KEEL_AXIS_POOR) && ((before & fact) != 0u));
+    return (quality == KEEL_AXIS_GOOD) || ((quality == KEEL_AXIS_POOR) && ((before & fact) != 0u));
 }
 
 static bool is_beyond(float distance, float limit)
@@ -95,11 +94,10 @@ void copter_state_machine(copter_t *copter)
     const uint64_t now_us = copter->scheduler.clock.now_us;
     const bool frame = copter->pilot.frames != self->frames;
     const bool was_disarmed = self->mode.state == KEEL_MODE_DISARMED;
-    const keel_mode_input_t input = {
-        .elapsed_us = (uint32_t)(now_us - self->stepped_us),
-        .facts = facts_of(copter) | (frame ? copter->pilot.facts : 0u),
-        .checks = checks_of(copter),
-        .asked = copter->pilot.asked};
+    const keel_mode_input_t input = {.elapsed_us = (uint32_t)(now_us - self->stepped_us),
+                                     .facts = facts_of(copter) | (frame ? copter->pilot.facts : 0u),
+                                     .checks = checks_of(copter),
+                                     .asked = copter->pilot.asked};
 
     self->frames = copter->pilot.frames;
     self->stepped_us = now_us;

@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <string.h>
 
-/* What the scheduler's own work costs, as the analysed task set has it (urpilot.toml), and a turn of
- * the main loop. */
+/* What the scheduler's own work costs, as the analysed task set has it (urpilot.toml), and a turn
+ * of the main loop. */
 #define TURN_NS     1000u
 #define PASS_NS     11000u
 #define DISPATCH_NS 1000u
@@ -153,8 +153,7 @@ static void end_run(void *context, uint32_t row)
 
 int sim_start(const sim_options_t *chosen)
 {
-    const host_costs_t costs = {
-        .turn_ns = TURN_NS, .pass_ns = PASS_NS, .dispatch_ns = DISPATCH_NS};
+    const host_costs_t costs = {.turn_ns = TURN_NS, .pass_ns = PASS_NS, .dispatch_ns = DISPATCH_NS};
 
     options = *chosen;
     memset(&sensors, 0, sizeof sensors);
@@ -285,7 +284,7 @@ const sim_task_t *sim_tasks(void)
     for (uint32_t i = 0u; i < SIM_TASKS; i++) {
         keel_task_report_t report = {0};
 
-        (void)keel_scheduler_report(&copter.scheduler, &copter.declaration[i], &report);
+        (void)keel_scheduler_report(&copter.scheduler, copter_declaration(i), &report);
         tasks[i] = (sim_task_t){.runs = report.stats.runs,
                                 .skipped = report.skipped,
                                 .overruns = report.stats.overruns,

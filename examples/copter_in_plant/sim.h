@@ -4,9 +4,9 @@
  * @brief The copter on simulated devices and a virtual clock, as a shared library for a plant.
  *
  * Whoever owns time, a plant say, writes what the devices hold now into sim_sensors(), lets the
- * copter run up to a time with sim_run_until(), and reads motors and all else from sim_view(). There
- * is one copter in a process. Nothing here waits, starts a thread or reads a clock, so that equal
- * inputs lead to equal flights, bit for bit.
+ * copter run up to a time with sim_run_until(), and reads motors and all else from sim_view().
+ * There is one copter in a process. Nothing here waits, starts a thread or reads a clock, so that
+ * equal inputs lead to equal flights, bit for bit.
  *
  * Frames: body is forward, right, down; Earth is north, east, down. A device has a new sample when
  * its count differs from that of the last one that the copter took.
@@ -54,8 +54,8 @@ typedef struct sim_gps {
 } sim_gps_t;
 
 /** A receiver of the pilot's radio. Channels, each from 988 to 2012 with 1500 in the middle: roll
- * (right), pitch (stick pulled, nose up), throttle (up), yaw (right), arm switch (off 1000, on 2000),
- * mode switch (see sim_mode_channel), kill switch (off 1000, on 2000), free. */
+ * (right), pitch (stick pulled, nose up), throttle (up), yaw (right), arm switch (off 1000, on
+ * 2000), mode switch (see sim_mode_channel), kill switch (off 1000, on 2000), free. */
 typedef struct sim_radio {
     uint16_t channel[SIM_CHANNELS];
     uint32_t failsafe; /**< 1: the receiver says that it hears no transmitter. */
@@ -88,21 +88,21 @@ typedef struct sim_options {
 /** What became of a task. */
 typedef struct sim_task {
     uint32_t runs;
-    uint32_t skipped;    /**< Periods without a run. */
-    uint32_t overruns;   /**< Runs longer than the budget. */
+    uint32_t skipped;  /**< Periods without a run. */
+    uint32_t overruns; /**< Runs longer than the budget. */
     uint32_t longest_us;
 } sim_task_t;
 
 /** What the copter does and believes. Angles are sines where said, distances in m from home. */
 typedef struct sim_view {
-    float motor[SIM_MOTORS]; /**< 0 to 1: front right, aft right, aft left, front left. */
-    uint32_t state;          /**< KEEL_MODE_DISARMED, ... */
-    uint32_t mode;           /**< The mode in force: KEEL_MODE_ACRO, ... */
-    uint32_t motors_on;      /**< Whether motors may turn. */
-    uint32_t cause;          /**< What led to this state. */
+    float motor[SIM_MOTORS];  /**< 0 to 1: front right, aft right, aft left, front left. */
+    uint32_t state;           /**< KEEL_MODE_DISARMED, ... */
+    uint32_t mode;            /**< The mode in force: KEEL_MODE_ACRO, ... */
+    uint32_t motors_on;       /**< Whether motors may turn. */
+    uint32_t cause;           /**< What led to this state. */
     uint32_t blocking_checks; /**< What stands in the way of arming. */
     uint32_t blocking_facts;
-    uint32_t phase;          /**< Of the attitude: 2 is running. */
+    uint32_t phase; /**< Of the attitude: 2 is running. */
     uint32_t heading_valid;
     uint32_t attitude_flags;
     float quaternion[4];     /**< w, x, y, z, from body to Earth. */
@@ -111,19 +111,19 @@ typedef struct sim_view {
     float vote[6];           /**< Accelerometer, gyroscope. */
     uint32_t used[SIM_IMUS]; /**< Per unit: its channels that contributed, a bit each. */
     uint32_t latched[SIM_IMUS];
-    float position[3];       /**< North, east, up, in m from home. */
-    float velocity[3];       /**< North, east, up, in m/s. */
-    uint32_t place_quality;  /**< 0 none, 1 poor, 2 good. */
+    float position[3];      /**< North, east, up, in m from home. */
+    float velocity[3];      /**< North, east, up, in m/s. */
+    uint32_t place_quality; /**< 0 none, 1 poor, 2 good. */
     uint32_t height_quality;
-    float asked_place[3];    /**< Set-points. */
+    float asked_place[3]; /**< Set-points. */
     float asked_velocity[3];
-    float asked_tilt[2];     /**< Roll, pitch: sines. */
+    float asked_tilt[2]; /**< Roll, pitch: sines. */
     float asked_rate[3];
-    float command[4];        /**< Roll, pitch, yaw, thrust. */
-    uint32_t limited;        /**< What the mixer gave up. */
-    uint32_t battery_level;  /**< 0 unknown, 1 ok, 2 low, 3 critical. */
-    float battery_left;      /**< 0 to 1. */
-    uint32_t load_ppm;       /**< In the last 100 ms. */
+    float command[4];       /**< Roll, pitch, yaw, thrust. */
+    uint32_t limited;       /**< What the mixer gave up. */
+    uint32_t battery_level; /**< 0 unknown, 1 ok, 2 low, 3 critical. */
+    float battery_left;     /**< 0 to 1. */
+    uint32_t load_ppm;      /**< In the last 100 ms. */
 } sim_view_t;
 
 /** Powers up a copter at time 0 with all devices silent; what was before is forgotten.

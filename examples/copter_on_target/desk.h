@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file desk.h
- * @brief Devices of a copter that lies on a desk, level, its nose to the north: for boards whose own
- *        sensors have no drivers yet, and for counting what the tasks cost.
+ * @brief Devices of a copter that lies on a desk, level, its nose to the north: for boards whose
+ *        own sensors have no drivers yet, and for counting what the tasks cost.
  *
- * Samples come as often as those of real devices, and are never twice the same, as no real ones are.
- * The pilot switches on after four seconds, raises the throttle to its middle after five, and the
- * motors turn.
+ * Samples come as often as those of real devices, and are never twice the same, as no real ones
+ * are. The pilot switches on after four seconds, raises the throttle to its middle after five, and
+ * the motors turn.
  */
 #ifndef COPTER_DESK_H
 #define COPTER_DESK_H
@@ -31,8 +31,8 @@ typedef struct desk {
     desk_device_t gps;
     desk_device_t radio;
     desk_device_t power[COPTER_MODULES];
-    uint32_t dither;             /**< The state of a pseudo-random sequence. */
-    float motor[COPTER_MOTORS];  /**< What the motors were last told. */
+    uint32_t dither;            /**< The state of a pseudo-random sequence. */
+    float motor[COPTER_MOTORS]; /**< What the motors were last told. */
 } desk_t;
 
 /**

@@ -3,9 +3,9 @@
  * @file main.c
  * @brief The copter on a board, lying on a desk, for ten seconds of the board's own time.
  *
- * The tasks are those that fly (examples/copter), not one line of them is another; what they read is
- * a desk's (desk.h). At the end a table tells how often each task ran and how long its longest run
- * took, with the pass before it. What the kernel or a unit refuses ends as a fault does.
+ * The tasks are those that fly (examples/copter), not one line of them is another; what they read
+ * is a desk's (desk.h). At the end a table tells how often each task ran and how long its longest
+ * run took, with the pass before it. What the kernel or a unit refuses ends as a fault does.
  */
 #include "board.h"
 #include "console.h"
@@ -43,12 +43,13 @@ static void print_number(const char *label, uint64_t value)
 static void print_tasks(void)
 {
     for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
+        const keel_task_config_t *const declaration = copter_declaration(i);
         keel_task_report_t report = {0};
 
-        (void)keel_scheduler_report(&copter.scheduler, &copter.declaration[i], &report);
+        (void)keel_scheduler_report(&copter.scheduler, declaration, &report);
         keel_console_text("task ");
-        keel_console_text(copter.declaration[i].name);
-        print_number(": period ", copter.declaration[i].period_us);
+        keel_console_text(declaration->name);
+        print_number(": period ", declaration->period_us);
         print_number(" runs ", report.stats.runs);
         print_number(" longest ", report.stats.longest_us);
         print_number(" skipped ", report.skipped);
