@@ -14,6 +14,8 @@
  */
 #include "board.h"
 #include "console.h"
+#include "copter.h"
+#include "desk.h"
 #include "keel/rtos/scheduler.h"
 #include "urpilot_tasks.h"
 #include "workload.h"
@@ -437,6 +439,66 @@ static void bench_imu(const char *name, float offset, uint8_t contributing)
     print(&steps);
 }
 
+/* --- Tasks ------------------------------------------------------------------------------------ */
+
+/* The copter lies on its desk, armed and flown by position, in the second that is counted. */
+#define TASKS_FROM_US 7000000u
+#define TASKS_TO_US   8000000u
+#define TASKS_STEP_US 1000u
+
+static uint32_t bench_desk_clock(void *context)
+{
+    return *(const uint32_t *)context;
+}
+
+/* A task's name as the figures have it: in small letters, joined by underscores. */
+static const char *figure_of(const char *task)
+{
+    static char name[40] = "task_";
+    uint32_t i = 5u;
+
+    for (; (*task != '\0') && (i < (sizeof name - 1u)); i++, task++) {
+        const char c = *task;
+
+        name[i] = ((c >= 'A') && (c <= 'Z')) ? (char)(c - 'A' + 'a') : ((c == ' ') ? '_' : c);
+    }
+    name[i] = '\0';
+    return name;
+}
+
+/* The bodies of the 21 tasks, each at its period, in the order of the queue. The desk's devices are
+ * in their figures. */
+static void bench_tasks(void)
+{
+    static copter_t copter KEEL_REALTIME_ZERO;
+    static kind_t bodies[URPILOT_TASK_COUNT];
+    uint32_t now_us = 0u;
+    desk_t desk;
+    const copter_port_t port = desk_port(&desk, bench_desk_clock, &now_us);
+
+    require(copter_start(&copter, &port, false) == KEEL_OK);
+    for (; now_us < TASKS_TO_US; now_us += TASKS_STEP_US) {
+        copter.scheduler.clock.now_us = now_us;
+        for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
+            const bool due = (now_us % urpilot_task[i].period_us) == 0u;
+
+            if (due && (now_us < TASKS_FROM_US)) {
+                copter.task[i].body(&copter);
+            } else if (due) {
+                add(&bodies[i],
+                    measure((function_t)copter.task[i].body, &copter, 0u, 0u, false));
+            } else {
+                /* It waits. */
+            }
+        }
+    }
+    require(copter.state.mode.state == KEEL_MODE_FLYING);
+    for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
+        bodies[i].name = figure_of(urpilot_task[i].name);
+        print(&bodies[i]);
+    }
+}
+
 /* What is known: nothing at all, and the two pieces of assembly. */
 static void bench_known(void)
 {
@@ -472,6 +534,7 @@ int main(void)
     bench_battery();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
+    bench_tasks();
     keel_console_text(bad ? "bench failed\n" : "bench ended\n");
     return bad ? 1 : 0;
 }

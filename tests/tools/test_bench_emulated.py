@@ -49,6 +49,7 @@ bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
 bench ended
 """
+TASKS = [f"task_{name}" for name in emulated.TASKS]
 FIGURES = {
     "no_task": Figure(12, 1500, 700),
     "one_task": Figure(5, 3000, 1000),
@@ -68,6 +69,7 @@ FIGURES = {
     "position": Figure(1000, 441000, 441),
     "cascade": Figure(1000, 2851400, 2899),
     "battery": Figure(1000, 372000, 372),
+    **{name: Figure(50, 5000, 120) for name in TASKS},
 }
 GOOD = """\
 # About the budget.
@@ -92,7 +94,7 @@ altitude = 220.0
 position = 441.0
 battery = 372.0
 cascade = 2851.4
-"""
+""" + "".join(f"{name} = 100\n" for name in TASKS)
 
 
 class Reading(unittest.TestCase):
@@ -187,6 +189,7 @@ class Budgets(unittest.TestCase):
                 "position": 441.0,
                 "battery": 372.0,
                 "cascade": 2851.4,
+                **dict.fromkeys(TASKS, 100.0),
             },
         )
 

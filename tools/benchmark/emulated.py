@@ -23,7 +23,8 @@ from suites.emulated import EmulatedBoard
 from toolchain import Toolchain
 
 BUDGET = ROOT / "bench/budget.toml"
-SOURCES = ("bench/bench_target.c", "examples/urpilot/urpilot_tasks.c")
+SOURCES = ("bench/bench_target.c", "examples/urpilot/urpilot_tasks.c", "examples/copter",
+           "examples/copter_on_target/desk.c")  # fmt: skip
 SHIFT = 10  # An instruction takes 1024 ns: more than a tick of the counter, which so sees each one.
 LINE = re.compile(r"^bench (\w+) passes (\d+) instructions (\d+) longest (\d+)$", re.MULTILINE)
 TIMEOUT_S = 120.0
@@ -55,6 +56,16 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "cascade": ("cascade, all four stages", ("cascade",), 3000, ("steps", "cascade")),
     "battery": ("battery, two modules", ("battery",), 400, ("steps", "battery")),
 }  # fmt: skip
+# The bodies of the 21 tasks of examples/copter, in flight, with what they read of their devices.
+TASKS = (
+    "scheduler_analysis", "stack", "adc", "background_power_module", "foreground_power_module",
+    "background_barometer", "foreground_barometer", "background_magnetometer",
+    "foreground_magnetometer", "calibration_magnetometer", "background_imu", "foreground_imu",
+    "calibration_imu", "gps", "background_radio", "foreground_radio", "navigation",
+    "angle_rate_control", "angle_control", "position_control", "state_machine",
+)  # fmt: skip
+FIGURES |= {f"task_{name}": (f"task: {name.replace('_', ' ')}", (f"task_{name}",), None, ())
+            for name in TASKS}  # fmt: skip
 
 
 @dataclass(frozen=True)
