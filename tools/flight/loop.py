@@ -10,6 +10,7 @@ equal flights have equal traces, bit for bit.
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -20,7 +21,7 @@ from flight import plants, wind
 from flight.faults import Faults
 from flight.library import Copter, checks_of, facts_of, modes, states
 from flight.pilot import Pilot, Sight
-from flight.plants import Airframe, Plant
+from flight.plants import Airframe, Plant, Truth
 from flight.power import Battery
 from flight.scenario import Scenario
 from flight.sensors import Broken, Inertial, Quality, Slow
@@ -29,12 +30,17 @@ ROW_MS = 5  # A row of the trace.
 WIND_MS = round(1000 * wind.PERIOD_S)
 POWER_MS = 10
 ARMS_WITHIN_S = 30.0
+LIES, LIES_M = 1.4, 0.5  # Tilted by 80 degrees so near the ground, it has crashed.
 TRUTH = ("time", "north", "east", "up", "v_north", "v_east", "v_up", "roll", "pitch", "yaw",
          "wind_north", "wind_east", "voltage", "current")  # fmt: skip
 
 
 class NotFlown(Exception):
     """The flight did not begin, or the copter's scheduler refused to go on."""
+
+
+class Crashed(Exception):
+    """The aircraft lies on its back, or a plant no longer knows where it is."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +61,8 @@ class Trace:
     truth: Any = None
     view: Any = None
     digest: str = ""
-    problem: str = ""  # Why the flight was not flown to its end.
+    problem: str = ""  # Why the flight could not be flown to its end.
+    crash: str = ""  # How it ended before its end.
     armed_s: float = 0.0  # When the motors started, since power-up.
     tasks: list[str] = field(default_factory=list)
     done: Any = None  # What became of each task, when the motors started and at the end.
@@ -106,7 +113,7 @@ class Flight:
 
     def fly(self) -> Trace:
         """To its end."""
-        problem = ""
+        problem, crash = "", ""
         try:
             now_ms = 0
             while not self._is_over(now_ms):
@@ -114,7 +121,9 @@ class Flight:
                 self._step(now_ms)
         except NotFlown as error:
             problem = str(error)
-        return self._trace(problem)
+        except Crashed as error:
+            crash = str(error)
+        return self._trace(problem, crash)
 
     def _is_over(self, now_ms: int) -> bool:
         """After the scenario's time, or when the motors do not start."""
@@ -172,7 +181,10 @@ class Flight:
         view = self._copter.view
         ready = not view["blocking_checks"] and not view["blocking_facts"]
         thrusts = int(view["mode"]) in (modes().index("acro"), modes().index("angle"))
-        sight = Sight(time_s, self._plant.truth(), bool(ready), thrusts, self._mode_channels)
+        truth = self._plant.truth()
+        if not is_whole(truth):
+            raise Crashed(f"crashed at {time_s:.2f} s")
+        sight = Sight(time_s, truth, bool(ready), thrusts, self._mode_channels)
         channels = self._pilot.frame(sight)
         if broken.radio_lost:
             return
@@ -189,14 +201,22 @@ class Flight:
                            self._battery.voltage, self._battery.current))  # fmt: skip
         self._views.append(bytes(self._copter.view_bytes))
 
-    def _trace(self, problem: str) -> Trace:
+    def _trace(self, problem: str, crash: str) -> Trace:
         """What was recorded."""
         truth = np.array(self._rows, dtype=np.float64).reshape(-1, len(TRUTH))
         views = b"".join(self._views)
         digest = hashlib.sha256(truth.tobytes() + views).hexdigest()
-        return Trace(truth, np.frombuffer(views, self._copter.view_type), digest, problem,
+        return Trace(truth, np.frombuffer(views, self._copter.view_type), digest, problem, crash,
                      max(0, self._begun_ms) / 1000.0, self._copter.tasks,
                      (self._done_before, self._copter.done()))  # fmt: skip
+
+
+def is_whole(truth: Truth) -> bool:
+    """Whether it flies or stands, and is where an aircraft can be."""
+    roll, pitch, _ = truth.angles
+    known = all(math.isfinite(value) for value in (*truth.place, *truth.speed, *truth.angles))
+    lies = max(abs(roll), abs(pitch)) > LIES and truth.place[2] < LIES_M
+    return known and not lies and truth.place[2] > -1.0
 
 
 def fly(copter: Copter, order: Order) -> Trace:

@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Fly examples/copter in models of an aircraft that others wrote, and judge the flights.
+
+    python3 tools/with_packages.py fly tools/fly.py [--scenario NAME] [--plant jsbsim]
+
+build/fly gets fly.json (every flight, its errors, limits and the SHA-256 of its trace) and a picture
+of each flight. With --scenario the report is named after it. --seed flies a flight of `make flights`
+again and draws it.
+
+Exit status: 0 when every flight keeps its limits (or breaks them, where that is expected), 1 when
+not, 2 when it could not be flown.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from common.arguments import Parser  # noqa: E402
+from common.errors import ROOT, ToolError, program  # noqa: E402
+from common.files import write_json  # noqa: E402
+from flight import library, plants, scenario, tables  # noqa: E402
+from flight.crew import Job, Outcome, all_flown  # noqa: E402
+from flight.loop import Order  # noqa: E402
+from toolchain import Toolchain  # noqa: E402
+
+BUILD = ROOT / "build/fly"
+SCHEMA = 1
+
+
+def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
+    """The command line."""
+    parser = Parser("Fly the copter in plants that others wrote, and judge the flights.", "fly")
+    parser.add_argument("--scenario", metavar="NAME", help="one of examples/copter/scenarios")
+    parser.add_argument("--scenarios", type=Path, default=scenario.FOLDER, metavar="FOLDER",
+                        help="where scenarios lie")  # fmt: skip
+    parser.add_argument("--plant", choices=plants.NAMES, help="in this one only")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N",
+                        help="flights at a time")  # fmt: skip
+    parser.add_argument("--build", type=Path, default=BUILD, metavar="FOLDER",
+                        help="where the report and the pictures go")  # fmt: skip
+    parser.add_argument("--no-pictures", action="store_true")
+    found = parser.parse_args(arguments)
+    if found.jobs < 1:
+        raise ToolError(f"--jobs: expected 1 or more, found {found.jobs}")
+    return found
+
+
+def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
+    """Every flight. All scenarios are read before the first one is flown."""
+    known = scenario.names(options.scenarios)
+    names = [options.scenario] if options.scenario else known
+    if not names:
+        raise ToolError(f"{options.scenarios}: there is no scenario")
+    jobs = []
+    for name in names:
+        found = scenario.read(name, options.scenarios)
+        for plant in found.plants:
+            if options.plant in (None, plant):
+                picture = None if options.no_pictures else options.build / f"{name}-{plant}.svg"
+                jobs.append(Job(name, Order(found, plant, found.seed), copter, picture))
+    if not jobs:
+        raise ToolError(f"{options.scenario or 'no scenario'}: is not flown in {options.plant}")
+    return jobs
+
+
+def all_outcomes(jobs: Sequence[Job], width: int) -> list[Outcome]:
+    """Fly them, with a line for each that ends."""
+    outcomes: dict[int, Outcome] = {}
+    for place, outcome in all_flown(jobs, min(width, len(jobs))):
+        outcomes[place] = outcome
+        word = "good" if outcome.good else "NOT GOOD"
+        print(f"[{len(outcomes)}/{len(jobs)}] {outcome.name} in {outcome.plant}: {word}")
+    return [outcomes[place] for place in range(len(jobs))]
+
+
+def tell(outcomes: Sequence[Outcome], report: Path, one: bool) -> None:
+    """Print the tables, what is not good, and what happened, in this order."""
+    console = tables.console()
+    if one:
+        for outcome in outcomes:
+            console.print(tables.one_flight(outcome))
+    else:
+        console.print(tables.all_flights(outcomes))
+    bad = tables.failures(outcomes)
+    for line in bad:
+        print(line)
+    where = report.relative_to(ROOT) if report.is_relative_to(ROOT) else report
+    print(f"fly: {len(outcomes)} flights, {len(outcomes) - len(bad)} good, {len(bad)} not; "
+          f"{where} has them")  # fmt: skip
+
+
+def fly(arguments: Sequence[str] | None) -> int:
+    """Build, fly, write, tell."""
+    options = parsed(arguments)
+    jobs = jobs_of(options, options.build / "libcopter.so")
+    report: Path = options.build / f"{options.scenario or 'fly'}.json"
+    report.unlink(missing_ok=True)  # What an older run found is not what this one finds.
+    library.build(Toolchain(), options.build)
+    outcomes = all_outcomes(jobs, options.jobs)
+    write_json(report, {
+        "schema": SCHEMA, "sources_sha256": library.digest_of(),
+        "good": all(outcome.good for outcome in outcomes),
+        "flights": [outcome.as_json() for outcome in outcomes],
+    })  # fmt: skip
+    tell(outcomes, report, options.scenario is not None)
+    return 0 if all(outcome.good for outcome in outcomes) else 1
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Entry point."""
+    return program("fly", lambda: fly(arguments))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
