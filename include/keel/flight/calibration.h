@@ -1,0 +1,376 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file calibration.h
+ * @brief Offsets of inertial sensors, found at rest, and of magnetometers, found by turning
+ *        (table 2 of the paper: Calibration IMU, Calibration magnetometer).
+ *
+ * Three axes, x, y and z, in the sensor's or the body's frame; units are the caller's, and the same
+ * in all that is given: rad/s, m/s^2, uT, or the sensor's own counts.
+ *
+ * At rest (keel_calibration_rest_t) it is known what a sensor ought to measure: a gyroscope 0, an
+ * accelerometer that is held level (0, 0, -g), forward, right, down. From `samples` samples in a row
+ * that lie within `spread` of the first of them, on each axis,
+ *
+ *     mean   = first + (sum of (sample - first)) / samples
+ *     offset = mean - expected
+ *
+ * A sample that lies farther off, or that is no number within KEEL_CALIBRATION_LIMIT, ends the run;
+ * the next number begins another. So what is moved is not calibrated. As differences to the
+ * first are added up, a large mean takes no digits from a small spread: single precision loses at
+ * most samples * 2^-24 of the spread.
+ *
+ * Turned about (keel_calibration_field_t), a magnetometer that is fixed to the vehicle sees the
+ * Earth's field from all sides, and on each axis as much of it as its opposite: what the vehicle
+ * adds (hard iron) is the middle between the lowest and the highest value of each axis,
+ *
+ *     offset = (lowest + highest) / 2
+ *
+ * Soft iron and scale are left as they are. An axis fits once it has spanned span_min, no more than
+ * span_max, as it would beside a magnet, and its offset is believed.
+ *
+ * Both take an offset only when it is within `limit` on each axis, and all three or none: until
+ * then, and whenever a calibration is refused, the offset before stays in force. Whatever sensors
+ * say, every number is finite and within its bound (requirement CAL-013).
+ *
+ * Single precision. No division and no library call in a step. Sources must be compiled without
+ * contraction of products and sums, as all builds of Keel do.
+ */
+#ifndef KEEL_FLIGHT_CALIBRATION_H
+#define KEEL_FLIGHT_CALIBRATION_H
+
+#include "keel/c_declarations.h"
+#include "keel/status.h"
+
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/** The axes of a sensor: x, y, z. */
+#define KEEL_CALIBRATION_AXES 3u
+
+/** The greatest magnitude of a sample, and of all that is configured, in the caller's unit: what
+ * sensors of 16 bits can say in counts. */
+#define KEEL_CALIBRATION_LIMIT 32768.0f
+
+/** The most samples of a mean. */
+#define KEEL_CALIBRATION_SAMPLES_MAX 65536u
+
+/** How far a calibration is. */
+typedef enum keel_calibration_state {
+    KEEL_CALIBRATION_IDLE = 0,   /**< None was begun. */
+    KEEL_CALIBRATION_COLLECTING, /**< Samples are looked at. */
+    KEEL_CALIBRATION_DONE,       /**< The offset was taken. */
+    KEEL_CALIBRATION_REFUSED /**< At rest: it was beyond its limit, and is what it was before. */
+} keel_calibration_state_t;
+
+/** What a calibration at rest is made from. */
+typedef struct keel_calibration_rest_config {
+    float expected[KEEL_CALIBRATION_AXES]; /**< What is right at rest, within +-LIMIT. */
+    float spread;     /**< How far a sample may lie from the first, on an axis, 0 to LIMIT. */
+    float limit;      /**< The greatest offset that is believed, on an axis, 0 to LIMIT. */
+    uint32_t samples; /**< Samples of a mean, 1 to SAMPLES_MAX. */
+} keel_calibration_rest_config_t;
+
+/** A calibration at rest. Written by the functions below alone; all of it may be read. */
+typedef struct keel_calibration_rest {
+    keel_calibration_rest_config_t config; /**< As checked by init. */
+    float per_sample;                      /**< 1 / samples. */
+    float offset[KEEL_CALIBRATION_AXES];   /**< In force; 0 before the first calibration. */
+    float first[KEEL_CALIBRATION_AXES];    /**< The first sample of the run. */
+    float sum[KEEL_CALIBRATION_AXES];      /**< Of how far the run's samples lie from it. */
+    uint32_t count;                        /**< Samples of the run, 0 to samples. */
+    keel_calibration_state_t state;        /**< How far it is. */
+    uint16_t restarts; /**< Runs that were broken off since begin; stays at 65535. */
+    uint16_t beyond;   /**< Refused: bit k is set when axis k was beyond the limit. */
+} keel_calibration_rest_t;
+
+/** What a calibration of a magnetometer is made from. */
+typedef struct keel_calibration_field_config {
+    float lowest;   /**< The lowest value that the sensor gives, within +-LIMIT. */
+    float highest;  /**< The highest, lowest to LIMIT. */
+    float span_min; /**< What each axis must span, above 0, to span_max. */
+    float span_max; /**< What it spans at most, without a disturbance, to 2 LIMIT. */
+    float limit;    /**< The greatest offset that is believed, on an axis, 0 to LIMIT. */
+} keel_calibration_field_config_t;
+
+/** How an axis of a magnetometer is. */
+typedef enum keel_calibration_verdict {
+    KEEL_CALIBRATION_FIT = 0, /**< Its offset can be taken. */
+    KEEL_CALIBRATION_NARROW,  /**< It has not been turned enough: its span is below span_min. */
+    KEEL_CALIBRATION_WIDE,    /**< The field was disturbed: its span is above span_max. */
+    KEEL_CALIBRATION_BEYOND   /**< Its offset is beyond the limit. */
+} keel_calibration_verdict_t;
+
+/** A calibration of a magnetometer. Written by the functions below alone; all may be read. */
+typedef struct keel_calibration_field {
+    keel_calibration_field_config_t config; /**< As checked by init. */
+    float offset[KEEL_CALIBRATION_AXES];    /**< In force; 0 before the first calibration. */
+    float lowest[KEEL_CALIBRATION_AXES];    /**< Seen since begin; config.highest before. */
+    float highest[KEEL_CALIBRATION_AXES];   /**< Seen since begin; config.lowest before. */
+    keel_calibration_state_t state;         /**< How far it is; never REFUSED. */
+    uint16_t dropped;                       /**< Samples out of the range; stays at 65535. */
+} keel_calibration_field_t;
+
+/*@ predicate calibration_number(float value, real least, real most) =
+  @     \is_finite(value) && least <= value <= most;
+  @
+  @ predicate calibration_three(float *v, real least, real most) =
+  @     calibration_number(v[0], least, most) && calibration_number(v[1], least, most) &&
+  @     calibration_number(v[2], least, most);
+  @
+  @ predicate calibration_expected(keel_calibration_rest_config_t c) =
+  @     calibration_number(c.expected[0], -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
+  @     calibration_number(c.expected[1], -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
+  @     calibration_number(c.expected[2], -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT);
+  @
+  @ predicate calibration_rest_limits(keel_calibration_rest_config_t c) =
+  @     calibration_number(c.spread, 0, KEEL_CALIBRATION_LIMIT) &&
+  @     calibration_number(c.limit, 0, KEEL_CALIBRATION_LIMIT) &&
+  @     1 <= c.samples <= KEEL_CALIBRATION_SAMPLES_MAX;
+  @
+  @ predicate calibration_field_range(keel_calibration_field_config_t c) =
+  @     calibration_number(c.highest, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
+  @     calibration_number(c.lowest, -KEEL_CALIBRATION_LIMIT, c.highest);
+  @
+  @ predicate calibration_field_limits(keel_calibration_field_config_t c) =
+  @     calibration_number(c.span_max, 0, 2 * KEEL_CALIBRATION_LIMIT) &&
+  @     calibration_number(c.span_min, 0, c.span_max) && 0 < c.span_min &&
+  @     calibration_number(c.limit, 0, KEEL_CALIBRATION_LIMIT);
+  @
+  @ // What a step asks for: what init establishes and every step keeps.
+  @ predicate calibration_rest_counts(keel_calibration_rest_t *r) =
+  @     \is_finite(r->config.spread) && \is_finite(r->config.limit) &&
+  @     r->count <= KEEL_CALIBRATION_SAMPLES_MAX;
+  @
+  @ predicate calibration_field_finite(keel_calibration_field_config_t c) =
+  @     \is_finite(c.lowest) && \is_finite(c.highest) && \is_finite(c.span_min) &&
+  @     \is_finite(c.span_max) && \is_finite(c.limit);
+  @
+  @ // A value that is near the first of its run; rounded, as the difference is.
+  @ predicate calibration_near(float value, float first, float spread) =
+  @     -spread <= (float)(value - first) <= spread;
+  @
+  @ predicate calibration_continues(keel_calibration_rest_t *r, float *s) =
+  @     calibration_three(s, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
+  @     (r->count == 0 || (calibration_near(s[0], r->first[0], r->config.spread) &&
+  @         calibration_near(s[1], r->first[1], r->config.spread) &&
+  @         calibration_near(s[2], r->first[2], r->config.spread)));
+  @
+  @ logic integer calibration_up(integer count) = count < 65535 ? count + 1 : 65535;
+  @*/
+
+/**
+ * Makes a calibration at rest; its offset is 0 (requirements CAL-001 to CAL-003).
+ *
+ * @param rest   the calibration
+ * @param config what it is made from; copied
+ * @return KEEL_OK; KEEL_ERR_VALUE (expected) or KEEL_ERR_LIMITS (any other number), the first that
+ *         applies, NaN included: then nothing is changed
+ */
+/*@ requires \valid(rest) && \valid_read(config) && \separated(rest, config);
+  @ assigns *rest;
+  @ ensures CAL_001_expected: !calibration_expected(*config) ==> \result == KEEL_ERR_VALUE;
+  @ ensures CAL_001_limits: calibration_expected(*config) && !calibration_rest_limits(*config) ==>
+  @     \result == KEEL_ERR_LIMITS;
+  @ ensures CAL_001_kept: \result != KEEL_OK ==> *rest == \old(*rest);
+  @ ensures CAL_002_taken: calibration_expected(*config) && calibration_rest_limits(*config) ==>
+  @     \result == KEEL_OK && rest->config == *config && calibration_rest_counts(rest);
+  @ ensures CAL_003_idle: \result == KEEL_OK ==> rest->state == KEEL_CALIBRATION_IDLE &&
+  @     calibration_three(&rest->offset[0], 0, 0);
+  @*/
+keel_status_t keel_calibration_rest_init(keel_calibration_rest_t *rest,
+                                         const keel_calibration_rest_config_t *config);
+
+/**
+ * Begins to collect samples, whatever was before; the offset stays (requirement CAL-003).
+ *
+ * @param rest the calibration, initialised
+ */
+/*@ requires \valid(rest);
+  @ assigns rest->first[0 .. 2], rest->sum[0 .. 2], rest->count, rest->state, rest->restarts,
+  @     rest->beyond;
+  @ ensures CAL_003_begun: rest->state == KEEL_CALIBRATION_COLLECTING && rest->count == 0 &&
+  @     rest->restarts == 0 && rest->beyond == 0;
+  @ ensures CAL_003_zero: calibration_three(&rest->first[0], 0, 0) &&
+  @     calibration_three(&rest->sum[0], 0, 0);
+  @*/
+void keel_calibration_rest_begin(keel_calibration_rest_t *rest);
+
+/**
+ * Looks at a sample (requirements CAL-004 to CAL-007). Nothing happens unless samples are
+ * collected.
+ *
+ * @param rest   the calibration, initialised
+ * @param sample what was measured, as it came, without an offset taken off; any bit pattern
+ */
+/*@ requires \valid(rest) && \valid_read(sample + (0 .. 2)) && \separated(rest, sample + (0 .. 2));
+  @ requires rest_counts: calibration_rest_counts(rest);
+  @ assigns rest->offset[0 .. 2], rest->first[0 .. 2], rest->sum[0 .. 2], rest->count, rest->state,
+  @     rest->restarts, rest->beyond;
+  @ ensures CAL_004_only: \old(rest->state) != KEEL_CALIBRATION_COLLECTING ==>
+  @     rest->state == \old(rest->state) && rest->count == \old(rest->count) &&
+  @     rest->restarts == \old(rest->restarts) && rest->beyond == \old(rest->beyond);
+  @ ensures CAL_004_counted: \old(rest->state) == KEEL_CALIBRATION_COLLECTING &&
+  @     \old(calibration_continues(rest, sample)) ==> rest->count == \old(rest->count) + 1 &&
+  @     rest->restarts == \old(rest->restarts);
+  @ ensures CAL_004_first: \old(rest->state) == KEEL_CALIBRATION_COLLECTING &&
+  @     \old(rest->count) == 0 && rest->count == 1 ==> rest->first[0] == sample[0] &&
+  @     rest->first[1] == sample[1] && rest->first[2] == sample[2];
+  @ ensures CAL_005_broken: \old(rest->state) == KEEL_CALIBRATION_COLLECTING &&
+  @     !\old(calibration_continues(rest, sample)) ==> rest->count == 0 &&
+  @     rest->state == KEEL_CALIBRATION_COLLECTING &&
+  @     rest->restarts == (\old(rest->count) == 0 ? \old(rest->restarts)
+  @     : calibration_up(\old(rest->restarts)));
+  @ ensures CAL_006_ends: \old(rest->state) == KEEL_CALIBRATION_COLLECTING ==>
+  @     (rest->state == KEEL_CALIBRATION_COLLECTING <==>
+  @     rest->count < rest->config.samples || rest->count == 0) &&
+  @     rest->state != KEEL_CALIBRATION_IDLE;
+  @ ensures CAL_007_limit: rest->state == KEEL_CALIBRATION_DONE &&
+  @     \old(rest->state) == KEEL_CALIBRATION_COLLECTING ==> rest->beyond == 0 &&
+  @     calibration_three(&rest->offset[0], -rest->config.limit, rest->config.limit);
+  @ ensures CAL_007_refused: rest->state == KEEL_CALIBRATION_REFUSED &&
+  @     \old(rest->state) == KEEL_CALIBRATION_COLLECTING ==> 1 <= rest->beyond <= 7;
+  @ ensures CAL_007_kept: calibration_three(&\old(rest->offset)[0], -KEEL_CALIBRATION_LIMIT,
+  @     KEEL_CALIBRATION_LIMIT) && (rest->state != KEEL_CALIBRATION_DONE ||
+  @     \old(rest->state) != KEEL_CALIBRATION_COLLECTING) ==>
+  @     rest->offset[0] == \old(rest->offset[0]) && rest->offset[1] == \old(rest->offset[1]) &&
+  @     rest->offset[2] == \old(rest->offset[2]);
+  @*/
+void keel_calibration_rest_step(keel_calibration_rest_t *rest,
+                                const float sample[KEEL_CALIBRATION_AXES]);
+
+/**
+ * Makes a calibration of a magnetometer; its offset is 0 (requirements CAL-008, CAL-009).
+ *
+ * @param field  the calibration
+ * @param config what it is made from; copied
+ * @return KEEL_OK; KEEL_ERR_VALUE (lowest, highest) or KEEL_ERR_LIMITS (any other number), the first
+ *         that applies, NaN included: then nothing is changed
+ */
+/*@ requires \valid(field) && \valid_read(config) && \separated(field, config);
+  @ assigns *field;
+  @ ensures CAL_008_range: !calibration_field_range(*config) ==> \result == KEEL_ERR_VALUE;
+  @ ensures CAL_008_limits: calibration_field_range(*config) &&
+  @     !calibration_field_limits(*config) ==> \result == KEEL_ERR_LIMITS;
+  @ ensures CAL_008_kept: \result != KEEL_OK ==> *field == \old(*field);
+  @ ensures CAL_008_taken: calibration_field_range(*config) && calibration_field_limits(*config) ==>
+  @     \result == KEEL_OK && field->config == *config && calibration_field_finite(field->config);
+  @ ensures CAL_009_idle: \result == KEEL_OK ==> field->state == KEEL_CALIBRATION_IDLE &&
+  @     calibration_three(&field->offset[0], 0, 0);
+  @*/
+keel_status_t keel_calibration_field_init(keel_calibration_field_t *field,
+                                          const keel_calibration_field_config_t *config);
+
+/**
+ * Begins to collect samples, whatever was before; the offset stays (requirement CAL-009).
+ *
+ * @param field the calibration, initialised
+ */
+/*@ requires \valid(field) && calibration_field_finite(field->config);
+  @ assigns field->lowest[0 .. 2], field->highest[0 .. 2], field->state, field->dropped;
+  @ ensures CAL_009_begun: field->state == KEEL_CALIBRATION_COLLECTING && field->dropped == 0;
+  @ ensures CAL_009_lowest: calibration_three(&field->lowest[0], field->config.highest,
+  @     field->config.highest);
+  @ ensures CAL_009_highest: calibration_three(&field->highest[0], field->config.lowest,
+  @     field->config.lowest);
+  @*/
+void keel_calibration_field_begin(keel_calibration_field_t *field);
+
+/**
+ * Looks at a sample (requirement CAL-010). Nothing happens unless samples are collected.
+ *
+ * @param field  the calibration, initialised
+ * @param sample what was measured, as it came, without an offset taken off; any bit pattern. One
+ *               that is not within the sensor's range on each axis is dropped as a whole
+ */
+/*@ requires \valid(field) && \valid_read(sample + (0 .. 2)) &&
+  @     \separated(field, sample + (0 .. 2));
+  @ requires field_finite: calibration_field_finite(field->config);
+  @ assigns field->lowest[0 .. 2], field->highest[0 .. 2], field->dropped;
+  @ ensures CAL_010_only: field->state != KEEL_CALIBRATION_COLLECTING ==>
+  @     field->dropped == \old(field->dropped);
+  @ ensures CAL_010_dropped: field->state == KEEL_CALIBRATION_COLLECTING ==>
+  @     field->dropped == (calibration_three(sample, field->config.lowest, field->config.highest)
+  @     ? \old(field->dropped) : calibration_up(\old(field->dropped)));
+  @ ensures CAL_010_lowest: \forall integer k; 0 <= k < 3 && \is_finite(\old(field->lowest[k])) ==>
+  @     field->lowest[k] == (field->state == KEEL_CALIBRATION_COLLECTING &&
+  @     calibration_three(sample, field->config.lowest, field->config.highest) &&
+  @     sample[k] < \old(field->lowest[k]) ? sample[k] : \old(field->lowest[k]));
+  @ ensures CAL_010_highest: \forall integer k; 0 <= k < 3 &&
+  @     \is_finite(\old(field->highest[k])) ==>
+  @     field->highest[k] == (field->state == KEEL_CALIBRATION_COLLECTING &&
+  @     calibration_three(sample, field->config.lowest, field->config.highest) &&
+  @     sample[k] > \old(field->highest[k]) ? sample[k] : \old(field->highest[k]));
+  @*/
+void keel_calibration_field_step(keel_calibration_field_t *field,
+                                 const float sample[KEEL_CALIBRATION_AXES]);
+
+/**
+ * How an axis is: what still has to be turned, and why a calibration is refused (requirement
+ * CAL-011).
+ *
+ * @param field the calibration, initialised
+ * @param axis  the axis, 0 to 2
+ * @return the first that applies of KEEL_CALIBRATION_NARROW, KEEL_CALIBRATION_WIDE and
+ *         KEEL_CALIBRATION_BEYOND, else KEEL_CALIBRATION_FIT
+ */
+/*@ requires \valid_read(field) && axis < KEEL_CALIBRATION_AXES;
+  @ requires axis_finite: calibration_field_finite(field->config);
+  @ assigns \nothing;
+  @ ensures CAL_011_narrow: \result == KEEL_CALIBRATION_NARROW <==>
+  @     !((float)(field->highest[axis] - field->lowest[axis]) >= field->config.span_min);
+  @ ensures CAL_011_wide: \result == KEEL_CALIBRATION_WIDE ==>
+  @     (float)(field->highest[axis] - field->lowest[axis]) > field->config.span_max;
+  @ ensures CAL_011_fit: \result == KEEL_CALIBRATION_FIT ==>
+  @     field->config.span_min <= (float)(field->highest[axis] - field->lowest[axis]) <=
+  @     field->config.span_max;
+  @*/
+keel_calibration_verdict_t keel_calibration_field_axis(const keel_calibration_field_t *field,
+                                                       uint32_t axis);
+
+/**
+ * Takes the offset, and ends the calibration, when every axis fits (requirement CAL-012). A refusal
+ * changes nothing: more samples may follow, or keel_calibration_field_begin.
+ *
+ * @param field the calibration, initialised
+ * @return KEEL_OK; KEEL_ERR_STATE (no samples are collected) or KEEL_ERR_LIMITS (an axis does not
+ *         fit: keel_calibration_field_axis tells which, and why), the first that applies
+ */
+/*@ requires \valid(field);
+  @ requires finish_finite: calibration_field_finite(field->config);
+  @ assigns field->offset[0 .. 2], field->state;
+  @ ensures CAL_012_state: \old(field->state) != KEEL_CALIBRATION_COLLECTING <==>
+  @     \result == KEEL_ERR_STATE;
+  @ ensures CAL_012_kept: \result != KEEL_OK ==> field->state == \old(field->state) &&
+  @     (calibration_three(&\old(field->offset)[0], -KEEL_CALIBRATION_LIMIT,
+  @         KEEL_CALIBRATION_LIMIT) ==> field->offset[0] == \old(field->offset[0]) &&
+  @     field->offset[1] == \old(field->offset[1]) && field->offset[2] == \old(field->offset[2]));
+  @ ensures CAL_012_taken: \result == KEEL_OK ==> field->state == KEEL_CALIBRATION_DONE &&
+  @     calibration_three(&field->offset[0], -field->config.limit, field->config.limit);
+  @*/
+keel_status_t keel_calibration_field_finish(keel_calibration_field_t *field);
+
+/**
+ * Takes an offset off a sample (requirement CAL-014).
+ *
+ * @param offset the offset, finite
+ * @param raw    what was measured; any bit pattern. What is no number stays none: whoever uses the
+ *               result looks for that
+ * @param out    raw - offset, of each axis; may be raw itself
+ */
+/*@ requires \valid_read(offset + (0 .. 2)) && \valid_read(raw + (0 .. 2)) &&
+  @     \valid(out + (0 .. 2)) && \separated(offset + (0 .. 2), out + (0 .. 2)) &&
+  @     (raw == out || \separated(raw + (0 .. 2), out + (0 .. 2)));
+  @ assigns out[0 .. 2];
+  @ ensures CAL_014_finite: calibration_three(offset, -KEEL_CALIBRATION_LIMIT,
+  @     KEEL_CALIBRATION_LIMIT) && \old(calibration_three(raw, -KEEL_CALIBRATION_LIMIT,
+  @     KEEL_CALIBRATION_LIMIT)) ==> calibration_three(out, -2 * KEEL_CALIBRATION_LIMIT,
+  @     2 * KEEL_CALIBRATION_LIMIT);
+  @*/
+void keel_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
+                            const float raw[KEEL_CALIBRATION_AXES],
+                            float out[KEEL_CALIBRATION_AXES]);
+
+KEEL_C_END
+
+#endif

@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "calibration.h"
+
+#include <stdbool.h>
+
+/* No comparison with NaN holds. */
+static bool lies_in(float value, float least, float most)
+{
+    return (value >= least) && (value <= most);
+}
+
+static bool all_lie_in(const float value[KEEL_CALIBRATION_AXES], float least, float most)
+{
+    bool all = true;
+
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        all = all && lies_in(value[k], least, most);
+    }
+    return all;
+}
+
+static uint16_t counted_once(uint16_t count)
+{
+    return (count < 65535u) ? (uint16_t)(count + 1u) : 65535u;
+}
+
+keel_status_t model_calibration_rest_init(keel_calibration_rest_t *rest,
+                                          const keel_calibration_rest_config_t *config)
+{
+    /* CAL-001: a refusal changes nothing. */
+    if (!all_lie_in(config->expected, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT)) {
+        return KEEL_ERR_VALUE;
+    }
+    if (!(lies_in(config->spread, 0.0f, KEEL_CALIBRATION_LIMIT) &&
+          lies_in(config->limit, 0.0f, KEEL_CALIBRATION_LIMIT) && (config->samples >= 1u) &&
+          (config->samples <= KEEL_CALIBRATION_SAMPLES_MAX))) {
+        return KEEL_ERR_LIMITS;
+    }
+    /* CAL-002, CAL-003 */
+    model_calibration_rest_begin(rest);
+    rest->config = *config;
+    rest->per_sample = 1.0f / (float)config->samples;
+    rest->state = KEEL_CALIBRATION_IDLE;
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        rest->offset[k] = 0.0f;
+    }
+    return KEEL_OK;
+}
+
+/* CAL-003: all but the offset is forgotten. */
+void model_calibration_rest_begin(keel_calibration_rest_t *rest)
+{
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        rest->first[k] = 0.0f;
+        rest->sum[k] = 0.0f;
+    }
+    rest->count = 0u;
+    rest->state = KEEL_CALIBRATION_COLLECTING;
+    rest->restarts = 0u;
+    rest->beyond = 0u;
+}
+
+/* CAL-005: a number on each axis, and not far from the first of the run, where there is one. */
+static bool belongs(const keel_calibration_rest_t *rest, const float sample[KEEL_CALIBRATION_AXES])
+{
+    bool all = all_lie_in(sample, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT);
+
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        all = all && ((rest->count == 0u) || lies_in(sample[k] - rest->first[k],
+                                                     -rest->config.spread, rest->config.spread));
+    }
+    return all;
+}
+
+/* CAL-006, CAL-007: all three are believed, or none is taken. */
+static void judge_mean(keel_calibration_rest_t *rest)
+{
+    float offset[KEEL_CALIBRATION_AXES] = {0.0f, 0.0f, 0.0f};
+    uint16_t beyond = 0u;
+
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        offset[k] = (rest->first[k] - rest->config.expected[k]) + (rest->sum[k] * rest->per_sample);
+        if (!lies_in(offset[k], -rest->config.limit, rest->config.limit)) {
+            beyond = (uint16_t)(beyond | (1u << k));
+        }
+    }
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        rest->offset[k] = (beyond == 0u) ? offset[k] : rest->offset[k];
+    }
+    rest->beyond = beyond;
+    rest->state = (beyond == 0u) ? KEEL_CALIBRATION_DONE : KEEL_CALIBRATION_REFUSED;
+}
+
+void model_calibration_rest_step(keel_calibration_rest_t *rest,
+                                 const float sample[KEEL_CALIBRATION_AXES])
+{
+    if (rest->state == KEEL_CALIBRATION_COLLECTING) {
+        if (belongs(rest, sample)) {
+            /* CAL-004: differences to the first are added up; to itself it has none. */
+            for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+                rest->first[k] = (rest->count == 0u) ? sample[k] : rest->first[k];
+                rest->sum[k] = ((rest->count == 0u) ? 0.0f : rest->sum[k]) +
+                               (sample[k] - rest->first[k]);
+            }
+            rest->count++;
+            if (rest->count >= rest->config.samples) {
+                judge_mean(rest);
+            }
+        } else {
+            /* CAL-005: told once for each run. */
+            rest->restarts = (rest->count > 0u) ? counted_once(rest->restarts) : rest->restarts;
+            rest->count = 0u;
+        }
+    }
+}
+
+keel_status_t model_calibration_field_init(keel_calibration_field_t *field,
+                                           const keel_calibration_field_config_t *config)
+{
+    /* CAL-008: a refusal changes nothing. */
+    if (!(lies_in(config->highest, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
+          lies_in(config->lowest, -KEEL_CALIBRATION_LIMIT, config->highest))) {
+        return KEEL_ERR_VALUE;
+    }
+    if (!(lies_in(config->span_max, 0.0f, 2.0f * KEEL_CALIBRATION_LIMIT) &&
+          (config->span_min > 0.0f) && (config->span_min <= config->span_max) &&
+          lies_in(config->limit, 0.0f, KEEL_CALIBRATION_LIMIT))) {
+        return KEEL_ERR_LIMITS;
+    }
+    /* CAL-009 */
+    field->config = *config;
+    model_calibration_field_begin(field);
+    field->state = KEEL_CALIBRATION_IDLE;
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        field->offset[k] = 0.0f;
+    }
+    return KEEL_OK;
+}
+
+/* CAL-009: nothing has been seen; all but the offset is forgotten. */
+void model_calibration_field_begin(keel_calibration_field_t *field)
+{
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        field->lowest[k] = field->config.highest;
+        field->highest[k] = field->config.lowest;
+    }
+    field->state = KEEL_CALIBRATION_COLLECTING;
+    field->dropped = 0u;
+}
+
+/* CAL-010 */
+void model_calibration_field_step(keel_calibration_field_t *field,
+                                  const float sample[KEEL_CALIBRATION_AXES])
+{
+    const bool collects = field->state == KEEL_CALIBRATION_COLLECTING;
+    const bool sane = all_lie_in(sample, field->config.lowest, field->config.highest);
+
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        if (collects && sane) {
+            field->lowest[k] = (sample[k] < field->lowest[k]) ? sample[k] : field->lowest[k];
+            field->highest[k] = (sample[k] > field->highest[k]) ? sample[k] : field->highest[k];
+        }
+    }
+    if (collects && !sane) {
+        field->dropped = counted_once(field->dropped);
+    }
+}
+
+/* The vehicle's part of what was seen. */
+static float centre(const keel_calibration_field_t *field, uint32_t axis)
+{
+    return 0.5f * (field->lowest[axis] + field->highest[axis]);
+}
+
+/* CAL-011: what is missing first, then what is wrong. */
+keel_calibration_verdict_t model_calibration_field_axis(const keel_calibration_field_t *field,
+                                                        uint32_t axis)
+{
+    const float span = field->highest[axis] - field->lowest[axis];
+
+    if (!(span >= field->config.span_min)) {
+        return KEEL_CALIBRATION_NARROW;
+    }
+    if (span > field->config.span_max) {
+        return KEEL_CALIBRATION_WIDE;
+    }
+    if (!lies_in(centre(field, axis), -field->config.limit, field->config.limit)) {
+        return KEEL_CALIBRATION_BEYOND;
+    }
+    return KEEL_CALIBRATION_FIT;
+}
+
+keel_status_t model_calibration_field_finish(keel_calibration_field_t *field)
+{
+    bool fits = true;
+
+    /* CAL-012: all three fit, or none is taken. */
+    if (field->state != KEEL_CALIBRATION_COLLECTING) {
+        return KEEL_ERR_STATE;
+    }
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        fits = fits && (model_calibration_field_axis(field, k) == KEEL_CALIBRATION_FIT);
+    }
+    if (!fits) {
+        return KEEL_ERR_LIMITS;
+    }
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        field->offset[k] = centre(field, k);
+    }
+    field->state = KEEL_CALIBRATION_DONE;
+    return KEEL_OK;
+}
+
+/* CAL-014 */
+void model_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
+                             const float raw[KEEL_CALIBRATION_AXES],
+                             float out[KEEL_CALIBRATION_AXES])
+{
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        out[k] = raw[k] - offset[k];
+    }
+}

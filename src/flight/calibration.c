@@ -1,0 +1,300 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "keel/flight/calibration.h"
+
+#include "keel/middleware/range.h"
+
+#include <stdbool.h>
+
+/* A count that stays at its end. */
+/*@ assigns \nothing;
+  @ ensures \result == calibration_up(count);
+  @*/
+static uint16_t one_up(uint16_t count)
+{
+    return (count < UINT16_MAX) ? (uint16_t)(count + 1u) : count;
+}
+
+/*@ requires \valid_read(three + (0 .. 2)) && \is_finite(least) && \is_finite(most);
+  @ assigns \nothing;
+  @ ensures \result <==> calibration_three(three, least, most);
+  @*/
+static bool are_within(const float three[KEEL_CALIBRATION_AXES], float least, float most)
+{
+    return keel_range_contains(three[0], least, most) &&
+           keel_range_contains(three[1], least, most) && keel_range_contains(three[2], least, most);
+}
+
+/*@ requires \valid(three + (0 .. 2)) && \is_finite(value);
+  @ assigns three[0 .. 2];
+  @ ensures three[0] == value && three[1] == value && three[2] == value;
+  @*/
+static void set_all(float three[KEEL_CALIBRATION_AXES], float value)
+{
+    three[0] = value;
+    three[1] = value;
+    three[2] = value;
+}
+
+/*@ requires \valid_read(config);
+  @ assigns \nothing;
+  @ ensures \result <==> calibration_rest_limits(*config);
+  @*/
+static bool rest_limits_fit(const keel_calibration_rest_config_t *config)
+{
+    return keel_range_contains(config->spread, 0.0f, KEEL_CALIBRATION_LIMIT) &&
+           keel_range_contains(config->limit, 0.0f, KEEL_CALIBRATION_LIMIT) &&
+           (config->samples > 0u) && (config->samples <= KEEL_CALIBRATION_SAMPLES_MAX);
+}
+
+keel_status_t keel_calibration_rest_init(keel_calibration_rest_t *rest,
+                                         const keel_calibration_rest_config_t *config)
+{
+    if (!are_within(config->expected, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT)) {
+        return KEEL_ERR_VALUE;
+    }
+    if (!rest_limits_fit(config)) {
+        return KEEL_ERR_LIMITS;
+    }
+    rest->config = *config;
+    rest->per_sample = 1.0f / (float)config->samples;
+    set_all(rest->offset, 0.0f);
+    keel_calibration_rest_begin(rest);
+    rest->state = KEEL_CALIBRATION_IDLE;
+    return KEEL_OK;
+}
+
+void keel_calibration_rest_begin(keel_calibration_rest_t *rest)
+{
+    set_all(rest->first, 0.0f);
+    set_all(rest->sum, 0.0f);
+    rest->count = 0u;
+    rest->state = KEEL_CALIBRATION_COLLECTING;
+    rest->restarts = 0u;
+    rest->beyond = 0u;
+}
+
+/* Whether a sample lies near the first of its run. */
+/*@ requires \valid_read(rest) && \valid_read(sample + (0 .. 2));
+  @ requires calibration_rest_counts(rest);
+  @ assigns \nothing;
+  @*/
+static bool is_near_first(const keel_calibration_rest_t *rest,
+                          const float sample[KEEL_CALIBRATION_AXES])
+{
+    const float away[KEEL_CALIBRATION_AXES] = {
+        sample[0] - rest->first[0], sample[1] - rest->first[1], sample[2] - rest->first[2]};
+
+    return are_within(away, -rest->config.spread, rest->config.spread);
+}
+
+/* One sample more of a run, or the first of another. */
+/*@ requires \valid(rest) && \valid_read(sample + (0 .. 2)) && \separated(rest, sample + (0 .. 2));
+  @ requires calibration_rest_counts(rest);
+  @ assigns rest->first[0 .. 2], rest->sum[0 .. 2], rest->count;
+  @*/
+static void add_sample(keel_calibration_rest_t *rest, const float sample[KEEL_CALIBRATION_AXES])
+{
+    if (rest->count == 0u) {
+        rest->first[0] = sample[0];
+        rest->first[1] = sample[1];
+        rest->first[2] = sample[2];
+        set_all(rest->sum, 0.0f);
+    }
+    rest->sum[0] += sample[0] - rest->first[0];
+    rest->sum[1] += sample[1] - rest->first[1];
+    rest->sum[2] += sample[2] - rest->first[2];
+    rest->count++;
+}
+
+/* The axes, as bits, on which an offset is beyond its limit. */
+/*@ requires \valid_read(offset + (0 .. 2)) && \is_finite(limit);
+  @ assigns \nothing;
+  @ ensures \result <= 7;
+  @ ensures \result == 0 <==> calibration_three(offset, -limit, limit);
+  @*/
+static uint16_t axes_beyond(const float offset[KEEL_CALIBRATION_AXES], float limit)
+{
+    uint16_t beyond = 0u;
+
+    if (!keel_range_contains(offset[0], -limit, limit)) {
+        beyond = 1u;
+    }
+    if (!keel_range_contains(offset[1], -limit, limit)) {
+        beyond = (uint16_t)(beyond + 2u);
+    }
+    if (!keel_range_contains(offset[2], -limit, limit)) {
+        beyond = (uint16_t)(beyond + 4u);
+    }
+    return beyond;
+}
+
+/* Takes the offset of a whole run, or refuses it. */
+/*@ requires \valid(rest) && calibration_rest_counts(rest);
+  @ assigns rest->offset[0 .. 2], rest->state, rest->beyond;
+  @*/
+static void end_rest(keel_calibration_rest_t *rest)
+{
+    const float *const expected = rest->config.expected;
+    const float offset[KEEL_CALIBRATION_AXES] = {
+        (rest->first[0] - expected[0]) + (rest->sum[0] * rest->per_sample),
+        (rest->first[1] - expected[1]) + (rest->sum[1] * rest->per_sample),
+        (rest->first[2] - expected[2]) + (rest->sum[2] * rest->per_sample)};
+
+    rest->beyond = axes_beyond(offset, rest->config.limit);
+    rest->state = KEEL_CALIBRATION_REFUSED;
+    if (rest->beyond == 0u) {
+        rest->offset[0] = offset[0];
+        rest->offset[1] = offset[1];
+        rest->offset[2] = offset[2];
+        rest->state = KEEL_CALIBRATION_DONE;
+    }
+}
+
+void keel_calibration_rest_step(keel_calibration_rest_t *rest,
+                                const float sample[KEEL_CALIBRATION_AXES])
+{
+    if (rest->state != KEEL_CALIBRATION_COLLECTING) {
+        return;
+    }
+    if (are_within(sample, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
+        ((rest->count == 0u) || is_near_first(rest, sample))) {
+        add_sample(rest, sample);
+        if (rest->count >= rest->config.samples) {
+            end_rest(rest);
+        }
+    } else if (rest->count > 0u) {
+        rest->count = 0u;
+        rest->restarts = one_up(rest->restarts);
+    } else {
+        /* There is no run that could end. */
+    }
+}
+
+/*@ requires \valid_read(config);
+  @ assigns \nothing;
+  @ ensures \result <==> calibration_field_range(*config);
+  @*/
+static bool field_range_fits(const keel_calibration_field_config_t *config)
+{
+    return keel_range_contains(config->highest, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
+           keel_range_contains(config->lowest, -KEEL_CALIBRATION_LIMIT, config->highest);
+}
+
+/*@ requires \valid_read(config);
+  @ assigns \nothing;
+  @ ensures \result <==> calibration_field_limits(*config);
+  @*/
+static bool field_limits_fit(const keel_calibration_field_config_t *config)
+{
+    return keel_range_contains(config->span_max, 0.0f, 2.0f * KEEL_CALIBRATION_LIMIT) &&
+           keel_range_contains(config->span_min, 0.0f, config->span_max) &&
+           (config->span_min > 0.0f) &&
+           keel_range_contains(config->limit, 0.0f, KEEL_CALIBRATION_LIMIT);
+}
+
+keel_status_t keel_calibration_field_init(keel_calibration_field_t *field,
+                                          const keel_calibration_field_config_t *config)
+{
+    if (!field_range_fits(config)) {
+        return KEEL_ERR_VALUE;
+    }
+    if (!field_limits_fit(config)) {
+        return KEEL_ERR_LIMITS;
+    }
+    field->config = *config;
+    set_all(field->offset, 0.0f);
+    keel_calibration_field_begin(field);
+    field->state = KEEL_CALIBRATION_IDLE;
+    return KEEL_OK;
+}
+
+void keel_calibration_field_begin(keel_calibration_field_t *field)
+{
+    set_all(field->lowest, field->config.highest);
+    set_all(field->highest, field->config.lowest);
+    field->state = KEEL_CALIBRATION_COLLECTING;
+    field->dropped = 0u;
+}
+
+/* What has been seen of an axis, with one value more. */
+/*@ requires \valid(field) && axis < KEEL_CALIBRATION_AXES && \is_finite(value);
+  @ assigns field->lowest[axis], field->highest[axis];
+  @*/
+static void widen(keel_calibration_field_t *field, uint32_t axis, float value)
+{
+    if (value < field->lowest[axis]) {
+        field->lowest[axis] = value;
+    }
+    if (value > field->highest[axis]) {
+        field->highest[axis] = value;
+    }
+}
+
+void keel_calibration_field_step(keel_calibration_field_t *field,
+                                 const float sample[KEEL_CALIBRATION_AXES])
+{
+    if (field->state != KEEL_CALIBRATION_COLLECTING) {
+        return;
+    }
+    if (are_within(sample, field->config.lowest, field->config.highest)) {
+        widen(field, 0u, sample[0]);
+        widen(field, 1u, sample[1]);
+        widen(field, 2u, sample[2]);
+    } else {
+        field->dropped = one_up(field->dropped);
+    }
+}
+
+/* What is the same on both sides of an axis: the vehicle's part. */
+/*@ requires \valid_read(field) && axis < KEEL_CALIBRATION_AXES;
+  @ assigns \nothing;
+  @*/
+static float middle_of(const keel_calibration_field_t *field, uint32_t axis)
+{
+    return 0.5f * (field->lowest[axis] + field->highest[axis]);
+}
+
+keel_calibration_verdict_t keel_calibration_field_axis(const keel_calibration_field_t *field,
+                                                       uint32_t axis)
+{
+    const keel_calibration_field_config_t *const config = &field->config;
+    const float span = field->highest[axis] - field->lowest[axis];
+    keel_calibration_verdict_t verdict = KEEL_CALIBRATION_FIT;
+
+    if (!(span >= config->span_min)) {
+        verdict = KEEL_CALIBRATION_NARROW;
+    } else if (span > config->span_max) {
+        verdict = KEEL_CALIBRATION_WIDE;
+    } else if (!keel_range_contains(middle_of(field, axis), -config->limit, config->limit)) {
+        verdict = KEEL_CALIBRATION_BEYOND;
+    } else {
+        /* It fits. */
+    }
+    return verdict;
+}
+
+keel_status_t keel_calibration_field_finish(keel_calibration_field_t *field)
+{
+    if (field->state != KEEL_CALIBRATION_COLLECTING) {
+        return KEEL_ERR_STATE;
+    }
+    if ((keel_calibration_field_axis(field, 0u) != KEEL_CALIBRATION_FIT) ||
+        (keel_calibration_field_axis(field, 1u) != KEEL_CALIBRATION_FIT) ||
+        (keel_calibration_field_axis(field, 2u) != KEEL_CALIBRATION_FIT)) {
+        return KEEL_ERR_LIMITS;
+    }
+    field->offset[0] = middle_of(field, 0u);
+    field->offset[1] = middle_of(field, 1u);
+    field->offset[2] = middle_of(field, 2u);
+    field->state = KEEL_CALIBRATION_DONE;
+    return KEEL_OK;
+}
+
+void keel_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
+                            const float raw[KEEL_CALIBRATION_AXES],
+                            float out[KEEL_CALIBRATION_AXES])
+{
+    out[0] = raw[0] - offset[0];
+    out[1] = raw[1] - offset[1];
+    out[2] = raw[2] - offset[2];
+}
