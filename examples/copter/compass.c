@@ -35,6 +35,8 @@ void copter_foreground_magnetometer(copter_t *copter)
         }
     }
     if (whole) {
+        self->raw = (keel_attitude_vector_t){field[0], field[1], field[2]};
+        keel_calibration_apply(copter->calibration.field.offset, field, field);
         self->field = (keel_attitude_vector_t){field[0], field[1], field[2]};
         self->samples++;
     }

@@ -86,6 +86,17 @@ static void begin_state(copter_control_t *self, const copter_t *copter)
     self->mode = copter->state.mode.mode;
 }
 
+/* A place that is held moves with the estimate; home does not. */
+static void follow_reset(copter_control_t *self, const copter_estimate_t *estimate)
+{
+    if ((self->resets != estimate->resets) && (self->state != KEEL_MODE_RETURNING)) {
+        self->place.north += estimate->reset_by.north;
+        self->place.east += estimate->reset_by.east;
+        self->place.up += estimate->reset_by.up;
+    }
+    self->resets = estimate->resets;
+}
+
 static float descent_at(float height)
 {
     return (height > copter_settings.land_near) ? -copter_settings.land_fast
@@ -120,6 +131,7 @@ void copter_position_control(copter_t *copter)
     copter_control_t *const self = &copter->control;
     const keel_cascade_estimate_t *const here = &copter->estimate.here;
 
+    follow_reset(self, &copter->estimate);
     begin_state(self, copter);
     keel_cascade_enter(&self->cascade, mode_of_axes(copter));
     keel_cascade_position_step(&self->cascade, self->place, here);

@@ -25,6 +25,7 @@
 #include "keel/flight/altitude.h"
 #include "keel/flight/attitude.h"
 #include "keel/flight/battery.h"
+#include "keel/flight/calibration.h"
 #include "keel/flight/cascade.h"
 #include "keel/flight/mixer.h"
 #include "keel/flight/mode.h"
@@ -38,25 +39,45 @@
 #include "settings.h"
 #include "urpilot_tasks.h"
 
+/** Blocks of steps whose mean forces are kept for navigation, should it come late. */
+#define COPTER_BLOCKS 8u
+
+/** The mean specific force of a block of steps. */
+typedef struct copter_force {
+    keel_attitude_vector_t mean; /**< Body, in m/s^2. */
+    bool is_known;               /**< Whether any of the steps had one. */
+} copter_force_t;
+
 /** Written by background and foreground IMU. */
 typedef struct copter_inertia {
     keel_oversample_t channel[COPTER_IMUS][KEEL_VIRTUAL_IMU_CHANNELS];
-    uint64_t sampled_us[COPTER_IMUS]; /**< When each unit last gave a sample. */
+    uint64_t sampled_us[COPTER_IMUS];            /**< When each unit last gave a sample. */
+    keel_virtual_imu_sample_t unit[COPTER_IMUS]; /**< As measured, without calibration. */
     keel_virtual_imu_t imu;
     keel_attitude_t attitude;
-    uint32_t field_taken;             /**< Of compass.samples, the last one taken. */
-    keel_attitude_vector_t down;      /**< As the body sees it. */
-    keel_attitude_vector_t force_sum; /**< Specific force, body, of the steps of this block. */
-    uint32_t forces;                  /**< How many are in it. */
-    uint32_t steps;                   /**< Of this block. */
-    keel_attitude_vector_t force;     /**< The mean of the last block that had some, in m/s^2. */
-    uint32_t blocks;                  /**< How many such blocks there were. */
+    uint32_t calibrations;               /**< What was taken of calibration.done. */
+    uint32_t field_taken;                /**< What was taken of compass.samples. */
+    keel_attitude_vector_t down;         /**< As the body sees it. */
+    keel_attitude_vector_t force_sum;    /**< Of the steps of this block. */
+    uint32_t forces;                     /**< How many are in it. */
+    uint32_t steps;                      /**< Of this block. */
+    copter_force_t force[COPTER_BLOCKS]; /**< Block n is at n modulo COPTER_BLOCKS. */
+    uint32_t blocks;                     /**< How many there were. */
 } copter_inertia_t;
+
+/** Written by calibration IMU and calibration magnetometer. */
+typedef struct copter_calibration {
+    keel_calibration_rest_t gyroscope[COPTER_IMUS];
+    keel_calibration_field_t field;
+    uint32_t done;   /**< How often all gyroscopes were calibrated. */
+    uint32_t checks; /**< KEEL_MODE_CHECK_CALIBRATION and _MAGNETOMETER, as far as they hold. */
+} copter_calibration_t;
 
 /** Written by background and foreground magnetometer. */
 typedef struct copter_compass {
     keel_oversample_t axis[3];
-    keel_attitude_vector_t field; /**< Body, in microtesla. */
+    keel_attitude_vector_t raw;   /**< Body, in microtesla, as measured. */
+    keel_attitude_vector_t field; /**< The same less what the aircraft adds. */
     uint32_t samples;             /**< How many there were. */
 } copter_compass_t;
 
@@ -71,6 +92,9 @@ typedef struct copter_air {
 typedef struct copter_satellites {
     copter_fix_t fix;
     uint32_t fixes; /**< How many there were. */
+    uint64_t fixed_us;
+    keel_attitude_vector_t acceleration; /**< Of the aircraft, Earth, by the last two fixes. */
+    bool is_accelerated;                 /**< Whether that is known. */
 } copter_satellites_t;
 
 /** Written by background and foreground radio. */
@@ -82,6 +106,7 @@ typedef struct copter_pilot {
     keel_reference_sticks_t sticks;
     keel_reference_t reference; /**< What the sticks ask for. */
     uint32_t facts;             /**< KEEL_MODE_IS_LINKED, ... of the last whole frame. */
+    bool calibrates;            /**< It asks for a calibration of the magnetometer. */
     uint8_t asked;              /**< The mode that it asks for. */
 } copter_pilot_t;
 
@@ -95,14 +120,16 @@ typedef struct copter_energy {
 typedef struct copter_estimate {
     keel_altitude_t altitude;
     keel_position_t position;
-    keel_cascade_estimate_t here; /**< For the cascade: from home. */
-    float home_north;             /**< Of the position's origin, in m. */
-    float home_east;              /**< Of the position's origin, in m. */
-    uint32_t blocks;              /**< What was taken of inertia.blocks. */
-    uint32_t pressures;           /**< What was taken of air.samples. */
-    uint32_t fixes;               /**< What was taken of satellites.fixes. */
-    uint32_t homes;               /**< What was taken of state.homes. */
-    bool is_landed;               /**< Nothing moves, and the motors hardly push. */
+    keel_cascade_estimate_t here;   /**< For the cascade: from home. */
+    float home_north;               /**< Of the position's origin, in m. */
+    float home_east;                /**< Of the position's origin, in m. */
+    uint32_t blocks;                /**< What was taken of inertia.blocks. */
+    uint32_t pressures;             /**< What was taken of air.samples. */
+    uint32_t fixes;                 /**< What was taken of satellites.fixes. */
+    uint32_t homes;                 /**< What was taken of state.homes. */
+    uint32_t resets;                /**< How often the place jumped, as fixes contradicted it. */
+    keel_cascade_vector_t reset_by; /**< How far it jumped the last time, in m. */
+    bool is_landed;                 /**< Nothing moves, and the motors hardly push. */
 } copter_estimate_t;
 
 /** Written by position control, angle control and angle rate control. */
@@ -111,6 +138,7 @@ typedef struct copter_control {
     keel_mixer_t mixer;
     keel_cascade_vector_t place; /**< To be held or reached, in m from home. */
     keel_cascade_vector_t asked; /**< The velocity that is asked for, in m/s. */
+    uint32_t resets;             /**< What was taken of estimate.resets. */
     uint8_t state;               /**< Of the state machine, in the last run. */
     uint8_t mode;                /**< The mode in the last run. */
 } copter_control_t;
@@ -123,12 +151,12 @@ typedef struct copter_state {
     uint64_t stepped_us;
 } copter_state_t;
 
-/** Written by scheduler analysis, stack, ADC, calibration IMU and calibration magnetometer. */
+/** Written by scheduler analysis, stack and ADC. */
 typedef struct copter_health {
     keel_load_t window;
     uint32_t load_ppm;   /**< In the last window. */
     uint32_t stack_free; /**< In bytes. */
-    uint32_t checks;     /**< KEEL_MODE_CHECK_CALIBRATION and _LOAD, as far as they hold. */
+    uint32_t checks;     /**< KEEL_MODE_CHECK_LOAD, if it holds. */
     float supply_v;
 } copter_health_t;
 
@@ -144,6 +172,7 @@ typedef struct copter_task {
 struct copter {
     const copter_port_t *port;
     copter_inertia_t inertia;
+    copter_calibration_t calibration;
     copter_compass_t compass;
     copter_air_t air;
     copter_satellites_t satellites;
@@ -213,6 +242,8 @@ void copter_angle_rate_control(copter_t *copter);
 void copter_scheduler_analysis(copter_t *copter);
 void copter_stack(copter_t *copter);
 void copter_adc(copter_t *copter);
+
+keel_status_t copter_calibration_init(copter_calibration_t *calibration);
 void copter_calibration_imu(copter_t *copter);
 void copter_calibration_magnetometer(copter_t *copter);
 /** @} */

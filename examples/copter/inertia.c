@@ -41,17 +41,17 @@ void copter_background_imu(copter_t *copter)
 }
 
 /* What a unit has measured since the last vote; it is absent unless all its channels have. */
-static keel_virtual_imu_sample_t take(copter_inertia_t *self, uint32_t unit, uint64_t now_us)
+static void take(copter_inertia_t *self, uint32_t unit, uint64_t now_us)
 {
-    keel_virtual_imu_sample_t sample = {.age_us = (uint32_t)(now_us - self->sampled_us[unit]),
-                                        .present = true};
+    keel_virtual_imu_sample_t *const sample = &self->unit[unit];
 
+    sample->age_us = (uint32_t)(now_us - self->sampled_us[unit]);
+    sample->present = true;
     for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
-        if (keel_oversample_take(&self->channel[unit][k], &sample.value[k]) != KEEL_OK) {
-            sample.present = false;
+        if (keel_oversample_take(&self->channel[unit][k], &sample->value[k]) != KEEL_OK) {
+            sample->present = false;
         }
     }
-    return sample;
 }
 
 /* What an aircraft without a voter would fly with: the mean of the units that gave a sample. */
@@ -79,6 +79,8 @@ static void take_mean(keel_attitude_sample_t *sample, const keel_virtual_imu_sam
 /* Navigation looks once in a block of steps: it gets their mean. */
 static void keep_force(copter_inertia_t *self, const keel_attitude_sample_t *sample)
 {
+    copter_force_t *const block = &self->force[self->blocks % COPTER_BLOCKS];
+
     if (sample->has_accelerometer) {
         self->force_sum.x += sample->accelerometer.x;
         self->force_sum.y += sample->accelerometer.y;
@@ -89,26 +91,42 @@ static void keep_force(copter_inertia_t *self, const keel_attitude_sample_t *sam
     if (self->steps < BLOCK) {
         return;
     }
-    if (self->forces > 0u) {
+    block->is_known = self->forces > 0u;
+    if (block->is_known) {
         const float count = (float)self->forces;
 
-        self->force = (keel_attitude_vector_t){self->force_sum.x / count, self->force_sum.y / count,
+        block->mean = (keel_attitude_vector_t){self->force_sum.x / count, self->force_sum.y / count,
                                                self->force_sum.z / count};
-        self->blocks++;
     }
     self->force_sum = (keel_attitude_vector_t){0.0f, 0.0f, 0.0f};
     self->forces = 0u;
     self->steps = 0u;
+    self->blocks++;
+}
+
+/* With other offsets of the gyroscopes their common bias is another one. */
+static void heed_calibration(copter_inertia_t *self, const copter_calibration_t *calibration)
+{
+    if (self->calibrations != calibration->done) {
+        self->calibrations = calibration->done;
+        keel_attitude_restart(&self->attitude);
+    }
 }
 
 void copter_foreground_imu(copter_t *copter)
 {
     copter_inertia_t *const self = &copter->inertia;
+    const copter_satellites_t *const satellites = &copter->satellites;
     keel_virtual_imu_sample_t unit[COPTER_IMUS];
     keel_attitude_sample_t sample = {.has_magnetometer = false};
 
+    heed_calibration(self, &copter->calibration);
     for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
-        unit[i] = take(self, i, copter->scheduler.clock.now_us);
+        float *const rate = &unit[i].value[ACCELEROMETER];
+
+        take(self, i, copter->scheduler.clock.now_us);
+        unit[i] = self->unit[i];
+        keel_calibration_apply(copter->calibration.gyroscope[i].offset, rate, rate);
     }
     keel_virtual_imu_step(&self->imu, unit, VOTE_PERIOD_US);
     keel_attitude_take(&sample, &self->imu);
@@ -117,6 +135,8 @@ void copter_foreground_imu(copter_t *copter)
     }
     sample.has_magnetometer = copter->compass.samples != self->field_taken;
     sample.magnetometer = copter->compass.field;
+    sample.has_acceleration = satellites->is_accelerated && self->attitude.heading_valid;
+    sample.acceleration = satellites->acceleration;
     self->field_taken = copter->compass.samples;
     keel_attitude_step(&self->attitude, &sample);
     self->down = keel_attitude_down(&self->attitude);

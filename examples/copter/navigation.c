@@ -55,32 +55,74 @@ static void find_origin(copter_estimate_t *self, const copter_fix_t *fix)
     }
 }
 
-static void step_estimators(copter_t *copter, const frame_t *frame)
+/* What a restart of an estimate by a contradicting fix moved it by; 0 without one. */
+static float reset_of(const keel_axis_t *axis, float before)
+{
+    return ((axis->flags & KEEL_AXIS_BEGUN) != 0u) ? (axis->position - before) : 0.0f;
+}
+
+/* Whoever holds a place has to follow when the estimate of it jumps. */
+static void tell_reset(copter_estimate_t *self, const keel_cascade_vector_t *before)
+{
+    const keel_cascade_vector_t by = {reset_of(&self->position.north, before->north),
+                                      reset_of(&self->position.east, before->east),
+                                      reset_of(&self->altitude.axis, before->up)};
+
+    if ((by.north != 0.0f) || (by.east != 0.0f) || (by.up != 0.0f)) {
+        self->reset_by = by;
+        self->resets++;
+    }
+}
+
+/* A step of both estimators, a block of the inertial unit's after the other. What was measured
+ * besides is for the last of them. */
+static void step_estimators(copter_t *copter, const frame_t *frame, const copter_force_t *force,
+                            bool last)
 {
     copter_estimate_t *const self = &copter->estimate;
-    const keel_attitude_vector_t force = copter->inertia.force;
-    const bool has_force = (copter->inertia.blocks != self->blocks) &&
+    const bool has_force = force->is_known &&
                            (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING);
-    const keel_altitude_sample_t vertical = {.pressure = copter->air.pressure_pa,
-                                             .acceleration = -dot(force, frame->down) -
-                                                             KEEL_CASCADE_GRAVITY,
-                                             .has_pressure = copter->air.samples != self->pressures,
-                                             .has_acceleration = has_force};
+    const keel_altitude_sample_t vertical = {
+        .pressure = copter->air.pressure_pa,
+        .acceleration = -dot(force->mean, frame->down) - KEEL_CASCADE_GRAVITY,
+        .has_pressure = last && (copter->air.samples != self->pressures),
+        .has_acceleration = has_force};
     const keel_position_sample_t horizontal = {
         .fix = fix_of(&copter->satellites.fix),
-        .north = dot(force, frame->north),
-        .east = dot(force, frame->east),
-        .has_fix = copter->satellites.fixes != self->fixes,
+        .north = dot(force->mean, frame->north),
+        .east = dot(force->mean, frame->east),
+        .has_fix = last && (copter->satellites.fixes != self->fixes),
         .has_acceleration = has_force && copter->inertia.attitude.heading_valid};
 
-    self->blocks = copter->inertia.blocks;
-    self->pressures = copter->air.samples;
-    self->fixes = copter->satellites.fixes;
+    if (last) {
+        self->pressures = copter->air.samples;
+        self->fixes = copter->satellites.fixes;
+    }
     if (horizontal.has_fix) {
         find_origin(self, &copter->satellites.fix);
     }
     keel_altitude_step(&self->altitude, &vertical);
     keel_position_step(&self->position, &horizontal);
+}
+
+/* As many steps as blocks have passed: a run that comes late makes up for those before it. */
+static void catch_up(copter_t *copter, const frame_t *frame)
+{
+    copter_estimate_t *const self = &copter->estimate;
+    const copter_inertia_t *const inertia = &copter->inertia;
+    const keel_cascade_vector_t before = {
+        self->position.north.position, self->position.east.position, self->altitude.axis.position};
+
+    if ((inertia->blocks - self->blocks) > COPTER_BLOCKS) {
+        self->blocks = inertia->blocks - COPTER_BLOCKS;
+    }
+    while (self->blocks != inertia->blocks) {
+        const copter_force_t *const force = &inertia->force[self->blocks % COPTER_BLOCKS];
+
+        self->blocks++;
+        step_estimators(copter, frame, force, self->blocks == inertia->blocks);
+    }
+    tell_reset(self, &before);
 }
 
 /* Home is where the aircraft last took off. */
@@ -120,7 +162,7 @@ void copter_navigation(copter_t *copter)
     copter_estimate_t *const self = &copter->estimate;
     const frame_t frame = frame_of(&copter->inertia.attitude);
 
-    step_estimators(copter, &frame);
+    catch_up(copter, &frame);
     find_home(copter);
     self->here = (keel_cascade_estimate_t){
         .position = {self->position.north.position - self->home_north,

@@ -3,13 +3,14 @@
 #include "copter.h"
 
 /* Channels. */
-#define ROLL     0u
-#define PITCH    1u
-#define THROTTLE 2u
-#define YAW      3u
-#define ARM      4u
-#define MODE     5u
-#define KILL     6u
+#define ROLL      0u
+#define PITCH     1u
+#define THROTTLE  2u
+#define YAW       3u
+#define ARM       4u
+#define MODE      5u
+#define KILL      6u
+#define CALIBRATE 7u
 
 /* What a channel says: its middle, the way to either end, and what no receiver sends. */
 #define MIDDLE   1500
@@ -96,5 +97,6 @@ void copter_foreground_radio(copter_t *copter)
     (void)keel_reference_step(&self->reference, &self->sticks);
     self->facts = facts_of(&self->frame);
     self->asked = mode_of(channel[MODE]);
+    self->calibrates = channel[CALIBRATE] > ON;
     self->frames++;
 }

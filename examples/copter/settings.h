@@ -9,6 +9,7 @@
 #include "keel/flight/attitude.h"
 #include "keel/flight/axis.h"
 #include "keel/flight/battery.h"
+#include "keel/flight/calibration.h"
 #include "keel/flight/cascade.h"
 #include "keel/flight/mixer.h"
 #include "keel/flight/mode.h"
@@ -21,6 +22,8 @@
 /** All that a unit is made from, and what the tasks decide by. */
 typedef struct copter_settings {
     keel_virtual_imu_config_t imu;
+    keel_calibration_rest_config_t gyroscope; /**< Of each unit. */
+    keel_calibration_field_config_t field;    /**< Of the magnetometer. */
     keel_attitude_config_t attitude;
     keel_axis_config_t altitude;
     keel_position_config_t position;

@@ -76,7 +76,7 @@ static uint32_t checks_of(const copter_t *copter)
     const keel_virtual_imu_t *const imu = &copter->inertia.imu;
     const copter_estimate_t *const estimate = &copter->estimate;
 
-    return copter->health.checks |
+    return copter->health.checks | copter->calibration.checks |
            when(are_confirmed(imu, 0u, KEEL_VIRTUAL_IMU_ACCELEROMETER),
                 KEEL_MODE_CHECK_ACCELEROMETER) |
            when(are_confirmed(imu, KEEL_VIRTUAL_IMU_ACCELEROMETER, KEEL_VIRTUAL_IMU_CHANNELS),

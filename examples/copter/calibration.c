@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Calibration IMU and calibration magnetometer: while the aircraft is disarmed. The gyroscopes are
+ * calibrated once after the start, as soon as it lies still; the magnetometer when the pilot asks
+ * for it, by turning the aircraft about all axes. */
+#include "copter.h"
+
+keel_status_t copter_calibration_init(copter_calibration_t *calibration)
+{
+    keel_status_t status = keel_calibration_field_init(&calibration->field, &copter_settings.field);
+
+    for (uint32_t unit = 0u; (unit < COPTER_IMUS) && (status == KEEL_OK); unit++) {
+        status = keel_calibration_rest_init(&calibration->gyroscope[unit],
+                                            &copter_settings.gyroscope);
+        keel_calibration_rest_begin(&calibration->gyroscope[unit]);
+    }
+    return status;
+}
+
+static void set_check(copter_calibration_t *self, uint32_t check, bool holds)
+{
+    self->checks = holds ? (self->checks | check) : (self->checks & ~check);
+}
+
+static bool are_calibrated(const copter_calibration_t *self)
+{
+    bool calibrated = true;
+
+    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+        calibrated = calibrated && (self->gyroscope[unit].state == KEEL_CALIBRATION_DONE);
+    }
+    return calibrated;
+}
+
+void copter_calibration_imu(copter_t *copter)
+{
+    copter_calibration_t *const self = &copter->calibration;
+    const bool before = are_calibrated(self);
+
+    for (uint32_t unit = 0u; (unit < COPTER_IMUS) && !copter->state.mode.motors; unit++) {
+        keel_calibration_rest_t *const gyroscope = &self->gyroscope[unit];
+        const keel_virtual_imu_sample_t *const sample = &copter->inertia.unit[unit];
+
+        if (gyroscope->state == KEEL_CALIBRATION_REFUSED) {
+            keel_calibration_rest_begin(gyroscope);
+        }
+        if (sample->present) {
+            keel_calibration_rest_step(gyroscope, &sample->value[KEEL_VIRTUAL_IMU_ACCELEROMETER]);
+        }
+    }
+    if (!before && are_calibrated(self)) {
+        self->done++;
+    }
+    set_check(self, KEEL_MODE_CHECK_CALIBRATION,
+              are_calibrated(self) && (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING));
+}
+
+static void calibrate_field(copter_t *copter)
+{
+    keel_calibration_field_t *const field = &copter->calibration.field;
+    const keel_attitude_vector_t raw = copter->compass.raw;
+    const float sample[KEEL_CALIBRATION_AXES] = {raw.x, raw.y, raw.z};
+
+    if (field->state != KEEL_CALIBRATION_COLLECTING) {
+        keel_calibration_field_begin(field);
+    }
+    keel_calibration_field_step(field, sample);
+}
+
+void copter_calibration_magnetometer(copter_t *copter)
+{
+    copter_calibration_t *const self = &copter->calibration;
+
+    if (!copter->state.mode.motors && copter->pilot.calibrates) {
+        calibrate_field(copter);
+    } else {
+        /* Whatever was seen: if that is not enough, nothing changes. */
+        (void)keel_calibration_field_finish(&self->field);
+    }
+    /* The field is what the settings expect when the heading follows it. */
+    set_check(self, KEEL_MODE_CHECK_MAGNETOMETER, copter->inertia.attitude.heading_valid);
+}
