@@ -14,7 +14,7 @@ BOARD ?=
 
 # The variables that a command line may set. Another one is a slip, and must not pass unnoticed.
 VARIABLES := UNIT SECONDS TASKSET ARGS BOARD DASK CFLAGS KEEL_CACHE KEEL_NO_INSTALL KEEL_FRESH \
-             KEEL_DEBIAN_MIRROR VERIFY
+             KEEL_DEBIAN_MIRROR VERIFY SCENARIO SEED N JOBS
 GIVEN := $(foreach name,$(.VARIABLES),$(if $(findstring command line,$(origin $(name))),$(name)))
 STRANGE := $(filter-out $(VARIABLES),$(GIVEN))
 ifneq ($(STRANGE),)
@@ -28,7 +28,8 @@ RESEARCH := timing campaign pictures
 
 ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
              flash-openocd flash-pyocd flash-st-flash flash-px4 timing tools-tests timing-tests \
-             consumer opinion evidence browser attestation contracts-run trace c-syntax dask ci
+             consumer opinion evidence browser attestation contracts-run trace c-syntax dask ci \
+             fly flights fly-tests
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
 TIMING := python3 tools/with_packages.py timing -m timing
@@ -89,6 +90,16 @@ fuzztasks: python ## 100 000 broken task-set files, each of which must be read o
 
 campaign: python ## the voter's fault campaign and fig. 14: tables, JSON and plots in build/campaign
 	@python3 tools/with_packages.py timing tools/campaign.py
+
+.PHONY: fly flights
+fly: python ## fly the copter in plants that others wrote (SCENARIO=hover: one; SEED=7: one of make flights)
+	@python3 tools/with_packages.py fly tools/fly.py $(if $(SCENARIO),--scenario "$(SCENARIO)") \
+	    $(if $(SEED),--seed "$(SEED)") $(if $(JOBS),--jobs "$(JOBS)") $(ARGS)
+
+flights: python ## N flights with everything varied (N=1000; JOBS=4; DASK=tcp://host:8786; SEED=7: one again)
+	@DASK="$(DASK)" python3 tools/with_packages.py flights -m flight.montecarlo \
+	    --flights "$(if $(N),$(N),100)" $(if $(SEED),--seed "$(SEED)") \
+	    $(if $(JOBS),--jobs "$(JOBS)") $(ARGS)
 
 .PHONY: pictures
 pictures: campaign timing ## the pictures of the documents, in docs/pictures

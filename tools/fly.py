@@ -28,6 +28,7 @@ from common.files import write_json  # noqa: E402
 from flight import library, plants, scenario, tables  # noqa: E402
 from flight.crew import Job, Outcome, all_flown  # noqa: E402
 from flight.loop import Order  # noqa: E402
+from flight.varied import order_of  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 BUILD = ROOT / "build/fly"
@@ -40,6 +41,7 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--scenario", metavar="NAME", help="one of examples/copter/scenarios")
     parser.add_argument("--scenarios", type=Path, default=scenario.FOLDER, metavar="FOLDER",
                         help="where scenarios lie")  # fmt: skip
+    parser.add_argument("--seed", type=int, metavar="N", help="a flight of make flights, again")
     parser.add_argument("--plant", choices=plants.NAMES, help="in this one only")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N",
                         help="flights at a time")  # fmt: skip
@@ -47,6 +49,8 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
                         help="where the report and the pictures go")  # fmt: skip
     parser.add_argument("--no-pictures", action="store_true")
     found = parser.parse_args(arguments)
+    if found.seed is not None and (found.scenario or found.plant):
+        raise ToolError("--seed: says scenario and plant by itself")
     if found.jobs < 1:
         raise ToolError(f"--jobs: expected 1 or more, found {found.jobs}")
     return found
@@ -54,6 +58,10 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
 
 def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
     """Every flight. All scenarios are read before the first one is flown."""
+    if options.seed is not None:
+        name = report_name(options)
+        picture = None if options.no_pictures else options.build / f"{name}.svg"
+        return [Job(name, order_of(options.seed), copter, picture)]
     known = scenario.names(options.scenarios)
     names = [options.scenario] if options.scenario else known
     if not names:
@@ -68,6 +76,13 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
     if not jobs:
         raise ToolError(f"{options.scenario or 'no scenario'}: is not flown in {options.plant}")
     return jobs
+
+
+def report_name(options: argparse.Namespace) -> str:
+    """What the report is called."""
+    if options.seed is not None:
+        return f"seed-{options.seed}"
+    return str(options.scenario or "fly")
 
 
 def all_outcomes(jobs: Sequence[Job], width: int) -> list[Outcome]:
@@ -100,7 +115,7 @@ def fly(arguments: Sequence[str] | None) -> int:
     """Build, fly, write, tell."""
     options = parsed(arguments)
     jobs = jobs_of(options, options.build / "libcopter.so")
-    report: Path = options.build / f"{options.scenario or 'fly'}.json"
+    report: Path = options.build / f"{report_name(options)}.json"
     report.unlink(missing_ok=True)  # What an older run found is not what this one finds.
     library.build(Toolchain(), options.build)
     outcomes = all_outcomes(jobs, options.jobs)
@@ -109,7 +124,7 @@ def fly(arguments: Sequence[str] | None) -> int:
         "good": all(outcome.good for outcome in outcomes),
         "flights": [outcome.as_json() for outcome in outcomes],
     })  # fmt: skip
-    tell(outcomes, report, options.scenario is not None)
+    tell(outcomes, report, report_name(options) != "fly")
     return 0 if all(outcome.good for outcome in outcomes) else 1
 
 
