@@ -3,10 +3,11 @@
 #
 # What rounding does to the fence's test (CAS-011), operation by operation as in `is_side_near` and
 # `near_sides` of src/flight/cascade.c and in keel_cascade_init, in single precision; `rnd=` rounds
-# each operation to nearest, ties to even. L is the reach, x the position and v the speed towards a
-# side, A, T and twice_braking those of the configuration. Goals: CAS_011_left, by how much L - x' as
-# computed is off, in m; CAS_011_square, by how much (v + A T)^2 is, in m^2/s^2. The product of the
-# former with twice_braking is off by 2^-24 of itself.
+# each operation to nearest, ties to even. tests/tools/test_cascade_fence.py compares the texts. L is
+# the reach, x the position and v the speed towards a side, A, T and twice_braking those of the
+# configuration. Goals: CAS_011_left, by how much L - x' as computed is off, in m; CAS_011_square, by
+# how much (v + A T)^2 is, in m^2/s^2. The product of the former with twice_braking is off by 2^-24
+# of itself.
 @rnd = float<ieee_32, ne>;
 L = rnd(L_);
 x = rnd(x_);

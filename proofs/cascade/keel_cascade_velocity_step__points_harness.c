@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 14 --external-sat-solver cadical
+// cbmc: --unwind 15 --external-sat-solver cadical
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c
 // sources: specs/model/cascade.c specs/model/cascade_parts.c specs/model/pid.c specs/model/filter.c
 // covers: keel_cascade_velocity_step drive drive_with is_direction is_side_near near_sides admitted
@@ -13,7 +13,7 @@
 #include "cascade_points.h"
 #include "keel/flight/mode.h"
 
-#define POINTS 13u
+#define POINTS 14u
 
 typedef struct point {
     keel_cascade_vector_t asked;
@@ -29,9 +29,9 @@ typedef struct point {
 #define MOST  {false, true}
 
 /* Not flown at first; then north with a heading between the axes; each limit of the body, seen from
- * each side; near each side of the fence; beyond it; faster than braking allows, with way enough
- * without; no number for a place and a speed; without an estimate; and, at last, no number for a
- * direction. */
+ * each side; near each side of the fence; near for the way of the reaction time alone, 0.5 m of the
+ * 1.75 m that 1.5 m/s need; beyond it; faster than braking allows, with way enough without; no
+ * number for a place and a speed; without an estimate; and, at last, no number for a direction. */
 static const point_t points[POINTS] = {
     {{1.0f, 2.0f, 0.5f},
      {{3.0f, 4.0f, 5.0f}, {0.5f, 0.25f, 0.1f}, 1.0f, 0.0f, true, true},
@@ -71,6 +71,12 @@ static const point_t points[POINTS] = {
      KEEL_MODE_POSITION},
     {{-4.0f, -4.0f, -3.0f},
      {{-89.0f, -79.5f, -69.0f}, {-1.5f, -0.1f, -1.5f}, 0.95f, 0.3f, true, true},
+     NONE,
+     NONE,
+     0u,
+     KEEL_MODE_POSITION},
+    {{4.0f, -4.0f, 3.0f},
+     {{88.5f, -78.5f, 68.5f}, {1.5f, -1.5f, 1.5f}, 0.95f, 0.3f, true, true},
      NONE,
      NONE,
      0u,

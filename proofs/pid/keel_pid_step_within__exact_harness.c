@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/pid.c src/flight/filter.c specs/model/pid.c specs/model/filter.c
-// covers: keel_pid_step_within keel_pid_step model_pid_step_within model_pid_step
+// covers: keel_pid_step_within model_pid_step_within
 //
 // On small whole numbers: the integral moves by ki T e where it may, and stays elsewhere; the
 // output is that of the step. The model does the same. Wrong bodies are refuted here: where floats

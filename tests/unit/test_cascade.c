@@ -131,6 +131,21 @@ static void CAS_001_either_tilt_limits_the_accelerations(void)
     refused(KEEL_CASCADE_NORTH_SPEED, KEEL_ERR_LIMITS);
 }
 
+/* From none, which leaves no acceleration to brake with, to the greatest: 0.75 of 6.93359375. */
+static void CAS_001_the_ends_of_the_tilt_limit_the_accelerations(void)
+{
+    config.acceleration = 6.0f;
+    config.reach[KEEL_CASCADE_ROLL] = 0.75f;
+    config.pid[KEEL_CASCADE_NORTH_SPEED].output_max = 5.2001953125f;
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_cascade_check(&config, KEEL_CASCADE_NORTH_SPEED));
+    config.pid[KEEL_CASCADE_NORTH_SPEED].output_max = nextafterf(5.2001953125f, INFINITY);
+    refused(KEEL_CASCADE_NORTH_SPEED, KEEL_ERR_LIMITS);
+    configure();
+    config.reach[KEEL_CASCADE_ROLL] = 0.0f;
+    TEST_ASSERT_EQUAL(KEEL_ERR_LIMITS, keel_cascade_check(&config, KEEL_CASCADE_NORTH_SPEED));
+    TEST_ASSERT_EQUAL(KEEL_ERR_LIMITS, keel_cascade_check(&config, KEEL_CASCADE_EAST_SPEED));
+}
+
 static void CAS_001_accelerations_brake_and_are_counted_on(void)
 {
     config.braking = 3.0f;
@@ -390,6 +405,38 @@ static void CAS_006_the_integral_stops_in_one_direction(void)
     told.measured = 0.5f;
     keel_cascade_axis_step(&one, &told);
     TEST_ASSERT_EQUAL_FLOAT(1.5f, one.pid.integral);
+}
+
+/* Both limits at once: one from below, and one of the axis itself. */
+static void CAS_006_the_limit_below_and_that_of_the_axis(void)
+{
+    one_axis();
+    keel_cascade_axis_step(&one, &told);
+    told.below.at_max = true;
+    told.setpoint = -70.5f;
+    told.measured = -70.0f;
+    keel_cascade_axis_step(&one, &told);
+    TEST_ASSERT_TRUE(one.limit.at_min && one.limit.at_max);
+    told.setpoint = 1.0f;
+    told.measured = 9.0f;
+    keel_cascade_axis_step(&one, &told);
+    TEST_ASSERT_EQUAL(KEEL_PID_AT_MIN, one.pid.saturation);
+    TEST_ASSERT_TRUE(one.limit.at_min && one.limit.at_max);
+    told.below.at_max = false;
+    told.below.at_min = true;
+    told.setpoint = 71.0f;
+    told.measured = 70.0f;
+    keel_cascade_axis_step(&one, &told);
+    TEST_ASSERT_TRUE(one.limit.at_min && one.limit.at_max);
+    told.setpoint = 1.0f;
+    told.measured = -9.0f;
+    keel_cascade_axis_step(&one, &told);
+    TEST_ASSERT_EQUAL(KEEL_PID_AT_MAX, one.pid.saturation);
+    TEST_ASSERT_TRUE(one.limit.at_min && one.limit.at_max);
+    told.below.at_max = true;
+    told.measured = 1.0f;
+    keel_cascade_axis_step(&one, &told);
+    TEST_ASSERT_TRUE(one.limit.at_min && one.limit.at_max);
 }
 
 /* --- CAS-006 to CAS-008: the rate stage ------------------------------------------------------- */
@@ -656,6 +703,44 @@ static void CAS_010_a_tilt_is_within_the_reach_however_long_the_direction(void)
     TEST_ASSERT_EQUAL_FLOAT(0.5f, cascade.tilt.roll);
 }
 
+/* With a direction between north and east that is too long, accelerations add up in one angle, to
+ * at least 6 / g, beyond its reach, and cancel in the other, but for 0.25 m/s^2. */
+static void CAS_010_either_tilt_is_within_its_reach_in_either_direction(void)
+{
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const float one_way = (float)sign;
+        const keel_cascade_vector_t ahead = {8.0f * one_way, 7.0f * one_way, 0.0f};
+        const keel_cascade_vector_t aside = {-8.0f * one_way, 7.0f * one_way, 0.0f};
+
+        config.reach[KEEL_CASCADE_PITCH] = 0.5f;
+        fly(KEEL_MODE_POSITION);
+        estimate.forward_north = 1.0f;
+        estimate.forward_east = 1.0f;
+        keel_cascade_velocity_step(&cascade, nowhere, &estimate);
+        keel_cascade_velocity_step(&cascade, ahead, &estimate);
+        TEST_ASSERT_EQUAL_FLOAT(-0.5f * one_way, cascade.tilt.pitch);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, -0.25f / G, cascade.tilt.roll);
+        keel_cascade_velocity_step(&cascade, aside, &estimate);
+        TEST_ASSERT_EQUAL_FLOAT(0.5f * one_way, cascade.tilt.roll);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.0f, cascade.tilt.pitch);
+    }
+}
+
+/* All that hovering leaves, upwards, and all of it, downwards. */
+static void CAS_010_the_ends_of_the_thrust(void)
+{
+    const keel_cascade_vector_t up = {0.0f, 0.0f, 4.0f};
+    const keel_cascade_vector_t under = {0.0f, 0.0f, -4.0f};
+
+    config.pid[KEEL_CASCADE_CLIMB] = controller(1.0f, 32.0f, 128.0f, -0.375f, 0.625f);
+    fly(KEEL_MODE_ALTITUDE);
+    keel_cascade_velocity_step(&cascade, nowhere, &estimate);
+    keel_cascade_velocity_step(&cascade, up, &estimate);
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, cascade.thrust);
+    keel_cascade_velocity_step(&cascade, under, &estimate);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, cascade.thrust);
+}
+
 static void CAS_010_stops_without_a_place_or_a_direction(void)
 {
     const float bad[] = {NAN, 1.001f, -1.001f, INFINITY};
@@ -708,6 +793,26 @@ static void CAS_007_accelerations_begin_at_the_tilt_that_is_flown(void)
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.25f, cascade.tilt.roll);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, -0.125f, cascade.tilt.pitch);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.5f, cascade.thrust);
+}
+
+/* The angle of one axis alone is known where the stage begins: the other counts as level. */
+static void CAS_007_accelerations_begin_at_what_is_known_of_the_tilt(void)
+{
+    const keel_cascade_tilt_t flown = {0.25f, -0.125f};
+    const keel_attitude_vector_t no_roll = {0.0f, NAN, 1.0f};
+    const keel_attitude_vector_t no_pitch = {NAN, 0.0f, 1.0f};
+    const keel_cascade_vector_t asked = {1.0f, -0.5f, 0.25f};
+
+    fly(KEEL_MODE_POSITION);
+    keel_cascade_angle_step(&cascade, flown, no_roll, true);
+    keel_cascade_velocity_step(&cascade, asked, &estimate);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.0f, cascade.tilt.roll);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, -0.125f, cascade.tilt.pitch);
+    fly(KEEL_MODE_POSITION);
+    keel_cascade_angle_step(&cascade, flown, no_pitch, true);
+    keel_cascade_velocity_step(&cascade, asked, &estimate);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.25f, cascade.tilt.roll);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.0f, cascade.tilt.pitch);
 }
 
 /* Errors of 0.5 m/s in all directions, one step without limits and one with those of the body: the
@@ -767,6 +872,67 @@ static void CAS_006_limits_of_the_tilt_stop_the_accelerations(void)
     earth_limits(1.0f, 0.0f, -0.5f, true, false);
     earth_limits(0.0f, 1.0f, 0.5f, false, true);
     earth_limits(0.0f, -1.0f, -0.5f, false, true);
+}
+
+/* The parts, north and east, of a direction of the body in which it goes no further. */
+typedef struct part {
+    bool there;
+    float north;
+    float east;
+} part_t;
+
+static void is_limited(const part_t *parts, keel_cascade_limit_t north, keel_cascade_limit_t east)
+{
+    keel_cascade_limit_t to_north = {false, false};
+    keel_cascade_limit_t to_east = {false, false};
+
+    for (uint32_t i = 0u; i < 4u; i++) {
+        if (parts[i].there) {
+            to_north.at_max = to_north.at_max || (parts[i].north > 0.5f);
+            to_north.at_min = to_north.at_min || (parts[i].north < -0.5f);
+            to_east.at_max = to_east.at_max || (parts[i].east > 0.5f);
+            to_east.at_min = to_east.at_min || (parts[i].east < -0.5f);
+        }
+    }
+    TEST_ASSERT_EQUAL(to_north.at_max, north.at_max);
+    TEST_ASSERT_EQUAL(to_north.at_min, north.at_min);
+    TEST_ASSERT_EQUAL(to_east.at_max, east.at_max);
+    TEST_ASSERT_EQUAL(to_east.at_min, east.at_min);
+}
+
+/* Forward with the nose down, backward with it up, to the right and to the left. */
+static void limits_from(const float heading[2], uint32_t limits)
+{
+    const float n = heading[0];
+    const float e = heading[1];
+    const part_t parts[4] = {{(limits & 1u) != 0u, n, e},
+                             {(limits & 2u) != 0u, -n, -e},
+                             {(limits & 4u) != 0u, -e, n},
+                             {(limits & 8u) != 0u, e, -n}};
+
+    cascade.axis[KEEL_CASCADE_PITCH].limit.at_min = parts[0].there;
+    cascade.axis[KEEL_CASCADE_PITCH].limit.at_max = parts[1].there;
+    cascade.axis[KEEL_CASCADE_ROLL].limit.at_max = parts[2].there;
+    cascade.axis[KEEL_CASCADE_ROLL].limit.at_min = parts[3].there;
+    estimate.forward_north = n;
+    estimate.forward_east = e;
+    keel_cascade_velocity_step(&cascade, nowhere, &estimate);
+    is_limited(parts, axis_of(KEEL_CASCADE_NORTH_SPEED)->limit,
+               axis_of(KEEL_CASCADE_EAST_SPEED)->limit);
+}
+
+static void CAS_006_every_limit_of_the_tilt_in_every_direction(void)
+{
+    static const float parts[5] = {-0.75f, -0.5f, 0.0f, 0.5f, 0.75f};
+
+    fly(KEEL_MODE_POSITION);
+    for (uint32_t i = 0u; i < 25u; i++) {
+        const float heading[2] = {parts[i / 5u], parts[i % 5u]};
+
+        for (uint32_t limits = 0u; limits < 16u; limits++) {
+            limits_from(heading, limits);
+        }
+    }
 }
 
 static void CAS_006_the_mixer_stops_the_climb(void)
@@ -838,6 +1004,22 @@ static void CAS_011_no_way_towards_a_side_that_is_near(void)
     is_near_at(90.126f, 80.126f, 70.126f, -1.0f, true);
     is_near_at(90.625f, 80.625f, 70.625f, -3.0f, false);
     is_near_at(90.626f, 80.626f, 70.626f, -3.0f, true);
+}
+
+/* At rest 0.325 m are needed: 0.125 m, and 0.2 m for the 1 m/s then reached. */
+static void CAS_011_no_way_in_a_fence_without_way_to_brake(void)
+{
+    for (uint32_t i = KEEL_CASCADE_NORTH; i <= KEEL_CASCADE_HEIGHT; i++) {
+        config.reach[i] = 0.3125f;
+    }
+    fly(KEEL_MODE_POSITION);
+    for (int sign = -1; sign <= 1; sign++) {
+        at_side(0.0f, 0.0f, 0.0f, (float)sign, 0.0f);
+        for (uint32_t i = KEEL_CASCADE_NORTH_SPEED; i <= KEEL_CASCADE_CLIMB; i++) {
+            TEST_ASSERT_EQUAL_FLOAT(0.0f, axis_of(i)->pid.setpoint);
+            TEST_ASSERT_TRUE(axis_of(i)->limit.at_min && axis_of(i)->limit.at_max);
+        }
+    }
 }
 
 static void CAS_011_each_axis_for_itself(void)
@@ -978,6 +1160,7 @@ int main(void)
     RUN_TEST(CAS_001_the_reach_of_each_axis);
     RUN_TEST(CAS_001_outputs_are_within_what_takes_them);
     RUN_TEST(CAS_001_either_tilt_limits_the_accelerations);
+    RUN_TEST(CAS_001_the_ends_of_the_tilt_limit_the_accelerations);
     RUN_TEST(CAS_001_accelerations_brake_and_are_counted_on);
     RUN_TEST(CAS_001_the_other_numbers);
     RUN_TEST(CAS_001_a_period_is_within_the_reaction_time);
@@ -993,15 +1176,18 @@ int main(void)
     RUN_TEST(CAS_005_stops_without_a_measurement);
     RUN_TEST(CAS_005_a_bad_rate_holds_one_torque);
     RUN_TEST(CAS_006_the_integral_stops_in_one_direction);
+    RUN_TEST(CAS_006_the_limit_below_and_that_of_the_axis);
     RUN_TEST(CAS_006_the_mixer_stops_torques);
     RUN_TEST(CAS_006_a_torque_comes_back_from_the_limit);
     RUN_TEST(CAS_006_limits_of_the_rates_stop_the_angles);
     RUN_TEST(CAS_006_limits_of_the_tilt_stop_the_accelerations);
+    RUN_TEST(CAS_006_every_limit_of_the_tilt_in_every_direction);
     RUN_TEST(CAS_006_the_mixer_stops_the_climb);
     RUN_TEST(CAS_006_limits_of_the_velocities_stop_the_places);
     RUN_TEST(CAS_007_torques_begin_at_the_last_command);
     RUN_TEST(CAS_007_angles_begin_at_the_rates_that_are_flown);
     RUN_TEST(CAS_007_accelerations_begin_at_the_tilt_that_is_flown);
+    RUN_TEST(CAS_007_accelerations_begin_at_what_is_known_of_the_tilt);
     RUN_TEST(CAS_007_velocities_begin_at_those_that_are_flown);
     RUN_TEST(CAS_008_torques_and_thrust);
     RUN_TEST(CAS_008_any_thrust_is_within_its_range);
@@ -1011,10 +1197,13 @@ int main(void)
     RUN_TEST(CAS_010_tilts_in_the_direction_of_the_heading);
     RUN_TEST(CAS_010_the_greatest_tilt);
     RUN_TEST(CAS_010_a_tilt_is_within_the_reach_however_long_the_direction);
+    RUN_TEST(CAS_010_either_tilt_is_within_its_reach_in_either_direction);
+    RUN_TEST(CAS_010_the_ends_of_the_thrust);
     RUN_TEST(CAS_010_stops_without_a_place_or_a_direction);
     RUN_TEST(CAS_010_hovers_without_a_height);
     RUN_TEST(CAS_010_altitude_alone);
     RUN_TEST(CAS_011_no_way_towards_a_side_that_is_near);
+    RUN_TEST(CAS_011_no_way_in_a_fence_without_way_to_brake);
     RUN_TEST(CAS_011_each_axis_for_itself);
     RUN_TEST(CAS_011_the_way_back_is_free);
     RUN_TEST(CAS_011_no_way_without_a_number);
