@@ -2,10 +2,10 @@
 """Results of mutation that are kept in the repository, as having them takes hours.
 
 `make mutate ARGS=--record` writes specs/mutation/UNIT.json: every mutant with its line, change,
-verdict and who killed it, digests of the sources and the proofs that the result was had from, and the
-versions of the tools. Where one of these has changed, the result is stale: it says nothing about what
-is there. Other builds of the same versions are the same tools here: a distribution makes them anew
-for each release, and no commit could follow.
+verdict and who killed it, digests of the sources and the proofs that the result was had from, and
+the versions of the tools. Where one of these has changed, the result is stale: it says nothing
+about what is there. Other builds of the same versions are the same tools here: a distribution makes
+them anew for each release, and no commit could follow.
 """
 
 from __future__ import annotations
