@@ -102,9 +102,16 @@ class Mutants(StrengthTest):
         self.record()
         self.report["tools"]["cbmc"]["version"] = "6.7.0"
         self.assertEqual(self.part().problems, ())
-        self.assertIn("STALE: tools", self.row()[1])
+        self.assertEqual(self.row()[1], "STALE: cbmc changed since")
         self.assertEqual(self.part().summary["mutants killed"], "0 of 0")
         self.assertEqual(self.item("range/1").state, "open")
+
+    def test_a_result_of_other_builds_of_the_same_tools_is_current(self) -> None:
+        self.record()
+        self.report["tools"]["cbmc"]["sha256"] = "d"
+        self.assertNotIn("STALE", self.row()[1])
+        self.report["tools"]["cbmc"]["parts"] = [{"name": "libc6", "version": "2.41"}]
+        self.assertEqual(self.row()[1], "STALE: cbmc changed since")
 
     def test_a_result_on_other_proofs_is_stale(self) -> None:
         self.record()

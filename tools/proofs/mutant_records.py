@@ -2,8 +2,10 @@
 """Results of mutation that are kept in the repository, as having them takes hours.
 
 `make mutate ARGS=--record` writes specs/mutation/UNIT.json: every mutant with its line, change,
-verdict and who killed it, and digests of the sources, the proofs and the tools that the result was
-had from. Where one of these has changed, the result is stale: it says nothing about what is there.
+verdict and who killed it, digests of the sources and the proofs that the result was had from, and
+the versions of the tools. Where one of these has changed, the result is stale: it says nothing
+about what is there. Other builds of the same versions are the same tools here: a distribution makes
+them anew for each release, and no commit could follow.
 """
 
 from __future__ import annotations
@@ -22,9 +24,10 @@ from .goals import read_goals
 from .harness import MODELS, Harness, read_harness
 from .mutant_verdicts import STATUSES, Verdict
 from .project import Unit, closure, find_units
-from .session import tool_stamp
 
 FOLDER = "specs/mutation"
+# What no mutant is judged with; and where the provers lie, which is theirs.
+NO_JUDGES = ("gcc", "newlib", "ocamlfind", "why3-config")
 
 
 def record_of(unit: Unit) -> Path:
@@ -42,7 +45,7 @@ def all_harnesses(root: Path) -> list[tuple[Harness, frozenset[Path]]]:
 def origin(
     unit: Unit, harnesses: Sequence[tuple[Harness, frozenset[Path]]], tools: Mapping[str, Found]
 ) -> dict[str, str]:
-    """Digests of all that a result on a unit depends on.
+    """Digests of what a result on a unit depends on, and each tool's version.
 
     The sources count with their contracts, which are comments; harnesses and models without. Who
     proved a goal last does not matter, nor do the wrong bodies.
@@ -63,8 +66,14 @@ def origin(
             "goals": read_goals(unit.goal_list, unit.goal_list.name).names,
             "equivalent": equivalent.read_text(encoding="utf-8") if equivalent.is_file() else "",
         }),
-        "tools": digest(tool_stamp(dict(tools))),
+        **{name: version_of(tool) for name, tool in tools.items() if name not in NO_JUDGES},
     }  # fmt: skip
+
+
+def version_of(tool: Found) -> str:
+    """A tool's version, with those of the packages that it is of."""
+    packages = [f"{part.get('name')} {part.get('version')}" for part in tool.parts]
+    return "; ".join([tool.version, *packages])
 
 
 def _shown(path: Path, root: Path) -> str:

@@ -24,6 +24,7 @@ STATES: Mapping[str, State] = {"killed": "good", "equivalent": "told"}
 NOT_RUN = "not run"
 CURRENT = "current"
 HEAD = ("unit", "made_of", "problems", "summary", "mutants")
+OURS = frozenset({"source", "proofs"})  # Of what a result is made of, what a commit changes.
 MUTANT = ("function", "kind", "line", "original", "mutant", "status", "engines")
 
 
@@ -103,7 +104,8 @@ def standings(root: Path, report: Report, problems: list[str]) -> list[Standing]
             problems.append(str(error))
         if record:
             now = mutant_records.origin(unit, harnesses, found_of(report))
-            stale = [name for name, value in now.items() if record["made_of"].get(name) != value]
+            then = record["made_of"]
+            stale = [name for name in {**now, **then} if then.get(name) != now.get(name)]
         found.append(Standing(unit.name, record, tuple(stale)))
     return found
 
@@ -117,10 +119,10 @@ def problems(every: Sequence[Standing]) -> Iterator[str]:
     """A result that is stale, and a survivor that nobody has explained.
 
     One that is stale by its tools alone is shown so, and counts for nothing, but is no problem: on
-    another machine they may be other builds of the same versions, which no commit can mend.
+    another machine they may be of other versions, which no commit can mend.
     """
     for one in every:
-        if set(one.stale) - {"tools"}:
+        if OURS.intersection(one.stale):
             yield f"{one.shown}: is stale, {', '.join(one.stale)} changed since: make mutate again"
         for mutant in one.with_status(*OPEN):
             yield (f"{one.shown}: {mutant['function']}:{mutant['line']}: {mutant['status']},"
