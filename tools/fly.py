@@ -4,9 +4,9 @@
 
     python3 tools/with_packages.py fly tools/fly.py [--scenario NAME] [--plant jsbsim]
 
-build/fly gets fly.json (every flight, its errors, limits and the SHA-256 of its trace) and a picture
-of each flight. With --scenario the report is named after it. --seed flies a flight of `make flights`
-again and draws it.
+build/fly gets fly.json (every flight, its errors, limits and the SHA-256 of its trace) and a
+picture of each flight. With --scenario the report is named after it. --seed flies a flight of
+`make flights` again and draws it.
 
 Exit status: 0 when every flight keeps its limits (or breaks them, where that is expected), 1 when
 not, 2 when it could not be flown.

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from common.errors import ToolError
-
 from flight import judge, plots
 from flight.library import Copter
 from flight.loop import Order, Trace, fly, state_names, without_faults

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from common.errors import ToolError, unknown
-
 from flight.library import Copter
 from flight.plants import MOTORS, THRUST_POWER
 from flight.power import Battery

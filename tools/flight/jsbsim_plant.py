@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import jsbsim
-from common.errors import ToolError
 
+from common.errors import ToolError
 from flight.plants import (
     EAST_M,
     HOME_ALTITUDE_M,
@@ -31,7 +31,7 @@ FOOT = 0.3048
 LEGS_M = 0.1524 - 0.0015  # Of the centre of gravity above the ground, the springs pressed.
 COMMANDS = ("FR", "AR", "AL", "FL")
 # JSBSim's own reader says on stdout that it is told something twice.
-jsbsim.FGJSBBase().debug_lvl = 0
+jsbsim.FGJSBBase().debug_lvl = 0  # type: ignore[no-untyped-call]
 
 
 class JsbsimPlant:

@@ -218,7 +218,8 @@ def ended(scenario: Scenario, trace: Trace) -> Iterator[Finding]:
         yield Finding("ends on the ground", f"{up:.2f} m up", f"{GROUND_M:g} m", up <= GROUND_M)
     if end.upright:
         tilt = max(abs(roll), abs(pitch))
-        yield Finding("ends upright", f"{tilt:.1f} deg", f"{UPRIGHT_DEG:g} deg", tilt <= UPRIGHT_DEG)
+        limit = f"{UPRIGHT_DEG:g} deg"
+        yield Finding("ends upright", f"{tilt:.1f} deg", limit, tilt <= UPRIGHT_DEG)
     turns = bool(view["motors_on"])
     told = {True: "motors turn", False: "motors stand"}
     yield Finding("ends with", told[turns], told[end.motors_on], turns == end.motors_on)
@@ -226,7 +227,8 @@ def ended(scenario: Scenario, trace: Trace) -> Iterator[Finding]:
         yield Finding("ends", state, end.state, state == end.state)
     if end.home_m is not None:
         away = math.hypot(north, east)
-        yield Finding("ends at home", f"{away:.2f} m", f"{end.home_m:g} m", away <= end.home_m, away)
+        limit = f"{end.home_m:g} m"
+        yield Finding("ends at home", f"{away:.2f} m", limit, away <= end.home_m, away)
 
 
 def is_good(scenario: Scenario, trace: Trace, findings: list[Finding]) -> bool:

@@ -16,6 +16,7 @@ from typing import Any
 
 import cffi
 import numpy as np
+
 from common.build import Build
 from common.errors import ROOT, ToolError
 from common.files import read_text
@@ -70,7 +71,7 @@ def layout(kind: Any) -> Any:
     names = [name for name, _ in kind.fields]
     return {"names": names, "formats": [layout(item.type) for _, item in kind.fields],
             "offsets": [item.offset for _, item in kind.fields],
-            "itemsize": cffi.FFI().sizeof("char") * kind_size(kind)}  # fmt: skip
+            "itemsize": kind_size(kind)}  # fmt: skip
 
 
 def kind_size(kind: Any) -> int:
@@ -79,12 +80,18 @@ def kind_size(kind: Any) -> int:
     return int(last.offset) + int(np.dtype(layout(last.type)).itemsize)
 
 
+def declared() -> Any:
+    """cffi with all that sim.h has."""
+    ffi = cffi.FFI()
+    ffi.cdef(declarations(read_text(ROOT / SIM)))
+    return ffi
+
+
 class Copter:
     """The library in this process."""
 
     def __init__(self, path: Path) -> None:
-        self._ffi = cffi.FFI()
-        self._ffi.cdef(declarations(read_text(ROOT / SIM)))
+        self._ffi = declared()
         try:
             self._library: Any = self._ffi.dlopen(str(path))
         except OSError as error:

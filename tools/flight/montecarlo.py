@@ -26,11 +26,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from rich.table import Table
+
 from common.arguments import Parser
 from common.errors import ROOT, ToolError, program
 from common.files import write_json
-from rich.table import Table
-
 from flight import library, worker
 from flight.orders import BUILD, library_of
 from flight.tables import console
@@ -130,7 +130,7 @@ def all_flown(seeds: Sequence[int], digest: str, width: int) -> list[Answer]:
     if found:
         print(f"flights: {len(found)} of {len(seeds)} were flown before")
     if left:
-        library_of(library.digest_of())  # Before any worker asks, for an error in C to be told once.
+        library_of(library.digest_of())  # An error in C is told once, by whoever starts.
         client = cluster(os.environ.get("DASK", ""), width)
         try:
             began = time.monotonic()
@@ -167,8 +167,9 @@ def ranks(flights: Sequence[Answer]) -> dict[str, dict[str, float]]:
 
 def by_fault(flights: Sequence[Answer]) -> dict[str, list[Answer]]:
     """The flights of each fault, the unbroken first."""
-    names = sorted({flight["fault"] for flight in flights}, key=lambda name: (name != HEALTHY, name))
-    return {name: [flight for flight in flights if flight["fault"] == name] for name in names}
+    names = {flight["fault"] for flight in flights}
+    ordered = sorted(names, key=lambda name: (name != HEALTHY, name))
+    return {name: [flight for flight in flights if flight["fault"] == name] for name in ordered}
 
 
 def distribution(flights: Sequence[Answer]) -> Table:
@@ -185,14 +186,16 @@ def distribution(flights: Sequence[Answer]) -> Table:
 def faults_table(flights: Sequence[Answer]) -> Table:
     """What each fault does."""
     table = Table(title="By fault", title_justify="left")
-    for heading in ("fault", "flights", "good", "attitude, worst, deg: 50 %", "99 %", "seeds not good"):
-        table.add_column(heading, justify="left" if heading in ("fault", "seeds not good") else "right")
+    table.add_column("fault")
+    for heading in ("flights", "good", "attitude, worst, deg: 50 %", "99 %"):
+        table.add_column(heading, justify="right")
+    table.add_column("seeds not good")
     for name, group in by_fault(flights).items():
         cuts = ranks(group).get("attitude_max_deg", {})
         bad = [str(flight["seed"]) for flight in group if not flight["good"]]
         shown = " ".join(bad[:12]) + (" ..." if len(bad) > 12 else "")
-        table.add_row(name, str(len(group)), str(len(group) - len(bad)), f"{cuts.get('p50', 0.0):.2f}",
-                      f"{cuts.get('p99', 0.0):.2f}", shown)  # fmt: skip
+        half, most = (f"{cuts.get(rank, 0.0):.2f}" for rank in ("p50", "p99"))
+        table.add_row(name, str(len(group)), str(len(group) - len(bad)), half, most, shown)
     return table
 
 

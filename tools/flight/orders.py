@@ -17,11 +17,10 @@ from pathlib import Path
 from typing import Any
 
 from common.errors import ROOT, program
-from toolchain import Toolchain
-
 from flight import library
 from flight.crew import Job, flown
 from flight.varied import digest_of, order_of
+from toolchain import Toolchain
 
 BUILD = ROOT / "build/flights"
 

@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from plotting import BLUE, COLOURS, GREEN, GREY, ORANGE, RED, new_figure, write_svg
 
 from flight.judge import asked, believed
 from flight.library import states
 from flight.loop import Trace
 from flight.scenario import Scenario
+from plotting import BLUE, COLOURS, GREEN, GREY, ORANGE, RED, new_figure, write_svg
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -78,7 +78,7 @@ def draw_load(axes: Axes, trace: Trace, time: Any) -> None:
     axes.set_ylabel("load, %")
     axes.set_ylim(0.0, 100.0)
     numbers = trace.view["state"]
-    changes = [0, *(np.flatnonzero(np.diff(numbers)) + 1)]
+    changes = [0, *(np.flatnonzero(np.diff(numbers)) + 1).tolist()]
     for place, row in enumerate(changes):
         axes.axvline(trace.column("time")[row], color=GREY, linewidth=0.6)
         axes.text(trace.column("time")[row], 95 - 12 * (place % 3), f" {states()[numbers[row]]}",
@@ -94,8 +94,8 @@ def draw_tasks(axes: Axes, trace: Trace) -> None:
         left_out = f", {task['skipped']} left out" if task["skipped"] else ""
         over = f", {task['overruns']} too long" if task["overruns"] else ""
         if left_out or over:
-            axes.text(task["longest_us"], place, f" {task['runs']} runs{left_out}{over}",
-                      va="center", fontsize=6.5)  # fmt: skip
+            words = f" {task['runs']} runs{left_out}{over}"
+            axes.text(float(task["longest_us"]), float(place), words, va="center", fontsize=6.5)
     axes.set_yticks(places, trace.tasks, fontsize=7)
     axes.invert_yaxis()
     axes.set_xlabel("longest run, us")

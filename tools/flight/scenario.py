@@ -31,9 +31,11 @@ FOLDER = ROOT / "examples/copter/scenarios"
 Seconds = Annotated[float, Field(ge=0.0, le=600.0)]
 Share = Annotated[float, Field(ge=0.0, le=1.0)]
 Angle = Annotated[float, Field(ge=-360.0, le=360.0)]
+Turn = Annotated[float, Field(ge=-1.0, le=1.0)]
 Positive = Annotated[float, Field(gt=0.0, le=1e6)]
 Mode = Literal["acro", "land", "angle", "altitude", "position", "return"]
 State = Literal["disarmed", "armed", "flying", "holding", "returning", "landing", "terminated"]
+PlantName = Literal["jsbsim", "mujoco"]
 StickName = Literal["roll", "pitch", "yaw", "throttle"]
 
 
@@ -68,10 +70,10 @@ class Hand(Table):
 
     at_s: Seconds
     mode: Mode | None = None
-    roll: Annotated[float, Field(ge=-1.0, le=1.0)] | None = None
-    pitch: Annotated[float, Field(ge=-1.0, le=1.0)] | None = None
-    yaw: Annotated[float, Field(ge=-1.0, le=1.0)] | None = None
-    throttle: Annotated[float, Field(ge=-1.0, le=1.0)] | None = None
+    roll: Turn | None = None
+    pitch: Turn | None = None
+    yaw: Turn | None = None
+    throttle: Turn | None = None
     height_m: Annotated[float, Field(ge=0.0, le=50.0)] | None = None
     arm: bool | None = None
     kill: bool | None = None
@@ -89,9 +91,11 @@ FAULTS: dict[str, tuple[str, ...]] = {
     "motor_weak": ("motor", "share"), "battery_low": ("share",),
     "task_overrun": ("task", "runs", "extra_us"),
 }  # fmt: skip
-FaultKind = Literal["imu_freeze", "imu_silent", "imu_shout", "imu_drift", "radio_loss",
-                    "radio_failsafe", "gps_loss", "gps_jump", "barometer_spike",
-                    "magnetometer_current", "motor_weak", "battery_low", "task_overrun"]  # fmt: skip
+FaultKind = Literal[
+    "imu_freeze", "imu_silent", "imu_shout", "imu_drift", "radio_loss", "radio_failsafe",
+    "gps_loss", "gps_jump", "barometer_spike", "magnetometer_current", "motor_weak",
+    "battery_low", "task_overrun",
+]  # fmt: skip
 
 
 class Fault(Table):
@@ -166,7 +170,7 @@ class Scenario(Table):
 
     description: Text
     like: Text | None = None
-    plants: Annotated[list[Literal["jsbsim", "mujoco"]], Field(min_length=1)] = ["jsbsim", "mujoco"]
+    plants: Annotated[list[PlantName], Field(min_length=1)] = ["jsbsim", "mujoco"]
     duration_s: Annotated[float, Field(gt=0.0, le=600.0)]
     seed: Annotated[int, Field(ge=0)] = 1
     heading_deg: Angle = 30.0
@@ -185,11 +189,11 @@ def mistakes(scenario: Scenario) -> Iterator[Mistake]:
     """What types cannot say."""
     for number, fault in enumerate(scenario.fault):
         yield from fault_mistakes(number, fault)
-    for key, items in (("pilot", scenario.pilot), ("fault", scenario.fault)):
-        for number, item in enumerate(items):
-            if item.at_s > scenario.duration_s:
-                yield (key, number, "at_s"), f"is after duration_s, {scenario.duration_s}"
     times = [hand.at_s for hand in scenario.pilot]
+    for key, begins in (("pilot", times), ("fault", [fault.at_s for fault in scenario.fault])):
+        for number, at_s in enumerate(begins):
+            if at_s > scenario.duration_s:
+                yield (key, number, "at_s"), f"is after duration_s, {scenario.duration_s}"
     for number, (before, after) in enumerate(zip(times, times[1:], strict=False)):
         if after < before:
             yield ("pilot", number + 1, "at_s"), f"is before the one above, {before}"

@@ -126,7 +126,8 @@ class Inertial:
         drawn = self._drawn[self._next]
         self._next += 1
         self._late.append(true)
-        said = self._turn @ self._late[0] + self._bias + (self._noise + thrust * self._shake) * drawn
+        noise = (self._noise + thrust * self._shake) * drawn
+        said = self._turn @ self._late[0] + self._bias + noise
         np.clip(said, -self._limits, self._limits, out=said)
         units = said.reshape(UNITS, 6)
         if broken.imu:

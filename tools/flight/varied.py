@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+
 from common.errors import ROOT
 from common.files import sha256_of
-
 from flight import library, plants
 from flight.loop import Order
 from flight.plants import Airframe
