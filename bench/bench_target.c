@@ -485,8 +485,7 @@ static void bench_tasks(void)
             if (due && (now_us < TASKS_FROM_US)) {
                 copter.task[i].body(&copter);
             } else if (due) {
-                add(&bodies[i],
-                    measure((function_t)copter.task[i].body, &copter, 0u, 0u, false));
+                add(&bodies[i], measure((function_t)copter.task[i].body, &copter, 0u, 0u, false));
             } else {
                 /* It waits. */
             }
