@@ -442,8 +442,8 @@ static void bench_imu(const char *name, float offset, uint8_t contributing)
 /* --- Tasks ------------------------------------------------------------------------------------ */
 
 /* The copter lies on its desk, armed and flown by position, in the second that is counted. */
-#define TASKS_FROM_US 7000000u
-#define TASKS_TO_US   8000000u
+#define TASKS_FROM_US 9000000u
+#define TASKS_TO_US   10000000u
 #define TASKS_STEP_US 1000u
 
 static uint32_t bench_desk_clock(void *context)

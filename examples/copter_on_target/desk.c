@@ -15,8 +15,8 @@
 #define POWER_US        20000u
 
 /* What the pilot does, in us since the start. */
-#define ARMS_US  4000000u
-#define LIFTS_US 5000000u
+#define ARMS_US  7000000u
+#define LIFTS_US 8000000u
 
 /* Channels of the radio: see copter/pilot.c. */
 #define MIDDLE     1500u
