@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import atexit
+import ctypes
 import functools
 import os
 import re
@@ -29,6 +30,8 @@ from flight.plants import (
 
 FOOT = 0.3048
 LEGS_M = 0.1524 - 0.0015  # Of the centre of gravity above the ground, the springs pressed.
+SETTLING = 1200  # Steps: it sinks onto its legs, and its magnetometer takes the place's field.
+FLUSH = ctypes.CDLL(None).fflush
 COMMANDS = ("FR", "AR", "AL", "FL")
 # JSBSim's own reader says on stdout that it is told something twice.
 jsbsim.FGJSBBase().debug_lvl = 0  # type: ignore[no-untyped-call]
@@ -62,6 +65,8 @@ class JsbsimPlant:
         self._wind = [node(f"atmosphere/wind-{way}-fps").set_double_value
                       for way in ("north", "east", "down")]  # fmt: skip
         self._run = self._fdm.run
+        for _ in range(SETTLING):
+            self._run()
 
     def _start(self, heading_deg: float) -> None:
         """Put it on the ground."""
@@ -121,14 +126,16 @@ def loaded(airframe: Airframe) -> Any:
 
 
 class quiet:  # noqa: N801 - a context, named as a word
-    """Nothing that a library in C++ writes reaches stdout."""
+    """Nothing that a library in C++ writes reaches stdout, not even later, from its buffer."""
 
     def __enter__(self) -> None:
+        FLUSH(None)
         self._kept = os.dup(1)
         self._null = os.open(os.devnull, os.O_WRONLY)
         os.dup2(self._null, 1)
 
     def __exit__(self, *_: object) -> None:
+        FLUSH(None)
         os.dup2(self._kept, 1)
         os.close(self._kept)
         os.close(self._null)

@@ -32,6 +32,8 @@ THRUST_N = 15.4  # Of a motor at its nominal voltage.
 TORQUE_M = 0.0197  # A motor's torque about its axis, for each N of its thrust.
 MOTOR_S = 0.03
 LEGS_M = 0.1524
+AIR = 1.16  # In kg/m^3.
+AREA = 0.5  # Of the box that MuJoCo takes the inertia for, 0.077 m^2: what the air meets.
 FIELD_UT = (21.4, 1.2, -42.8)  # North, east, up.
 # Front right, aft right, aft left, front left; a motor that turns counter-clockwise turns the body
 # clockwise, which is to the right.
@@ -40,15 +42,13 @@ TURNS = (-1, 1, -1, 1)  # Of the body, about its axis up.
 
 MODEL = """
 <mujoco model="quadrotor">
-  <option timestep="{step}" integrator="implicitfast" density="1.16" viscosity="1.8e-5"
-          gravity="0 0 -9.8066" magnetic="{east} {north} {up}"/>
+  <option timestep="{step}" integrator="implicitfast" density="{density}"
+          viscosity="1.8e-5" gravity="0 0 -9.8066" magnetic="{east} {north} {up}"/>
   <worldbody>
     <geom name="ground" type="plane" size="0 0 1" friction="0.8"/>
     <body name="copter" pos="0 0 {legs}">
       <freejoint/>
       <inertial pos="0 0 0" mass="{mass}" diaginertia="{ixx} {iyy} {izz}"/>
-      <geom type="ellipsoid" size="{drag} {drag} 0.05" mass="0" fluidshape="ellipsoid"
-            contype="0" conaffinity="0"/>
       {legs_xml}
       {sites}
       <site name="imu"/>
@@ -77,8 +77,8 @@ def model_of(airframe: Airframe) -> str:
     north, east, up = FIELD_UT
     return MODEL.format(
         step=STEP_S, north=north, east=east, up=up, legs=LEGS_M, mass=MASS_KG * airframe.mass,
-        ixx=ixx, iyy=iyy, izz=izz, drag=0.12 * math.sqrt(airframe.drag), legs_xml="\n".join(legs),
-        sites="\n".join(sites), motors="\n".join(motors),
+        ixx=ixx, iyy=iyy, izz=izz, density=AIR * AREA * airframe.drag,
+        legs_xml="\n".join(legs), sites="\n".join(sites), motors="\n".join(motors),
     )  # fmt: skip
 
 

@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What devices say: delay, noise, faults. The plant is one that stands still."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import pytest
+from flight import sensors, wind
+from flight.plants import HOME_LATITUDE, HOME_LONGITUDE, NORTH_M, Truth
+from flight.power import Battery
+from flight.sensors import Broken, Inertial, Quality, Slow
+
+REST = [0.0, 0.0, -9.81, 0.0, 0.0, 0.0]
+IMU = [("accelerometer", "<f4", (3,)), ("gyroscope", "<f4", (3,)), ("count", "<u4")]
+MEMORY = [
+    ("imu", IMU, (3,)),
+    ("magnetometer", [("field", "<f4", (3,)), ("count", "<u4")]),
+    ("barometer", [("pressure", "<f4"), ("count", "<u4")]),
+    ("gps", [("latitude", "<i4"), ("longitude", "<i4"), ("north", "<f4"), ("east", "<f4"),
+             ("accuracy", "<f4"), ("speed_accuracy", "<f4"), ("is_valid", "<u4"),
+             ("count", "<u4")]),
+    ("power", [("voltage", "<f4"), ("current", "<f4"), ("count", "<u4")], (2,)),
+]  # fmt: skip
+
+
+@dataclass
+class Still:
+    """A plant that does not move."""
+
+    told: Truth = field(default_factory=Truth)
+
+    def step(self, motors: Any) -> None:
+        """It stays."""
+
+    def inertial(self) -> list[float]:
+        return REST
+
+    def field(self) -> list[float]:
+        return [21.0, 1.0, 43.0]
+
+    def pressure(self) -> float:
+        return 96000.0
+
+    def truth(self) -> Truth:
+        return self.told
+
+    def blow(self, north: float, east: float, down: float) -> None:
+        """Nothing moves it."""
+
+
+def memory() -> Any:
+    """The devices' memory."""
+    return np.zeros(1, dtype=MEMORY)[0]
+
+
+def inertial(quality: Quality = Quality(), seed: int = 5) -> tuple[Any, Inertial]:  # noqa: B008
+    """Three units."""
+    there = memory()
+    return there, Inertial(there["imu"], np.random.Generator(np.random.PCG64(seed)), quality)
+
+
+def said(there: Any) -> Any:
+    """What the units say: 3 times 6 numbers."""
+    return np.hstack([there["imu"]["accelerometer"], there["imu"]["gyroscope"]]).copy()
+
+
+def test_units_differ_but_not_by_much() -> None:
+    there, units = inertial()
+    total = np.zeros((3, 6))
+    for _ in range(2000):
+        units.step(REST, 0.0, Broken())
+        total += said(there)
+    mean = total / 2000
+    assert np.all(np.abs(mean - REST) < [0.12] * 3 + [0.012] * 3)
+    assert np.abs(mean[0] - mean[1]).max() > 0.001  # Bias.
+
+
+def test_a_sample_is_late() -> None:
+    there, units = inertial(Quality(noise=0.0, bias=0.0, imu_delay_ms=2))
+    heard = []
+    for step in range(5):
+        units.step([float(step), 0.0, 0.0, 0.0, 0.0, 0.0], 0.0, Broken())
+        heard.append(float(there["imu"]["accelerometer"][0][0]))
+    assert heard == [0.0, 0.0, 0.0, 1.0, 2.0]
+
+
+def test_a_frozen_unit_repeats_itself_and_the_others_meet_the_same_noise() -> None:
+    (whole, healthy), (broken, sick) = inertial(), inertial()
+    for _ in range(10):
+        healthy.step(REST, 0.3, Broken())
+        sick.step(REST, 0.3, Broken())
+    frozen = said(broken)[2]
+    for _ in range(1500):  # Beyond a block of noise.
+        healthy.step(REST, 0.3, Broken())
+        sick.step(REST, 0.3, Broken(frozen={2}))
+    assert np.array_equal(said(broken)[2], frozen)
+    assert np.array_equal(said(broken)[:2], said(whole)[:2])
+    assert broken["imu"]["count"].tolist() == [1510] * 3
+
+
+def test_a_silent_unit_has_no_samples() -> None:
+    there, units = inertial()
+    for _ in range(5):
+        units.step(REST, 0.0, Broken(silent={0}))
+    assert there["imu"]["count"].tolist() == [0, 5, 5]
+
+
+def test_shouting_is_full_scale_and_drift_is_added() -> None:
+    there, units = inertial(Quality(noise=0.0, bias=0.0))
+    units.step(REST, 0.0, Broken(shouting={0}, drift={1: 0.5}))
+    assert np.abs(said(there)[0]) == pytest.approx([156.9] * 3 + [34.9] * 3, rel=1e-6)
+    assert there["imu"]["gyroscope"][1] == pytest.approx([0.5] * 3)
+
+
+def slow(broken: Broken, milliseconds: int, truth: Truth | None = None) -> Any:
+    """The other devices after a time."""
+    there = memory()
+    devices = Slow(there, np.random.SeedSequence(3), Quality())
+    plant, battery = Still(truth or Truth()), Battery(voltage=16.0, current=10.0)
+    for now in range(1, milliseconds + 1):
+        devices.step(now, plant, battery, broken)
+    return there
+
+
+def test_rates() -> None:
+    there = slow(Broken(), 10_000)
+    assert there["magnetometer"]["count"] == 1000
+    assert there["barometer"]["count"] == 500
+    assert there["gps"]["count"] == 99  # The last one is still on its way.
+    assert there["power"]["count"].tolist() == [1000, 1000]
+
+
+def test_the_satellites_tell_where_it_was() -> None:
+    place = Truth(latitude=HOME_LATITUDE + 100.0 / NORTH_M, longitude=HOME_LONGITUDE)
+    there = slow(Broken(), 1000, place)
+    north = (there["gps"]["latitude"] * 1e-7 - HOME_LATITUDE) * NORTH_M
+    assert north == pytest.approx(100.0, abs=1.0)
+    assert there["gps"]["is_valid"] == 1
+    jumped = slow(Broken(gps_jump=(30.0, 0.0)), 1000, place)
+    north_2 = (jumped["gps"]["latitude"] * 1e-7 - HOME_LATITUDE) * NORTH_M
+    assert north_2 - north == pytest.approx(30.0, abs=0.05)
+    assert slow(Broken(gps_lost=True), 1000)["gps"]["is_valid"] == 0
+
+
+def test_modules_share_the_current() -> None:
+    power = slow(Broken(), 1000)["power"]
+    assert power["current"].sum() == pytest.approx(10.0, abs=0.6)
+    assert power["voltage"] == pytest.approx([16.0, 16.03], abs=0.1)
+
+
+def test_current_disturbs_the_magnetometer() -> None:
+    calm, disturbed = slow(Broken(), 500), slow(Broken(microtesla_per_ampere=0.5), 500)
+    moved = disturbed["magnetometer"]["field"] - calm["magnetometer"]["field"]
+    assert np.linalg.norm(moved) == pytest.approx(5.0, rel=1e-3)
+
+
+def test_a_battery_sags_and_empties() -> None:
+    battery = Battery(capacity_ah=1.0, left=1.0, resistance=0.02)
+    battery.step([0.0] * 4, 0.0)
+    free = battery.voltage
+    battery.step([1.0] * 4, 36.0)  # 72.5 A for a hundredth of an hour.
+    assert battery.current == pytest.approx(sensors_current(4))
+    assert battery.left == pytest.approx(1.0 - 0.725)
+    assert battery.voltage < free - 0.02 * 72.5
+
+
+def sensors_current(motors: int) -> float:
+    """18 A for each motor and half an ampere for the rest."""
+    return 18.0 * motors + 0.5
+
+
+def test_wind_comes_from_where_it_is_said() -> None:
+    rng = np.random.Generator(np.random.PCG64(1))
+    air = wind.drawn(rng, 10.0, 5.0, 270.0, 0.0)  # From the west: it blows east.
+    assert air[:, 1] == pytest.approx(np.full(len(air), 5.0))
+    assert np.abs(air[:, 0]).max() < 1e-9
+
+
+def test_a_gust_is_its_speed_in_its_middle() -> None:
+    rng = np.random.Generator(np.random.PCG64(1))
+    air = wind.drawn(rng, 10.0, 0.0, 180.0, 0.0, [(2.0, 4.0, 6.0)])
+    assert air[400, 0] == pytest.approx(6.0)
+    assert air[100, 0] == 0.0 and air[700, 0] == 0.0
+
+
+def test_turbulence_has_the_strength_that_was_asked_for() -> None:
+    rng = np.random.Generator(np.random.PCG64(1))
+    gusts = wind.turbulence(rng, 200_000, 5.0, 0.2)
+    assert gusts.std(axis=0) == pytest.approx([1.0, 0.8, 0.5], rel=0.15)
+
+
+def test_full_scale() -> None:
+    there, units = inertial(Quality(noise=0.0, bias=0.0))
+    units.step([1e6, 0.0, 0.0, -1e6, 0.0, 0.0], 0.0, Broken())
+    assert said(there)[0][0] == pytest.approx(sensors.ACCELERATION_LIMIT, rel=1e-6)
+    assert said(there)[0][3] == pytest.approx(-sensors.RATE_LIMIT, rel=1e-6)
