@@ -101,8 +101,12 @@ flights: python ## N flights with everything varied (N=1000; JOBS=4; DASK=tcp://
 	    --flights "$(if $(N),$(N),100)" $(if $(SEED),--seed "$(SEED)") \
 	    $(if $(JOBS),--jobs "$(JOBS)") $(ARGS)
 
+.PHONY: flight-picture
+flight-picture: python
+	@python3 tools/with_packages.py fly -m flight.figure
+
 .PHONY: pictures
-pictures: campaign timing ## the pictures of the documents, in docs/pictures
+pictures: campaign timing flight-picture ## the pictures of the documents, in docs/pictures
 	@python3 tools/with_packages.py timing tools/pictures.py
 
 coverage: python ## lines, branches and MC/DC that the unit tests reach

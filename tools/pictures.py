@@ -4,8 +4,8 @@
 
     make pictures
 
-Draws what Keel is made of (layers.svg), and takes over the plots that `make campaign` and
-`make timing` have left in build. Committed pictures are small: a larger one is refused.
+Draws what Keel is made of (layers.svg), and takes over the plots that `make campaign`, `make timing`
+and the flight of flight/figure.py have left in build. Committed pictures are small: a larger one is refused.
 
 Exit status: 0 when all were written, 2 when one is missing or too large.
 """
@@ -29,6 +29,7 @@ FOLDER = Path("docs/pictures")
 TAKEN = (
     "build/campaign/faults.svg",
     "build/campaign/figure14.svg",
+    "build/fly/flight.svg",
     "build/timing/experiments/figure10.svg",
     "build/timing/experiments/figure12.svg",
 )
