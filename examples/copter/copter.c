@@ -34,7 +34,7 @@ const keel_task_config_t *copter_declaration(uint32_t row)
     return &declaration[row];
 }
 
-static void run(void *context)
+static void copter_body(void *context)
 {
     const copter_task_t *const task = context;
     const copter_port_t *const port = task->copter->port;
@@ -74,7 +74,7 @@ static keel_status_t add_tasks(copter_t *copter)
         copter_task_t *const task = &copter->task[row];
 
         *task = (copter_task_t){.copter = copter, .body = bodies[row], .row = row};
-        declaration[row] = urpilot_task_config(row, run, task);
+        declaration[row] = urpilot_task_config(row, copter_body, task);
         status = keel_scheduler_add(&copter->scheduler, &declaration[row]);
     }
     return status;
