@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whole flights: equal ones are equal, reports are whole, seeds are flown once."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import fly
+import pytest
+from flight import library, loop, montecarlo, plants, scenario, varied
+from flight.library import Copter
+from flight.loop import Order
+from toolchain import Toolchain
+
+SHORT = """description = "up and down"
+duration_s = 8.0
+mode = "altitude"
+wind = { speed = 3.0, turbulence = 0.2 }
+
+[[pilot]]
+at_s = 0.5
+height_m = 4.0
+
+[[pilot]]
+at_s = 5.0
+mode = "land"
+
+[limits]
+from_s = 0.0
+tilt_max_deg = 20.0
+end = { on_ground = false, motors_on = true }
+"""
+
+
+@pytest.fixture(scope="module")
+def copter(tmp_path_factory: pytest.TempPathFactory) -> Copter:
+    """The library."""
+    return Copter(library.build(Toolchain(), tmp_path_factory.mktemp("copter")))
+
+
+def short(folder: Path) -> scenario.Scenario:
+    """A flight that takes little time."""
+    (folder / "short.toml").write_text(SHORT)
+    return scenario.read("short", folder)
+
+
+@pytest.mark.parametrize("plant", plants.NAMES)
+def test_equal_seeds_make_equal_flights(copter: Copter, tmp_path: Path, plant: str) -> None:
+    made = short(tmp_path)
+    first, again, other = (loop.fly(copter, Order(made, plant, seed)) for seed in (1, 1, 2))
+    assert not first.problem and not first.crash
+    assert first.column("up").max() > 0.5
+    assert first.digest == again.digest != other.digest
+
+
+def test_the_names_are_those_of_the_headers() -> None:
+    assert library.states() == ["disarmed", "armed", "flying", "holding", "returning", "landing",
+                                "terminated"]  # fmt: skip
+    assert library.modes() == ["acro", "land", "angle", "altitude", "position", "return", "none"]
+    assert library.checks_of(0x0101) == ["gyroscope", "motors"]
+
+
+def test_declarations_lose_comments_and_keep_numbers() -> None:
+    text = "/* a */\n#ifndef X\n#define N 3 /* three */\n#include <a.h>\nint f(int a[N]); /** b\n*/"
+    assert " ".join(library.declarations(text).split()) == "#define N 3 int f(int a[N]);"
+
+
+def test_a_copter_that_may_not_arm_is_told(copter: Copter, tmp_path: Path) -> None:
+    made = short(tmp_path).model_copy(update={"battery_left": 0.0})
+    trace = loop.fly(copter, Order(made, "mujoco", 1))
+    assert trace.problem.startswith("not armed after 30 s") and "battery" in trace.problem
+
+
+def test_a_report_and_its_exit_status(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scenarios, build = tmp_path / "scenarios", tmp_path / "build"
+    scenarios.mkdir()
+    short(scenarios)
+    words = ["--scenarios", str(scenarios), "--build", str(build), "--plant", "mujoco"]
+    assert fly.main(words) == 0
+    report = json.loads((build / "fly.json").read_text())
+    assert report["good"] and report["flights"][0]["measured"]["tilt_max_deg"] < 20.0
+    assert (build / "short-mujoco.svg").read_text().startswith("<?xml")
+    assert capsys.readouterr().out.splitlines()[-1].startswith("fly: 1 flights, 1 good, 0 not; ")
+    strict = SHORT.replace("tilt_max_deg = 20.0", "tilt_max_deg = 0.01")
+    (scenarios / "short.toml").write_text(strict)
+    assert fly.main([*words, "--no-pictures"]) == 1
+    told = capsys.readouterr().out
+    assert "short in mujoco: tilt_max_deg" in told and "wanted 0.01" in told
+    (scenarios / "short.toml").write_text(strict.replace("duration_s", "duration"))
+    assert fly.main(words) == 2
+
+
+def test_a_seed_is_one_flight_and_seeds_differ() -> None:
+    assert varied.order_of(7) == varied.order_of(7)
+    flights = [varied.order_of(seed) for seed in range(1, 60)]
+    assert {flight.plant for flight in flights} == set(plants.NAMES)
+    assert len({flight.scenario.description for flight in flights}) > 8
+    assert len({flight.airframe.mass for flight in flights}) > 50
+
+
+def answer(seed: int, digest: str = "d") -> dict[str, Any]:
+    """A worker's, as it is kept."""
+    return {"seed": seed, "digest": digest, "good": True, "name": f"seed {seed}",
+            "fault": "no fault", "plant": "jsbsim", "measured": {"sink_max": 0.5},
+            "limits": []}  # fmt: skip
+
+
+class Closed:
+    """A cluster that nobody may ask again."""
+
+    def close(self) -> None:
+        """Nothing is open."""
+
+
+def test_what_was_flown_is_not_flown_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:  # fmt: skip
+    asked: list[list[int]] = []
+
+    def fake(_: Any, seeds: list[int]) -> Any:
+        asked.append(list(seeds))
+        yield from (answer(seed) for seed in reversed(seeds))
+
+    monkeypatch.setattr(montecarlo, "BUILD", tmp_path)
+    monkeypatch.setattr(montecarlo, "library_of", lambda digest: tmp_path)
+    monkeypatch.setattr(montecarlo, "cluster", lambda address, width: Closed())
+    monkeypatch.setattr(montecarlo, "answers", fake)
+    assert [kept["seed"] for kept in montecarlo.all_flown([1, 2], "d", 1)] == [1, 2]
+    montecarlo.file_of(2).write_text("{")  # As no interruption leaves it.
+    montecarlo.all_flown([1, 2, 3], "d", 1)
+    montecarlo.all_flown([1, 2, 3], "d", 1)
+    assert asked == [[1, 2], [2, 3]]
+    with pytest.raises(montecarlo.ToolError, match="other sources"):
+        montecarlo.all_flown([1], "another", 1)
+
+
+def test_a_report_of_seeds_does_not_depend_on_their_order() -> None:
+    flights = [answer(seed) for seed in (1, 2, 3)]
+    report = montecarlo.report_of(flights, "d")
+    assert report["good"] == 3 and report["not_good"] == []
+    assert report["percentiles"] == {"sink_max": {"p50": 0.5, "p90": 0.5, "p99": 0.5, "p100": 0.5}}
+
+
+def test_numbers_that_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert montecarlo.main(["--flights", "0"]) == 2
+    assert "expected 1 or more" in capsys.readouterr().err
