@@ -4,8 +4,9 @@
 
     make pictures
 
-Draws what Keel is made of (layers.svg), and takes over the plots that `make campaign`, `make timing`
-and the flight of flight/figure.py have left in build. Committed pictures are small: a larger one is refused.
+Draws what Keel is made of (layers.svg), and takes over the plots that `make campaign`,
+`make timing` and flight/figure.py have left in build. Committed pictures are small: a larger one is
+refused.
 
 Exit status: 0 when all were written, 2 when one is missing or too large.
 """

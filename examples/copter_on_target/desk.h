@@ -5,8 +5,8 @@
  *        own sensors have no drivers yet, and for counting what the tasks cost.
  *
  * Samples come as often as those of real devices, and are never twice the same, as no real ones
- * are. The pilot switches on after seven seconds, raises the throttle to its middle after eight, and
- * the motors turn.
+ * are. The pilot switches on after seven seconds, raises the throttle to its middle after eight,
+ * and the motors turn.
  */
 #ifndef COPTER_DESK_H
 #define COPTER_DESK_H

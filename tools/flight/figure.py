@@ -60,7 +60,7 @@ def draw(copter: Copter, path: Path) -> None:
     roll.set_ylim(-20.0, 60.0)
     roll.legend(loc="upper left", ncols=3)
     height.set_ylabel("height, m")
-    height.set_xlabel(f"time in flight, s; from {fault_s:g} s on one of three inertial units is frozen")
+    height.set_xlabel(f"time in flight, s; from {fault_s:g} s on one of three units is frozen")
     write_svg(path, figure)
 
 
