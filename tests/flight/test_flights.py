@@ -4,6 +4,10 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -146,3 +150,15 @@ def test_a_report_of_seeds_does_not_depend_on_their_order() -> None:
 def test_numbers_that_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert montecarlo.main(["--flights", "0"]) == 2
     assert "expected 1 or more" in capsys.readouterr().err
+
+
+def test_an_interruption_ends_it_and_leaves_no_report(tmp_path: Path) -> None:
+    words = [sys.executable, "tools/fly.py", "--build", str(tmp_path), "--no-pictures"]
+    with subprocess.Popen(words, cwd=library.ROOT, stdout=subprocess.PIPE, text=True,
+                          stderr=subprocess.STDOUT, start_new_session=True) as child:  # fmt: skip
+        assert child.stdout is not None
+        assert child.stdout.readline().startswith("[1/")
+        os.killpg(child.pid, signal.SIGINT)  # As a terminal does: to all of them.
+        told, _ = child.communicate(timeout=60.0)
+    assert child.returncode == 130 and told.endswith("fly: interrupted\n")
+    assert not list(tmp_path.glob("*.json"))

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import signal
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -87,12 +88,24 @@ def flown(job: Job) -> Outcome:
 
 def all_flown(jobs: Sequence[Job], width: int) -> Iterator[tuple[int, Outcome]]:
     """The outcomes as they come, each with the place of its job."""
-    pool = ProcessPoolExecutor(width, mp_context=multiprocessing.get_context("spawn"))
+    pool = ProcessPoolExecutor(
+        width, mp_context=multiprocessing.get_context("spawn"), initializer=leave_ctrl_c
+    )  # fmt: skip
     try:
         futures = {pool.submit(flown, job): place for place, job in enumerate(jobs)}
         for future in as_completed(futures):
             yield futures[future], future.result()
     except BrokenProcessPool as error:
         raise ToolError("a flight crashed: the copter's library ended its process") from error
+    except BaseException:
+        # Nobody waits for flights that nobody wants any more.
+        for child in multiprocessing.active_children():
+            child.kill()
+        raise
     finally:
-        pool.shutdown(wait=False, cancel_futures=True)
+        pool.shutdown(wait=True, cancel_futures=True)
+
+
+def leave_ctrl_c() -> None:
+    """Ctrl-C is for the process that asked for the flights, and which ends this one."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
