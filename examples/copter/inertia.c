@@ -54,26 +54,20 @@ static void take(copter_inertia_t *self, uint32_t unit, uint64_t now_us)
     }
 }
 
-/* What an aircraft without a voter would fly with: the mean of the units that gave a sample. */
+/* What an aircraft without a voter would fly with: the mean of what its units last said. */
 static void take_mean(keel_attitude_sample_t *sample, const keel_virtual_imu_sample_t unit[])
 {
-    float sum[KEEL_VIRTUAL_IMU_CHANNELS] = {0.0f};
-    float count = 0.0f;
+    float mean[KEEL_VIRTUAL_IMU_CHANNELS] = {0.0f};
 
     for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
-        for (uint32_t k = 0u; (k < KEEL_VIRTUAL_IMU_CHANNELS) && unit[i].present; k++) {
-            sum[k] += unit[i].value[k];
+        for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
+            mean[k] += unit[i].value[k] / (float)COPTER_IMUS;
         }
-        count += unit[i].present ? 1.0f : 0.0f;
     }
-    sample->has_gyroscope = count > 0.0f;
-    sample->has_accelerometer = sample->has_gyroscope;
-    if (sample->has_gyroscope) {
-        sample->accelerometer = (keel_attitude_vector_t){sum[0] / count, sum[1] / count,
-                                                         sum[2] / count};
-        sample->gyroscope = (keel_attitude_vector_t){sum[3] / count, sum[4] / count,
-                                                     sum[5] / count};
-    }
+    sample->has_accelerometer = true;
+    sample->has_gyroscope = true;
+    sample->accelerometer = (keel_attitude_vector_t){mean[0], mean[1], mean[2]};
+    sample->gyroscope = (keel_attitude_vector_t){mean[3], mean[4], mean[5]};
 }
 
 /* Navigation looks once in a block of steps: it gets their mean. */

@@ -143,18 +143,28 @@ static bool is_within(float value, float limit)
     return (value <= limit) && (value >= -limit);
 }
 
-/* On the ground nothing turns or sinks though the motors push far less than the weight. */
+/* Whether the aircraft neither turns, nor rises or sinks, nor slides to a stop. */
+static bool is_calm(const copter_t *copter)
+{
+    const copter_inertia_t *const inertia = &copter->inertia;
+    const keel_attitude_vector_t rate = inertia->attitude.rate;
+    const keel_attitude_vector_t force =
+        inertia->force[(inertia->blocks - 1u) % COPTER_BLOCKS].mean;
+
+    return is_within(rate.x, copter_settings.landed_rate) &&
+           is_within(rate.y, copter_settings.landed_rate) &&
+           is_within(rate.z, copter_settings.landed_rate) &&
+           is_within(force.x, copter_settings.landed_force) &&
+           is_within(force.y, copter_settings.landed_force) &&
+           is_within(copter->estimate.altitude.axis.velocity, copter_settings.landed_speed);
+}
+
+/* On the ground it is calm though the motors push less than its weight. */
 static bool is_landed(const copter_t *copter)
 {
-    const keel_attitude_vector_t rate = copter->inertia.attitude.rate;
-    const bool calm = is_within(rate.x, copter_settings.landed_rate) &&
-                      is_within(rate.y, copter_settings.landed_rate) &&
-                      is_within(rate.z, copter_settings.landed_rate) &&
-                      is_within(copter->estimate.altitude.axis.velocity,
-                                copter_settings.landed_speed);
-
     return !copter->state.mode.motors ||
-           (calm && (copter->control.cascade.command.thrust < copter_settings.landed_thrust));
+           (is_calm(copter) &&
+            (copter->control.cascade.command.thrust < copter_settings.landed_thrust));
 }
 
 void copter_navigation(copter_t *copter)

@@ -35,6 +35,7 @@ typedef struct copter_settings {
     uint32_t load_limit_ppm; /**< The greatest load with which it may be armed. */
     float level;             /**< The least cosine of the tilt with which it may be armed. */
     float landed_rate;       /**< Less than this on the ground, in rad/s. */
+    float landed_force;      /**< Less than this on the ground, forwards and sideways, in m/s^2. */
     float landed_speed;      /**< Less than this on the ground, up or down, in m/s. */
     float landed_thrust;     /**< Less than this on the ground, 0 to 1. */
     float home_radius;       /**< Within this of home, to either side, it is there, in m. */
