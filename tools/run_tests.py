@@ -9,10 +9,10 @@
 
 Suites: unit/<unit> (Unity), bsp/<driver> (Unity, on simulated hardware), property/<size> (the
 scheduler against its reference model), reference/<unit> (C++, an independent computation with
-Eigen in double precision), machdep (Frama-C's data model against the compiler), tools/<tool> and
-timing/<part> (Python), fuzz (libFuzzer). The C and C++ suites are built with the address and
-undefined-behaviour sanitizers; where their libraries are missing this is said, in the output and
-in the report.
+Eigen in double precision), machdep (Frama-C's data model against the compiler), tools/<tool>,
+timing/<part> and flight/<part> (Python), fuzz (libFuzzer). The C and C++ suites are built with the
+address and undefined-behaviour sanitizers; where their libraries are missing this is said, in the
+output and in the report.
 
 Suites run side by side, as many as there are cores; tests/suites.toml says which tools they need
 and which take long. So whatever a suite writes lies in a folder of its own: a temporary one, or one
@@ -248,7 +248,8 @@ def all_suites(builds: HostBuilds, fuzz_seconds: int, needs: Needs) -> list[Suit
         suites.append(Suite(name, ("test",), partial(property_suite, builds, name, size)))
     suites.append(Suite("machdep", ("prove",), machdep_suite))
     suites += [*python_suites("tools", ("tools-tests", "c-syntax"), True),
-               *python_suites("timing", ("timing-tests",), False)]  # fmt: skip
+               *python_suites("timing", ("timing-tests",), False),
+               *python_suites("flight", ("fly-tests",), False)]  # fmt: skip
     if fuzz_seconds > 0:
         run_it = partial(fuzz_suite, builds.tools, fuzz_seconds)
         suites.append(Suite("fuzz", ("fuzz",), run_it))

@@ -59,6 +59,15 @@ def test_equal_seeds_make_equal_flights(copter: Copter, tmp_path: Path, plant: s
     assert first.digest == again.digest != other.digest
 
 
+def test_nothing_is_undefined_and_the_compiler_does_not_matter(
+    copter: Copter, tmp_path: Path
+) -> None:
+    flags = ("-O0", "-fsanitize=undefined", "-fno-sanitize-recover=all")
+    strict = Copter(library.build(Toolchain(), tmp_path / "strict", more=flags))
+    order = Order(short(tmp_path), "mujoco", 1)
+    assert loop.fly(strict, order).digest == loop.fly(copter, order).digest
+
+
 def test_the_names_are_those_of_the_headers() -> None:
     assert library.states() == ["disarmed", "armed", "flying", "holding", "returning", "landing",
                                 "terminated"]  # fmt: skip

@@ -521,7 +521,7 @@ class TheLockFile(Sandbox):
 
     def test_a_package_has_one_version_in_all_files_of_one_program(self) -> None:
         lock = Lock.read()
-        for group in ("timing-tests", "tools-tests"):
+        for group in ("timing-tests", "tools-tests", "fly-tests"):
             seen: dict[str, str] = {}
             for name in lock.groups[group]:
                 path = ROOT / lock.tools[name].path

@@ -38,9 +38,9 @@ def sources(root: Path = ROOT) -> list[str]:
     return [*SOURCES, *own]
 
 
-def build(tools: Toolchain, folder: Path, width: int = 2) -> Path:
-    """The library, made anew of what is there now."""
-    make = Build(tools, "gcc", FLAGS, folder, link_flags=("-shared",))
+def build(tools: Toolchain, folder: Path, width: int = 2, more: Sequence[str] = ()) -> Path:
+    """The library, made anew of what is there now, with more flags."""
+    make = Build(tools, "gcc", [*FLAGS, *more], folder, link_flags=("-shared", *more))
     return make.link("libcopter.so", make.objects(sources(), width=width), ("-lm",))
 
 
