@@ -8,8 +8,8 @@
  * in all that is given: rad/s, m/s^2, uT, or the sensor's own counts.
  *
  * At rest (keel_calibration_rest_t) it is known what a sensor ought to measure: a gyroscope 0, an
- * accelerometer that is held level (0, 0, -g), forward, right, down. From `samples` samples in a row
- * that lie within `spread` of the first of them, on each axis,
+ * accelerometer that is held level (0, 0, -g), forward, right, down. From `samples` samples in a
+ * row that lie within `spread` of the first of them, on each axis,
  *
  *     mean   = first + (sum of (sample - first)) / samples
  *     offset = mean - expected
@@ -150,11 +150,10 @@ typedef struct keel_calibration_field {
   @ predicate calibration_near(float value, float first, float spread) =
   @     -spread <= (float)(value - first) <= spread;
   @
-  @ predicate calibration_continues(keel_calibration_rest_t *r, float *s) =
-  @     calibration_three(s, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
-  @     (r->count == 0 || (calibration_near(s[0], r->first[0], r->config.spread) &&
-  @         calibration_near(s[1], r->first[1], r->config.spread) &&
-  @         calibration_near(s[2], r->first[2], r->config.spread)));
+  @ predicate calibration_all_near(keel_calibration_rest_t *r, float *s) =
+  @     calibration_near(s[0], r->first[0], r->config.spread) &&
+  @     calibration_near(s[1], r->first[1], r->config.spread) &&
+  @     calibration_near(s[2], r->first[2], r->config.spread);
   @
   @ logic integer calibration_up(integer count) = count < 65535 ? count + 1 : 65535;
   @*/
@@ -210,20 +209,25 @@ void keel_calibration_rest_begin(keel_calibration_rest_t *rest);
   @ ensures CAL_004_only: \old(rest->state) != KEEL_CALIBRATION_COLLECTING ==>
   @     rest->state == \old(rest->state) && rest->count == \old(rest->count) &&
   @     rest->restarts == \old(rest->restarts) && rest->beyond == \old(rest->beyond);
-  @ ensures CAL_004_counted: \old(rest->state) == KEEL_CALIBRATION_COLLECTING &&
-  @     \old(calibration_continues(rest, sample)) ==> rest->count == \old(rest->count) + 1 &&
-  @     rest->restarts == \old(rest->restarts);
+  @ ensures CAL_004_counted: \old(rest->state) == KEEL_CALIBRATION_COLLECTING ==>
+  @     rest->count == \old(rest->count) + 1 || rest->count == 0;
   @ ensures CAL_004_first: \old(rest->state) == KEEL_CALIBRATION_COLLECTING &&
-  @     \old(rest->count) == 0 && rest->count == 1 ==> rest->first[0] == sample[0] &&
-  @     rest->first[1] == sample[1] && rest->first[2] == sample[2];
-  @ ensures CAL_005_broken: \old(rest->state) == KEEL_CALIBRATION_COLLECTING &&
-  @     !\old(calibration_continues(rest, sample)) ==> rest->count == 0 &&
-  @     rest->state == KEEL_CALIBRATION_COLLECTING &&
-  @     rest->restarts == (\old(rest->count) == 0 ? \old(rest->restarts)
-  @     : calibration_up(\old(rest->restarts)));
+  @     \old(rest->count) == 0 &&
+  @     calibration_three(sample, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) ==>
+  @     rest->count == 1 && rest->first[0] == sample[0] && rest->first[1] == sample[1] &&
+  @     rest->first[2] == sample[2];
+  @ ensures CAL_005_none: \old(rest->state) == KEEL_CALIBRATION_COLLECTING &&
+  @     !calibration_three(sample, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) ==>
+  @     rest->count == 0;
+  @ ensures CAL_005_far: \old(rest->state) == KEEL_CALIBRATION_COLLECTING &&
+  @     \old(rest->count) != 0 &&
+  @     calibration_three(sample, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) ==>
+  @     (rest->count == 0 <==> !\old(calibration_all_near(rest, sample)));
+  @ ensures CAL_005_told: \old(rest->state) == KEEL_CALIBRATION_COLLECTING ==>
+  @     rest->restarts == (rest->count == 0 && \old(rest->count) != 0
+  @     ? calibration_up(\old(rest->restarts)) : \old(rest->restarts));
   @ ensures CAL_006_ends: \old(rest->state) == KEEL_CALIBRATION_COLLECTING ==>
-  @     (rest->state == KEEL_CALIBRATION_COLLECTING <==>
-  @     rest->count < rest->config.samples || rest->count == 0) &&
+  @     (rest->state == KEEL_CALIBRATION_COLLECTING <==> rest->count < rest->config.samples) &&
   @     rest->state != KEEL_CALIBRATION_IDLE;
   @ ensures CAL_007_limit: rest->state == KEEL_CALIBRATION_DONE &&
   @     \old(rest->state) == KEEL_CALIBRATION_COLLECTING ==> rest->beyond == 0 &&
@@ -244,8 +248,8 @@ void keel_calibration_rest_step(keel_calibration_rest_t *rest,
  *
  * @param field  the calibration
  * @param config what it is made from; copied
- * @return KEEL_OK; KEEL_ERR_VALUE (lowest, highest) or KEEL_ERR_LIMITS (any other number), the first
- *         that applies, NaN included: then nothing is changed
+ * @return KEEL_OK; KEEL_ERR_VALUE (lowest, highest) or KEEL_ERR_LIMITS (any other number), the
+ *         first that applies, NaN included: then nothing is changed
  */
 /*@ requires \valid(field) && \valid_read(config) && \separated(field, config);
   @ assigns *field;
