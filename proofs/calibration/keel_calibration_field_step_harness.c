@@ -42,9 +42,9 @@ void keel_calibration_field_step_harness(void)
                      "CAL_010_frame: the sample is not written");
     __CPROVER_assert(collects || field_same(&field, &before),
                      "CAL_010_only: nothing happens when nothing was begun");
-    __CPROVER_assert(!collects ||
-                         (field.dropped == (sane ? before.dropped : up_to_end(before.dropped))),
+    __CPROVER_assert(!collects || sane || (field.dropped == up_to_end(before.dropped)),
                      "CAL_010_dropped: what cannot be is dropped, and counted");
+    __CPROVER_assert(!heeds || (field.dropped == before.dropped), "CAL_010_heeded: nothing else");
     for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
         __CPROVER_assert(float_same(field.lowest[k], lower(before.lowest[k], said.axis[k], heeds)),
                          "CAL_010_lowest: the lower one");

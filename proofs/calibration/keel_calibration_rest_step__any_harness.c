@@ -5,8 +5,8 @@
 // covers: keel_calibration_rest_step
 //
 // Any bit pattern for what was measured and for the state: the contract of a step, clause by
-// clause; what is near is in keel_calibration_rest_step__near_harness. Overflow is not checked here, but for valid calibrations in
-// keel_calibration_rest_step__valid_harness.
+// clause; what is near is in keel_calibration_rest_step__near_harness. Overflow is not checked
+// here, but for valid calibrations in keel_calibration_rest_step__valid_harness.
 #include "calibration_proof.h"
 
 void keel_calibration_rest_step__any_harness(void)

@@ -141,7 +141,7 @@ static uint16_t axes_beyond(const float offset[KEEL_CALIBRATION_AXES], float lim
 }
 
 /* Takes the offset of a whole run, or refuses it. */
-/*@ requires \valid(rest) && calibration_rest_counts(rest);
+/*@ requires \valid(rest) && \is_finite(rest->config.limit);
   @ assigns rest->offset[0 .. 2], rest->state, rest->beyond;
   @*/
 static void end_rest(keel_calibration_rest_t *rest)

@@ -155,6 +155,11 @@ typedef struct keel_calibration_field {
   @     calibration_near(s[1], r->first[1], r->config.spread) &&
   @     calibration_near(s[2], r->first[2], r->config.spread);
   @
+  @ // A sample that counts.
+  @ predicate calibration_heeds(keel_calibration_field_t *f, float *s) =
+  @     f->state == KEEL_CALIBRATION_COLLECTING &&
+  @     calibration_three(s, f->config.lowest, f->config.highest);
+  @
   @ logic integer calibration_up(integer count) = count < 65535 ? count + 1 : 65535;
   @*/
 
@@ -234,8 +239,8 @@ void keel_calibration_rest_begin(keel_calibration_rest_t *rest);
   @     calibration_three(&rest->offset[0], -rest->config.limit, rest->config.limit);
   @ ensures CAL_007_refused: rest->state == KEEL_CALIBRATION_REFUSED &&
   @     \old(rest->state) == KEEL_CALIBRATION_COLLECTING ==> 1 <= rest->beyond <= 7;
-  @ ensures CAL_007_kept: calibration_three(&\old(rest->offset)[0], -KEEL_CALIBRATION_LIMIT,
-  @     KEEL_CALIBRATION_LIMIT) && (rest->state != KEEL_CALIBRATION_DONE ||
+  @ ensures CAL_007_kept: \old(calibration_three(&rest->offset[0], -KEEL_CALIBRATION_LIMIT,
+  @     KEEL_CALIBRATION_LIMIT)) && (rest->state != KEEL_CALIBRATION_DONE ||
   @     \old(rest->state) != KEEL_CALIBRATION_COLLECTING) ==>
   @     rest->offset[0] == \old(rest->offset[0]) && rest->offset[1] == \old(rest->offset[1]) &&
   @     rest->offset[2] == \old(rest->offset[2]);
@@ -293,18 +298,22 @@ void keel_calibration_field_begin(keel_calibration_field_t *field);
   @ assigns field->lowest[0 .. 2], field->highest[0 .. 2], field->dropped;
   @ ensures CAL_010_only: field->state != KEEL_CALIBRATION_COLLECTING ==>
   @     field->dropped == \old(field->dropped);
-  @ ensures CAL_010_dropped: field->state == KEEL_CALIBRATION_COLLECTING ==>
-  @     field->dropped == (calibration_three(sample, field->config.lowest, field->config.highest)
-  @     ? \old(field->dropped) : calibration_up(\old(field->dropped)));
+  @ ensures CAL_010_dropped: field->state == KEEL_CALIBRATION_COLLECTING &&
+  @     !calibration_three(sample, field->config.lowest, field->config.highest) ==>
+  @     field->dropped == calibration_up(\old(field->dropped));
+  @ ensures CAL_010_heeded: calibration_heeds(field, sample) ==>
+  @     field->dropped == \old(field->dropped);
   @ ensures CAL_010_lowest: \forall integer k; 0 <= k < 3 && \is_finite(\old(field->lowest[k])) ==>
-  @     field->lowest[k] == (field->state == KEEL_CALIBRATION_COLLECTING &&
-  @     calibration_three(sample, field->config.lowest, field->config.highest) &&
-  @     sample[k] < \old(field->lowest[k]) ? sample[k] : \old(field->lowest[k]));
+  @     (calibration_heeds(field, sample) && sample[k] < \old(field->lowest[k]) ==>
+  @     field->lowest[k] == sample[k]) &&
+  @     (!(calibration_heeds(field, sample) && sample[k] < \old(field->lowest[k])) ==>
+  @     field->lowest[k] == \old(field->lowest[k]));
   @ ensures CAL_010_highest: \forall integer k; 0 <= k < 3 &&
   @     \is_finite(\old(field->highest[k])) ==>
-  @     field->highest[k] == (field->state == KEEL_CALIBRATION_COLLECTING &&
-  @     calibration_three(sample, field->config.lowest, field->config.highest) &&
-  @     sample[k] > \old(field->highest[k]) ? sample[k] : \old(field->highest[k]));
+  @     (calibration_heeds(field, sample) && sample[k] > \old(field->highest[k]) ==>
+  @     field->highest[k] == sample[k]) &&
+  @     (!(calibration_heeds(field, sample) && sample[k] > \old(field->highest[k])) ==>
+  @     field->highest[k] == \old(field->highest[k]));
   @*/
 void keel_calibration_field_step(keel_calibration_field_t *field,
                                  const float sample[KEEL_CALIBRATION_AXES]);
@@ -346,8 +355,8 @@ keel_calibration_verdict_t keel_calibration_field_axis(const keel_calibration_fi
   @ ensures CAL_012_state: \old(field->state) != KEEL_CALIBRATION_COLLECTING <==>
   @     \result == KEEL_ERR_STATE;
   @ ensures CAL_012_kept: \result != KEEL_OK ==> field->state == \old(field->state) &&
-  @     (calibration_three(&\old(field->offset)[0], -KEEL_CALIBRATION_LIMIT,
-  @         KEEL_CALIBRATION_LIMIT) ==> field->offset[0] == \old(field->offset[0]) &&
+  @     (\old(calibration_three(&field->offset[0], -KEEL_CALIBRATION_LIMIT,
+  @         KEEL_CALIBRATION_LIMIT)) ==> field->offset[0] == \old(field->offset[0]) &&
   @     field->offset[1] == \old(field->offset[1]) && field->offset[2] == \old(field->offset[2]));
   @ ensures CAL_012_taken: \result == KEEL_OK ==> field->state == KEEL_CALIBRATION_DONE &&
   @     calibration_three(&field->offset[0], -field->config.limit, field->config.limit);
