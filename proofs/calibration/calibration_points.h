@@ -29,9 +29,10 @@ static keel_calibration_rest_t known_rest(void)
     return rest;
 }
 
-static void make_rest_point(unsigned point, keel_calibration_rest_t *rest, three_t *sample)
+static void make_rest_point(unsigned point, keel_calibration_rest_t *rest,
+                            keel_calibration_vector_t *sample)
 {
-    const three_t usual = {{2.5f, 3.25f, -9.5f}};
+    const keel_calibration_vector_t usual = {{2.5f, 3.25f, -9.5f}};
 
     *rest = known_rest();
     *sample = usual;

@@ -21,12 +21,19 @@ keel_calibration_rest_config_t nondet_rest_config(void);
 keel_calibration_field_t nondet_field(void);
 keel_calibration_field_config_t nondet_field_config(void);
 
-/* What was measured, or an offset. */
-typedef struct three {
-    float axis[KEEL_CALIBRATION_AXES];
-} three_t;
+uint32_t nondet_uint32(void);
 
-three_t nondet_three(void);
+keel_calibration_vector_t nondet_vector(void);
+
+static bool vector_same(const keel_calibration_vector_t *a, const keel_calibration_vector_t *b)
+{
+    bool same = true;
+
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        same = same && float_same(a->axis[k], b->axis[k]);
+    }
+    return same;
+}
 
 static bool three_same(const float *a, const float *b)
 {
@@ -36,16 +43,26 @@ static bool three_same(const float *a, const float *b)
 static bool rest_config_same(const keel_calibration_rest_config_t *a,
                              const keel_calibration_rest_config_t *b)
 {
-    return three_same(a->expected, b->expected) && float_same(a->spread, b->spread) &&
-           float_same(a->limit, b->limit) && (a->samples == b->samples);
+    bool same = float_same(a->spread, b->spread) && float_same(a->limit, b->limit) &&
+                (a->samples == b->samples);
+
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        same = same && float_same(a->expected[k], b->expected[k]);
+    }
+    return same;
 }
 
 static bool rest_same(const keel_calibration_rest_t *a, const keel_calibration_rest_t *b)
 {
-    return rest_config_same(&a->config, &b->config) && float_same(a->per_sample, b->per_sample) &&
-           three_same(a->offset, b->offset) && three_same(a->first, b->first) &&
-           three_same(a->sum, b->sum) && (a->count == b->count) && (a->state == b->state) &&
-           (a->restarts == b->restarts) && (a->beyond == b->beyond);
+    bool same = rest_config_same(&a->config, &b->config) &&
+                float_same(a->per_sample, b->per_sample) && (a->count == b->count) &&
+                (a->state == b->state) && (a->restarts == b->restarts) && (a->beyond == b->beyond);
+
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        same = same && float_same(a->offset[k], b->offset[k]) &&
+               float_same(a->first[k], b->first[k]) && float_same(a->sum[k], b->sum[k]);
+    }
+    return same;
 }
 
 static bool field_config_same(const keel_calibration_field_config_t *a,
@@ -58,9 +75,14 @@ static bool field_config_same(const keel_calibration_field_config_t *a,
 
 static bool field_same(const keel_calibration_field_t *a, const keel_calibration_field_t *b)
 {
-    return field_config_same(&a->config, &b->config) && three_same(a->offset, b->offset) &&
-           three_same(a->lowest, b->lowest) && three_same(a->highest, b->highest) &&
-           (a->state == b->state) && (a->dropped == b->dropped);
+    bool same = field_config_same(&a->config, &b->config) && (a->state == b->state) &&
+                (a->dropped == b->dropped);
+
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        same = same && float_same(a->offset[k], b->offset[k]) &&
+               float_same(a->lowest[k], b->lowest[k]) && float_same(a->highest[k], b->highest[k]);
+    }
+    return same;
 }
 
 static bool within(float value, float least, float most)
@@ -77,6 +99,14 @@ static bool three_within(const float *value, float least, float most)
 static bool is_finite(float value)
 {
     return within(value, -FLT_MAX, FLT_MAX);
+}
+
+static uint32_t any_axis(void)
+{
+    const uint32_t axis = nondet_uint32();
+
+    __CPROVER_assume(axis < KEEL_CALIBRATION_AXES);
+    return axis;
 }
 
 static keel_calibration_state_t any_state(void)

@@ -10,13 +10,13 @@
 
 void keel_calibration_apply__points_harness(void)
 {
-    const three_t offset = {{1.0f, -2.0f, 3.0f}};
-    const three_t raw = {{10.0f, 20.0f, 40.0f}};
-    three_t out;
-    three_t model;
+    const keel_calibration_vector_t offset = {{1.0f, -2.0f, 3.0f}};
+    const keel_calibration_vector_t raw = {{10.0f, 20.0f, 40.0f}};
+    keel_calibration_vector_t out = nondet_vector();
+    keel_calibration_vector_t model = out;
 
-    keel_calibration_apply(offset.axis, raw.axis, out.axis);
-    model_calibration_apply(offset.axis, raw.axis, model.axis);
+    keel_calibration_apply(offset.axis, raw.axis, &out);
+    model_calibration_apply(offset.axis, raw.axis, &model);
 
-    __CPROVER_assert(three_same(out.axis, model.axis), "CAL_014_points: what the model says");
+    __CPROVER_assert(vector_same(&out, &model), "CAL_014_points: what the model says");
 }

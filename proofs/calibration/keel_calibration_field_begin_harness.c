@@ -18,5 +18,13 @@ void keel_calibration_field_begin_harness(void)
 
     __CPROVER_assert(field_same(&field, &model),
                      "CAL_009_model: every field is what the model says");
-    __CPROVER_assert(!valid || field_valid(&field), "CAL_009_valid: it stays valid");
+    __CPROVER_assert((field.state == KEEL_CALIBRATION_COLLECTING) && (field.dropped == 0u),
+                     "CAL_009_begun: samples are looked at");
+    __CPROVER_assert(!field_finite(&field.config) ||
+                         three_within(field.lowest, field.config.highest, field.config.highest),
+                     "CAL_009_lowest: none was low");
+    __CPROVER_assert(!field_finite(&field.config) ||
+                         three_within(field.highest, field.config.lowest, field.config.lowest),
+                     "CAL_009_highest: none was high");
+    __CPROVER_assert(!valid || field_valid(&field), "CAL_013_again: it stays valid");
 }

@@ -35,6 +35,8 @@ void keel_calibration_field_init_harness(void)
                          ((status == KEEL_OK) && field_config_same(&field.config, &config) &&
                           field_valid(&field) && field_finite(&field.config)),
                      "CAL_008_taken: all others are taken, and what is made is valid");
+    __CPROVER_assert((status != KEEL_OK) || field_valid(&field),
+                     "CAL_013_new: and so within bounds");
     __CPROVER_assert((status != KEEL_OK) || ((field.state == KEEL_CALIBRATION_IDLE) &&
                                              three_within(field.offset, 0.0f, 0.0f)),
                      "CAL_009_idle: nothing is begun, nothing taken off");

@@ -21,8 +21,8 @@ static float higher(float seen, float value, bool heeds)
 
 void keel_calibration_field_step_harness(void)
 {
-    three_t sample = nondet_three();
-    const three_t said = sample;
+    keel_calibration_vector_t sample = nondet_vector();
+    const keel_calibration_vector_t said = sample;
     keel_calibration_field_t field = any_field_at_all();
     const keel_calibration_field_t before = field;
     keel_calibration_field_t model = field;

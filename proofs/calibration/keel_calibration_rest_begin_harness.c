@@ -17,5 +17,10 @@ void keel_calibration_rest_begin_harness(void)
     model_calibration_rest_begin(&model);
 
     __CPROVER_assert(rest_same(&rest, &model), "CAL_003_model: every field is what the model says");
-    __CPROVER_assert(!valid || rest_valid(&rest), "CAL_003_valid: it stays valid");
+    __CPROVER_assert((rest.state == KEEL_CALIBRATION_COLLECTING) && (rest.count == 0u) &&
+                         (rest.restarts == 0u) && (rest.beyond == 0u),
+                     "CAL_003_begun: samples are looked at");
+    __CPROVER_assert(three_within(rest.first, 0.0f, 0.0f) && three_within(rest.sum, 0.0f, 0.0f),
+                     "CAL_003_zero: as if none had come");
+    __CPROVER_assert(!valid || rest_valid(&rest), "CAL_013_begun: it stays valid");
 }

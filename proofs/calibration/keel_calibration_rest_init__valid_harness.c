@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --external-sat-solver cadical
+// cbmc: --unwind 4 --external-sat-solver cadical
 // sources: src/flight/calibration.c
 // covers: keel_calibration_rest_init rest_limits_fit are_within set_all keel_calibration_rest_begin
 //
@@ -25,6 +25,8 @@ void keel_calibration_rest_init__valid_harness(void)
     __CPROVER_assert(!valid || ((status == KEEL_OK) && rest_config_same(&rest.config, &config) &&
                                 rest_valid(&rest) && rest_counts(&rest)),
                      "CAL_002_taken: all others are taken, and what is made is valid");
+    __CPROVER_assert((status != KEEL_OK) || rest_valid(&rest),
+                     "CAL_013_made: and so within bounds");
     __CPROVER_assert((status != KEEL_OK) || ((rest.state == KEEL_CALIBRATION_IDLE) &&
                                              three_within(rest.offset, 0.0f, 0.0f)),
                      "CAL_003_idle: nothing is begun, nothing taken off");

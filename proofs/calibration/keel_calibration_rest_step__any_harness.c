@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --refine
+// cbmc: --unwind 4 --refine
 // checks: assertions
 // sources: src/flight/calibration.c
 // covers: keel_calibration_rest_step
@@ -11,7 +11,7 @@
 
 void keel_calibration_rest_step__any_harness(void)
 {
-    const three_t sample = nondet_three();
+    const keel_calibration_vector_t sample = nondet_vector();
     keel_calibration_rest_t rest = any_rest_at_all();
     const keel_calibration_rest_t before = rest;
     const bool collects = before.state == KEEL_CALIBRATION_COLLECTING;

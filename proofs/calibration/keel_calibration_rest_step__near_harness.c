@@ -9,7 +9,7 @@
 
 void keel_calibration_rest_step__near_harness(void)
 {
-    const three_t sample = nondet_three();
+    const keel_calibration_vector_t sample = nondet_vector();
     keel_calibration_rest_t rest = any_rest_at_all();
     const float spread = rest.config.spread;
     const float x = sample.axis[0] - rest.first[0];

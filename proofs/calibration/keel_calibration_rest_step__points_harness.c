@@ -17,7 +17,7 @@ void keel_calibration_rest_step__points_harness(void)
     for (unsigned point = 0u; point < REST_POINTS; point++) {
         keel_calibration_rest_t rest;
         keel_calibration_rest_t model;
-        three_t sample;
+        keel_calibration_vector_t sample;
 
         make_rest_point(point, &rest, &sample);
         model = rest;

@@ -10,7 +10,7 @@
 
 void keel_calibration_rest_step__valid_harness(void)
 {
-    const three_t sample = nondet_three();
+    const keel_calibration_vector_t sample = nondet_vector();
     keel_calibration_rest_t rest = any_rest_at_all();
 
     __CPROVER_assume(rest_valid(&rest));

@@ -12,8 +12,8 @@
 
 void keel_calibration_rest_step_harness(void)
 {
-    three_t sample = nondet_three();
-    const three_t before = sample;
+    keel_calibration_vector_t sample = nondet_vector();
+    const keel_calibration_vector_t before = sample;
     keel_calibration_rest_t rest = any_rest_at_all();
     keel_calibration_rest_t model = rest;
 

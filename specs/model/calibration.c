@@ -221,10 +221,9 @@ keel_status_t model_calibration_field_finish(keel_calibration_field_t *field)
 
 /* CAL-014 */
 void model_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
-                             const float raw[KEEL_CALIBRATION_AXES],
-                             float out[KEEL_CALIBRATION_AXES])
+                             const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out)
 {
     for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        out[k] = raw[k] - offset[k];
+        out->axis[k] = raw[k] - offset[k];
     }
 }

@@ -301,10 +301,9 @@ keel_status_t keel_calibration_field_finish(keel_calibration_field_t *field)
 }
 
 void keel_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
-                            const float raw[KEEL_CALIBRATION_AXES],
-                            float out[KEEL_CALIBRATION_AXES])
+                            const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out)
 {
-    out[0] = raw[0] - offset[0];
-    out[1] = raw[1] - offset[1];
-    out[2] = raw[2] - offset[2];
+    out->axis[0] = raw[0] - offset[0];
+    out->axis[1] = raw[1] - offset[1];
+    out->axis[2] = raw[2] - offset[2];
 }

@@ -55,6 +55,11 @@ KEEL_C_BEGIN
 /** The most samples of a mean. */
 #define KEEL_CALIBRATION_SAMPLES_MAX 65536u
 
+/** A sample of which the offset was taken off. */
+typedef struct keel_calibration_vector {
+    float axis[KEEL_CALIBRATION_AXES]; /**< In the unit of the sample. */
+} keel_calibration_vector_t;
+
 /** How far a calibration is. */
 typedef enum keel_calibration_state {
     KEEL_CALIBRATION_IDLE = 0,   /**< None was begun. */
@@ -146,6 +151,29 @@ typedef struct keel_calibration_field {
   @     \is_finite(c.lowest) && \is_finite(c.highest) && \is_finite(c.span_min) &&
   @     \is_finite(c.span_max) && \is_finite(c.limit);
   @
+  @ // What init establishes and every function keeps. A sum is at most as many times the limit.
+  @ predicate calibration_sum(keel_calibration_rest_t *r, integer k) = calibration_number(r->sum[k],
+  @     -r->count * KEEL_CALIBRATION_LIMIT, r->count * KEEL_CALIBRATION_LIMIT);
+  @
+  @ predicate calibration_rest_valid(keel_calibration_rest_t *r) =
+  @     calibration_expected(r->config) && calibration_rest_limits(r->config) &&
+  @     calibration_number(r->per_sample, 1.0 / KEEL_CALIBRATION_SAMPLES_MAX, 1) &&
+  @     calibration_three(&r->offset[0], -r->config.limit, r->config.limit) &&
+  @     calibration_three(&r->first[0], -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
+  @     calibration_three(&r->sum[0], -KEEL_CALIBRATION_SAMPLES_MAX * KEEL_CALIBRATION_LIMIT,
+  @         KEEL_CALIBRATION_SAMPLES_MAX * KEEL_CALIBRATION_LIMIT) &&
+  @     (r->count != 0 ==> calibration_sum(r, 0) && calibration_sum(r, 1) &&
+  @         calibration_sum(r, 2)) && r->count <= r->config.samples && r->beyond <= 7 &&
+  @     (r->state == KEEL_CALIBRATION_COLLECTING ==> r->count < r->config.samples) &&
+  @     (r->state == KEEL_CALIBRATION_REFUSED <==> r->beyond != 0);
+  @
+  @ predicate calibration_field_valid(keel_calibration_field_t *f) =
+  @     calibration_field_range(f->config) && calibration_field_limits(f->config) &&
+  @     calibration_three(&f->offset[0], -f->config.limit, f->config.limit) &&
+  @     calibration_three(&f->lowest[0], f->config.lowest, f->config.highest) &&
+  @     calibration_three(&f->highest[0], f->config.lowest, f->config.highest) &&
+  @     f->state != KEEL_CALIBRATION_REFUSED;
+  @
   @ // A value that is near the first of its run; rounded, as the difference is.
   @ predicate calibration_near(float value, float first, float spread) =
   @     -spread <= (float)(value - first) <= spread;
@@ -181,6 +209,7 @@ typedef struct keel_calibration_field {
   @     \result == KEEL_OK && rest->config == *config && calibration_rest_counts(rest);
   @ ensures CAL_003_idle: \result == KEEL_OK ==> rest->state == KEEL_CALIBRATION_IDLE &&
   @     calibration_three(&rest->offset[0], 0, 0);
+  @ ensures CAL_013_made: \result == KEEL_OK ==> calibration_rest_valid(rest);
   @*/
 keel_status_t keel_calibration_rest_init(keel_calibration_rest_t *rest,
                                          const keel_calibration_rest_config_t *config);
@@ -197,6 +226,7 @@ keel_status_t keel_calibration_rest_init(keel_calibration_rest_t *rest,
   @     rest->restarts == 0 && rest->beyond == 0;
   @ ensures CAL_003_zero: calibration_three(&rest->first[0], 0, 0) &&
   @     calibration_three(&rest->sum[0], 0, 0);
+  @ ensures CAL_013_begun: \old(calibration_rest_valid(rest)) ==> calibration_rest_valid(rest);
   @*/
 void keel_calibration_rest_begin(keel_calibration_rest_t *rest);
 
@@ -244,6 +274,7 @@ void keel_calibration_rest_begin(keel_calibration_rest_t *rest);
   @     \old(rest->state) != KEEL_CALIBRATION_COLLECTING) ==>
   @     rest->offset[0] == \old(rest->offset[0]) && rest->offset[1] == \old(rest->offset[1]) &&
   @     rest->offset[2] == \old(rest->offset[2]);
+  @ ensures CAL_013_rest: \old(calibration_rest_valid(rest)) ==> calibration_rest_valid(rest);
   @*/
 void keel_calibration_rest_step(keel_calibration_rest_t *rest,
                                 const float sample[KEEL_CALIBRATION_AXES]);
@@ -266,6 +297,7 @@ void keel_calibration_rest_step(keel_calibration_rest_t *rest,
   @     \result == KEEL_OK && field->config == *config && calibration_field_finite(field->config);
   @ ensures CAL_009_idle: \result == KEEL_OK ==> field->state == KEEL_CALIBRATION_IDLE &&
   @     calibration_three(&field->offset[0], 0, 0);
+  @ ensures CAL_013_new: \result == KEEL_OK ==> calibration_field_valid(field);
   @*/
 keel_status_t keel_calibration_field_init(keel_calibration_field_t *field,
                                           const keel_calibration_field_config_t *config);
@@ -282,6 +314,8 @@ keel_status_t keel_calibration_field_init(keel_calibration_field_t *field,
   @     field->config.highest);
   @ ensures CAL_009_highest: calibration_three(&field->highest[0], field->config.lowest,
   @     field->config.lowest);
+  @ ensures CAL_013_again: \old(calibration_field_valid(field)) ==>
+  @     calibration_field_valid(field);
   @*/
 void keel_calibration_field_begin(keel_calibration_field_t *field);
 
@@ -314,6 +348,7 @@ void keel_calibration_field_begin(keel_calibration_field_t *field);
   @     field->highest[k] == sample[k]) &&
   @     (!(calibration_heeds(field, sample) && sample[k] > \old(field->highest[k])) ==>
   @     field->highest[k] == \old(field->highest[k]));
+  @ ensures CAL_013_field: \old(calibration_field_valid(field)) ==> calibration_field_valid(field);
   @*/
 void keel_calibration_field_step(keel_calibration_field_t *field,
                                  const float sample[KEEL_CALIBRATION_AXES]);
@@ -360,6 +395,8 @@ keel_calibration_verdict_t keel_calibration_field_axis(const keel_calibration_fi
   @     field->offset[1] == \old(field->offset[1]) && field->offset[2] == \old(field->offset[2]));
   @ ensures CAL_012_taken: \result == KEEL_OK ==> field->state == KEEL_CALIBRATION_DONE &&
   @     calibration_three(&field->offset[0], -field->config.limit, field->config.limit);
+  @ ensures CAL_013_finish: \old(calibration_field_valid(field)) ==>
+  @     calibration_field_valid(field);
   @*/
 keel_status_t keel_calibration_field_finish(keel_calibration_field_t *field);
 
@@ -369,20 +406,19 @@ keel_status_t keel_calibration_field_finish(keel_calibration_field_t *field);
  * @param offset the offset, finite
  * @param raw    what was measured; any bit pattern. What is no number stays none: whoever uses the
  *               result looks for that
- * @param out    raw - offset, of each axis; may be raw itself
+ * @param out    raw - offset, of each axis; raw may be its own axes
  */
 /*@ requires \valid_read(offset + (0 .. 2)) && \valid_read(raw + (0 .. 2)) &&
-  @     \valid(out + (0 .. 2)) && \separated(offset + (0 .. 2), out + (0 .. 2)) &&
-  @     (raw == out || \separated(raw + (0 .. 2), out + (0 .. 2)));
-  @ assigns out[0 .. 2];
+  @     \valid(out) && \separated(offset + (0 .. 2), out) &&
+  @     (raw == &out->axis[0] || \separated(raw + (0 .. 2), out));
+  @ assigns *out;
   @ ensures CAL_014_finite: calibration_three(offset, -KEEL_CALIBRATION_LIMIT,
   @     KEEL_CALIBRATION_LIMIT) && \old(calibration_three(raw, -KEEL_CALIBRATION_LIMIT,
-  @     KEEL_CALIBRATION_LIMIT)) ==> calibration_three(out, -2 * KEEL_CALIBRATION_LIMIT,
+  @     KEEL_CALIBRATION_LIMIT)) ==> calibration_three(&out->axis[0], -2 * KEEL_CALIBRATION_LIMIT,
   @     2 * KEEL_CALIBRATION_LIMIT);
   @*/
 void keel_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
-                            const float raw[KEEL_CALIBRATION_AXES],
-                            float out[KEEL_CALIBRATION_AXES]);
+                            const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out);
 
 KEEL_C_END
 
