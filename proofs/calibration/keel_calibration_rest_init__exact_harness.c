@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 5 --external-sat-solver cadical
+// cbmc: --unwind 8 --external-sat-solver cadical
 // sources: src/flight/calibration.c specs/model/calibration.c
 // covers: keel_calibration_rest_init set_all keel_calibration_rest_begin
 // covers: model_calibration_rest_init model_calibration_rest_begin
@@ -23,6 +23,15 @@ static keel_calibration_rest_config_t configuration(unsigned point)
     case 3u:
         config.samples = 65537u;
         break;
+    case 4u:
+        config.samples = 0u;
+        break;
+    case 5u:
+        config.spread = -1.0f;
+        break;
+    case 6u:
+        config.limit = -1.0f;
+        break;
     default:
         break;
     }
@@ -31,7 +40,7 @@ static keel_calibration_rest_config_t configuration(unsigned point)
 
 void keel_calibration_rest_init__exact_harness(void)
 {
-    for (unsigned point = 0u; point < 4u; point++) {
+    for (unsigned point = 0u; point < 7u; point++) {
         const keel_calibration_rest_config_t config = configuration(point);
         keel_calibration_rest_t rest = any_rest_at_all();
         keel_calibration_rest_t model = rest;
