@@ -53,6 +53,7 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "altitude": ("altitude, a pressure in each", ("altitude",), 250, ("steps", "altitude")),
     "position": ("position, a fix in each", ("position",), 500, ("steps", "position")),
     "battery": ("battery, two modules", ("battery",), 400, ("steps", "battery")),
+    "calibration": ("calibration at rest", ("calibration",), 250, ("steps", "calibration")),
 }  # fmt: skip
 
 
