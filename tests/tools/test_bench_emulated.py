@@ -44,6 +44,7 @@ bench attitude passes 1000 instructions 392900 longest 412
 bench altitude passes 1000 instructions 220000 longest 220
 bench position passes 1000 instructions 441000 longest 441
 bench battery passes 1000 instructions 372000 longest 372
+bench calibration passes 1000 instructions 71000 longest 71
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
 bench ended
@@ -66,6 +67,7 @@ FIGURES = {
     "altitude": Figure(1000, 220000, 220),
     "position": Figure(1000, 441000, 441),
     "battery": Figure(1000, 372000, 372),
+    "calibration": Figure(1000, 71000, 71),
 }
 GOOD = """\
 # About the budget.
@@ -89,6 +91,7 @@ attitude = 392.9
 altitude = 220.0
 position = 441.0
 battery = 372.0
+calibration = 71.0
 """
 
 
@@ -183,6 +186,7 @@ class Budgets(unittest.TestCase):
                 "altitude": 220.0,
                 "position": 441.0,
                 "battery": 372.0,
+                "calibration": 71.0,
             },
         )
 

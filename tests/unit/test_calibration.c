@@ -272,9 +272,22 @@ static void CAL_007_all_axes_or_none(void)
         TEST_ASSERT_EQUAL_UINT16(1u << (i / 2u), rest.beyond);
         are(rest.offset, 2.0f, -2.0f, 2.0f);
     }
-    keel_calibration_rest_begin(&rest);
-    at_rest(5.0f, 0.0f, 0.0f);
-    TEST_ASSERT_EQUAL_UINT16(5u, rest.beyond);
+}
+
+static void CAL_007_every_axis_that_is_beyond_is_told(void)
+{
+    const float beyond[4][3] = {
+        {5.0f, 0.0f, 0.0f}, {0.0f, 5.0f, 0.0f}, {0.0f, -5.0f, -20.0f}, {-5.0f, 5.0f, 20.0f}};
+    const uint16_t axes[] = {5u, 6u, 6u, 7u};
+
+    rest_config.samples = 1u;
+    make_rest();
+    for (size_t i = 0u; i < 4u; i++) {
+        keel_calibration_rest_begin(&rest);
+        at_rest(beyond[i][0], beyond[i][1], beyond[i][2]);
+        TEST_ASSERT_EQUAL_UINT16(axes[i], rest.beyond);
+        are(rest.offset, 0.0f, 0.0f, 0.0f);
+    }
 }
 
 static void CAL_008_bad_ranges_are_refused(void)
@@ -436,6 +449,7 @@ int main(void)
     RUN_TEST(CAL_005_no_number_belongs_to_no_run);
     RUN_TEST(CAL_005_the_count_of_runs_stays_at_its_end);
     RUN_TEST(CAL_007_all_axes_or_none);
+    RUN_TEST(CAL_007_every_axis_that_is_beyond_is_told);
     RUN_TEST(CAL_008_bad_ranges_are_refused);
     RUN_TEST(CAL_008_bad_limits_are_refused);
     RUN_TEST(CAL_009_made_with_no_offset_and_idle);
