@@ -46,8 +46,8 @@ class Box(NamedTuple):
 
 FLIES = (
     Box("your tasks", "functions with a period, a budget and a priority", GREY),
-    Box("Keel: flight", "filter   pid   mixer   reference   mode\n"
-        "attitude   axis   altitude   position   battery   calibration", BLUE),
+    Box("Keel: flight", "filter   pid   mixer   reference   mode   calibration\n"
+        "attitude   axis   altitude   position   battery", BLUE),
     Box("Keel: middleware", "range   oversample   voter   virtual_imu", BLUE),
     Box("Keel: rtos", "scheduler   pass   admission   decision\n"
         "queue   task   stats   load   deviation   priority   clock", BLUE),
