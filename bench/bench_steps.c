@@ -20,6 +20,7 @@ static keel_attitude_t bench_attitude;
 static keel_position_t bench_position;
 static keel_battery_t bench_battery;
 static keel_cascade_t bench_cascade;
+static keel_calibration_rest_t bench_calibration;
 static keel_filter_t bench_filter;
 static keel_pid_t bench_pid;
 static keel_mixer_t bench_mixer;
@@ -202,6 +203,26 @@ static void bench_run_battery(void)
     bench_dump("battery");
 }
 
+static void bench_run_calibration(void)
+{
+    bench_require(keel_calibration_rest_init(&bench_calibration, &calibration_workload) == KEEL_OK,
+                  "calibration");
+    keel_calibration_rest_begin(&bench_calibration);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const keel_calibration_vector_t sample = calibration_sample_at(n);
+
+        if (n < STEPS) {
+            keel_calibration_rest_step(&bench_calibration, sample.axis);
+        } else {
+            bench_require(bench_calibration.count == n, "calibration is not at rest");
+            CALLGRIND_TOGGLE_COLLECT;
+            keel_calibration_rest_step(&bench_calibration, sample.axis);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_dump("calibration");
+}
+
 static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     const keel_mode_input_t input = mode_workload(&bench_mode, settle_us,
@@ -248,6 +269,7 @@ int main(void)
     bench_run_altitude();
     bench_run_position();
     bench_run_battery();
+    bench_run_calibration();
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;

@@ -407,6 +407,27 @@ static void bench_battery(void)
     print(&steps);
 }
 
+static void bench_calibration(void)
+{
+    static keel_calibration_rest_t calibration KEEL_REALTIME_ZERO;
+    kind_t steps = {"calibration", 0u, 0u, 0u};
+
+    require(keel_calibration_rest_init(&calibration, &calibration_workload) == KEEL_OK);
+    keel_calibration_rest_begin(&calibration);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        keel_calibration_vector_t sample = calibration_sample_at(n);
+
+        if (n < STEPS) {
+            keel_calibration_rest_step(&calibration, sample.axis);
+        } else {
+            require(calibration.count == n);
+            add(&steps, measure((function_t)keel_calibration_rest_step, &calibration,
+                                (uint32_t)sample.axis, 0u, false));
+        }
+    }
+    print(&steps);
+}
+
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     static keel_mode_t mode KEEL_REALTIME_ZERO;
@@ -531,6 +552,7 @@ int main(void)
     bench_altitude();
     bench_position();
     bench_battery();
+    bench_calibration();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
     bench_tasks();

@@ -10,6 +10,7 @@
 #include "keel/flight/altitude.h"
 #include "keel/flight/attitude.h"
 #include "keel/flight/battery.h"
+#include "keel/flight/calibration.h"
 #include "keel/flight/cascade.h"
 #include "keel/flight/mixer.h"
 #include "keel/flight/mode.h"
@@ -283,6 +284,23 @@ static keel_battery_sample_t battery_sample_at(uint32_t n)
     const keel_battery_sample_t sample = {
         .module = {{15.8f, 7.0f + signal_at(n), true, true}, {15.9f, 7.5f, true, true}},
         .running = true};
+
+    return sample;
+}
+
+/* --- Calibration ------------------------------------------------------------------------------ */
+
+static const keel_calibration_rest_config_t calibration_workload = {
+    .expected = {0.0f, 0.0f, -9.80665f},
+    .spread = 4.0f,
+    .limit = 4.0f,
+    .samples = KEEL_CALIBRATION_SAMPLES_MAX};
+
+/* At rest, but for what vibrates. */
+static keel_calibration_vector_t calibration_sample_at(uint32_t n)
+{
+    const float noise = 0.1f * signal_at(n);
+    const keel_calibration_vector_t sample = {{0.1f + noise, 0.2f - noise, noise - 9.9f}};
 
     return sample;
 }

@@ -282,7 +282,8 @@ LONG_S = {
     "demo": 20.0, "differential": 20.0, "unit/specified": 10.0, "unit/mixer_specified": 10.0,
     "unit/mode_specified": 10.0, "unit/attitude_specified": 10.0, "unit/attitude_motion": 5.0,
     "unit/axis_specified": 5.0, "unit/position_specified": 5.0, "unit/altitude_specified": 5.0,
-    "unit/battery_specified": 5.0, "unit/cascade_specified": 10.0, "unit/cascade_motion": 5.0,
+    "unit/battery_specified": 5.0, "unit/calibration_specified": 5.0,
+    "unit/cascade_specified": 10.0, "unit/cascade_motion": 5.0,
 }  # fmt: skip
 
 

@@ -56,8 +56,8 @@ SOURCE = "src"
 # Hundreds of thousands of steps each; instruction by instruction they would take an hour.
 UNTRACED = ("specified", "mode_specified", "mixer_specified", "mixer_equations", "reference_curves",
             "attitude_specified", "attitude_motion", "axis_specified", "altitude_specified",
-            "position_specified", "battery_specified", "cascade_specified",
-            "cascade_motion")  # fmt: skip
+            "position_specified", "battery_specified", "calibration_specified",
+            "cascade_specified", "cascade_motion")  # fmt: skip
 SHOWN = {BRANCH: "branches", BLOCK: "in IT blocks", SELECTION: "selections"}
 NEVER: dict[bool, Literal["taken", "not taken"]] = {True: "taken", False: "not taken"}
 

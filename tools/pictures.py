@@ -48,7 +48,7 @@ class Box(NamedTuple):
 
 FLIES = (
     Box("your tasks", "functions with a period, a budget and a priority", GREY),
-    Box("Keel: flight", "filter   pid   mixer   reference   mode\n"
+    Box("Keel: flight", "filter   pid   mixer   reference   mode   calibration\n"
         "attitude   axis   altitude   position   battery   cascade", BLUE),
     Box("Keel: middleware", "range   oversample   voter   virtual_imu", BLUE),
     Box("Keel: rtos", "scheduler   pass   admission   decision\n"

@@ -54,6 +54,20 @@ static void take(copter_inertia_t *self, uint32_t unit, uint64_t now_us)
     }
 }
 
+/* The same with the gyroscope's offset taken off. */
+static keel_virtual_imu_sample_t calibrated(const keel_virtual_imu_sample_t *raw,
+                                            const keel_calibration_rest_t *gyroscope)
+{
+    keel_virtual_imu_sample_t sample = *raw;
+    keel_calibration_vector_t rate;
+
+    keel_calibration_apply(gyroscope->offset, &raw->value[ACCELEROMETER], &rate);
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        sample.value[ACCELEROMETER + k] = rate.axis[k];
+    }
+    return sample;
+}
+
 /* What an aircraft without a voter would fly with: the mean of what its units last said. */
 static void take_mean(keel_attitude_sample_t *sample, const keel_virtual_imu_sample_t unit[])
 {
@@ -116,11 +130,8 @@ void copter_foreground_imu(copter_t *copter)
 
     heed_calibration(self, &copter->calibration);
     for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
-        float *const rate = &unit[i].value[ACCELEROMETER];
-
         take(self, i, copter->scheduler.clock.now_us);
-        unit[i] = self->unit[i];
-        keel_calibration_apply(copter->calibration.gyroscope[i].offset, rate, rate);
+        unit[i] = calibrated(&self->unit[i], &copter->calibration.gyroscope[i]);
     }
     keel_virtual_imu_step(&self->imu, unit, VOTE_PERIOD_US);
     keel_attitude_take(&sample, &self->imu);

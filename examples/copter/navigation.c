@@ -148,8 +148,8 @@ static bool is_calm(const copter_t *copter)
 {
     const copter_inertia_t *const inertia = &copter->inertia;
     const keel_attitude_vector_t rate = inertia->attitude.rate;
-    const keel_attitude_vector_t force =
-        inertia->force[(inertia->blocks - 1u) % COPTER_BLOCKS].mean;
+    const keel_attitude_vector_t force = inertia->force[(inertia->blocks - 1u) % COPTER_BLOCKS]
+                                             .mean;
 
     return is_within(rate.x, copter_settings.landed_rate) &&
            is_within(rate.y, copter_settings.landed_rate) &&

@@ -11,12 +11,8 @@ static bool lies_in(float value, float least, float most)
 
 static bool all_lie_in(const float value[KEEL_CALIBRATION_AXES], float least, float most)
 {
-    bool all = true;
-
-    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        all = all && lies_in(value[k], least, most);
-    }
-    return all;
+    return lies_in(value[0], least, most) && lies_in(value[1], least, most) &&
+           lies_in(value[2], least, most);
 }
 
 static uint16_t counted_once(uint16_t count)
@@ -60,16 +56,30 @@ void model_calibration_rest_begin(keel_calibration_rest_t *rest)
     rest->beyond = 0u;
 }
 
-/* CAL-005: a number on each axis, and not far from the first of the run, where there is one. */
-static bool belongs(const keel_calibration_rest_t *rest, const float sample[KEEL_CALIBRATION_AXES])
+/* CAL-005: the run is over; told once for each. */
+static void give_up(keel_calibration_rest_t *rest)
 {
-    bool all = all_lie_in(sample, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT);
+    rest->restarts = (rest->count > 0u) ? counted_once(rest->restarts) : rest->restarts;
+    rest->count = 0u;
+}
+
+/* CAL-004, CAL-005: differences to the first are added up while they are small. */
+static void compare_with_first(keel_calibration_rest_t *rest,
+                               const float sample[KEEL_CALIBRATION_AXES])
+{
+    float away[KEEL_CALIBRATION_AXES] = {0.0f, 0.0f, 0.0f};
 
     for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        all = all && ((rest->count == 0u) || lies_in(sample[k] - rest->first[k],
-                                                     -rest->config.spread, rest->config.spread));
+        away[k] = sample[k] - rest->first[k];
     }
-    return all;
+    if (all_lie_in(away, -rest->config.spread, rest->config.spread)) {
+        for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+            rest->sum[k] = rest->sum[k] + away[k];
+        }
+        rest->count++;
+    } else {
+        give_up(rest);
+    }
 }
 
 /* CAL-006, CAL-007: all three are believed, or none is taken. */
@@ -81,35 +91,36 @@ static void judge_mean(keel_calibration_rest_t *rest)
     for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
         offset[k] = (rest->first[k] - rest->config.expected[k]) + (rest->sum[k] * rest->per_sample);
         if (!lies_in(offset[k], -rest->config.limit, rest->config.limit)) {
-            beyond = (uint16_t)(beyond | (1u << k));
+            beyond = (uint16_t)(beyond + (1u << k));
         }
     }
-    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        rest->offset[k] = (beyond == 0u) ? offset[k] : rest->offset[k];
-    }
     rest->beyond = beyond;
-    rest->state = (beyond == 0u) ? KEEL_CALIBRATION_DONE : KEEL_CALIBRATION_REFUSED;
+    rest->state = KEEL_CALIBRATION_REFUSED;
+    if (beyond == 0u) {
+        for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+            rest->offset[k] = offset[k];
+        }
+        rest->state = KEEL_CALIBRATION_DONE;
+    }
 }
 
 void model_calibration_rest_step(keel_calibration_rest_t *rest,
                                  const float sample[KEEL_CALIBRATION_AXES])
 {
     if (rest->state == KEEL_CALIBRATION_COLLECTING) {
-        if (belongs(rest, sample)) {
-            /* CAL-004: differences to the first are added up; to itself it has none. */
+        if (!all_lie_in(sample, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT)) {
+            give_up(rest);
+        } else if (rest->count == 0u) {
             for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-                rest->first[k] = (rest->count == 0u) ? sample[k] : rest->first[k];
-                rest->sum[k] = ((rest->count == 0u) ? 0.0f : rest->sum[k]) +
-                               (sample[k] - rest->first[k]);
+                rest->first[k] = sample[k];
+                rest->sum[k] = 0.0f;
             }
-            rest->count++;
-            if (rest->count >= rest->config.samples) {
-                judge_mean(rest);
-            }
+            rest->count = 1u;
         } else {
-            /* CAL-005: told once for each run. */
-            rest->restarts = (rest->count > 0u) ? counted_once(rest->restarts) : rest->restarts;
-            rest->count = 0u;
+            compare_with_first(rest, sample);
+        }
+        if (rest->count >= rest->config.samples) {
+            judge_mean(rest);
         }
     }
 }
@@ -192,16 +203,13 @@ keel_calibration_verdict_t model_calibration_field_axis(const keel_calibration_f
 
 keel_status_t model_calibration_field_finish(keel_calibration_field_t *field)
 {
-    bool fits = true;
-
     /* CAL-012: all three fit, or none is taken. */
     if (field->state != KEEL_CALIBRATION_COLLECTING) {
         return KEEL_ERR_STATE;
     }
-    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        fits = fits && (model_calibration_field_axis(field, k) == KEEL_CALIBRATION_FIT);
-    }
-    if (!fits) {
+    if ((model_calibration_field_axis(field, 0u) != KEEL_CALIBRATION_FIT) ||
+        (model_calibration_field_axis(field, 1u) != KEEL_CALIBRATION_FIT) ||
+        (model_calibration_field_axis(field, 2u) != KEEL_CALIBRATION_FIT)) {
         return KEEL_ERR_LIMITS;
     }
     for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
@@ -213,10 +221,9 @@ keel_status_t model_calibration_field_finish(keel_calibration_field_t *field)
 
 /* CAL-014 */
 void model_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
-                             const float raw[KEEL_CALIBRATION_AXES],
-                             float out[KEEL_CALIBRATION_AXES])
+                             const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out)
 {
     for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        out[k] = raw[k] - offset[k];
+        out->axis[k] = raw[k] - offset[k];
     }
 }

@@ -31,6 +31,6 @@ keel_status_t model_calibration_field_finish(keel_calibration_field_t *field);
 
 void model_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
                              const float raw[KEEL_CALIBRATION_AXES],
-                             float out[KEEL_CALIBRATION_AXES]);
+                             keel_calibration_vector_t *out);
 
 #endif

@@ -73,37 +73,49 @@ void keel_calibration_rest_begin(keel_calibration_rest_t *rest)
     rest->beyond = 0u;
 }
 
-/* Whether a sample lies near the first of its run. */
-/*@ requires \valid_read(rest) && \valid_read(sample + (0 .. 2));
-  @ requires calibration_rest_counts(rest);
-  @ assigns \nothing;
+/*@ requires \valid(rest) && \valid_read(sample + (0 .. 2)) && \separated(rest, sample + (0 .. 2));
+  @ assigns rest->first[0 .. 2], rest->sum[0 .. 2], rest->count;
   @*/
-static bool is_near_first(const keel_calibration_rest_t *rest,
-                          const float sample[KEEL_CALIBRATION_AXES])
+static void begin_run(keel_calibration_rest_t *rest, const float sample[KEEL_CALIBRATION_AXES])
+{
+    rest->first[0] = sample[0];
+    rest->first[1] = sample[1];
+    rest->first[2] = sample[2];
+    set_all(rest->sum, 0.0f);
+    rest->count = 1u;
+}
+
+/*@ requires \valid(rest);
+  @ assigns rest->count, rest->restarts;
+  @ ensures rest->count == 0 && rest->restarts == (\old(rest->count) == 0 ? \old(rest->restarts)
+  @     : calibration_up(\old(rest->restarts)));
+  @*/
+static void break_run(keel_calibration_rest_t *rest)
+{
+    if (rest->count > 0u) {
+        rest->restarts = one_up(rest->restarts);
+        rest->count = 0u;
+    }
+}
+
+/* A sample that is near the first belongs to its run; another ends it. */
+/*@ requires \valid(rest) && \valid_read(sample + (0 .. 2)) && \separated(rest, sample + (0 .. 2));
+  @ requires calibration_rest_counts(rest);
+  @ assigns rest->sum[0 .. 2], rest->count, rest->restarts;
+  @*/
+static void continue_run(keel_calibration_rest_t *rest, const float sample[KEEL_CALIBRATION_AXES])
 {
     const float away[KEEL_CALIBRATION_AXES] = {
         sample[0] - rest->first[0], sample[1] - rest->first[1], sample[2] - rest->first[2]};
 
-    return are_within(away, -rest->config.spread, rest->config.spread);
-}
-
-/* One sample more of a run, or the first of another. */
-/*@ requires \valid(rest) && \valid_read(sample + (0 .. 2)) && \separated(rest, sample + (0 .. 2));
-  @ requires calibration_rest_counts(rest);
-  @ assigns rest->first[0 .. 2], rest->sum[0 .. 2], rest->count;
-  @*/
-static void add_sample(keel_calibration_rest_t *rest, const float sample[KEEL_CALIBRATION_AXES])
-{
-    if (rest->count == 0u) {
-        rest->first[0] = sample[0];
-        rest->first[1] = sample[1];
-        rest->first[2] = sample[2];
-        set_all(rest->sum, 0.0f);
+    if (are_within(away, -rest->config.spread, rest->config.spread)) {
+        rest->sum[0] += away[0];
+        rest->sum[1] += away[1];
+        rest->sum[2] += away[2];
+        rest->count++;
+    } else {
+        break_run(rest);
     }
-    rest->sum[0] += sample[0] - rest->first[0];
-    rest->sum[1] += sample[1] - rest->first[1];
-    rest->sum[2] += sample[2] - rest->first[2];
-    rest->count++;
 }
 
 /* The axes, as bits, on which an offset is beyond its limit. */
@@ -129,7 +141,7 @@ static uint16_t axes_beyond(const float offset[KEEL_CALIBRATION_AXES], float lim
 }
 
 /* Takes the offset of a whole run, or refuses it. */
-/*@ requires \valid(rest) && calibration_rest_counts(rest);
+/*@ requires \valid(rest) && \is_finite(rest->config.limit);
   @ assigns rest->offset[0 .. 2], rest->state, rest->beyond;
   @*/
 static void end_rest(keel_calibration_rest_t *rest)
@@ -156,17 +168,15 @@ void keel_calibration_rest_step(keel_calibration_rest_t *rest,
     if (rest->state != KEEL_CALIBRATION_COLLECTING) {
         return;
     }
-    if (are_within(sample, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
-        ((rest->count == 0u) || is_near_first(rest, sample))) {
-        add_sample(rest, sample);
-        if (rest->count >= rest->config.samples) {
-            end_rest(rest);
-        }
-    } else if (rest->count > 0u) {
-        rest->count = 0u;
-        rest->restarts = one_up(rest->restarts);
+    if (!are_within(sample, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT)) {
+        break_run(rest);
+    } else if (rest->count == 0u) {
+        begin_run(rest, sample);
     } else {
-        /* There is no run that could end. */
+        continue_run(rest, sample);
+    }
+    if (rest->count >= rest->config.samples) {
+        end_rest(rest);
     }
 }
 
@@ -291,10 +301,9 @@ keel_status_t keel_calibration_field_finish(keel_calibration_field_t *field)
 }
 
 void keel_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
-                            const float raw[KEEL_CALIBRATION_AXES],
-                            float out[KEEL_CALIBRATION_AXES])
+                            const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out)
 {
-    out[0] = raw[0] - offset[0];
-    out[1] = raw[1] - offset[1];
-    out[2] = raw[2] - offset[2];
+    out->axis[0] = raw[0] - offset[0];
+    out->axis[1] = raw[1] - offset[1];
+    out->axis[2] = raw[2] - offset[2];
 }

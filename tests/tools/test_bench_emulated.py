@@ -45,6 +45,7 @@ bench altitude passes 1000 instructions 220000 longest 220
 bench position passes 1000 instructions 441000 longest 441
 bench cascade passes 1000 instructions 2851400 longest 2899
 bench battery passes 1000 instructions 372000 longest 372
+bench calibration passes 1000 instructions 71000 longest 71
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
 bench ended
@@ -69,6 +70,7 @@ FIGURES = {
     "position": Figure(1000, 441000, 441),
     "cascade": Figure(1000, 2851400, 2899),
     "battery": Figure(1000, 372000, 372),
+    "calibration": Figure(1000, 71000, 71),
     **{name: Figure(50, 5000, 120) for name in TASKS},
 }
 GOOD = """\
@@ -94,6 +96,7 @@ altitude = 220.0
 position = 441.0
 battery = 372.0
 cascade = 2851.4
+calibration = 71.0
 """ + "".join(f"{name} = 100\n" for name in TASKS)
 
 
@@ -188,6 +191,7 @@ class Budgets(unittest.TestCase):
                 "altitude": 220.0,
                 "position": 441.0,
                 "battery": 372.0,
+                "calibration": 71.0,
                 "cascade": 2851.4,
                 **dict.fromkeys(TASKS, 100.0),
             },

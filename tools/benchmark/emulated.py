@@ -55,6 +55,7 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "position": ("position, a fix in each", ("position",), 500, ("steps", "position")),
     "cascade": ("cascade, all four stages", ("cascade",), 3000, ("steps", "cascade")),
     "battery": ("battery, two modules", ("battery",), 400, ("steps", "battery")),
+    "calibration": ("calibration at rest", ("calibration",), 250, ("steps", "calibration")),
 }  # fmt: skip
 # The bodies of the 21 tasks of examples/copter, in flight, with what they read of their devices.
 TASKS = (

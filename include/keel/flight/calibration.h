@@ -8,8 +8,8 @@
  * in all that is given: rad/s, m/s^2, uT, or the sensor's own counts.
  *
  * At rest (keel_calibration_rest_t) it is known what a sensor ought to measure: a gyroscope 0, an
- * accelerometer that is held level (0, 0, -g), forward, right, down. From `samples` samples in a row
- * that lie within `spread` of the first of them, on each axis,
+ * accelerometer that is held level (0, 0, -g), forward, right, down. From `samples` samples in a
+ * row that lie within `spread` of the first of them, on each axis,
  *
  *     mean   = first + (sum of (sample - first)) / samples
  *     offset = mean - expected
@@ -54,6 +54,11 @@ KEEL_C_BEGIN
 
 /** The most samples of a mean. */
 #define KEEL_CALIBRATION_SAMPLES_MAX 65536u
+
+/** A sample of which the offset was taken off. */
+typedef struct keel_calibration_vector {
+    float axis[KEEL_CALIBRATION_AXES]; /**< In the unit of the sample. */
+} keel_calibration_vector_t;
 
 /** How far a calibration is. */
 typedef enum keel_calibration_state {
@@ -146,15 +151,42 @@ typedef struct keel_calibration_field {
   @     \is_finite(c.lowest) && \is_finite(c.highest) && \is_finite(c.span_min) &&
   @     \is_finite(c.span_max) && \is_finite(c.limit);
   @
+  @ // What init establishes and every function keeps. A sum is at most as many times the limit.
+  @ predicate calibration_sum(keel_calibration_rest_t *r, integer k) = calibration_number(r->sum[k],
+  @     -r->count * KEEL_CALIBRATION_LIMIT, r->count * KEEL_CALIBRATION_LIMIT);
+  @
+  @ predicate calibration_rest_valid(keel_calibration_rest_t *r) =
+  @     calibration_expected(r->config) && calibration_rest_limits(r->config) &&
+  @     calibration_number(r->per_sample, 1.0 / KEEL_CALIBRATION_SAMPLES_MAX, 1) &&
+  @     calibration_three(&r->offset[0], -r->config.limit, r->config.limit) &&
+  @     calibration_three(&r->first[0], -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
+  @     calibration_three(&r->sum[0], -KEEL_CALIBRATION_SAMPLES_MAX * KEEL_CALIBRATION_LIMIT,
+  @         KEEL_CALIBRATION_SAMPLES_MAX * KEEL_CALIBRATION_LIMIT) &&
+  @     (r->count != 0 ==> calibration_sum(r, 0) && calibration_sum(r, 1) &&
+  @         calibration_sum(r, 2)) && r->count <= r->config.samples && r->beyond <= 7 &&
+  @     (r->state == KEEL_CALIBRATION_COLLECTING ==> r->count < r->config.samples) &&
+  @     (r->state == KEEL_CALIBRATION_REFUSED <==> r->beyond != 0);
+  @
+  @ predicate calibration_field_valid(keel_calibration_field_t *f) =
+  @     calibration_field_range(f->config) && calibration_field_limits(f->config) &&
+  @     calibration_three(&f->offset[0], -f->config.limit, f->config.limit) &&
+  @     calibration_three(&f->lowest[0], f->config.lowest, f->config.highest) &&
+  @     calibration_three(&f->highest[0], f->config.lowest, f->config.highest) &&
+  @     f->state != KEEL_CALIBRATION_REFUSED;
+  @
   @ // A value that is near the first of its run; rounded, as the difference is.
   @ predicate calibration_near(float value, float first, float spread) =
   @     -spread <= (float)(value - first) <= spread;
   @
-  @ predicate calibration_continues(keel_calibration_rest_t *r, float *s) =
-  @     calibration_three(s, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
-  @     (r->count == 0 || (calibration_near(s[0], r->first[0], r->config.spread) &&
-  @         calibration_near(s[1], r->first[1], r->config.spread) &&
-  @         calibration_near(s[2], r->first[2], r->config.spread)));
+  @ predicate calibration_all_near(keel_calibration_rest_t *r, float *s) =
+  @     calibration_near(s[0], r->first[0], r->config.spread) &&
+  @     calibration_near(s[1], r->first[1], r->config.spread) &&
+  @     calibration_near(s[2], r->first[2], r->config.spread);
+  @
+  @ // A sample that counts.
+  @ predicate calibration_heeds(keel_calibration_field_t *f, float *s) =
+  @     f->state == KEEL_CALIBRATION_COLLECTING &&
+  @     calibration_three(s, f->config.lowest, f->config.highest);
   @
   @ logic integer calibration_up(integer count) = count < 65535 ? count + 1 : 65535;
   @*/
@@ -177,6 +209,7 @@ typedef struct keel_calibration_field {
   @     \result == KEEL_OK && rest->config == *config && calibration_rest_counts(rest);
   @ ensures CAL_003_idle: \result == KEEL_OK ==> rest->state == KEEL_CALIBRATION_IDLE &&
   @     calibration_three(&rest->offset[0], 0, 0);
+  @ ensures CAL_013_made: \result == KEEL_OK ==> calibration_rest_valid(rest);
   @*/
 keel_status_t keel_calibration_rest_init(keel_calibration_rest_t *rest,
                                          const keel_calibration_rest_config_t *config);
@@ -193,6 +226,7 @@ keel_status_t keel_calibration_rest_init(keel_calibration_rest_t *rest,
   @     rest->restarts == 0 && rest->beyond == 0;
   @ ensures CAL_003_zero: calibration_three(&rest->first[0], 0, 0) &&
   @     calibration_three(&rest->sum[0], 0, 0);
+  @ ensures CAL_013_begun: \old(calibration_rest_valid(rest)) ==> calibration_rest_valid(rest);
   @*/
 void keel_calibration_rest_begin(keel_calibration_rest_t *rest);
 
@@ -210,31 +244,37 @@ void keel_calibration_rest_begin(keel_calibration_rest_t *rest);
   @ ensures CAL_004_only: \old(rest->state) != KEEL_CALIBRATION_COLLECTING ==>
   @     rest->state == \old(rest->state) && rest->count == \old(rest->count) &&
   @     rest->restarts == \old(rest->restarts) && rest->beyond == \old(rest->beyond);
-  @ ensures CAL_004_counted: \old(rest->state) == KEEL_CALIBRATION_COLLECTING &&
-  @     \old(calibration_continues(rest, sample)) ==> rest->count == \old(rest->count) + 1 &&
-  @     rest->restarts == \old(rest->restarts);
+  @ ensures CAL_004_counted: \old(rest->state) == KEEL_CALIBRATION_COLLECTING ==>
+  @     rest->count == \old(rest->count) + 1 || rest->count == 0;
   @ ensures CAL_004_first: \old(rest->state) == KEEL_CALIBRATION_COLLECTING &&
-  @     \old(rest->count) == 0 && rest->count == 1 ==> rest->first[0] == sample[0] &&
-  @     rest->first[1] == sample[1] && rest->first[2] == sample[2];
-  @ ensures CAL_005_broken: \old(rest->state) == KEEL_CALIBRATION_COLLECTING &&
-  @     !\old(calibration_continues(rest, sample)) ==> rest->count == 0 &&
-  @     rest->state == KEEL_CALIBRATION_COLLECTING &&
-  @     rest->restarts == (\old(rest->count) == 0 ? \old(rest->restarts)
-  @     : calibration_up(\old(rest->restarts)));
+  @     \old(rest->count) == 0 &&
+  @     calibration_three(sample, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) ==>
+  @     rest->count == 1 && rest->first[0] == sample[0] && rest->first[1] == sample[1] &&
+  @     rest->first[2] == sample[2];
+  @ ensures CAL_005_none: \old(rest->state) == KEEL_CALIBRATION_COLLECTING &&
+  @     !calibration_three(sample, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) ==>
+  @     rest->count == 0;
+  @ ensures CAL_005_far: \old(rest->state) == KEEL_CALIBRATION_COLLECTING &&
+  @     \old(rest->count) != 0 &&
+  @     calibration_three(sample, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) ==>
+  @     (rest->count == 0 <==> !\old(calibration_all_near(rest, sample)));
+  @ ensures CAL_005_told: \old(rest->state) == KEEL_CALIBRATION_COLLECTING ==>
+  @     rest->restarts == (rest->count == 0 && \old(rest->count) != 0
+  @     ? calibration_up(\old(rest->restarts)) : \old(rest->restarts));
   @ ensures CAL_006_ends: \old(rest->state) == KEEL_CALIBRATION_COLLECTING ==>
-  @     (rest->state == KEEL_CALIBRATION_COLLECTING <==>
-  @     rest->count < rest->config.samples || rest->count == 0) &&
+  @     (rest->state == KEEL_CALIBRATION_COLLECTING <==> rest->count < rest->config.samples) &&
   @     rest->state != KEEL_CALIBRATION_IDLE;
   @ ensures CAL_007_limit: rest->state == KEEL_CALIBRATION_DONE &&
   @     \old(rest->state) == KEEL_CALIBRATION_COLLECTING ==> rest->beyond == 0 &&
   @     calibration_three(&rest->offset[0], -rest->config.limit, rest->config.limit);
   @ ensures CAL_007_refused: rest->state == KEEL_CALIBRATION_REFUSED &&
   @     \old(rest->state) == KEEL_CALIBRATION_COLLECTING ==> 1 <= rest->beyond <= 7;
-  @ ensures CAL_007_kept: calibration_three(&\old(rest->offset)[0], -KEEL_CALIBRATION_LIMIT,
-  @     KEEL_CALIBRATION_LIMIT) && (rest->state != KEEL_CALIBRATION_DONE ||
+  @ ensures CAL_007_kept: \old(calibration_three(&rest->offset[0], -KEEL_CALIBRATION_LIMIT,
+  @     KEEL_CALIBRATION_LIMIT)) && (rest->state != KEEL_CALIBRATION_DONE ||
   @     \old(rest->state) != KEEL_CALIBRATION_COLLECTING) ==>
   @     rest->offset[0] == \old(rest->offset[0]) && rest->offset[1] == \old(rest->offset[1]) &&
   @     rest->offset[2] == \old(rest->offset[2]);
+  @ ensures CAL_013_rest: \old(calibration_rest_valid(rest)) ==> calibration_rest_valid(rest);
   @*/
 void keel_calibration_rest_step(keel_calibration_rest_t *rest,
                                 const float sample[KEEL_CALIBRATION_AXES]);
@@ -244,8 +284,8 @@ void keel_calibration_rest_step(keel_calibration_rest_t *rest,
  *
  * @param field  the calibration
  * @param config what it is made from; copied
- * @return KEEL_OK; KEEL_ERR_VALUE (lowest, highest) or KEEL_ERR_LIMITS (any other number), the first
- *         that applies, NaN included: then nothing is changed
+ * @return KEEL_OK; KEEL_ERR_VALUE (lowest, highest) or KEEL_ERR_LIMITS (any other number), the
+ *         first that applies, NaN included: then nothing is changed
  */
 /*@ requires \valid(field) && \valid_read(config) && \separated(field, config);
   @ assigns *field;
@@ -257,6 +297,7 @@ void keel_calibration_rest_step(keel_calibration_rest_t *rest,
   @     \result == KEEL_OK && field->config == *config && calibration_field_finite(field->config);
   @ ensures CAL_009_idle: \result == KEEL_OK ==> field->state == KEEL_CALIBRATION_IDLE &&
   @     calibration_three(&field->offset[0], 0, 0);
+  @ ensures CAL_013_new: \result == KEEL_OK ==> calibration_field_valid(field);
   @*/
 keel_status_t keel_calibration_field_init(keel_calibration_field_t *field,
                                           const keel_calibration_field_config_t *config);
@@ -273,6 +314,8 @@ keel_status_t keel_calibration_field_init(keel_calibration_field_t *field,
   @     field->config.highest);
   @ ensures CAL_009_highest: calibration_three(&field->highest[0], field->config.lowest,
   @     field->config.lowest);
+  @ ensures CAL_013_again: \old(calibration_field_valid(field)) ==>
+  @     calibration_field_valid(field);
   @*/
 void keel_calibration_field_begin(keel_calibration_field_t *field);
 
@@ -289,18 +332,23 @@ void keel_calibration_field_begin(keel_calibration_field_t *field);
   @ assigns field->lowest[0 .. 2], field->highest[0 .. 2], field->dropped;
   @ ensures CAL_010_only: field->state != KEEL_CALIBRATION_COLLECTING ==>
   @     field->dropped == \old(field->dropped);
-  @ ensures CAL_010_dropped: field->state == KEEL_CALIBRATION_COLLECTING ==>
-  @     field->dropped == (calibration_three(sample, field->config.lowest, field->config.highest)
-  @     ? \old(field->dropped) : calibration_up(\old(field->dropped)));
+  @ ensures CAL_010_dropped: field->state == KEEL_CALIBRATION_COLLECTING &&
+  @     !calibration_three(sample, field->config.lowest, field->config.highest) ==>
+  @     field->dropped == calibration_up(\old(field->dropped));
+  @ ensures CAL_010_heeded: calibration_heeds(field, sample) ==>
+  @     field->dropped == \old(field->dropped);
   @ ensures CAL_010_lowest: \forall integer k; 0 <= k < 3 && \is_finite(\old(field->lowest[k])) ==>
-  @     field->lowest[k] == (field->state == KEEL_CALIBRATION_COLLECTING &&
-  @     calibration_three(sample, field->config.lowest, field->config.highest) &&
-  @     sample[k] < \old(field->lowest[k]) ? sample[k] : \old(field->lowest[k]));
+  @     (calibration_heeds(field, sample) && sample[k] < \old(field->lowest[k]) ==>
+  @     field->lowest[k] == sample[k]) &&
+  @     (!(calibration_heeds(field, sample) && sample[k] < \old(field->lowest[k])) ==>
+  @     field->lowest[k] == \old(field->lowest[k]));
   @ ensures CAL_010_highest: \forall integer k; 0 <= k < 3 &&
   @     \is_finite(\old(field->highest[k])) ==>
-  @     field->highest[k] == (field->state == KEEL_CALIBRATION_COLLECTING &&
-  @     calibration_three(sample, field->config.lowest, field->config.highest) &&
-  @     sample[k] > \old(field->highest[k]) ? sample[k] : \old(field->highest[k]));
+  @     (calibration_heeds(field, sample) && sample[k] > \old(field->highest[k]) ==>
+  @     field->highest[k] == sample[k]) &&
+  @     (!(calibration_heeds(field, sample) && sample[k] > \old(field->highest[k])) ==>
+  @     field->highest[k] == \old(field->highest[k]));
+  @ ensures CAL_013_field: \old(calibration_field_valid(field)) ==> calibration_field_valid(field);
   @*/
 void keel_calibration_field_step(keel_calibration_field_t *field,
                                  const float sample[KEEL_CALIBRATION_AXES]);
@@ -342,11 +390,13 @@ keel_calibration_verdict_t keel_calibration_field_axis(const keel_calibration_fi
   @ ensures CAL_012_state: \old(field->state) != KEEL_CALIBRATION_COLLECTING <==>
   @     \result == KEEL_ERR_STATE;
   @ ensures CAL_012_kept: \result != KEEL_OK ==> field->state == \old(field->state) &&
-  @     (calibration_three(&\old(field->offset)[0], -KEEL_CALIBRATION_LIMIT,
-  @         KEEL_CALIBRATION_LIMIT) ==> field->offset[0] == \old(field->offset[0]) &&
+  @     (\old(calibration_three(&field->offset[0], -KEEL_CALIBRATION_LIMIT,
+  @         KEEL_CALIBRATION_LIMIT)) ==> field->offset[0] == \old(field->offset[0]) &&
   @     field->offset[1] == \old(field->offset[1]) && field->offset[2] == \old(field->offset[2]));
   @ ensures CAL_012_taken: \result == KEEL_OK ==> field->state == KEEL_CALIBRATION_DONE &&
   @     calibration_three(&field->offset[0], -field->config.limit, field->config.limit);
+  @ ensures CAL_013_finish: \old(calibration_field_valid(field)) ==>
+  @     calibration_field_valid(field);
   @*/
 keel_status_t keel_calibration_field_finish(keel_calibration_field_t *field);
 
@@ -356,20 +406,19 @@ keel_status_t keel_calibration_field_finish(keel_calibration_field_t *field);
  * @param offset the offset, finite
  * @param raw    what was measured; any bit pattern. What is no number stays none: whoever uses the
  *               result looks for that
- * @param out    raw - offset, of each axis; may be raw itself
+ * @param out    raw - offset, of each axis; raw may be its own axes
  */
 /*@ requires \valid_read(offset + (0 .. 2)) && \valid_read(raw + (0 .. 2)) &&
-  @     \valid(out + (0 .. 2)) && \separated(offset + (0 .. 2), out + (0 .. 2)) &&
-  @     (raw == out || \separated(raw + (0 .. 2), out + (0 .. 2)));
-  @ assigns out[0 .. 2];
+  @     \valid(out) && \separated(offset + (0 .. 2), out) &&
+  @     (raw == &out->axis[0] || \separated(raw + (0 .. 2), out));
+  @ assigns *out;
   @ ensures CAL_014_finite: calibration_three(offset, -KEEL_CALIBRATION_LIMIT,
   @     KEEL_CALIBRATION_LIMIT) && \old(calibration_three(raw, -KEEL_CALIBRATION_LIMIT,
-  @     KEEL_CALIBRATION_LIMIT)) ==> calibration_three(out, -2 * KEEL_CALIBRATION_LIMIT,
+  @     KEEL_CALIBRATION_LIMIT)) ==> calibration_three(&out->axis[0], -2 * KEEL_CALIBRATION_LIMIT,
   @     2 * KEEL_CALIBRATION_LIMIT);
   @*/
 void keel_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
-                            const float raw[KEEL_CALIBRATION_AXES],
-                            float out[KEEL_CALIBRATION_AXES]);
+                            const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out);
 
 KEEL_C_END
 

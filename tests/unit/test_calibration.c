@@ -1,0 +1,464 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Unit tests of keel/flight/calibration.h. Expected values are worked out by hand from the formulas
+ * of calibration.h. */
+#include "keel/flight/calibration.h"
+#include "unity.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LIMIT 32768.0f
+
+static keel_calibration_rest_config_t rest_config;
+static keel_calibration_field_config_t field_config;
+static keel_calibration_rest_t rest;
+static keel_calibration_field_t field;
+
+void setUp(void)
+{
+    const keel_calibration_rest_config_t level = {
+        .expected = {0.0f, 0.0f, -9.5f}, .spread = 0.5f, .limit = 2.0f, .samples = 4u};
+    const keel_calibration_field_config_t earth = {.lowest = -400.0f,
+                                                   .highest = 500.0f,
+                                                   .span_min = 64.0f,
+                                                   .span_max = 128.0f,
+                                                   .limit = 50.0f};
+
+    rest_config = level;
+    field_config = earth;
+    memset(&rest, 0x55, sizeof rest);
+    memset(&field, 0x55, sizeof field);
+}
+
+void tearDown(void)
+{
+}
+
+static void make_rest(void)
+{
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_calibration_rest_init(&rest, &rest_config));
+}
+
+static void make_field(void)
+{
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_calibration_field_init(&field, &field_config));
+}
+
+static void begin_rest(void)
+{
+    make_rest();
+    keel_calibration_rest_begin(&rest);
+}
+
+static void begin_field(void)
+{
+    make_field();
+    keel_calibration_field_begin(&field);
+}
+
+static void at_rest(float x, float y, float z)
+{
+    const float sample[KEEL_CALIBRATION_AXES] = {x, y, z};
+
+    keel_calibration_rest_step(&rest, sample);
+}
+
+static void turned(float x, float y, float z)
+{
+    const float sample[KEEL_CALIBRATION_AXES] = {x, y, z};
+
+    keel_calibration_field_step(&field, sample);
+}
+
+static void are(const float *is, float x, float y, float z)
+{
+    TEST_ASSERT_EQUAL_FLOAT(x, is[0]);
+    TEST_ASSERT_EQUAL_FLOAT(y, is[1]);
+    TEST_ASSERT_EQUAL_FLOAT(z, is[2]);
+}
+
+static void rest_refuses(keel_status_t status)
+{
+    keel_calibration_rest_t before;
+
+    memcpy(&before, &rest, sizeof before);
+    TEST_ASSERT_EQUAL(status, keel_calibration_rest_init(&rest, &rest_config));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &rest, sizeof rest);
+}
+
+static void field_refuses(keel_status_t status)
+{
+    keel_calibration_field_t before;
+
+    memcpy(&before, &field, sizeof before);
+    TEST_ASSERT_EQUAL(status, keel_calibration_field_init(&field, &field_config));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &field, sizeof field);
+}
+
+/* A number is taken from least to most, and nothing else is. */
+static void has_range(float *value, float least, float most, void (*refuses)(keel_status_t),
+                      keel_status_t status, void (*make)(void))
+{
+    const float good = *value;
+    const float bad[] = {nextafterf(least, -INFINITY), nextafterf(most, INFINITY), NAN, INFINITY,
+                         -INFINITY};
+
+    for (size_t i = 0u; i < (sizeof bad / sizeof bad[0]); i++) {
+        *value = bad[i];
+        refuses(status);
+    }
+    *value = least;
+    make();
+    *value = most;
+    make();
+    *value = good;
+}
+
+static void CAL_001_bad_expectations_are_refused(void)
+{
+    for (size_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        has_range(&rest_config.expected[k], -LIMIT, LIMIT, rest_refuses, KEEL_ERR_VALUE, make_rest);
+    }
+}
+
+static void CAL_001_bad_limits_are_refused(void)
+{
+    has_range(&rest_config.spread, 0.0f, LIMIT, rest_refuses, KEEL_ERR_LIMITS, make_rest);
+    has_range(&rest_config.limit, 0.0f, LIMIT, rest_refuses, KEEL_ERR_LIMITS, make_rest);
+}
+
+static void CAL_001_bad_numbers_of_samples_are_refused(void)
+{
+    const uint32_t bad[] = {0u, 65537u, UINT32_MAX};
+
+    for (size_t i = 0u; i < 3u; i++) {
+        rest_config.samples = bad[i];
+        rest_refuses(KEEL_ERR_LIMITS);
+    }
+    rest_config.samples = 65536u;
+    make_rest();
+}
+
+static void CAL_001_the_first_reason_is_told(void)
+{
+    rest_config.samples = 0u;
+    rest_config.expected[1] = NAN;
+    rest_refuses(KEEL_ERR_VALUE);
+}
+
+static void CAL_002_made_as_configured(void)
+{
+    make_rest();
+    TEST_ASSERT_EQUAL_MEMORY(&rest_config, &rest.config, sizeof rest_config);
+    TEST_ASSERT_EQUAL_FLOAT(0.25f, rest.per_sample);
+}
+
+static void CAL_003_made_with_no_offset_and_idle(void)
+{
+    make_rest();
+    are(rest.offset, 0.0f, 0.0f, 0.0f);
+    TEST_ASSERT_EQUAL(KEEL_CALIBRATION_IDLE, rest.state);
+    at_rest(1.0f, 1.0f, -9.5f);
+    TEST_ASSERT_EQUAL_UINT32(0u, rest.count);
+}
+
+/* The sums are exact: 0.25 + 0.5 - 0.25 = 0.5, an eighth of 4 samples. */
+static void CAL_004_the_mean_of_a_run_is_the_offset(void)
+{
+    begin_rest();
+    at_rest(1.0f, -1.0f, -10.0f);
+    TEST_ASSERT_EQUAL_UINT32(1u, rest.count);
+    are(rest.first, 1.0f, -1.0f, -10.0f);
+    at_rest(1.25f, -1.25f, -10.0f);
+    at_rest(1.5f, -1.5f, -9.5f);
+    TEST_ASSERT_EQUAL(KEEL_CALIBRATION_COLLECTING, rest.state);
+    are(rest.offset, 0.0f, 0.0f, 0.0f);
+    at_rest(0.75f, -1.25f, -10.0f);
+    TEST_ASSERT_EQUAL(KEEL_CALIBRATION_DONE, rest.state);
+    are(rest.offset, 1.125f, -1.25f, -0.375f);
+}
+
+static void CAL_004_nothing_is_looked_at_when_done(void)
+{
+    keel_calibration_rest_t before;
+
+    rest_config.samples = 1u;
+    begin_rest();
+    at_rest(0.5f, 0.25f, -9.0f);
+    are(rest.offset, 0.5f, 0.25f, 0.5f);
+    memcpy(&before, &rest, sizeof before);
+    at_rest(1.5f, 0.25f, -9.0f);
+    TEST_ASSERT_EQUAL_MEMORY(&before, &rest, sizeof rest);
+}
+
+/* In float, 65536 equal samples far from 0 have exactly their mean. */
+static void CAL_004_a_large_mean_takes_no_digits(void)
+{
+    rest_config.samples = 65536u;
+    rest_config.limit = LIMIT;
+    begin_rest();
+    for (uint32_t i = 0u; i < 65536u; i++) {
+        at_rest(16777.215f, ((i % 2u) == 0u) ? 9000.0f : 9000.25f, 0.1f);
+    }
+    TEST_ASSERT_EQUAL(KEEL_CALIBRATION_DONE, rest.state);
+    are(rest.offset, 16777.215f, 9000.125f, 0.1f + 9.5f);
+}
+
+/* One sample on each axis and side that is too far off: the next begins another run. */
+static void CAL_005_motion_begins_another_run(void)
+{
+    const float away[6][3] = {{0.75f, 0.0f, -9.5f},  {-0.75f, 0.0f, -9.5f}, {0.0f, 0.75f, -9.5f},
+                              {0.0f, -0.75f, -9.5f}, {0.0f, 0.0f, -8.75f},  {0.0f, 0.0f, -10.25f}};
+
+    begin_rest();
+    for (size_t i = 0u; i < 6u; i++) {
+        at_rest(0.0f, 0.0f, -9.5f);
+        at_rest(0.0f, 0.5f, -10.0f);
+        at_rest(0.0f, -0.5f, -9.0f);
+        TEST_ASSERT_EQUAL_UINT32(3u, rest.count);
+        at_rest(away[i][0], away[i][1], away[i][2]);
+        TEST_ASSERT_EQUAL_UINT32(0u, rest.count);
+        TEST_ASSERT_EQUAL_UINT16(i + 1u, rest.restarts);
+    }
+    for (size_t i = 0u; i < 4u; i++) {
+        at_rest(1.0f, 1.0f, -9.0f);
+    }
+    TEST_ASSERT_EQUAL(KEEL_CALIBRATION_DONE, rest.state);
+    are(rest.offset, 1.0f, 1.0f, 0.5f);
+}
+
+static void CAL_005_no_number_belongs_to_no_run(void)
+{
+    const float none[] = {NAN, INFINITY, -INFINITY, 32769.0f, -32769.0f};
+
+    begin_rest();
+    for (size_t i = 0u; i < 5u; i++) {
+        at_rest(0.0f, 0.0f, -9.5f);
+        at_rest(0.0f, none[i], -9.5f);
+        TEST_ASSERT_EQUAL_UINT32(0u, rest.count);
+        at_rest(none[i], 0.0f, -9.5f);
+        at_rest(0.0f, 0.0f, none[i]);
+        TEST_ASSERT_EQUAL_UINT16(i + 1u, rest.restarts);
+    }
+}
+
+static void CAL_005_the_count_of_runs_stays_at_its_end(void)
+{
+    begin_rest();
+    for (uint32_t i = 0u; i < 65540u; i++) {
+        at_rest(0.0f, 0.0f, -9.5f);
+        at_rest(NAN, 0.0f, -9.5f);
+    }
+    TEST_ASSERT_EQUAL_UINT16(65535u, rest.restarts);
+}
+
+/* Beyond the limit of 2 on one axis: none is taken. */
+static void CAL_007_all_axes_or_none(void)
+{
+    const float beyond[6][3] = {{2.25f, 1.0f, -9.5f}, {-2.25f, 1.0f, -9.5f},
+                                {1.0f, 2.25f, -9.5f}, {1.0f, -2.25f, -9.5f},
+                                {1.0f, 1.0f, -7.25f}, {1.0f, 1.0f, -11.75f}};
+
+    rest_config.samples = 1u;
+    begin_rest();
+    at_rest(2.0f, -2.0f, -7.5f);
+    TEST_ASSERT_EQUAL(KEEL_CALIBRATION_DONE, rest.state);
+    for (size_t i = 0u; i < 6u; i++) {
+        keel_calibration_rest_begin(&rest);
+        TEST_ASSERT_EQUAL(KEEL_CALIBRATION_COLLECTING, rest.state);
+        TEST_ASSERT_EQUAL_UINT16(0u, rest.beyond);
+        at_rest(beyond[i][0], beyond[i][1], beyond[i][2]);
+        TEST_ASSERT_EQUAL(KEEL_CALIBRATION_REFUSED, rest.state);
+        TEST_ASSERT_EQUAL_UINT16(1u << (i / 2u), rest.beyond);
+        are(rest.offset, 2.0f, -2.0f, 2.0f);
+    }
+}
+
+static void CAL_007_every_axis_that_is_beyond_is_told(void)
+{
+    const float beyond[4][3] = {
+        {5.0f, 0.0f, 0.0f}, {0.0f, 5.0f, 0.0f}, {0.0f, -5.0f, -20.0f}, {-5.0f, 5.0f, 20.0f}};
+    const uint16_t axes[] = {5u, 6u, 6u, 7u};
+
+    rest_config.samples = 1u;
+    make_rest();
+    for (size_t i = 0u; i < 4u; i++) {
+        keel_calibration_rest_begin(&rest);
+        at_rest(beyond[i][0], beyond[i][1], beyond[i][2]);
+        TEST_ASSERT_EQUAL_UINT16(axes[i], rest.beyond);
+        are(rest.offset, 0.0f, 0.0f, 0.0f);
+    }
+}
+
+static void CAL_008_bad_ranges_are_refused(void)
+{
+    has_range(&field_config.highest, -400.0f, LIMIT, field_refuses, KEEL_ERR_VALUE, make_field);
+    has_range(&field_config.lowest, -LIMIT, 500.0f, field_refuses, KEEL_ERR_VALUE, make_field);
+}
+
+static void CAL_008_bad_limits_are_refused(void)
+{
+    has_range(&field_config.span_min, 0x1p-149f, 128.0f, field_refuses, KEEL_ERR_LIMITS,
+              make_field);
+    has_range(&field_config.span_max, 64.0f, 2.0f * LIMIT, field_refuses, KEEL_ERR_LIMITS,
+              make_field);
+    has_range(&field_config.limit, 0.0f, LIMIT, field_refuses, KEEL_ERR_LIMITS, make_field);
+}
+
+static void CAL_009_made_with_no_offset_and_idle(void)
+{
+    make_field();
+    TEST_ASSERT_EQUAL_MEMORY(&field_config, &field.config, sizeof field_config);
+    are(field.offset, 0.0f, 0.0f, 0.0f);
+    TEST_ASSERT_EQUAL(KEEL_CALIBRATION_IDLE, field.state);
+    turned(1.0f, 2.0f, 3.0f);
+    are(field.lowest, 500.0f, 500.0f, 500.0f);
+    are(field.highest, -400.0f, -400.0f, -400.0f);
+    TEST_ASSERT_EQUAL(KEEL_ERR_STATE, keel_calibration_field_finish(&field));
+}
+
+static void CAL_010_lowest_and_highest_are_kept(void)
+{
+    begin_field();
+    turned(1.0f, -2.0f, 3.0f);
+    are(field.lowest, 1.0f, -2.0f, 3.0f);
+    are(field.highest, 1.0f, -2.0f, 3.0f);
+    turned(-400.0f, 500.0f, 3.0f);
+    turned(0.0f, 0.0f, 0.0f);
+    are(field.lowest, -400.0f, -2.0f, 0.0f);
+    are(field.highest, 1.0f, 500.0f, 3.0f);
+}
+
+static void CAL_010_what_cannot_be_is_dropped(void)
+{
+    const float none[] = {NAN, INFINITY, -INFINITY, 500.5f, -400.5f};
+
+    begin_field();
+    turned(0.0f, 0.0f, 0.0f);
+    for (size_t i = 0u; i < 5u; i++) {
+        turned(none[i], 1.0f, 1.0f);
+        turned(1.0f, none[i], 1.0f);
+        turned(1.0f, 1.0f, none[i]);
+    }
+    are(field.highest, 0.0f, 0.0f, 0.0f);
+    are(field.lowest, 0.0f, 0.0f, 0.0f);
+    TEST_ASSERT_EQUAL_UINT16(15u, field.dropped);
+    for (uint32_t i = 0u; i < 65536u; i++) {
+        turned(NAN, 0.0f, 0.0f);
+    }
+    TEST_ASSERT_EQUAL_UINT16(65535u, field.dropped);
+}
+
+static void axis_is(float lowest, float highest, keel_calibration_verdict_t verdict)
+{
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        begin_field();
+        turned(-40.0f, -40.0f, -40.0f);
+        turned(40.0f, 40.0f, 40.0f);
+        field.lowest[k] = lowest;
+        field.highest[k] = highest;
+        TEST_ASSERT_EQUAL(verdict, keel_calibration_field_axis(&field, k));
+        TEST_ASSERT_EQUAL(KEEL_CALIBRATION_FIT,
+                          keel_calibration_field_axis(&field, (k + 1u) % KEEL_CALIBRATION_AXES));
+        TEST_ASSERT_EQUAL((verdict == KEEL_CALIBRATION_FIT) ? KEEL_OK : KEEL_ERR_LIMITS,
+                          keel_calibration_field_finish(&field));
+        TEST_ASSERT_EQUAL_FLOAT((verdict == KEEL_CALIBRATION_FIT) ? ((lowest + highest) / 2.0f)
+                                                                  : 0.0f,
+                                field.offset[k]);
+    }
+}
+
+static void CAL_011_what_is_turned_and_believed_fits(void)
+{
+    axis_is(-32.0f, 32.0f, KEEL_CALIBRATION_FIT);
+    axis_is(-64.0f, 64.0f, KEEL_CALIBRATION_FIT);
+    axis_is(0.0f, 100.0f, KEEL_CALIBRATION_FIT);
+    axis_is(-100.0f, 0.0f, KEEL_CALIBRATION_FIT);
+}
+
+static void CAL_011_an_axis_that_does_not_fit_says_why(void)
+{
+    axis_is(-32.0f, 31.75f, KEEL_CALIBRATION_NARROW);
+    axis_is(-64.0f, 64.25f, KEEL_CALIBRATION_WIDE);
+    axis_is(-300.0f, 300.0f, KEEL_CALIBRATION_WIDE);
+    axis_is(0.25f, 100.0f, KEEL_CALIBRATION_BEYOND);
+    axis_is(-100.0f, -0.25f, KEEL_CALIBRATION_BEYOND);
+    axis_is(300.0f, 310.0f, KEEL_CALIBRATION_NARROW);
+}
+
+static void CAL_011_nothing_seen_is_not_enough(void)
+{
+    begin_field();
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        TEST_ASSERT_EQUAL(KEEL_CALIBRATION_NARROW, keel_calibration_field_axis(&field, k));
+    }
+    TEST_ASSERT_EQUAL(KEEL_ERR_LIMITS, keel_calibration_field_finish(&field));
+}
+
+static void CAL_012_a_refusal_changes_nothing(void)
+{
+    keel_calibration_field_t before;
+
+    begin_field();
+    turned(-40.0f, -30.0f, -80.0f);
+    turned(40.0f, 60.0f, -40.0f);
+    memcpy(&before, &field, sizeof before);
+    TEST_ASSERT_EQUAL(KEEL_ERR_LIMITS, keel_calibration_field_finish(&field));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &field, sizeof field);
+    turned(0.0f, 0.0f, 20.0f);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_calibration_field_finish(&field));
+    are(field.offset, 0.0f, 15.0f, -30.0f);
+    TEST_ASSERT_EQUAL(KEEL_CALIBRATION_DONE, field.state);
+    turned(100.0f, 100.0f, 100.0f);
+    are(field.highest, 40.0f, 60.0f, 20.0f);
+    TEST_ASSERT_EQUAL(KEEL_ERR_STATE, keel_calibration_field_finish(&field));
+    keel_calibration_field_begin(&field);
+    are(field.offset, 0.0f, 15.0f, -30.0f);
+    are(field.lowest, 500.0f, 500.0f, 500.0f);
+}
+
+static void CAL_014_the_offset_is_taken_off(void)
+{
+    const float offset[KEEL_CALIBRATION_AXES] = {1.0f, -2.0f, 0.5f};
+    keel_calibration_vector_t sample = {{10.0f, 20.0f, 30.0f}};
+    keel_calibration_vector_t out;
+
+    keel_calibration_apply(offset, sample.axis, &out);
+    are(out.axis, 9.0f, 22.0f, 29.5f);
+    are(sample.axis, 10.0f, 20.0f, 30.0f);
+    keel_calibration_apply(offset, sample.axis, &sample);
+    are(sample.axis, 9.0f, 22.0f, 29.5f);
+    sample.axis[1] = NAN;
+    keel_calibration_apply(offset, sample.axis, &sample);
+    TEST_ASSERT_TRUE(isnan(sample.axis[1]));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(CAL_001_bad_expectations_are_refused);
+    RUN_TEST(CAL_001_bad_limits_are_refused);
+    RUN_TEST(CAL_001_bad_numbers_of_samples_are_refused);
+    RUN_TEST(CAL_001_the_first_reason_is_told);
+    RUN_TEST(CAL_002_made_as_configured);
+    RUN_TEST(CAL_003_made_with_no_offset_and_idle);
+    RUN_TEST(CAL_004_the_mean_of_a_run_is_the_offset);
+    RUN_TEST(CAL_004_nothing_is_looked_at_when_done);
+    RUN_TEST(CAL_004_a_large_mean_takes_no_digits);
+    RUN_TEST(CAL_005_motion_begins_another_run);
+    RUN_TEST(CAL_005_no_number_belongs_to_no_run);
+    RUN_TEST(CAL_005_the_count_of_runs_stays_at_its_end);
+    RUN_TEST(CAL_007_all_axes_or_none);
+    RUN_TEST(CAL_007_every_axis_that_is_beyond_is_told);
+    RUN_TEST(CAL_008_bad_ranges_are_refused);
+    RUN_TEST(CAL_008_bad_limits_are_refused);
+    RUN_TEST(CAL_009_made_with_no_offset_and_idle);
+    RUN_TEST(CAL_010_lowest_and_highest_are_kept);
+    RUN_TEST(CAL_010_what_cannot_be_is_dropped);
+    RUN_TEST(CAL_011_what_is_turned_and_believed_fits);
+    RUN_TEST(CAL_011_an_axis_that_does_not_fit_says_why);
+    RUN_TEST(CAL_011_nothing_seen_is_not_enough);
+    RUN_TEST(CAL_012_a_refusal_changes_nothing);
+    RUN_TEST(CAL_014_the_offset_is_taken_off);
+    return UNITY_END();
+}
