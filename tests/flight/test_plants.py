@@ -16,9 +16,9 @@ BOTH = pytest.mark.parametrize("name", plants.NAMES)
 ROLLS, PITCHES, YAWS = (-1, -1, 1, 1), (1, -1, -1, 1), (1, -1, 1, -1)
 
 
-def made(name: str, heading_deg: float = 0.0, airframe: Airframe = Airframe()) -> Plant:  # noqa: B008
+def made(name: str, heading_deg: float = 0.0, airframe: Airframe | None = None) -> Plant:
     """A plant that has settled on the ground."""
-    plant = plants.make(name, airframe, heading_deg)
+    plant = plants.make(name, airframe or Airframe(), heading_deg)
     run(plant, [0.0] * 4, 500)
     return plant
 
