@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import multiprocessing
+import os
 import signal
+import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -17,6 +19,8 @@ from flight import judge, plots
 from flight.library import Copter
 from flight.loop import Order, Trace, fly, state_names, without_faults
 
+INTERRUPTED = 130  # As a shell tells it.
+PATIENCE_S = 10.0
 COPTERS: dict[str, Copter] = {}  # Of this process, by the library's path.
 
 
@@ -98,12 +102,20 @@ def all_flown(jobs: Sequence[Job], width: int) -> Iterator[tuple[int, Outcome]]:
     except BrokenProcessPool as error:
         raise ToolError("a flight crashed: the copter's library ended its process") from error
     except BaseException:
-        # Nobody waits for flights that nobody wants any more.
-        for child in multiprocessing.active_children():
-            child.kill()
+        end_soon()
         raise
     finally:
-        pool.shutdown(wait=True, cancel_futures=True)
+        pool.shutdown(wait=False, cancel_futures=True)
+
+
+def end_soon() -> None:
+    """Nobody waits for flights that nobody wants any more; nor for long for the pool's threads,
+    which may wait for a lock that a killed one held."""
+    for child in multiprocessing.active_children():
+        child.kill()
+    watchdog = threading.Timer(PATIENCE_S, os._exit, (INTERRUPTED,))
+    watchdog.daemon = True
+    watchdog.start()
 
 
 def leave_ctrl_c() -> None:
