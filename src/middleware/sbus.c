@@ -13,9 +13,11 @@
 
 #define FOOTER 0x00u
 
-/* SBUS2's footers are 0x04, 0x14, 0x24 and 0x34: all but these bits are the same. */
-#define FOOTER_2      0x04u
-#define FOOTER_2_MASK 0xCFu
+/* SBUS2's: one for each quarter of its telemetry. */
+#define FOOTER_2_A 0x04u
+#define FOOTER_2_B 0x14u
+#define FOOTER_2_C 0x24u
+#define FOOTER_2_D 0x34u
 
 #define CHANNEL_BITS 11u
 #define CHANNEL_MASK 2047u
@@ -62,7 +64,8 @@ static uint16_t field_of(const keel_sbus_t *sbus, uint32_t index)
   @*/
 static bool is_footer(uint8_t byte, bool sbus2)
 {
-    return (byte == FOOTER) || (sbus2 && ((byte & FOOTER_2_MASK) == FOOTER_2));
+    return (byte == FOOTER) || (sbus2 && ((byte == FOOTER_2_A) || (byte == FOOTER_2_B) ||
+                                          (byte == FOOTER_2_C) || (byte == FOOTER_2_D)));
 }
 
 /*@ requires \valid_read(sbus);
@@ -116,12 +119,19 @@ static void publish(keel_sbus_t *sbus)
 /*@ requires \valid(sbus);
   @ assigns sbus->buffer[0 .. KEEL_SBUS_BYTES - 1], sbus->held;
   @ ensures sbus_valid(sbus);
+  @ ensures \let n = KEEL_SBUS_BYTES - sbus->held; 1 <= n &&
+  @     \forall integer j; 1 <= j < n ==> \at(sbus->buffer[j], Pre) != KEEL_SBUS_HEADER;
+  @ ensures \let n = KEEL_SBUS_BYTES - sbus->held;
+  @     \forall integer j; 0 <= j < sbus->held ==>
+  @         sbus->buffer[j] == \at(sbus->buffer[n + j], Pre);
   @*/
 static void search_header(keel_sbus_t *sbus)
 {
     uint32_t from = 1u;
 
     /*@ loop invariant 1 <= from <= KEEL_SBUS_BYTES;
+      @ loop invariant \forall integer j; 1 <= j < from ==>
+      @     sbus->buffer[j] != KEEL_SBUS_HEADER;
       @ loop assigns from;
       @ loop variant KEEL_SBUS_BYTES - from;
       @*/
@@ -131,6 +141,8 @@ static void search_header(keel_sbus_t *sbus)
     }
     /*@ loop invariant from <= i <= KEEL_SBUS_BYTES;
       @ loop invariant from < i ==> sbus->buffer[0] == KEEL_SBUS_HEADER;
+      @ loop invariant \forall integer j; 0 <= j < i - from ==>
+      @     sbus->buffer[j] == \at(sbus->buffer[from + j], Pre);
       @ loop invariant \forall integer j; i <= j < KEEL_SBUS_BYTES ==>
       @     sbus->buffer[j] == \at(sbus->buffer[j], Pre);
       @ loop assigns i, sbus->buffer[0 .. KEEL_SBUS_BYTES - 1];

@@ -112,8 +112,8 @@ typedef struct keel_sbus {
   @ logic integer sbus_field(keel_sbus_t *s, integer i) =
   @     (sbus_window(s, 1 + (11 * i) / 8) >> ((11 * i) % 8)) & 2047;
   @
-  @ predicate sbus_footer(integer byte, boolean sbus2) =
-  @     byte == 0x00 || (sbus2 && (byte == 0x04 || byte == 0x14 || byte == 0x24 || byte == 0x34));
+  @ predicate sbus_footer(integer byte, integer sbus2) =
+  @     byte == 0x00 || (sbus2 != 0 && (byte == 0x04 || byte == 0x14 || byte == 0x24 || byte == 0x34));
   @
   @ predicate sbus_ranges(keel_sbus_t *s) =
   @     \forall integer i; 0 <= i < KEEL_SBUS_CHANNELS ==>
@@ -160,7 +160,7 @@ typedef struct keel_sbus {
   @   ensures RAD_002_config: sbus->config.gap_us == config->gap_us &&
   @       sbus->config.lowest == config->lowest && sbus->config.highest == config->highest &&
   @       sbus->config.sbus2 == config->sbus2;
-  @   ensures RAD_002_none: sbus->age_us == UINT32_MAX && sbus->frame.failsafe == \true &&
+  @   ensures RAD_002_none: sbus->age_us == UINT32_MAX && sbus->frame.failsafe != 0 &&
   @       sbus->count.frames == 0;
   @ complete behaviors;
   @ disjoint behaviors;
@@ -196,8 +196,21 @@ keel_status_t keel_sbus_init(keel_sbus_t *sbus, const keel_sbus_config_t *config
   @ ensures RAD_008_quiet: sbus->quiet_us == 0;
   @ ensures RAD_009_gap: sbus_sum(\old(sbus->quiet_us), elapsed_us) > sbus->config.gap_us ==>
   @     !\result && sbus->held == (byte == KEEL_SBUS_HEADER ? 1 : 0);
+  @ ensures RAD_009_adds: \old(sbus->held) < KEEL_SBUS_BYTES - 1 &&
+  @     sbus_sum(\old(sbus->quiet_us), elapsed_us) <= sbus->config.gap_us ==> !\result &&
+  @     sbus->held == \old(sbus->held) +
+  @         (\old(sbus->held) == 0 && byte != KEEL_SBUS_HEADER ? 0 : 1);
   @ ensures RAD_010_whole: \result ==> \old(sbus->held) == KEEL_SBUS_BYTES - 1 &&
   @     sbus->held == 0;
+  @ ensures RAD_011_first: \old(sbus->held) == KEEL_SBUS_BYTES - 1 && !\result &&
+  @     sbus_sum(\old(sbus->quiet_us), elapsed_us) <= sbus->config.gap_us ==>
+  @     \let n = KEEL_SBUS_BYTES - sbus->held; 1 <= n && \forall integer j; 1 <= j < n ==>
+  @         (j < KEEL_SBUS_BYTES - 1 ? \at(sbus->buffer[j], Pre) : byte) != KEEL_SBUS_HEADER;
+  @ ensures RAD_011_shifted: \old(sbus->held) == KEEL_SBUS_BYTES - 1 && !\result &&
+  @     sbus_sum(\old(sbus->quiet_us), elapsed_us) <= sbus->config.gap_us ==>
+  @     \let n = KEEL_SBUS_BYTES - sbus->held; \forall integer j; 0 <= j < sbus->held ==>
+  @         sbus->buffer[j] ==
+  @             (n + j < KEEL_SBUS_BYTES - 1 ? \at(sbus->buffer[n + j], Pre) : byte);
   @*/
 bool keel_sbus_take(keel_sbus_t *sbus, uint8_t byte, uint32_t elapsed_us);
 
