@@ -3,10 +3,10 @@
 // sources: src/middleware/sbus.c specs/model/sbus.c
 // covers: keel_sbus_take keel_sbus_pass_time
 //
-// Any right frame: its first byte comes after a gap, or when nothing is held; the others come without
-// one, when all that is held are those before. After each there is one more of them, and the last
-// takes the frame. So by induction over its 25 bytes a right frame after a gap is taken by its last
-// byte, whatever was before.
+// Any right frame: its first byte comes after a gap, or when nothing is held; the others come
+// without one, when all that is held are those before. After each there is one more of them, and
+// the last takes the frame. So by induction over its 25 bytes a right frame after a gap is taken by
+// its last byte, whatever was before.
 #include "sbus_proof.h"
 
 void keel_sbus_take__after_gap_harness(void)

@@ -6,8 +6,8 @@
 // Any right frame, none of whose bytes comes after a gap, whatever came before it: as long as no
 // frame was taken since its first byte came, what is held ends with the bytes of it that came, and
 // its last byte takes it. With no byte of it there is nothing to show, so by induction over its 25
-// bytes every right frame is taken by its last byte, unless some of its bytes were taken already, as
-// the end of another.
+// bytes every right frame is taken by its last byte, unless some of its bytes were taken already,
+// as the end of another.
 #include "sbus_proof.h"
 
 void keel_sbus_take__aligned_harness(void)

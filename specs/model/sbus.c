@@ -86,7 +86,7 @@ bool model_sbus_right(const uint8_t *frame, const keel_sbus_config_t *config)
            footer_right(frame[24], config->sbus2) && channels_right(frame, config);
 }
 
-/* RAD-005, RAD-007, RAD-010: the frame is handed out, and nothing is left of it to be taken again. */
+/* RAD-005, RAD-007, RAD-010: the frame is handed out; nothing is left of it to be taken again. */
 static void hand_out(keel_sbus_t *sbus)
 {
     const uint8_t flags = sbus->buffer[23];

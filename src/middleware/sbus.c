@@ -74,20 +74,20 @@ static bool is_footer(uint8_t byte, bool sbus2)
   @*/
 static bool are_plausible(const keel_sbus_t *sbus)
 {
-    bool all = true;
+    bool plausible = true;
 
     /*@ loop invariant 0 <= i <= KEEL_SBUS_CHANNELS;
-      @ loop invariant all <==> \forall integer j; 0 <= j < i ==>
+      @ loop invariant plausible <==> \forall integer j; 0 <= j < i ==>
       @     sbus->config.lowest <= sbus_field(sbus, j) <= sbus->config.highest;
-      @ loop assigns i, all;
+      @ loop assigns i, plausible;
       @ loop variant KEEL_SBUS_CHANNELS - i;
       @*/
     for (uint32_t i = 0u; i < (uint32_t)KEEL_SBUS_CHANNELS; i++) {
         const uint16_t value = field_of(sbus, i);
 
-        all = all && (sbus->config.lowest <= value) && (value <= sbus->config.highest);
+        plausible = plausible && (sbus->config.lowest <= value) && (value <= sbus->config.highest);
     }
-    return all;
+    return plausible;
 }
 
 /*@ requires \valid(sbus);
@@ -141,8 +141,8 @@ static void search_header(keel_sbus_t *sbus)
     }
     /*@ loop invariant from <= i <= KEEL_SBUS_BYTES;
       @ loop invariant from < i ==> sbus->buffer[0] == KEEL_SBUS_HEADER;
-      @ loop invariant \forall integer j; 0 <= j < i - from ==>
-      @     sbus->buffer[j] == \at(sbus->buffer[from + j], Pre);
+      @ loop invariant \forall integer j; from <= j < i ==>
+      @     sbus->buffer[j - from] == \at(sbus->buffer[j], Pre);
       @ loop invariant \forall integer j; i <= j < KEEL_SBUS_BYTES ==>
       @     sbus->buffer[j] == \at(sbus->buffer[j], Pre);
       @ loop assigns i, sbus->buffer[0 .. KEEL_SBUS_BYTES - 1];
@@ -249,8 +249,8 @@ bool keel_sbus_take(keel_sbus_t *sbus, uint8_t byte, uint32_t elapsed_us)
 
 uint16_t keel_sbus_us(uint16_t raw)
 {
-    const uint32_t step =
-        (raw < (uint16_t)KEEL_SBUS_CHANNEL_MAX) ? raw : (uint32_t)KEEL_SBUS_CHANNEL_MAX;
+    const uint32_t step = (raw < (uint16_t)KEEL_SBUS_CHANNEL_MAX) ? raw
+                                                                  : (uint32_t)KEEL_SBUS_CHANNEL_MAX;
 
     return (uint16_t)((uint32_t)KEEL_SBUS_US_MIN +
                       (((EIGHTHS_PER_STEP * step) + EIGHTHS_TO_ROUND) / EIGHTHS));

@@ -31,9 +31,9 @@ static const uint8_t middle[BYTES] = {0x0F, 0xE0, 0x03, 0x1F, 0xF8, 0xC0, 0x07, 
                                       0x81, 0x0F, 0x7C, 0xE0, 0x03, 0x1F, 0xF8, 0xC0, 0x07,
                                       0x3E, 0xF0, 0x81, 0x0F, 0x7C, 0x00, 0x00};
 
-/* 172 is 00010101100, 1811 is 11100010011. Behind the header: the lower 8 bits of 172, AC; 3 more of
- * it and 5 zeros of 992, 00; 11111 0 of 992 and 11 of 1811, DF; bits 2 to 9 of 1811, 00 1000 11, C4;
- * its last, 1, and seven of 992, 00000 11, C1; then as above. */
+/* 172 is 00010101100, 1811 is 11100010011. Behind the header: the lower 8 bits of 172, AC; 3 more
+ * of it and 5 zeros of 992, 00; 11111 0 of 992 and 11 of 1811, DF; bits 2 to 9 of 1811, 0010 0011,
+ * C4; its last, 1, and seven of 992, 00000 11, C1; then as above. */
 static const uint8_t ends[BYTES] = {0x0F, 0xAC, 0x00, 0xDF, 0xC4, 0xC1, 0x07, 0x3E, 0xF0,
                                     0x81, 0x0F, 0x7C, 0xE0, 0x03, 0x1F, 0xF8, 0xC0, 0x07,
                                     0x3E, 0xF0, 0x81, 0x0F, 0x7C, 0x0C, 0x00};
@@ -242,8 +242,8 @@ static void footers(void)
     }
 }
 
-/* RAD-004, RAD-006: each byte of a frame, changed in every way. SBUS has no checksum: a channel that
- * is still in its range is believed. */
+/* RAD-004, RAD-006: each byte of a frame, changed in every way. SBUS has no checksum: a channel
+ * that is still in its range is believed. */
 static void one_byte_changed(void)
 {
     for (uint32_t at = 0u; at < BYTES; at++) {
@@ -257,8 +257,7 @@ static void one_byte_changed(void)
                 uint32_t value = 0u;
 
                 for (uint32_t bit = 11u * i; bit < (11u * (i + 1u)); bit++) {
-                    value += (((uint32_t)frame[1u + (bit / 8u)] >> (bit % 8u)) & 1u)
-                             << (bit % 11u);
+                    value += (((uint32_t)frame[1u + (bit / 8u)] >> (bit % 8u)) & 1u) << (bit % 11u);
                 }
                 right = right && (value >= 172u) && (value <= 1811u);
             }

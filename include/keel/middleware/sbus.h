@@ -8,8 +8,8 @@
  * with even parity and two stop bits, inverted. Setting up the port and dropping bytes whose parity
  * is wrong is its driver's affair.
  *
- * Frames are found by their headers: a byte that comes late begins a frame, and when 25 bytes are no
- * right frame, the search goes on at the next of them that may be a header. So a right frame is
+ * Frames are found by their headers: a byte that comes late begins a frame, and when 25 bytes are
+ * no right frame, the search goes on at the next of them that may be a header. So a right frame is
  * taken by its last byte, whatever was before, unless some of its bytes and bytes before it were
  * taken as a frame already; after a gap it always is.
  *
@@ -113,7 +113,8 @@ typedef struct keel_sbus {
   @     (sbus_window(s, 1 + (11 * i) / 8) >> ((11 * i) % 8)) & 2047;
   @
   @ predicate sbus_footer(integer byte, integer sbus2) =
-  @     byte == 0x00 || (sbus2 != 0 && (byte == 0x04 || byte == 0x14 || byte == 0x24 || byte == 0x34));
+  @     byte == 0x00 ||
+  @     (sbus2 != 0 && (byte == 0x04 || byte == 0x14 || byte == 0x24 || byte == 0x34));
   @
   @ predicate sbus_ranges(keel_sbus_t *s) =
   @     \forall integer i; 0 <= i < KEEL_SBUS_CHANNELS ==>
@@ -127,14 +128,6 @@ typedef struct keel_sbus {
   @     \at(s->frame.lost, M) == \at(s->frame.lost, L) &&
   @     \at(s->frame.failsafe, M) == \at(s->frame.failsafe, L);
   @*/
-
-/* What a byte writes of a decoder. */
-#define SBUS_WRITTEN(sbus)                                                                         \
-    (sbus)->frame.channel[0 .. KEEL_SBUS_CHANNELS - 1], (sbus)->frame.digital_17,                  \
-        (sbus)->frame.digital_18, (sbus)->frame.lost, (sbus)->frame.failsafe,                      \
-        (sbus)->count.frames, (sbus)->count.headers, (sbus)->count.footers, (sbus)->count.flags,   \
-        (sbus)->count.ranges, (sbus)->count.gaps, (sbus)->age_us, (sbus)->quiet_us,                \
-        (sbus)->buffer[0 .. KEEL_SBUS_BYTES - 1], (sbus)->held
 
 /**
  * Makes a decoder (requirements RAD-001 and RAD-002).
@@ -177,7 +170,11 @@ keel_status_t keel_sbus_init(keel_sbus_t *sbus, const keel_sbus_config_t *config
  * @return whether it ended a right frame: it is in sbus->frame then. Otherwise that is as it was
  */
 /*@ requires \valid(sbus) && sbus_valid(sbus);
-  @ assigns SBUS_WRITTEN(sbus);
+  @ assigns sbus->frame.channel[0 .. KEEL_SBUS_CHANNELS - 1], sbus->frame.digital_17,
+  @     sbus->frame.digital_18, sbus->frame.lost, sbus->frame.failsafe, sbus->count.frames,
+  @     sbus->count.headers, sbus->count.footers, sbus->count.flags, sbus->count.ranges,
+  @     sbus->count.gaps, sbus->age_us, sbus->quiet_us,
+  @     sbus->buffer[0 .. KEEL_SBUS_BYTES - 1], sbus->held;
   @ ensures RAD_003_valid: sbus_valid(sbus);
   @ ensures RAD_004_footer: \result ==>
   @     sbus_footer(sbus->buffer[KEEL_SBUS_BYTES - 1], sbus->config.sbus2);
