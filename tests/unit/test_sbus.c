@@ -93,8 +93,7 @@ static void write_frame(uint8_t *frame, const uint16_t *channel, uint8_t flags)
     frame[23] = flags;
 }
 
-/* RAD-001 */
-static void refuses_a_range_that_is_none(void)
+static void RAD_001_refuses_a_range_that_is_none(void)
 {
     keel_sbus_config_t config = usual;
     keel_sbus_t before = sbus;
@@ -108,8 +107,7 @@ static void refuses_a_range_that_is_none(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &sbus, sizeof sbus);
 }
 
-/* RAD-001 */
-static void refuses_a_gap_of_none(void)
+static void RAD_001_refuses_a_gap_of_none(void)
 {
     keel_sbus_config_t config = usual;
     keel_sbus_t before = sbus;
@@ -119,8 +117,7 @@ static void refuses_a_gap_of_none(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &sbus, sizeof sbus);
 }
 
-/* RAD-002 */
-static void begins_with_no_frame(void)
+static void RAD_002_begins_with_no_frame(void)
 {
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, sbus.age_us);
     TEST_ASSERT_TRUE(sbus.frame.failsafe);
@@ -131,8 +128,8 @@ static void begins_with_no_frame(void)
     all_are(0u);
 }
 
-/* RAD-001: one value alone is a range. */
-static void takes_the_smallest_range(void)
+/* One value alone is a range. */
+static void RAD_001_takes_the_smallest_range(void)
 {
     keel_sbus_config_t config = usual;
 
@@ -144,8 +141,7 @@ static void takes_the_smallest_range(void)
     TEST_ASSERT_EQUAL_UINT32(1u, sbus.count.ranges);
 }
 
-/* RAD-004, RAD-005 */
-static void takes_the_middle(void)
+static void RAD_005_takes_the_middle(void)
 {
     is_taken(middle, SILENT_US);
     all_are(992u);
@@ -157,8 +153,7 @@ static void takes_the_middle(void)
     TEST_ASSERT_EQUAL_UINT32(0u, sbus.age_us);
 }
 
-/* RAD-005 */
-static void takes_both_ends(void)
+static void RAD_005_takes_both_ends(void)
 {
     is_taken(ends, SILENT_US);
     TEST_ASSERT_EQUAL_UINT16(172u, sbus.frame.channel[0]);
@@ -171,8 +166,8 @@ static void takes_both_ends(void)
     TEST_ASSERT_TRUE(sbus.frame.failsafe);
 }
 
-/* RAD-005: each bit is of one channel, and no other. */
-static void each_bit_is_of_its_channel(void)
+/* Each bit is of one channel, and no other. */
+static void RAD_005_each_bit_is_of_its_channel(void)
 {
     TEST_ASSERT_EQUAL(KEEL_OK, keel_sbus_init(&sbus, &widest));
     for (uint32_t bit = 0u; bit < 176u; bit++) {
@@ -188,8 +183,8 @@ static void each_bit_is_of_its_channel(void)
     }
 }
 
-/* RAD-005: 176 ones. */
-static void takes_the_greatest(void)
+/* 176 ones. */
+static void RAD_005_takes_the_greatest(void)
 {
     uint8_t frame[BYTES];
 
@@ -202,8 +197,7 @@ static void takes_the_greatest(void)
     all_are(2047u);
 }
 
-/* RAD-005 */
-static void each_flag_is_told(void)
+static void RAD_005_each_flag_is_told(void)
 {
     uint8_t frame[BYTES];
 
@@ -218,8 +212,8 @@ static void each_flag_is_told(void)
     }
 }
 
-/* RAD-004: each value of the last byte, with and without SBUS2. */
-static void footers(void)
+/* Each value of the last byte, with and without SBUS2. */
+static void RAD_004_each_last_byte(void)
 {
     uint8_t frame[BYTES];
 
@@ -244,7 +238,7 @@ static void footers(void)
 
 /* RAD-004, RAD-006: each byte of a frame, changed in every way. SBUS has no checksum: a channel
  * that is still in its range is believed. */
-static void one_byte_changed(void)
+static void RAD_006_one_byte_changed(void)
 {
     for (uint32_t at = 0u; at < BYTES; at++) {
         for (uint32_t change = 1u; change < 256u; change++) {
@@ -277,8 +271,8 @@ static void one_byte_changed(void)
     }
 }
 
-/* RAD-004: the ends of the range, of each channel. */
-static void each_channel_has_its_range(void)
+/* The ends of the range, of each channel. */
+static void RAD_004_each_channel_has_its_range(void)
 {
     const uint16_t values[4] = {171u, 172u, 1811u, 1812u};
 
@@ -300,8 +294,8 @@ static void each_channel_has_its_range(void)
     }
 }
 
-/* RAD-007: the first of footer, flags and range that applies is counted, once. */
-static void one_reason_is_counted(void)
+/* The first of footer, flags and range that applies is counted, once. */
+static void RAD_007_one_reason_is_counted(void)
 {
     uint8_t frame[BYTES] = {0x0F}; /* Channels of 0. */
 
@@ -321,8 +315,8 @@ static void one_reason_is_counted(void)
     TEST_ASSERT_EQUAL_UINT32(1u, sbus.count.flags);
 }
 
-/* RAD-010: bytes before a header are counted, and not held. */
-static void waits_for_a_header(void)
+/* Bytes before a header are counted, and not held. */
+static void RAD_010_waits_for_a_header(void)
 {
     const uint8_t noise[4] = {0x00, 0xF0, 0x0E, 0xFF};
 
@@ -332,8 +326,8 @@ static void waits_for_a_header(void)
     is_taken(middle, BYTE_US);
 }
 
-/* RAD-009: the beginning of a frame is lost, as many bytes as there can be. */
-static void any_prefix_lost_before_a_gap(void)
+/* The beginning of a frame is lost, as many bytes as there can be. */
+static void RAD_009_any_prefix_lost_before_a_gap(void)
 {
     for (uint32_t lost = 1u; lost < BYTES; lost++) {
         TEST_ASSERT_EQUAL(KEEL_OK, keel_sbus_init(&sbus, &usual));
@@ -342,8 +336,8 @@ static void any_prefix_lost_before_a_gap(void)
     }
 }
 
-/* RAD-009: so is the end. */
-static void any_suffix_lost_before_a_gap(void)
+/* So is the end. */
+static void RAD_009_any_suffix_lost_before_a_gap(void)
 {
     for (uint32_t come = 1u; come < BYTES; come++) {
         TEST_ASSERT_EQUAL(KEEL_OK, keel_sbus_init(&sbus, &usual));
@@ -354,8 +348,8 @@ static void any_suffix_lost_before_a_gap(void)
     }
 }
 
-/* RAD-009: a gap is longer than gap_us, not as long; and passes in parts as well. */
-static void a_gap_is_longer(void)
+/* A gap is longer than gap_us, not as long; and passes in parts as well. */
+static void RAD_009_a_gap_is_longer(void)
 {
     TEST_ASSERT_EQUAL_UINT32(0u, feed(middle, 12u, SILENT_US));
     TEST_ASSERT_EQUAL_UINT32(1u, feed(&middle[12], 13u, GAP_US));
@@ -371,8 +365,8 @@ static void a_gap_is_longer(void)
     TEST_ASSERT_EQUAL_UINT32(3u, sbus.count.gaps);
 }
 
-/* RAD-009: a byte that is no header, after a gap, begins nothing. */
-static void noise_after_a_gap(void)
+/* A byte that is no header, after a gap, begins nothing. */
+static void RAD_009_noise_after_a_gap(void)
 {
     TEST_ASSERT_EQUAL_UINT32(0u, feed(middle, 12u, SILENT_US));
     TEST_ASSERT_FALSE(keel_sbus_take(&sbus, 0x55u, SILENT_US));
@@ -381,8 +375,8 @@ static void noise_after_a_gap(void)
     TEST_ASSERT_EQUAL_UINT32(1u, sbus.count.headers);
 }
 
-/* RAD-011: with no gap at all, the first whole frame is taken by its last byte. */
-static void any_prefix_lost_without_a_gap(void)
+/* With no gap at all, the first whole frame is taken by its last byte. */
+static void RAD_011_any_prefix_lost_without_a_gap(void)
 {
     for (uint32_t lost = 1u; lost < BYTES; lost++) {
         TEST_ASSERT_EQUAL(KEEL_OK, keel_sbus_init(&sbus, &usual));
@@ -392,8 +386,8 @@ static void any_prefix_lost_without_a_gap(void)
     }
 }
 
-/* RAD-011: nothing but headers, as many as you like. */
-static void headers_without_end(void)
+/* Nothing but headers, as many as you like. */
+static void RAD_011_headers_without_end(void)
 {
     for (uint32_t count = 1u; count < 60u; count++) {
         TEST_ASSERT_EQUAL(KEEL_OK, keel_sbus_init(&sbus, &usual));
@@ -404,8 +398,8 @@ static void headers_without_end(void)
     }
 }
 
-/* RAD-011: 25 bytes that are no frame: the next header is at 10, and 15 bytes are left. */
-static void goes_on_at_the_next_header(void)
+/* 25 bytes that are no frame: the next header is at 10, and 15 bytes are left. */
+static void RAD_011_goes_on_at_the_next_header(void)
 {
     uint8_t frame[BYTES];
 
@@ -417,8 +411,8 @@ static void goes_on_at_the_next_header(void)
     is_taken(middle, BYTE_US);
 }
 
-/* RAD-011: there is none, or it is the last byte. */
-static void goes_on_with_little(void)
+/* There is none, or it is the last byte. */
+static void RAD_011_goes_on_with_little(void)
 {
     uint8_t frame[BYTES] = {0x0F};
 
@@ -435,7 +429,7 @@ static void goes_on_with_little(void)
 /* RAD-011, and its limit: bytes 4 to 6 of this frame are 00 00 0F, a footer and a header. Without a
  * gap nothing tells which frame is meant, and a decoder that began at byte 6 stays there. A gap, or
  * a channel that moves, ends it. */
-static void what_looks_like_a_frame_is_one(void)
+static void RAD_011_what_looks_like_a_frame_is_one(void)
 {
     uint8_t frame[BYTES] = {0x0F};
 
@@ -450,8 +444,8 @@ static void what_looks_like_a_frame_is_one(void)
     is_taken(frame, BYTE_US);
 }
 
-/* RAD-010: what was taken is not looked at again. */
-static void a_frame_is_taken_once(void)
+/* What was taken is not looked at again. */
+static void RAD_010_a_frame_is_taken_once(void)
 {
     is_taken(middle, SILENT_US);
     TEST_ASSERT_EQUAL_UINT8(0u, sbus.held);
@@ -459,8 +453,7 @@ static void a_frame_is_taken_once(void)
     TEST_ASSERT_EQUAL_UINT32(1u, sbus.count.frames);
 }
 
-/* RAD-008 */
-static void age_is_told(void)
+static void RAD_008_age_is_told(void)
 {
     is_taken(middle, SILENT_US);
     keel_sbus_pass_time(&sbus, 5000u);
@@ -476,8 +469,8 @@ static void age_is_told(void)
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, sbus.quiet_us);
 }
 
-/* RAD-008: a right frame after the longest silence is new. */
-static void silence_ends(void)
+/* A right frame after the longest silence is new. */
+static void RAD_008_silence_ends(void)
 {
     is_taken(middle, UINT32_MAX);
     keel_sbus_pass_time(&sbus, UINT32_MAX);
@@ -486,8 +479,8 @@ static void silence_ends(void)
     TEST_ASSERT_EQUAL_UINT32(0u, sbus.age_us);
 }
 
-/* RAD-007: every count stays at its end. */
-static void counts_stay_at_their_end(void)
+/* Every count stays at its end. */
+static void RAD_007_counts_stay_at_their_end(void)
 {
     uint8_t frame[BYTES];
 
@@ -513,8 +506,8 @@ static void counts_stay_at_their_end(void)
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, sbus.count.gaps);
 }
 
-/* RAD-012: in double precision, halves up. */
-static void pulses(void)
+/* In double precision, halves up. */
+static void RAD_012_each_channel_as_a_pulse(void)
 {
     TEST_ASSERT_EQUAL_UINT16(880u, keel_sbus_us(0u));
     TEST_ASSERT_EQUAL_UINT16(988u, keel_sbus_us(172u));
@@ -532,33 +525,33 @@ static void pulses(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(refuses_a_range_that_is_none);
-    RUN_TEST(refuses_a_gap_of_none);
-    RUN_TEST(begins_with_no_frame);
-    RUN_TEST(takes_the_smallest_range);
-    RUN_TEST(takes_the_middle);
-    RUN_TEST(takes_both_ends);
-    RUN_TEST(each_bit_is_of_its_channel);
-    RUN_TEST(takes_the_greatest);
-    RUN_TEST(each_flag_is_told);
-    RUN_TEST(footers);
-    RUN_TEST(one_byte_changed);
-    RUN_TEST(each_channel_has_its_range);
-    RUN_TEST(one_reason_is_counted);
-    RUN_TEST(waits_for_a_header);
-    RUN_TEST(any_prefix_lost_before_a_gap);
-    RUN_TEST(any_suffix_lost_before_a_gap);
-    RUN_TEST(a_gap_is_longer);
-    RUN_TEST(noise_after_a_gap);
-    RUN_TEST(any_prefix_lost_without_a_gap);
-    RUN_TEST(headers_without_end);
-    RUN_TEST(goes_on_at_the_next_header);
-    RUN_TEST(goes_on_with_little);
-    RUN_TEST(what_looks_like_a_frame_is_one);
-    RUN_TEST(a_frame_is_taken_once);
-    RUN_TEST(age_is_told);
-    RUN_TEST(silence_ends);
-    RUN_TEST(counts_stay_at_their_end);
-    RUN_TEST(pulses);
+    RUN_TEST(RAD_001_refuses_a_range_that_is_none);
+    RUN_TEST(RAD_001_refuses_a_gap_of_none);
+    RUN_TEST(RAD_002_begins_with_no_frame);
+    RUN_TEST(RAD_001_takes_the_smallest_range);
+    RUN_TEST(RAD_005_takes_the_middle);
+    RUN_TEST(RAD_005_takes_both_ends);
+    RUN_TEST(RAD_005_each_bit_is_of_its_channel);
+    RUN_TEST(RAD_005_takes_the_greatest);
+    RUN_TEST(RAD_005_each_flag_is_told);
+    RUN_TEST(RAD_004_each_last_byte);
+    RUN_TEST(RAD_006_one_byte_changed);
+    RUN_TEST(RAD_004_each_channel_has_its_range);
+    RUN_TEST(RAD_007_one_reason_is_counted);
+    RUN_TEST(RAD_010_waits_for_a_header);
+    RUN_TEST(RAD_009_any_prefix_lost_before_a_gap);
+    RUN_TEST(RAD_009_any_suffix_lost_before_a_gap);
+    RUN_TEST(RAD_009_a_gap_is_longer);
+    RUN_TEST(RAD_009_noise_after_a_gap);
+    RUN_TEST(RAD_011_any_prefix_lost_without_a_gap);
+    RUN_TEST(RAD_011_headers_without_end);
+    RUN_TEST(RAD_011_goes_on_at_the_next_header);
+    RUN_TEST(RAD_011_goes_on_with_little);
+    RUN_TEST(RAD_011_what_looks_like_a_frame_is_one);
+    RUN_TEST(RAD_010_a_frame_is_taken_once);
+    RUN_TEST(RAD_008_age_is_told);
+    RUN_TEST(RAD_008_silence_ends);
+    RUN_TEST(RAD_007_counts_stay_at_their_end);
+    RUN_TEST(RAD_012_each_channel_as_a_pulse);
     return UNITY_END();
 }

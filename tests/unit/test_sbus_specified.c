@@ -71,8 +71,7 @@ static void any_frame(uint8_t *frame)
     frame[24] = one_in(8u) ? (uint8_t)any() : footers[any() % 6u];
 }
 
-/* RAD-003 to RAD-011 */
-static void is_as_specified(void)
+static void RAD_003_each_byte_is_as_specified(void)
 {
     for (uint32_t n = 0u; n < FRAMES; n++) {
         uint8_t frame[25];
@@ -102,8 +101,7 @@ static void is_as_specified(void)
     TEST_ASSERT_TRUE(taken > (FRAMES / 10u));
 }
 
-/* RAD-003: noise alone. */
-static void noise_is_as_specified(void)
+static void RAD_003_noise_is_as_specified(void)
 {
     const uint8_t often[4] = {0x0F, 0x00, 0x04, 0x0F};
 
@@ -113,8 +111,7 @@ static void noise_is_as_specified(void)
     }
 }
 
-/* RAD-012 */
-static void pulses_are_as_specified(void)
+static void RAD_012_each_pulse_is_as_specified(void)
 {
     for (uint32_t raw = 0u; raw <= UINT16_MAX; raw++) {
         TEST_ASSERT_EQUAL_UINT16(model_sbus_us((uint16_t)raw), keel_sbus_us((uint16_t)raw));
@@ -124,8 +121,8 @@ static void pulses_are_as_specified(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(is_as_specified);
-    RUN_TEST(noise_is_as_specified);
-    RUN_TEST(pulses_are_as_specified);
+    RUN_TEST(RAD_003_each_byte_is_as_specified);
+    RUN_TEST(RAD_003_noise_is_as_specified);
+    RUN_TEST(RAD_012_each_pulse_is_as_specified);
     return UNITY_END();
 }
