@@ -54,6 +54,9 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "position": ("position, a fix in each", ("position",), 500, ("steps", "position")),
     "cascade": ("cascade, all four stages", ("cascade",), 3000, ("steps", "cascade")),
     "battery": ("battery, two modules", ("battery",), 400, ("steps", "battery")),
+    "sbus": ("SBUS, a byte of right frames", ("sbus",), 100, ("steps", "sbus")),
+    "sbus_worst": ("SBUS, a byte of nothing but headers", ("sbus_worst",), 300,
+                   ("steps", "sbus_worst")),
 }  # fmt: skip
 
 
