@@ -45,8 +45,8 @@ bench altitude passes 1000 instructions 220000 longest 220
 bench position passes 1000 instructions 441000 longest 441
 bench cascade passes 1000 instructions 2851400 longest 2899
 bench battery passes 1000 instructions 372000 longest 372
-bench sbus passes 1000 instructions 90000 longest 900
-bench sbus_worst passes 1000 instructions 250000 longest 250
+bench sbus passes 1000 instructions 54400 longest 621
+bench sbus_worst passes 1000 instructions 152000 longest 152
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
 bench ended
@@ -70,8 +70,8 @@ FIGURES = {
     "position": Figure(1000, 441000, 441),
     "cascade": Figure(1000, 2851400, 2899),
     "battery": Figure(1000, 372000, 372),
-    "sbus": Figure(1000, 90000, 900),
-    "sbus_worst": Figure(1000, 250000, 250),
+    "sbus": Figure(1000, 54400, 621),
+    "sbus_worst": Figure(1000, 152000, 152),
 }
 GOOD = """\
 # About the budget.
@@ -95,8 +95,8 @@ attitude = 392.9
 altitude = 220.0
 position = 441.0
 battery = 372.0
-sbus = 90.0
-sbus_worst = 250.0
+sbus = 54.4
+sbus_worst = 152.0
 cascade = 2851.4
 """
 
@@ -192,8 +192,8 @@ class Budgets(unittest.TestCase):
                 "altitude": 220.0,
                 "position": 441.0,
                 "battery": 372.0,
-                "sbus": 90.0,
-                "sbus_worst": 250.0,
+                "sbus": 54.4,
+                "sbus_worst": 152.0,
                 "cascade": 2851.4,
             },
         )

@@ -102,7 +102,8 @@ typedef struct keel_sbus {
   @ predicate sbus_config(keel_sbus_config_t *c) =
   @     c->lowest <= c->highest <= KEEL_SBUS_CHANNEL_MAX && c->gap_us > 0;
   @
-  @ logic integer sbus_sum(integer a, integer b) = \min(UINT32_MAX, a + b);
+  @ logic integer sbus_sum(integer a, integer b) =
+  @     a + b <= UINT32_MAX ? a + b : UINT32_MAX;
   @
   @ // The three bytes from this one on, the lowest first.
   @ logic integer sbus_window(keel_sbus_t *s, integer first) =
@@ -233,7 +234,8 @@ void keel_sbus_pass_time(keel_sbus_t *sbus, uint32_t elapsed_us);
  */
 /*@ assigns \nothing;
   @ ensures RAD_012_scale: \result ==
-  @     KEEL_SBUS_US_MIN + (5 * \min(raw, KEEL_SBUS_CHANNEL_MAX) + 4) / 8;
+  @     KEEL_SBUS_US_MIN +
+  @     (5 * (raw < KEEL_SBUS_CHANNEL_MAX ? raw : KEEL_SBUS_CHANNEL_MAX) + 4) / 8;
   @ ensures RAD_012_bounds: KEEL_SBUS_US_MIN <= \result <= KEEL_SBUS_US_MAX;
   @*/
 uint16_t keel_sbus_us(uint16_t raw);
