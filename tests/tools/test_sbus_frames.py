@@ -107,6 +107,16 @@ class Frames(unittest.TestCase):
             self.assertEqual(self.feed(encoded(channels, flags), SILENT_US), [24])
             self.assertEqual(self.says(), (channels, flags))
 
+    def test_every_change_of_one_byte(self) -> None:
+        frame = encoded((992,) * 16)
+        for at in range(25):
+            for value in range(256):
+                changed = frame[:at] + bytes([value]) + frame[at + 1 :]
+                right = is_right(changed)
+                self.assertEqual(self.feed(changed, SILENT_US), [24] if right else [])
+                if right:
+                    self.assertEqual(self.says(), (decoded(changed), changed[23]))
+
     def test_any_frame_is_taken_when_it_is_right(self) -> None:
         for sbus2 in (False, True):
             self.begin(sbus2=sbus2)
