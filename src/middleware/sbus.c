@@ -236,10 +236,10 @@ bool keel_sbus_take(keel_sbus_t *sbus, uint8_t byte, uint32_t elapsed_us)
         sbus->held++;
     }
     if (sbus->held == (uint8_t)KEEL_SBUS_BYTES) {
+        sbus->held = 0u;
         right = take_frame(sbus);
         if (right) {
             sbus->age_us = 0u;
-            sbus->held = 0u;
         } else {
             search_header(sbus);
         }

@@ -236,8 +236,8 @@ static void RAD_004_each_last_byte(void)
     }
 }
 
-/* And RAD-004: each bit of a frame changed; tests/tools/test_sbus_frames.py has every change of each
- * byte. SBUS has no checksum: a channel that is still in its range is believed. */
+/* And RAD-004: each bit of a frame changed; tests/tools/test_sbus_frames.py changes each byte in
+ * every way. SBUS has no checksum: a channel that is still in its range is believed. */
 static void RAD_006_one_bit_changed(void)
 {
     for (uint32_t at = 0u; at < BYTES; at++) {

@@ -48,10 +48,6 @@ KEEL_C_BEGIN
 /** The first byte of a frame. */
 #define KEEL_SBUS_HEADER 0x0F
 
-/** A channel's usual range: what becomes 988 us and 2012 us. */
-#define KEEL_SBUS_USUAL_LOWEST  172
-#define KEEL_SBUS_USUAL_HIGHEST 1811
-
 /** The bounds of what keel_sbus_us gives, in us. */
 #define KEEL_SBUS_US_MIN 880
 #define KEEL_SBUS_US_MAX 2159
@@ -60,8 +56,8 @@ KEEL_C_BEGIN
 typedef struct keel_sbus_config {
     uint32_t gap_us;  /**< Silence that ends a partial frame when it is longer, in us; more than 0.
                            Between a byte's time, 120, and the silence between frames, 3000. */
-    uint16_t lowest;  /**< The smallest value of a channel in a right frame. */
-    uint16_t highest; /**< The largest, lowest to KEEL_SBUS_CHANNEL_MAX. */
+    uint16_t lowest;  /**< The smallest value of a channel in a right frame; 172 is usual. */
+    uint16_t highest; /**< The largest, lowest to KEEL_SBUS_CHANNEL_MAX; 1811 is usual. */
     bool sbus2;       /**< SBUS2's footers are right, too: 0x04, 0x14, 0x24 and 0x34. */
 } keel_sbus_config_t;
 
