@@ -26,6 +26,7 @@ static keel_pid_t bench_pid;
 static keel_mixer_t bench_mixer;
 static keel_mode_t bench_mode;
 static keel_reference_t bench_reference;
+static keel_sbus_t bench_sbus;
 static keel_virtual_imu_t bench_imu;
 
 static void bench_require(int condition, const char *what)
@@ -223,6 +224,24 @@ static void bench_run_calibration(void)
     bench_dump("calibration");
 }
 
+static void bench_run_sbus(const char *name, bool noise)
+{
+    bench_require(keel_sbus_init(&bench_sbus, &sbus_workload) == KEEL_OK, "SBUS");
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const uint8_t byte = noise ? (uint8_t)KEEL_SBUS_HEADER : sbus_byte_at(n);
+
+        if (n < STEPS) {
+            (void)keel_sbus_take(&bench_sbus, byte, 120u);
+        } else {
+            CALLGRIND_TOGGLE_COLLECT;
+            (void)keel_sbus_take(&bench_sbus, byte, 120u);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_require(noise == (bench_sbus.count.frames == 0u), "SBUS frames");
+    bench_dump(name);
+}
+
 static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     const keel_mode_input_t input = mode_workload(&bench_mode, settle_us,
@@ -270,6 +289,8 @@ int main(void)
     bench_run_position();
     bench_run_battery();
     bench_run_calibration();
+    bench_run_sbus("sbus", false);
+    bench_run_sbus("sbus_worst", true);
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;

@@ -428,6 +428,25 @@ static void bench_calibration(void)
     print(&steps);
 }
 
+static void bench_sbus(const char *name, bool noise)
+{
+    static keel_sbus_t sbus KEEL_REALTIME_ZERO;
+    kind_t steps = {name, 0u, 0u, 0u};
+
+    require(keel_sbus_init(&sbus, &sbus_workload) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const uint8_t byte = noise ? (uint8_t)KEEL_SBUS_HEADER : sbus_byte_at(n);
+
+        if (n < STEPS) {
+            (void)keel_sbus_take(&sbus, byte, 120u);
+        } else {
+            add(&steps, measure((function_t)keel_sbus_take, &sbus, byte, 120u, false));
+        }
+    }
+    require(noise == (sbus.count.frames == 0u));
+    print(&steps);
+}
+
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     static keel_mode_t mode KEEL_REALTIME_ZERO;
@@ -553,6 +572,8 @@ int main(void)
     bench_position();
     bench_battery();
     bench_calibration();
+    bench_sbus("sbus", false);
+    bench_sbus("sbus_worst", true);
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
     bench_tasks();

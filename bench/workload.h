@@ -17,6 +17,7 @@
 #include "keel/flight/pid.h"
 #include "keel/flight/position.h"
 #include "keel/flight/reference.h"
+#include "keel/middleware/sbus.h"
 #include "keel/middleware/virtual_imu.h"
 
 #define STEPS 1000u
@@ -303,6 +304,22 @@ static keel_calibration_vector_t calibration_sample_at(uint32_t n)
     const keel_calibration_vector_t sample = {{0.1f + noise, 0.2f - noise, noise - 9.9f}};
 
     return sample;
+/* --- SBUS ------------------------------------------------------------------------------------- */
+
+static const keel_sbus_config_t sbus_workload = {
+    .gap_us = 1000u, .lowest = 172u, .highest = 1811u, .sbus2 = false};
+
+/* One frame behind the other, all channels in the middle, 8 in 11 bytes. */
+static uint8_t sbus_byte_at(uint32_t n)
+{
+    static const uint8_t middle[11] = {0xE0, 0x03, 0x1F, 0xF8, 0xC0, 0x07,
+                                       0x3E, 0xF0, 0x81, 0x0F, 0x7C};
+    const uint32_t at = n % 25u;
+
+    if (at == 0u) {
+        return 0x0Fu;
+    }
+    return (at < 23u) ? middle[(at - 1u) % 11u] : 0x00u;
 }
 
 /* --- Virtual IMU ------------------------------------------------------------------------------ */

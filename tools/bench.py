@@ -78,6 +78,8 @@ STEPS: dict[str, tuple[str, str, int]] = {
     "cascade": ("cascade, all four stages", "keel_cascade_rate_step", 3000),
     "battery": ("battery, two modules", "keel_battery_step", 400),
     "calibration": ("calibration at rest", "keel_calibration_rest_step", 250),
+    "sbus": ("SBUS, a byte of right frames", "keel_sbus_take", 100),
+    "sbus_worst": ("SBUS, a byte of nothing but headers", "keel_sbus_take", 300),
     "imu": ("virtual IMU, 3 x 6, all agree", "keel_virtual_imu_step", 900),
     "imu_worst": ("virtual IMU, 3 x 6, one outvoted", "keel_virtual_imu_step", 900),
 }

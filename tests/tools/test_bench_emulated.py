@@ -46,6 +46,8 @@ bench position passes 1000 instructions 441000 longest 441
 bench cascade passes 1000 instructions 2851400 longest 2899
 bench battery passes 1000 instructions 372000 longest 372
 bench calibration passes 1000 instructions 71000 longest 71
+bench sbus passes 1000 instructions 54400 longest 621
+bench sbus_worst passes 1000 instructions 152000 longest 152
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
 bench ended
@@ -71,6 +73,8 @@ FIGURES = {
     "cascade": Figure(1000, 2851400, 2899),
     "battery": Figure(1000, 372000, 372),
     "calibration": Figure(1000, 71000, 71),
+    "sbus": Figure(1000, 54400, 621),
+    "sbus_worst": Figure(1000, 152000, 152),
     **{name: Figure(50, 5000, 120) for name in TASKS},
 }
 GOOD = """\
@@ -95,6 +99,8 @@ attitude = 392.9
 altitude = 220.0
 position = 441.0
 battery = 372.0
+sbus = 54.4
+sbus_worst = 152.0
 cascade = 2851.4
 calibration = 71.0
 """ + "".join(f"{name} = 100\n" for name in TASKS)
@@ -192,6 +198,8 @@ class Budgets(unittest.TestCase):
                 "position": 441.0,
                 "battery": 372.0,
                 "calibration": 71.0,
+                "sbus": 54.4,
+                "sbus_worst": 152.0,
                 "cascade": 2851.4,
                 **dict.fromkeys(TASKS, 100.0),
             },

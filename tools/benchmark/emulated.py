@@ -56,6 +56,9 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "cascade": ("cascade, all four stages", ("cascade",), 3000, ("steps", "cascade")),
     "battery": ("battery, two modules", ("battery",), 400, ("steps", "battery")),
     "calibration": ("calibration at rest", ("calibration",), 250, ("steps", "calibration")),
+    "sbus": ("SBUS, a byte of right frames", ("sbus",), 100, ("steps", "sbus")),
+    "sbus_worst": ("SBUS, a byte of nothing but headers", ("sbus_worst",), 300,
+                   ("steps", "sbus_worst")),
 }  # fmt: skip
 # The bodies of the 21 tasks of examples/copter, in flight, with what they read of their devices.
 TASKS = (

@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file sbus.h
+ * @brief The pilot's radio: a decoder of SBUS, byte by byte.
+ *
+ * A frame is 25 bytes: the header 0x0F; 22 bytes with 16 channels of 11 bits, the lowest bit first;
+ * a byte of flags; a footer, 0x00. A receiver sends one every 6 to 14 ms, in 3 ms, at 100 000 baud
+ * with even parity and two stop bits, inverted. Setting up the port and dropping bytes whose parity
+ * is wrong is its driver's affair.
+ *
+ * Frames are found by their headers: a byte that comes late begins a frame, and when 25 bytes are
+ * no right frame, the search goes on at the next of them that may be a header. So a right frame is
+ * taken by its last byte, whatever was before, unless some of its bytes and bytes before it were
+ * taken as a frame already; after a gap it always is.
+ *
+ * SBUS has no checksum. A frame with a wrong bit in a channel is taken when all channels stay in
+ * the configured range, and without gaps bytes of channels can look like a frame, over and over
+ * while no channel moves. So a driver that hands bytes over in batches must tell the gaps, and
+ * whoever acts on a channel (arms, kills) asks for several frames that say the same. The range is a
+ * net with wide meshes: its lower end keeps out the zeros that some receivers send when they lose
+ * the radio.
+ *
+ * A receiver that loses the radio goes on sending frames, with the channels that it was told to
+ * send then: frame.lost and frame.failsafe tell so, not age_us.
+ *
+ * All is integer arithmetic. All counts and times stay at UINT32_MAX.
+ */
+#ifndef KEEL_MIDDLEWARE_SBUS_H
+#define KEEL_MIDDLEWARE_SBUS_H
+
+#include "keel/c_declarations.h"
+#include "keel/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/** Bytes of a frame. */
+#define KEEL_SBUS_BYTES 25
+
+/** Channels of 11 bits. */
+#define KEEL_SBUS_CHANNELS 16
+
+/** The largest value of a channel. */
+#define KEEL_SBUS_CHANNEL_MAX 2047
+
+/** The first byte of a frame. */
+#define KEEL_SBUS_HEADER 0x0F
+
+/** The bounds of what keel_sbus_us gives, in us. */
+#define KEEL_SBUS_US_MIN 880
+#define KEEL_SBUS_US_MAX 2159
+
+/** What a decoder is made from. */
+typedef struct keel_sbus_config {
+    uint32_t gap_us;  /**< Silence that ends a partial frame when it is longer, in us; more than 0.
+                           Between a byte's time, 120, and the silence between frames, 3000. */
+    uint16_t lowest;  /**< The smallest value of a channel in a right frame; 172 is usual. */
+    uint16_t highest; /**< The largest, lowest to KEEL_SBUS_CHANNEL_MAX; 1811 is usual. */
+    bool sbus2;       /**< SBUS2's footers are right, too: 0x04, 0x14, 0x24 and 0x34. */
+} keel_sbus_config_t;
+
+/** What a frame says. */
+typedef struct keel_sbus_frame {
+    uint16_t channel[KEEL_SBUS_CHANNELS]; /**< Raw, lowest to highest; keel_sbus_us scales it. */
+    bool digital_17;                      /**< Channel 17. */
+    bool digital_18;                      /**< Channel 18. */
+    bool lost;                            /**< The receiver missed a frame from the pilot. */
+    bool failsafe;                        /**< It has lost the pilot: channels are made up. */
+} keel_sbus_frame_t;
+
+/** What was met since the start. */
+typedef struct keel_sbus_count {
+    uint32_t frames;  /**< Right frames. */
+    uint32_t headers; /**< Bytes that were no header where a frame should begin. */
+    uint32_t footers; /**< Frames refused for their last byte. */
+    uint32_t flags;   /**< Frames refused for a flag that there is none of. */
+    uint32_t ranges;  /**< Frames refused for a channel out of its range. */
+    uint32_t gaps;    /**< Partial frames that a gap ended. */
+} keel_sbus_count_t;
+
+/** A decoder. Written by the functions below alone; all of it may be read. */
+typedef struct keel_sbus {
+    keel_sbus_config_t config;       /**< What it was made from. */
+    keel_sbus_frame_t frame;         /**< The last right frame; all 0 and failsafe before. */
+    keel_sbus_count_t count;         /**< What was met. */
+    uint32_t age_us;                 /**< Since the last right frame, in us; UINT32_MAX before. */
+    uint32_t quiet_us;               /**< Since the last byte, in us. */
+    uint8_t buffer[KEEL_SBUS_BYTES]; /**< A partial frame, and behind it what was before. */
+    uint8_t held;                    /**< Its bytes, fewer than KEEL_SBUS_BYTES. */
+} keel_sbus_t;
+
+/*@ // Between any two calls: a partial frame begins with a header.
+  @ predicate sbus_valid(keel_sbus_t *s) =
+  @     s->held < KEEL_SBUS_BYTES && (s->held > 0 ==> s->buffer[0] == KEEL_SBUS_HEADER);
+  @
+  @ predicate sbus_config(keel_sbus_config_t *c) =
+  @     c->lowest <= c->highest <= KEEL_SBUS_CHANNEL_MAX && c->gap_us > 0;
+  @
+  @ logic integer sbus_sum(integer a, integer b) =
+  @     a + b <= UINT32_MAX ? a + b : UINT32_MAX;
+  @
+  @ // The three bytes from this one on, the lowest first.
+  @ logic integer sbus_window(keel_sbus_t *s, integer first) =
+  @     s->buffer[first] + 256 * s->buffer[first + 1] + 65536 * s->buffer[first + 2];
+  @
+  @ // Bits 11 i to 11 i + 10 of those behind the header.
+  @ logic integer sbus_field(keel_sbus_t *s, integer i) =
+  @     (sbus_window(s, 1 + (11 * i) / 8) >> ((11 * i) % 8)) & 2047;
+  @
+  @ predicate sbus_footer(integer byte, integer sbus2) =
+  @     byte == 0x00 ||
+  @     (sbus2 != 0 && (byte == 0x04 || byte == 0x14 || byte == 0x24 || byte == 0x34));
+  @
+  @ predicate sbus_ranges(keel_sbus_t *s) =
+  @     \forall integer i; 0 <= i < KEEL_SBUS_CHANNELS ==>
+  @         s->config.lowest <= sbus_field(s, i) <= s->config.highest;
+  @
+  @ predicate sbus_kept{L, M}(keel_sbus_t *s) =
+  @     (\forall integer i; 0 <= i < KEEL_SBUS_CHANNELS ==>
+  @         \at(s->frame.channel[i], M) == \at(s->frame.channel[i], L)) &&
+  @     \at(s->frame.digital_17, M) == \at(s->frame.digital_17, L) &&
+  @     \at(s->frame.digital_18, M) == \at(s->frame.digital_18, L) &&
+  @     \at(s->frame.lost, M) == \at(s->frame.lost, L) &&
+  @     \at(s->frame.failsafe, M) == \at(s->frame.failsafe, L);
+  @*/
+
+/**
+ * Makes a decoder (requirements RAD-001 and RAD-002).
+ *
+ * @param sbus   the decoder
+ * @param config what it is made from; copied
+ * @return KEEL_OK; KEEL_ERR_LIMITS when the range is empty or ends above KEEL_SBUS_CHANNEL_MAX;
+ *         KEEL_ERR_AGE when gap_us is 0; the first that applies: then nothing is changed
+ */
+/*@ requires \valid(sbus) && \valid_read(config) && \separated(sbus, config);
+  @ assigns *sbus;
+  @ behavior limits:
+  @   assumes !(config->lowest <= config->highest <= KEEL_SBUS_CHANNEL_MAX);
+  @   assigns \nothing;
+  @   ensures RAD_001_limits: \result == KEEL_ERR_LIMITS;
+  @ behavior gap:
+  @   assumes config->lowest <= config->highest <= KEEL_SBUS_CHANNEL_MAX && config->gap_us == 0;
+  @   assigns \nothing;
+  @   ensures RAD_001_gap: \result == KEEL_ERR_AGE;
+  @ behavior made:
+  @   assumes sbus_config(config);
+  @   ensures RAD_002_made: \result == KEEL_OK && sbus_valid(sbus) && sbus->held == 0;
+  @   ensures RAD_002_config: sbus->config.gap_us == config->gap_us &&
+  @       sbus->config.lowest == config->lowest && sbus->config.highest == config->highest &&
+  @       sbus->config.sbus2 == config->sbus2;
+  @   ensures RAD_002_none: sbus->age_us == UINT32_MAX && sbus->frame.failsafe != 0 &&
+  @       sbus->count.frames == 0;
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_sbus_init(keel_sbus_t *sbus, const keel_sbus_config_t *config);
+
+/**
+ * Takes a byte from the receiver (requirements RAD-003 to RAD-011).
+ *
+ * @param sbus       the decoder, initialised
+ * @param byte       what came
+ * @param elapsed_us the time since the byte before, or since keel_sbus_pass_time when that was
+ *                   called after it, in us; every microsecond is told once
+ * @return whether it ended a right frame: it is in sbus->frame then. Otherwise that is as it was
+ */
+/*@ requires \valid(sbus) && sbus_valid(sbus);
+  @ assigns sbus->frame.channel[0 .. KEEL_SBUS_CHANNELS - 1], sbus->frame.digital_17,
+  @     sbus->frame.digital_18, sbus->frame.lost, sbus->frame.failsafe, sbus->count.frames,
+  @     sbus->count.headers, sbus->count.footers, sbus->count.flags, sbus->count.ranges,
+  @     sbus->count.gaps, sbus->age_us, sbus->quiet_us,
+  @     sbus->buffer[0 .. KEEL_SBUS_BYTES - 1], sbus->held;
+  @ ensures RAD_003_valid: sbus_valid(sbus);
+  @ ensures RAD_004_footer: \result ==>
+  @     sbus_footer(sbus->buffer[KEEL_SBUS_BYTES - 1], sbus->config.sbus2);
+  @ ensures RAD_004_last: \result ==> byte == sbus->buffer[KEEL_SBUS_BYTES - 1] &&
+  @     sbus->buffer[0] == KEEL_SBUS_HEADER;
+  @ ensures RAD_004_flags: \result ==> sbus->buffer[KEEL_SBUS_BYTES - 2] < 16;
+  @ ensures RAD_004_range: \result ==> \forall integer i; 0 <= i < KEEL_SBUS_CHANNELS ==>
+  @     sbus->config.lowest <= sbus->frame.channel[i] <= sbus->config.highest;
+  @ ensures RAD_005_fields: \result ==> \forall integer i; 0 <= i < KEEL_SBUS_CHANNELS ==>
+  @     sbus->frame.channel[i] == sbus_field(sbus, i);
+  @ ensures RAD_006_kept: !\result ==> sbus_kept{Pre, Post}(sbus);
+  @ ensures RAD_007_frames: sbus->count.frames ==
+  @     (\result ? sbus_sum(\old(sbus->count.frames), 1) : \old(sbus->count.frames));
+  @ ensures RAD_008_age: sbus->age_us ==
+  @     (\result ? 0 : sbus_sum(\old(sbus->age_us), elapsed_us));
+  @ ensures RAD_008_quiet: sbus->quiet_us == 0;
+  @ ensures RAD_009_gap: sbus_sum(\old(sbus->quiet_us), elapsed_us) > sbus->config.gap_us ==>
+  @     !\result && sbus->held == (byte == KEEL_SBUS_HEADER ? 1 : 0);
+  @ ensures RAD_009_adds: \old(sbus->held) < KEEL_SBUS_BYTES - 1 &&
+  @     sbus_sum(\old(sbus->quiet_us), elapsed_us) <= sbus->config.gap_us ==> !\result &&
+  @     sbus->held == \old(sbus->held) +
+  @         (\old(sbus->held) == 0 && byte != KEEL_SBUS_HEADER ? 0 : 1);
+  @ ensures RAD_010_whole: \result ==> \old(sbus->held) == KEEL_SBUS_BYTES - 1 &&
+  @     sbus->held == 0;
+  @ ensures RAD_011_first: \old(sbus->held) == KEEL_SBUS_BYTES - 1 && !\result &&
+  @     sbus_sum(\old(sbus->quiet_us), elapsed_us) <= sbus->config.gap_us ==>
+  @     \let n = KEEL_SBUS_BYTES - sbus->held; 1 <= n && \forall integer j; 1 <= j < n ==>
+  @         (j < KEEL_SBUS_BYTES - 1 ? \at(sbus->buffer[j], Pre) : byte) != KEEL_SBUS_HEADER;
+  @ ensures RAD_011_shifted: \old(sbus->held) == KEEL_SBUS_BYTES - 1 && !\result &&
+  @     sbus_sum(\old(sbus->quiet_us), elapsed_us) <= sbus->config.gap_us ==>
+  @     \let n = KEEL_SBUS_BYTES - sbus->held; \forall integer j; 0 <= j < sbus->held ==>
+  @         sbus->buffer[j] ==
+  @             (n + j < KEEL_SBUS_BYTES - 1 ? \at(sbus->buffer[n + j], Pre) : byte);
+  @*/
+bool keel_sbus_take(keel_sbus_t *sbus, uint8_t byte, uint32_t elapsed_us);
+
+/**
+ * Lets time pass in which no byte came (requirement RAD-008), so that age_us is up to date.
+ *
+ * @param sbus       the decoder, initialised
+ * @param elapsed_us the time since the last call for this decoder, in us
+ */
+/*@ requires \valid(sbus);
+  @ assigns sbus->age_us, sbus->quiet_us;
+  @ ensures RAD_008_ages: sbus->age_us == sbus_sum(\old(sbus->age_us), elapsed_us);
+  @ ensures RAD_008_silence: sbus->quiet_us == sbus_sum(\old(sbus->quiet_us), elapsed_us);
+  @*/
+void keel_sbus_pass_time(keel_sbus_t *sbus, uint32_t elapsed_us);
+
+/**
+ * A channel as the length of a servo's pulse (requirement RAD-012): 0.625 us a step, so that 172 is
+ * 988 us, 992 is 1500 us and 1811 is 2012 us; rounded to the nearest, halves up.
+ *
+ * @param raw a channel; what is above KEEL_SBUS_CHANNEL_MAX counts as that
+ * @return KEEL_SBUS_US_MIN to KEEL_SBUS_US_MAX, in us
+ */
+/*@ assigns \nothing;
+  @ ensures RAD_012_scale: \result ==
+  @     KEEL_SBUS_US_MIN +
+  @     (5 * (raw < KEEL_SBUS_CHANNEL_MAX ? raw : KEEL_SBUS_CHANNEL_MAX) + 4) / 8;
+  @ ensures RAD_012_bounds: KEEL_SBUS_US_MIN <= \result <= KEEL_SBUS_US_MAX;
+  @*/
+uint16_t keel_sbus_us(uint16_t raw);
+
+KEEL_C_END
+
+#endif

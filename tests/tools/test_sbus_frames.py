@@ -1,0 +1,156 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The SBUS decoder, handed frames that Python's whole numbers encode, and what came between."""
+
+from __future__ import annotations
+
+import ctypes
+import random
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from typing import ClassVar
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from common.run import output_of  # noqa: E402
+
+GAP_US, BYTE_US, SILENT_US = 1000, 120, 4000
+LOWEST, HIGHEST = 172, 1811
+
+# A decoder behind functions of whole numbers alone, so that nothing here knows how it is laid out.
+SHIM = """\
+#include "keel/middleware/sbus.h"
+static keel_sbus_t sbus;
+int begin(int sbus2)
+{
+    const keel_sbus_config_t config = {1000u, 172u, 1811u, sbus2 != 0};
+    return (int)keel_sbus_init(&sbus, &config);
+}
+int take(int byte, unsigned us) { return keel_sbus_take(&sbus, (uint8_t)byte, us) ? 1 : 0; }
+int channel(int i) { return sbus.frame.channel[i]; }
+int flags(void)
+{
+    return sbus.frame.digital_17 + 2 * sbus.frame.digital_18 + 4 * sbus.frame.lost +
+           8 * sbus.frame.failsafe;
+}
+"""
+
+Channels = tuple[int, ...]
+
+
+def encoded(channels: Channels, flags: int = 0, footer: int = 0) -> bytes:
+    """A frame: all channels are one number of 176 bits."""
+    number = sum(value << (11 * index) for index, value in enumerate(channels))
+    return bytes([0x0F]) + number.to_bytes(22, "little") + bytes([flags, footer])
+
+
+def decoded(frame: bytes) -> Channels:
+    number = int.from_bytes(frame[1:23], "little")
+    return tuple((number >> (11 * index)) & 2047 for index in range(16))
+
+
+def is_right(frame: bytes, footers: bytes = b"\0") -> bool:
+    plausible = all(LOWEST <= value <= HIGHEST for value in decoded(frame))
+    return frame[0] == 0x0F and frame[23] < 16 and frame[24] in footers and plausible
+
+
+@unittest.skipUnless(shutil.which("gcc"), "needs gcc")
+class Frames(unittest.TestCase):
+    """Each frame that is right, and no other."""
+
+    library: ClassVar[ctypes.CDLL]
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
+        shim.write_text(SHIM)
+        output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC", f"-I{ROOT / 'include'}",
+                   shim, ROOT / "src/middleware/sbus.c", "-o", built])  # fmt: skip
+        cls.library = ctypes.CDLL(str(built))
+
+    def setUp(self) -> None:
+        self.random = random.Random(20261124)
+        self.begin(sbus2=False)
+
+    def begin(self, *, sbus2: bool) -> None:
+        self.assertEqual(self.library.begin(int(sbus2)), 0)
+
+    def feed(self, data: bytes, first_us: int = BYTE_US) -> list[int]:
+        """Behind which bytes a frame was taken."""
+        times = [first_us] + [BYTE_US] * len(data)
+        return [at for at, byte in enumerate(data) if self.library.take(byte, times[at])]
+
+    def says(self) -> tuple[Channels, int]:
+        return tuple(self.library.channel(index) for index in range(16)), self.library.flags()
+
+    def any_channels(self) -> Channels:
+        return tuple(self.random.randint(LOWEST, HIGHEST) for _ in range(16))
+
+    def test_a_known_frame(self) -> None:
+        vector = bytes.fromhex("0fac00dfc4c1073ef0810f7ce0031ff8c0073ef0810f7c0c00")
+        channels = (172, 992, 1811, *[992] * 13)
+        self.assertEqual(encoded(channels, 0x0C), vector)
+        self.assertEqual(self.feed(vector, SILENT_US), [24])
+        self.assertEqual(self.says(), (channels, 12))
+
+    def test_frames_behind_gaps_and_garbage(self) -> None:
+        for _ in range(2000):
+            channels, flags = self.any_channels(), self.random.randrange(16)
+            garbage = self.random.randbytes(self.random.randrange(40))
+            self.feed(garbage)
+            self.assertEqual(self.feed(encoded(channels, flags), SILENT_US), [24])
+            self.assertEqual(self.says(), (channels, flags))
+
+    def test_every_change_of_one_byte(self) -> None:
+        frame = encoded((992,) * 16)
+        for at in range(25):
+            for value in range(256):
+                changed = frame[:at] + bytes([value]) + frame[at + 1 :]
+                right = is_right(changed)
+                self.assertEqual(self.feed(changed, SILENT_US), [24] if right else [])
+                if right:
+                    self.assertEqual(self.says(), (decoded(changed), changed[23]))
+
+    def test_any_frame_is_taken_when_it_is_right(self) -> None:
+        for sbus2 in (False, True):
+            self.begin(sbus2=sbus2)
+            footers = b"\x00\x04\x14\x24\x34" if sbus2 else b"\x00"
+            taken = 0
+            for _ in range(4000):
+                frame = bytearray(encoded(self.any_channels(), self.random.randrange(16)))
+                frame[24] = self.random.choice(b"\x00\x04\x14\x24\x34")
+                if self.random.random() < 0.7:
+                    frame[self.random.randrange(25)] ^= 1 << self.random.randrange(8)
+                before = self.says()
+                right = is_right(frame, footers)
+                self.assertEqual(self.feed(bytes(frame), SILENT_US), [24] if right else [])
+                self.assertEqual(self.says(), (decoded(frame), frame[23]) if right else before)
+                taken += right
+            self.assertGreater(taken, 400)
+
+    def test_a_stream_without_gaps(self) -> None:
+        """The frames are those that a search finds which looks at all bytes at once."""
+        for _ in range(200):
+            stream = b"".join(
+                encoded(self.any_channels())
+                if self.random.random() < 0.7
+                else self.random.randbytes(self.random.randrange(1, 60))
+                for _ in range(20)
+            )
+            expected, at = [], 0
+            while at + 25 <= len(stream):
+                right = is_right(stream[at : at + 25])
+                expected += [at + 24] if right else []
+                at += 25 if right else 1
+            self.begin(sbus2=False)
+            self.assertEqual(self.feed(stream), expected)
+
+
+if __name__ == "__main__":
+    unittest.main()
