@@ -304,6 +304,8 @@ static keel_calibration_vector_t calibration_sample_at(uint32_t n)
     const keel_calibration_vector_t sample = {{0.1f + noise, 0.2f - noise, noise - 9.9f}};
 
     return sample;
+}
+
 /* --- SBUS ------------------------------------------------------------------------------------- */
 
 static const keel_sbus_config_t sbus_workload = {
