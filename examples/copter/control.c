@@ -103,25 +103,46 @@ static float descent_at(float height)
                                                 : -copter_settings.land_slow;
 }
 
+/* Towards the fence the pilot comes to a stop by himself: slower the nearer it is. Without that the
+ * cascade's fence would do it, which brakes as hard as it has to. */
+static float slow_down(float asked, float place, float reach)
+{
+    const float rate = copter_settings.fence_rate;
+    const float ahead = rate * (reach - copter_settings.fence_margin - place);
+    const float behind = rate * (reach - copter_settings.fence_margin + place);
+    const float most = (ahead > 0.0f) ? ahead : 0.0f;
+    const float least = (behind > 0.0f) ? -behind : 0.0f;
+
+    if (asked > most) {
+        return most;
+    }
+    return (asked < least) ? least : asked;
+}
+
 /* What the pilot's sticks ask for takes the place of what holds the place, which follows. */
 static void follow_sticks(copter_control_t *self, const copter_t *copter)
 {
     const keel_reference_setpoints_t *const pilot = &copter->pilot.reference.setpoints;
     const keel_cascade_estimate_t *const here = &copter->estimate.here;
     const keel_cascade_vector_t stop = stop_of(here);
+    const float *const reach = copter_settings.cascade.reach;
     const bool goes = (pilot->forward != 0.0f) || (pilot->right != 0.0f);
     const bool climbs = pilot->climb_rate != 0.0f;
 
     if (goes || copter->estimate.is_landed) {
-        self->asked.north = (pilot->forward * here->forward_north) -
+        const float north = (pilot->forward * here->forward_north) -
                             (pilot->right * here->forward_east);
-        self->asked.east = (pilot->forward * here->forward_east) +
+        const float east = (pilot->forward * here->forward_east) +
                            (pilot->right * here->forward_north);
+
+        self->asked.north = slow_down(north, here->position.north, reach[KEEL_CASCADE_NORTH]);
+        self->asked.east = slow_down(east, here->position.east, reach[KEEL_CASCADE_EAST]);
         self->place.north = stop.north;
         self->place.east = stop.east;
     }
     if (climbs) {
-        self->asked.up = pilot->climb_rate;
+        self->asked.up = slow_down(pilot->climb_rate, here->position.up,
+                                   reach[KEEL_CASCADE_HEIGHT]);
         self->place.up = stop.up;
     }
 }

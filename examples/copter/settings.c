@@ -181,4 +181,6 @@ const copter_settings_t copter_settings =
      .land_slow = 0.5f,
      .land_near = 5.0f,
      .land_thrust = 0.95f * HOVER,
-     .stop_s = 0.8f};
+     .stop_s = 0.8f,
+     .fence_margin = 2.0f,
+     .fence_rate = 0.25f};

@@ -45,6 +45,8 @@ typedef struct copter_settings {
     float land_near;         /**< Below this height the ground is near, in m. */
     float land_thrust;       /**< Landing without an altitude: less than what hovers. */
     float stop_s;            /**< How far it goes on when the sticks are let go: in s. */
+    float fence_margin;      /**< The pilot comes so near to the fence, in m. */
+    float fence_rate;        /**< Of the way that is left, so much a second, in 1/s. */
 } copter_settings_t;
 
 /** A quadcopter of 1.4 kg: the F450 that JSBSim comes with. */

@@ -120,6 +120,10 @@ class Judge:
         """At its worst."""
         return most(self._hold())
 
+    def away_max_m(self) -> float:
+        """From home, to the side that is farthest."""
+        return max(most(self._trace.column(name)[self._in]) for name in ("north", "east"))
+
     def place_max_m(self) -> float:
         """Belief less truth. Home is where it took off."""
         place = self._trace.view["position"].astype(float)
@@ -162,7 +166,8 @@ class Judge:
 
 
 METRICS = ("attitude_rms_deg", "attitude_max_deg", "heading_max_deg", "tracking_rms_deg",
-           "tilt_max_deg", "hold_rms_m", "hold_max_m", "place_max_m", "height_max_m",
+           "tilt_max_deg", "hold_rms_m", "hold_max_m", "away_max_m",
+           "place_max_m", "height_max_m",
            "height_error_max_m", "sink_max", "skipped_max", "without_fault_deg")  # fmt: skip
 
 

@@ -155,6 +155,7 @@ class Limits(Table):
     tilt_max_deg: Positive | None = None
     hold_rms_m: Positive | None = None  # From where it was at from_s, horizontally.
     hold_max_m: Positive | None = None
+    away_max_m: Positive | None = None  # From home, to the north, south, east or west.
     place_max_m: Positive | None = None  # Estimate less truth, horizontally.
     height_max_m: Positive | None = None  # From where it was at from_s.
     height_error_max_m: Positive | None = None  # Estimate less truth.
