@@ -27,14 +27,15 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 import mutate  # noqa: E402
-from proofs.mutant_crew import Dask, Threads, answer_order, archive, orders  # noqa: E402
+from common.cluster import archive  # noqa: E402
+from proofs.mutant_crew import PROGRAM, SENT, Dask, Threads, answer_order, orders  # noqa: E402
 from proofs.mutant_verdicts import Verdict  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
 from proofs.project import ProjectError  # noqa: E402
 from test_prove import SOURCE, TreeTest  # noqa: E402
 from toolchain import Toolchain, ToolchainError  # noqa: E402
 
-from proofs import mutant_worker  # noqa: E402
+from common import cluster_worker  # noqa: E402
 
 
 class FakeTrial:
@@ -104,7 +105,7 @@ class Resumption(TreeTest):
 
 
 # What stands for tools/mutate.py in the archive that is sent to a worker.
-PROGRAM = """\
+FAKE = """\
 import json, sys
 order = json.load(sys.stdin)
 if order["quick"]:
@@ -129,7 +130,7 @@ class Sent(TreeTest):
         super().setUp()
         program = self.root / "tools/mutate.py"
         program.parent.mkdir()
-        program.write_text(PROGRAM, encoding="utf-8")
+        program.write_text(FAKE, encoding="utf-8")
         self.found = mutants(self.unit.source)
         fake: Any = FakeTrial()
         self.jobs = [("box", fake, mutant) for mutant in self.found]
@@ -143,19 +144,19 @@ class Sent(TreeTest):
             self.assertLessEqual(len(group), 6)
 
     def test_a_worker_runs_the_program_that_was_sent(self) -> None:
-        sent = archive(self.root)
-        self.assertEqual(sent, archive(self.root))
+        sent = archive(self.root, SENT)
+        self.assertEqual(sent, archive(self.root, SENT))
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         order = {"unit": "box", "mutants": [["f", "a", "b", 1]], "quick": False}
         with mock.patch.object(tempfile, "tempdir", folder.name):
             for _ in range(2):
-                answer = mutant_worker.carry_out(sent, order)
+                answer = cluster_worker.carry_out(sent, PROGRAM, order)
                 self.assertEqual(answer["verdicts"][0]["engines"], {"cbmc": "b"})
             [place] = Path(folder.name).iterdir()
             self.assertEqual((place / "src/rtos/box.c").read_text(), SOURCE)
             with self.assertRaisesRegex(RuntimeError, "it is too quick"):
-                mutant_worker.carry_out(sent, {**order, "quick": True})
+                cluster_worker.carry_out(sent, PROGRAM, {**order, "quick": True})
 
     def test_only_the_answer_goes_out(self) -> None:
         output, error = io.StringIO(), io.StringIO()

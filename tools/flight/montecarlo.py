@@ -15,11 +15,9 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import io
 import json
 import os
 import sys
-import tarfile
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -28,15 +26,18 @@ from typing import Any
 import numpy as np
 from rich.table import Table
 
+from common import cluster_worker
 from common.arguments import Parser
+from common.cluster import archive
 from common.errors import ROOT, ToolError, program
 from common.files import write_json
-from flight import library, worker
+from flight import library
 from flight.orders import BUILD, library_of
 from flight.tables import console
 from flight.varied import HEALTHY, digest_of
 
 SENT = ("include", "src", "bsp", "examples", "tools")
+PROGRAM = ["tools/with_packages.py", "fly", "-m", "flight.orders"]
 ORDER = 5  # Flights in an order.
 RANKS = (50.0, 90.0, 99.0, 100.0)
 TOLD = {
@@ -75,27 +76,13 @@ def kept(seed: int, digest: str) -> Answer | None:
     return answer if answer.get("digest") == digest and answer.get("seed") == seed else None
 
 
-def archive(root: Path = ROOT) -> bytes:
-    """What a worker needs of the project; the same bytes for the same files."""
-    stream = io.BytesIO()
-    with tarfile.open(fileobj=stream, mode="w:xz") as tar:
-        for name in SENT:
-            for path in sorted((root / name).rglob("*")):
-                if path.is_file() and "__pycache__" not in path.parts:
-                    entry = tarfile.TarInfo(path.relative_to(root).as_posix())
-                    entry.size, entry.mode = path.stat().st_size, 0o644
-                    with path.open("rb") as file:
-                        tar.addfile(entry, file)
-    return stream.getvalue()
-
-
 def cluster(address: str, width: int) -> Any:
     """A client of the cluster of that address, or of one on this machine."""
     # A worker's flight ends by itself; what Dask says of its own work is nobody's business here.
     os.environ.setdefault("DASK_LOGGING__DISTRIBUTED", "error")
     try:
         distributed = importlib.import_module("distributed")
-        importlib.import_module("cloudpickle").register_pickle_by_value(worker)
+        importlib.import_module("cloudpickle").register_pickle_by_value(cluster_worker)
     except ImportError as error:
         raise ToolError(f"there is no {error.name}") from error
     try:
@@ -110,9 +97,10 @@ def cluster(address: str, width: int) -> Any:
 def answers(client: Any, seeds: Sequence[int]) -> Iterator[Answer]:
     """The flights as they come."""
     distributed = importlib.import_module("distributed")
-    sent = client.scatter(archive(), broadcast=True, hash=True)
+    sent = client.scatter(archive(ROOT, SENT), broadcast=True, hash=True)
     orders = [list(seeds[start : start + ORDER]) for start in range(0, len(seeds), ORDER)]
-    futures = [client.submit(worker.carry_out, sent, order, pure=False) for order in orders]
+    futures = [client.submit(cluster_worker.carry_out, sent, PROGRAM, order, pure=False)
+               for order in orders]  # fmt: skip
     try:
         done = distributed.as_completed(futures, with_results=True, loop=client.loop)
         for _, order in done:

@@ -8,16 +8,16 @@ unchanged is paid once. A worker's tools must be the same as here, by version an
 from __future__ import annotations
 
 import importlib
-import io
 import json
 import sys
-import tarfile
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
-from . import mutant_worker
+from common import cluster_worker
+from common.cluster import archive
+
 from .harness import MODELS
 from .jobs import Stoppable, in_pool
 from .mutant_verdicts import Verdict
@@ -25,6 +25,7 @@ from .mutants import Mutant
 from .project import ProjectError
 
 SENT = ("include", "src", "proofs", MODELS, "tools")
+PROGRAM = ["tools/mutate.py", "--order"]
 ORDER = 6  # mutants in an order
 
 
@@ -76,7 +77,7 @@ class Dask:
             pickle: Any = importlib.import_module("cloudpickle")
         except ImportError as error:
             raise ProjectError(f"DASK is set, but there is no {error.name}") from error
-        pickle.register_pickle_by_value(mutant_worker)
+        pickle.register_pickle_by_value(cluster_worker)
         try:
             self._client: Any = self._distributed.Client(address, timeout=20, set_as_default=False)
         except (OSError, ValueError) as error:
@@ -84,11 +85,11 @@ class Dask:
 
     def run(self, jobs: Sequence[Job]) -> Iterator[tuple[int, Verdict]]:
         """The verdicts as they come, each with the place of its job."""
-        sent = self._client.scatter(archive(self._root), broadcast=True, hash=True)
+        sent = self._client.scatter(archive(self._root, SENT), broadcast=True, hash=True)
         groups = orders(jobs)
         futures = {
             self._client.submit(
-                mutant_worker.carry_out, sent, self._of(group, jobs), pure=False
+                cluster_worker.carry_out, sent, PROGRAM, self._of(group, jobs), pure=False
             ): group
             for group in groups
         }  # fmt: skip
@@ -127,20 +128,6 @@ def orders(jobs: Sequence[Job]) -> list[list[int]]:
         groups.setdefault((unit, mutant.function), []).append(place)
     return [group[start : start + ORDER] for group in groups.values()
             for start in range(0, len(group), ORDER)]  # fmt: skip
-
-
-def archive(root: Path) -> bytes:
-    """What a worker needs of the project; the same bytes for the same files."""
-    stream = io.BytesIO()
-    with tarfile.open(fileobj=stream, mode="w:xz") as tar:
-        for name in SENT:
-            for path in sorted((root / name).rglob("*")):
-                if path.is_file() and "__pycache__" not in path.parts:
-                    entry = tarfile.TarInfo(path.relative_to(root).as_posix())
-                    entry.size, entry.mode = path.stat().st_size, 0o644
-                    with path.open("rb") as file:
-                        tar.addfile(entry, file)
-    return stream.getvalue()
 
 
 def answer_order(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a worker of a cluster does: unpacks the project and has its own tools fly some seeds.
+"""What a worker of a cluster does: unpacks the project and has one of its own programs run.
 
 It is sent as it stands here, so that a worker needs Python and nothing of Keel's.
 """
@@ -21,9 +21,9 @@ from typing import Any
 def unpack(archive: bytes) -> Path:
     """The project's folder; unpacked once, whichever orders come."""
     name = hashlib.sha256(archive).hexdigest()[:16]
-    place = Path(tempfile.gettempdir()) / f"keel-flights-{os.getuid()}-{name}"
+    place = Path(tempfile.gettempdir()) / f"keel-order-{os.getuid()}-{name}"
     if not place.is_dir():
-        work = Path(tempfile.mkdtemp(prefix="keel-flights-"))
+        work = Path(tempfile.mkdtemp(prefix="keel-order-"))
         with tarfile.open(fileobj=io.BytesIO(archive)) as tar:
             for entry in tar:
                 file = tar.extractfile(entry)
@@ -38,13 +38,15 @@ def unpack(archive: bytes) -> Path:
     return place
 
 
-def carry_out(archive: bytes, seeds: list[int]) -> list[dict[str, Any]]:
-    """Fly these seeds; what the project's own program says of each."""
+def carry_out(archive: bytes, words: list[str], order: Any) -> Any:
+    """Run a program of the project on an order, which it reads as JSON; its answer is the last
+    line that it writes. `words` are the program, from the project's root, and its arguments."""
     place = unpack(archive)
-    words = [sys.executable, str(place / "tools/with_packages.py"), "fly", "-m", "flight.orders"]
-    done = subprocess.run(words, input=json.dumps(seeds), capture_output=True, text=True, cwd=place,
-                          check=False)  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, *words], input=json.dumps(order),
+        capture_output=True, text=True, cwd=place, check=False,
+        env={key: value for key, value in os.environ.items() if key != "DASK"},
+    )  # fmt: skip
     if done.returncode != 0:
         raise RuntimeError(f"an order failed: {done.stderr[-2000:]}")
-    answers: list[dict[str, Any]] = json.loads(done.stdout.splitlines()[-1])
-    return answers
+    return json.loads(done.stdout.splitlines()[-1])
