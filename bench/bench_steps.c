@@ -224,6 +224,26 @@ static void bench_run_calibration(void)
     bench_dump("calibration");
 }
 
+static void bench_run_ms5611(void)
+{
+    keel_ms5611_sample_t sample = {0};
+
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const uint32_t d1 = ms5611_pressure_at(n);
+        const uint32_t d2 = ms5611_temperature_at(n);
+
+        if (n < STEPS) {
+            (void)keel_ms5611_compensate(&ms5611_workload, d1, d2, &sample);
+        } else {
+            CALLGRIND_TOGGLE_COLLECT;
+            (void)keel_ms5611_compensate(&ms5611_workload, d1, d2, &sample);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_require(sample.temperature_cdeg < -1500, "MS5611");
+    bench_dump("ms5611");
+}
+
 static void bench_run_sbus(const char *name, bool noise)
 {
     bench_require(keel_sbus_init(&bench_sbus, &sbus_workload) == KEEL_OK, "SBUS");
@@ -289,6 +309,7 @@ int main(void)
     bench_run_position();
     bench_run_battery();
     bench_run_calibration();
+    bench_run_ms5611();
     bench_run_sbus("sbus", false);
     bench_run_sbus("sbus_worst", true);
     bench_run_imu("imu", 0.0f, UNITS);
