@@ -25,6 +25,7 @@ from __future__ import annotations
 
 import base64
 import re
+import shutil
 import threading
 import zlib
 from collections import Counter
@@ -48,7 +49,7 @@ RUNTIME = (OWN / "mutant_run.c", OWN / "mutant_run.h")
 # As the target has it where that can be had, and nothing that C leaves open taken for granted.
 LANGUAGE = ("-std=c99", "-ffreestanding", "-funsigned-char", "-fshort-enums",
             "-ffp-contract=off", "-w")  # fmt: skip
-CHECKED = ("-O1", "-fsanitize=address,undefined", "-fsanitize-trap=undefined",
+CHECKED = ("-O0", "-fsanitize=address,undefined", "-fsanitize-trap=undefined",
            "-ftrivial-auto-var-init=zero")  # fmt: skip
 HOSTED = ("-fhosted", "-D_GNU_SOURCE", "-fno-sanitize=all")  # what executes, itself
 QUIET = {"ASAN_OPTIONS": "detect_leaks=0:symbolize=0:handle_segv=0:handle_sigbus=0:handle_sigfpe=0:"
@@ -57,7 +58,7 @@ QUIET = {"ASAN_OPTIONS": "detect_leaks=0:symbolize=0:handle_segv=0:handle_sigbus
 SEARCHES = 100_000
 SEARCH = (f"-runs={SEARCHES}", "-seed=1", "-max_len=32768", "-len_control=0", "-verbosity=0",
           "-timeout=10", "-rss_limit_mb=0")  # fmt: skip
-INPUTS = 20_000  # of a harness: those that are kept, and variations
+INPUTS = 40_000  # of a harness: those that are kept, and variations
 LONGEST = 20.0  # seconds for all executions of a mutant
 ALONE = 8  # of the harnesses with a header that is mutated, each of which is compiled anew
 DEATHS = 4  # after so many harnesses in which the sanitizers ended the program nobody goes on
@@ -200,8 +201,9 @@ class Wrapping:
         """For CBMC: nothing is arbitrary any more."""
         table = ", ".join(f"{value}ull" for value in values) or "0"
         return "\n".join([
-            "#define KEEL_RUN_REPLAY", f'#include "{RUNTIME[1]}"', f'#include "{path}"',
-            *self._functions(), f"const uint64_t keel_run_values[] = {{{table}}};", "",
+            "#define KEEL_RUN_REPLAY", "#include <stdint.h>",
+            f"static const uint64_t keel_run_values[] = {{{table}}};",
+            f'#include "{RUNTIME[1]}"', f'#include "{path}"', *self._functions(), "",
         ])  # fmt: skip
 
 
@@ -396,8 +398,9 @@ class Executions:
             return None
         place.mkdir(parents=True, exist_ok=True)
         program = place / "program"
-        done = runner.run([*self._clang, "-fsanitize=address,undefined", *more,
-                           *map(str, objects), "-o", str(program)])  # fmt: skip
+        linker = ["-fuse-ld=gold"] if shutil.which("ld.gold") else []  # which is faster
+        done = runner.run([*self._clang, *CHECKED, *linker, *more, *map(str, objects),
+                           "-o", str(program)])  # fmt: skip
         return program if done.status == 0 else None
 
     def _closure(self, path: Path) -> frozenset[Path]:

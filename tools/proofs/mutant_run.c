@@ -108,32 +108,30 @@ static uint32_t bits_of(float value)
     return bits;
 }
 
-/* A number, or what lies beside it, or a part of it. */
+/* A number, or what lies beside it, or a part of it; or that of the other sign. */
 static float beside(float value, uint64_t how)
 {
     const float part = (float)((how >> 8) & 0xFFFFu) / 65536.0f;
+    const float same = ((how & 0x30u) == 0u) ? -value : value;
 
     switch (how & 15u) {
     case 0u:
-        return -value;
     case 1u:
-        return float_of(bits_of(value) + 1u);
+        return float_of(bits_of(same) + 1u);
     case 2u:
-        return float_of(bits_of(value) - 1u);
+        return float_of(bits_of(same) - 1u);
     case 3u:
     case 4u:
     case 5u:
-        return value * part;
+        return same * part;
     case 6u:
-        return -(value * part);
+        return same + part;
     case 7u:
-        return value + part;
+        return same - part;
     case 8u:
-        return value - part;
-    case 9u:
-        return value * (1.0f + part);
+        return same * (1.0f + part);
     default:
-        return value;
+        return same;
     }
 }
 
@@ -185,7 +183,8 @@ static uint64_t drawn_int(uint64_t slot, uint64_t most)
 {
     const uint32_t kind = slot & 0xFFu;
     const uint64_t rest = slot >> 8;
-    const uint64_t step = (rest & 7u) == 1u ? 1u : ((rest & 7u) == 2u ? UINT64_MAX : 0u);
+    const uint64_t down = ((rest & 7u) == 2u) ? UINT64_MAX : 0u;
+    const uint64_t step = ((rest & 7u) == 1u) ? 1u : down;
 
     if (kind < 24u) {
         return mixed(slot);
@@ -209,8 +208,11 @@ static uint64_t drawn_int(uint64_t slot, uint64_t most)
                    ? (mixed(rest) % ((number < UINT64_MAX) ? (number + 1u) : number))
                    : (number + step);
     }
-    if (int_count > 0u) {
-        return ints[(rest >> 24) % int_count] + step;
+    if (int_count > 0u) { /* drawn before, or the difference to another one */
+        const uint64_t value = ints[(rest >> 24) % int_count];
+
+        return ((rest & 8u) != 0u) ? (value - ints[(rest >> 40) % int_count] + step)
+                                   : (value + step);
     }
     return rest & 1u;
 }

@@ -16,7 +16,7 @@
 
 #ifdef KEEL_RUN_REPLAY
 
-extern const uint64_t keel_run_values[];
+/* keel_run_values stands before this header is included. */
 static uint32_t keel_run_place;
 
 static uint64_t keel_run_int(size_t size)
