@@ -86,7 +86,7 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--quick", action="store_true",
                         help="short limits for WP; what they leave open is not killed")  # fmt: skip
     parser.add_argument("--small", action="store_true",
-                        help="ask small harnesses alone; what they leave is not tried")  # fmt: skip
+                        help="executions and small harnesses alone; what they leave is not tried")  # fmt: skip
     parser.add_argument("--confirm", type=int, default=CONFIRM, metavar="N",
                         help="CBMC confirms one of N kills by execution; default: one of 50")  # fmt: skip
     parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")

@@ -48,7 +48,7 @@ OWN = Path(__file__).resolve().parent
 RUNTIME = (OWN / "mutant_run.c", OWN / "mutant_run.h")
 # As the target has it where that can be had, and nothing that C leaves open taken for granted.
 LANGUAGE = ("-std=c99", "-ffreestanding", "-funsigned-char", "-fshort-enums",
-            "-ffp-contract=off", "-w")  # fmt: skip
+            "-ffp-contract=off", "-w", "-ffunction-sections")  # fmt: skip
 CHECKED = ("-O0", "-fsanitize=address,undefined", "-fsanitize-trap=undefined",
            "-ftrivial-auto-var-init=zero")  # fmt: skip
 HOSTED = ("-fhosted", "-D_GNU_SOURCE", "-fno-sanitize=all")  # what executes, itself
@@ -61,6 +61,7 @@ SEARCH = (f"-runs={SEARCHES}", "-seed=1", "-max_len=32768", "-len_control=0", "-
 INPUTS = 40_000  # of a harness: those that are kept, and variations
 LONGEST = 20.0  # seconds for all executions of a mutant
 ALONE = 8  # of the harnesses with a header that is mutated, each of which is compiled anew
+NOT_HERE = "is no program of this machine"
 DEATHS = 4  # after so many harnesses in which the sanitizers ended the program nobody goes on
 CONFIRMING = 60.0  # seconds for CBMC and one execution
 NUMBERS = 400
@@ -287,11 +288,14 @@ class Executions:
                 if function in one.covers or one.unit.name == self._unit]  # fmt: skip
         order = sorted(near, key=lambda one: -self._kills[function, one.name])
         changed = mutant.file.resolve().relative_to(self._root)
-        for group in self._groups(order, mutant.file):
-            for program, asked in self._parts(group, changed, tree, runner):
-                if kill := self._run(program, asked, runner):
-                    self._kills[function, kill.harness.name] += 1
-                    return kill
+        try:
+            for group in self._groups(order, mutant.file):
+                for program, asked in self._parts(group, changed, tree, runner):
+                    if kill := self._run(program, asked, runner):
+                        self._kills[function, kill.harness.name] += 1
+                        return kill
+        except ProjectError:
+            pass  # to this compiler it is no C
         return None
 
     def _groups(
@@ -371,34 +375,35 @@ class Executions:
         self, harnesses: Sequence[Harness], changed: Path | None, tree: Path, place: Path,
         runner: Runner, extra: Sequence[str] = (), more: Sequence[str] = (),
     ) -> Path | None:  # fmt: skip
-        """A program of harnesses; what a mutant is in, or includes it, is compiled in its tree."""
+        """A program of harnesses; what a mutant is in, or includes it, is compiled in its tree.
+
+        None if they do not go together; what does not compile is an error.
+        """
         common = self._scratch / "common"
         defines = harnesses[0].defines
         sources = {path for one in harnesses for path in one.sources}
         wrapped = {one.path: one for one in harnesses}
         objects: list[Path] = []
-        try:
-            for path in sorted({*sources, *wrapped}):
-                touched = changed is not None and self._root / changed in self._closure(path)
-                where = tree if touched else self._root
-                folder = place if touched else common
-                source = self._wrapped(wrapped[path], where, folder) if path in wrapped else path
-                if not touched:
-                    objects.append(self._object(source, defines, extra))
-                    continue
-                if path not in wrapped:
-                    source = tree / path.relative_to(self._root)
-                target = place / f"{len(objects)}.o"
-                if not self._compile(source, target, tree, runner, [*defines, *extra]):
-                    return None
-                objects.append(target)
-            objects.append(self._object(self._table(harnesses, common), (), extra))
-            objects.append(self._object(RUNTIME[0], (), [*extra, *HOSTED]))
-        except ProjectError:
-            return None
+        for path in sorted({*sources, *wrapped}):
+            touched = changed is not None and self._root / changed in self._closure(path)
+            where = tree if touched else self._root
+            folder = place if touched else common
+            source = self._wrapped(wrapped[path], where, folder) if path in wrapped else path
+            if not touched:
+                objects.append(self._object(source, defines, extra))
+                continue
+            if path not in wrapped:
+                source = tree / path.relative_to(self._root)
+            target = place / f"{len(objects)}.o"
+            if not self._compile(source, target, tree, runner, [*defines, *extra]):
+                raise ProjectError(f"{source}: does not compile for this machine")
+            objects.append(target)
+        objects.append(self._object(self._table(harnesses, common), (), extra))
+        objects.append(self._object(RUNTIME[0], (), [*extra, *HOSTED]))
         place.mkdir(parents=True, exist_ok=True)
         program = place / "program"
         linker = ["-fuse-ld=gold"] if shutil.which("ld.gold") else []  # which is faster
+        linker += ["-Wl,--gc-sections"]  # as for CBMC, what nobody calls need not be whole
         done = runner.run([*self._clang, *CHECKED, *linker, *more, *map(str, objects),
                            "-o", str(program)])  # fmt: skip
         return program if done.status == 0 else None
@@ -425,7 +430,10 @@ class Executions:
         place.parent.mkdir(parents=True, exist_ok=True)
         kept = self._cache.get(key)
         if kept is None:
-            kept = self._searched(self._seen[harness.name].harness, place)
+            try:
+                kept = self._searched(self._seen[harness.name].harness, place)
+            except ProjectError:
+                kept = {"why": NOT_HERE}
             if not kept["why"]:
                 self._cache.put(key, kept)
         if kept["why"]:
@@ -449,7 +457,7 @@ class Executions:
         corpus.mkdir(parents=True, exist_ok=True)
         plain = self._program([harness], None, self._root, folder, runner)
         if not plain:
-            return {"why": "does not compile for this machine"}
+            return {"why": NOT_HERE}
         plain = plain.rename(folder / "plain")
         place.write_bytes(b"")
         first = self._execute(plain, "run", [(harness.name, place, 2)], runner)
@@ -459,7 +467,7 @@ class Executions:
         search = self._program([harness], None, self._root, folder, runner, extra,
                                ["-fsanitize=fuzzer"])  # fmt: skip
         if not search:
-            return {"why": "does not compile for this machine"}
+            return {"why": NOT_HERE}
         place_of_failures = f"-artifact_prefix={folder}/"
         done = runner.run([str(search), *SEARCH, place_of_failures, str(corpus)], 600.0, extra=QUIET)
         if done.status != 0:

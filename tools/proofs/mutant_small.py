@@ -101,7 +101,7 @@ class Small:
     def kills(self, original: Harness, function: str, checker: Cbmc, root: Path) -> str:
         """What the small harness says against a mutant of a function in a tree; or nothing."""
         harness = small(in_tree(original, root), self._files[original.name])
-        failure = _failure(checker, harness)
+        failure = _failure(checker, replace(harness, timeout=WALL * harness.timeout))
         if not failure or not self._passes_unchanged(original):
             return ""
         self._kills[function, original.name] += 1
@@ -124,8 +124,7 @@ def _failure(checker: Cbmc, harness: Harness) -> str | None:
     binary, complaint = checker.build(harness, f"{harness.name}-small")
     if complaint:
         return None
-    longer = replace(harness, timeout=WALL * harness.timeout)
-    answer = checker.check(longer, binary, ["--stop-on-fail"])
+    answer = checker.check(harness, binary, ["--stop-on-fail"])
     if not answer.complete or answer.first_failure.startswith(BEYOND):
         return None
     return answer.first_failure
