@@ -55,7 +55,7 @@ HOSTED = ("-fhosted", "-D_GNU_SOURCE", "-fno-sanitize=all")  # what executes, it
 QUIET = {"ASAN_OPTIONS": "detect_leaks=0:symbolize=0:handle_segv=0:handle_sigbus=0:handle_sigfpe=0:"
                          "handle_sigill=0:handle_abort=0:log_path=/dev/null"}  # fmt: skip
 # How libFuzzer looks for inputs, always the same.
-SEARCHES = 100_000
+SEARCHES = 300_000
 SEARCH = (f"-runs={SEARCHES}", "-seed=1", "-max_len=32768", "-len_control=0", "-verbosity=0",
           "-timeout=10", "-rss_limit_mb=0")  # fmt: skip
 INPUTS = 40_000  # of a harness: those that are kept, and variations
