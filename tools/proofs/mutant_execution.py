@@ -9,7 +9,8 @@ solver. That nothing is found says nothing, and the mutant goes on to CBMC.
 
 What could make it wrong, and what is done about it:
 - What C leaves undefined. Sanitizers end such an execution before it can show anything; a local
-  that nobody has written holds 0, which is one of the values that CBMC takes it to have.
+  that nobody has written holds 0, which is one of the values that CBMC takes it to have. Nothing is
+  optimised: a copy of a structure copies its padding, as it does for CBMC.
 - This machine is not the target: pointers and `size_t` have 64 bits. Enumerations and `char` are as
   on the target. Floats are IEEE 754's on both, no two operations are contracted into one, and one
   NaN counts as another. A harness that fails on the unchanged code is not used, and told.
