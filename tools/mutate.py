@@ -120,7 +120,7 @@ def tools_for(toolchain: Toolchain, root: Path, scratch: Path) -> Tools:
         verdicts=toolchain.cache.folder / "verdicts",
         environment={**os.environ, **toolchain.environment(), "TMPDIR": str(scratch)},
         clang=toolchain.command(CLANG), clang_version=toolchain.versions("fuzz")[CLANG].version,
-        inputs=root / "build" / "mutate" / "inputs",
+        inputs=toolchain.cache.folder / "inputs",
     )  # fmt: skip
 
 
