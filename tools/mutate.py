@@ -59,7 +59,13 @@ from proofs.settings import read_exceptions  # noqa: E402
 from proofs.times import Times  # noqa: E402
 from toolchain import TARGET_FLAGS, Toolchain, ToolchainError  # noqa: E402
 
-from proofs import clauses, mutant_execution, mutant_records, mutant_slips, mutant_verdicts  # noqa: E402
+from proofs import (  # noqa: E402
+    clauses,
+    mutant_execution,
+    mutant_records,
+    mutant_slips,
+    mutant_verdicts,
+)
 
 CLANG = "clang-19"
 ENGINES = {"wp": ("wp",), "cbmc": ("cbmc",), "both": ("cbmc", "wp"), None: ("cbmc", "wp")}
@@ -86,9 +92,9 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--quick", action="store_true",
                         help="short limits for WP; what they leave open is not killed")  # fmt: skip
     parser.add_argument("--small", action="store_true",
-                        help="executions and small harnesses alone; what they leave is not tried")  # fmt: skip
+                        help="no more than executions and small harnesses")  # fmt: skip
     parser.add_argument("--confirm", type=int, default=CONFIRM, metavar="N",
-                        help="CBMC confirms one of N kills by execution; default: one of 50")  # fmt: skip
+                        help="CBMC confirms one of N executions; default: 50")  # fmt: skip
     parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")
     parser.add_argument("--record", action="store_true",
                         help="keep the results in specs/mutation, for make evidence")  # fmt: skip

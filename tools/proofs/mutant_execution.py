@@ -30,10 +30,11 @@ import shutil
 import threading
 import zlib
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 from . import csource, declarations
 from .cache import Cache, digest
@@ -127,8 +128,8 @@ def judge() -> str:
 
 def numbers_in(texts: Iterable[str]) -> list[str]:
     """The numbers that stand in texts of C, as C writes them."""
-    found = {float(int(word, 16)) if word[:2] in ("0x", "0X") else float(word)
-             for text in texts for word in NUMBER.findall(csource.without_comments(text))}  # fmt: skip
+    words = {word for text in texts for word in NUMBER.findall(csource.without_comments(text))}
+    found = {float(int(word, 16)) if word[:2] in ("0x", "0X") else float(word) for word in words}
     return [repr(value) for value in sorted(found) if value < 1e39][:NUMBERS]
 
 
@@ -446,11 +447,12 @@ class Executions:
     def _key(self, harness: Harness) -> str:
         """All that the inputs of a harness depend on."""
         seen = self._seen[harness.name]
-        texts = {path.relative_to(self._root.resolve()).as_posix():
-                 csource.essence(path.read_text(encoding="utf-8")) for path in seen.files}  # fmt: skip
+        read = {path: path.read_text(encoding="utf-8") for path in seen.files}
+        texts = {path.relative_to(self._root).as_posix(): csource.essence(text)
+                 for path, text in read.items()}  # fmt: skip
         return digest([judge(), self._version, seen.command, texts])
 
-    def _searched(self, harness: Harness, place: Path) -> dict[str, object]:
+    def _searched(self, harness: Harness, place: Path) -> dict[str, Any]:
         """The inputs of a harness, found on the unchanged code, or why there are none."""
         runner = self._unchanged()
         folder = self._scratch / "search" / harness.name
@@ -469,8 +471,8 @@ class Executions:
                                ["-fsanitize=fuzzer"])  # fmt: skip
         if not search:
             return {"why": NOT_HERE}
-        place_of_failures = f"-artifact_prefix={folder}/"
-        done = runner.run([str(search), *SEARCH, place_of_failures, str(corpus)], 600.0, extra=QUIET)
+        command = [str(search), *SEARCH, f"-artifact_prefix={folder}/", str(corpus)]
+        done = runner.run(command, 600.0, extra=QUIET)
         if done.status != 0:
             return {"why": "fails on the unchanged code when it is executed"}
         inputs = b"".join(
@@ -481,7 +483,7 @@ class Executions:
 
     def _passing(
         self, harness: Harness, program: Path, place: Path, inputs: bytes, runner: Runner
-    ) -> dict[str, object]:  # fmt: skip
+    ) -> dict[str, Any]:  # fmt: skip
         """The inputs that the program takes to the end, once all have passed."""
         place.write_bytes(inputs)
         if inputs:
@@ -495,8 +497,8 @@ class Executions:
         done = self._execute(program, "run", [(harness.name, place, INPUTS)], runner, 600.0)
         if not re.search(rf"^PASSED {harness.name} [1-9]\d* 0 0 \d+$", done.output, re.M):
             return {"why": "fails on the unchanged code when it is executed"}
-        packed = base64.b64encode(zlib.compress(place.read_bytes())).decode()
-        return {"why": "", "inputs": packed, "count": INPUTS}
+        text = base64.b64encode(zlib.compress(place.read_bytes())).decode()
+        return {"why": "", "inputs": text, "count": INPUTS}
 
     # Executing.
 

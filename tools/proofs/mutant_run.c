@@ -5,7 +5,7 @@
  *
  *     program run HARNESS FILE COUNT ...     until an execution fails
  *     program again HARNESS FILE NUMBER      one of them, from a fresh start; tells what was drawn
- *     program pack HARNESS FILE              what of a file an execution takes to its end, to stdout
+ *     program pack HARNESS FILE              what of a file executions take to their end, to stdout
  *
  * An input is a list of slots of 64 bits. The first seeds what the others do not say, each of the
  * others is one value, most of them such as matter: small, one of the harness's numbers, one that
@@ -434,7 +434,7 @@ static void read_kept(const char *path)
     fclose(file);
 }
 
-/* --- What the program is asked ------------------------------------------------------------------ */
+/* --- What the program is asked -------------------------------------------------------------- */
 
 #ifndef KEEL_RUN_SEARCH
 

@@ -69,11 +69,11 @@ class Trial:
 
     A mutant is tried first by executions of the harnesses on this machine, some of which CBMC is
     asked to confirm. What these leave is tried by small harnesses, the one that killed most mutants
-    of its function before the others; then by the harnesses that compare its function with the model, by the
-    others that cover it, and by WP, which asks the function alone: what its callers rely on is its
-    contract, not its body. What is left are the harnesses that were too slow. Among equals the one
-    that is usually fastest comes first. A mutant whose reason to be none is accepted is tried by
-    executions and small harnesses alone: they tell a wrong reason.
+    of its function before the others; then by the harnesses that compare its function with the
+    model, by the others that cover it, and by WP, which asks the function alone: what its callers
+    rely on is its contract, not its body. What is left are the harnesses that were too slow. Among
+    equals the one that is usually fastest comes first. A mutant whose reason to be none is accepted
+    is tried by executions and small harnesses alone: they tell a wrong reason.
 
     All limits for CBMC are in processor time: what else the machine does changes no verdict.
     """
@@ -321,10 +321,10 @@ class Trial:
     def _killed_by_execution(self, verdict: Verdict, unit: Unit, runner: Runner) -> bool:
         """Execute the harnesses; whether no engine need be asked."""
         mutant = verdict.mutant
-        kill = self._executions and self._executions.kills(
-            mutant, self._ranked(mutant), unit.root, runner
-        )
-        if not kill or not self._executions:
+        if not self._executions:
+            return False
+        kill = self._executions.kills(mutant, self._ranked(mutant), unit.root, runner)
+        if not kill:
             return False
         verdict.engines["cbmc"] = kill.said
         verdict.status = "killed"
