@@ -82,9 +82,9 @@ typedef struct keel_parameters {
 
 /** What became of a stored set. */
 typedef struct keel_parameters_loaded {
-    uint16_t taken;   /**< Values. */
-    uint16_t refused; /**< Values of known parameters; entry[].refused says why. */
-    uint16_t unknown; /**< Names that are in no row. */
+    uint32_t taken;   /**< Values. */
+    uint32_t refused; /**< Values of known parameters; entry[].refused says why. */
+    uint32_t unknown; /**< Names that are in no row. */
 } keel_parameters_loaded_t;
 
 /**
