@@ -35,7 +35,7 @@ keel_status_t model_slots_init(keel_slots_t *slots, const keel_slots_config_t *c
 
 static uint8_t number_byte(uint32_t number, uint32_t index)
 {
-    return (uint8_t)(number >> (8u * index));
+    return (uint8_t)((number >> (8u * index)) & 0xFFu);
 }
 
 static uint32_t number_at(const uint8_t *bytes)
@@ -324,16 +324,17 @@ static keel_slots_result_t marked(keel_slots_t *slots)
 /* SLT-007 to SLT-011: one stage after the other, eight bytes a step, back to ready at the end. */
 keel_slots_result_t model_slots_step(keel_slots_t *slots)
 {
-    const uint32_t body = 8u + slots->length + 4u;
-    const uint32_t left = body - slots->at;
-    const uint32_t count = (left > 8u) ? 8u : left;
     const bool pieces = (slots->stage == KEEL_SLOTS_WRITING) ||
                         (slots->stage == KEEL_SLOTS_COMPARING);
     keel_slots_result_t result = KEEL_SLOTS_DONE;
+    uint32_t body;
+    uint32_t count;
 
     if ((slots->stage == KEEL_SLOTS_CLOSED) || (slots->stage == KEEL_SLOTS_READY)) {
         return KEEL_SLOTS_DONE;
     }
+    body = 8u + slots->length + 4u;
+    count = ((body - slots->at) > 8u) ? 8u : (body - slots->at);
     if (slots->stage == KEEL_SLOTS_CLEARING) {
         result = cleared(slots);
     } else if (slots->stage == KEEL_SLOTS_WRITING) {

@@ -46,9 +46,9 @@ static void put_value(keel_parameter_value_t *to, const keel_parameter_value_t *
     to->whole = is_real ? 0 : from->whole;
 }
 
-static keel_status_t ask_check(const keel_parameters_t *parameters)
+static keel_status_t ask_check(const keel_parameters_config_t *config)
 {
-    return parameters->config.check(parameters->config.context, parameters->config.entry);
+    return config->check(config->context, config->entry);
 }
 
 static void put_defaults(const keel_parameters_config_t *config)
@@ -152,7 +152,7 @@ static keel_status_t take_value(const keel_parameters_t *parameters, uint16_t in
     }
     put_value(now, value);
     if (is_checked) {
-        status = ask_check(parameters);
+        status = ask_check(&parameters->config);
     }
     if (status != KEEL_OK) {
         put_value(now, &before);
@@ -191,6 +191,8 @@ static keel_parameters_loaded_t load_records(const keel_parameters_t *parameters
 keel_status_t keel_parameters_init(keel_parameters_t *parameters,
                                    const keel_parameters_config_t *config)
 {
+    keel_status_t status;
+
     if ((config->table == NULL) || (config->entry == NULL) || (config->check == NULL) ||
         (config->count == 0u)) {
         return KEEL_ERR_NULL;
@@ -200,9 +202,12 @@ keel_status_t keel_parameters_init(keel_parameters_t *parameters,
             return KEEL_ERR_LIMITS;
         }
     }
-    parameters->config = *config;
-    put_defaults(&parameters->config);
-    return ask_check(parameters);
+    put_defaults(config);
+    status = ask_check(config);
+    if (status == KEEL_OK) {
+        parameters->config = *config;
+    }
+    return status;
 }
 
 uint16_t keel_parameters_count(const keel_parameters_t *parameters)
@@ -268,7 +273,7 @@ keel_parameters_loaded_t keel_parameters_load(keel_parameters_t *parameters, con
 {
     keel_parameters_loaded_t loaded = load_records(parameters, image, length, false);
 
-    if (ask_check(parameters) != KEEL_OK) {
+    if (ask_check(&parameters->config) != KEEL_OK) {
         loaded = load_records(parameters, image, length, true);
     }
     return loaded;
