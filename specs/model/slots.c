@@ -48,7 +48,7 @@ static uint32_t number_at(const uint8_t *bytes)
     return number;
 }
 
-/* SLT-010: what a slot holds: mark, sequence number, length, bytes, the check of all but the mark. */
+/* SLT-010: what a slot holds: mark, number, length, bytes, the check of all but the mark. */
 uint8_t model_slots_byte(uint32_t sequence, const uint8_t *image, uint32_t length, uint32_t at)
 {
     uint32_t crc = 0xFFFFFFFFu;
