@@ -249,8 +249,8 @@ def page(file: File, source: str) -> str:
     lines = [
         "# Parameters", "",
         f"What can be set without compiling anew: {len(file.parameters)} parameters of",
-        f"`examples/{file.name}`. This page, the C table and the metadata that ground stations read",
-        f"are made from `{source}` by `make tables`.", "",
+        f"`examples/{file.name}`. This page, the C table and the metadata for ground stations are",
+        f"made from `{source}` by `make tables`.", "",
         "A value is used from the next start on. It is taken only when it is within its range and",
         "all units accept the configuration that results; otherwise nothing changes, and the",
         "reason is told.", "",

@@ -75,7 +75,7 @@ WRONG: list[tuple[str, str, str]] = [
     ('"mode.returns"', '"mode.returns; x"', "fields: 'mode.returns; x' is no field"),
     ('"mode.returns"', '"2 * mode.returns"', "a factor is for floats"),
     ('fields = ["mode.returns"]', "fields = []", "x.toml:29: group Battery: parameter RETURNS: "),
-    ('unit = "V"', 'units = "V"', "x.toml:18: group Battery: parameter BAT_LOW: units: unknown key"),
+    ('unit = "V"', 'units = "V"', "x.toml:18: group Battery: parameter BAT_LOW: units: unknown"),
     ('description = "A voltage."\n', "", "parameter BAT_LOW: description: is missing"),
     ('description = "A voltage."', 'description = "A | voltage"', "description: expected to match"),
     ('[[group]]', '[[groups]]', "x.toml:3: groups: unknown key; did you mean group?"),
