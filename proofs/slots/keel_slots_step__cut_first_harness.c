@@ -18,9 +18,17 @@ void keel_slots_step__cut_first_harness(void)
     keel_slots_t slots = begin_save(0u);
     keel_slots_result_t result = KEEL_SLOTS_BUSY;
 
-    for (uint32_t i = 0u; i < STEPS; i++) {
-        if (goes_on(&slots, result, i)) {
-            result = keel_slots_step(&slots);
+    for (uint32_t i = 0u; i <= STEPS; i++) {
+        const bool is_over = i == STEPS; /* Then there is a step for nothing. */
+
+        if (!is_off && (is_over || (result == KEEL_SLOTS_BUSY))) {
+            keel_slots_result_t now;
+
+            if (!is_over) {
+                begin_step(&slots, 0u, i);
+            }
+            now = keel_slots_step(&slots);
+            result = is_over ? result : now;
         }
     }
     find_again(result);

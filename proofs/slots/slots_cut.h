@@ -11,13 +11,8 @@
 #define SUM_AS_CHECK
 #include "slots_proof.h"
 
-/* The steps of a save: which stage each is, and at which byte it begins. */
+/* The steps of a save: one clears, two write, two compare, one marks. */
 #define STEPS 6u
-
-static const keel_slots_stage_t stage_of[STEPS] = {KEEL_SLOTS_CLEARING,  KEEL_SLOTS_WRITING,
-                                                   KEEL_SLOTS_WRITING,   KEEL_SLOTS_COMPARING,
-                                                   KEEL_SLOTS_COMPARING, KEEL_SLOTS_MARKING};
-static const uint32_t at_of[STEPS] = {0u, 0u, 8u, 0u, 8u, 0u};
 
 /* A set as it was loaded or is saved. */
 typedef struct set {
@@ -67,18 +62,20 @@ static keel_slots_t begin_save(uint32_t newest)
     return slots;
 }
 
-/* Whether there is another step: it is this one. */
-static bool goes_on(keel_slots_t *slots, keel_slots_result_t result, uint32_t step)
+/* Before a step: what is known of it, and now the search knows it, too. */
+static void begin_step(keel_slots_t *slots, uint32_t newest, uint32_t step)
 {
-    const bool goes = (result == KEEL_SLOTS_BUSY) && !is_off;
+    static const keel_slots_stage_t stage[STEPS] = {KEEL_SLOTS_CLEARING,  KEEL_SLOTS_WRITING,
+                                                    KEEL_SLOTS_WRITING,   KEEL_SLOTS_COMPARING,
+                                                    KEEL_SLOTS_COMPARING, KEEL_SLOTS_MARKING};
+    static const uint32_t at[STEPS] = {0u, 0u, 8u, 0u, 8u, 0u};
 
-    if (goes) {
-        __CPROVER_assert((slots->stage == stage_of[step]) && (slots->at == at_of[step]),
-                         "SLT_010_stages: one stage after the other");
-        slots->stage = stage_of[step]; /* Now the search knows it, too. */
-        slots->at = at_of[step];
-    }
-    return goes;
+    __CPROVER_assert((slots->stage == stage[step]) && (slots->at == at[step]) &&
+                         (slots->newest == newest),
+                     "SLT_010_stages: one stage after the other");
+    slots->stage = stage[step];
+    slots->at = at[step];
+    slots->newest = newest;
 }
 
 /* After the last step, and another start. */
@@ -95,6 +92,7 @@ static void find_again(keel_slots_result_t last)
     __CPROVER_assert(is_off || !is_honest || (result == KEEL_SLOTS_DONE),
                      "SLT_009_done: on a medium that works it succeeds");
     is_off = false;
+    is_honest = true;
     slots.config.address[0] = 0u;
     slots.config.address[1] = SIZE;
     __CPROVER_assume(slots_valid_here(&slots));

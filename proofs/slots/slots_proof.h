@@ -50,7 +50,7 @@ uint32_t model_crc32(uint32_t crc, uint8_t byte)
 static uint8_t memory[MEMORY];
 static uint32_t power; /* How many bytes can still be written. */
 static bool is_off;
-static bool is_honest;          /* All that is written is there, and told so. */
+static bool is_honest;          /* All that is written is there, and told so; all is read. */
 static bool is_read[MEMORY];    /* Which bytes can be read, and which written, when it is not */
 static bool is_written[MEMORY]; /* a question of power. */
 static bool has_erase;
@@ -77,9 +77,12 @@ static bool memory_read(void *context, uint32_t address, uint8_t *bytes, uint32_
                      "SLT_011_read: 1 to 8 bytes of the slots are read");
     for (uint32_t i = 0u; i < count; i++) {
         good = good && is_read[address + i];
-        bytes[i] = (is_off || !good) ? nondet_u8() : memory[address + i];
     }
-    return is_off ? nondet_bool() : good;
+    good = (is_honest && !is_off) ? good : nondet_bool();
+    for (uint32_t i = 0u; i < count; i++) {
+        bytes[i] = (good && !is_off) ? memory[address + i] : nondet_u8();
+    }
+    return good;
 }
 
 /* Writes a byte as far as there is power. */

@@ -179,35 +179,39 @@ static void take_set(const keel_slots_t *slots, uint32_t index, keel_slot_t *slo
 /* SLT-003, SLT-004, SLT-005: the newer one, or else the other. */
 keel_slots_result_t model_slots_load(keel_slots_t *slots, uint8_t *image, uint32_t *length)
 {
-    keel_slot_t slot[2];
-    uint32_t chosen = 0u;
-    bool unreadable;
+    keel_slot_t slot[2] = {head_of(slots, 0u), head_of(slots, 1u)};
+    bool second = false;
+    bool whole = false;
+    bool unreadable = false;
 
-    for (uint32_t i = 0u; i < 2u; i++) {
-        slot[i] = head_of(slots, i);
-    }
     if (slot[1].state == KEEL_SLOT_MARKED) {
-        if (slot[0].state != KEEL_SLOT_MARKED) {
-            chosen = 1u;
-        } else if (slot[0].sequence < slot[1].sequence) {
-            chosen = 1u;
-        } else {
-            chosen = 0u;
-        }
+        second = (slot[0].state != KEEL_SLOT_MARKED) || (slot[0].sequence < slot[1].sequence);
     }
-    take_set(slots, chosen, &slot[chosen], image);
-    if (slot[chosen].state != KEEL_SLOT_WHOLE) {
-        chosen = (chosen == 0u) ? 1u : 0u;
-        take_set(slots, chosen, &slot[chosen], image);
+    if (second) {
+        take_set(slots, 1u, &slot[1], image);
+        whole = slot[1].state == KEEL_SLOT_WHOLE;
+        if (!whole) {
+            second = false;
+            take_set(slots, 0u, &slot[0], image);
+            whole = slot[0].state == KEEL_SLOT_WHOLE;
+        }
+    } else {
+        take_set(slots, 0u, &slot[0], image);
+        whole = slot[0].state == KEEL_SLOT_WHOLE;
+        if (!whole) {
+            second = true;
+            take_set(slots, 1u, &slot[1], image);
+            whole = slot[1].state == KEEL_SLOT_WHOLE;
+        }
     }
     unreadable = (slot[0].state == KEEL_SLOT_UNREADABLE) || (slot[1].state == KEEL_SLOT_UNREADABLE);
     slots->slot[0] = slot[0];
     slots->slot[1] = slot[1];
-    slots->newest = chosen;
-    if (slot[chosen].state == KEEL_SLOT_WHOLE) {
-        slots->sequence = slot[chosen].sequence;
+    slots->newest = second ? 1u : 0u;
+    if (whole) {
+        slots->sequence = second ? slot[1].sequence : slot[0].sequence;
         slots->stage = KEEL_SLOTS_READY;
-        *length = slot[chosen].length;
+        *length = second ? slot[1].length : slot[0].length;
         return KEEL_SLOTS_DONE;
     }
     slots->sequence = 0u;

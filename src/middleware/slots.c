@@ -25,8 +25,7 @@ static uint8_t byte_of(uint32_t number, uint32_t index)
   @*/
 static uint32_t number_of(const uint8_t *bytes)
 {
-    return (uint32_t)bytes[0] | ((uint32_t)bytes[1] << 8u) | ((uint32_t)bytes[2] << 16u) |
-           ((uint32_t)bytes[3] << 24u);
+    return bytes[0] + (256u * bytes[1]) + (65536u * bytes[2]) + (16777216u * bytes[3]);
 }
 
 /* How many of the bytes that are left make the next piece. */
@@ -42,7 +41,6 @@ static uint32_t piece_of(uint32_t left)
   @ requires slots == running_slots && index < KEEL_SLOTS;
   @ requires 0 < count <= KEEL_SLOTS_PIECE && \valid(bytes + (0 .. count - 1));
   @ requires offset + count <= KEEL_SLOTS_OVERHEAD + slots->config.room;
-  @ requires \separated(slots, bytes + (0 .. count - 1));
   @ assigns bytes[0 .. count - 1];
   @*/
 static bool read_slot(const keel_slots_t *slots, uint32_t index, uint32_t offset, uint8_t *bytes,
@@ -204,18 +202,44 @@ static bool load_slot(keel_slots_t *slots, uint32_t index, uint8_t *image)
     return slot->state == KEEL_SLOT_WHOLE;
 }
 
+/* Whether the set of the second slot is the newer one, or the only one. */
 /*@ requires \valid_read(slots);
   @ assigns \nothing;
-  @ ensures \result == 0 || \result == 1;
   @*/
-static uint32_t newer_slot(const keel_slots_t *slots)
+static bool is_second_newer(const keel_slots_t *slots)
 {
     const keel_slot_t *const slot = slots->slot;
 
-    return ((slot[1].state == KEEL_SLOT_MARKED) &&
-            ((slot[0].state != KEEL_SLOT_MARKED) || (slot[1].sequence > slot[0].sequence)))
-               ? 1u
-               : 0u;
+    return (slot[1].state == KEEL_SLOT_MARKED) &&
+           ((slot[0].state != KEEL_SLOT_MARKED) || (slot[1].sequence > slot[0].sequence));
+}
+
+/* Loads the set of a slot, or else that of the other one; whether one of them is whole. */
+/*@ requires \valid(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
+  @ requires slots == running_slots && first < KEEL_SLOTS && !slots_saving(slots);
+  @ requires slots->slot[0].length <= slots->config.room &&
+  @     slots->slot[1].length <= slots->config.room;
+  @ requires slots->slot[0].state != KEEL_SLOT_WHOLE && slots->slot[1].state != KEEL_SLOT_WHOLE;
+  @ requires \valid(image + (0 .. slots->config.room - 1));
+  @ requires \separated(slots, image + (0 .. slots->config.room - 1));
+  @ assigns slots->slot[0 .. KEEL_SLOTS - 1], slots->newest, image[0 .. slots->config.room - 1];
+  @ ensures slots->newest < KEEL_SLOTS;
+  @ ensures \result ==> slots->slot[slots->newest].state == KEEL_SLOT_WHOLE;
+  @ ensures !\result ==>
+  @     slots->slot[0].state != KEEL_SLOT_WHOLE && slots->slot[1].state != KEEL_SLOT_WHOLE;
+  @ ensures slots->slot[0].length <= slots->config.room &&
+  @     slots->slot[1].length <= slots->config.room;
+  @*/
+static bool load_either(keel_slots_t *slots, uint32_t first, uint8_t *image)
+{
+    bool whole = load_slot(slots, first, image);
+
+    slots->newest = first;
+    if (!whole) {
+        slots->newest = 1u - first;
+        whole = load_slot(slots, 1u - first, image);
+    }
+    return whole;
 }
 
 /* A byte behind the mark of what is being saved. */
@@ -472,22 +496,19 @@ keel_status_t keel_slots_init(keel_slots_t *slots, const keel_slots_config_t *co
 keel_slots_result_t keel_slots_load(keel_slots_t *slots, uint8_t *image, uint32_t *length)
 {
     keel_slots_result_t result = KEEL_SLOTS_NONE;
-    uint32_t index;
-    bool whole;
+    bool whole = false;
 
     slots->stage = KEEL_SLOTS_CLOSED;
     read_head(slots, 0u);
     read_head(slots, 1u);
-    index = newer_slot(slots);
-    whole = load_slot(slots, index, image);
-    if (!whole) {
-        index = 1u - index;
-        whole = load_slot(slots, index, image);
+    if (is_second_newer(slots)) {
+        whole = load_either(slots, 1u, image);
+    } else {
+        whole = load_either(slots, 0u, image);
     }
-    slots->newest = index;
-    slots->sequence = whole ? slots->slot[index].sequence : 0u;
+    slots->sequence = whole ? slots->slot[slots->newest].sequence : 0u;
     if (whole) {
-        *length = slots->slot[index].length;
+        *length = slots->slot[slots->newest].length;
         result = KEEL_SLOTS_DONE;
     } else if ((slots->slot[0].state == KEEL_SLOT_UNREADABLE) ||
                (slots->slot[1].state == KEEL_SLOT_UNREADABLE)) {
