@@ -82,8 +82,9 @@ analyze: python ## does a task set hold? (TASKSET=file.toml, ARGS=--phases, ARGS
 timing: python ## the paper's evaluation on the virtual board: tables, JSON and plots in build/timing
 	@$(TIMING) experiments specs/tasksets/urpilot.toml
 
-tables: python ## regenerate the C task table from the paper's task set
+tables: python ## regenerate the C task table, and all that is made of the table of parameters
 	@$(TIMING) table specs/tasksets/urpilot.toml examples/urpilot
+	@python3 tools/parameters.py
 
 fuzztasks: python ## 100 000 broken task-set files, each of which must be read or refused in words
 	@python3 tools/with_packages.py timing tests/timing/fuzz_taskset.py 100000

@@ -35,8 +35,10 @@
 #include "keel/middleware/virtual_imu.h"
 #include "keel/rtos/load.h"
 #include "keel/rtos/scheduler.h"
+
 #include "port.h"
 #include "settings.h"
+#include "tuning.h"
 #include "urpilot_tasks.h"
 
 /** Blocks of steps whose mean forces are kept for navigation, should it come late. */
@@ -182,6 +184,7 @@ struct copter {
     copter_state_t state;
     copter_control_t control;
     copter_health_t health;
+    copter_tuning_t tuning;
     keel_scheduler_t scheduler;
     copter_task_t task[URPILOT_TASK_COUNT];
     bool plain_mean; /**< The units' plain mean flies in place of their vote. */

@@ -9,6 +9,7 @@
 #ifndef COPTER_PORT_H
 #define COPTER_PORT_H
 
+#include "common/slots.h"
 #include "keel/rtos/scheduler.h"
 
 #include <stdbool.h>
@@ -67,6 +68,7 @@ typedef struct copter_port {
     uint32_t (*stack_free)(void *context); /**< Bytes of the stack that were never used. */
     void (*write_motors)(void *context, const float output[COPTER_MOTORS]); /**< Each 0 to 1. */
     void (*end_run)(void *context, uint32_t row); /**< A task's run ends: what it cost. */
+    const keel_medium_t *memory;                  /**< Keeps parameters; null: there is none. */
 } copter_port_t;
 
 #endif
