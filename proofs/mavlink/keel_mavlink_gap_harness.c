@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 7 --external-sat-solver cadical
+// cbmc: --unwind 256 --external-sat-solver cadical
 // sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c
 // covers: keel_mavlink_gap count_met model_mavlink_gap tally
 #include "mavlink_proof.h"

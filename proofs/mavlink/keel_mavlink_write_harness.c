@@ -35,10 +35,7 @@ void keel_mavlink_write_harness(void)
 
     __CPROVER_assert(written == expected, "MAV_011_model: written or not as the model says");
     __CPROVER_assert(out[i] == model[i], "MAV_012_model: every byte is what the model says");
-    __CPROVER_assert((sender.sequence == model_sender.sequence) &&
-                         (sender.system == model_sender.system) &&
-                         (sender.component == model_sender.component) &&
-                         (sender.is_signing == model_sender.is_signing),
+    __CPROVER_assert(mavlink_sender_same(&sender, &model_sender),
                      "MAV_013_model: so is the sender");
     if (written > 0u) {
         __CPROVER_assert((out[0] == 0xFDu) && (out[2] <= 1u) && (out[1] >= 1u) &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 275 --external-sat-solver cadical
+// cbmc: --unwind 307 --external-sat-solver cadical
 // sources: src/middleware/signing.c specs/model/signing.c
 // covers: keel_signing_accepts count_signed put_timestamp place_of_stream is_fresh put_frame
 // covers: is_sealed note_frame

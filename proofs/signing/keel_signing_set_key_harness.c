@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 33 --external-sat-solver cadical
+// cbmc: --unwind 307 --external-sat-solver cadical
 // sources: src/middleware/signing.c specs/model/signing.c
 // covers: keel_signing_set_key model_signing_set_key
 #include "signing_proof.h"

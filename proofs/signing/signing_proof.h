@@ -99,18 +99,25 @@ static bool signing_count_same(const keel_signing_count_t *a, const keel_signing
            (a->replayed == b->replayed) && (a->old == b->old) && (a->full == b->full);
 }
 
-/* The text at one arbitrary place, so at all of them. */
-static bool text_same(const keel_signing_t *a, const keel_signing_t *b)
-{
-    const uint32_t i = nondet_u32();
-
-    __CPROVER_assume(i < KEEL_SIGNING_TEXT_MAX);
-    return a->text[i] == b->text[i];
-}
-
 static bool signing_same(const keel_signing_t *a, const keel_signing_t *b)
 {
-    return decisions_same(a, b) && signing_count_same(&a->count, &b->count) && text_same(a, b);
+    bool same = (a->streams == b->streams) && signing_count_same(&a->count, &b->count) &&
+                (a->timestamp == b->timestamp) && (a->hash == b->hash) && (a->link == b->link) &&
+                (a->has_key == b->has_key);
+
+    for (uint32_t i = 0u; i < KEEL_SIGNING_STREAMS; i++) {
+        same = same && stream_same(&a->stream[i], &b->stream[i]);
+    }
+    for (uint32_t j = 0u; j < KEEL_SIGNING_TEXT_MAX; j++) {
+        same = same && (a->text[j] == b->text[j]);
+    }
+    return same;
+}
+
+static bool sender_same(const keel_mavlink_sender_t *a, const keel_mavlink_sender_t *b)
+{
+    return (a->system == b->system) && (a->component == b->component) &&
+           (a->sequence == b->sequence) && (a->is_signing == b->is_signing);
 }
 
 #endif

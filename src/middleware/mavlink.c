@@ -150,9 +150,10 @@ static bool put_byte(keel_mavlink_t *mavlink, uint8_t byte)
   @             \old(mavlink->payload[i]));
   @ ensures \old(mavlink->held) == 0 && byte == KEEL_MAVLINK_FIRST ==>
   @     mavlink->crc == KEEL_CRC16_FIRST;
-  @ ensures \old(mavlink->held) > 2 ==> mavlink->crc ==
-  @     (\old(mavlink->held < mavlink_end(&mavlink->header[0])) ?
-  @         mavlink_rest(\old(mavlink->crc), byte) : \old(mavlink->crc));
+  @ ensures \old(mavlink->held > 2 && mavlink->held < mavlink_end(&mavlink->header[0])) ==>
+  @     mavlink->crc == mavlink_rest(\old(mavlink->crc), byte);
+  @ ensures \old(mavlink->held > 2 && mavlink->held >= mavlink_end(&mavlink->header[0])) ==>
+  @     mavlink->crc == \old(mavlink->crc);
   @*/
 static void offer(keel_mavlink_t *mavlink, uint8_t byte)
 {

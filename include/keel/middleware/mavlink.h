@@ -272,9 +272,12 @@ keel_status_t keel_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_mess
   @ ensures MAV_008_first: \old(mavlink->held) == 0 ==> !\result &&
   @     mavlink->held == (byte == KEEL_MAVLINK_FIRST ? 1 : 0) &&
   @     (byte == KEEL_MAVLINK_FIRST ==> mavlink->crc == KEEL_CRC16_FIRST);
-  @ ensures MAV_008_crc: \old(mavlink->held) > 2 ==> mavlink->crc ==
-  @     (\old(mavlink->held < mavlink_end(&mavlink->header[0])) ?
-  @         mavlink_rest(\old(mavlink->crc), byte) : \old(mavlink->crc));
+  @ ensures MAV_008_crc: \old(mavlink->held > 2 &&
+  @     mavlink->held < mavlink_end(&mavlink->header[0])) ==>
+  @         mavlink->crc == mavlink_rest(\old(mavlink->crc), byte);
+  @ ensures MAV_008_end: \old(mavlink->held > 2 &&
+  @     mavlink->held >= mavlink_end(&mavlink->header[0])) ==>
+  @         mavlink->crc == \old(mavlink->crc);
   @*/
 bool keel_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte);
 

@@ -3,7 +3,7 @@
  * @file signing.h
  * @brief Signatures of MAVLink 2: who may tell the vehicle what, and frames that were recorded.
  *
- * Who has the key can sign: a signature is a link, a time, and the first bytes of the SHA-256 of
+ * Who has the key can sign: a signature is a link, a time, and the first bytes of the hash of
  * key, frame, link and time. Once a key is set, frames without a right signature are refused, and
  * so are frames that are not newer than the last one of their stream (a system, a component and a
  * link), or of a new stream and more than a minute behind our time. Without a key all frames are
@@ -22,7 +22,7 @@
  * before the restart are old for whoever forgot the streams, us included. With a clock that knows
  * the date, give it that, too. When all streams are in use new ones are refused, until a key is set.
  *
- * SHA-256 itself comes from outside, as a function that whoever builds Keel into a program gives
+ * The hash, SHA256, comes from outside, as a function that whoever builds Keel into a program gives
  * (assumption A-42).
  */
 #ifndef KEEL_MIDDLEWARE_SIGNING_H
@@ -39,7 +39,7 @@ KEEL_C_BEGIN
 /** Bytes of a key. */
 #define KEEL_SIGNING_KEY_BYTES 32
 
-/** Bytes of a SHA-256. */
+/** Bytes of a hash. */
 #define KEEL_SIGNING_DIGEST_BYTES 32
 
 /** The most streams at a time. */
@@ -56,7 +56,7 @@ KEEL_C_BEGIN
     (KEEL_SIGNING_KEY_BYTES + KEEL_MAVLINK_FRAME_MAX - KEEL_MAVLINK_SEAL_BYTES)
 
 /**
- * The SHA-256 of some bytes (FIPS 180-4). It writes nothing but the digest.
+ * The SHA256 of some bytes (FIPS 180-4). It writes nothing but the digest.
  *
  * @param data   the bytes
  * @param size   how many, at most KEEL_SIGNING_TEXT_MAX
@@ -95,7 +95,7 @@ typedef struct keel_signing {
     keel_signing_stream_t stream[KEEL_SIGNING_STREAMS]; /**< The streams, */
     uint32_t streams;                                   /**< and how many there are. */
     keel_signing_count_t count;                         /**< What was met. */
-    keel_signing_hash_fn_t hash;                        /**< SHA-256. */
+    keel_signing_hash_fn_t hash;                        /**< SHA256. */
     uint64_t timestamp;                  /**< Our time, in 10 us since 2015 began (UTC). */
     uint8_t text[KEEL_SIGNING_TEXT_MAX]; /**< What is hashed: the key, and behind it a frame. */
     uint8_t link;                        /**< The number that we give to our link. */
@@ -128,7 +128,7 @@ typedef struct keel_signing {
  *
  * @param signing what is begun
  * @param link    the number that we give to our link
- * @param hash    SHA-256
+ * @param hash    SHA256
  */
 /*@ requires \valid(signing);
   @ assigns *signing;
