@@ -37,8 +37,8 @@ static sim_options_t options;
 static sim_sensors_t sensors;
 static sim_view_t view;
 static taken_t taken;
-static delay_t delay[SIM_TASKS];
-static sim_task_t tasks[SIM_TASKS];
+static delay_t delay[COPTER_TASKS];
+static sim_task_t tasks[SIM_TASKS]; /* Those of table 2. */
 static float motors[COPTER_MOTORS];
 
 /* Whether a device's count has moved; it is taken then. */
@@ -139,9 +139,9 @@ static void write_motors(void *context, const float output[COPTER_MOTORS])
     memcpy(motors, output, sizeof motors);
 }
 
-static void end_run(void *context, uint32_t row)
+static void end_run(void *context, uint32_t row, uint32_t wcet_us)
 {
-    uint64_t work_us = ((uint64_t)urpilot_task[row].wcet_us * options.costs_percent) / HUNDRED;
+    uint64_t work_us = ((uint64_t)wcet_us * options.costs_percent) / HUNDRED;
 
     (void)context;
     if (delay[row].runs > 0u) {
