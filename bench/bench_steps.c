@@ -27,6 +27,7 @@ static keel_mixer_t bench_mixer;
 static keel_mode_t bench_mode;
 static keel_reference_t bench_reference;
 static keel_sbus_t bench_sbus;
+static keel_mavlink_t bench_mavlink;
 static keel_virtual_imu_t bench_imu;
 
 static void bench_require(int condition, const char *what)
@@ -242,6 +243,24 @@ static void bench_run_sbus(const char *name, bool noise)
     bench_dump(name);
 }
 
+static void bench_run_mavlink(void)
+{
+    bench_require(keel_mavlink_init(&bench_mavlink, mavlink_workload, 1u) == KEEL_OK, "MAVLink");
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const uint8_t byte = mavlink_byte_at(n);
+
+        if (n < STEPS) {
+            (void)keel_mavlink_take(&bench_mavlink, byte);
+        } else {
+            CALLGRIND_TOGGLE_COLLECT;
+            (void)keel_mavlink_take(&bench_mavlink, byte);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_require(bench_mavlink.count.frames > 0u, "MAVLink frames");
+    bench_dump("mavlink");
+}
+
 static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     const keel_mode_input_t input = mode_workload(&bench_mode, settle_us,
@@ -291,6 +310,7 @@ int main(void)
     bench_run_calibration();
     bench_run_sbus("sbus", false);
     bench_run_sbus("sbus_worst", true);
+    bench_run_mavlink();
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;

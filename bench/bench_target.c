@@ -447,6 +447,25 @@ static void bench_sbus(const char *name, bool noise)
     print(&steps);
 }
 
+static void bench_mavlink(void)
+{
+    static keel_mavlink_t mavlink KEEL_REALTIME_ZERO;
+    kind_t steps = {"mavlink", 0u, 0u, 0u};
+
+    require(keel_mavlink_init(&mavlink, mavlink_workload, 1u) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const uint8_t byte = mavlink_byte_at(n);
+
+        if (n < STEPS) {
+            (void)keel_mavlink_take(&mavlink, byte);
+        } else {
+            add(&steps, measure((function_t)keel_mavlink_take, &mavlink, byte, 0u, false));
+        }
+    }
+    require(mavlink.count.frames > 0u);
+    print(&steps);
+}
+
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     static keel_mode_t mode KEEL_REALTIME_ZERO;
@@ -574,6 +593,7 @@ int main(void)
     bench_calibration();
     bench_sbus("sbus", false);
     bench_sbus("sbus_worst", true);
+    bench_mavlink();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
     bench_tasks();

@@ -17,6 +17,7 @@
 #include "keel/flight/pid.h"
 #include "keel/flight/position.h"
 #include "keel/flight/reference.h"
+#include "keel/middleware/mavlink.h"
 #include "keel/middleware/sbus.h"
 #include "keel/middleware/virtual_imu.h"
 
@@ -322,6 +323,20 @@ static uint8_t sbus_byte_at(uint32_t n)
         return 0x0Fu;
     }
     return (at < 23u) ? middle[(at - 1u) % 11u] : 0x00u;
+}
+
+/* --- MAVLink ---------------------------------------------------------------------------------- */
+
+static const keel_mavlink_message_t mavlink_workload[1] = {
+    {.id = 0u, .crc_extra = 50u, .shortest = 1u, .longest = 9u}};
+
+/* One heartbeat behind the other. */
+static uint8_t mavlink_byte_at(uint32_t n)
+{
+    static const uint8_t heartbeat[21] = {0xFD, 9, 0, 0, 0, 1, 1, 0, 0, 0,   0,
+                                          0,    0, 0, 2, 0, 0, 3, 3, 0x83, 0x46};
+
+    return heartbeat[n % 21u];
 }
 
 /* --- Virtual IMU ------------------------------------------------------------------------------ */

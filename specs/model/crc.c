@@ -12,7 +12,7 @@ uint8_t model_crc8(uint8_t crc, uint8_t byte)
         const int comes = (byte >> bit) & 1;
         const int leaves = (shifted >> 7) & 1;
 
-        shifted = (uint8_t)(shifted << 1);
+        shifted = (uint8_t)((shifted << 1) & 0xFF);
         if (comes != leaves) {
             shifted = (uint8_t)(shifted ^ 0xD5);
         }

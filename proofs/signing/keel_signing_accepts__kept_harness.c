@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// cbmc: --unwind 275 --external-sat-solver cadical
+// sources: src/middleware/signing.c specs/model/signing.c
+// covers: keel_signing_accepts count_signed put_timestamp place_of_stream is_fresh put_frame
+// covers: is_sealed note_frame
+//
+// The clauses, without the model's decisions: with a key, what is accepted has a signature of all of
+// its bytes, and is newer than its stream was; that is noted. What is refused moves nothing.
+#include "signing_proof.h"
+
+void keel_signing_accepts__kept_harness(void)
+{
+    keel_signing_t signing = any_signing();
+    const keel_signing_t before = signing;
+    const keel_mavlink_frame_t frame = any_frame();
+    const bool accepted = keel_signing_accepts(&signing, &frame);
+    const uint32_t i = nondet_u32();
+    const uint32_t j = nondet_u32();
+    bool noted = false;
+
+    __CPROVER_assume((i < KEEL_SIGNING_STREAMS) && (j < KEEL_MAVLINK_SEAL_BYTES));
+    if (!accepted || !before.has_key) {
+        __CPROVER_assert(decisions_same(&signing, &before),
+                         "SGN_009_kept: what is refused, or not checked, moves nothing");
+    } else {
+        const uint32_t size = model_signing_size(&frame);
+
+        __CPROVER_assert(frame.is_signed && (asked == 1u) && (asked_size == (32u + size)),
+                         "SGN_005_signed: what is accepted is signed");
+        if (asked_at < 32u) {
+            __CPROVER_assert(asked_byte == before.text[asked_at],
+                             "SGN_008_key: the hash begins with the key");
+        } else if (asked_at < (32u + size)) {
+            __CPROVER_assert(asked_byte == model_signing_byte(&frame, asked_at - 32u),
+                             "SGN_008_frame: and goes on with all that was sent");
+        } else {
+            /* There is no such byte. */
+        }
+        __CPROVER_assert(digest_of_all[j] == frame.seal[j], "SGN_008_seal: its seal is the hash's");
+        __CPROVER_assert((i >= before.streams) || !is_stream_of(&before.stream[i], &frame) ||
+                             (before.stream[i].timestamp < frame.timestamp),
+                         "SGN_006_newer: it is newer than its stream was");
+        for (uint32_t n = 0u; n < KEEL_SIGNING_STREAMS; n++) {
+            noted = noted || ((n < signing.streams) && is_stream_of(&signing.stream[n], &frame) &&
+                              (signing.stream[n].timestamp == frame.timestamp));
+        }
+        __CPROVER_assert(noted, "SGN_010_noted: and its stream's time is its own");
+    }
+}
