@@ -16,6 +16,8 @@
  *                                                                             v
  *                                                                           motors
  *
+ * Besides, telemetry (telemetry.h) tells all of it, and asks the state machine (request.h).
+ *
  * The tasks do not interrupt one another (they run to their end, one at a time), so a structure is
  * never seen half written. No task computes what is a unit's to compute.
  */
@@ -36,6 +38,7 @@
 #include "keel/rtos/load.h"
 #include "keel/rtos/scheduler.h"
 #include "port.h"
+#include "request.h"
 #include "settings.h"
 #include "urpilot_tasks.h"
 
@@ -197,6 +200,8 @@ struct copter {
     copter_state_t state;
     copter_control_t control;
     copter_health_t health;
+    copter_request_t request; /**< Written by telemetry and the state machine. */
+    struct copter_telemetry *telemetry; /**< Null without. */
     keel_scheduler_t scheduler;
     copter_task_t task[COPTER_TASKS];
     uint32_t tasks;  /**< How many of them there are. */

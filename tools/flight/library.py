@@ -11,6 +11,7 @@ import functools
 import hashlib
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,7 @@ FLAGS = ("-std=c99", "-O2", "-fPIC", "-ffp-contract=off", "-Wall", "-Wextra", "-
          "-Iexamples/urpilot", "-Iexamples/copter", "-Iexamples/copter_in_plant")  # fmt: skip
 SOURCES = ("src", "examples/urpilot/urpilot_tasks.c", "bsp/host/host_board.c")
 FOLDERS = ("examples/copter", "examples/copter_in_plant")  # Without what lies below them.
+LINE_BYTES = 4096  # At most so many wait in a link.
 KINDS = {"float": "<f4", "uint32_t": "<u4", "int32_t": "<i4", "uint16_t": "<u2"}
 
 
@@ -87,6 +89,14 @@ def declared() -> Any:
     return ffi
 
 
+@dataclass(frozen=True)
+class Link:
+    """A link of the copter's telemetry."""
+
+    bytes_per_s: int = 20_000
+    commands: bool = True  # What comes by it may arm, and set modes and parameters.
+
+
 class Copter:
     """The library in this process."""
 
@@ -107,6 +117,8 @@ class Copter:
         count = int(self._library.SIM_TASKS)
         kind = np.dtype(layout(self._ffi.typeof("sim_task_t")))
         done = self._ffi.buffer(self._library.sim_tasks(), count * kind.itemsize)
+        self._bytes: Any = self._ffi.new("uint8_t[]", LINE_BYTES)
+        self.links = int(self._library.SIM_LINKS)
         self._done: Any = np.frombuffer(done, dtype=kind)
         self.tasks = [self._ffi.string(self._library.sim_task_name(number)).decode()
                       for number in range(count)]  # fmt: skip
@@ -118,12 +130,15 @@ class Copter:
             raise ToolError(f"{SIM}: {name} is not made of words alone")
         return np.frombuffer(self._ffi.buffer(pointer, kind.itemsize), dtype=kind)[0]
 
-    def start(self, costs_percent: int, plain_mean: bool) -> None:
+    def start(self, costs_percent: int, plain_mean: bool, links: Sequence[Link] = ()) -> None:
         """Power up; all devices are silent and zero."""
         size = self.sensors.dtype.itemsize
         self._ffi.memmove(self._library.sim_sensors(), bytes(size), size)
         options = self._ffi.new("sim_options_t *")
         options.costs_percent, options.plain_mean = costs_percent, int(plain_mean)
+        for number, link in enumerate(links):
+            options.bytes_per_s[number] = link.bytes_per_s
+            options.listens[number] = int(not link.commands)
         if status := self._library.sim_start(options):
             raise ToolError(f"the copter does not start: status {status}")
         self.look()
@@ -136,6 +151,15 @@ class Copter:
     def overrun(self, task: int, runs: int, extra_us: int) -> None:
         """Make a task's next runs longer."""
         self._library.sim_overrun(task, runs, extra_us)
+
+    def send(self, link: int, data: bytes) -> int:
+        """Bytes for the copter, by a link of telemetry; tells how many it has room for."""
+        return int(self._library.sim_link_send(link, data, len(data)))
+
+    def receive(self, link: int) -> bytes:
+        """What the copter sent by a link of telemetry since."""
+        size = int(self._library.sim_link_receive(link, self._bytes, len(self._bytes)))
+        return bytes(self._ffi.buffer(self._bytes, size))
 
     def mode_channel(self, mode: int) -> int:
         """Where the mode switch must stand."""

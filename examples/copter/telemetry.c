@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Telemetry's task: takes what came on its links, and sends what is due. */
+#include "telemetry.h"
+
+#define MILLION   1000000u
+#define PERIOD_US 10000u
+#define WCET_US   250u
+#define BUDGET_US 262u
+#define PHASE_US  1900u
+
+/* Bytes of a frame around its payload. */
+#define AROUND                                                                                     \
+    ((uint32_t)KEEL_MAVLINK_HEADER_BYTES + (uint32_t)KEEL_MAVLINK_CHECKSUM_BYTES +                 \
+     (uint32_t)KEEL_MAVLINK_SIGNATURE_BYTES)
+
+/* How often each link is told what, from the start on, in Hz. */
+static const float rate_hz[MESSAGES_SENT] = {
+    [SENT_HEARTBEAT] = 1.0f,
+    [SENT_SYS_STATUS] = 1.0f,
+    [SENT_GPS_RAW_INT] = 2.0f,
+    [SENT_ATTITUDE] = 20.0f,
+    [SENT_LOCAL_POSITION_NED] = 10.0f,
+    [SENT_GLOBAL_POSITION_INT] = 5.0f,
+    [SENT_SERVO_OUTPUT_RAW] = 5.0f,
+    [SENT_RC_CHANNELS] = 5.0f,
+    [SENT_BATTERY_STATUS] = 1.0f,
+    [SENT_ESTIMATOR_STATUS] = 1.0f,
+    [SENT_HOME_POSITION] = 0.2f,
+    [SENT_EXTENDED_SYS_STATE] = 1.0f,
+};
+
+static const char *const states[KEEL_MODE_STATES] = {"disarmed",  "armed",   "flying",    "holding",
+                                                     "returning", "landing", "terminated"};
+
+static keel_status_t start_link(copter_telemetry_t *self, uint32_t number)
+{
+    copter_link_t *const link = &self->link[number];
+
+    link->parameter = COPTER_PARAMETERS - 1u; /* The first one is next. */
+    link->sender = (keel_mavlink_sender_t){.system = COPTER_SYSTEM,
+                                           .component = (uint8_t)MAV_COMP_ID_AUTOPILOT1};
+    copter_turns_init(&link->turns, self->config.link[number].bytes_per_s);
+    for (uint32_t i = 0u; i < MESSAGES_SENT; i++) {
+        self->rate_hz[i] = rate_hz[i];
+        copter_turns_repeat(&link->turns, i, copter_interval_us(rate_hz[i]));
+    }
+    copter_turns_ask(&link->turns, SENT_HEARTBEAT);
+    return keel_mavlink_init(&link->decoder, messages_taken, MESSAGES_TAKEN);
+}
+
+keel_status_t copter_telemetry_start(copter_t *copter, copter_telemetry_t *telemetry,
+                                     const copter_telemetry_config_t *config)
+{
+    static const copter_own_task_t task = {.name = "Telemetry",
+                                           .body = copter_telemetry,
+                                           .period_us = PERIOD_US,
+                                           .wcet_us = WCET_US,
+                                           .budget_us = BUDGET_US,
+                                           .phase_us = PHASE_US};
+    keel_status_t status = KEEL_OK;
+
+    if (config->parameters.count > COPTER_PARAMETERS) {
+        return KEEL_ERR_FULL;
+    }
+    *telemetry = (copter_telemetry_t){.config = *config};
+    for (uint32_t i = 0u; (i < COPTER_LINKS) && (status == KEEL_OK); i++) {
+        status = start_link(telemetry, i);
+    }
+    copter->telemetry = telemetry;
+    return (status == KEEL_OK) ? copter_add(copter, &task) : status;
+}
+
+/* As much of a text as there is room for. */
+static uint32_t append(char to[COPTER_TEXT_LENGTH], uint32_t at, const char *text)
+{
+    uint32_t end = at;
+
+    for (uint32_t i = 0u; (text[i] != '\0') && (end < COPTER_TEXT_LENGTH); i++) {
+        to[end] = text[i];
+        end++;
+    }
+    return end;
+}
+
+void copter_text(copter_telemetry_t *self, uint8_t severity, const char *first, const char *then)
+{
+    copter_text_t *const text = &self->text[self->texts % COPTER_TEXTS];
+
+    *text = (copter_text_t){.severity = severity};
+    (void)append(text->text, append(text->text, 0u, first), then);
+    self->texts++;
+}
+
+/* Says when the state machine's state is another. */
+static void tell_state(copter_telemetry_t *self, const keel_mode_t *mode)
+{
+    if (mode->state != self->state) {
+        const bool alone = (mode->state >= KEEL_MODE_HOLDING);
+
+        copter_text(self, alone ? (uint8_t)MAV_SEVERITY_WARNING : (uint8_t)MAV_SEVERITY_INFO,
+                    states[mode->state],
+                    ((mode->cause & KEEL_MODE_LINK_LOST) != 0u) ? ": radio link lost" : "");
+        self->state = mode->state;
+    }
+}
+
+static void receive(copter_t *copter, uint32_t number)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+    const copter_lines_t *const lines = &self->config.lines;
+    uint8_t bytes[COPTER_LINK_BYTES];
+    const uint32_t count = lines->read(lines->context, number, bytes, COPTER_LINK_BYTES);
+
+    for (uint32_t i = 0u; i < count; i++) {
+        if (keel_mavlink_take(&self->link[number].decoder, bytes[i])) {
+            copter_take(copter, number);
+        }
+    }
+}
+
+/* What waits in queues is asked for. */
+static void ask_for_queues(const copter_telemetry_t *self, copter_link_t *link)
+{
+    bool wanted = false;
+
+    for (uint32_t i = 0u; i < (COPTER_PARAMETERS / 32u); i++) {
+        wanted = wanted || (link->wanted[i] != 0u);
+    }
+    if (wanted) {
+        copter_turns_ask(&link->turns, SENT_PARAM_VALUE);
+    }
+    if (link->acks > 0u) {
+        copter_turns_ask(&link->turns, SENT_COMMAND_ACK);
+    }
+    if (link->texts != self->texts) {
+        copter_turns_ask(&link->turns, SENT_STATUSTEXT);
+    }
+}
+
+/* Sends who is next. Returns whether another one may be. */
+static bool send_next(copter_t *copter, uint32_t number)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+    const copter_lines_t *const lines = &self->config.lines;
+    copter_link_t *const link = &self->link[number];
+    const uint32_t next = copter_turns_next(&link->turns);
+    uint8_t payload[KEEL_MAVLINK_PAYLOAD_MAX] = {0};
+    uint8_t frame[KEEL_MAVLINK_FRAME_MAX];
+    uint32_t length;
+    uint32_t size = 0u;
+
+    if (next == COPTER_TURNS_NONE) {
+        return false;
+    }
+    length = messages_sent[next].longest;
+    if (!copter_turns_affords(&link->turns, length + AROUND) ||
+        (lines->room(lines->context, number) < (length + AROUND))) {
+        return false;
+    }
+    if (copter_report(copter, link, next, payload)) {
+        size = keel_mavlink_write(&link->sender, &messages_sent[next], payload, (uint8_t)length,
+                                  frame, sizeof frame);
+        lines->write(lines->context, number, frame, size);
+    }
+    copter_turns_sent(&link->turns, next, size);
+    ask_for_queues(self, link);
+    return true;
+}
+
+static void run_link(copter_t *copter, uint32_t number, uint32_t elapsed_us)
+{
+    copter_link_t *const link = &copter->telemetry->link[number];
+
+    receive(copter, number);
+    copter_turns_step(&link->turns, elapsed_us);
+    ask_for_queues(copter->telemetry, link);
+    for (uint32_t i = 0u; (i < COPTER_LINK_FRAMES) && send_next(copter, number); i++) {
+        /* Sent. */
+    }
+}
+
+void copter_telemetry(copter_t *copter)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+    const uint64_t now_us = copter->scheduler.clock.now_us;
+    const uint64_t passed_us = now_us - self->ran_us;
+    const uint32_t elapsed_us = (passed_us < MILLION) ? (uint32_t)passed_us : MILLION;
+
+    self->ran_us = now_us;
+    tell_state(self, &copter->state.mode);
+    copter_take_answers(copter);
+    for (uint32_t i = 0u; i < COPTER_LINKS; i++) {
+        if (self->config.link[i].bytes_per_s > 0u) {
+            run_link(copter, i, elapsed_us);
+        }
+    }
+}

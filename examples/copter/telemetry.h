@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file telemetry.h
+ * @brief Telemetry by MAVLink 2: what the copter tells ground stations, and what they may ask.
+ *
+ * A copter has up to COPTER_LINKS links, each with its own decoder, intervals, answers and bytes
+ * per second (turns.h). Nothing waits: what finds no room on a link is sent later, and what does not
+ * fit into a queue is not sent; texts that a link missed are counted. A run takes at most
+ * COPTER_LINK_BYTES of each link and sends at most COPTER_LINK_FRAMES.
+ *
+ * What a ground station may ask is in take.c; what moves the aircraft goes through request.h.
+ */
+#ifndef COPTER_TELEMETRY_H
+#define COPTER_TELEMETRY_H
+
+#include "copter.h"
+#include "keel/middleware/mavlink.h"
+#include "messages.h"
+#include "turns.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** The number of the copter among vehicles. */
+#define COPTER_SYSTEM 1u
+
+#define COPTER_LINKS       3u
+#define COPTER_LINK_BYTES  128u
+#define COPTER_LINK_FRAMES 2u
+#define COPTER_LINK_ACKS   4u
+#define COPTER_TEXTS       16u
+#define COPTER_TEXT_LENGTH 50u
+#define COPTER_PARAMETERS  256u /**< At most. */
+
+/** The lines that links run on. */
+typedef struct copter_lines {
+    void *context; /**< What the functions are handed. */
+    /** Takes up to size bytes that came; returns how many. */
+    uint32_t (*read)(void *context, uint32_t link, uint8_t *bytes, uint32_t size);
+    /** How many bytes can be written now. */
+    uint32_t (*room)(void *context, uint32_t link);
+    /** Writes a frame, for which there is room. */
+    void (*write)(void *context, uint32_t link, const uint8_t *bytes, uint32_t size);
+} copter_lines_t;
+
+/** A parameter, as MAVLink has it. */
+typedef struct copter_parameter {
+    char name[17];
+    uint8_t type;  /**< MAV_PARAM_TYPE_... */
+    uint32_t bits; /**< The value's. */
+} copter_parameter_t;
+
+/** What has the parameters. */
+typedef struct copter_parameters {
+    void *context;
+    uint32_t count; /**< At most COPTER_PARAMETERS. */
+    /** One of them. */
+    void (*get)(void *context, uint32_t index, copter_parameter_t *parameter);
+    /** Sets one of them; returns whether that value is taken. */
+    bool (*set)(void *context, uint32_t index, uint8_t type, uint32_t bits);
+} copter_parameters_t;
+
+/** What a link may do. */
+typedef struct copter_link_config {
+    uint32_t bytes_per_s; /**< That it carries; 0: there is no such link. */
+    bool commands;        /**< What comes by it may arm, disarm, set modes and parameters. */
+} copter_link_config_t;
+
+/** How telemetry is made. */
+typedef struct copter_telemetry_config {
+    copter_lines_t lines;
+    copter_parameters_t parameters;
+    copter_link_config_t link[COPTER_LINKS];
+} copter_telemetry_config_t;
+
+/** A link. */
+typedef struct copter_link {
+    keel_mavlink_t decoder;
+    keel_mavlink_sender_t sender;
+    copter_turns_t turns;
+    message_command_ack_t ack[COPTER_LINK_ACKS]; /**< To be sent, the oldest first. */
+    uint32_t acks;
+    uint32_t texts;      /**< Of telemetry.texts, those sent or missed. */
+    uint32_t missed;     /**< Texts that were overwritten before they were sent. */
+    uint32_t dropped;    /**< Answers for which there was no place. */
+    uint32_t refused;    /**< Frames that may not be taken from this link. */
+    message_ping_t ping; /**< To be sent. */
+    message_timesync_t timesync;
+    uint32_t wanted[COPTER_PARAMETERS / 32u]; /**< Parameters to be sent, a bit each. */
+    uint32_t parameter;                       /**< The one sent last. */
+} copter_link_t;
+
+/** A text for all links. */
+typedef struct copter_text {
+    uint8_t severity;
+    char text[COPTER_TEXT_LENGTH];
+} copter_text_t;
+
+/** Who waits for an answer of the state machine. */
+typedef struct copter_waiter {
+    uint32_t link;
+    uint16_t command; /**< 0: nobody. */
+    uint8_t system;
+    uint8_t component;
+} copter_waiter_t;
+
+/** Telemetry. Read it freely. */
+typedef struct copter_telemetry {
+    copter_telemetry_config_t config;
+    copter_link_t link[COPTER_LINKS];
+    /** How often links are told each message that they ask nothing else for; 0: never. */
+    float rate_hz[MESSAGES_SENT];
+    copter_text_t text[COPTER_TEXTS]; /**< Text n is at n modulo COPTER_TEXTS. */
+    uint32_t texts;                   /**< How many there were. */
+    copter_waiter_t arm_waiter;
+    copter_waiter_t mode_waiter;
+    uint64_t ran_us;
+    uint8_t state; /**< The state machine's, in the last run. */
+} copter_telemetry_t;
+
+/**
+ * Makes telemetry and adds its task.
+ *
+ * @param copter    a copter that was started
+ * @param telemetry kept
+ * @param config    copied
+ * @return as copter_add; KEEL_ERR_FULL when there are more than COPTER_PARAMETERS
+ */
+keel_status_t copter_telemetry_start(copter_t *copter, copter_telemetry_t *telemetry,
+                                     const copter_telemetry_config_t *config);
+
+/** The task's body. */
+void copter_telemetry(copter_t *copter);
+
+/** The interval of a rate; 0 of 0. */
+uint32_t copter_interval_us(float rate_hz);
+
+/** The rates of messages as parameters: TEL_ATTITUDE and so on, in Hz. */
+copter_parameters_t copter_rates(copter_telemetry_t *telemetry);
+
+/** Queues a text of two parts for all links; what does not fit is left out. */
+void copter_text(copter_telemetry_t *self, uint8_t severity, const char *first, const char *then);
+
+/** @name The parts of telemetry. */
+/** @{ */
+/** Acts on the frame that a link's decoder has. */
+void copter_take(copter_t *copter, uint32_t link);
+/** Answers those whose requests the state machine decided. */
+void copter_take_answers(copter_t *copter);
+/** Fills the payload of one of messages_sent; returns whether there is anything to say. */
+bool copter_report(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload);
+/** @} */
+
+#endif
