@@ -2,6 +2,8 @@
 /* Telemetry's task: takes what came on its links, and sends what is due. */
 #include "telemetry.h"
 
+#include <stddef.h>
+
 #define MILLION   1000000u
 #define PERIOD_US 10000u
 #define WCET_US   250u
@@ -63,6 +65,11 @@ keel_status_t copter_telemetry_start(copter_t *copter, copter_telemetry_t *telem
         return KEEL_ERR_FULL;
     }
     *telemetry = (copter_telemetry_t){.config = *config};
+    keel_signing_init(&telemetry->signing, 0u, config->key.hash);
+    keel_signing_advance(&telemetry->signing, config->key.timestamp);
+    if (config->key.key != NULL) {
+        keel_signing_set_key(&telemetry->signing, config->key.key);
+    }
     for (uint32_t i = 0u; (i < COPTER_LINKS) && (status == KEEL_OK); i++) {
         status = start_link(telemetry, i);
     }
@@ -104,16 +111,29 @@ static void tell_state(copter_telemetry_t *self, const keel_mode_t *mode)
     }
 }
 
+/* Whoever does not sign, where frames are signed, is not heard. */
+static void take(copter_t *copter, uint32_t number, const keel_mavlink_frame_t *frame)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+
+    if (keel_signing_accepts(&self->signing, frame)) {
+        copter_take(copter, number);
+    } else {
+        self->link[number].refused++;
+    }
+}
+
 static void receive(copter_t *copter, uint32_t number)
 {
     copter_telemetry_t *const self = copter->telemetry;
     const copter_lines_t *const lines = &self->config.lines;
+    keel_mavlink_t *const decoder = &self->link[number].decoder;
     uint8_t bytes[COPTER_LINK_BYTES];
     const uint32_t count = lines->read(lines->context, number, bytes, COPTER_LINK_BYTES);
 
     for (uint32_t i = 0u; i < count; i++) {
-        if (keel_mavlink_take(&self->link[number].decoder, bytes[i])) {
-            copter_take(copter, number);
+        if (keel_mavlink_take(decoder, bytes[i])) {
+            take(copter, number, &decoder->frame);
         }
     }
 }
@@ -158,8 +178,8 @@ static bool send_next(copter_t *copter, uint32_t number)
         return false;
     }
     if (copter_report(copter, link, next, payload)) {
-        size = keel_mavlink_write(&link->sender, &messages_sent[next], payload, (uint8_t)length,
-                                  frame, sizeof frame);
+        size = keel_signing_write(&self->signing, &link->sender, &messages_sent[next], payload,
+                                  (uint8_t)length, frame, sizeof frame);
         lines->write(lines->context, number, frame, size);
     }
     copter_turns_sent(&link->turns, next, size);

@@ -15,6 +15,7 @@
 
 #include "copter.h"
 #include "keel/middleware/mavlink.h"
+#include "keel/middleware/signing.h"
 #include "messages.h"
 #include "turns.h"
 
@@ -66,8 +67,17 @@ typedef struct copter_link_config {
     bool commands;        /**< What comes by it may arm, disarm, set modes and parameters. */
 } copter_link_config_t;
 
+/** A key: with one, frames are signed, and what is not signed with it is not taken. It comes from
+ * whoever stands at the vehicle, never by a link. */
+typedef struct copter_key {
+    const uint8_t *key;          /**< KEEL_SIGNING_KEY_BYTES of them; null: there is none. */
+    keel_signing_hash_fn_t hash; /**< SHA-256; null without a key. */
+    uint64_t timestamp;          /**< Later than all that was signed before: see signing.h. */
+} copter_key_t;
+
 /** How telemetry is made. */
 typedef struct copter_telemetry_config {
+    copter_key_t key;
     copter_lines_t lines;
     copter_parameters_t parameters;
     copter_link_config_t link[COPTER_LINKS];
@@ -108,6 +118,7 @@ typedef struct copter_waiter {
 typedef struct copter_telemetry {
     copter_telemetry_config_t config;
     copter_link_t link[COPTER_LINKS];
+    keel_signing_t signing; /**< Of all links, so that no frame counts by two of them. */
     /** How often links are told each message that they ask nothing else for; 0: never. */
     float rate_hz[MESSAGES_SENT];
     copter_text_t text[COPTER_TEXTS]; /**< Text n is at n modulo COPTER_TEXTS. */

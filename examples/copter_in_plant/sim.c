@@ -215,6 +215,9 @@ uint32_t sim_link_receive(uint32_t link, uint8_t *bytes, uint32_t size)
 static keel_status_t start_telemetry(void)
 {
     copter_telemetry_config_t config = {
+        .key = {.key = (options.hash != NULL) ? options.key : NULL,
+                .hash = options.hash,
+                .timestamp = options.timestamp},
         .lines = {.read = read_line, .room = room_of, .write = write_line},
         .parameters = copter_rates(&telemetry)};
     bool wanted = false;

@@ -22,6 +22,7 @@
 #define SIM_MOTORS   4
 #define SIM_TASKS    21
 #define SIM_LINKS    3
+#define SIM_KEY      32
 
 /** An inertial measurement unit. */
 typedef struct sim_imu {
@@ -80,6 +81,9 @@ typedef struct sim_sensors {
     sim_power_t power[SIM_MODULES];
 } sim_sensors_t;
 
+/** SHA-256 of some bytes. */
+typedef void (*sim_hash_t)(const uint8_t *data, uint32_t size, uint8_t *digest);
+
 /** How a flight is made. */
 typedef struct sim_options {
     uint32_t costs_percent; /**< Of its budget that a task's run takes: 100. */
@@ -87,6 +91,9 @@ typedef struct sim_options {
     uint32_t bytes_per_s[SIM_LINKS]; /**< That each link of telemetry carries; 0: it is not there.
                                           Without any there is no telemetry, nor its task. */
     uint32_t listens[SIM_LINKS];     /**< 1: what comes by it may not command. */
+    uint8_t key[SIM_KEY];            /**< What frames are signed with, if there is a hash. */
+    sim_hash_t hash;                 /**< Null: frames are neither signed nor checked. */
+    uint64_t timestamp;              /**< Now, in 10 us since 2015 began (UTC). */
 } sim_options_t;
 
 /** What became of a task. */

@@ -97,6 +97,14 @@ class Link:
     commands: bool = True  # What comes by it may arm, and set modes and parameters.
 
 
+@dataclass(frozen=True)
+class Key:
+    """What frames of telemetry are signed with."""
+
+    key: bytes  # 32 of them.
+    timestamp: int  # In 10 us since 2015 began (UTC): no frame was signed later.
+
+
 class Copter:
     """The library in this process."""
 
@@ -118,6 +126,7 @@ class Copter:
         kind = np.dtype(layout(self._ffi.typeof("sim_task_t")))
         done = self._ffi.buffer(self._library.sim_tasks(), count * kind.itemsize)
         self._bytes: Any = self._ffi.new("uint8_t[]", LINE_BYTES)
+        self._hash = self._ffi.callback("sim_hash_t", self._sha256)
         self.links = int(self._library.SIM_LINKS)
         self._done: Any = np.frombuffer(done, dtype=kind)
         self.tasks = [self._ffi.string(self._library.sim_task_name(number)).decode()
@@ -130,7 +139,8 @@ class Copter:
             raise ToolError(f"{SIM}: {name} is not made of words alone")
         return np.frombuffer(self._ffi.buffer(pointer, kind.itemsize), dtype=kind)[0]
 
-    def start(self, costs_percent: int, plain_mean: bool, links: Sequence[Link] = ()) -> None:
+    def start(self, costs_percent: int, plain_mean: bool, links: Sequence[Link] = (),
+              key: Key | None = None) -> None:  # fmt: skip
         """Power up; all devices are silent and zero."""
         size = self.sensors.dtype.itemsize
         self._ffi.memmove(self._library.sim_sensors(), bytes(size), size)
@@ -139,9 +149,16 @@ class Copter:
         for number, link in enumerate(links):
             options.bytes_per_s[number] = link.bytes_per_s
             options.listens[number] = int(not link.commands)
+        if key is not None:
+            options.key, options.hash = key.key, self._hash
+            options.timestamp = key.timestamp
         if status := self._library.sim_start(options):
             raise ToolError(f"the copter does not start: status {status}")
         self.look()
+
+    def _sha256(self, data: Any, size: int, digest: Any) -> None:
+        """As C calls it."""
+        self._ffi.memmove(digest, hashlib.sha256(bytes(self._ffi.buffer(data, size))).digest(), 32)
 
     def done(self) -> Any:
         """What became of each task until now."""

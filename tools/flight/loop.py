@@ -19,7 +19,7 @@ import numpy as np
 
 from flight import plants, wind
 from flight.faults import Faults
-from flight.library import Copter, Link, checks_of, facts_of, modes, states
+from flight.library import Copter, Key, Link, checks_of, facts_of, modes, states
 from flight.pilot import Pilot, Sight
 from flight.plants import Airframe, Plant, Truth
 from flight.power import Battery
@@ -82,10 +82,10 @@ class Flight:
     """A flight that is being made."""
 
     def __init__(self, copter: Copter, order: Order, pilot: type[Pilot] = Pilot,
-                 links: Sequence[Link] = ()) -> None:  # fmt: skip
+                 links: Sequence[Link] = (), key: Key | None = None) -> None:  # fmt: skip
         scenario = order.scenario
         self._copter, self._scenario = copter, scenario
-        copter.start(scenario.options.costs_percent, scenario.options.plain_mean, links)
+        copter.start(scenario.options.costs_percent, scenario.options.plain_mean, links, key)
         seeds = np.random.SeedSequence(order.seed).spawn(3)
         rng = [np.random.Generator(np.random.PCG64(seed)) for seed in seeds]
         self._plant: Plant = plants.make(order.plant, order.airframe, scenario.heading_deg)
