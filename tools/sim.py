@@ -14,8 +14,10 @@ Exit status: 0 when it is interrupted, 1 when the aircraft crashes, 2 when it ca
 from __future__ import annotations
 
 import argparse
+import re
 import signal
 import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -23,8 +25,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from common.arguments import Parser  # noqa: E402
 from common.errors import ROOT, ToolError, program  # noqa: E402
+from common.files import read_text  # noqa: E402
 from flight import library, plants, scenario  # noqa: E402
-from flight.library import Copter, Link  # noqa: E402
+from flight.library import Copter, Key, Link  # noqa: E402
 from flight.live import Address, Line, Live, address_of  # noqa: E402
 from flight.loop import Crashed, NotFlown, Order  # noqa: E402
 from flight.pilot import Bystander, Pilot  # noqa: E402
@@ -33,6 +36,7 @@ from toolchain import Toolchain  # noqa: E402
 BUILD = ROOT / "build/sim"
 GROUND_STATIONS = "127.0.0.1:14550"
 WARM_S = 12.0  # Until calibrations, estimates and the radio link have settled.
+EPOCH_S = 1_420_070_400  # 2015 began (UTC).
 MOST_BYTES_PER_S = 1_000_000
 
 
@@ -45,6 +49,8 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
                         help="take no commands and no parameters from the links")  # fmt: skip
     parser.add_argument("--rate", type=int, default=20_000, metavar="BYTES",
                         help="that each link carries in a second")  # fmt: skip
+    parser.add_argument("--key", type=Path, metavar="FILE",
+                        help="sign, and take only what is signed: 64 hexadecimal digits")  # fmt: skip
     parser.add_argument("--scenario", metavar="NAME", help="one of examples/copter/scenarios")
     parser.add_argument("--plant", choices=plants.NAMES, default="jsbsim")
     parser.add_argument("--cold", action="store_true", help="begin with the power-up")
@@ -54,6 +60,16 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     if not 1 <= found.rate <= MOST_BYTES_PER_S:
         raise ToolError(f"--rate: expected 1 to {MOST_BYTES_PER_S}, found {found.rate}")
     return found
+
+
+def key_of(path: Path | None) -> Key | None:
+    """The key in a file."""
+    if path is None:
+        return None
+    text = read_text(path).strip()
+    if not re.fullmatch(r"[0-9A-Fa-f]{64}", text):
+        raise ToolError(f"{path}: expected 64 hexadecimal digits")
+    return Key(bytes.fromhex(text), round((time.time() - EPOCH_S) * 1e5))
 
 
 def order_of(options: argparse.Namespace) -> Order:
@@ -86,7 +102,7 @@ def fly(arguments: Sequence[str] | None) -> int:
     lines = [Line(one) for one in options.address]
     links = [Link(options.rate, not options.listens)] * len(lines)
     pilot: type[Pilot] = Pilot if options.scenario else Bystander
-    live = Live(copter, order, pilot, links, lines)
+    live = Live(copter, order, pilot, links, lines, key_of(options.key))
     signal.signal(signal.SIGINT, signal.default_int_handler)  # Also in a shell's background.
     try:
         if not options.cold:

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 from flight import judge, library, scenario
-from flight.library import Copter, Link
+from flight.library import Copter, Key, Link
 from flight.loop import Flight, Order, fly
 from flight.pilot import Bystander, Pilot, Sight
 from pymavlink.dialects.v20 import common as mavlink
@@ -47,12 +47,12 @@ class Rig:
     """A copter in a plant, with links."""
 
     def __init__(self, copter: Copter, links: Sequence[Link] = (Link(),),
-                 warm_ms: int = WARM_MS) -> None:  # fmt: skip
+                 warm_ms: int = WARM_MS, key: Key | None = None) -> None:  # fmt: skip
         order = Order(scenario.read("hover"), "mujoco", 1)
         self.copter = copter
         self.channels = [1500, 1500, LOW, 1500, OFF, copter.mode_channel(POSITION), OFF, 1500]
         Hands.channels = self.channels
-        self.flight = Flight(copter, order, Hands, links)
+        self.flight = Flight(copter, order, Hands, links, key)
         self.links = range(len(links))
         self.open = set(self.links)
         self.now_ms = 0
@@ -197,7 +197,7 @@ def test_a_slow_link_carries_all_and_no_more_than_it_can(copter: Copter, rate: i
     turns = [counts[name] for name in ("HEARTBEAT", "SYS_STATUS", "BATTERY_STATUS",
                                        "ESTIMATOR_STATUS", "EXTENDED_SYS_STATE")]  # fmt: skip
     assert min(turns) >= (5 if rate < 600 else 20) and max(turns) <= min(turns) + 2, counts
-    assert counts["SERVO_OUTPUT_RAW"] <= (max(turns) + 2 if rate < 600 else 80)
+    assert counts["SERVO_OUTPUT_RAW"] <= (30 if rate < 600 else 80)  # Of 150.
     assert rig.counts(1)["ATTITUDE"] > 300  # The other link does not notice.
 
 
@@ -420,6 +420,37 @@ def test_a_flight_with_three_links_keeps_its_limits(copter: Copter) -> None:
         del copter.start
     assert not told.problem
     assert judge.is_good(made, told, judge.judged(made, told, None))
+
+
+def sign(station: Any, key: bytes, timestamp: int) -> None:
+    """From now on it signs."""
+    station.signing.secret_key, station.signing.timestamp = key, timestamp
+    station.signing.link_id, station.signing.sign_outgoing = 3, True
+
+
+def test_with_a_key_only_what_is_signed_counts(copter: Copter) -> None:
+    now, key = 35_000_000_000_000, bytes(range(32))
+    rig = Rig(copter, [Link(), Link()], warm_ms=0, key=Key(key, now))
+    for parser in rig.parsers:
+        sign(parser, key, now - 1)
+    rig.run(WARM_MS)
+    assert rig.counts()["ATTITUDE"] > 150 and rig.counts()["BAD_DATA"] == 0
+    assert all(message.get_signed() for message in rig.seen[0])
+    arm = mavlink.MAVLink_command_long_message(1, 1, ARM, 0, 1, *[0] * 6)
+    rig.send(arm)
+    sign(rig.station, bytes(32), now + 10)  # Another key.
+    rig.send(arm)
+    rig.run(1500)
+    assert rig.state() == DISARMED and rig.counts()["COMMAND_ACK"] == 0
+    sign(rig.station, key, now + 20)
+    frame = arm.pack(rig.station)
+    rig.copter.send(0, frame)
+    rig.run(1500)
+    assert rig.state() == ARMED and rig.counts()["COMMAND_ACK"] == 1
+    for link in (0, 1):  # Heard before.
+        rig.copter.send(link, frame)
+        rig.run(500)
+    assert rig.counts()["COMMAND_ACK"] == 1 and rig.counts(1)["COMMAND_ACK"] == 0
 
 
 def test_the_bystander_flies_when_others_arm(copter: Copter) -> None:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from common.errors import ToolError
-from flight.library import Copter, Link
+from flight.library import Copter, Key, Link
 from flight.loop import Flight, Order
 from flight.pilot import Pilot
 
@@ -73,8 +73,9 @@ class Live(Flight):
     """A flight whose millisecond is one. Nothing is recorded."""
 
     def __init__(self, copter: Copter, order: Order, pilot: type[Pilot],
-                 links: Sequence[Link], lines: Sequence[Line]) -> None:  # fmt: skip
-        super().__init__(copter, order, pilot, links)
+                 links: Sequence[Link], lines: Sequence[Line],
+                 key: Key | None) -> None:  # fmt: skip
+        super().__init__(copter, order, pilot, links, key)
         self._lines = lines
         self._now_ms = 0
 
