@@ -82,8 +82,9 @@ analyze: python ## does a task set hold? (TASKSET=file.toml, ARGS=--phases, ARGS
 timing: python ## the paper's evaluation on the virtual board: tables, JSON and plots in build/timing
 	@$(TIMING) experiments specs/tasksets/urpilot.toml
 
-tables: python ## regenerate the C task table from the paper's task set
+tables: python ## regenerate the C task table, and all that is made of the table of parameters
 	@$(TIMING) table specs/tasksets/urpilot.toml examples/urpilot
+	@python3 tools/parameters.py
 
 .PHONY: messages
 messages: python ## regenerate the C tables of MAVLink's messages from its definitions

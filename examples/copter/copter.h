@@ -37,6 +37,7 @@
 #include "keel/middleware/virtual_imu.h"
 #include "keel/rtos/load.h"
 #include "keel/rtos/scheduler.h"
+#include "parameters.h"
 #include "port.h"
 #include "request.h"
 #include "settings.h"
@@ -200,6 +201,7 @@ struct copter {
     copter_state_t state;
     copter_control_t control;
     copter_health_t health;
+    copter_parameters_t parameters;
     copter_request_t request; /**< Written by telemetry and the state machine. */
     struct copter_telemetry *telemetry; /**< Null without. */
     keel_scheduler_t scheduler;

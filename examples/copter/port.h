@@ -9,6 +9,7 @@
 #ifndef COPTER_PORT_H
 #define COPTER_PORT_H
 
+#include "keel/middleware/slots.h"
 #include "keel/rtos/scheduler.h"
 
 #include <stdbool.h>
@@ -68,6 +69,7 @@ typedef struct copter_port {
     void (*write_motors)(void *context, const float output[COPTER_MOTORS]); /**< Each 0 to 1. */
     /** A task's run ends: which, and what it is said to have cost at most. */
     void (*end_run)(void *context, uint32_t row, uint32_t wcet_us);
+    const keel_medium_t *memory; /**< Keeps parameters; null: there is none. */
 } copter_port_t;
 
 #endif

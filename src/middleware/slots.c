@@ -1,0 +1,533 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "keel/middleware/slots.h"
+
+#include "keel/middleware/crc.h"
+
+#include <stddef.h>
+
+#define BYTES_OF_NUMBER 4u
+
+#define HEAD_BYTES  ((uint32_t)KEEL_SLOTS_HEAD)
+#define CHECK_BYTES ((uint32_t)KEEL_SLOTS_CHECK)
+#define PIECE_BYTES ((uint32_t)KEEL_SLOTS_PIECE)
+
+/* A byte of a number, the lowest first. */
+/*@ requires index < BYTES_OF_NUMBER;
+  @ assigns \nothing;
+  @*/
+static uint8_t byte_of(uint32_t number, uint32_t index)
+{
+    return (uint8_t)((number >> (8u * index)) & 0xFFu);
+}
+
+/*@ requires \valid_read(bytes + (0 .. BYTES_OF_NUMBER - 1));
+  @ assigns \nothing;
+  @*/
+static uint32_t number_of(const uint8_t *bytes)
+{
+    return (uint32_t)bytes[0] | ((uint32_t)bytes[1] << 8u) | ((uint32_t)bytes[2] << 16u) |
+           ((uint32_t)bytes[3] << 24u);
+}
+
+/* How many of the bytes that are left make the next piece. */
+/*@ assigns \nothing;
+  @ ensures \result == (left < PIECE_BYTES ? left : PIECE_BYTES);
+  @*/
+static uint32_t piece_of(uint32_t left)
+{
+    return (left < PIECE_BYTES) ? left : PIECE_BYTES;
+}
+
+/*@ requires \valid_read(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
+  @ requires slots == running_slots && index < KEEL_SLOTS;
+  @ requires 0 < count <= KEEL_SLOTS_PIECE && \valid(bytes + (0 .. count - 1));
+  @ requires offset + count <= KEEL_SLOTS_OVERHEAD + slots->config.room;
+  @ requires \separated(slots, bytes + (0 .. count - 1));
+  @ assigns bytes[0 .. count - 1];
+  @*/
+static bool read_slot(const keel_slots_t *slots, uint32_t index, uint32_t offset, uint8_t *bytes,
+                      uint32_t count)
+{
+    const keel_medium_t *const medium = &slots->config.medium;
+
+    //@ calls keel_slots_any_read;
+    return medium->read(medium->context, slots->config.address[index] + offset, bytes, count);
+}
+
+/* Writes the slot that is not the newest: there is no other that could be written. */
+/*@ requires \valid_read(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
+  @ requires slots == running_slots;
+  @ requires 0 < count <= KEEL_SLOTS_PIECE && \valid_read(bytes + (0 .. count - 1));
+  @ requires offset + count <= KEEL_SLOTS_OVERHEAD + slots->config.room;
+  @ assigns \nothing;
+  @*/
+static bool write_slot(const keel_slots_t *slots, uint32_t offset, const uint8_t *bytes,
+                       uint32_t count)
+{
+    const keel_medium_t *const medium = &slots->config.medium;
+    const uint32_t target = 1u - slots->newest;
+
+    //@ calls keel_slots_any_write;
+    return medium->write(medium->context, slots->config.address[target] + offset, bytes, count);
+}
+
+/*@ requires \valid_read(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
+  @ requires slots == running_slots && index < KEEL_SLOTS;
+  @ assigns \nothing;
+  @ ensures \result.state == KEEL_SLOT_UNREADABLE || \result.state == KEEL_SLOT_EMPTY ||
+  @     \result.state == KEEL_SLOT_DAMAGED || \result.state == KEEL_SLOT_MARKED;
+  @ ensures \result.length <= slots->config.room;
+  @*/
+static keel_slot_t read_head(const keel_slots_t *slots, uint32_t index)
+{
+    keel_slot_t found = {.state = KEEL_SLOT_UNREADABLE, .sequence = 0u, .length = 0u};
+    uint8_t mark = 0u;
+    uint8_t head[KEEL_SLOTS_HEAD] = {0u};
+
+    if (!read_slot(slots, index, 0u, &mark, 1u)) {
+        return found;
+    }
+    if (mark != (uint8_t)KEEL_SLOTS_MARK) {
+        found.state = KEEL_SLOT_EMPTY;
+        return found;
+    }
+    if (!read_slot(slots, index, 1u, head, HEAD_BYTES)) {
+        return found;
+    }
+    found.state = KEEL_SLOT_DAMAGED;
+    found.sequence = number_of(head);
+    if (number_of(&head[BYTES_OF_NUMBER]) <= slots->config.room) {
+        found.state = KEEL_SLOT_MARKED;
+        found.length = number_of(&head[BYTES_OF_NUMBER]);
+    }
+    return found;
+}
+
+/*@ requires \valid_read(bytes + (0 .. count - 1));
+  @ assigns \nothing;
+  @*/
+static uint32_t crc_of_bytes(uint32_t first, const uint8_t *bytes, uint32_t count)
+{
+    uint32_t crc = first;
+
+    /*@ loop invariant 0 <= i <= count;
+      @ loop assigns i, crc;
+      @ loop variant count - i;
+      @*/
+    for (uint32_t i = 0u; i < count; i++) {
+        crc = keel_crc32(crc, bytes[i]);
+    }
+    return crc;
+}
+
+/*@ assigns \nothing; */
+static uint32_t crc_of_number(uint32_t first, uint32_t number)
+{
+    uint32_t crc = first;
+
+    /*@ loop invariant 0 <= i <= BYTES_OF_NUMBER;
+      @ loop assigns i, crc;
+      @ loop variant BYTES_OF_NUMBER - i;
+      @*/
+    for (uint32_t i = 0u; i < BYTES_OF_NUMBER; i++) {
+        crc = keel_crc32(crc, byte_of(number, i));
+    }
+    return crc;
+}
+
+/* Reads the set of a slot whose head is right; the state that the slot has then. */
+/*@ requires \valid_read(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
+  @ requires slots == running_slots && index < KEEL_SLOTS;
+  @ requires slots->slot[index].length <= slots->config.room;
+  @ requires \valid(image + (0 .. slots->config.room - 1));
+  @ requires \separated(slots, image + (0 .. slots->config.room - 1));
+  @ assigns image[0 .. slots->config.room - 1];
+  @ ensures \result == KEEL_SLOT_WHOLE || \result == KEEL_SLOT_DAMAGED ||
+  @     \result == KEEL_SLOT_UNREADABLE;
+  @*/
+static keel_slot_state_t read_set(const keel_slots_t *slots, uint32_t index, uint8_t *image)
+{
+    const uint32_t length = slots->slot[index].length;
+    uint8_t check[KEEL_SLOTS_CHECK] = {0u};
+    uint32_t crc = crc_of_number(KEEL_CRC32_FIRST, slots->slot[index].sequence);
+    uint32_t at = 0u;
+
+    crc = crc_of_number(crc, length);
+    /*@ loop invariant 0 <= at <= length;
+      @ loop assigns at, crc, image[0 .. slots->config.room - 1];
+      @ loop variant length - at;
+      @*/
+    while (at < length) {
+        const uint32_t count = piece_of(length - at);
+
+        if (!read_slot(slots, index, 1u + HEAD_BYTES + at, &image[at], count)) {
+            return KEEL_SLOT_UNREADABLE;
+        }
+        crc = crc_of_bytes(crc, &image[at], count);
+        at += count;
+    }
+    if (!read_slot(slots, index, 1u + HEAD_BYTES + length, check, CHECK_BYTES)) {
+        return KEEL_SLOT_UNREADABLE;
+    }
+    return (number_of(check) == ~crc) ? KEEL_SLOT_WHOLE : KEEL_SLOT_DAMAGED;
+}
+
+/* Reads the set of a slot, if its head says that there is one; whether it is whole. */
+/*@ requires \valid(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
+  @ requires slots == running_slots && index < KEEL_SLOTS;
+  @ requires slots->slot[index].length <= slots->config.room;
+  @ requires slots->slot[index].state != KEEL_SLOT_WHOLE;
+  @ requires \valid(image + (0 .. slots->config.room - 1));
+  @ requires \separated(slots, image + (0 .. slots->config.room - 1));
+  @ assigns slots->slot[index].state, slots->slot[index].length,
+  @     image[0 .. slots->config.room - 1];
+  @ ensures \result <==> slots->slot[index].state == KEEL_SLOT_WHOLE;
+  @ ensures slots->slot[index].length <= slots->config.room;
+  @*/
+static bool load_slot(keel_slots_t *slots, uint32_t index, uint8_t *image)
+{
+    keel_slot_t *const slot = &slots->slot[index];
+
+    if (slot->state == KEEL_SLOT_MARKED) {
+        slot->state = read_set(slots, index, image);
+        slot->length = (slot->state == KEEL_SLOT_WHOLE) ? slot->length : 0u;
+    }
+    return slot->state == KEEL_SLOT_WHOLE;
+}
+
+/*@ requires \valid_read(slots);
+  @ assigns \nothing;
+  @ ensures slots->slot[1].state == KEEL_SLOT_MARKED &&
+  @     (slots->slot[0].state != KEEL_SLOT_MARKED ||
+  @      slots->slot[1].sequence > slots->slot[0].sequence) ? \result == 1 : \result == 0;
+  @*/
+static uint32_t newer_slot(const keel_slots_t *slots)
+{
+    const keel_slot_t *const slot = slots->slot;
+
+    return ((slot[1].state == KEEL_SLOT_MARKED) &&
+            ((slot[0].state != KEEL_SLOT_MARKED) || (slot[1].sequence > slot[0].sequence)))
+               ? 1u
+               : 0u;
+}
+
+/* A byte behind the mark of what is being saved. */
+/*@ requires \valid_read(slots) && slots_valid(slots) && slots_image(slots);
+  @ requires slots_saving(slots) && at < slots_body(slots);
+  @ assigns \nothing;
+  @*/
+static uint8_t byte_to_save(const keel_slots_t *slots, uint32_t at)
+{
+    const uint32_t end = HEAD_BYTES + slots->length;
+    uint8_t byte;
+
+    if (at < BYTES_OF_NUMBER) {
+        byte = byte_of(slots->sequence + 1u, at);
+    } else if (at < HEAD_BYTES) {
+        byte = byte_of(slots->length, at - BYTES_OF_NUMBER);
+    } else if (at < end) {
+        byte = slots->image[at - HEAD_BYTES];
+    } else {
+        byte = byte_of(~slots->crc, at - end);
+    }
+    return byte;
+}
+
+/* How many bytes there are behind the mark. */
+/*@ requires \valid_read(slots) && slots_valid(slots) && slots_saving(slots);
+  @ assigns \nothing;
+  @ ensures \result == slots_body(slots);
+  @*/
+static uint32_t bytes_to_save(const keel_slots_t *slots)
+{
+    return HEAD_BYTES + slots->length + CHECK_BYTES;
+}
+
+/* Goes on behind a piece, and behind the last one with the next stage. */
+/*@ requires \valid(slots) && slots_valid(slots) && slots_image(slots);
+  @ requires slots->stage == KEEL_SLOTS_WRITING || slots->stage == KEEL_SLOTS_COMPARING;
+  @ requires next == slots->stage + 1;
+  @ requires count == (slots_body(slots) - slots->at < PIECE_BYTES
+  @                        ? slots_body(slots) - slots->at : PIECE_BYTES);
+  @ assigns slots->at, slots->stage;
+  @ ensures slots_valid(slots) && slots_image(slots);
+  @ ensures slots->stage == \old(slots->stage) ? slots->at == \old(slots->at) + PIECE_BYTES
+  @     : slots->stage == next && slots->at == 0 &&
+  @           slots_body(slots) - \old(slots->at) <= PIECE_BYTES;
+  @*/
+static void go_on_saving(keel_slots_t *slots, uint32_t count, keel_slots_stage_t next)
+{
+    slots->at += count;
+    if (slots->at == bytes_to_save(slots)) {
+        slots->at = 0u;
+        slots->stage = next;
+    }
+}
+
+/*@ requires \valid(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
+  @ requires slots == running_slots && slots_image(slots);
+  @ requires slots->stage == KEEL_SLOTS_WRITING;
+  @ assigns slots->at, slots->stage, slots->crc;
+  @ ensures slots_valid(slots) && slots_image(slots);
+  @ ensures \result == KEEL_SLOTS_BUSY || \result == KEEL_SLOTS_WRITE;
+  @ ensures slots->stage == \old(slots->stage) ? (\result == KEEL_SLOTS_BUSY ==>
+  @         slots->at == \old(slots->at) + PIECE_BYTES)
+  @     : slots->stage == KEEL_SLOTS_COMPARING && slots->at == 0 &&
+  @           slots_body(slots) - \old(slots->at) <= PIECE_BYTES;
+  @*/
+static keel_slots_result_t write_piece(keel_slots_t *slots)
+{
+    uint8_t piece[KEEL_SLOTS_PIECE] = {0u};
+    const uint32_t count = piece_of(bytes_to_save(slots) - slots->at);
+
+    /*@ loop invariant 0 <= i <= count;
+      @ loop assigns i, slots->crc, piece[0 .. KEEL_SLOTS_PIECE - 1];
+      @ loop variant count - i;
+      @*/
+    for (uint32_t i = 0u; i < count; i++) {
+        piece[i] = byte_to_save(slots, slots->at + i);
+        if ((slots->at + i) < (HEAD_BYTES + slots->length)) {
+            slots->crc = keel_crc32(slots->crc, piece[i]);
+        }
+    }
+    if (!write_slot(slots, 1u + slots->at, piece, count)) {
+        return KEEL_SLOTS_WRITE;
+    }
+    go_on_saving(slots, count, KEEL_SLOTS_COMPARING);
+    return KEEL_SLOTS_BUSY;
+}
+
+/*@ requires \valid(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
+  @ requires slots == running_slots && slots_image(slots);
+  @ requires slots->stage == KEEL_SLOTS_COMPARING;
+  @ assigns slots->at, slots->stage;
+  @ ensures slots_valid(slots) && slots_image(slots);
+  @ ensures \result == KEEL_SLOTS_BUSY || \result == KEEL_SLOTS_READ ||
+  @     \result == KEEL_SLOTS_VERIFY;
+  @ ensures slots->stage == \old(slots->stage) ? (\result == KEEL_SLOTS_BUSY ==>
+  @         slots->at == \old(slots->at) + PIECE_BYTES)
+  @     : slots->stage == KEEL_SLOTS_MARKING && slots->at == 0 &&
+  @           slots_body(slots) - \old(slots->at) <= PIECE_BYTES;
+  @*/
+static keel_slots_result_t compare_piece(keel_slots_t *slots)
+{
+    uint8_t piece[KEEL_SLOTS_PIECE] = {0u};
+    const uint32_t count = piece_of(bytes_to_save(slots) - slots->at);
+    bool same = true;
+
+    if (!read_slot(slots, 1u - slots->newest, 1u + slots->at, piece, count)) {
+        return KEEL_SLOTS_READ;
+    }
+    /*@ loop invariant 0 <= i <= count;
+      @ loop assigns i, same;
+      @ loop variant count - i;
+      @*/
+    for (uint32_t i = 0u; i < count; i++) {
+        same = same && (piece[i] == byte_to_save(slots, slots->at + i));
+    }
+    if (!same) {
+        return KEEL_SLOTS_VERIFY;
+    }
+    go_on_saving(slots, count, KEEL_SLOTS_MARKING);
+    return KEEL_SLOTS_BUSY;
+}
+
+/* What the mark reads after it was to be written or erased. */
+/*@ requires \valid_read(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
+  @ requires slots == running_slots;
+  @ assigns \nothing;
+  @ ensures \result == KEEL_SLOTS_BUSY || \result == KEEL_SLOTS_READ ||
+  @     \result == KEEL_SLOTS_VERIFY;
+  @*/
+static keel_slots_result_t confirm_mark(const keel_slots_t *slots, bool is_set)
+{
+    uint8_t mark = 0u;
+
+    if (!read_slot(slots, 1u - slots->newest, 0u, &mark, 1u)) {
+        return KEEL_SLOTS_READ;
+    }
+    return ((mark == (uint8_t)KEEL_SLOTS_MARK) == is_set) ? KEEL_SLOTS_BUSY : KEEL_SLOTS_VERIFY;
+}
+
+/*@ requires \valid_read(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
+  @ requires slots == running_slots;
+  @ assigns \nothing;
+  @*/
+static bool clear_slot(const keel_slots_t *slots)
+{
+    static const uint8_t cleared = KEEL_SLOTS_CLEARED;
+    const keel_medium_t *const medium = &slots->config.medium;
+
+    if (medium->erase == NULL) {
+        return write_slot(slots, 0u, &cleared, 1u);
+    }
+    //@ calls keel_slots_any_erase;
+    return medium->erase(medium->context, slots->config.address[1u - slots->newest],
+                         (uint32_t)KEEL_SLOTS_OVERHEAD + slots->config.room);
+}
+
+/*@ requires \valid(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
+  @ requires slots == running_slots && slots_image(slots);
+  @ requires slots->stage == KEEL_SLOTS_CLEARING;
+  @ assigns slots->at, slots->stage, slots->crc;
+  @ ensures slots_valid(slots) && slots_image(slots);
+  @ ensures \result == KEEL_SLOTS_BUSY || \result == KEEL_SLOTS_WRITE ||
+  @     \result == KEEL_SLOTS_READ || \result == KEEL_SLOTS_VERIFY;
+  @ ensures slots->stage ==
+  @     (\result == KEEL_SLOTS_BUSY ? KEEL_SLOTS_WRITING : KEEL_SLOTS_CLEARING);
+  @*/
+static keel_slots_result_t begin_to_write(keel_slots_t *slots)
+{
+    keel_slots_result_t result = KEEL_SLOTS_WRITE;
+
+    if (clear_slot(slots)) {
+        result = confirm_mark(slots, false);
+    }
+    if (result == KEEL_SLOTS_BUSY) {
+        slots->stage = KEEL_SLOTS_WRITING;
+        slots->at = 0u;
+        slots->crc = KEEL_CRC32_FIRST;
+    }
+    return result;
+}
+
+/*@ requires \valid(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
+  @ requires slots == running_slots && slots->stage == KEEL_SLOTS_MARKING;
+  @ assigns slots->newest, slots->sequence;
+  @ ensures \result == KEEL_SLOTS_DONE || \result == KEEL_SLOTS_WRITE ||
+  @     \result == KEEL_SLOTS_READ || \result == KEEL_SLOTS_VERIFY;
+  @ ensures slots->newest ==
+  @     (\result == KEEL_SLOTS_DONE ? 1 - \old(slots->newest) : \old(slots->newest));
+  @ ensures slots->sequence ==
+  @     (\result == KEEL_SLOTS_DONE ? \old(slots->sequence) + 1 : \old(slots->sequence));
+  @*/
+static keel_slots_result_t set_mark(keel_slots_t *slots)
+{
+    static const uint8_t mark = KEEL_SLOTS_MARK;
+    keel_slots_result_t result = KEEL_SLOTS_WRITE;
+
+    if (write_slot(slots, 0u, &mark, 1u)) {
+        result = confirm_mark(slots, true);
+    }
+    if (result == KEEL_SLOTS_BUSY) {
+        slots->newest = 1u - slots->newest;
+        slots->sequence++;
+        result = KEEL_SLOTS_DONE;
+    }
+    return result;
+}
+
+/* From an address to the end of a slot there: whether both are addresses. */
+/*@ assigns \nothing;
+  @ ensures \result <==> address + KEEL_SLOTS_OVERHEAD + room <= UINT32_MAX;
+  @*/
+static bool slot_fits(uint32_t address, uint32_t room)
+{
+    return (room <= (UINT32_MAX - (uint32_t)KEEL_SLOTS_OVERHEAD)) &&
+           (address <= (UINT32_MAX - (uint32_t)KEEL_SLOTS_OVERHEAD - room));
+}
+
+keel_status_t keel_slots_init(keel_slots_t *slots, const keel_slots_config_t *config)
+{
+    static const keel_slot_t unknown = {.state = KEEL_SLOT_EMPTY, .sequence = 0u, .length = 0u};
+    uint32_t size;
+
+    if ((config->medium.read == NULL) || (config->medium.write == NULL)) {
+        return KEEL_ERR_NULL;
+    }
+    if ((config->room == 0u) || !slot_fits(config->address[0], config->room) ||
+        !slot_fits(config->address[1], config->room)) {
+        return KEEL_ERR_LIMITS;
+    }
+    size = (uint32_t)KEEL_SLOTS_OVERHEAD + config->room;
+    if (((config->address[0] + size) > config->address[1]) &&
+        ((config->address[1] + size) > config->address[0])) {
+        return KEEL_ERR_LIMITS;
+    }
+    slots->config = *config;
+    slots->slot[0] = unknown;
+    slots->slot[1] = unknown;
+    slots->stage = KEEL_SLOTS_CLOSED;
+    slots->newest = 0u;
+    slots->sequence = 0u;
+    slots->image = NULL;
+    slots->length = 0u;
+    slots->at = 0u;
+    slots->crc = 0u;
+    return KEEL_OK;
+}
+
+keel_slots_result_t keel_slots_load(keel_slots_t *slots, uint8_t *image, uint32_t *length)
+{
+    keel_slots_result_t result = KEEL_SLOTS_NONE;
+    uint32_t index;
+    bool whole;
+
+    slots->stage = KEEL_SLOTS_CLOSED;
+    slots->slot[0] = read_head(slots, 0u);
+    slots->slot[1] = read_head(slots, 1u);
+    index = newer_slot(slots);
+    whole = load_slot(slots, index, image);
+    if (!whole) {
+        index = 1u - index;
+        whole = load_slot(slots, index, image);
+    }
+    slots->newest = index;
+    slots->sequence = whole ? slots->slot[index].sequence : 0u;
+    if (whole) {
+        *length = slots->slot[index].length;
+        result = KEEL_SLOTS_DONE;
+    } else if ((slots->slot[0].state == KEEL_SLOT_UNREADABLE) ||
+               (slots->slot[1].state == KEEL_SLOT_UNREADABLE)) {
+        result = KEEL_SLOTS_READ;
+    } else {
+        result = KEEL_SLOTS_NONE;
+    }
+    slots->stage = (result == KEEL_SLOTS_READ) ? KEEL_SLOTS_CLOSED : KEEL_SLOTS_READY;
+    return result;
+}
+
+keel_status_t keel_slots_begin(keel_slots_t *slots, const uint8_t *image, uint32_t length)
+{
+    if (slots->stage != KEEL_SLOTS_READY) {
+        return KEEL_ERR_STATE;
+    }
+    if (length > slots->config.room) {
+        return KEEL_ERR_LIMITS;
+    }
+    if (slots->sequence == UINT32_MAX) {
+        return KEEL_ERR_FULL;
+    }
+    slots->image = image;
+    slots->length = length;
+    slots->at = 0u;
+    slots->crc = KEEL_CRC32_FIRST;
+    slots->stage = KEEL_SLOTS_CLEARING;
+    return KEEL_OK;
+}
+
+keel_slots_result_t keel_slots_step(keel_slots_t *slots)
+{
+    keel_slots_result_t result = KEEL_SLOTS_DONE;
+
+    switch (slots->stage) {
+    case KEEL_SLOTS_CLEARING:
+        result = begin_to_write(slots);
+        break;
+    case KEEL_SLOTS_WRITING:
+        result = write_piece(slots);
+        break;
+    case KEEL_SLOTS_COMPARING:
+        result = compare_piece(slots);
+        break;
+    case KEEL_SLOTS_MARKING:
+        result = set_mark(slots);
+        break;
+    default:
+        return KEEL_SLOTS_DONE;
+    }
+    if (result != KEEL_SLOTS_BUSY) {
+        slots->stage = KEEL_SLOTS_READY;
+    }
+    return result;
+}
