@@ -102,7 +102,8 @@ def fly(arguments: Sequence[str] | None) -> int:
     lines = [Line(one) for one in options.address]
     links = [Link(options.rate, not options.listens)] * len(lines)
     pilot: type[Pilot] = Pilot if options.scenario else Bystander
-    live = Live(copter, order, pilot, links, lines, key_of(options.key))
+    live = Live(copter, order, pilot, links, lines, key_of(options.key),
+                options.build / "parameters")  # fmt: skip
     signal.signal(signal.SIGINT, signal.default_int_handler)  # Also in a shell's background.
     try:
         if not options.cold:

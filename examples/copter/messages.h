@@ -49,7 +49,6 @@
 #define MAV_CMD_COMPONENT_ARM_DISARM                  400u
 #define MAV_CMD_SET_MESSAGE_INTERVAL                  511u
 #define MAV_CMD_REQUEST_MESSAGE                       512u
-#define MAV_PARAM_TYPE_UINT8                          1u
 #define MAV_PARAM_TYPE_INT32                          6u
 #define MAV_PARAM_TYPE_REAL32                         9u
 #define MAV_SEVERITY_CRITICAL                         2u

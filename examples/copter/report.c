@@ -6,6 +6,7 @@
 #include "keel/version.h"
 
 #include <math.h>
+#include <string.h>
 
 #define MILLI      1000.0f
 #define CENTI      100.0f
@@ -456,43 +457,53 @@ static bool command_ack(copter_link_t *link, uint8_t *payload)
     return true;
 }
 
-static float value_of(uint32_t bits)
+/* The bits of a whole number are sent as those of a float. */
+static float sent_as(keel_parameter_value_t value)
 {
-    const union {
-        uint32_t bits;
-        float value;
-    } both = {.bits = bits};
+    float sent = value.real;
 
-    return both.value;
+    if (value.type != KEEL_PARAMETER_FLOAT) {
+        (void)memcpy(&sent, &value.whole, sizeof sent);
+    }
+    return sent;
 }
 
-/* The parameter behind the last one that is wanted. */
-static bool param_value(const copter_parameters_t *parameters, copter_link_t *link,
-                        uint8_t *payload)
+/* The next one that is wanted behind the one that was sent last; or none. */
+static uint32_t next_wanted(const copter_link_t *link)
 {
-    copter_parameter_t parameter;
-    message_param_value_t message = {.param_count = (uint16_t)parameters->count};
-    uint32_t index = link->parameter;
-    bool found = false;
+    uint32_t next = COPTER_PARAMETER_COUNT;
 
-    for (uint32_t i = 0u; (i < COPTER_PARAMETERS) && !found; i++) {
-        index = (index + 1u) % COPTER_PARAMETERS;
-        found = (link->wanted[index / WORD] & ((uint32_t)1u << (index % WORD))) != 0u;
+    for (uint32_t i = COPTER_PARAMETER_COUNT; i > 0u; i--) {
+        const uint32_t index = (link->parameter + i) % COPTER_PARAMETER_COUNT;
+
+        if ((link->wanted[index / WORD] & ((uint32_t)1u << (index % WORD))) != 0u) {
+            next = index;
+        }
     }
-    if (!found) {
-        return false;
+    return next;
+}
+
+static bool param_value(const keel_parameters_t *parameters, copter_link_t *link, uint8_t *payload)
+{
+    const uint32_t index = next_wanted(link);
+    message_param_value_t message = {.param_count = (uint16_t)COPTER_PARAMETER_COUNT,
+                                     .param_index = (uint16_t)index};
+
+    if (index < COPTER_PARAMETER_COUNT) {
+        const keel_parameter_value_t value = keel_parameters_get(parameters, (uint16_t)index);
+        const char *const name = keel_parameters_name(parameters, (uint16_t)index);
+
+        link->wanted[index / WORD] &= ~((uint32_t)1u << (index % WORD));
+        link->parameter = index;
+        for (uint32_t i = 0u; (i < sizeof message.param_id) && (name[i] != '\0'); i++) {
+            message.param_id[i] = name[i];
+        }
+        message.param_value = sent_as(value);
+        message.param_type = (uint8_t)((value.type == KEEL_PARAMETER_FLOAT) ? MAV_PARAM_TYPE_REAL32
+                                                                            : MAV_PARAM_TYPE_INT32);
+        message_param_value_pack(&message, payload);
     }
-    link->wanted[index / WORD] &= ~((uint32_t)1u << (index % WORD));
-    link->parameter = index;
-    parameters->get(parameters->context, index, &parameter);
-    for (uint32_t i = 0u; i < (sizeof message.param_id); i++) {
-        message.param_id[i] = parameter.name[i];
-    }
-    message.param_value = value_of(parameter.bits);
-    message.param_type = parameter.type;
-    message.param_index = (uint16_t)index;
-    message_param_value_pack(&message, payload);
-    return true;
+    return index < COPTER_PARAMETER_COUNT;
 }
 
 static bool answers(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
@@ -504,7 +515,7 @@ static bool answers(const copter_t *copter, copter_link_t *link, uint32_t sent, 
         said = command_ack(link, payload);
         break;
     case SENT_PARAM_VALUE:
-        said = param_value(&copter->telemetry->config.parameters, link, payload);
+        said = param_value(&copter->parameters.table, link, payload);
         break;
     case SENT_STATUSTEXT:
         said = statustext(copter->telemetry, link, payload);

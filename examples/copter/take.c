@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What a ground station may ask:
  *
- *     parameters                      list, read, set
+ *     parameters                      list, read, set: used from the next start on, saved on the
+ *                                     ground
  *     COMMAND_LONG, COMMAND_INT       COMPONENT_ARM_DISARM, DO_SET_MODE, SET_MESSAGE_INTERVAL and
  *                                     REQUEST_MESSAGE; others are answered with UNSUPPORTED
  *     SET_MODE                        as DO_SET_MODE
@@ -15,13 +16,13 @@
 #include "telemetry.h"
 
 #include <math.h>
+#include <string.h>
 
 #define ANYBODY      0u
 #define LEAST_US     10000.0f
 #define MOST_US      60000000.0f
 #define NO_INDEX     (-1)
 #define ID_MOST      16777215.0f
-#define NAME_LENGTH  16u
 #define WORD         32u
 #define NOT_FOUND    UINT32_MAX
 #define MODE_MOST    ((float)KEEL_MODE_NONE)
@@ -259,7 +260,7 @@ static uint32_t set_interval(copter_t *copter, const command_t *command)
     } else if (interval > 0.0f) {
         interval_us = (uint32_t)LEAST_US;
     } else if (interval >= 0.0f) {
-        interval_us = copter_interval_us(copter->telemetry->rate_hz[sent]);
+        interval_us = copter_telemetry_interval_us(sent);
     } else {
         /* Never. */
     }
@@ -374,29 +375,9 @@ static void want(copter_link_t *link, uint32_t index)
     link->wanted[index / WORD] |= (uint32_t)1u << (index % WORD);
 }
 
-/* The parameter of this name, which ends with a zero or with its 16 characters. */
-static uint32_t index_of(const copter_parameters_t *parameters, const char name[NAME_LENGTH])
-{
-    uint32_t found = NOT_FOUND;
-
-    for (uint32_t i = 0u; i < parameters->count; i++) {
-        copter_parameter_t parameter;
-        bool same = true;
-        bool over = false;
-
-        parameters->get(parameters->context, i, &parameter);
-        for (uint32_t k = 0u; k < NAME_LENGTH; k++) {
-            same = same && (over || (parameter.name[k] == name[k]));
-            over = over || (name[k] == '\0');
-        }
-        found = same ? i : found;
-    }
-    return found;
-}
-
 static void take_read(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
 {
-    const copter_parameters_t *const parameters = &copter->telemetry->config.parameters;
+    const keel_parameters_t *const parameters = &copter->parameters.table;
     message_param_request_read_t message;
     uint32_t index;
 
@@ -404,9 +385,10 @@ static void take_read(copter_t *copter, const keel_mavlink_frame_t *frame, uint3
     if (!is_ours(message.target_system, message.target_component)) {
         return;
     }
-    index = (message.param_index == NO_INDEX) ? index_of(parameters, message.param_id)
-                                              : (uint32_t)message.param_index;
-    if (index < parameters->count) {
+    index = (message.param_index == NO_INDEX)
+                ? keel_parameters_find(parameters, message.param_id)
+                : (uint32_t)message.param_index;
+    if (index < COPTER_PARAMETER_COUNT) {
         want(&copter->telemetry->link[link], index);
     }
 }
@@ -417,44 +399,52 @@ static void take_list(copter_t *copter, const keel_mavlink_frame_t *frame, uint3
 
     message_param_request_list_unpack(&message, frame->payload);
     if (is_ours(message.target_system, message.target_component)) {
-        for (uint32_t i = 0u; i < copter->telemetry->config.parameters.count; i++) {
+        for (uint32_t i = 0u; i < COPTER_PARAMETER_COUNT; i++) {
             want(&copter->telemetry->link[link], i);
         }
     }
 }
 
-static uint32_t bits_of(float value)
+/* A value as the parameter has it. Another type is none that it can have. */
+static keel_parameter_value_t value_of(keel_parameter_type_t type, const message_param_set_t *message)
 {
-    const union {
-        float value;
-        uint32_t bits;
-    } both = {.value = value};
+    keel_parameter_value_t value = {.type = KEEL_PARAMETER_FLOAT, .real = message->param_value};
 
-    return both.bits;
+    if (message->param_type == MAV_PARAM_TYPE_INT32) {
+        value.type = (type == KEEL_PARAMETER_BOOL) ? type : KEEL_PARAMETER_INT32;
+        value.real = 0.0f;
+        (void)memcpy(&value.whole, &message->param_value, sizeof value.whole);
+    } else if (message->param_type != MAV_PARAM_TYPE_REAL32) {
+        value.real = NAN; /* It is refused. */
+    } else {
+        /* As it is. */
+    }
+    return value;
 }
 
 static void take_set(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
 {
     copter_telemetry_t *const self = copter->telemetry;
-    const copter_parameters_t *const parameters = &self->config.parameters;
+    keel_parameters_t *const parameters = &copter->parameters.table;
     message_param_set_t message;
-    uint32_t index;
+    keel_parameter_value_t value;
+    uint16_t index;
 
     message_param_set_unpack(&message, frame->payload);
     if (!is_ours(message.target_system, message.target_component) || !may_command(self, link)) {
         return;
     }
-    index = index_of(parameters, message.param_id);
-    if (index >= parameters->count) {
+    index = keel_parameters_find(parameters, message.param_id);
+    if (index >= COPTER_PARAMETER_COUNT) {
         copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "parameter: ", "there is no such one");
         return;
     }
-    if (!parameters->set(parameters->context, index, message.param_type,
-                         bits_of(message.param_value))) {
-        copter_parameter_t parameter;
-
-        parameters->get(parameters->context, index, &parameter);
-        copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "not set: ", parameter.name);
+    value = value_of(keel_parameters_get(parameters, index).type, &message);
+    if (keel_parameters_set(parameters, index, value) == KEEL_OK) {
+        self->saves = true;
+    } else {
+        copter_text(self, (uint8_t)MAV_SEVERITY_WARNING,
+                    "not set: ", keel_parameters_name(parameters, index));
     }
     /* All are told what it is now, also when that is what it was. */
     for (uint32_t i = 0u; i < COPTER_LINKS; i++) {

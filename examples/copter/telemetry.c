@@ -15,36 +15,40 @@
     ((uint32_t)KEEL_MAVLINK_HEADER_BYTES + (uint32_t)KEEL_MAVLINK_CHECKSUM_BYTES +                 \
      (uint32_t)KEEL_MAVLINK_SIGNATURE_BYTES)
 
-/* How often each link is told what, from the start on, in Hz. */
-static const float rate_hz[MESSAGES_SENT] = {
-    [SENT_HEARTBEAT] = 1.0f,
-    [SENT_SYS_STATUS] = 1.0f,
-    [SENT_GPS_RAW_INT] = 2.0f,
-    [SENT_ATTITUDE] = 20.0f,
-    [SENT_LOCAL_POSITION_NED] = 10.0f,
-    [SENT_GLOBAL_POSITION_INT] = 5.0f,
-    [SENT_SERVO_OUTPUT_RAW] = 5.0f,
-    [SENT_RC_CHANNELS] = 5.0f,
-    [SENT_BATTERY_STATUS] = 1.0f,
-    [SENT_ESTIMATOR_STATUS] = 1.0f,
-    [SENT_HOME_POSITION] = 0.2f,
-    [SENT_EXTENDED_SYS_STATE] = 1.0f,
+/* How often each link is told what, from the start on. */
+static const uint32_t interval_us[MESSAGES_SENT] = {
+    [SENT_HEARTBEAT] = MILLION,
+    [SENT_SYS_STATUS] = MILLION,
+    [SENT_GPS_RAW_INT] = MILLION / 2u,
+    [SENT_ATTITUDE] = MILLION / 20u,
+    [SENT_LOCAL_POSITION_NED] = MILLION / 10u,
+    [SENT_GLOBAL_POSITION_INT] = MILLION / 5u,
+    [SENT_SERVO_OUTPUT_RAW] = MILLION / 5u,
+    [SENT_RC_CHANNELS] = MILLION / 5u,
+    [SENT_BATTERY_STATUS] = MILLION,
+    [SENT_ESTIMATOR_STATUS] = MILLION,
+    [SENT_HOME_POSITION] = 5u * MILLION,
+    [SENT_EXTENDED_SYS_STATE] = MILLION,
 };
 
 static const char *const states[KEEL_MODE_STATES] = {"disarmed",  "armed",   "flying",    "holding",
                                                      "returning", "landing", "terminated"};
 
+uint32_t copter_telemetry_interval_us(uint32_t sent)
+{
+    return interval_us[sent];
+}
+
 static keel_status_t start_link(copter_telemetry_t *self, uint32_t number)
 {
     copter_link_t *const link = &self->link[number];
 
-    link->parameter = COPTER_PARAMETERS - 1u; /* The first one is next. */
+    link->parameter = COPTER_PARAMETER_COUNT - 1u; /* The first one is next. */
     link->sender = (keel_mavlink_sender_t){.system = COPTER_SYSTEM,
                                            .component = (uint8_t)MAV_COMP_ID_AUTOPILOT1};
     copter_turns_init(&link->turns, self->config.link[number].bytes_per_s);
     for (uint32_t i = 0u; i < MESSAGES_SENT; i++) {
-        self->rate_hz[i] = rate_hz[i];
-        copter_turns_repeat(&link->turns, i, copter_interval_us(rate_hz[i]));
+        copter_turns_repeat(&link->turns, i, interval_us[i]);
     }
     copter_turns_ask(&link->turns, SENT_HEARTBEAT);
     return keel_mavlink_init(&link->decoder, messages_taken, MESSAGES_TAKEN);
@@ -61,9 +65,6 @@ keel_status_t copter_telemetry_start(copter_t *copter, copter_telemetry_t *telem
                                            .phase_us = PHASE_US};
     keel_status_t status = KEEL_OK;
 
-    if (config->parameters.count > COPTER_PARAMETERS) {
-        return KEEL_ERR_FULL;
-    }
     *telemetry = (copter_telemetry_t){.config = *config};
     keel_signing_init(&telemetry->signing, 0u, config->key.hash);
     keel_signing_advance(&telemetry->signing, config->key.timestamp);
@@ -143,7 +144,7 @@ static void ask_for_queues(const copter_telemetry_t *self, copter_link_t *link)
 {
     bool wanted = false;
 
-    for (uint32_t i = 0u; i < (COPTER_PARAMETERS / 32u); i++) {
+    for (uint32_t i = 0u; i < COPTER_WORDS; i++) {
         wanted = wanted || (link->wanted[i] != 0u);
     }
     if (wanted) {
@@ -187,6 +188,20 @@ static bool send_next(copter_t *copter, uint32_t number)
     return true;
 }
 
+/* Parameters are saved on the ground, and the last of several that were set saves them all. */
+static void save_parameters(copter_t *copter)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+    copter_parameters_t *const parameters = &copter->parameters;
+
+    if (self->saves && !copter->state.mode.motors && (parameters->saved != KEEL_SLOTS_BUSY)) {
+        self->saves = false;
+        if (copter_parameters_save(parameters) != KEEL_OK) {
+            copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "parameters: ", "not saved");
+        }
+    }
+}
+
 static void run_link(copter_t *copter, uint32_t number, uint32_t elapsed_us)
 {
     copter_link_t *const link = &copter->telemetry->link[number];
@@ -209,6 +224,7 @@ void copter_telemetry(copter_t *copter)
     self->ran_us = now_us;
     tell_state(self, &copter->state.mode);
     copter_take_answers(copter);
+    save_parameters(copter);
     for (uint32_t i = 0u; i < COPTER_LINKS; i++) {
         if (self->config.link[i].bytes_per_s > 0u) {
             run_link(copter, i, elapsed_us);

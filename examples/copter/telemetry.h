@@ -31,7 +31,7 @@
 #define COPTER_LINK_ACKS   4u
 #define COPTER_TEXTS       16u
 #define COPTER_TEXT_LENGTH 50u
-#define COPTER_PARAMETERS  256u /**< At most. */
+#define COPTER_WORDS       ((COPTER_PARAMETER_COUNT + 31u) / 32u)
 
 /** The lines that links run on. */
 typedef struct copter_lines {
@@ -43,23 +43,6 @@ typedef struct copter_lines {
     /** Writes a frame, for which there is room. */
     void (*write)(void *context, uint32_t link, const uint8_t *bytes, uint32_t size);
 } copter_lines_t;
-
-/** A parameter, as MAVLink has it. */
-typedef struct copter_parameter {
-    char name[17];
-    uint8_t type;  /**< MAV_PARAM_TYPE_... */
-    uint32_t bits; /**< The value's. */
-} copter_parameter_t;
-
-/** What has the parameters. */
-typedef struct copter_parameters {
-    void *context;
-    uint32_t count; /**< At most COPTER_PARAMETERS. */
-    /** One of them. */
-    void (*get)(void *context, uint32_t index, copter_parameter_t *parameter);
-    /** Sets one of them; returns whether that value is taken. */
-    bool (*set)(void *context, uint32_t index, uint8_t type, uint32_t bits);
-} copter_parameters_t;
 
 /** What a link may do. */
 typedef struct copter_link_config {
@@ -79,7 +62,6 @@ typedef struct copter_key {
 typedef struct copter_telemetry_config {
     copter_key_t key;
     copter_lines_t lines;
-    copter_parameters_t parameters;
     copter_link_config_t link[COPTER_LINKS];
 } copter_telemetry_config_t;
 
@@ -96,7 +78,7 @@ typedef struct copter_link {
     uint32_t refused;    /**< Frames that may not be taken from this link. */
     message_ping_t ping; /**< To be sent. */
     message_timesync_t timesync;
-    uint32_t wanted[COPTER_PARAMETERS / 32u]; /**< Parameters to be sent, a bit each. */
+    uint32_t wanted[COPTER_WORDS]; /**< Parameters to be sent, a bit each. */
     uint32_t parameter;                       /**< The one sent last. */
 } copter_link_t;
 
@@ -119,13 +101,12 @@ typedef struct copter_telemetry {
     copter_telemetry_config_t config;
     copter_link_t link[COPTER_LINKS];
     keel_signing_t signing; /**< Of all links, so that no frame counts by two of them. */
-    /** How often links are told each message that they ask nothing else for; 0: never. */
-    float rate_hz[MESSAGES_SENT];
     copter_text_t text[COPTER_TEXTS]; /**< Text n is at n modulo COPTER_TEXTS. */
     uint32_t texts;                   /**< How many there were. */
     copter_waiter_t arm_waiter;
     copter_waiter_t mode_waiter;
     uint64_t ran_us;
+    bool saves;    /**< Parameters were set, and are to be saved on the ground. */
     uint8_t state; /**< The state machine's, in the last run. */
 } copter_telemetry_t;
 
@@ -135,7 +116,7 @@ typedef struct copter_telemetry {
  * @param copter    a copter that was started
  * @param telemetry kept
  * @param config    copied
- * @return as copter_add; KEEL_ERR_FULL when there are more than COPTER_PARAMETERS
+ * @return as copter_add
  */
 keel_status_t copter_telemetry_start(copter_t *copter, copter_telemetry_t *telemetry,
                                      const copter_telemetry_config_t *config);
@@ -143,11 +124,9 @@ keel_status_t copter_telemetry_start(copter_t *copter, copter_telemetry_t *telem
 /** The task's body. */
 void copter_telemetry(copter_t *copter);
 
-/** The interval of a rate; 0 of 0. */
-uint32_t copter_interval_us(float rate_hz);
-
-/** The rates of messages as parameters: TEL_ATTITUDE and so on, in Hz. */
-copter_parameters_t copter_rates(copter_telemetry_t *telemetry);
+/** How often a link is told one of messages_sent unless it asks for something else, in us; 0: only
+ * when it is asked for. */
+uint32_t copter_telemetry_interval_us(uint32_t sent);
 
 /** Queues a text of two parts for all links; what does not fit is left out. */
 void copter_text(copter_telemetry_t *self, uint8_t severity, const char *first, const char *then);

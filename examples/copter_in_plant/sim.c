@@ -2,6 +2,7 @@
 #include "sim.h"
 
 #include "copter.h"
+#include "file_medium.h"
 #include "host/host_board.h"
 #include "telemetry.h"
 
@@ -53,6 +54,7 @@ static taken_t taken;
 static delay_t delay[COPTER_TASKS];
 static sim_task_t tasks[SIM_TASKS]; /* Those of table 2. */
 static float motors[COPTER_MOTORS];
+static keel_medium_t memory;
 
 /* Whether a device's count has moved; it is taken then. */
 static bool is_new(uint32_t *last, uint32_t count)
@@ -218,8 +220,7 @@ static keel_status_t start_telemetry(void)
         .key = {.key = (options.hash != NULL) ? options.key : NULL,
                 .hash = options.hash,
                 .timestamp = options.timestamp},
-        .lines = {.read = read_line, .room = room_of, .write = write_line},
-        .parameters = copter_rates(&telemetry)};
+        .lines = {.read = read_line, .room = room_of, .write = write_line}};
     bool wanted = false;
 
     for (uint32_t i = 0u; i < SIM_LINKS; i++) {
@@ -243,6 +244,9 @@ int sim_start(const sim_options_t *chosen)
     memset(up, 0, sizeof up);
     memset(down, 0, sizeof down);
     host_board_init(&board, &copter.scheduler, &costs, 0u);
+    if (options.memory != NULL) {
+        memory = file_medium(options.memory);
+    }
     port = (copter_port_t){.read_clock = host_board_read,
                            .clock = &board,
                            .read_imu = read_imu,
@@ -253,7 +257,8 @@ int sim_start(const sim_options_t *chosen)
                            .read_power = read_power,
                            .stack_free = stack_free,
                            .write_motors = write_motors,
-                           .end_run = end_run};
+                           .end_run = end_run,
+                           .memory = (options.memory != NULL) ? &memory : NULL};
     memset(&copter, 0, sizeof copter);
     status = copter_start(&copter, &port, options.plain_mean != 0u);
     return (int)((status == KEEL_OK) ? start_telemetry() : status);

@@ -94,6 +94,8 @@ typedef struct sim_options {
     uint8_t key[SIM_KEY];            /**< What frames are signed with, if there is a hash. */
     sim_hash_t hash;                 /**< Null: frames are neither signed nor checked. */
     uint64_t timestamp;              /**< Now, in 10 us since 2015 began (UTC). */
+    const char *memory;              /**< The file that keeps parameters; null: none. It is read and
+                                          written as long as the copter runs. */
 } sim_options_t;
 
 /** What became of a task. */

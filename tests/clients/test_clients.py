@@ -166,17 +166,17 @@ def test_pymavlink_lists_and_sets_parameters(station: Station) -> None:
         known[value.param_id] = value.param_value
         if len(known) == value.param_count:
             break
-    assert known["TEL_ATTITUDE"] == 20.0
+    assert abs(known["POS_P"] - 0.8) < 1e-6 and len(known) > 50
     real = mavutil.mavlink.MAV_PARAM_TYPE_REAL32
-    mav.param_set_send(1, 1, b"TEL_ATTITUDE", 10.0, real)
-    assert station.until("PARAM_VALUE", lambda m: m.param_id == "TEL_ATTITUDE").param_value == 10.0
+    mav.param_set_send(1, 1, b"HEIGHT_P", 1.25, real)
+    assert station.until("PARAM_VALUE", lambda m: m.param_id == "HEIGHT_P").param_value == 1.25
     for value, kind in ((1.0e9, real), (float("nan"), real),
                         (5.0, mavutil.mavlink.MAV_PARAM_TYPE_INT32)):  # fmt: skip
-        mav.param_set_send(1, 1, b"TEL_ATTITUDE", value, kind)
-        same = station.until("PARAM_VALUE", lambda m: m.param_id == "TEL_ATTITUDE")
-        assert same.param_value == 10.0
-    mav.param_request_read_send(1, 1, b"TEL_GPS", -1)
-    assert station.until("PARAM_VALUE", lambda m: m.param_id == "TEL_GPS").param_value == 2.0
+        mav.param_set_send(1, 1, b"HEIGHT_P", value, kind)
+        same = station.until("PARAM_VALUE", lambda m: m.param_id == "HEIGHT_P")
+        assert same.param_value == 1.25
+    mav.param_request_read_send(1, 1, b"HEIGHT_P", -1)
+    assert station.until("PARAM_VALUE", lambda m: m.param_id == "HEIGHT_P").param_value == 1.25
 
 
 def test_pymavlink_is_refused_what_must_be(station: Station) -> None:
@@ -229,9 +229,12 @@ def test_mavsdk(station: Station, ports: list[int]) -> None:
         wait_for(lambda: 14.0 < seen.battery().voltage_v < 17.5, "a battery")
         wait_for(lambda: seen.health().is_global_position_ok, "its health")
         names = {one.name: one.value for one in param.get_all_params().float_params}
-        assert names["TEL_LOCAL"] == 10.0
-        param.set_param_float("TEL_LOCAL", 12.5)
-        assert param.get_param_float("TEL_LOCAL") == 12.5
+        assert names["LAND_NEAR"] == 5.0
+        param.set_param_float("LAND_NEAR", 6.5)
+        assert param.get_param_float("LAND_NEAR") == 6.5
+        assert param.get_param_int("FS_HOLD_TIME") == 5_000_000
+        param.set_param_int("FS_HOLD_TIME", 4_000_000)
+        assert param.get_param_int("FS_HOLD_TIME") == 4_000_000
         for refused in (action.arm_force, action.kill, action.return_to_launch, action.land):
             with pytest.raises(ActionError):
                 refused()
@@ -261,10 +264,10 @@ def test_mavproxy(station: Station, ports: list[int], tmp_path: Path) -> None:
                 for text in expected:
                     wait_for(lambda: text in log.read_text(), f"{text} in {log.read_text()}")
 
-            wait_for(lambda: "Received 11 parameters" in log.read_text(), "parameters")
-            says("param set TEL_GLOBAL 4")
-            station.until("PARAM_VALUE", lambda m: m.param_id == "TEL_GLOBAL")
-            says("param fetch TEL_GLOBAL", "TEL_GLOBAL = 4.0")
+            wait_for(lambda: "Received 57 parameters" in log.read_text(), "parameters")
+            says("param set RTL_HEIGHT 12")
+            station.until("PARAM_VALUE", lambda m: m.param_id == "RTL_HEIGHT")
+            says("param fetch RTL_HEIGHT", "RTL_HEIGHT = 12.0")
             says("mode 3", "DO_SET_MODE: ACCEPTED")
             says("arm throttle", "COMPONENT_ARM_DISARM: ACCEPTED", "ARMED")
             says("mode 0", "DO_SET_MODE: DENIED")

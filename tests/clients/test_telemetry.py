@@ -7,6 +7,7 @@ Equal runs are equal: nothing here waits.
 from __future__ import annotations
 
 import random
+import struct
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -47,12 +48,13 @@ class Rig:
     """A copter in a plant, with links."""
 
     def __init__(self, copter: Copter, links: Sequence[Link] = (Link(),),
-                 warm_ms: int = WARM_MS, key: Key | None = None) -> None:  # fmt: skip
+                 warm_ms: int = WARM_MS, key: Key | None = None,
+                 memory: Path | None = None) -> None:  # fmt: skip
         order = Order(scenario.read("hover"), "mujoco", 1)
         self.copter = copter
         self.channels = [1500, 1500, LOW, 1500, OFF, copter.mode_channel(POSITION), OFF, 1500]
         Hands.channels = self.channels
-        self.flight = Flight(copter, order, Hands, links, key)
+        self.flight = Flight(copter, order, Hands, links, key, memory)
         self.links = range(len(links))
         self.open = set(self.links)
         self.now_ms = 0
@@ -212,12 +214,37 @@ def test_a_link_that_nobody_reads_holds_up_nothing(copter: Copter) -> None:
 
 
 def test_parameters_are_listed_under_pressure(copter: Copter) -> None:
-    rig = Rig(copter, [Link(600)])
+    rig = Rig(copter, [Link(1500)])
     rig.send(mavlink.MAVLink_param_request_list_message(1, 1))
-    rig.run(12_000)
+    rig.run(15_000)
     values = [message for message in rig.seen[0] if message.get_type() == "PARAM_VALUE"]
     assert [value.param_index for value in values] == list(range(values[0].param_count))
     assert rig.counts()["HEARTBEAT"] > 5
+
+
+def value_in(rig: Rig, name: str) -> Any:
+    """A parameter as it is told."""
+    rig.send(mavlink.MAVLink_param_request_read_message(1, 1, name.encode(), -1))
+    rig.run(300)
+    values = [one for one in rig.seen[0] if one.get_type() == "PARAM_VALUE"]
+    return values[-1]
+
+
+def test_parameters_are_kept(copter: Copter, tmp_path: Path) -> None:
+    rig = Rig(copter, warm_ms=1000, memory=tmp_path / "memory")
+    whole = struct.unpack("<f", struct.pack("<i", 4_000_000))[0]
+    for name, value, kind in ((b"HEIGHT_P", 1.5, 9), (b"FS_HOLD_TIME", whole, 6),
+                              (b"POS_P", float("nan"), 9), (b"POS_P", 1.0, 1),
+                              (b"POS_P", 1.0, 6), (b"VEL_P", 11.0, 9)):  # fmt: skip
+        rig.send(mavlink.MAVLink_param_set_message(1, 1, name, value, kind))
+        rig.run(300)
+    assert rig.texts()[-4:] == ["not set: POS_P"] * 3 + ["not set: VEL_P"]
+    rig.run(4000)
+    again = Rig(copter, warm_ms=500, memory=tmp_path / "memory")
+    assert value_in(again, "HEIGHT_P").param_value == 1.5
+    assert abs(value_in(again, "POS_P").param_value - 0.8) < 1e-6
+    held = value_in(again, "FS_HOLD_TIME")
+    assert (struct.pack("<f", held.param_value), held.param_type) == (struct.pack("<i", 4_000_000), 6)
 
 
 def test_anything_may_come(copter: Copter) -> None:
@@ -225,9 +252,9 @@ def test_anything_may_come(copter: Copter) -> None:
     rng = random.Random(1)
     frames = [
         mavlink.MAVLink_command_long_message(1, 1, ARM, 0, 1, 0, 0, 0, 0, 0, 0),
-        mavlink.MAVLink_param_set_message(1, 1, b"TEL_GPS", 3.0, 9),
+        mavlink.MAVLink_param_set_message(1, 1, b"HEIGHT_P", 2.0, 9),
         mavlink.MAVLink_param_request_read_message(1, 1, b"", 32767),
-        mavlink.MAVLink_param_request_read_message(1, 1, b"TEL_GPSTEL_GPSTE", -1),
+        mavlink.MAVLink_param_request_read_message(1, 1, b"HEIGHT_PHEIGHT_P", -1),
         mavlink.MAVLink_param_request_read_message(1, 1, b"", -2),
         mavlink.MAVLink_set_mode_message(1, 1, 0xFFFFFFFF),
     ]  # fmt: skip
@@ -263,13 +290,13 @@ def test_a_link_may_be_for_listening_alone(copter: Copter) -> None:
     assert rig.ask(ARM, 1, link=1) == DENIED
     assert rig.ask(SET_MODE, 1, LAND, link=1) == DENIED
     rig.send(mavlink.MAVLink_set_mode_message(1, 1, LAND), 1)
-    rig.send(mavlink.MAVLink_param_set_message(1, 1, b"TEL_GPS", 3.0, 9), 1)
+    rig.send(mavlink.MAVLink_param_set_message(1, 1, b"HEIGHT_P", 2.0, 9), 1)
     rig.run(1000)
     assert rig.state() == DISARMED and rig.counts(1)["PARAM_VALUE"] == 0
-    rig.send(mavlink.MAVLink_param_request_read_message(1, 1, b"TEL_GPS", -1), 1)
+    rig.send(mavlink.MAVLink_param_request_read_message(1, 1, b"HEIGHT_P", -1), 1)
     rig.run(1000)
     values = [message for message in rig.seen[1] if message.get_type() == "PARAM_VALUE"]
-    assert [value.param_value for value in values] == [2.0]
+    assert [value.param_value for value in values] == [1.0]
     assert rig.ask(ARM, 1) == ACCEPTED
 
 

@@ -140,7 +140,7 @@ class Copter:
         return np.frombuffer(self._ffi.buffer(pointer, kind.itemsize), dtype=kind)[0]
 
     def start(self, costs_percent: int, plain_mean: bool, links: Sequence[Link] = (),
-              key: Key | None = None) -> None:  # fmt: skip
+              key: Key | None = None, memory: Path | None = None) -> None:  # fmt: skip
         """Power up; all devices are silent and zero."""
         size = self.sensors.dtype.itemsize
         self._ffi.memmove(self._library.sim_sensors(), bytes(size), size)
@@ -149,6 +149,8 @@ class Copter:
         for number, link in enumerate(links):
             options.bytes_per_s[number] = link.bytes_per_s
             options.listens[number] = int(not link.commands)
+        if memory is not None:
+            self._memory_name = options.memory = self._ffi.new("char[]", str(memory).encode())
         if key is not None:
             options.key, options.hash = key.key, self._hash
             options.timestamp = key.timestamp

@@ -8,6 +8,7 @@ import socket
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from common.errors import ToolError
 from flight.library import Copter, Key, Link
@@ -74,8 +75,8 @@ class Live(Flight):
 
     def __init__(self, copter: Copter, order: Order, pilot: type[Pilot],
                  links: Sequence[Link], lines: Sequence[Line],
-                 key: Key | None) -> None:  # fmt: skip
-        super().__init__(copter, order, pilot, links, key)
+                 key: Key | None, memory: Path) -> None:  # fmt: skip
+        super().__init__(copter, order, pilot, links, key, memory)
         self._lines = lines
         self._now_ms = 0
 

@@ -13,6 +13,7 @@ import hashlib
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -82,10 +83,12 @@ class Flight:
     """A flight that is being made."""
 
     def __init__(self, copter: Copter, order: Order, pilot: type[Pilot] = Pilot,
-                 links: Sequence[Link] = (), key: Key | None = None) -> None:  # fmt: skip
+                 links: Sequence[Link] = (), key: Key | None = None,
+                 memory: Path | None = None) -> None:  # fmt: skip
         scenario = order.scenario
         self._copter, self._scenario = copter, scenario
-        copter.start(scenario.options.costs_percent, scenario.options.plain_mean, links, key)
+        copter.start(scenario.options.costs_percent, scenario.options.plain_mean, links, key,
+                     memory)  # fmt: skip
         seeds = np.random.SeedSequence(order.seed).spawn(3)
         rng = [np.random.Generator(np.random.PCG64(seed)) for seed in seeds]
         self._plant: Plant = plants.make(order.plant, order.airframe, scenario.heading_deg)
