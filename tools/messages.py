@@ -109,7 +109,7 @@ class Message:
             if not one.is_extension:
                 text += f"{one.type} {one.name} ".encode()
                 text += bytes([one.count]) if one.count else b""
-        crc = crc16(text)
+        crc = crc16(bytes(text))
         return (crc & 0xFF) ^ (crc >> 8)
 
     @property
@@ -198,7 +198,9 @@ def declaration(message: Message) -> Iterator[str]:
 
 def short(kind: str) -> str:
     """As put_ and get_ name it."""
-    return "u8" if kind == "char" else kind.removesuffix("_t").replace("uint", "u").replace("int", "i")
+    if kind == "char":
+        return "u8"
+    return kind.removesuffix("_t").replace("uint", "u").replace("int", "i")
 
 
 def accesses(message: Message, packs: bool) -> Iterator[str]:

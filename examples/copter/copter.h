@@ -202,7 +202,7 @@ struct copter {
     copter_control_t control;
     copter_health_t health;
     copter_parameters_t parameters;
-    copter_request_t request; /**< Written by telemetry and the state machine. */
+    copter_request_t request;           /**< Written by telemetry and the state machine. */
     struct copter_telemetry *telemetry; /**< Null without. */
     keel_scheduler_t scheduler;
     copter_task_t task[COPTER_TASKS];

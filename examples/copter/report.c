@@ -104,7 +104,7 @@ static uint8_t status_of(const copter_t *copter)
         return (uint8_t)MAV_STATE_ACTIVE;
     }
     return (uint8_t)((copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING) ? MAV_STATE_STANDBY
-                                                                                : MAV_STATE_BOOT);
+                                                                               : MAV_STATE_BOOT);
 }
 
 static void heartbeat(const copter_t *copter, uint8_t *payload)
@@ -240,14 +240,13 @@ static bool global_position_int(const copter_t *copter, uint8_t *payload)
     const keel_position_t *const position = &copter->estimate.position;
     const keel_altitude_t *const altitude = &copter->estimate.altitude;
     const float sea_m = sea_level_of_reference(altitude);
-    message_global_position_int_t message = {
-        .time_boot_ms = now_ms(copter),
-        .alt = millimetres(sea_m + altitude->axis.position),
-        .relative_alt = millimetres(altitude->height),
-        .vx = small(position->north.velocity * CENTI),
-        .vy = small(position->east.velocity * CENTI),
-        .vz = small(-altitude->axis.velocity * CENTI),
-        .hdg = (uint16_t)UNKNOWN_16};
+    message_global_position_int_t message = {.time_boot_ms = now_ms(copter),
+                                             .alt = millimetres(sea_m + altitude->axis.position),
+                                             .relative_alt = millimetres(altitude->height),
+                                             .vx = small(position->north.velocity * CENTI),
+                                             .vy = small(position->east.velocity * CENTI),
+                                             .vz = small(-altitude->axis.velocity * CENTI),
+                                             .hdg = (uint16_t)UNKNOWN_16};
     float angle[3];
 
     if (!position->has_origin) {

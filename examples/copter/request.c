@@ -87,7 +87,6 @@ void copter_request_follow(copter_request_t *request, const keel_mode_t *machine
         request->arm.is_moved = request->arm.is_moved && linked &&
                                 (machine->motors || !request->arms);
     }
-    request->mode.is_moved = request->mode.is_moved && linked &&
-                             (machine->motors || !request->ran);
+    request->mode.is_moved = request->mode.is_moved && linked && (machine->motors || !request->ran);
     request->ran = machine->motors;
 }

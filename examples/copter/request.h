@@ -3,12 +3,12 @@
  * @file request.h
  * @brief What a ground station asks of the state machine, as if the pilot had moved a switch.
  *
- * A request moves the arm switch or the mode switch in the pilot's frames, and nothing else: checks,
- * throttle, kill switch, the times to settle and the link are what they are, and without the
- * pilot's frames a request moves nothing. He takes over when his own switch has said something else
+ * A request moves the arm switch or the mode switch in the pilot's frames, and nothing else:
+ * checks, throttle, kill switch, the times to settle and the link are what they are, and without
+ * the pilot's frames a request moves nothing. He takes over by his own switch, when it has been so
  * for COPTER_REQUEST_FRAMES frames in a row: the mode switch, by being moved; the arm switch, by
- * being moved to where it was asked to be, from where on it counts again. With the link, and with the
- * end of what it asked for, a request is over.
+ * being moved to where it was asked to be, from where on it counts again. A request ends with the
+ * link, and with the flight.
  */
 #ifndef COPTER_REQUEST_H
 #define COPTER_REQUEST_H

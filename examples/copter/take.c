@@ -18,15 +18,15 @@
 #include <math.h>
 #include <string.h>
 
-#define ANYBODY      0u
-#define LEAST_US     10000.0f
-#define MOST_US      60000000.0f
-#define NO_INDEX     (-1)
-#define ID_MOST      16777215.0f
-#define WORD         32u
-#define NOT_FOUND    UINT32_MAX
-#define MODE_MOST    ((float)KEEL_MODE_NONE)
-#define CUSTOM       (MAV_MODE_FLAG_CUSTOM_MODE_ENABLED)
+#define ANYBODY   0u
+#define LEAST_US  10000.0f
+#define MOST_US   60000000.0f
+#define NO_INDEX  (-1)
+#define ID_MOST   16777215.0f
+#define WORD      32u
+#define NOT_FOUND UINT32_MAX
+#define MODE_MOST ((float)KEEL_MODE_NONE)
+#define CUSTOM    (MAV_MODE_FLAG_CUSTOM_MODE_ENABLED)
 
 /* A command, of whichever message. */
 typedef struct command {
@@ -59,11 +59,11 @@ static const word_t checks[] = {
 };
 
 static const word_t facts[] = {
-    {KEEL_MODE_IS_LINKED, "no radio link"},    {KEEL_MODE_IS_ON, "arm switch"},
-    {KEEL_MODE_IS_OFF, "arm switch not off"},  {KEEL_MODE_IS_LOW, "throttle not low"},
-    {KEEL_MODE_IS_KILL, "kill switch"},        {KEEL_MODE_IS_AT, "mode switch moves"},
-    {KEEL_MODE_IS_LANDED, "not landed"},       {KEEL_MODE_HAS_ANGLE, "no attitude"},
-    {KEEL_MODE_HAS_HEIGHT, "no altitude"},     {KEEL_MODE_HAS_PLACE, "no position"},
+    {KEEL_MODE_IS_LINKED, "no radio link"},      {KEEL_MODE_IS_ON, "arm switch"},
+    {KEEL_MODE_IS_OFF, "arm switch not off"},    {KEEL_MODE_IS_LOW, "throttle not low"},
+    {KEEL_MODE_IS_KILL, "kill switch"},          {KEEL_MODE_IS_AT, "mode switch moves"},
+    {KEEL_MODE_IS_LANDED, "not landed"},         {KEEL_MODE_HAS_ANGLE, "no attitude"},
+    {KEEL_MODE_HAS_HEIGHT, "no altitude"},       {KEEL_MODE_HAS_PLACE, "no position"},
     {KEEL_MODE_IS_OUTSIDE, "outside the fence"}, {KEEL_MODE_IS_CRITICAL, "battery critical"},
     {KEEL_MODE_IS_EMPTY, "battery empty"},
 };
@@ -385,9 +385,8 @@ static void take_read(copter_t *copter, const keel_mavlink_frame_t *frame, uint3
     if (!is_ours(message.target_system, message.target_component)) {
         return;
     }
-    index = (message.param_index == NO_INDEX)
-                ? keel_parameters_find(parameters, message.param_id)
-                : (uint32_t)message.param_index;
+    index = (message.param_index == NO_INDEX) ? keel_parameters_find(parameters, message.param_id)
+                                              : (uint32_t)message.param_index;
     if (index < COPTER_PARAMETER_COUNT) {
         want(&copter->telemetry->link[link], index);
     }
@@ -406,7 +405,8 @@ static void take_list(copter_t *copter, const keel_mavlink_frame_t *frame, uint3
 }
 
 /* A value as the parameter has it. Another type is none that it can have. */
-static keel_parameter_value_t value_of(keel_parameter_type_t type, const message_param_set_t *message)
+static keel_parameter_value_t value_of(keel_parameter_type_t type,
+                                       const message_param_set_t *message)
 {
     keel_parameter_value_t value = {.type = KEEL_PARAMETER_FLOAT, .real = message->param_value};
 
@@ -520,8 +520,7 @@ static void answer(copter_telemetry_t *self, copter_moved_t *moved, copter_waite
     const bool done = moved->answer == COPTER_ANSWER_DONE;
 
     if (waiter->command != MESSAGE_SET_MODE) { /* That one has no answer. */
-        acknowledge(self, waiter,
-                    done ? MAV_RESULT_ACCEPTED : MAV_RESULT_TEMPORARILY_REJECTED);
+        acknowledge(self, waiter, done ? MAV_RESULT_ACCEPTED : MAV_RESULT_TEMPORARILY_REJECTED);
     }
     moved->answer = COPTER_ANSWER_NONE;
     waiter->command = 0u;

@@ -4,8 +4,8 @@
  * @brief Telemetry by MAVLink 2: what the copter tells ground stations, and what they may ask.
  *
  * A copter has up to COPTER_LINKS links, each with its own decoder, intervals, answers and bytes
- * per second (turns.h). Nothing waits: what finds no room on a link is sent later, and what does not
- * fit into a queue is not sent; texts that a link missed are counted. A run takes at most
+ * per second (turns.h). Nothing waits: what finds no room on a link is sent later, and what does
+ * not fit into a queue is not sent; texts that a link missed are counted. A run takes at most
  * COPTER_LINK_BYTES of each link and sends at most COPTER_LINK_FRAMES.
  *
  * What a ground station may ask is in take.c; what moves the aircraft goes through request.h.
@@ -79,7 +79,7 @@ typedef struct copter_link {
     message_ping_t ping; /**< To be sent. */
     message_timesync_t timesync;
     uint32_t wanted[COPTER_WORDS]; /**< Parameters to be sent, a bit each. */
-    uint32_t parameter;                       /**< The one sent last. */
+    uint32_t parameter;            /**< The one sent last. */
 } copter_link_t;
 
 /** A text for all links. */
@@ -100,7 +100,7 @@ typedef struct copter_waiter {
 typedef struct copter_telemetry {
     copter_telemetry_config_t config;
     copter_link_t link[COPTER_LINKS];
-    keel_signing_t signing; /**< Of all links, so that no frame counts by two of them. */
+    keel_signing_t signing;           /**< Of all links, so that no frame counts by two of them. */
     copter_text_t text[COPTER_TEXTS]; /**< Text n is at n modulo COPTER_TEXTS. */
     uint32_t texts;                   /**< How many there were. */
     copter_waiter_t arm_waiter;

@@ -55,8 +55,8 @@ uint32_t copter_turns_next(const copter_turns_t *turns)
     for (uint32_t i = 0u; i < COPTER_TURNS_SOURCES; i++) {
         const copter_source_t *const source = &turns->source[i];
 
-        if (source->is_due && ((next == COPTER_TURNS_NONE) ||
-                               (source->waited_us > turns->source[next].waited_us))) {
+        if (source->is_due &&
+            ((next == COPTER_TURNS_NONE) || (source->waited_us > turns->source[next].waited_us))) {
             next = i;
         }
     }

@@ -106,7 +106,7 @@ class Station:
 
     def ready(self) -> None:
         """Until it may be armed."""
-        self.until("SYS_STATUS", lambda message: message.onboard_control_sensors_health & 0x10000000)
+        self.until("SYS_STATUS", lambda m: m.onboard_control_sensors_health & 0x10000000)
 
 
 @pytest.fixture(scope="module")

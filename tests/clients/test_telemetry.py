@@ -244,7 +244,8 @@ def test_parameters_are_kept(copter: Copter, tmp_path: Path) -> None:
     assert value_in(again, "HEIGHT_P").param_value == 1.5
     assert abs(value_in(again, "POS_P").param_value - 0.8) < 1e-6
     held = value_in(again, "FS_HOLD_TIME")
-    assert (struct.pack("<f", held.param_value), held.param_type) == (struct.pack("<i", 4_000_000), 6)
+    assert struct.pack("<f", held.param_value) == struct.pack("<i", 4_000_000)
+    assert held.param_type == 6
 
 
 def test_anything_may_come(copter: Copter) -> None:

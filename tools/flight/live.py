@@ -9,6 +9,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NoReturn
 
 from common.errors import ToolError
 from flight.library import Copter, Key, Link
@@ -96,7 +97,7 @@ class Live(Flight):
             self._now_ms += 1
             self.step(self._now_ms)
 
-    def run(self) -> None:
+    def run(self) -> NoReturn:
         """Until it is interrupted, or crashes."""
         due = time.monotonic()
         while True:

@@ -84,11 +84,11 @@ class Flight:
 
     def __init__(self, copter: Copter, order: Order, pilot: type[Pilot] = Pilot,
                  links: Sequence[Link] = (), key: Key | None = None,
-                 memory: Path | None = None) -> None:  # fmt: skip
+                 keep: Path | None = None) -> None:  # fmt: skip
         scenario = order.scenario
         self._copter, self._scenario = copter, scenario
         copter.start(scenario.options.costs_percent, scenario.options.plain_mean, links, key,
-                     memory)  # fmt: skip
+                     keep)  # fmt: skip
         seeds = np.random.SeedSequence(order.seed).spawn(3)
         rng = [np.random.Generator(np.random.PCG64(seed)) for seed in seeds]
         self._plant: Plant = plants.make(order.plant, order.airframe, scenario.heading_deg)
