@@ -24,13 +24,15 @@ from common.errors import ROOT, ToolError
 from common.files import read_text, write_text
 
 SOURCE = "specs/parameters/copter.toml"
-# keel/middleware/parameters.h: KEEL_PARAMETER_NAME_LENGTH, and how many an index can tell apart.
+# examples/copter/parameters.h: KEEL_PARAMETER_NAME_LENGTH, and how many an index can tell apart.
 NAME_LENGTH = 16
 MOST = 1000
 INT32 = range(-(2**31), 2**31)
 LARGEST = struct.unpack("<f", b"\xff\xff\x7f\x7f")[0]
 # "fields" are of C: a path, its indices constants; before it a factor, if it is not 1.
-FIELD = re.compile(r"(?:(-?\d+(?:\.\d+)?) \* )?([a-z][a-z0-9_]*(?:(?:\.|\[[A-Z0-9_]+\]\.?)[a-z0-9_]*)*)")
+FIELD = re.compile(
+    r"(?:(-?\d+(?:\.\d+)?) \* )?([a-z][a-z0-9_]*(?:(?:\.|\[[A-Z0-9_]+\]\.?)[a-z0-9_]*)*)"
+)
 
 Name = Annotated[str, Field(pattern=rf"^[A-Z][A-Z0-9_]{{0,{NAME_LENGTH - 1}}}$")]
 Words = Annotated[str, Field(pattern=r"^[A-Z][ -;=?-{}~]*$", max_length=160)]
@@ -66,7 +68,8 @@ class Parameter(Table):
         low, high = self.bounds
         if not low <= self.default <= high:
             raise ValueError(f"the default {self.default} is not within {low} to {high}")
-        if self.type == "int32" and not (least_of(self.as_) <= low and high <= greatest_of(self.as_)):
+        held = least_of(self.as_) <= low and high <= greatest_of(self.as_)
+        if self.type == "int32" and not held:
             raise ValueError(f"the range does not fit into {self.as_}")
         return self
 
@@ -160,7 +163,7 @@ HEADER = """\
 #ifndef {upper}_PARAMETER_TABLE_H
 #define {upper}_PARAMETER_TABLE_H
 
-#include "keel/middleware/parameters.h"
+#include "parameters.h"
 #include "settings.h"
 
 #define {upper}_PARAMETER_COUNT {count}u
@@ -245,15 +248,16 @@ def page(file: File, source: str) -> str:
     """The page of the documentation."""
     lines = [
         "# Parameters", "",
-        f"What can be set without compiling anew: {len(file.parameters)} parameters of"
-        f" `examples/{file.name}`. This page, the C table and the metadata that ground stations read"
-        f" are made from `{source}` by `make tables`.", "",
-        "A value is used from the next start on. It is taken only when it is within its range and"
-        " all units accept the configuration that results; otherwise nothing changes, and the reason"
-        " is told.", "",
+        f"What can be set without compiling anew: {len(file.parameters)} parameters of",
+        f"`examples/{file.name}`. This page, the C table and the metadata for ground stations are",
+        f"made from `{source}` by `make tables`.", "",
+        "A value is used from the next start on. It is taken only when it is within its range and",
+        "all units accept the configuration that results; otherwise nothing changes, and the",
+        "reason is told.", "",
     ]  # fmt: skip
     for group in file.group:
-        lines += [f"## {group.name}", "", "| name | default | range | unit | |", "|---|---|---|---|---|"]
+        lines += [f"## {group.name}", ""]
+        lines += ["| name | default | range | unit | |", "|---|---|---|---|---|"]
         for one in group.parameter:
             low, high = (shown(number, one.type) for number in one.bounds)
             span = "on, off" if one.type == "bool" else f"{low} to {high}"
@@ -309,7 +313,9 @@ def files(file: File, source: str) -> dict[str, str]:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
     parser.add_argument("--check", action="store_true", help="only see whether all are up to date")
     parser.add_argument("--root", type=Path, default=ROOT, help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)

@@ -112,7 +112,7 @@ keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool pla
     keel_status_t status;
 
     *copter = (copter_t){.port = port, .plain_mean = plain_mean};
-    status = copter_parameters_start(&copter->parameters, port->memory);
+    status = copter_tuning_start(&copter->tuning, port->memory);
     if (status == KEEL_OK) {
         status = make(copter);
     }

@@ -37,10 +37,11 @@
 #include "keel/middleware/virtual_imu.h"
 #include "keel/rtos/load.h"
 #include "keel/rtos/scheduler.h"
-#include "parameters.h"
+
 #include "port.h"
 #include "request.h"
 #include "settings.h"
+#include "tuning.h"
 #include "urpilot_tasks.h"
 
 /** Tasks beside table 2's, and all together. */
@@ -201,7 +202,7 @@ struct copter {
     copter_state_t state;
     copter_control_t control;
     copter_health_t health;
-    copter_parameters_t parameters;
+    copter_tuning_t tuning;
     copter_request_t request;           /**< Written by telemetry and the state machine. */
     struct copter_telemetry *telemetry; /**< Null without. */
     keel_scheduler_t scheduler;

@@ -8,7 +8,7 @@
 #ifndef COPTER_PARAMETER_TABLE_H
 #define COPTER_PARAMETER_TABLE_H
 
-#include "keel/middleware/parameters.h"
+#include "parameters.h"
 #include "settings.h"
 
 #define COPTER_PARAMETER_COUNT 57u

@@ -1,137 +1,278 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "parameters.h"
 
-#include "keel/flight/altitude.h"
+#include "keel/middleware/range.h"
 
 #include <stddef.h>
+#include <string.h>
 
-/* Steps of a save in a run: of 8 bytes each, so that 4 KiB are saved in 13 s at 10 Hz. */
-#define STEPS_PER_RUN 8u
+#define NAME_BYTES   ((uint32_t)KEEL_PARAMETER_NAME_LENGTH)
+#define RECORD_BYTES ((uint32_t)KEEL_PARAMETER_RECORD_BYTES)
 
-copter_settings_t copter_settings;
+/* Where type and number are in a record. */
+#define TYPE_AT   NAME_BYTES
+#define NUMBER_AT (NAME_BYTES + 1u)
 
-/* One of each unit, to see whether it takes its settings. */
-typedef struct units {
-    keel_virtual_imu_t imu;
-    keel_calibration_rest_t gyroscope;
-    keel_calibration_field_t field;
-    keel_attitude_t attitude;
-    keel_altitude_t altitude;
-    keel_position_t position;
-    keel_reference_t reference;
-    keel_battery_t battery;
-    keel_mode_t mode;
-    keel_cascade_t cascade;
-    keel_mixer_t mixer;
-} units_t;
+#define BITS_OF_BYTE 8u
 
-static void set_fields(copter_settings_t *settings, const keel_parameter_entry_t *entry)
+/* Whether a value is of a row's type and within its range. */
+static bool value_fits(const keel_parameter_t *row, const keel_parameter_value_t *value)
 {
-    *settings = copter_defaults;
-    copter_apply_parameters(settings, entry);
-}
-
-/* The first reason of a unit not to take its settings. */
-static keel_status_t try_units(const copter_settings_t *tried)
-{
-    static units_t unit;
-    const keel_mixer_config_t mixer = {.geometry = keel_mixer_quad_x,
-                                       .idle = tried->mixer.idle,
-                                       .highest = tried->mixer.highest};
-    const keel_status_t status[] = {
-        keel_virtual_imu_init(&unit.imu, &tried->imu),
-        keel_calibration_rest_init(&unit.gyroscope, &tried->gyroscope),
-        keel_calibration_field_init(&unit.field, &tried->field),
-        keel_attitude_init(&unit.attitude, &tried->attitude),
-        keel_altitude_init(&unit.altitude, &tried->altitude),
-        keel_position_init(&unit.position, &tried->position),
-        keel_reference_init(&unit.reference, &tried->reference),
-        keel_battery_init(&unit.battery, &tried->battery),
-        keel_mode_init(&unit.mode, &tried->mode),
-        keel_cascade_init(&unit.cascade, &tried->cascade),
-        keel_mixer_init(&unit.mixer, &mixer)};
-    keel_status_t first = KEEL_OK;
-
-    for (uint32_t i = 0u; (i < (sizeof status / sizeof status[0])) && (first == KEEL_OK); i++) {
-        first = status[i];
+    if (value->type != row->initial.type) {
+        return false;
     }
-    return first;
-}
-
-static keel_status_t check(void *context, const keel_parameter_entry_t *entry)
-{
-    static copter_settings_t tried;
-
-    (void)context;
-    set_fields(&tried, entry);
-    return try_units(&tried);
-}
-
-static void load(copter_parameters_t *parameters, const keel_medium_t *memory)
-{
-    const keel_slots_config_t config = {
-        .medium = *memory,
-        .address = {COPTER_PARAMETER_FIRST, COPTER_PARAMETER_OTHER},
-        .room = COPTER_PARAMETER_BYTES};
-
-    if (keel_slots_init(&parameters->slots, &config) == KEEL_OK) {
-        parameters->has_memory = true;
-        parameters->found = keel_slots_load(&parameters->slots, parameters->image,
-                                            &parameters->length);
+    if (value->type == KEEL_PARAMETER_FLOAT) {
+        return keel_range_contains(value->real, row->lowest.real, row->highest.real);
     }
-    if (parameters->found == KEEL_SLOTS_DONE) {
-        parameters->loaded = keel_parameters_load(&parameters->table, parameters->image,
-                                                  parameters->length);
+    return (row->lowest.whole <= value->whole) && (value->whole <= row->highest.whole);
+}
+
+/* Whether a row can be used at all. */
+static bool row_is_right(const keel_parameter_t *row)
+{
+    const keel_parameter_type_t type = row->initial.type;
+
+    return (row->lowest.type == type) && (row->highest.type == type) &&
+           (row->name[KEEL_PARAMETER_NAME_LENGTH] == '\0') && value_fits(row, &row->initial);
+}
+
+/* The number that does not count is 0. */
+static void put_value(keel_parameter_value_t *to, const keel_parameter_value_t *from)
+{
+    const bool is_real = from->type == KEEL_PARAMETER_FLOAT;
+
+    to->type = from->type;
+    to->real = is_real ? from->real : 0.0f;
+    to->whole = is_real ? 0 : from->whole;
+}
+
+static keel_status_t ask_check(const keel_parameters_config_t *config)
+{
+    return config->check(config->context, config->entry);
+}
+
+static void put_defaults(const keel_parameters_config_t *config)
+{
+    for (uint16_t i = 0u; i < config->count; i++) {
+        put_value(&config->entry[i].value, &config->table[i].initial);
+        config->entry[i].refused = KEEL_OK;
     }
 }
 
-keel_status_t copter_parameters_start(copter_parameters_t *parameters, const keel_medium_t *memory)
+/* Names end at a zero, or with NAME_BYTES characters. */
+static bool is_named(const keel_parameter_t *row, const char *name)
 {
-    const keel_parameters_config_t config = {.table = copter_parameter,
-                                             .entry = parameters->entry,
-                                             .count = COPTER_PARAMETER_COUNT,
-                                             .check = check,
-                                             .context = NULL};
-    const keel_status_t status = keel_parameters_init(&parameters->table, &config);
-
-    if (status != KEEL_OK) {
-        return status;
+    for (uint32_t i = 0u; i < NAME_BYTES; i++) {
+        if (row->name[i] != name[i]) {
+            return false;
+        }
+        if (name[i] == '\0') {
+            return true;
+        }
     }
-    parameters->loaded = (keel_parameters_loaded_t){.taken = 0u};
-    parameters->found = KEEL_SLOTS_NONE;
-    parameters->saved = KEEL_SLOTS_DONE;
-    parameters->has_memory = false;
-    if (memory != NULL) {
-        load(parameters, memory);
-    }
-    set_fields(&copter_settings, parameters->entry);
-    return KEEL_OK;
+    return true;
 }
 
-keel_status_t copter_parameters_save(copter_parameters_t *parameters)
+uint32_t keel_parameter_bits(keel_parameter_value_t value)
 {
-    keel_status_t status = KEEL_ERR_NULL;
+    uint32_t bits = (uint32_t)value.whole;
 
-    if (parameters->has_memory && (parameters->saved != KEEL_SLOTS_BUSY)) {
-        status = keel_parameters_pack(&parameters->table, parameters->image, COPTER_PARAMETER_BYTES,
-                                      &parameters->length);
-    } else if (parameters->has_memory) {
-        status = KEEL_ERR_STATE;
+    if (value.type == KEEL_PARAMETER_FLOAT) {
+        (void)memcpy(&bits, &value.real, sizeof bits);
+    }
+    return bits;
+}
+
+keel_parameter_value_t keel_parameter_from_bits(keel_parameter_type_t type, uint32_t bits)
+{
+    keel_parameter_value_t value = {.type = type, .real = 0.0f, .whole = 0};
+
+    if (type == KEEL_PARAMETER_FLOAT) {
+        (void)memcpy(&value.real, &bits, sizeof bits);
     } else {
-        status = KEEL_ERR_NULL;
+        (void)memcpy(&value.whole, &bits, sizeof bits);
     }
-    if (status == KEEL_OK) {
-        status = keel_slots_begin(&parameters->slots, parameters->image, parameters->length);
+    return value;
+}
+
+static bool is_default(const keel_parameters_t *parameters, uint16_t index)
+{
+    return keel_parameter_bits(parameters->config.entry[index].value) ==
+           keel_parameter_bits(parameters->config.table[index].initial);
+}
+
+static void write_record(uint8_t *record, const char *name, const keel_parameter_value_t *value)
+{
+    const uint32_t bits = keel_parameter_bits(*value);
+    bool ended = false;
+
+    for (uint32_t i = 0u; i < NAME_BYTES; i++) {
+        ended = ended || (name[i] == '\0');
+        record[i] = ended ? 0u : (uint8_t)name[i];
     }
-    if (status == KEEL_OK) {
-        parameters->saved = KEEL_SLOTS_BUSY;
+    record[TYPE_AT] = (uint8_t)value->type;
+    for (uint32_t i = 0u; i < (RECORD_BYTES - NUMBER_AT); i++) {
+        record[NUMBER_AT + i] = (uint8_t)((bits >> (BITS_OF_BYTE * i)) & 0xFFu);
+    }
+}
+
+/* The parameter that a record names, or their number. */
+static uint16_t find_record(const keel_parameters_t *parameters, const uint8_t *record)
+{
+    char name[KEEL_PARAMETER_NAME_LENGTH];
+
+    for (uint32_t i = 0u; i < NAME_BYTES; i++) {
+        name[i] = (char)record[i];
+    }
+    return keel_parameters_find(parameters, name);
+}
+
+/* Types that there are none of stay so: no row has them. */
+static keel_parameter_value_t record_value(const uint8_t *record)
+{
+    uint32_t bits = 0u;
+
+    for (uint32_t i = 0u; i < (RECORD_BYTES - NUMBER_AT); i++) {
+        bits |= (uint32_t)record[NUMBER_AT + i] << (BITS_OF_BYTE * i);
+    }
+    return keel_parameter_from_bits((keel_parameter_type_t)record[TYPE_AT], bits);
+}
+
+/* Takes a value that fits; checks the whole if it is asked to. */
+static keel_status_t take_value(const keel_parameters_t *parameters, uint16_t index,
+                                const keel_parameter_value_t *value, bool is_checked)
+{
+    keel_parameter_value_t *const now = &parameters->config.entry[index].value;
+    const keel_parameter_value_t before = *now;
+    keel_status_t status = KEEL_OK;
+
+    if (!value_fits(&parameters->config.table[index], value)) {
+        return KEEL_ERR_VALUE;
+    }
+    put_value(now, value);
+    if (is_checked) {
+        status = ask_check(&parameters->config);
+    }
+    if (status != KEEL_OK) {
+        put_value(now, &before);
     }
     return status;
 }
 
-void copter_parameters_step(copter_parameters_t *parameters)
+/* Loads each record; bytes behind the last whole one are none. */
+static keel_parameters_loaded_t load_records(const keel_parameters_t *parameters,
+                                             const uint8_t *image, uint32_t length, bool is_checked)
 {
-    for (uint32_t i = 0u; (i < STEPS_PER_RUN) && (parameters->saved == KEEL_SLOTS_BUSY); i++) {
-        parameters->saved = keel_slots_step(&parameters->slots);
+    keel_parameters_loaded_t loaded = {.taken = 0u, .refused = 0u, .unknown = 0u};
+
+    put_defaults(&parameters->config);
+    for (uint32_t at = 0u; (length - at) >= RECORD_BYTES; at += RECORD_BYTES) {
+        const uint16_t index = find_record(parameters, &image[at]);
+
+        if (index == parameters->config.count) {
+            loaded.unknown++;
+        } else {
+            const keel_parameter_value_t value = record_value(&image[at]);
+            const keel_status_t status = take_value(parameters, index, &value, is_checked);
+
+            parameters->config.entry[index].refused = status;
+            if (status == KEEL_OK) {
+                loaded.taken++;
+            } else {
+                loaded.refused++;
+            }
+        }
     }
+    return loaded;
+}
+
+keel_status_t keel_parameters_init(keel_parameters_t *parameters,
+                                   const keel_parameters_config_t *config)
+{
+    keel_status_t status;
+
+    if ((config->table == NULL) || (config->entry == NULL) || (config->check == NULL) ||
+        (config->count == 0u)) {
+        return KEEL_ERR_NULL;
+    }
+    for (uint16_t i = 0u; i < config->count; i++) {
+        if (!row_is_right(&config->table[i])) {
+            return KEEL_ERR_LIMITS;
+        }
+    }
+    put_defaults(config);
+    status = ask_check(config);
+    if (status == KEEL_OK) {
+        parameters->config = *config;
+    }
+    return status;
+}
+
+uint16_t keel_parameters_count(const keel_parameters_t *parameters)
+{
+    return parameters->config.count;
+}
+
+const char *keel_parameters_name(const keel_parameters_t *parameters, uint16_t index)
+{
+    return (index < parameters->config.count) ? parameters->config.table[index].name : NULL;
+}
+
+uint16_t keel_parameters_find(const keel_parameters_t *parameters, const char *name)
+{
+    uint16_t index = 0u;
+
+    while ((index < parameters->config.count) &&
+           !is_named(&parameters->config.table[index], name)) {
+        index++;
+    }
+    return index;
+}
+
+keel_parameter_value_t keel_parameters_get(const keel_parameters_t *parameters, uint16_t index)
+{
+    return parameters->config.entry[index].value;
+}
+
+keel_status_t keel_parameters_set(keel_parameters_t *parameters, uint16_t index,
+                                  keel_parameter_value_t value)
+{
+    return (index < parameters->config.count) ? take_value(parameters, index, &value, true)
+                                              : KEEL_ERR_INPUT;
+}
+
+keel_status_t keel_parameters_set_by_name(keel_parameters_t *parameters, const char *name,
+                                          keel_parameter_value_t value)
+{
+    return keel_parameters_set(parameters, keel_parameters_find(parameters, name), value);
+}
+
+keel_status_t keel_parameters_pack(const keel_parameters_t *parameters, uint8_t *image,
+                                   uint32_t room, uint32_t *length)
+{
+    uint32_t at = 0u;
+
+    for (uint16_t i = 0u; i < parameters->config.count; i++) {
+        if (!is_default(parameters, i)) {
+            if ((room - at) < RECORD_BYTES) {
+                return KEEL_ERR_FULL;
+            }
+            write_record(&image[at], parameters->config.table[i].name,
+                         &parameters->config.entry[i].value);
+            at += RECORD_BYTES;
+        }
+    }
+    *length = at;
+    return KEEL_OK;
+}
+
+keel_parameters_loaded_t keel_parameters_load(keel_parameters_t *parameters, const uint8_t *image,
+                                              uint32_t length)
+{
+    keel_parameters_loaded_t loaded = load_records(parameters, image, length, false);
+
+    if (ask_check(&parameters->config) != KEEL_OK) {
+        loaded = load_records(parameters, image, length, true);
+    }
+    return loaded;
 }

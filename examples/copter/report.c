@@ -456,14 +456,13 @@ static bool command_ack(copter_link_t *link, uint8_t *payload)
     return true;
 }
 
-/* The bits of a whole number are sent as those of a float. */
+/* The bits of any value are sent as those of a float. */
 static float sent_as(keel_parameter_value_t value)
 {
-    float sent = value.real;
+    const uint32_t bits = keel_parameter_bits(value);
+    float sent;
 
-    if (value.type != KEEL_PARAMETER_FLOAT) {
-        (void)memcpy(&sent, &value.whole, sizeof sent);
-    }
+    (void)memcpy(&sent, &bits, sizeof sent);
     return sent;
 }
 
@@ -514,7 +513,7 @@ static bool answers(const copter_t *copter, copter_link_t *link, uint32_t sent, 
         said = command_ack(link, payload);
         break;
     case SENT_PARAM_VALUE:
-        said = param_value(&copter->parameters.table, link, payload);
+        said = param_value(&copter->tuning.table, link, payload);
         break;
     case SENT_STATUSTEXT:
         said = statustext(copter->telemetry, link, payload);

@@ -377,7 +377,7 @@ static void want(copter_link_t *link, uint32_t index)
 
 static void take_read(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
 {
-    const keel_parameters_t *const parameters = &copter->parameters.table;
+    const keel_parameters_t *const parameters = &copter->tuning.table;
     message_param_request_read_t message;
     uint32_t index;
 
@@ -404,20 +404,18 @@ static void take_list(copter_t *copter, const keel_mavlink_frame_t *frame, uint3
     }
 }
 
-/* A value as the parameter has it. Another type is none that it can have. */
+/* What is told to be of another type than the parameter is none that it can have. */
 static keel_parameter_value_t value_of(keel_parameter_type_t type,
                                        const message_param_set_t *message)
 {
-    keel_parameter_value_t value = {.type = KEEL_PARAMETER_FLOAT, .real = message->param_value};
+    const bool is_real = type == KEEL_PARAMETER_FLOAT;
+    const uint32_t told = is_real ? MAV_PARAM_TYPE_REAL32 : MAV_PARAM_TYPE_INT32;
+    keel_parameter_value_t value = {.type = KEEL_PARAMETER_FLOAT, .real = NAN};
+    uint32_t bits;
 
-    if (message->param_type == MAV_PARAM_TYPE_INT32) {
-        value.type = (type == KEEL_PARAMETER_BOOL) ? type : KEEL_PARAMETER_INT32;
-        value.real = 0.0f;
-        (void)memcpy(&value.whole, &message->param_value, sizeof value.whole);
-    } else if (message->param_type != MAV_PARAM_TYPE_REAL32) {
-        value.real = NAN; /* It is refused. */
-    } else {
-        /* As it is. */
+    if (message->param_type == told) {
+        (void)memcpy(&bits, &message->param_value, sizeof bits);
+        value = keel_parameter_from_bits(type, bits);
     }
     return value;
 }
@@ -425,7 +423,7 @@ static keel_parameter_value_t value_of(keel_parameter_type_t type,
 static void take_set(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
 {
     copter_telemetry_t *const self = copter->telemetry;
-    keel_parameters_t *const parameters = &copter->parameters.table;
+    keel_parameters_t *const parameters = &copter->tuning.table;
     message_param_set_t message;
     keel_parameter_value_t value;
     uint16_t index;

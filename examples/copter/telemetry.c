@@ -192,11 +192,11 @@ static bool send_next(copter_t *copter, uint32_t number)
 static void save_parameters(copter_t *copter)
 {
     copter_telemetry_t *const self = copter->telemetry;
-    copter_parameters_t *const parameters = &copter->parameters;
+    copter_tuning_t *const tuning = &copter->tuning;
 
-    if (self->saves && !copter->state.mode.motors && (parameters->saved != KEEL_SLOTS_BUSY)) {
+    if (self->saves && !copter->state.mode.motors && (tuning->saved != KEEL_SLOTS_BUSY)) {
         self->saves = false;
-        if (copter_parameters_save(parameters) != KEEL_OK) {
+        if (copter_tuning_save(tuning) != KEEL_OK) {
             copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "parameters: ", "not saved");
         }
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 31 --external-sat-solver cadical
 // sources: src/middleware/slots.c specs/model/slots.c
-// covers: keel_slots_init slot_fits model_slots_init
+// covers: keel_slots_init slot_fits forget_slot model_slots_init
 //
 // Any configuration: the same as the model's in every field.
 #include "slots_proof.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 9 --unwindset any_memory.0:31,read_set.0:3,crc_of_bytes.0:3,take_set.2:3 --external-sat-solver cadical
+// cbmc: --unwind 9 --external-sat-solver cadical
+// cbmc: --unwindset any_memory.0:31,read_set.0:3,crc_of_bytes.0:3,take_set.2:3
 // sources: src/middleware/slots.c specs/model/slots.c
-// covers: keel_slots_load read_slot read_head number_of byte_of piece_of crc_of_bytes crc_of_number
+// covers: keel_slots_load read_slot read_head forget_slot number_of byte_of piece_of crc_of_bytes crc_of_number
 // covers: read_set load_slot newer_slot
 // covers: model_slots_load number_byte number_at get_bytes head_of take_set
 //

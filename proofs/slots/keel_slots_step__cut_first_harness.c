@@ -6,11 +6,11 @@
 // covers: keel_slots_step read_slot write_slot byte_of piece_of byte_to_save bytes_to_save
 // covers: go_on_saving write_piece compare_piece confirm_mark clear_slot begin_to_write set_mark
 //
-// Any bytes of a medium, with a set in the first slot or none; any set that is saved then, on a medium
-// that works or writes anything and tells anything of it, as long as it has power. The power fails at
-// any byte, or not. Afterwards the old set is loaded or the new one, and the new one if the save was
-// told to be done. With the other harness for the other slot: by induction over the saves, no cut
-// loses a set.
+// Any bytes of a medium, with a set in the first slot or none; any set that is saved then, on a
+// medium that works, or writes anything and tells anything of it, as long as it has power. The
+// power fails at any byte, or not. Afterwards the old set is loaded or the new one, and the new one
+// if the save was told to be done. With the other harness for the other slot: by induction over the
+// saves, no cut loses a set.
 #include "slots_cut.h"
 
 void keel_slots_step__cut_first_harness(void)

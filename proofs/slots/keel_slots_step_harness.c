@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 9 --unwindset any_memory.0:31,keel_slots_step_harness.1:31,keel_slots_step_harness.2:31,keel_slots_step_harness.3:31,memory_erase.0:16,memory_erase.1:16,model_slots_whole.0:12 --external-sat-solver cadical
+// cbmc: --unwind 9 --external-sat-solver cadical
+// cbmc: --unwindset any_memory.0:31,keel_slots_step_harness.1:31,keel_slots_step_harness.2:31
+// cbmc: --unwindset keel_slots_step_harness.3:31,memory_erase.0:16,memory_erase.1:16
+// cbmc: --unwindset model_slots_whole.0:12
 // sources: src/middleware/slots.c specs/model/slots.c
 // covers: keel_slots_step read_slot write_slot byte_of piece_of byte_to_save bytes_to_save
 // covers: go_on_saving write_piece compare_piece confirm_mark clear_slot begin_to_write set_mark

@@ -14,9 +14,9 @@
 /* The steps of a save: which stage each is, and at which byte it begins. */
 #define STEPS 6u
 
-static const keel_slots_stage_t stage_of[STEPS] = {
-    KEEL_SLOTS_CLEARING,  KEEL_SLOTS_WRITING,   KEEL_SLOTS_WRITING,
-    KEEL_SLOTS_COMPARING, KEEL_SLOTS_COMPARING, KEEL_SLOTS_MARKING};
+static const keel_slots_stage_t stage_of[STEPS] = {KEEL_SLOTS_CLEARING,  KEEL_SLOTS_WRITING,
+                                                   KEEL_SLOTS_WRITING,   KEEL_SLOTS_COMPARING,
+                                                   KEEL_SLOTS_COMPARING, KEEL_SLOTS_MARKING};
 static const uint32_t at_of[STEPS] = {0u, 0u, 8u, 0u, 8u, 0u};
 
 /* A set as it was loaded or is saved. */

@@ -4,8 +4,8 @@
  * @brief What the harnesses of the slots share: a medium whose power may fail, arbitrary slots, and
  *        when two are the same.
  *
- * The check is any function of a value and a byte, or one that finds next to nothing: nothing that is
- * proved here rests on what a CRC finds.
+ * The check is any function of a value and a byte, or one that finds next to nothing: nothing that
+ * is proved here rests on what a CRC finds.
  */
 #ifndef SLOTS_PROOF_H
 #define SLOTS_PROOF_H
@@ -144,13 +144,12 @@ static bool memory_erase(void *context, uint32_t address, uint32_t count)
 static keel_slots_config_t memory_config(void)
 {
     const bool swapped = nondet_bool();
-    const keel_slots_config_t config = {
-        .medium = {.read = memory_read,
-                   .write = memory_write,
-                   .erase = has_erase ? memory_erase : NULL,
-                   .context = NULL},
-        .address = {swapped ? SIZE : 0u, swapped ? 0u : SIZE},
-        .room = ROOM};
+    const keel_slots_config_t config = {.medium = {.read = memory_read,
+                                                   .write = memory_write,
+                                                   .erase = has_erase ? memory_erase : NULL,
+                                                   .context = NULL},
+                                        .address = {swapped ? SIZE : 0u, swapped ? 0u : SIZE},
+                                        .room = ROOM};
 
     return config;
 }

@@ -48,7 +48,7 @@ static uint32_t number_at(const uint8_t *bytes)
     return number;
 }
 
-/* SLT-010: what a slot holds: mark, sequence number, length, bytes, the check of all but the mark. */
+/* SLT-010: what a slot holds: mark, number, length, bytes, the check of all but the mark. */
 uint8_t model_slots_byte(uint32_t sequence, const uint8_t *image, uint32_t length, uint32_t at)
 {
     uint32_t crc = 0xFFFFFFFFu;
@@ -95,8 +95,11 @@ static bool get_bytes(const keel_slots_t *slots, uint32_t index, uint32_t from, 
     bool good = true;
 
     for (uint32_t i = 0u; i < count; i++) {
-        good = good && medium->read(medium->context, slots->config.address[index] + from + i,
-                                    &bytes[i], 1u);
+        const uint32_t at = slots->config.address[index] + from + i;
+
+        if (good) {
+            good = medium->read(medium->context, at, &bytes[i], 1u);
+        }
     }
     return good;
 }
@@ -108,8 +111,11 @@ static bool put_bytes(const keel_slots_t *slots, uint32_t index, uint32_t from,
     bool good = true;
 
     for (uint32_t i = 0u; i < count; i++) {
-        good = good && medium->write(medium->context, slots->config.address[index] + from + i,
-                                     &bytes[i], 1u);
+        const uint32_t at = slots->config.address[index] + from + i;
+
+        if (good) {
+            good = medium->write(medium->context, at, &bytes[i], 1u);
+        }
     }
     return good;
 }

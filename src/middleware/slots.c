@@ -71,36 +71,45 @@ static bool write_slot(const keel_slots_t *slots, uint32_t offset, const uint8_t
     return medium->write(medium->context, slots->config.address[target] + offset, bytes, count);
 }
 
-/*@ requires \valid_read(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
-  @ requires slots == running_slots && index < KEEL_SLOTS;
-  @ assigns \nothing;
-  @ ensures \result.state == KEEL_SLOT_UNREADABLE || \result.state == KEEL_SLOT_EMPTY ||
-  @     \result.state == KEEL_SLOT_DAMAGED || \result.state == KEEL_SLOT_MARKED;
-  @ ensures \result.length <= slots->config.room;
+/* A slot of which nothing is known. */
+/*@ requires \valid(slot);
+  @ assigns slot->state, slot->sequence, slot->length;
   @*/
-static keel_slot_t read_head(const keel_slots_t *slots, uint32_t index)
+static void forget_slot(keel_slot_t *slot)
 {
-    keel_slot_t found = {.state = KEEL_SLOT_UNREADABLE, .sequence = 0u, .length = 0u};
+    slot->state = KEEL_SLOT_EMPTY;
+    slot->sequence = 0u;
+    slot->length = 0u;
+}
+
+/* What a slot's mark, sequence number and length say; the state that it has then. */
+/*@ requires \valid(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
+  @ requires slots == running_slots && index < KEEL_SLOTS;
+  @ assigns slots->slot[index].state, slots->slot[index].sequence, slots->slot[index].length;
+  @ ensures slots->slot[index].state != KEEL_SLOT_WHOLE;
+  @ ensures slots->slot[index].length <= slots->config.room;
+  @*/
+static void read_head(keel_slots_t *slots, uint32_t index)
+{
+    keel_slot_t *const slot = &slots->slot[index];
     uint8_t mark = 0u;
     uint8_t head[KEEL_SLOTS_HEAD] = {0u};
 
+    forget_slot(slot);
     if (!read_slot(slots, index, 0u, &mark, 1u)) {
-        return found;
+        slot->state = KEEL_SLOT_UNREADABLE;
+    } else if (mark != (uint8_t)KEEL_SLOTS_MARK) {
+        slot->state = KEEL_SLOT_EMPTY;
+    } else if (!read_slot(slots, index, 1u, head, HEAD_BYTES)) {
+        slot->state = KEEL_SLOT_UNREADABLE;
+    } else {
+        const uint32_t length = number_of(&head[BYTES_OF_NUMBER]);
+        const bool fits = length <= slots->config.room;
+
+        slot->state = fits ? KEEL_SLOT_MARKED : KEEL_SLOT_DAMAGED;
+        slot->sequence = number_of(head);
+        slot->length = fits ? length : 0u;
     }
-    if (mark != (uint8_t)KEEL_SLOTS_MARK) {
-        found.state = KEEL_SLOT_EMPTY;
-        return found;
-    }
-    if (!read_slot(slots, index, 1u, head, HEAD_BYTES)) {
-        return found;
-    }
-    found.state = KEEL_SLOT_DAMAGED;
-    found.sequence = number_of(head);
-    if (number_of(&head[BYTES_OF_NUMBER]) <= slots->config.room) {
-        found.state = KEEL_SLOT_MARKED;
-        found.length = number_of(&head[BYTES_OF_NUMBER]);
-    }
-    return found;
 }
 
 /*@ requires \valid_read(bytes + (0 .. count - 1));
@@ -197,9 +206,7 @@ static bool load_slot(keel_slots_t *slots, uint32_t index, uint8_t *image)
 
 /*@ requires \valid_read(slots);
   @ assigns \nothing;
-  @ ensures slots->slot[1].state == KEEL_SLOT_MARKED &&
-  @     (slots->slot[0].state != KEEL_SLOT_MARKED ||
-  @      slots->slot[1].sequence > slots->slot[0].sequence) ? \result == 1 : \result == 0;
+  @ ensures \result == 0 || \result == 1;
   @*/
 static uint32_t newer_slot(const keel_slots_t *slots)
 {
@@ -429,7 +436,6 @@ static bool slot_fits(uint32_t address, uint32_t room)
 
 keel_status_t keel_slots_init(keel_slots_t *slots, const keel_slots_config_t *config)
 {
-    static const keel_slot_t unknown = {.state = KEEL_SLOT_EMPTY, .sequence = 0u, .length = 0u};
     uint32_t size;
 
     if ((config->medium.read == NULL) || (config->medium.write == NULL)) {
@@ -444,9 +450,15 @@ keel_status_t keel_slots_init(keel_slots_t *slots, const keel_slots_config_t *co
         ((config->address[1] + size) > config->address[0])) {
         return KEEL_ERR_LIMITS;
     }
-    slots->config = *config;
-    slots->slot[0] = unknown;
-    slots->slot[1] = unknown;
+    slots->config.medium.read = config->medium.read;
+    slots->config.medium.write = config->medium.write;
+    slots->config.medium.erase = config->medium.erase;
+    slots->config.medium.context = config->medium.context;
+    slots->config.address[0] = config->address[0];
+    slots->config.address[1] = config->address[1];
+    slots->config.room = config->room;
+    forget_slot(&slots->slot[0]);
+    forget_slot(&slots->slot[1]);
     slots->stage = KEEL_SLOTS_CLOSED;
     slots->newest = 0u;
     slots->sequence = 0u;
@@ -464,8 +476,8 @@ keel_slots_result_t keel_slots_load(keel_slots_t *slots, uint8_t *image, uint32_
     bool whole;
 
     slots->stage = KEEL_SLOTS_CLOSED;
-    slots->slot[0] = read_head(slots, 0u);
-    slots->slot[1] = read_head(slots, 1u);
+    read_head(slots, 0u);
+    read_head(slots, 1u);
     index = newer_slot(slots);
     whole = load_slot(slots, index, image);
     if (!whole) {

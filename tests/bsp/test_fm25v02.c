@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Unit tests of bsp/devices/fm25v02.h with a simulated memory. Opcodes and identity are those of the
- * data sheet 001-84498. */
+/* Unit tests of bsp/devices/fm25v02.h with a simulated memory. Opcodes and identity are those of
+ * the data sheet 001-84498. */
 #include "devices/fm25v02.h"
 #include "unity.h"
 

@@ -20,21 +20,24 @@ from common.run import output_of  # noqa: E402
 # A copter's parameters behind functions of plain numbers.
 SHIM = """\
 #include "file_medium.h"
-#include "parameters.h"
+#include "tuning.h"
 #include <string.h>
-static copter_parameters_t all;
+static copter_tuning_t all;
 static keel_medium_t memory;
 static char path[512];
 int start(const char *file)
 {
     memset(&all, 0x5A, sizeof all);
     memset(&copter_settings, 0x5A, sizeof copter_settings);
-    if (file == NULL) { return (int)copter_parameters_start(&all, NULL); }
+    if (file == NULL) { return (int)copter_tuning_start(&all, NULL); }
     strncpy(path, file, sizeof path - 1u);
     memory = file_medium(path);
-    return (int)copter_parameters_start(&all, &memory);
+    return (int)copter_tuning_start(&all, &memory);
 }
-int is_default(void) { return memcmp(&copter_settings, &copter_defaults, sizeof copter_settings) == 0; }
+int is_default(void)
+{
+    return memcmp(&copter_settings, &copter_defaults, sizeof copter_settings) == 0;
+}
 int set(const char *name, int type, double number)
 {
     const keel_parameter_value_t value = {(keel_parameter_type_t)type,
@@ -42,8 +45,8 @@ int set(const char *name, int type, double number)
                                           type == 0 ? 0 : (int32_t)number};
     return (int)keel_parameters_set_by_name(&all.table, name, value);
 }
-int save(void) { return (int)copter_parameters_save(&all); }
-int step(void) { copter_parameters_step(&all); return (int)all.saved; }
+int save(void) { return (int)copter_tuning_save(&all); }
+int step(void) { copter_tuning_step(&all); return (int)all.saved; }
 int found(void) { return (int)all.found; }
 int taken(void) { return (int)all.loaded.taken; }
 double critical(void) { return copter_settings.battery.critical_voltage; }
@@ -79,7 +82,7 @@ class CopterParameters(unittest.TestCase):
         shim.write_text(SHIM, encoding="utf-8")
         folders = ("include", "examples/copter", "examples/copter_in_plant")
         copter = [ROOT / "examples/copter" / f"{name}.c"
-                  for name in ("parameters", "parameter_table", "settings")]  # fmt: skip
+                  for name in ("parameters", "parameter_table", "settings", "tuning")]  # fmt: skip
         sources = [*copter, ROOT / "examples/copter_in_plant/file_medium.c",
                    *sorted((ROOT / "src/middleware").glob("*.c")),
                    *sorted((ROOT / "src/flight").glob("*.c"))]  # fmt: skip

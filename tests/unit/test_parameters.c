@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Unit tests of keel/middleware/parameters.h. */
-#include "keel/middleware/parameters.h"
+/* Unit tests of examples/copter/parameters.h. */
 #include "unity.h"
 
 #include <math.h>
 #include <string.h>
+
+/* No part of the kernel that this test is linked with. */
+#include "../../examples/copter/parameters.c"
 
 #define COUNT 4u
 #define ROOM  (COUNT * 21u)
@@ -14,7 +16,12 @@
 #define FLAG(x)  {.type = KEEL_PARAMETER_BOOL, .whole = (x)}
 
 /* HIGH must be above LOW: what no range can say. */
-enum { LOW, HIGH, CELLS, SIXTEEN };
+enum {
+    LOW,
+    HIGH,
+    CELLS,
+    SIXTEEN
+};
 
 static const keel_parameter_t table[COUNT] = {
     {.name = "LOW", .initial = REAL(1.5f), .lowest = REAL(-8.0f), .highest = REAL(8.0f)},
@@ -202,9 +209,10 @@ static void PAR_005_what_is_refused_changes_nothing(void)
 
 /* -2.5f is 0xC0200000; 300 is 0x12C. */
 static const uint8_t stored[3u * 21u] = {
-    'L', 'O', 'W', 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x00, 0x00, 0x20, 0xC0,
-    'C', 'E', 'L', 'L', 'S', 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0x2C, 0x01, 0x00, 0x00,
-    'S', 'I', 'X', 'T', 'E', 'E', 'N', '_', 'L', 'E', 'T', 'T', 'E', 'R', 'S', '_', 2, 0, 0, 0, 0};
+    'L', 'O',  'W',  0,    0,    0,   0,    0,    0,    0,    0,   0,   0,   0,   0,   0,
+    0,   0x00, 0x00, 0x20, 0xC0, 'C', 'E',  'L',  'L',  'S',  0,   0,   0,   0,   0,   0,
+    0,   0,    0,    0,    0,    1,   0x2C, 0x01, 0x00, 0x00, 'S', 'I', 'X', 'T', 'E', 'E',
+    'N', '_',  'L',  'E',  'T',  'T', 'E',  'R',  'S',  '_',  2,   0,   0,   0,   0};
 
 static void PAR_006_stored_is_what_is_no_default(void)
 {
@@ -256,7 +264,7 @@ static void PAR_008_a_set_of_another_firmware(void)
     memset(foreign, 0, sizeof foreign);
     memcpy(foreign, stored, sizeof stored);
     memcpy(&foreign[63], "GONE", 4u);
-    foreign[20] = 0x41u; /* LOW is 10: out of its range here. */
+    foreign[20] = 0x41u;     /* LOW is 10: out of its range here. */
     foreign[21u + 16u] = 0u; /* CELLS was a float. */
     found = loaded(foreign, sizeof foreign);
     TEST_ASSERT_EQUAL_UINT32(1u, found.taken);

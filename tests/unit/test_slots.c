@@ -370,8 +370,7 @@ static void errors_are_told(bool is_flash)
     begin_empty(is_flash);
     saved("before");
     for (uint32_t n = 0u; n < 24u; n++) {
-        uint32_t *const fails[4] = {&memory.reads, &memory.writes, &memory.lies,
-                                    &memory.erasures};
+        uint32_t *const fails[4] = {&memory.reads, &memory.writes, &memory.lies, &memory.erasures};
         keel_slots_result_t result;
 
         *fails[n % 4u] = n / 4u;
@@ -406,8 +405,8 @@ static void SLT_009_errors_are_told_of_flash(void)
 static void SLT_010_the_bytes_of_a_slot(void)
 {
     /* zlib.crc32(bytes([1, 0, 0, 0, 3, 0, 0, 0]) + b"abc") is 0x5184EC61. */
-    static const uint8_t expected[16] = {0x4B, 1, 0, 0, 0, 3, 0, 0, 0, 'a', 'b', 'c',
-                                         0x61, 0xEC, 0x84, 0x51};
+    static const uint8_t expected[16] = {0x4B, 1,   0,   0,   0,    3,    0,    0,
+                                         0,    'a', 'b', 'c', 0x61, 0xEC, 0x84, 0x51};
     const uint32_t at = (slots.newest == 0u) ? SECOND : FIRST;
 
     TEST_ASSERT_EQUAL(KEEL_SLOTS_DONE, save("abc"));
