@@ -95,14 +95,14 @@ def tell(addresses: Sequence[Address]) -> None:
 def fly(arguments: Sequence[str] | None) -> int:
     """Build, warm up, serve."""
     options = parsed(arguments)
-    order = order_of(options)
+    order, key = order_of(options), key_of(options.key)
     copter = Copter(library.build(Toolchain(), options.build))
     if len(options.address) > copter.links:
         raise ToolError(f"--address: at most {copter.links}")
     lines = [Line(one) for one in options.address]
     links = [Link(options.rate, not options.listens)] * len(lines)
     pilot: type[Pilot] = Pilot if options.scenario else Bystander
-    live = Live(copter, order, pilot, links, lines, key_of(options.key),
+    live = Live(copter, order, pilot, links, lines, key,
                 options.build / "parameters")  # fmt: skip
     signal.signal(signal.SIGINT, signal.default_int_handler)  # Also in a shell's background.
     try:

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #define MILLION   1000000u
-#define PERIOD_US 10000u
+#define PERIOD_US 4000u
 #define WCET_US   250u
 #define BUDGET_US 262u
 #define PHASE_US  1900u
@@ -124,18 +124,23 @@ static void take(copter_t *copter, uint32_t number, const keel_mavlink_frame_t *
     }
 }
 
+/* Acts on one frame at most; the bytes behind it wait for the next run. */
 static void receive(copter_t *copter, uint32_t number)
 {
-    copter_telemetry_t *const self = copter->telemetry;
-    const copter_lines_t *const lines = &self->config.lines;
-    keel_mavlink_t *const decoder = &self->link[number].decoder;
-    uint8_t bytes[COPTER_LINK_BYTES];
-    const uint32_t count = lines->read(lines->context, number, bytes, COPTER_LINK_BYTES);
+    const copter_lines_t *const lines = &copter->telemetry->config.lines;
+    copter_link_t *const link = &copter->telemetry->link[number];
+    bool taken = false;
 
-    for (uint32_t i = 0u; i < count; i++) {
-        if (keel_mavlink_take(decoder, bytes[i])) {
-            take(copter, number, &decoder->frame);
-        }
+    if (link->looked_at == link->count) {
+        link->count = lines->read(lines->context, number, link->bytes, COPTER_LINK_BYTES);
+        link->looked_at = 0u;
+    }
+    while (!taken && (link->looked_at < link->count)) {
+        taken = keel_mavlink_take(&link->decoder, link->bytes[link->looked_at]);
+        link->looked_at++;
+    }
+    if (taken) {
+        take(copter, number, &link->decoder.frame);
     }
 }
 
@@ -158,8 +163,8 @@ static void ask_for_queues(const copter_telemetry_t *self, copter_link_t *link)
     }
 }
 
-/* Sends who is next. Returns whether another one may be. */
-static bool send_next(copter_t *copter, uint32_t number)
+/* Sends who is next, if the link has room for it. */
+static void send_next(copter_t *copter, uint32_t number)
 {
     copter_telemetry_t *const self = copter->telemetry;
     const copter_lines_t *const lines = &self->config.lines;
@@ -171,12 +176,12 @@ static bool send_next(copter_t *copter, uint32_t number)
     uint32_t size = 0u;
 
     if (next == COPTER_TURNS_NONE) {
-        return false;
+        return;
     }
     length = messages_sent[next].longest;
     if (!copter_turns_affords(&link->turns, length + AROUND) ||
         (lines->room(lines->context, number) < (length + AROUND))) {
-        return false;
+        return;
     }
     if (copter_report(copter, link, next, payload)) {
         size = keel_signing_write(&self->signing, &link->sender, &messages_sent[next], payload,
@@ -184,8 +189,6 @@ static bool send_next(copter_t *copter, uint32_t number)
         lines->write(lines->context, number, frame, size);
     }
     copter_turns_sent(&link->turns, next, size);
-    ask_for_queues(self, link);
-    return true;
 }
 
 /* Parameters are saved on the ground, and the last of several that were set saves them all. */
@@ -202,32 +205,43 @@ static void save_parameters(copter_t *copter)
     }
 }
 
-static void run_link(copter_t *copter, uint32_t number, uint32_t elapsed_us)
+static void run_link(copter_t *copter, uint32_t number)
 {
     copter_link_t *const link = &copter->telemetry->link[number];
+    const uint64_t now_us = copter->scheduler.clock.now_us;
+    const uint64_t passed_us = now_us - link->ran_us;
 
+    link->ran_us = now_us;
     receive(copter, number);
-    copter_turns_step(&link->turns, elapsed_us);
+    copter_turns_step(&link->turns, (passed_us < MILLION) ? (uint32_t)passed_us : MILLION);
     ask_for_queues(copter->telemetry, link);
-    for (uint32_t i = 0u; (i < COPTER_LINK_FRAMES) && send_next(copter, number); i++) {
-        /* Sent. */
+    send_next(copter, number);
+}
+
+/* The next link that is there; the same again when it is the only one. */
+static uint32_t next_link(const copter_telemetry_t *self)
+{
+    uint32_t next = self->turn;
+
+    for (uint32_t i = COPTER_LINKS; i > 0u; i--) {
+        const uint32_t number = (self->turn + i) % COPTER_LINKS;
+
+        if (self->config.link[number].bytes_per_s > 0u) {
+            next = number;
+        }
     }
+    return next;
 }
 
 void copter_telemetry(copter_t *copter)
 {
     copter_telemetry_t *const self = copter->telemetry;
-    const uint64_t now_us = copter->scheduler.clock.now_us;
-    const uint64_t passed_us = now_us - self->ran_us;
-    const uint32_t elapsed_us = (passed_us < MILLION) ? (uint32_t)passed_us : MILLION;
 
-    self->ran_us = now_us;
     tell_state(self, &copter->state.mode);
     copter_take_answers(copter);
     save_parameters(copter);
-    for (uint32_t i = 0u; i < COPTER_LINKS; i++) {
-        if (self->config.link[i].bytes_per_s > 0u) {
-            run_link(copter, i, elapsed_us);
-        }
+    self->turn = next_link(self);
+    if (self->config.link[self->turn].bytes_per_s > 0u) {
+        run_link(copter, self->turn);
     }
 }

@@ -5,8 +5,9 @@
  *
  * A copter has up to COPTER_LINKS links, each with its own decoder, intervals, answers and bytes
  * per second (turns.h). Nothing waits: what finds no room on a link is sent later, and what does
- * not fit into a queue is not sent; texts that a link missed are counted. A run takes at most
- * COPTER_LINK_BYTES of each link and sends at most COPTER_LINK_FRAMES.
+ * not fit into a queue is not sent; texts that a link missed are counted. A run is for one link,
+ * looks at no more than COPTER_LINK_BYTES of it, acts on at most one frame, and sends at most one:
+ * so its time is bounded, whatever comes.
  *
  * What a ground station may ask is in take.c; what moves the aircraft goes through request.h.
  */
@@ -26,8 +27,7 @@
 #define COPTER_SYSTEM 1u
 
 #define COPTER_LINKS       3u
-#define COPTER_LINK_BYTES  128u
-#define COPTER_LINK_FRAMES 2u
+#define COPTER_LINK_BYTES  64u
 #define COPTER_LINK_ACKS   4u
 #define COPTER_TEXTS       16u
 #define COPTER_TEXT_LENGTH 50u
@@ -70,6 +70,10 @@ typedef struct copter_link {
     keel_mavlink_t decoder;
     keel_mavlink_sender_t sender;
     copter_turns_t turns;
+    uint8_t bytes[COPTER_LINK_BYTES]; /**< That came: of count, those from looked_at on wait. */
+    uint32_t count;
+    uint32_t looked_at;
+    uint64_t ran_us;                             /**< When it had its last run. */
     message_command_ack_t ack[COPTER_LINK_ACKS]; /**< To be sent, the oldest first. */
     uint32_t acks;
     uint32_t texts;      /**< Of telemetry.texts, those sent or missed. */
@@ -105,7 +109,7 @@ typedef struct copter_telemetry {
     uint32_t texts;                   /**< How many there were. */
     copter_waiter_t arm_waiter;
     copter_waiter_t mode_waiter;
-    uint64_t ran_us;
+    uint32_t turn; /**< The link that had the last run. */
     bool saves;    /**< Parameters were set, and are to be saved on the ground. */
     uint8_t state; /**< The state machine's, in the last run. */
 } copter_telemetry_t;

@@ -213,6 +213,19 @@ def test_a_link_that_nobody_reads_holds_up_nothing(copter: Copter) -> None:
     assert rig.counts(0)["BAD_DATA"] == 0 and rig.counts(0)["ATTITUDE"] > 40
 
 
+def test_a_link_that_is_flooded_is_its_own_trouble(copter: Copter) -> None:
+    rig = Rig(copter, [Link(), Link()], warm_ms=WARM_MS)
+    before = rig.counts(1)
+    flood = b"".join(mavlink.MAVLink_param_set_message(1, 1, b"POS_P", float("nan"), 9)
+                     .pack(rig.station) for _ in range(90))  # fmt: skip
+    for _ in range(50):
+        rig.copter.send(0, flood)
+        rig.run(100)
+    came = rig.counts(1) - before
+    assert came["ATTITUDE"] > 60 and came["HEARTBEAT"] >= 4
+    assert rig.ask(ARM, 1, link=1) == ACCEPTED
+
+
 def test_parameters_are_listed_under_pressure(copter: Copter) -> None:
     rig = Rig(copter, [Link(1500)])
     rig.send(mavlink.MAVLink_param_request_list_message(1, 1))
@@ -493,6 +506,22 @@ def test_the_bystander_flies_when_others_arm(copter: Copter) -> None:
             copter.send(0, mavlink.MAVLink_command_long_message(
                 1, 1, ARM, 0, 1, *[0] * 6).pack(station))  # fmt: skip
     assert 3.5 < flight._plant.truth().place[2] < 6.5
+
+
+@pytest.mark.parametrize(("options", "reason"), [
+    (["--address", "here"], "here: expected host:port"),
+    (["--address", "127.0.0.1:99999"], "expected host:port"),
+    (["--rate", "0"], "--rate: expected 1 to"),
+    (["--key", "nowhere"], "nowhere: cannot be read"),
+    (["--scenario", "nothing"], "nothing"),
+])  # fmt: skip
+def test_what_cannot_be_flown_is_said(
+    options: list[str], reason: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import sim
+
+    assert sim.main(options) == 2
+    assert reason in capsys.readouterr().err
 
 
 def test_the_messages_are_up_to_date() -> None:
