@@ -455,7 +455,7 @@ def test_a_flight_with_three_links_keeps_its_limits(copter: Copter) -> None:
     made = scenario.read("hover")
     start = copter.start
     try:
-        copter.start = lambda cost, mean, _=(): start(cost, mean, [Link()] * 3)  # type: ignore
+        copter.start = lambda cost, mean, *_: start(cost, mean, [Link()] * 3)  # type: ignore
         told = fly(copter, Order(made, "mujoco", 1))
     finally:
         del copter.start
