@@ -4,9 +4,9 @@
 
     python3 tools/with_packages.py sim tools/sim.py [--address 127.0.0.1:14550] [--scenario NAME]
 
-It stands on the ground, its pilot's sticks low and his arm switch off. A ground station arms it; the
-pilot then climbs to 5 m and lets go of the sticks. With --scenario he arms and flies that instead.
-Each --address is a link of its own, at most three.
+It stands on the ground, its pilot's sticks low and his arm switch off. A ground station arms it;
+the pilot then climbs to 5 m and lets go of the sticks. With --scenario he arms and flies that
+instead. Each --address is a link of its own, at most three.
 
 Exit status: 0 when it is interrupted, 1 when the aircraft crashes, 2 when it cannot be flown.
 """
@@ -50,7 +50,7 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--rate", type=int, default=20_000, metavar="BYTES",
                         help="that each link carries in a second")  # fmt: skip
     parser.add_argument("--key", type=Path, metavar="FILE",
-                        help="sign, and take only what is signed: 64 hexadecimal digits")  # fmt: skip
+                        help="sign, and take only what is signed; 64 hexadecimal digits")
     parser.add_argument("--scenario", metavar="NAME", help="one of examples/copter/scenarios")
     parser.add_argument("--plant", choices=plants.NAMES, default="jsbsim")
     parser.add_argument("--cold", action="store_true", help="begin with the power-up")
@@ -84,7 +84,7 @@ def tell(addresses: Sequence[Address]) -> None:
     """How to connect."""
     print(f"MAVLink 2 goes to {', '.join(str(one) for one in addresses)}, by UDP. "
           "System 1, component 1.")  # fmt: skip
-    print("QGroundControl finds it by itself at 14550. Others:")
+    print("QGroundControl listens at 14550 by itself. Others:")
     for one in addresses:
         print(f"    mavproxy.py --master=udpin:{one}")
         print(f'    pymavlink   mavutil.mavlink_connection("udpin:{one}")')
