@@ -333,7 +333,7 @@ static const keel_mavlink_message_t mavlink_workload[1] = {
 /* One heartbeat behind the other. */
 static uint8_t mavlink_byte_at(uint32_t n)
 {
-    static const uint8_t heartbeat[21] = {0xFD, 9, 0, 0, 0, 1, 1, 0, 0, 0,   0,
+    static const uint8_t heartbeat[21] = {0xFD, 9, 0, 0, 0, 1, 1, 0, 0,    0,   0,
                                           0,    0, 0, 2, 0, 0, 3, 3, 0x83, 0x46};
 
     return heartbeat[n % 21u];

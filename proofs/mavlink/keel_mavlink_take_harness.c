@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 256 --external-sat-solver cadical
 // sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c
-// covers: keel_mavlink_take offer hold count_met pair_at end_of whole_frame place_of check_flags
-// covers: check_message timestamp_at publish_payload publish_signature publish_frame end_frame
+// covers: keel_mavlink_take offer put_byte count_met id_in checksum_in end_of whole_frame place_of
+// covers: check_flags check_message timestamp_in publish_payload publish_signature publish_frame
+// covers: end_frame
 // covers: model_mavlink_take begin_with keep begin_again look_up finish_frame tally number
 // covers: model_mavlink_whole model_mavlink_frame
 //

@@ -36,8 +36,8 @@ void keel_signing_write_harness(void)
         out[i] = nondet_u8();
         model_out[i] = out[i];
     }
-    expected =
-        model_signing_write(&model, &model_sender, &message, payload, length, model_out, size);
+    expected = model_signing_write(&model, &model_sender, &message, payload, length, model_out,
+                                   size);
     model_asked = asked;
     model_size = asked_size;
     model_byte = asked_byte;

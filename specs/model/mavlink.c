@@ -49,9 +49,9 @@ static void tally(uint32_t *count)
 }
 
 /* MAV-004: ten bytes, the payload, two bytes, and thirteen when it is signed. */
-uint32_t model_mavlink_whole(const uint8_t *bytes)
+uint32_t model_mavlink_whole(const uint8_t *header)
 {
-    return 12u + bytes[1] + (((bytes[2] & 1u) != 0u) ? 13u : 0u);
+    return 12u + header[1] + (((header[2] & 1u) != 0u) ? 13u : 0u);
 }
 
 /* MAV-004: of all bytes from the length to the payload's last. */
@@ -77,28 +77,28 @@ static uint64_t number(const uint8_t *bytes, uint32_t count)
 }
 
 /* MAV-005 */
-keel_mavlink_frame_t model_mavlink_frame(const uint8_t *bytes)
+keel_mavlink_frame_t model_mavlink_frame(const keel_mavlink_t *mavlink)
 {
-    const uint32_t length = bytes[1];
-    keel_mavlink_frame_t frame = {.id = (uint32_t)number(&bytes[7], 3u),
-                                  .sequence = bytes[4],
-                                  .system = bytes[5],
-                                  .component = bytes[6],
-                                  .compatible = bytes[3],
-                                  .length = bytes[1],
-                                  .is_signed = (bytes[2] & 1u) != 0u};
+    const uint8_t *header = mavlink->header;
+    keel_mavlink_frame_t frame = {.id = (uint32_t)number(&header[7], 3u),
+                                  .sequence = header[4],
+                                  .system = header[5],
+                                  .component = header[6],
+                                  .compatible = header[3],
+                                  .length = header[1],
+                                  .checksum = (uint16_t)number(mavlink->tail, 2u),
+                                  .is_signed = (header[2] & 1u) != 0u};
 
-    frame.checksum = (uint16_t)number(&bytes[10u + length], 2u);
     for (uint32_t i = 0u; i < 255u; i++) {
-        if (i < length) {
-            frame.payload[i] = bytes[10u + i];
+        if (i < header[1]) {
+            frame.payload[i] = mavlink->payload[i];
         }
     }
     if (frame.is_signed) {
-        frame.link = bytes[12u + length];
-        frame.timestamp = number(&bytes[13u + length], 6u);
+        frame.link = mavlink->tail[2];
+        frame.timestamp = number(&mavlink->tail[3], 6u);
         for (uint32_t i = 0u; i < 6u; i++) {
-            frame.seal[i] = bytes[19u + length + i];
+            frame.seal[i] = mavlink->tail[9u + i];
         }
     }
     return frame;
@@ -109,11 +109,21 @@ static void keep(keel_mavlink_t *mavlink, uint8_t byte)
 {
     const uint32_t at = mavlink->held;
 
-    mavlink->bytes[at] = byte;
+    const uint32_t length = mavlink->header[1];
+    const bool is_header = at < 10u;
+    const bool is_payload = !is_header && ((at - 10u) < length);
+
+    if (is_header) {
+        mavlink->header[at] = byte;
+    } else if (is_payload) {
+        mavlink->payload[at - 10u] = byte;
+    } else {
+        mavlink->tail[at - (10u + length)] = byte;
+    }
     mavlink->held = (uint16_t)(at + 1u);
     if (at == 0u) {
         mavlink->crc = 0xFFFFu;
-    } else if ((at == 1u) || (at < (10u + (uint32_t)mavlink->bytes[1]))) {
+    } else if (is_header || is_payload) {
         mavlink->crc = keel_crc16(mavlink->crc, byte);
     }
 }
@@ -131,8 +141,8 @@ static void begin_with(keel_mavlink_t *mavlink, uint8_t byte)
 /* MAV-009: the search goes on at the second byte, and then at the third. */
 static void begin_again(keel_mavlink_t *mavlink)
 {
-    const uint8_t second = mavlink->bytes[1];
-    const uint8_t third = mavlink->bytes[2];
+    const uint8_t second = mavlink->header[1];
+    const uint8_t third = mavlink->header[2];
 
     tally(&mavlink->count.flags);
     mavlink->held = 0u;
@@ -147,13 +157,13 @@ static void begin_again(keel_mavlink_t *mavlink)
 /* MAV-004, MAV-007: the place of the message that the header names, if it may be so long. */
 static void look_up(keel_mavlink_t *mavlink)
 {
-    const uint32_t id = (uint32_t)number(&mavlink->bytes[7], 3u);
+    const uint32_t id = (uint32_t)number(&mavlink->header[7], 3u);
 
     mavlink->message = mavlink->known;
     for (uint32_t i = 0u; i < mavlink->known; i++) {
         if (mavlink->messages[i].id == id) {
-            if ((mavlink->messages[i].shortest <= mavlink->bytes[1]) &&
-                (mavlink->bytes[1] <= mavlink->messages[i].longest)) {
+            if ((mavlink->messages[i].shortest <= mavlink->header[1]) &&
+                (mavlink->header[1] <= mavlink->messages[i].longest)) {
                 mavlink->message = i;
             } else {
                 tally(&mavlink->count.lengths);
@@ -167,18 +177,16 @@ static void look_up(keel_mavlink_t *mavlink)
 /* MAV-004, MAV-006 */
 static bool finish_frame(keel_mavlink_t *mavlink)
 {
-    const uint32_t end = 10u + (uint32_t)mavlink->bytes[1];
-
     mavlink->held = 0u;
     if (mavlink->message == mavlink->known) {
         return false;
     }
-    if (number(&mavlink->bytes[end], 2u) !=
+    if (number(mavlink->tail, 2u) !=
         keel_crc16(mavlink->crc, mavlink->messages[mavlink->message].crc_extra)) {
         tally(&mavlink->count.checksums);
         return false;
     }
-    mavlink->frame = model_mavlink_frame(mavlink->bytes);
+    mavlink->frame = model_mavlink_frame(mavlink);
     tally(&mavlink->count.frames);
     return true;
 }
@@ -190,13 +198,13 @@ bool model_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte)
         return false;
     }
     keep(mavlink, byte);
-    if ((mavlink->held == 3u) && (mavlink->bytes[2] >= 2u)) {
+    if ((mavlink->held == 3u) && (mavlink->header[2] >= 2u)) {
         begin_again(mavlink);
     }
     if (mavlink->held == 10u) {
         look_up(mavlink);
     }
-    if ((mavlink->held >= 12u) && (mavlink->held == model_mavlink_whole(mavlink->bytes))) {
+    if ((mavlink->held >= 12u) && (mavlink->held == model_mavlink_whole(mavlink->header))) {
         return finish_frame(mavlink);
     }
     return false;

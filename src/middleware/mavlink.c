@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "keel/middleware/mavlink.h"
 
-/* Where it is in a frame. */
+/* Where it is in a header. */
 #define LENGTH_AT     1u
 #define FLAGS_AT      2u
 #define COMPATIBLE_AT 3u
@@ -9,9 +9,11 @@
 #define SYSTEM_AT     5u
 #define COMPONENT_AT  6u
 #define ID_AT         7u
-#define PAYLOAD_AT    10u
 
-/* From the checksum on. */
+/* Where the payload is in a frame. */
+#define PAYLOAD_AT ((uint32_t)KEEL_MAVLINK_HEADER_BYTES)
+
+/* Where it is in a tail, behind the checksum. */
 #define LINK_AT      2u
 #define TIMESTAMP_AT 3u
 #define SEAL_AT      9u
@@ -19,8 +21,9 @@
 /* The one flag of those that a decoder has to know. */
 #define FLAG_SIGNED 1u
 
-#define BYTE            0xFFu
-#define BITS            8u
+#define BYTE 0xFFu
+#define BITS 8u
+
 #define TIMESTAMP_BYTES 6u
 
 /*@ requires \valid(count);
@@ -32,36 +35,48 @@ static void count_met(uint32_t *count)
     *count += (*count < UINT32_MAX) ? 1u : 0u;
 }
 
-/*@ requires \valid_read(bytes + (0 .. 1));
+/* With a header: its message. */
+/*@ requires \valid_read(mavlink);
   @ assigns \nothing;
-  @ ensures \result == mavlink_pair(bytes, 0);
+  @ ensures \result == mavlink_id(&mavlink->header[0]);
   @*/
-static uint32_t pair_at(const uint8_t *bytes)
+static uint32_t id_in(const keel_mavlink_t *mavlink)
 {
-    return bytes[0] + (256u * bytes[1]);
+    return mavlink->header[ID_AT] + (256u * mavlink->header[ID_AT + 1u]) +
+           (65536u * mavlink->header[ID_AT + 2u]);
+}
+
+/* With a checksum: that. */
+/*@ requires \valid_read(mavlink);
+  @ assigns \nothing;
+  @*/
+static uint16_t checksum_in(const keel_mavlink_t *mavlink)
+{
+    return (uint16_t)(mavlink->tail[0] + (256u * mavlink->tail[1]));
 }
 
 /* With a length: where its checksum is. */
-/*@ requires \valid_read(bytes + (0 .. 1));
+/*@ requires \valid_read(mavlink);
   @ assigns \nothing;
-  @ ensures \result == mavlink_end(bytes);
+  @ ensures \result == mavlink_end(&mavlink->header[0]);
   @*/
-static uint32_t end_of(const uint8_t *bytes)
+static uint32_t end_of(const keel_mavlink_t *mavlink)
 {
-    return PAYLOAD_AT + (uint32_t)bytes[LENGTH_AT];
+    return PAYLOAD_AT + (uint32_t)mavlink->header[LENGTH_AT];
 }
 
 /* With flags: how many bytes it has. */
-/*@ requires \valid_read(bytes + (0 .. 2));
+/*@ requires \valid_read(mavlink);
   @ assigns \nothing;
-  @ ensures \result == mavlink_whole(bytes);
+  @ ensures \result == mavlink_whole(&mavlink->header[0]);
   @*/
-static uint32_t whole_frame(const uint8_t *bytes)
+static uint32_t whole_frame(const keel_mavlink_t *mavlink)
 {
-    const uint32_t signature = (bytes[FLAGS_AT] != 0u) ? (uint32_t)KEEL_MAVLINK_SIGNATURE_BYTES
-                                                       : 0u;
+    const uint32_t signature = (mavlink->header[FLAGS_AT] != 0u)
+                                   ? (uint32_t)KEEL_MAVLINK_SIGNATURE_BYTES
+                                   : 0u;
 
-    return end_of(bytes) + (uint32_t)KEEL_MAVLINK_CHECKSUM_BYTES + signature;
+    return end_of(mavlink) + (uint32_t)KEEL_MAVLINK_CHECKSUM_BYTES + signature;
 }
 
 /* The message's place; the number of messages when there is none. */
@@ -86,62 +101,94 @@ static uint32_t place_of(const keel_mavlink_t *mavlink, uint32_t id)
     return place;
 }
 
-/* Adds a byte to a partial frame, or begins one with it. */
+/* Puts a byte where it belongs. Whether the checksum is of it, too. */
 /*@ requires \valid(mavlink) && mavlink->held < KEEL_MAVLINK_FRAME_MAX;
-  @ requires mavlink->held == 0 ==> byte == KEEL_MAVLINK_FIRST;
-  @ assigns mavlink->bytes[mavlink->held], mavlink->held, mavlink->crc;
-  @ ensures mavlink->held == \old(mavlink->held) + 1;
-  @ ensures mavlink->bytes[\old(mavlink->held)] == byte;
-  @ ensures mavlink->crc == (\old(mavlink->held) == 0 ? KEEL_CRC16_FIRST :
-  @     \old(mavlink->held) < mavlink_end(&mavlink->bytes[0]) ?
-  @         mavlink_rest(\old(mavlink->crc), byte) : \old(mavlink->crc));
+  @ requires mavlink->held > 2 ==> mavlink->header[2] <= 1 &&
+  @     mavlink->held < mavlink_whole(&mavlink->header[0]);
+  @ assigns mavlink->header[0 .. KEEL_MAVLINK_HEADER_BYTES - 1],
+  @     mavlink->payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1],
+  @     mavlink->tail[0 .. KEEL_MAVLINK_TAIL_MAX - 1];
+  @ ensures \result <==> \old(mavlink->held < mavlink_end(&mavlink->header[0]));
+  @ ensures \forall integer i; 0 <= i < KEEL_MAVLINK_HEADER_BYTES ==> mavlink->header[i] ==
+  @     (i == mavlink->held ? byte : \old(mavlink->header[i]));
+  @ ensures \forall integer i; 0 <= i < \old(mavlink->header[1]) ==> mavlink->payload[i] ==
+  @     (KEEL_MAVLINK_HEADER_BYTES + i == mavlink->held ? byte : \old(mavlink->payload[i]));
   @*/
-static void hold(keel_mavlink_t *mavlink, uint8_t byte)
+static bool put_byte(keel_mavlink_t *mavlink, uint8_t byte)
 {
-    mavlink->bytes[mavlink->held] = byte;
-    if (mavlink->held == 0u) {
-        mavlink->crc = KEEL_CRC16_FIRST;
-    } else if ((uint32_t)mavlink->held < end_of(mavlink->bytes)) {
-        mavlink->crc = keel_crc16(mavlink->crc, byte);
+    const uint32_t at = mavlink->held;
+    const uint32_t end = end_of(mavlink);
+
+    if (at < PAYLOAD_AT) {
+        mavlink->header[at] = byte;
+    } else if (at < end) {
+        mavlink->payload[at - PAYLOAD_AT] = byte;
     } else {
-        /* The checksum and the signature are not part of what the checksum is of. */
+        mavlink->tail[at - end] = byte;
     }
-    mavlink->held++;
+    return at < end;
 }
 
+/* Takes a byte into a partial frame, or begins one with it. */
 /*@ requires \valid(mavlink) && mavlink->held < KEEL_MAVLINK_FRAME_MAX;
-  @ assigns mavlink->bytes[mavlink->held], mavlink->held, mavlink->crc, mavlink->count.others;
-  @ ensures \old(mavlink->held) == 0 && byte != KEEL_MAVLINK_FIRST ==>
-  @     mavlink->held == 0 && mavlink->crc == \old(mavlink->crc);
+  @ requires mavlink->held > 2 ==> mavlink->header[2] <= 1 &&
+  @     mavlink->held < mavlink_whole(&mavlink->header[0]);
+  @ assigns mavlink->header[0 .. KEEL_MAVLINK_HEADER_BYTES - 1],
+  @     mavlink->payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1],
+  @     mavlink->tail[0 .. KEEL_MAVLINK_TAIL_MAX - 1], mavlink->held, mavlink->crc,
+  @     mavlink->count.others;
+  @ ensures \old(mavlink->held) == 0 && byte != KEEL_MAVLINK_FIRST ==> mavlink->held == 0 &&
+  @     mavlink->crc == \old(mavlink->crc);
   @ ensures \old(mavlink->held) > 0 || byte == KEEL_MAVLINK_FIRST ==>
-  @     mavlink->held == \old(mavlink->held) + 1 &&
-  @     mavlink->bytes[\old(mavlink->held)] == byte &&
-  @     mavlink->crc == (\old(mavlink->held) == 0 ? KEEL_CRC16_FIRST :
-  @         \old(mavlink->held) < mavlink_end(&mavlink->bytes[0]) ?
-  @             mavlink_rest(\old(mavlink->crc), byte) : \old(mavlink->crc));
+  @     mavlink->held == \old(mavlink->held) + 1;
+  @ ensures \old(mavlink->held) > 0 || byte == KEEL_MAVLINK_FIRST ==>
+  @     \forall integer i; 0 <= i < KEEL_MAVLINK_HEADER_BYTES ==> mavlink->header[i] ==
+  @         (i == \old(mavlink->held) ? byte : \old(mavlink->header[i]));
+  @ ensures \old(mavlink->held) > 0 ==>
+  @     \forall integer i; 0 <= i < \old(mavlink->header[1]) ==> mavlink->payload[i] ==
+  @         (KEEL_MAVLINK_HEADER_BYTES + i == \old(mavlink->held) ? byte :
+  @             \old(mavlink->payload[i]));
+  @ ensures \old(mavlink->held) == 0 && byte == KEEL_MAVLINK_FIRST ==>
+  @     mavlink->crc == KEEL_CRC16_FIRST;
+  @ ensures \old(mavlink->held) > 2 ==> mavlink->crc ==
+  @     (\old(mavlink->held < mavlink_end(&mavlink->header[0])) ?
+  @         mavlink_rest(\old(mavlink->crc), byte) : \old(mavlink->crc));
   @*/
 static void offer(keel_mavlink_t *mavlink, uint8_t byte)
 {
-    if ((mavlink->held == 0u) && (byte != (uint8_t)KEEL_MAVLINK_FIRST)) {
-        count_met(&mavlink->count.others);
+    if (mavlink->held > 0u) {
+        if (put_byte(mavlink, byte)) {
+            mavlink->crc = keel_crc16(mavlink->crc, byte);
+        }
+        mavlink->held++;
+    } else if (byte == (uint8_t)KEEL_MAVLINK_FIRST) {
+        (void)put_byte(mavlink, byte);
+        mavlink->crc = KEEL_CRC16_FIRST;
+        mavlink->held = 1u;
     } else {
-        hold(mavlink, byte);
+        count_met(&mavlink->count.others);
     }
 }
 
 /* With three bytes. When they begin no frame, one may begin at the second or the third. */
-/*@ requires \valid(mavlink) && mavlink->held == 3 && mavlink->bytes[0] == KEEL_MAVLINK_FIRST;
-  @ assigns mavlink->bytes[0 .. 1], mavlink->held, mavlink->crc, mavlink->count.others,
-  @     mavlink->count.flags;
-  @ ensures \old(mavlink->bytes[2]) <= 1 ==> mavlink->held == 3 &&
-  @     mavlink->crc == \old(mavlink->crc) && mavlink->bytes[1] == \old(mavlink->bytes[1]);
-  @ ensures \old(mavlink->bytes[2]) > 1 ==> mavlink->held <= 2;
-  @ ensures mavlink->held > 0 ==> mavlink->bytes[0] == KEEL_MAVLINK_FIRST;
+/*@ requires \valid(mavlink) && mavlink->held == 3 && mavlink->header[0] == KEEL_MAVLINK_FIRST;
+  @ assigns mavlink->header[0 .. KEEL_MAVLINK_HEADER_BYTES - 1],
+  @     mavlink->payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1],
+  @     mavlink->tail[0 .. KEEL_MAVLINK_TAIL_MAX - 1], mavlink->held, mavlink->crc,
+  @     mavlink->count.others, mavlink->count.flags;
+  @ ensures \old(mavlink->header[2]) <= 1 ==> mavlink->held == 3 &&
+  @     mavlink->crc == \old(mavlink->crc) &&
+  @     (\forall integer i; 0 <= i < KEEL_MAVLINK_HEADER_BYTES ==>
+  @         mavlink->header[i] == \old(mavlink->header[i])) &&
+  @     (\forall integer i; 0 <= i < KEEL_MAVLINK_PAYLOAD_MAX ==>
+  @         mavlink->payload[i] == \old(mavlink->payload[i]));
+  @ ensures \old(mavlink->header[2]) > 1 ==> mavlink->held <= 2;
+  @ ensures mavlink->held > 0 ==> mavlink->header[0] == KEEL_MAVLINK_FIRST;
   @*/
 static void check_flags(keel_mavlink_t *mavlink)
 {
-    const uint8_t second = mavlink->bytes[LENGTH_AT];
-    const uint8_t third = mavlink->bytes[FLAGS_AT];
+    const uint8_t second = mavlink->header[LENGTH_AT];
+    const uint8_t third = mavlink->header[FLAGS_AT];
 
     if (third > FLAG_SIGNED) {
         count_met(&mavlink->count.flags);
@@ -156,15 +203,13 @@ static void check_flags(keel_mavlink_t *mavlink)
   @ assigns mavlink->message, mavlink->count.unknown, mavlink->count.lengths;
   @ ensures mavlink->message <= mavlink->known;
   @ ensures mavlink->message < mavlink->known ==>
-  @     mavlink_is_of(&mavlink->bytes[0], mavlink->messages + mavlink->message);
+  @     mavlink_is_of(&mavlink->header[0], mavlink->messages + mavlink->message);
   @*/
 static void check_message(keel_mavlink_t *mavlink)
 {
-    const uint32_t id = pair_at(&mavlink->bytes[ID_AT]) +
-                        (65536u * mavlink->bytes[ID_AT + 2u]);
-    const uint8_t length = mavlink->bytes[LENGTH_AT];
+    const uint8_t length = mavlink->header[LENGTH_AT];
 
-    mavlink->message = place_of(mavlink, id);
+    mavlink->message = place_of(mavlink, id_in(mavlink));
     if (mavlink->message == mavlink->known) {
         count_met(&mavlink->count.unknown);
     } else if ((length < mavlink->messages[mavlink->message].shortest) ||
@@ -176,99 +221,106 @@ static void check_message(keel_mavlink_t *mavlink)
     }
 }
 
-/*@ requires \valid_read(bytes + (0 .. TIMESTAMP_BYTES - 1));
+/* With a signature: its time. */
+/*@ requires \valid_read(mavlink);
   @ assigns \nothing;
-  @ ensures \result == mavlink_pair(bytes, 0) + 65536 * mavlink_pair(bytes, 2) +
-  @     4294967296 * mavlink_pair(bytes, 4);
   @*/
-static uint64_t timestamp_at(const uint8_t *bytes)
+static uint64_t timestamp_in(const keel_mavlink_t *mavlink)
 {
-    return pair_at(bytes) + (65536u * (uint64_t)pair_at(&bytes[2])) +
-           (4294967296u * (uint64_t)pair_at(&bytes[4]));
+    uint64_t timestamp = 0u;
+
+    /*@ loop invariant 0 <= i <= TIMESTAMP_BYTES && timestamp < (1 << (8 * i));
+      @ loop assigns i, timestamp;
+      @ loop variant TIMESTAMP_BYTES - i;
+      @*/
+    for (uint32_t i = 0u; i < TIMESTAMP_BYTES; i++) {
+        timestamp |= (uint64_t)mavlink->tail[TIMESTAMP_AT + i] << (BITS * i);
+    }
+    return timestamp;
 }
 
-/*@ requires \valid(frame) && \valid_read(bytes + (0 .. KEEL_MAVLINK_FRAME_MAX - 1)) &&
-  @     \separated(frame, bytes + (0 .. KEEL_MAVLINK_FRAME_MAX - 1));
-  @ assigns frame->payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1];
-  @ ensures \forall integer i; 0 <= i < KEEL_MAVLINK_PAYLOAD_MAX ==> frame->payload[i] ==
-  @     (i < bytes[1] ? bytes[KEEL_MAVLINK_HEADER_BYTES + i] : 0);
+/*@ requires \valid(mavlink);
+  @ assigns mavlink->frame.payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1];
+  @ ensures \forall integer i; 0 <= i < KEEL_MAVLINK_PAYLOAD_MAX ==> mavlink->frame.payload[i] ==
+  @     \old(i < mavlink->header[1] ? mavlink->payload[i] : 0);
   @*/
-static void publish_payload(keel_mavlink_frame_t *frame, const uint8_t *bytes)
+static void publish_payload(keel_mavlink_t *mavlink)
 {
+    const uint8_t length = mavlink->header[LENGTH_AT];
+
     /*@ loop invariant 0 <= i <= KEEL_MAVLINK_PAYLOAD_MAX;
-      @ loop invariant \forall integer j; 0 <= j < i ==> frame->payload[j] ==
-      @     (j < bytes[1] ? bytes[KEEL_MAVLINK_HEADER_BYTES + j] : 0);
-      @ loop assigns i, frame->payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1];
+      @ loop invariant \forall integer j; 0 <= j < i ==> mavlink->frame.payload[j] ==
+      @     \at(j < mavlink->header[1] ? mavlink->payload[j] : 0, Pre);
+      @ loop assigns i, mavlink->frame.payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1];
       @ loop variant KEEL_MAVLINK_PAYLOAD_MAX - i;
       @*/
     for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_PAYLOAD_MAX; i++) {
-        frame->payload[i] = (i < bytes[LENGTH_AT]) ? bytes[PAYLOAD_AT + i] : 0u;
+        mavlink->frame.payload[i] = (i < length) ? mavlink->payload[i] : 0u;
     }
 }
 
-/*@ requires \valid(frame) && \valid_read(bytes + (0 .. KEEL_MAVLINK_FRAME_MAX - 1)) &&
-  @     \separated(frame, bytes + (0 .. KEEL_MAVLINK_FRAME_MAX - 1));
-  @ assigns frame->is_signed, frame->link, frame->timestamp,
-  @     frame->seal[0 .. KEEL_MAVLINK_SEAL_BYTES - 1];
-  @ ensures frame->is_signed <==> bytes[2] != 0;
+/*@ requires \valid(mavlink);
+  @ assigns mavlink->frame.is_signed, mavlink->frame.link, mavlink->frame.timestamp,
+  @     mavlink->frame.seal[0 .. KEEL_MAVLINK_SEAL_BYTES - 1];
+  @ ensures mavlink->frame.is_signed <==> \old(mavlink->header[2]) != 0;
   @*/
-static void publish_signature(keel_mavlink_frame_t *frame, const uint8_t *bytes)
+static void publish_signature(keel_mavlink_t *mavlink)
 {
-    const uint32_t end = end_of(bytes);
-    const bool is_signed = bytes[FLAGS_AT] != 0u;
+    const bool is_signed = mavlink->header[FLAGS_AT] != 0u;
 
-    frame->is_signed = is_signed;
-    frame->link = is_signed ? bytes[end + LINK_AT] : 0u;
-    frame->timestamp = is_signed ? timestamp_at(&bytes[end + TIMESTAMP_AT]) : 0u;
+    mavlink->frame.is_signed = is_signed;
+    mavlink->frame.link = is_signed ? mavlink->tail[LINK_AT] : 0u;
+    mavlink->frame.timestamp = is_signed ? timestamp_in(mavlink) : 0u;
     /*@ loop invariant 0 <= i <= KEEL_MAVLINK_SEAL_BYTES;
-      @ loop assigns i, frame->seal[0 .. KEEL_MAVLINK_SEAL_BYTES - 1];
+      @ loop assigns i, mavlink->frame.seal[0 .. KEEL_MAVLINK_SEAL_BYTES - 1];
       @ loop variant KEEL_MAVLINK_SEAL_BYTES - i;
       @*/
     for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_SEAL_BYTES; i++) {
-        frame->seal[i] = is_signed ? bytes[end + SEAL_AT + i] : 0u;
+        mavlink->frame.seal[i] = is_signed ? mavlink->tail[SEAL_AT + i] : 0u;
     }
 }
 
-/*@ requires \valid(frame) && \valid_read(bytes + (0 .. KEEL_MAVLINK_FRAME_MAX - 1)) &&
-  @     \separated(frame, bytes + (0 .. KEEL_MAVLINK_FRAME_MAX - 1));
-  @ assigns *frame;
-  @ ensures frame->length == bytes[1] && (frame->is_signed <==> bytes[2] != 0) &&
-  @     frame->compatible == bytes[3] && frame->sequence == bytes[4] &&
-  @     frame->system == bytes[5] && frame->component == bytes[6] &&
-  @     frame->id == mavlink_id(bytes);
-  @ ensures \forall integer i; 0 <= i < KEEL_MAVLINK_PAYLOAD_MAX ==> frame->payload[i] ==
-  @     (i < bytes[1] ? bytes[KEEL_MAVLINK_HEADER_BYTES + i] : 0);
+/*@ requires \valid(mavlink);
+  @ assigns mavlink->frame;
+  @ ensures mavlink->frame.length == \old(mavlink->header[1]) &&
+  @     (mavlink->frame.is_signed <==> \old(mavlink->header[2]) != 0) &&
+  @     mavlink->frame.compatible == \old(mavlink->header[3]) &&
+  @     mavlink->frame.sequence == \old(mavlink->header[4]) &&
+  @     mavlink->frame.system == \old(mavlink->header[5]) &&
+  @     mavlink->frame.component == \old(mavlink->header[6]) &&
+  @     mavlink->frame.id == \old(mavlink_id(&mavlink->header[0]));
+  @ ensures \forall integer i; 0 <= i < KEEL_MAVLINK_PAYLOAD_MAX ==> mavlink->frame.payload[i] ==
+  @     \old(i < mavlink->header[1] ? mavlink->payload[i] : 0);
   @*/
-static void publish_frame(keel_mavlink_frame_t *frame, const uint8_t *bytes)
+static void publish_frame(keel_mavlink_t *mavlink)
 {
-    frame->id = pair_at(&bytes[ID_AT]) + (65536u * bytes[ID_AT + 2u]);
-    frame->sequence = bytes[SEQUENCE_AT];
-    frame->system = bytes[SYSTEM_AT];
-    frame->component = bytes[COMPONENT_AT];
-    frame->compatible = bytes[COMPATIBLE_AT];
-    frame->length = bytes[LENGTH_AT];
-    frame->checksum = (uint16_t)pair_at(&bytes[end_of(bytes)]);
-    publish_signature(frame, bytes);
-    publish_payload(frame, bytes);
+    mavlink->frame.id = id_in(mavlink);
+    mavlink->frame.sequence = mavlink->header[SEQUENCE_AT];
+    mavlink->frame.system = mavlink->header[SYSTEM_AT];
+    mavlink->frame.component = mavlink->header[COMPONENT_AT];
+    mavlink->frame.compatible = mavlink->header[COMPATIBLE_AT];
+    mavlink->frame.length = mavlink->header[LENGTH_AT];
+    publish_signature(mavlink);
+    publish_payload(mavlink);
 }
 
 /* With all of its bytes: takes the frame, or counts why not. */
 /*@ requires mavlink_apart(mavlink) && mavlink->message <= mavlink->known;
-  @ requires mavlink->bytes[0] == KEEL_MAVLINK_FIRST && mavlink->bytes[2] <= 1;
+  @ requires mavlink->header[2] <= 1;
   @ assigns mavlink->frame, mavlink->count.frames, mavlink->count.checksums;
-  @ ensures \result ==> mavlink->message < mavlink->known &&
-  @     mavlink_pair(&mavlink->bytes[0], mavlink_end(&mavlink->bytes[0])) ==
-  @         mavlink_rest(mavlink->crc, mavlink->messages[mavlink->message].crc_extra);
-  @ ensures \result ==> mavlink->frame.length == mavlink->bytes[1] &&
-  @     mavlink->frame.is_signed == mavlink->bytes[2] &&
-  @     mavlink->frame.compatible == mavlink->bytes[3] &&
-  @     mavlink->frame.sequence == mavlink->bytes[4] &&
-  @     mavlink->frame.system == mavlink->bytes[5] &&
-  @     mavlink->frame.component == mavlink->bytes[6] &&
-  @     mavlink->frame.id == mavlink_id(&mavlink->bytes[0]);
+  @ ensures \result ==> \old(mavlink->message < mavlink->known);
+  @ ensures \result ==> mavlink->frame.checksum ==
+  @     \old(mavlink_rest(mavlink->crc, mavlink->messages[mavlink->message].crc_extra));
+  @ ensures \result ==> mavlink->frame.length == \old(mavlink->header[1]) &&
+  @     mavlink->frame.is_signed == \old(mavlink->header[2]) &&
+  @     mavlink->frame.compatible == \old(mavlink->header[3]) &&
+  @     mavlink->frame.sequence == \old(mavlink->header[4]) &&
+  @     mavlink->frame.system == \old(mavlink->header[5]) &&
+  @     mavlink->frame.component == \old(mavlink->header[6]) &&
+  @     mavlink->frame.id == \old(mavlink_id(&mavlink->header[0]));
   @ ensures \result ==>
   @     \forall integer i; 0 <= i < KEEL_MAVLINK_PAYLOAD_MAX ==> mavlink->frame.payload[i] ==
-  @         (i < mavlink->bytes[1] ? mavlink->bytes[KEEL_MAVLINK_HEADER_BYTES + i] : 0);
+  @         \old(i < mavlink->header[1] ? mavlink->payload[i] : 0);
   @ ensures !\result ==> mavlink_kept{Pre, Post}(mavlink);
   @ ensures mavlink->count.frames ==
   @     (\result ? mavlink_sum(\old(mavlink->count.frames)) : \old(mavlink->count.frames));
@@ -279,11 +331,12 @@ static bool end_frame(keel_mavlink_t *mavlink)
 
     if (mavlink->message < mavlink->known) {
         const uint8_t extra = mavlink->messages[mavlink->message].crc_extra;
+        const uint16_t checksum = keel_crc16(mavlink->crc, extra);
 
-        right = pair_at(&mavlink->bytes[end_of(mavlink->bytes)]) ==
-                keel_crc16(mavlink->crc, extra);
+        right = checksum_in(mavlink) == checksum;
         if (right) {
-            publish_frame(&mavlink->frame, mavlink->bytes);
+            publish_frame(mavlink);
+            mavlink->frame.checksum = checksum;
             count_met(&mavlink->count.frames);
         } else {
             count_met(&mavlink->count.checksums);
@@ -327,15 +380,30 @@ keel_status_t keel_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_mess
     mavlink->messages = messages;
     mavlink->known = known;
     mavlink->count = no_count;
-    /*@ loop invariant 0 <= i <= KEEL_MAVLINK_FRAME_MAX;
-      @ loop invariant \forall integer j; 0 <= j < i ==> mavlink->bytes[j] == 0;
-      @ loop assigns i, mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1];
-      @ loop variant KEEL_MAVLINK_FRAME_MAX - i;
+    /*@ loop invariant 0 <= i <= KEEL_MAVLINK_HEADER_BYTES;
+      @ loop invariant \forall integer j; 0 <= j < i ==> mavlink->header[j] == 0;
+      @ loop assigns i, mavlink->header[0 .. KEEL_MAVLINK_HEADER_BYTES - 1];
+      @ loop variant KEEL_MAVLINK_HEADER_BYTES - i;
       @*/
-    for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_FRAME_MAX; i++) {
-        mavlink->bytes[i] = 0u;
+    for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_HEADER_BYTES; i++) {
+        mavlink->header[i] = 0u;
     }
-    publish_frame(&mavlink->frame, mavlink->bytes);
+    /*@ loop invariant 0 <= i <= KEEL_MAVLINK_PAYLOAD_MAX;
+      @ loop assigns i, mavlink->payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1];
+      @ loop variant KEEL_MAVLINK_PAYLOAD_MAX - i;
+      @*/
+    for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_PAYLOAD_MAX; i++) {
+        mavlink->payload[i] = 0u;
+    }
+    /*@ loop invariant 0 <= i <= KEEL_MAVLINK_TAIL_MAX;
+      @ loop assigns i, mavlink->tail[0 .. KEEL_MAVLINK_TAIL_MAX - 1];
+      @ loop variant KEEL_MAVLINK_TAIL_MAX - i;
+      @*/
+    for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_TAIL_MAX; i++) {
+        mavlink->tail[i] = 0u;
+    }
+    publish_frame(mavlink);
+    mavlink->frame.checksum = 0u;
     mavlink->held = 0u;
     mavlink->crc = KEEL_CRC16_FIRST;
     mavlink->message = known;
@@ -359,7 +427,7 @@ bool keel_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte)
         check_flags(mavlink);
     } else if (mavlink->held == PAYLOAD_AT) {
         check_message(mavlink);
-    } else if ((mavlink->held > PAYLOAD_AT) && (mavlink->held == whole_frame(mavlink->bytes))) {
+    } else if ((mavlink->held > PAYLOAD_AT) && (mavlink->held == whole_frame(mavlink))) {
         mavlink->held = 0u;
         right = end_frame(mavlink);
     } else {

@@ -35,16 +35,14 @@ static void differs(const char *what)
 /* The byte of the right checksum that is due, or the one that came. */
 static uint8_t repaired(const keel_mavlink_t *mavlink, uint8_t byte)
 {
-    const uint32_t end = 10u + (uint32_t)mavlink->bytes[1];
+    const uint32_t end = 10u + (uint32_t)mavlink->header[1];
     uint16_t checksum;
 
-    if ((mavlink->held < 12u) && ((mavlink->held < 10u) || (mavlink->held < end))) {
+    if ((mavlink->held < 10u) || (mavlink->held < end) || (mavlink->message >= mavlink->known) ||
+        ((mavlink->header[4] & 1u) != 0u)) {
         return byte;
     }
-    if ((mavlink->message >= mavlink->known) || ((mavlink->bytes[4] & 1u) != 0u)) {
-        return byte;
-    }
-    checksum = model_mavlink_checksum(mavlink->bytes, messages[mavlink->message].crc_extra);
+    checksum = keel_crc16(mavlink->crc, messages[mavlink->message].crc_extra);
     if (mavlink->held == end) {
         return (uint8_t)(checksum & 0xFFu);
     }
@@ -64,8 +62,9 @@ static void write_again(const keel_mavlink_t *mavlink, uint32_t whole)
     const bool cut = (frame->length > 1u) && (frame->payload[frame->length - 1u] == 0u);
 
     if ((frame->length > 0u) && !cut && (frame->compatible == 0u)) {
-        if ((written != whole) ||
-            (memcmp(out, mavlink->bytes, 12u + (size_t)frame->length) != 0)) {
+        if ((written != whole) || (memcmp(out, mavlink->header, 10u) != 0) ||
+            (memcmp(&out[10], mavlink->payload, frame->length) != 0) ||
+            (memcmp(&out[10u + frame->length], mavlink->tail, 2u) != 0)) {
             differs("what is written is not what came");
         }
     }

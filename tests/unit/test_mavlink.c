@@ -17,14 +17,13 @@ static const keel_mavlink_message_t messages[KNOWN] = {
 
 /* System 1, component 1, sequence 0: custom_mode 0; a quadrotor, 2; autopilot 0, base_mode 0;
  * standby, 3; version 3. */
-static const uint8_t heartbeat[21] = {0xFD, 9, 0, 0, 0, 1, 1, 0, 0, 0,   0,
+static const uint8_t heartbeat[21] = {0xFD, 9, 0, 0, 0, 1, 1, 0, 0,    0,   0,
                                       0,    0, 0, 2, 0, 0, 3, 3, 0x83, 0x46};
 
 /* The same, signed: link 3, timestamp 0x010203040506, key 0, 1, 2 ... 31. */
-static const uint8_t signed_heartbeat[34] = {0xFD, 9,    1,    0,    0,    1,    1,    0,   0,
-                                             0,    0,    0,    0,    0,    2,    0,    0,   3,
-                                             3,    0x64, 0xBE, 3,    0x06, 0x05, 0x04, 0x03, 0x02,
-                                             0x01, 0xA6, 0x2A, 0xC1, 0x40, 0xBB, 0xF1};
+static const uint8_t signed_heartbeat[34] = {
+    0xFD, 9, 1,    0,    0, 1,    1,    0,    0,    0,    0,    0,    0,    0,    2,    0,    0,
+    3,    3, 0x64, 0xBE, 3, 0x06, 0x05, 0x04, 0x03, 0x02, 0x01, 0xA6, 0x2A, 0xC1, 0x40, 0xBB, 0xF1};
 
 /* All of it is 0: one byte is left. */
 static const uint8_t ping[13] = {0xFD, 1, 0, 0, 0, 1, 1, 4, 0, 0, 0, 0xBF, 0x2F};
@@ -300,17 +299,17 @@ static void MAV_011_what_does_not_fit_is_not_written(void)
     uint8_t before[sizeof out];
 
     memcpy(before, out, sizeof before);
-    TEST_ASSERT_EQUAL_UINT16(
-        0u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 9u, out, 20u));
-    TEST_ASSERT_EQUAL_UINT16(
-        0u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 0u, out, sizeof out));
-    TEST_ASSERT_EQUAL_UINT16(
-        0u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 10u, out, sizeof out));
+    TEST_ASSERT_EQUAL_UINT16(0u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 9u, out,
+                                                    20u));
+    TEST_ASSERT_EQUAL_UINT16(0u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 0u, out,
+                                                    sizeof out));
+    TEST_ASSERT_EQUAL_UINT16(0u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 10u,
+                                                    out, sizeof out));
     TEST_ASSERT_EQUAL_UINT16(0u,
                              keel_mavlink_write(&sender, &beyond, payload, 9u, out, sizeof out));
     sender.is_signing = true;
-    TEST_ASSERT_EQUAL_UINT16(
-        0u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 9u, out, 33u));
+    TEST_ASSERT_EQUAL_UINT16(0u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 9u, out,
+                                                    33u));
     TEST_ASSERT_EQUAL_MEMORY(before, out, sizeof out);
     TEST_ASSERT_EQUAL_UINT8(0u, sender.sequence);
 }
@@ -319,18 +318,18 @@ static void MAV_012_frames_are_as_others_write_them(void)
 {
     static const uint8_t payload[14] = {0, 0, 0, 0, 2, 0, 0, 3, 3};
 
-    TEST_ASSERT_EQUAL_UINT16(
-        21u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 9u, out, 21u));
+    TEST_ASSERT_EQUAL_UINT16(21u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 9u,
+                                                     out, 21u));
     TEST_ASSERT_EQUAL_MEMORY(heartbeat, out, 21u);
     TEST_ASSERT_EQUAL_UINT8(0xA5u, out[21]);
     sender.sequence = 0u;
-    TEST_ASSERT_EQUAL_UINT16(
-        13u, keel_mavlink_write(&sender, &messages[PING], payload, 4u, out, sizeof out));
+    TEST_ASSERT_EQUAL_UINT16(13u, keel_mavlink_write(&sender, &messages[PING], payload, 4u, out,
+                                                     sizeof out));
     TEST_ASSERT_EQUAL_MEMORY(ping, out, 13u);
     sender.sequence = 0u;
     sender.is_signing = true;
-    TEST_ASSERT_EQUAL_UINT16(
-        34u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 9u, out, 34u));
+    TEST_ASSERT_EQUAL_UINT16(34u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 9u,
+                                                     out, 34u));
     TEST_ASSERT_EQUAL_MEMORY(signed_heartbeat, out, 21u);
     for (uint32_t i = 21u; i < 34u; i++) {
         TEST_ASSERT_EQUAL_UINT8(0u, out[i]);

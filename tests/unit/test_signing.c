@@ -15,10 +15,10 @@ static const keel_mavlink_message_t message = {
 static const uint8_t payload[9] = {0, 0, 0, 0, 2, 0, 0, 3, 3};
 
 /* Key 0, 1, 2 ... 31; and what is hashed: it, and the frame without its last 6 bytes. */
-static const uint8_t text[60] = {
-    0,    1,    2,  3,  4,  5,    6,    7,    8,    9,    10,   11,   12,  13, 14, 15, 16, 17, 18, 19,
-    20,   21,   22, 23, 24, 25,   26,   27,   28,   29,   30,   31,   0xFD, 9,  1,  0,  0,  1,  1,  0,
-    0,    0,    0,  0,  0,  0,    2,    0,    0,    3,    3,    0x64, 0xBE, 3,  6,  5,  4,  3,  2,  1};
+static const uint8_t text[60] = {0,  1,  2,    3,  4,  5,  6,    7,    8,  9,  10, 11, 12, 13, 14,
+                                 15, 16, 17,   18, 19, 20, 21,   22,   23, 24, 25, 26, 27, 28, 29,
+                                 30, 31, 0xFD, 9,  1,  0,  0,    1,    1,  0,  0,  0,  0,  0,  0,
+                                 0,  2,  0,    0,  3,  3,  0x64, 0xBE, 3,  6,  5,  4,  3,  2,  1};
 static const uint8_t seal[6] = {0xA6, 0x2A, 0xC1, 0x40, 0xBB, 0xF1};
 
 static keel_signing_t signing;
@@ -268,8 +268,8 @@ static void SGN_011_without_a_key_frames_are_not_signed(void)
 
 static void SGN_012_each_frame_has_a_time_of_its_own(void)
 {
-    TEST_ASSERT_EQUAL_UINT16(
-        0u, keel_signing_write(&signing, &sender, &message, payload, 9u, out, 33u));
+    TEST_ASSERT_EQUAL_UINT16(0u, keel_signing_write(&signing, &sender, &message, payload, 9u, out,
+                                                    33u));
     TEST_ASSERT_EQUAL_UINT64(0u, signing.timestamp);
     for (uint32_t i = 1u; i < 4u; i++) {
         TEST_ASSERT_EQUAL_UINT16(34u, keel_signing_write(&signing, &sender, &message, payload, 9u,

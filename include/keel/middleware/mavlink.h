@@ -49,7 +49,10 @@ KEEL_C_BEGIN
 /** Bytes of a signature, behind the checksum. */
 #define KEEL_MAVLINK_SIGNATURE_BYTES 13
 
-/** Of those the last ones, which the key is needed for. */
+/** Bytes behind the payload, at most. */
+#define KEEL_MAVLINK_TAIL_MAX 15
+
+/** Of a signature's the last ones, which the key is needed for. */
 #define KEEL_MAVLINK_SEAL_BYTES 6
 
 /** The longest frame: all of these. */
@@ -100,13 +103,15 @@ typedef struct keel_mavlink_count {
 
 /** A decoder. Written by the functions below alone; all of it may be read. */
 typedef struct keel_mavlink {
-    const keel_mavlink_message_t *messages; /**< The messages that are known, */
-    uint32_t known;                         /**< and how many there are. */
-    keel_mavlink_frame_t frame;             /**< The last right frame; all 0 before. */
-    keel_mavlink_count_t count;             /**< What was met. */
-    uint8_t bytes[KEEL_MAVLINK_FRAME_MAX];  /**< A partial frame, and behind it what was before. */
-    uint16_t held;                          /**< Its bytes, fewer than it says that it has. */
-    uint16_t crc;                           /**< Of its bytes that count for it. */
+    const keel_mavlink_message_t *messages;    /**< The messages that are known, */
+    uint32_t known;                            /**< and how many there are. */
+    keel_mavlink_frame_t frame;                /**< The last right frame; all 0 before. */
+    keel_mavlink_count_t count;                /**< What was met. */
+    uint8_t header[KEEL_MAVLINK_HEADER_BYTES]; /**< A partial frame: its first bytes, */
+    uint8_t payload[KEEL_MAVLINK_PAYLOAD_MAX]; /**< its payload, */
+    uint8_t tail[KEEL_MAVLINK_TAIL_MAX];       /**< and what is behind that. */
+    uint16_t held;                             /**< Its bytes, fewer than it says that it has. */
+    uint16_t crc;                              /**< Of its bytes that count for it. */
     uint32_t message; /**< With its header: its message's place; known when it is skipped. */
 } keel_mavlink_t;
 
@@ -126,8 +131,7 @@ typedef struct keel_mavlink_sender {
   @         messages[i].shortest <= messages[i].longest &&
   @         (i > 0 ==> messages[i - 1].id < messages[i].id);
   @
-  @ // The number of the two bytes from this one on, and of the three, the lowest first.
-  @ logic integer mavlink_pair(uint8_t *bytes, integer at) = bytes[at] + 256 * bytes[at + 1];
+  @ // Its message: the number in three bytes, the lowest first.
   @ logic integer mavlink_id(uint8_t *bytes) =
   @     bytes[7] + 256 * bytes[8] + 65536 * bytes[9];
   @
@@ -149,11 +153,11 @@ typedef struct keel_mavlink_sender {
   @ // Between any two calls.
   @ predicate mavlink_valid(keel_mavlink_t *m) =
   @     m->held < KEEL_MAVLINK_FRAME_MAX &&
-  @     (m->held > 0 ==> m->bytes[0] == KEEL_MAVLINK_FIRST) &&
-  @     (m->held > 2 ==> m->bytes[2] <= 1 && m->held < mavlink_whole(&m->bytes[0])) &&
+  @     (m->held > 0 ==> m->header[0] == KEEL_MAVLINK_FIRST) &&
+  @     (m->held > 2 ==> m->header[2] <= 1 && m->held < mavlink_whole(&m->header[0])) &&
   @     (m->held >= KEEL_MAVLINK_HEADER_BYTES ==> m->message <= m->known) &&
   @     (m->held >= KEEL_MAVLINK_HEADER_BYTES && m->message < m->known ==>
-  @         mavlink_is_of(&m->bytes[0], m->messages + m->message));
+  @         mavlink_is_of(&m->header[0], m->messages + m->message));
   @
   @ predicate mavlink_apart(keel_mavlink_t *m) =
   @     \valid(m) && m->known <= KEEL_MAVLINK_MESSAGES_MAX &&
@@ -227,44 +231,49 @@ keel_status_t keel_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_mess
  *         Otherwise that is as it was
  */
 /*@ requires mavlink_apart(mavlink) && mavlink_valid(mavlink);
-  @ assigns mavlink->frame, mavlink->count, mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1],
-  @     mavlink->held, mavlink->crc, mavlink->message;
+  @ assigns mavlink->frame, mavlink->count,
+  @     mavlink->header[0 .. KEEL_MAVLINK_HEADER_BYTES - 1],
+  @     mavlink->payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1],
+  @     mavlink->tail[0 .. KEEL_MAVLINK_TAIL_MAX - 1], mavlink->held, mavlink->crc,
+  @     mavlink->message;
   @ ensures MAV_003_valid: mavlink_valid(mavlink) && mavlink_apart(mavlink);
-  @ ensures MAV_004_whole: \result ==> mavlink->held == 0 &&
-  @     mavlink->bytes[0] == KEEL_MAVLINK_FIRST && mavlink->bytes[2] <= 1 &&
-  @     \old(mavlink->held) + 1 == mavlink_whole(&mavlink->bytes[0]) &&
-  @     byte == mavlink->bytes[\old(mavlink->held)];
-  @ ensures MAV_004_message: \result ==> mavlink->message < mavlink->known &&
-  @     mavlink_is_of(&mavlink->bytes[0], mavlink->messages + mavlink->message);
-  @ ensures MAV_004_checksum: \result ==>
-  @     mavlink_pair(&mavlink->bytes[0], mavlink_end(&mavlink->bytes[0])) ==
-  @     mavlink_rest(\old(mavlink->crc), mavlink->messages[mavlink->message].crc_extra);
-  @ ensures MAV_005_header: \result ==> mavlink->frame.length == mavlink->bytes[1] &&
-  @     mavlink->frame.is_signed == mavlink->bytes[2] &&
-  @     mavlink->frame.compatible == mavlink->bytes[3] &&
-  @     mavlink->frame.sequence == mavlink->bytes[4] &&
-  @     mavlink->frame.system == mavlink->bytes[5] &&
-  @     mavlink->frame.component == mavlink->bytes[6] &&
-  @     mavlink->frame.id == mavlink_id(&mavlink->bytes[0]);
+  @ ensures MAV_004_whole: \result ==> mavlink->held == 0 && \old(mavlink->held) > 2 &&
+  @     \old(mavlink->held) + 1 == \old(mavlink_whole(&mavlink->header[0]));
+  @ ensures MAV_004_message: \result ==> \old(mavlink->message < mavlink->known &&
+  @     mavlink_is_of(&mavlink->header[0], mavlink->messages + mavlink->message));
+  @ ensures MAV_004_checksum: \result ==> mavlink->frame.checksum ==
+  @     \old(mavlink_rest(mavlink->crc, mavlink->messages[mavlink->message].crc_extra));
+  @ ensures MAV_005_header: \result ==> mavlink->frame.length == \old(mavlink->header[1]) &&
+  @     mavlink->frame.is_signed == \old(mavlink->header[2]) &&
+  @     mavlink->frame.compatible == \old(mavlink->header[3]) &&
+  @     mavlink->frame.sequence == \old(mavlink->header[4]) &&
+  @     mavlink->frame.system == \old(mavlink->header[5]) &&
+  @     mavlink->frame.component == \old(mavlink->header[6]) &&
+  @     mavlink->frame.id == \old(mavlink_id(&mavlink->header[0]));
   @ ensures MAV_005_payload: \result ==>
   @     \forall integer i; 0 <= i < KEEL_MAVLINK_PAYLOAD_MAX ==> mavlink->frame.payload[i] ==
-  @         (i < mavlink->bytes[1] ? mavlink->bytes[KEEL_MAVLINK_HEADER_BYTES + i] : 0);
+  @         \old(i < mavlink->header[1] ? mavlink->payload[i] : 0);
   @ ensures MAV_006_kept: !\result ==> mavlink_kept{Pre, Post}(mavlink);
   @ ensures MAV_007_frames: mavlink->count.frames ==
   @     (\result ? mavlink_sum(\old(mavlink->count.frames)) : \old(mavlink->count.frames));
   @ ensures MAV_008_held: \old(mavlink->held) > 2 &&
-  @     \old(mavlink->held) + 1 < mavlink_whole(&mavlink->bytes[0]) ==>
+  @     \old(mavlink->held) + 1 < \old(mavlink_whole(&mavlink->header[0])) ==>
   @         !\result && mavlink->held == \old(mavlink->held) + 1;
   @ ensures MAV_008_ended: \old(mavlink->held) > 2 &&
-  @     \old(mavlink->held) + 1 >= mavlink_whole(&mavlink->bytes[0]) ==> mavlink->held == 0;
-  @ ensures MAV_008_bytes: \forall integer i; 0 <= i < mavlink->held - 1 &&
-  @     mavlink->held == \old(mavlink->held) + 1 ==>
-  @         mavlink->bytes[i] == \old(mavlink->bytes[i]);
+  @     \old(mavlink->held) + 1 >= \old(mavlink_whole(&mavlink->header[0])) ==>
+  @         mavlink->held == 0;
+  @ ensures MAV_008_header: mavlink->held == \old(mavlink->held) + 1 ==>
+  @     \forall integer i; 0 <= i < KEEL_MAVLINK_HEADER_BYTES ==> mavlink->header[i] ==
+  @         (i == \old(mavlink->held) ? byte : \old(mavlink->header[i]));
+  @ ensures MAV_008_payload: \old(mavlink->held) > 2 ==>
+  @     \forall integer i; 0 <= i < \old(mavlink->header[1]) ==> mavlink->payload[i] ==
+  @         (KEEL_MAVLINK_HEADER_BYTES + i == \old(mavlink->held) ? byte :
+  @             \old(mavlink->payload[i]));
   @ ensures MAV_008_first: \old(mavlink->held) == 0 ==> !\result &&
   @     mavlink->held == (byte == KEEL_MAVLINK_FIRST ? 1 : 0) &&
   @     (byte == KEEL_MAVLINK_FIRST ==> mavlink->crc == KEEL_CRC16_FIRST);
   @ ensures MAV_008_crc: \old(mavlink->held) > 2 ==> mavlink->crc ==
-  @     (\old(mavlink->held) < mavlink_end(&mavlink->bytes[0]) ?
+  @     (\old(mavlink->held < mavlink_end(&mavlink->header[0])) ?
   @         mavlink_rest(\old(mavlink->crc), byte) : \old(mavlink->crc));
   @*/
 bool keel_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte);

@@ -95,7 +95,7 @@ typedef struct keel_signing {
     keel_signing_stream_t stream[KEEL_SIGNING_STREAMS]; /**< The streams, */
     uint32_t streams;                                   /**< and how many there are. */
     keel_signing_count_t count;                         /**< What was met. */
-    keel_signing_hash_fn_t hash;         /**< SHA-256. */
+    keel_signing_hash_fn_t hash;                        /**< SHA-256. */
     uint64_t timestamp;                  /**< Our time, in 10 us since 2015 began (UTC). */
     uint8_t text[KEEL_SIGNING_TEXT_MAX]; /**< What is hashed: the key, and behind it a frame. */
     uint8_t link;                        /**< The number that we give to our link. */
