@@ -251,7 +251,8 @@ def all_suites(builds: HostBuilds, fuzz_seconds: int, needs: Needs) -> list[Suit
     suites.append(Suite("machdep", ("prove",), machdep_suite))
     suites += [*python_suites("tools", ("tools-tests", "c-syntax"), True),
                *python_suites("timing", ("timing-tests",), False),
-               *python_suites("flight", ("fly-tests",), False)]  # fmt: skip
+               *python_suites("flight", ("fly-tests",), False),
+               *python_suites("clients", ("clients",), False)]  # fmt: skip
     if fuzz_seconds > 0:
         for target in FUZZED:
             name = target.replace("fuzz_scheduler", "fuzz")

@@ -27,7 +27,7 @@ static void (*const bodies[URPILOT_TASK_COUNT])(copter_t *copter) = {
 };
 
 /* The scheduler reads these as long as it runs. */
-static keel_task_config_t declaration[URPILOT_TASK_COUNT];
+static keel_task_config_t declaration[COPTER_TASKS];
 
 const keel_task_config_t *copter_declaration(uint32_t row)
 {
@@ -40,7 +40,7 @@ static void copter_body(void *context)
     const copter_port_t *const port = task->copter->port;
 
     task->body(task->copter);
-    port->end_run(port->context, task->row);
+    port->end_run(port->context, task->row, task->wcet_us);
 }
 
 /* The first that is not KEEL_OK. */
@@ -66,18 +66,44 @@ static keel_status_t make(copter_t *copter)
     return first_of(status, sizeof status / sizeof status[0]);
 }
 
+/* The next row, declared already; it is there once the scheduler has it. */
+static keel_status_t add(copter_t *copter, void (*body)(copter_t *copter), uint32_t wcet_us)
+{
+    const uint32_t row = copter->tasks;
+    const keel_status_t status = keel_scheduler_add(&copter->scheduler, &declaration[row]);
+
+    copter->task[row] = (copter_task_t){
+        .copter = copter, .body = body, .row = row, .wcet_us = wcet_us};
+    copter->tasks += (status == KEEL_OK) ? 1u : 0u;
+    return status;
+}
+
 static keel_status_t add_tasks(copter_t *copter)
 {
     keel_status_t status = KEEL_OK;
 
     for (uint32_t row = 0u; (row < URPILOT_TASK_COUNT) && (status == KEEL_OK); row++) {
-        copter_task_t *const task = &copter->task[row];
-
-        *task = (copter_task_t){.copter = copter, .body = bodies[row], .row = row};
-        declaration[row] = urpilot_task_config(row, copter_body, task);
-        status = keel_scheduler_add(&copter->scheduler, &declaration[row]);
+        declaration[row] = urpilot_task_config(row, copter_body, &copter->task[row]);
+        status = add(copter, bodies[row], urpilot_task[row].wcet_us);
     }
     return status;
+}
+
+keel_status_t copter_add(copter_t *copter, const copter_own_task_t *own)
+{
+    const uint32_t row = copter->tasks;
+
+    if (row >= COPTER_TASKS) {
+        return KEEL_ERR_FULL;
+    }
+    declaration[row] = (keel_task_config_t){.name = own->name,
+                                            .run = copter_body,
+                                            .context = &copter->task[row],
+                                            .period_us = own->period_us,
+                                            .budget_us = own->budget_us,
+                                            .phase_us = own->phase_us,
+                                            .priority = KEEL_PRIORITY_LOW};
+    return add(copter, own->body, own->wcet_us);
 }
 
 keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool plain_mean)

@@ -16,6 +16,8 @@
  *                                                                             v
  *                                                                           motors
  *
+ * Besides, telemetry (telemetry.h) tells all of it, and asks the state machine (request.h).
+ *
  * The tasks do not interrupt one another (they run to their end, one at a time), so a structure is
  * never seen half written. No task computes what is a unit's to compute.
  */
@@ -37,9 +39,14 @@
 #include "keel/rtos/scheduler.h"
 
 #include "port.h"
+#include "request.h"
 #include "settings.h"
 #include "tuning.h"
 #include "urpilot_tasks.h"
+
+/** Tasks beside table 2's, and all together. */
+#define COPTER_OWN_TASKS 4u
+#define COPTER_TASKS     (URPILOT_TASK_COUNT + COPTER_OWN_TASKS)
 
 /** Blocks of steps whose mean forces are kept for navigation, should it come late. */
 #define COPTER_BLOCKS 8u
@@ -167,8 +174,19 @@ typedef struct copter copter_t;
 typedef struct copter_task {
     copter_t *copter;
     void (*body)(copter_t *copter);
-    uint32_t row; /**< Of urpilot_task. */
+    uint32_t row;     /**< Of urpilot_task; from URPILOT_TASK_COUNT on a task beside those. */
+    uint32_t wcet_us; /**< What a run is said to take at most, as port.end_run is told. */
 } copter_task_t;
+
+/** A task beside those of table 2, of low priority: it waits for all others. */
+typedef struct copter_own_task {
+    const char *name;
+    void (*body)(copter_t *copter);
+    uint32_t period_us;
+    uint32_t wcet_us;   /**< Worst-case execution time of the body. */
+    uint32_t budget_us; /**< To be declared: wcet_us, and the scheduler's own time for a run. */
+    uint32_t phase_us;  /**< Time until the first release. */
+} copter_own_task_t;
 
 /** A copter. Read it freely. */
 struct copter {
@@ -185,8 +203,11 @@ struct copter {
     copter_control_t control;
     copter_health_t health;
     copter_tuning_t tuning;
+    copter_request_t request;           /**< Written by telemetry and the state machine. */
+    struct copter_telemetry *telemetry; /**< Null without. */
     keel_scheduler_t scheduler;
-    copter_task_t task[URPILOT_TASK_COUNT];
+    copter_task_t task[COPTER_TASKS];
+    uint32_t tasks;  /**< How many of them there are. */
     bool plain_mean; /**< The units' plain mean flies in place of their vote. */
 };
 
@@ -201,9 +222,19 @@ struct copter {
 keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool plain_mean);
 
 /**
+ * Adds a task beside those of table 2 to a copter that was started.
+ *
+ * @param copter the copter
+ * @param own    the task; its name is kept
+ * @return KEEL_OK; KEEL_ERR_FULL when there are COPTER_OWN_TASKS of them; what keel_scheduler_add
+ *         says, above all when its budget fits in no gap
+ */
+keel_status_t copter_add(copter_t *copter, const copter_own_task_t *own);
+
+/**
  * The declaration by which the scheduler knows a task: one set, for one copter.
  *
- * @param row which of urpilot_task
+ * @param row which of urpilot_task; those that were added follow
  */
 const keel_task_config_t *copter_declaration(uint32_t row);
 

@@ -153,10 +153,11 @@ static void write_motors(void *context, const float output[COPTER_MOTORS])
     }
 }
 
-static void end_run(void *context, uint32_t row)
+static void end_run(void *context, uint32_t row, uint32_t wcet_us)
 {
     (void)context;
     (void)row;
+    (void)wcet_us;
 }
 
 copter_port_t desk_port(desk_t *desk, keel_clock_fn_t read_clock, void *clock)
