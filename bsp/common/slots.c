@@ -59,7 +59,7 @@ static void read_head(keel_slots_t *slots, uint32_t index)
 {
     keel_slot_t *const slot = &slots->slot[index];
     uint8_t mark = 0u;
-    uint8_t head[KEEL_SLOTS_HEAD] = {0u};
+    uint8_t head[KEEL_SLOTS_HEAD] = {[0] = 0u};
 
     forget_slot(slot);
     if (!read_slot(slots, index, 0u, &mark, 1u)) {
@@ -102,7 +102,7 @@ static uint32_t crc_of_number(uint32_t first, uint32_t number)
 static keel_slot_state_t read_set(const keel_slots_t *slots, uint32_t index, uint8_t *image)
 {
     const uint32_t length = slots->slot[index].length;
-    uint8_t check[KEEL_SLOTS_CHECK] = {0u};
+    uint8_t check[KEEL_SLOTS_CHECK] = {[0] = 0u};
     uint32_t crc = crc_of_number(KEEL_CRC32_FIRST, slots->slot[index].sequence);
     uint32_t at = 0u;
 
@@ -192,7 +192,7 @@ static void go_on_saving(keel_slots_t *slots, uint32_t count, keel_slots_stage_t
 
 static keel_slots_result_t write_piece(keel_slots_t *slots)
 {
-    uint8_t piece[KEEL_SLOTS_PIECE] = {0u};
+    uint8_t piece[KEEL_SLOTS_PIECE] = {[0] = 0u};
     const uint32_t count = piece_of(bytes_to_save(slots) - slots->at);
 
     for (uint32_t i = 0u; i < count; i++) {
@@ -210,7 +210,7 @@ static keel_slots_result_t write_piece(keel_slots_t *slots)
 
 static keel_slots_result_t compare_piece(keel_slots_t *slots)
 {
-    uint8_t piece[KEEL_SLOTS_PIECE] = {0u};
+    uint8_t piece[KEEL_SLOTS_PIECE] = {[0] = 0u};
     const uint32_t count = piece_of(bytes_to_save(slots) - slots->at);
     bool same = true;
 
@@ -231,11 +231,13 @@ static keel_slots_result_t compare_piece(keel_slots_t *slots)
 static keel_slots_result_t confirm_mark(const keel_slots_t *slots, bool is_set)
 {
     uint8_t mark = 0u;
+    bool is_marked;
 
     if (!read_slot(slots, 1u - slots->newest, 0u, &mark, 1u)) {
         return KEEL_SLOTS_READ;
     }
-    return ((mark == (uint8_t)KEEL_SLOTS_MARK) == is_set) ? KEEL_SLOTS_BUSY : KEEL_SLOTS_VERIFY;
+    is_marked = mark == (uint8_t)KEEL_SLOTS_MARK;
+    return (is_marked == is_set) ? KEEL_SLOTS_BUSY : KEEL_SLOTS_VERIFY;
 }
 
 static bool clear_slot(const keel_slots_t *slots)

@@ -37,8 +37,8 @@ KEEL_C_BEGIN
 /** The check, which follows them. */
 #define KEEL_SLOTS_CHECK 4
 
-/** Bytes of a slot that are not the set's: with the mark. */
-#define KEEL_SLOTS_OVERHEAD (1 + KEEL_SLOTS_HEAD + KEEL_SLOTS_CHECK)
+/** Bytes of a slot that are not the set's: the mark, KEEL_SLOTS_HEAD and KEEL_SLOTS_CHECK. */
+#define KEEL_SLOTS_OVERHEAD 13
 
 /** The mark of a slot that holds a set, and the one that it is cleared to. */
 #define KEEL_SLOTS_MARK    0x4B

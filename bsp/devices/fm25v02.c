@@ -110,12 +110,16 @@ keel_bsp_status_t keel_fm25v02_write(const keel_bus_t *bus, uint32_t address, co
 
 static bool read_medium(void *context, uint32_t address, uint8_t *bytes, uint32_t count)
 {
-    return keel_fm25v02_read((const keel_bus_t *)context, address, bytes, count) == KEEL_BSP_OK;
+    const keel_bus_t *const bus = context;
+
+    return keel_fm25v02_read(bus, address, bytes, count) == KEEL_BSP_OK;
 }
 
 static bool write_medium(void *context, uint32_t address, const uint8_t *bytes, uint32_t count)
 {
-    return keel_fm25v02_write((const keel_bus_t *)context, address, bytes, count) == KEEL_BSP_OK;
+    const keel_bus_t *const bus = context;
+
+    return keel_fm25v02_write(bus, address, bytes, count) == KEEL_BSP_OK;
 }
 
 keel_medium_t keel_fm25v02_medium(keel_bus_t *bus)
