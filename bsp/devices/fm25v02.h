@@ -4,14 +4,14 @@
  * @brief The ferroelectric memory FM25V02 or FM25V02A (Cypress, 32 KiB) on an SPI bus.
  *
  * It takes bytes as fast as the bus brings them, without erasing, and does not wear out: what
- * keel/middleware/slots.h asks of a medium.
+ * bsp/common/slots.h asks of a medium.
  */
 #ifndef KEEL_BSP_DEVICES_FM25V02_H
 #define KEEL_BSP_DEVICES_FM25V02_H
 
 #include "common/bsp_status.h"
 #include "common/bus.h"
-#include "keel/middleware/slots.h"
+#include "common/slots.h"
 
 #include <stdbool.h>
 #include <stdint.h>

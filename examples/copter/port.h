@@ -9,7 +9,7 @@
 #ifndef COPTER_PORT_H
 #define COPTER_PORT_H
 
-#include "keel/middleware/slots.h"
+#include "common/slots.h"
 #include "keel/rtos/scheduler.h"
 
 #include <stdbool.h>

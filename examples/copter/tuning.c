@@ -56,7 +56,7 @@ static keel_status_t try_units(const copter_settings_t *tried)
     return first;
 }
 
-static keel_status_t check(void *context, const keel_parameter_entry_t *entry)
+static keel_status_t check_settings(void *context, const keel_parameter_entry_t *entry)
 {
     static copter_settings_t tried;
 
@@ -85,7 +85,7 @@ keel_status_t copter_tuning_start(copter_tuning_t *tuning, const keel_medium_t *
     const keel_parameters_config_t config = {.table = copter_parameter,
                                              .entry = tuning->entry,
                                              .count = COPTER_PARAMETER_COUNT,
-                                             .check = check,
+                                             .check = check_settings,
                                              .context = NULL};
     const keel_status_t status = keel_parameters_init(&tuning->table, &config);
 

@@ -6,7 +6,7 @@
 #ifndef COPTER_TUNING_H
 #define COPTER_TUNING_H
 
-#include "keel/middleware/slots.h"
+#include "common/slots.h"
 #include "parameter_table.h"
 #include "parameters.h"
 

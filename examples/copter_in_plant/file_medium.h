@@ -6,7 +6,7 @@
 #ifndef FILE_MEDIUM_H
 #define FILE_MEDIUM_H
 
-#include "keel/middleware/slots.h"
+#include "common/slots.h"
 
 /**
  * A file as a medium. What was never written reads as zeros.

@@ -80,10 +80,11 @@ class CopterParameters(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.scratch)
         shim, library = Path(cls.scratch, "shim.c"), Path(cls.scratch, "copter.so")
         shim.write_text(SHIM, encoding="utf-8")
-        folders = ("include", "examples/copter", "examples/copter_in_plant")
+        folders = ("include", "bsp", "examples/copter", "examples/copter_in_plant")
         copter = [ROOT / "examples/copter" / f"{name}.c"
                   for name in ("parameters", "parameter_table", "settings", "tuning")]  # fmt: skip
         sources = [*copter, ROOT / "examples/copter_in_plant/file_medium.c",
+                   ROOT / "bsp/common/slots.c",
                    *sorted((ROOT / "src/middleware").glob("*.c")),
                    *sorted((ROOT / "src/flight").glob("*.c"))]  # fmt: skip
         output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC",

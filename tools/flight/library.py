@@ -27,7 +27,8 @@ SIM = "examples/copter_in_plant/sim.h"
 MODE = "include/keel/flight/mode.h"
 FLAGS = ("-std=c99", "-O2", "-fPIC", "-ffp-contract=off", "-Wall", "-Wextra", "-Iinclude", "-Ibsp",
          "-Iexamples/urpilot", "-Iexamples/copter", "-Iexamples/copter_in_plant")  # fmt: skip
-SOURCES = ("src", "examples/urpilot/urpilot_tasks.c", "bsp/host/host_board.c")
+SOURCES = ("src", "examples/urpilot/urpilot_tasks.c", "bsp/common/slots.c",
+           "bsp/host/host_board.c")  # fmt: skip
 FOLDERS = ("examples/copter", "examples/copter_in_plant")  # Without what lies below them.
 LINE_BYTES = 4096  # At most so many wait in a link.
 KINDS = {"float": "<f4", "uint32_t": "<u4", "int32_t": "<i4", "uint16_t": "<u2"}
@@ -49,7 +50,7 @@ def build(tools: Toolchain, folder: Path, width: int = 2, more: Sequence[str] = 
 def digest_of(root: Path = ROOT) -> str:
     """SHA-256 of everything in C that a flight depends on."""
     total = hashlib.sha256(" ".join(FLAGS).encode())
-    for name in ("src", "include", "bsp/host", "examples/urpilot", *FOLDERS):
+    for name in ("src", "include", "bsp/common", "bsp/host", "examples/urpilot", *FOLDERS):
         for path in sorted((root / name).rglob("*.[ch]")):
             total.update(path.relative_to(root).as_posix().encode())
             total.update(path.read_bytes())

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/slots.h"
+#include "common/slots.h"
 
 #include "keel/middleware/crc.h"
 
@@ -12,69 +12,41 @@
 #define PIECE_BYTES ((uint32_t)KEEL_SLOTS_PIECE)
 
 /* A byte of a number, the lowest first. */
-/*@ requires index < BYTES_OF_NUMBER;
-  @ assigns \nothing;
-  @*/
 static uint8_t byte_of(uint32_t number, uint32_t index)
 {
     return (uint8_t)((number >> (8u * index)) & 0xFFu);
 }
 
-/*@ requires \valid_read(bytes + (0 .. BYTES_OF_NUMBER - 1));
-  @ assigns \nothing;
-  @*/
 static uint32_t number_of(const uint8_t *bytes)
 {
-    return (uint32_t)bytes[0] | ((uint32_t)bytes[1] << 8u) | ((uint32_t)bytes[2] << 16u) |
-           ((uint32_t)bytes[3] << 24u);
+    return bytes[0] + (256u * bytes[1]) + (65536u * bytes[2]) + (16777216u * bytes[3]);
 }
 
 /* How many of the bytes that are left make the next piece. */
-/*@ assigns \nothing;
-  @ ensures \result == (left < PIECE_BYTES ? left : PIECE_BYTES);
-  @*/
 static uint32_t piece_of(uint32_t left)
 {
     return (left < PIECE_BYTES) ? left : PIECE_BYTES;
 }
 
-/*@ requires \valid_read(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
-  @ requires slots == running_slots && index < KEEL_SLOTS;
-  @ requires 0 < count <= KEEL_SLOTS_PIECE && \valid(bytes + (0 .. count - 1));
-  @ requires offset + count <= KEEL_SLOTS_OVERHEAD + slots->config.room;
-  @ requires \separated(slots, bytes + (0 .. count - 1));
-  @ assigns bytes[0 .. count - 1];
-  @*/
 static bool read_slot(const keel_slots_t *slots, uint32_t index, uint32_t offset, uint8_t *bytes,
                       uint32_t count)
 {
     const keel_medium_t *const medium = &slots->config.medium;
 
-    //@ calls keel_slots_any_read;
     return medium->read(medium->context, slots->config.address[index] + offset, bytes, count);
 }
 
 /* Writes the slot that is not the newest: there is no other that could be written. */
-/*@ requires \valid_read(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
-  @ requires slots == running_slots;
-  @ requires 0 < count <= KEEL_SLOTS_PIECE && \valid_read(bytes + (0 .. count - 1));
-  @ requires offset + count <= KEEL_SLOTS_OVERHEAD + slots->config.room;
-  @ assigns \nothing;
-  @*/
 static bool write_slot(const keel_slots_t *slots, uint32_t offset, const uint8_t *bytes,
                        uint32_t count)
 {
     const keel_medium_t *const medium = &slots->config.medium;
     const uint32_t target = 1u - slots->newest;
 
-    //@ calls keel_slots_any_write;
     return medium->write(medium->context, slots->config.address[target] + offset, bytes, count);
 }
 
 /* A slot of which nothing is known. */
-/*@ requires \valid(slot);
-  @ assigns slot->state, slot->sequence, slot->length;
-  @*/
 static void forget_slot(keel_slot_t *slot)
 {
     slot->state = KEEL_SLOT_EMPTY;
@@ -83,12 +55,6 @@ static void forget_slot(keel_slot_t *slot)
 }
 
 /* What a slot's mark, sequence number and length say; the state that it has then. */
-/*@ requires \valid(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
-  @ requires slots == running_slots && index < KEEL_SLOTS;
-  @ assigns slots->slot[index].state, slots->slot[index].sequence, slots->slot[index].length;
-  @ ensures slots->slot[index].state != KEEL_SLOT_WHOLE;
-  @ ensures slots->slot[index].length <= slots->config.room;
-  @*/
 static void read_head(keel_slots_t *slots, uint32_t index)
 {
     keel_slot_t *const slot = &slots->slot[index];
@@ -112,32 +78,20 @@ static void read_head(keel_slots_t *slots, uint32_t index)
     }
 }
 
-/*@ requires \valid_read(bytes + (0 .. count - 1));
-  @ assigns \nothing;
-  @*/
 static uint32_t crc_of_bytes(uint32_t first, const uint8_t *bytes, uint32_t count)
 {
     uint32_t crc = first;
 
-    /*@ loop invariant 0 <= i <= count;
-      @ loop assigns i, crc;
-      @ loop variant count - i;
-      @*/
     for (uint32_t i = 0u; i < count; i++) {
         crc = keel_crc32(crc, bytes[i]);
     }
     return crc;
 }
 
-/*@ assigns \nothing; */
 static uint32_t crc_of_number(uint32_t first, uint32_t number)
 {
     uint32_t crc = first;
 
-    /*@ loop invariant 0 <= i <= BYTES_OF_NUMBER;
-      @ loop assigns i, crc;
-      @ loop variant BYTES_OF_NUMBER - i;
-      @*/
     for (uint32_t i = 0u; i < BYTES_OF_NUMBER; i++) {
         crc = keel_crc32(crc, byte_of(number, i));
     }
@@ -145,15 +99,6 @@ static uint32_t crc_of_number(uint32_t first, uint32_t number)
 }
 
 /* Reads the set of a slot whose head is right; the state that the slot has then. */
-/*@ requires \valid_read(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
-  @ requires slots == running_slots && index < KEEL_SLOTS;
-  @ requires slots->slot[index].length <= slots->config.room;
-  @ requires \valid(image + (0 .. slots->config.room - 1));
-  @ requires \separated(slots, image + (0 .. slots->config.room - 1));
-  @ assigns image[0 .. slots->config.room - 1];
-  @ ensures \result == KEEL_SLOT_WHOLE || \result == KEEL_SLOT_DAMAGED ||
-  @     \result == KEEL_SLOT_UNREADABLE;
-  @*/
 static keel_slot_state_t read_set(const keel_slots_t *slots, uint32_t index, uint8_t *image)
 {
     const uint32_t length = slots->slot[index].length;
@@ -162,10 +107,6 @@ static keel_slot_state_t read_set(const keel_slots_t *slots, uint32_t index, uin
     uint32_t at = 0u;
 
     crc = crc_of_number(crc, length);
-    /*@ loop invariant 0 <= at <= length;
-      @ loop assigns at, crc, image[0 .. slots->config.room - 1];
-      @ loop variant length - at;
-      @*/
     while (at < length) {
         const uint32_t count = piece_of(length - at);
 
@@ -182,17 +123,6 @@ static keel_slot_state_t read_set(const keel_slots_t *slots, uint32_t index, uin
 }
 
 /* Reads the set of a slot, if its head says that there is one; whether it is whole. */
-/*@ requires \valid(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
-  @ requires slots == running_slots && index < KEEL_SLOTS;
-  @ requires slots->slot[index].length <= slots->config.room;
-  @ requires slots->slot[index].state != KEEL_SLOT_WHOLE;
-  @ requires \valid(image + (0 .. slots->config.room - 1));
-  @ requires \separated(slots, image + (0 .. slots->config.room - 1));
-  @ assigns slots->slot[index].state, slots->slot[index].length,
-  @     image[0 .. slots->config.room - 1];
-  @ ensures \result <==> slots->slot[index].state == KEEL_SLOT_WHOLE;
-  @ ensures slots->slot[index].length <= slots->config.room;
-  @*/
 static bool load_slot(keel_slots_t *slots, uint32_t index, uint8_t *image)
 {
     keel_slot_t *const slot = &slots->slot[index];
@@ -204,25 +134,29 @@ static bool load_slot(keel_slots_t *slots, uint32_t index, uint8_t *image)
     return slot->state == KEEL_SLOT_WHOLE;
 }
 
-/*@ requires \valid_read(slots);
-  @ assigns \nothing;
-  @ ensures \result == 0 || \result == 1;
-  @*/
-static uint32_t newer_slot(const keel_slots_t *slots)
+/* Whether the set of the second slot is the newer one, or the only one. */
+static bool is_second_newer(const keel_slots_t *slots)
 {
     const keel_slot_t *const slot = slots->slot;
 
-    return ((slot[1].state == KEEL_SLOT_MARKED) &&
-            ((slot[0].state != KEEL_SLOT_MARKED) || (slot[1].sequence > slot[0].sequence)))
-               ? 1u
-               : 0u;
+    return (slot[1].state == KEEL_SLOT_MARKED) &&
+           ((slot[0].state != KEEL_SLOT_MARKED) || (slot[1].sequence > slot[0].sequence));
+}
+
+/* Loads the set of a slot, or else that of the other one; whether one of them is whole. */
+static bool load_either(keel_slots_t *slots, uint32_t first, uint8_t *image)
+{
+    bool whole = load_slot(slots, first, image);
+
+    slots->newest = first;
+    if (!whole) {
+        slots->newest = 1u - first;
+        whole = load_slot(slots, 1u - first, image);
+    }
+    return whole;
 }
 
 /* A byte behind the mark of what is being saved. */
-/*@ requires \valid_read(slots) && slots_valid(slots) && slots_image(slots);
-  @ requires slots_saving(slots) && at < slots_body(slots);
-  @ assigns \nothing;
-  @*/
 static uint8_t byte_to_save(const keel_slots_t *slots, uint32_t at)
 {
     const uint32_t end = HEAD_BYTES + slots->length;
@@ -241,27 +175,12 @@ static uint8_t byte_to_save(const keel_slots_t *slots, uint32_t at)
 }
 
 /* How many bytes there are behind the mark. */
-/*@ requires \valid_read(slots) && slots_valid(slots) && slots_saving(slots);
-  @ assigns \nothing;
-  @ ensures \result == slots_body(slots);
-  @*/
 static uint32_t bytes_to_save(const keel_slots_t *slots)
 {
     return HEAD_BYTES + slots->length + CHECK_BYTES;
 }
 
 /* Goes on behind a piece, and behind the last one with the next stage. */
-/*@ requires \valid(slots) && slots_valid(slots) && slots_image(slots);
-  @ requires slots->stage == KEEL_SLOTS_WRITING || slots->stage == KEEL_SLOTS_COMPARING;
-  @ requires next == slots->stage + 1;
-  @ requires count == (slots_body(slots) - slots->at < PIECE_BYTES
-  @                        ? slots_body(slots) - slots->at : PIECE_BYTES);
-  @ assigns slots->at, slots->stage;
-  @ ensures slots_valid(slots) && slots_image(slots);
-  @ ensures slots->stage == \old(slots->stage) ? slots->at == \old(slots->at) + PIECE_BYTES
-  @     : slots->stage == next && slots->at == 0 &&
-  @           slots_body(slots) - \old(slots->at) <= PIECE_BYTES;
-  @*/
 static void go_on_saving(keel_slots_t *slots, uint32_t count, keel_slots_stage_t next)
 {
     slots->at += count;
@@ -271,26 +190,11 @@ static void go_on_saving(keel_slots_t *slots, uint32_t count, keel_slots_stage_t
     }
 }
 
-/*@ requires \valid(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
-  @ requires slots == running_slots && slots_image(slots);
-  @ requires slots->stage == KEEL_SLOTS_WRITING;
-  @ assigns slots->at, slots->stage, slots->crc;
-  @ ensures slots_valid(slots) && slots_image(slots);
-  @ ensures \result == KEEL_SLOTS_BUSY || \result == KEEL_SLOTS_WRITE;
-  @ ensures slots->stage == \old(slots->stage) ? (\result == KEEL_SLOTS_BUSY ==>
-  @         slots->at == \old(slots->at) + PIECE_BYTES)
-  @     : slots->stage == KEEL_SLOTS_COMPARING && slots->at == 0 &&
-  @           slots_body(slots) - \old(slots->at) <= PIECE_BYTES;
-  @*/
 static keel_slots_result_t write_piece(keel_slots_t *slots)
 {
     uint8_t piece[KEEL_SLOTS_PIECE] = {0u};
     const uint32_t count = piece_of(bytes_to_save(slots) - slots->at);
 
-    /*@ loop invariant 0 <= i <= count;
-      @ loop assigns i, slots->crc, piece[0 .. KEEL_SLOTS_PIECE - 1];
-      @ loop variant count - i;
-      @*/
     for (uint32_t i = 0u; i < count; i++) {
         piece[i] = byte_to_save(slots, slots->at + i);
         if ((slots->at + i) < (HEAD_BYTES + slots->length)) {
@@ -304,18 +208,6 @@ static keel_slots_result_t write_piece(keel_slots_t *slots)
     return KEEL_SLOTS_BUSY;
 }
 
-/*@ requires \valid(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
-  @ requires slots == running_slots && slots_image(slots);
-  @ requires slots->stage == KEEL_SLOTS_COMPARING;
-  @ assigns slots->at, slots->stage;
-  @ ensures slots_valid(slots) && slots_image(slots);
-  @ ensures \result == KEEL_SLOTS_BUSY || \result == KEEL_SLOTS_READ ||
-  @     \result == KEEL_SLOTS_VERIFY;
-  @ ensures slots->stage == \old(slots->stage) ? (\result == KEEL_SLOTS_BUSY ==>
-  @         slots->at == \old(slots->at) + PIECE_BYTES)
-  @     : slots->stage == KEEL_SLOTS_MARKING && slots->at == 0 &&
-  @           slots_body(slots) - \old(slots->at) <= PIECE_BYTES;
-  @*/
 static keel_slots_result_t compare_piece(keel_slots_t *slots)
 {
     uint8_t piece[KEEL_SLOTS_PIECE] = {0u};
@@ -325,10 +217,6 @@ static keel_slots_result_t compare_piece(keel_slots_t *slots)
     if (!read_slot(slots, 1u - slots->newest, 1u + slots->at, piece, count)) {
         return KEEL_SLOTS_READ;
     }
-    /*@ loop invariant 0 <= i <= count;
-      @ loop assigns i, same;
-      @ loop variant count - i;
-      @*/
     for (uint32_t i = 0u; i < count; i++) {
         same = same && (piece[i] == byte_to_save(slots, slots->at + i));
     }
@@ -340,12 +228,6 @@ static keel_slots_result_t compare_piece(keel_slots_t *slots)
 }
 
 /* What the mark reads after it was to be written or erased. */
-/*@ requires \valid_read(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
-  @ requires slots == running_slots;
-  @ assigns \nothing;
-  @ ensures \result == KEEL_SLOTS_BUSY || \result == KEEL_SLOTS_READ ||
-  @     \result == KEEL_SLOTS_VERIFY;
-  @*/
 static keel_slots_result_t confirm_mark(const keel_slots_t *slots, bool is_set)
 {
     uint8_t mark = 0u;
@@ -356,10 +238,6 @@ static keel_slots_result_t confirm_mark(const keel_slots_t *slots, bool is_set)
     return ((mark == (uint8_t)KEEL_SLOTS_MARK) == is_set) ? KEEL_SLOTS_BUSY : KEEL_SLOTS_VERIFY;
 }
 
-/*@ requires \valid_read(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
-  @ requires slots == running_slots;
-  @ assigns \nothing;
-  @*/
 static bool clear_slot(const keel_slots_t *slots)
 {
     static const uint8_t cleared = KEEL_SLOTS_CLEARED;
@@ -368,21 +246,10 @@ static bool clear_slot(const keel_slots_t *slots)
     if (medium->erase == NULL) {
         return write_slot(slots, 0u, &cleared, 1u);
     }
-    //@ calls keel_slots_any_erase;
     return medium->erase(medium->context, slots->config.address[1u - slots->newest],
                          (uint32_t)KEEL_SLOTS_OVERHEAD + slots->config.room);
 }
 
-/*@ requires \valid(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
-  @ requires slots == running_slots && slots_image(slots);
-  @ requires slots->stage == KEEL_SLOTS_CLEARING;
-  @ assigns slots->at, slots->stage, slots->crc;
-  @ ensures slots_valid(slots) && slots_image(slots);
-  @ ensures \result == KEEL_SLOTS_BUSY || \result == KEEL_SLOTS_WRITE ||
-  @     \result == KEEL_SLOTS_READ || \result == KEEL_SLOTS_VERIFY;
-  @ ensures slots->stage ==
-  @     (\result == KEEL_SLOTS_BUSY ? KEEL_SLOTS_WRITING : KEEL_SLOTS_CLEARING);
-  @*/
 static keel_slots_result_t begin_to_write(keel_slots_t *slots)
 {
     keel_slots_result_t result = KEEL_SLOTS_WRITE;
@@ -398,16 +265,6 @@ static keel_slots_result_t begin_to_write(keel_slots_t *slots)
     return result;
 }
 
-/*@ requires \valid(slots) && slots_valid(slots) && slots_medium(&slots->config.medium);
-  @ requires slots == running_slots && slots->stage == KEEL_SLOTS_MARKING;
-  @ assigns slots->newest, slots->sequence;
-  @ ensures \result == KEEL_SLOTS_DONE || \result == KEEL_SLOTS_WRITE ||
-  @     \result == KEEL_SLOTS_READ || \result == KEEL_SLOTS_VERIFY;
-  @ ensures slots->newest ==
-  @     (\result == KEEL_SLOTS_DONE ? 1 - \old(slots->newest) : \old(slots->newest));
-  @ ensures slots->sequence ==
-  @     (\result == KEEL_SLOTS_DONE ? \old(slots->sequence) + 1 : \old(slots->sequence));
-  @*/
 static keel_slots_result_t set_mark(keel_slots_t *slots)
 {
     static const uint8_t mark = KEEL_SLOTS_MARK;
@@ -425,9 +282,6 @@ static keel_slots_result_t set_mark(keel_slots_t *slots)
 }
 
 /* From an address to the end of a slot there: whether both are addresses. */
-/*@ assigns \nothing;
-  @ ensures \result <==> address + KEEL_SLOTS_OVERHEAD + room <= UINT32_MAX;
-  @*/
 static bool slot_fits(uint32_t address, uint32_t room)
 {
     return (room <= (UINT32_MAX - (uint32_t)KEEL_SLOTS_OVERHEAD)) &&
@@ -472,22 +326,19 @@ keel_status_t keel_slots_init(keel_slots_t *slots, const keel_slots_config_t *co
 keel_slots_result_t keel_slots_load(keel_slots_t *slots, uint8_t *image, uint32_t *length)
 {
     keel_slots_result_t result = KEEL_SLOTS_NONE;
-    uint32_t index;
-    bool whole;
+    bool whole = false;
 
     slots->stage = KEEL_SLOTS_CLOSED;
     read_head(slots, 0u);
     read_head(slots, 1u);
-    index = newer_slot(slots);
-    whole = load_slot(slots, index, image);
-    if (!whole) {
-        index = 1u - index;
-        whole = load_slot(slots, index, image);
+    if (is_second_newer(slots)) {
+        whole = load_either(slots, 1u, image);
+    } else {
+        whole = load_either(slots, 0u, image);
     }
-    slots->newest = index;
-    slots->sequence = whole ? slots->slot[index].sequence : 0u;
+    slots->sequence = whole ? slots->slot[slots->newest].sequence : 0u;
     if (whole) {
-        *length = slots->slot[index].length;
+        *length = slots->slot[slots->newest].length;
         result = KEEL_SLOTS_DONE;
     } else if ((slots->slot[0].state == KEEL_SLOT_UNREADABLE) ||
                (slots->slot[1].state == KEEL_SLOT_UNREADABLE)) {

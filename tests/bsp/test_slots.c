@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Unit tests of keel/middleware/slots.h on a simulated medium whose power can be cut at any byte.
+/* Unit tests of bsp/common/slots.h on a simulated medium whose power can be cut at any byte.
  * What is expected is what was saved. Checks are those of zlib.crc32. */
-#include "keel/middleware/slots.h"
+#include "common/slots.h"
 #include "unity.h"
 
 #include <string.h>
 
-#include "any.h"
+#include "../unit/any.h"
 
 #define ROOM    40u
 #define SIZE    (ROOM + 13u)
