@@ -111,8 +111,13 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     return options
 
 
-def tools_for(toolchain: Toolchain, root: Path, scratch: Path) -> Tools:
-    """The programs of the trials."""
+def tries(options: argparse.Namespace) -> bool:
+    """Whether mutants are tried, not only told."""
+    return not (options.list or options.status)
+
+
+def tools_for(toolchain: Toolchain, root: Path, scratch: Path, trying: bool) -> Tools:
+    """The programs of the trials; who only tells needs no compiler to execute harnesses."""
     compiler = [
         *toolchain.command("arm-none-eabi-gcc"),
         *TARGET_FLAGS,
@@ -125,7 +130,8 @@ def tools_for(toolchain: Toolchain, root: Path, scratch: Path) -> Tools:
         compiler=compiler, scratch=scratch, answers=prover_answers(root, stamp),
         verdicts=toolchain.cache.folder / "verdicts",
         environment={**os.environ, **toolchain.environment(), "TMPDIR": str(scratch)},
-        clang=toolchain.command(CLANG), clang_version=toolchain.versions("fuzz")[CLANG].version,
+        clang=toolchain.command(CLANG) if trying else (),
+        clang_version=toolchain.versions("fuzz")[CLANG].version if trying else "",
         inputs=toolchain.cache.folder / "inputs",
     )  # fmt: skip
 
@@ -174,7 +180,7 @@ class Measurement:
         self._build = root / "build" / "mutate"
         self._scratch = Path(tempfile.mkdtemp(prefix="keel-mutate-"))
         trees = Trees(root, self._scratch, options.jobs)
-        programs = tools_for(tools, root, self._scratch)
+        programs = tools_for(tools, root, self._scratch, tries(options))
         exceptions = read_exceptions(root / "proofs" / "units.toml", list(find_units(root)))
         times = Times(root / "build/prove/times.json", root / RECORDED_TIMES)
         cache = Cache(self._build / "cache", options.fresh)
@@ -295,7 +301,7 @@ def measure(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolc
     measurement = Measurement(units, options, toolchain)
     crew: Threads | Dask | None = None
     try:
-        if options.list or options.status:
+        if not tries(options):
             tell(measurement, options)
             return 0
         if address := os.environ.get("DASK"):
@@ -353,7 +359,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         toolchain = Toolchain()
         if options.order:
             return answer_order(sys.stdin.read, lambda order: _ordered(order, units, toolchain))
-        toolchain.ensure("prove", "fuzz")
+        toolchain.ensure("prove", *(["fuzz"] if tries(options) else []))
         return measure([units[name] for name in options.unit], options, toolchain)
     except (ProjectError, ToolchainError) as error:
         print(f"mutate: {error}", file=sys.stderr)
