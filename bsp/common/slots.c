@@ -183,8 +183,10 @@ static uint32_t bytes_to_save(const keel_slots_t *slots)
 /* Goes on behind a piece, and behind the last one with the next stage. */
 static void go_on_saving(keel_slots_t *slots, uint32_t count, keel_slots_stage_t next)
 {
+    const uint32_t end = bytes_to_save(slots);
+
     slots->at += count;
-    if (slots->at == bytes_to_save(slots)) {
+    if (slots->at == end) {
         slots->at = 0u;
         slots->stage = next;
     }
