@@ -141,9 +141,6 @@ typedef struct keel_mavlink_sender {
   @     mavlink_end(bytes) + KEEL_MAVLINK_CHECKSUM_BYTES +
   @     (bytes[2] == 0 ? 0 : KEEL_MAVLINK_SIGNATURE_BYTES);
   @
-  @ logic integer mavlink_rest(integer crc, integer byte) =
-  @     crc_down(crc ^ byte, KEEL_CRC16_POLYNOMIAL, 8);
-  @
   @ logic integer mavlink_sum(integer count) = count < UINT32_MAX ? count + 1 : UINT32_MAX;
   @
   @ // Its frame is of that message, and as long as one may be.
@@ -241,8 +238,6 @@ keel_status_t keel_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_mess
   @     \old(mavlink->held) + 1 == \old(mavlink_whole(&mavlink->header[0]));
   @ ensures MAV_004_message: \result ==> \old(mavlink->message < mavlink->known &&
   @     mavlink_is_of(&mavlink->header[0], mavlink->messages + mavlink->message));
-  @ ensures MAV_004_checksum: \result ==> mavlink->frame.checksum ==
-  @     \old(mavlink_rest(mavlink->crc, mavlink->messages[mavlink->message].crc_extra));
   @ ensures MAV_005_header: \result ==> mavlink->frame.length == \old(mavlink->header[1]) &&
   @     mavlink->frame.is_signed == \old(mavlink->header[2]) &&
   @     mavlink->frame.compatible == \old(mavlink->header[3]) &&
@@ -272,12 +267,6 @@ keel_status_t keel_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_mess
   @ ensures MAV_008_first: \old(mavlink->held) == 0 ==> !\result &&
   @     mavlink->held == (byte == KEEL_MAVLINK_FIRST ? 1 : 0) &&
   @     (byte == KEEL_MAVLINK_FIRST ==> mavlink->crc == KEEL_CRC16_FIRST);
-  @ ensures MAV_008_crc: \old(mavlink->held > 2 &&
-  @     mavlink->held < mavlink_end(&mavlink->header[0])) ==>
-  @         mavlink->crc == mavlink_rest(\old(mavlink->crc), byte);
-  @ ensures MAV_008_end: \old(mavlink->held > 2 &&
-  @     mavlink->held >= mavlink_end(&mavlink->header[0])) ==>
-  @         mavlink->crc == \old(mavlink->crc);
   @*/
 bool keel_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte);
 
