@@ -17,8 +17,8 @@
 #include "keel/flight/pid.h"
 #include "keel/flight/position.h"
 #include "keel/flight/reference.h"
-#include "keel/middleware/ms5611.h"
 #include "keel/middleware/mavlink.h"
+#include "keel/middleware/ms5611.h"
 #include "keel/middleware/sbus.h"
 #include "keel/middleware/virtual_imu.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/middleware/power_module.c specs/model/power_module.c
-// covers: keel_power_module_read scaled model_power_module_read whole_of_counts
+// covers: keel_power_module_read scaled_count model_power_module_read whole_of_counts
 //
 // A board's modules, a few counts: what is worked out by hand. 3300 mV times 18.1 is 59730 mV for
 // 4096 counts, and times 36.367515 A/V 120012.7995 mA.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --z3
 // sources: src/middleware/power_module.c specs/model/power_module.c
-// covers: keel_power_module_read scaled model_power_module_read whole_of_counts
+// covers: keel_power_module_read scaled_count model_power_module_read whole_of_counts
 //
 // Any valid module and any counts: nothing overflows, and what is told is of the counts.
 #include "power_module_proof.h"

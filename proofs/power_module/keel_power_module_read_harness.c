@@ -2,7 +2,7 @@
 // cbmc: --z3
 // checks: assertions
 // sources: src/middleware/power_module.c specs/model/power_module.c
-// covers: keel_power_module_read scaled model_power_module_read whole_of_counts
+// covers: keel_power_module_read scaled_count model_power_module_read whole_of_counts
 //
 // Any valid module and any counts: the same as the model's in every field. That nothing overflows
 // is checked in keel_power_module_read__bounds_harness.

@@ -4,8 +4,8 @@
 // covers: keel_signing_accepts count_signed put_timestamp place_of_stream is_fresh put_frame
 // covers: is_sealed note_frame
 //
-// The clauses, without the model's decisions: with a key, what is accepted has a signature of all of
-// its bytes, and is newer than its stream was; that is noted. What is refused moves nothing.
+// The clauses, without the model's decisions: with a key, what is accepted has a signature of all
+// of its bytes, and is newer than its stream was; that is noted. What is refused moves nothing.
 #include "signing_proof.h"
 
 void keel_signing_accepts__kept_harness(void)

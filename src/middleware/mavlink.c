@@ -231,7 +231,9 @@ static uint64_t timestamp_in(const keel_mavlink_t *mavlink)
       @ loop variant TIMESTAMP_BYTES - i;
       @*/
     for (uint32_t i = 0u; i < TIMESTAMP_BYTES; i++) {
-        timestamp |= (uint64_t)mavlink->tail[TIMESTAMP_AT + i] << (BITS * i);
+        const uint32_t place = BITS * i;
+
+        timestamp |= (uint64_t)mavlink->tail[TIMESTAMP_AT + i] << place;
     }
     return timestamp;
 }

@@ -19,7 +19,7 @@ static bool is_scale(uint32_t value, uint32_t most)
   @ assigns \nothing;
   @ ensures \result == power_module_scaled(count, full);
   @*/
-static uint32_t scaled(uint16_t count, uint64_t full)
+static uint32_t scaled_count(uint16_t count, uint64_t full)
 {
     const uint64_t most = KEEL_POWER_MODULE_COUNT_MAX;
     const uint64_t counted = (count < most) ? count : most;
@@ -46,8 +46,8 @@ void keel_power_module_read(const keel_power_module_t *module, uint16_t voltage,
 {
     uint32_t told = 0u;
 
-    reading->voltage_mv = scaled(voltage, module->voltage);
-    reading->current_ma = scaled(current, module->current);
+    reading->voltage_mv = scaled_count(voltage, module->voltage);
+    reading->current_ma = scaled_count(current, module->current);
     if (reading->voltage_mv <= module->open_mv) {
         told += (uint32_t)KEEL_POWER_MODULE_OPEN;
     }

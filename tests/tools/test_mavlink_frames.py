@@ -128,7 +128,8 @@ class Frames(unittest.TestCase):
         size = self.common.mavlink_map[number].unpacker.size
         kept = self.random.randrange(size + 1)
         odds = self.random.random()
-        some = [self.random.randrange(256) if self.random.random() < odds else 0 for _ in range(kept)]
+        some = [self.random.randrange(256) if self.random.random() < odds else 0
+                for _ in range(kept)]  # fmt: skip
         return bytes(some).ljust(size, b"\0")
 
     def sender(self, key: bytes = b"") -> Any:

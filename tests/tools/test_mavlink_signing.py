@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""MAVLink's signatures beside pymavlink's, with HACL*'s SHA-256, which must build for the target, too.
+"""MAVLink's signatures beside pymavlink's, with HACL*'s SHA-256, which builds for the target, too.
 
 Needs the group "mavlink" of the toolchain: pymavlink, and a crate that carries HACL*'s C sources.
 """
@@ -119,7 +119,8 @@ class Signing(unittest.TestCase):
                     f"-I{carried / 'karamel/krmllib/dist/minimal'}"]  # fmt: skip
         shim, built = cls.folder / "shim.c", cls.folder / "shim.so"
         shim.write_text(SHIM)
-        output_of(["gcc", "-std=gnu11", "-O1", "-shared", "-fPIC", "-w", f"-I{ROOT / 'include'}", shim,
+        output_of(["gcc", "-std=gnu11", "-O1", "-shared", "-fPIC", "-w",
+                   f"-I{ROOT / 'include'}", shim,
                    *[ROOT / name for name in SOURCES], *cls.hacl, "-o", built])  # fmt: skip
         cls.library = ctypes.CDLL(str(built))
         cls.library.timestamp.restype = ctypes.c_ulonglong
@@ -238,7 +239,8 @@ class Signing(unittest.TestCase):
     def test_the_hash_builds_for_the_target_without_a_heap(self) -> None:
         program, image = self.folder / "target.c", self.folder / "target.elf"
         program.write_text(TARGET)
-        flags = ["-std=c11", "-Os", "-ffreestanding", "-ffunction-sections", "-fdata-sections", "-w"]
+        flags = ["-std=c11", "-Os", "-ffreestanding", "-ffunction-sections", "-fdata-sections",
+                 "-w"]  # fmt: skip
         chip = ["-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard"]
         output_of(["arm-none-eabi-gcc", *chip, *flags, f"-I{ROOT / 'include'}", program,
                    *[ROOT / name for name in SOURCES], *self.hacl,
