@@ -51,7 +51,7 @@ FLIES = (
     Box("Keel: flight", "filter   pid   mixer   reference   mode   calibration\n"
         "attitude   axis   altitude   position   battery   cascade", BLUE),
     Box("Keel: middleware", "range   oversample   voter   virtual_imu   sbus   crc\n"
-        "mavlink   signing   ms5611   power_module   log_ring", BLUE),
+        "mavlink   ms5611   power_module   log_ring", BLUE),
     Box("Keel: rtos", "scheduler   pass   admission   decision\n"
         "queue   task   stats   load   deviation   priority   clock", BLUE),
     Box("your board", "a microsecond counter; drivers for two boards are here", GREY),

@@ -24,7 +24,11 @@
 #define BYTE 0xFFu
 #define BITS 8u
 
-#define TIMESTAMP_BYTES 6u
+/* What a byte of a number counts, the lowest first. */
+#define SECOND 0x100u
+#define THIRD  0x10000u
+#define FOURTH 0x1000000u
+#define FIFTH  0x100000000u
 
 /*@ requires \valid(count);
   @ assigns *count;
@@ -224,18 +228,12 @@ static void check_message(keel_mavlink_t *mavlink)
   @*/
 static uint64_t timestamp_in(const keel_mavlink_t *mavlink)
 {
-    uint64_t timestamp = 0u;
+    const uint8_t *const byte = &mavlink->tail[TIMESTAMP_AT];
+    const uint32_t low = (uint32_t)byte[0] + ((uint32_t)byte[1] * SECOND) +
+                         ((uint32_t)byte[2] * THIRD) + ((uint32_t)byte[3] * FOURTH);
+    const uint32_t high = (uint32_t)byte[4] + ((uint32_t)byte[5] * SECOND);
 
-    /*@ loop invariant 0 <= i <= TIMESTAMP_BYTES && timestamp < (1 << (8 * i));
-      @ loop assigns i, timestamp;
-      @ loop variant TIMESTAMP_BYTES - i;
-      @*/
-    for (uint32_t i = 0u; i < TIMESTAMP_BYTES; i++) {
-        const uint32_t place = BITS * i;
-
-        timestamp |= (uint64_t)mavlink->tail[TIMESTAMP_AT + i] << place;
-    }
-    return timestamp;
+    return ((uint64_t)high * FIFTH) + low;
 }
 
 /*@ requires \valid(mavlink);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/signing.h"
+#include "common/signing.h"
 
 #define BYTE            0xFFu
 #define BITS            8u
@@ -13,26 +13,15 @@
 #define TIMESTAMP_AT 1u
 #define SEAL_AT      7u
 
-/*@ requires \valid(count);
-  @ assigns *count;
-  @ ensures *count == mavlink_sum(\old(*count));
-  @*/
 static void count_signed(uint32_t *count)
 {
     *count += (*count < UINT32_MAX) ? 1u : 0u;
 }
 
-/*@ requires \valid(bytes + (0 .. TIMESTAMP_BYTES - 1));
-  @ assigns bytes[0 .. TIMESTAMP_BYTES - 1];
-  @*/
 static void put_timestamp(uint8_t *bytes, uint64_t timestamp)
 {
     uint64_t left = timestamp;
 
-    /*@ loop invariant 0 <= i <= TIMESTAMP_BYTES;
-      @ loop assigns i, left, bytes[0 .. TIMESTAMP_BYTES - 1];
-      @ loop variant TIMESTAMP_BYTES - i;
-      @*/
     for (uint32_t i = 0u; i < TIMESTAMP_BYTES; i++) {
         bytes[i] = (uint8_t)(left & BYTE);
         left >>= BITS;
@@ -40,22 +29,10 @@ static void put_timestamp(uint8_t *bytes, uint64_t timestamp)
 }
 
 /* The place of the frame's stream; the number of streams when it has none. */
-/*@ requires \valid_read(signing) && \valid_read(frame) && signing_valid(signing);
-  @ assigns \nothing;
-  @ ensures \result <= signing->streams;
-  @ ensures \result < signing->streams ==> signing_is_of(&signing->stream[\result], frame);
-  @ ensures \forall integer i; 0 <= i < \result ==> !signing_is_of(&signing->stream[i], frame);
-  @*/
 static uint32_t place_of_stream(const keel_signing_t *signing, const keel_mavlink_frame_t *frame)
 {
     uint32_t place = 0u;
 
-    /*@ loop invariant 0 <= place <= signing->streams;
-      @ loop invariant \forall integer i; 0 <= i < place ==>
-      @     !signing_is_of(&signing->stream[i], frame);
-      @ loop assigns place;
-      @ loop variant signing->streams - place;
-      @*/
     while ((place < signing->streams) && ((signing->stream[place].system != frame->system) ||
                                           (signing->stream[place].component != frame->component) ||
                                           (signing->stream[place].link != frame->link))) {
@@ -65,15 +42,6 @@ static uint32_t place_of_stream(const keel_signing_t *signing, const keel_mavlin
 }
 
 /* Whether it is newer than what came before it, or why not. */
-/*@ requires \valid(signing) && \valid_read(frame) && \separated(signing, frame);
-  @ requires signing_valid(signing) && frame->timestamp <= KEEL_SIGNING_TIME_MAX;
-  @ requires place <= signing->streams;
-  @ assigns signing->count.replayed, signing->count.full, signing->count.old;
-  @ ensures \result && place < signing->streams ==>
-  @     frame->timestamp > signing->stream[place].timestamp;
-  @ ensures \result && place == signing->streams ==> place < KEEL_SIGNING_STREAMS &&
-  @     frame->timestamp + KEEL_SIGNING_MINUTE >= signing->timestamp;
-  @*/
 static bool is_fresh(keel_signing_t *signing, const keel_mavlink_frame_t *frame, uint32_t place)
 {
     bool fresh = false;
@@ -94,10 +62,6 @@ static bool is_fresh(keel_signing_t *signing, const keel_mavlink_frame_t *frame,
 }
 
 /* Puts the frame behind the key, as it was sent and without its seal. */
-/*@ requires \valid(signing) && \valid_read(frame) && \separated(signing, frame);
-  @ assigns signing->text[KEEL_SIGNING_KEY_BYTES .. KEEL_SIGNING_TEXT_MAX - 1];
-  @ ensures KEEL_SIGNING_KEY_BYTES <= \result <= KEEL_SIGNING_TEXT_MAX;
-  @*/
 static uint32_t put_frame(keel_signing_t *signing, const keel_mavlink_frame_t *frame)
 {
     const uint8_t header[KEEL_MAVLINK_HEADER_BYTES] = {
@@ -114,17 +78,9 @@ static uint32_t put_frame(keel_signing_t *signing, const keel_mavlink_frame_t *f
     };
     const uint32_t end = PAYLOAD_AT + (uint32_t)frame->length;
 
-    /*@ loop invariant 0 <= i <= KEEL_MAVLINK_HEADER_BYTES;
-      @ loop assigns i, signing->text[KEEL_SIGNING_KEY_BYTES .. KEEL_SIGNING_TEXT_MAX - 1];
-      @ loop variant KEEL_MAVLINK_HEADER_BYTES - i;
-      @*/
     for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_HEADER_BYTES; i++) {
         signing->text[FRAME_AT + i] = header[i];
     }
-    /*@ loop invariant 0 <= i <= frame->length;
-      @ loop assigns i, signing->text[KEEL_SIGNING_KEY_BYTES .. KEEL_SIGNING_TEXT_MAX - 1];
-      @ loop variant frame->length - i;
-      @*/
     for (uint32_t i = 0u; i < frame->length; i++) {
         signing->text[PAYLOAD_AT + i] = frame->payload[i];
     }
@@ -136,11 +92,6 @@ static uint32_t put_frame(keel_signing_t *signing, const keel_mavlink_frame_t *f
 }
 
 /* Whether its seal is right. How long this takes tells nothing of how much of it is. */
-/*@ requires \valid(signing) && \valid_read(frame) && \separated(signing, frame);
-  @ requires signing_hashed(signing);
-  @ assigns signing->text[KEEL_SIGNING_KEY_BYTES .. KEEL_SIGNING_TEXT_MAX - 1],
-  @     signing->count.wrong;
-  @*/
 static bool is_sealed(keel_signing_t *signing, const keel_mavlink_frame_t *frame)
 {
     uint8_t digest[KEEL_SIGNING_DIGEST_BYTES] = {0};
@@ -149,10 +100,6 @@ static bool is_sealed(keel_signing_t *signing, const keel_mavlink_frame_t *frame
 
     //@ calls keel_any_hash;
     signing->hash(signing->text, size, digest);
-    /*@ loop invariant 0 <= i <= KEEL_MAVLINK_SEAL_BYTES;
-      @ loop assigns i, difference;
-      @ loop variant KEEL_MAVLINK_SEAL_BYTES - i;
-      @*/
     for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_SEAL_BYTES; i++) {
         difference |= (uint32_t)digest[i] ^ (uint32_t)frame->seal[i];
     }
@@ -163,19 +110,6 @@ static bool is_sealed(keel_signing_t *signing, const keel_mavlink_frame_t *frame
 }
 
 /* Moves its stream's time to the frame's, and ours up to it. */
-/*@ requires \valid(signing) && \valid_read(frame) && \separated(signing, frame);
-  @ requires signing_valid(signing) && frame->timestamp <= KEEL_SIGNING_TIME_MAX;
-  @ requires place <= signing->streams && place < KEEL_SIGNING_STREAMS;
-  @ requires place < signing->streams ==>
-  @     signing_is_of(&signing->stream[place], frame) &&
-  @     frame->timestamp > signing->stream[place].timestamp;
-  @ assigns signing->stream[place], signing->streams, signing->count.accepted, signing->timestamp;
-  @ ensures signing->streams == \old(signing->streams) + (place == \old(signing->streams) ? 1 : 0);
-  @ ensures signing_is_of(&signing->stream[place], frame) &&
-  @     signing->stream[place].timestamp == frame->timestamp;
-  @ ensures signing->timestamp == (frame->timestamp > \old(signing->timestamp) ?
-  @     frame->timestamp : \old(signing->timestamp));
-  @*/
 static void note_frame(keel_signing_t *signing, const keel_mavlink_frame_t *frame, uint32_t place)
 {
     keel_signing_stream_t *const stream = &signing->stream[place];
@@ -198,17 +132,9 @@ void keel_signing_init(keel_signing_t *signing, uint8_t link, keel_signing_hash_
     static const keel_signing_count_t no_count = {0};
     static const keel_signing_stream_t no_stream = {0};
 
-    /*@ loop invariant 0 <= i <= KEEL_SIGNING_STREAMS;
-      @ loop assigns i, signing->stream[0 .. KEEL_SIGNING_STREAMS - 1];
-      @ loop variant KEEL_SIGNING_STREAMS - i;
-      @*/
     for (uint32_t i = 0u; i < (uint32_t)KEEL_SIGNING_STREAMS; i++) {
         signing->stream[i] = no_stream;
     }
-    /*@ loop invariant 0 <= i <= KEEL_SIGNING_TEXT_MAX;
-      @ loop assigns i, signing->text[0 .. KEEL_SIGNING_TEXT_MAX - 1];
-      @ loop variant KEEL_SIGNING_TEXT_MAX - i;
-      @*/
     for (uint32_t i = 0u; i < (uint32_t)KEEL_SIGNING_TEXT_MAX; i++) {
         signing->text[i] = 0u;
     }
@@ -222,11 +148,6 @@ void keel_signing_init(keel_signing_t *signing, uint8_t link, keel_signing_hash_
 
 void keel_signing_set_key(keel_signing_t *signing, const uint8_t *key)
 {
-    /*@ loop invariant 0 <= i <= KEEL_SIGNING_KEY_BYTES;
-      @ loop invariant \forall integer j; 0 <= j < i ==> signing->text[j] == key[j];
-      @ loop assigns i, signing->text[0 .. KEEL_SIGNING_KEY_BYTES - 1];
-      @ loop variant KEEL_SIGNING_KEY_BYTES - i;
-      @*/
     for (uint32_t i = 0u; i < (uint32_t)KEEL_SIGNING_KEY_BYTES; i++) {
         signing->text[i] = key[i];
     }
@@ -271,16 +192,6 @@ bool keel_signing_accepts(keel_signing_t *signing, const keel_mavlink_frame_t *f
 }
 
 /* Signs a frame that has room for it, with the time that follows ours. */
-/*@ requires \valid(signing) && signing_hashed(signing) &&
-  @     signing->timestamp < KEEL_SIGNING_TIME_MAX;
-  @ requires KEEL_MAVLINK_SIGNATURE_BYTES < whole <= KEEL_MAVLINK_FRAME_MAX;
-  @ requires \valid(frame + (0 .. whole - 1)) && \separated(signing, frame + (0 .. whole - 1));
-  @ assigns signing->timestamp,
-  @     signing->text[KEEL_SIGNING_KEY_BYTES .. KEEL_SIGNING_TEXT_MAX - 1],
-  @     frame[whole - KEEL_MAVLINK_SIGNATURE_BYTES .. whole - 1];
-  @ ensures signing->timestamp == \old(signing->timestamp) + 1;
-  @ ensures frame[whole - KEEL_MAVLINK_SIGNATURE_BYTES] == signing->link;
-  @*/
 static void sign_frame(keel_signing_t *signing, uint8_t *frame, uint32_t whole)
 {
     uint8_t digest[KEEL_SIGNING_DIGEST_BYTES] = {0};
@@ -290,19 +201,11 @@ static void sign_frame(keel_signing_t *signing, uint8_t *frame, uint32_t whole)
     signing->timestamp++;
     frame[at] = signing->link;
     put_timestamp(&frame[at + TIMESTAMP_AT], signing->timestamp);
-    /*@ loop invariant 0 <= i <= seal;
-      @ loop assigns i, signing->text[KEEL_SIGNING_KEY_BYTES .. KEEL_SIGNING_TEXT_MAX - 1];
-      @ loop variant seal - i;
-      @*/
     for (uint32_t i = 0u; i < seal; i++) {
         signing->text[FRAME_AT + i] = frame[i];
     }
     //@ calls keel_any_hash;
     signing->hash(signing->text, FRAME_AT + seal, digest);
-    /*@ loop invariant 0 <= i <= KEEL_MAVLINK_SEAL_BYTES;
-      @ loop assigns i, frame[seal .. whole - 1];
-      @ loop variant KEEL_MAVLINK_SEAL_BYTES - i;
-      @*/
     for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_SEAL_BYTES; i++) {
         frame[seal + i] = digest[i];
     }

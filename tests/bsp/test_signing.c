@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Unit tests of keel/middleware/signing.h. The frame and its signature are those that pymavlink
+/* Unit tests of bsp/common/signing.h. The frame and its signature are those that pymavlink
  * 2.4.50 made; the hash here knows that one text, and gives all others something else. */
-#include "keel/middleware/signing.h"
+#include "common/signing.h"
 #include "unity.h"
 
 #include <string.h>
@@ -226,6 +226,14 @@ static void SGN_008_every_field_is_part_of_what_is_signed(void)
     TEST_ASSERT_TRUE(keel_signing_accepts(&signing, &frame));
 }
 
+/* Of a sender that nobody knows yet: it takes up no room. */
+static void SGN_009_what_is_refused_moves_nothing(void)
+{
+    frame.system = 7u;
+    refused(&signing.count.wrong);
+    TEST_ASSERT_EQUAL_UINT32(0u, signing.streams);
+}
+
 static void SGN_010_our_time_follows(void)
 {
     sealed_all = true;
@@ -304,6 +312,7 @@ int main(void)
     RUN_TEST(SGN_007_there_is_room_for_so_many_streams);
     RUN_TEST(SGN_008_no_wrong_signature_is_accepted);
     RUN_TEST(SGN_008_every_field_is_part_of_what_is_signed);
+    RUN_TEST(SGN_009_what_is_refused_moves_nothing);
     RUN_TEST(SGN_010_our_time_follows);
     RUN_TEST(SGN_010_counts_stay_at_their_end);
     RUN_TEST(SGN_011_frames_are_signed_as_others_sign_them);
