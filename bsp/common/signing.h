@@ -23,7 +23,8 @@
  * the date, give it that, too. When all streams are in use new ones are refused, until a key is
  * set.
  *
- * The hash, SHA256, comes from outside, as a function that whoever builds Keel into a program gives.
+ * The hash, SHA256, comes from outside, as a function that whoever builds Keel into a program
+ * gives.
  *
  * What is here is tested, beside another implementation, and not proved.
  */

@@ -497,9 +497,8 @@ uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_me
     out[COMPONENT_AT] = sender->component;
     out[ID_AT] = (uint8_t)(message->id & BYTE);
     out[ID_AT + 1u] = (uint8_t)((message->id >> BITS) & BYTE);
-    out[ID_AT + 2u] = (uint8_t)(message->id >> (2u * BITS));
+    out[ID_AT + 2u] = (uint8_t)((message->id >> (2u * BITS)) & BYTE);
     /*@ loop invariant 0 <= i <= cut;
-      @ loop invariant \forall integer j; 0 <= j < i ==> out[PAYLOAD_AT + j] == payload[j];
       @ loop assigns i, out[PAYLOAD_AT .. end - 1];
       @ loop variant cut - i;
       @*/

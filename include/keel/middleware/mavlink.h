@@ -302,25 +302,21 @@ void keel_mavlink_gap(keel_mavlink_t *mavlink);
   @     \valid(out + (0 .. size - 1)) &&
   @     \separated(sender, message, payload + (0 .. length - 1), out + (0 .. size - 1));
   @ assigns sender->sequence, out[0 .. size - 1];
-  @ behavior refused:
-  @   assumes length < 1 || length > message->longest || message->id > KEEL_MAVLINK_ID_MAX ||
-  @       \exists integer n; mavlink_cut(payload, length, n) && size < mavlink_room(sender) + n;
-  @   assigns \nothing;
-  @   ensures MAV_011_refused: \result == 0;
-  @ behavior written:
-  @   assumes 1 <= length <= message->longest && message->id <= KEEL_MAVLINK_ID_MAX &&
-  @       \forall integer n; mavlink_cut(payload, length, n) ==> size >= mavlink_room(sender) + n;
-  @   ensures MAV_012_header: out[0] == KEEL_MAVLINK_FIRST && out[3] == 0 &&
-  @       out[2] == (sender->is_signing != 0 ? 1 : 0) &&
-  @       out[4] == \old(sender->sequence) && out[5] == sender->system &&
-  @       out[6] == sender->component && mavlink_id(out) == message->id;
-  @   ensures MAV_012_length: mavlink_cut(payload, length, out[1]) &&
-  @       \result == mavlink_room(sender) + out[1];
-  @   ensures MAV_012_payload: \forall integer i; 0 <= i < out[1] ==>
-  @       out[KEEL_MAVLINK_HEADER_BYTES + i] == payload[i];
-  @   ensures MAV_013_sequence: sender->sequence == (\old(sender->sequence) + 1) % 256;
-  @ complete behaviors;
-  @ disjoint behaviors;
+  @ ensures MAV_011_refused: (length < 1 || length > message->longest ||
+  @     message->id > KEEL_MAVLINK_ID_MAX || \exists integer n;
+  @         mavlink_cut(payload, length, n) && size < mavlink_room(sender) + n) <==> \result == 0;
+  @ ensures MAV_011_kept: \result == 0 ==> sender->sequence == \old(sender->sequence) &&
+  @     \forall integer i; 0 <= i < size ==> out[i] == \old(out[i]);
+  @ ensures MAV_012_header: \result > 0 ==> out[0] == KEEL_MAVLINK_FIRST && out[3] == 0 &&
+  @     out[2] == (sender->is_signing != 0 ? 1 : 0) &&
+  @     out[4] == \old(sender->sequence) && out[5] == sender->system &&
+  @     out[6] == sender->component && mavlink_id(out) == message->id;
+  @ ensures MAV_012_length: \result > 0 ==> mavlink_cut(payload, length, out[1]) &&
+  @     \result == mavlink_room(sender) + out[1];
+  @ ensures MAV_012_payload: \result > 0 ==> \forall integer i; 0 <= i < out[1] ==>
+  @     out[KEEL_MAVLINK_HEADER_BYTES + i] == payload[i];
+  @ ensures MAV_013_sequence: \result > 0 ==>
+  @     sender->sequence == (\old(sender->sequence) + 1) % 256;
   @*/
 uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_message_t *message,
                             const uint8_t *payload, uint8_t length, uint8_t *out, uint32_t size);
