@@ -359,7 +359,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         toolchain = Toolchain()
         if options.order:
             return answer_order(sys.stdin.read, lambda order: _ordered(order, units, toolchain))
-        toolchain.ensure("prove", *(["fuzz"] if tries(options) else []))
+        toolchain.ensure("prove")
+        if tries(options):
+            toolchain.ensure("fuzz")
         return measure([units[name] for name in options.unit], options, toolchain)
     except (ProjectError, ToolchainError) as error:
         print(f"mutate: {error}", file=sys.stderr)

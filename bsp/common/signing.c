@@ -213,15 +213,15 @@ static void sign_frame(keel_signing_t *signing, uint8_t *frame, uint32_t whole)
 
 uint16_t keel_signing_write(keel_signing_t *signing, keel_mavlink_sender_t *sender,
                             const keel_mavlink_message_t *message, const uint8_t *payload,
-                            uint8_t length, uint8_t *out, uint32_t size)
+                            uint8_t length, keel_mavlink_packet_t *packet)
 {
     uint16_t whole = 0u;
 
     sender->is_signing = signing->has_key;
     if (!signing->has_key || (signing->timestamp < KEEL_SIGNING_TIME_MAX)) {
-        whole = keel_mavlink_write(sender, message, payload, length, out, size);
+        whole = keel_mavlink_write(sender, message, payload, length, packet);
         if (signing->has_key && (whole > 0u)) {
-            sign_frame(signing, out, whole);
+            sign_frame(signing, packet->bytes, whole);
         }
     }
     return whole;

@@ -152,13 +152,12 @@ bool keel_signing_accepts(keel_signing_t *signing, const keel_mavlink_frame_t *f
  * @param message as there
  * @param payload as there
  * @param length  as there
- * @param out     as there
- * @param size    as there
+ * @param packet  as there
  * @return as there; 0, too, when it is to be signed and our time is at its end
  */
 uint16_t keel_signing_write(keel_signing_t *signing, keel_mavlink_sender_t *sender,
                             const keel_mavlink_message_t *message, const uint8_t *payload,
-                            uint8_t length, uint8_t *out, uint32_t size);
+                            uint8_t length, keel_mavlink_packet_t *packet);
 
 KEEL_C_END
 

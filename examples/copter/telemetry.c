@@ -171,7 +171,7 @@ static void send_next(copter_t *copter, uint32_t number)
     copter_link_t *const link = &self->link[number];
     const uint32_t next = copter_turns_next(&link->turns);
     uint8_t payload[KEEL_MAVLINK_PAYLOAD_MAX] = {0};
-    uint8_t frame[KEEL_MAVLINK_FRAME_MAX];
+    keel_mavlink_packet_t packet;
     uint32_t length;
     uint32_t size = 0u;
 
@@ -185,8 +185,8 @@ static void send_next(copter_t *copter, uint32_t number)
     }
     if (copter_report(copter, link, next, payload)) {
         size = keel_signing_write(&self->signing, &link->sender, &messages_sent[next], payload,
-                                  (uint8_t)length, frame, sizeof frame);
-        lines->write(lines->context, number, frame, size);
+                                  (uint8_t)length, &packet);
+        lines->write(lines->context, number, packet.bytes, size);
     }
     copter_turns_sent(&link->turns, next, size);
 }

@@ -135,6 +135,16 @@ static bool mavlink_same(const keel_mavlink_t *a, const keel_mavlink_t *b)
     return same;
 }
 
+static bool mavlink_packet_same(const keel_mavlink_packet_t *a, const keel_mavlink_packet_t *b)
+{
+    bool same = true;
+
+    for (uint32_t i = 0u; i < KEEL_MAVLINK_FRAME_MAX; i++) {
+        same = same && (a->bytes[i] == b->bytes[i]);
+    }
+    return same;
+}
+
 static bool mavlink_sender_same(const keel_mavlink_sender_t *a, const keel_mavlink_sender_t *b)
 {
     return (a->system == b->system) && (a->component == b->component) &&

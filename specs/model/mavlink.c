@@ -234,7 +234,7 @@ static uint32_t sent_bytes(const uint8_t *payload, uint32_t length)
 
 /* MAV-011 to MAV-013 */
 uint16_t model_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_message_t *message,
-                             const uint8_t *payload, uint8_t length, uint8_t *out, uint32_t size)
+                             const uint8_t *payload, uint8_t length, keel_mavlink_packet_t *packet)
 {
     const uint32_t sent = sent_bytes(payload, length);
     const uint32_t whole = 12u + sent + (sender->is_signing ? 13u : 0u);
@@ -250,16 +250,15 @@ uint16_t model_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_m
                                 (uint8_t)((message->id / 65536u) % 256u)};
     uint16_t checksum;
 
-    if ((length == 0u) || (length > message->longest) || (message->id >= 16777216u) ||
-        (size < whole)) {
+    if ((length == 0u) || (length > message->longest) || (message->id >= 16777216u)) {
         return 0u;
     }
     for (uint32_t i = 0u; i < whole; i++) {
-        out[i] = (i < 10u) ? header[i] : ((i < (10u + sent)) ? payload[i - 10u] : 0u);
+        packet->bytes[i] = (i < 10u) ? header[i] : ((i < (10u + sent)) ? payload[i - 10u] : 0u);
     }
-    checksum = model_mavlink_checksum(out, message->crc_extra);
-    out[10u + sent] = (uint8_t)(checksum % 256u);
-    out[11u + sent] = (uint8_t)(checksum / 256u);
+    checksum = model_mavlink_checksum(packet->bytes, message->crc_extra);
+    packet->bytes[10u + sent] = (uint8_t)(checksum % 256u);
+    packet->bytes[11u + sent] = (uint8_t)(checksum / 256u);
     sender->sequence = (uint8_t)((sender->sequence + 1u) % 256u);
     return (uint16_t)whole;
 }

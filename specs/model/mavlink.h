@@ -13,7 +13,7 @@ keel_status_t model_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_mes
 bool model_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte);
 void model_mavlink_gap(keel_mavlink_t *mavlink);
 uint16_t model_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_message_t *message,
-                             const uint8_t *payload, uint8_t length, uint8_t *out, uint32_t size);
+                             const uint8_t *payload, uint8_t length, keel_mavlink_packet_t *packet);
 
 /* The bytes of a frame that begins with these (with its length and flags), and what the whole frame
  * says that a decoder holds: what the proofs and tests say frames by. */

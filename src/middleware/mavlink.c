@@ -470,10 +470,11 @@ static uint16_t checksum_of(const uint8_t *bytes, uint32_t end, uint8_t extra)
 }
 
 uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_message_t *message,
-                            const uint8_t *payload, uint8_t length, uint8_t *out, uint32_t size)
+                            const uint8_t *payload, uint8_t length, keel_mavlink_packet_t *packet)
 {
     const uint32_t signature = sender->is_signing ? (uint32_t)KEEL_MAVLINK_SIGNATURE_BYTES : 0u;
     const uint8_t sequence = sender->sequence;
+    uint8_t *const out = packet->bytes;
     uint32_t end;
     uint32_t whole;
     uint16_t checksum;
@@ -486,9 +487,6 @@ uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_me
     cut = cut_of(payload, length);
     end = PAYLOAD_AT + (uint32_t)cut;
     whole = end + (uint32_t)KEEL_MAVLINK_CHECKSUM_BYTES + signature;
-    if (whole > size) {
-        return 0u;
-    }
     out[0] = (uint8_t)KEEL_MAVLINK_FIRST;
     out[LENGTH_AT] = cut;
     out[FLAGS_AT] = sender->is_signing ? FLAG_SIGNED : 0u;
@@ -500,7 +498,7 @@ uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_me
     out[ID_AT + 1u] = (uint8_t)((message->id >> BITS) & BYTE);
     out[ID_AT + 2u] = (uint8_t)((message->id >> (2u * BITS)) & BYTE);
     /*@ loop invariant 0 <= i <= cut;
-      @ loop assigns i, out[PAYLOAD_AT .. end - 1];
+      @ loop assigns i, packet->bytes[PAYLOAD_AT .. end - 1];
       @ loop variant cut - i;
       @*/
     for (uint32_t i = 0u; i < cut; i++) {
@@ -510,7 +508,7 @@ uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_me
     out[end] = (uint8_t)(checksum & BYTE);
     out[end + 1u] = (uint8_t)(((uint32_t)checksum >> BITS) & BYTE);
     /*@ loop invariant end + 2 <= i <= whole;
-      @ loop assigns i, out[end + 2 .. whole - 1];
+      @ loop assigns i, packet->bytes[end + 2 .. whole - 1];
       @ loop variant whole - i;
       @*/
     for (uint32_t i = end + 2u; i < whole; i++) {

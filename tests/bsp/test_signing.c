@@ -24,7 +24,8 @@ static const uint8_t seal[6] = {0xA6, 0x2A, 0xC1, 0x40, 0xBB, 0xF1};
 static keel_signing_t signing;
 static keel_mavlink_sender_t sender;
 static keel_mavlink_frame_t frame;
-static uint8_t out[KEEL_MAVLINK_FRAME_MAX];
+static keel_mavlink_packet_t packet;
+static uint8_t *const out = packet.bytes;
 static bool sealed_all;
 
 static void hash(const uint8_t *data, uint32_t size, uint8_t *digest)
@@ -53,7 +54,7 @@ void setUp(void)
     frame.link = LINK;
     frame.timestamp = TIME;
     memcpy(frame.seal, seal, sizeof seal);
-    memset(out, 0xA5, sizeof out);
+    memset(out, 0xA5, sizeof packet);
     sealed_all = false;
 }
 
@@ -255,8 +256,8 @@ static void SGN_010_counts_stay_at_their_end(void)
 static void SGN_011_frames_are_signed_as_others_sign_them(void)
 {
     keel_signing_advance(&signing, TIME - 1u);
-    TEST_ASSERT_EQUAL_UINT16(34u, keel_signing_write(&signing, &sender, &message, payload, 9u, out,
-                                                     sizeof out));
+    TEST_ASSERT_EQUAL_UINT16(34u,
+                             keel_signing_write(&signing, &sender, &message, payload, 9u, &packet));
     TEST_ASSERT_EQUAL_MEMORY(&text[32], out, 28u);
     TEST_ASSERT_EQUAL_MEMORY(seal, &out[28], 6u);
     TEST_ASSERT_EQUAL_UINT64(TIME, signing.timestamp);
@@ -267,8 +268,8 @@ static void SGN_011_without_a_key_frames_are_not_signed(void)
 {
     keel_signing_clear_key(&signing);
     sender.is_signing = true;
-    TEST_ASSERT_EQUAL_UINT16(21u, keel_signing_write(&signing, &sender, &message, payload, 9u, out,
-                                                     sizeof out));
+    TEST_ASSERT_EQUAL_UINT16(21u,
+                             keel_signing_write(&signing, &sender, &message, payload, 9u, &packet));
     TEST_ASSERT_EQUAL_UINT8(0u, out[2]);
     TEST_ASSERT_EQUAL_UINT64(0u, signing.timestamp);
     TEST_ASSERT_FALSE(sender.is_signing);
@@ -276,12 +277,12 @@ static void SGN_011_without_a_key_frames_are_not_signed(void)
 
 static void SGN_012_each_frame_has_a_time_of_its_own(void)
 {
-    TEST_ASSERT_EQUAL_UINT16(0u, keel_signing_write(&signing, &sender, &message, payload, 9u, out,
-                                                    33u));
+    TEST_ASSERT_EQUAL_UINT16(0u, keel_signing_write(&signing, &sender, &message, payload, 10u,
+                                                    &packet));
     TEST_ASSERT_EQUAL_UINT64(0u, signing.timestamp);
     for (uint32_t i = 1u; i < 4u; i++) {
         TEST_ASSERT_EQUAL_UINT16(34u, keel_signing_write(&signing, &sender, &message, payload, 9u,
-                                                         out, sizeof out));
+                                                         &packet));
         TEST_ASSERT_EQUAL_UINT64(i, signing.timestamp);
         TEST_ASSERT_EQUAL_UINT8(i, out[22]);
     }
@@ -290,10 +291,10 @@ static void SGN_012_each_frame_has_a_time_of_its_own(void)
 static void SGN_012_behind_the_last_time_nothing_is_signed(void)
 {
     keel_signing_advance(&signing, KEEL_SIGNING_TIME_MAX - 1u);
-    TEST_ASSERT_EQUAL_UINT16(34u, keel_signing_write(&signing, &sender, &message, payload, 9u, out,
-                                                     sizeof out));
-    TEST_ASSERT_EQUAL_UINT16(0u, keel_signing_write(&signing, &sender, &message, payload, 9u, out,
-                                                    sizeof out));
+    TEST_ASSERT_EQUAL_UINT16(34u,
+                             keel_signing_write(&signing, &sender, &message, payload, 9u, &packet));
+    TEST_ASSERT_EQUAL_UINT16(0u,
+                             keel_signing_write(&signing, &sender, &message, payload, 9u, &packet));
     TEST_ASSERT_EQUAL_UINT64(KEEL_SIGNING_TIME_MAX, signing.timestamp);
     TEST_ASSERT_EQUAL_UINT8(1u, sender.sequence);
 }

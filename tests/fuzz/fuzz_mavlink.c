@@ -56,9 +56,10 @@ static void write_again(const keel_mavlink_t *mavlink, uint32_t whole)
                                     .component = frame->component,
                                     .sequence = frame->sequence,
                                     .is_signing = frame->is_signed};
-    uint8_t out[KEEL_MAVLINK_FRAME_MAX];
+    keel_mavlink_packet_t packet;
+    const uint8_t *const out = packet.bytes;
     const uint16_t written = keel_mavlink_write(&sender, &messages[mavlink->message],
-                                                frame->payload, frame->length, out, sizeof out);
+                                                frame->payload, frame->length, &packet);
     const bool cut = (frame->length > 1u) && (frame->payload[frame->length - 1u] == 0u);
 
     if ((frame->length > 0u) && !cut && (frame->compatible == 0u)) {

@@ -29,6 +29,7 @@ SOURCES = ["bsp/common/signing.c", "src/middleware/mavlink.c", "src/middleware/c
 # How Keel's hash is made of HACL*'s.
 HASH = """\
 #include "Hacl_Hash_SHA2.h"
+#include <string.h>
 #include "common/signing.h"
 static void sha256(const uint8_t *data, uint32_t size, uint8_t *digest)
 {
@@ -70,7 +71,11 @@ unsigned counted(int what)
 }
 int put(int place, const unsigned char *bytes, int length, unsigned char *out)
 {
-    return keel_signing_write(&signing, &sender, &table[place], bytes, (uint8_t)length, out, 280u);
+    keel_mavlink_packet_t packet;
+    const int whole =
+        keel_signing_write(&signing, &sender, &table[place], bytes, (uint8_t)length, &packet);
+    memcpy(out, packet.bytes, (size_t)whole);
+    return whole;
 }
 void hashed(const unsigned char *bytes, unsigned size, unsigned char *digest)
 {

@@ -30,14 +30,15 @@ static const uint8_t ping[13] = {0xFD, 1, 0, 0, 0, 1, 1, 4, 0, 0, 0, 0xBF, 0x2F}
 
 static keel_mavlink_t mavlink;
 static keel_mavlink_sender_t sender;
-static uint8_t out[KEEL_MAVLINK_FRAME_MAX];
+static keel_mavlink_packet_t packet;
+static uint8_t *const out = packet.bytes;
 
 void setUp(void)
 {
     memset(&mavlink, 0xA5, sizeof mavlink);
     TEST_ASSERT_EQUAL(KEEL_OK, keel_mavlink_init(&mavlink, messages, KNOWN));
     sender = (keel_mavlink_sender_t){.system = 1u, .component = 1u};
-    memset(out, 0xA5, sizeof out);
+    memset(out, 0xA5, sizeof packet);
 }
 
 void tearDown(void)
@@ -292,25 +293,19 @@ static void MAV_010_a_gap_ends_what_is_partial(void)
     TEST_ASSERT_EQUAL_UINT32(1u, feed(heartbeat, 21u));
 }
 
-static void MAV_011_what_does_not_fit_is_not_written(void)
+static void MAV_011_what_is_no_frame_is_not_written(void)
 {
     static const uint8_t payload[9] = {0, 0, 0, 0, 2, 0, 0, 3, 3};
     const keel_mavlink_message_t beyond = {.id = 0x1000000u, .crc_extra = 0u, .longest = 9u};
-    uint8_t before[sizeof out];
+    uint8_t before[sizeof packet];
 
     memcpy(before, out, sizeof before);
-    TEST_ASSERT_EQUAL_UINT16(0u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 9u, out,
-                                                    20u));
-    TEST_ASSERT_EQUAL_UINT16(0u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 0u, out,
-                                                    sizeof out));
+    TEST_ASSERT_EQUAL_UINT16(0u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 0u,
+                                                    &packet));
     TEST_ASSERT_EQUAL_UINT16(0u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 10u,
-                                                    out, sizeof out));
-    TEST_ASSERT_EQUAL_UINT16(0u,
-                             keel_mavlink_write(&sender, &beyond, payload, 9u, out, sizeof out));
-    sender.is_signing = true;
-    TEST_ASSERT_EQUAL_UINT16(0u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 9u, out,
-                                                    33u));
-    TEST_ASSERT_EQUAL_MEMORY(before, out, sizeof out);
+                                                    &packet));
+    TEST_ASSERT_EQUAL_UINT16(0u, keel_mavlink_write(&sender, &beyond, payload, 9u, &packet));
+    TEST_ASSERT_EQUAL_MEMORY(before, out, sizeof packet);
     TEST_ASSERT_EQUAL_UINT8(0u, sender.sequence);
 }
 
@@ -319,17 +314,17 @@ static void MAV_012_frames_are_as_others_write_them(void)
     static const uint8_t payload[14] = {0, 0, 0, 0, 2, 0, 0, 3, 3};
 
     TEST_ASSERT_EQUAL_UINT16(21u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 9u,
-                                                     out, 21u));
+                                                     &packet));
     TEST_ASSERT_EQUAL_MEMORY(heartbeat, out, 21u);
     TEST_ASSERT_EQUAL_UINT8(0xA5u, out[21]);
     sender.sequence = 0u;
-    TEST_ASSERT_EQUAL_UINT16(13u, keel_mavlink_write(&sender, &messages[PING], payload, 4u, out,
-                                                     sizeof out));
+    TEST_ASSERT_EQUAL_UINT16(13u,
+                             keel_mavlink_write(&sender, &messages[PING], payload, 4u, &packet));
     TEST_ASSERT_EQUAL_MEMORY(ping, out, 13u);
     sender.sequence = 0u;
     sender.is_signing = true;
     TEST_ASSERT_EQUAL_UINT16(34u, keel_mavlink_write(&sender, &messages[HEARTBEAT], payload, 9u,
-                                                     out, 34u));
+                                                     &packet));
     TEST_ASSERT_EQUAL_MEMORY(signed_heartbeat, out, 21u);
     for (uint32_t i = 21u; i < 34u; i++) {
         TEST_ASSERT_EQUAL_UINT8(0u, out[i]);
@@ -341,8 +336,7 @@ static void MAV_012_ids_have_three_bytes(void)
     const keel_mavlink_message_t message = {.id = 0x123456u, .crc_extra = 7u, .longest = 1u};
     const uint8_t payload[1] = {1u};
 
-    TEST_ASSERT_EQUAL_UINT16(13u,
-                             keel_mavlink_write(&sender, &message, payload, 1u, out, sizeof out));
+    TEST_ASSERT_EQUAL_UINT16(13u, keel_mavlink_write(&sender, &message, payload, 1u, &packet));
     TEST_ASSERT_EQUAL_HEX8(0x56u, out[7]);
     TEST_ASSERT_EQUAL_HEX8(0x34u, out[8]);
     TEST_ASSERT_EQUAL_HEX8(0x12u, out[9]);
@@ -360,8 +354,7 @@ static void MAV_012_what_is_written_is_read_for_every_length(void)
 
         memset(payload, (int)length, used);
         sender.is_signing = (length % 3u) == 0u;
-        written = keel_mavlink_write(&sender, &messages[PING], payload, (uint8_t)length, out,
-                                     sizeof out);
+        written = keel_mavlink_write(&sender, &messages[PING], payload, (uint8_t)length, &packet);
         TEST_ASSERT_EQUAL_UINT16(12u + used + (sender.is_signing ? 13u : 0u), written);
         TEST_ASSERT_EQUAL_UINT32(1u, feed(out, written));
         TEST_ASSERT_EQUAL_UINT8(used, mavlink.frame.length);
@@ -376,7 +369,7 @@ static void MAV_013_sequences_count_and_wrap(void)
 
     for (uint32_t i = 0u; i < 300u; i++) {
         TEST_ASSERT_EQUAL_UINT8(i % 256u, sender.sequence);
-        (void)keel_mavlink_write(&sender, &messages[PING], payload, 1u, out, sizeof out);
+        (void)keel_mavlink_write(&sender, &messages[PING], payload, 1u, &packet);
         TEST_ASSERT_EQUAL_UINT8(i % 256u, out[4]);
     }
 }
@@ -399,7 +392,7 @@ int main(void)
     RUN_TEST(MAV_008_a_wrong_beginning_costs_no_more_than_it_says);
     RUN_TEST(MAV_009_a_beginning_right_behind_a_wrong_one_is_found);
     RUN_TEST(MAV_010_a_gap_ends_what_is_partial);
-    RUN_TEST(MAV_011_what_does_not_fit_is_not_written);
+    RUN_TEST(MAV_011_what_is_no_frame_is_not_written);
     RUN_TEST(MAV_012_frames_are_as_others_write_them);
     RUN_TEST(MAV_012_ids_have_three_bytes);
     RUN_TEST(MAV_012_what_is_written_is_read_for_every_length);

@@ -89,19 +89,19 @@ static uint32_t any_frame(uint8_t *frame)
     keel_mavlink_sender_t sender = {(uint8_t)any(), (uint8_t)any(), (uint8_t)any(), one_in(4u)};
     keel_mavlink_sender_t model_sender = sender;
     const uint8_t length = (uint8_t)(one_in(8u) ? any() : (1u + (any() % message->longest)));
-    const uint32_t size = one_in(8u) ? any() % 281u : 280u;
     uint8_t payload[255];
-    uint8_t out[280];
+    keel_mavlink_packet_t packet;
+    keel_mavlink_packet_t expected;
     uint32_t whole;
 
     any_bytes(payload, 255u);
-    any_bytes(frame, 280u);
-    memcpy(out, frame, sizeof out);
-    whole = model_mavlink_write(&model_sender, message, payload, length, frame, size);
-    TEST_ASSERT_EQUAL_UINT16(whole,
-                             keel_mavlink_write(&sender, message, payload, length, out, size));
-    TEST_ASSERT_EQUAL_MEMORY(frame, out, sizeof out);
+    any_bytes(packet.bytes, 280u);
+    expected = packet;
+    whole = model_mavlink_write(&model_sender, message, payload, length, &expected);
+    TEST_ASSERT_EQUAL_UINT16(whole, keel_mavlink_write(&sender, message, payload, length, &packet));
+    TEST_ASSERT_EQUAL_MEMORY(&expected, &packet, sizeof packet);
     TEST_ASSERT_EQUAL_MEMORY(&model_sender, &sender, sizeof sender);
+    memcpy(frame, packet.bytes, sizeof packet);
     return whole;
 }
 

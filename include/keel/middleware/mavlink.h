@@ -124,6 +124,11 @@ typedef struct keel_mavlink_sender {
                             keel_signing_write; otherwise false. */
 } keel_mavlink_sender_t;
 
+/** A frame as it goes over a line. */
+typedef struct keel_mavlink_packet {
+    uint8_t bytes[KEEL_MAVLINK_FRAME_MAX]; /**< As many as keel_mavlink_write says are of it. */
+} keel_mavlink_packet_t;
+
 /*@ // The first messages are in order: their ids ascend, and their lengths are ranges.
   @ predicate mavlink_table(keel_mavlink_message_t *messages, integer known) =
   @     \forall integer i; 0 <= i < known ==>
@@ -293,33 +298,32 @@ void keel_mavlink_gap(keel_mavlink_t *mavlink);
  * @param message what the payload is of
  * @param payload little-endian, in the order of the message's definition (the largest types first)
  * @param length  its bytes, 1 to message->longest
- * @param out     where the frame goes; not the payload
- * @param size    the room there, in bytes; KEEL_MAVLINK_FRAME_MAX is enough for any
- * @return the bytes of the frame; 0 when length is not in its range, the message's id above
- *         KEEL_MAVLINK_ID_MAX, or the frame does not fit: then nothing is written
+ * @param packet  where the frame goes; what is behind it stays
+ * @return the bytes of the frame; 0 when length is not in its range or the message's id above
+ *         KEEL_MAVLINK_ID_MAX: then nothing is written
  */
 /*@ requires \valid(sender) && \valid_read(message) && \valid_read(payload + (0 .. length - 1)) &&
-  @     \valid(out + (0 .. size - 1)) &&
-  @     \separated(sender, message, payload + (0 .. length - 1), out + (0 .. size - 1));
-  @ assigns sender->sequence, out[0 .. size - 1];
+  @     \valid(packet) && \separated(sender, message, payload + (0 .. length - 1), packet);
+  @ assigns sender->sequence, packet->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1];
   @ ensures MAV_011_refused: (length < 1 || length > message->longest ||
-  @     message->id > KEEL_MAVLINK_ID_MAX || \exists integer n;
-  @         mavlink_cut(payload, length, n) && size < mavlink_room(sender) + n) <==> \result == 0;
-  @ ensures MAV_011_kept: \result == 0 ==> sender->sequence == \old(sender->sequence) &&
-  @     \forall integer i; 0 <= i < size ==> out[i] == \old(out[i]);
-  @ ensures MAV_012_header: \result > 0 ==> out[0] == KEEL_MAVLINK_FIRST && out[3] == 0 &&
-  @     out[2] == (sender->is_signing != 0 ? 1 : 0) &&
-  @     out[4] == \old(sender->sequence) && out[5] == sender->system &&
-  @     out[6] == sender->component && mavlink_id(out) == message->id;
-  @ ensures MAV_012_length: \result > 0 ==> mavlink_cut(payload, length, out[1]) &&
-  @     \result == mavlink_room(sender) + out[1];
-  @ ensures MAV_012_payload: \result > 0 ==> \forall integer i; 0 <= i < out[1] ==>
-  @     out[KEEL_MAVLINK_HEADER_BYTES + i] == payload[i];
+  @     message->id > KEEL_MAVLINK_ID_MAX) <==> \result == 0;
+  @ ensures MAV_011_kept: \result == 0 ==> sender->sequence == \old(sender->sequence);
+  @ ensures MAV_012_kept: \forall integer i; \result <= i < KEEL_MAVLINK_FRAME_MAX ==>
+  @     packet->bytes[i] == \old(packet->bytes[i]);
+  @ ensures MAV_012_header: \result > 0 ==> packet->bytes[0] == KEEL_MAVLINK_FIRST &&
+  @     packet->bytes[3] == 0 &&
+  @     packet->bytes[2] == (sender->is_signing != 0 ? 1 : 0) &&
+  @     packet->bytes[4] == \old(sender->sequence) && packet->bytes[5] == sender->system &&
+  @     packet->bytes[6] == sender->component && mavlink_id(&packet->bytes[0]) == message->id;
+  @ ensures MAV_012_length: \result > 0 ==> mavlink_cut(payload, length, packet->bytes[1]) &&
+  @     \result == mavlink_room(sender) + packet->bytes[1];
+  @ ensures MAV_012_payload: \result > 0 ==> \forall integer i; 0 <= i < packet->bytes[1] ==>
+  @     packet->bytes[KEEL_MAVLINK_HEADER_BYTES + i] == payload[i];
   @ ensures MAV_013_sequence: \result > 0 ==>
   @     sender->sequence == (\old(sender->sequence) + 1) % 256;
   @*/
 uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_message_t *message,
-                            const uint8_t *payload, uint8_t length, uint8_t *out, uint32_t size);
+                            const uint8_t *payload, uint8_t length, keel_mavlink_packet_t *packet);
 
 KEEL_C_END
 
