@@ -27,6 +27,7 @@ static keel_mixer_t bench_mixer;
 static keel_mode_t bench_mode;
 static keel_reference_t bench_reference;
 static keel_sbus_t bench_sbus;
+static keel_ubx_t bench_ubx;
 static keel_mavlink_t bench_mavlink;
 static keel_virtual_imu_t bench_imu;
 
@@ -263,6 +264,24 @@ static void bench_run_sbus(const char *name, bool noise)
     bench_dump(name);
 }
 
+static void bench_run_ubx(void)
+{
+    bench_require(keel_ubx_init(&bench_ubx, &ubx_workload) == KEEL_OK, "UBX");
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const uint8_t byte = ubx_byte_at(n);
+
+        if (n < STEPS) {
+            (void)keel_ubx_take(&bench_ubx, byte, 87u);
+        } else {
+            CALLGRIND_TOGGLE_COLLECT;
+            (void)keel_ubx_take(&bench_ubx, byte, 87u);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_require(bench_ubx.count.fixes == ((2u * STEPS) / 100u), "UBX fixes");
+    bench_dump("ubx");
+}
+
 static void bench_run_mavlink(void)
 {
     bench_require(keel_mavlink_init(&bench_mavlink, mavlink_workload, 1u) == KEEL_OK, "MAVLink");
@@ -331,6 +350,7 @@ int main(void)
     bench_run_ms5611();
     bench_run_sbus("sbus", false);
     bench_run_sbus("sbus_worst", true);
+    bench_run_ubx();
     bench_run_mavlink();
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);

@@ -472,6 +472,25 @@ static void bench_sbus(const char *name, bool noise)
     print(&steps);
 }
 
+static void bench_ubx(void)
+{
+    static keel_ubx_t ubx KEEL_REALTIME_ZERO;
+    kind_t steps = {"ubx", 0u, 0u, 0u};
+
+    require(keel_ubx_init(&ubx, &ubx_workload) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const uint8_t byte = ubx_byte_at(n);
+
+        if (n < STEPS) {
+            (void)keel_ubx_take(&ubx, byte, 87u);
+        } else {
+            add(&steps, measure((function_t)keel_ubx_take, &ubx, byte, 87u, false));
+        }
+    }
+    require(ubx.count.fixes == ((2u * STEPS) / 100u));
+    print(&steps);
+}
+
 static void bench_mavlink(void)
 {
     static keel_mavlink_t mavlink KEEL_REALTIME_ZERO;
@@ -619,6 +638,7 @@ int main(void)
     bench_ms5611();
     bench_sbus("sbus", false);
     bench_sbus("sbus_worst", true);
+    bench_ubx();
     bench_mavlink();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);

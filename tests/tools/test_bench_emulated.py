@@ -49,6 +49,7 @@ bench calibration passes 1000 instructions 71000 longest 71
 bench sbus passes 1000 instructions 54400 longest 621
 bench sbus_worst passes 1000 instructions 152000 longest 152
 bench ms5611 passes 1000 instructions 250000 longest 260
+bench ubx passes 1000 instructions 110000 longest 400
 bench mavlink passes 1000 instructions 120000 longest 700
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
@@ -78,6 +79,7 @@ FIGURES = {
     "sbus": Figure(1000, 54400, 621),
     "sbus_worst": Figure(1000, 152000, 152),
     "ms5611": Figure(1000, 250000, 260),
+    "ubx": Figure(1000, 110000, 400),
     "mavlink": Figure(1000, 120000, 700),
     **{name: Figure(50, 5000, 120) for name in TASKS},
 }
@@ -106,6 +108,7 @@ battery = 372.0
 sbus = 54.4
 sbus_worst = 152.0
 ms5611 = 250.0
+ubx = 110.0
 mavlink = 120.0
 cascade = 2851.4
 calibration = 71.0
@@ -207,6 +210,7 @@ class Budgets(unittest.TestCase):
                 "sbus": 54.4,
                 "sbus_worst": 152.0,
                 "ms5611": 250.0,
+                "ubx": 110.0,
                 "mavlink": 120.0,
                 "cascade": 2851.4,
                 **dict.fromkeys(TASKS, 100.0),

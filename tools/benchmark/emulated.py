@@ -60,6 +60,7 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "sbus_worst": ("SBUS, a byte of nothing but headers", ("sbus_worst",), 300,
                    ("steps", "sbus_worst")),
     "ms5611": ("MS5611, a reading in frost", ("ms5611",), 300, ("steps", "ms5611")),
+    "ubx": ("UBX, a byte of right messages", ("ubx",), 200, ("steps", "ubx")),
     "mavlink": ("MAVLink, a byte of right frames", ("mavlink",), 200, ("steps", "mavlink")),
 }  # fmt: skip
 # The bodies of the 21 tasks of examples/copter, in flight, with what they read of their devices.

@@ -1,0 +1,398 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file ubx.h
+ * @brief The satellite receiver: a decoder of UBX, byte by byte, and what sets a receiver up.
+ *
+ * A message is 0xB5 0x62, its class, its id, the length of its payload in two bytes, the payload,
+ * and two bytes of checksum (Fletcher-8) over all but the first two; numbers have their lowest byte
+ * first. NAV-PVT (0x01 0x07, 92 bytes) is a fix, and is decoded; ACK-ACK and ACK-NAK, the answers
+ * to what sets a receiver up, are counted, and so are all others, of any length. No payload is
+ * held: a field of a fix is put together from its bytes as they come.
+ *
+ * The six bytes that a NAV-PVT begins with begin one wherever they come, in the midst of another
+ * message too. So a right one is taken by its last byte, whatever was before, unless a right
+ * message ends in its first five bytes, or those six come in it again: one in 2^41 does by chance,
+ * and the next one is taken. After a gap the former cannot be. Bytes that look like the header of
+ * another message hide others for its length, 65535 bytes at most, or until a gap or a NAV-PVT.
+ *
+ * A message with a wrong checksum changes no fix; it is counted. The checksum finds all changes of
+ * one byte, and lets one in 65536 of others through.
+ *
+ * All is integer arithmetic. All counts and times stay at UINT32_MAX.
+ */
+#ifndef KEEL_MIDDLEWARE_UBX_H
+#define KEEL_MIDDLEWARE_UBX_H
+
+#include "keel/c_declarations.h"
+#include "keel/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/** Bytes of a NAV-PVT's payload, and of all of it. */
+#define KEEL_UBX_PAYLOAD 92
+#define KEEL_UBX_BYTES   100
+
+/** What a NAV-PVT begins with, the first byte the lowest. */
+#define KEEL_UBX_HEADER 0x005C070162B5
+
+/** A fix in three dimensions, in keel_ubx_fix_t. */
+#define KEEL_UBX_3D 3
+
+/** Milliseconds of a week: its time of week is less. */
+#define KEEL_UBX_WEEK_MS 604800000
+
+/** @name What a decoder waits for. */
+/** @{ */
+#define KEEL_UBX_SEARCH 0 /**< A message. */
+#define KEEL_UBX_DATA   1 /**< A byte of its payload. */
+#define KEEL_UBX_SUM_A  2 /**< The first byte of its checksum. */
+#define KEEL_UBX_SUM_B  3 /**< The second. */
+/** @} */
+
+/** @name Which message it is. */
+/** @{ */
+#define KEEL_UBX_OTHER 0 /**< None of those below. */
+#define KEEL_UBX_PVT   1 /**< NAV-PVT. */
+#define KEEL_UBX_ACK   2 /**< ACK-ACK. */
+#define KEEL_UBX_NAK   3 /**< ACK-NAK. */
+/** @} */
+
+/** What a decoder is made from. */
+typedef struct keel_ubx_config {
+    uint32_t gap_us; /**< Silence that ends a message when it is longer, in us; more than 0. Above a
+                          byte's time and what a driver adds, below the silence between bursts:
+                          20000 is usual at 10 Hz. */
+    uint32_t max_age_us;     /**< The oldest fix that is usable, in us; more than 0. */
+    uint32_t accuracy_mm;    /**< The worst usable accuracy of the place, in mm; more than 0. */
+    uint32_t speed_accuracy; /**< The worst usable accuracy of the speed, in mm/s; more than 0. */
+} keel_ubx_config_t;
+
+/** What a NAV-PVT says; all 0 before the first. */
+typedef struct keel_ubx_fix {
+    uint32_t tow_ms;          /**< Time of week (GPS), in ms. */
+    int32_t longitude;        /**< In 1e-7 degrees, east is positive. */
+    int32_t latitude;         /**< In 1e-7 degrees, north is positive. */
+    int32_t height_mm;        /**< Above mean sea level, in mm. */
+    uint32_t accuracy_mm;     /**< Estimated, of the place, horizontally, in mm. */
+    uint32_t height_accuracy; /**< Estimated, of the height, in mm. */
+    int32_t north;            /**< Velocity, in mm/s. */
+    int32_t east;             /**< Velocity, in mm/s. */
+    int32_t down;             /**< Velocity, in mm/s. */
+    uint32_t speed_accuracy;  /**< Estimated, in mm/s. */
+    uint8_t type;             /**< KEEL_UBX_3D, or what the receiver's manual says. */
+    uint8_t satellites;       /**< Used. */
+    bool is_ok;               /**< Within the receiver's own limits (gnssFixOK). */
+    bool is_invalid; /**< Longitude, latitude and height are not to be used (invalidLlh). */
+} keel_ubx_fix_t;
+
+/** What was met since the start. */
+typedef struct keel_ubx_count {
+    uint32_t bytes;     /**< All that came. */
+    uint32_t fixes;     /**< Right NAV-PVT. */
+    uint32_t acks;      /**< Right ACK-ACK: the receiver has done what it was told. */
+    uint32_t naks;      /**< Right ACK-NAK: it has refused to. */
+    uint32_t others;    /**< Right messages beside those. */
+    uint32_t checksums; /**< Messages with a wrong checksum. */
+    uint32_t cut;       /**< Messages that ended too soon: a gap, or a NAV-PVT began. */
+} keel_ubx_count_t;
+
+/** A decoder. Written by the functions below alone; all of it may be read. */
+typedef struct keel_ubx {
+    keel_ubx_config_t config; /**< What it was made from. */
+    keel_ubx_fix_t fix;       /**< The last right NAV-PVT. */
+    keel_ubx_count_t count;   /**< What was met. */
+    bool is_advancing;        /**< Whether the time of week advanced with the last. */
+    uint32_t age_us;          /**< Since the last right NAV-PVT, in us; UINT32_MAX before. */
+    uint32_t quiet_us;        /**< Since the last byte, in us. */
+    keel_ubx_fix_t pending;   /**< What came of the next one. */
+    uint64_t window;          /**< The last six bytes, the latest the highest; 0 for none. */
+    uint16_t left;            /**< Bytes of the payload to come. */
+    uint8_t sum_a;            /**< The checksum so far. */
+    uint8_t sum_b;            /**< The checksum so far. */
+    uint8_t kind;             /**< KEEL_UBX_OTHER, ...: the message under way. */
+    uint8_t step;             /**< KEEL_UBX_SEARCH, ... */
+} keel_ubx_t;
+
+/** Whether the last fix is usable, or why not: the first that applies. */
+typedef enum keel_ubx_verdict {
+    KEEL_UBX_USABLE = 0, /**< It is. */
+    KEEL_UBX_NONE,       /**< There was none. */
+    KEEL_UBX_OLD,        /**< It is older than config.max_age_us. */
+    KEEL_UBX_NOT_OK,     /**< The receiver does not vouch for it. */
+    KEEL_UBX_NOT_3D,     /**< It is not in three dimensions, of satellites alone. */
+    KEEL_UBX_INVALID,    /**< The receiver says that the place is not to be used. */
+    KEEL_UBX_WIDE,       /**< The place is less accurate than config.accuracy_mm. */
+    KEEL_UBX_WIDE_SPEED, /**< The speed is less accurate than config.speed_accuracy. */
+    KEEL_UBX_STUCK       /**< Its time has not advanced from the one before, or there was none. */
+} keel_ubx_verdict_t;
+
+/** The longest message that the functions below write. */
+#define KEEL_UBX_MESSAGE_BYTES 28
+
+/** A message to the receiver. */
+typedef struct keel_ubx_message {
+    uint8_t bytes[KEEL_UBX_MESSAGE_BYTES]; /**< What to send, and zeros behind it. */
+    uint8_t size;                          /**< How many of them are the message. */
+} keel_ubx_message_t;
+
+/*@ // Between any two calls: of a payload at least a byte is to come, of a fix's at most 92.
+  @ predicate ubx_valid(keel_ubx_t *u) =
+  @     u->step <= KEEL_UBX_SUM_B && u->window < 0x1000000000000 &&
+  @     (u->step == KEEL_UBX_DATA ==> u->left > 0) &&
+  @     (u->kind == KEEL_UBX_PVT ==> u->left <= KEEL_UBX_PAYLOAD);
+  @
+  @ predicate ubx_limits(keel_ubx_config_t *c) = c->accuracy_mm > 0 && c->speed_accuracy > 0;
+  @
+  @ predicate ubx_config(keel_ubx_config_t *c) =
+  @     ubx_limits(c) && c->gap_us > 0 && c->max_age_us > 0;
+  @
+  @ logic integer ubx_sum(integer a, integer b) =
+  @     a + b <= UINT32_MAX ? a + b : UINT32_MAX;
+  @
+  @ // The last six bytes with one more.
+  @ logic integer ubx_shifted(integer window, integer byte) =
+  @     window / 256 + 0x10000000000 * byte;
+  @
+  @ // The fix stays as it is.
+  @ predicate ubx_kept{L, M}(keel_ubx_t *u) =
+  @     \at(u->fix.tow_ms, M) == \at(u->fix.tow_ms, L) &&
+  @     \at(u->fix.longitude, M) == \at(u->fix.longitude, L) &&
+  @     \at(u->fix.latitude, M) == \at(u->fix.latitude, L) &&
+  @     \at(u->fix.height_mm, M) == \at(u->fix.height_mm, L) &&
+  @     \at(u->fix.accuracy_mm, M) == \at(u->fix.accuracy_mm, L) &&
+  @     \at(u->fix.height_accuracy, M) == \at(u->fix.height_accuracy, L) &&
+  @     \at(u->fix.north, M) == \at(u->fix.north, L) &&
+  @     \at(u->fix.east, M) == \at(u->fix.east, L) &&
+  @     \at(u->fix.down, M) == \at(u->fix.down, L) &&
+  @     \at(u->fix.speed_accuracy, M) == \at(u->fix.speed_accuracy, L) &&
+  @     \at(u->fix.type, M) == \at(u->fix.type, L) &&
+  @     \at(u->fix.satellites, M) == \at(u->fix.satellites, L) &&
+  @     \at(u->fix.is_ok, M) == \at(u->fix.is_ok, L) &&
+  @     \at(u->fix.is_invalid, M) == \at(u->fix.is_invalid, L);
+  @
+  @ // The fix becomes what came of the next one.
+  @ predicate ubx_published{L, M}(keel_ubx_t *u) =
+  @     \at(u->fix.tow_ms, M) == \at(u->pending.tow_ms, L) &&
+  @     \at(u->fix.longitude, M) == \at(u->pending.longitude, L) &&
+  @     \at(u->fix.latitude, M) == \at(u->pending.latitude, L) &&
+  @     \at(u->fix.height_mm, M) == \at(u->pending.height_mm, L) &&
+  @     \at(u->fix.accuracy_mm, M) == \at(u->pending.accuracy_mm, L) &&
+  @     \at(u->fix.height_accuracy, M) == \at(u->pending.height_accuracy, L) &&
+  @     \at(u->fix.north, M) == \at(u->pending.north, L) &&
+  @     \at(u->fix.east, M) == \at(u->pending.east, L) &&
+  @     \at(u->fix.down, M) == \at(u->pending.down, L) &&
+  @     \at(u->fix.speed_accuracy, M) == \at(u->pending.speed_accuracy, L) &&
+  @     \at(u->fix.type, M) == \at(u->pending.type, L) &&
+  @     \at(u->fix.satellites, M) == \at(u->pending.satellites, L) &&
+  @     \at(u->fix.is_ok, M) == \at(u->pending.is_ok, L) &&
+  @     \at(u->fix.is_invalid, M) == \at(u->pending.is_invalid, L);
+  @
+  @ // The second of two times of week is after the first, by less than half a week.
+  @ predicate ubx_advances(integer from, integer to) =
+  @     from < KEEL_UBX_WEEK_MS && to < KEEL_UBX_WEEK_MS &&
+  @     (from < to ? to - from < KEEL_UBX_WEEK_MS / 2 : from - to > KEEL_UBX_WEEK_MS / 2);
+  @
+  @ // What a key tells of its value's length.
+  @ logic integer ubx_size(integer key) = (key / 0x10000000) % 8;
+  @
+  @ // A message with this payload's length is whole but for its payload and checksum.
+  @ predicate ubx_begun(keel_ubx_message_t *m, integer group, integer id, integer length) =
+  @     m->bytes[0] == 0xB5 && m->bytes[1] == 0x62 && m->bytes[2] == group && m->bytes[3] == id &&
+  @     m->bytes[4] == length && m->bytes[5] == 0 && m->size == length + 8;
+  @*/
+
+/**
+ * Makes a decoder (requirements UBX-001 and UBX-002).
+ *
+ * @param ubx    the decoder
+ * @param config what it is made from; copied
+ * @return KEEL_OK; KEEL_ERR_LIMITS when an accuracy is 0; KEEL_ERR_AGE when gap_us or max_age_us
+ *         is; the first that applies: then nothing is changed
+ */
+/*@ requires \valid(ubx) && \valid_read(config) && \separated(ubx, config);
+  @ assigns *ubx;
+  @ behavior limits:
+  @   assumes !ubx_limits(config);
+  @   assigns \nothing;
+  @   ensures UBX_001_limits: \result == KEEL_ERR_LIMITS;
+  @ behavior age:
+  @   assumes ubx_limits(config) && !ubx_config(config);
+  @   assigns \nothing;
+  @   ensures UBX_001_age: \result == KEEL_ERR_AGE;
+  @ behavior made:
+  @   assumes ubx_config(config);
+  @   ensures UBX_002_made: \result == KEEL_OK && ubx_valid(ubx) && ubx->step == KEEL_UBX_SEARCH;
+  @   ensures UBX_002_config: ubx->config.gap_us == config->gap_us &&
+  @       ubx->config.max_age_us == config->max_age_us &&
+  @       ubx->config.accuracy_mm == config->accuracy_mm &&
+  @       ubx->config.speed_accuracy == config->speed_accuracy;
+  @   ensures UBX_002_none: ubx->age_us == UINT32_MAX && ubx->count.fixes == 0 &&
+  @       ubx->is_advancing == 0;
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_ubx_init(keel_ubx_t *ubx, const keel_ubx_config_t *config);
+
+/**
+ * Takes a byte from the receiver (requirements UBX-003 to UBX-012).
+ *
+ * @param ubx        the decoder, initialised
+ * @param byte       what came
+ * @param elapsed_us the time since the byte before, or since keel_ubx_pass_time when that was
+ *                   called after it, in us; every microsecond is told once
+ * @return whether it ended a right NAV-PVT: it is in ubx->fix then. Otherwise that is as it was
+ */
+/*@ requires \valid(ubx) && ubx_valid(ubx);
+  @ assigns ubx->fix, ubx->count, ubx->is_advancing, ubx->age_us, ubx->quiet_us, ubx->pending,
+  @     ubx->window, ubx->left, ubx->sum_a, ubx->sum_b, ubx->kind, ubx->step;
+  @ ensures UBX_003_valid: ubx_valid(ubx);
+  @ ensures UBX_004_last: \result ==> \old(ubx->step) == KEEL_UBX_SUM_B &&
+  @     \old(ubx->kind) == KEEL_UBX_PVT && byte == \old(ubx->sum_b);
+  @ ensures UBX_004_first: ubx->step == KEEL_UBX_SUM_B ==>
+  @     \old(ubx->step) == KEEL_UBX_SUM_A && byte == \old(ubx->sum_a);
+  @ ensures UBX_005_says: \result ==> ubx_published{Pre, Post}(ubx);
+  @ ensures UBX_006_kept: !\result ==> ubx_kept{Pre, Post}(ubx) &&
+  @     ubx->is_advancing == \old(ubx->is_advancing);
+  @ ensures UBX_007_fixes: ubx->count.fixes ==
+  @     (\result ? ubx_sum(\old(ubx->count.fixes), 1) : \old(ubx->count.fixes));
+  @ ensures UBX_007_bytes: ubx->count.bytes == ubx_sum(\old(ubx->count.bytes), 1);
+  @ ensures UBX_008_age: ubx->age_us ==
+  @     (\result ? 0 : ubx_sum(\old(ubx->age_us), elapsed_us));
+  @ ensures UBX_008_quiet: ubx->quiet_us == 0;
+  @ ensures UBX_009_gap: ubx_sum(\old(ubx->quiet_us), elapsed_us) > ubx->config.gap_us ==>
+  @     !\result && ubx->step == KEEL_UBX_SEARCH && ubx->window == 0x10000000000 * byte;
+  @ ensures UBX_010_header:
+  @     ubx_sum(\old(ubx->quiet_us), elapsed_us) <= ubx->config.gap_us &&
+  @     !(\old(ubx->step) == KEEL_UBX_SUM_B && byte == \old(ubx->sum_b)) &&
+  @     ubx_shifted(\old(ubx->window), byte) == KEEL_UBX_HEADER ==>
+  @         ubx->step == KEEL_UBX_DATA && ubx->kind == KEEL_UBX_PVT &&
+  @         ubx->left == KEEL_UBX_PAYLOAD && ubx->sum_a == 0x64 && ubx->sum_b == 0xD1;
+  @ ensures UBX_011_skipped:
+  @     ubx_sum(\old(ubx->quiet_us), elapsed_us) <= ubx->config.gap_us &&
+  @     \old(ubx->step) == KEEL_UBX_DATA &&
+  @     ubx_shifted(\old(ubx->window), byte) != KEEL_UBX_HEADER ==>
+  @         ubx->left == \old(ubx->left) - 1 &&
+  @         ubx->step == (ubx->left > 0 ? KEEL_UBX_DATA : KEEL_UBX_SUM_A);
+  @ ensures UBX_012_advancing: \result ==> (ubx->is_advancing != 0 <==>
+  @     (\old(ubx->count.fixes) > 0 &&
+  @      ubx_advances(\old(ubx->fix.tow_ms), \old(ubx->pending.tow_ms))));
+  @*/
+bool keel_ubx_take(keel_ubx_t *ubx, uint8_t byte, uint32_t elapsed_us);
+
+/**
+ * Lets time pass in which no byte came (requirement UBX-008), so that age_us is up to date.
+ *
+ * @param ubx        the decoder, initialised
+ * @param elapsed_us the time since the last call for this decoder, in us
+ */
+/*@ requires \valid(ubx);
+  @ assigns ubx->age_us, ubx->quiet_us;
+  @ ensures UBX_008_ages: ubx->age_us == ubx_sum(\old(ubx->age_us), elapsed_us);
+  @ ensures UBX_008_silence: ubx->quiet_us == ubx_sum(\old(ubx->quiet_us), elapsed_us);
+  @*/
+void keel_ubx_pass_time(keel_ubx_t *ubx, uint32_t elapsed_us);
+
+/**
+ * Judges the last fix by the configured limits (requirement UBX-013).
+ *
+ * @param ubx the decoder, initialised
+ * @return KEEL_UBX_USABLE, or the first reason against it
+ */
+/*@ requires \valid_read(ubx);
+  @ assigns \nothing;
+  @ ensures UBX_013_usable: \result == KEEL_UBX_USABLE <==>
+  @     (ubx->count.fixes > 0 && ubx->age_us <= ubx->config.max_age_us && ubx->fix.is_ok != 0 &&
+  @      ubx->fix.type == KEEL_UBX_3D && ubx->fix.is_invalid == 0 &&
+  @      ubx->fix.accuracy_mm <= ubx->config.accuracy_mm &&
+  @      ubx->fix.speed_accuracy <= ubx->config.speed_accuracy && ubx->is_advancing != 0);
+  @ ensures UBX_013_none: \result == KEEL_UBX_NONE <==> ubx->count.fixes == 0;
+  @ ensures UBX_013_old: \result == KEEL_UBX_OLD ==> ubx->age_us > ubx->config.max_age_us;
+  @ ensures UBX_013_not_ok: \result == KEEL_UBX_NOT_OK ==> ubx->fix.is_ok == 0;
+  @ ensures UBX_013_not_3d: \result == KEEL_UBX_NOT_3D ==> ubx->fix.type != KEEL_UBX_3D;
+  @ ensures UBX_013_invalid: \result == KEEL_UBX_INVALID ==> ubx->fix.is_invalid != 0;
+  @ ensures UBX_013_wide: \result == KEEL_UBX_WIDE ==>
+  @     ubx->fix.accuracy_mm > ubx->config.accuracy_mm;
+  @ ensures UBX_013_wide_speed: \result == KEEL_UBX_WIDE_SPEED ==>
+  @     ubx->fix.speed_accuracy > ubx->config.speed_accuracy;
+  @ ensures UBX_013_stuck: \result == KEEL_UBX_STUCK ==> ubx->is_advancing == 0;
+  @*/
+keel_ubx_verdict_t keel_ubx_judge(const keel_ubx_t *ubx);
+
+/**
+ * Writes CFG-VALSET for one item, into the receiver's RAM (requirement UBX-014): for receivers from
+ * the ninth generation on. Items that a flight controller sets: CFG-UART1-BAUDRATE 0x40520001, four
+ * bytes; CFG-UART1OUTPROT-NMEA 0x10740002, one; CFG-RATE-MEAS 0x30210001, in ms, two;
+ * CFG-MSGOUT-UBX_NAV_PVT_UART1 0x20910007, one.
+ *
+ * @param message where it is written
+ * @param key     the item; its bits 28 to 30 tell the length of its value: 1 and 2 a byte, 3 two,
+ *                4 four
+ * @param value   its value; of what does not fit the lowest bytes are sent
+ * @return KEEL_OK; KEEL_ERR_VALUE when the key tells another length: then nothing is changed
+ */
+/*@ requires \valid(message);
+  @ assigns *message;
+  @ behavior length:
+  @   assumes !(1 <= ubx_size(key) <= 4);
+  @   assigns \nothing;
+  @   ensures UBX_014_length: \result == KEEL_ERR_VALUE;
+  @ behavior written:
+  @   assumes 1 <= ubx_size(key) <= 4;
+  @   ensures UBX_014_written: \result == KEEL_OK && ubx_begun(message, 0x06, 0x8A,
+  @       ubx_size(key) == 4 ? 12 : (ubx_size(key) == 3 ? 10 : 9));
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_ubx_write_value(keel_ubx_message_t *message, uint32_t key, uint32_t value);
+
+/**
+ * Writes CFG-MSG (requirement UBX-015): how often a message comes on the port that this is sent to.
+ * For receivers up to the ninth generation, as the two below.
+ *
+ * @param message where it is written
+ * @param group   the message's class; 0x01 for NAV-PVT, 0xF0 for NMEA's
+ * @param id      its id; 0x07 for NAV-PVT
+ * @param every   with each so many solutions; 0 for never
+ */
+/*@ requires \valid(message);
+  @ assigns *message;
+  @ ensures UBX_015_begun: ubx_begun(message, 0x06, 0x01, 3);
+  @ ensures UBX_015_says: message->bytes[6] == group && message->bytes[7] == id &&
+  @     message->bytes[8] == every;
+  @*/
+void keel_ubx_write_output(keel_ubx_message_t *message, uint8_t group, uint8_t id, uint8_t every);
+
+/**
+ * Writes CFG-RATE (requirement UBX-015): a solution with each measurement, by GPS time.
+ *
+ * @param message   where it is written
+ * @param period_ms the time between measurements, in ms
+ */
+/*@ requires \valid(message);
+  @ assigns *message;
+  @ ensures UBX_015_rate: ubx_begun(message, 0x06, 0x08, 6);
+  @ ensures UBX_015_period: message->bytes[6] + 256 * message->bytes[7] == period_ms &&
+  @     message->bytes[8] == 1 && message->bytes[9] == 0 && message->bytes[10] == 1 &&
+  @     message->bytes[11] == 0;
+  @*/
+void keel_ubx_write_rate(keel_ubx_message_t *message, uint16_t period_ms);
+
+/**
+ * Writes CFG-PRT for the receiver's first UART (requirement UBX-015): 8 data bits, no parity, one
+ * stop bit, UBX in and out and nothing else. The receiver answers at the new rate, or not at all.
+ *
+ * @param message where it is written
+ * @param baud    bits per second
+ */
+/*@ requires \valid(message);
+  @ assigns *message;
+  @ ensures UBX_015_port: ubx_begun(message, 0x06, 0x00, 20);
+  @*/
+void keel_ubx_write_port(keel_ubx_message_t *message, uint32_t baud);
+
+KEEL_C_END
+
+#endif
