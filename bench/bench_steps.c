@@ -26,7 +26,9 @@ static keel_pid_t bench_pid;
 static keel_mixer_t bench_mixer;
 static keel_mode_t bench_mode;
 static keel_reference_t bench_reference;
+static keel_log_ring_t bench_ring;
 static keel_sbus_t bench_sbus;
+static keel_ulog_message_t bench_message;
 static keel_virtual_imu_t bench_imu;
 
 static void bench_require(int condition, const char *what)
@@ -242,6 +244,32 @@ static void bench_run_sbus(const char *name, bool noise)
     bench_dump(name);
 }
 
+static void bench_run_log_ring(void)
+{
+    uint8_t read[LOG_RECORD];
+
+    keel_log_ring_init(&bench_ring);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        CALLGRIND_TOGGLE_COLLECT;
+        (void)keel_log_ring_write(&bench_ring, log_workload, LOG_RECORD, n);
+        CALLGRIND_TOGGLE_COLLECT;
+        bench_require(keel_log_ring_read(&bench_ring, read, LOG_RECORD) == LOG_RECORD, "ring");
+    }
+    bench_dump("log_ring");
+}
+
+static void bench_run_ulog(void)
+{
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        keel_ulog_data(&bench_message, 1u);
+        CALLGRIND_TOGGLE_COLLECT;
+        (void)keel_ulog_add(&bench_message, log_workload, LOG_RECORD);
+        CALLGRIND_TOGGLE_COLLECT;
+        bench_require(bench_message.size > LOG_RECORD, "ULog");
+    }
+    bench_dump("ulog");
+}
+
 static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     const keel_mode_input_t input = mode_workload(&bench_mode, settle_us,
@@ -291,6 +319,8 @@ int main(void)
     bench_run_calibration();
     bench_run_sbus("sbus", false);
     bench_run_sbus("sbus_worst", true);
+    bench_run_log_ring();
+    bench_run_ulog();
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;

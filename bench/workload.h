@@ -17,7 +17,9 @@
 #include "keel/flight/pid.h"
 #include "keel/flight/position.h"
 #include "keel/flight/reference.h"
+#include "keel/middleware/log_ring.h"
 #include "keel/middleware/sbus.h"
+#include "keel/middleware/ulog.h"
 #include "keel/middleware/virtual_imu.h"
 
 #define STEPS 1000u
@@ -323,6 +325,13 @@ static uint8_t sbus_byte_at(uint32_t n)
     }
     return (at < 23u) ? middle[(at - 1u) % 11u] : 0x00u;
 }
+
+/* --- Log -------------------------------------------------------------------------------------- */
+
+/* What an inertial unit measured: its time, six values, an age. */
+#define LOG_RECORD 36u
+
+static const uint8_t log_workload[LOG_RECORD] = {1u, 2u, 3u};
 
 /* --- Virtual IMU ------------------------------------------------------------------------------ */
 
