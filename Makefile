@@ -14,7 +14,7 @@ BOARD ?=
 
 # The variables that a command line may set. Another one is a slip, and must not pass unnoticed.
 VARIABLES := UNIT SECONDS TASKSET ARGS BOARD DASK CFLAGS KEEL_CACHE KEEL_NO_INSTALL KEEL_FRESH \
-             KEEL_DEBIAN_MIRROR VERIFY SCENARIO SEED N JOBS
+             KEEL_DEBIAN_MIRROR VERIFY SCENARIO SEED N JOBS FILE
 GIVEN := $(foreach name,$(.VARIABLES),$(if $(findstring command line,$(origin $(name))),$(name)))
 STRANGE := $(filter-out $(VARIABLES),$(GIVEN))
 ifneq ($(STRANGE),)
@@ -100,6 +100,10 @@ flights: python ## N flights with everything varied (N=1000; JOBS=4; DASK=tcp://
 	@DASK="$(DASK)" python3 tools/with_packages.py flights -m flight.montecarlo \
 	    --flights "$(if $(N),$(N),100)" $(if $(SEED),--seed "$(SEED)") \
 	    $(if $(JOBS),--jobs "$(JOBS)") $(ARGS)
+
+.PHONY: log
+log: python ## plot a flight's log (FILE=build/fly/hover-jsbsim.ulg): attitude, motors, votes, load, vibration
+	@python3 tools/with_packages.py fly tools/log.py "$(FILE)" $(ARGS)
 
 .PHONY: flight-picture
 flight-picture: python

@@ -5,6 +5,7 @@
 #include "host/host_board.h"
 
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 /* What the scheduler's own work costs, as the analysed task set has it (urpilot.toml), and a turn
@@ -40,6 +41,8 @@ static taken_t taken;
 static delay_t delay[COPTER_TASKS];
 static sim_task_t tasks[SIM_TASKS]; /* Those of table 2. */
 static float motors[COPTER_MOTORS];
+static FILE *log_file; /* Null: nobody wants the log. */
+static int log_errors;
 
 /* Whether a device's count has moved; it is taken then. */
 static bool is_new(uint32_t *last, uint32_t count)
@@ -139,6 +142,14 @@ static void write_motors(void *context, const float output[COPTER_MOTORS])
     memcpy(motors, output, sizeof motors);
 }
 
+static void write_log(void *context, const uint8_t *bytes, uint32_t length)
+{
+    (void)context;
+    if ((log_file != NULL) && (fwrite(bytes, 1u, length, log_file) != length)) {
+        log_errors++;
+    }
+}
+
 static void end_run(void *context, uint32_t row, uint32_t wcet_us)
 {
     uint64_t work_us = ((uint64_t)wcet_us * options.costs_percent) / HUNDRED;
@@ -154,6 +165,7 @@ static void end_run(void *context, uint32_t row, uint32_t wcet_us)
 int sim_start(const sim_options_t *chosen)
 {
     const host_costs_t costs = {.turn_ns = TURN_NS, .pass_ns = PASS_NS, .dispatch_ns = DISPATCH_NS};
+    keel_status_t status;
 
     options = *chosen;
     memset(&sensors, 0, sizeof sensors);
@@ -171,9 +183,20 @@ int sim_start(const sim_options_t *chosen)
                            .read_power = read_power,
                            .stack_free = stack_free,
                            .write_motors = write_motors,
+                           .write_log = write_log,
                            .end_run = end_run};
     memset(&copter, 0, sizeof copter);
-    return (int)copter_start(&copter, &port, options.plain_mean != 0u);
+    status = copter_start(&copter, &port, options.plain_mean != 0u);
+    return (int)((status == KEEL_OK) ? copter_log_start(&copter) : status);
+}
+
+int sim_log(const char *path)
+{
+    const int errors = log_errors + (((log_file != NULL) && (fclose(log_file) != 0)) ? 1 : 0);
+
+    log_errors = 0;
+    log_file = (path[0] != '\0') ? fopen(path, "wb") : NULL;
+    return errors + (((path[0] != '\0') && (log_file == NULL)) ? 1 : 0);
 }
 
 sim_sensors_t *sim_sensors(void)

@@ -13,6 +13,7 @@ import hashlib
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -219,9 +220,12 @@ def is_whole(truth: Truth) -> bool:
     return known and not lies and truth.place[2] > -1.0
 
 
-def fly(copter: Copter, order: Order) -> Trace:
-    """Make a flight."""
-    return Flight(copter, order).fly()
+def fly(copter: Copter, order: Order, log: Path | None = None) -> Trace:
+    """Make a flight, and its log, if there is to be one."""
+    copter.log(log)
+    trace = Flight(copter, order).fly()
+    copter.log(None)
+    return trace
 
 
 def state_names(trace: Trace) -> list[str]:
