@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file log_ring.h
- * @brief What the functions of keel/middleware/log_ring.h do: on an array that shifts, which is laid
- *        out in the ring from its tail on.
+ * @brief What the functions of keel/middleware/log_ring.h do: on an array that shifts, which lies
+ *        in the ring from its tail on.
  */
 #ifndef MODEL_LOG_RING_H
 #define MODEL_LOG_RING_H
