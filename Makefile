@@ -14,7 +14,7 @@ BOARD ?=
 
 # The variables that a command line may set. Another one is a slip, and must not pass unnoticed.
 VARIABLES := UNIT SECONDS TASKSET ARGS BOARD DASK CFLAGS KEEL_CACHE KEEL_NO_INSTALL KEEL_FRESH \
-             KEEL_DEBIAN_MIRROR VERIFY SCENARIO SEED N JOBS FILE
+             KEEL_DEBIAN_MIRROR VERIFY SCENARIO SEED N JOBS ADDRESS FILE
 GIVEN := $(foreach name,$(.VARIABLES),$(if $(findstring command line,$(origin $(name))),$(name)))
 STRANGE := $(filter-out $(VARIABLES),$(GIVEN))
 ifneq ($(STRANGE),)
@@ -29,7 +29,7 @@ RESEARCH := timing campaign pictures
 ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
              flash-openocd flash-pyocd flash-st-flash flash-px4 timing tools-tests timing-tests \
              consumer opinion evidence browser attestation contracts-run trace c-syntax dask ci \
-             fly flights fly-tests
+             fly flights fly-tests messages sim clients
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
 TIMING := python3 tools/with_packages.py timing -m timing
@@ -82,8 +82,13 @@ analyze: python ## does a task set hold? (TASKSET=file.toml, ARGS=--phases, ARGS
 timing: python ## the paper's evaluation on the virtual board: tables, JSON and plots in build/timing
 	@$(TIMING) experiments specs/tasksets/urpilot.toml
 
-tables: python ## regenerate the C task table from the paper's task set
+tables: python ## regenerate the C task table, and all that is made of the table of parameters
 	@$(TIMING) table specs/tasksets/urpilot.toml examples/urpilot
+	@python3 tools/parameters.py
+
+.PHONY: messages
+messages: python ## regenerate the C tables of MAVLink's messages from its definitions
+	@python3 tools/with_packages.py messages tools/messages.py $(ARGS)
 
 fuzztasks: python ## 100 000 broken task-set files, each of which must be read or refused in words
 	@python3 tools/with_packages.py timing tests/timing/fuzz_taskset.py 100000
@@ -104,6 +109,11 @@ flights: python ## N flights with everything varied (N=1000; JOBS=4; DASK=tcp://
 .PHONY: log
 log: python ## plot a flight's log (FILE=build/fly/hover-jsbsim.ulg): attitude, motors, votes, load, vibration
 	@python3 tools/with_packages.py fly tools/log.py "$(FILE)" $(ARGS)
+
+.PHONY: sim
+sim: python ## fly the copter in real time with MAVLink at UDP 14550 (ADDRESS=127.0.0.1:14550; SCENARIO=wind)
+	@python3 tools/with_packages.py sim tools/sim.py $(foreach one,$(ADDRESS),--address "$(one)") \
+	    $(if $(SCENARIO),--scenario "$(SCENARIO)") $(ARGS)
 
 .PHONY: flight-picture
 flight-picture: python

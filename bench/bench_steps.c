@@ -28,6 +28,7 @@ static keel_mode_t bench_mode;
 static keel_reference_t bench_reference;
 static keel_log_ring_t bench_ring;
 static keel_sbus_t bench_sbus;
+static keel_mavlink_t bench_mavlink;
 static keel_ulog_message_t bench_message;
 static keel_virtual_imu_t bench_imu;
 
@@ -226,6 +227,26 @@ static void bench_run_calibration(void)
     bench_dump("calibration");
 }
 
+static void bench_run_ms5611(void)
+{
+    keel_ms5611_sample_t sample = {0};
+
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const uint32_t d1 = ms5611_pressure_at(n);
+        const uint32_t d2 = ms5611_temperature_at(n);
+
+        if (n < STEPS) {
+            (void)keel_ms5611_compensate(&ms5611_workload, d1, d2, &sample);
+        } else {
+            CALLGRIND_TOGGLE_COLLECT;
+            (void)keel_ms5611_compensate(&ms5611_workload, d1, d2, &sample);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_require(sample.temperature_cdeg < -1500, "MS5611");
+    bench_dump("ms5611");
+}
+
 static void bench_run_sbus(const char *name, bool noise)
 {
     bench_require(keel_sbus_init(&bench_sbus, &sbus_workload) == KEEL_OK, "SBUS");
@@ -268,6 +289,24 @@ static void bench_run_ulog(void)
         bench_require(bench_message.size > LOG_RECORD, "ULog");
     }
     bench_dump("ulog");
+}
+
+static void bench_run_mavlink(void)
+{
+    bench_require(keel_mavlink_init(&bench_mavlink, mavlink_workload, 1u) == KEEL_OK, "MAVLink");
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const uint8_t byte = mavlink_byte_at(n);
+
+        if (n < STEPS) {
+            (void)keel_mavlink_take(&bench_mavlink, byte);
+        } else {
+            CALLGRIND_TOGGLE_COLLECT;
+            (void)keel_mavlink_take(&bench_mavlink, byte);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_require(bench_mavlink.count.frames > 0u, "MAVLink frames");
+    bench_dump("mavlink");
 }
 
 static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
@@ -317,10 +356,12 @@ int main(void)
     bench_run_position();
     bench_run_battery();
     bench_run_calibration();
+    bench_run_ms5611();
     bench_run_sbus("sbus", false);
     bench_run_sbus("sbus_worst", true);
     bench_run_log_ring();
     bench_run_ulog();
+    bench_run_mavlink();
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;

@@ -428,6 +428,31 @@ static void bench_calibration(void)
     print(&steps);
 }
 
+/* The argument that bench_call has no room for is a constant. */
+static void bench_ms5611_sample(keel_ms5611_sample_t *sample, uint32_t d1, uint32_t d2)
+{
+    (void)keel_ms5611_compensate(&ms5611_workload, d1, d2, sample);
+}
+
+static void bench_ms5611(void)
+{
+    keel_ms5611_sample_t sample = {0};
+    kind_t steps = {"ms5611", 0u, 0u, 0u};
+
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const uint32_t d1 = ms5611_pressure_at(n);
+        const uint32_t d2 = ms5611_temperature_at(n);
+
+        if (n < STEPS) {
+            bench_ms5611_sample(&sample, d1, d2);
+        } else {
+            add(&steps, measure((function_t)bench_ms5611_sample, &sample, d1, d2, false));
+        }
+    }
+    require(sample.temperature_cdeg < -1500);
+    print(&steps);
+}
+
 static void bench_sbus(const char *name, bool noise)
 {
     static keel_sbus_t sbus KEEL_REALTIME_ZERO;
@@ -473,6 +498,25 @@ static void bench_ulog(void)
                             false));
         require(message.size > LOG_RECORD);
     }
+    print(&steps);
+}
+
+static void bench_mavlink(void)
+{
+    static keel_mavlink_t mavlink KEEL_REALTIME_ZERO;
+    kind_t steps = {"mavlink", 0u, 0u, 0u};
+
+    require(keel_mavlink_init(&mavlink, mavlink_workload, 1u) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        const uint8_t byte = mavlink_byte_at(n);
+
+        if (n < STEPS) {
+            (void)keel_mavlink_take(&mavlink, byte);
+        } else {
+            add(&steps, measure((function_t)keel_mavlink_take, &mavlink, byte, 0u, false));
+        }
+    }
+    require(mavlink.count.frames > 0u);
     print(&steps);
 }
 
@@ -601,10 +645,12 @@ int main(void)
     bench_position();
     bench_battery();
     bench_calibration();
+    bench_ms5611();
     bench_sbus("sbus", false);
     bench_sbus("sbus_worst", true);
     bench_log_ring();
     bench_ulog();
+    bench_mavlink();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
     bench_tasks();

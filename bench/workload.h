@@ -18,6 +18,8 @@
 #include "keel/flight/position.h"
 #include "keel/flight/reference.h"
 #include "keel/middleware/log_ring.h"
+#include "keel/middleware/mavlink.h"
+#include "keel/middleware/ms5611.h"
 #include "keel/middleware/sbus.h"
 #include "keel/middleware/ulog.h"
 #include "keel/middleware/virtual_imu.h"
@@ -308,6 +310,26 @@ static keel_calibration_vector_t calibration_sample_at(uint32_t n)
     return sample;
 }
 
+/* --- MS5611 ----------------------------------------------------------------------------------- */
+
+static const keel_ms5611_t ms5611_workload = {.sensitivity = 40127u,
+                                              .offset = 36924u,
+                                              .sensitivity_slope = 23317u,
+                                              .offset_slope = 23282u,
+                                              .reference = 33464u,
+                                              .temperature_slope = 28312u};
+
+/* Below -15 degrees, with all corrections. */
+static uint32_t ms5611_pressure_at(uint32_t n)
+{
+    return 9085466u + (n % 4096u);
+}
+
+static uint32_t ms5611_temperature_at(uint32_t n)
+{
+    return 7233450u + (n % 256u);
+}
+
 /* --- SBUS ------------------------------------------------------------------------------------- */
 
 static const keel_sbus_config_t sbus_workload = {
@@ -332,6 +354,20 @@ static uint8_t sbus_byte_at(uint32_t n)
 #define LOG_RECORD 36u
 
 static const uint8_t log_workload[LOG_RECORD] = {1u, 2u, 3u};
+
+/* --- MAVLink ---------------------------------------------------------------------------------- */
+
+static const keel_mavlink_message_t mavlink_workload[1] = {
+    {.id = 0u, .crc_extra = 50u, .shortest = 1u, .longest = 9u}};
+
+/* One heartbeat behind the other. */
+static uint8_t mavlink_byte_at(uint32_t n)
+{
+    static const uint8_t heartbeat[21] = {0xFD, 9, 0, 0, 0, 1, 1, 0, 0,    0,   0,
+                                          0,    0, 0, 2, 0, 0, 3, 3, 0x83, 0x46};
+
+    return heartbeat[n % 21u];
+}
 
 /* --- Virtual IMU ------------------------------------------------------------------------------ */
 

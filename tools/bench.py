@@ -80,6 +80,10 @@ STEPS: dict[str, tuple[str, str, int]] = {
     "calibration": ("calibration at rest", "keel_calibration_rest_step", 250),
     "sbus": ("SBUS, a byte of right frames", "keel_sbus_take", 100),
     "sbus_worst": ("SBUS, a byte of nothing but headers", "keel_sbus_take", 300),
+    "ms5611": ("MS5611, a reading in frost", "keel_ms5611_compensate", 300),
+    "mavlink": ("MAVLink, a byte of right frames", "keel_mavlink_take", 200),
+    "log_ring": ("log ring, a record of 36 bytes", "keel_log_ring_write", 1200),
+    "ulog": ("ULog, 36 bytes of data", "keel_ulog_add", 1000),
     "imu": ("virtual IMU, 3 x 6, all agree", "keel_virtual_imu_step", 900),
     "imu_worst": ("virtual IMU, 3 x 6, one outvoted", "keel_virtual_imu_step", 900),
 }

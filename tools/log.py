@@ -29,8 +29,8 @@ TASKS = ROOT / "examples/urpilot/urpilot_tasks.c"
 
 
 def task_names() -> list[str]:
-    """Those of table 2, in order, and the log's own."""
-    return [*re.findall(r'^    \{"([^"]+)",', read_text(TASKS), re.MULTILINE), "log"]
+    """Those of table 2, in order, and the two beside them."""
+    return [*re.findall(r'^    \{"([^"]+)",', read_text(TASKS), re.MULTILINE), "Log", "Telemetry"]
 
 
 def show(arguments: Sequence[str] | None) -> int:

@@ -8,13 +8,17 @@
     python3 tools/mutate.py --unit queue --list          # the mutants, without trying them
     python3 tools/mutate.py --status                     # the last results, and which are stale
     python3 tools/mutate.py --record                     # keep the results in specs/mutation
+    python3 tools/mutate.py --unit sbus --confirm 1      # CBMC confirms all executions that kill
     DASK=tcp://host:8786 python3 tools/mutate.py         # on a Dask cluster (make mutate)
 
 Mutants are slips of the pen (another operator, a number beside the right one, a statement left out)
 and of thought (order, a stale value, the neighbour's field or index, a check that comes too late, a
-clause forgotten; tools/proofs/mutant_slips.py). One is killed by a counterexample of CBMC, first
-looked for at small capacities (tools/proofs/mutant_small.py), or by a goal that WP leaves open
-within its full limits. A mutant that nobody notices shows a contract that
+clause forgotten; tools/proofs/mutant_slips.py). One is killed by a counterexample to a harness of
+CBMC, or by a goal that WP leaves open within its full limits. A counterexample is an execution:
+first the harnesses are executed on this machine, on inputs that were found on the unchanged code
+(tools/proofs/mutant_execution.py; CBMC is asked to confirm one of 50, see --confirm, and the run
+fails where it does not), then CBMC looks for one, at small capacities first
+(tools/proofs/mutant_small.py). A mutant that nobody notices shows a contract that
 is too weak, or a change that makes no difference; the latter is accepted with its reason in
 proofs/UNIT/equivalent.toml. What does not compile, or compiles to the same code, does not count.
 
@@ -48,15 +52,22 @@ from proofs.mutant_harnesses import survey  # noqa: E402
 from proofs.mutant_trees import Trees  # noqa: E402
 from proofs.mutant_verdicts import Verdict  # noqa: E402
 from proofs.mutants import Mutant, generate  # noqa: E402
-from proofs.mutation import BY_CBMC, BY_WP, DRIVER, Tools, Trial  # noqa: E402
+from proofs.mutation import BY_CBMC, BY_WP, CONFIRM, DRIVER, Tools, Trial  # noqa: E402
 from proofs.project import RECORDED_TIMES, ProjectError, Unit, find_units  # noqa: E402
 from proofs.session import judges_digest, own_digest, prover_answers, tool_stamp  # noqa: E402
 from proofs.settings import read_exceptions  # noqa: E402
 from proofs.times import Times  # noqa: E402
 from toolchain import TARGET_FLAGS, Toolchain, ToolchainError  # noqa: E402
 
-from proofs import clauses, mutant_records, mutant_slips, mutant_verdicts  # noqa: E402
+from proofs import (  # noqa: E402
+    clauses,
+    mutant_execution,
+    mutant_records,
+    mutant_slips,
+    mutant_verdicts,
+)
 
+CLANG = "clang-19"
 ENGINES = {"wp": ("wp",), "cbmc": ("cbmc",), "both": ("cbmc", "wp"), None: ("cbmc", "wp")}
 
 
@@ -81,7 +92,9 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--quick", action="store_true",
                         help="short limits for WP; what they leave open is not killed")  # fmt: skip
     parser.add_argument("--small", action="store_true",
-                        help="ask small harnesses alone; what they leave is not tried")  # fmt: skip
+                        help="no more than executions and small harnesses")  # fmt: skip
+    parser.add_argument("--confirm", type=int, default=CONFIRM, metavar="N",
+                        help="CBMC confirms one of N executions; default: 50")  # fmt: skip
     parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")
     parser.add_argument("--record", action="store_true",
                         help="keep the results in specs/mutation, for make evidence")  # fmt: skip
@@ -92,13 +105,19 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
             parser.error(f"no such unit: {name} (there are: {', '.join(names)})")
     if options.record and (options.function or options.quick or options.engine):
         parser.error("--record keeps whole results: without --function, --quick and --engine")
-    if options.jobs < 1:
-        parser.error("--jobs needs at least 1")
+    for name in ("jobs", "confirm"):
+        if getattr(options, name) < 1:
+            parser.error(f"--{name} needs at least 1")
     return options
 
 
-def tools_for(toolchain: Toolchain, root: Path, scratch: Path) -> Tools:
-    """The programs of the trials."""
+def tries(options: argparse.Namespace) -> bool:
+    """Whether mutants are tried, not only told."""
+    return not (options.list or options.status)
+
+
+def tools_for(toolchain: Toolchain, root: Path, scratch: Path, trying: bool) -> Tools:
+    """The programs of the trials; who only tells needs no compiler to execute harnesses."""
     compiler = [
         *toolchain.command("arm-none-eabi-gcc"),
         *TARGET_FLAGS,
@@ -111,13 +130,17 @@ def tools_for(toolchain: Toolchain, root: Path, scratch: Path) -> Tools:
         compiler=compiler, scratch=scratch, answers=prover_answers(root, stamp),
         verdicts=toolchain.cache.folder / "verdicts",
         environment={**os.environ, **toolchain.environment(), "TMPDIR": str(scratch)},
+        clang=toolchain.command(CLANG) if trying else (),
+        clang_version=toolchain.versions("fuzz")[CLANG].version if trying else "",
+        inputs=toolchain.cache.folder / "inputs",
     )  # fmt: skip
 
 
 def stamp_of(toolchain: Toolchain) -> dict[str, str]:
     """What identifies the tools of a verdict."""
     tools = tool_stamp(toolchain.versions("prove"))
-    judges = {BY_CBMC: judges_digest("cbmc"), BY_WP: judges_digest("wp")}
+    by_cbmc = digest([judges_digest("cbmc"), mutant_execution.judge()])
+    judges = {BY_CBMC: by_cbmc, BY_WP: judges_digest("wp")}
     return {**tools, **judges, DRIVER: own_digest()}
 
 
@@ -157,7 +180,7 @@ class Measurement:
         self._build = root / "build" / "mutate"
         self._scratch = Path(tempfile.mkdtemp(prefix="keel-mutate-"))
         trees = Trees(root, self._scratch, options.jobs)
-        programs = tools_for(tools, root, self._scratch)
+        programs = tools_for(tools, root, self._scratch, tries(options))
         exceptions = read_exceptions(root / "proofs" / "units.toml", list(find_units(root)))
         times = Times(root / "build/prove/times.json", root / RECORDED_TIMES)
         cache = Cache(self._build / "cache", options.fresh)
@@ -169,6 +192,7 @@ class Measurement:
             trial = Trial(
                 unit, programs, trees, self.engines, options.engine == "both", cache, self.stamp,
                 exceptions[unit.name], times, not options.quick, seen, options.small, accepted,
+                options.confirm,
             )  # fmt: skip
             made = [generate(path, around) for path in unit.own_files]
             found = [mutant for one in made for mutant in one.mutants
@@ -221,6 +245,8 @@ class Measurement:
             accepted = mutant_verdicts.read_equivalent(one.reasons)
             verdicts = [one.verdicts[place] for place in sorted(one.verdicts)]
             problems = [f"{name} is not proved even unchanged" for name in one.trial.unusable]
+            problems += [f"executed, and CBMC sees no failure: {text}"
+                         for text in one.trial.sample.contradictions]  # fmt: skip
             problems += mutant_verdicts.settle(verdicts, accepted, not self._options.function)
             text = mutant_verdicts.report(
                 one.unit.name, verdicts, problems, one.dropped, one.digest
@@ -232,9 +258,20 @@ class Measurement:
                 versions = self._tools.versions("prove")
                 made_of = mutant_records.origin(one.unit, harnesses, versions)
                 print(mutant_records.write(one.unit, verdicts, problems, made_of))
+            print("\n".join(executed(one)))
             print(f"{one.unit.name}: dropped {one.dropped} that say the same as another")
             status = max(status, conclude(verdicts, problems, self.engines))
         return status
+
+
+def executed(one: Measured) -> list[str]:
+    """What was executed now, what CBMC said of it, and which harnesses were left out."""
+    name, sample = one.unit.name, one.trial.sample
+    lines = [f"{name}: {sample.executed} killed by executions now, {sample.confirmed} of them"
+             " confirmed by CBMC"]  # fmt: skip
+    lines += [f"{name}: {harness} is not executed: {why}"
+              for harness, why in sorted(one.trial.not_executed.items())]  # fmt: skip
+    return lines
 
 
 def conclude(verdicts: Sequence[Verdict], problems: Sequence[str], engines: Sequence[str]) -> int:
@@ -264,7 +301,7 @@ def measure(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolc
     measurement = Measurement(units, options, toolchain)
     crew: Threads | Dask | None = None
     try:
-        if options.list or options.status:
+        if not tries(options):
             tell(measurement, options)
             return 0
         if address := os.environ.get("DASK"):
@@ -322,7 +359,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         toolchain = Toolchain()
         if options.order:
             return answer_order(sys.stdin.read, lambda order: _ordered(order, units, toolchain))
-        toolchain.ensure("prove")
+        toolchain.ensure("prove", *(["fuzz"] if tries(options) else []))
         return measure([units[name] for name in options.unit], options, toolchain)
     except (ProjectError, ToolchainError) as error:
         print(f"mutate: {error}", file=sys.stderr)
@@ -336,7 +373,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _ordered(
     order: Mapping[str, Any], units: Mapping[str, Unit], toolchain: Toolchain
 ) -> dict[str, Any]:  # fmt: skip
-    toolchain.ensure("prove")
+    toolchain.ensure("prove", "fuzz")
     return carry_out(order, units, toolchain)
 
 

@@ -80,6 +80,8 @@ SPECIFIED = ("admission", "admission_queue", "clock", "decision", "pass", "pass_
 MODEL_SOURCES = [f"tests/property/{name}.c" for name in ("model", "drive", "lockstep")]
 MODEL_SOURCES += [f"specs/model/{name}.c" for name in SPECIFIED]
 KERNEL = ["src"]
+# What each libFuzzer target compares the kernel with.
+FUZZED = {"fuzz_scheduler": MODEL_SOURCES, "fuzz_mavlink": ["specs/model/mavlink.c"]}
 
 
 class HostBuilds:
@@ -192,25 +194,25 @@ FUZZ_FINDING = re.compile(
 )
 
 
-def fuzz_program(tools: Toolchain) -> Path:
-    """Build the libFuzzer target."""
+def fuzz_program(tools: Toolchain, name: str, model: Sequence[str]) -> Path:
+    """Build a libFuzzer target: tests/fuzz/NAME.c with the kernel and what it is compared with."""
     fuzzer = ["-fsanitize=fuzzer,address,undefined", "-fno-sanitize-recover=all"]
     flags = ["-std=c99", "-O1", "-g", "-Iinclude", SMALL, *fuzzer]
     build = Build(tools, "clang-19", flags, ROOT / BUILD / "fuzzer", ROOT, fuzzer)
-    return build.program("fuzz_scheduler", [*KERNEL, *MODEL_SOURCES, "tests/fuzz/fuzz_scheduler.c"])
+    return build.program(name, [*KERNEL, *model, f"tests/fuzz/{name}.c"])
 
 
-def fuzz_suite(tools: Toolchain, seconds: int) -> Outcome:
+def fuzz_suite(tools: Toolchain, seconds: int, suite: str, target: str) -> Outcome:
     """Let libFuzzer look for a sequence on which the kernel and the model differ."""
-    program = fuzz_program(tools)
-    folder = BUILD / "fuzz"  # The corpus stays there, and helps the next run.
+    program = fuzz_program(tools, target, FUZZED[target])
+    folder = BUILD / suite  # The corpus stays there, and helps the next run.
     (ROOT / folder / "corpus").mkdir(parents=True, exist_ok=True)
     options = [f"-max_total_time={seconds}", "-max_len=4096", "-timeout=10", "-print_final_stats=1"]
     options += [f"-artifact_prefix={folder}/"]
     ended = run([program, *options, folder / "corpus"], seconds + 120.0)
     told = FUZZ_FINDING.findall(ended.output) or [ended.evidence]
     again = f"to see it again: {program.relative_to(ROOT)} FILE"
-    return program_outcome("fuzz", ended, "\n".join([*told, again]))
+    return program_outcome(suite, ended, "\n".join([*told, again]))
 
 
 # --- All of them ---------------------------------------------------------------------------------
@@ -249,10 +251,13 @@ def all_suites(builds: HostBuilds, fuzz_seconds: int, needs: Needs) -> list[Suit
     suites.append(Suite("machdep", ("prove",), machdep_suite))
     suites += [*python_suites("tools", ("tools-tests", "c-syntax"), True),
                *python_suites("timing", ("timing-tests",), False),
-               *python_suites("flight", ("fly-tests",), False)]  # fmt: skip
+               *python_suites("flight", ("fly-tests",), False),
+               *python_suites("clients", ("clients",), False)]  # fmt: skip
     if fuzz_seconds > 0:
-        run_it = partial(fuzz_suite, builds.tools, fuzz_seconds)
-        suites.append(Suite("fuzz", ("fuzz",), run_it))
+        for target in FUZZED:
+            name = target.replace("fuzz_scheduler", "fuzz")
+            run_it = partial(fuzz_suite, builds.tools, fuzz_seconds, name, target)
+            suites.append(Suite(name, ("fuzz",), run_it))
     return [with_needs(suite, needs) for suite in suites]
 
 

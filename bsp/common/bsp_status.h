@@ -13,9 +13,11 @@ typedef enum keel_bsp_status {
     KEEL_BSP_TIMEOUT,  /**< The hardware did not answer within the bound. */
     KEEL_BSP_BUS,      /**< The bus reported an error. */
     KEEL_BSP_SHORT,    /**< Fewer bytes came than were asked for. */
-    KEEL_BSP_STUCK,    /**< The data line does not move: all bits are the same. */
+    KEEL_BSP_STUCK,    /**< The data line, or what is measured, does not move. */
     KEEL_BSP_ID,       /**< Another device answers. */
-    KEEL_BSP_VERIFY    /**< What was written does not read back. */
+    KEEL_BSP_VERIFY,   /**< What was written does not read back, or a checksum is wrong. */
+    KEEL_BSP_RANGE,    /**< What was measured lies outside of what the device is made for. */
+    KEEL_BSP_WAIT      /**< Nothing is wrong, and nothing is there yet. */
 } keel_bsp_status_t;
 
 #endif

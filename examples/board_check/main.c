@@ -39,7 +39,7 @@ typedef struct imu {
     bool there;
     uint32_t samples;
     uint32_t failures;
-    keel_icm20689_sample_t last;
+    keel_invensense_sample_t last;
 } imu_t;
 
 static keel_scheduler_t scheduler KEEL_REALTIME_ZERO;
@@ -75,7 +75,7 @@ KEEL_REALTIME_CODE static void imu_body(void *context)
     while (hang) {
     }
     if (imu.there) {
-        if (keel_icm20689_read(keel_chip_sensor(), &imu.last) == KEEL_BSP_OK) {
+        if (keel_invensense_read(keel_chip_sensor(), &imu.last) == KEEL_BSP_OK) {
             imu.samples++;
         } else {
             imu.failures++;
@@ -306,7 +306,7 @@ int main(void)
 
     print_start();
     offer_brownout();
-    imu.there = (keel_icm20689_read(keel_chip_sensor(), &imu.last) == KEEL_BSP_OK);
+    imu.there = (keel_invensense_read(keel_chip_sensor(), &imu.last) == KEEL_BSP_OK);
     keel_chip_led(KEEL_LED_BLUE, imu.there);
     keel_fault_watch(&scheduler);
     start();

@@ -117,7 +117,10 @@ keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool pla
     keel_status_t status;
 
     *copter = (copter_t){.port = port, .plain_mean = plain_mean};
-    status = make(copter);
+    status = copter_tuning_start(&copter->tuning, port->memory);
+    if (status == KEEL_OK) {
+        status = make(copter);
+    }
     if (status == KEEL_OK) {
         status = keel_scheduler_init(&copter->scheduler, &config);
     }

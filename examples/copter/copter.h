@@ -16,6 +16,8 @@
  *                                                                             v
  *                                                                           motors
  *
+ * Besides, telemetry (telemetry.h) tells all of it, and asks the state machine (request.h).
+ *
  * The tasks do not interrupt one another (they run to their end, one at a time), so a structure is
  * never seen half written. No task computes what is a unit's to compute.
  */
@@ -37,7 +39,9 @@
 #include "keel/rtos/scheduler.h"
 #include "log.h"
 #include "port.h"
+#include "request.h"
 #include "settings.h"
+#include "tuning.h"
 #include "urpilot_tasks.h"
 
 /** Tasks beside table 2's, and all together. */
@@ -199,6 +203,9 @@ struct copter {
     copter_control_t control;
     copter_health_t health;
     copter_log_t log;
+    copter_tuning_t tuning;
+    copter_request_t request;           /**< Written by telemetry and the state machine. */
+    struct copter_telemetry *telemetry; /**< Null without. */
     keel_scheduler_t scheduler;
     copter_task_t task[COPTER_TASKS];
     uint32_t tasks;  /**< How many of them there are. */

@@ -36,12 +36,21 @@ static bool define_format(copter_log_t *log, const copter_topic_t *topic)
     return (topic->instance == 0u) && keel_ulog_format(&log->message, &format);
 }
 
-static bool define_parameter(copter_log_t *log, const copter_log_parameter_t *parameter)
+/* A bool is an int32 of 0 or 1. */
+static bool define_parameter(copter_t *copter, uint16_t index)
 {
-    uint8_t bytes[sizeof(float)];
+    const keel_parameters_t *const table = &copter->tuning.table;
+    const keel_parameter_value_t value = keel_parameters_get(table, index);
+    const uint32_t bits = keel_parameter_bits(value);
+    keel_ulog_name_t name = {.text = {0}};
+    uint8_t bytes[sizeof bits];
 
-    memcpy(bytes, parameter->value, sizeof bytes);
-    return keel_ulog_parameter(&log->message, &parameter->name, KEEL_ULOG_FLOAT, bytes);
+    memcpy(name.text, keel_parameters_name(table, index), KEEL_PARAMETER_NAME_LENGTH);
+    memcpy(bytes, &bits, sizeof bytes);
+    return keel_ulog_parameter(&copter->log.message, &name,
+                               (value.type == KEEL_PARAMETER_FLOAT) ? KEEL_ULOG_FLOAT
+                                                                    : KEEL_ULOG_INT32,
+                               bytes);
 }
 
 /* The begin, flag bits and the system's name. */
@@ -64,7 +73,7 @@ static bool define(copter_t *copter, uint32_t number)
     copter_log_t *const log = &copter->log;
     const uint32_t formats = 3u;
     const uint32_t parameters = formats + copter_topics;
-    const uint32_t subscriptions = parameters + copter_log_parameters;
+    const uint32_t subscriptions = parameters + COPTER_PARAMETER_COUNT;
 
     if (number < formats) {
         return define_head(log, number, copter->scheduler.clock.now_us);
@@ -73,7 +82,7 @@ static bool define(copter_t *copter, uint32_t number)
         return define_format(log, &copter_topic[number - formats]);
     }
     if (number < subscriptions) {
-        return define_parameter(log, &copter_log_parameter[number - parameters]);
+        return define_parameter(copter, (uint16_t)(number - parameters));
     }
     keel_ulog_subscription(&log->message, copter_topic[number - subscriptions].instance,
                            (uint16_t)(number - subscriptions),

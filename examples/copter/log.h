@@ -42,19 +42,9 @@ typedef struct copter_topic {
     copter_log_field_t field[KEEL_ULOG_FIELDS - 1u];
 } copter_topic_t;
 
-/** A parameter: a number of copter_settings. */
-typedef struct copter_log_parameter {
-    keel_ulog_name_t name;
-    const float *value;
-} copter_log_parameter_t;
-
 /** The topics. */
 extern const copter_topic_t copter_topic[];
 extern const uint32_t copter_topics;
-
-/** The parameters. */
-extern const copter_log_parameter_t copter_log_parameter[];
-extern const uint32_t copter_log_parameters;
 
 /** Written by the log, but for the ring, whose tail is its task's. */
 typedef struct copter_log {

@@ -149,32 +149,3 @@ const copter_topic_t copter_topic[] = {
                WORDS("longest_us", log.longest_us), HALVES("skipped", log.skipped)}}};
 
 const uint32_t copter_topics = sizeof copter_topic / sizeof copter_topic[0];
-
-#define GAINS(axis, text)                                                                          \
-    {{text "_P"}, &copter_settings.cascade.pid[axis].gains.kp},                                    \
-        {{text "_I"}, &copter_settings.cascade.pid[axis].gains.ki},                                \
-    {                                                                                              \
-        {text "_D"}, &copter_settings.cascade.pid[axis].gains.kd                                   \
-    }
-
-const copter_log_parameter_t copter_log_parameter[] = {
-    GAINS(KEEL_CASCADE_ROLL_RATE, "ROLL_RATE"),
-    GAINS(KEEL_CASCADE_PITCH_RATE, "PITCH_RATE"),
-    GAINS(KEEL_CASCADE_YAW_RATE, "YAW_RATE"),
-    GAINS(KEEL_CASCADE_ROLL, "ROLL"),
-    GAINS(KEEL_CASCADE_PITCH, "PITCH"),
-    GAINS(KEEL_CASCADE_NORTH_SPEED, "NORTH_SPEED"),
-    GAINS(KEEL_CASCADE_EAST_SPEED, "EAST_SPEED"),
-    GAINS(KEEL_CASCADE_CLIMB, "CLIMB"),
-    GAINS(KEEL_CASCADE_NORTH, "NORTH"),
-    GAINS(KEEL_CASCADE_EAST, "EAST"),
-    GAINS(KEEL_CASCADE_HEIGHT, "HEIGHT"),
-    {{"HOVER"}, &copter_settings.cascade.hover},
-    {{"TILT_GAIN"}, &copter_settings.attitude.tilt_gain},
-    {{"HEADING_GAIN"}, &copter_settings.attitude.heading_gain},
-    {{"ACCELEROMETER_AGREE"}, &copter_settings.imu.accelerometer.agree},
-    {{"GYROSCOPE_AGREE"}, &copter_settings.imu.gyroscope.agree},
-    {{"TILT_LIMIT"}, &copter_settings.reference.limits.tilt},
-    {{"SPEED_LIMIT"}, &copter_settings.reference.limits.speed}};
-
-const uint32_t copter_log_parameters = sizeof copter_log_parameter / sizeof copter_log_parameter[0];

@@ -9,6 +9,7 @@
 #ifndef COPTER_PORT_H
 #define COPTER_PORT_H
 
+#include "common/slots.h"
 #include "keel/rtos/scheduler.h"
 
 #include <stdbool.h>
@@ -70,6 +71,7 @@ typedef struct copter_port {
     void (*write_log)(void *context, const uint8_t *bytes, uint32_t length);
     /** A task's run ends: which, and what it is said to have cost at most. */
     void (*end_run)(void *context, uint32_t row, uint32_t wcet_us);
+    const keel_medium_t *memory; /**< Keeps parameters; null: there is none. */
 } copter_port_t;
 
 #endif

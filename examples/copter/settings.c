@@ -20,7 +20,7 @@
      .integral_min = -(integral),                                                                  \
      .integral_max = (integral)}
 
-const copter_settings_t copter_settings =
+const copter_settings_t copter_defaults =
     {.imu = {.accelerometer = {.agree = 0.6f,
                                .cutoff = 3.0f,
                                .lowest = -160.0f,

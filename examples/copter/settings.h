@@ -50,6 +50,9 @@ typedef struct copter_settings {
 } copter_settings_t;
 
 /** A quadcopter of 1.4 kg: the F450 that JSBSim comes with. */
-extern const copter_settings_t copter_settings;
+extern const copter_settings_t copter_defaults;
+
+/** What is in force: the defaults with the parameters. copter_tuning_start alone writes it. */
+extern copter_settings_t copter_settings;
 
 #endif

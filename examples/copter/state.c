@@ -94,14 +94,16 @@ void copter_state_machine(copter_t *copter)
     const uint64_t now_us = copter->scheduler.clock.now_us;
     const bool frame = copter->pilot.frames != self->frames;
     const bool was_disarmed = self->mode.state == KEEL_MODE_DISARMED;
-    const keel_mode_input_t input = {.elapsed_us = (uint32_t)(now_us - self->stepped_us),
-                                     .facts = facts_of(copter) | (frame ? copter->pilot.facts : 0u),
-                                     .checks = checks_of(copter),
-                                     .asked = copter->pilot.asked};
+    keel_mode_input_t input = {.elapsed_us = (uint32_t)(now_us - self->stepped_us),
+                               .facts = facts_of(copter) | (frame ? copter->pilot.facts : 0u),
+                               .checks = checks_of(copter),
+                               .asked = copter->pilot.asked};
 
     self->frames = copter->pilot.frames;
     self->stepped_us = now_us;
+    copter_request_apply(&copter->request, frame, &input);
     keel_mode_step(&self->mode, &input);
+    copter_request_follow(&copter->request, &self->mode, input.elapsed_us);
     if (was_disarmed && self->mode.motors) {
         self->homes++;
     }

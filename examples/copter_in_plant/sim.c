@@ -2,7 +2,9 @@
 #include "sim.h"
 
 #include "copter.h"
+#include "file_medium.h"
 #include "host/host_board.h"
+#include "telemetry.h"
 
 #include <stddef.h>
 #include <stdio.h>
@@ -14,6 +16,9 @@
 #define PASS_NS     11000u
 #define DISPATCH_NS 1000u
 #define HUNDRED     100u
+
+/* What a line holds of either direction. */
+#define LINE_BYTES 4096u
 
 /* What the copter took last of each device. */
 typedef struct taken {
@@ -31,7 +36,16 @@ typedef struct delay {
     uint32_t extra_us;
 } delay_t;
 
+/* What waits on a line, the oldest first. */
+typedef struct line {
+    uint8_t bytes[LINE_BYTES];
+    uint32_t count;
+} line_t;
+
 static copter_t copter;
+static copter_telemetry_t telemetry;
+static line_t up[SIM_LINKS];   /* For the copter. */
+static line_t down[SIM_LINKS]; /* Of the copter. */
 static copter_port_t port;
 static host_board_t board;
 static sim_options_t options;
@@ -43,6 +57,7 @@ static sim_task_t tasks[SIM_TASKS]; /* Those of table 2. */
 static float motors[COPTER_MOTORS];
 static FILE *log_file; /* Null: nobody wants the log. */
 static int log_errors;
+static keel_medium_t memory;
 
 /* Whether a device's count has moved; it is taken then. */
 static bool is_new(uint32_t *last, uint32_t count)
@@ -162,6 +177,71 @@ static void end_run(void *context, uint32_t row, uint32_t wcet_us)
     host_board_work(&board, work_us * HOST_NS_PER_US);
 }
 
+static uint32_t put(line_t *line, const uint8_t *bytes, uint32_t size)
+{
+    const uint32_t room = LINE_BYTES - line->count;
+    const uint32_t taken_now = (size < room) ? size : room;
+
+    memcpy(&line->bytes[line->count], bytes, taken_now);
+    line->count += taken_now;
+    return taken_now;
+}
+
+static uint32_t take(line_t *line, uint8_t *bytes, uint32_t size)
+{
+    const uint32_t given = (size < line->count) ? size : line->count;
+
+    memcpy(bytes, line->bytes, given);
+    line->count -= given;
+    memmove(line->bytes, &line->bytes[given], line->count);
+    return given;
+}
+
+static uint32_t read_line(void *context, uint32_t link, uint8_t *bytes, uint32_t size)
+{
+    (void)context;
+    return take(&up[link], bytes, size);
+}
+
+static uint32_t room_of(void *context, uint32_t link)
+{
+    (void)context;
+    return LINE_BYTES - down[link].count;
+}
+
+static void write_line(void *context, uint32_t link, const uint8_t *bytes, uint32_t size)
+{
+    (void)context;
+    (void)put(&down[link], bytes, size);
+}
+
+uint32_t sim_link_send(uint32_t link, const uint8_t *bytes, uint32_t size)
+{
+    return (link < SIM_LINKS) ? put(&up[link], bytes, size) : 0u;
+}
+
+uint32_t sim_link_receive(uint32_t link, uint8_t *bytes, uint32_t size)
+{
+    return (link < SIM_LINKS) ? take(&down[link], bytes, size) : 0u;
+}
+
+static keel_status_t start_telemetry(void)
+{
+    copter_telemetry_config_t config = {
+        .key = {.key = (options.hash != NULL) ? options.key : NULL,
+                .hash = options.hash,
+                .timestamp = options.timestamp},
+        .lines = {.read = read_line, .room = room_of, .write = write_line}};
+    bool wanted = false;
+
+    for (uint32_t i = 0u; i < SIM_LINKS; i++) {
+        config.link[i] = (copter_link_config_t){.bytes_per_s = options.bytes_per_s[i],
+                                                .commands = options.listens[i] == 0u};
+        wanted = wanted || (options.bytes_per_s[i] > 0u);
+    }
+    return wanted ? copter_telemetry_start(&copter, &telemetry, &config) : KEEL_OK;
+}
+
 int sim_start(const sim_options_t *chosen)
 {
     const host_costs_t costs = {.turn_ns = TURN_NS, .pass_ns = PASS_NS, .dispatch_ns = DISPATCH_NS};
@@ -172,7 +252,12 @@ int sim_start(const sim_options_t *chosen)
     memset(&taken, 0, sizeof taken);
     memset(delay, 0, sizeof delay);
     memset(motors, 0, sizeof motors);
+    memset(up, 0, sizeof up);
+    memset(down, 0, sizeof down);
     host_board_init(&board, &copter.scheduler, &costs, 0u);
+    if (options.memory != NULL) {
+        memory = file_medium(options.memory);
+    }
     port = (copter_port_t){.read_clock = host_board_read,
                            .clock = &board,
                            .read_imu = read_imu,
@@ -184,10 +269,12 @@ int sim_start(const sim_options_t *chosen)
                            .stack_free = stack_free,
                            .write_motors = write_motors,
                            .write_log = write_log,
-                           .end_run = end_run};
+                           .end_run = end_run,
+                           .memory = (options.memory != NULL) ? &memory : NULL};
     memset(&copter, 0, sizeof copter);
     status = copter_start(&copter, &port, options.plain_mean != 0u);
-    return (int)((status == KEEL_OK) ? copter_log_start(&copter) : status);
+    status = (status == KEEL_OK) ? copter_log_start(&copter) : status;
+    return (int)((status == KEEL_OK) ? start_telemetry() : status);
 }
 
 int sim_log(const char *path)

@@ -21,6 +21,8 @@
 #define SIM_CHANNELS 8
 #define SIM_MOTORS   4
 #define SIM_TASKS    21
+#define SIM_LINKS    3
+#define SIM_KEY      32
 
 /** An inertial measurement unit. */
 typedef struct sim_imu {
@@ -79,10 +81,21 @@ typedef struct sim_sensors {
     sim_power_t power[SIM_MODULES];
 } sim_sensors_t;
 
+/** SHA-256 of some bytes. */
+typedef void (*sim_hash_t)(const uint8_t *data, uint32_t size, uint8_t *digest);
+
 /** How a flight is made. */
 typedef struct sim_options {
     uint32_t costs_percent; /**< Of its budget that a task's run takes: 100. */
     uint32_t plain_mean;    /**< 1: the three units' mean in place of their vote, for comparison. */
+    uint32_t bytes_per_s[SIM_LINKS]; /**< That each link of telemetry carries; 0: it is not there.
+                                          Without any there is no telemetry, nor its task. */
+    uint32_t listens[SIM_LINKS];     /**< 1: what comes by it may not command. */
+    uint8_t key[SIM_KEY];            /**< What frames are signed with, if there is a hash. */
+    sim_hash_t hash;                 /**< Null: frames are neither signed nor checked. */
+    uint64_t timestamp;              /**< Now, in 10 us since 2015 began (UTC). */
+    const char *memory;              /**< The file that keeps parameters; null: none. It is read and
+                                          written as long as the copter runs. */
 } sim_options_t;
 
 /** What became of a task. */
@@ -150,6 +163,14 @@ const sim_task_t *sim_tasks(void);
 
 /** Makes the next runs of a task, from 0 in the order of table 2, longer by some time each. */
 void sim_overrun(uint32_t task, uint32_t runs, uint32_t extra_us);
+
+/** Bytes for the copter, which come by a link.
+ * @return how many of them it has room for: the others are lost */
+uint32_t sim_link_send(uint32_t link, const uint8_t *bytes, uint32_t size);
+
+/** Bytes of the copter, which it sent by a link: whole frames, as many as fit.
+ * @return how many */
+uint32_t sim_link_receive(uint32_t link, uint8_t *bytes, uint32_t size);
 
 /** The channel of the mode switch that asks for a mode: KEEL_MODE_ACRO, ... */
 uint16_t sim_mode_channel(uint32_t mode);

@@ -10,15 +10,12 @@ typedef struct line {
     uint8_t byte[MOST];
 } line_t;
 
-static line_t line_of(const keel_log_ring_t *ring)
+static void line_of(const keel_log_ring_t *ring, line_t *line)
 {
-    line_t line;
-
-    line.held = model_log_ring_held(ring);
-    for (uint32_t i = 0u; i < line.held; i++) {
-        line.byte[i] = ring->buffer[(ring->tail + i) % KEEL_LOG_RING_BYTES];
+    line->held = model_log_ring_held(ring);
+    for (uint32_t i = 0u; i < line->held; i++) {
+        line->byte[i] = ring->buffer[(ring->tail + i) % KEEL_LOG_RING_BYTES];
     }
-    return line;
 }
 
 /* From tail on, round the end; what is not held stays as it is. */
@@ -51,8 +48,9 @@ uint32_t model_log_ring_held(const keel_log_ring_t *ring)
 bool model_log_ring_write(keel_log_ring_t *ring, const uint8_t *record, uint32_t size,
                           uint64_t now_us)
 {
-    line_t line = line_of(ring);
+    line_t line;
 
+    line_of(ring, &line);
     if (((uint64_t)line.held + size) > MOST) { /* RIN-005 */
         if (ring->loss.records == 0u) {        /* RIN-006 */
             ring->loss.since_us = now_us;
@@ -86,9 +84,11 @@ bool model_log_ring_take_loss(keel_log_ring_t *ring, uint32_t size, keel_log_rin
 /* RIN-008: what is taken goes out at the front, and the rest moves up. */
 uint32_t model_log_ring_read(keel_log_ring_t *ring, uint8_t *to, uint32_t most)
 {
-    line_t line = line_of(ring);
-    const uint32_t count = (most > line.held) ? line.held : most;
+    line_t line;
+    uint32_t count;
 
+    line_of(ring, &line);
+    count = (most > line.held) ? line.held : most;
     for (uint32_t i = 0u; i < count; i++) {
         to[i] = line.byte[i];
     }

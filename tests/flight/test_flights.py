@@ -161,10 +161,16 @@ def test_numbers_that_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert "expected 1 or more" in capsys.readouterr().err
 
 
+def heed_ctrl_c() -> None:
+    """What a shell starts in its background ignores it, and so would what is started here."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 def test_an_interruption_ends_it_and_leaves_no_report(tmp_path: Path) -> None:
     words = [sys.executable, "tools/fly.py", "--build", str(tmp_path), "--no-pictures"]
     with subprocess.Popen(words, cwd=library.ROOT, stdout=subprocess.PIPE, text=True,
-                          stderr=subprocess.STDOUT, start_new_session=True) as child:  # fmt: skip
+                          stderr=subprocess.STDOUT, start_new_session=True,
+                          preexec_fn=heed_ctrl_c) as child:  # fmt: skip
         assert child.stdout is not None
         assert child.stdout.readline().startswith("[1/")
         os.killpg(child.pid, signal.SIGINT)  # As a terminal does: to all of them.

@@ -8,6 +8,7 @@ import csv
 import math
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -15,13 +16,13 @@ import log as log_tool
 import numpy as np
 import pytest
 from flight import library, log_plots, loop, scenario, ulog
-from flight.library import Copter
+from flight.library import Copter, Link
 from flight.loop import Order, Trace
 from flight.spectrum import spectrum
 from pyulog import ULog
 from toolchain import Toolchain
 
-from common.errors import ToolError
+from common.errors import ROOT, ToolError
 
 SHORT = """description = "up and down"
 duration_s = 8.0
@@ -97,8 +98,11 @@ def test_tools_of_pyulog_read_it(flown: tuple[Path, Trace], tmp_path: Path) -> N
     assert "No Dropouts" in told and "sys_name: Keel" in told
     assert len([line for line in told.splitlines() if " (" in line and "id" not in line]) == 17
     parameters = dict(line.split(",") for line in tool("params", flown[0]).split())
+    table = tomllib.loads((ROOT / "specs/parameters/copter.toml").read_text())
+    names = {row["name"] for group in table["group"] for row in group["parameter"]}
+    assert set(parameters) == names
     assert math.isclose(float(parameters["ROLL_P"]), 7.0)
-    assert math.isclose(float(parameters["HOVER"]), 0.37, rel_tol=1e-6)
+    assert math.isclose(float(parameters["THR_HOVER"]), 0.37, rel_tol=1e-6)
     texts = tool("messages", flown[0])
     assert texts.index("armed") < texts.index("flying")
     tool("ulog2csv", "-o", tmp_path, flown[0])
@@ -167,6 +171,24 @@ def test_what_does_not_fit_is_a_dropout(tmp_path: Path) -> None:
     assert 0.0 < sum(each.duration for each in theirs.dropouts) / 1e3 < whole
     assert len(ours.topic("imu")) < 0.95 * 500.0 * whole
     assert "Dropouts: count" in tool("info", path)
+
+
+def test_log_and_telemetry_go_together(copter: Copter, tmp_path: Path) -> None:
+    """No run of either is left out, when telemetry sends on all its links as much as it can."""
+    path = tmp_path / "both.ulg"
+    copter.log(path)
+    copter.start(100, plain_mean=False, links=[Link()] * copter.links)
+    sent = 0
+    for now_ms in range(1, 5001):
+        assert copter.run_until(1000 * now_ms) == 0
+        sent += sum(len(copter.receive(link)) for link in range(copter.links))
+    copter.log(None)
+    log = ulog.read(path)
+    last = log.topic("tasks")[-1]
+    assert sent > 20_000 and not log.dropouts
+    assert not last["skipped"].any()
+    runs_per_s = last["runs"][len(copter.tasks) :] / (last["timestamp"] / 1e6)
+    assert runs_per_s[:2] == pytest.approx([100.0, 250.0], rel=0.02)
 
 
 def shaken(copter: Copter, path: Path) -> None:

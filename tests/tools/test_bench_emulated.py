@@ -48,6 +48,10 @@ bench battery passes 1000 instructions 372000 longest 372
 bench calibration passes 1000 instructions 71000 longest 71
 bench sbus passes 1000 instructions 54400 longest 621
 bench sbus_worst passes 1000 instructions 152000 longest 152
+bench ms5611 passes 1000 instructions 250000 longest 260
+bench mavlink passes 1000 instructions 120000 longest 700
+bench log_ring passes 1000 instructions 830000 longest 840
+bench ulog passes 1000 instructions 610000 longest 610
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
 bench ended
@@ -75,6 +79,10 @@ FIGURES = {
     "calibration": Figure(1000, 71000, 71),
     "sbus": Figure(1000, 54400, 621),
     "sbus_worst": Figure(1000, 152000, 152),
+    "ms5611": Figure(1000, 250000, 260),
+    "mavlink": Figure(1000, 120000, 700),
+    "log_ring": Figure(1000, 830000, 840),
+    "ulog": Figure(1000, 610000, 610),
     **{name: Figure(50, 5000, 120) for name in TASKS},
 }
 GOOD = """\
@@ -101,6 +109,10 @@ position = 441.0
 battery = 372.0
 sbus = 54.4
 sbus_worst = 152.0
+ms5611 = 250.0
+mavlink = 120.0
+log_ring = 830.0
+ulog = 610.0
 cascade = 2851.4
 calibration = 71.0
 """ + "".join(f"{name} = 100\n" for name in TASKS)
@@ -200,6 +212,10 @@ class Budgets(unittest.TestCase):
                 "calibration": 71.0,
                 "sbus": 54.4,
                 "sbus_worst": 152.0,
+                "ms5611": 250.0,
+                "mavlink": 120.0,
+                "log_ring": 830.0,
+                "ulog": 610.0,
                 "cascade": 2851.4,
                 **dict.fromkeys(TASKS, 100.0),
             },

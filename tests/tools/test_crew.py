@@ -29,6 +29,7 @@ sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 import mutate  # noqa: E402
 from common.cluster import archive  # noqa: E402
 from proofs.mutant_crew import PROGRAM, SENT, Dask, Threads, answer_order, orders  # noqa: E402
+from proofs.mutant_execution import Sample  # noqa: E402
 from proofs.mutant_verdicts import Verdict  # noqa: E402
 from proofs.mutants import Mutant, mutants  # noqa: E402
 from proofs.project import ProjectError  # noqa: E402
@@ -45,6 +46,8 @@ class FakeTrial:
         self.tried: list[Mutant] = []
         self.kept: dict[Mutant, Verdict] = {}
         self.unusable: list[str] = []
+        self.not_executed: dict[str, str] = {}
+        self.sample = Sample(50)
         self.interrupted = False
 
     def try_mutant(self, mutant: Mutant) -> Verdict:

@@ -9,7 +9,9 @@ No prover is run.
 
 from __future__ import annotations
 
+import dataclasses
 import json
+import os
 import sys
 import tempfile
 import unittest
@@ -130,6 +132,17 @@ class Order(TrialCase):
         self.assertEqual((first, last), (NO_ANSWER, NO_ANSWER))
         self.assertEqual(begun, 5)
         self.assertEqual(asked[begun:], ["keel_box_put__slow_harness"])
+
+
+    def test_a_limit_is_of_processor_time(self) -> None:
+        runner = jobs.Runner({"PATH": os.environ["PATH"]}, self.root)
+        self.trial._tools = dataclasses.replace(self.trial._tools, cbmc=("sh", "-c"))
+        command = self.trial._checker(self.root, runner, 0.3)._cbmc
+        self.assertEqual(runner.run([*command, "sleep 1.5; echo done"]).output, "done\n")
+        busy = runner.run([*command, "while true; do :; done"], 60.0)
+        self.assertFalse(busy.timed_out)
+        self.assertNotEqual(busy.status, 0)
+        self.assertEqual(self.trial._checker(self.root, runner)._cbmc, ["sh", "-c"])
 
 
 class SmallFirst(TrialCase):

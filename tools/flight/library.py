@@ -11,6 +11,7 @@ import functools
 import hashlib
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -26,8 +27,10 @@ SIM = "examples/copter_in_plant/sim.h"
 MODE = "include/keel/flight/mode.h"
 FLAGS = ("-std=c99", "-O2", "-fPIC", "-ffp-contract=off", "-Wall", "-Wextra", "-Iinclude", "-Ibsp",
          "-Iexamples/urpilot", "-Iexamples/copter", "-Iexamples/copter_in_plant")  # fmt: skip
-SOURCES = ("src", "examples/urpilot/urpilot_tasks.c", "bsp/host/host_board.c")
+SOURCES = ("src", "examples/urpilot/urpilot_tasks.c", "bsp/common/slots.c", "bsp/common/signing.c",
+           "bsp/host/host_board.c")  # fmt: skip
 FOLDERS = ("examples/copter", "examples/copter_in_plant")  # Without what lies below them.
+LINE_BYTES = 4096  # At most so many wait in a link.
 KINDS = {"float": "<f4", "uint32_t": "<u4", "int32_t": "<i4", "uint16_t": "<u2"}
 
 
@@ -47,7 +50,7 @@ def build(tools: Toolchain, folder: Path, width: int = 2, more: Sequence[str] = 
 def digest_of(root: Path = ROOT) -> str:
     """SHA-256 of everything in C that a flight depends on."""
     total = hashlib.sha256(" ".join(FLAGS).encode())
-    for name in ("src", "include", "bsp/host", "examples/urpilot", *FOLDERS):
+    for name in ("src", "include", "bsp/common", "bsp/host", "examples/urpilot", *FOLDERS):
         for path in sorted((root / name).rglob("*.[ch]")):
             total.update(path.relative_to(root).as_posix().encode())
             total.update(path.read_bytes())
@@ -87,6 +90,22 @@ def declared() -> Any:
     return ffi
 
 
+@dataclass(frozen=True)
+class Link:
+    """A link of the copter's telemetry."""
+
+    bytes_per_s: int = 20_000
+    commands: bool = True  # What comes by it may arm, and set modes and parameters.
+
+
+@dataclass(frozen=True)
+class Key:
+    """What frames of telemetry are signed with."""
+
+    key: bytes  # 32 of them.
+    timestamp: int  # In 10 us since 2015 began (UTC): no frame was signed later.
+
+
 class Copter:
     """The library in this process."""
 
@@ -107,6 +126,9 @@ class Copter:
         count = int(self._library.SIM_TASKS)
         kind = np.dtype(layout(self._ffi.typeof("sim_task_t")))
         done = self._ffi.buffer(self._library.sim_tasks(), count * kind.itemsize)
+        self._bytes: Any = self._ffi.new("uint8_t[]", LINE_BYTES)
+        self._hash = self._ffi.callback("sim_hash_t", self._sha256)
+        self.links = int(self._library.SIM_LINKS)
         self._done: Any = np.frombuffer(done, dtype=kind)
         self.tasks = [self._ffi.string(self._library.sim_task_name(number)).decode()
                       for number in range(count)]  # fmt: skip
@@ -123,15 +145,28 @@ class Copter:
         if self._library.sim_log(str(path or "").encode()):
             raise ToolError("the flight's log could not be written")
 
-    def start(self, costs_percent: int, plain_mean: bool) -> None:
+    def start(self, costs_percent: int, plain_mean: bool, links: Sequence[Link] = (),
+              key: Key | None = None, memory: Path | None = None) -> None:  # fmt: skip
         """Power up; all devices are silent and zero."""
         size = self.sensors.dtype.itemsize
         self._ffi.memmove(self._library.sim_sensors(), bytes(size), size)
         options = self._ffi.new("sim_options_t *")
         options.costs_percent, options.plain_mean = costs_percent, int(plain_mean)
+        for number, link in enumerate(links):
+            options.bytes_per_s[number] = link.bytes_per_s
+            options.listens[number] = int(not link.commands)
+        if memory is not None:
+            self._memory_name = options.memory = self._ffi.new("char[]", str(memory).encode())
+        if key is not None:
+            options.key, options.hash = key.key, self._hash
+            options.timestamp = key.timestamp
         if status := self._library.sim_start(options):
             raise ToolError(f"the copter does not start: status {status}")
         self.look()
+
+    def _sha256(self, data: Any, size: int, digest: Any) -> None:
+        """As C calls it."""
+        self._ffi.memmove(digest, hashlib.sha256(bytes(self._ffi.buffer(data, size))).digest(), 32)
 
     def done(self) -> Any:
         """What became of each task until now."""
@@ -141,6 +176,15 @@ class Copter:
     def overrun(self, task: int, runs: int, extra_us: int) -> None:
         """Make a task's next runs longer."""
         self._library.sim_overrun(task, runs, extra_us)
+
+    def send(self, link: int, data: bytes) -> int:
+        """Bytes for the copter, by a link of telemetry; tells how many it has room for."""
+        return int(self._library.sim_link_send(link, data, len(data)))
+
+    def receive(self, link: int) -> bytes:
+        """What the copter sent by a link of telemetry since."""
+        size = int(self._library.sim_link_receive(link, self._bytes, len(self._bytes)))
+        return bytes(self._ffi.buffer(self._bytes, size))
 
     def mode_channel(self, mode: int) -> int:
         """Where the mode switch must stand."""

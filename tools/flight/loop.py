@@ -20,7 +20,7 @@ import numpy as np
 
 from flight import plants, wind
 from flight.faults import Faults
-from flight.library import Copter, checks_of, facts_of, modes, states
+from flight.library import Copter, Key, Link, checks_of, facts_of, modes, states
 from flight.pilot import Pilot, Sight
 from flight.plants import Airframe, Plant, Truth
 from flight.power import Battery
@@ -82,10 +82,13 @@ def without_faults(order: Order) -> Order:
 class Flight:
     """A flight that is being made."""
 
-    def __init__(self, copter: Copter, order: Order) -> None:
+    def __init__(self, copter: Copter, order: Order, pilot: type[Pilot] = Pilot,
+                 links: Sequence[Link] = (), key: Key | None = None,
+                 keep: Path | None = None) -> None:  # fmt: skip
         scenario = order.scenario
         self._copter, self._scenario = copter, scenario
-        copter.start(scenario.options.costs_percent, scenario.options.plain_mean)
+        copter.start(scenario.options.costs_percent, scenario.options.plain_mean, links, key,
+                     keep)  # fmt: skip
         seeds = np.random.SeedSequence(order.seed).spawn(3)
         rng = [np.random.Generator(np.random.PCG64(seed)) for seed in seeds]
         self._plant: Plant = plants.make(order.plant, order.airframe, scenario.heading_deg)
@@ -96,7 +99,7 @@ class Flight:
         self._slow = Slow(memory, seeds[1], order.quality)
         self._radio = memory["radio"]
         self._radio_ms = 1000 // scenario.radio_hz
-        self._pilot = Pilot(scenario, self._radio_ms / 1000.0)
+        self._pilot = pilot(scenario, self._radio_ms / 1000.0)
         self._faults = Faults(scenario.fault, copter, self._battery)
         air = scenario.wind
         self._wind = wind.drawn(
@@ -119,7 +122,7 @@ class Flight:
             now_ms = 0
             while not self._is_over(now_ms):
                 now_ms += 1
-                self._step(now_ms)
+                self.step(now_ms)
         except NotFlown as error:
             problem = str(error)
         except Crashed as error:
@@ -139,8 +142,8 @@ class Flight:
                            f"{checks}; facts: {facts}")  # fmt: skip
         return False
 
-    def _step(self, now_ms: int) -> None:
-        """A millisecond."""
+    def step(self, now_ms: int) -> None:
+        """A millisecond, which ends now."""
         time_s = self._time_s(now_ms)
         plant, copter = self._plant, self._copter
         plant.step(self._motors)
@@ -175,7 +178,7 @@ class Flight:
         self._battery.step(self._motors, POWER_MS / 1000.0)
         if not self._still_air:
             flown_ms = max(0, now_ms - self._begun_ms) if self._begun_ms >= 0 else 0
-            self._plant.blow(*self._wind[flown_ms // WIND_MS].tolist())
+            self._plant.blow(*self._wind[(flown_ms // WIND_MS) % len(self._wind)].tolist())
 
     def _send(self, time_s: float, broken: Broken) -> None:
         """A frame of the radio."""
@@ -185,7 +188,8 @@ class Flight:
         truth = self._plant.truth()
         if not is_whole(truth):
             raise Crashed(f"crashed at {time_s:.2f} s")
-        sight = Sight(time_s, truth, bool(ready), thrusts, self._mode_channels)
+        sight = Sight(time_s, truth, bool(ready), thrusts, self._mode_channels,
+                      bool(view["motors_on"]))  # fmt: skip
         channels = self._pilot.frame(sight)
         if broken.radio_lost:
             return

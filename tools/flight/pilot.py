@@ -30,6 +30,7 @@ class Sight:
     ready: bool
     thrusts: bool  # The throttle is the thrust, not the climb rate.
     mode_channels: dict[str, int]
+    turning: bool = False  # The motors.
 
 
 @dataclass
@@ -134,3 +135,29 @@ class Pilot:
             self.armed = self.armed and self.on_ground_s < 2.5
             return
         self._climb(-max(0.35, min(SINK, 0.4 * up)), climbing, thrusts)
+
+
+TAKES_OFF_S, STANDS_M = 2.0, 5.0
+
+
+@dataclass
+class Bystander(Pilot):
+    """He leaves switches to a ground station. Once it has started the motors he climbs to 5 m, and
+    lets go of the sticks until they stop."""
+
+    turning_s: float = 0.0
+
+    def frame(self, sight: Sight) -> list[int]:
+        """As a pilot who is told to do so."""
+        self.turning_s = self.turning_s + self.frame_s if sight.turning else 0.0
+        up = sight.truth.place[2]
+        if not sight.turning:
+            self.sticks["throttle"], self.height = -1.0, None
+        elif self.height is None and TAKES_OFF_S <= self.turning_s < TAKES_OFF_S + self.frame_s:
+            self.height = STANDS_M
+        elif self.height is not None and abs(self.height - up) < 0.15:
+            self.sticks["throttle"], self.height = 0.0, None
+        return super().frame(sight)
+
+    def _wait(self, sight: Sight) -> None:
+        """He does not switch on."""

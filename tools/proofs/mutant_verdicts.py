@@ -14,6 +14,8 @@ from .mutants import Mutant
 from .project import ProjectError
 
 Identity = tuple[str, str, str, int]
+# What a verdict says of a harness that was executed, before the number of the input.
+EXECUTED = " (executed, input "
 STATUSES = ("killed", "survived", "undecided", "equivalent", "stillborn", "skipped")
 
 
@@ -98,6 +100,8 @@ def table(verdicts: Sequence[Verdict], engines: Sequence[str]) -> list[str]:
         asked = [verdict for verdict in verdicts if engine in verdict.engines]
         killed = sum(verdict.engines[engine].startswith("killed") for verdict in asked)
         lines.append(f"{engine.upper():<5} killed {killed:>3} of {len(asked):>3} that it saw")
+        if executed := sum(EXECUTED in verdict.engines[engine] for verdict in asked):
+            lines[-1] += f", {executed} by executions of its harnesses"
     for kind, (killed, of) in by_kind(verdicts).items():
         lines.append(f"{kind:<10} killed {killed:>4} of {of:>4}")
     return lines

@@ -15,8 +15,9 @@ from . import cbmc, csource, engines, frames, targets, wp
 from .cache import Cache, digest
 from .harness import Harness
 from .jobs import Runner
+from .mutant_execution import CONFIRMING, Executions, Sample
 from .mutant_harnesses import Seen, in_tree, survey
-from .mutant_small import Small
+from .mutant_small import TIME, WALL, Small
 from .mutant_trees import Trees
 from .mutant_verdicts import Identity, Verdict
 from .mutants import Mutant
@@ -32,6 +33,10 @@ IMPATIENT = 20.0
 UNTIMED = 60.0  # what a harness counts for whose time nobody knows
 LAST_PATIENCE = 4.0  # for the attempt after which a mutant is said to survive
 NO_ANSWER = "no answer"
+CONTRADICTION = "contradiction"
+CONFIRM = 50  # of so many mutants that executions kill CBMC is asked about one
+# A program that may take so many seconds of processor time.
+LIMITED = ("sh", "-c", 'ulimit -t "$0"; exec "$@"')
 # C allows no pointer for a number, nor one for another type's: who mixes them up is stillborn.
 NO_MIXTURE = ("-Werror=int-conversion", "-Werror=incompatible-pointer-types")
 # In a stamp, what judges mutants by each engine, and what judges what is unchanged: the latter is
@@ -53,24 +58,31 @@ class Tools:
     scratch: Path
     answers: Path
     verdicts: Path
+    # What harnesses are executed with, its version, and where inputs are kept; or nothing.
+    clang: Sequence[str] = ()
+    clang_version: str = ""
+    inputs: Path | None = None
 
 
 class Trial:
     """Tries the mutants of one unit.
 
-    A mutant is tried first by small harnesses, the one that killed most mutants of its function
-    before the others; then by the harnesses that compare its function with the model, by the
-    others that cover it, and by WP, which asks the function alone: what its callers rely on is its
-    contract, not its body. What is left are the harnesses that were too slow. Among equals the one
-    that is usually fastest comes first. A mutant whose reason to be none is accepted is tried by
-    the small harnesses alone: they tell a wrong reason.
+    A mutant is tried first by executions of the harnesses on this machine, some of which CBMC is
+    asked to confirm. What these leave is tried by small harnesses, the one that killed most mutants
+    of its function before the others; then by the harnesses that compare its function with the
+    model, by the others that cover it, and by WP, which asks the function alone: what its callers
+    rely on is its contract, not its body. What is left are the harnesses that were too slow. Among
+    equals the one that is usually fastest comes first. A mutant whose reason to be none is accepted
+    is tried by executions and small harnesses alone: they tell a wrong reason.
+
+    All limits for CBMC are in processor time: what else the machine does changes no verdict.
     """
 
     def __init__(
         self, unit: Unit, tools: Tools, trees: Trees, asked: Sequence[str], every: bool,
         cache: Cache, stamp: Mapping[str, str], exceptions: Exceptions,
         times: Times, patient: bool = True, seen: Sequence[Seen] | None = None,
-        small_only: bool = False, accepted: Collection[Identity] = (),
+        small_only: bool = False, accepted: Collection[Identity] = (), confirm: int = CONFIRM,
     ) -> None:  # fmt: skip
         self._unit = unit
         self._tools = tools
@@ -97,6 +109,11 @@ class Trial:
         self._reached = {one.harness.name: one.reached for one in linked}
         self._seen = {one.harness.name: one for one in linked}
         self._beside: dict[tuple[str, Path], str] = {}
+        self.sample = Sample(confirm)
+        self._executions = Executions(
+            unit, tools.clang, tools.clang_version, linked, tools.scratch,
+            Cache(tools.inputs), lambda: self._runner(unit.root),
+        ) if tools.clang else None  # fmt: skip
         self._small = Small({one.harness.name: one.files for one in linked}, self._unchanged)
         files = {*closure(unit.root, unit.own_files)}.union(*(one.files for one in linked))
         self._texts = {path: path.read_text(encoding="utf-8") for path in sorted(files)}
@@ -111,6 +128,11 @@ class Trial:
         """What is not proved even unchanged, function or harness: it notices nothing."""
         functions = [name for name, stages in self._stages.items() if not stages]
         return sorted([*functions, *(name for name, sound in self._sound.items() if not sound)])
+
+    @property
+    def not_executed(self) -> dict[str, str]:
+        """The harnesses that could have been executed, but are not, with the reason."""
+        return dict(self._executions.failing) if self._executions else {}
 
     def _stages_for(self, function: str) -> tuple[wp.Stage, ...]:
         """The provers and limits that prove the function unchanged; none if it is not proved."""
@@ -146,7 +168,8 @@ class Trial:
 
     def keep(self, verdict: Verdict) -> None:
         """Keep a verdict, so that whoever goes on need not ask again."""
-        if verdict.status == "skipped":
+        contradicted = verdict.engines.get("cbmc", "").startswith(CONTRADICTION)
+        if verdict.status == "skipped" or contradicted:
             return
         key = self._key(verdict.mutant)
         if verdict.status == "killed" and list(verdict.engines) == ["cbmc"]:
@@ -173,6 +196,8 @@ class Trial:
         In the latter case CBMC has little time at first: some mutants that are very hard for it
         are easy for WP.
         """
+        if "cbmc" in self._engines and self._killed_by_execution(verdict, unit, runner):
+            return
         if "cbmc" in self._engines and self._killed_by_small(verdict, unit, runner):
             return
         if self._small_only:
@@ -272,14 +297,15 @@ class Trial:
         self, mutant: Mutant, unit: Unit, runner: Runner, patient: bool, asked: dict[str, str]
     ) -> str:  # fmt: skip
         """Whether a harness that covers the function fails; `asked` has what each said."""
-        checker = self._checker(unit.root, runner)
         covering = [one for one in self._ranked(mutant) if mutant.function in one.covers]
         for original in covering:
             if asked.get(original.name, NO_ANSWER) != NO_ANSWER:
                 continue
             harness = in_tree(original, unit.root)
+            limit = self._limit(harness) if patient else IMPATIENT
+            checker = self._checker(unit.root, runner, limit)
             binary, complaint = checker.build(harness, harness.name)
-            limited = replace(harness, timeout=self._limit(harness) if patient else IMPATIENT)
+            limited = replace(harness, timeout=WALL * limit)
             asked[harness.name] = NO_ANSWER
             if complaint:
                 continue
@@ -292,10 +318,31 @@ class Trial:
             return "no harness" if patient else NO_ANSWER
         return NO_ANSWER if not patient or NO_ANSWER in asked.values() else "survived"
 
+    def _killed_by_execution(self, verdict: Verdict, unit: Unit, runner: Runner) -> bool:
+        """Execute the harnesses; whether no engine need be asked."""
+        mutant = verdict.mutant
+        if not self._executions:
+            return False
+        kill = self._executions.kills(mutant, self._ranked(mutant), unit.root, runner)
+        if not kill:
+            return False
+        verdict.engines["cbmc"] = kill.said
+        verdict.status = "killed"
+        if self.sample.takes():
+            checker = self._checker(unit.root, runner, CONFIRMING)
+            confirmed = self._executions.confirmed(kill, checker, unit.root)
+            self.sample.heard(confirmed, f"{mutant}: {kill.said}")
+            if confirmed is False:
+                said = f"{CONTRADICTION}: CBMC sees no failure in this execution"
+                verdict.engines["cbmc"] = f"{said}: {kill.said}"
+                verdict.status = "undecided"
+                return True
+        return not self._every
+
     def _killed_by_small(self, verdict: Verdict, unit: Unit, runner: Runner) -> bool:
         """Ask small harnesses; whether no other engine need be asked."""
         mutant = verdict.mutant
-        checker = self._checker(unit.root, runner)
+        checker = self._checker(unit.root, runner, TIME)
         for harness in self._small.ranked(mutant.function, self._ranked(mutant)):
             if text := self._small.kills(harness, mutant.function, checker, unit.root):
                 verdict.engines["cbmc"] = text
@@ -307,10 +354,12 @@ class Trial:
         """What asks about the tree itself."""
         return self._checker(self._unit.root, self._runner(self._unit.root))
 
-    def _checker(self, root: Path, runner: Runner) -> cbmc.Cbmc:
+    def _checker(self, root: Path, runner: Runner, limit: float = 0.0) -> cbmc.Cbmc:
+        """CBMC, with a limit of its processor time if there is one."""
         tools = self._tools
         scratch = tools.scratch if root == self._unit.root else tools.scratch / root.name
-        return cbmc.Cbmc(tools.goto_cc, tools.cbmc, runner, root, scratch)
+        command = [*LIMITED, str(math.ceil(limit)), *tools.cbmc] if limit else tools.cbmc
+        return cbmc.Cbmc(tools.goto_cc, command, runner, root, scratch)
 
     def _passes_unchanged(self, name: str) -> bool:
         """Whether a harness proves the original: if not, its failure shows nothing."""

@@ -232,9 +232,14 @@ static keel_bsp_status_t delay(void *context, uint32_t time_us)
                                                                          : KEEL_BSP_TIMEOUT;
 }
 
-KEEL_REALTIME_CODE const keel_icm20689_t *keel_chip_sensor(void)
+KEEL_REALTIME_CODE keel_invensense_t *keel_chip_sensor(void)
 {
-    static const keel_icm20689_t sensor = {{keel_spi_bus_exchange, &sensor_device}, delay, NULL};
+    static keel_invensense_t sensor = {
+        .kind = &keel_icm20689,
+        .bus = {keel_spi_bus_exchange, &sensor_device},
+        .sample_bus = {keel_spi_bus_exchange, &sensor_device},
+        .delay = delay,
+    };
 
     return &sensor;
 }
@@ -253,9 +258,9 @@ keel_bsp_status_t keel_chip_sensor_start(void)
     give(PINS->miso, KEEL_PULL_UP); /* Without a sensor all ones are read. */
     give(PINS->mosi, KEEL_PULL_NONE);
     keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_SPI1EN);
-    require(keel_spi_start(SPI1, KEEL_APB2_LIMIT_HZ, KEEL_ICM20689_BUS_LIMIT_HZ));
+    require(keel_spi_start(SPI1, KEEL_APB2_LIMIT_HZ, keel_icm20689.bus_limit_hz));
     (void)delay(NULL, POWER_ON_US);
-    return keel_icm20689_start(keel_chip_sensor());
+    return keel_invensense_start(keel_chip_sensor());
 }
 
 bool keel_chip_brownout_is_set(void)

@@ -7,7 +7,7 @@
 #ifndef KEEL_BSP_STM32F767_TARGET_CHIP_H
 #define KEEL_BSP_STM32F767_TARGET_CHIP_H
 
-#include "devices/icm20689.h"
+#include "devices/invensense.h"
 #include "keel/rtos/scheduler.h"
 #include "stm32f767/clock_tree.h"
 #include "stm32f767/pin.h"
@@ -88,12 +88,12 @@ void keel_chip_led(keel_led_name_t name, bool on);
 /**
  * Starts the inertial sensor; takes some 110 ms.
  *
- * @return as keel_icm20689_start, or KEEL_BSP_ARGUMENT when the bus cannot be slow enough
+ * @return as keel_invensense_start, or KEEL_BSP_ARGUMENT when the bus cannot be slow enough
  */
 keel_bsp_status_t keel_chip_sensor_start(void);
 
-/** The inertial sensor, after keel_chip_sensor_start. */
-const keel_icm20689_t *keel_chip_sensor(void);
+/** The inertial sensor, an ICM-20689, after keel_chip_sensor_start. */
+keel_invensense_t *keel_chip_sensor(void);
 
 /** Whether the brown-out level is 2.7 V, below which the flash is too slow for the core's clock. */
 bool keel_chip_brownout_is_set(void);

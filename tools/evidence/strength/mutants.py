@@ -195,9 +195,11 @@ def table(every: Sequence[Standing]) -> Table:
         title="Mutants",
         columns=("unit", "result", "killed", "by CBMC", "by WP", "make no difference", "open"),
         rows=tuple(rows),
-        note="Counted are mutants that compile and make a difference. WP is asked for what CBMC"
-             " does not notice in little time, so these are not two independent scores. A unit"
-             " whose mutants were not run shows nothing about the strength of its proofs.",
+        note="Counted are mutants that compile and make a difference. By CBMC is by a"
+             " counterexample to one of its harnesses, by executing it or by a solver. WP is asked"
+             " for what CBMC does not notice in little time, so these are not two independent"
+             " scores. A unit whose mutants were not run shows nothing about the strength of its"
+             " proofs.",
     )  # fmt: skip
 
 

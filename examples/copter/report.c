@@ -1,0 +1,595 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What telemetry tells: each message of what the copter's structures have. */
+#include "telemetry.h"
+
+#include "keel/middleware/range.h"
+#include "keel/version.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MILLI      1000.0f
+#define CENTI      100.0f
+#define PERCENT    100.0f
+#define US_PER_MS  1000u
+#define DEGREES    57.29578f
+#define FULL_TURN  360.0f
+#define FAR_M      1.0e6f
+#define UNKNOWN_16 65535u
+#define UNKNOWN_8  255u
+#define WORD       32u
+
+/* The standard atmosphere. */
+#define SEA_LEVEL_PA 101325.0f
+#define SCALE_M      44330.8f
+#define EXPONENT     0.190263f
+
+/* A number that fits, whatever it was; none of what is no number. */
+static float within(float value, float least, float most)
+{
+    const float low = (value > most) ? most : value;
+
+    return keel_range_contains(low, least, most) ? low : least;
+}
+
+static int16_t small(float value)
+{
+    return (int16_t)within(value, -32767.0f, 32767.0f);
+}
+
+static uint16_t plain(float value)
+{
+    return (uint16_t)within(value, 0.0f, 65534.0f);
+}
+
+static int32_t millimetres(float metres)
+{
+    return (int32_t)(within(metres, -FAR_M, FAR_M) * MILLI);
+}
+
+static uint32_t now_ms(const copter_t *copter)
+{
+    return (uint32_t)(copter->scheduler.clock.now_us / US_PER_MS);
+}
+
+static uint32_t when(bool condition, uint32_t bit)
+{
+    return condition ? bit : 0u;
+}
+
+/* Above the sea, as the first pressure and the standard atmosphere have it. */
+static float sea_level_of_reference(const keel_altitude_t *altitude)
+{
+    return altitude->has_reference
+               ? (SCALE_M * (1.0f - powf(altitude->reference / SEA_LEVEL_PA, EXPONENT)))
+               : 0.0f;
+}
+
+static int32_t along(int32_t origin, float metres, float scale)
+{
+    return origin + (int32_t)(within(metres, -FAR_M, FAR_M) / scale);
+}
+
+/* Roll, pitch, yaw, in rad. */
+static void angles_of(const keel_attitude_quaternion_t *q, float angle[3])
+{
+    const float sine = within(2.0f * ((q->w * q->y) - (q->z * q->x)), -1.0f, 1.0f);
+
+    angle[0] = atan2f(2.0f * ((q->w * q->x) + (q->y * q->z)),
+                      1.0f - (2.0f * ((q->x * q->x) + (q->y * q->y))));
+    angle[1] = asinf(sine);
+    angle[2] = atan2f(2.0f * ((q->w * q->z) + (q->x * q->y)),
+                      1.0f - (2.0f * ((q->y * q->y) + (q->z * q->z))));
+}
+
+static bool is_alone(uint8_t state)
+{
+    return (state == KEEL_MODE_HOLDING) || (state == KEEL_MODE_RETURNING) ||
+           (state == KEEL_MODE_LANDING);
+}
+
+static uint8_t status_of(const copter_t *copter)
+{
+    const keel_mode_t *const mode = &copter->state.mode;
+    const uint32_t alarms = KEEL_MODE_LINK_LOST | KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL |
+                            KEEL_MODE_IS_EMPTY;
+
+    if (mode->state == KEEL_MODE_TERMINATED) {
+        return (uint8_t)MAV_STATE_FLIGHT_TERMINATION;
+    }
+    if (is_alone(mode->state) && ((mode->cause & alarms) != 0u)) {
+        return (uint8_t)MAV_STATE_CRITICAL;
+    }
+    if (mode->motors) {
+        return (uint8_t)MAV_STATE_ACTIVE;
+    }
+    return (uint8_t)((copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING) ? MAV_STATE_STANDBY
+                                                                               : MAV_STATE_BOOT);
+}
+
+static void heartbeat(const copter_t *copter, uint8_t *payload)
+{
+    const keel_mode_t *const mode = &copter->state.mode;
+    const message_heartbeat_t message = {
+        .custom_mode = mode->motors ? mode->mode : mode->asked,
+        .type = (uint8_t)MAV_TYPE_QUADROTOR,
+        .autopilot = (uint8_t)MAV_AUTOPILOT_GENERIC,
+        .base_mode = (uint8_t)(MAV_MODE_FLAG_CUSTOM_MODE_ENABLED |
+                               when(mode->motors, MAV_MODE_FLAG_SAFETY_ARMED) |
+                               when(!is_alone(mode->state), MAV_MODE_FLAG_MANUAL_INPUT_ENABLED) |
+                               when(is_alone(mode->state), MAV_MODE_FLAG_GUIDED_ENABLED) |
+                               when(mode->mode != KEEL_MODE_ACRO, MAV_MODE_FLAG_STABILIZE_ENABLED)),
+        .system_status = status_of(copter),
+        .mavlink_version = 3u};
+
+    message_heartbeat_pack(&message, payload);
+}
+
+static uint16_t volts(const copter_t *copter)
+{
+    return plain(copter->energy.battery.voltage * MILLI);
+}
+
+static int8_t charge_left(const keel_battery_t *battery)
+{
+    return (battery->level == KEEL_BATTERY_UNKNOWN)
+               ? (int8_t)-1
+               : (int8_t)within(battery->remaining * PERCENT, 0.0f, PERCENT);
+}
+
+static uint32_t healthy(const copter_t *copter)
+{
+    const uint32_t blocking = copter->state.mode.blocking.checks;
+    const keel_mode_t *const mode = &copter->state.mode;
+
+    return when((blocking & KEEL_MODE_CHECK_GYROSCOPE) == 0u, MAV_SYS_STATUS_SENSOR_3D_GYRO) |
+           when((blocking & KEEL_MODE_CHECK_ACCELEROMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_ACCEL) |
+           when((blocking & KEEL_MODE_CHECK_MAGNETOMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_MAG) |
+           when(copter->estimate.altitude.axis.quality == KEEL_AXIS_GOOD,
+                MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE) |
+           when(copter->estimate.position.quality == KEEL_AXIS_GOOD, MAV_SYS_STATUS_SENSOR_GPS) |
+           when((mode->settled & KEEL_MODE_IS_LINKED) != 0u, MAV_SYS_STATUS_SENSOR_RC_RECEIVER) |
+           when(copter->energy.battery.level == KEEL_BATTERY_OK, MAV_SYS_STATUS_SENSOR_BATTERY) |
+           when(mode->motors || ((blocking == 0u) && (mode->blocking.facts == 0u)),
+                MAV_SYS_STATUS_PREARM_CHECK);
+}
+
+static void sys_status(const copter_t *copter, const copter_link_t *link, uint8_t *payload)
+{
+    const uint32_t present = MAV_SYS_STATUS_SENSOR_3D_GYRO | MAV_SYS_STATUS_SENSOR_3D_ACCEL |
+                             MAV_SYS_STATUS_SENSOR_3D_MAG |
+                             MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE | MAV_SYS_STATUS_SENSOR_GPS |
+                             MAV_SYS_STATUS_SENSOR_RC_RECEIVER | MAV_SYS_STATUS_SENSOR_BATTERY |
+                             MAV_SYS_STATUS_PREARM_CHECK;
+    const uint32_t errors = link->decoder.count.checksums + link->decoder.count.lengths;
+    const message_sys_status_t message = {
+        .onboard_control_sensors_present = present,
+        .onboard_control_sensors_enabled = present,
+        .onboard_control_sensors_health = healthy(copter),
+        .load = (uint16_t)(copter->health.load_ppm / US_PER_MS),
+        .voltage_battery = volts(copter),
+        .current_battery = small(copter->energy.battery.current * CENTI),
+        .battery_remaining = charge_left(&copter->energy.battery),
+        .errors_comm = (uint16_t)((errors < UNKNOWN_16) ? errors : UNKNOWN_16)};
+
+    message_sys_status_pack(&message, payload);
+}
+
+static bool gps_raw_int(const copter_t *copter, uint8_t *payload)
+{
+    const copter_satellites_t *const satellites = &copter->satellites;
+    const copter_fix_t *const fix = &satellites->fix;
+    const float speed = sqrtf((fix->north * fix->north) + (fix->east * fix->east));
+    const float course = atan2f(fix->east, fix->north) * DEGREES;
+    const message_gps_raw_int_t message = {
+        .time_usec = satellites->fixed_us,
+        .lat = fix->latitude,
+        .lon = fix->longitude,
+        .alt = millimetres(sea_level_of_reference(&copter->estimate.altitude) +
+                           copter->estimate.altitude.axis.position), /* Of the estimate. */
+        .eph = (uint16_t)UNKNOWN_16,
+        .epv = (uint16_t)UNKNOWN_16,
+        .vel = plain(speed * CENTI),
+        .cog = plain(((course < 0.0f) ? (course + FULL_TURN) : course) * CENTI),
+        .fix_type = (uint8_t)(fix->is_valid ? GPS_FIX_TYPE_3D_FIX : GPS_FIX_TYPE_NO_FIX),
+        .satellites_visible = (uint8_t)UNKNOWN_8,
+        .h_acc = (uint32_t)millimetres(within(fix->accuracy, 0.0f, FAR_M)),
+        .vel_acc = (uint32_t)millimetres(within(fix->speed_accuracy, 0.0f, FAR_M))};
+
+    message_gps_raw_int_pack(&message, payload);
+    return satellites->fixes > 0u;
+}
+
+static bool attitude(const copter_t *copter, uint8_t *payload)
+{
+    const keel_attitude_t *const from = &copter->inertia.attitude;
+    float angle[3];
+
+    angles_of(&from->quaternion, angle);
+    {
+        const message_attitude_t message = {.time_boot_ms = now_ms(copter),
+                                            .roll = angle[0],
+                                            .pitch = angle[1],
+                                            .yaw = angle[2],
+                                            .rollspeed = from->rate.x,
+                                            .pitchspeed = from->rate.y,
+                                            .yawspeed = from->rate.z};
+
+        message_attitude_pack(&message, payload);
+    }
+    return from->phase == KEEL_ATTITUDE_RUNNING;
+}
+
+static bool local_position_ned(const copter_t *copter, uint8_t *payload)
+{
+    const keel_cascade_estimate_t *const here = &copter->estimate.here;
+    const message_local_position_ned_t message = {.time_boot_ms = now_ms(copter),
+                                                  .x = here->position.north,
+                                                  .y = here->position.east,
+                                                  .z = -here->position.up,
+                                                  .vx = here->velocity.north,
+                                                  .vy = here->velocity.east,
+                                                  .vz = -here->velocity.up};
+
+    message_local_position_ned_pack(&message, payload);
+    return here->has_place && here->has_height;
+}
+
+static bool global_position_int(const copter_t *copter, uint8_t *payload)
+{
+    const keel_position_t *const position = &copter->estimate.position;
+    const keel_altitude_t *const altitude = &copter->estimate.altitude;
+    const float sea_m = sea_level_of_reference(altitude);
+    message_global_position_int_t message = {.time_boot_ms = now_ms(copter),
+                                             .alt = millimetres(sea_m + altitude->axis.position),
+                                             .relative_alt = millimetres(altitude->height),
+                                             .vx = small(position->north.velocity * CENTI),
+                                             .vy = small(position->east.velocity * CENTI),
+                                             .vz = small(-altitude->axis.velocity * CENTI),
+                                             .hdg = (uint16_t)UNKNOWN_16};
+    float angle[3];
+
+    if (!position->has_origin) {
+        return false;
+    }
+    angles_of(&copter->inertia.attitude.quaternion, angle);
+    if (copter->inertia.attitude.heading_valid) {
+        const float heading = angle[2] * DEGREES;
+
+        message.hdg = plain(((heading < 0.0f) ? (heading + FULL_TURN) : heading) * CENTI);
+    }
+    message.lat = along(position->latitude, position->north.position, position->north_scale);
+    message.lon = along(position->longitude, position->east.position, position->east_scale);
+    message_global_position_int_pack(&message, payload);
+    return true;
+}
+
+/* A motor as if it were a servo. */
+static uint16_t pulse_of(float output)
+{
+    return (uint16_t)(1000.0f + within(output * 1000.0f, 0.0f, 1000.0f));
+}
+
+static void servo_output_raw(const copter_t *copter, uint8_t *payload)
+{
+    const float *const output = copter->control.mixer.output;
+    const message_servo_output_raw_t message = {
+        .time_usec = (uint32_t)(copter->scheduler.clock.now_us & UINT32_MAX),
+        .servo1_raw = pulse_of(output[0]),
+        .servo2_raw = pulse_of(output[1]),
+        .servo3_raw = pulse_of(output[2]),
+        .servo4_raw = pulse_of(output[3])};
+
+    message_servo_output_raw_pack(&message, payload);
+}
+
+static bool rc_channels(const copter_t *copter, uint8_t *payload)
+{
+    const uint16_t *const channel = copter->pilot.frame.channel;
+    const uint16_t none = (uint16_t)UNKNOWN_16;
+    const message_rc_channels_t message = {.time_boot_ms = now_ms(copter),
+                                           .chan1_raw = channel[0],
+                                           .chan2_raw = channel[1],
+                                           .chan3_raw = channel[2],
+                                           .chan4_raw = channel[3],
+                                           .chan5_raw = channel[4],
+                                           .chan6_raw = channel[5],
+                                           .chan7_raw = channel[6],
+                                           .chan8_raw = channel[7],
+                                           .chan9_raw = none,
+                                           .chan10_raw = none,
+                                           .chan11_raw = none,
+                                           .chan12_raw = none,
+                                           .chan13_raw = none,
+                                           .chan14_raw = none,
+                                           .chan15_raw = none,
+                                           .chan16_raw = none,
+                                           .chan17_raw = none,
+                                           .chan18_raw = none,
+                                           .chancount = (uint8_t)COPTER_CHANNELS,
+                                           .rssi = (uint8_t)UNKNOWN_8};
+
+    message_rc_channels_pack(&message, payload);
+    return copter->pilot.received > 0u;
+}
+
+static uint8_t charge_of(keel_battery_level_t level)
+{
+    uint32_t state = MAV_BATTERY_CHARGE_STATE_UNDEFINED;
+
+    if (level == KEEL_BATTERY_OK) {
+        state = MAV_BATTERY_CHARGE_STATE_OK;
+    } else if (level == KEEL_BATTERY_LOW) {
+        state = MAV_BATTERY_CHARGE_STATE_LOW;
+    } else if (level == KEEL_BATTERY_CRITICAL) {
+        state = MAV_BATTERY_CHARGE_STATE_CRITICAL;
+    } else {
+        /* It is not known. */
+    }
+    return (uint8_t)state;
+}
+
+static void battery_status(const copter_t *copter, uint8_t *payload)
+{
+    const keel_battery_t *const battery = &copter->energy.battery;
+    const bool known = battery->level != KEEL_BATTERY_UNKNOWN;
+    message_battery_status_t message = {
+        .current_consumed = known ? (int32_t)within(battery->charge_c / 3.6f, 0.0f, FAR_M) : -1,
+        .energy_consumed = known ? (int32_t)within(battery->energy_j / CENTI, 0.0f, FAR_M) : -1,
+        .temperature = INT16_MAX,
+        .current_battery = small(battery->current * CENTI),
+        .battery_function = (uint8_t)MAV_BATTERY_FUNCTION_ALL,
+        .type = (uint8_t)MAV_BATTERY_TYPE_LIPO,
+        .battery_remaining = charge_left(battery),
+        .time_remaining = known ? (int32_t)within(battery->remaining_s, 0.0f, FAR_M) : 0,
+        .charge_state = charge_of(battery->level)};
+
+    for (uint32_t i = 0u; i < (sizeof message.voltages / sizeof message.voltages[0]); i++) {
+        message.voltages[i] = (uint16_t)UNKNOWN_16;
+    }
+    message.voltages[0] = volts(copter); /* Of all cells: each one's is not measured. */
+    message_battery_status_pack(&message, payload);
+}
+
+static void autopilot_version(uint8_t *payload)
+{
+    const uint32_t version = ((uint32_t)KEEL_VERSION_MAJOR << 24) |
+                             ((uint32_t)KEEL_VERSION_MINOR << 16) |
+                             ((uint32_t)KEEL_VERSION_PATCH << 8);
+    const message_autopilot_version_t message = {
+        .capabilities = MAV_PROTOCOL_CAPABILITY_MAVLINK2 |
+                        MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE,
+        .uid = 1u, /* Clients wait for one. */
+        .flight_sw_version = version,
+        .middleware_sw_version = version};
+
+    message_autopilot_version_pack(&message, payload);
+}
+
+static void estimator_status(const copter_t *copter, uint8_t *payload)
+{
+    const copter_estimate_t *const estimate = &copter->estimate;
+    const bool has_place = estimate->position.quality != KEEL_AXIS_NONE;
+    const bool has_height = estimate->altitude.axis.quality != KEEL_AXIS_NONE;
+    const message_estimator_status_t message = {
+        .time_usec = copter->scheduler.clock.now_us,
+        .pos_horiz_accuracy = copter->satellites.fix.accuracy,
+        .pos_vert_accuracy = 1.0f,
+        .flags = (uint16_t)(when(copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING,
+                                 ESTIMATOR_ATTITUDE) |
+                            when(has_place, ESTIMATOR_VELOCITY_HORIZ | ESTIMATOR_POS_HORIZ_REL |
+                                                ESTIMATOR_POS_HORIZ_ABS) |
+                            when(has_height, ESTIMATOR_VELOCITY_VERT | ESTIMATOR_POS_VERT_ABS))};
+
+    message_estimator_status_pack(&message, payload);
+}
+
+static bool home_position(const copter_t *copter, uint8_t *payload)
+{
+    const copter_estimate_t *const estimate = &copter->estimate;
+    const keel_position_t *const position = &estimate->position;
+    message_home_position_t message = {
+        .time_usec = copter->scheduler.clock.now_us,
+        .altitude = millimetres(sea_level_of_reference(&estimate->altitude) +
+                                estimate->altitude.zero),
+        .q = {1.0f, 0.0f, 0.0f, 0.0f}};
+
+    if (!position->has_origin) {
+        return false;
+    }
+    message.latitude = along(position->latitude, estimate->home_north, position->north_scale);
+    message.longitude = along(position->longitude, estimate->home_east, position->east_scale);
+    message_home_position_pack(&message, payload);
+    return true;
+}
+
+static void extended_sys_state(const copter_t *copter, uint8_t *payload)
+{
+    uint32_t landed = MAV_LANDED_STATE_IN_AIR;
+
+    if (copter->estimate.is_landed) {
+        landed = MAV_LANDED_STATE_ON_GROUND;
+    } else if (copter->state.mode.state == KEEL_MODE_LANDING) {
+        landed = MAV_LANDED_STATE_LANDING;
+    } else {
+        /* It flies. */
+    }
+    {
+        const message_extended_sys_state_t message = {.landed_state = (uint8_t)landed};
+
+        message_extended_sys_state_pack(&message, payload);
+    }
+}
+
+/* The next text; those that were overwritten are missed. */
+static bool statustext(const copter_telemetry_t *telemetry, copter_link_t *link, uint8_t *payload)
+{
+    const uint32_t behind = telemetry->texts - link->texts;
+    message_statustext_t message = {0};
+
+    if (behind == 0u) {
+        return false;
+    }
+    if (behind > COPTER_TEXTS) {
+        link->missed += behind - COPTER_TEXTS;
+        link->texts = telemetry->texts - COPTER_TEXTS;
+    }
+    message.severity = telemetry->text[link->texts % COPTER_TEXTS].severity;
+    for (uint32_t i = 0u; i < COPTER_TEXT_LENGTH; i++) {
+        message.text[i] = telemetry->text[link->texts % COPTER_TEXTS].text[i];
+    }
+    link->texts++;
+    message_statustext_pack(&message, payload);
+    return true;
+}
+
+static bool command_ack(copter_link_t *link, uint8_t *payload)
+{
+    if (link->acks == 0u) {
+        return false;
+    }
+    message_command_ack_pack(&link->ack[0], payload);
+    for (uint32_t i = 1u; i < link->acks; i++) {
+        link->ack[i - 1u] = link->ack[i];
+    }
+    link->acks--;
+    return true;
+}
+
+/* The bits of any value are sent as those of a float. */
+static float sent_as(keel_parameter_value_t value)
+{
+    const uint32_t bits = keel_parameter_bits(value);
+    float sent;
+
+    (void)memcpy(&sent, &bits, sizeof sent);
+    return sent;
+}
+
+/* The next one that is wanted behind the one that was sent last; or none. */
+static uint32_t next_wanted(const copter_link_t *link)
+{
+    uint32_t next = COPTER_PARAMETER_COUNT;
+
+    for (uint32_t i = COPTER_PARAMETER_COUNT; i > 0u; i--) {
+        const uint32_t index = (link->parameter + i) % COPTER_PARAMETER_COUNT;
+
+        if ((link->wanted[index / WORD] & ((uint32_t)1u << (index % WORD))) != 0u) {
+            next = index;
+        }
+    }
+    return next;
+}
+
+static bool param_value(const keel_parameters_t *parameters, copter_link_t *link, uint8_t *payload)
+{
+    const uint32_t index = next_wanted(link);
+    message_param_value_t message = {.param_count = (uint16_t)COPTER_PARAMETER_COUNT,
+                                     .param_index = (uint16_t)index};
+
+    if (index < COPTER_PARAMETER_COUNT) {
+        const keel_parameter_value_t value = keel_parameters_get(parameters, (uint16_t)index);
+        const char *const name = keel_parameters_name(parameters, (uint16_t)index);
+
+        link->wanted[index / WORD] &= ~((uint32_t)1u << (index % WORD));
+        link->parameter = index;
+        for (uint32_t i = 0u; (i < sizeof message.param_id) && (name[i] != '\0'); i++) {
+            message.param_id[i] = name[i];
+        }
+        message.param_value = sent_as(value);
+        message.param_type = (uint8_t)((value.type == KEEL_PARAMETER_FLOAT) ? MAV_PARAM_TYPE_REAL32
+                                                                            : MAV_PARAM_TYPE_INT32);
+        message_param_value_pack(&message, payload);
+    }
+    return index < COPTER_PARAMETER_COUNT;
+}
+
+static bool answers(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
+{
+    bool said = true;
+
+    switch (sent) {
+    case SENT_COMMAND_ACK:
+        said = command_ack(link, payload);
+        break;
+    case SENT_PARAM_VALUE:
+        said = param_value(&copter->tuning.table, link, payload);
+        break;
+    case SENT_STATUSTEXT:
+        said = statustext(copter->telemetry, link, payload);
+        break;
+    case SENT_PING:
+        message_ping_pack(&link->ping, payload);
+        break;
+    case SENT_TIMESYNC:
+        message_timesync_pack(&link->timesync, payload);
+        break;
+    default:
+        said = false;
+        break;
+    }
+    return said;
+}
+
+static bool places(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
+{
+    bool said = true;
+
+    switch (sent) {
+    case SENT_ATTITUDE:
+        said = attitude(copter, payload);
+        break;
+    case SENT_LOCAL_POSITION_NED:
+        said = local_position_ned(copter, payload);
+        break;
+    case SENT_GLOBAL_POSITION_INT:
+        said = global_position_int(copter, payload);
+        break;
+    case SENT_GPS_RAW_INT:
+        said = gps_raw_int(copter, payload);
+        break;
+    case SENT_HOME_POSITION:
+        said = home_position(copter, payload);
+        break;
+    case SENT_RC_CHANNELS:
+        said = rc_channels(copter, payload);
+        break;
+    default:
+        said = answers(copter, link, sent, payload);
+        break;
+    }
+    return said;
+}
+
+bool copter_report(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
+{
+    bool said = true;
+
+    switch (sent) {
+    case SENT_HEARTBEAT:
+        heartbeat(copter, payload);
+        break;
+    case SENT_SYS_STATUS:
+        sys_status(copter, link, payload);
+        break;
+    case SENT_SERVO_OUTPUT_RAW:
+        servo_output_raw(copter, payload);
+        break;
+    case SENT_BATTERY_STATUS:
+        battery_status(copter, payload);
+        break;
+    case SENT_AUTOPILOT_VERSION:
+        autopilot_version(payload);
+        break;
+    case SENT_ESTIMATOR_STATUS:
+        estimator_status(copter, payload);
+        break;
+    case SENT_EXTENDED_SYS_STATE:
+        extended_sys_state(copter, payload);
+        break;
+    default:
+        said = places(copter, link, sent, payload);
+        break;
+    }
+    return said;
+}

@@ -1,0 +1,546 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What a ground station may ask:
+ *
+ *     parameters                      list, read, set: used from the next start on, saved on the
+ *                                     ground
+ *     COMMAND_LONG, COMMAND_INT       COMPONENT_ARM_DISARM, DO_SET_MODE, SET_MESSAGE_INTERVAL and
+ *                                     REQUEST_MESSAGE; others are answered with UNSUPPORTED
+ *     SET_MODE                        as DO_SET_MODE
+ *     PING, TIMESYNC                  answered
+ *
+ * Arming, disarming and modes are asked of the state machine, as request.h says. It answers, and
+ * what it refuses is answered with TEMPORARILY_REJECTED and a text for each thing that stands in
+ * the way. DENIED is what can never be: to force it, to stop motors in flight, a mode in which the
+ * throttle is the thrust, as whoever asks does not hold the throttle. */
+#include "keel/middleware/range.h"
+#include "telemetry.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ANYBODY   0u
+#define LEAST_US  10000.0f
+#define MOST_US   60000000.0f
+#define NO_INDEX  (-1)
+#define ID_MOST   16777215.0f
+#define WORD      32u
+#define NOT_FOUND UINT32_MAX
+#define MODE_MOST ((float)KEEL_MODE_NONE)
+#define CUSTOM    (MAV_MODE_FLAG_CUSTOM_MODE_ENABLED)
+
+/* A command, of whichever message. */
+typedef struct command {
+    uint32_t link;
+    uint8_t system;
+    uint8_t component;
+    uint16_t id;
+    float param[3];
+} command_t;
+
+/* A bit and what it says. */
+typedef struct word {
+    uint32_t bit;
+    const char *text;
+} word_t;
+
+static const word_t checks[] = {
+    {KEEL_MODE_CHECK_GYROSCOPE, "gyroscopes do not agree"},
+    {KEEL_MODE_CHECK_ACCELEROMETER, "accelerometers do not agree"},
+    {KEEL_MODE_CHECK_MAGNETOMETER, "magnetometer"},
+    {KEEL_MODE_CHECK_BAROMETER, "no good altitude"},
+    {KEEL_MODE_CHECK_POSITIONING, "no good position"},
+    {KEEL_MODE_CHECK_CALIBRATION, "not calibrated"},
+    {KEEL_MODE_CHECK_LEVEL, "not level"},
+    {KEEL_MODE_CHECK_BATTERY, "battery"},
+    {KEEL_MODE_CHECK_MOTORS, "motors"},
+    {KEEL_MODE_CHECK_LOAD, "processor load"},
+    {KEEL_MODE_CHECK_STORAGE, "storage"},
+    {KEEL_MODE_CHECK_HOME, "no home"},
+};
+
+static const word_t facts[] = {
+    {KEEL_MODE_IS_LINKED, "no radio link"},      {KEEL_MODE_IS_ON, "arm switch"},
+    {KEEL_MODE_IS_OFF, "arm switch not off"},    {KEEL_MODE_IS_LOW, "throttle not low"},
+    {KEEL_MODE_IS_KILL, "kill switch"},          {KEEL_MODE_IS_AT, "mode switch moves"},
+    {KEEL_MODE_IS_LANDED, "not landed"},         {KEEL_MODE_HAS_ANGLE, "no attitude"},
+    {KEEL_MODE_HAS_HEIGHT, "no altitude"},       {KEEL_MODE_HAS_PLACE, "no position"},
+    {KEEL_MODE_IS_OUTSIDE, "outside the fence"}, {KEEL_MODE_IS_CRITICAL, "battery critical"},
+    {KEEL_MODE_IS_EMPTY, "battery empty"},
+};
+
+/* A text for each bit. */
+static void tell(copter_telemetry_t *self, const char *what, uint32_t bits, const word_t *word,
+                 uint32_t words)
+{
+    for (uint32_t i = 0u; i < words; i++) {
+        if ((bits & word[i].bit) != 0u) {
+            copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, what, word[i].text);
+        }
+    }
+}
+
+static void tell_refusal(copter_telemetry_t *self, const keel_mode_refusal_t *refusal)
+{
+    tell(self, "not armed: ", refusal->checks, checks, sizeof checks / sizeof checks[0]);
+    tell(self, "not armed: ", refusal->facts, facts, sizeof facts / sizeof facts[0]);
+}
+
+static void acknowledge(copter_telemetry_t *self, const copter_waiter_t *to, uint32_t result)
+{
+    copter_link_t *const link = &self->link[to->link];
+
+    if (link->acks < COPTER_LINK_ACKS) {
+        link->ack[link->acks] = (message_command_ack_t){.command = to->command,
+                                                        .result = (uint8_t)result,
+                                                        .target_system = to->system,
+                                                        .target_component = to->component};
+        link->acks++;
+    } else {
+        link->dropped++;
+    }
+}
+
+static copter_waiter_t waiter_of(const command_t *command)
+{
+    return (copter_waiter_t){.link = command->link,
+                             .command = command->id,
+                             .system = command->system,
+                             .component = command->component};
+}
+
+/* Whether it is who waits already: it asks again until it is answered. */
+static bool is_again(const copter_waiter_t *waiter, const command_t *command)
+{
+    return (waiter->link == command->link) && (waiter->command == command->id) &&
+           (waiter->system == command->system) && (waiter->component == command->component);
+}
+
+static uint32_t arm(copter_t *copter)
+{
+    const keel_mode_t *const machine = &copter->state.mode;
+
+    if (machine->motors) {
+        return MAV_RESULT_ACCEPTED;
+    }
+    if ((machine->blocking.checks != 0u) || (machine->blocking.facts != 0u) || !machine->ready) {
+        tell_refusal(copter->telemetry, &machine->blocking);
+        if ((machine->settled & KEEL_MODE_IS_LINKED) == 0u) {
+            copter_text(copter->telemetry, (uint8_t)MAV_SEVERITY_WARNING,
+                        "not armed: ", "no radio link for long enough");
+        } else if (!machine->ready) {
+            copter_text(copter->telemetry, (uint8_t)MAV_SEVERITY_WARNING,
+                        "not armed: ", "arm switch was not off");
+        } else {
+            /* It has been told. */
+        }
+        return MAV_RESULT_TEMPORARILY_REJECTED;
+    }
+    copter_request_arm(&copter->request, true);
+    return MAV_RESULT_IN_PROGRESS;
+}
+
+static uint32_t disarm(copter_t *copter)
+{
+    const keel_mode_t *const machine = &copter->state.mode;
+
+    if (!machine->motors) {
+        return MAV_RESULT_ACCEPTED;
+    }
+    if (machine->state != KEEL_MODE_ARMED) {
+        copter_text(copter->telemetry, (uint8_t)MAV_SEVERITY_WARNING,
+                    "not disarmed: ", "not on the ground");
+        return MAV_RESULT_DENIED;
+    }
+    copter_request_arm(&copter->request, false);
+    return MAV_RESULT_IN_PROGRESS;
+}
+
+/* Whether a number says nothing: some stations send 0, others none. */
+static bool is_empty(float param)
+{
+    return isnan(param) || keel_range_contains(param, 0.0f, 0.0f);
+}
+
+static uint32_t arm_or_disarm(copter_t *copter, const command_t *command)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+    const bool on = keel_range_contains(command->param[0], 1.0f, 1.0f);
+    const bool off = keel_range_contains(command->param[0], 0.0f, 0.0f);
+    uint32_t result;
+
+    if (copter->request.arm.answer == COPTER_ANSWER_WAITS) {
+        return (is_again(&self->arm_waiter, command) && (on == copter->request.arms))
+                   ? MAV_RESULT_IN_PROGRESS
+                   : MAV_RESULT_TEMPORARILY_REJECTED;
+    }
+    if ((on == off) || (copter->state.mode.state == KEEL_MODE_TERMINATED) ||
+        !is_empty(command->param[1])) {
+        return MAV_RESULT_DENIED; /* A second number asks to force it. */
+    }
+    result = on ? arm(copter) : disarm(copter);
+    if (result == MAV_RESULT_IN_PROGRESS) {
+        self->arm_waiter = waiter_of(command);
+    }
+    return result;
+}
+
+/* Modes in which an aircraft whose sticks nobody holds stays in the air. */
+static bool is_safe(uint32_t mode)
+{
+    return (mode == KEEL_MODE_LAND) || (mode == KEEL_MODE_ALTITUDE) ||
+           (mode == KEEL_MODE_POSITION) || (mode == KEEL_MODE_RETURN);
+}
+
+static uint32_t set_mode(copter_t *copter, const command_t *command, bool is_custom, uint32_t mode)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+    const copter_request_t *const request = &copter->request;
+
+    if (request->mode.answer == COPTER_ANSWER_WAITS) {
+        return (is_again(&self->mode_waiter, command) && (mode == request->asked))
+                   ? MAV_RESULT_IN_PROGRESS
+                   : MAV_RESULT_TEMPORARILY_REJECTED;
+    }
+    if (!is_custom || !is_safe(mode)) {
+        copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "mode: ", "only by the pilot's switch");
+        return MAV_RESULT_DENIED;
+    }
+    if ((copter->state.mode.settled & KEEL_MODE_IS_LINKED) == 0u) {
+        copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "mode: ", "no radio link");
+        return MAV_RESULT_TEMPORARILY_REJECTED;
+    }
+    copter_request_mode(&copter->request, (uint8_t)mode, copter->pilot.asked);
+    self->mode_waiter = waiter_of(command);
+    return MAV_RESULT_IN_PROGRESS;
+}
+
+static uint32_t do_set_mode(copter_t *copter, const command_t *command)
+{
+    const bool known = keel_range_contains(command->param[0], 0.0f, 255.0f) &&
+                       keel_range_contains(command->param[1], 0.0f, MODE_MOST) &&
+                       is_empty(command->param[2]); /* There are no modes within modes. */
+    const uint32_t base = known ? (uint32_t)command->param[0] : 0u;
+    const uint32_t mode = known ? (uint32_t)command->param[1] : KEEL_MODE_NONE;
+
+    return set_mode(copter, command, (base & CUSTOM) != 0u, mode);
+}
+
+/* The place of a message among those that are sent. */
+static uint32_t sent_of(float id)
+{
+    uint32_t found = NOT_FOUND;
+
+    if (keel_range_contains(id, 0.0f, ID_MOST)) {
+        for (uint32_t i = 0u; i < MESSAGES_SENT; i++) {
+            found = (messages_sent[i].id == (uint32_t)id) ? i : found;
+        }
+    }
+    return found;
+}
+
+/* Answers are sent to what they answer alone. */
+static bool is_answer(uint32_t sent)
+{
+    return (sent == SENT_PING) || (sent == SENT_PARAM_VALUE) || (sent == SENT_COMMAND_ACK) ||
+           (sent == SENT_TIMESYNC) || (sent == SENT_STATUSTEXT);
+}
+
+static uint32_t set_interval(copter_t *copter, const command_t *command)
+{
+    const uint32_t sent = sent_of(command->param[0]);
+    const float interval = command->param[1];
+    uint32_t interval_us = 0u; /* Below 0: never. */
+
+    if ((sent == NOT_FOUND) || is_answer(sent) || (sent == SENT_HEARTBEAT) ||
+        !keel_range_contains(interval, -1.0f, MOST_US)) {
+        return MAV_RESULT_DENIED;
+    }
+    if (interval >= LEAST_US) {
+        interval_us = (uint32_t)interval;
+    } else if (interval > 0.0f) {
+        interval_us = (uint32_t)LEAST_US;
+    } else if (interval >= 0.0f) {
+        interval_us = copter_telemetry_interval_us(sent);
+    } else {
+        /* Never. */
+    }
+    copter_turns_repeat(&copter->telemetry->link[command->link].turns, sent, interval_us);
+    return MAV_RESULT_ACCEPTED;
+}
+
+static uint32_t request_message(copter_t *copter, const command_t *command)
+{
+    const uint32_t sent = sent_of(command->param[0]);
+
+    if ((sent == NOT_FOUND) || is_answer(sent)) {
+        return MAV_RESULT_DENIED;
+    }
+    copter_turns_ask(&copter->telemetry->link[command->link].turns, sent);
+    return MAV_RESULT_ACCEPTED;
+}
+
+static bool may_command(copter_telemetry_t *self, uint32_t link)
+{
+    const bool may = self->config.link[link].commands;
+
+    self->link[link].refused += may ? 0u : 1u;
+    return may;
+}
+
+static uint32_t result_of(copter_t *copter, const command_t *command)
+{
+    switch (command->id) {
+    case MAV_CMD_COMPONENT_ARM_DISARM:
+        return may_command(copter->telemetry, command->link) ? arm_or_disarm(copter, command)
+                                                             : MAV_RESULT_DENIED;
+    case MAV_CMD_DO_SET_MODE:
+        return may_command(copter->telemetry, command->link) ? do_set_mode(copter, command)
+                                                             : MAV_RESULT_DENIED;
+    case MAV_CMD_SET_MESSAGE_INTERVAL:
+        return set_interval(copter, command);
+    case MAV_CMD_REQUEST_MESSAGE:
+        return request_message(copter, command);
+    default:
+        return MAV_RESULT_UNSUPPORTED;
+    }
+}
+
+static void obey(copter_t *copter, const command_t *command)
+{
+    const uint32_t result = result_of(copter, command);
+
+    if (result != MAV_RESULT_IN_PROGRESS) {
+        const copter_waiter_t to = waiter_of(command);
+
+        acknowledge(copter->telemetry, &to, result);
+    }
+}
+
+/* Whether it is for this copter; of those that name nobody it is told as well. */
+static bool is_ours(uint8_t system, uint8_t component)
+{
+    return ((system == ANYBODY) || (system == COPTER_SYSTEM)) &&
+           ((component == ANYBODY) || (component == MAV_COMP_ID_AUTOPILOT1));
+}
+
+static command_t command_from(const keel_mavlink_frame_t *frame, uint32_t link)
+{
+    return (command_t){.link = link, .system = frame->system, .component = frame->component};
+}
+
+static void take_command_long(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
+{
+    command_t command = command_from(frame, link);
+    message_command_long_t message;
+
+    message_command_long_unpack(&message, frame->payload);
+    if (is_ours(message.target_system, message.target_component)) {
+        command.id = message.command;
+        command.param[0] = message.param1;
+        command.param[1] = message.param2;
+        command.param[2] = message.param3;
+        obey(copter, &command);
+    }
+}
+
+static void take_command_int(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
+{
+    command_t command = command_from(frame, link);
+    message_command_int_t message;
+
+    message_command_int_unpack(&message, frame->payload);
+    if (is_ours(message.target_system, message.target_component)) {
+        command.id = message.command;
+        command.param[0] = message.param1;
+        command.param[1] = message.param2;
+        command.param[2] = message.param3;
+        obey(copter, &command);
+    }
+}
+
+static void take_set_mode(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
+{
+    command_t command = command_from(frame, link);
+    message_set_mode_t message;
+
+    message_set_mode_unpack(&message, frame->payload);
+    if ((message.target_system == COPTER_SYSTEM) && may_command(copter->telemetry, link)) {
+        command.id = MESSAGE_SET_MODE;
+        (void)set_mode(copter, &command, (message.base_mode & CUSTOM) != 0u, message.custom_mode);
+    }
+}
+
+static void want(copter_link_t *link, uint32_t index)
+{
+    link->wanted[index / WORD] |= (uint32_t)1u << (index % WORD);
+}
+
+static void take_read(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
+{
+    const keel_parameters_t *const parameters = &copter->tuning.table;
+    message_param_request_read_t message;
+    uint32_t index;
+
+    message_param_request_read_unpack(&message, frame->payload);
+    if (!is_ours(message.target_system, message.target_component)) {
+        return;
+    }
+    index = (message.param_index == NO_INDEX) ? keel_parameters_find(parameters, message.param_id)
+                                              : (uint32_t)message.param_index;
+    if (index < COPTER_PARAMETER_COUNT) {
+        want(&copter->telemetry->link[link], index);
+    }
+}
+
+static void take_list(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
+{
+    message_param_request_list_t message;
+
+    message_param_request_list_unpack(&message, frame->payload);
+    if (is_ours(message.target_system, message.target_component)) {
+        for (uint32_t i = 0u; i < COPTER_PARAMETER_COUNT; i++) {
+            want(&copter->telemetry->link[link], i);
+        }
+    }
+}
+
+/* What is told to be of another type than the parameter is none that it can have. */
+static keel_parameter_value_t value_of(keel_parameter_type_t type,
+                                       const message_param_set_t *message)
+{
+    const bool is_real = type == KEEL_PARAMETER_FLOAT;
+    const uint32_t told = is_real ? MAV_PARAM_TYPE_REAL32 : MAV_PARAM_TYPE_INT32;
+    keel_parameter_value_t value = {.type = KEEL_PARAMETER_FLOAT, .real = NAN};
+    uint32_t bits;
+
+    if (message->param_type == told) {
+        (void)memcpy(&bits, &message->param_value, sizeof bits);
+        value = keel_parameter_from_bits(type, bits);
+    }
+    return value;
+}
+
+static void take_set(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+    keel_parameters_t *const parameters = &copter->tuning.table;
+    message_param_set_t message;
+    keel_parameter_value_t value;
+    uint16_t index;
+
+    message_param_set_unpack(&message, frame->payload);
+    if (!is_ours(message.target_system, message.target_component) || !may_command(self, link)) {
+        return;
+    }
+    index = keel_parameters_find(parameters, message.param_id);
+    if (index >= COPTER_PARAMETER_COUNT) {
+        copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "parameter: ", "there is no such one");
+        return;
+    }
+    value = value_of(keel_parameters_get(parameters, index).type, &message);
+    if (keel_parameters_set(parameters, index, value) == KEEL_OK) {
+        self->saves = true;
+    } else {
+        copter_text(self, (uint8_t)MAV_SEVERITY_WARNING,
+                    "not set: ", keel_parameters_name(parameters, index));
+    }
+    /* All are told what it is now, also when that is what it was. */
+    for (uint32_t i = 0u; i < COPTER_LINKS; i++) {
+        want(&self->link[i], index);
+    }
+}
+
+static void take_ping(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
+{
+    copter_link_t *const to = &copter->telemetry->link[link];
+    message_ping_t message;
+
+    message_ping_unpack(&message, frame->payload);
+    if ((message.target_system == ANYBODY) && (message.target_component == ANYBODY)) {
+        to->ping = message;
+        to->ping.target_system = frame->system;
+        to->ping.target_component = frame->component;
+        copter_turns_ask(&to->turns, SENT_PING);
+    }
+}
+
+static void take_timesync(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
+{
+    copter_link_t *const to = &copter->telemetry->link[link];
+    message_timesync_t message;
+
+    message_timesync_unpack(&message, frame->payload);
+    if (message.tc1 == 0) {
+        to->timesync = (message_timesync_t){
+            .tc1 = (int64_t)(copter->scheduler.clock.now_us * 1000u), .ts1 = message.ts1};
+        copter_turns_ask(&to->turns, SENT_TIMESYNC);
+    }
+}
+
+void copter_take(copter_t *copter, uint32_t link)
+{
+    const keel_mavlink_frame_t *const frame = &copter->telemetry->link[link].decoder.frame;
+
+    switch (frame->id) {
+    case MESSAGE_COMMAND_LONG:
+        take_command_long(copter, frame, link);
+        break;
+    case MESSAGE_COMMAND_INT:
+        take_command_int(copter, frame, link);
+        break;
+    case MESSAGE_SET_MODE:
+        take_set_mode(copter, frame, link);
+        break;
+    case MESSAGE_PARAM_REQUEST_READ:
+        take_read(copter, frame, link);
+        break;
+    case MESSAGE_PARAM_REQUEST_LIST:
+        take_list(copter, frame, link);
+        break;
+    case MESSAGE_PARAM_SET:
+        take_set(copter, frame, link);
+        break;
+    case MESSAGE_PING:
+        take_ping(copter, frame, link);
+        break;
+    case MESSAGE_TIMESYNC:
+        take_timesync(copter, frame, link);
+        break;
+    default:
+        /* It is not taken. */
+        break;
+    }
+}
+
+/* Tells who waits. Nobody waits any more. */
+static void answer(copter_telemetry_t *self, copter_moved_t *moved, copter_waiter_t *waiter)
+{
+    const bool done = moved->answer == COPTER_ANSWER_DONE;
+
+    if (waiter->command != MESSAGE_SET_MODE) { /* That one has no answer. */
+        acknowledge(self, waiter, done ? MAV_RESULT_ACCEPTED : MAV_RESULT_TEMPORARILY_REJECTED);
+    }
+    moved->answer = COPTER_ANSWER_NONE;
+    waiter->command = 0u;
+}
+
+void copter_take_answers(copter_t *copter)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+    const keel_mode_t *const machine = &copter->state.mode;
+    copter_request_t *const request = &copter->request;
+
+    if (request->arm.answer > COPTER_ANSWER_WAITS) {
+        if ((request->arm.answer == COPTER_ANSWER_REFUSED) && request->arms) {
+            tell_refusal(self, &machine->refused);
+        }
+        answer(self, &request->arm, &self->arm_waiter);
+    }
+    if (request->mode.answer > COPTER_ANSWER_WAITS) {
+        if (request->mode.answer == COPTER_ANSWER_REFUSED) {
+            copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "mode: ", "the aircraft cannot");
+            tell(self, "mode: ", machine->missing, facts, sizeof facts / sizeof facts[0]);
+        }
+        answer(self, &request->mode, &self->mode_waiter);
+    }
+}

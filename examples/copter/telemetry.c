@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Telemetry's task: takes what came on its links, and sends what is due. */
+#include "telemetry.h"
+
+#include <stddef.h>
+
+#define MILLION   1000000u
+#define PERIOD_US 4000u
+#define WCET_US   250u
+#define BUDGET_US 262u
+#define PHASE_US  1900u
+
+/* Bytes of a frame around its payload. */
+#define AROUND                                                                                     \
+    ((uint32_t)KEEL_MAVLINK_HEADER_BYTES + (uint32_t)KEEL_MAVLINK_CHECKSUM_BYTES +                 \
+     (uint32_t)KEEL_MAVLINK_SIGNATURE_BYTES)
+
+/* How often each link is told what, from the start on. */
+static const uint32_t interval_us[MESSAGES_SENT] = {
+    [SENT_HEARTBEAT] = MILLION,
+    [SENT_SYS_STATUS] = MILLION,
+    [SENT_GPS_RAW_INT] = MILLION / 2u,
+    [SENT_ATTITUDE] = MILLION / 20u,
+    [SENT_LOCAL_POSITION_NED] = MILLION / 10u,
+    [SENT_GLOBAL_POSITION_INT] = MILLION / 5u,
+    [SENT_SERVO_OUTPUT_RAW] = MILLION / 5u,
+    [SENT_RC_CHANNELS] = MILLION / 5u,
+    [SENT_BATTERY_STATUS] = MILLION,
+    [SENT_ESTIMATOR_STATUS] = MILLION,
+    [SENT_HOME_POSITION] = 5u * MILLION,
+    [SENT_EXTENDED_SYS_STATE] = MILLION,
+};
+
+static const char *const states[KEEL_MODE_STATES] = {"disarmed",  "armed",   "flying",    "holding",
+                                                     "returning", "landing", "terminated"};
+
+uint32_t copter_telemetry_interval_us(uint32_t sent)
+{
+    return interval_us[sent];
+}
+
+static keel_status_t start_link(copter_telemetry_t *self, uint32_t number)
+{
+    copter_link_t *const link = &self->link[number];
+
+    link->parameter = COPTER_PARAMETER_COUNT - 1u; /* The first one is next. */
+    link->sender = (keel_mavlink_sender_t){.system = COPTER_SYSTEM,
+                                           .component = (uint8_t)MAV_COMP_ID_AUTOPILOT1};
+    copter_turns_init(&link->turns, self->config.link[number].bytes_per_s);
+    for (uint32_t i = 0u; i < MESSAGES_SENT; i++) {
+        copter_turns_repeat(&link->turns, i, interval_us[i]);
+    }
+    copter_turns_ask(&link->turns, SENT_HEARTBEAT);
+    return keel_mavlink_init(&link->decoder, messages_taken, MESSAGES_TAKEN);
+}
+
+keel_status_t copter_telemetry_start(copter_t *copter, copter_telemetry_t *telemetry,
+                                     const copter_telemetry_config_t *config)
+{
+    static const copter_own_task_t task = {.name = "Telemetry",
+                                           .body = copter_telemetry,
+                                           .period_us = PERIOD_US,
+                                           .wcet_us = WCET_US,
+                                           .budget_us = BUDGET_US,
+                                           .phase_us = PHASE_US};
+    keel_status_t status = KEEL_OK;
+
+    *telemetry = (copter_telemetry_t){.config = *config};
+    keel_signing_init(&telemetry->signing, 0u, config->key.hash);
+    keel_signing_advance(&telemetry->signing, config->key.timestamp);
+    if (config->key.key != NULL) {
+        keel_signing_set_key(&telemetry->signing, config->key.key);
+    }
+    for (uint32_t i = 0u; (i < COPTER_LINKS) && (status == KEEL_OK); i++) {
+        status = start_link(telemetry, i);
+    }
+    copter->telemetry = telemetry;
+    return (status == KEEL_OK) ? copter_add(copter, &task) : status;
+}
+
+/* As much of a text as there is room for. */
+static uint32_t append(char to[COPTER_TEXT_LENGTH], uint32_t at, const char *text)
+{
+    uint32_t end = at;
+
+    for (uint32_t i = 0u; (text[i] != '\0') && (end < COPTER_TEXT_LENGTH); i++) {
+        to[end] = text[i];
+        end++;
+    }
+    return end;
+}
+
+void copter_text(copter_telemetry_t *self, uint8_t severity, const char *first, const char *then)
+{
+    copter_text_t *const text = &self->text[self->texts % COPTER_TEXTS];
+
+    *text = (copter_text_t){.severity = severity};
+    (void)append(text->text, append(text->text, 0u, first), then);
+    self->texts++;
+}
+
+/* Says when the state machine's state is another. */
+static void tell_state(copter_telemetry_t *self, const keel_mode_t *mode)
+{
+    if (mode->state != self->state) {
+        const bool alone = (mode->state >= KEEL_MODE_HOLDING);
+
+        copter_text(self, alone ? (uint8_t)MAV_SEVERITY_WARNING : (uint8_t)MAV_SEVERITY_INFO,
+                    states[mode->state],
+                    ((mode->cause & KEEL_MODE_LINK_LOST) != 0u) ? ": radio link lost" : "");
+        self->state = mode->state;
+    }
+}
+
+/* Whoever does not sign, where frames are signed, is not heard. */
+static void take(copter_t *copter, uint32_t number, const keel_mavlink_frame_t *frame)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+
+    if (keel_signing_accepts(&self->signing, frame)) {
+        copter_take(copter, number);
+    } else {
+        self->link[number].refused++;
+    }
+}
+
+/* Acts on one frame at most; the bytes behind it wait for the next run. */
+static void receive(copter_t *copter, uint32_t number)
+{
+    const copter_lines_t *const lines = &copter->telemetry->config.lines;
+    copter_link_t *const link = &copter->telemetry->link[number];
+    bool taken = false;
+
+    if (link->looked_at == link->count) {
+        link->count = lines->read(lines->context, number, link->bytes, COPTER_LINK_BYTES);
+        link->looked_at = 0u;
+    }
+    while (!taken && (link->looked_at < link->count)) {
+        taken = keel_mavlink_take(&link->decoder, link->bytes[link->looked_at]);
+        link->looked_at++;
+    }
+    if (taken) {
+        take(copter, number, &link->decoder.frame);
+    }
+}
+
+/* What waits in queues is asked for. */
+static void ask_for_queues(const copter_telemetry_t *self, copter_link_t *link)
+{
+    bool wanted = false;
+
+    for (uint32_t i = 0u; i < COPTER_WORDS; i++) {
+        wanted = wanted || (link->wanted[i] != 0u);
+    }
+    if (wanted) {
+        copter_turns_ask(&link->turns, SENT_PARAM_VALUE);
+    }
+    if (link->acks > 0u) {
+        copter_turns_ask(&link->turns, SENT_COMMAND_ACK);
+    }
+    if (link->texts != self->texts) {
+        copter_turns_ask(&link->turns, SENT_STATUSTEXT);
+    }
+}
+
+/* Sends who is next, if the link has room for it. */
+static void send_next(copter_t *copter, uint32_t number)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+    const copter_lines_t *const lines = &self->config.lines;
+    copter_link_t *const link = &self->link[number];
+    const uint32_t next = copter_turns_next(&link->turns);
+    uint8_t payload[KEEL_MAVLINK_PAYLOAD_MAX] = {0};
+    uint8_t frame[KEEL_MAVLINK_FRAME_MAX];
+    uint32_t length;
+    uint32_t size = 0u;
+
+    if (next == COPTER_TURNS_NONE) {
+        return;
+    }
+    length = messages_sent[next].longest;
+    if (!copter_turns_affords(&link->turns, length + AROUND) ||
+        (lines->room(lines->context, number) < (length + AROUND))) {
+        return;
+    }
+    if (copter_report(copter, link, next, payload)) {
+        size = keel_signing_write(&self->signing, &link->sender, &messages_sent[next], payload,
+                                  (uint8_t)length, frame, sizeof frame);
+        lines->write(lines->context, number, frame, size);
+    }
+    copter_turns_sent(&link->turns, next, size);
+}
+
+/* Parameters are saved on the ground, and the last of several that were set saves them all. */
+static void save_parameters(copter_t *copter)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+    copter_tuning_t *const tuning = &copter->tuning;
+
+    if (self->saves && !copter->state.mode.motors && (tuning->saved != KEEL_SLOTS_BUSY)) {
+        self->saves = false;
+        if (copter_tuning_save(tuning) != KEEL_OK) {
+            copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "parameters: ", "not saved");
+        }
+    }
+}
+
+static void run_link(copter_t *copter, uint32_t number)
+{
+    copter_link_t *const link = &copter->telemetry->link[number];
+    const uint64_t now_us = copter->scheduler.clock.now_us;
+    const uint64_t passed_us = now_us - link->ran_us;
+
+    link->ran_us = now_us;
+    receive(copter, number);
+    copter_turns_step(&link->turns, (passed_us < MILLION) ? (uint32_t)passed_us : MILLION);
+    ask_for_queues(copter->telemetry, link);
+    send_next(copter, number);
+}
+
+/* The next link that is there; the same again when it is the only one. */
+static uint32_t next_link(const copter_telemetry_t *self)
+{
+    uint32_t next = self->turn;
+
+    for (uint32_t i = COPTER_LINKS; i > 0u; i--) {
+        const uint32_t number = (self->turn + i) % COPTER_LINKS;
+
+        if (self->config.link[number].bytes_per_s > 0u) {
+            next = number;
+        }
+    }
+    return next;
+}
+
+void copter_telemetry(copter_t *copter)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+
+    tell_state(self, &copter->state.mode);
+    copter_take_answers(copter);
+    save_parameters(copter);
+    self->turn = next_link(self);
+    if (self->config.link[self->turn].bytes_per_s > 0u) {
+        run_link(copter, self->turn);
+    }
+}

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file telemetry.h
+ * @brief Telemetry by MAVLink 2: what the copter tells ground stations, and what they may ask.
+ *
+ * A copter has up to COPTER_LINKS links, each with its own decoder, intervals, answers and bytes
+ * per second (turns.h). Nothing waits: what finds no room on a link is sent later, and what does
+ * not fit into a queue is not sent; texts that a link missed are counted. A run is for one link,
+ * looks at no more than COPTER_LINK_BYTES of it, acts on at most one frame, and sends at most one:
+ * so its time is bounded, whatever comes.
+ *
+ * What a ground station may ask is in take.c; what moves the aircraft goes through request.h.
+ */
+#ifndef COPTER_TELEMETRY_H
+#define COPTER_TELEMETRY_H
+
+#include "common/signing.h"
+#include "copter.h"
+#include "keel/middleware/mavlink.h"
+#include "messages.h"
+#include "turns.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** The number of the copter among vehicles. */
+#define COPTER_SYSTEM 1u
+
+#define COPTER_LINKS       3u
+#define COPTER_LINK_BYTES  64u
+#define COPTER_LINK_ACKS   4u
+#define COPTER_TEXTS       16u
+#define COPTER_TEXT_LENGTH 50u
+#define COPTER_WORDS       ((COPTER_PARAMETER_COUNT + 31u) / 32u)
+
+/** The lines that links run on. */
+typedef struct copter_lines {
+    void *context; /**< What the functions are handed. */
+    /** Takes up to size bytes that came; returns how many. */
+    uint32_t (*read)(void *context, uint32_t link, uint8_t *bytes, uint32_t size);
+    /** How many bytes can be written now. */
+    uint32_t (*room)(void *context, uint32_t link);
+    /** Writes a frame, for which there is room. */
+    void (*write)(void *context, uint32_t link, const uint8_t *bytes, uint32_t size);
+} copter_lines_t;
+
+/** What a link may do. */
+typedef struct copter_link_config {
+    uint32_t bytes_per_s; /**< That it carries; 0: there is no such link. */
+    bool commands;        /**< What comes by it may arm, disarm, set modes and parameters. */
+} copter_link_config_t;
+
+/** A key: with one, frames are signed, and what is not signed with it is not taken. It comes from
+ * whoever stands at the vehicle, never by a link. */
+typedef struct copter_key {
+    const uint8_t *key;          /**< KEEL_SIGNING_KEY_BYTES of them; null: there is none. */
+    keel_signing_hash_fn_t hash; /**< SHA-256; null without a key. */
+    uint64_t timestamp;          /**< Later than all that was signed before: see signing.h. */
+} copter_key_t;
+
+/** How telemetry is made. */
+typedef struct copter_telemetry_config {
+    copter_key_t key;
+    copter_lines_t lines;
+    copter_link_config_t link[COPTER_LINKS];
+} copter_telemetry_config_t;
+
+/** A link. */
+typedef struct copter_link {
+    keel_mavlink_t decoder;
+    keel_mavlink_sender_t sender;
+    copter_turns_t turns;
+    uint8_t bytes[COPTER_LINK_BYTES]; /**< That came: of count, those from looked_at on wait. */
+    uint32_t count;
+    uint32_t looked_at;
+    uint64_t ran_us;                             /**< When it had its last run. */
+    message_command_ack_t ack[COPTER_LINK_ACKS]; /**< To be sent, the oldest first. */
+    uint32_t acks;
+    uint32_t texts;      /**< Of telemetry.texts, those sent or missed. */
+    uint32_t missed;     /**< Texts that were overwritten before they were sent. */
+    uint32_t dropped;    /**< Answers for which there was no place. */
+    uint32_t refused;    /**< Frames that may not be taken from this link. */
+    message_ping_t ping; /**< To be sent. */
+    message_timesync_t timesync;
+    uint32_t wanted[COPTER_WORDS]; /**< Parameters to be sent, a bit each. */
+    uint32_t parameter;            /**< The one sent last. */
+} copter_link_t;
+
+/** A text for all links. */
+typedef struct copter_text {
+    uint8_t severity;
+    char text[COPTER_TEXT_LENGTH];
+} copter_text_t;
+
+/** Who waits for an answer of the state machine. */
+typedef struct copter_waiter {
+    uint32_t link;
+    uint16_t command; /**< 0: nobody. */
+    uint8_t system;
+    uint8_t component;
+} copter_waiter_t;
+
+/** Telemetry. Read it freely. */
+typedef struct copter_telemetry {
+    copter_telemetry_config_t config;
+    copter_link_t link[COPTER_LINKS];
+    keel_signing_t signing;           /**< Of all links, so that no frame counts by two of them. */
+    copter_text_t text[COPTER_TEXTS]; /**< Text n is at n modulo COPTER_TEXTS. */
+    uint32_t texts;                   /**< How many there were. */
+    copter_waiter_t arm_waiter;
+    copter_waiter_t mode_waiter;
+    uint32_t turn; /**< The link that had the last run. */
+    bool saves;    /**< Parameters were set, and are to be saved on the ground. */
+    uint8_t state; /**< The state machine's, in the last run. */
+} copter_telemetry_t;
+
+/**
+ * Makes telemetry and adds its task.
+ *
+ * @param copter    a copter that was started
+ * @param telemetry kept
+ * @param config    copied
+ * @return as copter_add
+ */
+keel_status_t copter_telemetry_start(copter_t *copter, copter_telemetry_t *telemetry,
+                                     const copter_telemetry_config_t *config);
+
+/** The task's body. */
+void copter_telemetry(copter_t *copter);
+
+/** How often a link is told one of messages_sent unless it asks for something else, in us; 0: only
+ * when it is asked for. */
+uint32_t copter_telemetry_interval_us(uint32_t sent);
+
+/** Queues a text of two parts for all links; what does not fit is left out. */
+void copter_text(copter_telemetry_t *self, uint8_t severity, const char *first, const char *then);
+
+/** @name The parts of telemetry. */
+/** @{ */
+/** Acts on the frame that a link's decoder has. */
+void copter_take(copter_t *copter, uint32_t link);
+/** Answers those whose requests the state machine decided. */
+void copter_take_answers(copter_t *copter);
+/** Fills the payload of one of messages_sent; returns whether there is anything to say. */
+bool copter_report(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload);
+/** @} */
+
+#endif

@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A copter in real time, and three programs of others that talk to it over UDP, all at once.
+
+Nothing here depends on how fast this machine is: each step waits for what it expects, for long.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from pymavlink import mavutil
+
+TOOLS = Path(__file__).resolve().parents[2] / "tools"
+LONG_S = 60.0
+LAND, POSITION, ALTITUDE, ACRO = 1, 4, 3, 0
+ARM, SET_MODE = 400, 176
+ACCEPTED, REJECTED, DENIED, UNSUPPORTED = 0, 1, 2, 3
+ARMED = 128
+
+
+def free_ports(count: int) -> list[int]:
+    """Ports that nobody listens at."""
+    sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(count)]
+    for one in sockets:
+        one.bind(("127.0.0.1", 0))
+    ports = [one.getsockname()[1] for one in sockets]
+    for one in sockets:
+        one.close()
+    return ports
+
+
+def wait_for(what: Callable[[], Any], reason: str) -> Any:
+    """Until it is so."""
+    end = time.monotonic() + LONG_S
+    while time.monotonic() < end:
+        if found := what():
+            return found
+        time.sleep(0.05)
+    raise AssertionError(f"not in {LONG_S:.0f} s: {reason}")
+
+
+class Station:
+    """A ground station by pymavlink."""
+
+    def __init__(self, port: int) -> None:
+        self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255)
+        self.texts: list[str] = []
+
+    def see(self, *kinds: str) -> Any:
+        """The next message of these kinds."""
+        end = time.monotonic() + LONG_S
+        while time.monotonic() < end:
+            message = self.link.recv_match(blocking=True, timeout=1)
+            if message is None:
+                continue
+            if message.get_type() == "STATUSTEXT":
+                self.texts.append(message.text)
+            if message.get_type() in kinds:
+                return message
+        raise AssertionError(f"not in {LONG_S:.0f} s: {kinds}")
+
+    def until(self, kind: str, good: Callable[[Any], bool]) -> Any:
+        """The next message of a kind that is so."""
+        while not good(message := self.see(kind)):
+            pass
+        return message
+
+    def ask(self, command: int, *params: float) -> int:
+        """A command's answer. What is lost on the way is asked again."""
+        numbers = [*params, *([0.0] * (7 - len(params)))]
+        for attempt in range(10):
+            self.link.mav.command_long_send(1, 1, command, attempt, *numbers)
+            end = time.monotonic() + 3.0
+            while time.monotonic() < end:
+                answer = self.link.recv_match(type=["COMMAND_ACK", "STATUSTEXT"], blocking=True,
+                                              timeout=1)  # fmt: skip
+                if answer is not None and answer.get_type() == "STATUSTEXT":
+                    self.texts.append(answer.text)
+                elif answer is not None and answer.command == command:
+                    return int(answer.result)
+        raise AssertionError(f"command {command}: no answer")
+
+    def hear(self, text: str) -> None:
+        """Until it was said."""
+        while not any(text in said for said in self.texts):
+            self.see("STATUSTEXT")
+
+    def rest(self) -> None:
+        """Whatever it does, it ends on the ground with its motors off."""
+        def at_rest() -> bool:
+            if not self.until("HEARTBEAT", lambda message: message.type == 2).base_mode & ARMED:
+                return True
+            self.ask(SET_MODE, 1, LAND)
+            return False
+
+        wait_for(at_rest, "at rest")
+
+    def ready(self) -> None:
+        """Until it may be armed."""
+        self.until("SYS_STATUS", lambda m: m.onboard_control_sensors_health & 0x10000000)
+
+
+@pytest.fixture(scope="module")
+def ports(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[int]]:
+    """A copter that has just been powered up: the ports at which its three links arrive."""
+    found = free_ports(3)
+    log = tmp_path_factory.mktemp("sim")
+    addresses = [part for port in found for part in ("--address", f"127.0.0.1:{port}")]
+    with (log / "log").open("w") as out:
+        sim = subprocess.Popen(
+            [sys.executable, str(TOOLS / "sim.py"), "--cold", "--build", str(log), *addresses],
+            stdout=out, stderr=subprocess.STDOUT,
+        )  # fmt: skip
+        try:
+            wait_for(lambda: "Ctrl-C" in (log / "log").read_text() or sim.poll() is not None,
+                     "the copter's start")  # fmt: skip
+            yield found
+        finally:
+            sim.send_signal(signal.SIGINT)
+            try:
+                assert sim.wait(LONG_S) == 0, (log / "log").read_text()
+            finally:
+                sim.kill()
+
+
+@pytest.fixture(scope="module")
+def station(ports: list[int]) -> Iterator[Station]:
+    """Who looks on."""
+    made = Station(ports[0])
+    yield made
+    made.link.close()
+
+
+def test_who_has_just_been_powered_up_is_not_armed(station: Station) -> None:
+    station.see("HEARTBEAT")
+    assert station.ask(ARM, 1) == REJECTED
+    station.hear("not armed: ")
+
+
+def test_pymavlink_reads(station: Station) -> None:
+    station.ready()
+    assert abs(station.see("ATTITUDE").roll) < 0.1
+    place = station.see("GLOBAL_POSITION_INT")
+    assert abs(place.lat / 1e7 - 47.3977) < 0.001 and abs(place.lon / 1e7 - 8.5456) < 0.001
+    assert 14000 < station.see("BATTERY_STATUS").voltages[0] < 17500
+    assert station.see("SYS_STATUS").battery_remaining > 90
+    assert station.see("GPS_RAW_INT").fix_type == 3
+    assert station.see("RC_CHANNELS").chan3_raw < 1080
+
+
+def test_pymavlink_lists_and_sets_parameters(station: Station) -> None:
+    mav = station.link.mav
+    known: dict[str, float] = {}
+    mav.param_request_list_send(1, 1)
+    while True:
+        value = station.see("PARAM_VALUE")
+        known[value.param_id] = value.param_value
+        if len(known) == value.param_count:
+            break
+    assert abs(known["POS_P"] - 0.8) < 1e-6 and len(known) > 50
+    real = mavutil.mavlink.MAV_PARAM_TYPE_REAL32
+    mav.param_set_send(1, 1, b"HEIGHT_P", 1.25, real)
+    assert station.until("PARAM_VALUE", lambda m: m.param_id == "HEIGHT_P").param_value == 1.25
+    for value, kind in ((1.0e9, real), (float("nan"), real),
+                        (5.0, mavutil.mavlink.MAV_PARAM_TYPE_INT32)):  # fmt: skip
+        mav.param_set_send(1, 1, b"HEIGHT_P", value, kind)
+        same = station.until("PARAM_VALUE", lambda m: m.param_id == "HEIGHT_P")
+        assert same.param_value == 1.25
+    mav.param_request_read_send(1, 1, b"HEIGHT_P", -1)
+    assert station.until("PARAM_VALUE", lambda m: m.param_id == "HEIGHT_P").param_value == 1.25
+
+
+def test_pymavlink_is_refused_what_must_be(station: Station) -> None:
+    station.ready()
+    assert station.ask(ARM, 1, 21196) == DENIED  # By force.
+    assert station.ask(ARM, 0.5) == DENIED
+    assert station.ask(ARM, float("nan")) == DENIED
+    assert station.ask(SET_MODE, 1, ACRO) == DENIED
+    assert station.ask(SET_MODE, 1, 4, 5) == DENIED  # Others' return to launch.
+    assert station.ask(SET_MODE, 0, POSITION) == DENIED
+    assert station.ask(511, 77, 100000) == DENIED  # Intervals of answers.
+    assert station.ask(22) == UNSUPPORTED
+    assert not station.until("HEARTBEAT", lambda m: m.type == 2).base_mode & ARMED
+
+
+def test_pymavlink_flies(station: Station) -> None:
+    station.ready()
+    assert station.ask(ARM, 1) == ACCEPTED
+    station.until("HEARTBEAT", lambda m: m.base_mode & ARMED)
+    station.until("EXTENDED_SYS_STATE", lambda m: m.landed_state == 2)
+    assert station.ask(ARM, 0) == DENIED  # In flight.
+    assert station.ask(ARM, 0, 21196) == DENIED
+    station.until("LOCAL_POSITION_NED", lambda m: m.z < -1.5)
+    assert station.ask(SET_MODE, 1, ALTITUDE) == ACCEPTED
+    station.until("HEARTBEAT", lambda m: m.custom_mode == ALTITUDE)
+    assert station.ask(SET_MODE, 1, LAND) == ACCEPTED
+    station.until("HEARTBEAT", lambda m: not m.base_mode & ARMED)
+    station.hear("disarmed")
+    assert {"armed", "flying", "landing"} <= set(station.texts)
+
+
+def test_mavsdk(station: Station, ports: list[int]) -> None:
+    from mavsdk.component_type import ComponentType
+    from mavsdk.mavsdk import Configuration, Mavsdk
+    from mavsdk.plugins.action import Action
+    from mavsdk.plugins.action.action import ActionError
+    from mavsdk.plugins.param import Param
+    from mavsdk.plugins.telemetry import Telemetry
+
+    station.rest()
+    station.ready()
+    kind = Configuration.create_with_component_type(ComponentType.GROUND_STATION)
+    with Mavsdk(kind) as sdk:
+        sdk.add_any_connection(f"udpin://127.0.0.1:{ports[1]}")
+        system = sdk.first_autopilot(LONG_S)
+        assert system is not None
+        seen, param, action = Telemetry(system), Param(system), Action(system)
+        wait_for(lambda: abs(seen.position().latitude_deg - 47.3977) < 0.001, "a position")
+        assert abs(seen.attitude_euler().roll_deg) < 5.0
+        wait_for(lambda: 14.0 < seen.battery().voltage_v < 17.5, "a battery")
+        wait_for(lambda: seen.health().is_global_position_ok, "its health")
+        names = {one.name: one.value for one in param.get_all_params().float_params}
+        assert names["LAND_NEAR"] == 5.0
+        param.set_param_float("LAND_NEAR", 6.5)
+        assert param.get_param_float("LAND_NEAR") == 6.5
+        assert param.get_param_int("FS_HOLD_TIME") == 5_000_000
+        param.set_param_int("FS_HOLD_TIME", 4_000_000)
+        assert param.get_param_int("FS_HOLD_TIME") == 4_000_000
+        for refused in (action.arm_force, action.kill, action.return_to_launch, action.land):
+            with pytest.raises(ActionError):
+                refused()
+        assert not seen.armed()
+        action.arm()
+        wait_for(seen.armed, "armed")
+    station.rest()
+
+
+def test_mavproxy(station: Station, ports: list[int], tmp_path: Path) -> None:
+    station.rest()
+    station.ready()
+    found = mavproxy_program()
+    log = tmp_path / "log"
+    with log.open("w") as out:
+        proxy = subprocess.Popen(
+            [sys.executable, str(found), f"--master=udpin:127.0.0.1:{ports[2]}",
+             "--default-modules=param,arm,mode", f"--state-basedir={tmp_path}"],
+            stdin=subprocess.PIPE, stdout=out, stderr=subprocess.STDOUT, cwd=tmp_path, text=True,
+            env={**os.environ, "HOME": str(tmp_path)},
+        )  # fmt: skip
+        try:
+            def says(line: str, *expected: str) -> None:
+                assert proxy.stdin is not None
+                proxy.stdin.write(line + "\n")
+                proxy.stdin.flush()
+                for text in expected:
+                    wait_for(lambda: text in log.read_text(), f"{text} in {log.read_text()}")
+
+            wait_for(lambda: "Received 57 parameters" in log.read_text(), "parameters")
+            says("param set RTL_HEIGHT 12")
+            station.until("PARAM_VALUE", lambda m: m.param_id == "RTL_HEIGHT")
+            says("param fetch RTL_HEIGHT", "RTL_HEIGHT = 12.0")
+            says("mode 3", "DO_SET_MODE: ACCEPTED")
+            says("arm throttle", "COMPONENT_ARM_DISARM: ACCEPTED", "ARMED")
+            says("mode 0", "DO_SET_MODE: DENIED")
+            says("status ATTITUDE", "ATTITUDE {")
+        finally:
+            proxy.kill()  # It does not heed SIGTERM for long.
+            proxy.wait(LONG_S)
+    station.rest()
+
+
+def mavproxy_program() -> Path:
+    """MAVProxy's own starter, among the packages."""
+    for folder in sys.path:
+        starter = Path(folder) / "bin/mavproxy.py"
+        if starter.is_file():
+            return starter
+    raise AssertionError("mavproxy.py: is not there")

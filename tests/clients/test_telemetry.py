@@ -1,0 +1,540 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Telemetry on the virtual clock, byte by byte, with pymavlink on the other side.
+
+Equal runs are equal: nothing here waits.
+"""
+
+from __future__ import annotations
+
+import random
+import struct
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+from flight import judge, library, scenario
+from flight.library import Copter, Key, Link
+from flight.loop import Flight, Order, fly
+from flight.pilot import Bystander, Pilot, Sight
+from pymavlink.dialects.v20 import common as mavlink
+from toolchain import Toolchain
+
+ACCEPTED, REJECTED, DENIED, UNSUPPORTED = 0, 1, 2, 3
+DISARMED, ARMED, FLYING, HOLDING = 0, 1, 2, 3
+LAND, ANGLE, ALTITUDE, POSITION = 1, 2, 3, 4
+ARM, SET_MODE, INTERVAL, REQUEST = 400, 176, 511, 512
+THROTTLE, ARM_SWITCH, MODE_SWITCH, KILL = 2, 4, 5, 6
+LOW, ON, OFF = 988, 2000, 1000
+BURST = 512
+WARM_MS = 12_000
+SENT = {"HEARTBEAT", "SYS_STATUS", "GPS_RAW_INT", "ATTITUDE", "LOCAL_POSITION_NED",
+        "GLOBAL_POSITION_INT", "SERVO_OUTPUT_RAW", "RC_CHANNELS", "BATTERY_STATUS",
+        "ESTIMATOR_STATUS", "HOME_POSITION", "EXTENDED_SYS_STATE"}  # fmt: skip
+
+
+class Hands(Pilot):
+    """A pilot whose channels a test writes; None is silence."""
+
+    channels: list[int] = []
+
+    def frame(self, sight: Sight) -> list[int]:
+        """As they are."""
+        return list(self.channels)
+
+
+class Rig:
+    """A copter in a plant, with links."""
+
+    def __init__(self, copter: Copter, links: Sequence[Link] = (Link(),),
+                 warm_ms: int = WARM_MS, key: Key | None = None,
+                 memory: Path | None = None) -> None:  # fmt: skip
+        order = Order(scenario.read("hover"), "mujoco", 1)
+        self.copter = copter
+        self.channels = [1500, 1500, LOW, 1500, OFF, copter.mode_channel(POSITION), OFF, 1500]
+        Hands.channels = self.channels
+        self.flight = Flight(copter, order, Hands, links, key, memory)
+        self.links = range(len(links))
+        self.open = set(self.links)
+        self.now_ms = 0
+        self.bytes: list[bytearray] = [bytearray() for _ in links]
+        self.parsers = [mavlink.MAVLink(None, srcSystem=255, srcComponent=190) for _ in links]
+        self.seen: list[list[Any]] = [[] for _ in links]
+        self.station = mavlink.MAVLink(None, srcSystem=255, srcComponent=190)
+        self.run(warm_ms)
+
+    def run(self, milliseconds: int) -> None:
+        """Time passes."""
+        for _ in range(milliseconds):
+            self.now_ms += 1
+            self.flight.step(self.now_ms)
+            for link in self.open:
+                data = self.copter.receive(link)
+                self.bytes[link] += data
+                if data:
+                    self.seen[link] += self.parsers[link].parse_buffer(data) or []
+
+    def radio(self, milliseconds: int, lost: bool = True) -> None:
+        """The same, with the pilot's frames gone."""
+        count = self.flight._radio["count"]
+        for _ in range(milliseconds):
+            self.run(1)
+            self.flight._radio["count"] = count if lost else self.flight._radio["count"]
+
+    def send(self, message: Any, link: int = 0) -> None:
+        """A frame for the copter."""
+        self.copter.send(link, message.pack(self.station))
+
+    def ask(self, command: int, *params: float, link: int = 0) -> int:
+        """What it answers to a command."""
+        numbers = [*params, *([0.0] * (7 - len(params)))]
+        begun = len(self.seen[link])
+        self.send(mavlink.MAVLink_command_long_message(1, 1, command, 0, *numbers), link)
+        for _ in range(300):
+            self.run(10)
+            for message in self.seen[link][begun:]:
+                if message.get_type() == "COMMAND_ACK" and message.command == command:
+                    assert (message.target_system, message.target_component) == (255, 190)
+                    return int(message.result)
+        raise AssertionError(f"{command}: no answer")
+
+    def state(self) -> int:
+        """The state machine's."""
+        self.copter.look()
+        return int(self.copter.view["state"])
+
+    def texts(self, link: int = 0) -> list[str]:
+        """What was said."""
+        return [message.text for message in self.seen[link] if message.get_type() == "STATUSTEXT"]
+
+    def counts(self, link: int = 0) -> Counter[str]:
+        """How often each message came."""
+        return Counter(message.get_type() for message in self.seen[link])
+
+
+@pytest.fixture(scope="module")
+def copter(tmp_path_factory: pytest.TempPathFactory) -> Copter:
+    """The library; what is undefined ends it."""
+    flags = ("-O1", "-fsanitize=undefined", "-fno-sanitize-recover=all")
+    folder = tmp_path_factory.mktemp("copter")
+    return Copter(library.build(Toolchain(), folder, more=flags))
+
+
+def test_every_message_is_as_others_encode_it(copter: Copter) -> None:
+    rig = Rig(copter)
+    assert rig.ask(REQUEST, 148) == ACCEPTED
+    assert rig.ask(9999) == UNSUPPORTED
+    rig.send(mavlink.MAVLink_ping_message(7, 9, 0, 0))
+    rig.send(mavlink.MAVLink_timesync_message(0, 12345))
+    rig.send(mavlink.MAVLink_param_request_list_message(1, 1))
+    rig.run(3000)
+    kinds = set(rig.counts())
+    assert kinds >= SENT | {"AUTOPILOT_VERSION", "PING", "TIMESYNC", "PARAM_VALUE", "COMMAND_ACK"}
+    assert "BAD_DATA" not in kinds
+    echo = mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
+    for message in rig.seen[0]:
+        echo.seq = message.get_seq()
+        assert bytes(message.get_msgbuf()) == bytes(message.pack(echo)), message
+    by_kind = {message.get_type(): message for message in rig.seen[0]}
+    assert (by_kind["PING"].time_usec, by_kind["PING"].seq) == (7, 9)
+    assert by_kind["PING"].target_system == 255
+    assert by_kind["TIMESYNC"].ts1 == 12345
+    assert 0 < by_kind["TIMESYNC"].tc1 <= 1_000_000 * rig.now_ms
+
+
+def test_what_is_told_is_so(copter: Copter) -> None:
+    rig = Rig(copter)
+    truth = rig.flight._plant.truth()
+    by_kind = {message.get_type(): message for message in rig.seen[0]}
+    attitude, place = by_kind["ATTITUDE"], by_kind["GLOBAL_POSITION_INT"]
+    assert abs(attitude.roll - truth.angles[0]) < 0.02
+    assert abs(attitude.pitch - truth.angles[1]) < 0.02
+    assert abs(attitude.yaw - truth.angles[2]) < 0.1
+    assert abs(place.lat / 1e7 - truth.latitude) < 3e-5
+    assert abs(place.lon / 1e7 - truth.longitude) < 3e-5
+    assert abs(place.alt / 1000.0 - 430.0) < 5.0 and abs(place.relative_alt / 1000.0) < 2.0
+    assert by_kind["RC_CHANNELS"].chan3_raw == LOW
+    assert by_kind["SERVO_OUTPUT_RAW"].servo1_raw == 1000
+    assert by_kind["EXTENDED_SYS_STATE"].landed_state == 1
+    rig.copter.look()
+    assert by_kind["SYS_STATUS"].battery_remaining == int(100.0 * rig.copter.view["battery_left"])
+
+
+def test_rates_are_kept_and_frames_are_numbered(copter: Copter) -> None:
+    rig = Rig(copter)
+    before = rig.counts()
+    rig.run(10_000)
+    came = rig.counts() - before
+    expected = {"HEARTBEAT": 10, "ATTITUDE": 200, "LOCAL_POSITION_NED": 100, "RC_CHANNELS": 50}
+    for name, count in expected.items():
+        assert 0.8 * count - 1 <= came[name] <= count + 1, (name, came[name])
+    numbers = [message.get_seq() for message in rig.seen[0]]
+    assert all(b == (a + 1) % 256 for a, b in zip(numbers, numbers[1:], strict=False))
+    assert rig.ask(INTERVAL, 30, 500_000) == ACCEPTED
+    before = rig.counts()
+    rig.run(5000)
+    assert 9 <= (rig.counts() - before)["ATTITUDE"] <= 11
+    assert rig.ask(INTERVAL, 30, -1) == ACCEPTED
+    before = rig.counts()
+    rig.run(2000)
+    assert (rig.counts() - before)["ATTITUDE"] == 0
+
+
+@pytest.mark.parametrize("rate", [150, 600])
+def test_a_slow_link_carries_all_and_no_more_than_it_can(copter: Copter, rate: int) -> None:
+    rig = Rig(copter, [Link(rate), Link(20_000)], warm_ms=0)
+    lengths = []
+    for _ in range(300):
+        rig.run(100)
+        lengths.append(len(rig.bytes[0]))
+    for first in range(0, 300, 10):
+        for last in range(first, 300, 10):
+            allowed = BURST + rate * (last - first) / 10.0
+            assert lengths[last] - lengths[first] <= allowed + 1
+    assert lengths[-1] > 0.6 * rate * 30  # It is used.
+    counts = rig.counts()
+    assert set(counts) >= SENT, SENT - set(counts)
+    # Those that are wanted each second, from the start on.
+    turns = [counts[name] for name in ("HEARTBEAT", "SYS_STATUS", "BATTERY_STATUS",
+                                       "ESTIMATOR_STATUS", "EXTENDED_SYS_STATE")]  # fmt: skip
+    assert min(turns) >= (5 if rate < 600 else 20) and max(turns) <= min(turns) + 2, counts
+    assert counts["SERVO_OUTPUT_RAW"] <= (30 if rate < 600 else 80)  # Of 150.
+    assert rig.counts(1)["ATTITUDE"] > 300  # The other link does not notice.
+
+
+def test_a_link_that_nobody_reads_holds_up_nothing(copter: Copter) -> None:
+    rig = Rig(copter, [Link(), Link()], warm_ms=0)
+    rig.open = {1}
+    rig.run(WARM_MS)
+    assert rig.counts(1)["ATTITUDE"] > 150
+    rig.open = {0, 1}
+    rig.run(3000)
+    assert rig.counts(0)["BAD_DATA"] == 0 and rig.counts(0)["ATTITUDE"] > 40
+
+
+def test_a_link_that_is_flooded_is_its_own_trouble(copter: Copter) -> None:
+    rig = Rig(copter, [Link(), Link()], warm_ms=WARM_MS)
+    before = rig.counts(1)
+    flood = b"".join(mavlink.MAVLink_param_set_message(1, 1, b"POS_P", float("nan"), 9)
+                     .pack(rig.station) for _ in range(90))  # fmt: skip
+    for _ in range(50):
+        rig.copter.send(0, flood)
+        rig.run(100)
+    came = rig.counts(1) - before
+    assert came["ATTITUDE"] > 60 and came["HEARTBEAT"] >= 4
+    assert rig.ask(ARM, 1, link=1) == ACCEPTED
+
+
+def test_parameters_are_listed_under_pressure(copter: Copter) -> None:
+    rig = Rig(copter, [Link(1500)])
+    rig.send(mavlink.MAVLink_param_request_list_message(1, 1))
+    rig.run(15_000)
+    values = [message for message in rig.seen[0] if message.get_type() == "PARAM_VALUE"]
+    assert [value.param_index for value in values] == list(range(values[0].param_count))
+    assert rig.counts()["HEARTBEAT"] > 5
+
+
+def value_in(rig: Rig, name: str) -> Any:
+    """A parameter as it is told."""
+    rig.send(mavlink.MAVLink_param_request_read_message(1, 1, name.encode(), -1))
+    rig.run(300)
+    values = [one for one in rig.seen[0] if one.get_type() == "PARAM_VALUE"]
+    return values[-1]
+
+
+def test_parameters_are_kept(copter: Copter, tmp_path: Path) -> None:
+    rig = Rig(copter, warm_ms=1000, memory=tmp_path / "memory")
+    whole = struct.unpack("<f", struct.pack("<i", 4_000_000))[0]
+    for name, value, kind in ((b"HEIGHT_P", 1.5, 9), (b"FS_HOLD_TIME", whole, 6),
+                              (b"POS_P", float("nan"), 9), (b"POS_P", 1.0, 1),
+                              (b"POS_P", 1.0, 6), (b"VEL_P", 11.0, 9)):  # fmt: skip
+        rig.send(mavlink.MAVLink_param_set_message(1, 1, name, value, kind))
+        rig.run(300)
+    assert rig.texts()[-4:] == ["not set: POS_P"] * 3 + ["not set: VEL_P"]
+    rig.run(4000)
+    again = Rig(copter, warm_ms=500, memory=tmp_path / "memory")
+    assert value_in(again, "HEIGHT_P").param_value == 1.5
+    assert abs(value_in(again, "POS_P").param_value - 0.8) < 1e-6
+    held = value_in(again, "FS_HOLD_TIME")
+    assert struct.pack("<f", held.param_value) == struct.pack("<i", 4_000_000)
+    assert held.param_type == 6
+
+
+def test_anything_may_come(copter: Copter) -> None:
+    rig = Rig(copter)
+    rng = random.Random(1)
+    frames = [
+        mavlink.MAVLink_command_long_message(1, 1, ARM, 0, 1, 0, 0, 0, 0, 0, 0),
+        mavlink.MAVLink_param_set_message(1, 1, b"HEIGHT_P", 2.0, 9),
+        mavlink.MAVLink_param_request_read_message(1, 1, b"", 32767),
+        mavlink.MAVLink_param_request_read_message(1, 1, b"HEIGHT_PHEIGHT_P", -1),
+        mavlink.MAVLink_param_request_read_message(1, 1, b"", -2),
+        mavlink.MAVLink_set_mode_message(1, 1, 0xFFFFFFFF),
+    ]  # fmt: skip
+    for _ in range(400):
+        data = bytearray(rng.choice(frames[2:]).pack(rig.station))
+        if rng.random() < 0.7:
+            data[rng.randrange(len(data))] ^= 1 << rng.randrange(8)
+        rig.copter.send(0, bytes(rng.randbytes(rng.randrange(40))) + bytes(data))
+        rig.run(7)
+    numbers = [float("nan"), float("inf"), -float("inf"), 1e30, -1e30, 0.5, -1.0, 1.0, 176.0, 4.0]
+    for _ in range(300):
+        command = rng.choice([SET_MODE, INTERVAL, REQUEST, rng.randrange(65536)])
+        if command == ARM:
+            continue
+        rig.send(mavlink.MAVLink_command_long_message(
+            1, 1, command, 0, *(rng.choice(numbers) for _ in range(7))))  # fmt: skip
+        rig.run(11)
+    assert rig.state() == DISARMED
+    rig.run(3000)
+    assert rig.ask(ARM, 1) == ACCEPTED
+
+
+def test_who_is_not_meant_does_nothing(copter: Copter) -> None:
+    rig = Rig(copter)
+    for system, component in ((2, 1), (1, 190)):
+        rig.send(mavlink.MAVLink_command_long_message(system, component, ARM, 0, 1, *[0] * 6))
+        rig.run(1500)
+    assert rig.state() == DISARMED and rig.counts()["COMMAND_ACK"] == 0
+
+
+def test_a_link_may_be_for_listening_alone(copter: Copter) -> None:
+    rig = Rig(copter, [Link(), Link(commands=False)])
+    assert rig.ask(ARM, 1, link=1) == DENIED
+    assert rig.ask(SET_MODE, 1, LAND, link=1) == DENIED
+    rig.send(mavlink.MAVLink_set_mode_message(1, 1, LAND), 1)
+    rig.send(mavlink.MAVLink_param_set_message(1, 1, b"HEIGHT_P", 2.0, 9), 1)
+    rig.run(1000)
+    assert rig.state() == DISARMED and rig.counts(1)["PARAM_VALUE"] == 0
+    rig.send(mavlink.MAVLink_param_request_read_message(1, 1, b"HEIGHT_P", -1), 1)
+    rig.run(1000)
+    values = [message for message in rig.seen[1] if message.get_type() == "PARAM_VALUE"]
+    assert [value.param_value for value in values] == [1.0]
+    assert rig.ask(ARM, 1) == ACCEPTED
+
+
+def test_arming_takes_the_state_machines_time(copter: Copter) -> None:
+    rig = Rig(copter)
+    begun = rig.now_ms
+    rig.send(mavlink.MAVLink_command_long_message(1, 1, ARM, 0, 1, *[0] * 6))
+    while rig.state() == DISARMED and rig.now_ms - begun < 2000:
+        rig.run(1)
+    assert rig.state() == ARMED and rig.now_ms - begun >= 300
+
+
+@pytest.mark.parametrize(("channel", "value", "text"), [
+    (THROTTLE, 1500, "throttle not low"), (KILL, ON, "kill switch"),
+    (ARM_SWITCH, ON, "arm switch"),
+])  # fmt: skip
+def test_what_stands_in_the_way_is_named(
+    copter: Copter, channel: int, value: int, text: str
+) -> None:
+    rig = Rig(copter, warm_ms=0)
+    rig.channels[channel] = value  # Since the power was switched on.
+    rig.run(WARM_MS)
+    assert rig.ask(ARM, 1) == REJECTED
+    rig.run(500)
+    assert rig.state() == DISARMED
+    assert any(said.startswith("not armed: ") and text in said for said in rig.texts())
+
+
+def test_without_the_pilots_link_nothing_moves(copter: Copter) -> None:
+    rig = Rig(copter)
+    rig.radio(1000)
+    assert rig.ask(SET_MODE, 1, LAND) == REJECTED
+    rig.radio(1000)
+    begun = len(rig.seen[0])
+    rig.send(mavlink.MAVLink_command_long_message(1, 1, ARM, 0, 1, *[0] * 6))
+    rig.radio(1500)
+    answers = [one.result for one in rig.seen[0][begun:] if one.get_type() == "COMMAND_ACK"]
+    assert answers == [REJECTED] and rig.state() == DISARMED
+    rig.run(3000)  # The radio is back, and what was asked for is over.
+    assert rig.state() == DISARMED
+
+
+def test_a_throttle_that_is_raised_meanwhile_refuses(copter: Copter) -> None:
+    rig = Rig(copter)
+    rig.send(mavlink.MAVLink_command_long_message(1, 1, ARM, 0, 1, *[0] * 6))
+    rig.run(100)
+    rig.channels[THROTTLE] = 1500
+    rig.run(2000)
+    answers = [one.result for one in rig.seen[0] if one.get_type() == "COMMAND_ACK"]
+    assert answers == [REJECTED] and rig.state() == DISARMED
+    rig.channels[THROTTLE] = LOW
+    rig.run(2000)
+    assert rig.state() == DISARMED
+
+
+def test_the_pilot_takes_the_arm_switch_over(copter: Copter) -> None:
+    rig = Rig(copter)
+    assert rig.ask(ARM, 1) == ACCEPTED
+    rig.channels[ARM_SWITCH] = ON
+    rig.run(1000)
+    assert rig.state() == ARMED
+    rig.channels[ARM_SWITCH] = OFF
+    rig.run(1000)
+    assert rig.state() == DISARMED
+
+
+def test_who_was_disarmed_does_not_start_by_a_glitch(copter: Copter) -> None:
+    rig = Rig(copter)
+    rig.channels[ARM_SWITCH] = ON
+    rig.run(1000)
+    assert rig.state() == ARMED
+    assert rig.ask(ARM, 0) == ACCEPTED
+    assert rig.state() == DISARMED
+    for _ in range(10):  # The switch is on, and single frames say otherwise.
+        rig.channels[ARM_SWITCH] = OFF
+        rig.run(25)
+        rig.channels[ARM_SWITCH] = ON
+        rig.run(500)
+        assert rig.state() == DISARMED
+    rig.channels[ARM_SWITCH] = OFF
+    rig.run(1000)
+    rig.channels[ARM_SWITCH] = ON
+    rig.run(1000)
+    assert rig.state() == ARMED  # The pilot's own.
+
+
+def in_flight(copter: Copter) -> Rig:
+    """Armed by telemetry, and some metres high."""
+    rig = Rig(copter)
+    assert rig.ask(ARM, 1) == ACCEPTED
+    rig.channels[THROTTLE] = 1900
+    rig.run(3000)
+    rig.channels[THROTTLE] = 1500
+    rig.run(1000)
+    assert rig.state() == FLYING
+    return rig
+
+
+def test_modes_of_a_flight(copter: Copter) -> None:
+    rig = in_flight(copter)
+    assert rig.ask(ARM, 0) == DENIED and rig.ask(ARM, 0, 21196) == DENIED
+    for mode in (0, ANGLE, 6, 7, 1e9, float("nan")):
+        assert rig.ask(SET_MODE, 1, mode) == DENIED
+    assert rig.ask(SET_MODE, 1, ALTITUDE) == ACCEPTED
+    rig.run(1100)
+    assert [one.custom_mode for one in rig.seen[0] if one.get_type() == "HEARTBEAT"][-1] == ALTITUDE
+    rig.channels[MODE_SWITCH] = copter.mode_channel(ANGLE)  # The pilot's is the last word.
+    rig.run(1000)
+    rig.copter.look()
+    assert int(rig.copter.view["mode"]) == ANGLE and rig.state() == FLYING
+    assert rig.ask(ARM, 1) == ACCEPTED  # It is.
+
+
+def test_the_link_that_is_lost_counts_more_than_a_mode_that_is_asked_for(copter: Copter) -> None:
+    rig = in_flight(copter)
+    assert rig.ask(SET_MODE, 1, ALTITUDE) == ACCEPTED
+    rig.radio(1000)
+    assert rig.state() == HOLDING
+    begun = len(rig.seen[0])
+    rig.send(mavlink.MAVLink_command_long_message(1, 1, SET_MODE, 0, 1, POSITION, *[0] * 5))
+    rig.radio(1000)
+    assert rig.state() == HOLDING
+    answers = [one.result for one in rig.seen[0][begun:] if one.get_type() == "COMMAND_ACK"]
+    assert answers == [REJECTED]
+    assert any("radio link lost" in text for text in rig.texts())
+
+
+def test_a_mode_ends_with_the_flight(copter: Copter) -> None:
+    rig = in_flight(copter)
+    assert rig.ask(SET_MODE, 1, LAND) == ACCEPTED
+    for _ in range(30):
+        rig.run(1000)
+        if rig.state() == DISARMED:
+            break
+    assert rig.state() == DISARMED
+    rig.run(2000)
+    last = [one for one in rig.seen[0] if one.get_type() == "HEARTBEAT"][-1]
+    assert last.custom_mode == POSITION  # Where the pilot's switch is.
+
+
+def test_a_flight_with_three_links_keeps_its_limits(copter: Copter) -> None:
+    made = scenario.read("hover")
+    start = copter.start
+    try:
+        copter.start = lambda cost, mean, *_: start(cost, mean, [Link()] * 3)  # type: ignore
+        told = fly(copter, Order(made, "mujoco", 1))
+    finally:
+        del copter.start
+    assert not told.problem
+    assert judge.is_good(made, told, judge.judged(made, told, None))
+
+
+def sign(station: Any, key: bytes, timestamp: int) -> None:
+    """From now on it signs."""
+    station.signing.secret_key, station.signing.timestamp = key, timestamp
+    station.signing.link_id, station.signing.sign_outgoing = 3, True
+
+
+def test_with_a_key_only_what_is_signed_counts(copter: Copter) -> None:
+    now, key = 35_000_000_000_000, bytes(range(32))
+    rig = Rig(copter, [Link(), Link()], warm_ms=0, key=Key(key, now))
+    for parser in rig.parsers:
+        sign(parser, key, now - 1)
+    rig.run(WARM_MS)
+    assert rig.counts()["ATTITUDE"] > 150 and rig.counts()["BAD_DATA"] == 0
+    assert all(message.get_signed() for message in rig.seen[0])
+    arm = mavlink.MAVLink_command_long_message(1, 1, ARM, 0, 1, *[0] * 6)
+    rig.send(arm)
+    sign(rig.station, bytes(32), now + 10)  # Another key.
+    rig.send(arm)
+    rig.run(1500)
+    assert rig.state() == DISARMED and rig.counts()["COMMAND_ACK"] == 0
+    sign(rig.station, key, now + 20)
+    frame = arm.pack(rig.station)
+    rig.copter.send(0, frame)
+    rig.run(1500)
+    assert rig.state() == ARMED and rig.counts()["COMMAND_ACK"] == 1
+    for link in (0, 1):  # Heard before.
+        rig.copter.send(link, frame)
+        rig.run(500)
+    assert rig.counts()["COMMAND_ACK"] == 1 and rig.counts(1)["COMMAND_ACK"] == 0
+
+
+def test_the_bystander_flies_when_others_arm(copter: Copter) -> None:
+    order = Order(scenario.read("hover").model_copy(update={"pilot": [], "mode": "position"}),
+                  "mujoco", 1)  # fmt: skip
+    flight = Flight(copter, order, Bystander, [Link()])
+    station = mavlink.MAVLink(None, srcSystem=255)
+    for now_ms in range(1, 26_000):
+        flight.step(now_ms)
+        copter.receive(0)
+        if now_ms == WARM_MS:
+            copter.send(0, mavlink.MAVLink_command_long_message(
+                1, 1, ARM, 0, 1, *[0] * 6).pack(station))  # fmt: skip
+    assert 3.5 < flight._plant.truth().place[2] < 6.5
+
+
+@pytest.mark.parametrize(("options", "reason"), [
+    (["--address", "here"], "here: expected host:port"),
+    (["--address", "127.0.0.1:99999"], "expected host:port"),
+    (["--rate", "0"], "--rate: expected 1 to"),
+    (["--key", "nowhere"], "nowhere: cannot be read"),
+    (["--scenario", "nothing"], "nothing"),
+])  # fmt: skip
+def test_what_cannot_be_flown_is_said(
+    options: list[str], reason: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import sim
+
+    assert sim.main(options) == 2
+    assert reason in capsys.readouterr().err
+
+
+def test_the_messages_are_up_to_date() -> None:
+    import messages
+
+    assert messages.main(["--check"]) == 0
+
+
+def test_definitions_that_are_none_are_refused(tmp_path: Path) -> None:
+    import messages
+    from common.errors import ToolError
+
+    with pytest.raises(ToolError, match=r"minimal\.xml"):
+        messages.read(tmp_path)
+    with pytest.raises(ToolError, match="NO_SUCH"):
+        messages.chosen({}, ["NO_SUCH"])

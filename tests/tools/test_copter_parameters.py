@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The copter's settings through its parameters: defaults, what is set, saved and loaded again."""
+
+from __future__ import annotations
+
+import ctypes
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from typing import ClassVar
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from common.run import output_of  # noqa: E402
+
+# A copter's parameters behind functions of plain numbers.
+SHIM = """\
+#include "file_medium.h"
+#include "tuning.h"
+#include <string.h>
+static copter_tuning_t all;
+static keel_medium_t memory;
+static char path[512];
+int start(const char *file)
+{
+    memset(&all, 0x5A, sizeof all);
+    memset(&copter_settings, 0x5A, sizeof copter_settings);
+    if (file == NULL) { return (int)copter_tuning_start(&all, NULL); }
+    strncpy(path, file, sizeof path - 1u);
+    memory = file_medium(path);
+    return (int)copter_tuning_start(&all, &memory);
+}
+int is_default(void)
+{
+    return memcmp(&copter_settings, &copter_defaults, sizeof copter_settings) == 0;
+}
+int set(const char *name, int type, double number)
+{
+    const keel_parameter_value_t value = {(keel_parameter_type_t)type,
+                                          type == 0 ? (float)number : 0.0f,
+                                          type == 0 ? 0 : (int32_t)number};
+    return (int)keel_parameters_set_by_name(&all.table, name, value);
+}
+int save(void) { return (int)copter_tuning_save(&all); }
+int step(void) { copter_tuning_step(&all); return (int)all.saved; }
+int found(void) { return (int)all.found; }
+int taken(void) { return (int)all.loaded.taken; }
+double critical(void) { return copter_settings.battery.critical_voltage; }
+double thrust(void) { return copter_settings.landed_thrust; }
+int cells(void) { return copter_settings.battery.cells; }
+int returns(void) { return copter_settings.mode.returns; }
+int refused_defaults(void)
+{
+    int refused = 0;
+    for (uint16_t i = 0u; i < keel_parameters_count(&all.table); i++) {
+        refused += keel_parameters_set(&all.table, i, copter_parameter[i].initial) != KEEL_OK;
+    }
+    return refused;
+}
+"""
+
+OK, NONE, BUSY = 0, 2, 1
+NO_MEMORY, UNDER_WAY = 1, 2  # KEEL_ERR_NULL, KEEL_ERR_STATE
+FLOAT, INT32, BOOL = 0, 1, 2
+
+
+class CopterParameters(unittest.TestCase):
+    """What the copter starts with."""
+
+    scratch: ClassVar[str]
+    copter: ClassVar[ctypes.CDLL]
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.scratch = tempfile.mkdtemp()
+        cls.addClassCleanup(shutil.rmtree, cls.scratch)
+        shim, library = Path(cls.scratch, "shim.c"), Path(cls.scratch, "copter.so")
+        shim.write_text(SHIM, encoding="utf-8")
+        folders = ("include", "bsp", "examples/copter", "examples/copter_in_plant")
+        copter = [ROOT / "examples/copter" / f"{name}.c"
+                  for name in ("parameters", "parameter_table", "settings", "tuning")]  # fmt: skip
+        sources = [*copter, ROOT / "examples/copter_in_plant/file_medium.c",
+                   ROOT / "bsp/common/slots.c",
+                   *sorted((ROOT / "src/middleware").glob("*.c")),
+                   *sorted((ROOT / "src/flight").glob("*.c"))]  # fmt: skip
+        output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC",
+                   *(f"-I{ROOT / folder}" for folder in folders), shim, *sources, "-lm",
+                   "-o", library])  # fmt: skip
+        cls.copter = ctypes.CDLL(str(library))
+        for name in ("critical", "thrust"):
+            getattr(cls.copter, name).restype = ctypes.c_double
+
+    def setUp(self) -> None:
+        self.file = Path(self.scratch, f"{self.id()}.fram")
+
+    def start(self) -> None:
+        self.assertEqual(self.copter.start(str(self.file).encode()), OK)
+
+    def set(self, name: str, type_: int, number: float) -> int:
+        return int(self.copter.set(name.encode(), type_, ctypes.c_double(number)))
+
+    def save(self) -> None:
+        self.assertEqual(self.copter.save(), OK)
+        while self.copter.step() == BUSY:
+            pass
+
+    def test_PAR_010_without_a_stored_set_all_is_as_the_defaults(self) -> None:
+        self.assertEqual(self.copter.start(None), OK)
+        self.assertTrue(self.copter.is_default())
+        self.start()
+        self.assertTrue(self.copter.is_default())
+        self.assertEqual(self.copter.found(), NONE)
+        self.assertEqual(self.copter.refused_defaults(), 0)
+
+    def test_PAR_010_what_was_saved_is_in_force_after_the_next_start(self) -> None:
+        self.start()
+        self.assertEqual(self.set("BAT_V_CRIT", FLOAT, 3.25), OK)
+        self.assertEqual(self.set("THR_HOVER", FLOAT, 0.5), OK)
+        self.assertEqual(self.set("BAT_CELLS", INT32, 3), OK)
+        self.assertEqual(self.set("FS_RETURN", BOOL, 0), OK)
+        self.assertTrue(self.copter.is_default())
+        self.save()
+        self.start()
+        self.assertEqual(self.copter.taken(), 4)
+        self.assertEqual(self.copter.critical(), 3.25)
+        self.assertEqual(self.copter.thrust(), 0.375)
+        self.assertEqual((self.copter.cells(), self.copter.returns()), (3, 0))
+
+    def test_PAR_010_a_value_that_a_unit_does_not_take_with_the_others(self) -> None:
+        self.start()
+        self.assertNotEqual(self.set("BAT_V_CRIT", FLOAT, 3.6), OK)  # Low is 3.5.
+        self.assertEqual(self.set("BAT_V_LOW", FLOAT, 3.7), OK)
+        self.assertEqual(self.set("BAT_V_CRIT", FLOAT, 3.6), OK)
+        self.save()
+        self.start()
+        self.assertEqual(self.copter.taken(), 2)
+
+    def test_PAR_010_defaults_are_stored_as_nothing(self) -> None:
+        self.start()
+        self.save()
+        self.start()
+        self.assertEqual((self.copter.found(), self.copter.taken()), (OK, 0))
+        self.assertTrue(self.copter.is_default())
+
+    def test_PAR_010_a_damaged_memory_gives_the_defaults(self) -> None:
+        self.start()
+        self.set("BAT_CELLS", INT32, 3)
+        self.save()
+        self.file.write_bytes(bytes(byte ^ 0x10 for byte in self.file.read_bytes()))
+        self.start()
+        self.assertEqual(self.copter.found(), NONE)
+        self.assertTrue(self.copter.is_default())
+
+    def test_PAR_010_saves_that_cannot_be(self) -> None:
+        self.assertEqual(self.copter.start(None), OK)
+        self.assertEqual(self.copter.save(), NO_MEMORY)
+        self.start()
+        self.assertEqual(self.copter.save(), OK)
+        self.assertEqual(self.copter.save(), UNDER_WAY)
+
+
+if __name__ == "__main__":
+    unittest.main()

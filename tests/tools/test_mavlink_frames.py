@@ -1,0 +1,266 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""MAVLink's frames beside pymavlink: what one writes, the other reads, and both refuse the same.
+
+Needs the group "mavlink" of the toolchain: pymavlink, with its definitions of the common messages.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import random
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from typing import Any, ClassVar
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from common.run import output_of  # noqa: E402
+from toolchain import Toolchain  # noqa: E402
+
+FIRST, SIGNED, PAYLOAD_MAX = 0xFD, 1, 255
+
+# Decoder and encoder behind functions of numbers and bytes alone, so that nothing here knows how
+# they are laid out.
+SHIM = """\
+#include "keel/middleware/mavlink.h"
+static keel_mavlink_message_t table[KEEL_MAVLINK_MESSAGES_MAX];
+static keel_mavlink_t mavlink;
+int begin(const unsigned *rows, unsigned known)
+{
+    for (unsigned i = 0; i < known; i++) {
+        table[i].id = rows[4 * i];
+        table[i].crc_extra = (uint8_t)rows[4 * i + 1];
+        table[i].shortest = (uint8_t)rows[4 * i + 2];
+        table[i].longest = (uint8_t)rows[4 * i + 3];
+    }
+    return (int)keel_mavlink_init(&mavlink, table, known);
+}
+int take(int byte) { return keel_mavlink_take(&mavlink, (uint8_t)byte) ? 1 : 0; }
+void gap(void) { keel_mavlink_gap(&mavlink); }
+int says(int what)
+{
+    const keel_mavlink_frame_t *f = &mavlink.frame;
+    const int all[] = {(int)f->id, f->sequence, f->system, f->component, f->compatible, f->length,
+                       f->checksum, f->is_signed, f->link};
+    return all[what];
+}
+unsigned long long timestamp(void) { return mavlink.frame.timestamp; }
+const unsigned char *payload(void) { return mavlink.frame.payload; }
+const unsigned char *seal(void) { return mavlink.frame.seal; }
+unsigned counted(int what)
+{
+    const keel_mavlink_count_t *c = &mavlink.count;
+    const unsigned all[] = {c->frames, c->checksums, c->unknown, c->lengths, c->flags, c->others};
+    return all[what];
+}
+int put(int place, int sequence, int system, int component, const unsigned char *bytes, int length,
+        unsigned char *out, int size)
+{
+    keel_mavlink_sender_t sender = {(uint8_t)system, (uint8_t)component, (uint8_t)sequence, false};
+    return keel_mavlink_write(&sender, &table[place], bytes, (uint8_t)length, out, (uint32_t)size);
+}
+"""
+FRAMES, CHECKSUMS, UNKNOWN, LENGTHS, FLAGS, OTHERS = range(6)
+
+
+def pymavlink() -> Any:
+    """Its common messages, of MAVLink 2."""
+    tools = Toolchain()
+    tools.ensure("mavlink")
+    sys.path.insert(0, tools.command("mavlink-packages")[0])
+    os.environ["MAVLINK20"] = "1"
+    from pymavlink.dialects.v20 import common
+
+    return common
+
+
+@unittest.skipUnless(shutil.which("gcc"), "needs gcc")
+class Frames(unittest.TestCase):
+    """Each frame that is right, and no other."""
+
+    library: ClassVar[ctypes.CDLL]
+    common: ClassVar[Any]
+    known: ClassVar[list[int]]
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.common = pymavlink()
+        cls.known = sorted(cls.common.mavlink_map)[:256]
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
+        shim.write_text(SHIM)
+        sources = [ROOT / "src/middleware/mavlink.c", ROOT / "src/middleware/crc.c"]
+        output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC", f"-I{ROOT / 'include'}",
+                   shim, *sources, "-o", built])  # fmt: skip
+        cls.library = ctypes.CDLL(str(built))
+        cls.library.payload.restype = ctypes.POINTER(ctypes.c_ubyte)
+        cls.library.seal.restype = ctypes.POINTER(ctypes.c_ubyte)
+        cls.library.timestamp.restype = ctypes.c_ulonglong
+
+    def setUp(self) -> None:
+        self.random = random.Random(20261125)
+        self.begin()
+
+    def begin(self) -> None:
+        rows: list[int] = []
+        for number in self.known:
+            message = self.common.mavlink_map[number]
+            rows += [number, message.crc_extra, 1, message.unpacker.size]
+        table = (ctypes.c_uint * len(rows))(*rows)
+        self.assertEqual(self.library.begin(table, len(self.known)), 0)
+
+    def feed(self, data: bytes) -> list[int]:
+        """Behind which bytes a frame was taken."""
+        return [at for at, byte in enumerate(data) if self.library.take(byte)]
+
+    def payload(self) -> bytes:
+        return bytes(self.library.payload()[:PAYLOAD_MAX])
+
+    def any_payload(self, number: int) -> bytes:
+        """All fields of a message, some of which are 0, as some of its last ones."""
+        size = self.common.mavlink_map[number].unpacker.size
+        kept = self.random.randrange(size + 1)
+        odds = self.random.random()
+        some = [self.random.randrange(256) if self.random.random() < odds else 0
+                for _ in range(kept)]  # fmt: skip
+        return bytes(some).ljust(size, b"\0")
+
+    def sender(self, key: bytes = b"") -> Any:
+        mav = self.common.MAVLink(None, self.random.randrange(256), self.random.randrange(256))
+        mav.seq = self.random.randrange(256)
+        if key:
+            mav.signing.secret_key, mav.signing.sign_outgoing = key, True
+            mav.signing.link_id = self.random.randrange(256)
+            mav.signing.timestamp = self.random.randrange(2**48)
+        return mav
+
+    def packed(self, number: int, payload: bytes, mav: Any) -> bytes:
+        """The frame as pymavlink writes it."""
+        message = self.common.MAVLink_message(number, self.common.mavlink_map[number].msgname)
+        extra = self.common.mavlink_map[number].crc_extra
+        return bytes(message._pack(mav, extra, payload))
+
+    def accepts(self, frame: bytes) -> bool:
+        """Whether pymavlink takes these bytes as a frame of a message that it knows."""
+        receiver = self.common.MAVLink(None)
+        receiver.robust_parsing = True
+        message = receiver.parse_char(frame)
+        return message is not None and message.get_msgId() in self.common.mavlink_map
+
+    def test_what_it_writes_is_read(self) -> None:
+        for turn in range(4000):
+            number = self.random.choice(self.known)
+            payload = self.any_payload(number)
+            mav = self.sender(bytes(32) if turn % 3 == 0 else b"")
+            expected = [number, mav.seq, mav.srcSystem, mav.srcComponent, 0]
+            frame = self.packed(number, payload, mav)
+            self.assertEqual(self.feed(frame), [len(frame) - 1])
+            self.assertEqual([self.library.says(what) for what in range(5)], expected)
+            self.assertEqual(self.library.says(5), frame[1])
+            self.assertEqual(self.payload(), payload.ljust(PAYLOAD_MAX, b"\0"))
+            self.assertEqual(self.library.says(7), frame[2])
+            if turn % 3 == 0:
+                self.assertEqual(self.library.says(8), mav.signing.link_id)
+                self.assertEqual(self.library.timestamp(), mav.signing.timestamp - 1)
+                self.assertEqual(bytes(self.library.seal()[:6]), frame[-6:])
+
+    def test_what_is_written_is_what_it_writes(self) -> None:
+        out = (ctypes.c_ubyte * 280)()
+        for _ in range(4000):
+            number = self.random.choice(self.known)
+            payload, mav = self.any_payload(number), self.sender()
+            sequence, place = mav.seq, self.known.index(number)
+            expected = self.packed(number, payload, mav)
+            who = (sequence, mav.srcSystem, mav.srcComponent)
+            self.assertEqual(
+                self.library.put(place, *who, payload, len(payload), out, len(expected) - 1), 0
+            )
+            written = self.library.put(place, *who, payload, len(payload), out, 280)
+            self.assertEqual(bytes(out[:written]), expected)
+            self.assertTrue(self.accepts(bytes(out[:written])))
+
+    def test_both_refuse_the_same_damaged_frames(self) -> None:
+        taken = 0
+        for _ in range(6000):
+            number = self.random.choice(self.known)
+            frame = bytearray(self.packed(number, self.any_payload(number), self.sender()))
+            for _ in range(self.random.randrange(3)):
+                frame[self.random.randrange(3, len(frame))] ^= 1 << self.random.randrange(8)
+            self.library.gap()
+            right = self.accepts(bytes(frame))
+            self.assertEqual(self.feed(bytes(frame)), [len(frame) - 1] if right else [])
+            taken += right
+        self.assertGreater(taken, 1500)
+        self.assertGreater(self.library.counted(CHECKSUMS), 1000)
+        self.assertGreater(self.library.counted(UNKNOWN), 10)
+
+    def test_shortened_frames_and_what_follows_a_gap(self) -> None:
+        for _ in range(1000):
+            number = self.random.choice(self.known)
+            frame = self.packed(number, self.any_payload(number), self.sender())
+            self.assertEqual(self.feed(frame[: self.random.randrange(len(frame))]), [])
+            self.library.gap()
+            self.assertEqual(self.feed(frame), [len(frame) - 1])
+
+    def expected_ends(self, stream: bytes) -> list[int]:
+        """Where frames end for a search that looks at all bytes at once."""
+        ends, at = [], 0
+        while at < len(stream):
+            if stream[at] != FIRST:
+                at += 1
+                continue
+            if at + 3 > len(stream):
+                break
+            if stream[at + 2] > SIGNED:
+                at += 1
+                continue
+            whole = 12 + stream[at + 1] + 13 * stream[at + 2]
+            if at + whole > len(stream):
+                break
+            if self.is_right(stream[at : at + whole]):
+                ends.append(at + whole - 1)
+            at += whole
+        return ends
+
+    def is_right(self, frame: bytes) -> bool:
+        number, end = int.from_bytes(frame[7:10], "little"), 10 + frame[1]
+        message = self.common.mavlink_map.get(number)
+        if message is None or not 1 <= frame[1] <= message.unpacker.size:
+            return False
+        crc = self.common.x25crc([*frame[1:end], message.crc_extra]).crc
+        return int(crc) == int.from_bytes(frame[end : end + 2], "little")
+
+    def any_stretch(self) -> bytes:
+        """A frame, whole or not; or bytes that are none; or beginnings of one."""
+        number = self.random.choice(self.known)
+        frame = self.packed(number, self.any_payload(number), self.sender())
+        choice = self.random.random()
+        if choice < 0.6:
+            return frame
+        if choice < 0.7:
+            return frame[: self.random.randrange(len(frame))]
+        if choice < 0.8:
+            return bytes([FIRST] * self.random.randrange(1, 5))
+        return self.random.randbytes(self.random.randrange(1, 40))
+
+    def test_a_stream_without_gaps(self) -> None:
+        frames = 0
+        for _ in range(150):
+            stream = b"".join(self.any_stretch() for _ in range(40))
+            expected = self.expected_ends(stream)
+            self.begin()
+            self.assertEqual(self.feed(stream), expected)
+            self.assertEqual(self.library.counted(FRAMES), len(expected))
+            frames += len(expected)
+        self.assertGreater(frames, 1000)
+
+
+if __name__ == "__main__":
+    unittest.main()

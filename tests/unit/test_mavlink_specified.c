@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* MAVLink's frames beside their executable specification (specs/model): random frames, disturbed
+ * and not, to both decoders; after each byte every field must be the same. What is written must be,
+ * too. */
+#include "any.h"
+#include "keel/middleware/mavlink.h"
+#include "unity.h"
+
+#include <string.h>
+
+/* The model is part of this test: the kernel that it is linked with has none. */
+#include "../../specs/model/mavlink.c"
+
+#define FRAMES 6000u
+#define SEED   20261125u
+#define KNOWN  5u
+
+static const keel_mavlink_message_t messages[KNOWN] = {
+    {.id = 0u, .crc_extra = 50u, .shortest = 1u, .longest = 9u},
+    {.id = 30u, .crc_extra = 39u, .shortest = 20u, .longest = 28u},
+    {.id = 253u, .crc_extra = 83u, .shortest = 0u, .longest = 255u},
+    {.id = 300u, .crc_extra = 217u, .shortest = 1u, .longest = 255u},
+    {.id = 0xFFFFFFu, .crc_extra = 255u, .shortest = 1u, .longest = 40u},
+};
+
+static keel_mavlink_t mavlink;
+static keel_mavlink_t model;
+static uint32_t taken;
+
+void setUp(void)
+{
+    any_from(SEED);
+    memset(&mavlink, 0, sizeof mavlink);
+    memset(&model, 0, sizeof model);
+    taken = 0u;
+}
+
+void tearDown(void)
+{
+}
+
+static void set_up(void)
+{
+    const uint32_t known = one_in(2u) ? KNOWN : (any() % (KNOWN + 1u));
+
+    memset(&mavlink, 0, sizeof mavlink);
+    memset(&model, 0, sizeof model);
+    TEST_ASSERT_EQUAL(KEEL_OK, model_mavlink_init(&model, messages, known));
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_mavlink_init(&mavlink, messages, known));
+    if (one_in(8u)) {
+        memset(&mavlink.count, 0xFF, sizeof mavlink.count);
+        memset(&model.count, 0xFF, sizeof model.count);
+    }
+}
+
+static void compare(void)
+{
+    TEST_ASSERT_EQUAL_MEMORY(&model, &mavlink, sizeof mavlink);
+}
+
+static void both_take(uint8_t byte)
+{
+    const bool expected = model_mavlink_take(&model, byte);
+
+    TEST_ASSERT_EQUAL(expected, keel_mavlink_take(&mavlink, byte));
+    compare();
+    if (expected) {
+        uint8_t frame[265];
+
+        memcpy(frame, mavlink.header, 10u);
+        memcpy(&frame[10], mavlink.payload, 255u);
+        TEST_ASSERT_EQUAL_HEX16(model_mavlink_checksum(frame, messages[mavlink.message].crc_extra),
+                                mavlink.frame.checksum);
+        taken++;
+    }
+}
+
+static void any_bytes(uint8_t *bytes, uint32_t count)
+{
+    for (uint32_t i = 0u; i < count; i++) {
+        bytes[i] = (uint8_t)(one_in(3u) ? 0u : (one_in(8u) ? 0xFDu : any()));
+    }
+}
+
+/* A frame as it is specified, and the same as the unit writes it. */
+static uint32_t any_frame(uint8_t *frame)
+{
+    const keel_mavlink_message_t *message = &messages[any() % KNOWN];
+    keel_mavlink_sender_t sender = {(uint8_t)any(), (uint8_t)any(), (uint8_t)any(), one_in(4u)};
+    keel_mavlink_sender_t model_sender = sender;
+    const uint8_t length = (uint8_t)(one_in(8u) ? any() : (1u + (any() % message->longest)));
+    const uint32_t size = one_in(8u) ? any() % 281u : 280u;
+    uint8_t payload[255];
+    uint8_t out[280];
+    uint32_t whole;
+
+    any_bytes(payload, 255u);
+    any_bytes(frame, 280u);
+    memcpy(out, frame, sizeof out);
+    whole = model_mavlink_write(&model_sender, message, payload, length, frame, size);
+    TEST_ASSERT_EQUAL_UINT16(whole,
+                             keel_mavlink_write(&sender, message, payload, length, out, size));
+    TEST_ASSERT_EQUAL_MEMORY(frame, out, sizeof out);
+    TEST_ASSERT_EQUAL_MEMORY(&model_sender, &sender, sizeof sender);
+    return whole;
+}
+
+static void MAV_003_each_byte_is_as_specified(void)
+{
+    for (uint32_t n = 0u; n < FRAMES; n++) {
+        uint8_t frame[280];
+        const uint32_t whole = any_frame(frame);
+
+        if ((n % 64u) == 0u) {
+            set_up();
+        }
+        for (uint32_t i = 0u; i < whole; i++) {
+            if (one_in(512u)) {
+                both_take((uint8_t)(one_in(2u) ? 0xFDu : any()));
+            }
+            if (!one_in(512u)) {
+                both_take((uint8_t)(one_in(256u) ? any() : frame[i]));
+            }
+        }
+        if (one_in(2u)) {
+            model_mavlink_gap(&model);
+            keel_mavlink_gap(&mavlink);
+            compare();
+        }
+    }
+    TEST_ASSERT_TRUE(taken > (FRAMES / 10u));
+}
+
+static void MAV_003_noise_is_as_specified(void)
+{
+    const uint8_t often[4] = {0xFD, 0x00, 0x01, 0xFD};
+
+    set_up();
+    for (uint32_t n = 0u; n < (FRAMES * 40u); n++) {
+        both_take(one_in(2u) ? often[any() % 4u] : (uint8_t)any());
+    }
+}
+
+static void MAV_001_each_table_is_as_specified(void)
+{
+    for (uint32_t n = 0u; n < 20000u; n++) {
+        keel_mavlink_message_t table[4];
+        const uint32_t known = one_in(16u) ? (257u + (any() % 8u)) : (any() % 5u);
+
+        for (uint32_t i = 0u; i < 4u; i++) {
+            table[i].id = one_in(16u) ? any() : ((i * 2u) + (any() % 3u));
+            table[i].shortest = (uint8_t)(one_in(8u) ? any() : 1u);
+            table[i].longest = (uint8_t)any();
+        }
+        TEST_ASSERT_EQUAL(model_mavlink_init(&model, table, known),
+                          keel_mavlink_init(&mavlink, table, known));
+        compare();
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(MAV_003_each_byte_is_as_specified);
+    RUN_TEST(MAV_003_noise_is_as_specified);
+    RUN_TEST(MAV_001_each_table_is_as_specified);
+    return UNITY_END();
+}
