@@ -473,6 +473,7 @@ uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_me
                             const uint8_t *payload, uint8_t length, uint8_t *out, uint32_t size)
 {
     const uint32_t signature = sender->is_signing ? (uint32_t)KEEL_MAVLINK_SIGNATURE_BYTES : 0u;
+    const uint8_t sequence = sender->sequence;
     uint32_t end;
     uint32_t whole;
     uint16_t checksum;
@@ -492,7 +493,7 @@ uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_me
     out[LENGTH_AT] = cut;
     out[FLAGS_AT] = sender->is_signing ? FLAG_SIGNED : 0u;
     out[COMPATIBLE_AT] = 0u;
-    out[SEQUENCE_AT] = sender->sequence;
+    out[SEQUENCE_AT] = sequence;
     out[SYSTEM_AT] = sender->system;
     out[COMPONENT_AT] = sender->component;
     out[ID_AT] = (uint8_t)(message->id & BYTE);
@@ -507,7 +508,7 @@ uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_me
     }
     checksum = checksum_of(out, end, message->crc_extra);
     out[end] = (uint8_t)(checksum & BYTE);
-    out[end + 1u] = (uint8_t)(checksum >> BITS);
+    out[end + 1u] = (uint8_t)(((uint32_t)checksum >> BITS) & BYTE);
     /*@ loop invariant end + 2 <= i <= whole;
       @ loop assigns i, out[end + 2 .. whole - 1];
       @ loop variant whole - i;
@@ -515,6 +516,6 @@ uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_me
     for (uint32_t i = end + 2u; i < whole; i++) {
         out[i] = 0u;
     }
-    sender->sequence = (uint8_t)((sender->sequence + 1u) & BYTE);
+    sender->sequence = (uint8_t)((sequence + 1u) & BYTE);
     return (uint16_t)whole;
 }
