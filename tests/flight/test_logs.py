@@ -173,19 +173,30 @@ def test_what_does_not_fit_is_a_dropout(tmp_path: Path) -> None:
     assert "Dropouts: count" in tool("info", path)
 
 
+def lie(copter: Copter, now_ms: int, moved: float = 0.0) -> None:
+    """What the inertial units measure on the ground, when unit 1 is moved so much."""
+    memory: Any = copter.sensors["imu"]
+    for unit in range(3):
+        value = moved if unit == 0 else 0.0
+        memory["accelerometer"][unit] = (value, 0.0, -GRAVITY)
+        memory["gyroscope"][unit] = (0.0, 0.1 * value, 0.0)
+        memory["count"][unit] = now_ms
+
+
 def test_log_and_telemetry_go_together(copter: Copter, tmp_path: Path) -> None:
-    """No run of either is left out, when telemetry sends on all its links as much as it can."""
+    """No run of either is left out, with telemetry on all its links."""
     path = tmp_path / "both.ulg"
     copter.log(path)
     copter.start(100, plain_mean=False, links=[Link()] * copter.links)
     sent = 0
     for now_ms in range(1, 5001):
+        lie(copter, now_ms)
         assert copter.run_until(1000 * now_ms) == 0
         sent += sum(len(copter.receive(link)) for link in range(copter.links))
     copter.log(None)
     log = ulog.read(path)
     last = log.topic("tasks")[-1]
-    assert sent > 20_000 and not log.dropouts
+    assert sent > 3_000 and not log.dropouts
     assert not last["skipped"].any()
     runs_per_s = last["runs"][len(copter.tasks) :] / (last["timestamp"] / 1e6)
     assert runs_per_s[:2] == pytest.approx([100.0, 250.0], rel=0.02)
@@ -195,15 +206,10 @@ def shaken(copter: Copter, path: Path) -> None:
     """Ten seconds on the ground, with unit 1 shaking."""
     copter.log(path)
     copter.start(100, plain_mean=False)
-    memory: Any = copter.sensors["imu"]
     for now_ms in range(1, 10001):
         value = sum(size * math.sin(2.0 * math.pi * hertz * now_ms / 1000.0)
                     for hertz, size in SHAKES.items())  # fmt: skip
-        for unit in range(3):
-            moved = value if unit == 0 else 0.0
-            memory["accelerometer"][unit] = (moved, 0.0, -GRAVITY)
-            memory["gyroscope"][unit] = (0.0, 0.1 * moved, 0.0)
-            memory["count"][unit] = now_ms
+        lie(copter, now_ms, value)
         assert copter.run_until(1000 * now_ms) == 0
     copter.log(None)
 
