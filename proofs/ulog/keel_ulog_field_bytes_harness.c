@@ -2,7 +2,7 @@
 // cbmc: --external-sat-solver cadical
 // defines: -DKEEL_ULOG_MESSAGE_BYTES=43u -DKEEL_ULOG_NAME_LENGTH=4u -DKEEL_ULOG_FIELDS=2u
 // sources: src/middleware/ulog.c specs/model/ulog.c
-// covers: keel_ulog_field_bytes type_of model_ulog_field_bytes type_size
+// covers: keel_ulog_field_bytes value_bytes model_ulog_field_bytes type_size
 #include "ulog_proof.h"
 
 void keel_ulog_field_bytes_harness(void)

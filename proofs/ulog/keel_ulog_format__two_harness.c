@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 46 --max-field-sensitivity-array-size 400 --external-sat-solver cadical
+// cbmc: --unwind 46 --external-sat-solver cadical
 // defines: -DKEEL_ULOG_MESSAGE_BYTES=43u -DKEEL_ULOG_NAME_LENGTH=4u -DKEEL_ULOG_FIELDS=2u
 // sources: src/middleware/ulog.c specs/model/ulog.c
-// covers: keel_ulog_format is_format_known refuse put_field
+// covers: keel_ulog_format is_format_known refuse put_field log_byte close_message finish
 //
-// One topic and its first field, any second one, and any number of fields.
+// Any first field, a second one with which the message may be too long, and any number of them.
 #include "ulog_proof.h"
 
 void keel_ulog_format__two_harness(void)
 {
     keel_ulog_message_t message = any_message();
     keel_ulog_message_t model = message;
-    const keel_ulog_format_t format = {.name = {"on"},
-                                       .fields = nondet_u8(),
-                                       .field = {{{"a"}, KEEL_ULOG_FLOAT, 3u}, nondet_field()}};
+    const keel_ulog_format_t format = {
+        .name = {"on"},
+        .fields = nondet_u8(),
+        .field = {nondet_field(), {{"abcd"}, KEEL_ULOG_UINT64, 200u}}};
     bool expected;
     bool made;
 

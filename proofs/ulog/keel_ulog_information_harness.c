@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 46 --max-field-sensitivity-array-size 400 --external-sat-solver cadical
+// cbmc: --unwind 46 --unwindset put_text.0:9,append_text.0:9 --external-sat-solver cadical
 // defines: -DKEEL_ULOG_MESSAGE_BYTES=43u -DKEEL_ULOG_NAME_LENGTH=4u -DKEEL_ULOG_FIELDS=2u
 // sources: src/middleware/ulog.c specs/model/ulog.c
-// covers: keel_ulog_information put_type put_name put_text set_key_length length_of
+// covers: keel_ulog_information put_name put_text set_key_length
 // covers: model_ulog_information append_text
 //
 // Any name, any text of up to 8 characters.

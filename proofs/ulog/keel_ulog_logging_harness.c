@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 46 --max-field-sensitivity-array-size 400 --external-sat-solver cadical
+// cbmc: --unwind 46 --unwindset put_text.0:37,append_text.0:37 --external-sat-solver cadical
 // defines: -DKEEL_ULOG_MESSAGE_BYTES=43u -DKEEL_ULOG_NAME_LENGTH=4u -DKEEL_ULOG_FIELDS=2u
 // sources: src/middleware/ulog.c specs/model/ulog.c
 // covers: keel_ulog_logging put_number put_text model_ulog_logging

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 46 --max-field-sensitivity-array-size 400 --external-sat-solver cadical
+// cbmc: --unwind 46 --external-sat-solver cadical
 // defines: -DKEEL_ULOG_MESSAGE_BYTES=43u -DKEEL_ULOG_NAME_LENGTH=4u -DKEEL_ULOG_FIELDS=2u
 // sources: src/middleware/ulog.c specs/model/ulog.c
 // covers: keel_ulog_subscription put_number put_name model_ulog_subscription append_u16

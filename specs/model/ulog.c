@@ -1,27 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "ulog.h"
 
-/* Room for the longest message that can be asked for. */
-#define MOST (300u + ((KEEL_ULOG_FIELDS + 1u) * (KEEL_ULOG_NAME_LENGTH + 20u)))
+/* The longest type's characters. */
+#define TYPE_MOST 8u
 
-/* A message of any length. */
+/* A message of any length, and its first bytes. */
 typedef struct draft {
     uint32_t size;
-    uint8_t bytes[MOST];
+    uint8_t bytes[KEEL_ULOG_MESSAGE_BYTES];
 } draft_t;
 
 static void append(draft_t *draft, uint8_t byte)
 {
-    draft->bytes[draft->size] = byte;
-    draft->size++;
-}
-
-/* A string of C. */
-static void append_words(draft_t *draft, const char *words)
-{
-    for (uint32_t i = 0u; words[i] != '\0'; i++) {
-        append(draft, (uint8_t)words[i]);
+    if (draft->size < KEEL_ULOG_MESSAGE_BYTES) {
+        draft->bytes[draft->size] = byte;
     }
+    draft->size++;
 }
 
 /* A name that fills all of its characters has no 0 at its end. */
@@ -56,33 +50,17 @@ static void append_u64(draft_t *draft, uint64_t value)
     }
 }
 
-static const char *type_name(uint8_t type)
+/* ULG-004: as C has it. */
+static void append_type(draft_t *draft, uint8_t type)
 {
-    switch (type) {
-    case KEEL_ULOG_INT8:
-        return "int8_t";
-    case KEEL_ULOG_UINT8:
-        return "uint8_t";
-    case KEEL_ULOG_INT16:
-        return "int16_t";
-    case KEEL_ULOG_UINT16:
-        return "uint16_t";
-    case KEEL_ULOG_INT32:
-        return "int32_t";
-    case KEEL_ULOG_UINT32:
-        return "uint32_t";
-    case KEEL_ULOG_INT64:
-        return "int64_t";
-    case KEEL_ULOG_UINT64:
-        return "uint64_t";
-    case KEEL_ULOG_FLOAT:
-        return "float";
-    case KEEL_ULOG_DOUBLE:
-        return "double";
-    case KEEL_ULOG_BOOL:
-        return "bool";
-    default:
-        return "char";
+    static const char names[KEEL_ULOG_TYPES][TYPE_MOST + 1u] = {
+        "int8_t",  "uint8_t",  "int16_t", "uint16_t", "int32_t", "uint32_t",
+        "int64_t", "uint64_t", "float",   "double",   "bool",    "char"};
+
+    for (uint32_t i = 0u; i < TYPE_MOST; i++) {
+        if (names[type][i] != '\0') {
+            append(draft, (uint8_t)names[type][i]);
+        }
     }
 }
 
@@ -170,6 +148,18 @@ void model_ulog_flags(keel_ulog_message_t *message)
     (void)finish(&draft, message);
 }
 
+/* ULG-004: `float[4] q;` */
+static void append_field(draft_t *draft, const keel_ulog_field_t *field)
+{
+    append_type(draft, field->type);
+    if (field->count != 1u) {
+        append_array(draft, field->count);
+    }
+    append(draft, ' ');
+    append_name(draft, &field->name);
+    append(draft, ';');
+}
+
 /* ULG-004: `name:uint64_t timestamp;float[4] q;` */
 bool model_ulog_format(keel_ulog_message_t *message, const keel_ulog_format_t *format)
 {
@@ -178,24 +168,16 @@ bool model_ulog_format(keel_ulog_message_t *message, const keel_ulog_format_t *f
     if (format->fields > KEEL_ULOG_FIELDS) {
         return none(message);
     }
-    for (uint32_t i = 0u; i < format->fields; i++) {
-        if (format->field[i].type >= KEEL_ULOG_TYPES) {
+    for (uint32_t i = 0u; i < KEEL_ULOG_FIELDS; i++) {
+        if ((i < format->fields) && (format->field[i].type >= KEEL_ULOG_TYPES)) {
             return none(message);
         }
     }
     start(&draft, 'F');
     append_name(&draft, &format->name);
     append(&draft, ':');
-    for (uint32_t i = 0u; i < format->fields; i++) {
-        const keel_ulog_field_t *const field = &format->field[i];
-
-        append_words(&draft, type_name(field->type));
-        if (field->count != 1u) {
-            append_array(&draft, field->count);
-        }
-        append(&draft, ' ');
-        append_name(&draft, &field->name);
-        append(&draft, ';');
+    for (uint32_t i = 0u; (i < KEEL_ULOG_FIELDS) && (i < format->fields); i++) {
+        append_field(&draft, &format->field[i]);
     }
     return finish(&draft, message);
 }
@@ -208,7 +190,7 @@ bool model_ulog_information(keel_ulog_message_t *message, const keel_ulog_name_t
 
     start(&draft, 'I');
     append(&draft, 0u);
-    append_words(&draft, "char");
+    append_type(&draft, KEEL_ULOG_CHAR);
     append_array(&draft, length);
     append(&draft, ' ');
     append_name(&draft, name);
@@ -228,7 +210,8 @@ bool model_ulog_parameter(keel_ulog_message_t *message, const keel_ulog_name_t *
     }
     start(&draft, 'P');
     append(&draft, 0u);
-    append_words(&draft, (type == KEEL_ULOG_FLOAT) ? "float " : "int32_t ");
+    append_type(&draft, type);
+    append(&draft, ' ');
     append_name(&draft, name);
     draft.bytes[3] = (uint8_t)(draft.size - 4u);
     for (uint32_t i = 0u; i < 4u; i++) {

@@ -30,25 +30,11 @@
 #define US_PER_MS   1000u
 #define DROPOUT_MAX 65535u
 
-/* Characters of a type, and of one with brackets, three digits and a space behind it. */
-#define TYPE_LENGTH 9u
-#define TYPE_TEXT   (TYPE_LENGTH + 6u)
+/* Characters of the longest type, `uint64_t`. */
+#define TYPE_LENGTH 8u
 
 /* ULog and its version. */
 #define MAGIC_BYTES 8u
-
-typedef struct known_type {
-    char name[TYPE_LENGTH];
-    uint8_t size;
-} known_type_t;
-
-static const known_type_t known_types[KEEL_ULOG_TYPES] = {
-    [KEEL_ULOG_INT8] = {"int8_t", 1u},   [KEEL_ULOG_UINT8] = {"uint8_t", 1u},
-    [KEEL_ULOG_INT16] = {"int16_t", 2u}, [KEEL_ULOG_UINT16] = {"uint16_t", 2u},
-    [KEEL_ULOG_INT32] = {"int32_t", 4u}, [KEEL_ULOG_UINT32] = {"uint32_t", 4u},
-    [KEEL_ULOG_INT64] = {"int64_t", 8u}, [KEEL_ULOG_UINT64] = {"uint64_t", 8u},
-    [KEEL_ULOG_FLOAT] = {"float", 4u},   [KEEL_ULOG_DOUBLE] = {"double", 8u},
-    [KEEL_ULOG_BOOL] = {"bool", 1u},     [KEEL_ULOG_CHAR] = {"char", 1u}};
 
 /*@ // What was there is, with so many bytes behind it at most; those fit, if that many do.
   @ predicate ulog_kept{L, M}(keel_ulog_message_t *m, integer most) =
@@ -74,7 +60,7 @@ static const known_type_t known_types[KEEL_ULOG_TYPES] = {
   @ ensures \old(message->size) < KEEL_ULOG_MESSAGE_BYTES ==>
   @     message->bytes[\old(message->size)] == byte;
   @*/
-static void put_byte(keel_ulog_message_t *message, uint8_t byte)
+static void log_byte(keel_ulog_message_t *message, uint8_t byte)
 {
     if (message->size < KEEL_ULOG_MESSAGE_BYTES) {
         message->bytes[message->size] = byte;
@@ -100,7 +86,7 @@ static void put_number(keel_ulog_message_t *message, uint64_t value, uint32_t co
       @ loop variant count - i;
       @*/
     for (uint32_t i = 0u; i < count; i++) {
-        put_byte(message, (uint8_t)(rest % 256u));
+        log_byte(message, (uint8_t)(rest % 256u));
         rest /= 256u;
     }
 }
@@ -126,27 +112,8 @@ static void put_bytes(keel_ulog_message_t *message, const uint8_t *bytes, uint32
       @ loop variant count - i;
       @*/
     for (uint32_t i = 0u; i < count; i++) {
-        put_byte(message, bytes[i]);
+        log_byte(message, bytes[i]);
     }
-}
-
-/* Up to the first 0, or so many. */
-/*@ requires \valid_read(text + (0 .. most - 1));
-  @ assigns \nothing;
-  @ ensures \result <= most;
-  @*/
-static uint32_t length_of(const char *text, uint32_t most)
-{
-    uint32_t length = 0u;
-
-    /*@ loop invariant 0 <= length <= most;
-      @ loop assigns length;
-      @ loop variant most - length;
-      @*/
-    while ((length < most) && (text[length] != '\0')) {
-        length++;
-    }
-    return length;
 }
 
 /*@ requires \valid(message) && ulog_valid(message);
@@ -164,10 +131,11 @@ static void put_text(keel_ulog_message_t *message, const char *text, uint32_t co
       @ loop variant count - i;
       @*/
     for (uint32_t i = 0u; i < count; i++) {
-        put_byte(message, (uint8_t)text[i]);
+        log_byte(message, (uint8_t)text[i]);
     }
 }
 
+/* Up to the first 0, or all of it. */
 /*@ requires \valid(message) && ulog_valid(message) && \valid_read(name);
   @ requires \separated(message, name);
   @ assigns message->size, message->overflowed,
@@ -176,7 +144,14 @@ static void put_text(keel_ulog_message_t *message, const char *text, uint32_t co
   @*/
 static void put_name(keel_ulog_message_t *message, const keel_ulog_name_t *name)
 {
-    put_text(message, name->text, length_of(name->text, KEEL_ULOG_NAME_LENGTH));
+    /*@ loop invariant 0 <= i <= KEEL_ULOG_NAME_LENGTH && ulog_longer{Pre, Here}(message, i);
+      @ loop assigns i, message->size, message->overflowed,
+      @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
+      @ loop variant KEEL_ULOG_NAME_LENGTH - i;
+      @*/
+    for (uint32_t i = 0u; (i < KEEL_ULOG_NAME_LENGTH) && (name->text[i] != '\0'); i++) {
+        log_byte(message, (uint8_t)name->text[i]);
+    }
 }
 
 /* In decimal, without leading zeros. */
@@ -188,40 +163,68 @@ static void put_name(keel_ulog_message_t *message, const keel_ulog_name_t *name)
 static void put_decimal(keel_ulog_message_t *message, uint8_t value)
 {
     if (value >= 100u) {
-        put_byte(message, (uint8_t)(ZERO + (value / 100u)));
+        log_byte(message, (uint8_t)(ZERO + (value / 100u)));
     }
     if (value >= 10u) {
-        put_byte(message, (uint8_t)(ZERO + ((value / 10u) % 10u)));
+        log_byte(message, (uint8_t)(ZERO + ((value / 10u) % 10u)));
     }
-    put_byte(message, (uint8_t)(ZERO + (value % 10u)));
+    log_byte(message, (uint8_t)(ZERO + (value % 10u)));
+}
+
+/* A character of a type as C has it; 0 behind the last of a shorter one. */
+/*@ requires type < KEEL_ULOG_TYPES && place < TYPE_LENGTH;
+  @ assigns \nothing;
+  @*/
+static uint8_t type_letter(uint8_t type, uint32_t place)
+{
+    static const char names[KEEL_ULOG_TYPES][TYPE_LENGTH] = {
+        [KEEL_ULOG_INT8] = "int8_t",   [KEEL_ULOG_UINT8] = "uint8_t",
+        [KEEL_ULOG_INT16] = "int16_t", [KEEL_ULOG_UINT16] = "uint16_t",
+        [KEEL_ULOG_INT32] = "int32_t", [KEEL_ULOG_UINT32] = "uint32_t",
+        [KEEL_ULOG_INT64] = "int64_t", [KEEL_ULOG_UINT64] = "uint64_t",
+        [KEEL_ULOG_FLOAT] = "float",   [KEEL_ULOG_DOUBLE] = "double",
+        [KEEL_ULOG_BOOL] = "bool",     [KEEL_ULOG_CHAR] = "char"};
+
+    return (uint8_t)names[type][place];
 }
 
 /*@ requires type < KEEL_ULOG_TYPES;
   @ assigns \nothing;
-  @ ensures \result.size <= 8;
+  @ ensures \result <= 8;
   @*/
-static known_type_t type_of(uint8_t type)
+static uint8_t value_bytes(uint8_t type)
 {
-    return known_types[type];
+    static const uint8_t sizes[KEEL_ULOG_TYPES] = {
+        [KEEL_ULOG_INT8] = 1u,   [KEEL_ULOG_UINT8] = 1u,  [KEEL_ULOG_INT16] = 2u,
+        [KEEL_ULOG_UINT16] = 2u, [KEEL_ULOG_INT32] = 4u,  [KEEL_ULOG_UINT32] = 4u,
+        [KEEL_ULOG_INT64] = 8u,  [KEEL_ULOG_UINT64] = 8u, [KEEL_ULOG_FLOAT] = 4u,
+        [KEEL_ULOG_DOUBLE] = 8u, [KEEL_ULOG_BOOL] = 1u,   [KEEL_ULOG_CHAR] = 1u};
+
+    return sizes[type];
 }
 
-/* A type as C has it: `float `, or with brackets `float[4] `. */
+/* A type and a space, or with brackets: `float `, `float[4] `. */
 /*@ requires \valid(message) && ulog_valid(message) && type < KEEL_ULOG_TYPES;
   @ assigns message->size, message->overflowed,
   @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
-  @ ensures ulog_kept{Pre, Post}(message, TYPE_TEXT);
+  @ ensures ulog_kept{Pre, Post}(message, TYPE_LENGTH + 6);
   @*/
 static void put_type(keel_ulog_message_t *message, uint8_t type, bool is_array, uint8_t count)
 {
-    const known_type_t known = type_of(type);
-
-    put_text(message, known.name, length_of(known.name, TYPE_LENGTH));
-    if (is_array) {
-        put_byte(message, BRACKET);
-        put_decimal(message, count);
-        put_byte(message, END);
+    /*@ loop invariant 0 <= i <= TYPE_LENGTH && ulog_longer{Pre, Here}(message, i);
+      @ loop assigns i, message->size, message->overflowed,
+      @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
+      @ loop variant TYPE_LENGTH - i;
+      @*/
+    for (uint32_t i = 0u; (i < TYPE_LENGTH) && (type_letter(type, i) != 0u); i++) {
+        log_byte(message, type_letter(type, i));
     }
-    put_byte(message, SPACE);
+    if (is_array) {
+        log_byte(message, BRACKET);
+        put_decimal(message, count);
+        log_byte(message, END);
+    }
+    log_byte(message, SPACE);
 }
 
 /*@ requires \valid(message);
@@ -302,7 +305,7 @@ void keel_ulog_flags(keel_ulog_message_t *message)
       @ loop variant FLAG_BYTES - i;
       @*/
     for (uint32_t i = 0u; i < FLAG_BYTES; i++) {
-        put_byte(message, 0u);
+        log_byte(message, 0u);
     }
     (void)close_message(message);
 }
@@ -334,13 +337,13 @@ static bool is_format_known(const keel_ulog_format_t *format)
   @ requires field->type < KEEL_ULOG_TYPES && \separated(message, field);
   @ assigns message->size, message->overflowed,
   @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
-  @ ensures ulog_kept{Pre, Post}(message, TYPE_TEXT + KEEL_ULOG_NAME_LENGTH + 1);
+  @ ensures ulog_kept{Pre, Post}(message, TYPE_LENGTH + 6 + KEEL_ULOG_NAME_LENGTH + 1);
   @*/
 static void put_field(keel_ulog_message_t *message, const keel_ulog_field_t *field)
 {
     put_type(message, field->type, field->count != 1u, field->count);
     put_name(message, &field->name);
-    put_byte(message, SEMICOLON);
+    log_byte(message, SEMICOLON);
 }
 
 bool keel_ulog_format(keel_ulog_message_t *message, const keel_ulog_format_t *format)
@@ -350,7 +353,7 @@ bool keel_ulog_format(keel_ulog_message_t *message, const keel_ulog_format_t *fo
     }
     open_message(message, FORMAT);
     put_name(message, &format->name);
-    put_byte(message, COLON);
+    log_byte(message, COLON);
     /*@ loop invariant 0 <= i <= format->fields <= KEEL_ULOG_FIELDS;
       @ loop invariant \forall integer k; 0 <= k < format->fields ==>
       @     format->field[k].type < KEEL_ULOG_TYPES;
@@ -360,7 +363,7 @@ bool keel_ulog_format(keel_ulog_message_t *message, const keel_ulog_format_t *fo
       @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
       @ loop variant format->fields - i;
       @*/
-    for (uint32_t i = 0u; i < format->fields; i++) {
+    for (uint32_t i = 0u; (i < KEEL_ULOG_FIELDS) && (i < format->fields); i++) {
         put_field(message, &format->field[i]);
     }
     return close_message(message);
@@ -370,7 +373,7 @@ bool keel_ulog_information(keel_ulog_message_t *message, const keel_ulog_name_t 
                            const char *text, uint8_t length)
 {
     open_message(message, ABOUT);
-    put_byte(message, 0u);
+    log_byte(message, 0u);
     put_type(message, KEEL_ULOG_CHAR, true, length);
     put_name(message, name);
     set_key_length(message);
@@ -385,7 +388,7 @@ bool keel_ulog_parameter(keel_ulog_message_t *message, const keel_ulog_name_t *n
         return refuse(message);
     }
     open_message(message, PARAMETER);
-    put_byte(message, 0u);
+    log_byte(message, 0u);
     put_type(message, type, false, 1u);
     put_name(message, name);
     set_key_length(message);
@@ -397,7 +400,7 @@ void keel_ulog_subscription(keel_ulog_message_t *message, uint8_t instance, uint
                             const keel_ulog_name_t *name)
 {
     open_message(message, SUBSCRIPTION);
-    put_byte(message, instance);
+    log_byte(message, instance);
     put_number(message, number, 2u);
     put_name(message, name);
     (void)close_message(message);
@@ -425,7 +428,7 @@ bool keel_ulog_logging(keel_ulog_message_t *message, uint8_t level, uint64_t tim
                        const char *text, uint8_t length)
 {
     open_message(message, LOGGING);
-    put_byte(message, level);
+    log_byte(message, level);
     put_number(message, time_us, 8u);
     put_text(message, text, length);
     return close_message(message);
@@ -446,7 +449,7 @@ uint16_t keel_ulog_field_bytes(const keel_ulog_field_t *field)
     uint32_t bytes = 0u;
 
     if (field->type < KEEL_ULOG_TYPES) {
-        bytes = (uint32_t)type_of(field->type).size * field->count;
+        bytes = (uint32_t)value_bytes(field->type) * field->count;
     }
     return (uint16_t)bytes;
 }
