@@ -14,7 +14,7 @@ BOARD ?=
 
 # The variables that a command line may set. Another one is a slip, and must not pass unnoticed.
 VARIABLES := UNIT SECONDS TASKSET ARGS BOARD DASK CFLAGS KEEL_CACHE KEEL_NO_INSTALL KEEL_FRESH \
-             KEEL_DEBIAN_MIRROR VERIFY SCENARIO SEED N JOBS ADDRESS
+             KEEL_DEBIAN_MIRROR VERIFY SCENARIO SEED N JOBS ADDRESS FILE
 GIVEN := $(foreach name,$(.VARIABLES),$(if $(findstring command line,$(origin $(name))),$(name)))
 STRANGE := $(filter-out $(VARIABLES),$(GIVEN))
 ifneq ($(STRANGE),)
@@ -105,6 +105,10 @@ flights: python ## N flights with everything varied (N=1000; JOBS=4; DASK=tcp://
 	@DASK="$(DASK)" python3 tools/with_packages.py flights -m flight.montecarlo \
 	    --flights "$(if $(N),$(N),100)" $(if $(SEED),--seed "$(SEED)") \
 	    $(if $(JOBS),--jobs "$(JOBS)") $(ARGS)
+
+.PHONY: log
+log: python ## plot a flight's log (FILE=build/fly/hover-jsbsim.ulg): attitude, motors, votes, load, vibration
+	@python3 tools/with_packages.py fly tools/log.py "$(FILE)" $(ARGS)
 
 .PHONY: sim
 sim: python ## fly the copter in real time with MAVLink at UDP 14550 (ADDRESS=127.0.0.1:14550; SCENARIO=wind)

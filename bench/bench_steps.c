@@ -26,9 +26,11 @@ static keel_pid_t bench_pid;
 static keel_mixer_t bench_mixer;
 static keel_mode_t bench_mode;
 static keel_reference_t bench_reference;
+static keel_log_ring_t bench_ring;
 static keel_sbus_t bench_sbus;
 static keel_ubx_t bench_ubx;
 static keel_mavlink_t bench_mavlink;
+static keel_ulog_message_t bench_message;
 static keel_virtual_imu_t bench_imu;
 
 static void bench_require(int condition, const char *what)
@@ -282,6 +284,32 @@ static void bench_run_ubx(void)
     bench_dump("ubx");
 }
 
+static void bench_run_log_ring(void)
+{
+    uint8_t read[LOG_RECORD];
+
+    keel_log_ring_init(&bench_ring);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        CALLGRIND_TOGGLE_COLLECT;
+        (void)keel_log_ring_write(&bench_ring, log_workload, LOG_RECORD, n);
+        CALLGRIND_TOGGLE_COLLECT;
+        bench_require(keel_log_ring_read(&bench_ring, read, LOG_RECORD) == LOG_RECORD, "ring");
+    }
+    bench_dump("log_ring");
+}
+
+static void bench_run_ulog(void)
+{
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        keel_ulog_data(&bench_message, 1u);
+        CALLGRIND_TOGGLE_COLLECT;
+        (void)keel_ulog_add(&bench_message, log_workload, LOG_RECORD);
+        CALLGRIND_TOGGLE_COLLECT;
+        bench_require(bench_message.size > LOG_RECORD, "ULog");
+    }
+    bench_dump("ulog");
+}
+
 static void bench_run_mavlink(void)
 {
     bench_require(keel_mavlink_init(&bench_mavlink, mavlink_workload, 1u) == KEEL_OK, "MAVLink");
@@ -351,6 +379,8 @@ int main(void)
     bench_run_sbus("sbus", false);
     bench_run_sbus("sbus_worst", true);
     bench_run_ubx();
+    bench_run_log_ring();
+    bench_run_ulog();
     bench_run_mavlink();
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);

@@ -491,6 +491,35 @@ static void bench_ubx(void)
     print(&steps);
 }
 
+static void bench_log_ring(void)
+{
+    static keel_log_ring_t ring KEEL_REALTIME_ZERO;
+    uint8_t read[LOG_RECORD];
+    kind_t steps = {"log_ring", 0u, 0u, 0u};
+
+    keel_log_ring_init(&ring);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        add(&steps, measure((function_t)keel_log_ring_write, &ring, (uint32_t)log_workload,
+                            LOG_RECORD, false));
+        require(keel_log_ring_read(&ring, read, LOG_RECORD) == LOG_RECORD);
+    }
+    print(&steps);
+}
+
+static void bench_ulog(void)
+{
+    static keel_ulog_message_t message KEEL_REALTIME_ZERO;
+    kind_t steps = {"ulog", 0u, 0u, 0u};
+
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        keel_ulog_data(&message, 1u);
+        add(&steps, measure((function_t)keel_ulog_add, &message, (uint32_t)log_workload, LOG_RECORD,
+                            false));
+        require(message.size > LOG_RECORD);
+    }
+    print(&steps);
+}
+
 static void bench_mavlink(void)
 {
     static keel_mavlink_t mavlink KEEL_REALTIME_ZERO;
@@ -639,6 +668,8 @@ int main(void)
     bench_sbus("sbus", false);
     bench_sbus("sbus_worst", true);
     bench_ubx();
+    bench_log_ring();
+    bench_ulog();
     bench_mavlink();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);

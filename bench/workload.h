@@ -17,10 +17,12 @@
 #include "keel/flight/pid.h"
 #include "keel/flight/position.h"
 #include "keel/flight/reference.h"
+#include "keel/middleware/log_ring.h"
 #include "keel/middleware/mavlink.h"
 #include "keel/middleware/ms5611.h"
 #include "keel/middleware/sbus.h"
 #include "keel/middleware/ubx.h"
+#include "keel/middleware/ulog.h"
 #include "keel/middleware/virtual_imu.h"
 
 #define STEPS 1000u
@@ -376,6 +378,13 @@ static uint8_t ubx_byte_at(uint32_t n)
     }
     return byte;
 }
+
+/* --- Log -------------------------------------------------------------------------------------- */
+
+/* What an inertial unit measured: its time, six values, an age. */
+#define LOG_RECORD 36u
+
+static const uint8_t log_workload[LOG_RECORD] = {1u, 2u, 3u};
 
 /* --- MAVLink ---------------------------------------------------------------------------------- */
 

@@ -83,6 +83,8 @@ STEPS: dict[str, tuple[str, str, int]] = {
     "ms5611": ("MS5611, a reading in frost", "keel_ms5611_compensate", 300),
     "ubx": ("UBX, a byte of right messages", "keel_ubx_take", 200),
     "mavlink": ("MAVLink, a byte of right frames", "keel_mavlink_take", 200),
+    "log_ring": ("log ring, a record of 36 bytes", "keel_log_ring_write", 1200),
+    "ulog": ("ULog, 36 bytes of data", "keel_ulog_add", 1000),
     "imu": ("virtual IMU, 3 x 6, all agree", "keel_virtual_imu_step", 900),
     "imu_worst": ("virtual IMU, 3 x 6, one outvoted", "keel_virtual_imu_step", 900),
 }

@@ -6,7 +6,8 @@
 
 build/fly gets fly.json (every flight, its errors, limits and the SHA-256 of its trace) and a
 picture of each flight. With --scenario the report is named after it. --seed flies a flight of
-`make flights` again and draws it.
+`make flights` again and draws it. With either, or with --logs, there is the flight's log, too, for
+`make log`.
 
 Exit status: 0 when every flight keeps its limits (or breaks them, where that is expected), 1 when
 not, 2 when it could not be flown.
@@ -48,6 +49,7 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--build", type=Path, default=BUILD, metavar="FOLDER",
                         help="where the report and the pictures go")  # fmt: skip
     parser.add_argument("--no-pictures", action="store_true")
+    parser.add_argument("--logs", action="store_true", help="keep the log of every flight")
     found = parser.parse_args(arguments)
     if found.seed is not None and (found.scenario or found.plant):
         raise ToolError("--seed: says scenario and plant by itself")
@@ -61,7 +63,7 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
     if options.seed is not None:
         name = report_name(options)
         picture = None if options.no_pictures else options.build / f"{name}.svg"
-        return [Job(name, order_of(options.seed), copter, picture)]
+        return [Job(name, order_of(options.seed), copter, picture, options.build / f"{name}.ulg")]
     known = scenario.names(options.scenarios)
     names = [options.scenario] if options.scenario else known
     if not names:
@@ -72,7 +74,9 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
         for plant in found.plants:
             if options.plant in (None, plant):
                 picture = None if options.no_pictures else options.build / f"{name}-{plant}.svg"
-                jobs.append(Job(name, Order(found, plant, found.seed), copter, picture))
+                wanted = options.logs or options.scenario
+                log = options.build / f"{name}-{plant}.ulg" if wanted else None
+                jobs.append(Job(name, Order(found, plant, found.seed), copter, picture, log))
     if not jobs:
         raise ToolError(f"{options.scenario or 'no scenario'}: is not flown in {options.plant}")
     return jobs

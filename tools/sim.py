@@ -6,7 +6,7 @@
 
 It stands on the ground, its pilot's sticks low and his arm switch off. A ground station arms it;
 the pilot then climbs to 5 m and lets go of the sticks. With --scenario he arms and flies that
-instead. Each --address is a link of its own, at most three.
+instead. Each --address is a link of its own, at most three. The flight's log is build/sim/sim.ulg.
 
 Exit status: 0 when it is interrupted, 1 when the aircraft crashes, 2 when it cannot be flown.
 """
@@ -104,6 +104,7 @@ def fly(arguments: Sequence[str] | None) -> int:
     pilot: type[Pilot] = Pilot if options.scenario else Bystander
     live = Live(copter, order, pilot, links, lines, key,
                 options.build / "parameters")  # fmt: skip
+    copter.log(options.build / "sim.ulg")
     signal.signal(signal.SIGINT, signal.default_int_handler)  # Also in a shell's background.
     try:
         if not options.cold:
@@ -117,6 +118,7 @@ def fly(arguments: Sequence[str] | None) -> int:
         print(f"sim: {error}")
         return 1
     finally:
+        copter.log(None)
         for line in lines:
             line.close()
 

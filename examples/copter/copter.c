@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "copter.h"
 
+#if COPTER_LOG_TASKS != COPTER_TASKS
+#error "COPTER_LOG_TASKS: all tasks"
+#endif
+
 /* What each task of table 2 does. */
 static void (*const bodies[URPILOT_TASK_COUNT])(copter_t *copter) = {
     [URPILOT_SCHEDULER_ANALYSIS] = copter_scheduler_analysis,
@@ -40,6 +44,7 @@ static void copter_body(void *context)
     const copter_port_t *const port = task->copter->port;
 
     task->body(task->copter);
+    copter_log_sample(task->copter, task->row);
     port->end_run(port->context, task->row, task->wcet_us);
 }
 

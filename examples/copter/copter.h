@@ -37,7 +37,7 @@
 #include "keel/middleware/virtual_imu.h"
 #include "keel/rtos/load.h"
 #include "keel/rtos/scheduler.h"
-
+#include "log.h"
 #include "port.h"
 #include "request.h"
 #include "settings.h"
@@ -202,6 +202,7 @@ struct copter {
     copter_state_t state;
     copter_control_t control;
     copter_health_t health;
+    copter_log_t log;
     copter_tuning_t tuning;
     copter_request_t request;           /**< Written by telemetry and the state machine. */
     struct copter_telemetry *telemetry; /**< Null without. */
@@ -230,6 +231,23 @@ keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool pla
  *         says, above all when its budget fits in no gap
  */
 keel_status_t copter_add(copter_t *copter, const copter_own_task_t *own);
+
+/**
+ * Adds the task that moves the log to the port, which must have a write_log; without this task
+ * nothing is logged. The copter was started.
+ *
+ * @param copter the copter
+ * @return as copter_add
+ */
+keel_status_t copter_log_start(copter_t *copter);
+
+/**
+ * Samples the topics of a task whose run ends.
+ *
+ * @param copter the copter
+ * @param row    the task's, or COPTER_LOG_ROW
+ */
+void copter_log_sample(copter_t *copter, uint32_t row);
 
 /**
  * The declaration by which the scheduler knows a task: one set, for one copter.

@@ -67,6 +67,8 @@ typedef struct copter_port {
     bool (*read_power)(void *context, uint32_t module, copter_power_reading_t *reading);
     uint32_t (*stack_free)(void *context); /**< Bytes of the stack that were never used. */
     void (*write_motors)(void *context, const float output[COPTER_MOTORS]); /**< Each 0 to 1. */
+    /** Takes bytes of the log, in order; called by copter_log_start's task alone. */
+    void (*write_log)(void *context, const uint8_t *bytes, uint32_t length);
     /** A task's run ends: which, and what it is said to have cost at most. */
     void (*end_run)(void *context, uint32_t row, uint32_t wcet_us);
     const keel_medium_t *memory; /**< Keeps parameters; null: there is none. */

@@ -7,6 +7,7 @@
 #include "telemetry.h"
 
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 /* What the scheduler's own work costs, as the analysed task set has it (urpilot.toml), and a turn
@@ -54,6 +55,8 @@ static taken_t taken;
 static delay_t delay[COPTER_TASKS];
 static sim_task_t tasks[SIM_TASKS]; /* Those of table 2. */
 static float motors[COPTER_MOTORS];
+static FILE *log_file; /* Null: nobody wants the log. */
+static int log_errors;
 static keel_medium_t memory;
 
 /* Whether a device's count has moved; it is taken then. */
@@ -152,6 +155,14 @@ static void write_motors(void *context, const float output[COPTER_MOTORS])
 {
     (void)context;
     memcpy(motors, output, sizeof motors);
+}
+
+static void write_log(void *context, const uint8_t *bytes, uint32_t length)
+{
+    (void)context;
+    if ((log_file != NULL) && (fwrite(bytes, 1u, length, log_file) != length)) {
+        log_errors++;
+    }
 }
 
 static void end_run(void *context, uint32_t row, uint32_t wcet_us)
@@ -257,11 +268,22 @@ int sim_start(const sim_options_t *chosen)
                            .read_power = read_power,
                            .stack_free = stack_free,
                            .write_motors = write_motors,
+                           .write_log = write_log,
                            .end_run = end_run,
                            .memory = (options.memory != NULL) ? &memory : NULL};
     memset(&copter, 0, sizeof copter);
     status = copter_start(&copter, &port, options.plain_mean != 0u);
+    status = (status == KEEL_OK) ? copter_log_start(&copter) : status;
     return (int)((status == KEEL_OK) ? start_telemetry() : status);
+}
+
+int sim_log(const char *path)
+{
+    const int errors = log_errors + (((log_file != NULL) && (fclose(log_file) != 0)) ? 1 : 0);
+
+    log_errors = 0;
+    log_file = (path[0] != '\0') ? fopen(path, "wb") : NULL;
+    return errors + (((path[0] != '\0') && (log_file == NULL)) ? 1 : 0);
 }
 
 sim_sensors_t *sim_sensors(void)

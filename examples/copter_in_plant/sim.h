@@ -143,6 +143,11 @@ typedef struct sim_view {
  * @return 0, or the status with which the kernel refused */
 int sim_start(const sim_options_t *options);
 
+/** Where the flight's log goes from now on, a file that is made anew; an empty path: nowhere. What
+ * was open is closed.
+ * @return 0, or how often something could not be opened, written or closed since the last call */
+int sim_log(const char *path);
+
 /** What the devices hold: to be written. */
 sim_sensors_t *sim_sensors(void);
 

@@ -41,7 +41,7 @@ typedef struct desk {
  * @param desk       the desk
  * @param read_clock the clock that the scheduler is to read
  * @param clock      its context
- * @return the port, with no stack_free and no end_run that does anything
+ * @return the port, with no stack_free and no end_run that does anything, and no log
  */
 copter_port_t desk_port(desk_t *desk, keel_clock_fn_t read_clock, void *clock);
 

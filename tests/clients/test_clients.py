@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from flight import ulog
 from pymavlink import mavutil
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
@@ -128,6 +129,7 @@ def ports(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[int]]:
             sim.send_signal(signal.SIGINT)
             try:
                 assert sim.wait(LONG_S) == 0, (log / "log").read_text()
+                assert len(ulog.read(log / "sim.ulg").topic("attitude")) > 100
             finally:
                 sim.kill()
 

@@ -51,6 +51,8 @@ bench sbus_worst passes 1000 instructions 152000 longest 152
 bench ms5611 passes 1000 instructions 250000 longest 260
 bench ubx passes 1000 instructions 110000 longest 400
 bench mavlink passes 1000 instructions 120000 longest 700
+bench log_ring passes 1000 instructions 830000 longest 840
+bench ulog passes 1000 instructions 610000 longest 610
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
 bench ended
@@ -81,6 +83,8 @@ FIGURES = {
     "ms5611": Figure(1000, 250000, 260),
     "ubx": Figure(1000, 110000, 400),
     "mavlink": Figure(1000, 120000, 700),
+    "log_ring": Figure(1000, 830000, 840),
+    "ulog": Figure(1000, 610000, 610),
     **{name: Figure(50, 5000, 120) for name in TASKS},
 }
 GOOD = """\
@@ -110,6 +114,8 @@ sbus_worst = 152.0
 ms5611 = 250.0
 ubx = 110.0
 mavlink = 120.0
+log_ring = 830.0
+ulog = 610.0
 cascade = 2851.4
 calibration = 71.0
 """ + "".join(f"{name} = 100\n" for name in TASKS)
@@ -212,6 +218,8 @@ class Budgets(unittest.TestCase):
                 "ms5611": 250.0,
                 "ubx": 110.0,
                 "mavlink": 120.0,
+                "log_ring": 830.0,
+                "ulog": 610.0,
                 "cascade": 2851.4,
                 **dict.fromkeys(TASKS, 100.0),
             },

@@ -26,12 +26,14 @@ COPTERS: dict[str, Copter] = {}  # Of this process, by the library's path.
 
 @dataclass(frozen=True)
 class Job:
-    """A flight to be made and judged; `picture` is where it is drawn, if it is."""
+    """A flight to be made and judged; `picture` is where it is drawn, `log` where its log goes, if
+    it is wanted."""
 
     name: str
     order: Order
     library: Path
     picture: Path | None = None
+    log: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,7 @@ def copter_of(library: Path) -> Copter:
 def flown(job: Job) -> Outcome:
     """Make a flight, and the unbroken one that it is compared with."""
     copter, order = copter_of(job.library), job.order
-    trace = fly(copter, order)
+    trace = fly(copter, order, job.log)
     unbroken: Trace | None = None
     if order.scenario.limits.without_fault_deg is not None:
         unbroken = fly(copter, without_faults(order))

@@ -140,6 +140,11 @@ class Copter:
             raise ToolError(f"{SIM}: {name} is not made of words alone")
         return np.frombuffer(self._ffi.buffer(pointer, kind.itemsize), dtype=kind)[0]
 
+    def log(self, path: Path | None) -> None:
+        """Where the next flight's log goes; what was open is closed."""
+        if self._library.sim_log(str(path or "").encode()):
+            raise ToolError("the flight's log could not be written")
+
     def start(self, costs_percent: int, plain_mean: bool, links: Sequence[Link] = (),
               key: Key | None = None, memory: Path | None = None) -> None:  # fmt: skip
         """Power up; all devices are silent and zero."""

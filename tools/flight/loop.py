@@ -224,9 +224,12 @@ def is_whole(truth: Truth) -> bool:
     return known and not lies and truth.place[2] > -1.0
 
 
-def fly(copter: Copter, order: Order) -> Trace:
-    """Make a flight."""
-    return Flight(copter, order).fly()
+def fly(copter: Copter, order: Order, log: Path | None = None) -> Trace:
+    """Make a flight, and its log, if there is to be one."""
+    copter.log(log)
+    trace = Flight(copter, order).fly()
+    copter.log(None)
+    return trace
 
 
 def state_names(trace: Trace) -> list[str]:

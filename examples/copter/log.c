@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The log: its beginning, samples of its topics, and its task, which moves them to the port. */
+#include "copter.h"
+
+#include <string.h>
+
+#define PERIOD_US 10000u
+#define WCET_US   100u
+#define BUDGET_US 112u
+#define PHASE_US  2100u
+
+#define ROUNDS_PER_S 100u
+#define DEFINITIONS  8u    /* In a run. */
+#define CHUNK        1536u /* Bytes in a run, and so 150 kB/s. */
+
+static const keel_ulog_name_t system_name = {"sys_name"};
+static const char keel_name[] = "Keel";
+
+static const keel_ulog_field_t time_field = {
+    .name = {"timestamp"}, .type = KEEL_ULOG_UINT64, .count = 1u};
+
+static const char *const state_name[KEEL_MODE_STATES] = {
+    [KEEL_MODE_DISARMED] = "disarmed",    [KEEL_MODE_ARMED] = "armed",
+    [KEEL_MODE_FLYING] = "flying",        [KEEL_MODE_HOLDING] = "holding",
+    [KEEL_MODE_RETURNING] = "returning",  [KEEL_MODE_LANDING] = "landing",
+    [KEEL_MODE_TERMINATED] = "terminated"};
+
+static bool define_format(copter_log_t *log, const copter_topic_t *topic)
+{
+    keel_ulog_format_t format = {.name = topic->name, .fields = (uint8_t)(topic->fields + 1u)};
+
+    format.field[0] = time_field;
+    for (uint32_t i = 0u; i < topic->fields; i++) {
+        format.field[i + 1u] = topic->field[i].is;
+    }
+    return (topic->instance == 0u) && keel_ulog_format(&log->message, &format);
+}
+
+/* A bool is an int32 of 0 or 1. */
+static bool define_parameter(copter_t *copter, uint16_t index)
+{
+    const keel_parameters_t *const table = &copter->tuning.table;
+    const keel_parameter_value_t value = keel_parameters_get(table, index);
+    const uint32_t bits = keel_parameter_bits(value);
+    keel_ulog_name_t name = {.text = {0}};
+    uint8_t bytes[sizeof bits];
+
+    memcpy(name.text, keel_parameters_name(table, index), KEEL_PARAMETER_NAME_LENGTH);
+    memcpy(bytes, &bits, sizeof bytes);
+    return keel_ulog_parameter(&copter->log.message, &name,
+                               (value.type == KEEL_PARAMETER_FLOAT) ? KEEL_ULOG_FLOAT
+                                                                    : KEEL_ULOG_INT32,
+                               bytes);
+}
+
+/* The begin, flag bits and the system's name. */
+static bool define_head(copter_log_t *log, uint32_t number, uint64_t now_us)
+{
+    if (number == 0u) {
+        keel_ulog_begin(&log->message, now_us);
+    } else if (number == 1u) {
+        keel_ulog_flags(&log->message);
+    } else {
+        (void)keel_ulog_information(&log->message, &system_name, keel_name,
+                                    (uint8_t)(sizeof keel_name - 1u));
+    }
+    return true;
+}
+
+/* A part of what a log begins with becomes log->message; whether there is such a message. */
+static bool define(copter_t *copter, uint32_t number)
+{
+    copter_log_t *const log = &copter->log;
+    const uint32_t formats = 3u;
+    const uint32_t parameters = formats + copter_topics;
+    const uint32_t subscriptions = parameters + COPTER_PARAMETER_COUNT;
+
+    if (number < formats) {
+        return define_head(log, number, copter->scheduler.clock.now_us);
+    }
+    if (number < parameters) {
+        return define_format(log, &copter_topic[number - formats]);
+    }
+    if (number < subscriptions) {
+        return define_parameter(copter, (uint16_t)(number - parameters));
+    }
+    keel_ulog_subscription(&log->message, copter_topic[number - subscriptions].instance,
+                           (uint16_t)(number - subscriptions),
+                           &copter_topic[number - subscriptions].name);
+    log->samples = number == (subscriptions + copter_topics - 1u);
+    return true;
+}
+
+static void write_definitions(copter_t *copter)
+{
+    copter_log_t *const log = &copter->log;
+    const copter_port_t *const port = copter->port;
+
+    for (uint32_t i = 0u; (i < DEFINITIONS) && !log->samples; i++) {
+        if (define(copter, log->defined)) {
+            port->write_log(port->context, log->message.bytes, log->message.size);
+        }
+        log->defined++;
+    }
+}
+
+/* A topic's data become log->message; whether they fit. */
+static bool take(copter_t *copter, uint32_t number)
+{
+    copter_log_t *const log = &copter->log;
+    const copter_topic_t *const topic = &copter_topic[number];
+    const uint64_t now_us = copter->scheduler.clock.now_us;
+    uint8_t time[sizeof now_us];
+    bool fits;
+
+    memcpy(time, &now_us, sizeof time);
+    keel_ulog_data(&log->message, (uint16_t)number);
+    fits = keel_ulog_add(&log->message, time, sizeof time);
+    for (uint32_t i = 0u; i < topic->fields; i++) {
+        const copter_log_field_t *const field = &topic->field[i];
+
+        fits = keel_ulog_add(&log->message, (const uint8_t *)copter + field->offset,
+                             keel_ulog_field_bytes(&field->is));
+    }
+    return fits;
+}
+
+/* Into the ring; when there is room again, behind what tells how long there was none. */
+static void store(copter_log_t *log, uint64_t now_us)
+{
+    keel_log_ring_loss_t loss;
+
+    if (keel_log_ring_take_loss(&log->ring, KEEL_ULOG_DROPOUT_BYTES + log->message.size, &loss)) {
+        keel_ulog_dropout(&log->dropout, now_us - loss.since_us);
+        (void)keel_log_ring_write(&log->ring, log->dropout.bytes, log->dropout.size, now_us);
+        log->lost += loss.records;
+    }
+    (void)keel_log_ring_write(&log->ring, log->message.bytes, log->message.size, now_us);
+}
+
+/* A line of text for each state that begins. */
+static void tell_state(copter_t *copter)
+{
+    copter_log_t *const log = &copter->log;
+    const uint8_t state = copter->state.mode.state;
+    const uint64_t now_us = copter->scheduler.clock.now_us;
+
+    if (log->state != state) {
+        log->state = state;
+        if (keel_ulog_logging(&log->message, KEEL_ULOG_INFORMATION, now_us, state_name[state],
+                              (uint8_t)strlen(state_name[state]))) {
+            store(log, now_us);
+        }
+    }
+}
+
+void copter_log_sample(copter_t *copter, uint32_t row)
+{
+    copter_log_t *const log = &copter->log;
+
+    for (uint32_t i = 0u; log->samples && (i < copter_topics); i++) {
+        const copter_topic_t *const topic = &copter_topic[i];
+
+        if (topic->row == row) {
+            if (log->left[i] == 0u) {
+                log->left[i] = topic->every;
+                if (take(copter, i)) {
+                    store(log, copter->scheduler.clock.now_us);
+                }
+            }
+            log->left[i]--;
+        }
+    }
+    if (log->samples && (row == (uint32_t)URPILOT_STATE_MACHINE)) {
+        tell_state(copter);
+    }
+}
+
+/* How the tasks ran until now. */
+static void look_at_tasks(copter_t *copter)
+{
+    copter_log_t *const log = &copter->log;
+
+    for (uint32_t row = 0u; row < copter->tasks; row++) {
+        keel_task_report_t report;
+
+        if (keel_scheduler_report(&copter->scheduler, copter_declaration(row), &report) ==
+            KEEL_OK) {
+            log->runs[row] = report.stats.runs;
+            log->busy_us[row] = (uint32_t)report.stats.total_us;
+            log->longest_us[row] = report.stats.longest_us;
+            log->skipped[row] = report.skipped;
+        }
+    }
+}
+
+static void copter_log_task(copter_t *copter)
+{
+    copter_log_t *const log = &copter->log;
+    const copter_port_t *const port = copter->port;
+    uint8_t chunk[CHUNK];
+    uint32_t count;
+
+    write_definitions(copter);
+    count = keel_log_ring_read(&log->ring, chunk, CHUNK);
+    if (count > 0u) {
+        port->write_log(port->context, chunk, count);
+    }
+    if (log->rounds == 0u) {
+        log->rounds = ROUNDS_PER_S;
+        look_at_tasks(copter);
+        copter_log_sample(copter, COPTER_LOG_ROW);
+    }
+    log->rounds--;
+}
+
+keel_status_t copter_log_start(copter_t *copter)
+{
+    const copter_own_task_t own = {.name = "Log",
+                                   .body = copter_log_task,
+                                   .period_us = PERIOD_US,
+                                   .wcet_us = WCET_US,
+                                   .budget_us = BUDGET_US,
+                                   .phase_us = PHASE_US};
+
+    keel_log_ring_init(&copter->log.ring);
+    return copter_add(copter, &own);
+}

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What is logged: topics, their tasks, and at which of their runs. */
+#include "copter.h"
+
+#include <stddef.h>
+
+#define SIZE_OF(member) sizeof(((copter_t *)0)->member)
+
+#define FIELD(text, kind, size, member)                                                            \
+    {.is = {.name = {text}, .type = (kind), .count = (uint8_t)(SIZE_OF(member) / (size))},         \
+     .offset = (uint32_t)offsetof(copter_t, member)}
+
+/* A number or an array of them; a structure of floats is an array, too. */
+#define FLOATS(text, member) FIELD(text, KEEL_ULOG_FLOAT, 4u, member)
+#define BYTES(text, member)  FIELD(text, KEEL_ULOG_UINT8, 1u, member)
+#define HALVES(text, member) FIELD(text, KEEL_ULOG_UINT16, 2u, member)
+#define WORDS(text, member)  FIELD(text, KEEL_ULOG_UINT32, 4u, member)
+#define PLACES(text, member) FIELD(text, KEEL_ULOG_INT32, 4u, member)
+#define BOOLS(text, member)  FIELD(text, KEEL_ULOG_BOOL, 1u, member)
+
+/* An enumeration, which a compiler may keep in a byte. */
+#define CHOICE(text, member)                                                                       \
+    FIELD(text, (SIZE_OF(member) == 1u) ? KEEL_ULOG_UINT8 : KEEL_ULOG_UINT32, SIZE_OF(member),     \
+          member)
+
+#define VOTE(text, number) FLOATS(text, inertia.imu.channel[number].vote.output)
+
+#define IMU(number)                                                                                \
+    {                                                                                              \
+        .name = {"imu"}, .instance = (number), .row = URPILOT_FOREGROUND_IMU, .every = 1u,         \
+        .fields = 3u, .field = {                                                                   \
+            FLOATS("value", inertia.unit[number].value),                                           \
+            WORDS("age_us", inertia.unit[number].age_us),                                          \
+            BOOLS("present", inertia.unit[number].present)                                         \
+        }                                                                                          \
+    }
+
+#define SETPOINT(text, number) FLOATS(text, control.cascade.axis[number].pid.setpoint)
+
+const copter_topic_t copter_topic[] = {
+    IMU(0),
+    IMU(1),
+    IMU(2),
+    {.name = {"vote"},
+     .row = URPILOT_FOREGROUND_IMU,
+     .every = 5u,
+     .fields = 8u,
+     .field = {VOTE("force_x", 0), VOTE("force_y", 1), VOTE("force_z", 2), VOTE("rate_x", 3),
+               VOTE("rate_y", 4), VOTE("rate_z", 5), BYTES("used", inertia.imu.used),
+               BYTES("latched", inertia.imu.latched)}},
+    {.name = {"attitude"},
+     .row = URPILOT_FOREGROUND_IMU,
+     .every = 5u,
+     .fields = 7u,
+     .field = {FLOATS("q", inertia.attitude.quaternion), FLOATS("bias", inertia.attitude.bias),
+               FLOATS("rate", inertia.attitude.rate),
+               FLOATS("heading_error", inertia.attitude.heading_error),
+               WORDS("flags", inertia.attitude.flags),
+               BOOLS("heading_valid", inertia.attitude.heading_valid),
+               CHOICE("phase", inertia.attitude.phase)}},
+    {.name = {"control"},
+     .row = URPILOT_ANGLE_RATE_CONTROL,
+     .every = 5u,
+     .fields = 9u,
+     .field = {SETPOINT("tilt_roll", KEEL_CASCADE_ROLL), SETPOINT("tilt_pitch", KEEL_CASCADE_PITCH),
+               SETPOINT("rate_roll", KEEL_CASCADE_ROLL_RATE),
+               SETPOINT("rate_pitch", KEEL_CASCADE_PITCH_RATE),
+               SETPOINT("rate_yaw", KEEL_CASCADE_YAW_RATE),
+               FLOATS("command", control.cascade.command), FLOATS("motor", control.mixer.output),
+               WORDS("limited", control.mixer.limited), WORDS("axes", control.cascade.axes)}},
+    {.name = {"place"},
+     .row = URPILOT_POSITION_CONTROL,
+     .every = 5u,
+     .fields = 2u,
+     .field = {FLOATS("asked", control.place), FLOATS("asked_velocity", control.asked)}},
+    {.name = {"compass"},
+     .row = URPILOT_FOREGROUND_MAGNETOMETER,
+     .every = 1u,
+     .fields = 3u,
+     .field = {FLOATS("raw", compass.raw), FLOATS("field", compass.field),
+               WORDS("samples", compass.samples)}},
+    {.name = {"air"},
+     .row = URPILOT_FOREGROUND_BAROMETER,
+     .every = 1u,
+     .fields = 2u,
+     .field = {FLOATS("pressure_pa", air.pressure_pa), WORDS("samples", air.samples)}},
+    {.name = {"satellites"},
+     .row = URPILOT_GPS,
+     .every = 5u,
+     .fields = 8u,
+     .field = {PLACES("latitude", satellites.fix.latitude),
+               PLACES("longitude", satellites.fix.longitude),
+               FLOATS("velocity_north", satellites.fix.north),
+               FLOATS("velocity_east", satellites.fix.east),
+               FLOATS("accuracy", satellites.fix.accuracy),
+               FLOATS("speed_accuracy", satellites.fix.speed_accuracy),
+               WORDS("fixes", satellites.fixes), BOOLS("valid", satellites.fix.is_valid)}},
+    {.name = {"pilot"},
+     .row = URPILOT_FOREGROUND_RADIO,
+     .every = 5u,
+     .fields = 5u,
+     .field = {HALVES("channel", pilot.frame.channel), WORDS("frames", pilot.frames),
+               WORDS("facts", pilot.facts), BYTES("asked", pilot.asked),
+               BOOLS("failsafe", pilot.frame.failsafe)}},
+    {.name = {"energy"},
+     .row = URPILOT_FOREGROUND_POWER_MODULE,
+     .every = 1u,
+     .fields = 7u,
+     .field = {FLOATS("voltage", energy.battery.voltage), FLOATS("current", energy.battery.current),
+               FLOATS("cell_voltage", energy.battery.cell_voltage),
+               FLOATS("charge_c", energy.battery.charge_c),
+               FLOATS("remaining", energy.battery.remaining),
+               FLOATS("remaining_s", energy.battery.remaining_s),
+               CHOICE("level", energy.battery.level)}},
+    {.name = {"estimate"},
+     .row = URPILOT_NAVIGATION,
+     .every = 1u,
+     .fields = 6u,
+     .field = {FLOATS("position", estimate.here.position),
+               FLOATS("velocity", estimate.here.velocity), WORDS("resets", estimate.resets),
+               BOOLS("landed", estimate.is_landed),
+               CHOICE("place_quality", estimate.position.quality),
+               CHOICE("height_quality", estimate.altitude.axis.quality)}},
+    {.name = {"state"},
+     .row = URPILOT_STATE_MACHINE,
+     .every = 5u,
+     .fields = 7u,
+     .field = {BYTES("state", state.mode.state), BYTES("mode", state.mode.mode),
+               BOOLS("motors", state.mode.motors), WORDS("cause", state.mode.cause),
+               WORDS("settled", state.mode.settled),
+               WORDS("blocking_checks", state.mode.blocking.checks),
+               WORDS("blocking_facts", state.mode.blocking.facts)}},
+    {.name = {"calibration"},
+     .row = URPILOT_CALIBRATION_IMU,
+     .every = 20u,
+     .fields = 2u,
+     .field = {WORDS("done", calibration.done), WORDS("checks", calibration.checks)}},
+    {.name = {"health"},
+     .row = URPILOT_SCHEDULER_ANALYSIS,
+     .every = 1u,
+     .fields = 4u,
+     .field = {WORDS("load_ppm", health.load_ppm), WORDS("stack_free", health.stack_free),
+               WORDS("checks", health.checks), FLOATS("supply_v", health.supply_v)}},
+    {.name = {"tasks"},
+     .row = COPTER_LOG_ROW,
+     .every = 1u,
+     .fields = 4u,
+     .field = {WORDS("runs", log.runs), WORDS("busy_us", log.busy_us),
+               WORDS("longest_us", log.longest_us), HALVES("skipped", log.skipped)}}};
+
+const uint32_t copter_topics = sizeof copter_topic / sizeof copter_topic[0];

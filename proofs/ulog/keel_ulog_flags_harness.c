@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// cbmc: --unwind 46 --external-sat-solver cadical
+// defines: -DKEEL_ULOG_MESSAGE_BYTES=43u -DKEEL_ULOG_NAME_LENGTH=4u -DKEEL_ULOG_FIELDS=2u
+// sources: src/middleware/ulog.c specs/model/ulog.c
+// covers: keel_ulog_flags open_message model_ulog_flags start
+#include "ulog_proof.h"
+
+void keel_ulog_flags_harness(void)
+{
+    keel_ulog_message_t message = any_message();
+    keel_ulog_message_t model = message;
+
+    model_ulog_flags(&model);
+
+    keel_ulog_flags(&message);
+
+    __CPROVER_assert(message_same(&message, &model), "ULG_003_model: every byte as in the model");
+}

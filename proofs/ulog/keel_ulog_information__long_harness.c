@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// cbmc: --unwind 46 --unwindset put_text.0:37,append_text.0:37 --external-sat-solver cadical
+// defines: -DKEEL_ULOG_MESSAGE_BYTES=43u -DKEEL_ULOG_NAME_LENGTH=4u -DKEEL_ULOG_FIELDS=2u
+// sources: src/middleware/ulog.c specs/model/ulog.c
+// covers: keel_ulog_information put_name put_text set_key_length
+// covers: log_byte close_message
+// covers: model_ulog_information append_text finish
+//
+// One name, any text of up to 36 characters: some fit, some do not.
+#include "ulog_proof.h"
+
+void keel_ulog_information__long_harness(void)
+{
+    keel_ulog_message_t message = any_message();
+    keel_ulog_message_t model = message;
+    const keel_ulog_name_t name = {"on"};
+    const uint8_t length = any_length();
+    char text[TEXT_MOST];
+    bool expected;
+    bool made;
+
+    any_text(text);
+    expected = model_ulog_information(&model, &name, text, length);
+
+    made = keel_ulog_information(&message, &name, text, length);
+
+    __CPROVER_assert(message_same(&message, &model), "ULG_005_model: every byte as in the model");
+    __CPROVER_assert(made == expected, "ULG_005_made: it is said whether there is one");
+}
