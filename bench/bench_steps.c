@@ -31,6 +31,7 @@ static keel_sbus_t bench_sbus;
 static keel_ubx_t bench_ubx;
 static keel_mavlink_t bench_mavlink;
 static keel_ulog_message_t bench_message;
+static keel_crsf_t bench_crsf;
 static keel_virtual_imu_t bench_imu;
 
 static void bench_require(int condition, const char *what)
@@ -328,6 +329,22 @@ static void bench_run_mavlink(void)
     bench_dump("mavlink");
 }
 
+static void bench_run_crsf(void)
+{
+    bench_require(keel_crsf_init(&bench_crsf, &crsf_workload) == KEEL_OK, "CRSF");
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        if (n < STEPS) {
+            (void)keel_crsf_take(&bench_crsf, crsf_byte_at(n), 24u);
+        } else {
+            CALLGRIND_TOGGLE_COLLECT;
+            (void)keel_crsf_take(&bench_crsf, crsf_byte_at(n), 24u);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_require(bench_crsf.count.channels == ((2u * STEPS) / 26u), "CRSF frames");
+    bench_dump("crsf");
+}
+
 static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     const keel_mode_input_t input = mode_workload(&bench_mode, settle_us,
@@ -382,6 +399,7 @@ int main(void)
     bench_run_log_ring();
     bench_run_ulog();
     bench_run_mavlink();
+    bench_run_crsf();
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;

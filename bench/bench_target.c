@@ -539,6 +539,23 @@ static void bench_mavlink(void)
     print(&steps);
 }
 
+static void bench_crsf(void)
+{
+    static keel_crsf_t crsf KEEL_REALTIME_ZERO;
+    kind_t steps = {"crsf", 0u, 0u, 0u};
+
+    require(keel_crsf_init(&crsf, &crsf_workload) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        if (n < STEPS) {
+            (void)keel_crsf_take(&crsf, crsf_byte_at(n), 24u);
+        } else {
+            add(&steps, measure((function_t)keel_crsf_take, &crsf, crsf_byte_at(n), 24u, false));
+        }
+    }
+    require(crsf.count.channels == ((2u * STEPS) / 26u));
+    print(&steps);
+}
+
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     static keel_mode_t mode KEEL_REALTIME_ZERO;
@@ -671,6 +688,7 @@ int main(void)
     bench_log_ring();
     bench_ulog();
     bench_mavlink();
+    bench_crsf();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
     bench_tasks();

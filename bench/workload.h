@@ -18,6 +18,7 @@
 #include "keel/flight/position.h"
 #include "keel/flight/reference.h"
 #include "keel/middleware/log_ring.h"
+#include "keel/middleware/crsf.h"
 #include "keel/middleware/mavlink.h"
 #include "keel/middleware/ms5611.h"
 #include "keel/middleware/sbus.h"
@@ -398,6 +399,21 @@ static uint8_t mavlink_byte_at(uint32_t n)
                                           0,    0, 0, 2, 0, 0, 3, 3, 0x83, 0x46};
 
     return heartbeat[n % 21u];
+}
+
+/* --- CRSF ------------------------------------------------------------------------------------- */
+
+static const keel_crsf_config_t crsf_workload = {
+    .gap_us = 300u, .channels_us = 200000u, .link_us = 0u};
+
+/* One frame behind the other: channels 172, 1811, and 992 fourteen times. */
+static uint8_t crsf_byte_at(uint32_t n)
+{
+    static const uint8_t frame[26] = {0xC8, 0x18, 0x16, 0xAC, 0x98, 0x38, 0xF8, 0xC0, 0x07,
+                                      0x3E, 0xF0, 0x81, 0x0F, 0x7C, 0xE0, 0x03, 0x1F, 0xF8,
+                                      0xC0, 0x07, 0x3E, 0xF0, 0x81, 0x0F, 0x7C, 0x20};
+
+    return frame[n % 26u];
 }
 
 /* --- Virtual IMU ------------------------------------------------------------------------------ */

@@ -81,7 +81,10 @@ MODEL_SOURCES = [f"tests/property/{name}.c" for name in ("model", "drive", "lock
 MODEL_SOURCES += [f"specs/model/{name}.c" for name in SPECIFIED]
 KERNEL = ["src"]
 # What each libFuzzer target compares the kernel with.
-FUZZED = {"fuzz_scheduler": MODEL_SOURCES, "fuzz_mavlink": ["specs/model/mavlink.c"]}
+CRSF_MODEL = [f"specs/model/{name}.c" for name in ("crsf", "crsf_parts", "framing",
+                                                   "framing_parts", "crc")]  # fmt: skip
+FUZZED = {"fuzz_scheduler": MODEL_SOURCES, "fuzz_mavlink": ["specs/model/mavlink.c"],
+          "fuzz_crsf": CRSF_MODEL}  # fmt: skip
 
 
 class HostBuilds:

@@ -53,6 +53,7 @@ bench ubx passes 1000 instructions 110000 longest 400
 bench mavlink passes 1000 instructions 120000 longest 700
 bench log_ring passes 1000 instructions 830000 longest 840
 bench ulog passes 1000 instructions 610000 longest 610
+bench crsf passes 1000 instructions 130000 longest 2900
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
 bench ended
@@ -85,6 +86,7 @@ FIGURES = {
     "mavlink": Figure(1000, 120000, 700),
     "log_ring": Figure(1000, 830000, 840),
     "ulog": Figure(1000, 610000, 610),
+    "crsf": Figure(1000, 130000, 2900),
     **{name: Figure(50, 5000, 120) for name in TASKS},
 }
 GOOD = """\
@@ -116,6 +118,7 @@ ubx = 110.0
 mavlink = 120.0
 log_ring = 830.0
 ulog = 610.0
+crsf = 130.0
 cascade = 2851.4
 calibration = 71.0
 """ + "".join(f"{name} = 100\n" for name in TASKS)
@@ -220,6 +223,7 @@ class Budgets(unittest.TestCase):
                 "mavlink": 120.0,
                 "log_ring": 830.0,
                 "ulog": 610.0,
+                "crsf": 130.0,
                 "cascade": 2851.4,
                 **dict.fromkeys(TASKS, 100.0),
             },

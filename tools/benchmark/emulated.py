@@ -64,6 +64,7 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "mavlink": ("MAVLink, a byte of right frames", ("mavlink",), 200, ("steps", "mavlink")),
     "log_ring": ("log ring, a record of 36 bytes", ("log_ring",), 1200, ("steps", "log_ring")),
     "ulog": ("ULog, 36 bytes of data", ("ulog",), 1000, ("steps", "ulog")),
+    "crsf": ("CRSF, a byte of right frames", ("crsf",), 200, ("steps", "crsf")),
 }  # fmt: skip
 # The bodies of the 21 tasks of examples/copter, in flight, with what they read of their devices.
 TASKS = (

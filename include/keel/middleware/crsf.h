@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file crsf.h
+ * @brief The pilot's radio: a decoder of CRSF, byte by byte.
+ *
+ * A frame is the byte 0xC8; a length, of what comes behind it; a type; up to 60 bytes of payload;
+ * and a CRC-8 over type and payload: at most 64 bytes. A receiver sends one with 16 channels of 11
+ * bits, the lowest bit first, every 4 to 20 ms, and now and then one with statistics of the radio
+ * link, at 416 666 baud (or 420 000) with one stop bit, not inverted. Setting up the port is its
+ * driver's affair. Frames of other types are counted and skipped.
+ *
+ * Where a frame begins is told by gaps and headers. A byte that comes late begins a frame; and what
+ * can be no frame, by its length or its CRC, is searched for the next byte that may be a header. So
+ * - a right frame that begins after a gap, or with nothing held, is taken by its last byte,
+ *   whatever was before, when no gap is within it;
+ * - without any gap, a right frame is taken by the 126th byte behind its first at the latest,
+ *   whatever was before, unless some of its bytes were taken as another frame, whose CRC was right.
+ *   A gap before then drops it, so that nothing old delays the frame behind the gap.
+ *
+ * A receiver that loses the radio stops sending channels, or goes on with those that it was told to
+ * send then; its statistics say a link quality of 0. keel_crsf_is_lost tells both.
+ *
+ * Channels are scaled as SBUS's are: keel_sbus_us gives the length of a pulse.
+ *
+ * All is integer arithmetic. All counts and times stay at UINT32_MAX.
+ */
+#ifndef KEEL_MIDDLEWARE_CRSF_H
+#define KEEL_MIDDLEWARE_CRSF_H
+
+#include "keel/c_declarations.h"
+#include "keel/middleware/crc.h"
+#include "keel/middleware/framing.h"
+#include "keel/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/** Channels of 11 bits. */
+#define KEEL_CRSF_CHANNELS 16
+
+/** The first byte of a frame: the flight controller's address. */
+#define KEEL_CRSF_HEADER 0xC8
+
+/** The shortest length, of a type and a CRC, and the longest. */
+#define KEEL_CRSF_LENGTH_MIN 2
+#define KEEL_CRSF_LENGTH_MAX 62
+
+/** A frame with channels: its type and its length. */
+#define KEEL_CRSF_TYPE_CHANNELS   0x16
+#define KEEL_CRSF_LENGTH_CHANNELS 24
+
+/** A frame with statistics of the link: its type and its length. */
+#define KEEL_CRSF_TYPE_LINK   0x14
+#define KEEL_CRSF_LENGTH_LINK 12
+
+/** What a decoder is made from. */
+typedef struct keel_crsf_config {
+    uint32_t gap_us;      /**< Silence that ends a partial frame when it is longer, in us; more than
+                               0. Between a byte's time, 24, and the silence between frames. */
+    uint32_t channels_us; /**< Channels that are older mean a lost radio, in us; more than 0. */
+    uint32_t link_us;     /**< So do statistics that are older; 0 when none are asked for. */
+} keel_crsf_config_t;
+
+/** What the last statistics say of the link from the pilot. */
+typedef struct keel_crsf_link {
+    uint8_t rssi[2]; /**< Strength of the signal at each antenna, in -dBm: 90 is -90 dBm. */
+    uint8_t quality; /**< Of 100 packets, how many came; 0: none. */
+    int8_t snr;      /**< Signal to noise; in dB, or in quarters of it, by the receiver. */
+    uint8_t antenna; /**< Which antenna is used, 0 or 1. */
+    uint8_t mode;    /**< Which mode of the radio, by its maker. */
+} keel_crsf_link_t;
+
+/** What was met since the start. */
+typedef struct keel_crsf_count {
+    uint32_t channels; /**< Right frames with channels. */
+    uint32_t links;    /**< Right frames with statistics. */
+    uint32_t others;   /**< Right frames of another type, or of these with another length. */
+    uint32_t lengths;  /**< Headers with no possible length behind them. */
+    uint32_t crcs;     /**< Frames refused for their CRC. */
+} keel_crsf_count_t;
+
+/** What a byte ended. */
+typedef enum keel_crsf_taken {
+    KEEL_CRSF_NOTHING = 0,   /**< No right frame. */
+    KEEL_CRSF_TOOK_CHANNELS, /**< One with channels. */
+    KEEL_CRSF_TOOK_LINK,     /**< One with statistics. */
+    KEEL_CRSF_TOOK_OTHER     /**< One that is skipped. */
+} keel_crsf_taken_t;
+
+/** A decoder. Written by the functions below alone; all of it may be read. */
+typedef struct keel_crsf {
+    keel_crsf_config_t config;            /**< What it was made from. */
+    keel_framing_t framing;               /**< What is held of a frame. */
+    keel_crsf_count_t count;              /**< What was met. */
+    uint32_t channels_age_us;             /**< Since the last channels; UINT32_MAX before. */
+    uint32_t link_age_us;                 /**< Since the last statistics; UINT32_MAX before. */
+    uint16_t channel[KEEL_CRSF_CHANNELS]; /**< The last, raw, 0 to 2047; 0 before. */
+    keel_crsf_link_t link;                /**< The last; all 0 before. */
+} keel_crsf_t;
+
+/*@ // Between any two calls: a partial frame begins with a header.
+  @ predicate crsf_valid(keel_crsf_t *s) =
+  @     framing_valid(&s->framing) && s->framing.header == KEEL_CRSF_HEADER;
+  @
+  @ // The CRC of so many bytes, each taken into that of those before it.
+  @ logic integer crsf_crc{L}(uint8_t *bytes, integer count) =
+  @     count <= 0 ? KEEL_CRC8_FIRST :
+  @         (crc_up(crsf_crc(bytes, count - 1) ^ bytes[count - 1], 8) & 0xFF);
+  @
+  @ // What is held, and behind it a byte that came.
+  @ logic integer crsf_came(keel_crsf_t *s, integer byte, integer j) =
+  @     j < s->framing.held ? s->framing.byte[j] : byte;
+  @
+  @ // The three of these bytes from this one on, the lowest first.
+  @ logic integer crsf_window(keel_crsf_t *s, integer byte, integer first) =
+  @     crsf_came(s, byte, first) + 256 * crsf_came(s, byte, first + 1) +
+  @     65536 * crsf_came(s, byte, first + 2);
+  @
+  @ // Bits 11 i to 11 i + 10 of those behind header, length and type.
+  @ logic integer crsf_field(keel_crsf_t *s, integer byte, integer i) =
+  @     (crsf_window(s, byte, 3 + (11 * i) / 8) >> ((11 * i) % 8)) & 2047;
+  @
+  @ // What a frame of this type and length is.
+  @ logic integer crsf_kind(integer type, integer length) =
+  @     type == KEEL_CRSF_TYPE_CHANNELS && length == KEEL_CRSF_LENGTH_CHANNELS ?
+  @         (integer)KEEL_CRSF_TOOK_CHANNELS :
+  @     type == KEEL_CRSF_TYPE_LINK && length == KEEL_CRSF_LENGTH_LINK ?
+  @         (integer)KEEL_CRSF_TOOK_LINK : (integer)KEEL_CRSF_TOOK_OTHER;
+  @
+  @ predicate crsf_channels_say{L, M}(keel_crsf_t *s, integer byte) =
+  @     \forall integer i; 0 <= i < KEEL_CRSF_CHANNELS ==>
+  @         \at(s->channel[i], M) == crsf_field{L}(s, byte, i);
+  @
+  @ predicate crsf_link_says{L, M}(keel_crsf_t *s, integer byte) =
+  @     \at(s->link.rssi[0], M) == crsf_came{L}(s, byte, 3) &&
+  @     \at(s->link.rssi[1], M) == crsf_came{L}(s, byte, 4) &&
+  @     \at(s->link.quality, M) == crsf_came{L}(s, byte, 5) &&
+  @     \at(s->link.snr, M) ==
+  @         (crsf_came{L}(s, byte, 6) < 128 ? crsf_came{L}(s, byte, 6)
+  @                                         : crsf_came{L}(s, byte, 6) - 256) &&
+  @     \at(s->link.antenna, M) == crsf_came{L}(s, byte, 7) &&
+  @     \at(s->link.mode, M) == crsf_came{L}(s, byte, 8);
+  @
+  @ // Bytes were dropped from the beginning, or none; behind the first of them no header.
+  @ predicate crsf_dropped{L, M}(keel_crsf_t *s) =
+  @     \let n = \at(s->framing.held, L) - \at(s->framing.held, M);
+  @         0 <= n &&
+  @         (\forall integer j; 1 <= j < n ==> \at(s->framing.byte[j], L) != KEEL_CRSF_HEADER) &&
+  @         (\forall integer j; 0 <= j < \at(s->framing.held, M) ==>
+  @             \at(s->framing.byte[j], M) == \at(s->framing.byte[n + j], L));
+  @
+  @ predicate crsf_channels_kept{L, M}(keel_crsf_t *s) =
+  @     \forall integer i; 0 <= i < KEEL_CRSF_CHANNELS ==>
+  @         \at(s->channel[i], M) == \at(s->channel[i], L);
+  @
+  @ predicate crsf_link_kept{L, M}(keel_crsf_t *s) =
+  @     \at(s->link.rssi[0], M) == \at(s->link.rssi[0], L) &&
+  @     \at(s->link.rssi[1], M) == \at(s->link.rssi[1], L) &&
+  @     \at(s->link.quality, M) == \at(s->link.quality, L) &&
+  @     \at(s->link.snr, M) == \at(s->link.snr, L) &&
+  @     \at(s->link.antenna, M) == \at(s->link.antenna, L) &&
+  @     \at(s->link.mode, M) == \at(s->link.mode, L);
+  @*/
+
+/**
+ * Makes a decoder (requirements CRF-001 and CRF-002).
+ *
+ * @param crsf   the decoder
+ * @param config what it is made from; copied
+ * @return KEEL_OK; KEEL_ERR_AGE when gap_us or channels_us is 0: then nothing is changed
+ */
+/*@ requires \valid(crsf) && \valid_read(config) && \separated(crsf, config);
+  @ assigns *crsf;
+  @ behavior age:
+  @   assumes config->gap_us == 0 || config->channels_us == 0;
+  @   assigns \nothing;
+  @   ensures CRF_001_age: \result == KEEL_ERR_AGE;
+  @ behavior made:
+  @   assumes config->gap_us > 0 && config->channels_us > 0;
+  @   ensures CRF_002_made: \result == KEEL_OK && crsf_valid(crsf) && crsf->framing.held == 0 &&
+  @       crsf->framing.gap_us == config->gap_us;
+  @   ensures CRF_002_config: crsf->config.gap_us == config->gap_us &&
+  @       crsf->config.channels_us == config->channels_us &&
+  @       crsf->config.link_us == config->link_us;
+  @   ensures CRF_002_none: crsf->channels_age_us == UINT32_MAX &&
+  @       crsf->link_age_us == UINT32_MAX && crsf->link.quality == 0 &&
+  @       crsf->count.channels == 0 && crsf->count.links == 0;
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_crsf_init(keel_crsf_t *crsf, const keel_crsf_config_t *config);
+
+/**
+ * Takes a byte from the receiver (requirements CRF-003 to CRF-011).
+ *
+ * @param crsf       the decoder, initialised
+ * @param byte       what came
+ * @param elapsed_us the time since the byte before, or since keel_crsf_pass_time when that was
+ *                   called after it, in us; every microsecond is told once
+ * @return what right frame was taken, if any: it is in crsf->channel or crsf->link then; what no
+ *         frame was taken of is as it was
+ */
+/*@ requires \valid(crsf) && crsf_valid(crsf);
+  @ assigns crsf->framing.quiet_us, crsf->framing.gaps, crsf->framing.strays,
+  @     crsf->framing.byte[0 .. KEEL_FRAMING_BYTES - 1], crsf->framing.held,
+  @     crsf->count.channels, crsf->count.links, crsf->count.others, crsf->count.lengths,
+  @     crsf->count.crcs, crsf->channels_age_us, crsf->link_age_us,
+  @     crsf->channel[0 .. KEEL_CRSF_CHANNELS - 1], crsf->link.rssi[0 .. 1], crsf->link.quality,
+  @     crsf->link.snr, crsf->link.antenna, crsf->link.mode;
+  @ ensures CRF_003_valid: crsf_valid(crsf);
+  @ ensures CRF_004_whole: \result != KEEL_CRSF_NOTHING ==>
+  @     \let length = crsf_came{Pre}(crsf, byte, 1);
+  @         KEEL_CRSF_LENGTH_MIN <= length <= KEEL_CRSF_LENGTH_MAX &&
+  @         length + 2 <= \old(crsf->framing.held) + 1;
+  @ ensures CRF_004_kind: \result != KEEL_CRSF_NOTHING ==>
+  @     \result == crsf_kind(crsf_came{Pre}(crsf, byte, 2), crsf_came{Pre}(crsf, byte, 1));
+  @ ensures CRF_005_fields: \result == KEEL_CRSF_TOOK_CHANNELS ==>
+  @     crsf_channels_say{Pre, Post}(crsf, byte);
+  @ ensures CRF_006_link: \result == KEEL_CRSF_TOOK_LINK ==>
+  @     crsf_link_says{Pre, Post}(crsf, byte);
+  @ ensures CRF_007_channels: \result != KEEL_CRSF_TOOK_CHANNELS ==>
+  @     crsf_channels_kept{Pre, Post}(crsf);
+  @ ensures CRF_007_link: \result != KEEL_CRSF_TOOK_LINK ==> crsf_link_kept{Pre, Post}(crsf);
+  @ ensures CRF_008_channels: crsf->count.channels ==
+  @     framing_sum(\old(crsf->count.channels), \result == KEEL_CRSF_TOOK_CHANNELS ? 1 : 0);
+  @ ensures CRF_008_links: crsf->count.links ==
+  @     framing_sum(\old(crsf->count.links), \result == KEEL_CRSF_TOOK_LINK ? 1 : 0);
+  @ ensures CRF_008_others: crsf->count.others ==
+  @     framing_sum(\old(crsf->count.others), \result == KEEL_CRSF_TOOK_OTHER ? 1 : 0);
+  @ ensures CRF_009_channels: crsf->channels_age_us ==
+  @     (\result == KEEL_CRSF_TOOK_CHANNELS ?
+  @         0 : framing_sum(\old(crsf->channels_age_us), elapsed_us));
+  @ ensures CRF_009_link: crsf->link_age_us ==
+  @     (\result == KEEL_CRSF_TOOK_LINK ? 0 : framing_sum(\old(crsf->link_age_us), elapsed_us));
+  @ ensures CRF_010_gap: framing_late{Pre}(&crsf->framing, elapsed_us) ==>
+  @     \result == KEEL_CRSF_NOTHING &&
+  @     crsf->framing.held == (byte == KEEL_CRSF_HEADER ? 1 : 0);
+  @ ensures CRF_011_first: \result == KEEL_CRSF_NOTHING && \old(crsf->framing.held) > 0 &&
+  @     !framing_late{Pre}(&crsf->framing, elapsed_us) ==>
+  @     \let n = \old(crsf->framing.held) + 1 - crsf->framing.held; 0 <= n &&
+  @         \forall integer j; 1 <= j < n ==> crsf_came{Pre}(crsf, byte, j) != KEEL_CRSF_HEADER;
+  @ ensures CRF_011_shifted: \result == KEEL_CRSF_NOTHING && \old(crsf->framing.held) > 0 &&
+  @     !framing_late{Pre}(&crsf->framing, elapsed_us) ==>
+  @     \let n = \old(crsf->framing.held) + 1 - crsf->framing.held;
+  @         \forall integer j; 0 <= j < crsf->framing.held ==>
+  @             crsf->framing.byte[j] == crsf_came{Pre}(crsf, byte, n + j);
+  @*/
+keel_crsf_taken_t keel_crsf_take(keel_crsf_t *crsf, uint8_t byte, uint32_t elapsed_us);
+
+/**
+ * Lets time pass in which no byte came (requirement CRF-009), so that both ages are up to date.
+ *
+ * @param crsf       the decoder, initialised
+ * @param elapsed_us the time since the last call for this decoder, in us
+ */
+/*@ requires \valid(crsf);
+  @ assigns crsf->channels_age_us, crsf->link_age_us, crsf->framing.quiet_us;
+  @ ensures CRF_009_ages: crsf->channels_age_us ==
+  @         framing_sum(\old(crsf->channels_age_us), elapsed_us) &&
+  @     crsf->link_age_us == framing_sum(\old(crsf->link_age_us), elapsed_us);
+  @ ensures CRF_009_silence: crsf->framing.quiet_us ==
+  @     framing_sum(\old(crsf->framing.quiet_us), elapsed_us);
+  @*/
+void keel_crsf_pass_time(keel_crsf_t *crsf, uint32_t elapsed_us);
+
+/**
+ * Whether the radio is lost (requirement CRF-012): channels are older than channels_us; or
+ * statistics are asked for, and are older than link_us or say a link quality of 0.
+ *
+ * @param crsf the decoder, initialised
+ * @return true, too, before the first channels
+ */
+/*@ requires \valid_read(crsf);
+  @ assigns \nothing;
+  @ ensures CRF_012_lost: \result <==>
+  @     crsf->channels_age_us > crsf->config.channels_us ||
+  @     (crsf->config.link_us > 0 &&
+  @         (crsf->link_age_us > crsf->config.link_us || crsf->link.quality == 0));
+  @*/
+bool keel_crsf_is_lost(const keel_crsf_t *crsf);
+
+/**
+ * The CRC of a frame (requirement CRF-013), for who sends one, too.
+ *
+ * @param bytes its type and what is behind it
+ * @param count how many, without the CRC; when it is with it, the result is 0 for a right frame
+ * @return the CRC-8 of these bytes, with the polynomial 0xD5, begun with 0
+ */
+/*@ requires \valid_read(bytes + (0 .. count - 1)) && count <= KEEL_CRSF_LENGTH_MAX;
+  @ assigns \nothing;
+  @ ensures CRF_013_crc: \result == crsf_crc(bytes, count);
+  @*/
+uint8_t keel_crsf_crc(const uint8_t *bytes, uint32_t count);
+
+KEEL_C_END
+
+#endif

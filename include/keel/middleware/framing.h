@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file framing.h
+ * @brief Where frames begin among the bytes of a port: what decoders of a radio's bytes share.
+ *
+ * A frame begins with a header byte. Bytes are held from a header on, up to KEEL_FRAMING_BYTES of
+ * them; a byte that comes late drops those before it and begins anew. The decoder looks at what is
+ * held after each byte: what is a frame, or cannot be one, it drops, and what is held then begins
+ * at the next header behind it. So no byte is thrown away that may begin a frame.
+ *
+ * All counts and times stay at UINT32_MAX.
+ */
+#ifndef KEEL_MIDDLEWARE_FRAMING_H
+#define KEEL_MIDDLEWARE_FRAMING_H
+
+#include "keel/c_declarations.h"
+
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/** The most bytes that are held: those of the longest frame. */
+#define KEEL_FRAMING_BYTES 64
+
+/** The bytes of a port from a header on. Written by the functions below alone; all of it may be
+ *  read. */
+typedef struct keel_framing {
+    uint32_t gap_us;                  /**< Silence that drops what is held, when it is longer. */
+    uint32_t quiet_us;                /**< Since the last byte, in us. */
+    uint32_t gaps;                    /**< How often a gap dropped something. */
+    uint32_t strays;                  /**< Bytes that were no header, with nothing held. */
+    uint8_t byte[KEEL_FRAMING_BYTES]; /**< Those held, and behind them what was before. */
+    uint8_t header;                   /**< What a frame begins with. */
+    uint8_t held;                     /**< How many are held. */
+} keel_framing_t;
+
+/*@ // What is held begins with a header.
+  @ predicate framing_begins(keel_framing_t *f) =
+  @     f->held <= KEEL_FRAMING_BYTES && (f->held > 0 ==> f->byte[0] == f->header);
+  @
+  @ // There is room for a byte, too.
+  @ predicate framing_valid(keel_framing_t *f) =
+  @     framing_begins(f) && f->held < KEEL_FRAMING_BYTES;
+  @
+  @ logic integer framing_sum(integer a, integer b) =
+  @     a + b <= UINT32_MAX ? a + b : UINT32_MAX;
+  @
+  @ // Whether a byte that comes so late drops those before it.
+  @ predicate framing_late(keel_framing_t *f, integer elapsed_us) =
+  @     framing_sum(f->quiet_us, elapsed_us) > f->gap_us;
+  @*/
+
+/**
+ * A sum that stays at its end (requirement FRG-001): of times, and of counts.
+ *
+ * @param a any
+ * @param b any
+ * @return a + b, or UINT32_MAX when that is less
+ */
+/*@ assigns \nothing;
+  @ ensures FRG_001_sum: \result == framing_sum(a, b);
+  @*/
+static inline uint32_t keel_framing_sum(uint32_t a, uint32_t b)
+{
+    return (a <= (UINT32_MAX - b)) ? (a + b) : UINT32_MAX;
+}
+
+/**
+ * Begins with nothing held, as if no byte had come for ever (requirement FRG-002).
+ *
+ * @param framing what is begun
+ * @param gap_us  silence that drops what is held when it is longer, in us
+ * @param header  what a frame begins with
+ */
+/*@ requires \valid(framing);
+  @ assigns *framing;
+  @ ensures FRG_002_begun: framing_valid(framing) && framing->held == 0 &&
+  @     framing->gap_us == gap_us && framing->header == header &&
+  @     framing->quiet_us == UINT32_MAX && framing->gaps == 0 && framing->strays == 0;
+  @*/
+void keel_framing_begin(keel_framing_t *framing, uint32_t gap_us, uint8_t header);
+
+/**
+ * Lets time pass in which no byte came (requirement FRG-003).
+ *
+ * @param framing    begun
+ * @param elapsed_us the time since the last call, in us
+ */
+/*@ requires \valid(framing);
+  @ assigns framing->quiet_us;
+  @ ensures FRG_003_quiet: framing->quiet_us == framing_sum(\old(framing->quiet_us), elapsed_us);
+  @*/
+void keel_framing_pass_time(keel_framing_t *framing, uint32_t elapsed_us);
+
+/**
+ * Takes a byte (requirements FRG-003 to FRG-005): drops what is held when the byte comes late, and
+ * holds it, unless nothing is held and it is no header.
+ *
+ * @param framing    begun, fewer than KEEL_FRAMING_BYTES held
+ * @param byte       what came
+ * @param elapsed_us the time since the last call, in us
+ */
+/*@ requires \valid(framing) && framing_valid(framing);
+  @ assigns framing->quiet_us, framing->gaps, framing->strays,
+  @     framing->byte[0 .. KEEL_FRAMING_BYTES - 1], framing->held;
+  @ ensures FRG_003_now: framing->quiet_us == 0;
+  @ ensures FRG_004_late: framing_late{Pre}(framing, elapsed_us) ==>
+  @     framing->held == (byte == framing->header ? 1 : 0) &&
+  @     framing->gaps == framing_sum(\old(framing->gaps), \old(framing->held) > 0 ? 1 : 0);
+  @ ensures FRG_005_begins: framing_begins(framing);
+  @ ensures FRG_005_adds: !framing_late{Pre}(framing, elapsed_us) ==>
+  @     framing->held == \old(framing->held) +
+  @         (\old(framing->held) == 0 && byte != framing->header ? 0 : 1) &&
+  @     framing->gaps == \old(framing->gaps);
+  @ ensures FRG_005_byte: framing->held > 0 ==> framing->byte[framing->held - 1] == byte;
+  @ ensures FRG_005_others: \forall integer j; 0 <= j < framing->held - 1 ==>
+  @     framing->byte[j] == \old(framing->byte[j]);
+  @ ensures FRG_005_strays: framing->strays ==
+  @     framing_sum(\old(framing->strays), framing->held == 0 ? 1 : 0);
+  @*/
+void keel_framing_take(keel_framing_t *framing, uint8_t byte, uint32_t elapsed_us);
+
+/**
+ * Drops bytes from the beginning, and those behind them up to the next header (requirement
+ * FRG-006).
+ *
+ * @param framing begun
+ * @param count   how many at least, 1 to those that are held
+ */
+/*@ requires \valid(framing) && 1 <= count <= framing->held <= KEEL_FRAMING_BYTES;
+  @ assigns framing->byte[0 .. KEEL_FRAMING_BYTES - 1], framing->held;
+  @ ensures FRG_006_valid: framing_valid(framing);
+  @ ensures FRG_006_first: \let n = \old(framing->held) - framing->held; count <= n &&
+  @     \forall integer j; count <= j < n ==> \at(framing->byte[j], Pre) != framing->header;
+  @ ensures FRG_006_shifted: \let n = \old(framing->held) - framing->held;
+  @     \forall integer j; 0 <= j < framing->held ==>
+  @         framing->byte[j] == \at(framing->byte[n + j], Pre);
+  @ ensures FRG_006_rest: \forall integer j; framing->held <= j < KEEL_FRAMING_BYTES ==>
+  @     framing->byte[j] == \at(framing->byte[j], Pre);
+  @*/
+void keel_framing_drop(keel_framing_t *framing, uint32_t count);
+
+KEEL_C_END
+
+#endif
