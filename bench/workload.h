@@ -20,6 +20,7 @@
 #include "keel/middleware/crsf.h"
 #include "keel/middleware/mavlink.h"
 #include "keel/middleware/ms5611.h"
+#include "keel/middleware/ppm.h"
 #include "keel/middleware/sbus.h"
 #include "keel/middleware/virtual_imu.h"
 
@@ -374,6 +375,21 @@ static uint8_t crsf_byte_at(uint32_t n)
                                       0xC0, 0x07, 0x3E, 0xF0, 0x81, 0x0F, 0x7C, 0x20};
 
     return frame[n % 26u];
+}
+
+/* --- PPM -------------------------------------------------------------------------------------- */
+
+static const keel_ppm_config_t ppm_workload = {.lost_us = 100000u,
+                                               .lowest_us = 800u,
+                                               .highest_us = 2200u,
+                                               .sync_us = 2300u,
+                                               .least = 4u,
+                                               .frames_to_take = 3u};
+
+/* Frames of eight channels, and a sync gap. */
+static uint32_t ppm_edge_at(uint32_t n)
+{
+    return ((n % 9u) == 0u) ? 8000u : 1500u;
 }
 
 /* --- Virtual IMU ------------------------------------------------------------------------------ */

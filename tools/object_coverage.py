@@ -57,7 +57,8 @@ SOURCE = "src"
 UNTRACED = ("specified", "mode_specified", "mixer_specified", "mixer_equations", "reference_curves",
             "attitude_specified", "attitude_motion", "axis_specified", "altitude_specified",
             "position_specified", "battery_specified", "calibration_specified",
-            "cascade_specified", "cascade_motion", "sbus_specified", "crsf_specified")  # fmt: skip
+            "cascade_specified", "cascade_motion", "sbus_specified", "crsf_specified",
+            "ppm_specified")  # fmt: skip
 SHOWN = {BRANCH: "branches", BLOCK: "in IT blocks", SELECTION: "selections"}
 NEVER: dict[bool, Literal["taken", "not taken"]] = {True: "taken", False: "not taken"}
 
