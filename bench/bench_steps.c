@@ -29,6 +29,7 @@ static keel_reference_t bench_reference;
 static keel_sbus_t bench_sbus;
 static keel_mavlink_t bench_mavlink;
 static keel_crsf_t bench_crsf;
+static keel_ibus_t bench_ibus;
 static keel_ppm_t bench_ppm;
 static keel_virtual_imu_t bench_imu;
 
@@ -299,6 +300,22 @@ static void bench_run_crsf(void)
     bench_dump("crsf");
 }
 
+static void bench_run_ibus(void)
+{
+    bench_require(keel_ibus_init(&bench_ibus, &ibus_workload) == KEEL_OK, "IBUS");
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        if (n < STEPS) {
+            (void)keel_ibus_take(&bench_ibus, ibus_byte_at(n), 87u);
+        } else {
+            CALLGRIND_TOGGLE_COLLECT;
+            (void)keel_ibus_take(&bench_ibus, ibus_byte_at(n), 87u);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_require(bench_ibus.count.frames == ((2u * STEPS) / 32u), "IBUS frames");
+    bench_dump("ibus");
+}
+
 static void bench_run_ppm(void)
 {
     bench_require(keel_ppm_init(&bench_ppm, &ppm_workload) == KEEL_OK, "PPM");
@@ -367,6 +384,7 @@ int main(void)
     bench_run_sbus("sbus_worst", true);
     bench_run_mavlink();
     bench_run_crsf();
+    bench_run_ibus();
     bench_run_ppm();
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);

@@ -508,6 +508,23 @@ static void bench_crsf(void)
     print(&steps);
 }
 
+static void bench_ibus(void)
+{
+    static keel_ibus_t ibus KEEL_REALTIME_ZERO;
+    kind_t steps = {"ibus", 0u, 0u, 0u};
+
+    require(keel_ibus_init(&ibus, &ibus_workload) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        if (n < STEPS) {
+            (void)keel_ibus_take(&ibus, ibus_byte_at(n), 87u);
+        } else {
+            add(&steps, measure((function_t)keel_ibus_take, &ibus, ibus_byte_at(n), 87u, false));
+        }
+    }
+    require(ibus.count.frames == ((2u * STEPS) / 32u));
+    print(&steps);
+}
+
 static void bench_ppm(void)
 {
     static keel_ppm_t ppm KEEL_REALTIME_ZERO;
@@ -655,6 +672,7 @@ int main(void)
     bench_sbus("sbus_worst", true);
     bench_mavlink();
     bench_crsf();
+    bench_ibus();
     bench_ppm();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);

@@ -83,6 +83,7 @@ STEPS: dict[str, tuple[str, str, int]] = {
     "ms5611": ("MS5611, a reading in frost", "keel_ms5611_compensate", 300),
     "mavlink": ("MAVLink, a byte of right frames", "keel_mavlink_take", 200),
     "crsf": ("CRSF, a byte of right frames", "keel_crsf_take", 200),
+    "ibus": ("IBUS, a byte of right frames", "keel_ibus_take", 200),
     "ppm": ("PPM, an edge of right frames", "keel_ppm_take", 200),
     "imu": ("virtual IMU, 3 x 6, all agree", "keel_virtual_imu_step", 900),
     "imu_worst": ("virtual IMU, 3 x 6, one outvoted", "keel_virtual_imu_step", 900),

@@ -285,7 +285,7 @@ LONG_S = {
     "unit/axis_specified": 5.0, "unit/position_specified": 5.0, "unit/altitude_specified": 5.0,
     "unit/battery_specified": 5.0, "unit/calibration_specified": 5.0,
     "unit/cascade_specified": 10.0, "unit/cascade_motion": 5.0, "unit/sbus_specified": 5.0,
-    "unit/crsf_specified": 5.0, "unit/ppm_specified": 5.0,
+    "unit/crsf_specified": 5.0, "unit/ibus_specified": 5.0, "unit/ppm_specified": 5.0,
 }  # fmt: skip
 
 

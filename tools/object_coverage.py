@@ -58,7 +58,7 @@ UNTRACED = ("specified", "mode_specified", "mixer_specified", "mixer_equations",
             "attitude_specified", "attitude_motion", "axis_specified", "altitude_specified",
             "position_specified", "battery_specified", "calibration_specified",
             "cascade_specified", "cascade_motion", "sbus_specified", "crsf_specified",
-            "ppm_specified")  # fmt: skip
+            "ibus_specified", "ppm_specified")  # fmt: skip
 SHOWN = {BRANCH: "branches", BLOCK: "in IT blocks", SELECTION: "selections"}
 NEVER: dict[bool, Literal["taken", "not taken"]] = {True: "taken", False: "not taken"}
 

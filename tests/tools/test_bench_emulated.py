@@ -51,6 +51,7 @@ bench sbus_worst passes 1000 instructions 152000 longest 152
 bench ms5611 passes 1000 instructions 250000 longest 260
 bench mavlink passes 1000 instructions 120000 longest 700
 bench crsf passes 1000 instructions 130000 longest 2900
+bench ibus passes 1000 instructions 120000 longest 2700
 bench ppm passes 1000 instructions 90000 longest 500
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
@@ -82,6 +83,7 @@ FIGURES = {
     "ms5611": Figure(1000, 250000, 260),
     "mavlink": Figure(1000, 120000, 700),
     "crsf": Figure(1000, 130000, 2900),
+    "ibus": Figure(1000, 120000, 2700),
     "ppm": Figure(1000, 90000, 500),
     **{name: Figure(50, 5000, 120) for name in TASKS},
 }
@@ -112,6 +114,7 @@ sbus_worst = 152.0
 ms5611 = 250.0
 mavlink = 120.0
 crsf = 130.0
+ibus = 120.0
 ppm = 90.0
 cascade = 2851.4
 calibration = 71.0
@@ -215,6 +218,7 @@ class Budgets(unittest.TestCase):
                 "ms5611": 250.0,
                 "mavlink": 120.0,
                 "crsf": 130.0,
+                "ibus": 120.0,
                 "ppm": 90.0,
                 "cascade": 2851.4,
                 **dict.fromkeys(TASKS, 100.0),

@@ -62,6 +62,7 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "ms5611": ("MS5611, a reading in frost", ("ms5611",), 300, ("steps", "ms5611")),
     "mavlink": ("MAVLink, a byte of right frames", ("mavlink",), 200, ("steps", "mavlink")),
     "crsf": ("CRSF, a byte of right frames", ("crsf",), 200, ("steps", "crsf")),
+    "ibus": ("IBUS, a byte of right frames", ("ibus",), 200, ("steps", "ibus")),
     "ppm": ("PPM, an edge of right frames", ("ppm",), 200, ("steps", "ppm")),
 }  # fmt: skip
 # The bodies of the 21 tasks of examples/copter, in flight, with what they read of their devices.
