@@ -32,6 +32,8 @@ static keel_ubx_t bench_ubx;
 static keel_mavlink_t bench_mavlink;
 static keel_ulog_message_t bench_message;
 static keel_crsf_t bench_crsf;
+static keel_ibus_t bench_ibus;
+static keel_ppm_t bench_ppm;
 static keel_virtual_imu_t bench_imu;
 
 static void bench_require(int condition, const char *what)
@@ -345,6 +347,38 @@ static void bench_run_crsf(void)
     bench_dump("crsf");
 }
 
+static void bench_run_ibus(void)
+{
+    bench_require(keel_ibus_init(&bench_ibus, &ibus_workload) == KEEL_OK, "IBUS");
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        if (n < STEPS) {
+            (void)keel_ibus_take(&bench_ibus, ibus_byte_at(n), 87u);
+        } else {
+            CALLGRIND_TOGGLE_COLLECT;
+            (void)keel_ibus_take(&bench_ibus, ibus_byte_at(n), 87u);
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_require(bench_ibus.count.frames == ((2u * STEPS) / 32u), "IBUS frames");
+    bench_dump("ibus");
+}
+
+static void bench_run_ppm(void)
+{
+    bench_require(keel_ppm_init(&bench_ppm, &ppm_workload) == KEEL_OK, "PPM");
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        if (n < STEPS) {
+            (void)keel_ppm_take(&bench_ppm, ppm_edge_at(n));
+        } else {
+            CALLGRIND_TOGGLE_COLLECT;
+            (void)keel_ppm_take(&bench_ppm, ppm_edge_at(n));
+            CALLGRIND_TOGGLE_COLLECT;
+        }
+    }
+    bench_require(bench_ppm.channels == 8u, "PPM channels");
+    bench_dump("ppm");
+}
+
 static void bench_run_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     const keel_mode_input_t input = mode_workload(&bench_mode, settle_us,
@@ -400,6 +434,8 @@ int main(void)
     bench_run_ulog();
     bench_run_mavlink();
     bench_run_crsf();
+    bench_run_ibus();
+    bench_run_ppm();
     bench_run_imu("imu", 0.0f, UNITS);
     bench_run_imu("imu_worst", 10.0f, UNITS - 1u);
     return EXIT_SUCCESS;

@@ -556,6 +556,40 @@ static void bench_crsf(void)
     print(&steps);
 }
 
+static void bench_ibus(void)
+{
+    static keel_ibus_t ibus KEEL_REALTIME_ZERO;
+    kind_t steps = {"ibus", 0u, 0u, 0u};
+
+    require(keel_ibus_init(&ibus, &ibus_workload) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        if (n < STEPS) {
+            (void)keel_ibus_take(&ibus, ibus_byte_at(n), 87u);
+        } else {
+            add(&steps, measure((function_t)keel_ibus_take, &ibus, ibus_byte_at(n), 87u, false));
+        }
+    }
+    require(ibus.count.frames == ((2u * STEPS) / 32u));
+    print(&steps);
+}
+
+static void bench_ppm(void)
+{
+    static keel_ppm_t ppm KEEL_REALTIME_ZERO;
+    kind_t steps = {"ppm", 0u, 0u, 0u};
+
+    require(keel_ppm_init(&ppm, &ppm_workload) == KEEL_OK);
+    for (uint32_t n = 0u; n < (2u * STEPS); n++) {
+        if (n < STEPS) {
+            (void)keel_ppm_take(&ppm, ppm_edge_at(n));
+        } else {
+            add(&steps, measure((function_t)keel_ppm_take, &ppm, ppm_edge_at(n), 0u, false));
+        }
+    }
+    require(ppm.channels == 8u);
+    print(&steps);
+}
+
 static void bench_mode(const char *name, uint32_t settle_us, uint8_t state)
 {
     static keel_mode_t mode KEEL_REALTIME_ZERO;
@@ -689,6 +723,8 @@ int main(void)
     bench_ulog();
     bench_mavlink();
     bench_crsf();
+    bench_ibus();
+    bench_ppm();
     bench_imu("imu", 0.0f, UNITS);
     bench_imu("imu_worst", 10.0f, UNITS - 1u);
     bench_tasks();

@@ -19,8 +19,10 @@
 #include "keel/flight/reference.h"
 #include "keel/middleware/log_ring.h"
 #include "keel/middleware/crsf.h"
+#include "keel/middleware/ibus.h"
 #include "keel/middleware/mavlink.h"
 #include "keel/middleware/ms5611.h"
+#include "keel/middleware/ppm.h"
 #include "keel/middleware/sbus.h"
 #include "keel/middleware/ubx.h"
 #include "keel/middleware/ulog.h"
@@ -414,6 +416,41 @@ static uint8_t crsf_byte_at(uint32_t n)
                                       0xC0, 0x07, 0x3E, 0xF0, 0x81, 0x0F, 0x7C, 0x20};
 
     return frame[n % 26u];
+}
+
+/* --- IBUS ------------------------------------------------------------------------------------- */
+
+static const keel_ibus_config_t ibus_workload = {
+    .gap_us = 500u, .lowest = 900u, .highest = 2100u, .extended = false};
+
+/* One frame behind the other: channels of 1500 us. */
+static uint8_t ibus_byte_at(uint32_t n)
+{
+    static const uint8_t ends[4] = {0x20, 0x40, 0x51, 0xF3};
+    const uint32_t at = n % 32u;
+
+    if (at < 2u) {
+        return ends[at];
+    }
+    if (at >= 30u) {
+        return ends[at - 28u];
+    }
+    return ((at % 2u) == 0u) ? 0xDCu : 0x05u;
+}
+
+/* --- PPM -------------------------------------------------------------------------------------- */
+
+static const keel_ppm_config_t ppm_workload = {.lost_us = 100000u,
+                                               .lowest_us = 800u,
+                                               .highest_us = 2200u,
+                                               .sync_us = 2300u,
+                                               .least = 4u,
+                                               .frames_to_take = 3u};
+
+/* Frames of eight channels, and a sync gap. */
+static uint32_t ppm_edge_at(uint32_t n)
+{
+    return ((n % 9u) == 0u) ? 8000u : 1500u;
 }
 
 /* --- Virtual IMU ------------------------------------------------------------------------------ */

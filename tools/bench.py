@@ -86,6 +86,8 @@ STEPS: dict[str, tuple[str, str, int]] = {
     "log_ring": ("log ring, a record of 36 bytes", "keel_log_ring_write", 1200),
     "ulog": ("ULog, 36 bytes of data", "keel_ulog_add", 1000),
     "crsf": ("CRSF, a byte of right frames", "keel_crsf_take", 200),
+    "ibus": ("IBUS, a byte of right frames", "keel_ibus_take", 200),
+    "ppm": ("PPM, an edge of right frames", "keel_ppm_take", 200),
     "imu": ("virtual IMU, 3 x 6, all agree", "keel_virtual_imu_step", 900),
     "imu_worst": ("virtual IMU, 3 x 6, one outvoted", "keel_virtual_imu_step", 900),
 }

@@ -83,8 +83,12 @@ KERNEL = ["src"]
 # What each libFuzzer target compares the kernel with.
 CRSF_MODEL = [f"specs/model/{name}.c" for name in ("crsf", "crsf_parts", "framing",
                                                    "framing_parts", "crc")]  # fmt: skip
+PPM_MODEL = ["specs/model/ppm.c", "specs/model/framing.c"]
+IBUS_MODEL = [f"specs/model/{name}.c" for name in ("ibus", "framing", "framing_parts")]
 FUZZED = {"fuzz_scheduler": MODEL_SOURCES, "fuzz_mavlink": ["specs/model/mavlink.c"],
-          "fuzz_crsf": CRSF_MODEL}  # fmt: skip
+          "fuzz_crsf": CRSF_MODEL,
+          "fuzz_ppm": PPM_MODEL,
+          "fuzz_ibus": IBUS_MODEL}  # fmt: skip
 
 
 class HostBuilds:

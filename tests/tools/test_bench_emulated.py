@@ -54,6 +54,8 @@ bench mavlink passes 1000 instructions 120000 longest 700
 bench log_ring passes 1000 instructions 830000 longest 840
 bench ulog passes 1000 instructions 610000 longest 610
 bench crsf passes 1000 instructions 130000 longest 2900
+bench ibus passes 1000 instructions 120000 longest 2700
+bench ppm passes 1000 instructions 90000 longest 500
 bench imu passes 1000 instructions 1456300 longest 1509
 bench imu_worst passes 1000 instructions 4035011 longest 4046
 bench ended
@@ -87,6 +89,8 @@ FIGURES = {
     "log_ring": Figure(1000, 830000, 840),
     "ulog": Figure(1000, 610000, 610),
     "crsf": Figure(1000, 130000, 2900),
+    "ibus": Figure(1000, 120000, 2700),
+    "ppm": Figure(1000, 90000, 500),
     **{name: Figure(50, 5000, 120) for name in TASKS},
 }
 GOOD = """\
@@ -119,6 +123,8 @@ mavlink = 120.0
 log_ring = 830.0
 ulog = 610.0
 crsf = 130.0
+ibus = 120.0
+ppm = 90.0
 cascade = 2851.4
 calibration = 71.0
 """ + "".join(f"{name} = 100\n" for name in TASKS)
@@ -224,6 +230,8 @@ class Budgets(unittest.TestCase):
                 "log_ring": 830.0,
                 "ulog": 610.0,
                 "crsf": 130.0,
+                "ibus": 120.0,
+                "ppm": 90.0,
                 "cascade": 2851.4,
                 **dict.fromkeys(TASKS, 100.0),
             },

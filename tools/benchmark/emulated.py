@@ -65,6 +65,8 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "log_ring": ("log ring, a record of 36 bytes", ("log_ring",), 1200, ("steps", "log_ring")),
     "ulog": ("ULog, 36 bytes of data", ("ulog",), 1000, ("steps", "ulog")),
     "crsf": ("CRSF, a byte of right frames", ("crsf",), 200, ("steps", "crsf")),
+    "ibus": ("IBUS, a byte of right frames", ("ibus",), 200, ("steps", "ibus")),
+    "ppm": ("PPM, an edge of right frames", ("ppm",), 200, ("steps", "ppm")),
 }  # fmt: skip
 # The bodies of the 21 tasks of examples/copter, in flight, with what they read of their devices.
 TASKS = (

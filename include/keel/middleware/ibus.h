@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file ibus.h
+ * @brief The pilot's radio: a decoder of FlySky's IBUS, byte by byte.
+ *
+ * A frame is 32 bytes: 0x20, 0x40; 14 channels of 16 bits, the low byte first, in us; and a sum:
+ * 0xFFFF less the 30 bytes before, the low byte first. A receiver sends one every 7 ms, at 115 200
+ * baud with one stop bit, not inverted. Setting up the port is its driver's affair.
+ *
+ * Some receivers have 18 channels: then a channel has 12 bits, and the upper four of channels 1 to
+ * 3 are channel 15, the lowest four bits first, those of 4 to 6 channel 16, 7 to 9 channel 17, and
+ * 10 to 12 channel 18. A frame does not say which it is; `extended` does.
+ *
+ * IBUS has no flag for a lost radio: a receiver that loses it goes on with the last channels, or
+ * with those that it was told to send then, or stops. Tell it to stop; or to send a throttle below
+ * `lowest`, so that its frames are refused: then age_us tells in either case. Some set upper bits
+ * of channels instead; when `extended` is not set, those frames are refused, too, as such channels
+ * are beyond any range.
+ *
+ * Frames are found by their headers and by gaps: a byte that comes late begins a frame, and when
+ * bytes are no right frame, the search goes on at the next of them that may be a header. So a right
+ * frame is taken by its last byte, whatever was before, unless some of its bytes and bytes before
+ * it were taken as a frame already; after a gap it always is. The sum sees one changed byte, not
+ * all changes of two: two that make up for each other are believed.
+ *
+ * All is integer arithmetic. All counts and times stay at UINT32_MAX.
+ */
+#ifndef KEEL_MIDDLEWARE_IBUS_H
+#define KEEL_MIDDLEWARE_IBUS_H
+
+#include "keel/c_declarations.h"
+#include "keel/middleware/framing.h"
+#include "keel/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/** Bytes of a frame. */
+#define KEEL_IBUS_BYTES 32
+
+/** Its first two bytes. */
+#define KEEL_IBUS_HEADER  0x20
+#define KEEL_IBUS_COMMAND 0x40
+
+/** Channels of a frame, and those in the upper bits of them. */
+#define KEEL_IBUS_WORDS    14
+#define KEEL_IBUS_EXTRAS   4
+#define KEEL_IBUS_CHANNELS 18
+
+/** The largest value of a channel that may be configured. */
+#define KEEL_IBUS_CHANNEL_MAX 4095
+
+/** What a decoder is made from. */
+typedef struct keel_ibus_config {
+    uint32_t gap_us;  /**< Silence that ends a partial frame when it is longer, in us; more than 0.
+                           Between a byte's time, 87, and the silence between frames, 4000. */
+    uint16_t lowest;  /**< The smallest value of a channel in a right frame, in us; 900 is usual. */
+    uint16_t highest; /**< The largest, lowest to KEEL_IBUS_CHANNEL_MAX; 2100 is usual. */
+    bool extended;    /**< Upper bits are channels 15 to 18. */
+} keel_ibus_config_t;
+
+/** What was met since the start. */
+typedef struct keel_ibus_count {
+    uint32_t frames;  /**< Right frames. */
+    uint32_t headers; /**< First bytes of a frame without its second. */
+    uint32_t sums;    /**< Frames refused for their sum. */
+    uint32_t ranges;  /**< Frames refused for a channel out of its range. */
+} keel_ibus_count_t;
+
+/** A decoder. Written by the functions below alone; all of it may be read. */
+typedef struct keel_ibus {
+    keel_ibus_config_t config;            /**< What it was made from. */
+    keel_framing_t framing;               /**< What is held of a frame. */
+    keel_ibus_count_t count;              /**< What was met. */
+    uint32_t age_us;                      /**< Since the last right frame; UINT32_MAX before. */
+    uint16_t channel[KEEL_IBUS_CHANNELS]; /**< What it said, in us; 0 before, and where there is
+                                               none. */
+} keel_ibus_t;
+
+/*@ // Between any two calls: fewer bytes than those of a frame are held, the first a header.
+  @ predicate ibus_valid(keel_ibus_t *s) =
+  @     framing_valid(&s->framing) && s->framing.header == KEEL_IBUS_HEADER &&
+  @     s->framing.held < KEEL_IBUS_BYTES;
+  @
+  @ predicate ibus_config(keel_ibus_config_t *c) =
+  @     c->lowest <= c->highest <= KEEL_IBUS_CHANNEL_MAX && c->gap_us > 0;
+  @
+  @ logic integer ibus_sum{L}(uint8_t *bytes, integer count) =
+  @     count <= 0 ? 0 : ibus_sum(bytes, count - 1) + bytes[count - 1];
+  @
+  @ logic integer ibus_word(keel_ibus_t *s, integer i) =
+  @     s->framing.byte[2 * i + 2] + 256 * s->framing.byte[2 * i + 3];
+  @
+  @ // Upper bits of three channels, the lowest first.
+  @ logic integer ibus_extra(keel_ibus_t *s, integer k) =
+  @     ibus_word(s, 3 * k) / 4096 + 16 * (ibus_word(s, 3 * k + 1) / 4096) +
+  @     256 * (ibus_word(s, 3 * k + 2) / 4096);
+  @
+  @ logic integer ibus_field(keel_ibus_t *s, integer i) =
+  @     i >= KEEL_IBUS_WORDS ?
+  @         (s->config.extended != 0 ? ibus_extra(s, i - KEEL_IBUS_WORDS) : 0) :
+  @     s->config.extended != 0 ? ibus_word(s, i) % 4096 : ibus_word(s, i);
+  @
+  @ predicate ibus_in_range(keel_ibus_t *s, integer value) =
+  @     s->config.lowest <= value <= s->config.highest;
+  @
+  @ // What has no channel has no range.
+  @ predicate ibus_has(keel_ibus_t *s, integer i) =
+  @     0 <= i < (s->config.extended != 0 ? KEEL_IBUS_CHANNELS : KEEL_IBUS_WORDS);
+  @
+  @ // What is held is right, but for its first two bytes.
+  @ predicate ibus_right(keel_ibus_t *s) =
+  @     ibus_sum(&s->framing.byte[0], 30) + ibus_word(s, 14) == 65535 &&
+  @     \forall integer i; ibus_has(s, i) ==> ibus_in_range(s, ibus_field(s, i));
+  @
+  @ predicate ibus_says{L, M}(keel_ibus_t *s) =
+  @     \forall integer i; 0 <= i < KEEL_IBUS_CHANNELS ==>
+  @         \at(s->channel[i], M) == ibus_field{L}(s, i);
+  @
+  @ predicate ibus_kept{L, M}(keel_ibus_t *s) =
+  @     \forall integer i; 0 <= i < KEEL_IBUS_CHANNELS ==>
+  @         \at(s->channel[i], M) == \at(s->channel[i], L);
+  @*/
+
+/**
+ * Makes a decoder (requirements IBU-001 and IBU-002).
+ *
+ * @param ibus   the decoder
+ * @param config what it is made from; copied
+ * @return KEEL_OK; KEEL_ERR_LIMITS when the range is empty or ends above KEEL_IBUS_CHANNEL_MAX;
+ *         KEEL_ERR_AGE when gap_us is 0; the first that applies: then nothing is changed
+ */
+/*@ requires \valid(ibus) && \valid_read(config) && \separated(ibus, config);
+  @ assigns *ibus;
+  @ behavior limits:
+  @   assumes !(config->lowest <= config->highest <= KEEL_IBUS_CHANNEL_MAX);
+  @   assigns \nothing;
+  @   ensures IBU_001_limits: \result == KEEL_ERR_LIMITS;
+  @ behavior gap:
+  @   assumes config->lowest <= config->highest <= KEEL_IBUS_CHANNEL_MAX && config->gap_us == 0;
+  @   assigns \nothing;
+  @   ensures IBU_001_gap: \result == KEEL_ERR_AGE;
+  @ behavior made:
+  @   assumes ibus_config(config);
+  @   ensures IBU_002_made: \result == KEEL_OK && ibus_valid(ibus) && ibus->framing.held == 0 &&
+  @       ibus->framing.gap_us == config->gap_us;
+  @   ensures IBU_002_config: ibus->config.gap_us == config->gap_us &&
+  @       ibus->config.lowest == config->lowest && ibus->config.highest == config->highest &&
+  @       ibus->config.extended == config->extended;
+  @   ensures IBU_002_none: ibus->age_us == UINT32_MAX && ibus->count.frames == 0;
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_ibus_init(keel_ibus_t *ibus, const keel_ibus_config_t *config);
+
+/**
+ * Takes a byte from the receiver (requirements IBU-003 to IBU-010).
+ *
+ * @param ibus       the decoder, initialised
+ * @param byte       what came
+ * @param elapsed_us the time since the byte before, or since keel_ibus_pass_time when that was
+ *                   called after it, in us; every microsecond is told once
+ * @return whether it ended a right frame: it is in ibus->channel then. Otherwise that is as it was
+ */
+/*@ requires \valid(ibus) && ibus_valid(ibus);
+  @ assigns ibus->framing.quiet_us, ibus->framing.gaps, ibus->framing.strays,
+  @     ibus->framing.byte[0 .. KEEL_FRAMING_BYTES - 1], ibus->framing.held, ibus->count.frames,
+  @     ibus->count.headers, ibus->count.sums, ibus->count.ranges, ibus->age_us,
+  @     ibus->channel[0 .. KEEL_IBUS_CHANNELS - 1];
+  @ ensures IBU_003_valid: ibus_valid(ibus);
+  @ ensures IBU_004_whole: \result ==> \old(ibus->framing.held) == KEEL_IBUS_BYTES - 1 &&
+  @     \old(ibus->framing.byte[0]) == KEEL_IBUS_HEADER &&
+  @     \old(ibus->framing.byte[1]) == KEEL_IBUS_COMMAND && ibus->framing.held == 0;
+  @ ensures IBU_004_sum: \result ==>
+  @     \at(ibus_sum(&ibus->framing.byte[0], 30), Pre) + \old(ibus->framing.byte[30]) +
+  @     256 * byte == 65535;
+  @ ensures IBU_004_range: \result ==> \forall integer i; ibus_has(ibus, i) ==>
+  @     ibus_in_range(ibus, ibus->channel[i]);
+  @ ensures IBU_005_fields: \result ==> \forall integer i; 0 <= i < KEEL_IBUS_CHANNELS ==>
+  @     ibus->channel[i] == ibus_field{Pre}(ibus, i);
+  @ ensures IBU_006_kept: !\result ==> ibus_kept{Pre, Post}(ibus);
+  @ ensures IBU_007_frames: ibus->count.frames ==
+  @     framing_sum(\old(ibus->count.frames), \result ? 1 : 0);
+  @ ensures IBU_008_age: ibus->age_us ==
+  @     (\result ? 0 : framing_sum(\old(ibus->age_us), elapsed_us));
+  @ ensures IBU_009_gap: framing_late{Pre}(&ibus->framing, elapsed_us) ==>
+  @     !\result && ibus->framing.held == (byte == KEEL_IBUS_HEADER ? 1 : 0);
+  @ ensures IBU_010_first: !\result && \old(ibus->framing.held) > 0 &&
+  @     !framing_late{Pre}(&ibus->framing, elapsed_us) ==>
+  @     \let n = \old(ibus->framing.held) + 1 - ibus->framing.held; 0 <= n &&
+  @         \forall integer j; 1 <= j < n ==>
+  @             (j < \old(ibus->framing.held) ? \at(ibus->framing.byte[j], Pre) : byte) !=
+  @                 KEEL_IBUS_HEADER;
+  @ ensures IBU_010_shifted: !\result && \old(ibus->framing.held) > 0 &&
+  @     !framing_late{Pre}(&ibus->framing, elapsed_us) ==>
+  @     \let n = \old(ibus->framing.held) + 1 - ibus->framing.held;
+  @         \forall integer j; 0 <= j < ibus->framing.held ==> ibus->framing.byte[j] ==
+  @             (n + j < \old(ibus->framing.held) ? \at(ibus->framing.byte[n + j], Pre) : byte);
+  @*/
+bool keel_ibus_take(keel_ibus_t *ibus, uint8_t byte, uint32_t elapsed_us);
+
+/**
+ * Lets time pass in which no byte came (requirement IBU-008), so that age_us is up to date.
+ *
+ * @param ibus       the decoder, initialised
+ * @param elapsed_us the time since the last call for this decoder, in us
+ */
+/*@ requires \valid(ibus);
+  @ assigns ibus->age_us, ibus->framing.quiet_us;
+  @ ensures IBU_008_ages: ibus->age_us == framing_sum(\old(ibus->age_us), elapsed_us);
+  @ ensures IBU_008_silence: ibus->framing.quiet_us ==
+  @     framing_sum(\old(ibus->framing.quiet_us), elapsed_us);
+  @*/
+void keel_ibus_pass_time(keel_ibus_t *ibus, uint32_t elapsed_us);
+
+KEEL_C_END
+
+#endif

@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file ppm.h
+ * @brief The pilot's radio: a decoder of PPM, edge by edge.
+ *
+ * All channels on one wire, one after another, each as the time from one rising edge to the next
+ * (or from one falling edge to the next; of one kind alone): 800 to 2200 us. A frame ends, and the
+ * next begins, with a longer time, the sync gap; there is one every 20 to 22.5 ms. Capturing edges
+ * is the timer driver's affair.
+ *
+ * PPM has no check at all. So channels are taken only when as many frames in a row as are
+ * configured are right as a whole and have as many channels each: an edge too few or too many makes
+ * another number of them, and a jump in time another frame. That number stays as it is until a row
+ * of another begins. An edge that is somewhat early or late is believed.
+ *
+ * A receiver that loses the radio stops sending edges, or goes on with channels that it was told to
+ * send then; only the former can be told: by age_us.
+ *
+ * All is integer arithmetic. All counts and times stay at UINT32_MAX.
+ */
+#ifndef KEEL_MIDDLEWARE_PPM_H
+#define KEEL_MIDDLEWARE_PPM_H
+
+#include "keel/c_declarations.h"
+#include "keel/middleware/framing.h"
+#include "keel/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/** The most channels of a frame. */
+#define KEEL_PPM_CHANNELS 16
+
+/** What a decoder is made from. */
+typedef struct keel_ppm_config {
+    uint32_t lost_us;    /**< Channels that are older mean a lost radio, and a longer silence is no
+                              sync gap, in us; more than sync_us. 100000, five frames, is usual. */
+    uint16_t lowest_us;  /**< The shortest channel; 800 is usual. */
+    uint16_t highest_us; /**< The longest, not below the shortest; 2200 is usual. */
+    uint16_t sync_us;    /**< The shortest sync gap, above the longest channel; 2300 is usual. */
+    uint8_t least;       /**< The fewest channels of a right frame, 1 to KEEL_PPM_CHANNELS. */
+    uint8_t frames_to_take; /**< So many right frames in a row; more than 0. */
+} keel_ppm_config_t;
+
+/** What was met since the start. */
+typedef struct keel_ppm_count {
+    uint32_t frames;  /**< Frames whose channels were taken. */
+    uint32_t pulses;  /**< Frames refused for a channel out of its range. */
+    uint32_t numbers; /**< Frames refused for too few or too many channels. */
+    uint32_t gaps;    /**< Frames that were right so far, and silence ended. */
+} keel_ppm_count_t;
+
+/** A decoder. Written by the functions below alone; all of it may be read. */
+typedef struct keel_ppm {
+    keel_ppm_config_t config;            /**< What it was made from. */
+    keel_ppm_count_t count;              /**< What was met. */
+    uint32_t age_us;                     /**< Since channels were taken; UINT32_MAX before. */
+    uint32_t quiet_us;                   /**< Since the last edge, in us. */
+    uint16_t channel[KEEL_PPM_CHANNELS]; /**< The last that were taken, in us; 0 before. */
+    uint16_t next[KEEL_PPM_CHANNELS];    /**< Those of the frame that comes. */
+    uint8_t channels;                    /**< How many were taken; 0 before. */
+    uint8_t come;                        /**< How many came of the frame that comes. */
+    uint8_t row_of;                      /**< How many the frames of this row have. */
+    uint8_t row;                         /**< Right frames in a row, up to frames_to_take. */
+    bool begun;                          /**< The frame that comes is right so far. */
+} keel_ppm_t;
+
+/*@ predicate ppm_in_range(keel_ppm_t *s, integer us) =
+  @     s->config.lowest_us <= us <= s->config.highest_us;
+  @
+  @ predicate ppm_limits(keel_ppm_config_t *c) =
+  @     c->lowest_us <= c->highest_us < c->sync_us < c->lost_us;
+  @
+  @ // Between any two calls: what came of a frame that is right so far is in range.
+  @ predicate ppm_valid(keel_ppm_t *s) =
+  @     ppm_limits(&s->config) &&
+  @     s->come <= KEEL_PPM_CHANNELS && s->channels <= KEEL_PPM_CHANNELS &&
+  @     s->row <= s->config.frames_to_take && s->config.frames_to_take > 0 &&
+  @     (s->begun == 0 ==> s->row == 0) &&
+  @     (s->begun != 0 ==>
+  @         \forall integer i; 0 <= i < s->come ==> ppm_in_range(s, s->next[i]));
+  @
+  @ // How long it is since the last edge when the next one comes.
+  @ logic integer ppm_width(keel_ppm_t *s, integer elapsed_us) =
+  @     framing_sum(s->quiet_us, elapsed_us);
+  @
+  @ // An edge that ends a frame of enough channels, all of them right.
+  @ predicate ppm_ends(keel_ppm_t *s, integer elapsed_us) =
+  @     s->config.sync_us <= ppm_width(s, elapsed_us) <= s->config.lost_us && s->begun != 0 &&
+  @     s->come >= s->config.least;
+  @
+  @ // An edge behind one more channel of a frame that was right so far.
+  @ predicate ppm_goes_on(keel_ppm_t *s, integer elapsed_us) =
+  @     ppm_width(s, elapsed_us) < s->config.sync_us && s->begun != 0 &&
+  @     ppm_in_range(s, ppm_width(s, elapsed_us)) && s->come < KEEL_PPM_CHANNELS;
+  @
+  @ // How many frames of as many channels have come in a row, with one that ends.
+  @ logic integer ppm_row(keel_ppm_t *s) =
+  @     s->row > 0 && s->row_of == s->come ?
+  @         (s->row < s->config.frames_to_take ? s->row + 1 : (integer)s->row) : 1;
+  @
+  @ predicate ppm_kept{L, M}(keel_ppm_t *s) =
+  @     \at(s->channels, M) == \at(s->channels, L) &&
+  @     \forall integer i; 0 <= i < KEEL_PPM_CHANNELS ==>
+  @         \at(s->channel[i], M) == \at(s->channel[i], L);
+  @*/
+
+/**
+ * Makes a decoder (requirements PPM-001 and PPM-002).
+ *
+ * @param ppm    the decoder
+ * @param config what it is made from; copied
+ * @return KEEL_OK; KEEL_ERR_LIMITS when a channel's range is empty, reaches the sync gap, or that
+ *         reaches lost_us, or when least is not 1 to KEEL_PPM_CHANNELS; KEEL_ERR_LATCH when
+ *         frames_to_take is 0; the first that applies: then nothing is changed
+ */
+/*@ requires \valid(ppm) && \valid_read(config) && \separated(ppm, config);
+  @ assigns *ppm;
+  @ behavior limits:
+  @   assumes !(ppm_limits(config) && 1 <= config->least <= KEEL_PPM_CHANNELS);
+  @   assigns \nothing;
+  @   ensures PPM_001_limits: \result == KEEL_ERR_LIMITS;
+  @ behavior frames:
+  @   assumes ppm_limits(config) && 1 <= config->least <= KEEL_PPM_CHANNELS &&
+  @       config->frames_to_take == 0;
+  @   assigns \nothing;
+  @   ensures PPM_001_frames: \result == KEEL_ERR_LATCH;
+  @ behavior made:
+  @   assumes ppm_limits(config) && 1 <= config->least <= KEEL_PPM_CHANNELS &&
+  @       config->frames_to_take > 0;
+  @   ensures PPM_002_made: \result == KEEL_OK && ppm_valid(ppm) && ppm->row == 0 &&
+  @       ppm->begun == 0;
+  @   ensures PPM_002_config: ppm->config.lost_us == config->lost_us &&
+  @       ppm->config.lowest_us == config->lowest_us &&
+  @       ppm->config.highest_us == config->highest_us &&
+  @       ppm->config.sync_us == config->sync_us && ppm->config.least == config->least &&
+  @       ppm->config.frames_to_take == config->frames_to_take;
+  @   ensures PPM_002_none: ppm->age_us == UINT32_MAX && ppm->channels == 0 &&
+  @       ppm->count.frames == 0;
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_ppm_init(keel_ppm_t *ppm, const keel_ppm_config_t *config);
+
+/**
+ * Takes an edge (requirements PPM-003 to PPM-010).
+ *
+ * @param ppm        the decoder, initialised
+ * @param elapsed_us the time since the edge before, as their timestamps differ, or since
+ *                   keel_ppm_pass_time when that was called after it, in us; every microsecond is
+ *                   told once
+ * @return whether channels were taken: they are in ppm->channel then. Otherwise that is as it was
+ */
+/*@ requires \valid(ppm) && ppm_valid(ppm);
+  @ assigns ppm->count.frames, ppm->count.pulses, ppm->count.numbers, ppm->count.gaps,
+  @     ppm->age_us, ppm->quiet_us, ppm->channel[0 .. KEEL_PPM_CHANNELS - 1],
+  @     ppm->next[0 .. KEEL_PPM_CHANNELS - 1], ppm->channels, ppm->come, ppm->row_of, ppm->row,
+  @     ppm->begun;
+  @ ensures PPM_003_valid: ppm_valid(ppm);
+  @ ensures PPM_004_ends: \result ==> ppm_ends{Pre}(ppm, elapsed_us);
+  @ ensures PPM_004_range: \result ==> ppm->config.least <= ppm->channels <= KEEL_PPM_CHANNELS &&
+  @     \forall integer i; 0 <= i < ppm->channels ==> ppm_in_range(ppm, ppm->channel[i]);
+  @ ensures PPM_005_taken: \result ==> ppm->channels == \old(ppm->come) &&
+  @     (\forall integer i; 0 <= i < ppm->channels ==>
+  @         ppm->channel[i] == \at(ppm->next[i], Pre)) &&
+  @     (\forall integer i; ppm->channels <= i < KEEL_PPM_CHANNELS ==> ppm->channel[i] == 0);
+  @ ensures PPM_006_kept: !\result ==> ppm_kept{Pre, Post}(ppm);
+  @ ensures PPM_007_frames: ppm->count.frames ==
+  @     framing_sum(\old(ppm->count.frames), \result ? 1 : 0);
+  @ ensures PPM_008_age: ppm->age_us ==
+  @     (\result ? 0 : framing_sum(\old(ppm->age_us), elapsed_us));
+  @ ensures PPM_008_quiet: ppm->quiet_us == 0;
+  @ ensures PPM_009_row: ppm_ends{Pre}(ppm, elapsed_us) ==>
+  @     ppm->row == ppm_row{Pre}(ppm) && ppm->row_of == \old(ppm->come) &&
+  @     (\result <==> ppm->row == ppm->config.frames_to_take);
+  @ ensures PPM_009_goes_on: ppm_goes_on{Pre}(ppm, elapsed_us) ==>
+  @     !\result && ppm->row == \old(ppm->row) && ppm->row_of == \old(ppm->row_of) &&
+  @     ppm->come == \old(ppm->come) + 1 && ppm->begun != 0 &&
+  @     ppm->next[ppm->come - 1] == ppm_width{Pre}(ppm, elapsed_us) &&
+  @     \forall integer i; 0 <= i < ppm->come - 1 ==>
+  @         ppm->next[i] == \at(ppm->next[i], Pre);
+  @ ensures PPM_009_breaks: !ppm_ends{Pre}(ppm, elapsed_us) &&
+  @     !ppm_goes_on{Pre}(ppm, elapsed_us) ==> !\result && ppm->row == 0;
+  @ ensures PPM_010_begins: ppm->config.sync_us <= ppm_width{Pre}(ppm, elapsed_us) ==>
+  @     ppm->come == 0 &&
+  @     (ppm->begun != 0 <==> ppm_width{Pre}(ppm, elapsed_us) <= ppm->config.lost_us);
+  @*/
+bool keel_ppm_take(keel_ppm_t *ppm, uint32_t elapsed_us);
+
+/**
+ * Lets time pass in which no edge came (requirement PPM-008), so that age_us is up to date.
+ *
+ * @param ppm        the decoder, initialised
+ * @param elapsed_us the time since the last call for this decoder, in us
+ */
+/*@ requires \valid(ppm);
+  @ assigns ppm->age_us, ppm->quiet_us;
+  @ ensures PPM_008_ages: ppm->age_us == framing_sum(\old(ppm->age_us), elapsed_us);
+  @ ensures PPM_008_silence: ppm->quiet_us == framing_sum(\old(ppm->quiet_us), elapsed_us);
+  @*/
+void keel_ppm_pass_time(keel_ppm_t *ppm, uint32_t elapsed_us);
+
+/**
+ * Whether the radio is lost (requirement PPM-011): channels are older than lost_us.
+ *
+ * @param ppm the decoder, initialised
+ * @return true, too, before the first channels
+ */
+/*@ requires \valid_read(ppm);
+  @ assigns \nothing;
+  @ ensures PPM_011_lost: \result <==> ppm->age_us > ppm->config.lost_us;
+  @*/
+bool keel_ppm_is_lost(const keel_ppm_t *ppm);
+
+KEEL_C_END
+
+#endif
