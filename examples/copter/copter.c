@@ -62,11 +62,11 @@ static keel_status_t first_of(const keel_status_t status[], uint32_t count)
 static keel_status_t make(copter_t *copter)
 {
     const keel_status_t status[] = {
-        copter_inertia_init(&copter->inertia),   copter_calibration_init(&copter->calibration),
-        copter_compass_init(&copter->compass),   copter_air_init(&copter->air),
-        copter_pilot_init(&copter->pilot),       copter_energy_init(&copter->energy),
-        copter_estimate_init(&copter->estimate), copter_state_init(&copter->state),
-        copter_control_init(&copter->control)};
+        copter_inertia_init(&copter->inertia),       copter_calibration_init(&copter->calibration),
+        copter_compass_init(&copter->compass),       copter_air_init(&copter->air),
+        copter_satellites_init(&copter->satellites), copter_pilot_init(&copter->pilot),
+        copter_energy_init(&copter->energy),         copter_estimate_init(&copter->estimate),
+        copter_state_init(&copter->state),           copter_control_init(&copter->control)};
 
     return first_of(status, sizeof status / sizeof status[0]);
 }

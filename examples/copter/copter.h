@@ -34,6 +34,8 @@
 #include "keel/flight/position.h"
 #include "keel/flight/reference.h"
 #include "keel/middleware/oversample.h"
+#include "keel/middleware/sbus.h"
+#include "keel/middleware/ubx.h"
 #include "keel/middleware/virtual_imu.h"
 #include "keel/rtos/load.h"
 #include "keel/rtos/scheduler.h"
@@ -50,6 +52,9 @@
 
 /** Blocks of steps whose mean forces are kept for navigation, should it come late. */
 #define COPTER_BLOCKS 8u
+
+/** So many bytes of a receiver a run takes at most: more than come in its period. */
+#define COPTER_BYTES 256u
 
 /** The mean specific force of a block of steps. */
 typedef struct copter_force {
@@ -97,8 +102,21 @@ typedef struct copter_air {
     uint32_t samples; /**< How many there were. */
 } copter_air_t;
 
+/** A fix, as navigation takes it. */
+typedef struct copter_fix {
+    uint32_t tow_ms;      /**< When it was so: the receiver's time of week. */
+    int32_t latitude;     /**< In 1e-7 degrees. */
+    int32_t longitude;    /**< In 1e-7 degrees. */
+    float north;          /**< Velocity, in m/s. */
+    float east;           /**< Velocity, in m/s. */
+    float accuracy;       /**< Of the position, in m. */
+    float speed_accuracy; /**< Of the velocity, in m/s. */
+    bool is_valid;        /**< Usable, by the receiver's limits. */
+} copter_fix_t;
+
 /** Written by GPS. */
 typedef struct copter_satellites {
+    keel_ubx_t receiver;
     copter_fix_t fix;
     uint32_t fixes; /**< How many there were. */
     uint64_t fixed_us;
@@ -108,13 +126,13 @@ typedef struct copter_satellites {
 
 /** Written by background and foreground radio. */
 typedef struct copter_pilot {
-    copter_frame_t frame; /**< The last one, as it came. */
-    uint32_t received;    /**< How many came. */
-    uint32_t frames;      /**< How many of them were whole, and are in what follows. */
-    uint32_t read;        /**< Of received, the last one looked at. */
+    keel_sbus_t radio;
+    uint32_t received; /**< How many frames came. */
+    uint32_t frames;   /**< How many of them the pilot sent, and are in what follows. */
+    uint32_t read;     /**< Of received, the last one looked at. */
     keel_reference_sticks_t sticks;
     keel_reference_t reference; /**< What the sticks ask for. */
-    uint32_t facts;             /**< KEEL_MODE_IS_LINKED, ... of the last whole frame. */
+    uint32_t facts;             /**< KEEL_MODE_IS_LINKED, ... of the pilot's last frame. */
     bool calibrates;            /**< It asks for a calibration of the magnetometer. */
     uint8_t asked;              /**< The mode that it asks for. */
 } copter_pilot_t;
@@ -270,6 +288,7 @@ keel_status_t copter_air_init(copter_air_t *air);
 void copter_background_barometer(copter_t *copter);
 void copter_foreground_barometer(copter_t *copter);
 
+keel_status_t copter_satellites_init(copter_satellites_t *satellites);
 void copter_gps(copter_t *copter);
 
 keel_status_t copter_pilot_init(copter_pilot_t *pilot);

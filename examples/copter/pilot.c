@@ -2,7 +2,7 @@
 /* Background and foreground radio: frames become sticks, switches and what they ask for. */
 #include "copter.h"
 
-/* Channels. */
+/* Channels, of which these are used. */
 #define ROLL      0u
 #define PITCH     1u
 #define THROTTLE  2u
@@ -11,12 +11,11 @@
 #define MODE      5u
 #define KILL      6u
 #define CALIBRATE 7u
+#define CHANNELS  8u
 
-/* What a channel says: its middle, the way to either end, and what no receiver sends. */
-#define MIDDLE   1500
-#define WAY      512.0f
-#define LEAST    900u
-#define GREATEST 2100u
+/* What a channel says: its middle, and the way to either end. */
+#define MIDDLE 1500
+#define WAY    512.0f
 
 /* Below LOW the throttle is low; switches are off below OFF and on above ON. */
 #define LOW 1080u
@@ -29,27 +28,31 @@
 
 keel_status_t copter_pilot_init(copter_pilot_t *pilot)
 {
+    const keel_status_t status = keel_sbus_init(&pilot->radio, &copter_settings.radio);
+
     pilot->asked = KEEL_MODE_NONE;
-    return keel_reference_init(&pilot->reference, &copter_settings.reference);
+    return (status == KEEL_OK) ? keel_reference_init(&pilot->reference, &copter_settings.reference)
+                               : status;
 }
 
 void copter_background_radio(copter_t *copter)
 {
     copter_pilot_t *const self = &copter->pilot;
+    const copter_port_t *const port = copter->port;
+    copter_byte_t byte;
 
-    if (copter->port->read_radio(copter->port->context, &self->frame)) {
-        self->received++;
+    for (uint32_t i = 0u; (i < COPTER_BYTES) && port->read_byte(port->context, COPTER_RADIO, &byte);
+         i++) {
+        if (keel_sbus_take(&self->radio, byte.value, byte.elapsed_us)) {
+            self->received++;
+        }
     }
 }
 
-static bool is_whole(const copter_frame_t *frame)
+/* Not one that the receiver repeats or makes up. */
+static bool is_the_pilots(const keel_sbus_frame_t *frame)
 {
-    bool whole = !frame->failsafe;
-
-    for (uint32_t i = 0u; i < COPTER_CHANNELS; i++) {
-        whole = whole && (frame->channel[i] >= LEAST) && (frame->channel[i] <= GREATEST);
-    }
-    return whole;
+    return !frame->failsafe && !frame->lost;
 }
 
 /* A stick, from -1 to 1. */
@@ -70,32 +73,35 @@ static uint8_t mode_of(uint16_t channel)
     return (position < KEEL_MODE_NONE) ? (uint8_t)position : (uint8_t)KEEL_MODE_NONE;
 }
 
-static uint32_t facts_of(const copter_frame_t *frame)
+static uint32_t facts_of(const uint16_t channel[])
 {
     uint32_t facts = KEEL_MODE_IS_LINKED;
 
-    facts |= (frame->channel[ARM] > ON) ? KEEL_MODE_IS_ON : 0u;
-    facts |= (frame->channel[ARM] < OFF) ? KEEL_MODE_IS_OFF : 0u;
-    facts |= (frame->channel[KILL] > ON) ? KEEL_MODE_IS_KILL : 0u;
-    facts |= (frame->channel[THROTTLE] < LOW) ? KEEL_MODE_IS_LOW : 0u;
+    facts |= (channel[ARM] > ON) ? KEEL_MODE_IS_ON : 0u;
+    facts |= (channel[ARM] < OFF) ? KEEL_MODE_IS_OFF : 0u;
+    facts |= (channel[KILL] > ON) ? KEEL_MODE_IS_KILL : 0u;
+    facts |= (channel[THROTTLE] < LOW) ? KEEL_MODE_IS_LOW : 0u;
     return facts;
 }
 
 void copter_foreground_radio(copter_t *copter)
 {
     copter_pilot_t *const self = &copter->pilot;
-    const uint16_t *const channel = self->frame.channel;
+    uint16_t channel[CHANNELS];
 
-    if ((self->received == self->read) || !is_whole(&self->frame)) {
+    if ((self->received == self->read) || !is_the_pilots(&self->radio.frame)) {
         return;
     }
     self->read = self->received;
+    for (uint32_t i = 0u; i < CHANNELS; i++) {
+        channel[i] = keel_sbus_us(self->radio.frame.channel[i]);
+    }
     self->sticks = (keel_reference_sticks_t){.roll = stick_of(channel[ROLL]),
                                              .pitch = stick_of(channel[PITCH]),
                                              .yaw = stick_of(channel[YAW]),
                                              .climb = stick_of(channel[THROTTLE])};
     (void)keel_reference_step(&self->reference, &self->sticks);
-    self->facts = facts_of(&self->frame);
+    self->facts = facts_of(channel);
     self->asked = mode_of(channel[MODE]);
     self->calibrates = channel[CALIBRATE] > ON;
     self->frames++;

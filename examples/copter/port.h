@@ -15,10 +15,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define COPTER_IMUS     3u
-#define COPTER_MODULES  2u
-#define COPTER_MOTORS   4u
-#define COPTER_CHANNELS 8u
+#define COPTER_IMUS    3u
+#define COPTER_MODULES 2u
+#define COPTER_MOTORS  4u
+
+/** @name Receivers: devices that send bytes. */
+/** @{ */
+#define COPTER_RADIO     0u /**< The pilot's receiver: SBUS. */
+#define COPTER_GPS       1u /**< The satellite receiver: UBX, NAV-PVT. */
+#define COPTER_RECEIVERS 2u
+/** @} */
 
 /** What an inertial measurement unit measured, body axes. */
 typedef struct copter_inertial {
@@ -31,22 +37,11 @@ typedef struct copter_field {
     float value[3]; /**< In microtesla. */
 } copter_field_t;
 
-/** What a satellite receiver says. */
-typedef struct copter_fix {
-    int32_t latitude;     /**< In 1e-7 degrees. */
-    int32_t longitude;    /**< In 1e-7 degrees. */
-    float north;          /**< Velocity, in m/s. */
-    float east;           /**< Velocity, in m/s. */
-    float accuracy;       /**< Of the position, in m. */
-    float speed_accuracy; /**< Of the velocity, in m/s. */
-    bool is_valid;        /**< A fix in three dimensions. */
-} copter_fix_t;
-
-/** A frame of the pilot's radio. */
-typedef struct copter_frame {
-    uint16_t channel[COPTER_CHANNELS]; /**< 988 to 2012, see radio.c. */
-    bool failsafe;                     /**< The receiver hears no transmitter. */
-} copter_frame_t;
+/** What came from a receiver. */
+typedef struct copter_byte {
+    uint32_t elapsed_us; /**< Since the byte before, or since the start, in us. */
+    uint8_t value;       /**< Without those whose parity is wrong. */
+} copter_byte_t;
 
 /** What a power module measured. */
 typedef struct copter_power_reading {
@@ -62,8 +57,7 @@ typedef struct copter_port {
     bool (*read_imu)(void *context, uint32_t unit, copter_inertial_t *sample);
     bool (*read_magnetometer)(void *context, copter_field_t *sample);
     bool (*read_barometer)(void *context, float *pressure_pa);
-    bool (*read_gps)(void *context, copter_fix_t *fix);
-    bool (*read_radio)(void *context, copter_frame_t *frame);
+    bool (*read_byte)(void *context, uint32_t receiver, copter_byte_t *byte); /**< The next. */
     bool (*read_power)(void *context, uint32_t module, copter_power_reading_t *reading);
     uint32_t (*stack_free)(void *context); /**< Bytes of the stack that were never used. */
     void (*write_motors)(void *context, const float output[COPTER_MOTORS]); /**< Each 0 to 1. */

@@ -179,21 +179,22 @@ static bool gps_raw_int(const copter_t *copter, uint8_t *payload)
 {
     const copter_satellites_t *const satellites = &copter->satellites;
     const copter_fix_t *const fix = &satellites->fix;
+    const keel_ubx_fix_t *const received = &satellites->receiver.fix;
     const float speed = sqrtf((fix->north * fix->north) + (fix->east * fix->east));
     const float course = atan2f(fix->east, fix->north) * DEGREES;
     const message_gps_raw_int_t message = {
         .time_usec = satellites->fixed_us,
         .lat = fix->latitude,
         .lon = fix->longitude,
-        .alt = millimetres(sea_level_of_reference(&copter->estimate.altitude) +
-                           copter->estimate.altitude.axis.position), /* Of the estimate. */
+        .alt = received->height_mm,
         .eph = (uint16_t)UNKNOWN_16,
         .epv = (uint16_t)UNKNOWN_16,
         .vel = plain(speed * CENTI),
         .cog = plain(((course < 0.0f) ? (course + FULL_TURN) : course) * CENTI),
         .fix_type = (uint8_t)(fix->is_valid ? GPS_FIX_TYPE_3D_FIX : GPS_FIX_TYPE_NO_FIX),
-        .satellites_visible = (uint8_t)UNKNOWN_8,
+        .satellites_visible = received->satellites,
         .h_acc = (uint32_t)millimetres(within(fix->accuracy, 0.0f, FAR_M)),
+        .v_acc = received->height_accuracy,
         .vel_acc = (uint32_t)millimetres(within(fix->speed_accuracy, 0.0f, FAR_M))};
 
     message_gps_raw_int_pack(&message, payload);
@@ -285,29 +286,34 @@ static void servo_output_raw(const copter_t *copter, uint8_t *payload)
 
 static bool rc_channels(const copter_t *copter, uint8_t *payload)
 {
-    const uint16_t *const channel = copter->pilot.frame.channel;
     const uint16_t none = (uint16_t)UNKNOWN_16;
-    const message_rc_channels_t message = {.time_boot_ms = now_ms(copter),
-                                           .chan1_raw = channel[0],
-                                           .chan2_raw = channel[1],
-                                           .chan3_raw = channel[2],
-                                           .chan4_raw = channel[3],
-                                           .chan5_raw = channel[4],
-                                           .chan6_raw = channel[5],
-                                           .chan7_raw = channel[6],
-                                           .chan8_raw = channel[7],
-                                           .chan9_raw = none,
-                                           .chan10_raw = none,
-                                           .chan11_raw = none,
-                                           .chan12_raw = none,
-                                           .chan13_raw = none,
-                                           .chan14_raw = none,
-                                           .chan15_raw = none,
-                                           .chan16_raw = none,
-                                           .chan17_raw = none,
-                                           .chan18_raw = none,
-                                           .chancount = (uint8_t)COPTER_CHANNELS,
-                                           .rssi = (uint8_t)UNKNOWN_8};
+    uint16_t channel[KEEL_SBUS_CHANNELS];
+    message_rc_channels_t message;
+
+    for (uint32_t i = 0u; i < (uint32_t)KEEL_SBUS_CHANNELS; i++) {
+        channel[i] = keel_sbus_us(copter->pilot.radio.frame.channel[i]);
+    }
+    message = (message_rc_channels_t){.time_boot_ms = now_ms(copter),
+                                      .chan1_raw = channel[0],
+                                      .chan2_raw = channel[1],
+                                      .chan3_raw = channel[2],
+                                      .chan4_raw = channel[3],
+                                      .chan5_raw = channel[4],
+                                      .chan6_raw = channel[5],
+                                      .chan7_raw = channel[6],
+                                      .chan8_raw = channel[7],
+                                      .chan9_raw = channel[8],
+                                      .chan10_raw = channel[9],
+                                      .chan11_raw = channel[10],
+                                      .chan12_raw = channel[11],
+                                      .chan13_raw = channel[12],
+                                      .chan14_raw = channel[13],
+                                      .chan15_raw = channel[14],
+                                      .chan16_raw = channel[15],
+                                      .chan17_raw = none,
+                                      .chan18_raw = none,
+                                      .chancount = (uint8_t)KEEL_SBUS_CHANNELS,
+                                      .rssi = (uint8_t)UNKNOWN_8};
 
     message_rc_channels_pack(&message, payload);
     return copter->pilot.received > 0u;

@@ -3,22 +3,41 @@
 #include "copter.h"
 
 /* Two fixes farther apart than this say nothing of the acceleration now; nor does an old one. */
+#define APART_MS 500u
 #define APART_US 500000u
 
-#define US_PER_S 1.0e6f
+/* Millimetres and milliseconds in metres and seconds. */
+#define MILLI 1.0e-3f
 
-static bool is_fast_enough(const copter_fix_t *fix)
+keel_status_t copter_satellites_init(copter_satellites_t *satellites)
 {
-    return fix->is_valid && (fix->speed_accuracy <= copter_settings.position.speed_accuracy);
+    return keel_ubx_init(&satellites->receiver, &copter_settings.satellites);
 }
 
-static void derive(copter_satellites_t *self, const copter_fix_t *before, uint64_t apart_us)
+static copter_fix_t fix_of(const keel_ubx_t *receiver)
 {
-    const float time_s = (float)apart_us / US_PER_S;
+    const keel_ubx_fix_t *const fix = &receiver->fix;
 
-    self->is_accelerated = is_fast_enough(before) && is_fast_enough(&self->fix) &&
-                           (apart_us > 0u) && (apart_us <= APART_US);
+    return (copter_fix_t){.tow_ms = fix->tow_ms,
+                          .latitude = fix->latitude,
+                          .longitude = fix->longitude,
+                          .north = MILLI * (float)fix->north,
+                          .east = MILLI * (float)fix->east,
+                          .accuracy = MILLI * (float)fix->accuracy_mm,
+                          .speed_accuracy = MILLI * (float)fix->speed_accuracy,
+                          .is_valid = keel_ubx_judge(receiver) == KEEL_UBX_USABLE};
+}
+
+/* By the receiver's times: a run of this task may come late, a fix be lost on the way. */
+static void derive(copter_satellites_t *self, const copter_fix_t *before)
+{
+    const uint32_t apart_ms = self->fix.tow_ms - before->tow_ms;
+
+    self->is_accelerated = before->is_valid && self->fix.is_valid && (apart_ms > 0u) &&
+                           (apart_ms <= APART_MS);
     if (self->is_accelerated) {
+        const float time_s = MILLI * (float)apart_ms;
+
         self->acceleration = (keel_attitude_vector_t){(self->fix.north - before->north) / time_s,
                                                       (self->fix.east - before->east) / time_s,
                                                       0.0f};
@@ -28,16 +47,22 @@ static void derive(copter_satellites_t *self, const copter_fix_t *before, uint64
 void copter_gps(copter_t *copter)
 {
     copter_satellites_t *const self = &copter->satellites;
-    const copter_fix_t before = self->fix;
-    const uint64_t apart_us = copter->scheduler.clock.now_us - self->fixed_us;
+    const copter_port_t *const port = copter->port;
+    const uint64_t now_us = copter->scheduler.clock.now_us;
+    copter_byte_t byte;
 
-    if (copter->port->read_gps(copter->port->context, &self->fix)) {
-        derive(self, &before, apart_us);
-        self->fixed_us = copter->scheduler.clock.now_us;
-        self->fixes++;
-    } else if (apart_us > APART_US) {
+    for (uint32_t i = 0u; (i < COPTER_BYTES) && port->read_byte(port->context, COPTER_GPS, &byte);
+         i++) {
+        if (keel_ubx_take(&self->receiver, byte.value, byte.elapsed_us)) {
+            const copter_fix_t before = self->fix;
+
+            self->fix = fix_of(&self->receiver);
+            derive(self, &before);
+            self->fixed_us = now_us;
+            self->fixes++;
+        }
+    }
+    if ((now_us - self->fixed_us) > APART_US) {
         self->is_accelerated = false;
-    } else {
-        /* The last two still hold. */
     }
 }

@@ -17,6 +17,9 @@
 #define DISPATCH_NS 1000u
 #define HUNDRED     100u
 
+/* Of two times that are counted modulo 2^32 the later one is ahead by less than this. */
+#define HALF_OF_TIME 0x80000000u
+
 /* What a line holds of either direction. */
 #define LINE_BYTES 4096u
 
@@ -25,8 +28,8 @@ typedef struct taken {
     uint32_t imu[SIM_IMUS];
     uint32_t magnetometer;
     uint32_t barometer;
-    uint32_t gps;
-    uint32_t radio;
+    uint32_t bytes[SIM_RECEIVERS];
+    uint32_t at_us[SIM_RECEIVERS]; /* When the last one came. */
     uint32_t power[SIM_MODULES];
 } taken_t;
 
@@ -103,32 +106,25 @@ static bool read_barometer(void *context, float *pressure_pa)
     return there;
 }
 
-static bool read_gps(void *context, copter_fix_t *fix)
+static bool read_byte(void *context, uint32_t receiver, copter_byte_t *byte)
 {
-    const sim_gps_t *const gps = &sensors.gps;
-    const bool there = is_new(&taken.gps, gps->count);
+    const sim_receiver_t *const from = &sensors.receiver[receiver];
+    const uint32_t now_us = (uint32_t)(board.now_ns / HOST_NS_PER_US);
+    uint32_t *const next = &taken.bytes[receiver];
+    uint32_t at;
+    bool there;
 
     (void)context;
-    if (there) {
-        *fix = (copter_fix_t){.latitude = gps->latitude,
-                              .longitude = gps->longitude,
-                              .north = gps->north,
-                              .east = gps->east,
-                              .accuracy = gps->accuracy,
-                              .speed_accuracy = gps->speed_accuracy,
-                              .is_valid = gps->is_valid != 0u};
+    if ((from->count - *next) > (uint32_t)SIM_RING) {
+        *next = from->count - (uint32_t)SIM_RING; /* Too late for those before. */
     }
-    return there;
-}
-
-static bool read_radio(void *context, copter_frame_t *frame)
-{
-    const bool there = is_new(&taken.radio, sensors.radio.count);
-
-    (void)context;
+    at = *next % (uint32_t)SIM_RING;
+    there = (*next != from->count) && ((now_us - from->at_us[at]) < HALF_OF_TIME);
     if (there) {
-        memcpy(frame->channel, sensors.radio.channel, sizeof frame->channel);
-        frame->failsafe = sensors.radio.failsafe != 0u;
+        *byte = (copter_byte_t){.value = (uint8_t)from->byte[at],
+                                .elapsed_us = from->at_us[at] - taken.at_us[receiver]};
+        taken.at_us[receiver] = from->at_us[at];
+        (*next)++;
     }
     return there;
 }
@@ -263,8 +259,7 @@ int sim_start(const sim_options_t *chosen)
                            .read_imu = read_imu,
                            .read_magnetometer = read_magnetometer,
                            .read_barometer = read_barometer,
-                           .read_gps = read_gps,
-                           .read_radio = read_radio,
+                           .read_byte = read_byte,
                            .read_power = read_power,
                            .stack_free = stack_free,
                            .write_motors = write_motors,

@@ -16,13 +16,14 @@
 
 #include <stdint.h>
 
-#define SIM_IMUS     3
-#define SIM_MODULES  2
-#define SIM_CHANNELS 8
-#define SIM_MOTORS   4
-#define SIM_TASKS    21
-#define SIM_LINKS    3
-#define SIM_KEY      32
+#define SIM_IMUS      3
+#define SIM_MODULES   2
+#define SIM_RECEIVERS 2
+#define SIM_MOTORS    4
+#define SIM_RING      512
+#define SIM_TASKS     21
+#define SIM_LINKS     3
+#define SIM_KEY       32
 
 /** An inertial measurement unit. */
 typedef struct sim_imu {
@@ -43,26 +44,19 @@ typedef struct sim_barometer {
     uint32_t count;
 } sim_barometer_t;
 
-/** A satellite receiver. */
-typedef struct sim_gps {
-    int32_t latitude;     /**< In 1e-7 degrees. */
-    int32_t longitude;    /**< In 1e-7 degrees. */
-    float north;          /**< Velocity, in m/s. */
-    float east;           /**< Velocity, in m/s. */
-    float accuracy;       /**< Of the position, in m. */
-    float speed_accuracy; /**< Of the velocity, in m/s. */
-    uint32_t is_valid;    /**< 1: a fix in three dimensions. */
-    uint32_t count;
-} sim_gps_t;
-
-/** A receiver of the pilot's radio. Channels, each from 988 to 2012 with 1500 in the middle: roll
- * (right), pitch (stick pulled, nose up), throttle (up), yaw (right), arm switch (off 1000, on
- * 2000), mode switch (see sim_mode_channel), kill switch (off 1000, on 2000), free. */
-typedef struct sim_radio {
-    uint16_t channel[SIM_CHANNELS];
-    uint32_t failsafe; /**< 1: the receiver says that it hears no transmitter. */
-    uint32_t count;
-} sim_radio_t;
+/** A receiver: the last bytes that it sent, or that are on their way. Byte n is at n modulo
+ * SIM_RING.
+ *
+ * The first is that of the pilot's radio: SBUS, whose channels are, from 988 to 2012 us with 1500
+ * in the middle, roll (right), pitch (stick pulled, nose up), throttle (up), yaw (right), arm
+ * switch (off 1000, on 2000), mode switch (see sim_mode_channel), kill switch (off 1000, on 2000),
+ * and the switch that asks for a calibration. The second is the satellite receiver: UBX. */
+typedef struct sim_receiver {
+    uint32_t byte[SIM_RING];
+    uint32_t at_us[SIM_RING]; /**< When it has come, in us since power-up, modulo 2^32: never before
+                                   the byte before. */
+    uint32_t count;           /**< Of all bytes. */
+} sim_receiver_t;
 
 /** A power module. */
 typedef struct sim_power {
@@ -76,8 +70,7 @@ typedef struct sim_sensors {
     sim_imu_t imu[SIM_IMUS];
     sim_magnetometer_t magnetometer;
     sim_barometer_t barometer;
-    sim_gps_t gps;
-    sim_radio_t radio;
+    sim_receiver_t receiver[SIM_RECEIVERS];
     sim_power_t power[SIM_MODULES];
 } sim_sensors_t;
 

@@ -18,17 +18,32 @@
 #define ARMS_US  7000000u
 #define LIFTS_US 8000000u
 
-/* Channels of the radio: see copter/pilot.c. */
-#define MIDDLE     1500u
-#define LEAST      988u
-#define SWITCH_OFF 1000u
-#define SWITCH_ON  2000u
-#define MODE_FIRST 1050u
-#define MODE_STEP  180u
-#define THROTTLE   2u
-#define ARM        4u
-#define MODE       5u
-#define KILL       6u
+/* What a byte takes on its line: 100000 baud and 12 bits, 115200 and 10. */
+#define RADIO_BYTE_US 120u
+#define GPS_BYTE_US   87u
+
+/* A frame of SBUS, and what stands for 1500, 988, 1000, 2000 and 1050 us, and for 180 us more, in
+ * its channels (see copter/pilot.c). */
+#define SBUS_BYTES   25u
+#define SBUS_HEADER  0x0Fu
+#define CHANNELS     16u
+#define CHANNEL_BITS 11u
+#define MIDDLE       992u
+#define LEAST        173u
+#define SWITCH_OFF   192u
+#define SWITCH_ON    1792u
+#define MODE_FIRST   272u
+#define MODE_STEP    288u
+
+/* A NAV-PVT of UBX: where its payload begins, and a fix in three dimensions that is vouched for. */
+#define UBX_BYTES    100u
+#define UBX_PAYLOAD  6u
+#define UBX_GOOD_FIX 0x0E000103u
+
+#define THROTTLE 2u
+#define ARM      4u
+#define MODE     5u
+#define KILL     6u
 
 #define HALF_SEQUENCE 32768.0f
 
@@ -91,39 +106,93 @@ static bool read_barometer(void *context, float *pressure_pa)
     return true;
 }
 
-static bool read_gps(void *context, copter_fix_t *fix)
+/* Sixteen channels of 11 bits, the lowest first. */
+static void write_sbus(desk_receiver_t *to, uint32_t now_us)
 {
-    desk_t *const desk = context;
-
-    if (!is_due(desk, &desk->gps, GPS_US)) {
-        return false;
+    to->size = SBUS_BYTES;
+    for (uint32_t i = 0u; i < SBUS_BYTES; i++) {
+        to->byte[i] = 0u;
     }
-    *fix = (copter_fix_t){.latitude = 473977420 + (int32_t)dither(desk, 5.0f),
-                          .longitude = 85455940 + (int32_t)dither(desk, 5.0f),
-                          .north = dither(desk, 0.05f),
-                          .east = dither(desk, 0.05f),
-                          .accuracy = 1.0f,
-                          .speed_accuracy = 0.2f,
-                          .is_valid = true};
-    return true;
+    to->byte[0] = SBUS_HEADER;
+    for (uint32_t i = 0u; i < CHANNELS; i++) {
+        uint32_t value = MIDDLE;
+
+        if (i == THROTTLE) {
+            value = (now_us < LIFTS_US) ? LEAST : MIDDLE;
+        } else if (i == ARM) {
+            value = (now_us < ARMS_US) ? SWITCH_OFF : SWITCH_ON;
+        } else if (i == MODE) {
+            value = MODE_FIRST + (MODE_STEP * KEEL_MODE_POSITION);
+        } else if (i == KILL) {
+            value = SWITCH_OFF;
+        } else {
+            /* Let go. */
+        }
+        for (uint32_t k = 0u; k < CHANNEL_BITS; k++) {
+            const uint32_t bit = (CHANNEL_BITS * i) + k;
+
+            to->byte[1u + (bit / 8u)] |= (uint8_t)(((value >> k) & 1u) << (bit % 8u));
+        }
+    }
 }
 
-static bool read_radio(void *context, copter_frame_t *frame)
+static void write_word(desk_receiver_t *to, uint32_t at, uint32_t value)
 {
-    desk_t *const desk = context;
-    const uint32_t now_us = desk->read_clock(desk->clock);
+    for (uint32_t i = 0u; i < 4u; i++) {
+        to->byte[UBX_PAYLOAD + at + i] = (uint8_t)((value >> (8u * i)) & 0xFFu);
+    }
+}
 
-    if (!is_due(desk, &desk->radio, RADIO_US)) {
-        return false;
+/* A NAV-PVT: see keel/middleware/ubx.h. */
+static void write_ubx(desk_t *desk, desk_receiver_t *to, uint32_t now_us)
+{
+    static const uint8_t header[UBX_PAYLOAD] = {0xB5u, 0x62u, 0x01u, 0x07u, 0x5Cu, 0x00u};
+    uint32_t a = 0u;
+    uint32_t b = 0u;
+
+    to->size = UBX_BYTES;
+    for (uint32_t i = 0u; i < UBX_BYTES; i++) {
+        to->byte[i] = (i < UBX_PAYLOAD) ? header[i] : 0u;
     }
-    for (uint32_t i = 0u; i < COPTER_CHANNELS; i++) {
-        frame->channel[i] = MIDDLE;
+    write_word(to, 0u, now_us / 1000u);
+    write_word(to, 20u, UBX_GOOD_FIX);
+    write_word(to, 24u, 85455940u + (uint32_t)(int32_t)dither(desk, 5.0f));
+    write_word(to, 28u, 473977420u + (uint32_t)(int32_t)dither(desk, 5.0f));
+    write_word(to, 40u, 1000u);
+    write_word(to, 48u, (uint32_t)(int32_t)dither(desk, 50.0f));
+    write_word(to, 52u, (uint32_t)(int32_t)dither(desk, 50.0f));
+    write_word(to, 68u, 200u);
+    for (uint32_t i = 2u; i < (UBX_BYTES - 2u); i++) {
+        a = (a + to->byte[i]) % 256u;
+        b = (b + a) % 256u;
     }
-    frame->channel[THROTTLE] = (now_us < LIFTS_US) ? LEAST : MIDDLE;
-    frame->channel[ARM] = (now_us < ARMS_US) ? SWITCH_OFF : SWITCH_ON;
-    frame->channel[MODE] = MODE_FIRST + (MODE_STEP * KEEL_MODE_POSITION);
-    frame->channel[KILL] = SWITCH_OFF;
-    frame->failsafe = false;
+    to->byte[UBX_BYTES - 2u] = (uint8_t)a;
+    to->byte[UBX_BYTES - 1u] = (uint8_t)b;
+}
+
+/* The first byte of a frame or message comes after silence, the others close behind it. */
+static bool read_byte(void *context, uint32_t number, copter_byte_t *byte)
+{
+    static const uint32_t period_us[COPTER_RECEIVERS] = {RADIO_US, GPS_US};
+    static const uint32_t byte_us[COPTER_RECEIVERS] = {RADIO_BYTE_US, GPS_BYTE_US};
+    desk_t *const desk = context;
+    desk_receiver_t *const from = &desk->receiver[number];
+
+    if (from->sent == from->size) {
+        if (!is_due(desk, &from->device, period_us[number])) {
+            return false;
+        }
+        if (number == COPTER_RADIO) {
+            write_sbus(from, desk->read_clock(desk->clock));
+        } else {
+            write_ubx(desk, from, desk->read_clock(desk->clock));
+        }
+        from->sent = 0u;
+    }
+    byte->elapsed_us = (from->sent == 0u) ? (period_us[number] - (byte_us[number] * from->size))
+                                          : byte_us[number];
+    byte->value = from->byte[from->sent];
+    from->sent++;
     return true;
 }
 
@@ -169,8 +238,7 @@ copter_port_t desk_port(desk_t *desk, keel_clock_fn_t read_clock, void *clock)
                            .read_imu = read_imu,
                            .read_magnetometer = read_magnetometer,
                            .read_barometer = read_barometer,
-                           .read_gps = read_gps,
-                           .read_radio = read_radio,
+                           .read_byte = read_byte,
                            .read_power = read_power,
                            .stack_free = stack_free,
                            .write_motors = write_motors,

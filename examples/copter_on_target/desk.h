@@ -21,6 +21,17 @@ typedef struct desk_device {
     bool started;
 } desk_device_t;
 
+/** The longest that a receiver sends at once. */
+#define DESK_BYTES 100u
+
+/** A receiver, and what it sends now. */
+typedef struct desk_receiver {
+    desk_device_t device;
+    uint8_t byte[DESK_BYTES];
+    uint32_t size;
+    uint32_t sent; /**< Of size. */
+} desk_receiver_t;
+
 /** A desk. */
 typedef struct desk {
     keel_clock_fn_t read_clock;
@@ -28,8 +39,7 @@ typedef struct desk {
     desk_device_t imu[COPTER_IMUS];
     desk_device_t magnetometer;
     desk_device_t barometer;
-    desk_device_t gps;
-    desk_device_t radio;
+    desk_receiver_t receiver[COPTER_RECEIVERS];
     desk_device_t power[COPTER_MODULES];
     uint32_t dither;            /**< The state of a pseudo-random sequence. */
     float motor[COPTER_MOTORS]; /**< What the motors were last told. */

@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import pytest
 from flight import judge, library, scenario
@@ -75,12 +76,10 @@ class Rig:
                 if data:
                     self.seen[link] += self.parsers[link].parse_buffer(data) or []
 
-    def radio(self, milliseconds: int, lost: bool = True) -> None:
+    def without_radio(self, milliseconds: int) -> None:
         """The same, with the pilot's frames gone."""
-        count = self.flight._radio["count"]
-        for _ in range(milliseconds):
-            self.run(1)
-            self.flight._radio["count"] = count if lost else self.flight._radio["count"]
+        with mock.patch.object(self.flight._radio, "send"):
+            self.run(milliseconds)
 
     def send(self, message: Any, link: int = 0) -> None:
         """A frame for the copter."""
@@ -154,7 +153,10 @@ def test_what_is_told_is_so(copter: Copter) -> None:
     assert abs(place.lat / 1e7 - truth.latitude) < 3e-5
     assert abs(place.lon / 1e7 - truth.longitude) < 3e-5
     assert abs(place.alt / 1000.0 - 430.0) < 5.0 and abs(place.relative_alt / 1000.0) < 2.0
-    assert by_kind["RC_CHANNELS"].chan3_raw == LOW
+    fix, radio = by_kind["GPS_RAW_INT"], by_kind["RC_CHANNELS"]
+    assert (fix.fix_type, fix.satellites_visible, fix.v_acc) == (3, 14, 800)
+    assert abs(fix.alt / 1000.0 - 430.0) < 1.0
+    assert (radio.chan3_raw, radio.chan16_raw, radio.chancount) == (LOW, 1500, 16)
     assert by_kind["SERVO_OUTPUT_RAW"].servo1_raw == 1000
     assert by_kind["EXTENDED_SYS_STATE"].landed_state == 1
     rig.copter.look()
@@ -341,12 +343,12 @@ def test_what_stands_in_the_way_is_named(
 
 def test_without_the_pilots_link_nothing_moves(copter: Copter) -> None:
     rig = Rig(copter)
-    rig.radio(1000)
+    rig.without_radio(1000)
     assert rig.ask(SET_MODE, 1, LAND) == REJECTED
-    rig.radio(1000)
+    rig.without_radio(1000)
     begun = len(rig.seen[0])
     rig.send(mavlink.MAVLink_command_long_message(1, 1, ARM, 0, 1, *[0] * 6))
-    rig.radio(1500)
+    rig.without_radio(1500)
     answers = [one.result for one in rig.seen[0][begun:] if one.get_type() == "COMMAND_ACK"]
     assert answers == [REJECTED] and rig.state() == DISARMED
     rig.run(3000)  # The radio is back, and what was asked for is over.
@@ -427,11 +429,11 @@ def test_modes_of_a_flight(copter: Copter) -> None:
 def test_the_link_that_is_lost_counts_more_than_a_mode_that_is_asked_for(copter: Copter) -> None:
     rig = in_flight(copter)
     assert rig.ask(SET_MODE, 1, ALTITUDE) == ACCEPTED
-    rig.radio(1000)
+    rig.without_radio(1000)
     assert rig.state() == HOLDING
     begun = len(rig.seen[0])
     rig.send(mavlink.MAVLink_command_long_message(1, 1, SET_MODE, 0, 1, POSITION, *[0] * 5))
-    rig.radio(1000)
+    rig.without_radio(1000)
     assert rig.state() == HOLDING
     answers = [one.result for one in rig.seen[0][begun:] if one.get_type() == "COMMAND_ACK"]
     assert answers == [REJECTED]

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from flight import sensors, wind
+from flight import frames, sensors, wind
 from flight.plants import HOME_LATITUDE, HOME_LONGITUDE, NORTH_M, Truth
 from flight.power import Battery
+from flight.receivers import RADIO, SATELLITES, Receiver
 from flight.sensors import Broken, Inertial, Quality, Slow
 
 REST = [0.0, 0.0, -9.81, 0.0, 0.0, 0.0]
@@ -19,9 +20,7 @@ MEMORY = [
     ("imu", IMU, (3,)),
     ("magnetometer", [("field", "<f4", (3,)), ("count", "<u4")]),
     ("barometer", [("pressure", "<f4"), ("count", "<u4")]),
-    ("gps", [("latitude", "<i4"), ("longitude", "<i4"), ("north", "<f4"), ("east", "<f4"),
-             ("accuracy", "<f4"), ("speed_accuracy", "<f4"), ("is_valid", "<u4"),
-             ("count", "<u4")]),
+    ("receiver", [("byte", "<u4", (512,)), ("at_us", "<u4", (512,)), ("count", "<u4")], (2,)),
     ("power", [("voltage", "<f4"), ("current", "<f4"), ("count", "<u4")], (2,)),
 ]  # fmt: skip
 
@@ -125,24 +124,77 @@ def slow(broken: Broken, milliseconds: int, truth: Truth | None = None) -> Any:
     return there
 
 
+def last_fix(there: Any) -> Any:
+    """The numbers of the last NAV-PVT."""
+    sent = there["receiver"][SATELLITES]
+    places = np.arange(int(sent["count"]) - 100, int(sent["count"])) % len(sent["byte"])
+    message = bytes(sent["byte"][places].tolist())
+    assert message == frames.ubx(0x01, 0x07, message[6:-2])
+    return frames.NAV_PVT.unpack(message[6:-2])
+
+
+def north_of(fix: Any) -> float:
+    """In m from home."""
+    return float((fix[15] * 1e-7 - HOME_LATITUDE) * NORTH_M)
+
+
+def sent_by(number: int, noise: float) -> Any:
+    """A thousand times ten bytes."""
+    there = memory()
+    receiver = Receiver(there, number, np.random.Generator(np.random.PCG64(1)))
+    for turn in range(1000):
+        receiver.send(20_000 * turn, bytes(range(10)), noise)
+    return there["receiver"][number]
+
+
+def test_bytes_come_one_after_the_other() -> None:
+    sent = sent_by(RADIO, 0.0)
+    assert sent["count"] == 10_000
+    last = np.arange(9_990, 10_000) % 512
+    assert sent["byte"][last].tolist() == list(range(10))
+    assert sent["at_us"][last].tolist() == [19_980_000 + 120 * n for n in range(1, 11)]
+
+
+def test_a_line_that_is_busy_is_waited_for() -> None:
+    there = memory()
+    receiver = Receiver(there, SATELLITES, np.random.Generator(np.random.PCG64(1)))
+    receiver.send(0, bytes(2))
+    receiver.send(100, bytes(1))
+    assert there["receiver"][SATELLITES]["at_us"][:3].tolist() == [87, 174, 261]
+
+
+def test_times_are_counted_modulo_their_word() -> None:
+    there = memory()
+    receiver = Receiver(there, RADIO, np.random.Generator(np.random.PCG64(1)))
+    receiver.send((1 << 32) - 200, bytes(3))
+    assert there["receiver"][RADIO]["at_us"][:3].tolist() == [(1 << 32) - 80, 40, 160]
+
+
+def test_disturbed_bytes() -> None:
+    # One in five is lost for good (with parity two), one has others before it, 2.5 in the mean.
+    assert sent_by(RADIO, 0.2)["count"] == pytest.approx(10_000 * (1 + 0.05 * (2.5 - 2)), rel=0.02)
+    assert sent_by(SATELLITES, 0.2)["count"] == pytest.approx(10_000 * (1 + 0.05 * 1.5), rel=0.02)
+    assert np.array_equal(sent_by(RADIO, 0.2)["byte"], sent_by(RADIO, 0.2)["byte"])
+
+
 def test_rates() -> None:
     there = slow(Broken(), 10_000)
     assert there["magnetometer"]["count"] == 1000
     assert there["barometer"]["count"] == 500
-    assert there["gps"]["count"] == 99  # The last one is still on its way.
+    assert there["receiver"]["count"].tolist() == [0, 9900]  # The last fix is still on its way.
     assert there["power"]["count"].tolist() == [1000, 1000]
 
 
 def test_the_satellites_tell_where_it_was() -> None:
     place = Truth(latitude=HOME_LATITUDE + 100.0 / NORTH_M, longitude=HOME_LONGITUDE)
     there = slow(Broken(), 1000, place)
-    north = (there["gps"]["latitude"] * 1e-7 - HOME_LATITUDE) * NORTH_M
+    north = north_of(last_fix(there))
     assert north == pytest.approx(100.0, abs=1.0)
-    assert there["gps"]["is_valid"] == 1
-    jumped = slow(Broken(gps_jump=(30.0, 0.0)), 1000, place)
-    north_2 = (jumped["gps"]["latitude"] * 1e-7 - HOME_LATITUDE) * NORTH_M
-    assert north_2 - north == pytest.approx(30.0, abs=0.05)
-    assert slow(Broken(gps_lost=True), 1000)["gps"]["is_valid"] == 0
+    assert last_fix(there)[10] & 3 == 3  # In three dimensions,
+    assert last_fix(there)[11] & 1 == 1  # and vouched for.
+    jumped = last_fix(slow(Broken(gps_jump=(30.0, 0.0)), 1000, place))
+    assert north_of(jumped) - north == pytest.approx(30.0, abs=0.05)
+    assert last_fix(slow(Broken(gps_lost=True), 1000))[11] & 1 == 0
 
 
 def test_modules_share_the_current() -> None:

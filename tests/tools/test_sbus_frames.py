@@ -17,6 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 from common.run import output_of  # noqa: E402
+from flight import frames  # noqa: E402
 
 GAP_US, BYTE_US, SILENT_US = 1000, 120, 4000
 LOWEST, HIGHEST = 172, 1811
@@ -98,6 +99,16 @@ class Frames(unittest.TestCase):
         self.assertEqual(encoded(channels, 0x0C), vector)
         self.assertEqual(self.feed(vector, SILENT_US), [24])
         self.assertEqual(self.says(), (channels, 12))
+
+    def test_the_simulated_receiver(self) -> None:
+        """tools/flight/frames.py, which sends the frames in simulated flights."""
+        for failsafe in (False, True):
+            pulses = [988, 1500, 2012, 1000, 2000, 1050, 1501, 1499]
+            frame = frames.sbus(pulses, failsafe)
+            self.assertEqual(self.feed(frame, SILENT_US), [24])
+            channels, flags = self.says()
+            self.assertEqual([880 + (5 * value + 4) // 8 for value in channels[:8]], pulses)
+            self.assertEqual((channels[8:], flags), ((992,) * 8, 8 * failsafe))
 
     def test_frames_behind_gaps_and_garbage(self) -> None:
         for _ in range(2000):

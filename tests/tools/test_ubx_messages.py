@@ -19,6 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 from common.run import output_of  # noqa: E402
+from flight import frames  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 GAP_US, BYTE_US, SILENT_US = 20000, 87, 80000
@@ -202,6 +203,26 @@ class Messages(unittest.TestCase):
         if kind == 1:
             return piece[:at] + piece[at + self.random.randrange(1, 4) :]
         return b"\xb5\x62\x0a\x04\xff\xff" + piece[:at]
+
+    def test_the_simulated_receiver_encodes_as_pyubx2(self) -> None:
+        """tools/flight/frames.py, which sends the fixes in simulated flights."""
+        for _ in range(300):
+            draw = self.random.uniform
+            place, speed = (draw(-90, 90), draw(-180, 180)), (draw(-9, 9), draw(-9, 9), draw(-9, 9))
+            tow, height, fixed = self.random.randrange(604800000), draw(-99, 999), draw(0, 1) < 0.7
+            accuracy, pace = draw(0, 99), draw(0, 9)
+            data = frames.nav_pvt(tow, place, height, speed, accuracy, pace, fixed)
+            parsed = self.pyubx2.UBXReader.parse(data)  # Refuses a wrong checksum.
+            self.assertEqual((parsed.identity, parsed.iTOW), ("NAV-PVT", tow))
+            self.assertEqual((parsed.fixType, parsed.gnssFixOk), (3, 1) if fixed else (0, 0))
+            self.assertAlmostEqual(parsed.lat, place[0], delta=1e-7)
+            self.assertAlmostEqual(parsed.lon, place[1], delta=1e-7)
+            is_said = (parsed.hMSL, parsed.velN, parsed.velE, parsed.velD, parsed.hAcc, parsed.sAcc)
+            meant = (height, *speed, accuracy, pace)
+            self.assertEqual(is_said, tuple(round(1000 * value) for value in meant))
+            self.assertEqual(parsed.invalidLlh, 0)
+            again = self.pyubx2.UBXMessage(1, 7, self.pyubx2.GET, payload=data[6:-2])
+            self.assertEqual(again.serialize(), data)
 
     def test_acknowledgements(self) -> None:
         for name in ("ACK-ACK", "ACK-NAK", "ACK-ACK"):

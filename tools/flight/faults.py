@@ -69,6 +69,10 @@ class Faults:
         broken, factor = self.broken, float(on)
         if fault.kind == "gps_jump":
             broken.gps_jump = (factor * (fault.north_m or 0.0), factor * (fault.east_m or 0.0))
+        elif fault.kind == "gps_noise":
+            broken.gps_noise = factor * (fault.share or 0.0)
+        elif fault.kind == "radio_noise":
+            broken.radio_noise = factor * (fault.share or 0.0)
         elif fault.kind == "barometer_spike":
             broken.pascal = factor * (fault.pascal or 0.0)
         elif fault.kind == "magnetometer_current":

@@ -18,12 +18,13 @@ from typing import Any
 
 import numpy as np
 
-from flight import plants, wind
+from flight import frames, plants, wind
 from flight.faults import Faults
 from flight.library import Copter, Key, Link, checks_of, facts_of, modes, states
 from flight.pilot import Pilot, Sight
 from flight.plants import Airframe, Plant, Truth
 from flight.power import Battery
+from flight.receivers import RADIO, Receiver
 from flight.scenario import Scenario
 from flight.sensors import Broken, Inertial, Quality, Slow
 
@@ -89,7 +90,7 @@ class Flight:
         self._copter, self._scenario = copter, scenario
         copter.start(scenario.options.costs_percent, scenario.options.plain_mean, links, key,
                      keep)  # fmt: skip
-        seeds = np.random.SeedSequence(order.seed).spawn(3)
+        seeds = np.random.SeedSequence(order.seed).spawn(4)
         rng = [np.random.Generator(np.random.PCG64(seed)) for seed in seeds]
         self._plant: Plant = plants.make(order.plant, order.airframe, scenario.heading_deg)
         self._battery = Battery(left=scenario.battery_left)
@@ -97,7 +98,7 @@ class Flight:
         memory = copter.sensors
         self._inertial = Inertial(memory["imu"], rng[0], order.quality)
         self._slow = Slow(memory, seeds[1], order.quality)
-        self._radio = memory["radio"]
+        self._radio = Receiver(memory, RADIO, rng[3])
         self._radio_ms = 1000 // scenario.radio_hz
         self._pilot = pilot(scenario, self._radio_ms / 1000.0)
         self._faults = Faults(scenario.fault, copter, self._battery)
@@ -156,7 +157,7 @@ class Flight:
         if now_ms % POWER_MS == 0:
             self._breathe(now_ms)
         if now_ms % self._radio_ms == 0:
-            self._send(time_s, broken)
+            self._send(now_ms, time_s, broken)
         if status := copter.run_until(1000 * now_ms):
             raise NotFlown(f"the scheduler refused to go on at {time_s:.3f} s: status {status}")
         copter.look()
@@ -180,7 +181,7 @@ class Flight:
             flown_ms = max(0, now_ms - self._begun_ms) if self._begun_ms >= 0 else 0
             self._plant.blow(*self._wind[(flown_ms // WIND_MS) % len(self._wind)].tolist())
 
-    def _send(self, time_s: float, broken: Broken) -> None:
+    def _send(self, now_ms: int, time_s: float, broken: Broken) -> None:
         """A frame of the radio."""
         view = self._copter.view
         ready = not view["blocking_checks"] and not view["blocking_facts"]
@@ -191,11 +192,9 @@ class Flight:
         sight = Sight(time_s, truth, bool(ready), thrusts, self._mode_channels,
                       bool(view["motors_on"]))  # fmt: skip
         channels = self._pilot.frame(sight)
-        if broken.radio_lost:
-            return
-        self._radio["channel"] = channels
-        self._radio["failsafe"] = int(broken.radio_failsafe)
-        self._radio["count"] += 1
+        if not broken.radio_lost:
+            frame = frames.sbus(channels, broken.radio_failsafe)
+            self._radio.send(1000 * now_ms, frame, broken.radio_noise)
 
     def _record(self, now_ms: int) -> None:
         """A row."""

@@ -86,15 +86,16 @@ class Hand(Table):
 FAULTS: dict[str, tuple[str, ...]] = {
     "imu_freeze": ("unit",), "imu_silent": ("unit",), "imu_shout": ("unit",),
     "imu_drift": ("unit", "rate"),
-    "radio_loss": (), "radio_failsafe": (), "gps_loss": (), "gps_jump": ("north_m", "east_m"),
+    "radio_loss": (), "radio_failsafe": (), "radio_noise": ("share",),
+    "gps_loss": (), "gps_jump": ("north_m", "east_m"), "gps_noise": ("share",),
     "barometer_spike": ("pascal",), "magnetometer_current": ("microtesla_per_ampere",),
     "motor_weak": ("motor", "share"), "battery_low": ("share",),
     "task_overrun": ("task", "runs", "extra_us"),
 }  # fmt: skip
 FaultKind = Literal[
     "imu_freeze", "imu_silent", "imu_shout", "imu_drift", "radio_loss", "radio_failsafe",
-    "gps_loss", "gps_jump", "barometer_spike", "magnetometer_current", "motor_weak",
-    "battery_low", "task_overrun",
+    "radio_noise", "gps_loss", "gps_jump", "gps_noise", "barometer_spike", "magnetometer_current",
+    "motor_weak", "battery_low", "task_overrun",
 ]  # fmt: skip
 
 

@@ -15,8 +15,10 @@ from typing import Any
 
 import numpy as np
 
-from flight.plants import EAST_M, NORTH_M, Plant
+from flight import frames
+from flight.plants import EAST_M, HOME_ALTITUDE_M, NORTH_M, Plant
 from flight.power import Battery
+from flight.receivers import SATELLITES, Receiver
 
 BLOCK = 1000
 UNITS = 3
@@ -57,10 +59,12 @@ class Broken:
     drift: dict[int, float] = field(default_factory=dict)  # By unit: rad/s.
     gps_lost: bool = False
     gps_jump: tuple[float, float] = (0.0, 0.0)
+    gps_noise: float = 0.0  # Of its line: the share of its bytes.
     pascal: float = 0.0
     microtesla_per_ampere: float = 0.0
     radio_lost: bool = False
     radio_failsafe: bool = False
+    radio_noise: float = 0.0
 
     @property
     def imu(self) -> bool:
@@ -157,8 +161,9 @@ class Slow:
     """Magnetometer, barometer, satellites and power modules, each at its own pace."""
 
     def __init__(self, memory: Any, seed: np.random.SeedSequence, quality: Quality) -> None:
-        own = [np.random.Generator(np.random.PCG64(part)) for part in seed.spawn(4)]
-        self._field_rng, self._air_rng, self._gps_rng, self._power_rng = own
+        own = [np.random.Generator(np.random.PCG64(part)) for part in seed.spawn(5)]
+        self._field_rng, self._air_rng, self._gps_rng, self._power_rng, line_rng = own
+        self._receiver = Receiver(memory, SATELLITES, line_rng)
         self._memory, self._quality = memory, quality
         self._field_turn = turned(self._field_rng, quality.bias * math.radians(0.3))
         self._field_bias = quality.bias * FIELD_BIAS * self._field_rng.uniform(-1.0, 1.0, 3)
@@ -167,7 +172,7 @@ class Slow:
         self._air = Wander(self._air_rng, quality.noise * PRESSURE_WANDER, PRESSURE_S, 0.02, 1)
         self._place = Wander(self._gps_rng, quality.gps_noise * PLACE_WANDER, PLACE_S, 0.1, 2)
         self._start = [float(value) for value in self._place.step(np.zeros(2))]
-        self._late: deque[tuple[int, dict[str, Any]]] = deque()
+        self._late: deque[tuple[int, bytes]] = deque()
         self._pressures: deque[tuple[int, float]] = deque()
 
     def step(self, now_ms: int, plant: Plant, battery: Battery, broken: Broken) -> None:
@@ -182,9 +187,7 @@ class Slow:
         if now_ms % 100 == 50:
             self._satellites(now_ms, plant, broken)
         if self._late and self._late[0][0] <= now_ms:
-            for key, value in self._late.popleft()[1].items():
-                self._memory["gps"][key] = value
-            self._memory["gps"]["count"] += 1
+            self._receiver.send(1000 * now_ms, self._late.popleft()[1], broken.gps_noise)
         if now_ms % 10 == 9:
             self._modules(battery)
 
@@ -204,20 +207,19 @@ class Slow:
     def _satellites(self, now_ms: int, plant: Plant, broken: Broken) -> None:
         drawn = self._gps_rng.standard_normal(6)
         if broken.gps_lost:
-            fix: dict[str, Any] = {"is_valid": 0, "accuracy": 99.0, "speed_accuracy": 9.0}
-        else:
-            truth = plant.truth()
-            quality = self._quality.gps_noise
-            north, east = quality * PLACE_NOISE * drawn[:2] + self._place.step(drawn[2:4])
-            jump_north, jump_east = broken.gps_jump
-            latitude = truth.latitude + (north + jump_north) / NORTH_M
-            longitude = truth.longitude + (east + jump_east) / EAST_M
-            fix = {
-                "latitude": round(1e7 * latitude), "longitude": round(1e7 * longitude),
-                "north": truth.speed[0] + quality * SPEED_NOISE * drawn[4],
-                "east": truth.speed[1] + quality * SPEED_NOISE * drawn[5],
-                "accuracy": 0.8 * max(1.0, quality), "speed_accuracy": 0.2, "is_valid": 1,
-            }  # fmt: skip
+            nowhere = frames.nav_pvt(now_ms, (0.0, 0.0), 0.0, (0.0, 0.0, 0.0), 99.0, 9.0, False)
+            self._late.append((now_ms + self._quality.gps_delay_ms, nowhere))
+            return
+        truth = plant.truth()
+        quality = self._quality.gps_noise
+        north, east = quality * PLACE_NOISE * drawn[:2] + self._place.step(drawn[2:4])
+        jump_north, jump_east = broken.gps_jump
+        place = (truth.latitude + (north + jump_north) / NORTH_M,
+                 truth.longitude + (east + jump_east) / EAST_M)  # fmt: skip
+        speed = (truth.speed[0] + quality * SPEED_NOISE * drawn[4],
+                 truth.speed[1] + quality * SPEED_NOISE * drawn[5], -truth.speed[2])  # fmt: skip
+        fix = frames.nav_pvt(now_ms, place, HOME_ALTITUDE_M + truth.place[2], speed,
+                             0.8 * max(1.0, quality), 0.2)  # fmt: skip
         self._late.append((now_ms + self._quality.gps_delay_ms, fix))
 
     def _modules(self, battery: Battery) -> None:

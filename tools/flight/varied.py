@@ -119,6 +119,8 @@ def fault_of(draw: Draw) -> dict[str, Any] | None:
         "magnetometer_current": {"microtesla_per_ampere": draw.between(0.05, 0.4)},
         "motor_weak": {"motor": draw.one_of((1, 2, 3, 4)), "share": draw.between(0.7, 0.95)},
         "battery_low": {"share": draw.between(0.03, 0.06)},
+        "radio_noise": {"share": draw.between(0.002, 0.03)},
+        "gps_noise": {"share": draw.between(0.001, 0.01)},
         "task_overrun": {"task": draw.one_of(("Navigation", "GPS", "Position control",
                                               "Foreground IMU")), "runs": 3, "extra_us": 300},
     }  # fmt: skip
