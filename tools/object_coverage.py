@@ -53,8 +53,8 @@ from toolchain import Toolchain
 REPORT = ROOT / "build/coverage-target/report.json"
 REASONS = ROOT / "specs/object_coverage.toml"
 SOURCE = "src"
-# Hundreds of thousands of steps each; instruction by instruction they would take an hour: whatever is
-# compared with the model in random steps, and these.
+# Hundreds of thousands of steps each, which instruction by instruction would take an hour: whatever
+# is compared with the model in random steps, and these.
 UNTRACED_END = "specified"
 UNTRACED = ("mixer_equations", "reference_curves", "attitude_motion", "cascade_motion")
 SHOWN = {BRANCH: "branches", BLOCK: "in IT blocks", SELECTION: "selections"}

@@ -4,9 +4,9 @@
 // covers: keel_mavlink_write cut_of checksum_of
 // covers: model_mavlink_write sent_bytes model_mavlink_checksum
 //
-// Any sender and message, and any payload of up to 32 bytes: the solver's time grows with them. What
-// a byte makes of the checksum is unknown: the code must ask the same as the model, byte by byte, and
-// is told the same.
+// Any sender and message, and any payload of up to 32 bytes: the solver's time grows with them.
+// What a byte makes of the checksum is unknown: the code must ask the same as the model, byte by
+// byte, and is told the same.
 #include "mavlink_proof.h"
 
 /* The bytes that a checksum can be of, and its message's. */
