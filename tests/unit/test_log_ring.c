@@ -89,6 +89,22 @@ static void RIN_005_up_to_the_last_byte_but_one(void)
     TEST_ASSERT_EQUAL_UINT32(2u, ring.loss.records);
 }
 
+/* Seven bytes are held, around the end. */
+static void RIN_005_room_around_the_end(void)
+{
+    keel_log_ring_loss_t loss;
+
+    TEST_ASSERT_TRUE(keel_log_ring_write(&ring, many, MOST - 2u, 1u));
+    TEST_ASSERT_EQUAL_UINT32(MOST - 2u, keel_log_ring_read(&ring, got, MOST - 2u));
+    TEST_ASSERT_TRUE(keel_log_ring_write(&ring, defg, 4u, 1u));
+    TEST_ASSERT_TRUE(keel_log_ring_write(&ring, abc, 3u, 1u));
+    TEST_ASSERT_FALSE(keel_log_ring_write(&ring, many, MOST - 6u, 1u));
+    TEST_ASSERT_FALSE(keel_log_ring_take_loss(&ring, MOST - 6u, &loss));
+    TEST_ASSERT_TRUE(keel_log_ring_take_loss(&ring, MOST - 7u, &loss));
+    TEST_ASSERT_TRUE(keel_log_ring_write(&ring, many, MOST - 7u, 1u));
+    TEST_ASSERT_EQUAL_UINT32(MOST, keel_log_ring_held(&ring));
+}
+
 static void RIN_004_of_a_lost_record_nothing_is_there(void)
 {
     TEST_ASSERT_TRUE(keel_log_ring_write(&ring, many, MOST - 3u, 1u));
@@ -158,6 +174,7 @@ int main(void)
     RUN_TEST(RIN_008_no_more_than_asked_for);
     RUN_TEST(RIN_003_around_the_end);
     RUN_TEST(RIN_005_up_to_the_last_byte_but_one);
+    RUN_TEST(RIN_005_room_around_the_end);
     RUN_TEST(RIN_004_of_a_lost_record_nothing_is_there);
     RUN_TEST(RIN_007_what_is_lost_is_told_once);
     RUN_TEST(RIN_007_none_is_lost_none_is_told);

@@ -84,6 +84,8 @@ static void MAV_001_tables_out_of_order_are_refused(void)
     refused(KEEL_ERR_LIMITS, many, 2u);
     many[1].shortest = 0u;
     TEST_ASSERT_EQUAL(KEEL_OK, keel_mavlink_init(&mavlink, many, 2u));
+    many[0].longest = 0u;
+    refused(KEEL_ERR_LIMITS, many, 2u);
 }
 
 static void MAV_002_a_decoder_begins_with_nothing(void)
@@ -228,11 +230,37 @@ static void MAV_007_each_reason_is_counted(void)
 
 static void MAV_007_counts_stay_at_their_end(void)
 {
+    uint8_t bytes[21];
+
     memset(&mavlink.count, 0xFF, sizeof mavlink.count);
     TEST_ASSERT_EQUAL_UINT32(1u, feed(heartbeat, 21u));
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, mavlink.count.frames);
     TEST_ASSERT_FALSE(keel_mavlink_take(&mavlink, 0u));
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, mavlink.count.others);
+    memcpy(bytes, heartbeat, sizeof bytes);
+    bytes[20] ^= 0x01u;
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(bytes, 21u));
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, mavlink.count.checksums);
+    bytes[7] = 1u;
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(bytes, 21u));
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, mavlink.count.unknown);
+    bytes[7] = 0u;
+    bytes[1] = 0u;
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(bytes, 12u));
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, mavlink.count.lengths);
+    bytes[2] = 2u;
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(bytes, 3u));
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, mavlink.count.flags);
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(heartbeat, 3u));
+    keel_mavlink_gap(&mavlink);
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, mavlink.count.gaps);
+}
+
+static void MAV_007_who_knows_no_message_takes_none(void)
+{
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_mavlink_init(&mavlink, messages, 0u));
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(heartbeat, 21u));
+    TEST_ASSERT_EQUAL_UINT32(1u, mavlink.count.unknown);
 }
 
 /* A message that is not known carries a frame: that is its payload, and no frame. */
@@ -387,6 +415,7 @@ int main(void)
     RUN_TEST(MAV_006_no_frame_with_a_wrong_bit_is_taken);
     RUN_TEST(MAV_007_each_reason_is_counted);
     RUN_TEST(MAV_007_counts_stay_at_their_end);
+    RUN_TEST(MAV_007_who_knows_no_message_takes_none);
     RUN_TEST(MAV_008_frames_in_payloads_are_none);
     RUN_TEST(MAV_008_what_begins_otherwise_is_no_frame);
     RUN_TEST(MAV_008_a_wrong_beginning_costs_no_more_than_it_says);

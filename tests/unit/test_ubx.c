@@ -367,6 +367,18 @@ static void UBX_010_what_was_taken_begins_nothing(void)
     TEST_FAIL_MESSAGE("no such frame");
 }
 
+/* The fix begins within a message of any length that was cut: its header counts wherever it comes,
+ * as data or as the sum. */
+static void UBX_010_within_any_message(void)
+{
+    for (uint8_t length = 0u; length < 12u; length++) {
+        const uint8_t cut[6] = {0xB5, 0x62, 0x0A, 0x04, length, 0x00};
+
+        TEST_ASSERT_EQUAL_UINT32(0u, feed(cut, 6u, SILENT_US));
+        is_taken(BYTE_US);
+    }
+}
+
 /* And the limit of it: a right message that ends in the first bytes of a fix. After a gap there is
  * none. */
 static void UBX_010_a_message_that_ends_in_it(void)
@@ -570,6 +582,7 @@ int main(void)
     RUN_TEST(UBX_010_any_part_lost);
     RUN_TEST(UBX_010_its_header_in_it);
     RUN_TEST(UBX_010_what_was_taken_begins_nothing);
+    RUN_TEST(UBX_010_within_any_message);
     RUN_TEST(UBX_010_a_message_that_ends_in_it);
     RUN_TEST(UBX_011_skips_any_length);
     RUN_TEST(UBX_011_a_shorter_one_is_another);

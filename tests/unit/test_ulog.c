@@ -118,6 +118,51 @@ static void ULG_002_what_is_too_long_is_none(void)
     is_none();
 }
 
+/* Wherever the end comes: each name is a character longer than the one before. */
+static void ULG_002_too_long_at_any_place(void)
+{
+    for (uint32_t more = 0u; more <= (2u * KEEL_ULOG_NAME_LENGTH); more++) {
+        keel_ulog_format_t format = {.fields = KEEL_ULOG_FIELDS};
+        const uint32_t first = (more < KEEL_ULOG_NAME_LENGTH) ? more : KEEL_ULOG_NAME_LENGTH;
+
+        memset(format.name.text, 'n', first);
+        for (uint32_t i = 0u; i < KEEL_ULOG_FIELDS; i++) {
+            memset(format.field[i].name.text, 'f', (i > 0u) ? KEEL_ULOG_NAME_LENGTH : more - first);
+            format.field[i].type = KEEL_ULOG_UINT64;
+            format.field[i].count = 100u;
+        }
+        TEST_ASSERT_FALSE(keel_ulog_format(&message, &format));
+        is_none();
+    }
+}
+
+/* Names and texts without a character, and names of 24. */
+static void ULG_005_the_shortest_and_the_longest(void)
+{
+    const keel_ulog_name_t none = {""};
+    const uint8_t value[4] = {1u, 2u, 3u, 4u};
+    static char text[UINT8_MAX];
+    keel_ulog_name_t full;
+
+    memset(full.text, 'n', sizeof full.text);
+    TEST_ASSERT_TRUE(keel_ulog_information(&message, &none, text, 0u));
+    is_made("\x09\0I\x08"
+            "char[0] ",
+            12u);
+    TEST_ASSERT_TRUE(keel_ulog_information(&message, &full, text, UINT8_MAX));
+    TEST_ASSERT_EQUAL_UINT16(4u + 10u + 24u + 255u, message.size); /* "char[255] " */
+    TEST_ASSERT_TRUE(keel_ulog_parameter(&message, &none, KEEL_ULOG_FLOAT, value));
+    is_made("\x0B\0P\x06"
+            "float \1\2\3\4",
+            14u);
+    TEST_ASSERT_TRUE(keel_ulog_parameter(&message, &full, KEEL_ULOG_FLOAT, value));
+    TEST_ASSERT_EQUAL_UINT16(4u + 6u + 24u + 4u, message.size);
+    keel_ulog_subscription(&message, 1u, 2u, &none);
+    is_made("\3\0A\1\2\0", 6u);
+    keel_ulog_subscription(&message, 1u, 2u, &full);
+    TEST_ASSERT_EQUAL_UINT16(3u + 3u + 24u, message.size);
+}
+
 static void ULG_005_information_has_a_key_with_its_length(void)
 {
     const keel_ulog_name_t name = {"sys_name"};
@@ -226,6 +271,8 @@ int main(void)
     RUN_TEST(ULG_004_a_name_may_fill_its_characters);
     RUN_TEST(ULG_004_strange_fields_are_refused);
     RUN_TEST(ULG_002_what_is_too_long_is_none);
+    RUN_TEST(ULG_002_too_long_at_any_place);
+    RUN_TEST(ULG_005_the_shortest_and_the_longest);
     RUN_TEST(ULG_005_information_has_a_key_with_its_length);
     RUN_TEST(ULG_006_parameters_are_numbers);
     RUN_TEST(ULG_007_a_subscription_numbers_a_topic);
