@@ -50,8 +50,9 @@ FLIES = (
     Box("your tasks", "functions with a period, a budget and a priority", GREY),
     Box("Keel: flight", "filter   pid   mixer   reference   mode   calibration\n"
         "attitude   axis   altitude   position   battery   cascade", BLUE),
-    Box("Keel: middleware", "range   oversample   voter   virtual_imu   crc   ms5611\n"
-        "power_module   framing   sbus   crsf   ibus   ppm   ubx   mavlink   log_ring   ulog", BLUE),
+    Box("Keel: middleware", "range   oversample   voter   virtual_imu   crc\n"
+        "ms5611   power_module   framing   sbus   crsf   ibus   ppm   ubx   mavlink   log_ring\n"
+        "ulog", BLUE),
     Box("Keel: rtos", "scheduler   pass   admission   decision\n"
         "queue   task   stats   load   deviation   priority   clock", BLUE),
     Box("your board", "a microsecond counter; drivers for two boards are here", GREY),

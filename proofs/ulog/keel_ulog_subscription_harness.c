@@ -3,6 +3,9 @@
 // defines: -DKEEL_ULOG_MESSAGE_BYTES=43u -DKEEL_ULOG_NAME_LENGTH=4u -DKEEL_ULOG_FIELDS=2u
 // sources: src/middleware/ulog.c specs/model/ulog.c
 // covers: keel_ulog_subscription put_number put_name model_ulog_subscription append_u16
+//
+// Messages of up to 43 bytes and names of up to 4 characters, as in all harnesses of this unit:
+// larger ones take the solver hours. WP shows the clauses for the shipped sizes.
 #include "ulog_proof.h"
 
 void keel_ulog_subscription_harness(void)

@@ -39,7 +39,8 @@ static uint8_t divided(const uint8_t *bytes, uint32_t count)
     uint32_t rest = 0u;
 
     for (uint32_t bit = 0u; bit < (8u * (count + 1u)); bit++) {
-        const uint32_t next = (bit < (8u * count)) ? (bytes[bit / 8u] >> (7u - (bit % 8u))) : 0u;
+        const uint32_t byte = (bit < (8u * count)) ? bytes[bit / 8u] : 0u;
+        const uint32_t next = byte >> (7u - (bit % 8u));
 
         rest = (2u * rest) + (next & 1u);
         rest ^= (rest >= 256u) ? 0x1D5u : 0u;

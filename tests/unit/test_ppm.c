@@ -129,6 +129,20 @@ static void PPM_010_the_end_of_a_frame_is_none(void)
     says_eight();
 }
 
+/* Silence is no longer than the longest that can be told. */
+static void PPM_010_the_longest_silence(void)
+{
+    keel_ppm_config_t config = usual;
+
+    config.lost_us = UINT32_MAX;
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_ppm_init(&ppm, &config));
+    TEST_ASSERT_FALSE(keel_ppm_take(&ppm, 0u));
+    keel_ppm_pass_time(&ppm, UINT32_MAX);
+    TEST_ASSERT_FALSE(keel_ppm_take(&ppm, 5u));
+    TEST_ASSERT_EQUAL_UINT32(0u, ppm.count.gaps);
+    TEST_ASSERT_TRUE(ppm.begun);
+}
+
 /* The ends of a channel's range; between its longest and the sync gap there is neither. */
 static void PPM_004_each_width(void)
 {
@@ -267,6 +281,7 @@ int main(void)
     RUN_TEST(PPM_002_begins_with_nothing);
     RUN_TEST(PPM_005_takes_the_third);
     RUN_TEST(PPM_010_the_end_of_a_frame_is_none);
+    RUN_TEST(PPM_010_the_longest_silence);
     RUN_TEST(PPM_004_each_width);
     RUN_TEST(PPM_009_another_number);
     RUN_TEST(PPM_009_a_row_of_another);

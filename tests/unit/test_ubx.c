@@ -379,6 +379,36 @@ static void UBX_010_within_any_message(void)
     }
 }
 
+/* A header may end where a sum is expected. Of class 0x0A, id 0x04 and six bytes the first sum is 0,
+ * which is the last byte of the fix's header: 0x0A + 0x04 + 0x06 + 0x71 + 0xB5 + 0x62 + 0x01 + 0x07 +
+ * 0x5C = 0x200. */
+static void UBX_010_where_a_right_sum_is(void)
+{
+    static const uint8_t cut[7] = {0xB5, 0x62, 0x0A, 0x04, 0x06, 0x00, 0x71};
+
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(cut, 7u, SILENT_US));
+    is_taken(BYTE_US);
+    TEST_ASSERT_EQUAL_UINT32(1u, ubx.count.cut);
+    ubx.count.cut = UINT32_MAX;
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(cut, 7u, SILENT_US));
+    is_taken(BYTE_US);
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, ubx.count.cut);
+}
+
+/* A wrong sum ends a message of nothing: its own sums, 0x0E and 0x34, are right. */
+static void UBX_010_where_a_wrong_sum_is(void)
+{
+    static const uint8_t within[14] = {0xB5, 0x62, 0x0A, 0x04, 0x05, 0x00, 0xB5,
+                                       0x62, 0x0A, 0x04, 0x00, 0x00, 0x0E, 0x34};
+
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(within, 12u, SILENT_US));
+    TEST_ASSERT_EQUAL_UINT32(1u, ubx.count.checksums);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_UBX_SUM_A, ubx.step);
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(&within[12], 2u, BYTE_US));
+    TEST_ASSERT_EQUAL_UINT32(1u, ubx.count.checksums);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_UBX_SEARCH, ubx.step);
+}
+
 /* And the limit of it: a right message that ends in the first bytes of a fix. After a gap there is
  * none. */
 static void UBX_010_a_message_that_ends_in_it(void)
@@ -583,6 +613,8 @@ int main(void)
     RUN_TEST(UBX_010_its_header_in_it);
     RUN_TEST(UBX_010_what_was_taken_begins_nothing);
     RUN_TEST(UBX_010_within_any_message);
+    RUN_TEST(UBX_010_where_a_right_sum_is);
+    RUN_TEST(UBX_010_where_a_wrong_sum_is);
     RUN_TEST(UBX_010_a_message_that_ends_in_it);
     RUN_TEST(UBX_011_skips_any_length);
     RUN_TEST(UBX_011_a_shorter_one_is_another);

@@ -97,7 +97,7 @@ typedef struct keel_ulog_field {
 } keel_ulog_field_t;
 
 /** What a topic's data are. */
-typedef struct keel_ulog_format {
+typedef struct keel_ulog_topic_format {
     keel_ulog_name_t name;
     uint8_t fields; /**< How many, up to KEEL_ULOG_FIELDS. */
     keel_ulog_field_t field[KEEL_ULOG_FIELDS];
