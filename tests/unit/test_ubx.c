@@ -379,9 +379,9 @@ static void UBX_010_within_any_message(void)
     }
 }
 
-/* A header may end where a sum is expected. Of class 0x0A, id 0x04 and six bytes the first sum is 0,
- * which is the last byte of the fix's header: 0x0A + 0x04 + 0x06 + 0x71 + 0xB5 + 0x62 + 0x01 + 0x07
- * + 0x5C = 0x200. */
+/* A header may end where a sum is expected. Of class 0x0A, id 0x04 and six bytes the first sum is
+ * 0, which is the last byte of the fix's header: 0x0A + 0x04 + 0x06 + 0x71 + 0xB5 + 0x62 + 0x01 +
+ * 0x07 + 0x5C = 0x200. */
 static void UBX_010_where_a_right_sum_is(void)
 {
     static const uint8_t cut[7] = {0xB5, 0x62, 0x0A, 0x04, 0x06, 0x00, 0x71};
