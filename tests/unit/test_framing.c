@@ -131,6 +131,7 @@ static void FRG_001_counts_stay_at_their_end(void)
     keel_framing_take(&framing, 0x00u, BYTE_US);
     keel_framing_take(&framing, HEADER, BYTE_US);
     keel_framing_take(&framing, HEADER, GAP_US + 1u);
+    keel_framing_take(&framing, 0x00u, GAP_US + 1u);
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, framing.gaps);
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, framing.strays);
 }

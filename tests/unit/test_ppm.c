@@ -265,11 +265,17 @@ static void PPM_008_time_stays_at_its_end(void)
 static void PPM_007_counts_stay_at_their_end(void)
 {
     const uint16_t bad[2] = {1000, 799};
+    uint16_t many[KEEL_PPM_CHANNELS + 1];
 
+    for (uint32_t i = 0u; i <= KEEL_PPM_CHANNELS; i++) {
+        many[i] = 1500u;
+    }
     memset(&ppm.count, 0xFF, sizeof ppm.count);
     lock();
     (void)frame_of(eight, 2u);
     (void)frame_of(bad, 2u);
+    lock();
+    (void)frame_of(many, KEEL_PPM_CHANNELS + 1u);
     (void)keel_ppm_take(&ppm, LOST_US + 1u);
     TEST_ASSERT_EACH_EQUAL_UINT32(UINT32_MAX, &ppm.count, 4u);
 }
