@@ -276,6 +276,7 @@ static void PPM_007_counts_stay_at_their_end(void)
     (void)frame_of(bad, 2u);
     lock();
     (void)frame_of(many, KEEL_PPM_CHANNELS + 1u);
+    lock();
     (void)keel_ppm_take(&ppm, LOST_US + 1u);
     TEST_ASSERT_EACH_EQUAL_UINT32(UINT32_MAX, &ppm.count, 4u);
 }
