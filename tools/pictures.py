@@ -52,7 +52,7 @@ FLIES = (
         "attitude   axis   altitude   position   battery   cascade", BLUE),
     Box("Keel: middleware", "range   oversample   voter   virtual_imu   crc\n"
         "ms5611   power_module   framing   sbus   crsf   ibus   ppm   ubx   mavlink   log_ring\n"
-        "ulog", BLUE),
+        "signing   ulog", BLUE),
     Box("Keel: rtos", "scheduler   pass   admission   decision\n"
         "queue   task   stats   load   deviation   priority   clock", BLUE),
     Box("your board", "a microsecond counter; drivers for two boards are here", GREY),

@@ -14,9 +14,9 @@
 #ifndef COPTER_TELEMETRY_H
 #define COPTER_TELEMETRY_H
 
-#include "common/signing.h"
 #include "copter.h"
 #include "keel/middleware/mavlink.h"
+#include "keel/middleware/signing.h"
 #include "messages.h"
 #include "turns.h"
 

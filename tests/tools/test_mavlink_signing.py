@@ -24,13 +24,13 @@ from common.run import output_of  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 KEY, OTHER_KEY, TIME = bytes(range(32)), bytes(range(1, 33)), 2**41
-SOURCES = ["bsp/common/signing.c", "src/middleware/mavlink.c", "src/middleware/crc.c"]
+SOURCES = ["src/middleware/signing.c", "src/middleware/mavlink.c", "src/middleware/crc.c"]
 
 # How Keel's hash is made of HACL*'s.
 HASH = """\
 #include "Hacl_Hash_SHA2.h"
 #include <string.h>
-#include "common/signing.h"
+#include "keel/middleware/signing.h"
 static void sha256(const uint8_t *data, uint32_t size, uint8_t *digest)
 {
     Hacl_Hash_SHA2_hash_256(digest, (uint8_t *)data, size);
@@ -125,7 +125,7 @@ class Signing(unittest.TestCase):
         shim, built = cls.folder / "shim.c", cls.folder / "shim.so"
         shim.write_text(SHIM)
         output_of(["gcc", "-std=gnu11", "-O1", "-shared", "-fPIC", "-w",
-                   f"-I{ROOT / 'include'}", f"-I{ROOT / 'bsp'}", shim,
+                   f"-I{ROOT / 'include'}", shim,
                    *[ROOT / name for name in SOURCES], *cls.hacl, "-o", built])  # fmt: skip
         cls.library = ctypes.CDLL(str(built))
         cls.library.timestamp.restype = ctypes.c_ulonglong
@@ -247,8 +247,7 @@ class Signing(unittest.TestCase):
         flags = ["-std=c11", "-Os", "-ffreestanding", "-ffunction-sections", "-fdata-sections",
                  "-w"]  # fmt: skip
         chip = ["-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard"]
-        output_of(["arm-none-eabi-gcc", *chip, *flags, f"-I{ROOT / 'include'}",
-                   f"-I{ROOT / 'bsp'}", program,
+        output_of(["arm-none-eabi-gcc", *chip, *flags, f"-I{ROOT / 'include'}", program,
                    *[ROOT / name for name in SOURCES], *self.hacl,
                    "-nostartfiles", "-Wl,--gc-sections,-e,main", "-o", image])  # fmt: skip
         symbols = output_of(["arm-none-eabi-nm", image]).split()

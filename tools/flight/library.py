@@ -27,7 +27,7 @@ SIM = "examples/copter_in_plant/sim.h"
 MODE = "include/keel/flight/mode.h"
 FLAGS = ("-std=c99", "-O2", "-fPIC", "-ffp-contract=off", "-Wall", "-Wextra", "-Iinclude", "-Ibsp",
          "-Iexamples/urpilot", "-Iexamples/copter", "-Iexamples/copter_in_plant")  # fmt: skip
-SOURCES = ("src", "examples/urpilot/urpilot_tasks.c", "bsp/common/slots.c", "bsp/common/signing.c",
+SOURCES = ("src", "examples/urpilot/urpilot_tasks.c", "bsp/common/slots.c",
            "bsp/host/host_board.c")  # fmt: skip
 FOLDERS = ("examples/copter", "examples/copter_in_plant")  # Without what lies below them.
 LINE_BYTES = 4096  # At most so many wait in a link.

@@ -17,8 +17,8 @@
  *
  * Frames of MAVLink 1, which begin with 0xFE, are not taken: their bytes are counted as others.
  *
- * What is signed is taken here without a look at its signature; bsp/common/signing.h tells
- * whether it is right.
+ * What is signed is taken here without a look at its signature; keel/middleware/signing.h
+ * tells whether it is right.
  *
  * All is integer arithmetic. All counts stay at UINT32_MAX.
  */

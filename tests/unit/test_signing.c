@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Unit tests of bsp/common/signing.h. The frame and its signature are those that pymavlink
+/* Unit tests of keel/middleware/signing.h. The frame and its signature are those that pymavlink
  * 2.4.50 made; the hash here knows that one text, and gives all others something else. */
-#include "common/signing.h"
+#include "keel/middleware/signing.h"
 #include "unity.h"
 
 #include <string.h>
