@@ -30,6 +30,7 @@ static keel_log_ring_t bench_ring;
 static keel_sbus_t bench_sbus;
 static keel_ubx_t bench_ubx;
 static keel_mavlink_t bench_mavlink;
+static keel_signing_t bench_signing;
 static keel_ulog_message_t bench_message;
 static keel_crsf_t bench_crsf;
 static keel_ibus_t bench_ibus;
@@ -331,6 +332,24 @@ static void bench_run_mavlink(void)
     bench_dump("mavlink");
 }
 
+static void bench_run_signing(void)
+{
+    keel_mavlink_frame_t frame = signing_workload;
+
+    keel_signing_init(&bench_signing, 1u, signing_hash);
+    keel_signing_set_key(&bench_signing, signing_key);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        bool accepted;
+
+        frame.timestamp = (uint64_t)n + 1u;
+        CALLGRIND_TOGGLE_COLLECT;
+        accepted = keel_signing_accepts(&bench_signing, &frame);
+        CALLGRIND_TOGGLE_COLLECT;
+        bench_require(accepted, "signatures");
+    }
+    bench_dump("signing");
+}
+
 static void bench_run_crsf(void)
 {
     bench_require(keel_crsf_init(&bench_crsf, &crsf_workload) == KEEL_OK, "CRSF");
@@ -433,6 +452,7 @@ int main(void)
     bench_run_log_ring();
     bench_run_ulog();
     bench_run_mavlink();
+    bench_run_signing();
     bench_run_crsf();
     bench_run_ibus();
     bench_run_ppm();

@@ -539,6 +539,24 @@ static void bench_mavlink(void)
     print(&steps);
 }
 
+static void bench_signing(void)
+{
+    static keel_signing_t signing KEEL_REALTIME_ZERO;
+    static keel_mavlink_frame_t frame KEEL_REALTIME_ZERO;
+    kind_t steps = {"signing", 0u, 0u, 0u};
+
+    frame = signing_workload;
+    keel_signing_init(&signing, 1u, signing_hash);
+    keel_signing_set_key(&signing, signing_key);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        frame.timestamp = (uint64_t)n + 1u;
+        add(&steps,
+            measure((function_t)keel_signing_accepts, &signing, (uint32_t)&frame, 0u, false));
+    }
+    require(signing.count.accepted == STEPS);
+    print(&steps);
+}
+
 static void bench_crsf(void)
 {
     static keel_crsf_t crsf KEEL_REALTIME_ZERO;
@@ -722,6 +740,7 @@ int main(void)
     bench_log_ring();
     bench_ulog();
     bench_mavlink();
+    bench_signing();
     bench_crsf();
     bench_ibus();
     bench_ppm();

@@ -287,7 +287,7 @@ LONG_S = {
     "unit/cascade_specified": 10.0, "unit/cascade_motion": 5.0, "unit/sbus_specified": 5.0,
     "unit/mavlink_specified": 10.0, "unit/ms5611_specified": 5.0, "unit/log_ring_specified": 5.0,
     "unit/ulog_specified": 5.0, "unit/ubx_specified": 5.0, "unit/crsf_specified": 5.0,
-    "unit/ibus_specified": 5.0, "unit/ppm_specified": 5.0,
+    "unit/ibus_specified": 5.0, "unit/ppm_specified": 5.0, "unit/signing_specified": 5.0,
 }  # fmt: skip
 
 

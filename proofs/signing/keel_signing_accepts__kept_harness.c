@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 307 --unwindset place_of_stream.0:9 --external-sat-solver cadical
 // sources: src/middleware/signing.c
-// covers: keel_signing_accepts count_signed byte_of_time place_of_stream is_fresh put_frame
+// covers: keel_signing_accepts count_signed byte_in place_of_stream is_fresh put_frame
 // covers: is_sealed note_frame
 //
-// The clauses, without the model's decisions: with a key, what is accepted has a signature of all of
-// its bytes, and is newer than its stream was; that is noted. What is refused moves nothing.
+// The clauses, without the model's decisions: with a key, what is accepted has a signature of all
+// of its bytes, and is newer than its stream was; that is noted. What is refused moves nothing.
 #include "signing_proof.h"
 
 /* The byte at this place of what was sent: header, payload, checksum, link and timestamp. */

@@ -2,7 +2,7 @@
 // cbmc: --unwind 307 --unwindset place_of_stream.0:9,new_enough.0:9
 // cbmc: --external-sat-solver cadical
 // sources: src/middleware/signing.c specs/model/signing.c
-// covers: keel_signing_accepts count_signed byte_of_time place_of_stream is_fresh put_frame
+// covers: keel_signing_accepts count_signed byte_in place_of_stream is_fresh put_frame
 // covers: is_sealed note_frame
 // covers: model_signing_accepts note_one byte_of put_signed new_enough
 // covers: rightly_signed

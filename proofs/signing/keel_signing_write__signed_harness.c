@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 307 --external-sat-solver cadical
 // sources: src/middleware/signing.c
-// covers: keel_signing_write sign_frame byte_of_time
+// covers: keel_signing_write sign_frame byte_in
 //
 // The clauses, without the model: what is signed is what keel_mavlink_write made, our link, a time
 // that no frame before it had, and six bytes of the hash of the key and of all of that. Of the key

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 307 --external-sat-solver cadical
 // sources: src/middleware/signing.c specs/model/signing.c
-// covers: keel_signing_write sign_frame byte_of_time model_signing_write byte_of
+// covers: keel_signing_write sign_frame byte_in model_signing_write byte_of
 //
 // Any state, sender and message, any hash, and any frame of any length. What keel_mavlink_write
 // makes of a payload is unknown: the code must ask for the same as the model, and is told the same.
@@ -26,8 +26,7 @@ void keel_signing_write_harness(void)
 
     begin_frame();
     ask_for(&model);
-    expected = model_signing_write(&model, &model_sender, &message, payload, length,
-                                   &model_packet);
+    expected = model_signing_write(&model, &model_sender, &message, payload, length, &model_packet);
     model_asked = asked;
     model_size = asked_size;
     model_byte = asked_byte;

@@ -19,9 +19,9 @@ uint64_t nondet_u64(void);
 keel_signing_t nondet_signing(void);
 keel_mavlink_frame_t nondet_frame(void);
 
-/* What the hash of all texts is here, and what it was last asked: how often, of whose text, how many
- * bytes, and one of them, at an arbitrary place. Where two are asked the same, any function gives
- * both the same, so this one stands for any. */
+/* What the hash of all texts is here, and what it was last asked: how often, of whose text, how
+ * many bytes, and one of them, at an arbitrary place. Where two are asked the same, any function
+ * gives both the same, so this one stands for any. */
 static uint8_t digest_of_all[KEEL_SIGNING_DIGEST_BYTES];
 static const keel_signing_t *subject;
 static uint32_t asked;

@@ -54,8 +54,7 @@ uint16_t model_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_m
     told_message = message;
     told_payload = payload;
     told_length = length;
-    __CPROVER_assume((told_whole == 0u) ||
-                     ((room < told_whole) && (told_whole <= (room + 255u))));
+    __CPROVER_assume((told_whole == 0u) || ((room < told_whole) && (told_whole <= (room + 255u))));
     return tell(sender, packet);
 }
 
@@ -67,8 +66,7 @@ uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_me
     __CPROVER_assert((message == told_message) && (payload == told_payload) &&
                          (length == told_length),
                      "SGN_011_message: of the same message and payload");
-    __CPROVER_assume((told_whole == 0u) ||
-                     ((room < told_whole) && (told_whole <= (room + 255u))));
+    __CPROVER_assume((told_whole == 0u) || ((room < told_whole) && (told_whole <= (room + 255u))));
     return tell(sender, packet);
 }
 

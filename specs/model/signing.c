@@ -71,10 +71,14 @@ static uint32_t put_signed(keel_signing_t *signing, const keel_mavlink_frame_t *
                                 byte_of(frame->id, 0u),
                                 byte_of(frame->id, 1u),
                                 byte_of(frame->id, 2u)};
-    const uint8_t tail[9] = {byte_of(frame->checksum, 0u),  byte_of(frame->checksum, 1u),
-                             frame->link,                   byte_of(frame->timestamp, 0u),
-                             byte_of(frame->timestamp, 1u), byte_of(frame->timestamp, 2u),
-                             byte_of(frame->timestamp, 3u), byte_of(frame->timestamp, 4u),
+    const uint8_t tail[9] = {byte_of(frame->checksum, 0u),
+                             byte_of(frame->checksum, 1u),
+                             frame->link,
+                             byte_of(frame->timestamp, 0u),
+                             byte_of(frame->timestamp, 1u),
+                             byte_of(frame->timestamp, 2u),
+                             byte_of(frame->timestamp, 3u),
+                             byte_of(frame->timestamp, 4u),
                              byte_of(frame->timestamp, 5u)};
     const uint32_t end = 42u + (uint32_t)frame->length;
 

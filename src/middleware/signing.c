@@ -25,13 +25,15 @@ static void count_signed(uint32_t *count)
     *count += (*count < UINT32_MAX) ? 1u : 0u;
 }
 
-/* A byte of a time, the lowest first. */
+/* A byte of a number, the lowest first. */
 /*@ requires place < TIMESTAMP_BYTES;
   @ assigns \nothing;
   @*/
-static uint8_t byte_of_time(uint64_t timestamp, uint32_t place)
+static uint8_t byte_in(uint64_t number, uint32_t place)
 {
-    return (uint8_t)((timestamp >> (BITS * place)) & BYTE);
+    const uint32_t bits = BITS * place;
+
+    return (uint8_t)((number >> bits) & BYTE);
 }
 
 /* The place of the frame's stream; the number of streams when it has none. */
@@ -104,9 +106,9 @@ static uint32_t put_frame(keel_signing_t *signing, const keel_mavlink_frame_t *f
         frame->sequence,
         frame->system,
         frame->component,
-        (uint8_t)(frame->id & BYTE),
-        (uint8_t)((frame->id >> BITS) & BYTE),
-        (uint8_t)((frame->id >> (2u * BITS)) & BYTE),
+        byte_in(frame->id, 0u),
+        byte_in(frame->id, 1u),
+        byte_in(frame->id, 2u),
     };
     const uint32_t end = PAYLOAD_AT + (uint32_t)frame->length;
 
@@ -124,15 +126,15 @@ static uint32_t put_frame(keel_signing_t *signing, const keel_mavlink_frame_t *f
     for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_PAYLOAD_MAX; i++) {
         signing->text[PAYLOAD_AT + i] = frame->payload[i];
     }
-    signing->text[end] = (uint8_t)(frame->checksum & BYTE);
-    signing->text[end + 1u] = (uint8_t)(frame->checksum >> BITS);
+    signing->text[end] = byte_in(frame->checksum, 0u);
+    signing->text[end + 1u] = byte_in(frame->checksum, 1u);
     signing->text[end + 2u] = frame->link;
     /*@ loop invariant 0 <= i <= TIMESTAMP_BYTES;
       @ loop assigns i, signing->text[KEEL_SIGNING_KEY_BYTES .. KEEL_SIGNING_TEXT_MAX - 1];
       @ loop variant TIMESTAMP_BYTES - i;
       @*/
     for (uint32_t i = 0u; i < TIMESTAMP_BYTES; i++) {
-        signing->text[end + 3u + i] = byte_of_time(frame->timestamp, i);
+        signing->text[end + 3u + i] = byte_in(frame->timestamp, i);
     }
     return end + 3u + TIMESTAMP_BYTES;
 }
@@ -171,7 +173,9 @@ static bool is_sealed(keel_signing_t *signing, const keel_mavlink_frame_t *frame
   @ requires place < signing->streams ==>
   @     signing_is_of(&signing->stream[place], frame) &&
   @     frame->timestamp > signing->stream[place].timestamp;
+  @ requires place == signing->streams ==> signing_is_new(signing, frame);
   @ assigns signing->stream[place], signing->streams, signing->count.accepted, signing->timestamp;
+  @ ensures signing_valid(signing);
   @ ensures signing->streams == \old(signing->streams) + (place == \old(signing->streams) ? 1 : 0);
   @ ensures signing_is_of(&signing->stream[place], frame) &&
   @     signing->stream[place].timestamp == frame->timestamp;
@@ -274,7 +278,7 @@ bool keel_signing_accepts(keel_signing_t *signing, const keel_mavlink_frame_t *f
 
 /* Signs a frame that has room for it, with the time that follows ours. Behind the key goes as much
  * as a frame may have, and of that as much is hashed as this one has. */
-/*@ requires \valid(signing) && signing_hashed(signing) &&
+/*@ requires \valid(signing) && signing_valid(signing) && signing_hashed(signing) &&
   @     signing->timestamp < KEEL_SIGNING_TIME_MAX;
   @ requires KEEL_MAVLINK_HEADER_BYTES + KEEL_MAVLINK_SIGNATURE_BYTES < whole;
   @ requires whole <= KEEL_MAVLINK_FRAME_MAX;
@@ -282,6 +286,7 @@ bool keel_signing_accepts(keel_signing_t *signing, const keel_mavlink_frame_t *f
   @ assigns signing->timestamp,
   @     signing->text[KEEL_SIGNING_KEY_BYTES .. KEEL_SIGNING_TEXT_MAX - 1],
   @     packet->bytes[whole - KEEL_MAVLINK_SIGNATURE_BYTES .. whole - 1];
+  @ ensures signing_valid(signing);
   @ ensures signing->timestamp == \old(signing->timestamp) + 1;
   @ ensures packet->bytes[whole - KEEL_MAVLINK_SIGNATURE_BYTES] == signing->link;
   @*/
@@ -298,7 +303,7 @@ static void sign_frame(keel_signing_t *signing, keel_mavlink_packet_t *packet, u
       @ loop variant TIMESTAMP_BYTES - i;
       @*/
     for (uint32_t i = 0u; i < TIMESTAMP_BYTES; i++) {
-        packet->bytes[at + TIMESTAMP_AT + i] = byte_of_time(signing->timestamp, i);
+        packet->bytes[at + TIMESTAMP_AT + i] = byte_in(signing->timestamp, i);
     }
     /*@ loop invariant 0 <= i <= SIGNED_MAX;
       @ loop assigns i, signing->text[KEEL_SIGNING_KEY_BYTES .. KEEL_SIGNING_TEXT_MAX - 1];

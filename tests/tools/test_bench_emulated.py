@@ -51,6 +51,7 @@ bench sbus_worst passes 1000 instructions 152000 longest 152
 bench ms5611 passes 1000 instructions 250000 longest 260
 bench ubx passes 1000 instructions 110000 longest 400
 bench mavlink passes 1000 instructions 120000 longest 700
+bench signing passes 1000 instructions 3000000 longest 3000
 bench log_ring passes 1000 instructions 830000 longest 840
 bench ulog passes 1000 instructions 610000 longest 610
 bench crsf passes 1000 instructions 130000 longest 2900
@@ -86,6 +87,7 @@ FIGURES = {
     "ms5611": Figure(1000, 250000, 260),
     "ubx": Figure(1000, 110000, 400),
     "mavlink": Figure(1000, 120000, 700),
+    "signing": Figure(1000, 3000000, 3000),
     "log_ring": Figure(1000, 830000, 840),
     "ulog": Figure(1000, 610000, 610),
     "crsf": Figure(1000, 130000, 2900),
@@ -120,6 +122,7 @@ sbus_worst = 152.0
 ms5611 = 250.0
 ubx = 110.0
 mavlink = 120.0
+signing = 3000.0
 log_ring = 830.0
 ulog = 610.0
 crsf = 130.0
@@ -227,6 +230,7 @@ class Budgets(unittest.TestCase):
                 "ms5611": 250.0,
                 "ubx": 110.0,
                 "mavlink": 120.0,
+                "signing": 3000.0,
                 "log_ring": 830.0,
                 "ulog": 610.0,
                 "crsf": 130.0,

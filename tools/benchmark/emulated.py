@@ -62,6 +62,8 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "ms5611": ("MS5611, a reading in frost", ("ms5611",), 300, ("steps", "ms5611")),
     "ubx": ("UBX, a byte of right messages", ("ubx",), 200, ("steps", "ubx")),
     "mavlink": ("MAVLink, a byte of right frames", ("mavlink",), 200, ("steps", "mavlink")),
+    "signing": ("signatures, a right frame, without its hash", ("signing",), 6000,
+                ("steps", "signing")),
     "log_ring": ("log ring, a record of 36 bytes", ("log_ring",), 1200, ("steps", "log_ring")),
     "ulog": ("ULog, 36 bytes of data", ("ulog",), 1000, ("steps", "ulog")),
     "crsf": ("CRSF, a byte of right frames", ("crsf",), 200, ("steps", "crsf")),

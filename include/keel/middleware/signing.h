@@ -20,7 +20,8 @@
  * signing.timestamp now and then, as often as the minute allows, and give keel_signing_advance what
  * was stored, plus the longest time between two stores, plus KEEL_SIGNING_MINUTE. Then frames from
  * before the restart are old for whoever forgot the streams, us included. With a clock that knows
- * the date, give it that, too. When all streams are in use new ones are refused, until a key is set.
+ * the date, give it that, too. When all streams are in use new ones are refused, until a key is
+ * set.
  *
  * The hash, SHA256, comes from outside, as a function that whoever builds Keel into a program
  * gives (assumption A-42).
@@ -51,9 +52,8 @@ KEEL_C_BEGIN
 /** The last time there is: it has 48 bits, which end in the year 2104. */
 #define KEEL_SIGNING_TIME_MAX 0xFFFFFFFFFFFFu
 
-/** Bytes that are hashed, at most: the key, and a frame without its last bytes. */
-#define KEEL_SIGNING_TEXT_MAX                                                                      \
-    (KEEL_SIGNING_KEY_BYTES + KEEL_MAVLINK_FRAME_MAX - KEEL_MAVLINK_SEAL_BYTES)
+/** Bytes that are hashed, at most: the key, and a frame without its last bytes, 32 + 280 - 6. */
+#define KEEL_SIGNING_TEXT_MAX 306
 
 /**
  * The SHA256 of some bytes (FIPS 180-4). It writes nothing but the digest.
@@ -255,7 +255,8 @@ bool keel_signing_accepts(keel_signing_t *signing, const keel_mavlink_frame_t *f
   @ ensures SGN_011_flag: \result > 0 ==> packet->bytes[2] == (signing->has_key != 0 ? 1 : 0);
   @ ensures SGN_011_link: \result > 0 && signing->has_key != 0 ==>
   @     packet->bytes[\result - KEEL_MAVLINK_SIGNATURE_BYTES] == signing->link;
-  @ ensures SGN_012_time: signing_valid(signing) && signing->timestamp ==
+  @ ensures SGN_012_valid: signing_valid(signing);
+  @ ensures SGN_012_time: signing->timestamp ==
   @     \old(signing->timestamp) + (\result > 0 && signing->has_key ? 1 : 0);
   @ ensures SGN_012_end: signing->has_key && \old(signing->timestamp) == KEEL_SIGNING_TIME_MAX ==>
   @     \result == 0;
