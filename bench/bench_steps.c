@@ -336,7 +336,7 @@ static void bench_run_signing(void)
 {
     keel_mavlink_frame_t frame = signing_workload;
 
-    keel_signing_init(&bench_signing, 1u, signing_hash);
+    keel_signing_init(&bench_signing, 1u, bench_hash);
     keel_signing_set_key(&bench_signing, signing_key);
     for (uint32_t n = 0u; n < STEPS; n++) {
         bool accepted;

@@ -546,7 +546,7 @@ static void bench_signing(void)
     kind_t steps = {"signing", 0u, 0u, 0u};
 
     frame = signing_workload;
-    keel_signing_init(&signing, 1u, signing_hash);
+    keel_signing_init(&signing, 1u, bench_hash);
     keel_signing_set_key(&signing, signing_key);
     for (uint32_t n = 0u; n < STEPS; n++) {
         frame.timestamp = (uint64_t)n + 1u;

@@ -83,7 +83,7 @@ STEPS: dict[str, tuple[str, str, int]] = {
     "ms5611": ("MS5611, a reading in frost", "keel_ms5611_compensate", 300),
     "ubx": ("UBX, a byte of right messages", "keel_ubx_take", 200),
     "mavlink": ("MAVLink, a byte of right frames", "keel_mavlink_take", 200),
-    "signing": ("signatures, a right frame, without its hash", "keel_signing_accepts", 6000),
+    "signing": ("signatures, a right frame", "keel_signing_accepts", 1500),
     "log_ring": ("log ring, a record of 36 bytes", "keel_log_ring_write", 1200),
     "ulog": ("ULog, 36 bytes of data", "keel_ulog_add", 1000),
     "crsf": ("CRSF, a byte of right frames", "keel_crsf_take", 200),
