@@ -78,34 +78,45 @@ static void write_rest(keel_black_box_t *box)
     }
     if (write_sectors(box, 1u)) {
         box->stored = box->taken;
-        box->is_flushed = true;
     }
 }
 
-static void write_size(keel_black_box_t *box, uint32_t now_us)
+static void write_data(keel_black_box_t *box)
 {
-    if (note_write(box, keel_card_file_set_size(box->stored) == KEEL_CARD_OK, 1u)) {
-        box->kept = box->stored;
-        box->synced_us = now_us;
-        box->is_flushed = false;
+    if (whole_sectors(box) > 0u) {
+        write_whole(box);
+    } else {
+        write_rest(box);
+    }
+}
+
+static void write_size(keel_black_box_t *box)
+{
+    if (note_write(box, keel_card_file_set_size(box->due) == KEEL_CARD_OK, 1u)) {
+        box->kept = box->due;
         count_up(&box->count.sizes, 1u);
     }
 }
 
-/* A size is due. It need not wait for sectors that came meanwhile, so that it gets its turn on a
- * slow card, too. */
-static void sync(keel_black_box_t *box, uint32_t now_us)
+/* Now and then what was taken until then becomes due. What comes later does not delay it. */
+static void note_time(keel_black_box_t *box, uint32_t now_us)
 {
-    const bool has_whole = whole_sectors(box) > 0u;
+    if ((box->due == box->kept) && ((now_us - box->synced_us) >= KEEL_BLACK_BOX_SYNC_US)) {
+        box->due = box->taken;
+        box->synced_us = now_us;
+    }
+}
 
-    if ((box->stored > box->kept) && (has_whole || box->is_flushed || (box->stored == box->taken))) {
-        write_size(box, now_us);
-    } else if (has_whole) {
+static void write_next(keel_black_box_t *box)
+{
+    if (box->stored < box->due) {
+        write_data(box);
+    } else if (box->kept < box->due) {
+        write_size(box);
+    } else if (whole_sectors(box) > 0u) {
         write_whole(box);
-    } else if (box->stored < box->taken) {
-        write_rest(box);
     } else {
-        box->synced_us = now_us; /* There is nothing new. */
+        /* Nothing is due. */
     }
 }
 
@@ -123,8 +134,8 @@ static void clear(keel_black_box_t *box)
     box->taken = 0u;
     box->stored = 0u;
     box->kept = 0u;
+    box->due = 0u;
     box->failures = 0u;
-    box->is_flushed = false;
     box->count = none;
 }
 
@@ -187,14 +198,11 @@ keel_black_box_state_t keel_black_box_step(keel_black_box_t *box, uint32_t now_u
     if (box->state != KEEL_BLACK_BOX_OPEN) {
         return box->state;
     }
+    note_time(box, now_us);
     if (disk->is_busy(disk->context)) {
         count_up(&box->count.busy, 1u);
-    } else if ((now_us - box->synced_us) >= KEEL_BLACK_BOX_SYNC_US) {
-        sync(box, now_us);
-    } else if (whole_sectors(box) > 0u) {
-        write_whole(box);
     } else {
-        /* Nothing is due. */
+        write_next(box);
     }
     return box->state;
 }
@@ -204,11 +212,7 @@ keel_card_result_t keel_black_box_close(keel_black_box_t *box)
     keel_card_result_t result = KEEL_CARD_OK;
 
     while ((box->state == KEEL_BLACK_BOX_OPEN) && (box->stored < box->taken)) {
-        if (whole_sectors(box) > 0u) {
-            write_whole(box);
-        } else {
-            write_rest(box);
-        }
+        write_data(box);
     }
     if (box->state == KEEL_BLACK_BOX_OPEN) {
         result = keel_card_file_close(box->stored);

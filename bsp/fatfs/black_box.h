@@ -3,18 +3,20 @@
  * @file black_box.h
  * @brief A log in a file on a card, of which a power cut takes the last second at most.
  *
- * Bytes are handed in at any time and only copied. A step does what is due next, if the disk is not
- * busy: whole sectors, a few in one write; when a size is due (KEEL_BLACK_BOX_SYNC_US), first the
- * last sector as far as it goes, then, by itself, the directory's sector with the new size. So a
- * step writes at most config.burst sectors, reads none, and waits for none that came before. That
- * is what makes it fit a task that nothing preempts.
+ * Bytes are handed in at any time and only copied. A step does what is next, if the disk is not
+ * busy: one write, of whole sectors as a rule. Every KEEL_BLACK_BOX_SYNC_US what was taken until
+ * then becomes due: its last sector is written as far as it goes, and by a step of its own the
+ * directory's sector, with a size that covers what was due. So a step writes at most config.burst
+ * sectors, reads none, and waits for none. That is what makes it fit a task that nothing preempts.
  *
- * At every moment the file on the card is as long as its directory entry says, and those bytes are
- * what was handed in (card_file.h says why). A byte is in it at the latest KEEL_BLACK_BOX_SYNC_US,
- * three steps, and the time for which the disk was busy after it was handed in: within a second for
- * a card that is busy for at most 0.2 s at a time, and steps 20 ms apart or less.
+ * At every moment the file on the card is as long as its directory entry says, those bytes are what
+ * was handed in (card_file.h says why), and the last one ends a write of the user's: a message is
+ * whole if it was handed in as a whole. A byte is kept at the latest KEEL_BLACK_BOX_SYNC_US after
+ * it was handed in, and the time in which the buffer's sectors and that of the directory are
+ * written: KEEL_BLACK_BOX_SECTORS / config.burst + 3 steps, and as often the time for which the
+ * disk is busy. On a disk on which that takes longer than KEEL_BLACK_BOX_SYNC_US it is twice that.
  *
- * What is not room is not taken: whoever logs keeps it, and says in the log what was lost. After
+ * For what there is no room is not taken: whoever logs keeps it, and says in the log what was lost. After
  * a failure, and when the file is full, there is no room.
  *
  * Opening and closing wait for the card: they are for the ground.
@@ -37,7 +39,7 @@
 /** Bytes of the buffer. */
 #define KEEL_BLACK_BOX_BYTES (KEEL_BLACK_BOX_SECTORS * KEEL_DISK_SECTOR_BYTES)
 
-/** How often the directory gets a new size, in us. */
+/** How often bytes become due, in us. */
 #define KEEL_BLACK_BOX_SYNC_US 500000u
 
 /** How often a write is tried again at once, in one step each, before the box gives up. */
@@ -78,9 +80,9 @@ typedef struct keel_black_box {
     uint32_t taken;               /**< Bytes that were handed in, */
     uint32_t stored;              /**< how many of them are on the card, */
     uint32_t kept;                /**< and in the file, as the directory knows. */
-    uint32_t synced_us;           /**< When the directory was last told. */
+    uint32_t due;                 /**< So many are to be in the file next. */
+    uint32_t synced_us;           /**< When they became due. */
     uint32_t failures;            /**< Writes that failed in a row. */
-    bool is_flushed;              /**< The last sector is stored, for the size that is due. */
     keel_black_box_count_t count; /**< What was met. */
     uint8_t buffer[KEEL_BLACK_BOX_BYTES]; /**< Byte n of the file is at n modulo its size. */
 } keel_black_box_t;
