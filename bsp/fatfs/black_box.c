@@ -127,7 +127,7 @@ static bool is_complete(const keel_disk_t *disk)
 }
 
 /* Nothing was taken, and nothing met. */
-static void clear(keel_black_box_t *box)
+static void empty_box(keel_black_box_t *box)
 {
     static const keel_black_box_count_t none = {0};
 
@@ -154,16 +154,16 @@ keel_status_t keel_black_box_init(keel_black_box_t *box, const keel_black_box_co
     box->file.number = 0u;
     box->file.sector = 0u;
     box->synced_us = 0u;
-    clear(box);
+    empty_box(box);
     return KEEL_OK;
 }
 
 keel_card_result_t keel_black_box_open(keel_black_box_t *box, uint32_t now_us)
 {
-    const keel_card_result_t result =
-        keel_card_file_make(box->config.disk, box->config.allocation, &box->file);
+    const keel_card_result_t result = keel_card_file_make(box->config.disk, box->config.allocation,
+                                                          &box->file);
 
-    clear(box);
+    empty_box(box);
     box->synced_us = now_us;
     box->state = (result == KEEL_CARD_OK) ? KEEL_BLACK_BOX_OPEN : KEEL_BLACK_BOX_CLOSED;
     return result;

@@ -9,15 +9,15 @@
  * directory's sector, with a size that covers what was due. So a step writes at most config.burst
  * sectors, reads none, and waits for none. That is what makes it fit a task that nothing preempts.
  *
- * At every moment the file on the card is as long as its directory entry says, those bytes are what
- * was handed in (card_file.h says why), and the last one ends a write of the user's: a message is
- * whole if it was handed in as a whole. A byte is kept at the latest KEEL_BLACK_BOX_SYNC_US after
- * it was handed in, and the time in which the buffer's sectors and that of the directory are
+ * At every moment the file on the card is as long as its directory entry says, those bytes are
+ * what was handed in (card_file.h says why), and the last one ends a write of the user's: a message
+ * is whole if it was handed in as a whole. A byte is kept at the latest KEEL_BLACK_BOX_SYNC_US
+ * after it was handed in, and the time in which the buffer's sectors and that of the directory are
  * written: KEEL_BLACK_BOX_SECTORS / config.burst + 3 steps, and as often the time for which the
  * disk is busy. On a disk on which that takes longer than KEEL_BLACK_BOX_SYNC_US it is twice that.
  *
- * For what there is no room is not taken: whoever logs keeps it, and says in the log what was lost. After
- * a failure, and when the file is full, there is no room.
+ * For what there is no room is not taken: whoever logs keeps it, and says in the log what was lost.
+ * After a failure, and when the file is full, there is no room.
  *
  * Opening and closing wait for the card: they are for the ground.
  *
@@ -76,14 +76,14 @@ typedef struct keel_black_box_count {
 typedef struct keel_black_box {
     keel_black_box_config_t config;
     keel_black_box_state_t state;
-    keel_card_file_t file;        /**< The file; as the last one was when there is none. */
-    uint32_t taken;               /**< Bytes that were handed in, */
-    uint32_t stored;              /**< how many of them are on the card, */
-    uint32_t kept;                /**< and in the file, as the directory knows. */
-    uint32_t due;                 /**< So many are to be in the file next. */
-    uint32_t synced_us;           /**< When they became due. */
-    uint32_t failures;            /**< Writes that failed in a row. */
-    keel_black_box_count_t count; /**< What was met. */
+    keel_card_file_t file;                /**< The file; as the last one was when there is none. */
+    uint32_t taken;                       /**< Bytes that were handed in, */
+    uint32_t stored;                      /**< how many of them are on the card, */
+    uint32_t kept;                        /**< and in the file, as the directory knows. */
+    uint32_t due;                         /**< So many are to be in the file next. */
+    uint32_t synced_us;                   /**< When they became due. */
+    uint32_t failures;                    /**< Writes that failed in a row. */
+    keel_black_box_count_t count;         /**< What was met. */
     uint8_t buffer[KEEL_BLACK_BOX_BYTES]; /**< Byte n of the file is at n modulo its size. */
 } keel_black_box_t;
 

@@ -100,29 +100,30 @@ static keel_card_result_t result_of(FRESULT said)
 static void name_file(uint32_t number)
 {
     static const char pattern[NAME_BYTES] = "LOG00000.ULG";
+    static const char digits[] = "0123456789";
     uint32_t left = number;
 
     for (uint32_t i = 0u; i < NAME_BYTES; i++) {
         the_name[i] = pattern[i];
     }
     for (uint32_t i = DIGITS; i > 0u; i--) {
-        the_name[DIGIT_AT + i - 1u] = (char)('0' + (char)(left % TEN));
+        the_name[DIGIT_AT + i - 1u] = digits[left % TEN];
         left /= TEN;
     }
 }
 
 /* The number in a name; 0 when it is not one of ours. */
-static uint32_t number_of(const char *name)
+static uint32_t number_in(const char *name)
 {
     uint32_t number = 0u;
 
     for (uint32_t i = 0u; i < DIGITS; i++) {
-        const char digit = name[DIGIT_AT + i];
+        const char *const digit = &name[DIGIT_AT + i];
 
-        if ((digit < '0') || (digit > '9')) {
+        if ((*digit < '0') || (*digit > '9')) {
             return 0u;
         }
-        number = (TEN * number) + (uint32_t)(digit - '0');
+        number = (TEN * number) + ((uint32_t)(uint8_t)*digit - (uint32_t)(uint8_t)'0');
     }
     name_file(number);
     for (uint32_t i = 0u; i < NAME_BYTES; i++) {
@@ -147,8 +148,8 @@ static FRESULT find_newest(found_t *newest)
         if ((said != FR_OK) || (entry.fname[0] == '\0')) {
             break;
         }
-        if (number_of(entry.fname) > newest->number) {
-            newest->number = number_of(entry.fname);
+        if (number_in(entry.fname) > newest->number) {
+            newest->number = number_in(entry.fname);
             newest->size = entry.fsize;
         }
     }

@@ -22,17 +22,17 @@ typedef struct simulated_card {
     uint8_t *bytes;   /**< What it holds. */
     uint32_t sectors; /**< How much that is. */
     bool is_absent;
-    uint32_t reads;             /**< So many there were; may be set to 0. */
-    uint32_t writes;            /**< The same. */
-    uint32_t fails_read;        /**< This one fails. */
-    uint32_t fails_write_from;  /**< From this one … */
-    uint32_t fails_write_for;   /**< … so many fail. */
-    uint32_t power;             /**< So many sectors are written until it fails. */
-    uint32_t busy_looks;        /**< Behind a write it is busy for so many looks. */
-    uint32_t busy_left;         /**< Of these. */
-    uint32_t waits;             /**< Reads and writes for which somebody waited. */
-    uint32_t syncs;             /**< So many there were. */
-    uint32_t longest;           /**< Sectors of the longest write. */
+    uint32_t reads;            /**< So many there were; may be set to 0. */
+    uint32_t writes;           /**< The same. */
+    uint32_t fails_read;       /**< This one fails. */
+    uint32_t fails_write_from; /**< From this one … */
+    uint32_t fails_write_for;  /**< … so many fail. */
+    uint32_t power;            /**< So many sectors are written until it fails. */
+    uint32_t busy_looks;       /**< Behind a write it is busy for so many looks. */
+    uint32_t busy_left;        /**< Of these. */
+    uint32_t waits;            /**< Reads and writes for which somebody waited. */
+    uint32_t syncs;            /**< So many there were. */
+    uint32_t longest;          /**< Sectors of the longest write. */
     void (*watch)(uint32_t sector, const uint8_t *bytes); /**< Each sector written, or null. */
 } simulated_card_t;
 

@@ -109,9 +109,10 @@ static uint32_t used_clusters(void)
 
 static void format(void)
 {
-    static const uint8_t boot[] = {0xEB, 0x3C, 0x90, 'B', 'Y', ' ', 'H', 'A', 'N', 'D', ' ', 0,
-                                   2, 1, 1, 0, 2, ROOT_SIZE, 0, SECTORS & 0xFFu, SECTORS >> 8,
-                                   0xF8, FAT_LENGTH, 0};
+    static const uint8_t boot[] = {
+        0xEB,         0x3C, 0x90,       'B', 'Y', ' ', 'H', 'A',       'N', 'D',
+        ' ',          0,    2,          1,   1,   0,   2,   ROOT_SIZE, 0,   SECTORS & 0xFFu,
+        SECTORS >> 8, 0xF8, FAT_LENGTH, 0};
 
     memset(bytes, 0, DATA_AT * SECTOR);
     memcpy(bytes, boot, sizeof boot);
@@ -708,8 +709,7 @@ static void BBX_011_cards_that_lie(void)
             const uint32_t at = places[any() % 5u] * SECTOR;
 
             /* Mostly where something is. */
-            bytes[at + (any() % (one_in(2u) ? 64u : SECTOR))] =
-                one_in(3u) ? 0xFFu : (uint8_t)any();
+            bytes[at + (any() % (one_in(2u) ? 64u : SECTOR))] = one_in(3u) ? 0xFFu : (uint8_t)any();
         }
         simulated_card_init(&card, bytes, SECTORS);
         make_box();

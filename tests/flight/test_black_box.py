@@ -228,8 +228,9 @@ class Volume:
     def walk(self) -> Iterator[tuple[str, int, int]]:
         """Each file: its name, its first cluster and its size; folders as "/NAME/"."""
         fat = self.fat()
+        own = self.entries // 16
         root = (self.data_of(self.chain(fat, self.root)) if self.is_32
-                else bytes(self.part(self.data - self.entries // 16, self.entries // 16)))  # fmt: skip
+                else bytes(self.part(self.data - own, own)))  # fmt: skip
         folders = [("/", root)]
         while folders:
             at, raw = folders.pop()
@@ -261,7 +262,8 @@ class Volume:
         """A file's bytes, when its clusters are in a row."""
         first, clusters, size = self.check()[0][name]
         assert list(self.chain(self.fat(), first)) == list(range(first, first + clusters))
-        return bytes(self.part(self.data + (first - 2) * self.cluster, clusters * self.cluster)[:size])
+        start = self.data + (first - 2) * self.cluster
+        return bytes(self.part(start, clusters * self.cluster)[:size])
 
 
 # --- A flight's log on the card ------------------------------------------------------------------
@@ -454,7 +456,7 @@ def test_every_cut_with_other_cards(
 def test_the_next_start_cuts_what_was_left(
     box: ctypes.CDLL, pyfatfs: tuple[Any, Any], log: bytes, kind: str
 ) -> None:  # fmt: skip
-    """A start behind a cut: the log of before stays as it is, and gives back what it had in vain."""
+    """A start behind a cut: the log of before stays, and gives back what it had in vain."""
     image = new_card(pyfatfs, kind, (8 if kind == "FAT16" else 40) * MIB)
     record = fly(box, image, log[: 2 * BYTES_PER_S])
     others = Volume(record.image).check()[0]
