@@ -27,11 +27,18 @@ static void wait_for(simulated_card_t *card)
     card->busy_left = 0u;
 }
 
+/* Whether it is asked for sectors that it has not. */
+static void note_stray(simulated_card_t *card, uint32_t sector, uint32_t count)
+{
+    card->strays += ((sector < card->sectors) && (count <= (card->sectors - sector))) ? 0u : 1u;
+}
+
 static bool read_card(void *context, uint32_t sector, uint8_t *bytes, uint32_t count)
 {
     simulated_card_t *const card = context;
 
     wait_for(card);
+    note_stray(card, sector, count);
     for (uint32_t i = 0u; i < count; i++) {
         card->reads++;
         if (card->is_absent || (card->reads == card->fails_read) || (sector >= card->sectors) ||
@@ -56,7 +63,7 @@ static bool write_card(void *context, uint32_t sector, const uint8_t *bytes, uin
     simulated_card_t *const card = context;
 
     wait_for(card);
-    card->longest = (count > card->longest) ? count : card->longest;
+    note_stray(card, sector, count);
     for (uint32_t i = 0u; i < count; i++) {
         const uint8_t *const from = &bytes[i * KEEL_DISK_SECTOR_BYTES];
 

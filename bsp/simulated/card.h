@@ -31,8 +31,8 @@ typedef struct simulated_card {
     uint32_t busy_looks;       /**< Behind a write it is busy for so many looks. */
     uint32_t busy_left;        /**< Of these. */
     uint32_t waits;            /**< Reads and writes for which somebody waited. */
+    uint32_t strays;           /**< Reads and writes of sectors that it has not. */
     uint32_t syncs;            /**< So many there were. */
-    uint32_t longest;          /**< Sectors of the longest write. */
     void (*watch)(uint32_t sector, const uint8_t *bytes); /**< Each sector written, or null. */
 } simulated_card_t;
 

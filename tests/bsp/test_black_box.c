@@ -720,6 +720,7 @@ static void BBX_011_cards_that_lie(void)
         }
         (void)keel_black_box_close(&box);
         TEST_ASSERT_EQUAL(KEEL_BLACK_BOX_CLOSED, box.state);
+        TEST_ASSERT_EQUAL_UINT32(0u, card.strays);
         TEST_ASSERT_TRUE((card.reads + card.writes) < 20000u);
     }
     TEST_ASSERT_TRUE((opened > 1000u) && (opened < 6000u));
