@@ -486,11 +486,12 @@ def test_the_next_start_cuts_what_was_left(
     assert checked > 10
 
 
+@pytest.mark.parametrize(("kind", "size"), [("FAT12", 4), ("FAT16", 8), ("FAT32", 40)])
 def test_a_card_with_a_partition(
-    box: ctypes.CDLL, pyfatfs: tuple[Any, Any], log: bytes, tmp_path: Path
+    box: ctypes.CDLL, pyfatfs: tuple[Any, Any], log: bytes, kind: str, size: int
 ) -> None:  # fmt: skip
     """As cards are sold: a table, and the volume behind it."""
-    first, volume = 2048, new_card(pyfatfs, "FAT16", 8 * MIB)
+    first, volume = 2048, new_card(pyfatfs, kind, size * MIB)
     entry = struct.pack("<B3sB3sII", 0, bytes(3), 6, bytes(3), first, len(volume) // SECTOR)
     table = bytes(446) + entry + bytes(48) + b"\x55\xaa"
     record = fly(box, table + bytes((first - 1) * SECTOR) + volume, log)
