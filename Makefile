@@ -26,7 +26,7 @@ BOARDS := firmware model stack flash registers test-target
 EVIDENCE := eva qualify evidence coverage coverage-target contracts-run mutate opinion review fuzz soak fuzztasks trace status dist
 RESEARCH := timing campaign pictures
 
-ALL_TOOLS := prove test lint coverage bench fuzz firmware stack target registers model \
+ALL_TOOLS := prove test lint coverage bench fuzz oracles firmware stack target registers model \
              flash-openocd flash-pyocd flash-st-flash flash-px4 timing tools-tests timing-tests \
              consumer opinion evidence browser attestation contracts-run trace c-syntax dask ci \
              fly flights fly-tests messages sim clients fatfs card
@@ -146,8 +146,8 @@ opinion: python ## ask ESBMC, a third engine, about some of the harnesses (ARGS=
 review: python ## who has reviewed the proofs (UNIT=queue: what to look at; ARGS='--sign NAME --remarks TEXT')
 	@python3 tools/review.py $(if $(UNIT),--unit $(UNIT)) $(ARGS)
 
-fuzz: python ## fuzz the scheduler against its reference model (SECONDS=60)
-	@python3 tools/run_tests.py --filter fuzz --fuzz $(SECONDS)
+fuzz: python ## fuzz the scheduler and the decoders beside models and others' decoders (SECONDS=60)
+	@python3 tools/fuzz.py --seconds $(SECONDS) $(ARGS)
 
 soak: python ## 10^9 random calls of each stateful unit beside the specification (half an hour)
 	@python3 tools/soak.py $(ARGS)

@@ -2,17 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Build and run Keel's tests on this host.
 
-    python3 tools/run_tests.py                    # everything but the fuzzer
+    python3 tools/run_tests.py                    # everything
     python3 tools/run_tests.py --filter unit/     # the suites whose name contains this
     python3 tools/run_tests.py --jobs 1           # one after another
-    python3 tools/run_tests.py --fuzz 60          # everything, and 60 seconds of fuzzing
 
 Suites: unit/<unit> (Unity), bsp/<driver> (Unity, on simulated hardware), property/<size> (the
 scheduler against its reference model), reference/<unit> (C++, an independent computation with
 Eigen in double precision), machdep (Frama-C's data model against the compiler), tools/<tool>,
-timing/<part> and flight/<part> (Python), fuzz (libFuzzer). The C and C++ suites are built with the
-address and undefined-behaviour sanitizers; where their libraries are missing this is said, in the
-output and in the report.
+timing/<part> and flight/<part> (Python). The C and C++ suites are built with the address and
+undefined-behaviour sanitizers; where their libraries are missing this is said, in the output and in
+the report.
 
 Suites run side by side, as many as there are cores; tests/suites.toml says which tools they need
 and which take long. So whatever a suite writes lies in a folder of its own: a temporary one, or one
@@ -28,7 +27,6 @@ Exit status: 0 when at least one test ran and none failed, 1 otherwise, 2 when n
 
 from __future__ import annotations
 
-import re
 import sys
 import threading
 from collections.abc import Callable, Sequence
@@ -52,6 +50,7 @@ from suites.outcomes import (
     unity_outcome,
 )
 from suites.running import Suite
+from suites.sources import KERNEL, MODEL_SOURCES, SMALL
 from toolchain import Toolchain
 
 BUILD = Path("build/test")
@@ -72,26 +71,10 @@ DRIVERS = ("bsp/common/*.c", "bsp/devices/*.c", "bsp/stm32f767/*.c")
 FATFS_SUITE, FATFS_DRIVERS = "bsp/black_box", "bsp/fatfs"
 
 # The property test runs with the queue's own capacity, and with one that it often fills.
-SMALL = "-DKEEL_QUEUE_CAPACITY=6u"
 CAPACITIES: dict[str, tuple[int, list[str]]] = {
     "default": (1_000_000, []),
     "small": (1_000_000, [SMALL]),
 }
-
-SPECIFIED = ("admission", "admission_queue", "clock", "decision", "pass", "pass_run", "priority",
-             "queue", "scheduler", "stats", "task")  # fmt: skip
-MODEL_SOURCES = [f"tests/property/{name}.c" for name in ("model", "drive", "lockstep")]
-MODEL_SOURCES += [f"specs/model/{name}.c" for name in SPECIFIED]
-KERNEL = ["src"]
-# What each libFuzzer target compares the kernel with.
-CRSF_MODEL = [f"specs/model/{name}.c" for name in ("crsf", "crsf_parts", "framing",
-                                                   "framing_parts", "crc")]  # fmt: skip
-PPM_MODEL = ["specs/model/ppm.c", "specs/model/framing.c"]
-IBUS_MODEL = [f"specs/model/{name}.c" for name in ("ibus", "framing", "framing_parts")]
-FUZZED = {"fuzz_scheduler": MODEL_SOURCES, "fuzz_mavlink": ["specs/model/mavlink.c"],
-          "fuzz_crsf": CRSF_MODEL,
-          "fuzz_ppm": PPM_MODEL,
-          "fuzz_ibus": IBUS_MODEL}  # fmt: skip
 
 
 class HostBuilds:
@@ -208,32 +191,6 @@ def python_suite(name: str, source: Path, group: str, may_skip: bool) -> Outcome
     return pytest_outcome(name, report, ended, may_skip)
 
 
-FUZZ_FINDING = re.compile(
-    r"^.*(?:DIFFER|runtime error:|ERROR: AddressSanitizer|Test unit written to).*$", re.MULTILINE
-)
-
-
-def fuzz_program(tools: Toolchain, name: str, model: Sequence[str]) -> Path:
-    """Build a libFuzzer target: tests/fuzz/NAME.c with the kernel and what it is compared with."""
-    fuzzer = ["-fsanitize=fuzzer,address,undefined", "-fno-sanitize-recover=all"]
-    flags = ["-std=c99", "-O1", "-g", "-Iinclude", SMALL, *fuzzer]
-    build = Build(tools, "clang-19", flags, ROOT / BUILD / "fuzzer", ROOT, fuzzer)
-    return build.program(name, [*KERNEL, *model, f"tests/fuzz/{name}.c"])
-
-
-def fuzz_suite(tools: Toolchain, seconds: int, suite: str, target: str) -> Outcome:
-    """Let libFuzzer look for a sequence on which the kernel and the model differ."""
-    program = fuzz_program(tools, target, FUZZED[target])
-    folder = BUILD / suite  # The corpus stays there, and helps the next run.
-    (ROOT / folder / "corpus").mkdir(parents=True, exist_ok=True)
-    options = [f"-max_total_time={seconds}", "-max_len=4096", "-timeout=10", "-print_final_stats=1"]
-    options += [f"-artifact_prefix={folder}/"]
-    ended = run([program, *options, folder / "corpus"], seconds + 120.0)
-    told = FUZZ_FINDING.findall(ended.output) or [ended.evidence]
-    again = f"to see it again: {program.relative_to(ROOT)} FILE"
-    return program_outcome(suite, ended, "\n".join([*told, again]))
-
-
 # --- All of them ---------------------------------------------------------------------------------
 
 
@@ -259,7 +216,7 @@ def python_suites(folder: str, groups: tuple[str, ...], may_skip: bool) -> list[
     return suites
 
 
-def all_suites(builds: HostBuilds, fuzz_seconds: int, needs: Needs) -> list[Suite]:
+def all_suites(builds: HostBuilds, needs: Needs) -> list[Suite]:
     """Every suite, in the order of the reports."""
     unit, reference = partial(unit_suite, builds), partial(reference_suite, builds)
     suites = [*c_suites("unit", ".c", unit), *c_suites("bsp", ".c", unit),
@@ -272,11 +229,6 @@ def all_suites(builds: HostBuilds, fuzz_seconds: int, needs: Needs) -> list[Suit
                *python_suites("timing", ("timing-tests",), False),
                *python_suites("flight", ("fly-tests",), False),
                *python_suites("clients", ("clients",), False)]  # fmt: skip
-    if fuzz_seconds > 0:
-        for target in FUZZED:
-            name = target.replace("fuzz_scheduler", "fuzz")
-            run_it = partial(fuzz_suite, builds.tools, fuzz_seconds, name, target)
-            suites.append(Suite(name, ("fuzz",), run_it))
     return [with_needs(suite, needs) for suite in suites]
 
 
@@ -291,13 +243,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     end_as_by_ctrl_c()
     parser = Parser("Build and run Keel's tests.", "test")
     running.add_options(parser)
-    parser.add_argument("--fuzz", type=int, default=0, metavar="SECONDS", help="fuzz as well")
     options = running.parse(parser, arguments)
 
     def work() -> int:
         running.begin(ROOT / BUILD)
         builds = HostBuilds(Toolchain())
-        suites = running.chosen(all_suites(builds, options.fuzz, read_needs()), options.filter)
+        suites = running.chosen(all_suites(builds, read_needs()), options.filter)
         outcomes = running.run_all(builds.tools, suites, options.jobs)
         facts = {"filter": options.filter, "sanitizers": builds.sanitized}
         return running.end(ROOT / BUILD, "Keel", outcomes, facts)

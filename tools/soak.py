@@ -26,7 +26,8 @@ from common.errors import ROOT, ToolError, program
 from common.run import Ended, run
 from common.source import write_report
 from run_tests import BUILD as TESTS
-from run_tests import CAPACITIES, KERNEL, MODEL_SOURCES
+from run_tests import CAPACITIES
+from suites.sources import KERNEL, MODEL_SOURCES
 from toolchain import Toolchain
 
 BUILD = Path("build/soak")

@@ -66,6 +66,7 @@ typedef struct copter_force {
 typedef struct copter_inertia {
     keel_oversample_t channel[COPTER_IMUS][KEEL_VIRTUAL_IMU_CHANNELS];
     uint64_t sampled_us[COPTER_IMUS];            /**< When each unit last gave a sample. */
+    int16_t temperature[COPTER_IMUS];            /**< Of it, in 0.01 degrees Celsius. */
     keel_virtual_imu_sample_t unit[COPTER_IMUS]; /**< As measured, without calibration. */
     keel_virtual_imu_t imu;
     keel_attitude_t attitude;
@@ -182,6 +183,8 @@ typedef struct copter_state {
 typedef struct copter_health {
     keel_load_t window;
     uint32_t load_ppm;   /**< In the last window. */
+    uint32_t overruns;   /**< Runs of all tasks that were longer than their budgets. */
+    uint32_t skipped;    /**< Periods of all tasks that passed without a run. */
     uint32_t stack_free; /**< In bytes. */
     uint32_t checks;     /**< KEEL_MODE_CHECK_LOAD, if it holds. */
     float supply_v;

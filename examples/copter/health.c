@@ -2,6 +2,24 @@
 /* Scheduler analysis, stack and ADC. */
 #include "copter.h"
 
+/* What became of all tasks since the start; the kernel's own counts stay at their ends. */
+static void count_faults(copter_t *copter)
+{
+    copter_health_t *const self = &copter->health;
+
+    self->overruns = 0u;
+    self->skipped = 0u;
+    for (uint32_t row = 0u; row < copter->tasks; row++) {
+        keel_task_report_t report;
+
+        if (keel_scheduler_report(&copter->scheduler, copter_declaration(row), &report) ==
+            KEEL_OK) {
+            self->overruns += report.stats.overruns;
+            self->skipped += report.skipped;
+        }
+    }
+}
+
 void copter_scheduler_analysis(copter_t *copter)
 {
     copter_health_t *const self = &copter->health;
@@ -9,6 +27,7 @@ void copter_scheduler_analysis(copter_t *copter)
 
     self->load_ppm = keel_load_ppm(&self->window, now_us, copter->scheduler.busy_us);
     keel_load_begin(&self->window, now_us, copter->scheduler.busy_us);
+    count_faults(copter);
     self->checks = (self->load_ppm <= copter_settings.load_limit_ppm) ? KEEL_MODE_CHECK_LOAD : 0u;
 }
 

@@ -36,6 +36,7 @@ void copter_background_imu(copter_t *copter)
                                           sample.gyroscope[k]);
             }
             self->sampled_us[unit] = copter->scheduler.clock.now_us;
+            self->temperature[unit] = sample.temperature;
         }
     }
 }

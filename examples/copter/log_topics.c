@@ -15,6 +15,7 @@
 #define BYTES(text, member)  FIELD(text, KEEL_ULOG_UINT8, 1u, member)
 #define HALVES(text, member) FIELD(text, KEEL_ULOG_UINT16, 2u, member)
 #define WORDS(text, member)  FIELD(text, KEEL_ULOG_UINT32, 4u, member)
+#define SHORTS(text, member) FIELD(text, KEEL_ULOG_INT16, 2u, member)
 #define PLACES(text, member) FIELD(text, KEEL_ULOG_INT32, 4u, member)
 #define BOOLS(text, member)  FIELD(text, KEEL_ULOG_BOOL, 1u, member)
 
@@ -28,9 +29,10 @@
 #define IMU(number)                                                                                \
     {                                                                                              \
         .name = {"imu"}, .instance = (number), .row = URPILOT_FOREGROUND_IMU, .every = 1u,         \
-        .fields = 3u, .field = {                                                                   \
+        .fields = 4u, .field = {                                                                   \
             FLOATS("value", inertia.unit[number].value),                                           \
             WORDS("age_us", inertia.unit[number].age_us),                                          \
+            SHORTS("temperature_cdeg", inertia.temperature[number]),                               \
             BOOLS("present", inertia.unit[number].present)                                         \
         }                                                                                          \
     }
@@ -138,8 +140,9 @@ const copter_topic_t copter_topic[] = {
     {.name = {"health"},
      .row = URPILOT_SCHEDULER_ANALYSIS,
      .every = 1u,
-     .fields = 4u,
-     .field = {WORDS("load_ppm", health.load_ppm), WORDS("stack_free", health.stack_free),
+     .fields = 6u,
+     .field = {WORDS("load_ppm", health.load_ppm), WORDS("overruns", health.overruns),
+               WORDS("skipped", health.skipped), WORDS("stack_free", health.stack_free),
                WORDS("checks", health.checks), FLOATS("supply_v", health.supply_v)}},
     {.name = {"tasks"},
      .row = COPTER_LOG_ROW,

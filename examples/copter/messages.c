@@ -10,6 +10,7 @@ const keel_mavlink_message_t messages_sent[MESSAGES_SENT] = {
     {MESSAGE_PING, 237u, 1u, MESSAGE_PING_LENGTH},
     {MESSAGE_PARAM_VALUE, 220u, 1u, MESSAGE_PARAM_VALUE_LENGTH},
     {MESSAGE_GPS_RAW_INT, 24u, 1u, MESSAGE_GPS_RAW_INT_LENGTH},
+    {MESSAGE_SCALED_IMU, 170u, 1u, MESSAGE_SCALED_IMU_LENGTH},
     {MESSAGE_ATTITUDE, 39u, 1u, MESSAGE_ATTITUDE_LENGTH},
     {MESSAGE_LOCAL_POSITION_NED, 185u, 1u, MESSAGE_LOCAL_POSITION_NED_LENGTH},
     {MESSAGE_GLOBAL_POSITION_INT, 104u, 1u, MESSAGE_GLOBAL_POSITION_INT_LENGTH},
@@ -17,11 +18,14 @@ const keel_mavlink_message_t messages_sent[MESSAGES_SENT] = {
     {MESSAGE_RC_CHANNELS, 118u, 1u, MESSAGE_RC_CHANNELS_LENGTH},
     {MESSAGE_COMMAND_ACK, 143u, 1u, MESSAGE_COMMAND_ACK_LENGTH},
     {MESSAGE_TIMESYNC, 34u, 1u, MESSAGE_TIMESYNC_LENGTH},
+    {MESSAGE_SCALED_IMU2, 76u, 1u, MESSAGE_SCALED_IMU2_LENGTH},
+    {MESSAGE_SCALED_IMU3, 46u, 1u, MESSAGE_SCALED_IMU3_LENGTH},
     {MESSAGE_BATTERY_STATUS, 154u, 1u, MESSAGE_BATTERY_STATUS_LENGTH},
     {MESSAGE_AUTOPILOT_VERSION, 178u, 1u, MESSAGE_AUTOPILOT_VERSION_LENGTH},
     {MESSAGE_ESTIMATOR_STATUS, 163u, 1u, MESSAGE_ESTIMATOR_STATUS_LENGTH},
     {MESSAGE_HOME_POSITION, 104u, 1u, MESSAGE_HOME_POSITION_LENGTH},
     {MESSAGE_EXTENDED_SYS_STATE, 130u, 1u, MESSAGE_EXTENDED_SYS_STATE_LENGTH},
+    {MESSAGE_NAMED_VALUE_INT, 44u, 1u, MESSAGE_NAMED_VALUE_INT_LENGTH},
     {MESSAGE_STATUSTEXT, 83u, 1u, MESSAGE_STATUSTEXT_LENGTH},
 };
 
@@ -205,6 +209,22 @@ void message_gps_raw_int_pack(const message_gps_raw_int_t *from,
     put_u16(&payload[50], from->yaw);
 }
 
+void message_scaled_imu_pack(const message_scaled_imu_t *from,
+                             uint8_t payload[MESSAGE_SCALED_IMU_LENGTH])
+{
+    put_u32(&payload[0], from->time_boot_ms);
+    put_i16(&payload[4], from->xacc);
+    put_i16(&payload[6], from->yacc);
+    put_i16(&payload[8], from->zacc);
+    put_i16(&payload[10], from->xgyro);
+    put_i16(&payload[12], from->ygyro);
+    put_i16(&payload[14], from->zgyro);
+    put_i16(&payload[16], from->xmag);
+    put_i16(&payload[18], from->ymag);
+    put_i16(&payload[20], from->zmag);
+    put_i16(&payload[22], from->temperature);
+}
+
 void message_attitude_pack(const message_attitude_t *from, uint8_t payload[MESSAGE_ATTITUDE_LENGTH])
 {
     put_u32(&payload[0], from->time_boot_ms);
@@ -308,6 +328,38 @@ void message_timesync_pack(const message_timesync_t *from, uint8_t payload[MESSA
     put_i64(&payload[8], from->ts1);
 }
 
+void message_scaled_imu2_pack(const message_scaled_imu2_t *from,
+                              uint8_t payload[MESSAGE_SCALED_IMU2_LENGTH])
+{
+    put_u32(&payload[0], from->time_boot_ms);
+    put_i16(&payload[4], from->xacc);
+    put_i16(&payload[6], from->yacc);
+    put_i16(&payload[8], from->zacc);
+    put_i16(&payload[10], from->xgyro);
+    put_i16(&payload[12], from->ygyro);
+    put_i16(&payload[14], from->zgyro);
+    put_i16(&payload[16], from->xmag);
+    put_i16(&payload[18], from->ymag);
+    put_i16(&payload[20], from->zmag);
+    put_i16(&payload[22], from->temperature);
+}
+
+void message_scaled_imu3_pack(const message_scaled_imu3_t *from,
+                              uint8_t payload[MESSAGE_SCALED_IMU3_LENGTH])
+{
+    put_u32(&payload[0], from->time_boot_ms);
+    put_i16(&payload[4], from->xacc);
+    put_i16(&payload[6], from->yacc);
+    put_i16(&payload[8], from->zacc);
+    put_i16(&payload[10], from->xgyro);
+    put_i16(&payload[12], from->ygyro);
+    put_i16(&payload[14], from->zgyro);
+    put_i16(&payload[16], from->xmag);
+    put_i16(&payload[18], from->ymag);
+    put_i16(&payload[20], from->zmag);
+    put_i16(&payload[22], from->temperature);
+}
+
 void message_battery_status_pack(const message_battery_status_t *from,
                                  uint8_t payload[MESSAGE_BATTERY_STATUS_LENGTH])
 {
@@ -394,6 +446,16 @@ void message_extended_sys_state_pack(const message_extended_sys_state_t *from,
 {
     put_u8(&payload[0], from->vtol_state);
     put_u8(&payload[1], from->landed_state);
+}
+
+void message_named_value_int_pack(const message_named_value_int_t *from,
+                                  uint8_t payload[MESSAGE_NAMED_VALUE_INT_LENGTH])
+{
+    put_u32(&payload[0], from->time_boot_ms);
+    put_i32(&payload[4], from->value);
+    for (uint32_t i = 0u; i < 10u; i++) {
+        put_u8(&payload[8u + (1u * i)], (uint8_t)from->name[i]);
+    }
 }
 
 void message_statustext_pack(const message_statustext_t *from,

@@ -95,6 +95,8 @@
 #define MESSAGE_PARAM_SET_LENGTH           23u
 #define MESSAGE_GPS_RAW_INT                24u
 #define MESSAGE_GPS_RAW_INT_LENGTH         52u
+#define MESSAGE_SCALED_IMU                 26u
+#define MESSAGE_SCALED_IMU_LENGTH          24u
 #define MESSAGE_ATTITUDE                   30u
 #define MESSAGE_ATTITUDE_LENGTH            28u
 #define MESSAGE_LOCAL_POSITION_NED         32u
@@ -113,6 +115,10 @@
 #define MESSAGE_COMMAND_ACK_LENGTH         10u
 #define MESSAGE_TIMESYNC                   111u
 #define MESSAGE_TIMESYNC_LENGTH            16u
+#define MESSAGE_SCALED_IMU2                116u
+#define MESSAGE_SCALED_IMU2_LENGTH         24u
+#define MESSAGE_SCALED_IMU3                129u
+#define MESSAGE_SCALED_IMU3_LENGTH         24u
 #define MESSAGE_BATTERY_STATUS             147u
 #define MESSAGE_BATTERY_STATUS_LENGTH      54u
 #define MESSAGE_AUTOPILOT_VERSION          148u
@@ -123,12 +129,14 @@
 #define MESSAGE_HOME_POSITION_LENGTH       60u
 #define MESSAGE_EXTENDED_SYS_STATE         245u
 #define MESSAGE_EXTENDED_SYS_STATE_LENGTH  2u
+#define MESSAGE_NAMED_VALUE_INT            252u
+#define MESSAGE_NAMED_VALUE_INT_LENGTH     18u
 #define MESSAGE_STATUSTEXT                 253u
 #define MESSAGE_STATUSTEXT_LENGTH          54u
 /** @} */
 
 /** What is sent. */
-#define MESSAGES_SENT 18u
+#define MESSAGES_SENT 22u
 extern const keel_mavlink_message_t messages_sent[MESSAGES_SENT];
 
 /** What is taken, of senders who know more fields too. */
@@ -142,6 +150,7 @@ typedef enum message_sent {
     SENT_PING,
     SENT_PARAM_VALUE,
     SENT_GPS_RAW_INT,
+    SENT_SCALED_IMU,
     SENT_ATTITUDE,
     SENT_LOCAL_POSITION_NED,
     SENT_GLOBAL_POSITION_INT,
@@ -149,11 +158,14 @@ typedef enum message_sent {
     SENT_RC_CHANNELS,
     SENT_COMMAND_ACK,
     SENT_TIMESYNC,
+    SENT_SCALED_IMU2,
+    SENT_SCALED_IMU3,
     SENT_BATTERY_STATUS,
     SENT_AUTOPILOT_VERSION,
     SENT_ESTIMATOR_STATUS,
     SENT_HOME_POSITION,
     SENT_EXTENDED_SYS_STATE,
+    SENT_NAMED_VALUE_INT,
     SENT_STATUSTEXT
 } message_sent_t;
 
@@ -253,6 +265,21 @@ typedef struct message_gps_raw_int {
     uint32_t hdg_acc;
     uint16_t yaw;
 } message_gps_raw_int_t;
+
+/** SCALED_IMU. */
+typedef struct message_scaled_imu {
+    uint32_t time_boot_ms;
+    int16_t xacc;
+    int16_t yacc;
+    int16_t zacc;
+    int16_t xgyro;
+    int16_t ygyro;
+    int16_t zgyro;
+    int16_t xmag;
+    int16_t ymag;
+    int16_t zmag;
+    int16_t temperature;
+} message_scaled_imu_t;
 
 /** ATTITUDE. */
 typedef struct message_attitude {
@@ -384,6 +411,36 @@ typedef struct message_timesync {
     int64_t ts1;
 } message_timesync_t;
 
+/** SCALED_IMU2. */
+typedef struct message_scaled_imu2 {
+    uint32_t time_boot_ms;
+    int16_t xacc;
+    int16_t yacc;
+    int16_t zacc;
+    int16_t xgyro;
+    int16_t ygyro;
+    int16_t zgyro;
+    int16_t xmag;
+    int16_t ymag;
+    int16_t zmag;
+    int16_t temperature;
+} message_scaled_imu2_t;
+
+/** SCALED_IMU3. */
+typedef struct message_scaled_imu3 {
+    uint32_t time_boot_ms;
+    int16_t xacc;
+    int16_t yacc;
+    int16_t zacc;
+    int16_t xgyro;
+    int16_t ygyro;
+    int16_t zgyro;
+    int16_t xmag;
+    int16_t ymag;
+    int16_t zmag;
+    int16_t temperature;
+} message_scaled_imu3_t;
+
 /** BATTERY_STATUS. */
 typedef struct message_battery_status {
     int32_t current_consumed;
@@ -453,6 +510,13 @@ typedef struct message_extended_sys_state {
     uint8_t landed_state;
 } message_extended_sys_state_t;
 
+/** NAMED_VALUE_INT. */
+typedef struct message_named_value_int {
+    uint32_t time_boot_ms;
+    int32_t value;
+    char name[10];
+} message_named_value_int_t;
+
 /** STATUSTEXT. */
 typedef struct message_statustext {
     uint8_t severity;
@@ -472,6 +536,8 @@ void message_param_value_pack(const message_param_value_t *from,
                               uint8_t payload[MESSAGE_PARAM_VALUE_LENGTH]);
 void message_gps_raw_int_pack(const message_gps_raw_int_t *from,
                               uint8_t payload[MESSAGE_GPS_RAW_INT_LENGTH]);
+void message_scaled_imu_pack(const message_scaled_imu_t *from,
+                             uint8_t payload[MESSAGE_SCALED_IMU_LENGTH]);
 void message_attitude_pack(const message_attitude_t *from,
                            uint8_t payload[MESSAGE_ATTITUDE_LENGTH]);
 void message_local_position_ned_pack(const message_local_position_ned_t *from,
@@ -486,6 +552,10 @@ void message_command_ack_pack(const message_command_ack_t *from,
                               uint8_t payload[MESSAGE_COMMAND_ACK_LENGTH]);
 void message_timesync_pack(const message_timesync_t *from,
                            uint8_t payload[MESSAGE_TIMESYNC_LENGTH]);
+void message_scaled_imu2_pack(const message_scaled_imu2_t *from,
+                              uint8_t payload[MESSAGE_SCALED_IMU2_LENGTH]);
+void message_scaled_imu3_pack(const message_scaled_imu3_t *from,
+                              uint8_t payload[MESSAGE_SCALED_IMU3_LENGTH]);
 void message_battery_status_pack(const message_battery_status_t *from,
                                  uint8_t payload[MESSAGE_BATTERY_STATUS_LENGTH]);
 void message_autopilot_version_pack(const message_autopilot_version_t *from,
@@ -496,6 +566,8 @@ void message_home_position_pack(const message_home_position_t *from,
                                 uint8_t payload[MESSAGE_HOME_POSITION_LENGTH]);
 void message_extended_sys_state_pack(const message_extended_sys_state_t *from,
                                      uint8_t payload[MESSAGE_EXTENDED_SYS_STATE_LENGTH]);
+void message_named_value_int_pack(const message_named_value_int_t *from,
+                                  uint8_t payload[MESSAGE_NAMED_VALUE_INT_LENGTH]);
 void message_statustext_pack(const message_statustext_t *from,
                              uint8_t payload[MESSAGE_STATUSTEXT_LENGTH]);
 void message_ping_unpack(message_ping_t *to, const uint8_t payload[MESSAGE_PING_LENGTH]);

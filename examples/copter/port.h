@@ -30,6 +30,7 @@
 typedef struct copter_inertial {
     float accelerometer[3]; /**< Specific force, in m/s^2. */
     float gyroscope[3];     /**< In rad/s. */
+    int16_t temperature;    /**< Of the unit, in hundredths of a degree Celsius. */
 } copter_inertial_t;
 
 /** What a magnetometer measured, body axes. */

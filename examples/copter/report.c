@@ -137,6 +137,12 @@ static int8_t charge_left(const keel_battery_t *battery)
                : (int8_t)within(battery->remaining * PERCENT, 0.0f, PERCENT);
 }
 
+/* A count that fits. */
+static uint16_t at_most(uint32_t count)
+{
+    return (uint16_t)((count < UNKNOWN_16) ? count : UNKNOWN_16);
+}
+
 static uint32_t healthy(const copter_t *copter)
 {
     const uint32_t blocking = copter->state.mode.blocking.checks;
@@ -170,9 +176,46 @@ static void sys_status(const copter_t *copter, const copter_link_t *link, uint8_
         .voltage_battery = volts(copter),
         .current_battery = small(copter->energy.battery.current * CENTI),
         .battery_remaining = charge_left(&copter->energy.battery),
-        .errors_comm = (uint16_t)((errors < UNKNOWN_16) ? errors : UNKNOWN_16)};
+        .errors_comm = at_most(errors),
+        .errors_count1 = at_most(copter->health.overruns),
+        .errors_count2 = at_most(copter->health.skipped),
+        .errors_count3 = at_most(copter->log.lost)};
 
     message_sys_status_pack(&message, payload);
+}
+
+/* What one unit measured, in thousandths of g and of rad/s; 0 stands for no temperature there, so a
+ * hundredth of a degree for 0. The messages of all three units are alike. */
+static bool scaled_imu(const copter_t *copter, uint32_t unit, uint8_t *payload)
+{
+    const keel_virtual_imu_sample_t *const sample = &copter->inertia.unit[unit];
+    const int16_t temperature = copter->inertia.temperature[unit];
+    const float *const value = sample->value;
+    const float milli_g = MILLI / KEEL_CASCADE_GRAVITY;
+    const message_scaled_imu_t message = {.time_boot_ms = now_ms(copter),
+                                          .xacc = small(value[0] * milli_g),
+                                          .yacc = small(value[1] * milli_g),
+                                          .zacc = small(value[2] * milli_g),
+                                          .xgyro = small(value[3] * MILLI),
+                                          .ygyro = small(value[4] * MILLI),
+                                          .zgyro = small(value[5] * MILLI),
+                                          .temperature = (temperature == 0) ? (int16_t)1
+                                                                            : temperature};
+
+    message_scaled_imu_pack(&message, payload);
+    return sample->present;
+}
+
+/* How deep the stack has been, which no message of MAVLink's is for. */
+static void stack_free(const copter_t *copter, uint8_t *payload)
+{
+    const uint32_t bytes = copter->health.stack_free;
+    const message_named_value_int_t message = {
+        .time_boot_ms = now_ms(copter),
+        .value = (bytes < (uint32_t)INT32_MAX) ? (int32_t)bytes : INT32_MAX,
+        .name = {'s', 't', 'a', 'c', 'k', '_', 'f', 'r', 'e', 'e'}};
+
+    message_named_value_int_pack(&message, payload);
 }
 
 static bool gps_raw_int(const copter_t *copter, uint8_t *payload)
@@ -557,6 +600,15 @@ static bool places(const copter_t *copter, copter_link_t *link, uint32_t sent, u
     case SENT_HOME_POSITION:
         said = home_position(copter, payload);
         break;
+    case SENT_SCALED_IMU:
+        said = scaled_imu(copter, 0u, payload);
+        break;
+    case SENT_SCALED_IMU2:
+        said = scaled_imu(copter, 1u, payload);
+        break;
+    case SENT_SCALED_IMU3:
+        said = scaled_imu(copter, 2u, payload);
+        break;
     case SENT_RC_CHANNELS:
         said = rc_channels(copter, payload);
         break;
@@ -592,6 +644,9 @@ bool copter_report(const copter_t *copter, copter_link_t *link, uint32_t sent, u
         break;
     case SENT_EXTENDED_SYS_STATE:
         extended_sys_state(copter, payload);
+        break;
+    case SENT_NAMED_VALUE_INT:
+        stack_free(copter, payload);
         break;
     default:
         said = places(copter, link, sent, payload);

@@ -29,6 +29,10 @@ static const uint32_t interval_us[MESSAGES_SENT] = {
     [SENT_ESTIMATOR_STATUS] = MILLION,
     [SENT_HOME_POSITION] = 5u * MILLION,
     [SENT_EXTENDED_SYS_STATE] = MILLION,
+    [SENT_SCALED_IMU] = MILLION,
+    [SENT_SCALED_IMU2] = MILLION,
+    [SENT_SCALED_IMU3] = MILLION,
+    [SENT_NAMED_VALUE_INT] = 5u * MILLION,
 };
 
 static const char *const states[KEEL_MODE_STATES] = {"disarmed",  "armed",   "flying",    "holding",

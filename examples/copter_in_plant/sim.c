@@ -80,6 +80,7 @@ static bool read_imu(void *context, uint32_t unit, copter_inertial_t *sample)
     if (there) {
         memcpy(sample->accelerometer, imu->accelerometer, sizeof sample->accelerometer);
         memcpy(sample->gyroscope, imu->gyroscope, sizeof sample->gyroscope);
+        sample->temperature = imu->temperature;
     }
     return there;
 }

@@ -29,6 +29,7 @@
 typedef struct sim_imu {
     float accelerometer[3]; /**< Specific force, body, in m/s^2: (0, 0, -9.81) at rest. */
     float gyroscope[3];     /**< Body, in rad/s. */
+    int16_t temperature;    /**< In 0.01 degrees Celsius. */
     uint32_t count;
 } sim_imu_t;
 

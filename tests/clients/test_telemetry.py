@@ -19,6 +19,7 @@ from flight import judge, library, scenario
 from flight.library import Copter, Key, Link
 from flight.loop import Flight, Order, fly
 from flight.pilot import Bystander, Pilot, Sight
+from flight.sensors import TEMPERATURES
 from pymavlink.dialects.v20 import common as mavlink
 from toolchain import Toolchain
 
@@ -32,7 +33,8 @@ BURST = 512
 WARM_MS = 12_000
 SENT = {"HEARTBEAT", "SYS_STATUS", "GPS_RAW_INT", "ATTITUDE", "LOCAL_POSITION_NED",
         "GLOBAL_POSITION_INT", "SERVO_OUTPUT_RAW", "RC_CHANNELS", "BATTERY_STATUS",
-        "ESTIMATOR_STATUS", "HOME_POSITION", "EXTENDED_SYS_STATE"}  # fmt: skip
+        "ESTIMATOR_STATUS", "HOME_POSITION", "EXTENDED_SYS_STATE", "SCALED_IMU", "SCALED_IMU2",
+        "SCALED_IMU3", "NAMED_VALUE_INT"}  # fmt: skip
 
 
 class Hands(Pilot):
@@ -161,6 +163,34 @@ def test_what_is_told_is_so(copter: Copter) -> None:
     assert by_kind["EXTENDED_SYS_STATE"].landed_state == 1
     rig.copter.look()
     assert by_kind["SYS_STATUS"].battery_remaining == int(100.0 * rig.copter.view["battery_left"])
+
+
+def test_health_is_told(copter: Copter) -> None:
+    """Each unit's own sample and temperature, and what went wrong so far: in a healthy flight,
+    nothing."""
+    rig = Rig(copter)
+    by_kind = {message.get_type(): message for message in rig.seen[0]}
+    units = [by_kind[f"SCALED_IMU{number}"] for number in ("", "2", "3")]
+    assert tuple(unit.temperature for unit in units) == TEMPERATURES
+    for number, unit in enumerate(units):
+        measured = rig.copter.sensors["imu"]["accelerometer"][number]
+        assert abs(unit.zacc - measured[2] / 9.80665 * 1000.0) < 40.0  # Noise moved meanwhile.
+        assert abs(unit.zacc + 1000) < 60
+    status = by_kind["SYS_STATUS"]
+    assert 0 < status.load < 1000
+    assert (status.errors_count1, status.errors_count2, status.errors_count3) == (0, 0, 0)
+    stack = by_kind["NAMED_VALUE_INT"]
+    assert (stack.name, stack.value) == ("stack_free", 2**31 - 1)  # This machine has enough.
+
+
+def test_runs_that_take_too_long_are_counted(copter: Copter) -> None:
+    rig = Rig(copter)
+    task = copter.tasks.index("Navigation")
+    copter.overrun(task, 3, 30_000)
+    rig.run(3000)
+    status = [message for message in rig.seen[0] if message.get_type() == "SYS_STATUS"][-1]
+    assert status.errors_count1 == 3
+    assert status.errors_count2 > 10  # What waits for 30 ms misses periods.
 
 
 def test_rates_are_kept_and_frames_are_numbered(copter: Copter) -> None:

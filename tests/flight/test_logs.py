@@ -18,6 +18,7 @@ import pytest
 from flight import library, log_plots, loop, scenario, ulog
 from flight.library import Copter, Link
 from flight.loop import Order, Trace
+from flight.sensors import TEMPERATURES
 from flight.spectrum import spectrum
 from pyulog import ULog
 from toolchain import Toolchain
@@ -140,6 +141,8 @@ def test_it_says_what_the_flight_was(flown: tuple[Path, Trace]) -> None:
         data = log.topic(topic)
         last = np.searchsorted(data["timestamp"], rows_us) - 1
         np.testing.assert_array_equal(data[name][last], trace.view[seen][:count])
+    for unit, said in enumerate(TEMPERATURES):
+        assert np.all(log.topic("imu", unit)["temperature_cdeg"][100:] == said)
     control = log.topic("control")
     last = np.searchsorted(control["timestamp"], rows_us) - 1
     fresh = rows_us - control["timestamp"][last] < 1900  # The next run comes after 2000 us.

@@ -2,13 +2,14 @@
 /**
  * @file fuzz_crsf.c
  * @brief libFuzzer target: any string of bytes goes to the decoder of CRSF and to its model; they
- *        never differ, and after a gap a right frame is taken, whatever was before.
+ *        never differ, and of a frame behind a gap another decoder, crsf, thinks the same.
  *
- *     python3 tools/run_tests.py --filter fuzz_crsf --fuzz 60
+ *     make fuzz ARGS="--filter crsf"
  *
  * 0xA5 0x5A is a gap. CRCs are made right for every other frame, as few would be by chance.
  */
 #include "../../specs/model/crsf.h"
+#include "oracles.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,8 +32,8 @@ static void differs(const char *what)
 /* The right CRC where one is due, or the byte that came. */
 static uint8_t repaired(uint8_t byte)
 {
-    const uint8_t *const frame = model.framing.byte;
-    const uint32_t held = model.framing.held;
+    const uint8_t *const frame = crsf.framing.byte;
+    const uint32_t held = crsf.framing.held;
 
     if ((held < 3u) || (held != (frame[1] + 1u)) || ((frame[2] & 1u) != 0u)) {
         return byte;
@@ -42,9 +43,12 @@ static uint8_t repaired(uint8_t byte)
 
 static keel_crsf_taken_t both_take(uint8_t byte, uint32_t elapsed_us)
 {
-    const keel_crsf_taken_t expected = model_crsf_take(&model, byte, elapsed_us);
+    const keel_crsf_taken_t taken = keel_crsf_take(&crsf, byte, elapsed_us);
 
-    if (keel_crsf_take(&crsf, byte, elapsed_us) != expected) {
+    if (ALONE) {
+        return taken;
+    }
+    if (model_crsf_take(&model, byte, elapsed_us) != taken) {
         differs("what a byte ends");
     }
     if (memcmp(&crsf, &model, sizeof crsf) != 0) {
@@ -53,7 +57,7 @@ static keel_crsf_taken_t both_take(uint8_t byte, uint32_t elapsed_us)
     if (keel_crsf_is_lost(&crsf) != model_crsf_is_lost(&model)) {
         differs("whether the radio is lost");
     }
-    return expected;
+    return taken;
 }
 
 /* Channels 172, 1811, and 992 fourteen times. */
@@ -72,6 +76,50 @@ static void take_right_frame(void)
     }
 }
 
+/* What a frame says, as the other decoder reads it. */
+static void compare_frame(keel_crsf_taken_t taken, const uint16_t *channel, const uint8_t *said)
+{
+    const keel_crsf_link_t *const link = &crsf.link;
+    const uint8_t ours[6] = {link->rssi[0],      link->rssi[1], link->quality,
+                             (uint8_t)link->snr, link->antenna, link->mode};
+
+    if ((taken == KEEL_CRSF_TOOK_CHANNELS) &&
+        (memcmp(crsf.channel, channel, sizeof crsf.channel) != 0)) {
+        differs("the channels that crsf reads");
+    }
+    if ((taken == KEEL_CRSF_TOOK_LINK) && (memcmp(ours, said, sizeof ours) != 0)) {
+        differs("the statistics that crsf reads");
+    }
+}
+
+/* A frame behind a gap: taken for what crsf takes it for, and not else. Its type and its length
+ * suit each other: with another length crsf reads behind the frame. */
+static void judge_frame(const uint8_t *bytes)
+{
+    static const uint8_t head[4][2] = {{KEEL_CRSF_LENGTH_CHANNELS, KEEL_CRSF_TYPE_CHANNELS},
+                                       {KEEL_CRSF_LENGTH_LINK, KEEL_CRSF_TYPE_LINK},
+                                       {KEEL_CRSF_LENGTH_MIN, 0x02},
+                                       {KEEL_CRSF_LENGTH_MAX, 0x29}};
+    uint8_t frame[KEEL_FRAMING_BYTES] = {KEEL_CRSF_HEADER, head[bytes[0] & 3u][0],
+                                         head[bytes[0] & 3u][1]};
+    const uint32_t size = frame[1] + 2u;
+    keel_crsf_taken_t taken = KEEL_CRSF_NOTHING;
+    uint16_t channel[KEEL_CRSF_CHANNELS];
+    uint8_t link[6];
+    int32_t said;
+
+    for (uint32_t i = 0u; i < size; i++) {
+        frame[i] = (i < 3u) ? frame[i] : repaired(bytes[i]);
+        taken = both_take(frame[i], (i == 0u) ? SILENT_US : BYTE_US);
+    }
+    said = oracle_crsf(frame, size, channel, link);
+    if ((said == 0) ? ((taken != KEEL_CRSF_NOTHING) && (taken != KEEL_CRSF_TOOK_OTHER))
+                    : (taken != ((said == 1) ? KEEL_CRSF_TOOK_CHANNELS : KEEL_CRSF_TOOK_LINK))) {
+        differs("what crsf takes a frame for");
+    }
+    compare_frame(taken, channel, link);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     const keel_crsf_config_t config = {
@@ -82,11 +130,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     memset(&model, 0, sizeof model);
     (void)keel_crsf_init(&crsf, &config);
     (void)model_crsf_init(&model, &config);
-    for (size_t i = 0u; i < size; i++) {
+    for (size_t i = 0u; (i < size) && !ALONE; i++) {
         (void)both_take(repaired(data[i]), elapsed_us);
         elapsed_us = ((i > 0u) && (data[i] == 0x5Au) && (data[i - 1u] == 0xA5u)) ? SILENT_US
                                                                                  : BYTE_US;
     }
-    take_right_frame();
+    if (!ALONE) {
+        take_right_frame();
+    }
+    if (size >= KEEL_FRAMING_BYTES) {
+        judge_frame(&data[size - KEEL_FRAMING_BYTES]);
+    }
     return 0;
 }

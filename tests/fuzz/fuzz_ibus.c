@@ -4,7 +4,7 @@
  * @brief libFuzzer target: any string of bytes goes to the IBUS decoder and to its model; they
  *        never differ.
  *
- *     python3 tools/run_tests.py --filter fuzz_ibus --fuzz 60
+ *     make fuzz ARGS="--filter ibus"
  *
  * The first byte is the configuration. 0xA5 is a gap before the next byte. Sums are made right,
  * unless the configuration says otherwise, as few would be by chance.

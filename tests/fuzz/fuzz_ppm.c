@@ -4,7 +4,7 @@
  * @brief libFuzzer target: any times between edges go to the PPM decoder and to its model; they
  *        never differ.
  *
- *     python3 tools/run_tests.py --filter fuzz_ppm --fuzz 60
+ *     make fuzz ARGS="--filter ppm"
  *
  * The first byte is the configuration. Each byte behind it is an edge: most of them behind a
  * channel, some behind a sync gap, and some behind a time that the next two bytes say.

@@ -3,7 +3,7 @@
  * @file fuzz_scheduler.c
  * @brief libFuzzer target: any string of bytes drives the kernel and its model; they never differ.
  *
- *     python3 tools/run_tests.py --filter fuzz --fuzz 60
+ *     make fuzz ARGS="--filter scheduler"
  */
 #include "../property/drive.h"
 

@@ -312,7 +312,7 @@ class File(unittest.TestCase):
 
 def every_suite(needs: Needs) -> list[Suite]:
     """What `make test` runs."""
-    return run_tests.all_suites(run_tests.HostBuilds(Toolchain()), 0, needs)
+    return run_tests.all_suites(run_tests.HostBuilds(Toolchain()), needs)
 
 
 FOLDERS = (ROOT / "tools", ROOT / "tests/tools", ROOT / "tests/timing")

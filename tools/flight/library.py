@@ -31,7 +31,8 @@ SOURCES = ("src", "examples/urpilot/urpilot_tasks.c", "bsp/common/slots.c", "bsp
            "bsp/host/host_board.c")  # fmt: skip
 FOLDERS = ("examples/copter", "examples/copter_in_plant")  # Without what lies below them.
 LINE_BYTES = 4096  # At most so many wait in a link.
-KINDS = {"float": "<f4", "uint32_t": "<u4", "int32_t": "<i4", "uint16_t": "<u2"}
+KINDS = {"float": "<f4", "uint32_t": "<u4", "int32_t": "<i4", "int16_t": "<i2",
+         "uint16_t": "<u2"}  # fmt: skip
 
 
 def sources(root: Path = ROOT) -> list[str]:

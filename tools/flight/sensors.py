@@ -22,6 +22,7 @@ from flight.receivers import SATELLITES, Receiver
 
 BLOCK = 1000
 UNITS = 3
+TEMPERATURES = (4150, 4420, 4280)  # Of the units, in hundredths of a degree Celsius.
 ACCELERATION_LIMIT, RATE_LIMIT = 156.9, 34.9  # Full scale: 16 g, 2000 degrees per second.
 
 
@@ -99,6 +100,7 @@ class Inertial:
     def __init__(self, memory: Any, rng: np.random.Generator, quality: Quality) -> None:
         self._force, self._rate = memory["accelerometer"], memory["gyroscope"]
         self._count = memory["count"]
+        memory["temperature"] = TEMPERATURES  # They are warm, and stay so.
         self._rng = rng
         turns = [turned(rng, quality.bias * MISALIGNMENT) for _ in range(UNITS)]
         self._turn = np.zeros((6 * UNITS, 6))

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+//! What decoders of others say of one frame, for C: tests/fuzz/oracles.h tells what each gives.
+
+use crsf::{Packet, PacketParser};
+use std::slice::from_raw_parts;
+use ublox::{PacketRef, Parser};
+use uf_sbus::SbusParser;
+
+const SBUS_BYTES: usize = 25;
+const CRSF_BYTES: usize = 64;
+
+/// # Safety
+/// `frame` is 25 bytes.
+#[no_mangle]
+pub unsafe extern "C" fn oracle_sbus(frame: *const u8, channel: &mut [u16; 16], flags: &mut u8) -> bool {
+    let mut parser = SbusParser::new();
+    let packets = parser.iter_packets(from_raw_parts(frame, SBUS_BYTES)).flatten();
+    let Some(packet) = packets.last() else {
+        return false;
+    };
+    *channel = packet.channels;
+    *flags = u8::from(packet.channel_17)
+        | u8::from(packet.channel_18) << 1
+        | u8::from(packet.frame_lost) << 2
+        | u8::from(packet.failsafe) << 3;
+    true
+}
+
+/// # Safety
+/// `frame` is `size` bytes, 64 at most.
+#[no_mangle]
+pub unsafe extern "C" fn oracle_crsf(frame: *const u8, size: usize, channel: &mut [u16; 16], link: &mut [u8; 6]) -> i32 {
+    let mut parser = PacketParser::<CRSF_BYTES>::new();
+    parser.push_bytes(from_raw_parts(frame, size));
+    match parser.next_packet() {
+        Some(Ok((_, Packet::RcChannels(channels)))) => {
+            *channel = channels.0;
+            1
+        }
+        Some(Ok((_, Packet::LinkStatistics(said)))) => {
+            *link = [
+                said.uplink_rssi_1,
+                said.uplink_rssi_2,
+                said.uplink_link_quality,
+                said.uplink_snr as u8,
+                said.active_antenna,
+                said.rf_mode,
+            ];
+            2
+        }
+        _ => 0,
+    }
+}
+
+/// # Safety
+/// `message` is `size` bytes.
+#[no_mangle]
+pub unsafe extern "C" fn oracle_ubx(message: *const u8, size: usize, fix: &mut [i64; 13]) -> bool {
+    let mut parser = Parser::default();
+    let mut found = parser.consume(from_raw_parts(message, size));
+    while let Some(packet) = found.next() {
+        if let Ok(PacketRef::NavPvt(pvt)) = packet {
+            *fix = [
+                i64::from(pvt.itow()),
+                i64::from(pvt.lon_degrees_raw()),
+                i64::from(pvt.lat_degrees_raw()),
+                i64::from(pvt.height_msl_raw()),
+                i64::from(pvt.horiz_accuracy()),
+                i64::from(pvt.vert_accuracy()),
+                i64::from(pvt.vel_north_raw()),
+                i64::from(pvt.vel_east_raw()),
+                i64::from(pvt.vel_down_raw()),
+                i64::from(pvt.speed_accuracy_estimate_raw()),
+                i64::from(pvt.fix_type_raw()),
+                i64::from(pvt.num_satellites()),
+                i64::from(pvt.flags_raw() & 1),
+            ];
+            return true;
+        }
+    }
+    false
+}
