@@ -89,7 +89,7 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         record.clear(root)
         deviations = len(read_deviations(root))
         tools = Toolchain()
-        tools.ensure("lint")
+        tools.ensure("lint", "fatfs")
         findings = lint(tools, root, options.fix)
         for finding in findings:
             print(finding)

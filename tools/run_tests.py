@@ -67,6 +67,9 @@ UNITY_FLAGS = ["-w", "-DUNITY_USE_FLUSH_STDOUT"]
 # The drivers that run on simulated hardware; what only a target can build lies in other folders.
 DRIVERS = ("bsp/common/*.c", "bsp/devices/*.c", "bsp/stm32f767/*.c")
 
+# What only this suite has: drivers of a file system that is fetched, and that file system.
+FATFS_SUITE, FATFS_DRIVERS = "bsp/black_box", "bsp/fatfs"
+
 # The property test runs with the queue's own capacity, and with one that it often fills.
 CAPACITIES: dict[str, tuple[int, list[str]]] = {
     "default": (1_000_000, []),
@@ -127,6 +130,13 @@ class HostBuilds:
         folder = self.tools.command("unity")[0]
         return self.build("gcc").object(f"{folder}/unity.c", ["-isystem", folder, *UNITY_FLAGS])
 
+    def fatfs(self) -> list[Path]:
+        """FatFs, without the warnings that are for our own code, and our drivers of it."""
+        folder = f"{self.tools.command('fatfs')[0]}/fatfs/source"
+        flags = [f"-I{FATFS_DRIVERS}", "-isystem", folder]
+        own = self.objects([FATFS_DRIVERS], flags)
+        return [*own, self.build("gcc").object(f"{folder}/ff.c", [*flags, "-w"])]
+
     def link(self, name: str, objects: Sequence[Path], compiler: str = "gcc") -> Path:
         """Link a program."""
         return self.build(compiler).link(name.replace("/", "-"), objects, ["-lm"])
@@ -144,6 +154,8 @@ def unit_suite(builds: HostBuilds, name: str, source: str) -> Outcome:
     folder = builds.tools.command("unity")[0]
     own = driver_sources() if name.startswith("bsp/") else []
     objects = [*builds.objects([*KERNEL, *own]), builds.unity()]
+    if name == FATFS_SUITE:
+        objects += builds.fatfs()
     objects += builds.objects([source], ["-isystem", folder, EXACT_FLOATS])
     return unity_outcome(name, run([builds.link(name, objects)], SUITE_TIMEOUT_S))
 

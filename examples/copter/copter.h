@@ -254,8 +254,8 @@ keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool pla
 keel_status_t copter_add(copter_t *copter, const copter_own_task_t *own);
 
 /**
- * Adds the task that moves the log to the port, which must have a write_log; without this task
- * nothing is logged. The copter was started.
+ * Adds the task that moves the log to the port, which must have log_room and write_log; without
+ * this task nothing is logged. The copter was started.
  *
  * @param copter the copter
  * @return as copter_add

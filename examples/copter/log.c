@@ -97,6 +97,9 @@ static void write_definitions(copter_t *copter)
     const copter_port_t *const port = copter->port;
 
     for (uint32_t i = 0u; (i < DEFINITIONS) && !log->samples; i++) {
+        if (port->log_room(port->context) < KEEL_ULOG_MESSAGE_BYTES) {
+            return;
+        }
         if (define(copter, log->defined)) {
             port->write_log(port->context, log->message.bytes, log->message.size);
         }
@@ -199,13 +202,12 @@ static void copter_log_task(copter_t *copter)
     copter_log_t *const log = &copter->log;
     const copter_port_t *const port = copter->port;
     uint8_t chunk[CHUNK];
-    uint32_t count;
+    uint32_t room;
 
     write_definitions(copter);
-    count = keel_log_ring_read(&log->ring, chunk, CHUNK);
-    if (count > 0u) {
-        port->write_log(port->context, chunk, count);
-    }
+    room = port->log_room(port->context);
+    port->write_log(port->context, chunk,
+                    keel_log_ring_read(&log->ring, chunk, (room < CHUNK) ? room : CHUNK));
     if (log->rounds == 0u) {
         log->rounds = ROUNDS_PER_S;
         look_at_tasks(copter);

@@ -62,7 +62,10 @@ typedef struct copter_port {
     bool (*read_power)(void *context, uint32_t module, copter_power_reading_t *reading);
     uint32_t (*stack_free)(void *context); /**< Bytes of the stack that were never used. */
     void (*write_motors)(void *context, const float output[COPTER_MOTORS]); /**< Each 0 to 1. */
-    /** Takes bytes of the log, in order; called by copter_log_start's task alone. */
+    /** How many bytes of the log write_log takes now; what it has no room for stays in the ring. */
+    uint32_t (*log_room)(void *context);
+    /** Takes bytes of the log, in order: as many as there is room for, at most. Called in each run
+        of copter_log_start's task, and by no other; with none when there are none. */
     void (*write_log)(void *context, const uint8_t *bytes, uint32_t length);
     /** A task's run ends: which, and what it is said to have cost at most. */
     void (*end_run)(void *context, uint32_t row, uint32_t wcet_us);

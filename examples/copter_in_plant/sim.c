@@ -154,6 +154,12 @@ static void write_motors(void *context, const float output[COPTER_MOTORS])
     memcpy(motors, output, sizeof motors);
 }
 
+static uint32_t log_room(void *context)
+{
+    (void)context;
+    return UINT32_MAX; /* A file takes what there is. */
+}
+
 static void write_log(void *context, const uint8_t *bytes, uint32_t length)
 {
     (void)context;
@@ -264,6 +270,7 @@ int sim_start(const sim_options_t *chosen)
                            .read_power = read_power,
                            .stack_free = stack_free,
                            .write_motors = write_motors,
+                           .log_room = log_room,
                            .write_log = write_log,
                            .end_run = end_run,
                            .memory = (options.memory != NULL) ? &memory : NULL};

@@ -248,9 +248,26 @@ static void SGN_010_our_time_follows(void)
 
 static void SGN_010_counts_stay_at_their_end(void)
 {
-    memset(&signing.count, 0xFF, sizeof signing.count);
+    keel_signing_count_t ended;
+
+    memset(&ended, 0xFF, sizeof ended);
+    signing.count = ended;
+    sealed_all = true;
+    frame.is_signed = false;
+    TEST_ASSERT_FALSE(keel_signing_accepts(&signing, &frame)); /* It is missing, */
+    frame.is_signed = true;
+    frame.seal[0] ^= 1u;
+    TEST_ASSERT_FALSE(keel_signing_accepts(&signing, &frame)); /* wrong, */
+    frame.seal[0] ^= 1u;
     TEST_ASSERT_TRUE(keel_signing_accepts(&signing, &frame));
-    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, signing.count.accepted);
+    TEST_ASSERT_FALSE(keel_signing_accepts(&signing, &frame)); /* replayed, */
+    frame.system = 100u;
+    frame.timestamp = TIME - KEEL_SIGNING_MINUTE - 1u;
+    TEST_ASSERT_FALSE(keel_signing_accepts(&signing, &frame)); /* old, */
+    signing.streams = KEEL_SIGNING_STREAMS;
+    frame.timestamp = TIME;
+    TEST_ASSERT_FALSE(keel_signing_accepts(&signing, &frame)); /* or there is no room. */
+    TEST_ASSERT_EQUAL_MEMORY(&ended, &signing.count, sizeof ended);
 }
 
 static void SGN_011_frames_are_signed_as_others_sign_them(void)
