@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file black_box.h
- * @brief A log in a file on a card: a power cut takes the last second at most, if the card is quick.
+ * @brief A log in a file on a card: a power cut takes the last second at most if the card is quick.
  *
  * Bytes are handed in at any time and only copied. A step does what is next, if the disk is not
  * busy: one write, of whole sectors as a rule. Every KEEL_BLACK_BOX_SYNC_US what was taken until
