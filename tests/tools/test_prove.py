@@ -1054,7 +1054,9 @@ class WholeRun(WholeRunCase):
             status, output, report = self.prove()
             self.assertEqual((status, report["verdict"]), (1, "failed"))
             self.assertIn(text, output)
-            self.assertEqual(output.splitlines()[-1], last)
+            many = len(report["problems"])
+            problems = "1 problem" if many == 1 else f"{many} problems"
+            self.assertEqual(output.splitlines()[-1], f"FAILED, {problems}: {last}")
 
     def test_an_unproved_goal_fails_each_time(self) -> None:
         goals = {**GOALS, "keel_box_put": {"ensures_BOX_001": "Timeout", "assigns": "Valid"}}

@@ -284,7 +284,7 @@ class Console:
 
 
 def closing_lines(gathered: Gathered) -> list[str]:
-    """What is wrong, together, and the line that says how much is proved."""
+    """What is wrong, together, and the line that says whether all is well, and what is proved."""
     lines = [f"FAILED {text}" for text in gathered.all_problems]
     lines += [
         f"to see why: make prove UNIT={unit} ARGS='--explain {name}'"
@@ -310,7 +310,13 @@ def closing_lines(gathered: Gathered) -> list[str]:
         lines.append(determined.summary(gathered.decided))
     if gathered.shard:
         lines.append(f"shard {gathered.shard['shard']}: see --join for the verdict on the whole")
-    return [*lines, f"proved {gathered.proved} of {gathered.total} goals ({engines})"]
+    return [*lines, f"{failed(gathered.all_problems)}proved {gathered.proved} of {gathered.total}"
+                    f" goals ({engines})"]  # fmt: skip
+
+
+def failed(problems: Sequence[str]) -> str:
+    """What the last line begins with when all goals may be proved, and something else is wrong."""
+    return f"FAILED, {len(problems)} problem{'s' * (len(problems) > 1)}: " if problems else ""
 
 
 def _tool(found: Found) -> dict[str, Any]:
