@@ -20,10 +20,12 @@ status: 0 when no clause was violated, 1 otherwise, 2 when it could not be run.
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated
@@ -251,9 +253,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         tools.ensure(*GROUPS)
         runner = Runner(tools)
         runs = {}
-        for unit in choice.executed:
-            runs[unit.unit] = runner.run(unit)
-            tell(unit.unit, runs[unit.unit])
+        with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+            for unit, one in zip(choice.executed, pool.map(runner.run, choice.executed),
+                                 strict=True):  # fmt: skip
+                runs[unit.unit] = one
+                tell(unit.unit, one)
         found = tools.versions("prove", "test")
         return judge(runs, choice, {name: found[name].version for name in ("frama-c", "gcc")})
 

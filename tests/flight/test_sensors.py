@@ -15,7 +15,8 @@ from flight.receivers import RADIO, SATELLITES, Receiver
 from flight.sensors import Broken, Inertial, Quality, Slow
 
 REST = [0.0, 0.0, -9.81, 0.0, 0.0, 0.0]
-IMU = [("accelerometer", "<f4", (3,)), ("gyroscope", "<f4", (3,)), ("count", "<u4")]
+IMU = [("accelerometer", "<f4", (3,)), ("gyroscope", "<f4", (3,)), ("temperature", "<i2"),
+       ("count", "<u4")]  # fmt: skip
 MEMORY = [
     ("imu", IMU, (3,)),
     ("magnetometer", [("field", "<f4", (3,)), ("count", "<u4")]),
