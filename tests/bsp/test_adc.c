@@ -83,6 +83,8 @@ static void start(void)
 {
     TEST_ASSERT_EQUAL(KEEL_BSP_OK, keel_adc_start(&device, CLOCK_HZ));
     readings = 0u;
+    cr2_at_first = 77u;
+    sr_at_first = 77u;
 }
 
 static void ADC_001_twelve_bits_one_conversion_an_eighth_of_the_clock(void)
@@ -265,6 +267,7 @@ static void ADC_008_an_overrun_is_told(void)
     TEST_ASSERT_EQUAL(KEEL_BSP_BUS, keel_adc_read(&device, 3u, &count));
     TEST_ASSERT_EQUAL_UINT16(77u, count);
     TEST_ASSERT_EQUAL_HEX32(0u, sr_at_first); /* Cleared while it is off and on again. */
+    TEST_ASSERT_EQUAL_HEX32(0x00000401u, cr2_at_first);
     TEST_ASSERT_EQUAL_HEX32(0x00000401u, adc.CR2);
     overrun = false;
     reads(307u, 3u);
