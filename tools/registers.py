@@ -115,13 +115,26 @@ class Comparison:
 
 
 PIN_LINE = re.compile(r"KEEL_ALTERNATE\((\w), (\d+)u, (\d+)u, (\w+), (\w+)\)")
+ANALOGUE_LINE = re.compile(r"KEEL_ANALOGUE\((\w), (\d+)u, (\d+)u\)")
+
+
+def compare_analogue(where: str, text: str, databases: Databases, result: Comparison) -> None:
+    """The channels of ADC1 in a board's pin table."""
+    for port, number, channel in ANALOGUE_LINE.findall(text):
+        name = f"P{port}{number} ADC1_IN{channel}"
+        result.compared["pin"] = result.compared.get("pin", 0) + 1
+        result.facts.append({"fact": name, "of": where, "kind": "pin"})
+        if ("ADC1", f"P{port}{number}", f"IN{channel}") not in databases.metapac.analogue:
+            result.differences.append(f"{where}: {name}: stm32-metapac has no such channel")
 
 
 def compare_pins(root: Path, databases: Databases, result: Comparison) -> None:
-    """The alternate functions in the boards' pin tables."""
+    """The alternate functions and analogue channels in the boards' pin tables."""
     for path in sorted(root.glob(PINS)):
         where = path.relative_to(root).as_posix()
-        for port, number, function, peripheral, signal in PIN_LINE.findall(read_text(path)):
+        text = read_text(path)
+        compare_analogue(where, text, databases, result)
+        for port, number, function, peripheral, signal in PIN_LINE.findall(text):
             pin = f"P{port}{number}"
             name = f"{pin} AF{function} {peripheral}_{signal}"
             result.compared["pin"] = result.compared.get("pin", 0) + 1

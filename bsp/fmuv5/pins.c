@@ -12,6 +12,17 @@ static const keel_pin_t others[] = {KEEL_PIN(F, 3u), KEEL_PIN(F, 4u), KEEL_PIN(G
 
 static const keel_pin_t sensor_power = KEEL_PIN(E, 3u);
 
+/* The power modules' connectors, whose modules divide the battery's voltage by 18.1 and give a volt
+ * for 36.4 A (PX4's board configuration of px4/fmu-v5); and the board's own supplies. */
+static const keel_analogue_t analogue[KEEL_ANALOGUES] = {
+    [KEEL_ANALOGUE_VOLTAGE_1] = KEEL_ANALOGUE(A, 0u, 0u),
+    [KEEL_ANALOGUE_CURRENT_1] = KEEL_ANALOGUE(A, 1u, 1u),
+    [KEEL_ANALOGUE_VOLTAGE_2] = KEEL_ANALOGUE(A, 2u, 2u),
+    [KEEL_ANALOGUE_CURRENT_2] = KEEL_ANALOGUE(A, 3u, 3u),
+    [KEEL_ANALOGUE_5V] = KEEL_ANALOGUE(C, 0u, 10u),
+    [KEEL_ANALOGUE_SENSORS] = KEEL_ANALOGUE(C, 1u, 11u),
+};
+
 const keel_board_pins_t keel_board_pins = {
     .oscillator = {16000000u, false},
     .console = (keel_uart_t *)UART7_BASE,
@@ -30,4 +41,6 @@ const keel_board_pins_t keel_board_pins = {
     .deselect = others,
     .deselect_count = 4u,
     .power = &sensor_power,
+    .analogue = analogue,
+    .analogue_count = KEEL_ANALOGUES,
 };

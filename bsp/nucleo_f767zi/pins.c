@@ -27,4 +27,6 @@ const keel_board_pins_t keel_board_pins = {
     .deselect = NULL,
     .deselect_count = 0u,
     .power = NULL,
+    .analogue = NULL,
+    .analogue_count = 0u,
 };

@@ -4,6 +4,7 @@
 #define MODE_INPUT     0u
 #define MODE_OUTPUT    1u
 #define MODE_ALTERNATE 2u
+#define MODE_ANALOGUE  3u
 #define SPEED_HIGH     2u
 #define RESET_HALF     16u /* BSRR: the upper half clears. */
 #define PINS_PER_AFR   8u
@@ -49,4 +50,10 @@ void keel_pin_alternate(keel_pin_t pin, uint32_t function, keel_pull_t pull)
     put_two_bits(&pin.port->OSPEEDR, pin.number, SPEED_HIGH);
     put_two_bits(&pin.port->PUPDR, pin.number, (uint32_t)pull);
     put_two_bits(&pin.port->MODER, pin.number, MODE_ALTERNATE);
+}
+
+void keel_pin_analogue(keel_pin_t pin)
+{
+    put_two_bits(&pin.port->PUPDR, pin.number, (uint32_t)KEEL_PULL_NONE);
+    put_two_bits(&pin.port->MODER, pin.number, MODE_ANALOGUE);
 }

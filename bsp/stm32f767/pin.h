@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file pin.h
- * @brief Pins: outputs, inputs and alternate functions.
+ * @brief Pins: outputs, inputs, alternate functions and analogue pins.
  */
 #ifndef KEEL_BSP_STM32F767_PIN_H
 #define KEEL_BSP_STM32F767_PIN_H
@@ -70,5 +70,13 @@ void keel_pin_input(keel_pin_t pin, keel_pull_t pull);
  * @param pull     what holds it
  */
 void keel_pin_alternate(keel_pin_t pin, uint32_t function, keel_pull_t pull);
+
+/**
+ * Leaves a pin to the analogue-to-digital converter, with nothing that holds it (requirement
+ * PIN-006).
+ *
+ * @param pin the pin
+ */
+void keel_pin_analogue(keel_pin_t pin);
 
 #endif

@@ -6,8 +6,9 @@
  * The first image to flash on a board: it shows whether clock, console, sensor, outputs, watchdog
  * and the handling of faults work there, and what each task takes.
  *
- * The background task of the inertial unit reads the sensor, if there is one; every other body, and
- * the rest of this one's time, keeps the CPU busy for the task's worst-case time of table 2.
+ * The background task of the inertial unit reads the sensor, if there is one, and the ADC task the
+ * chip's temperature and supply and the board's analogue pins; every other body, and the rest of
+ * these two's time, keeps the CPU busy for the task's worst-case time of table 2.
  * Periods, budgets, phases and the guard are those that `make analyze` analyses. A line on the
  * console tells every second how it goes. The watchdog is fed only while every real-time task meets
  * its releases. What the kernel refuses ends as a fault does.
@@ -42,6 +43,22 @@ typedef struct imu {
     keel_invensense_sample_t last;
 } imu_t;
 
+/* What the ADC task measures, in this order; from the third on, the board's analogue pins. */
+#define MEASURE_SUPPLY      0u
+#define MEASURE_TEMPERATURE 1u
+#define MEASURE_PINS        2u
+#define MEASURES            (MEASURE_PINS + KEEL_ANALOGUES)
+
+/* What it measured. What fails keeps its last value. */
+typedef struct analogue {
+    keel_bsp_status_t start;
+    keel_bsp_status_t status[MEASURES];
+    uint32_t next; /* Which is measured in the next run. */
+    uint32_t supply_mv;
+    int32_t temperature_cdeg;
+    uint32_t pin_mv[KEEL_ANALOGUES];
+} analogue_t;
+
 static keel_scheduler_t scheduler KEEL_REALTIME_ZERO;
 
 /* The tasks: the scheduler knows each by the address of its declaration, and reads it when it runs
@@ -53,6 +70,7 @@ static uint32_t wcet_us[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
 
 static imu_t imu KEEL_REALTIME_ZERO;
 static bool hang;
+static analogue_t analogue;
 
 KEEL_REALTIME_CODE static void work_until(uint32_t start_us, uint32_t length_us)
 {
@@ -95,6 +113,59 @@ static void state_body(void *context)
     work_until(start_us, *length_us);
 }
 
+static keel_bsp_status_t measure_pin(uint32_t pin)
+{
+    uint16_t count;
+    const keel_bsp_status_t status = keel_chip_analogue(pin, &count);
+
+    return (status == KEEL_BSP_OK) ? keel_adc_pin(count, analogue.supply_mv, &analogue.pin_mv[pin])
+                                   : status;
+}
+
+static void measure(uint32_t which)
+{
+    keel_bsp_status_t *const status = &analogue.status[which];
+
+    if (which == MEASURE_SUPPLY) {
+        *status = keel_chip_supply(&analogue.supply_mv);
+    } else if (which == MEASURE_TEMPERATURE) {
+        *status = keel_chip_temperature(analogue.supply_mv, &analogue.temperature_cdeg);
+    } else {
+        *status = measure_pin(which - MEASURE_PINS);
+    }
+}
+
+static uint32_t measures(void)
+{
+    return MEASURE_PINS + keel_chip_analogue_count();
+}
+
+/* Everything once, before there are budgets, so that the first line has it all. */
+static void start_analogue(void)
+{
+    analogue.start = keel_chip_adc_start();
+    if (analogue.start == KEEL_BSP_OK) {
+        for (uint32_t i = 0u; i < measures(); i++) {
+            measure(i);
+        }
+    }
+}
+
+/* A conversion takes 12 us of the 18 that this body works in table 2, so there is one in a run, and
+ * a line has no value that is older than eight runs. One that fails takes up to 30 us, which is the
+ * task's budget. */
+static void adc_body(void *context)
+{
+    const uint32_t *const length_us = context;
+    const uint32_t start_us = keel_board_clock_us(NULL);
+
+    if (analogue.start == KEEL_BSP_OK) {
+        measure(analogue.next);
+        analogue.next = (analogue.next + 1u) % measures();
+    }
+    work_until(start_us, *length_us);
+}
+
 static void require(keel_status_t status, uint32_t code)
 {
     if (status != KEEL_OK) {
@@ -106,6 +177,9 @@ static keel_task_fn_t body_of(uint32_t i)
 {
     if (i == (uint32_t)URPILOT_BACKGROUND_IMU) {
         return imu_body;
+    }
+    if (i == (uint32_t)URPILOT_ADC) {
+        return adc_body;
     }
     return (i == (uint32_t)URPILOT_STATE_MACHINE) ? state_body : body;
 }
@@ -129,11 +203,11 @@ static void print_number(const char *label, uint64_t value)
     keel_console_number(value);
 }
 
-static void print_signed(const char *label, int16_t value)
+static void print_signed(const char *label, int32_t value)
 {
     keel_console_text(label);
     keel_console_text((value < 0) ? "-" : "");
-    keel_console_number((uint64_t)((value < 0) ? -(int32_t)value : (int32_t)value));
+    keel_console_number((uint64_t)((value < 0) ? -(int64_t)value : (int64_t)value));
 }
 
 static void print_imu(void)
@@ -149,6 +223,37 @@ static void print_imu(void)
     }
     for (uint32_t axis = 0u; axis < 3u; axis++) {
         print_signed((axis == 0u) ? " g " : " ", imu.last.rate[axis]);
+    }
+}
+
+/* The first that is wrong with what is measured. */
+static keel_bsp_status_t analogue_status(void)
+{
+    keel_bsp_status_t status = analogue.start;
+
+    for (uint32_t i = 0u; (i < measures()) && (status == KEEL_BSP_OK); i++) {
+        status = analogue.status[i];
+    }
+    return status;
+}
+
+static void print_analogue(void)
+{
+    static const char *const label[KEEL_ANALOGUES] = {
+        [KEEL_ANALOGUE_VOLTAGE_1] = " v1 ", [KEEL_ANALOGUE_CURRENT_1] = " i1 ",
+        [KEEL_ANALOGUE_VOLTAGE_2] = " v2 ", [KEEL_ANALOGUE_CURRENT_2] = " i2 ",
+        [KEEL_ANALOGUE_5V] = " 5v ",        [KEEL_ANALOGUE_SENSORS] = " sensors ",
+    };
+    const keel_bsp_status_t status = analogue_status();
+
+    if (status != KEEL_BSP_OK) {
+        print_number(" adc status ", (uint64_t)status);
+        return;
+    }
+    print_signed(" chip ", analogue.temperature_cdeg);
+    print_number(" supply ", analogue.supply_mv);
+    for (uint32_t i = 0u; i < keel_chip_analogue_count(); i++) {
+        print_number(label[i], analogue.pin_mv[i]);
     }
 }
 
@@ -181,6 +286,7 @@ static void print_report(keel_load_t *window)
     print_number(" overruns ", overruns);
     print_number(" promotions ", promotions);
     print_imu();
+    print_analogue();
     keel_console_text("\n");
     keel_load_begin(window, scheduler.clock.now_us, scheduler.busy_us);
 }
@@ -308,6 +414,7 @@ int main(void)
     offer_brownout();
     imu.there = (keel_invensense_read(keel_chip_sensor(), &imu.last) == KEEL_BSP_OK);
     keel_chip_led(KEEL_LED_BLUE, imu.there);
+    start_analogue();
     keel_fault_watch(&scheduler);
     start();
     keel_chip_watchdog_start(&scheduler);

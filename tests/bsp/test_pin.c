@@ -95,6 +95,18 @@ static void PIN_005_an_alternate_function_is_no_open_drain(void)
     TEST_ASSERT_EQUAL_HEX32(0u, port.OTYPER);
 }
 
+static void PIN_006_an_analogue_pin(void)
+{
+    port.PUPDR = 0x55555555u; /* What was pulled up would load the divider. */
+    keel_pin_analogue(pin7);
+    TEST_ASSERT_EQUAL_HEX32(0x0000C000u, port.MODER);
+    TEST_ASSERT_EQUAL_HEX32(0x55551555u, port.PUPDR);
+    port.MODER = 0x55555555u;
+    keel_pin_analogue(pin0);
+    TEST_ASSERT_EQUAL_HEX32(0x55555557u, port.MODER);
+    TEST_ASSERT_EQUAL_HEX32(0x55551554u, port.PUPDR);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -105,5 +117,6 @@ int main(void)
     RUN_TEST(PIN_004_an_input);
     RUN_TEST(PIN_005_alternate_functions_of_both_halves);
     RUN_TEST(PIN_005_an_alternate_function_is_no_open_drain);
+    RUN_TEST(PIN_006_an_analogue_pin);
     return UNITY_END();
 }

@@ -135,6 +135,37 @@ class ImageTest(unittest.TestCase):
         self.assertIn("sensor status 5", self.run_image(broken="sensor").text)
         self.assertIn("sensor status 6", self.run_image(broken="other-sensor").text)
 
+    # The model's raw numbers: the reference counts 1519, 1502 when it was calibrated; the
+    # temperature 1000, and 943 at 30, 1186 at 110 degrees. So the supply is
+    #     3300 mV * 1502 / 1519 = 3263.07 mV,
+    # 1000 counts of 3263 mV are 988.788 of 3300 mV, and the temperature is
+    #     30 + 80 * (988.788 - 943) / (1186 - 943) = 45.074 degrees.
+    MEASURED = " chip 4507 supply 3263"
+    # The pins count 1026, 200, 0, 4095, 3138 and 2071, each of 3263 / 4096 mV: 817.34, 159.33, 0,
+    # 3262.20, 2499.83 and 1649.82 mV.
+    PINS = " v1 817 i1 159 v2 0 i2 3262 5v 2500 sensors 1650"
+
+    def test_both_boards_measure_temperature_supply_and_their_pins(self) -> None:
+        board = self.run_image(2.3, board="fmuv5")
+        first, second = re.findall(r"^t .* g \S+ \S+ \S+(.*)\r$", board.text, re.MULTILINE)
+        self.assertEqual(first, self.MEASURED + self.PINS)
+        self.assertEqual(second, first)
+        # All at the start, and then one a second.
+        start = [17, 18, 0, 1, 2, 3, 10, 11]
+        self.assertEqual(board.converted, [*start, 17, 18, 0])
+        board = self.run_image(1.2)
+        self.assertIn(f"{self.MEASURED}\r\n", board.text)
+        self.assertEqual(board.converted[:3], [17, 18, 17])
+
+    def test_a_converter_that_never_ends_is_told_and_changes_nothing_else(self) -> None:
+        for name in chip_model.CONSOLES:
+            good = self.run_image(1.2, board=name).text
+            bad = self.run_image(1.2, board=name, broken="adc").text
+            self.assertIn(" g 106 0 1 adc status 2\r\n", bad)
+            # All else is the same, but for the load, of which the retries are a part.
+            rest = [re.sub(r"load \d+|( chip | adc ).*", "", text) for text in (good, bad)]
+            self.assertEqual(*rest)
+
 
 class BoardTest(unittest.TestCase):
     """The model's own rules."""
@@ -190,6 +221,74 @@ class BoardTest(unittest.TestCase):
         self.assertFalse(self.board.reset_wanted)
         with self.assertRaisesRegex(ModelError, "while they are locked"):
             self.board.write(chip.IWDG + 8, 399)
+
+    def converter(self) -> None:
+        """ADC1 as it should be: an eighth of 16 MHz, 144 cycles for all channels, pins analogue."""
+        for port in range(3):
+            self.board.write(chip.GPIOA + 0x400 * port, 0xFFFF_FFFF)
+        self.board.write(RCC + 0x44, 1 << 8)
+        self.board.write(chip.ADC_COMMON + 4, 0x83_0000)
+        self.board.write(chip.ADC1 + 0xC, 0x06DB_6DB6)
+        self.board.write(chip.ADC1 + 0x10, 0x36DB_6DB6)
+        self.board.write(chip.ADC1 + 8, 0x401)
+        self.board.tick(10)
+
+    def convert(self, channel: int) -> None:
+        self.board.write(chip.ADC1 + 0x34, channel)
+        self.board.write(chip.ADC1 + 8, 0x4000_0401)
+
+    def test_conversions(self) -> None:
+        self.converter()
+        for channel, count in chip.COUNTS.items():
+            self.assertEqual(self.board.read(chip.ADC1) & 2, 0)
+            self.convert(channel)
+            self.assertEqual(self.board.read(chip.ADC1), 0x12)
+            self.assertEqual(self.board.read(chip.ADC1 + 0x4C), count)
+            self.board.write(chip.ADC1, 0)
+        self.board.write(chip.ADC_COMMON + 4, 0xC3_0000)  # The battery takes the channel.
+        self.convert(18)
+        self.assertEqual(self.board.read(chip.ADC1 + 0x4C), chip.BATTERY)
+        self.convert(17)
+        self.convert(17)
+        self.assertEqual(self.board.read(chip.ADC1) & 0x20, 0x20)  # Nobody took the first.
+
+    def test_conversions_that_must_not_be(self) -> None:
+        adc, common = chip.ADC1, chip.ADC_COMMON
+        cases: list[tuple[int, list[tuple[int, int]], str]] = [
+            (0, [(RCC + 0x44, 0)], "has no clock"),
+            (0, [(adc + 8, 0x4000_0400)], "is off"),
+            (0, [(adc + 8, 0), (adc + 8, 0x401)], "is not up yet"),
+            (0, [(RCC + 8, 0x9402), (common + 4, 0x80_0000)], "its clock is 54 MHz"),
+            (0, [(adc + 0x2C, 1 << 20)], "more than one"),
+            (16, [], "joined to nothing"),
+            (10, [(chip.GPIOA + 0x800, 0)], "pin is not analogue"),
+            (17, [(common + 4, 0x3_0000)], "sensors are not up"),
+            (18, [(common + 4, 0x3_0000), (common + 4, 0x83_0000)], "sensors are not up"),
+            (18, [(RCC + 8, 0x9402), (adc + 0xC, 0x05DB_6DB6)], r"sampled for 8\.29"),
+        ]
+        for channel, changes, reason in cases:
+            with self.subTest(reason):
+                self.setUp()
+                self.converter()
+                with self.assertRaisesRegex(
+                    ModelError, f"conversion of channel {channel} .*{reason}"
+                ):
+                    for address, value in changes:
+                        self.board.write(address, value)
+                    self.board.tick(2)
+                    self.convert(channel)
+
+    def test_a_conversion_that_never_ends_is_ended_by_switching_off(self) -> None:
+        self.board = Chip(chip.USART3, (3, 14), "adc")
+        self.converter()
+        self.convert(0)
+        self.assertEqual(self.board.read(chip.ADC1), 0)
+        with self.assertRaisesRegex(ModelError, "another has not ended"):
+            self.convert(0)
+        self.board.write(chip.ADC1 + 8, 0)
+        self.board.write(chip.ADC1 + 8, 0x401)
+        self.board.tick(3)
+        self.convert(0)
 
     def test_an_unknown_board(self) -> None:
         with contextlib.redirect_stderr(io.StringIO()) as err:

@@ -96,6 +96,10 @@ class RegistersTest(unittest.TestCase):
         )
         self.finds("PD8 AF8 USART3_TX", "no such function")
 
+    def test_a_wrong_analogue_channel_is_found(self) -> None:
+        self.change("bsp/fmuv5/pins.c", "(C, 0u, 10u)", "(C, 0u, 8u)")
+        self.finds("bsp/fmuv5/pins.c", "PC0 ADC1_IN8", "no such channel")
+
     def test_a_boards_file_that_is_wrong_is_found(self) -> None:
         path = "bsp/stm32f767/chip.toml"
         self.change(path, "KEEL_BOARD_INTERRUPTS=110u", "KEEL_BOARD_INTERRUPTS=98u")

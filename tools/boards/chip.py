@@ -12,10 +12,11 @@ from common.errors import ToolError
 TIM5, IWDG, USART3, PWR, UART7 = 0x4000_0C00, 0x4000_3000, 0x4000_4800, 0x4000_7000, 0x4000_7800
 TIM1, SPI1, GPIOA, RCC, FLASHR = 0x4001_0000, 0x4001_3000, 0x4002_0000, 0x4002_3800, 0x4002_3C00
 SYSTICK, NVIC, SCB, DBGMCU = 0xE000_E010, 0xE000_E100, 0xE000_ED00, 0xE004_2000
+ADC1, ADC_COMMON = 0x4001_2000, 0x4001_2300
 BLOCKS = {
     TIM5: 0x54, IWDG: 0x14, USART3: 0x2C, PWR: 0x10, UART7: 0x2C, TIM1: 0x68, SPI1: 0x24,
     RCC: 0x98, FLASHR: 0x1C, SCB: 0x2A4, DBGMCU: 0x10, SYSTICK: 0x10,
-    NVIC: 0x200,
+    NVIC: 0x200, ADC1: 0x50, ADC_COMMON: 0xC,
     **{GPIOA + 0x400 * port: 0x2C for port in range(11)},
 }  # fmt: skip
 RESETS = {
@@ -28,7 +29,7 @@ RESETS = {
 
 OPTION_KEYS = [0x0819_2A3B, 0x4C5D_6E7F]
 OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
-BROKEN = ("hse", "pll", "overdrive", "sensor", "other-sensor")
+BROKEN = ("hse", "pll", "overdrive", "sensor", "other-sensor", "adc")
 
 
 class ModelError(ToolError):
@@ -84,6 +85,26 @@ class Sensor:
             self.registers[place] = value
 
 
+# What the maker counted: the reference at 3.3 V, the temperature at 30 and at 110 degrees.
+SYSTEM, CALIBRATION = 0x1FF0_F44A, (1502, 943, 1186)
+# What ADC1 counts on each channel: pins 0 to 15, the reference, and temperature or battery.
+COUNTS = {0: 1026, 1: 200, 2: 0, 3: 4095, 10: 3138, 11: 2071, 17: 1519, 18: 1000}
+BATTERY = 950
+CYCLES = (3, 15, 28, 56, 84, 112, 144, 480)  # To sample, by their code.
+PIN_OF = {**{i: (0, i) for i in range(8)}, 8: (1, 0), 9: (1, 1),
+          **{10 + i: (2, i) for i in range(6)}}  # fmt: skip
+
+
+@dataclass
+class Converter:
+    """ADC1: what its registers do not keep."""
+
+    flags: int = 0
+    on_us: int | None = None  # Since when it is on, and the chip's own sensors.
+    sensors_us: int | None = None
+    converting: bool = False
+
+
 class Chip:
     """The chip around the processor."""
 
@@ -101,6 +122,7 @@ class Chip:
         self.reset_wanted = False
         self.starved = False
         self.armed_us: list[tuple[int, bool]] = []
+        self.converted: list[int] = []  # Channels of the converter, in their order.
         self.exception = 0
         self.words: dict[int, int] = {}
         self.options = OPTIONS
@@ -119,6 +141,7 @@ class Chip:
         self.fed_us = self.time_us
         self.counter_from_us = 0
         self.sensor.select(False)
+        self.adc = Converter()
 
     def tick(self, us: int) -> None:
         """Time passes."""
@@ -149,6 +172,8 @@ class Chip:
             return ord(self.keys.pop(0)[1])
         if address == SPI1 + 0xC:
             self.words[SPI1 + 8] &= ~1
+        if address in (ADC1, ADC1 + 0x4C):
+            return self._adc_read(address - ADC1)
         if address == SCB + 4:
             return self.exception | (0x800 if self.exception else 0)  # RETTOBASE.
         return self.words.get(address, 0)
@@ -160,6 +185,7 @@ class Chip:
         handler: Callable[[int, int], None] | None = {
             RCC: self._rcc, PWR: self._pwr, IWDG: self._iwdg, SPI1: self._spi, TIM1: self._tim1,
             TIM5: self._tim5, self.console: self._uart, SCB: self._scb, FLASHR: self._flash,
+            ADC1: self._adc, ADC_COMMON: self._adc_common,
         }.get(base)  # fmt: skip
         if handler:
             handler(address - base, value)
@@ -258,3 +284,81 @@ class Chip:
         number, pin = self.select
         if offset == 0x18 and port == number and value >> pin & 0x1_0001:
             self.sensor.select(bool(value >> 16 >> pin & 1))
+
+    # The converter: one conversion of one channel at a time, done at once.
+
+    def _adc_read(self, offset: int) -> int:
+        """The flags, or the data, whose reading takes the end back."""
+        if offset == 0:
+            return self.adc.flags
+        self.adc.flags &= ~2
+        return self.words.get(ADC1 + 0x4C, 0)
+
+    def _adc(self, offset: int, value: int) -> None:
+        if offset == 0:
+            self.adc.flags &= value
+        elif offset == 8:
+            self._adc_power(bool(value & 1))
+            if value & 1 << 30:
+                self._convert()
+
+    def _adc_power(self, on: bool) -> None:
+        """Off ends a conversion."""
+        if not on:
+            self.adc.on_us = None
+            self.adc.converting = False
+        elif self.adc.on_us is None:
+            self.adc.on_us = self.time_us
+
+    def _adc_common(self, offset: int, value: int) -> None:
+        if offset == 4 and not value & 1 << 23:
+            self.adc.sensors_us = None
+        elif offset == 4 and self.adc.sensors_us is None:
+            self.adc.sensors_us = self.time_us
+
+    def _convert(self) -> None:
+        """A conversion, or none that ends."""
+        channel = self.words.get(ADC1 + 0x34, 0) & 0x1F
+        for reason, held in self._conversion_rules(channel).items():
+            if not held:
+                raise ModelError(f"a conversion of channel {channel} is started, but {reason}")
+        self.converted.append(channel)
+        if self.broken == "adc":
+            self.adc.converting = True
+            return
+        battery = channel == 18 and self.words[ADC_COMMON + 4] & 1 << 22
+        resolution = self.words.get(ADC1 + 4, 0) >> 24 & 3
+        self.words[ADC1 + 0x4C] = (BATTERY if battery else COUNTS[channel]) >> 2 * resolution
+        self.words[ADC1 + 8] &= ~(1 << 30)
+        self.adc.flags |= 0x32 if self.adc.flags & 2 else 0x12  # An end that nobody took: overrun.
+
+    def _adc_mhz(self) -> float:
+        """The converter's clock."""
+        control = self.words.get(RCC + 8, 0)
+        core_mhz = 216 if control & 0xC == 8 else 16
+        prescaler = control >> 13 & 7
+        bus_mhz = core_mhz / (2 << prescaler - 4 if prescaler >= 4 else 1)
+        return bus_mhz / (2 * (self.words.get(ADC_COMMON + 4, 0) >> 16 & 3) + 2)
+
+    def _conversion_rules(self, channel: int) -> dict[str, bool]:
+        """What must hold when a conversion starts (RM0410, 15.3 to 15.10, and the data sheet)."""
+        on_us, sensors_us = self.adc.on_us, self.adc.sensors_us
+        mhz = self._adc_mhz()
+        times = self.words.get(ADC1 + (0xC if channel > 9 else 0x10), 0)
+        sampled_us = CYCLES[times >> 3 * (channel % 10) & 7] / mhz
+        port, pin = PIN_OF.get(channel, (0, 0))
+        mode = self.words.get(GPIOA + 0x400 * port, 0) >> 2 * pin & 3
+        return {
+            "the converter has no clock": bool(self.words.get(RCC + 0x44, 0) & 1 << 8),
+            "the converter is off": on_us is not None,
+            "the converter is not up yet": on_us is None or self.time_us - on_us >= 3,
+            f"its clock is {mhz:g} MHz": 0.6 <= mhz <= 36,
+            "another has not ended": not self.adc.converting,
+            "there would be more than one": not self.words.get(ADC1 + 0x2C, 0) >> 20 & 0xF,
+            "that is joined to nothing": channel in COUNTS,
+            "its pin is not analogue": channel not in PIN_OF or mode == 3,
+            "the sensors are not up": channel in PIN_OF or (
+                sensors_us is not None and self.time_us - sensors_us >= 10
+            ),
+            f"it is sampled for {sampled_us:g} us": channel in PIN_OF or sampled_us >= 10,
+        }  # fmt: skip

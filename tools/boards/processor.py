@@ -5,12 +5,14 @@ from __future__ import annotations
 
 from toolchain import Toolchain
 
-from boards.chip import SCB, Chip, ModelError
+from boards.chip import CALIBRATION, SCB, SYSTEM, Chip, ModelError
 from boards.packages import load
 
 ITCM, FLASH, DTCM, SRAM, BACKUP = 0x0, 0x0800_0000, 0x2000_0000, 0x2002_0000, 0x4002_4000
-SIZES = {ITCM: 0x4000, FLASH: 0x20_0000, DTCM: 0x2_0000, SRAM: 0x6_0000, BACKUP: 0x1000}
-KEPT = (FLASH, BACKUP)  # Over a reset; the others are filled with noise.
+FACTORY = SYSTEM & ~0xFFF  # The page of the system memory that has the calibration.
+SIZES = {ITCM: 0x4000, FLASH: 0x20_0000, DTCM: 0x2_0000, SRAM: 0x6_0000, BACKUP: 0x1000,
+         FACTORY: 0x1000}  # fmt: skip
+KEPT = (FLASH, BACKUP, FACTORY)  # Over a reset; the others are filled with noise.
 NOISE = b"\xa5\x5a\x3c\xc3"
 
 MEMORY, BUS, USAGE = 4, 5, 6  # Exceptions.
@@ -37,6 +39,7 @@ class Processor:
             self.uc.mem_map(base, size)
             self.uc.mem_write(base, (b"\xff" if base == FLASH else NOISE[:1]) * size)
         self.uc.mem_write(address, image)
+        self.uc.mem_write(SYSTEM, b"".join(it.to_bytes(2, "little") for it in CALIBRATION))
         for start, end in ((0x4000_0000, BACKUP), (BACKUP + 0x1000, 0x4008_0000),
                            (0xE000_0000, 0xE010_0000)):  # fmt: skip
             self.uc.mmio_map(start, end - start, self._read, start, self._write, start)
@@ -44,6 +47,7 @@ class Processor:
         guarded = u.UC_HOOK_MEM_READ | u.UC_HOOK_MEM_WRITE
         self.uc.hook_add(guarded, self._guard, begin=0, end=0xFF)
         self.uc.hook_add(guarded, self._guard, begin=DTCM, end=DTCM + 0x3FF)
+        self.uc.hook_add(guarded, self._guard, begin=FACTORY, end=FACTORY + 0xFFF)
         self.uc.hook_add(u.UC_HOOK_MEM_INVALID, self._unmapped)
 
     # What the processor meets.

@@ -72,7 +72,7 @@ def read_ral(root: Path) -> dict[str, Instance]:
     instances: dict[str, Instance] = {}
     chip = root / "src/stm32f7/stm32f7x7"
     core = root / "src/cortex_m"
-    files = [chip / f"{name}.rs" for name in ("tim1", "tim8")]
+    files = [chip / f"{name}.rs" for name in ("adc", "tim1", "tim8")]
     for listing, folder in ((chip / "mod.rs", chip.parent), (core / "armv7em/mod.rs", core)):
         names = RAL_REEXPORT.findall(read_text(listing))
         files += [folder / "instances" / f"{name}.rs" for name in names]
@@ -111,6 +111,7 @@ class Metapac:
     interrupts: dict[str, int]
     memories: list[tuple[str, int, int]]
     signals: set[tuple[str, str, str, int]]  # peripheral, pin, signal, alternate function
+    analogue: set[tuple[str, str, str]]  # peripheral, pin, signal without a function
     fields: dict[tuple[str, str], Fields] = field(default_factory=dict)
 
 
@@ -126,8 +127,8 @@ def read_metapac(root: Path) -> Metapac:
         {name: int(value.replace("_", ""), 16) for name, value in bases},
         {name: int(number) for number, name in interrupts},
         [(name, int(address, 16), int(size)) for name, address, size in regions],
-        set(),
-    )
+        set(), set(),
+    )  # fmt: skip
     text = read_text(root / "src/chips/metadata_0254.rs")
     for part in re.split(r"^    Peripheral \{$", text, flags=re.MULTILINE)[1:]:
         metapac_peripheral(root, text, re.sub(r"\s+", " ", part), found)
@@ -139,6 +140,8 @@ def metapac_peripheral(root: Path, text: str, part: str, found: Metapac) -> None
     name = str(re.search(r'name: "(\w+)"', part)[1])  # type: ignore[index]
     pins = re.findall(r'pin: "(\w+)", signal: "(\w+)", af: Some\( ?(\d+),? ?\)', part)
     found.signals |= {(name, pin, signal, int(number)) for pin, signal, number in pins}
+    direct = re.findall(r'pin: "(\w+)", signal: "(\w+)", af: None', part)
+    found.analogue |= {(name, pin, signal) for pin, signal in direct}
     kind = re.search(r"ir: &(\w+)::REGISTERS", part)
     path = kind and re.search(rf'path = "\.\./(\S+)"\]\s+pub mod {kind[1]};', text)
     if not path:

@@ -73,6 +73,7 @@ typedef struct keel_rcc {
 #define RCC_APB1ENR_UART7EN    BITS(30u, 1u)
 #define RCC_APB2ENR_RESET      0x00000000u
 #define RCC_APB2ENR_TIM1EN     BITS(0u, 1u)
+#define RCC_APB2ENR_ADC1EN     BITS(8u, 1u)
 #define RCC_APB2ENR_SPI1EN     BITS(12u, 1u)
 #define RCC_CSR_RESET          0x0E000000u
 #define RCC_CSR_RMVF           BITS(24u, 1u)

@@ -9,6 +9,7 @@
 
 #include "devices/invensense.h"
 #include "keel/rtos/scheduler.h"
+#include "stm32f767/adc.h"
 #include "stm32f767/clock_tree.h"
 #include "stm32f767/pin.h"
 #include "stm32f767/registers/uart.h"
@@ -56,6 +57,28 @@ typedef enum keel_led_name {
     KEEL_LED_BLUE = 2
 } keel_led_name_t;
 
+/** A pin of ADC1, with its channel's number; tools/registers.py holds both against a database. */
+#define KEEL_ANALOGUE(letter, number, channel) {KEEL_PIN(letter, number), (channel)}
+
+/** A pin that the analogue-to-digital converter reads. */
+typedef struct keel_analogue {
+    keel_pin_t pin;
+    uint32_t channel; /**< Of ADC1, 0 to 15. */
+} keel_analogue_t;
+
+/** The analogue pins of a board that has them; keel/middleware/power_module.h takes the first
+ * four. */
+typedef enum keel_analogue_name {
+    KEEL_ANALOGUE_VOLTAGE_1 = 0, /**< Power module 1. */
+    KEEL_ANALOGUE_CURRENT_1 = 1,
+    KEEL_ANALOGUE_VOLTAGE_2 = 2, /**< Power module 2. */
+    KEEL_ANALOGUE_CURRENT_2 = 3,
+    KEEL_ANALOGUE_5V = 4,     /**< The board's 5 V, divided. */
+    KEEL_ANALOGUE_SENSORS = 5 /**< The sensors' 3.3 V, divided. */
+} keel_analogue_name_t;
+
+#define KEEL_ANALOGUES 6u
+
 /** What a board says about itself. */
 typedef struct keel_board_pins {
     keel_oscillator_t oscillator;
@@ -71,7 +94,9 @@ typedef struct keel_board_pins {
     keel_pin_t sensor_select;
     const keel_pin_t *deselect; /**< Other devices on the bus, which must stay silent. */
     uint32_t deselect_count;
-    const keel_pin_t *power; /**< High switches the sensors' supply on; null: none. */
+    const keel_pin_t *power;         /**< High switches the sensors' supply on; null: none. */
+    const keel_analogue_t *analogue; /**< By keel_analogue_name_t; null: none. */
+    uint32_t analogue_count;         /**< KEEL_ANALOGUES, or 0. */
 } keel_board_pins_t;
 
 /** Board: its description. */
@@ -138,5 +163,43 @@ keel_bsp_status_t keel_chip_pulse(uint32_t channel, uint32_t pulse_us);
 
 /** Lets the pulses out; keel_board_outputs_off ends them. */
 void keel_chip_arm(void);
+
+/**
+ * Starts the analogue-to-digital converter with the board's analogue pins, and reads the chip's
+ * calibration. Takes some 15 us. Memory is not protected while the calibration is read, so this is
+ * for the time before tasks run.
+ *
+ * @return as keel_adc_start
+ */
+keel_bsp_status_t keel_chip_adc_start(void);
+
+/** How many analogue pins the board has, 0 to KEEL_ANALOGUES. */
+uint32_t keel_chip_analogue_count(void);
+
+/**
+ * Measures the chip's supply, after keel_chip_adc_start; takes some 12 us, 30 when it fails.
+ *
+ * @param supply_mv in mV; as it was when that failed
+ * @return as keel_adc_read and keel_adc_supply
+ */
+keel_bsp_status_t keel_chip_supply(uint32_t *supply_mv);
+
+/**
+ * Measures the chip's temperature, as keel_chip_supply.
+ *
+ * @param supply_mv        the supply, in mV
+ * @param temperature_cdeg in hundredths of a degree Celsius; as it was when that failed
+ * @return as keel_adc_read and keel_adc_temperature
+ */
+keel_bsp_status_t keel_chip_temperature(uint32_t supply_mv, int32_t *temperature_cdeg);
+
+/**
+ * Reads an analogue pin, as keel_chip_supply.
+ *
+ * @param name  which, below keel_chip_analogue_count
+ * @param count what it counts, 0 to KEEL_ADC_COUNT_MAX; as it was when that failed
+ * @return as keel_adc_read; KEEL_BSP_ARGUMENT when the board has no such pin
+ */
+keel_bsp_status_t keel_chip_analogue(uint32_t name, uint16_t *count);
 
 #endif
