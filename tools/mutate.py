@@ -221,7 +221,7 @@ class Measurement:
                 self.report_of(one.unit).unlink(missing_ok=True)
             for place, mutant in enumerate(one.found):
                 known = one.trial.known(mutant)
-                if known:
+                if known and known.is_lasting:
                     one.verdicts[place] = known
         waiting = [(one, place) for one in self.units for place in range(len(one.found))
                    if place not in one.verdicts]  # fmt: skip
@@ -232,7 +232,8 @@ class Measurement:
         for number, (job, verdict) in enumerate(crew.run(jobs), 1):
             one, place = waiting[job]
             one.verdicts[place] = verdict
-            one.trial.keep(verdict)
+            if verdict.is_lasting:
+                one.trial.keep(verdict)
             how = verdict.reason or "; ".join(f"{k} {v}" for k, v in verdict.engines.items())
             left = (time.monotonic() - start) / number * (len(jobs) - number) / 60
             print(f"{number:>4}/{len(jobs)} {left:>4.0f} min left {verdict.status:<10}"
@@ -337,13 +338,15 @@ def carry_out(
     line += ["--engine", order["engine"]] if order["engine"] else []
     measurement = Measurement([units[order["unit"]]], parse(line, list(units)), toolchain)
     [one] = measurement.units
-    known = {mutant.identity: mutant for mutant in one.found}
+    named = {mutant.identity: mutant for mutant in one.found}
     try:
         outcomes = []
         for identity in order["mutants"]:
-            mutant = known[(identity[0], identity[1], identity[2], identity[3])]
-            verdict = one.trial.known(mutant) or one.trial.try_mutant(mutant)
-            one.trial.keep(verdict)
+            mutant = named[(identity[0], identity[1], identity[2], identity[3])]
+            known = one.trial.known(mutant)
+            verdict = known if known and known.is_lasting else one.trial.try_mutant(mutant)
+            if verdict.is_lasting:
+                one.trial.keep(verdict)
             outcomes.append(verdict.outcome)
     finally:
         measurement.close()

@@ -4,12 +4,16 @@
 // covers: keel_signing_init model_signing_init
 #include "signing_proof.h"
 
+#include <stddef.h>
+
 void keel_signing_init_harness(void)
 {
     keel_signing_t signing = any_signing();
-    keel_signing_t model = signing;
+    keel_signing_t model;
     const uint8_t link = nondet_u8();
 
+    signing.hash = nondet_bool() ? any_hash : NULL; // What was there is not what it gets.
+    model = signing;
     model_signing_init(&model, link, any_hash);
 
     keel_signing_init(&signing, link, any_hash);

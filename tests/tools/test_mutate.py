@@ -197,6 +197,11 @@ class Settling(unittest.TestCase):
         self.assertEqual(self.conclude(*verdicts, problems=("x",))[0], 1)
 
 
+def verdict_by(mutant: Mutant, **engines: str) -> mutant_verdicts.Verdict:
+    """A verdict with what the engines said."""
+    return mutant_verdicts.Verdict(mutant, engines=engines)
+
+
 class Limits(unittest.TestCase):
     def test_limits_follow_the_times_of_the_proof(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
@@ -248,6 +253,15 @@ class Trials(unittest.TestCase):
 
     def test_what_nobody_notices_survives(self) -> None:
         self.assertEqual(self.status("a < 4"), "survived")
+
+    def test_where_wp_proved_nothing_before_it_is_asked_again(self) -> None:
+        mutant = Mutant(self.unit.header, "keel_box_small", "x", 0, 1, "", 1, "", "")
+        runner: Any = None
+        self.trial._stages["keel_box_small"] = ()
+        answer = self.trial._by_wp(mutant, self.unit, runner)
+        self.assertFalse(verdict_by(mutant, wp=answer).is_lasting)
+        self.assertTrue(verdict_by(mutant, wp="survived").is_lasting)
+        self.assertTrue(verdict_by(mutant, cbmc="killed: x").is_lasting)
 
 
 class Asked:

@@ -16,6 +16,8 @@ from .project import ProjectError
 Identity = tuple[str, str, str, int]
 # What a verdict says of a harness that was executed, before the number of the input.
 EXECUTED = " (executed, input "
+# What a verdict says of WP when that had no proof of the code as it is.
+UNPROVED = "the function is not proved unchanged"
 STATUSES = ("killed", "survived", "undecided", "equivalent", "stillborn", "skipped")
 
 
@@ -41,6 +43,12 @@ class Verdict:
     def outcome(self) -> dict[str, Any]:
         """What is kept, or sent from where the mutant was tried."""
         return {"status": self.status, "reason": self.reason, "engines": self.engines}
+
+    @property
+    def is_lasting(self) -> bool:
+        """Whether who asks again gets the same. Where WP did not prove the code as it is, a prover
+        may have been interrupted, or have had no time on a busy machine."""
+        return UNPROVED not in self.engines.values()
 
     @classmethod
     def of(cls, mutant: Mutant, outcome: Mapping[str, Any]) -> Verdict:
