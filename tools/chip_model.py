@@ -5,13 +5,15 @@
     python3 tools/chip_model.py nucleo_f767zi                   # two seconds of the board's time
     python3 tools/chip_model.py fmuv5 --seconds 5 --keys 1.5:t  # and a key on the console at 1.5 s
     python3 tools/chip_model.py nucleo_f767zi --broken hse      # a clock that never becomes ready
+    python3 tools/chip_model.py fmuv5 --card card.img           # with an SD card in its slot
 
 An emulator of the processor's instructions (Unicorn) runs the very image that is flashed. Modelled
 around it, register by register, is what the image uses: clocks with over-drive and flash latency,
-timers, the console, the watchdog, the pulse outputs, an SPI with an ICM-20689, the memory
-protection's guards, faults and resets, and the memories, of which the backup memory keeps its
-content. The model checks as well: that the core changes to the PLL only when that is allowed, and
-that nothing writes to what is not there.
+timers, the console, the watchdog, the pulse outputs, an SPI with an ICM-20689, the converter, a
+slot with an SD card (an image of it, into which the run's writes go), the memory protection's
+guards, faults and resets, and the memories, of which the backup memory keeps its content. The model
+checks as well: that the core changes to the PLL only when that is allowed, and that nothing writes
+to what is not there.
 
 What it cannot tell: anything about time. Its clock moves on by a microsecond with each reading of
 the time base, so code between two readings takes none. Caches and wait states have no effect.
@@ -28,11 +30,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from boards.built import read_built
+from boards.card import SdCard
 from boards.chip import BROKEN, OPTIONS, UART7, USART3, Chip
 from boards.processor import Processor
 from common.arguments import Parser
 from common.errors import ROOT, ToolError, program, unknown
-from common.files import write_json
+from common.files import write_bytes, write_json
 from toolchain import Toolchain
 
 REPORT = "build/model"
@@ -43,7 +46,7 @@ CONSOLES = {"nucleo_f767zi": (USART3, (3, 14)), "fmuv5": (UART7, (5, 2))}
 def simulate(
     tools: Toolchain, root: Path, name: str, seconds: float,
     keys: Sequence[tuple[int, str]] = (), broken: str = "", step_us: int = 1,
-    options: int = OPTIONS,
+    options: int = OPTIONS, card: SdCard | None = None,
 ) -> Chip:  # fmt: skip
     """Run a board's image; the chip afterwards. Longer steps make a shorter, coarser run."""
     if name not in CONSOLES:
@@ -53,6 +56,7 @@ def simulate(
     chip.keys = sorted(keys)
     chip.step_us = step_us
     chip.options = options
+    chip.card = card
     Processor(tools, image.binary.read_bytes(), image.address, chip).run(int(seconds * 1e6))
     return chip
 
@@ -66,6 +70,16 @@ def read_key(text: str) -> tuple[int, str]:
     except ValueError:
         pass
     raise argparse.ArgumentTypeError(f"{text!r} is no SECONDS:KEY")
+
+
+def read_card(path: Path) -> SdCard:
+    """A card with the content of a file."""
+    try:
+        return SdCard(bytearray(path.read_bytes()))
+    except OSError as error:
+        raise ToolError(f"{path}: {error.strerror}") from error
+    except ToolError as error:
+        raise ToolError(f"{path}: {error}") from error
 
 
 def conclude(board: str, seconds: float, chip: Chip, root: Path) -> int:
@@ -87,6 +101,7 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     parser.add_argument("board", help="the board, a folder of bsp")
     parser.add_argument("--seconds", type=float, default=2.0, help="of the board's time")
     parser.add_argument("--keys", type=read_key, nargs="*", default=[], metavar="SECONDS:KEY")
+    parser.add_argument("--card", type=Path, metavar="IMAGE", help="what is in the slot")
     parser.add_argument("--broken", choices=BROKEN, default="", help="what does not work")
     options = parser.parse_args(arguments)
 
@@ -94,8 +109,11 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         (root / REPORT / f"{options.board}.json").unlink(missing_ok=True)
         tools = Toolchain()
         tools.ensure("model")
+        card = read_card(options.card) if options.card else None
         what = (options.board, options.seconds, options.keys, options.broken)
-        chip = simulate(tools, root, *what)
+        chip = simulate(tools, root, *what, card=card)
+        if card:
+            write_bytes(options.card, bytes(card.image))
         return conclude(options.board, options.seconds, chip, root)
 
     return program("model", work)

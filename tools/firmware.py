@@ -4,6 +4,7 @@
 
     python3 tools/firmware.py mps2_an500                     # the board's application
     python3 tools/firmware.py nucleo_f767zi --app my/folder  # another application
+    python3 tools/firmware.py fmuv5 --app examples/recorder --with fatfs
 
 A board is a folder bsp/<board> with a file board.toml:
 
@@ -21,6 +22,8 @@ A board is a folder bsp/<board> with a file board.toml:
                   is an error, unless optional = true.
     base          optional: a file with what boards share. The board's lists come behind those of
                   the base, and its regions replace those of the same name.
+
+--with fatfs adds FatFs, and the black box on it (bsp/fatfs), to what an application may use.
 
 build/firmware/<board> then holds keel.elf, keel.bin, keel.map, report.json, and beside each object
 what the compiler knows about stacks (*.su, *.ci). An image does not depend on the folder it was
@@ -61,6 +64,7 @@ LINK_FLAGS = (
 )  # fmt: skip
 LIBRARIES = ("-lm", "-lc", "-lgcc")
 COMMON_INCLUDE = ("include", "bsp")
+FATFS = "bsp/fatfs"
 
 
 class FirmwareError(ToolError):
@@ -103,6 +107,12 @@ class Builder:
         """Compile files and folders."""
         return self.build.objects(names, extra, 2)
 
+    def fatfs(self) -> list[Path]:
+        """FatFs, without the warnings that are for our own code, and the black box on it."""
+        folder = f"{self.tools.command('fatfs')[0]}/fatfs/source"
+        flags = [f"-I{FATFS}", "-isystem", folder, f"-ffile-prefix-map={folder}=foreign"]
+        return [*self.objects([FATFS], flags), self.object(f"{folder}/ff.c", [*flags, "-w"])]
+
     def link(self, name: str, objects: Sequence[Path]) -> Image:
         """Link the board's own objects and these to <name>.elf, .bin and .map."""
         binary, map_file = (self.folder / f"{name}.{end}" for end in ("bin", "map"))
@@ -138,7 +148,10 @@ def report_of(
     """What is kept of a build."""
     board = builder.board
     versions = {name: found.version for name, found in builder.tools.versions("firmware").items()}
-    sources = sorted(builder.build.sources().values())
+    made = {path: Path("foreign", Path(name).name).as_posix() if Path(name).is_absolute() else name
+            for path, name in builder.build.sources().items()}  # fmt: skip
+    sources = {made[path]: sha256_of(builder.root / name)
+               for path, name in builder.build.sources().items()}  # fmt: skip
     used = usage(board, contents)
     return {
         "schema": 1,
@@ -158,7 +171,9 @@ def report_of(
             for region in board.region
         },
         "sections": [asdict(section) for section in contents.sections],
-        "sources": {source: sha256_of(builder.root / source) for source in sources},
+        "sources": dict(sorted(sources.items())),
+        "objects": {name: path.relative_to(builder.folder).as_posix()
+                    for path, name in sorted(made.items())},
         "checks": [asdict(check) for check in checks],
     }
 
@@ -170,14 +185,17 @@ def print_usage(board: Board, contents: Contents) -> None:
         print(f"  {region.name:10}{used:8}{region.size:10}  {100 * used / region.size:5.1f} %")
 
 
-def build(tools: Toolchain, name: str, application: Sequence[str], root: Path = ROOT) -> Path:
+def build(
+    tools: Toolchain, name: str, application: Sequence[str], root: Path = ROOT, fatfs: bool = False
+) -> Path:
     """Build a board's image; the folder it is in."""
     board = read_board(root, name)
     folder = root / FIRMWARE / name
     report = folder / "report.json"
     report.unlink(missing_ok=True)
     builder = Builder(tools, board, folder, root)
-    image = builder.link("keel", builder.objects(application or board.application))
+    objects = builder.objects(application or board.application)
+    image = builder.link("keel", [*objects, *(builder.fatfs() if fatfs else [])])
     contents, checks = examine(builder, image)
     # What is wrong has raised an error. Another application than the board's is not its firmware.
     write_report(report, report_of(builder, image, contents, checks), root, good=True,
@@ -197,13 +215,17 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         "--app", action="append", default=[], metavar="PATH",
         help="a file or folder with the application, instead of the board's own",
     )  # fmt: skip
+    parser.add_argument(
+        "--with", dest="libraries", action="append", default=[], choices=("fatfs",),
+        help="a library that the application uses",
+    )  # fmt: skip
     options = parser.parse_args(arguments)
 
     def work() -> int:
         read_board(root, options.board)
         tools = Toolchain()
-        tools.ensure("firmware")
-        build(tools, options.board, options.app, root)
+        tools.ensure("firmware", *options.libraries)
+        build(tools, options.board, options.app, root, "fatfs" in options.libraries)
         return 0
 
     return program("firmware", work)

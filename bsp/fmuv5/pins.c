@@ -23,6 +23,14 @@ static const keel_analogue_t analogue[KEEL_ANALOGUES] = {
     [KEEL_ANALOGUE_SENSORS] = KEEL_ANALOGUE(C, 1u, 11u),
 };
 
+static const keel_board_card_t slot = {
+    .clock = KEEL_ALTERNATE(C, 12u, 12u, SDMMC1, CK),
+    .command = KEEL_ALTERNATE(D, 2u, 12u, SDMMC1, CMD),
+    .data = {KEEL_ALTERNATE(C, 8u, 12u, SDMMC1, D0), KEEL_ALTERNATE(C, 9u, 12u, SDMMC1, D1),
+             KEEL_ALTERNATE(C, 10u, 12u, SDMMC1, D2), KEEL_ALTERNATE(C, 11u, 12u, SDMMC1, D3)},
+    .power = KEEL_PIN(G, 7u),
+};
+
 const keel_board_pins_t keel_board_pins = {
     .oscillator = {16000000u, false},
     .console = (keel_uart_t *)UART7_BASE,
@@ -43,4 +51,5 @@ const keel_board_pins_t keel_board_pins = {
     .power = &sensor_power,
     .analogue = analogue,
     .analogue_count = KEEL_ANALOGUES,
+    .card = &slot,
 };

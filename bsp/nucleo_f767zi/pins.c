@@ -29,4 +29,5 @@ const keel_board_pins_t keel_board_pins = {
     .power = NULL,
     .analogue = NULL,
     .analogue_count = 0u,
+    .card = NULL,
 };

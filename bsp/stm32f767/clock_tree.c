@@ -96,7 +96,10 @@ static keel_clock_fault_t stop_clocks(keel_rcc_t *rcc, const keel_wait_t *wait)
     }
     keel_bits_put(&rcc->CR, RCC_CR_HSEON, 0u);
     keel_bits_put(&rcc->DCKCFGR1, RCC_DCKCFGR1_TIMPRE, 0u);
-    keel_bits_put(&rcc->DCKCFGR2, RCC_DCKCFGR2_USART3SEL | RCC_DCKCFGR2_UART7SEL, 0u);
+    keel_bits_put(&rcc->DCKCFGR2,
+                  RCC_DCKCFGR2_USART3SEL | RCC_DCKCFGR2_UART7SEL | RCC_DCKCFGR2_CK48MSEL |
+                      RCC_DCKCFGR2_SDMMC1SEL,
+                  0u);
     return keel_wait_for(&rcc->CR, RCC_CR_HSERDY, 0u, wait) ? KEEL_CLOCK_OK : KEEL_CLOCK_HSE_STOP;
 }
 

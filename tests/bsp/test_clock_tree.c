@@ -207,7 +207,8 @@ static void leave_running(void)
     pwr.CSR1 = 0x00034000u;
     flash.ACR = 0x00000307u;
     rcc.DCKCFGR1 = 0x01000000u; /* Timers at four times their bus. */
-    rcc.DCKCFGR2 = 0x00001010u; /* USART3 and UART7 on the core's clock. */
+    rcc.DCKCFGR2 =
+        0x18001010u; /* USART3, UART7 and SDMMC1 on the core's clock, 48 MHz of another. */
 }
 
 static void CLT_006_whatever_ran_before(void)

@@ -25,6 +25,7 @@ import chip_model  # noqa: E402
 import firmware  # noqa: E402
 import stack  # noqa: E402
 from boards import chip  # noqa: E402
+from boards.card import SdCard  # noqa: E402
 from boards.chip import PWR, RCC, Chip, ModelError  # noqa: E402
 from boards.rebuilt import SOURCES  # noqa: E402
 from boards.stack_bounds import EXCEPTION_FRAME_B  # noqa: E402
@@ -289,6 +290,133 @@ class BoardTest(unittest.TestCase):
         self.board.write(chip.ADC1 + 8, 0x401)
         self.board.tick(3)
         self.convert(0)
+
+    def slot(self) -> None:
+        """SDMMC1 as it should be, for a card that is not known yet."""
+        self.board = Chip(chip.UART7, (5, 2))
+        self.board.card = SdCard(bytearray(512 * 1024))
+        self.board.write(RCC, 0x0001_0083)
+        self.board.write(RCC + 4, 0x2940_3608)  # 16 / 8 * 216 / 9 = 48 MHz.
+        self.board.write(RCC + 0x44, 1 << 11)
+        for port, modes, functions in ((2, 0x02AA_0000, 0x000C_CCCC), (3, 0x20, 0xC00)):
+            self.board.write(chip.GPIOA + 0x400 * port, modes)
+            self.board.write(chip.GPIOA + 0x400 * port + (0x24 if port == 2 else 0x20), functions)
+        self.board.write(chip.GPIOA + 0x400 * 6 + 0x18, 1 << 7)
+        self.board.write(chip.SDMMC1, 3)
+        self.board.write(chip.SDMMC1 + 4, 0x176)
+
+    def order(self, index: int, argument: int = 0, answer: int = 1) -> int:
+        """A command; the flags then, which are cleared."""
+        self.board.write(chip.SDMMC1 + 8, argument)
+        self.board.write(chip.SDMMC1 + 0xC, 1 << 10 | answer << 6 | index)
+        flags = self.board.read(chip.SDMMC1 + 0x34)
+        self.board.write(chip.SDMMC1 + 0x38, 0x5FF)
+        return flags
+
+    def identified(self) -> None:
+        """A card in its transfer state, on four lines."""
+        self.slot()
+        self.assertEqual(self.order(0, answer=0), 1 << 7)
+        self.assertEqual(self.order(8, 0x1AA), 1 << 6)
+        for _ in range(3):
+            self.order(55)
+            self.assertEqual(self.order(41, 0x4030_0000), 1 << 0)  # It has no checksum.
+        self.order(2, answer=3)
+        self.order(3)
+        self.order(7, 0xB368_0000)
+        self.order(55, 0xB368_0000)
+        self.order(6, 2)
+        self.board.write(chip.SDMMC1 + 4, 0x0901)
+
+    def test_a_card(self) -> None:
+        self.identified()
+        self.assertEqual(self.order(13, 0xB368_0000), 1 << 6)
+        self.assertEqual(self.board.read(chip.SDMMC1 + 0x14), 0x900)  # Ready, in transfer.
+        self.assertEqual(self.order(13, 0), 1 << 2)  # Not its address.
+        self.assertEqual(self.order(3), 1 << 2)  # Not in this state,
+        self.order(13, 0xB368_0000)
+        self.assertEqual(self.board.read(chip.SDMMC1 + 0x14), 0x40_0900)  # as it says.
+
+    def begin(self, blocks: int, direction: int, lines: int = 0x901) -> None:
+        """Makes ready for a transfer."""
+        self.board.write(chip.SDMMC1 + 4, lines)
+        self.board.write(chip.SDMMC1 + 0x24, 1000)
+        self.board.write(chip.SDMMC1 + 0x28, 512 * blocks)
+        self.board.write(chip.SDMMC1 + 0x2C, 0x91 | direction)
+
+    def test_blocks(self) -> None:
+        self.identified()
+        self.order(24, 7)
+        self.begin(1, 0)
+        for word in range(128):
+            self.board.write(chip.SDMMC1 + 0x80, word)
+        self.assertEqual(self.board.read(chip.SDMMC1 + 0x34), 1 << 8 | 1 << 10)
+        self.board.write(chip.SDMMC1 + 0x38, 0x5FF)
+        for ready in (0xE00, 0xE00, 0x900):  # It programs for two looks.
+            self.order(13, 0xB368_0000)
+            self.assertEqual(self.board.read(chip.SDMMC1 + 0x14), ready)
+        self.begin(1, 2)
+        self.order(17, 7)
+        self.assertEqual([self.board.read(chip.SDMMC1 + 0x80) for _ in range(128)],
+                         list(range(128)))  # fmt: skip
+        self.assertEqual(self.board.read(chip.SDMMC1 + 0x34), 1 << 8 | 1 << 10)
+
+    def test_a_slot_that_is_not_as_it_must_be(self) -> None:
+        cases = (
+            (RCC + 0x44, 0, "it has no clock"),
+            (RCC + 0x90, 1 << 28, "not that of the PLL"),
+            (chip.GPIOA + 0x800, 0x00AA_0000, "a pin is not its own"),
+            (chip.GPIOA + 0x800 + 0x24, 0x0000_CCCC, "a pin is not its own"),
+            (chip.GPIOA + 0x1800 + 0x18, 1 << 23, "the card has no supply"),
+            (chip.SDMMC1, 0, "its supply is off"),
+            (chip.SDMMC1 + 4, 0x076, "its clock is off"),
+            (chip.SDMMC1 + 4, 0x175, "its clock is 403361 Hz"),
+        )
+        for address, value, reason in cases:
+            with self.subTest(reason):
+                self.slot()
+                self.board.write(address, value)
+                with self.assertRaisesRegex(ModelError, reason):
+                    self.order(0, answer=0)
+        self.slot()
+        self.board.write(RCC, 0x83)
+        self.board.words[RCC + 4] = 0x2840_3608
+        with self.assertRaisesRegex(ModelError, "its clock is 54 MHz"):
+            self.order(0, answer=0)
+
+    def test_transfers_that_must_not_be(self) -> None:
+        def write(address: int, value: int) -> None:
+            self.board.write(chip.SDMMC1 + address, value)
+
+        cases = (
+            ("not of whole sectors", lambda: [write(0x28, 500), write(0x2C, 0x91)]),
+            ("has no time", lambda: [write(0x28, 512), write(0x2C, 0x91)]),
+            ("nothing is sent", lambda: write(0x80, 1)),
+            ("while it is empty", lambda: self.board.read(chip.SDMMC1 + 0x80)),
+            ("expects none", lambda: [self.begin(1, 0), write(0x80, 1)]),
+            ("use other lines", lambda: [self.order(24, 7), self.begin(1, 0, 0x101),
+                                         write(0x80, 1)]),
+            ("of another length", lambda: self.order(13, 0xB368_0000, 3)),
+            ("data of the one before", lambda: [self.begin(1, 2), self.order(17, 7),
+                                                self.order(13, 0xB368_0000)]),
+            ("last sector", lambda: [self.begin(2, 2), self.order(18, 1023)]),
+        )  # fmt: skip
+        for reason, wrong in cases:
+            with self.subTest(reason):
+                self.identified()
+                with self.assertRaisesRegex(ModelError, reason):
+                    wrong()
+
+    def test_a_card_of_no_size(self) -> None:
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stderr(
+            io.StringIO()
+        ) as err:
+            path = Path(folder) / "card.img"
+            self.assertEqual(chip_model.main(["fmuv5", "--card", str(path)]), 2)
+            path.write_bytes(bytes(1000))
+            self.assertEqual(chip_model.main(["fmuv5", "--card", str(path)]), 2)
+        self.assertIn("No such file", err.getvalue())
+        self.assertIn("card.img: a card has a multiple of 524288 bytes, not 1000", err.getvalue())
 
     def test_an_unknown_board(self) -> None:
         with contextlib.redirect_stderr(io.StringIO()) as err:

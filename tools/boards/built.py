@@ -24,7 +24,7 @@ class BuiltImage:
     binary: Path
     address: int
     room: int  # Bytes of flash from that address on.
-    sources: tuple[str, ...]
+    objects: Mapping[str, str]  # Of each source, from the folder.
 
 
 def read_built(root: Path, board: str) -> BuiltImage:
@@ -48,5 +48,5 @@ def image_of(folder: Path, report: Mapping[str, Any]) -> BuiltImage:
     return BuiltImage(
         folder, folder / report["elf"]["file"], folder / report["binary"]["file"],
         int(report["load_address"]), int(report["regions"]["FLASH"]["size"]),
-        tuple(report["sources"]),
+        dict(report["objects"]),
     )  # fmt: skip

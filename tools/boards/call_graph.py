@@ -75,8 +75,8 @@ def parse(text: str, graph: Graph, where: str = "") -> None:
 def read_graph(image: BuiltImage) -> Graph:
     """The call graph of an image's sources."""
     graph: Graph = {}
-    for source in image.sources:
-        parse(read_text((image.folder / "obj" / source).with_suffix(".ci")), graph, source)
+    for source, made in sorted(image.objects.items()):
+        parse(read_text((image.folder / made).with_suffix(".ci")), graph, source)
     return graph
 
 

@@ -8,15 +8,17 @@ from dataclasses import dataclass, field
 
 from common.errors import ToolError
 
+from boards.card import CardError, CardHost, SdCard
+
 # Bases of the peripherals (RM0410, table 1).
 TIM5, IWDG, USART3, PWR, UART7 = 0x4000_0C00, 0x4000_3000, 0x4000_4800, 0x4000_7000, 0x4000_7800
 TIM1, SPI1, GPIOA, RCC, FLASHR = 0x4001_0000, 0x4001_3000, 0x4002_0000, 0x4002_3800, 0x4002_3C00
 SYSTICK, NVIC, SCB, DBGMCU = 0xE000_E010, 0xE000_E100, 0xE000_ED00, 0xE004_2000
-ADC1, ADC_COMMON = 0x4001_2000, 0x4001_2300
+ADC1, ADC_COMMON, SDMMC1 = 0x4001_2000, 0x4001_2300, 0x4001_2C00
 BLOCKS = {
     TIM5: 0x54, IWDG: 0x14, USART3: 0x2C, PWR: 0x10, UART7: 0x2C, TIM1: 0x68, SPI1: 0x24,
     RCC: 0x98, FLASHR: 0x1C, SCB: 0x2A4, DBGMCU: 0x10, SYSTICK: 0x10,
-    NVIC: 0x200, ADC1: 0x50, ADC_COMMON: 0xC,
+    NVIC: 0x200, ADC1: 0x50, ADC_COMMON: 0xC, SDMMC1: 0x84,
     **{GPIOA + 0x400 * port: 0x2C for port in range(11)},
 }  # fmt: skip
 RESETS = {
@@ -30,6 +32,10 @@ RESETS = {
 OPTION_KEYS = [0x0819_2A3B, 0x4C5D_6E7F]
 OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
 BROKEN = ("hse", "pll", "overdrive", "sensor", "other-sensor", "adc")
+
+
+# FMUv5's slot: clock, command and data, by port and pin, and what switches its supply.
+CARD_PINS, CARD_POWER = ((2, 12), (3, 2), (2, 8), (2, 9), (2, 10), (2, 11)), (6, 7)
 
 
 class ModelError(ToolError):
@@ -124,6 +130,8 @@ class Chip:
         self.armed_us: list[tuple[int, bool]] = []
         self.converted: list[int] = []  # Channels of the converter, in their order.
         self.exception = 0
+        self.card: SdCard | None = None  # In the slot.
+        self.slot = CardHost()
         self.words: dict[int, int] = {}
         self.options = OPTIONS
         self.unlocking: list[int] = []
@@ -142,6 +150,8 @@ class Chip:
         self.counter_from_us = 0
         self.sensor.select(False)
         self.adc = Converter()
+        self.slot = CardHost(self.card)
+        self.high: set[tuple[int, int]] = set()  # Pins that were set.
 
     def tick(self, us: int) -> None:
         """Time passes."""
@@ -174,6 +184,8 @@ class Chip:
             self.words[SPI1 + 8] &= ~1
         if address in (ADC1, ADC1 + 0x4C):
             return self._adc_read(address - ADC1)
+        if SDMMC1 <= address < SDMMC1 + 0x84:
+            return self._sdmmc_read(address - SDMMC1)
         if address == SCB + 4:
             return self.exception | (0x800 if self.exception else 0)  # RETTOBASE.
         return self.words.get(address, 0)
@@ -185,7 +197,7 @@ class Chip:
         handler: Callable[[int, int], None] | None = {
             RCC: self._rcc, PWR: self._pwr, IWDG: self._iwdg, SPI1: self._spi, TIM1: self._tim1,
             TIM5: self._tim5, self.console: self._uart, SCB: self._scb, FLASHR: self._flash,
-            ADC1: self._adc, ADC_COMMON: self._adc_common,
+            ADC1: self._adc, ADC_COMMON: self._adc_common, SDMMC1: self._sdmmc,
         }.get(base)  # fmt: skip
         if handler:
             handler(address - base, value)
@@ -282,8 +294,49 @@ class Chip:
 
     def _gpio(self, port: int, offset: int, value: int) -> None:
         number, pin = self.select
+        if offset == 0x18:
+            self.high -= {(port, bit) for bit in range(16) if value >> 16 >> bit & 1}
+            self.high |= {(port, bit) for bit in range(16) if value >> bit & 1}
         if offset == 0x18 and port == number and value >> pin & 0x1_0001:
             self.sensor.select(bool(value >> 16 >> pin & 1))
+
+    # The slot.
+
+    def _sdmmc_read(self, offset: int) -> int:
+        try:
+            return self.slot.read(offset)
+        except CardError as error:
+            raise ModelError(str(error)) from error
+
+    def _sdmmc(self, offset: int, value: int) -> None:
+        if offset == 0xC and value & 1 << 10:
+            self._check_slot()
+        self.slot.card = self.card
+        try:
+            self.slot.write(offset, value)
+        except CardError as error:
+            raise ModelError(str(error)) from error
+
+    def _check_slot(self) -> None:
+        """What must hold around SDMMC1 before its first command."""
+        pll = self.words[RCC + 4]
+        hse_mhz = 8 if self.words[RCC] & 1 << 18 else 16
+        usb_mhz = hse_mhz // (pll & 0x3F) * (pll >> 6 & 0x1FF) // max(pll >> 24 & 0xF, 1)
+        rules = {
+            "it has no clock": self.words.get(RCC + 0x44, 0) & 1 << 11,
+            "its clock is not that of the PLL": not self.words.get(RCC + 0x90, 0) & 3 << 27,
+            f"its clock is {usb_mhz} MHz": usb_mhz == 48,
+            "a pin is not its own": all(
+                self.words.get(GPIOA + 0x400 * port, 0) >> 2 * pin & 3 == 2
+                and self.words.get(GPIOA + 0x400 * port + 0x20 + 4 * (pin // 8), 0)
+                >> 4 * (pin % 8) & 0xF == 12
+                for port, pin in CARD_PINS
+            ),
+            "the card has no supply": CARD_POWER in self.high,
+        }  # fmt: skip
+        for reason, held in rules.items():
+            if not held:
+                raise ModelError(f"a command goes to the card, but {reason}")
 
     # The converter: one conversion of one channel at a time, done at once.
 

@@ -74,6 +74,7 @@ typedef struct keel_rcc {
 #define RCC_APB2ENR_RESET      0x00000000u
 #define RCC_APB2ENR_TIM1EN     BITS(0u, 1u)
 #define RCC_APB2ENR_ADC1EN     BITS(8u, 1u)
+#define RCC_APB2ENR_SDMMC1EN   BITS(11u, 1u)
 #define RCC_APB2ENR_SPI1EN     BITS(12u, 1u)
 #define RCC_CSR_RESET          0x0E000000u
 #define RCC_CSR_RMVF           BITS(24u, 1u)
@@ -83,5 +84,7 @@ typedef struct keel_rcc {
 #define RCC_DCKCFGR2_RESET     0x00000000u
 #define RCC_DCKCFGR2_USART3SEL BITS(4u, 2u)
 #define RCC_DCKCFGR2_UART7SEL  BITS(12u, 2u)
+#define RCC_DCKCFGR2_CK48MSEL  BITS(27u, 1u)
+#define RCC_DCKCFGR2_SDMMC1SEL BITS(28u, 1u)
 
 #endif

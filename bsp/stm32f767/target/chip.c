@@ -11,6 +11,7 @@
 #include "stm32f767/registers/dbgmcu.h"
 #include "stm32f767/registers/factory.h"
 #include "stm32f767/registers/memory.h"
+#include "stm32f767/sdmmc.h"
 #include "stm32f767/serial.h"
 #include "stm32f767/spi_bus.h"
 #include "stm32f767/target/cache.h"
@@ -23,6 +24,7 @@
 #define TIM1            ((keel_tim_t *)TIM1_BASE)
 #define TIM5            ((keel_tim_t *)TIM5_BASE)
 #define SPI1            ((keel_spi_t *)SPI1_BASE)
+#define SDMMC1          ((keel_sdmmc_t *)SDMMC1_BASE)
 #define IWDG            ((keel_iwdg_t *)IWDG_BASE)
 #define DBGMCU          ((keel_dbgmcu_t *)DBGMCU_BASE)
 #define PINS            (&keel_board_pins)
@@ -38,6 +40,8 @@
 #define LOG2_NULL_GUARD  8u
 #define LOG2_STACK_GUARD 10u
 #define LOG2_HALF_GIB    29u
+#define CARD_CLOCK_HZ    48000000u
+#define CARD_LIMIT_HZ    16000000u  /* The processor moves the data: 512 bytes in 64 us. */
 #define DELAY_LOOKS      100000000u /* Far more than a delay takes, but not for ever. */
 
 #define GPIO_CLOCKS                                                                                \
@@ -263,6 +267,35 @@ keel_bsp_status_t keel_chip_sensor_start(void)
     require(keel_spi_start(SPI1, KEEL_APB2_LIMIT_HZ, keel_icm20689.bus_limit_hz));
     (void)delay(NULL, POWER_ON_US);
     return keel_invensense_start(keel_chip_sensor());
+}
+
+bool keel_chip_card(keel_disk_t *disk)
+{
+    /* A look takes 50 ns at least: 1 ms and 0.5 s. One at the card's status, 6 us. */
+    static const keel_wait_t prompt = {20000u, NULL, NULL};
+    static const keel_wait_t patient = {10000000u, NULL, NULL};
+    static const keel_wait_t busy_patience = {90000u, NULL, NULL};
+    static keel_sdmmc_host_t host;
+    static keel_sd_card_t card;
+    const keel_board_card_t *const slot = PINS->card;
+
+    if (slot == NULL) {
+        return false;
+    }
+    keel_pin_output(slot->power, KEEL_DRIVE_PUSH_PULL, true);
+    give(slot->clock, KEEL_PULL_NONE);
+    give(slot->command, KEEL_PULL_UP);
+    for (uint32_t i = 0u; i < KEEL_CARD_LINES; i++) {
+        give(slot->data[i], KEEL_PULL_UP);
+    }
+    keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_SDMMC1EN);
+    (void)delay(NULL, POWER_ON_US);
+    require(keel_sdmmc_start(&host, SDMMC1, CARD_CLOCK_HZ, CARD_LIMIT_HZ, &prompt, &patient));
+    card.host = keel_sdmmc_host(&host);
+    card.delay = delay;
+    card.patience = busy_patience;
+    *disk = keel_sd_card_disk(&card);
+    return true;
 }
 
 bool keel_chip_brownout_is_set(void)

@@ -7,6 +7,7 @@
 #ifndef KEEL_BSP_STM32F767_TARGET_CHIP_H
 #define KEEL_BSP_STM32F767_TARGET_CHIP_H
 
+#include "common/disk.h"
 #include "devices/invensense.h"
 #include "keel/rtos/scheduler.h"
 #include "stm32f767/adc.h"
@@ -19,6 +20,7 @@
 
 #define KEEL_LEDS        3u
 #define KEEL_PWM_OUTPUTS 4u
+#define KEEL_CARD_LINES  4u
 
 /* What keel_fault_stop records. */
 #define KEEL_FAULT_CLOCK    0xB0A20100u /**< Plus a keel_clock_fault_t. */
@@ -79,6 +81,14 @@ typedef enum keel_analogue_name {
 
 #define KEEL_ANALOGUES 6u
 
+/** A card's slot, at SDMMC1. */
+typedef struct keel_board_card {
+    keel_alternate_t clock;
+    keel_alternate_t command;
+    keel_alternate_t data[KEEL_CARD_LINES];
+    keel_pin_t power; /**< High switches the card's supply on. */
+} keel_board_card_t;
+
 /** What a board says about itself. */
 typedef struct keel_board_pins {
     keel_oscillator_t oscillator;
@@ -97,6 +107,7 @@ typedef struct keel_board_pins {
     const keel_pin_t *power;         /**< High switches the sensors' supply on; null: none. */
     const keel_analogue_t *analogue; /**< By keel_analogue_name_t; null: none. */
     uint32_t analogue_count;         /**< KEEL_ANALOGUES, or 0. */
+    const keel_board_card_t *card;   /**< Null: no slot. */
 } keel_board_pins_t;
 
 /** Board: its description. */
@@ -119,6 +130,16 @@ keel_bsp_status_t keel_chip_sensor_start(void);
 
 /** The inertial sensor, an ICM-20689, after keel_chip_sensor_start. */
 keel_invensense_t *keel_chip_sensor(void);
+
+/**
+ * The slot for an SD card, supplied and ready for the disk's start, which is the card's, by
+ * sd_card.h. Takes 20 ms; may be called once. When the card breaks down in flight, a write takes
+ * 2 ms at most.
+ *
+ * @param disk the card as a disk; as it was when there is no slot
+ * @return whether the board has a slot; a card need not be in it
+ */
+bool keel_chip_card(keel_disk_t *disk);
 
 /** Whether the brown-out level is 2.7 V, below which the flash is too slow for the core's clock. */
 bool keel_chip_brownout_is_set(void);
