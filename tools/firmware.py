@@ -224,8 +224,11 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     def work() -> int:
         read_board(root, options.board)
         tools = Toolchain()
-        tools.ensure("firmware", *options.libraries)
-        build(tools, options.board, options.app, root, "fatfs" in options.libraries)
+        fatfs = "fatfs" in options.libraries
+        tools.ensure("firmware")
+        if fatfs:
+            tools.ensure("fatfs")
+        build(tools, options.board, options.app, root, fatfs)
         return 0
 
     return program("firmware", work)
