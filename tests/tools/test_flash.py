@@ -71,7 +71,8 @@ class FlashTest(unittest.TestCase):
         folder = self.root / FIRMWARE / board
         folder.mkdir(parents=True)
         report: dict[str, object] = {
-            "load_address": address, "regions": {"FLASH": {"size": 0x1F8000}}, "sources": {}, "objects": {},
+            "load_address": address, "regions": {"FLASH": {"size": 0x1F8000}},
+            "sources": {}, "objects": {},
         }  # fmt: skip
         for kind, name, data in (("elf", "keel.elf", b"elf"), ("binary", "keel.bin", b"12345678")):
             (folder / name).write_bytes(data)
