@@ -225,7 +225,7 @@ def test_what_is_not_measured_is_not_told(copter: Copter) -> None:
     assert counts["HEARTBEAT"] >= 10 and set(rig.named()) == {"stack_free"}
     rig.run(11_000)
     counts = rig.counts()
-    assert counts["SCALED_PRESSURE"] >= 9 and counts["POWER_STATUS"] >= 1
+    assert counts["SCALED_PRESSURE"] >= 4 and counts["POWER_STATUS"] >= 1
     assert set(rig.named()) == {"stack_free", "chip_cdeg"}
 
 
@@ -245,7 +245,7 @@ def test_rates_are_kept_and_frames_are_numbered(copter: Copter) -> None:
     rig.run(10_000)
     came = rig.counts() - before
     expected = {"HEARTBEAT": 10, "ATTITUDE": 200, "LOCAL_POSITION_NED": 100, "RC_CHANNELS": 50,
-                "SCALED_PRESSURE": 10, "POWER_STATUS": 2, "NAMED_VALUE_INT": 4}  # fmt: skip
+                "SCALED_PRESSURE": 5, "POWER_STATUS": 2, "NAMED_VALUE_INT": 4}  # fmt: skip
     for name, count in expected.items():
         assert 0.8 * count - 1 <= came[name] <= count + 1, (name, came[name])
     numbers = [message.get_seq() for message in rig.seen[0]]
