@@ -172,7 +172,7 @@ class CopterHealth(unittest.TestCase):
     def test_HEA_002_nothing_after_a_second_of_silence(self) -> None:
         self.at(10.0)
         self.breathe(96325.0, 2154)
-        for seconds, told in ((10.5, True), (11.0, True), (11.000001, False), (4000.0, False)):
+        for seconds, told in ((10.5, True), (11.0, True), (11.0000015, False), (4000.0, False)):
             self.at(seconds)
             self.copter.background(0, ctypes.c_double(0.0), 0)
             self.copter.foreground()
