@@ -11,10 +11,13 @@ keel_status_t copter_air_init(copter_air_t *air)
 
 void copter_background_barometer(copter_t *copter)
 {
-    float pressure_pa;
+    copter_air_t *const self = &copter->air;
+    copter_pressure_t sample;
 
-    if (copter->port->read_barometer(copter->port->context, &pressure_pa)) {
-        (void)keel_oversample_add(&copter->air.pressure, pressure_pa);
+    if (copter->port->read_barometer(copter->port->context, &sample) &&
+        (keel_oversample_add(&self->pressure, sample.pressure_pa) == KEEL_OK)) {
+        self->temperature = sample.temperature;
+        self->sampled_us = copter->scheduler.clock.now_us;
     }
 }
 

@@ -100,7 +100,9 @@ typedef struct copter_compass {
 typedef struct copter_air {
     keel_oversample_t pressure;
     float pressure_pa;
-    uint32_t samples; /**< How many there were. */
+    int16_t temperature; /**< Of the last sample that counted, in 0.01 degrees Celsius. */
+    uint32_t samples;    /**< How many there were. */
+    uint64_t sampled_us; /**< When that sample came. */
 } copter_air_t;
 
 /** A fix, as navigation takes it. */
@@ -187,7 +189,7 @@ typedef struct copter_health {
     uint32_t skipped;    /**< Periods of all tasks that passed without a run. */
     uint32_t stack_free; /**< In bytes. */
     uint32_t checks;     /**< KEEL_MODE_CHECK_LOAD, if it holds. */
-    float supply_v;
+    copter_chip_t chip;  /**< As the last run of ADC found it. */
 } copter_health_t;
 
 /** What a task's body is handed. */

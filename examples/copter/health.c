@@ -2,6 +2,8 @@
 /* Scheduler analysis, stack and ADC. */
 #include "copter.h"
 
+#include <stddef.h>
+
 /* What became of all tasks since the start; the kernel's own counts stay at their ends. */
 static void count_faults(copter_t *copter)
 {
@@ -39,5 +41,11 @@ void copter_stack(copter_t *copter)
 
 void copter_adc(copter_t *copter)
 {
-    copter->health.supply_v = copter->energy.battery.voltage;
+    const copter_port_t *const port = copter->port;
+    copter_chip_t chip = {0};
+
+    if (port->read_chip != NULL) {
+        port->read_chip(port->context, &chip);
+    }
+    copter->health.chip = chip; /* Nothing of the run before. */
 }

@@ -11,6 +11,7 @@ const keel_mavlink_message_t messages_sent[MESSAGES_SENT] = {
     {MESSAGE_PARAM_VALUE, 220u, 1u, MESSAGE_PARAM_VALUE_LENGTH},
     {MESSAGE_GPS_RAW_INT, 24u, 1u, MESSAGE_GPS_RAW_INT_LENGTH},
     {MESSAGE_SCALED_IMU, 170u, 1u, MESSAGE_SCALED_IMU_LENGTH},
+    {MESSAGE_SCALED_PRESSURE, 115u, 1u, MESSAGE_SCALED_PRESSURE_LENGTH},
     {MESSAGE_ATTITUDE, 39u, 1u, MESSAGE_ATTITUDE_LENGTH},
     {MESSAGE_LOCAL_POSITION_NED, 185u, 1u, MESSAGE_LOCAL_POSITION_NED_LENGTH},
     {MESSAGE_GLOBAL_POSITION_INT, 104u, 1u, MESSAGE_GLOBAL_POSITION_INT_LENGTH},
@@ -19,6 +20,7 @@ const keel_mavlink_message_t messages_sent[MESSAGES_SENT] = {
     {MESSAGE_COMMAND_ACK, 143u, 1u, MESSAGE_COMMAND_ACK_LENGTH},
     {MESSAGE_TIMESYNC, 34u, 1u, MESSAGE_TIMESYNC_LENGTH},
     {MESSAGE_SCALED_IMU2, 76u, 1u, MESSAGE_SCALED_IMU2_LENGTH},
+    {MESSAGE_POWER_STATUS, 203u, 1u, MESSAGE_POWER_STATUS_LENGTH},
     {MESSAGE_SCALED_IMU3, 46u, 1u, MESSAGE_SCALED_IMU3_LENGTH},
     {MESSAGE_BATTERY_STATUS, 154u, 1u, MESSAGE_BATTERY_STATUS_LENGTH},
     {MESSAGE_AUTOPILOT_VERSION, 178u, 1u, MESSAGE_AUTOPILOT_VERSION_LENGTH},
@@ -225,6 +227,16 @@ void message_scaled_imu_pack(const message_scaled_imu_t *from,
     put_i16(&payload[22], from->temperature);
 }
 
+void message_scaled_pressure_pack(const message_scaled_pressure_t *from,
+                                  uint8_t payload[MESSAGE_SCALED_PRESSURE_LENGTH])
+{
+    put_u32(&payload[0], from->time_boot_ms);
+    put_float(&payload[4], from->press_abs);
+    put_float(&payload[8], from->press_diff);
+    put_i16(&payload[12], from->temperature);
+    put_i16(&payload[14], from->temperature_press_diff);
+}
+
 void message_attitude_pack(const message_attitude_t *from, uint8_t payload[MESSAGE_ATTITUDE_LENGTH])
 {
     put_u32(&payload[0], from->time_boot_ms);
@@ -342,6 +354,14 @@ void message_scaled_imu2_pack(const message_scaled_imu2_t *from,
     put_i16(&payload[18], from->ymag);
     put_i16(&payload[20], from->zmag);
     put_i16(&payload[22], from->temperature);
+}
+
+void message_power_status_pack(const message_power_status_t *from,
+                               uint8_t payload[MESSAGE_POWER_STATUS_LENGTH])
+{
+    put_u16(&payload[0], from->Vcc);
+    put_u16(&payload[2], from->Vservo);
+    put_u16(&payload[4], from->flags);
 }
 
 void message_scaled_imu3_pack(const message_scaled_imu3_t *from,

@@ -97,6 +97,8 @@
 #define MESSAGE_GPS_RAW_INT_LENGTH         52u
 #define MESSAGE_SCALED_IMU                 26u
 #define MESSAGE_SCALED_IMU_LENGTH          24u
+#define MESSAGE_SCALED_PRESSURE            29u
+#define MESSAGE_SCALED_PRESSURE_LENGTH     16u
 #define MESSAGE_ATTITUDE                   30u
 #define MESSAGE_ATTITUDE_LENGTH            28u
 #define MESSAGE_LOCAL_POSITION_NED         32u
@@ -117,6 +119,8 @@
 #define MESSAGE_TIMESYNC_LENGTH            16u
 #define MESSAGE_SCALED_IMU2                116u
 #define MESSAGE_SCALED_IMU2_LENGTH         24u
+#define MESSAGE_POWER_STATUS               125u
+#define MESSAGE_POWER_STATUS_LENGTH        6u
 #define MESSAGE_SCALED_IMU3                129u
 #define MESSAGE_SCALED_IMU3_LENGTH         24u
 #define MESSAGE_BATTERY_STATUS             147u
@@ -136,7 +140,7 @@
 /** @} */
 
 /** What is sent. */
-#define MESSAGES_SENT 22u
+#define MESSAGES_SENT 24u
 extern const keel_mavlink_message_t messages_sent[MESSAGES_SENT];
 
 /** What is taken, of senders who know more fields too. */
@@ -151,6 +155,7 @@ typedef enum message_sent {
     SENT_PARAM_VALUE,
     SENT_GPS_RAW_INT,
     SENT_SCALED_IMU,
+    SENT_SCALED_PRESSURE,
     SENT_ATTITUDE,
     SENT_LOCAL_POSITION_NED,
     SENT_GLOBAL_POSITION_INT,
@@ -159,6 +164,7 @@ typedef enum message_sent {
     SENT_COMMAND_ACK,
     SENT_TIMESYNC,
     SENT_SCALED_IMU2,
+    SENT_POWER_STATUS,
     SENT_SCALED_IMU3,
     SENT_BATTERY_STATUS,
     SENT_AUTOPILOT_VERSION,
@@ -280,6 +286,15 @@ typedef struct message_scaled_imu {
     int16_t zmag;
     int16_t temperature;
 } message_scaled_imu_t;
+
+/** SCALED_PRESSURE. */
+typedef struct message_scaled_pressure {
+    uint32_t time_boot_ms;
+    float press_abs;
+    float press_diff;
+    int16_t temperature;
+    int16_t temperature_press_diff;
+} message_scaled_pressure_t;
 
 /** ATTITUDE. */
 typedef struct message_attitude {
@@ -426,6 +441,13 @@ typedef struct message_scaled_imu2 {
     int16_t temperature;
 } message_scaled_imu2_t;
 
+/** POWER_STATUS. */
+typedef struct message_power_status {
+    uint16_t Vcc;
+    uint16_t Vservo;
+    uint16_t flags;
+} message_power_status_t;
+
 /** SCALED_IMU3. */
 typedef struct message_scaled_imu3 {
     uint32_t time_boot_ms;
@@ -538,6 +560,8 @@ void message_gps_raw_int_pack(const message_gps_raw_int_t *from,
                               uint8_t payload[MESSAGE_GPS_RAW_INT_LENGTH]);
 void message_scaled_imu_pack(const message_scaled_imu_t *from,
                              uint8_t payload[MESSAGE_SCALED_IMU_LENGTH]);
+void message_scaled_pressure_pack(const message_scaled_pressure_t *from,
+                                  uint8_t payload[MESSAGE_SCALED_PRESSURE_LENGTH]);
 void message_attitude_pack(const message_attitude_t *from,
                            uint8_t payload[MESSAGE_ATTITUDE_LENGTH]);
 void message_local_position_ned_pack(const message_local_position_ned_t *from,
@@ -554,6 +578,8 @@ void message_timesync_pack(const message_timesync_t *from,
                            uint8_t payload[MESSAGE_TIMESYNC_LENGTH]);
 void message_scaled_imu2_pack(const message_scaled_imu2_t *from,
                               uint8_t payload[MESSAGE_SCALED_IMU2_LENGTH]);
+void message_power_status_pack(const message_power_status_t *from,
+                               uint8_t payload[MESSAGE_POWER_STATUS_LENGTH]);
 void message_scaled_imu3_pack(const message_scaled_imu3_t *from,
                               uint8_t payload[MESSAGE_SCALED_IMU3_LENGTH]);
 void message_battery_status_pack(const message_battery_status_t *from,

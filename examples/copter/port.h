@@ -38,6 +38,12 @@ typedef struct copter_field {
     float value[3]; /**< In microtesla. */
 } copter_field_t;
 
+/** What a barometer measured. */
+typedef struct copter_pressure {
+    float pressure_pa;   /**< In Pa. */
+    int16_t temperature; /**< Of the sensor, in hundredths of a degree Celsius. */
+} copter_pressure_t;
+
 /** What came from a receiver. */
 typedef struct copter_byte {
     uint32_t elapsed_us; /**< Since the byte before, or since the start, in us. */
@@ -50,6 +56,14 @@ typedef struct copter_power_reading {
     float current; /**< In A. */
 } copter_power_reading_t;
 
+/** What the controller measured of itself. */
+typedef struct copter_chip {
+    uint16_t supply_mv;   /**< In mV. */
+    int16_t temperature;  /**< Of the chip, in hundredths of a degree Celsius. */
+    bool has_supply;      /**< Whether the supply is known. */
+    bool has_temperature; /**< Whether the temperature is known. */
+} copter_chip_t;
+
 /** The functions of a port. */
 typedef struct copter_port {
     keel_clock_fn_t read_clock;
@@ -57,9 +71,12 @@ typedef struct copter_port {
     void *context; /**< What all others are handed. */
     bool (*read_imu)(void *context, uint32_t unit, copter_inertial_t *sample);
     bool (*read_magnetometer)(void *context, copter_field_t *sample);
-    bool (*read_barometer)(void *context, float *pressure_pa);
+    bool (*read_barometer)(void *context, copter_pressure_t *sample);
     bool (*read_byte)(void *context, uint32_t receiver, copter_byte_t *byte); /**< The next. */
     bool (*read_power)(void *context, uint32_t module, copter_power_reading_t *reading);
+    /** Writes what the chip measures of itself, and that it has it; null: it measures nothing. The
+        task that asks has 18 us: of two conversions, one a call may be new. */
+    void (*read_chip)(void *context, copter_chip_t *chip);
     uint32_t (*stack_free)(void *context); /**< Bytes of the stack that were never used. */
     void (*write_motors)(void *context, const float output[COPTER_MOTORS]); /**< Each 0 to 1. */
     /** How many bytes of the log write_log takes now; what it has no room for stays in the ring. */

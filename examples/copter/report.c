@@ -19,6 +19,9 @@
 #define UNKNOWN_8  255u
 #define WORD       32u
 
+/* A pressure that is older is not told, in us. */
+#define FRESH_US 1000000u
+
 /* The standard atmosphere. */
 #define SEA_LEVEL_PA 101325.0f
 #define SCALE_M      44330.8f
@@ -206,16 +209,53 @@ static bool scaled_imu(const copter_t *copter, uint32_t unit, uint8_t *payload)
     return sample->present;
 }
 
-/* How deep the stack has been, which no message of MAVLink's is for. */
-static void stack_free(const copter_t *copter, uint8_t *payload)
+/* Pressure and the barometer's temperature, as long as it measures. */
+static bool scaled_pressure(const copter_t *copter, uint8_t *payload)
 {
-    const uint32_t bytes = copter->health.stack_free;
-    const message_named_value_int_t message = {
-        .time_boot_ms = now_ms(copter),
-        .value = (bytes < (uint32_t)INT32_MAX) ? (int32_t)bytes : INT32_MAX,
-        .name = {'s', 't', 'a', 'c', 'k', '_', 'f', 'r', 'e', 'e'}};
+    const copter_air_t *const air = &copter->air;
+    const uint64_t age_us = copter->scheduler.clock.now_us - air->sampled_us;
+    const message_scaled_pressure_t message = {.time_boot_ms = now_ms(copter),
+                                               .press_abs = air->pressure_pa / CENTI,
+                                               .temperature = air->temperature};
 
-    message_named_value_int_pack(&message, payload);
+    message_scaled_pressure_pack(&message, payload);
+    return (air->samples > 0u) && (age_us <= FRESH_US);
+}
+
+/* The chip's supply, if it is known. */
+static bool power_status(const copter_t *copter, uint8_t *payload)
+{
+    const copter_chip_t *const chip = &copter->health.chip;
+    const message_power_status_t message = {.Vcc = chip->supply_mv};
+
+    message_power_status_pack(&message, payload);
+    return chip->has_supply;
+}
+
+/* What no message of MAVLink's is for, in turn: how deep the stack has been, and the chip's
+ * temperature if it is known. */
+static void named_value_int(const copter_t *copter, copter_link_t *link, uint8_t *payload)
+{
+    const copter_health_t *const health = &copter->health;
+    const uint32_t bytes = health->stack_free;
+    const bool is_chip = link->tells_chip && health->chip.has_temperature;
+
+    if (is_chip) {
+        const message_named_value_int_t message = {
+            .time_boot_ms = now_ms(copter),
+            .value = health->chip.temperature,
+            .name = {'c', 'h', 'i', 'p', '_', 'c', 'd', 'e', 'g'}};
+
+        message_named_value_int_pack(&message, payload);
+    } else {
+        const message_named_value_int_t message = {
+            .time_boot_ms = now_ms(copter),
+            .value = (bytes < (uint32_t)INT32_MAX) ? (int32_t)bytes : INT32_MAX,
+            .name = {'s', 't', 'a', 'c', 'k', '_', 'f', 'r', 'e', 'e'}};
+
+        message_named_value_int_pack(&message, payload);
+    }
+    link->tells_chip = !is_chip;
 }
 
 static bool gps_raw_int(const copter_t *copter, uint8_t *payload)
@@ -609,6 +649,9 @@ static bool places(const copter_t *copter, copter_link_t *link, uint32_t sent, u
     case SENT_SCALED_IMU3:
         said = scaled_imu(copter, 2u, payload);
         break;
+    case SENT_SCALED_PRESSURE:
+        said = scaled_pressure(copter, payload);
+        break;
     case SENT_RC_CHANNELS:
         said = rc_channels(copter, payload);
         break;
@@ -645,8 +688,11 @@ bool copter_report(const copter_t *copter, copter_link_t *link, uint32_t sent, u
     case SENT_EXTENDED_SYS_STATE:
         extended_sys_state(copter, payload);
         break;
+    case SENT_POWER_STATUS:
+        said = power_status(copter, payload);
+        break;
     case SENT_NAMED_VALUE_INT:
-        stack_free(copter, payload);
+        named_value_int(copter, link, payload);
         break;
     default:
         said = places(copter, link, sent, payload);

@@ -84,6 +84,7 @@ typedef struct copter_link {
     message_timesync_t timesync;
     uint32_t wanted[COPTER_WORDS]; /**< Parameters to be sent, a bit each. */
     uint32_t parameter;            /**< The one sent last. */
+    bool tells_chip;               /**< Of NAMED_VALUE_INT, the chip's temperature is next. */
 } copter_link_t;
 
 /** A text for all links. */

@@ -31,6 +31,7 @@ typedef struct taken {
     uint32_t bytes[SIM_RECEIVERS];
     uint32_t at_us[SIM_RECEIVERS]; /* When the last one came. */
     uint32_t power[SIM_MODULES];
+    uint32_t chip;
 } taken_t;
 
 /* Runs of a task that take longer. */
@@ -96,13 +97,14 @@ static bool read_magnetometer(void *context, copter_field_t *sample)
     return there;
 }
 
-static bool read_barometer(void *context, float *pressure_pa)
+static bool read_barometer(void *context, copter_pressure_t *sample)
 {
     const bool there = is_new(&taken.barometer, sensors.barometer.count);
 
     (void)context;
     if (there) {
-        *pressure_pa = sensors.barometer.pressure;
+        *sample = (copter_pressure_t){.pressure_pa = sensors.barometer.pressure,
+                                      .temperature = sensors.barometer.temperature};
     }
     return there;
 }
@@ -140,6 +142,17 @@ static bool read_power(void *context, uint32_t module, copter_power_reading_t *r
         *reading = (copter_power_reading_t){.voltage = power->voltage, .current = power->current};
     }
     return there;
+}
+
+static void read_chip(void *context, copter_chip_t *chip)
+{
+    const bool there = is_new(&taken.chip, sensors.chip.count);
+
+    (void)context;
+    *chip = (copter_chip_t){.supply_mv = there ? sensors.chip.supply : (uint16_t)0,
+                            .temperature = there ? sensors.chip.temperature : (int16_t)0,
+                            .has_supply = there,
+                            .has_temperature = there};
 }
 
 static uint32_t stack_free(void *context)
@@ -268,6 +281,7 @@ int sim_start(const sim_options_t *chosen)
                            .read_barometer = read_barometer,
                            .read_byte = read_byte,
                            .read_power = read_power,
+                           .read_chip = read_chip,
                            .stack_free = stack_free,
                            .write_motors = write_motors,
                            .log_room = log_room,

@@ -41,7 +41,8 @@ typedef struct sim_magnetometer {
 
 /** A barometer. */
 typedef struct sim_barometer {
-    float pressure; /**< In Pa. */
+    float pressure;      /**< In Pa. */
+    int16_t temperature; /**< In 0.01 degrees Celsius. */
     uint32_t count;
 } sim_barometer_t;
 
@@ -66,6 +67,13 @@ typedef struct sim_power {
     uint32_t count;
 } sim_power_t;
 
+/** What the controller's chip measures of itself; what it measured once is told once. */
+typedef struct sim_chip {
+    uint16_t supply;     /**< In mV. */
+    int16_t temperature; /**< In 0.01 degrees Celsius. */
+    uint32_t count;
+} sim_chip_t;
+
 /** What all devices hold now. Values may be any bit pattern. */
 typedef struct sim_sensors {
     sim_imu_t imu[SIM_IMUS];
@@ -73,6 +81,7 @@ typedef struct sim_sensors {
     sim_barometer_t barometer;
     sim_receiver_t receiver[SIM_RECEIVERS];
     sim_power_t power[SIM_MODULES];
+    sim_chip_t chip;
 } sim_sensors_t;
 
 /** SHA-256 of some bytes. */

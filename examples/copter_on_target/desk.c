@@ -9,6 +9,8 @@
 /* How often devices have a sample, in us. */
 #define IMU_US          1000u
 #define ROOM_CDEG       2000
+#define CHIP_CDEG       3500
+#define SUPPLY_MV       3300u
 #define MAGNETOMETER_US 10000u
 #define BAROMETER_US    10000u
 #define GPS_US          100000u
@@ -97,14 +99,15 @@ static bool read_magnetometer(void *context, copter_field_t *sample)
     return true;
 }
 
-static bool read_barometer(void *context, float *pressure_pa)
+static bool read_barometer(void *context, copter_pressure_t *sample)
 {
     desk_t *const desk = context;
 
     if (!is_due(desk, &desk->barometer, BAROMETER_US)) {
         return false;
     }
-    *pressure_pa = 101325.0f + dither(desk, 2.0f);
+    sample->pressure_pa = 101325.0f + dither(desk, 2.0f);
+    sample->temperature = ROOM_CDEG;
     return true;
 }
 
@@ -209,6 +212,15 @@ static bool read_power(void *context, uint32_t module, copter_power_reading_t *r
     return true;
 }
 
+static void read_chip(void *context, copter_chip_t *chip)
+{
+    (void)context;
+    *chip = (copter_chip_t){.supply_mv = SUPPLY_MV,
+                            .temperature = CHIP_CDEG,
+                            .has_supply = true,
+                            .has_temperature = true};
+}
+
 static uint32_t stack_free(void *context)
 {
     (void)context;
@@ -242,6 +254,7 @@ copter_port_t desk_port(desk_t *desk, keel_clock_fn_t read_clock, void *clock)
                            .read_barometer = read_barometer,
                            .read_byte = read_byte,
                            .read_power = read_power,
+                           .read_chip = read_chip,
                            .stack_free = stack_free,
                            .write_motors = write_motors,
                            .end_run = end_run};

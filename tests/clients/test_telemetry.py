@@ -15,7 +15,7 @@ from typing import Any
 from unittest import mock
 
 import pytest
-from flight import judge, library, scenario
+from flight import judge, library, scenario, sensors
 from flight.library import Copter, Key, Link
 from flight.loop import Flight, Order, fly
 from flight.pilot import Bystander, Pilot, Sight
@@ -34,7 +34,7 @@ WARM_MS = 12_000
 SENT = {"HEARTBEAT", "SYS_STATUS", "GPS_RAW_INT", "ATTITUDE", "LOCAL_POSITION_NED",
         "GLOBAL_POSITION_INT", "SERVO_OUTPUT_RAW", "RC_CHANNELS", "BATTERY_STATUS",
         "ESTIMATOR_STATUS", "HOME_POSITION", "EXTENDED_SYS_STATE", "SCALED_IMU", "SCALED_IMU2",
-        "SCALED_IMU3", "NAMED_VALUE_INT"}  # fmt: skip
+        "SCALED_IMU3", "NAMED_VALUE_INT", "SCALED_PRESSURE", "POWER_STATUS"}  # fmt: skip
 
 
 class Hands(Pilot):
@@ -109,6 +109,11 @@ class Rig:
         """What was said."""
         return [message.text for message in self.seen[link] if message.get_type() == "STATUSTEXT"]
 
+    def named(self, link: int = 0) -> dict[str, int]:
+        """The last value of each name."""
+        return {message.name: message.value for message in self.seen[link]
+                if message.get_type() == "NAMED_VALUE_INT"}  # fmt: skip
+
     def counts(self, link: int = 0) -> Counter[str]:
         """How often each message came."""
         return Counter(message.get_type() for message in self.seen[link])
@@ -179,8 +184,49 @@ def test_health_is_told(copter: Copter) -> None:
     status = by_kind["SYS_STATUS"]
     assert 0 < status.load < 1000
     assert (status.errors_count1, status.errors_count2, status.errors_count3) == (0, 0, 0)
-    stack = by_kind["NAMED_VALUE_INT"]
-    assert (stack.name, stack.value) == ("stack_free", 2**31 - 1)  # This machine has enough.
+    assert rig.named()["stack_free"] == 2**31 - 1  # This machine has enough.
+
+
+def test_temperatures_and_supply_are_told(copter: Copter) -> None:
+    """Each of its own sensor: no two are alike."""
+    rig = Rig(copter)
+    by_kind = {message.get_type(): message for message in rig.seen[0]}
+    air, power = by_kind["SCALED_PRESSURE"], by_kind["POWER_STATUS"]
+    # 430 m above the sea: 962.65 hPa and 12.2 degrees in the standard atmosphere.
+    assert abs(air.press_abs - 962.65) < 0.1
+    assert abs(air.temperature - (1220 + 740)) <= 1
+    assert (air.press_diff, air.temperature_press_diff) == (0.0, 0)
+    assert (power.Vcc, power.Vservo, power.flags) == (3287, 0, 0)
+    assert rig.named()["chip_cdeg"] == 5130
+
+
+def test_temperatures_and_supply_are_the_last_ones(copter: Copter) -> None:
+    rig = Rig(copter)
+    with (mock.patch.object(sensors, "BAROMETER_WARMER", -3000),
+          mock.patch.object(sensors, "CHIP_TEMPERATURE", -512),
+          mock.patch.object(sensors, "SUPPLY_MV", 3011)):  # fmt: skip
+        rig.run(7000)
+    by_kind = {message.get_type(): message for message in rig.seen[0]}
+    assert abs(by_kind["SCALED_PRESSURE"].temperature - (1220 - 3000)) <= 1
+    assert by_kind["POWER_STATUS"].Vcc == 3011
+    assert rig.named()["chip_cdeg"] == -512
+
+
+def test_what_is_not_measured_is_not_told(copter: Copter) -> None:
+    """A barometer and a converter that fall silent; what else is told is told as before."""
+    rig = Rig(copter)
+    with (mock.patch.object(rig.flight._slow, "_barometer"),
+          mock.patch.object(rig.flight._slow, "_chip")):  # fmt: skip
+        rig.run(2100)  # What was measured last is a second old, and telemetry has said so.
+        rig.seen[0].clear()
+        rig.run(11_000)
+    counts = rig.counts()
+    assert counts["SCALED_PRESSURE"] == counts["POWER_STATUS"] == 0
+    assert counts["HEARTBEAT"] >= 10 and set(rig.named()) == {"stack_free"}
+    rig.run(11_000)
+    counts = rig.counts()
+    assert counts["SCALED_PRESSURE"] >= 4 and counts["POWER_STATUS"] >= 1
+    assert set(rig.named()) == {"stack_free", "chip_cdeg"}
 
 
 def test_runs_that_take_too_long_are_counted(copter: Copter) -> None:
@@ -198,7 +244,8 @@ def test_rates_are_kept_and_frames_are_numbered(copter: Copter) -> None:
     before = rig.counts()
     rig.run(10_000)
     came = rig.counts() - before
-    expected = {"HEARTBEAT": 10, "ATTITUDE": 200, "LOCAL_POSITION_NED": 100, "RC_CHANNELS": 50}
+    expected = {"HEARTBEAT": 10, "ATTITUDE": 200, "LOCAL_POSITION_NED": 100, "RC_CHANNELS": 50,
+                "SCALED_PRESSURE": 5, "POWER_STATUS": 2, "NAMED_VALUE_INT": 4}  # fmt: skip
     for name, count in expected.items():
         assert 0.8 * count - 1 <= came[name] <= count + 1, (name, came[name])
     numbers = [message.get_seq() for message in rig.seen[0]]

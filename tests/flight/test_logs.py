@@ -152,6 +152,42 @@ def test_it_says_what_the_flight_was(flown: tuple[Path, Trace]) -> None:
     np.testing.assert_array_equal(motors[fresh], motor[fresh])
 
 
+def test_temperatures_and_supply_are_the_last_ones(copter: Copter, tmp_path: Path) -> None:
+    """As another's reader has them, with a barometer that warms up by a hundredth of a degree in
+    20 ms, and a chip that is not measured in the third second."""
+    path = tmp_path / "warm.ulg"
+    copter.log(path)
+    copter.start(100, plain_mean=False)
+    barometer, chip = copter.sensors["barometer"], copter.sensors["chip"]
+    for now_ms in range(1, 5001):
+        lie(copter, now_ms)
+        if now_ms % 20 == 0:
+            barometer["pressure"], barometer["count"] = 96000.0, now_ms
+            barometer["temperature"] = now_ms // 20 - 100
+        if now_ms % 100 == 0 and not 2000 < now_ms <= 3000:
+            chip["supply"], chip["count"] = 3300 - now_ms // 100, now_ms
+            chip["temperature"] = 2000 + now_ms // 100
+        assert copter.run_until(1000 * now_ms) == 0
+    copter.log(None)
+    topics = {topic.name: topic.data for topic in ULog(str(path)).data_list if topic.multi_id == 0}
+    air, health = topics["air"], topics["health"]
+    warm = air["samples"] > 0
+    late_ms = air["timestamp"][warm] / 1e3 - 20.0 * (air["temperature_cdeg"][warm] + 100)
+    assert len(late_ms) > 230 and late_ms.min() >= 0.0 and late_ms.max() < 40.0
+    assert np.all(air["pressure_pa"][warm] == 96000.0)
+    measured, known = health["has_supply"].astype(bool), health["has_chip"].astype(bool)
+    np.testing.assert_array_equal(measured, known)
+    second = health["timestamp"] / 1e6
+    asked = np.floor(second[1:][np.diff(measured.astype(int)) != 0])
+    assert measured[second > 4.5].all() and not measured[(second > 3.2) & (second < 3.8)].any()
+    assert len(asked) >= 2
+    told = health["supply_mv"][known] + health["chip_cdeg"][known].astype(int)
+    assert np.all(told == 5300)  # Both of the same time,
+    age_s = second[known] - (health["chip_cdeg"][known] - 2000) / 10.0
+    assert age_s.min() >= 0.0 and age_s.max() < 1.2  # and not older than a run of ADC.
+    assert not health["supply_mv"][~known].any() and not health["chip_cdeg"][~known].any()
+
+
 def test_rates_are_as_stated(flown: tuple[Path, Trace]) -> None:
     log = ulog.read(flown[0])
     for (name, _), period_us in zip(

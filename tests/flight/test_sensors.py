@@ -20,9 +20,10 @@ IMU = [("accelerometer", "<f4", (3,)), ("gyroscope", "<f4", (3,)), ("temperature
 MEMORY = [
     ("imu", IMU, (3,)),
     ("magnetometer", [("field", "<f4", (3,)), ("count", "<u4")]),
-    ("barometer", [("pressure", "<f4"), ("count", "<u4")]),
+    ("barometer", [("pressure", "<f4"), ("temperature", "<i2"), ("count", "<u4")]),
     ("receiver", [("byte", "<u4", (512,)), ("at_us", "<u4", (512,)), ("count", "<u4")], (2,)),
     ("power", [("voltage", "<f4"), ("current", "<f4"), ("count", "<u4")], (2,)),
+    ("chip", [("supply", "<u2"), ("temperature", "<i2"), ("count", "<u4")]),
 ]  # fmt: skip
 
 
@@ -184,6 +185,18 @@ def test_rates() -> None:
     assert there["barometer"]["count"] == 500
     assert there["receiver"]["count"].tolist() == [0, 9900]  # The last fix is still on its way.
     assert there["power"]["count"].tolist() == [1000, 1000]
+    assert there["chip"]["count"] == 100
+
+
+def test_the_barometer_is_warmer_than_the_air() -> None:
+    # The standard atmosphere has 960 hPa at 453 m: 15 - 0.0065 * 453 = 12.06 degrees.
+    there = slow(Broken(pascal=500.0), 1000)  # A fault of the pressure is none of the temperature.
+    assert int(there["barometer"]["temperature"]) == pytest.approx(1206 + 740, abs=1)
+
+
+def test_the_chip_says_what_it_measures_of_itself() -> None:
+    chip = slow(Broken(), 1000)["chip"]
+    assert (int(chip["supply"]), int(chip["temperature"])) == (3287, 5130)
 
 
 def test_the_satellites_tell_where_it_was() -> None:

@@ -101,8 +101,8 @@ class StrictDocTest(TracedProject):
 
     def test_a_parent_that_does_not_exist(self) -> None:
         path = self.root / FOLDER / "task.sdoc"
-        path.write_text(path.read_text("utf-8").replace("HLR-002", "HLR-099"), encoding="utf-8")
-        with self.assertRaisesRegex(ToolError, "StrictDoc does not read .*HLR-099"):
+        path.write_text(path.read_text("utf-8").replace("HLR-002", "HLR-999"), encoding="utf-8")
+        with self.assertRaisesRegex(ToolError, "StrictDoc does not read .*HLR-999"):
             self.export()
 
     def test_a_high_level_requirement_without_its_rationale(self) -> None:

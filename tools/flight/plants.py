@@ -89,6 +89,11 @@ def standard_pressure(altitude_m: float) -> float:
     return float(101325.0 * (1.0 - 2.25577e-5 * altitude_m) ** 5.25588)
 
 
+def standard_temperature(pressure_pa: float) -> float:
+    """Where the standard atmosphere has this pressure, in degrees Celsius."""
+    return float(288.15 * (pressure_pa / 101325.0) ** 0.190263 - 273.15)
+
+
 def make(name: str, airframe: Airframe, heading_deg: float) -> Plant:
     """A plant by its name, on the ground, with its nose there."""
     if name == "jsbsim":

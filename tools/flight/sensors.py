@@ -16,13 +16,15 @@ from typing import Any
 import numpy as np
 
 from flight import frames
-from flight.plants import EAST_M, HOME_ALTITUDE_M, NORTH_M, Plant
+from flight.plants import EAST_M, HOME_ALTITUDE_M, NORTH_M, Plant, standard_temperature
 from flight.power import Battery
 from flight.receivers import SATELLITES, Receiver
 
 BLOCK = 1000
 UNITS = 3
 TEMPERATURES = (4150, 4420, 4280)  # Of the units, in hundredths of a degree Celsius.
+BAROMETER_WARMER = 740  # Than the air, by what is around it; in the same unit.
+CHIP_TEMPERATURE, SUPPLY_MV = 5130, 3287
 ACCELERATION_LIMIT, RATE_LIMIT = 156.9, 34.9  # Full scale: 16 g, 2000 degrees per second.
 
 
@@ -160,7 +162,7 @@ class Inertial:
 
 
 class Slow:
-    """Magnetometer, barometer, satellites and power modules, each at its own pace."""
+    """Magnetometer, barometer, satellites, power modules and the chip, each at its own pace."""
 
     def __init__(self, memory: Any, seed: np.random.SeedSequence, quality: Quality) -> None:
         own = [np.random.Generator(np.random.PCG64(part)) for part in seed.spawn(5)]
@@ -175,7 +177,7 @@ class Slow:
         self._place = Wander(self._gps_rng, quality.gps_noise * PLACE_WANDER, PLACE_S, 0.1, 2)
         self._start = [float(value) for value in self._place.step(np.zeros(2))]
         self._late: deque[tuple[int, bytes]] = deque()
-        self._pressures: deque[tuple[int, float]] = deque()
+        self._pressures: deque[tuple[int, float, int]] = deque()
 
     def step(self, now_ms: int, plant: Plant, battery: Battery, broken: Broken) -> None:
         """What is due in this millisecond."""
@@ -184,7 +186,9 @@ class Slow:
         if now_ms % 20 == 7:
             self._barometer(now_ms, plant, broken)
         if self._pressures and self._pressures[0][0] <= now_ms:
-            self._memory["barometer"]["pressure"] = self._pressures.popleft()[1]
+            _, pressure, temperature = self._pressures.popleft()
+            self._memory["barometer"]["pressure"] = pressure
+            self._memory["barometer"]["temperature"] = temperature
             self._memory["barometer"]["count"] += 1
         if now_ms % 100 == 50:
             self._satellites(now_ms, plant, broken)
@@ -192,6 +196,8 @@ class Slow:
             self._receiver.send(1000 * now_ms, self._late.popleft()[1], broken.gps_noise)
         if now_ms % 10 == 9:
             self._modules(battery)
+        if now_ms % 100 == 61:
+            self._chip()
 
     def _magnetometer(self, plant: Plant, battery: Battery, broken: Broken) -> None:
         noise = self._quality.noise * FIELD_NOISE * self._field_rng.standard_normal(3)
@@ -203,8 +209,10 @@ class Slow:
     def _barometer(self, now_ms: int, plant: Plant, broken: Broken) -> None:
         white, walk = self._air_rng.standard_normal(2)
         noise = self._quality.noise * PRESSURE_NOISE * white
-        said = plant.pressure() + noise + self._air.step(walk)[0] + broken.pascal
-        self._pressures.append((now_ms + self._quality.baro_delay_ms, said))
+        true = plant.pressure()
+        said = true + noise + self._air.step(walk)[0] + broken.pascal
+        warm = round(100.0 * standard_temperature(true)) + BAROMETER_WARMER
+        self._pressures.append((now_ms + self._quality.baro_delay_ms, said, warm))
 
     def _satellites(self, now_ms: int, plant: Plant, broken: Broken) -> None:
         drawn = self._gps_rng.standard_normal(6)
@@ -223,6 +231,12 @@ class Slow:
         fix = frames.nav_pvt(now_ms, place, HOME_ALTITUDE_M + truth.place[2], speed,
                              0.8 * max(1.0, quality), 0.2)  # fmt: skip
         self._late.append((now_ms + self._quality.gps_delay_ms, fix))
+
+    def _chip(self) -> None:
+        """It is warm, and stays so."""
+        chip = self._memory["chip"]
+        chip["supply"], chip["temperature"] = SUPPLY_MV, CHIP_TEMPERATURE
+        chip["count"] += 1
 
     def _modules(self, battery: Battery) -> None:
         """Side by side: each has half of the current."""

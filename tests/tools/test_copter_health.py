@@ -1,0 +1,234 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What the copter keeps and tells of its barometer and of its chip, task by task, by hand."""
+
+from __future__ import annotations
+
+import ctypes
+import shutil
+import struct
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from typing import ClassVar
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from common.run import output_of  # noqa: E402
+
+# The tasks behind functions of plain numbers, with a port that says what it is told to.
+SHIM = """\
+#include "copter.h"
+#include "telemetry.h"
+#include <string.h>
+static copter_t copter;
+static copter_link_t link_of_test;
+static copter_port_t port;
+static copter_pressure_t breath;
+static copter_chip_t chip;
+static bool breathes;
+static int asked;
+const int PRESSURE = SENT_SCALED_PRESSURE, POWER = SENT_POWER_STATUS, NAMED = SENT_NAMED_VALUE_INT;
+static bool read_breath(void *context, copter_pressure_t *sample)
+{
+    (void)context;
+    if (breathes) { *sample = breath; }
+    return breathes;
+}
+static void read_chip_of_test(void *context, copter_chip_t *to)
+{
+    (void)context;
+    asked++;
+    if (chip.has_supply) { to->supply_mv = chip.supply_mv; to->has_supply = true; }
+    if (chip.has_temperature) { to->temperature = chip.temperature; to->has_temperature = true; }
+}
+int start(int measures)
+{
+    memset(&copter, 0, sizeof copter);
+    memset(&link_of_test, 0, sizeof link_of_test);
+    port = (copter_port_t){.read_barometer = read_breath,
+                           .read_chip = measures ? read_chip_of_test : NULL};
+    copter.port = &port;
+    asked = 0;
+    return (int)copter_air_init(&copter.air);
+}
+void at(double seconds) { copter.scheduler.clock.now_us = (uint64_t)(1e6 * seconds); }
+void background(int there, double pressure, int temperature)
+{
+    breathes = there != 0;
+    breath = (copter_pressure_t){(float)pressure, (int16_t)temperature};
+    copter_background_barometer(&copter);
+}
+void foreground(void) { copter_foreground_barometer(&copter); }
+int air_temperature(void) { return copter.air.temperature; }
+double air_pressure(void) { return copter.air.pressure_pa; }
+int measure(int has_supply, int supply, int has_temperature, int temperature)
+{
+    chip = (copter_chip_t){(uint16_t)supply, (int16_t)temperature, has_supply != 0,
+                           has_temperature != 0};
+    copter_adc(&copter);
+    return asked;
+}
+int has_supply(void) { return copter.health.chip.has_supply; }
+int has_temperature(void) { return copter.health.chip.has_temperature; }
+int supply(void) { return copter.health.chip.supply_mv; }
+int temperature(void) { return copter.health.chip.temperature; }
+void battery(double volts) { copter.energy.battery.voltage = (float)volts; }
+void stack(int bytes) { copter.health.stack_free = (uint32_t)bytes; }
+int report(int sent, uint8_t *payload)
+{
+    memset(payload, 0, KEEL_MAVLINK_PAYLOAD_MAX);
+    return copter_report(&copter, &link_of_test, (uint32_t)sent, payload);
+}
+"""
+OK = 0
+
+
+class CopterHealth(unittest.TestCase):
+    """Barometer and chip."""
+
+    copter: ClassVar[ctypes.CDLL]
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        scratch = tempfile.mkdtemp()
+        cls.addClassCleanup(shutil.rmtree, scratch)
+        shim, library = Path(scratch, "shim.c"), Path(scratch, "copter.so")
+        shim.write_text(SHIM, encoding="utf-8")
+        folders = ("include", "bsp", "examples/urpilot", "examples/copter")
+        sources = [*sorted((ROOT / "examples/copter").glob("*.c")),
+                   ROOT / "examples/urpilot/urpilot_tasks.c", ROOT / "bsp/common/slots.c",
+                   *sorted((ROOT / "src").rglob("*.c"))]  # fmt: skip
+        output_of(["gcc", "-std=c99", "-O1", "-Wall", "-Werror", "-shared", "-fPIC",
+                   *(f"-I{ROOT / folder}" for folder in folders), shim, *sources, "-lm",
+                   "-o", library])  # fmt: skip
+        cls.copter = ctypes.CDLL(str(library))
+        cls.copter.air_pressure.restype = ctypes.c_double
+
+    def setUp(self) -> None:
+        self.assertEqual(self.copter.start(1), OK)
+
+    def breathe(self, pressure: float, temperature: int) -> None:
+        """Two samples of the barometer, of which a pressure is made."""
+        for _ in range(2):
+            self.copter.background(1, ctypes.c_double(pressure), temperature)
+        self.copter.foreground()
+
+    def at(self, seconds: float) -> None:
+        """The time is this."""
+        self.copter.at(ctypes.c_double(seconds))
+
+    def payload(self, name: str) -> bytes:
+        """Of a message; empty when there is nothing to say."""
+        sent = ctypes.c_int.in_dll(self.copter, name).value
+        payload = (ctypes.c_uint8 * 255)()
+        return bytes(payload) if self.copter.report(sent, payload) else b""
+
+    def pressure(self) -> tuple[int, float, float, int, int]:
+        """SCALED_PRESSURE: time, both pressures, both temperatures."""
+        one = struct.unpack_from("<Iffhh", self.payload("PRESSURE"))
+        return one[0], one[1], one[2], one[3], one[4]
+
+    def named(self) -> tuple[str, int]:
+        """NAMED_VALUE_INT: name and value."""
+        _, value, name = struct.unpack_from("<Ii10s", self.payload("NAMED"))
+        return name.rstrip(b"\0").decode(), value
+
+    def test_HEA_001_pressure_and_temperature_of_the_barometer(self) -> None:
+        self.at(2.5)
+        self.breathe(96325.0, 2154)
+        self.assertEqual(self.pressure(), (2500, 963.25, 0.0, 2154, 0))
+        self.assertEqual((self.copter.air_pressure(), self.copter.air_temperature()),
+                         (96325.0, 2154))  # fmt: skip
+
+    def test_HEA_001_ends_of_the_scale(self) -> None:
+        for told in (-4000, -1, 0, 1, 8500, -32768, 32767):
+            self.breathe(100000.0, told)
+            self.assertEqual(self.pressure()[3], told)
+
+    def test_HEA_001_it_is_that_of_the_last_sample(self) -> None:
+        self.breathe(96325.0, 2154)
+        self.copter.background(1, ctypes.c_double(96000.0), 2160)
+        self.copter.background(1, ctypes.c_double(96200.0), 2170)
+        self.copter.foreground()
+        self.assertEqual(self.pressure()[1], 961.0)  # The mean of both.
+        self.assertEqual(self.copter.air_temperature(), 2170)
+
+    def test_HEA_001_a_pressure_that_does_not_count_brings_no_temperature(self) -> None:
+        self.breathe(96325.0, 2154)
+        for pressure in (float("nan"), float("inf"), 2.0e9):
+            self.copter.background(1, ctypes.c_double(pressure), 9999)
+            self.assertEqual(self.copter.air_temperature(), 2154)
+
+    def test_HEA_002_nothing_before_the_first_pressure(self) -> None:
+        self.assertFalse(self.payload("PRESSURE"))
+        self.copter.background(1, ctypes.c_double(96325.0), 2154)
+        self.assertFalse(self.payload("PRESSURE"))  # The foreground has not run.
+        self.copter.foreground()
+        self.assertTrue(self.payload("PRESSURE"))
+
+    def test_HEA_002_nothing_after_a_second_of_silence(self) -> None:
+        self.at(10.0)
+        self.breathe(96325.0, 2154)
+        for seconds, told in ((10.5, True), (11.0, True), (11.0000015, False), (4000.0, False)):
+            self.at(seconds)
+            self.copter.background(0, ctypes.c_double(0.0), 0)
+            self.copter.foreground()
+            self.assertEqual(bool(self.payload("PRESSURE")), told, seconds)
+        self.breathe(96000.0, 2100)
+        self.assertEqual(self.pressure()[1:4], (960.0, 0.0, 2100))
+
+    def test_HEA_002_pressures_that_do_not_count_are_silence(self) -> None:
+        self.breathe(96325.0, 2154)
+        self.at(1.5)
+        self.breathe(float("nan"), 2154)
+        self.assertFalse(self.payload("PRESSURE"))
+
+    def test_HEA_003_each_is_known_when_the_last_run_measured_it(self) -> None:
+        copter = self.copter
+        self.assertEqual((copter.has_supply(), copter.has_temperature()), (0, 0))
+        for run, (supply, temperature) in enumerate([(1, 1), (1, 0), (0, 1), (0, 0), (1, 1)], 1):
+            asked = copter.measure(supply, 3300 + run, temperature, 4000 - run)
+            self.assertEqual(asked, run)  # Once a run.
+            self.assertEqual((copter.has_supply(), copter.has_temperature()),
+                             (supply, temperature))  # fmt: skip
+            self.assertEqual(copter.supply(), 3300 + run if supply else 0)
+            self.assertEqual(copter.temperature(), 4000 - run if temperature else 0)
+
+    def test_HEA_003_a_port_that_measures_nothing(self) -> None:
+        self.assertEqual(self.copter.start(0), OK)
+        self.assertEqual(self.copter.measure(1, 3300, 1, 4000), 0)
+        self.assertEqual((self.copter.has_supply(), self.copter.has_temperature()), (0, 0))
+        self.assertFalse(self.payload("POWER"))
+        self.assertEqual([self.named()[0] for _ in range(3)], ["stack_free"] * 3)
+
+    def test_HEA_003_the_supply_is_not_the_batterys(self) -> None:
+        self.copter.battery(ctypes.c_double(16.0))
+        self.copter.measure(1, 3287, 0, 0)
+        self.assertEqual(struct.unpack_from("<HHH", self.payload("POWER")), (3287, 0, 0))
+
+    def test_HEA_004_ends_of_the_supply(self) -> None:
+        for told in (1700, 3600, 0, 65535):
+            self.copter.measure(1, told, 0, 0)
+            self.assertEqual(struct.unpack_from("<H", self.payload("POWER"))[0], told)
+        self.copter.measure(0, 3300, 1, 4000)
+        self.assertFalse(self.payload("POWER"))
+
+    def test_HEA_004_named_values_in_turn(self) -> None:
+        self.breathe(96325.0, 2154)  # Of another sensor.
+        self.copter.stack(724)
+        self.copter.measure(1, 3287, 1, -1250)
+        stack, chip = ("stack_free", 724), ("chip_cdeg", -1250)
+        self.assertEqual([self.named() for _ in range(4)], [stack, chip, stack, chip])
+        self.copter.measure(1, 3287, 1, 12500)
+        self.assertEqual([self.named() for _ in range(2)], [stack, ("chip_cdeg", 12500)])
+        self.copter.measure(1, 3287, 0, 4000)
+        self.assertEqual([self.named() for _ in range(3)], [stack] * 3)
+        self.copter.measure(0, 0, 1, 0)
+        self.assertEqual([self.named() for _ in range(2)], [("chip_cdeg", 0), stack])
+
+
+if __name__ == "__main__":
+    unittest.main()
