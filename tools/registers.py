@@ -58,11 +58,20 @@ class Absent(Table):
     reason: Text
 
 
+class Refuted(Table):
+    """A database that is wrong about a fact: others are not."""
+
+    fact: Text
+    database: Text
+    reason: Text
+
+
 class ExceptionsFile(Table):
     """specs/registers.toml."""
 
     name: list[Renamed] = []
     absent: list[Absent] = []
+    refuted: list[Refuted] = []
 
 
 class Exceptions:
@@ -71,7 +80,20 @@ class Exceptions:
     def __init__(self, file: ExceptionsFile) -> None:
         self.names = {entry.fact: entry.database for entry in file.name}
         self.absent = {entry.fact: entry.reason for entry in file.absent}
+        self.refuted = {(entry.fact, entry.database) for entry in file.refuted}
         self.used: set[str] = set()
+        self.met: set[tuple[str, str]] = set()
+
+    def trusted(
+        self, fact: Fact, found: list[tuple[str, tuple[int, ...]]]
+    ) -> list[tuple[str, tuple[int, ...]]]:
+        """What the databases say, but for those that are known to be wrong; one at least agrees."""
+        wrong = {(fact.name, database) for database, values in found if values != fact.values}
+        left = [item for item in found if (fact.name, item[0]) not in wrong & self.refuted]
+        if not left:
+            return found
+        self.met |= wrong & self.refuted
+        return left
 
     def called(self, name: str) -> str:
         """The database's name."""
@@ -85,7 +107,8 @@ class Exceptions:
 
     def unused(self) -> list[str]:
         """Entries that nothing needed."""
-        return sorted((self.names.keys() | self.absent.keys()) - self.used)
+        needless = (self.names.keys() | self.absent.keys()) - self.used
+        return sorted(needless | {fact for fact, _ in self.refuted - self.met})
 
 
 @dataclass
@@ -179,7 +202,7 @@ def compare(tools: Toolchain, root: Path, databases: Databases) -> Comparison:
     result = Comparison()
     for fact in read_facts(tools, root, headers):
         owners = instances_of(fact.block, by_where[fact.where]) if fact.kind == "field" else []
-        found = list(databases.find(fact, exceptions.called, owners))
+        found = exceptions.trusted(fact, list(databases.find(fact, exceptions.called, owners)))
         result.check(fact, found, not found and exceptions.excuses(fact.name))
     compare_pins(root, databases, result)
     compare_boards(root, databases, result)

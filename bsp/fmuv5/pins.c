@@ -52,4 +52,5 @@ const keel_board_pins_t keel_board_pins = {
     .analogue = analogue,
     .analogue_count = KEEL_ANALOGUES,
     .card = &slot,
+    .kept_sector = 0u, /* It has an FRAM. */
 };

@@ -30,4 +30,5 @@ const keel_board_pins_t keel_board_pins = {
     .analogue = NULL,
     .analogue_count = 0u,
     .card = NULL,
+    .kept_sector = 10u, /* The last two; board.toml keeps images out of them. */
 };

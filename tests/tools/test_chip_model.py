@@ -168,6 +168,75 @@ class ImageTest(unittest.TestCase):
             self.assertEqual(*rest)
 
 
+KEEPER = """\
+#include "board.h"
+#include "common/slots.h"
+#include "console.h"
+#include "cortex_m7/core.h"
+#include "stm32f767/target/chip.h"
+
+/* Counts its starts in the flash, and starts again. */
+int main(void)
+{
+    static keel_slots_t slots KEEL_REALTIME_ZERO;
+    keel_slots_config_t config = {.address = {0u, 0x40000u}, .room = 8u};
+    static uint8_t starts[8];
+    uint32_t length = 0u;
+    keel_slots_result_t result = KEEL_SLOTS_BUSY;
+
+    keel_console_text("medium ");
+    keel_console_number((uint64_t)keel_chip_flash_medium(&config.medium));
+    (void)keel_slots_init(&slots, &config);
+    keel_console_text(" load ");
+    keel_console_number((uint64_t)keel_slots_load(&slots, starts, &length));
+    keel_console_text(" starts ");
+    keel_console_number((length == 1u) ? starts[0] : 0u);
+    starts[0] = (uint8_t)(((length == 1u) ? starts[0] : 0u) + 1u);
+    (void)keel_slots_begin(&slots, starts, 1u);
+    while (result == KEEL_SLOTS_BUSY) {
+        result = keel_slots_step(&slots);
+    }
+    keel_console_text(" save ");
+    keel_console_number((uint64_t)result);
+    keel_console_text("\\n");
+    if (result != KEEL_SLOTS_DONE) {
+        keel_board_halt(1);
+    }
+    (void)keel_board_clock_us(NULL);
+    ((keel_scb_t *)SCB_BASE)->AIRCR = 0x05FA0004u; /* A reset. */
+    for (;;) {
+    }
+}
+"""
+
+
+class KeptTest(unittest.TestCase):
+    """What is kept in the chip's flash is there after a reset."""
+
+    tools: Toolchain
+    root: Path
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.tools = Toolchain()
+        cls.tools.ensure("firmware", "model")
+        cls.root = Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        for part in SOURCES:
+            shutil.copytree(ROOT / part, cls.root / part)
+        (cls.root / "examples/keeper").mkdir()
+        (cls.root / "examples/keeper/main.c").write_text(KEEPER)
+        with contextlib.redirect_stdout(io.StringIO()):
+            firmware.build(cls.tools, "nucleo_f767zi", ["examples/keeper"], cls.root)
+
+    def test_sets_are_kept_over_resets(self) -> None:
+        board = chip_model.simulate(self.tools, self.root, "nucleo_f767zi", 0.03, step_us=4)
+        found = re.findall(r"medium 0 load (\d) starts (\d+) save 0", board.text)
+        self.assertGreater(len(found), 3)
+        self.assertEqual(found[0], ("2", "0"))  # None is there yet.
+        self.assertEqual(found[1:], [("0", str(starts)) for starts in range(1, len(found))])
+        self.assertEqual(board.resets, board.text.count("save 0"))
+
+
 class BoardTest(unittest.TestCase):
     """The model's own rules."""
 
@@ -222,6 +291,27 @@ class BoardTest(unittest.TestCase):
         self.assertFalse(self.board.reset_wanted)
         with self.assertRaisesRegex(ModelError, "while they are locked"):
             self.board.write(chip.IWDG + 8, 399)
+
+    def test_stores_to_the_flash_that_must_not_be(self) -> None:
+        key, control = chip.FLASHR + 4, chip.FLASHR + 0x10
+        with self.assertRaisesRegex(ModelError, "used while it is locked"):
+            self.board.write(control, 1)
+        with self.assertRaisesRegex(ModelError, "not being programmed"):
+            self.board.program(1, 0xFF, 0)
+        for value in chip.FLASH_KEYS:
+            self.board.write(key, value)
+        self.board.write(control, 1)
+        self.board.program(1, 0xF0, 0x10)
+        self.board.write(control, 0x252)
+        with self.assertRaisesRegex(ModelError, "not of a sector, by words"):
+            self.board.write(control, 0x1_0052)
+        self.board.write(control, 1)
+        for size, before, reason in ((4, 0xFFFF_FFFF, "another size"), (1, 0x0F, "not erased")):
+            with self.assertRaisesRegex(ModelError, reason):
+                self.board.program(size, before, 0x10)
+        self.board.write(chip.SCB + 0x94, 1)
+        with self.assertRaisesRegex(ModelError, "protection is on"):
+            self.board.program(1, 0xFF, 0x10)
 
     def converter(self) -> None:
         """ADC1 as it should be: an eighth of 16 MHz, 144 cycles for all channels, pins analogue."""

@@ -126,6 +126,15 @@ class RegistersTest(unittest.TestCase):
         path.write_text(path.read_text() + '[[absent]]\nfact = "RCC.CR"\nreason = "None."\n')
         self.finds("RCC.CR", "nothing needs this entry")
 
+    def test_a_refuted_database_needs_another_that_agrees(self) -> None:
+        path = self.root / registers.EXCEPTIONS
+        entry = '[[refuted]]\nfact = "{}"\ndatabase = "stm32ral FLASH"\nreason = "None."\n'
+        path.write_text(path.read_text() + entry.format("FLASH_CR_SNB"))
+        self.finds("FLASH_CR_SNB", "nothing needs this entry")
+        flash = "bsp/stm32f767/registers/flash.h"
+        self.change(flash, "#define FLASH_CR_SNB BITS(3u, 5u)", "#define FLASH_CR_SNB BITS(3u, 6u)")
+        self.finds("FLASH_CR_SNB (FLASH): 0x3 0x6")  # Both are refuted now, and none is right.
+
     def test_a_mask_with_a_gap_is_refused(self) -> None:
         self.change(RCC, "RCC_CR_PLLON BITS(24u, 1u)", "RCC_CR_PLLON (5u << 24u)")
         with self.assertRaisesRegex(RegistersError, "RCC_CR_PLLON: not one run"):

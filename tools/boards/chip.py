@@ -22,6 +22,7 @@ BLOCKS = {
     **{GPIOA + 0x400 * port: 0x2C for port in range(11)},
 }  # fmt: skip
 RESETS = {
+    FLASHR + 0x10: 1 << 31,
     RCC: 0x83, RCC + 4: 0x2400_3010, RCC + 0x30: 0x0010_0000, RCC + 0x74: 0x0E00_0000,
     PWR: 0xC000, USART3 + 0x1C: 0xC0, UART7 + 0x1C: 0xC0, SPI1 + 4: 0x700, SPI1 + 8: 2,
     IWDG + 8: 0xFFF, FLASHR + 0x14: 0xFFFF_AAF1, GPIOA: 0xA800_0000, GPIOA + 0x400: 0x280,
@@ -30,6 +31,7 @@ RESETS = {
 }  # fmt: skip
 
 OPTION_KEYS = [0x0819_2A3B, 0x4C5D_6E7F]
+FLASH_KEYS, FLASH_LOCK = [0x4567_0123, 0xCDEF_89AB], 1 << 31
 OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
 BROKEN = ("hse", "pll", "overdrive", "sensor", "other-sensor", "adc")
 
@@ -135,6 +137,8 @@ class Chip:
         self.words: dict[int, int] = {}
         self.options = OPTIONS
         self.unlocking: list[int] = []
+        self.unlocking_flash: list[int] = []
+        self.erase: Callable[[int], None] = lambda _: None  # The processor has the memory.
         self.reset()
 
     def reset(self) -> None:
@@ -151,6 +155,8 @@ class Chip:
         self.sensor.select(False)
         self.adc = Converter()
         self.slot = CardHost(self.card)
+        self.flash_is_open = False
+        self.unlocking_flash = []
         self.high: set[tuple[int, int]] = set()  # Pins that were set.
 
     def tick(self, us: int) -> None:
@@ -244,7 +250,16 @@ class Chip:
             self.words[PWR + 4] = self.words.get(PWR + 4, 0) | value & 0x3_0000
 
     def _flash(self, offset: int, value: int) -> None:
-        """Option bytes are programmed at once, if they were unlocked."""
+        """What is erased, or programmed into option bytes, is so at once, if it was unlocked."""
+        if offset == 4:
+            self.unlocking_flash = [*self.unlocking_flash[-1:], value]
+            if self.unlocking_flash == FLASH_KEYS:
+                self.flash_is_open = True
+                self.words[FLASHR + 0x10] &= ~FLASH_LOCK
+        elif offset == 0xC:
+            self.words[FLASHR + 0xC] = 0  # Ones clear, and nothing sets them here.
+        elif offset == 0x10:
+            self._flash_control(value)
         if offset == 8:
             self.unlocking.append(value)
             if self.unlocking == OPTION_KEYS:
@@ -257,6 +272,32 @@ class Chip:
             if value & 1:
                 self.unlocking = []
             self.words[FLASHR + 0x14] = value & ~2
+
+    def _flash_control(self, value: int) -> None:
+        """A sector is erased; locked, nothing changes."""
+        self.words[FLASHR + 0x10] = value & ~(1 << 16)
+        if value & FLASH_LOCK:
+            self.flash_is_open = False
+            return
+        if not self.flash_is_open:
+            self.words[FLASHR + 0x10] = FLASH_LOCK
+            raise ModelError("the flash is used while it is locked")
+        if value & 1 << 16:
+            if value & 0x307 != 0x202:
+                raise ModelError("an erasure is not of a sector, by words")
+            self.erase(value >> 3 & 0x1F)
+
+    def program(self, size: int, before: int, value: int) -> None:
+        """A store to the flash: what must hold, and that no bit rises."""
+        control = self.words.get(FLASHR + 0x10, 0)
+        for reason, held in {
+            "it is not being programmed": control & 1 and not control & FLASH_LOCK,
+            "by another size than was set": size == 1 << (control >> 8 & 3),
+            "where it is not erased": value & ~before == 0,
+            "while the protection is on": not self.words.get(SCB + 0x94, 0) & 1,
+        }.items():
+            if not held:
+                raise ModelError(f"something is stored to the flash, but {reason}")
 
     def _iwdg(self, offset: int, value: int) -> None:
         """A key starts it, feeds it, or lets its registers be written until the next one."""

@@ -48,7 +48,10 @@ class Processor:
         self.uc.hook_add(guarded, self._guard, begin=0, end=0xFF)
         self.uc.hook_add(guarded, self._guard, begin=DTCM, end=DTCM + 0x3FF)
         self.uc.hook_add(guarded, self._guard, begin=FACTORY, end=FACTORY + 0xFFF)
+        end = FLASH + SIZES[FLASH] - 1
+        self.uc.hook_add(u.UC_HOOK_MEM_WRITE, self._store, begin=FLASH, end=end)
         self.uc.hook_add(u.UC_HOOK_MEM_INVALID, self._unmapped)
+        chip.erase = self._erase
 
     # What the processor meets.
 
@@ -81,6 +84,25 @@ class Processor:
         if self.chip.words.get(SCB + 0x94, 0) & 1 and not self.pending:  # The MPU is on.
             self.pending = (MEMORY, 0x82, address)  # DACCVIOL, MMARVALID.
             self.uc.emu_stop()
+
+    def _store(
+        self, _: object, access: int, address: int, size: int, value: int, data: object
+    ) -> None:
+        """A store to the flash, before it is done."""
+        del access, data
+        before = int.from_bytes(self.uc.mem_read(address, size), "little")
+        try:
+            self.chip.program(size, before, value & ((1 << 8 * size) - 1))
+        except ModelError as error:
+            self._stop(error)
+
+    def _erase(self, sector: int) -> None:
+        """A sector of a flash of one bank (RM0410, table 3)."""
+        starts = [0, 0x8000, 0x1_0000, 0x1_8000, 0x2_0000, *range(0x4_0000, 0x24_0000, 0x4_0000)]
+        if sector > 11:
+            raise ModelError(f"there is no sector {sector}")
+        start, end = starts[sector], starts[sector + 1]
+        self.uc.mem_write(FLASH + start, b"\xff" * (end - start))
 
     def _unmapped(
         self, _: object, access: int, address: int, size: int, value: int, data: object

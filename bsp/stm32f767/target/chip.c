@@ -6,6 +6,7 @@
 #include "common/supervisor.h"
 #include "cortex_m7/core.h"
 #include "cortex_m7/fault.h"
+#include "stm32f767/flash_medium.h"
 #include "stm32f767/power.h"
 #include "stm32f767/pwm.h"
 #include "stm32f767/registers/dbgmcu.h"
@@ -296,6 +297,56 @@ bool keel_chip_card(keel_disk_t *disk)
     card.patience = busy_patience;
     *disk = keel_sd_card_disk(&card);
     return true;
+}
+
+/* Where the first of the kept sectors begins. */
+static uint32_t kept_base(void)
+{
+    return MEMORY_FLASH_BASE +
+           (KEEL_FLASH_SECTOR_BYTES * (PINS->kept_sector - KEEL_FLASH_FIRST_LARGE + 1u));
+}
+
+static void settle_kept(void *context)
+{
+    (void)context;
+    __asm volatile("dsb\n\tisb" ::: "memory");
+}
+
+/* The data cache may hold what was there before the flash was programmed or erased. It has no line
+ * of the flash that memory lacks, as nobody writes there through it. */
+static uint8_t get_kept(void *context, uint32_t address)
+{
+    settle_kept(context);
+    ((keel_cbp_t *)CBP_BASE)->DCIMVAC = kept_base() + address;
+    settle_kept(context);
+    return *(const volatile uint8_t *)(kept_base() + address);
+}
+
+/* The flash is code, which the regions let nobody write; there is no ninth one for two sectors. */
+static void put_kept(void *context, uint32_t address, uint8_t byte)
+{
+    ((keel_mpu_t *)MPU_BASE)->CTRL = 0u;
+    settle_kept(context);
+    *(volatile uint8_t *)(kept_base() + address) = byte;
+    settle_kept(context);
+    keel_mpu_start(keel_board_regions, keel_board_region_count);
+}
+
+keel_bsp_status_t keel_chip_flash_medium(keel_medium_t *medium)
+{
+    /* A look takes 50 ns at least: 1 ms, and 10 s. */
+    static const keel_wait_t program_patience = {20000u, NULL, NULL};
+    static const keel_wait_t erasure_patience = {200000000u, NULL, NULL};
+    static keel_flash_sectors_t sectors;
+
+    sectors = (keel_flash_sectors_t){.flash = FLASH,
+                                     .first = PINS->kept_sector,
+                                     .program = &program_patience,
+                                     .erasure = &erasure_patience,
+                                     .settle = settle_kept,
+                                     .get = get_kept,
+                                     .put = put_kept};
+    return keel_flash_medium(&sectors, medium);
 }
 
 bool keel_chip_brownout_is_set(void)

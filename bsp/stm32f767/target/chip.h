@@ -8,6 +8,7 @@
 #define KEEL_BSP_STM32F767_TARGET_CHIP_H
 
 #include "common/disk.h"
+#include "common/slots.h"
 #include "devices/invensense.h"
 #include "keel/rtos/scheduler.h"
 #include "stm32f767/adc.h"
@@ -108,6 +109,7 @@ typedef struct keel_board_pins {
     const keel_analogue_t *analogue; /**< By keel_analogue_name_t; null: none. */
     uint32_t analogue_count;         /**< KEEL_ANALOGUES, or 0. */
     const keel_board_card_t *card;   /**< Null: no slot. */
+    uint32_t kept_sector; /**< The first of two flash sectors that images leave free; 0: none. */
 } keel_board_pins_t;
 
 /** Board: its description. */
@@ -140,6 +142,16 @@ keel_invensense_t *keel_chip_sensor(void);
  * @return whether the board has a slot; a card need not be in it
  */
 bool keel_chip_card(keel_disk_t *disk);
+
+/**
+ * Two sectors of the chip's own flash as a memory for slots, by flash_medium.h: on boards without
+ * another one. To be called once. The memory's protection is off for each byte that is written.
+ *
+ * @param medium the memory; as it was unless KEEL_BSP_OK
+ * @return KEEL_BSP_OK; KEEL_BSP_ARGUMENT when the board leaves no sectors free; KEEL_BSP_ID when
+ *         the chip's option bytes make two banks of its flash
+ */
+keel_bsp_status_t keel_chip_flash_medium(keel_medium_t *medium);
 
 /** Whether the brown-out level is 2.7 V, below which the flash is too slow for the core's clock. */
 bool keel_chip_brownout_is_set(void);
