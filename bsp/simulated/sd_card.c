@@ -12,6 +12,7 @@
 #define IS_READY      (1u << 31)
 #define IS_HIGH       (1u << 30)
 #define ECHO          0xFFFu
+#define IDENTIFIED    0x0500u
 #define UNIT_SECTORS  1024u
 #define SIZE_AT       16u
 #define ADDRESS_AT    16u
@@ -178,7 +179,7 @@ static keel_bsp_status_t take_address(simulated_sd_t *card, uint32_t *answer)
     }
     card->state = SIMULATED_SD_STANDBY;
     card->given_address = card->address;
-    *answer = card->address << ADDRESS_AT;
+    *answer = (card->address << ADDRESS_AT) | IDENTIFIED; /* And some of its status. */
     return KEEL_BSP_OK;
 }
 

@@ -115,6 +115,9 @@ static void SDC_002_cards_of_standard_capacity(void)
     TEST_ASSERT_TRUE(disk.read(disk.context, 3u, bytes, 1u));
     TEST_ASSERT_EQUAL_HEX32(1536u, slot.last[17]); /* It counts bytes. */
     TEST_ASSERT_EQUAL_MEMORY(&content[1536], bytes, sizeof bytes);
+    TEST_ASSERT_TRUE(disk.write(disk.context, 5u, other, 1u));
+    TEST_ASSERT_EQUAL_HEX32(2560u, slot.last[24]);
+    TEST_ASSERT_EQUAL_MEMORY(other, &content[2560], sizeof bytes);
     slot.is_version_1 = true; /* And does not know SEND_IF_COND. */
     starts();
     TEST_ASSERT_EQUAL_HEX32(0x00300000u, slot.last[41]);
@@ -390,6 +393,14 @@ static void SDC_010_after_programming_failed_nothing_works_until_a_start(void)
     TEST_ASSERT_TRUE(disk.sync(disk.context));
 }
 
+/* A command that was damaged on its way is no write that is lost. */
+static void SDC_010_a_command_that_was_not_taken_is_no_such_failure(void)
+{
+    starts();
+    slot.errors = 0x00C00000u;
+    TEST_ASSERT_TRUE(write_some(1u));
+}
+
 static void SDC_010_a_status_that_came_damaged_may_have_told_it(void)
 {
     starts();
@@ -422,6 +433,7 @@ int main(void)
     RUN_TEST(SDC_009_a_sector_that_is_not_the_cards);
     RUN_TEST(SDC_009_a_card_that_is_pulled_out);
     RUN_TEST(SDC_010_after_programming_failed_nothing_works_until_a_start);
+    RUN_TEST(SDC_010_a_command_that_was_not_taken_is_no_such_failure);
     RUN_TEST(SDC_010_a_status_that_came_damaged_may_have_told_it);
     return UNITY_END();
 }

@@ -18,6 +18,7 @@ static uint32_t moved;       /* Bursts. */
 static uint32_t breaks_at;   /* Before this burst the data path tells … */
 static uint32_t breaks_with; /* … this, or nothing any more when it is 0. */
 static uint32_t ends_with;
+static uint32_t ends_late; /* And a look later with this, no longer receiving. */
 static uint32_t sent[4u * BURSTS];
 static bool is_writing;
 
@@ -45,6 +46,8 @@ static void advance(void)
             sdmmc.FIFO = 0x04030201u + (0x01010101u * moved);
             sdmmc.STA |= is_writing ? SDMMC_STA_TXFIFOHE : SDMMC_STA_RXFIFOHF;
             moved++;
+        } else if (((sdmmc.STA & SDMMC_STA_DATAEND) != 0u) && (ends_late != 0u)) {
+            sdmmc.STA = (sdmmc.STA & ~SDMMC_STA_RXACT) | ends_late;
         } else {
             sdmmc.STA |= ends_with;
         }
@@ -83,6 +86,7 @@ void setUp(void)
     breaks_at = UINT32_MAX;
     breaks_with = 0u;
     ends_with = SDMMC_STA_DATAEND | SDMMC_STA_DBCKEND;
+    ends_late = 0u;
     is_writing = false;
     memset(sent, 0, sizeof sent);
 }
@@ -297,6 +301,24 @@ static void SDM_007_the_last_checksum_is_waited_for(void)
     ends_with = SDMMC_STA_DATAEND | SDMMC_STA_RXACT;
     TEST_ASSERT_EQUAL(KEEL_BSP_TIMEOUT, take(1u));
     data_ended();
+    sdmmc.STA = 0u;
+    moved = 0u;
+    ends_late = SDMMC_STA_DBCKEND;
+    TEST_ASSERT_EQUAL(KEEL_BSP_OK, take(1u));
+    sdmmc.STA = 0u;
+    moved = 0u;
+    ends_late = SDMMC_STA_DCRCFAIL;
+    TEST_ASSERT_EQUAL(KEEL_BSP_BUS, take(1u));
+    data_ended();
+}
+
+/* A transfer whose command failed was made ready for, and never ended. */
+static void SDM_007_a_transfer_that_did_not_come_about_leaves_nothing(void)
+{
+    bus.expect(bus.context, 2u);
+    sdmmc.ICR = 0u;
+    bus.expect(bus.context, 1u);
+    TEST_ASSERT_EQUAL_HEX32(0x5FFu, sdmmc.ICR); /* Every flag that software clears. */
 }
 
 static keel_bsp_status_t give(uint32_t blocks)
@@ -374,6 +396,7 @@ int main(void)
     RUN_TEST(SDM_007_blocks_that_do_not_come);
     RUN_TEST(SDM_007_blocks_that_are_damaged);
     RUN_TEST(SDM_007_the_last_checksum_is_waited_for);
+    RUN_TEST(SDM_007_a_transfer_that_did_not_come_about_leaves_nothing);
     RUN_TEST(SDM_008_blocks_are_given);
     RUN_TEST(SDM_008_the_last_blocks_own_end_is_waited_for);
     RUN_TEST(SDM_009_a_card_that_does_not_take_them);
