@@ -149,7 +149,7 @@ review: python ## who has reviewed the proofs (UNIT=queue: what to look at; ARGS
 fuzz: python ## fuzz the scheduler and the decoders beside models and others' decoders (SECONDS=60)
 	@python3 tools/fuzz.py --seconds $(SECONDS) $(ARGS)
 
-soak: python ## 10^9 random calls of each stateful unit beside the specification (half an hour)
+soak: python ## 10^9 random calls of each stateful unit beside the specification (an hour)
 	@python3 tools/soak.py $(ARGS)
 
 trace: python ## requirement, function, clause, harness, test: fail when one stands alone

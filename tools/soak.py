@@ -3,7 +3,7 @@
 """Run the code beside its executable specification for a very long time: 10^9 random calls each of
 the scheduler (at its capacity, and at one that is often full), the voter, the filter and the PID.
 
-    python3 tools/soak.py                    # about half an hour on one core
+    python3 tools/soak.py                    # an hour on one core
     python3 tools/soak.py --steps 10000000   # fewer
 
 `make test` runs the same programs for 10^6 calls each, with sanitizers; here they are optimised,
