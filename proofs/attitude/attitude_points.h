@@ -8,7 +8,7 @@
 
 #include "attitude_proof.h"
 
-#define POINTS 30u
+#define POINTS 41u
 
 /* Running, with a valid heading, in no special attitude; 1000 Hz. */
 static const keel_attitude_t running = {.config = {.rate_hz = 1000.0f,
@@ -58,6 +58,60 @@ static const keel_attitude_sample_t measured = {.gyroscope = {0.11f, 0.12f, 0.07
                                                 .has_accelerometer = true,
                                                 .has_magnetometer = true,
                                                 .has_acceleration = true};
+
+/* Level and northward, where products are exact: what is compared is equal to its bound, or 0. */
+static void make_limit(unsigned point, keel_attitude_t *attitude, keel_attitude_sample_t *sample)
+{
+    static const keel_attitude_quaternion_t level = {1.0f, 0.0f, 0.0f, 0.0f};
+
+    attitude->quaternion = level;
+    sample->has_acceleration = false;
+    sample->accelerometer = (keel_attitude_vector_t){0.0f, 0.0f, -9.8f};
+    sample->magnetometer = (keel_attitude_vector_t){0.9f, 0.25f, 0.0f};
+    switch (point) {
+    case 32u: /* The heading's error is the tolerance: 1/4, whose square is 1/16. */
+        attitude->heading_valid = false;
+        attitude->settled = 1u;
+        break;
+    case 33u: /* It is more than that, and ahead; and less, and behind. */
+        attitude->heading_valid = false;
+        sample->magnetometer.y = 0.5f;
+        break;
+    case 34u:
+        attitude->heading_valid = false;
+        attitude->scale.tolerance = 2.0f;
+        sample->magnetometer.x = -0.9f;
+        break;
+    case 35u: /* South, and a right angle off. */
+        sample->magnetometer.x = -0.9f;
+        sample->magnetometer.y = 0.0f;
+        break;
+    case 36u:
+        sample->magnetometer.x = 0.0f;
+        sample->magnetometer.y = 0.9f;
+        break;
+    case 37u: /* Down's error has the cosine 1/2. */
+        sample->accelerometer.x = 7.8f;
+        sample->accelerometer.z = -4.90332508f;
+        break;
+    case 38u: /* A right angle, which is within the tolerance. */
+        attitude->phase = KEEL_ATTITUDE_ALIGNING;
+        attitude->scale.tolerance = 2.0f;
+        sample->accelerometer.x = 9.8f;
+        sample->accelerometer.z = 0.0f;
+        break;
+    case 39u: /* Down's error is the tolerance. */
+        attitude->phase = KEEL_ATTITUDE_ALIGNING;
+        attitude->scale.tolerance = 0.0415928438f;
+        sample->accelerometer.x = -2.0f;
+        break;
+    default: /* Quiet less its bias, and not with it. */
+        attitude->bias = (keel_attitude_vector_t){0.0625f, 0.0f, 0.0f};
+        sample->gyroscope = (keel_attitude_vector_t){0.55f, 0.0f, 0.0f};
+        sample->accelerometer.x = 1.0f;
+        break;
+    }
+}
 
 /* One thing is different in each; the first is as it is. */
 static void make_point(unsigned point, keel_attitude_t *attitude, keel_attitude_sample_t *sample)
@@ -189,7 +243,18 @@ static void make_point(unsigned point, keel_attitude_t *attitude, keel_attitude_
         sample->accelerometer.y = 6.0f;
         sample->accelerometer.z = -5.0f;
         break;
+    case 30u: /* Sums whose rounding tells their order. */
+        sample->acceleration.x = 3.7f;
+        sample->acceleration.y = -1.3f;
+        sample->acceleration.z = 0.86f;
+        break;
+    case 31u:
+        sample->acceleration.x = 3.7f;
+        sample->acceleration.y = -1.3f;
+        sample->acceleration.z = 0.27f;
+        break;
     default:
+        make_limit(point, attitude, sample);
         break;
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 31 --external-sat-solver cadical
+// cbmc: --unwind 42 --external-sat-solver cadical
 // sources: src/flight/attitude.c specs/model/attitude.c
 // covers: keel_attitude_step take_rate take_field judge_field judge_heading miss_field lose counted
 // covers: corrected_rate measured_down has_force judge_tilt follow_bias rotate turned
