@@ -20,7 +20,6 @@ const keel_mavlink_message_t messages_sent[MESSAGES_SENT] = {
     {MESSAGE_COMMAND_ACK, 143u, 1u, MESSAGE_COMMAND_ACK_LENGTH},
     {MESSAGE_TIMESYNC, 34u, 1u, MESSAGE_TIMESYNC_LENGTH},
     {MESSAGE_SCALED_IMU2, 76u, 1u, MESSAGE_SCALED_IMU2_LENGTH},
-    {MESSAGE_POWER_STATUS, 203u, 1u, MESSAGE_POWER_STATUS_LENGTH},
     {MESSAGE_SCALED_IMU3, 46u, 1u, MESSAGE_SCALED_IMU3_LENGTH},
     {MESSAGE_BATTERY_STATUS, 154u, 1u, MESSAGE_BATTERY_STATUS_LENGTH},
     {MESSAGE_AUTOPILOT_VERSION, 178u, 1u, MESSAGE_AUTOPILOT_VERSION_LENGTH},
@@ -354,14 +353,6 @@ void message_scaled_imu2_pack(const message_scaled_imu2_t *from,
     put_i16(&payload[18], from->ymag);
     put_i16(&payload[20], from->zmag);
     put_i16(&payload[22], from->temperature);
-}
-
-void message_power_status_pack(const message_power_status_t *from,
-                               uint8_t payload[MESSAGE_POWER_STATUS_LENGTH])
-{
-    put_u16(&payload[0], from->Vcc);
-    put_u16(&payload[2], from->Vservo);
-    put_u16(&payload[4], from->flags);
 }
 
 void message_scaled_imu3_pack(const message_scaled_imu3_t *from,

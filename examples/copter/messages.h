@@ -119,8 +119,6 @@
 #define MESSAGE_TIMESYNC_LENGTH            16u
 #define MESSAGE_SCALED_IMU2                116u
 #define MESSAGE_SCALED_IMU2_LENGTH         24u
-#define MESSAGE_POWER_STATUS               125u
-#define MESSAGE_POWER_STATUS_LENGTH        6u
 #define MESSAGE_SCALED_IMU3                129u
 #define MESSAGE_SCALED_IMU3_LENGTH         24u
 #define MESSAGE_BATTERY_STATUS             147u
@@ -140,7 +138,7 @@
 /** @} */
 
 /** What is sent. */
-#define MESSAGES_SENT 24u
+#define MESSAGES_SENT 23u
 extern const keel_mavlink_message_t messages_sent[MESSAGES_SENT];
 
 /** What is taken, of senders who know more fields too. */
@@ -164,7 +162,6 @@ typedef enum message_sent {
     SENT_COMMAND_ACK,
     SENT_TIMESYNC,
     SENT_SCALED_IMU2,
-    SENT_POWER_STATUS,
     SENT_SCALED_IMU3,
     SENT_BATTERY_STATUS,
     SENT_AUTOPILOT_VERSION,
@@ -441,13 +438,6 @@ typedef struct message_scaled_imu2 {
     int16_t temperature;
 } message_scaled_imu2_t;
 
-/** POWER_STATUS. */
-typedef struct message_power_status {
-    uint16_t Vcc;
-    uint16_t Vservo;
-    uint16_t flags;
-} message_power_status_t;
-
 /** SCALED_IMU3. */
 typedef struct message_scaled_imu3 {
     uint32_t time_boot_ms;
@@ -578,8 +568,6 @@ void message_timesync_pack(const message_timesync_t *from,
                            uint8_t payload[MESSAGE_TIMESYNC_LENGTH]);
 void message_scaled_imu2_pack(const message_scaled_imu2_t *from,
                               uint8_t payload[MESSAGE_SCALED_IMU2_LENGTH]);
-void message_power_status_pack(const message_power_status_t *from,
-                               uint8_t payload[MESSAGE_POWER_STATUS_LENGTH]);
 void message_scaled_imu3_pack(const message_scaled_imu3_t *from,
                               uint8_t payload[MESSAGE_SCALED_IMU3_LENGTH]);
 void message_battery_status_pack(const message_battery_status_t *from,

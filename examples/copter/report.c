@@ -222,40 +222,35 @@ static bool scaled_pressure(const copter_t *copter, uint8_t *payload)
     return (air->samples > 0u) && (age_us <= FRESH_US);
 }
 
-/* The chip's supply, if it is known. */
-static bool power_status(const copter_t *copter, uint8_t *payload)
-{
-    const copter_chip_t *const chip = &copter->health.chip;
-    const message_power_status_t message = {.Vcc = chip->supply_mv};
+/* What no message of MAVLink's is for. The chip's supply, of 3.3 V, is not the Vcc of POWER_STATUS:
+ * that is a rail of 5 V, and stations warn when it has less. */
+typedef struct named {
+    const char *name; /* 10 characters at most. */
+    int32_t value;
+    bool is_known;
+} named_t;
 
-    message_power_status_pack(&message, payload);
-    return chip->has_supply;
-}
-
-/* What no message of MAVLink's is for, in turn: how deep the stack has been, and the chip's
- * temperature if it is known. */
+/* The next of them that is known: how deep the stack has been always is. */
 static void named_value_int(const copter_t *copter, copter_link_t *link, uint8_t *payload)
 {
-    const copter_health_t *const health = &copter->health;
-    const uint32_t bytes = health->stack_free;
-    const bool is_chip = link->tells_chip && health->chip.has_temperature;
+    const uint32_t bytes = copter->health.stack_free;
+    const copter_chip_t *const chip = &copter->health.chip;
+    const named_t named[COPTER_NAMED] = {
+        {"stack_free", (bytes < (uint32_t)INT32_MAX) ? (int32_t)bytes : INT32_MAX, true},
+        {"chip_mv", (int32_t)chip->supply_mv, chip->has_supply},
+        {"chip_cdeg", chip->temperature, chip->has_temperature}};
+    message_named_value_int_t message = {.time_boot_ms = now_ms(copter)};
+    uint32_t next = link->named;
 
-    if (is_chip) {
-        const message_named_value_int_t message = {
-            .time_boot_ms = now_ms(copter),
-            .value = health->chip.temperature,
-            .name = {'c', 'h', 'i', 'p', '_', 'c', 'd', 'e', 'g'}};
-
-        message_named_value_int_pack(&message, payload);
-    } else {
-        const message_named_value_int_t message = {
-            .time_boot_ms = now_ms(copter),
-            .value = (bytes < (uint32_t)INT32_MAX) ? (int32_t)bytes : INT32_MAX,
-            .name = {'s', 't', 'a', 'c', 'k', '_', 'f', 'r', 'e', 'e'}};
-
-        message_named_value_int_pack(&message, payload);
+    for (uint32_t i = 1u; (i < COPTER_NAMED) && !named[next].is_known; i++) {
+        next = (next + 1u) % COPTER_NAMED;
     }
-    link->tells_chip = !is_chip;
+    link->named = (next + 1u) % COPTER_NAMED;
+    message.value = named[next].value;
+    for (uint32_t i = 0u; (i < sizeof message.name) && (named[next].name[i] != '\0'); i++) {
+        message.name[i] = named[next].name[i];
+    }
+    message_named_value_int_pack(&message, payload);
 }
 
 static bool gps_raw_int(const copter_t *copter, uint8_t *payload)
@@ -687,9 +682,6 @@ bool copter_report(const copter_t *copter, copter_link_t *link, uint32_t sent, u
         break;
     case SENT_EXTENDED_SYS_STATE:
         extended_sys_state(copter, payload);
-        break;
-    case SENT_POWER_STATUS:
-        said = power_status(copter, payload);
         break;
     case SENT_NAMED_VALUE_INT:
         named_value_int(copter, link, payload);

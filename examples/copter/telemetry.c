@@ -33,8 +33,7 @@ static const uint32_t interval_us[MESSAGES_SENT] = {
     [SENT_SCALED_IMU2] = MILLION,
     [SENT_SCALED_IMU3] = MILLION,
     [SENT_SCALED_PRESSURE] = 2u * MILLION,
-    [SENT_POWER_STATUS] = 5u * MILLION,
-    [SENT_NAMED_VALUE_INT] = 2500u * 1000u, /* Two values, in turn. */
+    [SENT_NAMED_VALUE_INT] = (5u * MILLION) / COPTER_NAMED, /* In turn. */
 };
 
 static const char *const states[KEEL_MODE_STATES] = {"disarmed",  "armed",   "flying",    "holding",

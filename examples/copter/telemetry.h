@@ -31,6 +31,7 @@
 #define COPTER_LINK_ACKS   4u
 #define COPTER_TEXTS       16u
 #define COPTER_TEXT_LENGTH 50u
+#define COPTER_NAMED       3u /**< Values that NAMED_VALUE_INT tells in turn. */
 #define COPTER_WORDS       ((COPTER_PARAMETER_COUNT + 31u) / 32u)
 
 /** The lines that links run on. */
@@ -84,7 +85,7 @@ typedef struct copter_link {
     message_timesync_t timesync;
     uint32_t wanted[COPTER_WORDS]; /**< Parameters to be sent, a bit each. */
     uint32_t parameter;            /**< The one sent last. */
-    bool tells_chip;               /**< Of NAMED_VALUE_INT, the chip's temperature is next. */
+    uint32_t named;                /**< Of the values of NAMED_VALUE_INT, the next one. */
 } copter_link_t;
 
 /** A text for all links. */

@@ -30,7 +30,7 @@ static copter_pressure_t breath;
 static copter_chip_t chip;
 static bool breathes;
 static int asked;
-const int PRESSURE = SENT_SCALED_PRESSURE, POWER = SENT_POWER_STATUS, NAMED = SENT_NAMED_VALUE_INT;
+const int PRESSURE = SENT_SCALED_PRESSURE, NAMED = SENT_NAMED_VALUE_INT;
 static bool read_breath(void *context, copter_pressure_t *sample)
 {
     (void)context;
@@ -76,7 +76,7 @@ int has_temperature(void) { return copter.health.chip.has_temperature; }
 int supply(void) { return copter.health.chip.supply_mv; }
 int temperature(void) { return copter.health.chip.temperature; }
 void battery(double volts) { copter.energy.battery.voltage = (float)volts; }
-void stack(int bytes) { copter.health.stack_free = (uint32_t)bytes; }
+void stack(uint32_t bytes) { copter.health.stack_free = bytes; }
 int report(int sent, uint8_t *payload)
 {
     memset(payload, 0, KEEL_MAVLINK_PAYLOAD_MAX);
@@ -135,6 +135,10 @@ class CopterHealth(unittest.TestCase):
         """NAMED_VALUE_INT: name and value."""
         _, value, name = struct.unpack_from("<Ii10s", self.payload("NAMED"))
         return name.rstrip(b"\0").decode(), value
+
+    def turns(self, count: int) -> list[tuple[str, int]]:
+        """So many of them."""
+        return [self.named() for _ in range(count)]
 
     def test_HEA_001_pressure_and_temperature_of_the_barometer(self) -> None:
         self.at(2.5)
@@ -201,33 +205,45 @@ class CopterHealth(unittest.TestCase):
         self.assertEqual(self.copter.start(0), OK)
         self.assertEqual(self.copter.measure(1, 3300, 1, 4000), 0)
         self.assertEqual((self.copter.has_supply(), self.copter.has_temperature()), (0, 0))
-        self.assertFalse(self.payload("POWER"))
         self.assertEqual([self.named()[0] for _ in range(3)], ["stack_free"] * 3)
 
     def test_HEA_003_the_supply_is_not_the_batterys(self) -> None:
         self.copter.battery(ctypes.c_double(16.0))
         self.copter.measure(1, 3287, 0, 0)
-        self.assertEqual(struct.unpack_from("<HHH", self.payload("POWER")), (3287, 0, 0))
+        self.assertEqual(self.turns(2), [("stack_free", 0), ("chip_mv", 3287)])
 
     def test_HEA_004_ends_of_the_supply(self) -> None:
         for told in (1700, 3600, 0, 65535):
             self.copter.measure(1, told, 0, 0)
-            self.assertEqual(struct.unpack_from("<H", self.payload("POWER"))[0], told)
-        self.copter.measure(0, 3300, 1, 4000)
-        self.assertFalse(self.payload("POWER"))
+            self.assertEqual(self.turns(2), [("stack_free", 0), ("chip_mv", told)])
+
+    def test_HEA_004_ends_of_the_stack(self) -> None:
+        for free, told in ((0, 0), (2**31 - 2,) * 2, (2**31 - 1,) * 2, (2**31, 2**31 - 1),
+                           (2**32 - 1, 2**31 - 1)):  # fmt: skip
+            self.copter.stack(ctypes.c_uint32(free))
+            self.assertEqual(self.named(), ("stack_free", told))
 
     def test_HEA_004_named_values_in_turn(self) -> None:
         self.breathe(96325.0, 2154)  # Of another sensor.
         self.copter.stack(724)
         self.copter.measure(1, 3287, 1, -1250)
-        stack, chip = ("stack_free", 724), ("chip_cdeg", -1250)
-        self.assertEqual([self.named() for _ in range(4)], [stack, chip, stack, chip])
-        self.copter.measure(1, 3287, 1, 12500)
-        self.assertEqual([self.named() for _ in range(2)], [stack, ("chip_cdeg", 12500)])
-        self.copter.measure(1, 3287, 0, 4000)
-        self.assertEqual([self.named() for _ in range(3)], [stack] * 3)
-        self.copter.measure(0, 0, 1, 0)
-        self.assertEqual([self.named() for _ in range(2)], [("chip_cdeg", 0), stack])
+        stack, supply, chip = ("stack_free", 724), ("chip_mv", 3287), ("chip_cdeg", -1250)
+        self.assertEqual(self.turns(7), [stack, supply, chip, stack, supply, chip, stack])
+        self.copter.measure(1, 3011, 1, 12500)
+        self.assertEqual(self.turns(3), [("chip_mv", 3011), ("chip_cdeg", 12500), stack])
+
+    def test_HEA_004_what_is_not_known_is_left_out_of_the_turn(self) -> None:
+        self.copter.stack(724)
+        stack = ("stack_free", 724)
+        for supply, temperature, told in (
+            (1, 1, [stack, ("chip_mv", 3300), ("chip_cdeg", 4000), stack]),
+            (0, 1, [("chip_cdeg", 4000), stack, ("chip_cdeg", 4000), stack]),
+            (1, 0, [("chip_mv", 3300), stack, ("chip_mv", 3300), stack]),
+            (0, 0, [stack] * 4),
+            (1, 1, [("chip_mv", 3300), ("chip_cdeg", 4000), stack]),
+        ):
+            self.copter.measure(supply, 3300, temperature, 4000)
+            self.assertEqual(self.turns(len(told)), told)
 
 
 if __name__ == "__main__":
