@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # expect: ATT_010_length
+# witness: qw_ = 1, qx_ = 0, qy_ = 0, qz_ = 0, hx_ = 0x1p-4, hy_ = 0, hz_ = 0
 #
 # The length is not led back.
 @rnd = float<ieee_32, ne>;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # expect: CAS_011_left
+# witness: L_ = 0x1.ffa27p+13, x_ = -0x1.ff8afep+13, v_ = -0x1.d479f4p+6, A_ = 0x1.b087fep+5, T_ = 0x1.ec2696p+1
 #
 # Two of the roundings alone may come to more.
 @rnd = float<ieee_32, ne>;

@@ -1,4 +1,5 @@
 # expect: REF_010_square
+# witness: z = -1, a = 0, b = 0, c = 0x1p-24, m = 0x1p-24, p = 0x1p-24
 #
 # Half of what the roundings amount to.
 k = 4913933 * 0x1p-24;

@@ -1,4 +1,5 @@
 # expect: VOT_016_p0_v1
+# witness: p0 = 0, p1 = 0, p2 = 0, s1 = 0, s2 = 0, v1 = 0, v2 = 0, q = 0
 #
 # A sum where a product belongs.
 VOT_016_p0_v1 = (1 + p0) + (1 + s1) * (1 + s2) * (1 + q) / ((1 + v1) * (1 + v2)) - 1;

@@ -1,4 +1,5 @@
 # expect: VOT_016_p1_v1
+# witness: p0 = 0, p1 = 0x1p-24, p2 = 0, s1 = 0x1p-24, s2 = 0x1p-24, v1 = -0x1p-24, v2 = -0x1p-24, q = 0x1p-24
 #
 # One rounding more than there is.
 VOT_016_p0_v1 = (1 + p0) * (1 + s1) * (1 + s2) * (1 + q) / ((1 + v1) * (1 + v2)) - 1;

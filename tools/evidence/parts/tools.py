@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from datetime import date
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from common.config import Field, Mistake, Table, Text, read_toml
 from toolchain import Found, Toolchain
@@ -44,7 +44,10 @@ kernel: WP with its provers, and CBMC. That is why most detection is TD2 and not
 
 Known problems were reviewed as far as each tool's page says. "Read" means that the vendor's list \
 or release notes were read; "searched", that single problems were found by a search, and no whole \
-list was read; "open", that nothing was found. None of them means that there is no other problem."""
+list was read; "compared", that a later release gave the same verdicts on all that the project asks \
+of the tool; "open", that nothing was found. None of them means that there is no other problem."""
+
+Known = Literal["read", "searched", "compared", "open", "not needed"]
 
 
 class Tool(Table):
@@ -58,7 +61,7 @@ class Tool(Table):
     detection: Literal["TD1", "TD2", "TD3"]
     instead: Text
     tests: list[Text]
-    known: Literal["read", "searched", "open", "not needed"]
+    known: Known
     on: date | None = None
     sources: list[Text] = []
     reviewed: Text
@@ -259,7 +262,7 @@ def tables(settings: Settings, specs: Mapping[str, Spec], found: Mapping[str, Fo
 def reviews(settings: Settings) -> str:
     """How many tools' known problems were reviewed how far."""
     counted = Counter[str](one.known for one in settings.tool)
-    return ", ".join(f"{counted[how]} {how}" for how in ("read", "searched", "open", "not needed"))
+    return ", ".join(f"{counted[how]} {how}" for how in get_args(Known))
 
 
 def make(context: Context) -> Part:
