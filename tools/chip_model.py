@@ -32,6 +32,7 @@ from pathlib import Path
 from boards.built import read_built
 from boards.card import SdCard
 from boards.chip import BROKEN, OPTIONS, UART7, USART3, Chip
+from boards.fram import Fram
 from boards.processor import Processor
 from common.arguments import Parser
 from common.errors import ROOT, ToolError, program, unknown
@@ -46,7 +47,7 @@ CONSOLES = {"nucleo_f767zi": (USART3, (3, 14)), "fmuv5": (UART7, (5, 2))}
 def simulate(
     tools: Toolchain, root: Path, name: str, seconds: float,
     keys: Sequence[tuple[int, str]] = (), broken: str = "", step_us: int = 1,
-    options: int = OPTIONS, card: SdCard | None = None,
+    options: int = OPTIONS, card: SdCard | None = None, fram: Fram | None = None,
 ) -> Chip:  # fmt: skip
     """Run a board's image; the chip afterwards. Longer steps make a shorter, coarser run."""
     if name not in CONSOLES:
@@ -57,6 +58,8 @@ def simulate(
     chip.step_us = step_us
     chip.options = options
     chip.card = card
+    if fram:
+        chip.fram = fram
     Processor(tools, image.binary.read_bytes(), image.address, chip).run(int(seconds * 1e6))
     return chip
 

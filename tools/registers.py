@@ -31,7 +31,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from boards.board import BOARD_FILE, Board, read_board
-from boards.register_databases import Databases
+from boards.register_databases import Databases, Metapac
 from boards.register_headers import Fact, instances_of, read_facts, read_headers
 from common.arguments import Parser
 from common.config import Table, Text, read_toml
@@ -141,13 +141,13 @@ PIN_LINE = re.compile(r"KEEL_ALTERNATE\((\w), (\d+)u, (\d+)u, (\w+), (\w+)\)")
 ANALOGUE_LINE = re.compile(r"KEEL_ANALOGUE\((\w), (\d+)u, (\d+)u\)")
 
 
-def compare_analogue(where: str, text: str, databases: Databases, result: Comparison) -> None:
+def compare_analogue(where: str, text: str, package: Metapac, result: Comparison) -> None:
     """The channels of ADC1 in a board's pin table."""
     for port, number, channel in ANALOGUE_LINE.findall(text):
         name = f"P{port}{number} ADC1_IN{channel}"
         result.compared["pin"] = result.compared.get("pin", 0) + 1
         result.facts.append({"fact": name, "of": where, "kind": "pin"})
-        if ("ADC1", f"P{port}{number}", f"IN{channel}") not in databases.metapac.analogue:
+        if ("ADC1", f"P{port}{number}", f"IN{channel}") not in package.analogue:
             result.differences.append(f"{where}: {name}: stm32-metapac has no such channel")
 
 
@@ -156,13 +156,14 @@ def compare_pins(root: Path, databases: Databases, result: Comparison) -> None:
     for path in sorted(root.glob(PINS)):
         where = path.relative_to(root).as_posix()
         text = read_text(path)
-        compare_analogue(where, text, databases, result)
+        package = databases.packages[path.parent.name]
+        compare_analogue(where, text, package, result)
         for port, number, function, peripheral, signal in PIN_LINE.findall(text):
             pin = f"P{port}{number}"
             name = f"{pin} AF{function} {peripheral}_{signal}"
             result.compared["pin"] = result.compared.get("pin", 0) + 1
             result.facts.append({"fact": name, "of": where, "kind": "pin"})
-            if (peripheral, pin, signal, int(function)) not in databases.metapac.signals:
+            if (peripheral, pin, signal, int(function)) not in package.signals:
                 result.differences.append(f"{where}: {name}: stm32-metapac has no such function")
 
 

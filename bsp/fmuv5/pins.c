@@ -31,6 +31,13 @@ static const keel_board_card_t slot = {
     .power = KEEL_PIN(G, 7u),
 };
 
+static const keel_board_memory_t fram = {
+    .sck = KEEL_ALTERNATE(I, 1u, 5u, SPI2, SCK),
+    .miso = KEEL_ALTERNATE(I, 2u, 5u, SPI2, MISO),
+    .mosi = KEEL_ALTERNATE(I, 3u, 5u, SPI2, MOSI),
+    .select = KEEL_PIN(F, 5u),
+};
+
 const keel_board_pins_t keel_board_pins = {
     .oscillator = {16000000u, false},
     .console = (keel_uart_t *)UART7_BASE,
@@ -52,5 +59,6 @@ const keel_board_pins_t keel_board_pins = {
     .analogue = analogue,
     .analogue_count = KEEL_ANALOGUES,
     .card = &slot,
-    .kept_sector = 0u, /* It has an FRAM. */
+    .memory = &fram,
+    .kept_sector = 0u,
 };

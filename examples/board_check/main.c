@@ -9,6 +9,7 @@
  * The background task of the inertial unit reads the sensor, if there is one, and the ADC task the
  * chip's temperature and supply and the board's analogue pins; every other body, and the rest of
  * these two's time, keeps the CPU busy for the task's worst-case time of table 2.
+ * Before that, the memory that parameters are kept in is tried: it counts the starts.
  * Periods, budgets, phases and the guard are those that `make analyze` analyses. A line on the
  * console tells every second how it goes. The watchdog is fed only while every real-time task meets
  * its releases. What the kernel refuses ends as a fault does.
@@ -23,6 +24,7 @@
 #include "cortex_m7/startup.h"
 #include "keel/rtos/load.h"
 #include "keel/rtos/scheduler.h"
+#include "memory.h"
 #include "stm32f767/target/chip.h"
 #include "urpilot_tasks.h"
 
@@ -382,6 +384,7 @@ static void print_start(void)
     }
     print_number("sensor status ", (uint64_t)keel_chip_sensor_start());
     keel_console_text("\n");
+    print_memory();
 }
 
 /* The level lies in the option bytes, so it is set by hand, once for a board, and before the

@@ -27,6 +27,7 @@ import stack  # noqa: E402
 from boards import chip  # noqa: E402
 from boards.card import SdCard  # noqa: E402
 from boards.chip import PWR, RCC, Chip, ModelError  # noqa: E402
+from boards.fram import Fram  # noqa: E402
 from boards.rebuilt import SOURCES  # noqa: E402
 from boards.stack_bounds import EXCEPTION_FRAME_B  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
@@ -121,6 +122,20 @@ class ImageTest(unittest.TestCase):
     def test_a_stack_that_overflows_meets_the_guard(self) -> None:
         self.safe(self.run_image(keys="s"), "exception 4", "cfsr 0x00000082 ", "mmfar 0x200003ff")
 
+    def test_the_memory_counts_the_starts_where_that_does_not_wear_it_out(self) -> None:
+        fram = Fram()
+        for told in ("load 2 save 0 starts 1", "load 0 save 0 starts 2", "load 0 save 0 starts 3"):
+            board = chip_model.simulate(
+                self.tools, self.root, "fmuv5", 0.14, [], step_us=4, fram=fram
+            )
+            self.assertIn(f"memory status 0 {told}\r\n", board.text)
+        self.assertIn("memory status 0 load 2 starts 0\r\n", self.run_image().text)
+
+    def test_without_its_memory_a_board_runs_all_the_same(self) -> None:
+        board = self.run_image(0.35, keys="t", board="fmuv5", broken="memory")
+        self.assertIn("memory status 5\r\n", board.text)
+        self.assertEqual(board.text.count("skipped 0"), 21)
+
     def test_a_task_that_hangs_starves_the_watchdog(self) -> None:
         board = self.run_image(0.45, keys="h")
         self.safe(board, "code 0xb0a20200")
@@ -175,17 +190,17 @@ KEEPER = """\
 #include "cortex_m7/core.h"
 #include "stm32f767/target/chip.h"
 
-/* Counts its starts in the flash, and starts again. */
+/* Counts its starts, and starts again. */
 int main(void)
 {
     static keel_slots_t slots KEEL_REALTIME_ZERO;
-    keel_slots_config_t config = {.address = {0u, 0x40000u}, .room = 8u};
+    keel_slots_config_t config = {.room = 8u};
     static uint8_t starts[8];
     uint32_t length = 0u;
     keel_slots_result_t result = KEEL_SLOTS_BUSY;
 
     keel_console_text("medium ");
-    keel_console_number((uint64_t)keel_chip_flash_medium(&config.medium));
+    keel_console_number((uint64_t)keel_chip_memory(&config.medium, &config.address[1]));
     (void)keel_slots_init(&slots, &config);
     keel_console_text(" load ");
     keel_console_number((uint64_t)keel_slots_load(&slots, starts, &length));
@@ -211,7 +226,7 @@ int main(void)
 
 
 class KeptTest(unittest.TestCase):
-    """What is kept in the chip's flash is there after a reset."""
+    """What is kept in the chip's flash, or the board's memory, is there after a reset."""
 
     tools: Toolchain
     root: Path
@@ -225,11 +240,16 @@ class KeptTest(unittest.TestCase):
             shutil.copytree(ROOT / part, cls.root / part)
         (cls.root / "examples/keeper").mkdir()
         (cls.root / "examples/keeper/main.c").write_text(KEEPER)
-        with contextlib.redirect_stdout(io.StringIO()):
-            firmware.build(cls.tools, "nucleo_f767zi", ["examples/keeper"], cls.root)
+        for board in chip_model.CONSOLES:
+            with contextlib.redirect_stdout(io.StringIO()):
+                firmware.build(cls.tools, board, ["examples/keeper"], cls.root)
 
     def test_sets_are_kept_over_resets(self) -> None:
-        board = chip_model.simulate(self.tools, self.root, "nucleo_f767zi", 0.03, step_us=4)
+        for name in chip_model.CONSOLES:
+            with self.subTest(name):
+                self.check(chip_model.simulate(self.tools, self.root, name, 0.03, step_us=4))
+
+    def check(self, board: Chip) -> None:
         found = re.findall(r"medium 0 load (\d) starts (\d+) save 0", board.text)
         self.assertGreater(len(found), 3)
         self.assertEqual(found[0], ("2", "0"))  # None is there yet.
@@ -312,6 +332,28 @@ class BoardTest(unittest.TestCase):
         self.board.write(chip.SCB + 0x94, 1)
         with self.assertRaisesRegex(ModelError, "protection is on"):
             self.board.program(1, 0xFF, 0x10)
+
+    def memory(self) -> None:
+        """SPI 2 and its pins as they should be."""
+        self.board.write(RCC + 0x40, 1 << 14)
+        self.board.write(chip.GPIOA + 8 * 0x400, 0b10_10_10_00)
+        self.board.write(chip.GPIOA + 8 * 0x400 + 0x20, 0x5550)
+        self.board.write(chip.SPI2 + 4, 0x700)
+        self.board.write(chip.SPI2, 0x347)
+
+    def test_bytes_to_the_memory_that_must_not_be(self) -> None:
+        self.memory()
+        self.board.write(chip.SPI2 + 0xC, 0x9F)
+        port = chip.GPIOA + 8 * 0x400
+        for address, value, reason in (
+            (RCC + 0x40, 0, "no clock"), (port, 0b10_10_00_00, "pin is not its own"),
+            (port + 0x20, 0x5560, "pin is not its own"), (chip.SPI2, 0x345, "mode 0 or 3"),
+            (chip.SPI2 + 4, 0xF00, "not of eight bits"), (chip.SPI2, 0x307, "is off"),
+        ):  # fmt: skip
+            self.memory()
+            self.board.write(address, value)
+            with self.assertRaisesRegex(ModelError, reason):
+                self.board.write(chip.SPI2 + 0xC, 0)
 
     def converter(self) -> None:
         """ADC1 as it should be: an eighth of 16 MHz, 144 cycles for all channels, pins analogue."""

@@ -168,7 +168,8 @@ class Whole(PartTest):
         self.assertNotIn("where", items["machdep"].facts)
         (table,) = [one for one in part.tables if one.title == "Reviews of known problems"]
         told = [row[1] for row in table.rows]
-        counts = (f"{told.count(how)} {how}" for how in ("read", "searched", "compared", "open", "not needed"))
+        kinds = ("read", "searched", "compared", "open", "not needed")
+        counts = (f"{told.count(how)} {how}" for how in kinds)
         shown = part.summary["tools by review of their known problems"]
         self.assertEqual(shown, ", ".join(counts))
         self.assertEqual(len(told), len(items))

@@ -271,6 +271,12 @@ class AnalysisTest(unittest.TestCase):
         with self.assertRaisesRegex(StackError, "none of what .* is in the image"):
             self.analyse(edge("main", "__indirect_call"), table=table)
 
+    def test_targets_that_are_not_there_are_right_where_the_table_says_so(self) -> None:
+        gone = Indirect(caller="main", calls=["gone"], may_be_none=True, reason="r")
+        table = StackTable(indirect=[gone], entry=[RESET])
+        bytes_, _ = self.analyse(edge("main", "__indirect_call"), table=table)
+        self.assertEqual(bytes_, 8 + 16 + 8 + 64 + 108)
+
     def test_recursion_through_a_pointer_is_an_error(self) -> None:
         table = table_of((), {"deep": ("main",)})
         with self.assertRaisesRegex(StackError, "recursion"):

@@ -363,12 +363,12 @@ class Crates(Sandbox):
                 tar.addfile(member, data)
         self.script("cargo", f"echo cargo 1.80.0; cp {self.archive} {self.fetched}")
 
-    def crate(self, sha256: str = "") -> Lock:
+    def crate(self, sha256: str = "", keep: str = "src/a/") -> Lock:
         cargo = {**system("cargo", "1.70", "2"), "version": r"cargo (\d+\.\d+)"}
         regs: dict[str, object] = {
             "kind": "crate", "file": "Cargo.toml", "version": r'version = "(\d+\.\d+)',
             "at_least": "1.2", "below": "1.3", "package": "regs", "pin": "1.2.0",
-            "sha256": sha256 or sha256_of(self.archive), "keep": ["src/a/"],
+            "sha256": sha256 or sha256_of(self.archive), "keep": [keep],
         }  # fmt: skip
         return self.lock(cargo=cargo, regs=regs)
 
@@ -378,6 +378,12 @@ class Crates(Sandbox):
         folder = Path(tools.command("regs")[0])
         files = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.*"))
         self.assertEqual(files, ["Cargo.toml", "manifest.json", "src/a/x.rs"])
+
+    def test_a_clone_that_keeps_other_parts_has_its_own_folder(self) -> None:
+        for part in ("src/a/", "src/b/"):
+            tools = Toolchain(self.cache, self.crate(keep=part))
+            tools.ensure("g", say=quiet)
+            self.assertTrue((Path(tools.command("regs")[0]) / part).is_dir(), part)
 
     def test_another_archive_is_refused(self) -> None:
         message = self.refusal(Toolchain(self.cache, self.crate("0" * 64)))

@@ -22,6 +22,7 @@ FILES = sorted(ROOT.glob("proofs/*/wrong/*.g"))
 
 EXPECTED = re.compile(r"^# expect: (\w+)$", re.MULTILINE)
 WITNESS = re.compile(r"^# witness: (.+)$", re.MULTILINE)
+VALUE = re.compile(r"(\w+) = ([^,\s]+)")
 DEFINITION = re.compile(r"^(\w+) (rnd)?= ([^;]+);", re.MULTILINE)
 FORMULA = re.compile(r"\{(.*?)\s->\s(.*?)\}", re.DOTALL)
 BOUND = re.compile(r"\|(\w+)\| <= (\S+)")
@@ -97,19 +98,20 @@ class WrongBoundTest(unittest.TestCase):
                 text = path.read_text(encoding="utf-8")
                 witness, expected = WITNESS.search(text), EXPECTED.search(text)
                 assert witness and expected, "names no witness, or nothing that it expects"
-                values = {name: number(value)
-                          for name, value in re.findall(r"(\w+) = ([^,\s]+)", witness[1])}  # fmt: skip
+                values = {name: number(value) for name, value in VALUE.findall(witness[1])}
                 for name, is_rounded, body in DEFINITION.findall(text):
                     values[name] = evaluate(body, values, to_single if is_rounded else exactly)
                 formula = FORMULA.search(text)
                 assert formula, "states nothing"
                 for name, bound in bounds(formula[1]).items():
                     self.assertLessEqual(abs(values[name]), bound, name)
-                self.assertGreater(abs(values[expected[1]]), bounds(formula[2])[expected[1]])
+                wrong = expected[1]
+                self.assertGreater(abs(values[wrong]), bounds(formula[2])[wrong])
 
     def test_numbers_by_hand(self) -> None:
-        for value, single in (("1", "1"), ("16777217", "16777216"), ("16777219", "16777220"),
-                              ("1/3", "11184811/33554432"), ("-33554435", "-33554436")):  # fmt: skip
+        singles = {"1": "1", "16777217": "16777216", "16777219": "16777220",
+                   "1/3": "11184811/33554432", "-33554435": "-33554436"}  # fmt: skip
+        for value, single in singles.items():
             self.assertEqual(to_single(Fraction(value)), Fraction(single))
         self.assertEqual(number("0x5.8p-24"), Fraction(11, 2**25))
         values = {"a": Fraction(2), "b": Fraction(3)}

@@ -9,15 +9,17 @@ from dataclasses import dataclass, field
 from common.errors import ToolError
 
 from boards.card import CardError, CardHost, SdCard
+from boards.fram import Fram
 
 # Bases of the peripherals (RM0410, table 1).
 TIM5, IWDG, USART3, PWR, UART7 = 0x4000_0C00, 0x4000_3000, 0x4000_4800, 0x4000_7000, 0x4000_7800
 TIM1, SPI1, GPIOA, RCC, FLASHR = 0x4001_0000, 0x4001_3000, 0x4002_0000, 0x4002_3800, 0x4002_3C00
+SPI2 = 0x4000_3800
 SYSTICK, NVIC, SCB, DBGMCU = 0xE000_E010, 0xE000_E100, 0xE000_ED00, 0xE004_2000
 ADC1, ADC_COMMON, SDMMC1 = 0x4001_2000, 0x4001_2300, 0x4001_2C00
 BLOCKS = {
     TIM5: 0x54, IWDG: 0x14, USART3: 0x2C, PWR: 0x10, UART7: 0x2C, TIM1: 0x68, SPI1: 0x24,
-    RCC: 0x98, FLASHR: 0x1C, SCB: 0x2A4, DBGMCU: 0x10, SYSTICK: 0x10,
+    SPI2: 0x24, RCC: 0x98, FLASHR: 0x1C, SCB: 0x2A4, DBGMCU: 0x10, SYSTICK: 0x10,
     NVIC: 0x200, ADC1: 0x50, ADC_COMMON: 0xC, SDMMC1: 0x84,
     **{GPIOA + 0x400 * port: 0x2C for port in range(11)},
 }  # fmt: skip
@@ -25,6 +27,7 @@ RESETS = {
     FLASHR + 0x10: 1 << 31,
     RCC: 0x83, RCC + 4: 0x2400_3010, RCC + 0x30: 0x0010_0000, RCC + 0x74: 0x0E00_0000,
     PWR: 0xC000, USART3 + 0x1C: 0xC0, UART7 + 0x1C: 0xC0, SPI1 + 4: 0x700, SPI1 + 8: 2,
+    SPI2 + 4: 0x700, SPI2 + 8: 2,
     IWDG + 8: 0xFFF, FLASHR + 0x14: 0xFFFF_AAF1, GPIOA: 0xA800_0000, GPIOA + 0x400: 0x280,
     SCB + 0x80: 0x0FE0_0019 | 127 << 13,  # 128 sets of 4 ways of 32 bytes.
     SCB + 0x90: 0x800,
@@ -33,10 +36,12 @@ RESETS = {
 OPTION_KEYS = [0x0819_2A3B, 0x4C5D_6E7F]
 FLASH_KEYS, FLASH_LOCK = [0x4567_0123, 0xCDEF_89AB], 1 << 31
 OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
-BROKEN = ("hse", "pll", "overdrive", "sensor", "other-sensor", "adc")
+BROKEN = ("hse", "pll", "overdrive", "sensor", "other-sensor", "adc", "memory")
 
 
-# FMUv5's slot: clock, command and data, by port and pin, and what switches its supply.
+# Its memory at SPI 2: clock and data, and the select.
+FRAM_PINS, FRAM_SELECT = ((8, 1), (8, 2), (8, 3)), (5, 5)
+# And its card's slot: clock, command and data, by port and pin, and what switches its supply.
 CARD_PINS, CARD_POWER = ((2, 12), (3, 2), (2, 8), (2, 9), (2, 10), (2, 11)), (6, 7)
 
 
@@ -132,6 +137,7 @@ class Chip:
         self.armed_us: list[tuple[int, bool]] = []
         self.converted: list[int] = []  # Channels of the converter, in their order.
         self.exception = 0
+        self.fram = Fram(there=broken != "memory")
         self.card: SdCard | None = None  # In the slot.
         self.slot = CardHost()
         self.words: dict[int, int] = {}
@@ -153,6 +159,7 @@ class Chip:
         self.fed_us = self.time_us
         self.counter_from_us = 0
         self.sensor.select(False)
+        self.fram.select(False)
         self.adc = Converter()
         self.slot = CardHost(self.card)
         self.flash_is_open = False
@@ -186,8 +193,8 @@ class Chip:
             return self.words[address] | (0x20 if due else 0)
         if address == self.console + 0x24 and self.keys:
             return ord(self.keys.pop(0)[1])
-        if address == SPI1 + 0xC:
-            self.words[SPI1 + 8] &= ~1
+        if address in (SPI1 + 0xC, SPI2 + 0xC):
+            self.words[address - 4] &= ~1
         if address in (ADC1, ADC1 + 0x4C):
             return self._adc_read(address - ADC1)
         if SDMMC1 <= address < SDMMC1 + 0x84:
@@ -201,9 +208,9 @@ class Chip:
         base = self.block(address)
         self.words[address] = value
         handler: Callable[[int, int], None] | None = {
-            RCC: self._rcc, PWR: self._pwr, IWDG: self._iwdg, SPI1: self._spi, TIM1: self._tim1,
-            TIM5: self._tim5, self.console: self._uart, SCB: self._scb, FLASHR: self._flash,
-            ADC1: self._adc, ADC_COMMON: self._adc_common, SDMMC1: self._sdmmc,
+            RCC: self._rcc, PWR: self._pwr, IWDG: self._iwdg, SPI1: self._spi, SPI2: self._spi2,
+            TIM1: self._tim1, TIM5: self._tim5, self.console: self._uart, SCB: self._scb,
+            FLASHR: self._flash, ADC1: self._adc, ADC_COMMON: self._adc_common, SDMMC1: self._sdmmc,
         }.get(base)  # fmt: skip
         if handler:
             handler(address - base, value)
@@ -310,10 +317,40 @@ class Chip:
 
     def _spi(self, offset: int, value: int) -> None:
         if offset == 0xC:
-            if not self.words.get(SPI1, 0) & 0x40:
-                raise ModelError("a byte is sent while the SPI is off")
-            self.words[SPI1 + 0xC] = self.sensor.exchange(value & 0xFF)
-            self.words[SPI1 + 8] |= 1
+            self._exchange(SPI1, self.sensor, value)
+
+    def _spi2(self, offset: int, value: int) -> None:
+        if offset == 0xC:
+            self._check_memory()
+            self._exchange(SPI2, self.fram, value)
+
+    def _exchange(self, spi: int, device: Sensor | Fram, value: int) -> None:
+        if not self.words.get(spi, 0) & 0x40:
+            raise ModelError("a byte is sent while the SPI is off")
+        self.words[spi + 0xC] = device.exchange(value & 0xFF)
+        self.words[spi + 8] |= 1
+
+    def _check_memory(self) -> None:
+        """What must hold around SPI 2 when a byte goes to its memory, of 40 MHz at most."""
+        control = self.words.get(SPI2, 0)
+        rate_mhz = 54 / (2 << (control >> 3 & 7))
+        rules = {
+            "its bus has no clock": self.words.get(RCC + 0x40, 0) & 1 << 14,
+            "a pin is not its own": all(self._function_of(pin) == 5 for pin in FRAM_PINS),
+            f"at {rate_mhz:g} MHz": rate_mhz <= 40,
+            "not in mode 0 or 3": control & 3 in (0, 3),
+            "not of eight bits": self.words.get(SPI2 + 4, 0) >> 8 & 0xF == 7,
+        }
+        for reason, held in rules.items():
+            if not held:
+                raise ModelError(f"a byte goes to the memory, but {reason}")
+
+    def _function_of(self, pin: tuple[int, int]) -> int | None:
+        """Which alternate function a pin has; None when it has none."""
+        base, number = GPIOA + 0x400 * pin[0], pin[1]
+        if self.words.get(base, 0) >> 2 * number & 3 != 2:
+            return None
+        return self.words.get(base + 0x20 + 4 * (number // 8), 0) >> 4 * (number % 8) & 0xF
 
     def _tim1(self, offset: int, value: int) -> None:
         if offset == 0x44:
@@ -334,12 +371,13 @@ class Chip:
             self.reset_wanted = True
 
     def _gpio(self, port: int, offset: int, value: int) -> None:
-        number, pin = self.select
-        if offset == 0x18:
-            self.high -= {(port, bit) for bit in range(16) if value >> 16 >> bit & 1}
-            self.high |= {(port, bit) for bit in range(16) if value >> bit & 1}
-        if offset == 0x18 and port == number and value >> pin & 0x1_0001:
-            self.sensor.select(bool(value >> 16 >> pin & 1))
+        if offset != 0x18:
+            return
+        self.high -= {(port, bit) for bit in range(16) if value >> 16 >> bit & 1}
+        self.high |= {(port, bit) for bit in range(16) if value >> bit & 1}
+        for device, (number, pin) in ((self.sensor, self.select), (self.fram, FRAM_SELECT)):
+            if port == number and value >> pin & 0x1_0001:
+                device.select(bool(value >> 16 >> pin & 1))
 
     # The slot.
 
@@ -367,12 +405,7 @@ class Chip:
             "it has no clock": self.words.get(RCC + 0x44, 0) & 1 << 11,
             "its clock is not that of the PLL": not self.words.get(RCC + 0x90, 0) & 3 << 27,
             f"its clock is {usb_mhz} MHz": usb_mhz == 48,
-            "a pin is not its own": all(
-                self.words.get(GPIOA + 0x400 * port, 0) >> 2 * pin & 3 == 2
-                and self.words.get(GPIOA + 0x400 * port + 0x20 + 4 * (pin // 8), 0)
-                >> 4 * (pin % 8) & 0xF == 12
-                for port, pin in CARD_PINS
-            ),
+            "a pin is not its own": all(self._function_of(pin) == 12 for pin in CARD_PINS),
             "the card has no supply": CARD_POWER in self.high,
         }  # fmt: skip
         for reason, held in rules.items():

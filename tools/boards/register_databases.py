@@ -103,6 +103,12 @@ def ral_interrupts(root: Path) -> dict[str, int]:
 # --- stm32-metapac -------------------------------------------------------------------------------
 
 
+# The chips that are on the boards: one has more pins than the other. Registers, interrupts and
+# memories are compared with the first one's.
+CHIPS = {"nucleo_f767zi": "stm32f767zi", "fmuv5": "stm32f765ii"}
+FIRST = "nucleo_f767zi"
+
+
 @dataclass
 class Metapac:
     """What is read of stm32-metapac."""
@@ -115,13 +121,14 @@ class Metapac:
     fields: dict[tuple[str, str], Fields] = field(default_factory=dict)
 
 
-def read_metapac(root: Path) -> Metapac:
-    """The STM32F767ZI."""
-    chip = root / "src/chips/stm32f767zi"
+def read_metapac(root: Path, name: str) -> Metapac:
+    """A chip, by its name there."""
+    chip = root / "src/chips" / name
     pac = read_text(chip / "pac.rs")
     bases = re.findall(r"^pub const (\w+): .*?(0x[0-9a-f_]+)usize", pac, re.MULTILINE)
     interrupts = re.findall(r'doc = "(\d+) - (\w+)"', pac)
     memory = re.sub(r"\s+", " ", read_text(chip / "metadata.rs"))
+    included = str(re.search(r'include!\("\.\./(\w+\.rs)"\)', memory)[1])  # type: ignore[index]
     regions = re.findall(r'name: "(\w+)", kind: \S+, address: (\w+), size: (\d+)', memory)
     found = Metapac(
         {name: int(value.replace("_", ""), 16) for name, value in bases},
@@ -129,7 +136,7 @@ def read_metapac(root: Path) -> Metapac:
         [(name, int(address, 16), int(size)) for name, address, size in regions],
         set(), set(),
     )  # fmt: skip
-    text = read_text(root / "src/chips/metadata_0254.rs")
+    text = read_text(root / "src/chips" / included)
     for part in re.split(r"^    Peripheral \{$", text, flags=re.MULTILINE)[1:]:
         metapac_peripheral(root, text, re.sub(r"\s+", " ", part), found)
     return found
@@ -167,7 +174,8 @@ class Databases:
 
     def __init__(self, ral: Path, metapac: Path) -> None:
         self.ral = read_ral(ral)
-        self.metapac = read_metapac(metapac)
+        self.packages = {board: read_metapac(metapac, chip) for board, chip in CHIPS.items()}
+        self.metapac = self.packages[FIRST]
         self.interrupts = {"stm32ral": ral_interrupts(ral),
                            "stm32-metapac": self.metapac.interrupts}  # fmt: skip
 

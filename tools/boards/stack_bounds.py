@@ -27,6 +27,7 @@ class Indirect(Table):
 
     caller: Text
     calls: list[Text]
+    may_be_none: bool = False  # Whether an image may have none of them: the pointer is null there.
     reason: Text
 
 
@@ -60,16 +61,16 @@ def resolve(graph: Graph, table: StackTable) -> list[str]:
     def titles(name: str) -> list[str]:
         return [title for title, item in graph.items() if item.name == name]
 
-    listed = {entry.caller: entry.calls for entry in table.indirect}
+    listed = {entry.caller: entry for entry in table.indirect}
     tasks = [title for name in table.tasks for title in titles(name)]
     for caller in sorted(name for name, function in graph.items() if function.indirect):
         name = graph[caller].name.partition(".")[0]  # A clone calls what its original calls.
         if name not in listed:
             raise StackError(f"{caller} calls through a pointer: {TABLE} does not say whom")
         targets: set[str] = set()
-        for target in listed[name]:
+        for target in listed[name].calls:
             targets.update(tasks if target == TASKS else titles(target))
-        if listed[name] and not targets:
+        if listed[name].calls and not targets and not listed[name].may_be_none:
             raise StackError(f"{caller}: none of what {TABLE} says it calls is in the image")
         graph[caller].calls |= targets
     return tasks

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import fcntl
+import hashlib
 import json
 import os
 import shutil
@@ -55,8 +56,11 @@ class Cache:
 
     def tree(self, spec: Spec) -> Path:
         """Where an unpacked tool lies; the name holds its pin, so that two clones may differ."""
-        # Packages are built for one version of Python.
-        tag = f"-{sys.implementation.cache_tag}" if spec.kind == "packages" else ""
+        tag = ""
+        if spec.kind == "packages":  # Built for one version of Python.
+            tag = f"-{sys.implementation.cache_tag}"
+        elif spec.keep:  # Of an archive only these, which may differ as well.
+            tag = f"-{hashlib.sha256(' '.join(spec.keep).encode()).hexdigest()[:6]}"
         return self.folder / "tools" / f"{spec.name}-{spec.pin}-{spec.sha256[:12]}{tag}"
 
     def manifest(self, spec: Spec) -> list[dict[str, str]]:

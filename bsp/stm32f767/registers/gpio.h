@@ -31,6 +31,7 @@ typedef struct keel_gpio {
 #define GPIOF_BASE        0x40021400u
 #define GPIOG_BASE        0x40021800u
 #define GPIOH_BASE        0x40021C00u
+#define GPIOI_BASE        0x40022000u
 #define GPIO_MODER_RESET  0x00000000u /* Of every port but A and B. */
 #define GPIOA_MODER_RESET 0xA8000000u
 #define GPIOB_MODER_RESET 0x00000280u

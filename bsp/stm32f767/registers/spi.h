@@ -16,6 +16,7 @@ typedef struct keel_spi {
 } keel_spi_t;
 
 #define SPI1_BASE     0x40013000u
+#define SPI2_BASE     0x40003800u
 #define SPI_CR1_RESET 0x00000000u
 #define SPI_CR1_CPHA  BITS(0u, 1u)
 #define SPI_CR1_CPOL  BITS(1u, 1u)

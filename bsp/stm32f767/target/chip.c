@@ -6,6 +6,7 @@
 #include "common/supervisor.h"
 #include "cortex_m7/core.h"
 #include "cortex_m7/fault.h"
+#include "devices/fm25v02.h"
 #include "stm32f767/flash_medium.h"
 #include "stm32f767/power.h"
 #include "stm32f767/pwm.h"
@@ -25,6 +26,7 @@
 #define TIM1            ((keel_tim_t *)TIM1_BASE)
 #define TIM5            ((keel_tim_t *)TIM5_BASE)
 #define SPI1            ((keel_spi_t *)SPI1_BASE)
+#define SPI2            ((keel_spi_t *)SPI2_BASE)
 #define SDMMC1          ((keel_sdmmc_t *)SDMMC1_BASE)
 #define IWDG            ((keel_iwdg_t *)IWDG_BASE)
 #define DBGMCU          ((keel_dbgmcu_t *)DBGMCU_BASE)
@@ -47,15 +49,16 @@
 
 #define GPIO_CLOCKS                                                                                \
     (RCC_AHB1ENR_GPIOAEN | RCC_AHB1ENR_GPIOBEN | RCC_AHB1ENR_GPIOCEN | RCC_AHB1ENR_GPIODEN |       \
-     RCC_AHB1ENR_GPIOEEN | RCC_AHB1ENR_GPIOFEN | RCC_AHB1ENR_GPIOGEN | RCC_AHB1ENR_GPIOHEN)
+     RCC_AHB1ENR_GPIOEEN | RCC_AHB1ENR_GPIOFEN | RCC_AHB1ENR_GPIOGEN | RCC_AHB1ENR_GPIOHEN |       \
+     RCC_AHB1ENR_GPIOIEN)
 
 /* The core is at 16 MHz until the clocks run, so a look takes half a microsecond at least: 150 ms
  * for a crystal, which needs some milliseconds. Later the core is faster and a look at a peripheral
  * takes some 50 ns: 15 ms, and a character takes 87 us. */
 static const keel_wait_t patience = {300000u, NULL, NULL};
 
-/* For a byte of the sensor, which takes 1.2 us at 6.75 MHz: 20 us at some 50 ns a look. Too short
- * only if a look took less than 3 ns, which is less than a cycle. */
+/* For a byte of the sensor, which takes 1.2 us at 6.75 MHz, or of the memory, 0.3 us: 20 us at some
+ * 50 ns a look. Too short only if a look took less than 3 ns, which is less than a cycle. */
 static const keel_wait_t byte_patience = {400u, NULL, NULL};
 
 /* The guards come last: where regions overlap, the last one holds. Code lies in flash and in ITCM
@@ -332,7 +335,7 @@ static void put_kept(void *context, uint32_t address, uint8_t byte)
     keel_mpu_start(keel_board_regions, keel_board_region_count);
 }
 
-keel_bsp_status_t keel_chip_flash_medium(keel_medium_t *medium)
+static keel_bsp_status_t start_sectors(keel_medium_t *medium)
 {
     /* A look takes 50 ns at least: 1 ms, and 10 s. */
     static const keel_wait_t program_patience = {20000u, NULL, NULL};
@@ -347,6 +350,39 @@ keel_bsp_status_t keel_chip_flash_medium(keel_medium_t *medium)
                                      .get = get_kept,
                                      .put = put_kept};
     return keel_flash_medium(&sectors, medium);
+}
+
+static keel_bsp_status_t start_memory(const keel_board_memory_t *memory, keel_medium_t *medium)
+{
+    static keel_spi_device_t device;
+    static keel_bus_t bus = {keel_spi_bus_exchange, &device};
+    keel_bsp_status_t status;
+
+    device = (keel_spi_device_t){SPI2, memory->select, &byte_patience};
+    keel_pin_output(device.select, KEEL_DRIVE_PUSH_PULL, true);
+    give(memory->sck, KEEL_PULL_UP);  /* Mode 3: the clock rests high. */
+    give(memory->miso, KEEL_PULL_UP); /* Without a memory all ones are read. */
+    give(memory->mosi, KEEL_PULL_NONE);
+    keel_bits_enable(&RCC->APB1ENR, RCC_APB1ENR_SPI2EN);
+    require(keel_spi_start(SPI2, KEEL_APB1_LIMIT_HZ, KEEL_FM25V02_BUS_LIMIT_HZ));
+    status = keel_fm25v02_start(&bus);
+    if (status == KEEL_BSP_OK) {
+        *medium = keel_fm25v02_medium(&bus);
+    }
+    return status;
+}
+
+keel_bsp_status_t keel_chip_memory(keel_medium_t *medium, uint32_t *slot_bytes)
+{
+    const bool is_flash = (PINS->memory == NULL);
+    const keel_bsp_status_t status = is_flash ? start_sectors(medium)
+                                              : start_memory(PINS->memory, medium);
+
+    if (status == KEEL_BSP_OK) {
+        *slot_bytes = is_flash ? KEEL_FLASH_SECTOR_BYTES
+                               : (KEEL_FM25V02_BYTES / (uint32_t)KEEL_SLOTS);
+    }
+    return status;
 }
 
 bool keel_chip_brownout_is_set(void)

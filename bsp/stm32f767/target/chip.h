@@ -90,6 +90,14 @@ typedef struct keel_board_card {
     keel_pin_t power; /**< High switches the card's supply on. */
 } keel_board_card_t;
 
+/** A ferroelectric memory FM25V02, alone at SPI 2. */
+typedef struct keel_board_memory {
+    keel_alternate_t sck;
+    keel_alternate_t miso;
+    keel_alternate_t mosi;
+    keel_pin_t select;
+} keel_board_memory_t;
+
 /** What a board says about itself. */
 typedef struct keel_board_pins {
     keel_oscillator_t oscillator;
@@ -105,11 +113,13 @@ typedef struct keel_board_pins {
     keel_pin_t sensor_select;
     const keel_pin_t *deselect; /**< Other devices on the bus, which must stay silent. */
     uint32_t deselect_count;
-    const keel_pin_t *power;         /**< High switches the sensors' supply on; null: none. */
-    const keel_analogue_t *analogue; /**< By keel_analogue_name_t; null: none. */
-    uint32_t analogue_count;         /**< KEEL_ANALOGUES, or 0. */
-    const keel_board_card_t *card;   /**< Null: no slot. */
-    uint32_t kept_sector; /**< The first of two flash sectors that images leave free; 0: none. */
+    const keel_pin_t *power;           /**< High switches the sensors' supply on; null: none. */
+    const keel_analogue_t *analogue;   /**< By keel_analogue_name_t; null: none. */
+    uint32_t analogue_count;           /**< KEEL_ANALOGUES, or 0. */
+    const keel_board_card_t *card;     /**< Null: no slot. */
+    const keel_board_memory_t *memory; /**< Null: none. */
+    uint32_t kept_sector; /**< The first of two flash sectors that images leave free, where there is
+                               no memory; 0: none. */
 } keel_board_pins_t;
 
 /** Board: its description. */
@@ -144,14 +154,22 @@ keel_invensense_t *keel_chip_sensor(void);
 bool keel_chip_card(keel_disk_t *disk);
 
 /**
- * Two sectors of the chip's own flash as a memory for slots, by flash_medium.h: on boards without
- * another one. To be called once. The memory's protection is off for each byte that is written.
+ * What the board keeps sets of parameters in (common/slots.h): its ferroelectric memory, or, on a
+ * board without one, two sectors of the chip's own flash. Slot i begins at i times slot_bytes. To
+ * be called once.
  *
- * @param medium the memory; as it was unless KEEL_BSP_OK
- * @return KEEL_BSP_OK; KEEL_BSP_ARGUMENT when the board leaves no sectors free; KEEL_BSP_ID when
- *         the chip's option bytes make two banks of its flash
+ * The ferroelectric memory can be written in flight, and does not wear out. A save into the flash
+ * erases a sector first, which stops the processor for seconds, so it is for the ground and for
+ * the time before the watchdog runs; each byte that is written switches the memory's protection off
+ * for a moment; and a sector bears 10 000 erasures.
+ *
+ * @param medium     the memory; it has erase if it is the flash
+ * @param slot_bytes bytes of each of the two slots
+ * @return KEEL_BSP_OK; KEEL_BSP_ARGUMENT when the board has neither; as keel_fm25v02_start for the
+ *         ferroelectric memory; KEEL_BSP_ID when the chip's option bytes make two banks of its
+ *         flash. Unless KEEL_BSP_OK, medium and slot_bytes are as they were
  */
-keel_bsp_status_t keel_chip_flash_medium(keel_medium_t *medium);
+keel_bsp_status_t keel_chip_memory(keel_medium_t *medium, uint32_t *slot_bytes);
 
 /** Whether the brown-out level is 2.7 V, below which the flash is too slow for the core's clock. */
 bool keel_chip_brownout_is_set(void);

@@ -44,8 +44,9 @@ kernel: WP with its provers, and CBMC. That is why most detection is TD2 and not
 
 Known problems were reviewed as far as each tool's page says. "Read" means that the vendor's list \
 or release notes were read; "searched", that single problems were found by a search, and no whole \
-list was read; "compared", that a later release gave the same verdicts on all that the project asks \
-of the tool; "open", that nothing was found. None of them means that there is no other problem."""
+list was read; "compared", that a later release gave the same verdicts on all that the project \
+asks of the tool; "open", that nothing was found. None of them means that there is no other \
+problem."""
 
 Known = Literal["read", "searched", "compared", "open", "not needed"]
 
