@@ -242,6 +242,7 @@ def measure() -> tuple[list[Condition], dict[str, object]]:
     measurement.check_all_functions()
     versions = {name: item.version for name, item in tools.versions("target", "stack").items()}
     untraced = [name_of(path) for path in unit_tests(ROOT) if is_untraced(path)]
+    facts: dict[str, object]
     facts = {"tests": tests, "untraced": untraced, "flags": board.builder.flags, "tools": versions}
     return [measurement.found[key] for key in sorted(measurement.found)], facts
 

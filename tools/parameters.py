@@ -28,7 +28,7 @@ SOURCE = "specs/parameters/copter.toml"
 NAME_LENGTH = 16
 MOST = 1000
 INT32 = range(-(2**31), 2**31)
-LARGEST = struct.unpack("<f", b"\xff\xff\x7f\x7f")[0]
+LARGEST: float = struct.unpack("<f", b"\xff\xff\x7f\x7f")[0]
 # "fields" are of C: a path, its indices constants; before it a factor, if it is not 1.
 FIELD = re.compile(
     r"(?:(-?\d+(?:\.\d+)?) \* )?([a-z][a-z0-9_]*(?:(?:\.|\[[A-Z0-9_]+\]\.?)[a-z0-9_]*)*)"
@@ -100,7 +100,7 @@ def least_of(type_: str) -> int:
 
 def greatest_of(type_: str) -> int:
     """Its greatest, of those that an int32 has."""
-    return min(2 ** int(re.sub(r"\D", "", type_)), INT32.stop) - 1
+    return min(1 << int(re.sub(r"\D", "", type_)), INT32.stop) - 1
 
 
 def fits(number: Number, type_: str) -> bool:
@@ -279,7 +279,7 @@ def metadata(file: File) -> str:
     for group in file.group:
         for one in group.parameter:
             low, high = one.bounds
-            entry = {
+            entry: dict[str, object] = {
                 "name": one.name,
                 "type": {"float": "Float", "int32": "Int32", "bool": "Uint8"}[one.type],
                 "shortDesc": one.description,

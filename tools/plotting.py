@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from common.files import write_text
 
@@ -21,7 +21,7 @@ BLUE, ORANGE, GREEN, RED, SKY, PURPLE = (
 GREY = "#767676"
 COLOURS = (BLUE, ORANGE, GREEN, SKY, PURPLE, RED)
 
-STYLE = {
+STYLE: Any = {  # Keys of matplotlib, which has a type of its own for them.
     "svg.hashsalt": "keel",  # Names inside of the file, which are random without.
     "svg.fonttype": "none",  # Text stays text.
     "path.simplify_threshold": 0.5,  # Of a pixel: what nobody sees is not stored.
@@ -45,10 +45,11 @@ def new_figure(width: float, height: float) -> Figure:
     # Its cache of fonts belongs to us, not to the user's home.
     os.environ.setdefault("MPLCONFIGDIR", str(Path(os.environ.get("TMPDIR", "/tmp")) / "keel-mpl"))
     import matplotlib
+    from cycler import cycler
 
     matplotlib.use("svg")
     matplotlib.rcParams.update(STYLE)
-    matplotlib.rcParams["axes.prop_cycle"] = matplotlib.cycler(color=COLOURS)
+    matplotlib.rcParams["axes.prop_cycle"] = cycler(color=COLOURS)
     from matplotlib.figure import Figure
 
     return Figure(figsize=(width, height), layout="constrained")

@@ -83,8 +83,9 @@ class SdCard:
         self.errors = 0
         return [word]
 
-    def _refuse(self) -> None:
+    def _refuse(self) -> list[int] | None:
         self.errors |= ILLEGAL
+        return None  # No answer.
 
     def _move(self, state: int, following: int) -> list[int] | None:
         if self.state != state:

@@ -48,7 +48,7 @@ def crates(tools: Toolchain, folder: Path) -> Path:
     shutil.rmtree(work / "src", ignore_errors=True)
     shutil.copytree(CRATES, work, dirs_exist_ok=True)
     cargo = tools.command("cargo")
-    manifest = ["--manifest-path", work / "Cargo.toml"]
+    manifest: list[str | Path] = ["--manifest-path", work / "Cargo.toml"]
     (work / LOCK).unlink(missing_ok=True)
     output_of([*cargo, "generate-lockfile", *manifest])
     write_text(work / LOCK, pinned_lock(read_text(work / LOCK), read_text(work / f"{LOCK}.in")))

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The types of the tools, by mypy with tools/mypy.ini, beside the libraries that they use.
+
+    python3 tests/tools/test_types.py
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+TOOLS = ROOT / "tools"
+sys.path.insert(0, str(TOOLS))
+
+from toolchain import Toolchain  # noqa: E402
+
+
+class TypesTest(unittest.TestCase):
+    """Programs of one name with a folder are checked one by one: mypy takes both for one module."""
+
+    variables: dict[str, str]
+    cache: str
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        tools = Toolchain()
+        tools.ensure("types", "fly-tests", "evidence", "trace", "c-syntax", "model", "stack")
+        groups = ("types", "fly-tests", "evidence", "trace", "c-syntax", "model", "stack")
+        names = dict.fromkeys(name for group in groups for name in tools.lock.groups[group])
+        places = [tools.command(name)[0] for name in names
+                  if tools.lock.tools[name].kind in ("packages", "wheel")]  # fmt: skip
+        cls.variables = {**os.environ, "PYTHONPATH": os.pathsep.join(places)}
+        cls.cache = cls.enterClassContext(tempfile.TemporaryDirectory(prefix="keel-test-"))
+
+    def mypy(self, *files: str) -> str:
+        """What mypy says of files."""
+        command = [sys.executable, "-m", "mypy", "--cache-dir", self.cache, *files]
+        done = subprocess.run(
+            command, cwd=TOOLS, env=self.variables, check=False, text=True, capture_output=True
+        )
+        return done.stdout + done.stderr
+
+    def test_the_tools_have_the_types_that_they_say(self) -> None:
+        programs = sorted(path.name for path in TOOLS.glob("*.py"))
+        alone = [name for name in programs if (TOOLS / name).with_suffix("").is_dir()]
+        modules = sorted(path.relative_to(TOOLS).as_posix() for path in TOOLS.glob("*/**/*.py"))
+        others = [name for name in programs if name not in alone]
+        for files in (modules, others, *([name] for name in alone)):
+            with self.subTest(files[0]):
+                self.assertIn(f"Success: no issues found in {len(files)} source", self.mypy(*files))
+
+    def test_a_wrong_type_is_found(self) -> None:
+        with tempfile.TemporaryDirectory(prefix="keel-test-") as folder:
+            wrong = Path(folder) / "wrong.py"
+            wrong.write_text("def half(number: int) -> int:\n    return number / 2\n")
+            self.assertIn("wrong.py:2: error: Incompatible return value", self.mypy(str(wrong)))
+
+
+if __name__ == "__main__":
+    unittest.main()
