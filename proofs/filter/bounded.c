@@ -5,7 +5,7 @@
  *
  * Put G = sqrt(2) g, so that D = 1 + G + G^2/2, and let p be the mean of s1 before and after a
  * step, q its output y. A step is that of the trapezoidal rule, both sides times D > 0
- * (FLT_008_first to FLT_008_third):
+ * (FLT_008_first here; FLT_008_second and FLT_008_third in step.c):
  *
  *     s1' - p = p - s1 = G u,  s2' - q = q - s2 = G v    with u = (x - 2 p - q)/2, v = p
  *
@@ -31,15 +31,6 @@
   @ lemma FLT_008_first: \forall real G, D, b, c, s1, d, p;
   @     D == 1 + G + G * G / 2 && D * b == G && D * c == 2 - D &&
   @     2 * p == s1 + (c * s1 + b * d) ==> D * p == s1 + G * d / 2;
-  @
-  @ lemma FLT_008_second: \forall real G, D, a, b, s1, d, h;
-  @     D == 1 + G + G * G / 2 && D * b == G && D * a == G * G / 2 && h == b * s1 + a * d ==>
-  @     D * h == G * (s1 + G * d / 2);
-  @
-  @ lemma FLT_008_third: \forall real G, D, s1, s2, x, d, h, p, q;
-  @     D == 1 + G + G * G / 2 && d == x - s2 && q == s2 + h &&
-  @     D * p == s1 + G * d / 2 && D * h == G * (s1 + G * d / 2) ==>
-  @     D * (p - s1) == D * (G * ((x - 2 * p - q) / 2));
   @
   @ lemma FLT_008_change: \forall real G, p, q, x, u, v;
   @     u == (x - 2 * p - q) / 2 && v == p ==>

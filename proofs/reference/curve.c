@@ -11,7 +11,19 @@
  * keel_reference_step_harness shows to be the model's, bit for bit.
  */
 
-/*@ logic real rounded(real x) = (real)(float)x;
+/*@ // Of products, before there is rounding, of which not every prover knows.
+  @ lemma REF_008_exact: \forall real a, b, c; 0 <= a <= b && 0 <= c ==> 0 <= a * c <= b * c;
+  @
+  @ lemma REF_008_some: \forall real a, b; 0 <= a && 0 <= b <= 1 ==>
+  @     0 <= a * (1 - b) && 0 <= a * b <= a;
+  @
+  @ lemma REF_008_scaled: \forall real a, b, scale; -1 <= a <= b <= 1 && 1 <= scale <= 2.5 ==>
+  @     -2.5 <= a * scale <= b * scale <= 2.5;
+  @
+  @ lemma REF_007_scaled: \forall real a, scale; -1 <= a <= 0 && 1 <= scale <= 2.5 ==>
+  @     -2.5 <= a * scale <= 0;
+  @
+  @ logic real rounded(real x) = (real)(float)x;
   @
   @ // What the others use of rounding.
   @ lemma REF_008_rounding: \forall real x, y; -128 <= x <= y <= 128 ==> rounded(x) <= rounded(y);
@@ -28,12 +40,7 @@
   @
   @ lemma REF_008_commuted: \forall real a, b; product(a, b) == product(b, a);
   @
-  @ lemma REF_008_exact: \forall real a, b, c; 0 <= a <= b && 0 <= c ==> 0 <= a * c <= b * c;
-  @
   @ lemma REF_010_product: \forall real x, y; 0 <= x && 0 <= y ==> 0 <= x * y;
-  @
-  @ lemma REF_008_some: \forall real a, b; 0 <= a && 0 <= b <= 1 ==>
-  @     0 <= a * (1 - b) && 0 <= a * b <= a;
   @
   @ lemma REF_008_left: \forall real a, b, c; 0 <= a <= b <= 1 && 0 <= c <= 100 ==>
   @     0 <= product(a, c) <= product(b, c);
@@ -49,17 +56,11 @@
   @ lemma REF_008_beyond: \forall real x, y, d; 0 <= x <= y <= 1 && 0 < d <= 0.5 ==>
   @     rounded(-1.0) <= rounded(x - d) <= rounded(y - d) <= rounded(1.0);
   @
-  @ lemma REF_008_scaled: \forall real a, b, scale; -1 <= a <= b <= 1 && 1 <= scale <= 2.5 ==>
-  @     -2.5 <= a * scale <= b * scale <= 2.5;
-  @
   @ lemma REF_008_stretched: \forall real a, b, scale; -1 <= a <= b <= 1 && 1 <= scale <= 2.5 ==>
   @     product(a, scale) <= product(b, scale);
   @
   @ lemma REF_007_within: \forall real x, d; 0 <= x <= d <= 0.5 ==>
   @     rounded(-1.0) <= rounded(x - d) <= rounded(0.0);
-  @
-  @ lemma REF_007_scaled: \forall real a, scale; -1 <= a <= 0 && 1 <= scale <= 2.5 ==>
-  @     -2.5 <= a * scale <= 0;
   @
   @ lemma REF_007_stretched: \forall real a, scale; -1 <= a <= 0 && 1 <= scale <= 2.5 ==>
   @     product(a, scale) <= rounded(0.0);

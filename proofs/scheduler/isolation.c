@@ -33,7 +33,12 @@
   @*/
 uint32_t read_within(uint32_t raw_us, uint64_t limit_us);
 
-/*@ // sum holds the sums of the real-time budgets, which never fall.
+/*@ // Who has missed no period goes on by one.
+  @ lemma one_period{L}: \forall keel_queue_t *q, integer x, integer now_us;
+  @     grid_missed(q, x, now_us) == 0 ==>
+  @         grid_next(q, x, now_us) == q->release_us[x] + q->period_us[x];
+  @
+  @ // sum holds the sums of the real-time budgets, which never fall.
   @ predicate budgets_summed(keel_scheduler_t *s, int64_t *sum) =
   @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
   @         sum[j + 1] == sum[j] + s->queue.budget_us[s->queue.order[j]];
@@ -290,6 +295,16 @@ static void decide(keel_scheduler_t *s, const int64_t *sum)
     /*@ assert none_missed: s->stage == KEEL_STAGE_REALTIME ==>
       @     \at(grid_missed(&s->queue, s->queue.order[\at(s->running, Here)], s->clock.now_us), Pre)
       @     == 0;
+      @*/
+    /*@ assert next: s->stage == KEEL_STAGE_REALTIME ==>
+      @     s->queue.release_us[s->queue.order[s->running]] ==
+      @         \at(grid_next(&s->queue, s->queue.order[\at(s->running, Here)],
+      @                       s->clock.now_us), Pre);
+      @*/
+    /*@ assert by_one: s->stage == KEEL_STAGE_REALTIME ==>
+      @     \at(grid_next(&s->queue, s->queue.order[\at(s->running, Here)], s->clock.now_us), Pre)
+      @     == \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], Pre)
+      @         + \at(s->queue.period_us[s->queue.order[\at(s->running, Here)]], Pre);
       @*/
     /*@ assert on_time: s->stage == KEEL_STAGE_REALTIME ==>
       @     s->queue.release_us[s->queue.order[s->running]] ==

@@ -270,6 +270,18 @@ class Unpacking(Sandbox):
         self.assertEqual(again.parts[0]["name"], "prover")
         self.assertTrue(again.location.endswith("usr/bin/prover"))
 
+    def test_a_program_that_is_only_right_with_options_has_them_and_no_other_is_taken(self) -> None:
+        self.script("prover", "echo prover 6.6")
+        lock = self.lock(prover={**DEB, "options": ["-no-guess", "a b"]})
+        self.store.unpack(lock.tools["prover"], self.fill, Finder(self.cache))
+        tools = Toolchain(self.cache, lock)
+        tools.ensure("g", say=quiet)
+        found = tools.versions("g")["prover"]
+        self.assertEqual(found.origin, "cache")
+        self.assertEqual([found.location], tools.command("prover"))
+        # What identifies it is what starts it, for that has the options.
+        self.assertIn("-no-guess 'a b' \"$@\"", Path(found.location).read_text())
+
     def test_a_download_that_is_not_the_pinned_one_leaves_nothing(self) -> None:
         def fill(tree: Tree) -> None:
             self.fill(tree)

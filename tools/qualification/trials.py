@@ -28,10 +28,12 @@ Trial = Callable[[Toolchain, Path, str], list[str]]  # The tools, the text's fil
 
 GOAL = re.compile(r"Goal (\S+) : (?!Valid|Trivial)", re.MULTILINE)
 PROVED = re.compile(r"Proved goals: +\d+ */ *\d+")
+ANSWER = re.compile(r"Valid|Invalid|Timeout|I don't know")
 FAILED = re.compile(r"^\[([\w.]+)\] .*: FAILURE$", re.MULTILINE)
 SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 PROVER_SECONDS = "10"
 UNWIND = "6"
+ENDINGS = {"gappa": "g", "alt-ergo": "why"}
 
 
 def wp(tools: Toolchain, file: Path, prover: str) -> list[str]:
@@ -48,6 +50,15 @@ def wp(tools: Toolchain, file: Path, prover: str) -> list[str]:
     if not PROVED.search(said):
         raise ToolError(f"frama-c: no verdict:\n{said.strip()}")
     return GOAL.findall(said)
+
+
+def alt_ergo(tools: Toolchain, file: Path, option: str) -> list[str]:
+    """The answers but "Valid"."""
+    done = run([*tools.command("alt-ergo"), "-timelimit", PROVER_SECONDS, file])
+    answers = ANSWER.findall(done.output)
+    if not answers:
+        raise ToolError(f"alt-ergo: no verdict:\n{done.output.strip()}")
+    return [answer for answer in answers if answer != "Valid"]
 
 
 def eva(tools: Toolchain, file: Path, option: str) -> list[str]:
@@ -131,15 +142,15 @@ def emulated(tools: Toolchain, file: Path, option: str) -> list[str]:
 
 
 TRIALS: dict[str, Trial] = {
-    "wp": wp, "eva": eva, "cbmc": cbmc, "gappa": gappa, "cppcheck": cppcheck, "stack": stack,
-    "sanitizers": sanitizers, "coverage": coverage, "emulated": emulated,
+    "wp": wp, "alt-ergo": alt_ergo, "eva": eva, "cbmc": cbmc, "gappa": gappa, "cppcheck": cppcheck,
+    "stack": stack, "sanitizers": sanitizers, "coverage": coverage, "emulated": emulated,
 }  # fmt: skip
 
 
 def ask(tools: Toolchain, trial: str, text: str, option: str, folder: Path) -> list[str]:
     """What a tool says of a text."""
     folder.mkdir(parents=True)
-    file = folder / ("seed.g" if trial == "gappa" else "seed.c")
+    file = folder / f"seed.{ENDINGS.get(trial, 'c')}"
     file.write_text(text, encoding="utf-8")
     try:
         return TRIALS[trial](tools, file, option)

@@ -59,8 +59,8 @@ class Cache:
         tag = ""
         if spec.kind == "packages":  # Built for one version of Python.
             tag = f"-{sys.implementation.cache_tag}"
-        elif spec.keep:  # Of an archive only these, which may differ as well.
-            tag = f"-{hashlib.sha256(' '.join(spec.keep).encode()).hexdigest()[:6]}"
+        elif chosen := [*spec.keep, *spec.options]:  # What is kept of it, how it is started.
+            tag = f"-{hashlib.sha256(' '.join(chosen).encode()).hexdigest()[:6]}"
         return self.folder / "tools" / f"{spec.name}-{spec.pin}-{spec.sha256[:12]}{tag}"
 
     def manifest(self, spec: Spec) -> list[dict[str, str]]:

@@ -113,7 +113,10 @@ class Finder:
             return self._file(spec, root, "cache", parts)
         finding = self._in_directory(spec, root / "bin", "cache", parts)
         # What identifies the tool is the program, not the script that starts it.
-        return finding and replace(finding, **fingerprint(root / spec.started(spec.commands[0])))
+        # With options, what starts it is another program than the one that is started.
+        first = spec.commands[0]
+        program = f"bin/{first}" if spec.options else spec.started(first)
+        return finding and replace(finding, **fingerprint(root / program))
 
     def _note(self, spec: Spec, text: str) -> None:
         self.looked.setdefault(spec.name, []).append(text)

@@ -43,6 +43,7 @@ class Spec:
     folder: str = ""
     program: str = ""
     keep: tuple[str, ...] = ()
+    options: tuple[str, ...] = ()
     requirements: str = ""
     libraries: tuple[str, ...] = ()
     loader: str = ""

@@ -94,9 +94,10 @@ class Toolchain:
         """The tool if it is there, without installing anything."""
         if spec.derived:
             return None
-        # A suitable tool of the user's own goes first; a library of sources that we unpack is not
-        # looked for elsewhere.
-        if (spec.commands or not spec.cached) and (finding := finder.system(spec)):
+        # A suitable tool of the user's own goes first; a library of sources that we unpack, and a
+        # program that is only right with options, are not looked for elsewhere.
+        own = not spec.options and (spec.commands or not spec.cached)
+        if own and (finding := finder.system(spec)):
             return finding
         return self.cache.find(spec, finder) if spec.cached else None
 

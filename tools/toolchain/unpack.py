@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import tarfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -70,12 +71,13 @@ def write_starter(tree: Tree, command: str, start: str = "") -> None:
     program = tree.spec.started(command)
     if not start and not (tree.root / program).is_file():
         raise ToolchainError(f"{tree.spec.name}: the package holds no {program}")
-    start = start or f'exec "$root/{program}" "$@"'
+    options = "".join(f"{shlex.quote(option)} " for option in tree.spec.options)
+    start = start or f'exec "$root/{program}" {options}"$@"'
     if tree.spec.loader:
         libraries = ":".join(f"$root/{part}" for part in tree.spec.library_path)
         start = (
             f'exec "$root/{tree.spec.loader}" --argv0 "$0" \\\n'
-            f'    --library-path "{libraries}" "$root/{program}" "$@"'
+            f'    --library-path "{libraries}" "$root/{program}" {options}"$@"'
         )
     target = tree.root / "bin" / command
     target.parent.mkdir(exist_ok=True)
