@@ -105,6 +105,16 @@ static void give(keel_alternate_t to, keel_pull_t pull)
     keel_pin_alternate(to.pin, to.function, pull);
 }
 
+/* The pins of an SPI with one device, which is not selected. */
+static void give_spi(keel_pin_t select, keel_alternate_t sck, keel_alternate_t miso,
+                     keel_alternate_t mosi)
+{
+    keel_pin_output(select, KEEL_DRIVE_PUSH_PULL, true);
+    give(sck, KEEL_PULL_UP);  /* Mode 3: the clock rests high. */
+    give(miso, KEEL_PULL_UP); /* Without a device all ones are read. */
+    give(mosi, KEEL_PULL_NONE);
+}
+
 static void start_leds(void)
 {
     for (uint32_t i = 0u; i < KEEL_LEDS; i++) {
@@ -263,10 +273,7 @@ keel_bsp_status_t keel_chip_sensor_start(void)
         keel_pin_output(PINS->deselect[i], KEEL_DRIVE_PUSH_PULL, true);
     }
     sensor_device = (keel_spi_device_t){SPI1, PINS->sensor_select, &byte_patience};
-    keel_pin_output(sensor_device.select, KEEL_DRIVE_PUSH_PULL, true);
-    give(PINS->sck, KEEL_PULL_UP);  /* Mode 3: the clock rests high. */
-    give(PINS->miso, KEEL_PULL_UP); /* Without a sensor all ones are read. */
-    give(PINS->mosi, KEEL_PULL_NONE);
+    give_spi(PINS->sensor_select, PINS->sck, PINS->miso, PINS->mosi);
     keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_SPI1EN);
     require(keel_spi_start(SPI1, KEEL_APB2_LIMIT_HZ, keel_icm20689.bus_limit_hz));
     (void)delay(NULL, POWER_ON_US);
@@ -359,10 +366,7 @@ static keel_bsp_status_t start_memory(const keel_board_memory_t *memory, keel_me
     keel_bsp_status_t status;
 
     device = (keel_spi_device_t){SPI2, memory->select, &byte_patience};
-    keel_pin_output(device.select, KEEL_DRIVE_PUSH_PULL, true);
-    give(memory->sck, KEEL_PULL_UP);  /* Mode 3: the clock rests high. */
-    give(memory->miso, KEEL_PULL_UP); /* Without a memory all ones are read. */
-    give(memory->mosi, KEEL_PULL_NONE);
+    give_spi(memory->select, memory->sck, memory->miso, memory->mosi);
     keel_bits_enable(&RCC->APB1ENR, RCC_APB1ENR_SPI2EN);
     require(keel_spi_start(SPI2, KEEL_APB1_LIMIT_HZ, KEEL_FM25V02_BUS_LIMIT_HZ));
     status = keel_fm25v02_start(&bus);
