@@ -54,8 +54,8 @@ from proofs.mutant_verdicts import Verdict  # noqa: E402
 from proofs.mutants import Mutant, generate  # noqa: E402
 from proofs.mutation import BY_CBMC, BY_WP, CONFIRM, DRIVER, Tools, Trial  # noqa: E402
 from proofs.project import RECORDED_TIMES, ProjectError, Unit, find_units  # noqa: E402
-from proofs.session import judges_digest, own_digest, prover_answers, tool_stamp  # noqa: E402
 from proofs.settings import read_exceptions  # noqa: E402
+from proofs.stamps import judges_digest, own_digest, prover_answers, tool_stamp  # noqa: E402
 from proofs.times import Times  # noqa: E402
 from toolchain import TARGET_FLAGS, Toolchain, ToolchainError  # noqa: E402
 
@@ -141,7 +141,7 @@ def stamp_of(toolchain: Toolchain) -> dict[str, str]:
     tools = tool_stamp(toolchain.versions("prove"))
     by_cbmc = digest([judges_digest("cbmc"), mutant_execution.judge()])
     judges = {BY_CBMC: by_cbmc, BY_WP: judges_digest("wp")}
-    return {**tools, **judges, DRIVER: own_digest()}
+    return {**tools, **judges, DRIVER: own_digest("cbmc")}
 
 
 @dataclass

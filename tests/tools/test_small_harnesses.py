@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the small harnesses that mutants are tried by first, and of what judges a mutant.
+"""Tests of the small harnesses that mutants are tried by first.
 
     python3 tests/tools/test_small_harnesses.py
 
@@ -9,7 +9,6 @@ No prover is run.
 
 from __future__ import annotations
 
-import shutil
 import sys
 import tempfile
 import unittest
@@ -24,8 +23,6 @@ from proofs.cbmc_answers import Answer  # noqa: E402
 from proofs.harness import Harness, read_harness  # noqa: E402
 from proofs.mutant_small import Small, small  # noqa: E402
 from test_prove import HARNESS, TreeTest  # noqa: E402
-
-from proofs import session  # noqa: E402
 
 
 class SmallHarness(TreeTest):
@@ -123,35 +120,6 @@ class Kills(TreeTest):
         made.kills(harness, "keel_box_put", checker, self.root)
         self.assertEqual(made.ranked("keel_box_put", [other, harness]), [harness, other])
         self.assertEqual(made.ranked("elsewhere", [other, harness]), [other, harness])
-
-
-class Judges(unittest.TestCase):
-    def setUp(self) -> None:
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.tools = Path(folder.name) / "tools"
-        for name in ("proofs", "toolchain"):
-            shutil.copytree(ROOT / "tools" / name, self.tools / name)
-
-    def changed_by(self, name: str) -> list[str]:
-        """By which engines kept verdicts are void when a file of the tools changes."""
-        folder = self.tools / "proofs"
-        before = [session.judges_digest(engine, folder) for engine in session.JUDGES]
-        with (self.tools / name).open("a", encoding="utf-8") as file:
-            file.write("# a comment\n")
-        after = [session.judges_digest(engine, folder) for engine in session.JUDGES]
-        return [engine for engine, one, two in zip(session.JUDGES, before, after, strict=True)
-                if one != two]  # fmt: skip
-
-    def test_another_judge_may_say_something_else(self) -> None:
-        for name in ("cbmc.py", "cbmc_answers.py", "mutation.py", "mutant_small.py"):
-            self.assertEqual(self.changed_by(f"proofs/{name}"), ["cbmc"], name)
-        for name in ("proofs/wp.py", "proofs/verdict.py", "toolchain/provers.py"):
-            self.assertEqual(self.changed_by(name), ["wp"], name)
-
-    def test_who_finds_makes_or_prints_judges_nothing(self) -> None:
-        for name in ("csource.py", "mutants.py", "mutant_slips.py", "report.py", "clauses.py"):
-            self.assertEqual(self.changed_by(f"proofs/{name}"), [], name)
 
 
 if __name__ == "__main__":

@@ -497,7 +497,7 @@ class Verdicts(Sandbox):
         if changed:
             with (tools / changed).open("a") as stream:
                 stream.write("# A comment.\n")
-        script = "from proofs.session import own_digest; print(own_digest())"
+        script = "from proofs.stamps import own_digest; print(own_digest('wp'))"
         command = [sys.executable, "-c", script]
         return subprocess.check_output(command, cwd=tools, text=True, env=OUTSIDE)
 

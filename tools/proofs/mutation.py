@@ -23,6 +23,7 @@ from .mutant_verdicts import Identity, Verdict
 from .mutants import Mutant
 from .project import ProjectError, Unit, closure
 from .settings import Exceptions
+from .stamps import started
 from .times import Times
 
 # What is not true is given up soon; how soon depends on how long what is true takes.
@@ -239,7 +240,7 @@ class Trial:
                      for path in self._seen[harness.name].files if path != mutant.file}  # fmt: skip
             self._beside[place] = digest([texts, self._seen[harness.name].command])
         changed = csource.essence(mutant.apply(self._texts[mutant.file]))
-        stamp = self._stamp_without(DRIVER, BY_WP)
+        stamp = started("cbmc", self._stamp_without(DRIVER, BY_WP))
         return digest([self._beside[place], mutant.function, changed, stamp])
 
     def _key(self, mutant: Mutant) -> str:
@@ -367,7 +368,7 @@ class Trial:
             if name not in self._sound:
                 root, checker = self._unit.root, self._unchanged()
                 harness = next(item for item in self._linked if item.name == name)
-                stamp = self._stamp_without(BY_CBMC, BY_WP)
+                stamp = started("cbmc", self._stamp_without(BY_CBMC, BY_WP))
                 key = engines.cbmc_key(harness, checker, root, stamp)  # that of make prove
                 if self._proved.get(key) is None:
                     result = checker.prove(harness)

@@ -4,18 +4,17 @@
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import os
 import shutil
 import sys
 import tempfile
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from common.files import write_text
-from toolchain import Found, Toolchain
+from toolchain import Toolchain
 
 from . import (
     assertions,
@@ -42,6 +41,7 @@ from .harness import read_harness, unchecked
 from .jobs import Runner
 from .project import RECORDED_TIMES, Unit, closure, find_units
 from .settings import Exceptions, read_exceptions
+from .stamps import prover_answers, tool_stamp, verdict_stamp
 from .times import Times, read_times, recorded_anew
 from .times import as_text as times_text
 
@@ -62,62 +62,6 @@ class Choice:
     # A part of the jobs, or the reports of all parts.
     shard: shards.Shard | None = None
     join: tuple[Path, ...] = ()
-
-
-def tool_stamp(tools: dict[str, Found]) -> dict[str, str]:
-    """What identifies the tools of a verdict: versions and hashes, no places."""
-    stamp = {name: f"{tool.version} {tool.sha256}" for name, tool in tools.items()}
-    for name, tool in tools.items():
-        parts = [
-            f"{part.get('name')} {part.get('version')} {part.get('sha256', '')}"
-            for part in tool.parts
-        ]
-        stamp[name] += "".join(f"; {part.strip()}" for part in parts)
-    # The configuration of why3 differs from host to host in its paths alone.
-    stamp.pop("why3-config", None)
-    return stamp
-
-
-OWN = Path(__file__).resolve().parent
-# Makes mutants, or tells what others found: no verdict depends on it.
-NO_JUDGES = ("muta", "explain", "counterexample", "sequents", "exports", "report", "times")
-
-
-# What judges a mutant: how each engine is asked, how its answers are read, what follows. What finds
-# functions and harnesses, makes mutants or prints is none of these: the key of a verdict has what
-# it finds, and a report its list of mutants.
-JUDGES = {
-    "cbmc": ("mutation.py", "mutant_small.py", "cbmc.py", "cbmc_answers.py"),
-    "wp": ("wp.py", "wplog.py", "verdict.py", "ask_recorded.ml", "../toolchain/provers.py"),
-}
-
-
-def own_digest(folder: Path = OWN) -> str:
-    """SHA-256 over the driver's source: another driver may judge differently. How the provers are
-    installed does not matter, how they are started does."""
-    # The parser of C is pinned there: another one may see other functions.
-    others = (folder / "requirements.txt", folder.parent / "toolchain/provers.py")
-    own = [*folder.glob("*.py"), *folder.glob("*.ml"), *others]
-    return _digest_of(path for path in sorted(own) if not path.stem.startswith(NO_JUDGES))
-
-
-def judges_digest(engine: str, folder: Path = OWN) -> str:
-    """SHA-256 over what judges mutants by an engine."""
-    return _digest_of(folder / name for name in JUDGES[engine])
-
-
-def _digest_of(files: Iterable[Path]) -> str:
-    state = hashlib.sha256()
-    for path in files:
-        state.update(path.read_bytes())
-    return state.hexdigest()
-
-
-def prover_answers(root: Path, stamp: Mapping[str, str]) -> Path:
-    """Where provers' answers are kept, apart for each set of tools; the driver does not matter."""
-    tools = "\n".join(f"{name} {text}" for name, text in sorted(stamp.items()) if name != "driver")
-    name = hashlib.sha256(tools.encode()).hexdigest()[:16]
-    return root / "build" / "prove" / "answers" / name
 
 
 class Session:
@@ -197,10 +141,11 @@ class Session:
             {unit.name: report.UnitResult(unit, exceptions[unit.name]) for unit in choice.units},
             choice.engines,
         )
-        stamp = {**tool_stamp(self._tools.versions("prove")), "driver": own_digest()}
-        jobs = self._jobs(runner, scratch, stamp, everything, exceptions)
+        tools = tool_stamp(self._tools.versions("prove"))
+        stamps = {engine: verdict_stamp(engine, tools) for engine in choice.engines}
+        jobs = self._jobs(runner, scratch, stamps, everything, exceptions)
         times = Times(self._build / "times.json", self._root / RECORDED_TIMES)
-        made_of = shards.origin(jobs, stamp) if choice.shard or choice.join else {}
+        made_of = shards.origin(jobs, stamps) if choice.shard or choice.join else {}
         if choice.shard:
             jobs = shards.part(jobs, choice.shard, times.recorded)
         console = report.Console(jobs, times, choice.width)
@@ -238,20 +183,20 @@ class Session:
             write_text(path, text)
 
     def _jobs(
-        self, runner: Runner, scratch: Path, stamp: dict[str, str], everything: dict[str, Unit],
-        exceptions: dict[str, Exceptions],
+        self, runner: Runner, scratch: Path, stamps: dict[str, dict[str, str]],
+        everything: dict[str, Unit], exceptions: dict[str, Exceptions],
     ) -> list[driver.Job]:  # fmt: skip
         """All jobs of the choice."""
         choice = self._choice
         jobs: list[driver.Job] = []
         if "wp" in choice.engines:
-            jobs += self._wp_jobs(runner, scratch, stamp, everything, exceptions)
+            jobs += self._wp_jobs(runner, scratch, stamps["wp"], everything, exceptions)
         if "cbmc" in choice.engines:
             checker = self._checker(runner, scratch)
-            jobs += engines.cbmc_jobs(choice.units, checker, self._root, stamp)
+            jobs += engines.cbmc_jobs(choice.units, checker, self._root, stamps["cbmc"])
         if "gappa" in choice.engines:
             bounds = gappa.Gappa(self._tools.command("gappa"), runner, self._root, scratch)
-            jobs += engines.gappa_jobs(choice.units, bounds, self._root, stamp)
+            jobs += engines.gappa_jobs(choice.units, bounds, self._root, stamps["gappa"])
         return jobs
 
     def _checker(self, runner: Runner, scratch: Path) -> cbmc.Cbmc:

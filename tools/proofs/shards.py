@@ -56,9 +56,11 @@ def part(jobs: Sequence[Job], shard: Shard, recorded: Mapping[str, float]) -> li
     return own
 
 
-def origin(jobs: Sequence[Job], stamp: Mapping[str, str]) -> dict[str, str]:
-    """What a report was made of: the tools, and the text behind every job of the whole run."""
-    return {"tools": digest(dict(stamp)), "source": digest({job.label: job.key() for job in jobs})}
+def origin(jobs: Sequence[Job], stamps: Mapping[str, Mapping[str, str]]) -> dict[str, str]:
+    """What a report was made of: the tools, by engine, and the text behind every job of the whole
+    run."""
+    tools = {engine: dict(stamp) for engine, stamp in stamps.items()}
+    return {"tools": digest(tools), "source": digest({job.label: job.key() for job in jobs})}
 
 
 def entries(

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of what a verdict depends on besides the text that it is about.
+
+    python3 tests/tools/test_stamps.py
+
+Each changes a file of a copy of the tools, and says which verdicts must not be believed then.
+"""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import tempfile
+import unittest
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from proofs import stamps  # noqa: E402
+from toolchain import Toolchain  # noqa: E402
+from toolchain.lock import Lock  # noqa: E402
+
+ENGINES = ("wp", "cbmc", "gappa")
+
+
+class Copied(unittest.TestCase):
+    """A copy of the tools."""
+
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.tools = Path(folder.name) / "tools"
+        for name in ("proofs", "toolchain"):
+            shutil.copytree(ROOT / "tools" / name, self.tools / name)
+
+    def changed_by(
+        self, name: str, digest: Callable[[str, Path], str], engines: Iterable[str]
+    ) -> list[str]:
+        """The engines of which a digest changes with a file of the tools."""
+        folder = self.tools / "proofs"
+        before = {engine: digest(engine, folder) for engine in engines}
+        with (self.tools / name).open("a", encoding="utf-8") as file:
+            file.write("# a comment\n")
+        return [engine for engine in engines if digest(engine, folder) != before[engine]]
+
+
+class Proofs(Copied):
+    """Verdicts of proofs."""
+
+    def voided(self, name: str) -> list[str]:
+        """The engines of which no verdict holds any more when a file of the tools changes."""
+        return self.changed_by(name, stamps.own_digest, ENGINES)
+
+    def test_who_asks_one_engine_judges_for_that_one(self) -> None:
+        for engine, names in stamps.SERVANTS.items():
+            for name in names:
+                self.assertEqual(self.voided(f"proofs/{name}"), [engine], name)
+
+    def test_what_serves_several_engines_judges_for_all(self) -> None:
+        for name in ("project.py", "csource.py", "targets.py", "stamps.py", "requirements.txt"):
+            self.assertEqual(self.voided(f"proofs/{name}"), list(ENGINES), name)
+        self.assertEqual(self.voided("toolchain/provers.py"), list(ENGINES))
+
+    def test_who_tells_what_others_found_judges_nothing(self) -> None:
+        for name in ("report.py", "explain.py", "mutation.py", "times.py"):
+            self.assertEqual(self.voided(f"proofs/{name}"), [], name)
+
+    def test_every_tool_counts_for_the_engines_that_may_start_it(self) -> None:
+        stamp = dict.fromkeys(Toolchain().versions("prove"), "1")
+        used = {name: [engine for engine in ENGINES if name in stamps.started(engine, stamp)]
+                for name in stamp}  # fmt: skip
+        self.assertEqual(used["frama-c"], ["wp"])
+        self.assertEqual(used["alt-ergo"], ["wp"])
+        self.assertEqual(used["z3"], ["wp", "cbmc"])
+        self.assertEqual(used["cbmc"], ["cbmc"])
+        self.assertEqual(used["cadical"], ["cbmc"])
+        self.assertIn("gappa", used["gappa"])
+        self.assertEqual(used["gcc"], list(ENGINES))
+        self.assertEqual([name for name, engines in used.items() if not engines], [])
+
+    def test_what_is_said_not_to_be_started_is_a_tool(self) -> None:
+        known = set(Lock.read().tools) | {"machdep"}
+        for names in stamps.NOT_STARTED.values():
+            self.assertLessEqual(set(names), known)
+
+
+class Mutants(Copied):
+    """Verdicts on mutants."""
+
+    def voided(self, name: str) -> list[str]:
+        """The engines by which no verdict holds any more when a file of the tools changes."""
+        return self.changed_by(name, stamps.judges_digest, stamps.JUDGES)
+
+    def test_another_judge_may_say_something_else(self) -> None:
+        for name in ("cbmc.py", "cbmc_answers.py", "mutation.py", "mutant_small.py"):
+            self.assertEqual(self.voided(f"proofs/{name}"), ["cbmc"], name)
+        for name in ("proofs/wp.py", "proofs/verdict.py", "toolchain/provers.py"):
+            self.assertEqual(self.voided(name), ["wp"], name)
+
+    def test_who_finds_makes_or_prints_judges_nothing(self) -> None:
+        for name in ("csource.py", "mutants.py", "mutant_slips.py", "report.py", "clauses.py"):
+            self.assertEqual(self.voided(f"proofs/{name}"), [], name)
+
+
+if __name__ == "__main__":
+    unittest.main()
