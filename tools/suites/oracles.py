@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 import shutil
 import sys
+import threading
 from pathlib import Path
 
 from common.build import Build, BuildError
@@ -21,9 +22,10 @@ from toolchain import Toolchain
 CRATES = ROOT / "tests/oracles"
 LOCK = "Cargo.lock"
 MAVLINK = "mavlink"
-OF_CRATES = ("crsf", "sbus", "ubx")
+OF_CRATES = ("crsf", "ibus", "ppm", "sbus", "ubx")
 REGISTRY = re.compile(r'^source = "(.*)"$', re.MULTILINE)
 PLACE = "@registry@"  # Where the pinned lock leaves out how cargo names the registry.
+ONE_AT_A_TIME = threading.Lock()  # Suites run side by side, and build the crates in one folder.
 GENERATE = """\
 import sys
 from pymavlink.generator import mavgen
@@ -75,4 +77,7 @@ def of(tools: Toolchain, build: Build, target: str) -> list[Path]:
     if target == MAVLINK:
         generated = mavlink(build.folder).relative_to(ROOT).as_posix()
         return [build.object("tests/fuzz/oracle_mavlink.c", ["-isystem", generated])]
-    return [crates(tools, build.folder)] if target in OF_CRATES else []
+    if target not in OF_CRATES:
+        return []
+    with ONE_AT_A_TIME:
+        return [crates(tools, build.folder)]

@@ -2,12 +2,16 @@
 //! What decoders of others say of one frame, for C: tests/fuzz/oracles.h tells what each gives.
 
 use crsf::{Packet, PacketParser};
+use parse_rc_ibus::IbusPacket;
+use ppm_decode::PpmParser;
 use std::slice::from_raw_parts;
 use ublox::{PacketRef, Parser};
 use uf_sbus::SbusParser;
 
 const SBUS_BYTES: usize = 25;
 const CRSF_BYTES: usize = 64;
+const IBUS_BYTES: usize = 32;
+const PPM_CHANNELS: usize = 16;
 
 /// # Safety
 /// `frame` is 25 bytes.
@@ -50,6 +54,43 @@ pub unsafe extern "C" fn oracle_crsf(frame: *const u8, size: usize, channel: &mu
         }
         _ => 0,
     }
+}
+
+/// # Safety
+/// `frame` is 32 bytes.
+#[no_mangle]
+pub unsafe extern "C" fn oracle_ibus(frame: *const u8, channel: &mut [u16; 14]) -> bool {
+    let bytes: &[u8; IBUS_BYTES] = &*frame.cast();
+    match IbusPacket::try_from_bytes(bytes) {
+        Ok(packet) => {
+            *channel = packet.get_all_channels();
+            true
+        }
+        Err(_) => false,
+    }
+}
+
+/// # Safety
+/// `width` is `count` times, 20 at most, which the decoder has room for: it looks at no bound.
+#[no_mangle]
+pub unsafe extern "C" fn oracle_ppm(width: *const u32, count: usize, least: u8, channel: &mut [u16; PPM_CHANNELS]) -> u32 {
+    let mut parser = PpmParser::new();
+    let mut now = 1;
+    let mut taken = 0;
+    parser.set_minimum_channels(least);
+    parser.handle_pulse_start(now);
+    for after in from_raw_parts(width, count) {
+        now += after;
+        parser.handle_pulse_start(now);
+        taken = 0;
+        if let Some(frame) = parser.next_frame() {
+            taken = u32::from(frame.chan_count);
+            for (to, from) in channel.iter_mut().zip(frame.chan_values) {
+                *to = from as u16;
+            }
+        }
+    }
+    taken
 }
 
 /// # Safety
