@@ -305,6 +305,16 @@ class WpVerdict(TreeTest):
         self.assert_fails(result, "smoke test keel_box_put_wp_smoke_default_requires failed")
         self.assert_fails(result, "src/rtos/box.c:13")
 
+    def test_a_smoke_test_on_which_the_prover_gave_up_is_none(self) -> None:
+        log = wp_log(*GOOD, "[wp] Proved goals:    1 / 1", "  Qed:             0  (3ms)",
+                     "  CVC4 1.8:        0  (failed: 1)")  # fmt: skip
+        result = self.judge(log, wp_report(3, 3))
+        self.assert_fails(result, "gave up on 1 smoke tests")
+
+    def test_one_that_took_all_of_its_time_was_passed(self) -> None:
+        log = wp_log(*GOOD, "[wp] Proved goals:    1 / 1", "  CVC4 1.8:        1  (10s)")
+        self.assertEqual(self.judge(log, wp_report(3, 3)).problems, [])
+
     def test_a_warning_of_unsoundness_is_a_failure(self) -> None:
         warnings = (
             "[wp] src/rtos/box.c:13: Warning: Missing assigns clause",
@@ -392,6 +402,13 @@ class WpRun(TreeTest):
         smoke = command[len(command) - command[::-1].index("-then") :]
         self.assertIn("-wp-smoke-tests", smoke)
         self.assertEqual(command.count("-wp-smoke-tests"), 1)
+
+    def test_floats_are_smoked_by_a_prover_that_knows_them(self) -> None:
+        target = targets.Target(self.unit, self.unit.source, "keel_box_put")
+        self.assertEqual(wp.smoke_stage(target, self.root), wp.SMOKE)
+        with self.unit.header.open("a", encoding="utf-8") as stream:
+            stream.write("typedef struct { float most; } keel_box_limit_t;\n")
+        self.assertEqual(wp.smoke_stage(target, self.root), wp.SMOKE_OF_FLOATS)
 
     def test_answers_that_prove_nothing_are_forgotten(self) -> None:
         prover = self.prover(self.root / "answers")

@@ -57,7 +57,7 @@ def wp_key(
     return digest(
         {
             "kind": "wp", "stamp": dict(stamp), "options": placeless(prover.options(), root),
-            "selection": target.selection, "smoke": wp.SMOKE.steps, "allowed": list(allowed),
+            "selection": target.selection, "allowed": list(allowed),
             "text": targets.dependencies(target, root), "file": target.file.name,
         }
     )  # fmt: skip

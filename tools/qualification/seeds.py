@@ -64,6 +64,19 @@ axiom down : forall n, d:int [div(n, d)]. n <= 0 -> 0 < d -> div(n, d) = -((-n) 
 goal rest : forall x, r:int. 3 <= x -> x <= 512 -> r = x - 3 - 256 * div(x - 3, 256) ->
     x = 3 + 256 * div(x - 3, 256) + r
 """
+# Each branch can be taken.
+NEAR = """\
+/*@ requires \\is_finite(most) && 0 <= most && most < 8.0f && -1 <= most;
+  @ assigns \\nothing;
+  @*/
+int near(float most)
+{
+    if (most < 1.0f) {
+        return 1;
+    }
+    return 0;
+}
+"""
 # A goal for each prover that Qed does not prove alone.
 ARRAY = """\
 /*@ requires \\valid(t + (0 .. 9)) && 0 <= k < 10;
@@ -200,6 +213,12 @@ SEEDS = (
          "z3"),
     Seed("frama-c", "wp", "a write that is not assigned", ARRAY, "t[k] = k + 1",
          "t[k] = k + 1; t[0] = 1", "set_assigns", "alt-ergo"),
+    Seed("cvc4", "smoke", "a contradiction among integers", CONTRACT, "0 <= a <= 100",
+         "100 < a <= b - 1", "twice_wp_smoke_default_requires", "cvc4"),
+    Seed("alt-ergo", "smoke", "a contradiction among floats", NEAR, "0 <= most", "most < -2.0f",
+         "near_wp_smoke_default_requires", "alt-ergo"),
+    Seed("alt-ergo", "smoke", "a branch of floats that is never taken", NEAR, "0 <= most",
+         "most == 2.0f", "near_wp_smoke_dead_code", "alt-ergo"),
     Seed("alt-ergo", "alt-ergo", "any number for a remainder", QUOTIENTS,
          " r = x - 3 - 256 * div(x - 3, 256) ->", "", "I don't know"),
     Seed("frama-c", "eva", "an index out of bounds", ABSTRACT, "t[3]", "t[4]", "index_bound"),

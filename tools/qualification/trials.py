@@ -21,6 +21,8 @@ from common.files import read_text
 from common.run import output_of, run
 from interpretation.analysis import Eva
 from proofs.cbmc import CHECKS as CBMC_CHECKS
+from proofs.wp import SMOKE, SMOKE_OF_FLOATS
+from proofs.wplog import read_log
 from suites.emulated import EmulatedBoard
 from toolchain import MACHDEP_FILE, TARGET_FLAGS, Toolchain
 
@@ -38,18 +40,33 @@ ENDINGS = {"gappa": "g", "alt-ergo": "why"}
 
 def wp(tools: Toolchain, file: Path, prover: str) -> list[str]:
     """The goals that WP does not prove with a prover."""
+    words = ["-wp-prover", prover, "-wp-timeout", PROVER_SECONDS, "-wp-status-all"]
+    said = _said_by_wp(tools, file, words)
+    if not PROVED.search(said):
+        raise ToolError(f"frama-c: no verdict:\n{said.strip()}")
+    return GOAL.findall(said)
+
+
+def smoke(tools: Toolchain, file: Path, prover: str) -> list[str]:
+    """The smoke tests that fail, as `make prove` runs them, and those that nobody answers."""
+    stage = next(one for one in (SMOKE, SMOKE_OF_FLOATS) if one.provers == (prover,))
+    words = ["-wp-smoke-tests", "-wp-smoke-timeout", str(stage.seconds), *stage.options(())]
+    log = read_log(_said_by_wp(tools, file, words))
+    if not log.smoke:
+        raise ToolError("frama-c: no smoke test")
+    failed = [name for name, passed in log.smoke.items() if not passed]
+    return failed or ["the prover gave up"] * bool(log.unanswered)
+
+
+def _said_by_wp(tools: Toolchain, file: Path, options: list[str]) -> str:
     tools.ensure("prove", say=lambda _: None)  # Another clone may have made why3's file anew.
     command = tools.frama_c()
     script = file.with_name(MACHDEP_FILE.name)  # Frama-C compiles it beside its source.
     shutil.copyfile(MACHDEP_FILE, script)
     command[command.index(str(MACHDEP_FILE))] = str(script)
-    words = ["-wp", "-wp-rte", "-wp-cache", "none", "-wp-prover", prover, "-wp-timeout",
-             PROVER_SECONDS, "-wp-status-all", file.name]  # fmt: skip
+    words = ["-wp", "-wp-rte", "-wp-cache", "none", *options, file.name]
     environment = {**tools.environment(), "PWD": str(file.parent), "LC_ALL": "C"}
-    said = output_of([*command, *words], cwd=file.parent, environment=environment)
-    if not PROVED.search(said):
-        raise ToolError(f"frama-c: no verdict:\n{said.strip()}")
-    return GOAL.findall(said)
+    return output_of([*command, *words], cwd=file.parent, environment=environment)
 
 
 def alt_ergo(tools: Toolchain, file: Path, option: str) -> list[str]:
@@ -142,7 +159,7 @@ def emulated(tools: Toolchain, file: Path, option: str) -> list[str]:
 
 
 TRIALS: dict[str, Trial] = {
-    "wp": wp, "alt-ergo": alt_ergo, "eva": eva, "cbmc": cbmc, "gappa": gappa, "cppcheck": cppcheck,
+    "wp": wp, "smoke": smoke, "alt-ergo": alt_ergo, "eva": eva, "cbmc": cbmc, "gappa": gappa, "cppcheck": cppcheck,
     "stack": stack, "sanitizers": sanitizers, "coverage": coverage, "emulated": emulated,
 }  # fmt: skip
 
