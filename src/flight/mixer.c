@@ -336,7 +336,7 @@ static float without_yaw(float base, float tilt)
   @ requires \valid_read(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ requires \separated(mixer, tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1];
-  @ ensures \result ==> mixer_turning(*mixer);
+  @ ensures \result ==> mixer_turning(mixer);
   @*/
 static bool put_out_all(keel_mixer_t *mixer, const float tilt[], float base, float yaw)
 {
@@ -401,7 +401,7 @@ static float part_of_yaw(const keel_mixer_config_t *config, const float tilt[], 
   @ requires \valid_read(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ requires \separated(mixer, tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1];
-  @ ensures mixer_turning(*mixer);
+  @ ensures mixer_turning(mixer);
   @*/
 static void put_out_part(keel_mixer_t *mixer, const float tilt[], float base, float yaw, float part)
 {
@@ -425,7 +425,7 @@ static void put_out_part(keel_mixer_t *mixer, const float tilt[], float base, fl
 /*@ requires \valid(mixer) && \valid_read(command) && \separated(mixer, command);
   @ requires mixer_valid(mixer);
   @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1], mixer->limited;
-  @ ensures mixer_turning(*mixer);
+  @ ensures mixer_turning(mixer);
   @*/
 static void turn(keel_mixer_t *mixer, const keel_mixer_command_t *command)
 {

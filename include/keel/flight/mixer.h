@@ -126,10 +126,10 @@ typedef struct keel_mixer {
   @         \is_finite(mixer->output[i]) && mixer->output[i] == 0;
   @
   @ // Armed: everything turns.
-  @ predicate mixer_turning(keel_mixer_t mixer) =
-  @     \forall integer i; 0 <= i < mixer.config.geometry.motors ==>
-  @         \is_finite(mixer.output[i]) &&
-  @         mixer.config.idle <= mixer.output[i] <= mixer.config.highest;
+  @ predicate mixer_turning(keel_mixer_t *mixer) =
+  @     \forall integer i; 0 <= i < mixer->config.geometry.motors ==>
+  @         \is_finite(mixer->output[i]) &&
+  @         mixer->config.idle <= mixer->output[i] <= mixer->config.highest;
   @*/
 
 /**
@@ -176,7 +176,7 @@ keel_status_t keel_mixer_init(keel_mixer_t *mixer, const keel_mixer_config_t *co
   @ requires mixer_valid(mixer);
   @ assigns mixer->output[0 .. KEEL_MIXER_MOTORS - 1], mixer->limited;
   @ ensures MIX_003_stopped: !armed ==> mixer_stopped(mixer) && mixer->limited == 0;
-  @ ensures MIX_004_turning: armed ==> mixer_turning(*mixer);
+  @ ensures MIX_004_turning: armed ==> mixer_turning(mixer);
   @ ensures MIX_004_valid: mixer_valid(mixer);
   @*/
 void keel_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, bool armed);
