@@ -497,7 +497,7 @@ static bool is_between(uint32_t least, uint32_t value, uint32_t most)
 /* What has to hold for a time holds for at least the longest silence. */
 /*@ requires \valid_read(config);
   @ assigns \nothing;
-  @ ensures \result <==> mode_settling(*config, time_us);
+  @ ensures \result <==> mode_settling(config, time_us);
   @*/
 static bool is_settling(const keel_mode_config_t *config, uint32_t time_us)
 {
@@ -506,9 +506,9 @@ static bool is_settling(const keel_mode_config_t *config, uint32_t time_us)
 
 /*@ requires \valid_read(config);
   @ assigns \nothing;
-  @ ensures \result <==> mode_settling(*config, config->regain_us) &&
-  @     mode_settling(*config, config->request_us) && mode_settling(*config, config->kill_us) &&
-  @     mode_settling(*config, config->idle_us);
+  @ ensures \result <==> mode_settling(config, config->regain_us) &&
+  @     mode_settling(config, config->request_us) && mode_settling(config, config->kill_us) &&
+  @     mode_settling(config, config->idle_us);
   @*/
 static bool are_pilot_times_valid(const keel_mode_config_t *config)
 {
@@ -518,8 +518,8 @@ static bool are_pilot_times_valid(const keel_mode_config_t *config)
 
 /*@ requires \valid_read(config);
   @ assigns \nothing;
-  @ ensures \result <==> mode_settling(*config, config->landed_us) &&
-  @     mode_settling(*config, config->estimate_us) && mode_settling(*config, config->alarm_us);
+  @ ensures \result <==> mode_settling(config, config->landed_us) &&
+  @     mode_settling(config, config->estimate_us) && mode_settling(config, config->alarm_us);
   @*/
 static bool are_aircraft_times_valid(const keel_mode_config_t *config)
 {
@@ -529,7 +529,7 @@ static bool are_aircraft_times_valid(const keel_mode_config_t *config)
 
 /*@ requires \valid_read(config);
   @ assigns \nothing;
-  @ ensures \result <==> mode_times_valid(*config);
+  @ ensures \result <==> mode_times_valid(config);
   @*/
 static bool are_times_valid(const keel_mode_config_t *config)
 {

@@ -198,18 +198,18 @@ typedef struct keel_mode {
   @     mode_has(i->facts, KEEL_MODE_IS_LINKED) && i->asked < KEEL_MODE_NONE;
   @
   @ // What has to hold for a time holds for at least the longest silence.
-  @ predicate mode_settling(keel_mode_config_t c, integer time_us) =
-  @     c.loss_us <= time_us <= KEEL_MODE_TIME_MOST_US;
+  @ predicate mode_settling(keel_mode_config_t *c, integer time_us) =
+  @     c->loss_us <= time_us <= KEEL_MODE_TIME_MOST_US;
   @
-  @ predicate mode_times_valid(keel_mode_config_t c) =
-  @     KEEL_MODE_LOSS_LEAST_US <= c.loss_us <= KEEL_MODE_LOSS_MOST_US &&
-  @     mode_settling(c, c.regain_us) && mode_settling(c, c.request_us) &&
-  @     mode_settling(c, c.kill_us) && mode_settling(c, c.landed_us) &&
-  @     mode_settling(c, c.estimate_us) && mode_settling(c, c.alarm_us) &&
-  @     mode_settling(c, c.idle_us) && c.hold_us <= KEEL_MODE_TIME_MOST_US &&
-  @     c.return_us <= KEEL_MODE_TIME_MOST_US;
+  @ predicate mode_times_valid(keel_mode_config_t *c) =
+  @     KEEL_MODE_LOSS_LEAST_US <= c->loss_us <= KEEL_MODE_LOSS_MOST_US &&
+  @     mode_settling(c, c->regain_us) && mode_settling(c, c->request_us) &&
+  @     mode_settling(c, c->kill_us) && mode_settling(c, c->landed_us) &&
+  @     mode_settling(c, c->estimate_us) && mode_settling(c, c->alarm_us) &&
+  @     mode_settling(c, c->idle_us) && c->hold_us <= KEEL_MODE_TIME_MOST_US &&
+  @     c->return_us <= KEEL_MODE_TIME_MOST_US;
   @
-  @ predicate mode_config_valid(keel_mode_config_t c) = mode_times_valid(c) && c.required != 0;
+  @ predicate mode_config_valid(keel_mode_config_t *c) = mode_times_valid(c) && c->required != 0;
   @
   @ predicate mode_numbers_valid(keel_mode_t *m) =
   @     m->state < KEEL_MODE_STATES && m->mode <= KEEL_MODE_NONE && m->asked <= KEEL_MODE_NONE &&
@@ -227,7 +227,7 @@ typedef struct keel_mode {
   @
   @ // What init establishes and every step keeps.
   @ predicate mode_valid(keel_mode_t *m) =
-  @     mode_config_valid(m->config) && mode_numbers_valid(m) && mode_settle_valid(m) &&
+  @     mode_config_valid(&m->config) && mode_numbers_valid(m) && mode_settle_valid(m) &&
   @     (m->motors <==> mode_runs(m)) && (m->mode == KEEL_MODE_NONE <==> !mode_runs(m)) &&
   @     mode_lacks(m->settled & ~m->seen, 0x3F) && mode_lacks(m->overridden, ~0x3800) &&
   @     (mode_has(m->settled, KEEL_MODE_IS_LINKED) ==> m->silence_us < m->config.loss_us) &&
@@ -250,15 +250,15 @@ typedef struct keel_mode {
 /*@ requires \valid(mode) && \valid_read(config) && \separated(mode, config);
   @ assigns *mode;
   @ behavior bad_times:
-  @   assumes !mode_times_valid(*config);
+  @   assumes !mode_times_valid(config);
   @   assigns \nothing;
   @   ensures MOD_001_times: \result == KEEL_ERR_LIMITS;
   @ behavior no_checks:
-  @   assumes mode_times_valid(*config) && config->required == 0;
+  @   assumes mode_times_valid(config) && config->required == 0;
   @   assigns \nothing;
   @   ensures MOD_001_required: \result == KEEL_ERR_INPUT;
   @ behavior made:
-  @   assumes mode_config_valid(*config);
+  @   assumes mode_config_valid(config);
   @   ensures MOD_001_made: \result == KEEL_OK && mode->config == *config;
   @   ensures MOD_002_still: !mode->motors && mode->state == KEEL_MODE_DISARMED;
   @   ensures MOD_002_unseen: mode->seen == 0 && mode->settled == 0 && !mode->ready;
