@@ -305,16 +305,6 @@ class WpVerdict(TreeTest):
         self.assert_fails(result, "smoke test keel_box_put_wp_smoke_default_requires failed")
         self.assert_fails(result, "src/rtos/box.c:13")
 
-    def test_a_smoke_test_on_which_the_prover_gave_up_is_none(self) -> None:
-        log = wp_log(*GOOD, "[wp] Proved goals:    1 / 1", "  Qed:             0  (3ms)",
-                     "  CVC4 1.8:        0  (failed: 1)")  # fmt: skip
-        result = self.judge(log, wp_report(3, 3))
-        self.assert_fails(result, "gave up on 1 smoke tests")
-
-    def test_one_that_took_all_of_its_time_was_passed(self) -> None:
-        log = wp_log(*GOOD, "[wp] Proved goals:    1 / 1", "  CVC4 1.8:        1  (10s)")
-        self.assertEqual(self.judge(log, wp_report(3, 3)).problems, [])
-
     def test_a_warning_of_unsoundness_is_a_failure(self) -> None:
         warnings = (
             "[wp] src/rtos/box.c:13: Warning: Missing assigns clause",
@@ -402,6 +392,13 @@ class WpRun(TreeTest):
         smoke = command[len(command) - command[::-1].index("-then") :]
         self.assertIn("-wp-smoke-tests", smoke)
         self.assertEqual(command.count("-wp-smoke-tests"), 1)
+
+    def test_where_nothing_is_recorded_all_provers_are_asked_at_once(self) -> None:
+        target = targets.Target(self.unit, self.unit.source, "keel_box_put", left=frozenset())
+        prover = self.prover()
+        with mock.patch.object(prover, "_judged") as judged:
+            prover._run(target, wp.THOROUGH, True, (), {})
+        self.assertIn("-wp-prover=alt-ergo,cvc4,z3", judged.call_args.args[1])
 
     def test_floats_are_smoked_by_a_prover_that_knows_them(self) -> None:
         target = targets.Target(self.unit, self.unit.source, "keel_box_put")

@@ -15,8 +15,6 @@ from typing import Any
 GOAL = re.compile(
     r"^\[wp\] \[(?P<by>[^\]]+)\] Goal (?:typed\w*?_)?(?P<name>\w+)(?: : (?P<status>\w+))?"
 )
-# How often a prover gave up, at the end of a pass.
-GAVE_UP = re.compile(r"^\s+[\w-]+ [\d.]+: .*\bfailed: (?P<count>\d+)\)")
 SMOKE = re.compile(r"^\[wp\] \[(?P<by>\w+)\] Smoke-test (?:typed\w*?_)?(?P<name>\w+)")
 PASS = "[wp] Running WP plugin"
 ATTEMPT = re.compile(r"^ +(?P<by>[\w-]+(?: [\d.]+)?): (?P<status>[A-Z]\w*)")
@@ -65,8 +63,6 @@ class Log:
 
     goals: dict[str, Goal] = field(default_factory=dict)
     smoke: dict[str, bool] = field(default_factory=dict)
-    # Smoke tests on which the prover gave up: WP takes them for passed.
-    unanswered: int = 0
     messages: list[Message] = field(default_factory=list)
     functions: list[str] = field(default_factory=list)
     passes: int = 0
@@ -110,8 +106,6 @@ def read_log(text: str) -> Log:
             continue
         if match := SMOKE.match(line):
             log.smoke[match["name"]] = match["by"] == "Passed"
-        elif log.smoke and (match := GAVE_UP.match(line)):
-            log.unanswered += int(match["count"])
         elif (match := ATTEMPT.match(line)) and goal:
             goal.attempts.append(f"{match['by']}: {match['status']}")
             continue
