@@ -50,11 +50,15 @@ static uint32_t plain_width(uint8_t byte)
     return (byte < 240u) ? (4000u + (200u * (byte - 200u))) : end[byte - 240u];
 }
 
-/* Edges behind the start, a frame at most: taken when ppm_decode has a whole frame, and not else. */
+/* Edges behind the start, a frame at most: taken when ppm_decode takes it, and not else. */
 static void judge_frame(const uint8_t *bytes, size_t count, uint8_t least)
 {
-    const keel_ppm_config_t config = {.lost_us = 100000u, .lowest_us = 800u, .highest_us = 2200u,
-                                      .sync_us = 4000u, .least = least, .frames_to_take = 1u};
+    const keel_ppm_config_t config = {.lost_us = 100000u,
+                                      .lowest_us = 800u,
+                                      .highest_us = 2200u,
+                                      .sync_us = 4000u,
+                                      .least = least,
+                                      .frames_to_take = 1u};
     uint32_t width[EDGES];
     uint16_t channel[KEEL_PPM_CHANNELS];
     keel_ppm_t ppm;
@@ -74,8 +78,8 @@ static void judge_frame(const uint8_t *bytes, size_t count, uint8_t least)
     if (taken != ((said > 0u) && (said <= KEEL_PPM_CHANNELS))) {
         differs("whether ppm_decode takes a frame");
     }
-    if (taken && ((ppm.channels != said) ||
-                  (memcmp(ppm.channel, channel, said * sizeof channel[0]) != 0))) {
+    if (taken &&
+        ((ppm.channels != said) || (memcmp(ppm.channel, channel, said * sizeof channel[0]) != 0))) {
         differs("what ppm_decode reads");
     }
 }

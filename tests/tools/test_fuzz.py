@@ -50,7 +50,8 @@ class Targets(unittest.TestCase):
 
     def test_counted_executions_are_of_those_that_others_judge(self) -> None:
         suites = fuzzing.fuzz_suites(Toolchain(), fuzzing.Fuzzing(60, 1000))
-        self.assertEqual([suite.name for suite in suites], ["crsf", "ibus", "mavlink", "ppm", "sbus", "ubx"])
+        names = ["crsf", "ibus", "mavlink", "ppm", "sbus", "ubx"]
+        self.assertEqual([suite.name for suite in suites], names)
 
     def test_a_difference_is_told_with_how_to_see_it_again(self) -> None:
         said = "decoder and model DIFFER: a field\nTest unit written to build/fuzz/ibus/crash-1\n"

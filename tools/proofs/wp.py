@@ -72,17 +72,17 @@ QUICK_OF_ALL = Stage(("alt-ergo", "cvc4", "z3"), 10)
 # A prover that is recorded for a goal proved it, if on a faster machine.
 RECORDED_SECONDS = 30
 # A contradiction shows early: seeded ones were found within a second by either prover, among
-# integers by CVC4 with 50 000 steps wherever with 75 000, among floats by Alt-Ergo with 300 wherever
-# with 3000. Debian's CVC4 is built without floats: it gives up on the first literal of one, and WP
-# takes that for a test that was passed. WP proves calls through pointers once more in this pass,
-# which takes 56 000 steps. Steps count alike on every machine; the seconds only guard.
+# integers by CVC4 with 50 000 steps wherever with 75 000, among floats by Alt-Ergo with 300
+# wherever with 3000. Debian's CVC4 is built without floats: it gives up on the first literal of
+# one, and WP takes that for a test that was passed. WP proves calls through pointers once more in
+# this pass, which takes 56 000 steps. Steps count alike on every machine; the seconds only guard.
 SMOKE = Stage(("cvc4",), 2, steps=60_000)
 SMOKE_OF_FLOATS = Stage(("alt-ergo",), 2, steps=300)
 FLOATS = re.compile(r"\b(?:float|double)\b")
 
 
 def smoke_stage(target: Target, root: Path) -> Stage:
-    """The pass that looks for contradictions, by a prover that knows all that the goals may have."""
+    """The pass that looks for contradictions, by a prover that knows what the goals may have."""
     texts = dependencies(target, root).values()
     return SMOKE_OF_FLOATS if any(map(FLOATS.search, texts)) else SMOKE
 

@@ -158,8 +158,9 @@ def emulated(tools: Toolchain, file: Path, option: str) -> list[str]:
 
 
 TRIALS: dict[str, Trial] = {
-    "wp": wp, "smoke": smoke, "alt-ergo": alt_ergo, "eva": eva, "cbmc": cbmc, "gappa": gappa, "cppcheck": cppcheck,
-    "stack": stack, "sanitizers": sanitizers, "coverage": coverage, "emulated": emulated,
+    "wp": wp, "smoke": smoke, "alt-ergo": alt_ergo, "eva": eva, "cbmc": cbmc, "gappa": gappa,
+    "cppcheck": cppcheck, "stack": stack, "sanitizers": sanitizers, "coverage": coverage,
+    "emulated": emulated,
 }  # fmt: skip
 
 
