@@ -510,6 +510,30 @@ class Verdicts(Sandbox):
         self.assertNotEqual(self.digest("proofs/requirements.txt"), started)
 
 
+class TwoClones(Sandbox):
+    """Clones share a cache, and start proofs side by side."""
+
+    def test_a_configuration_that_both_have_stays_as_it_is(self) -> None:
+        """A clone that made it again would take it from the one that is about to use it."""
+        self.script("alt-ergo", "echo alt-ergo 2.5")
+        known = r'name = "Alt-Ergo"\nversion = "2.5"\n'
+        detect = f"""[ "$1" != config ] || printf '{known}' > "$WHY3CONFIG\""""
+        self.script("why3", f"echo why3 2.5; {detect}")
+        tools = {"alt-ergo": system("alt-ergo"), "why3": system("why3"),
+                 "why3-config": {"kind": "why3-config", "provers": ["Alt-Ergo"]}}  # fmt: skip
+        lock = self.lock(**tools)
+        first = Toolchain(self.cache, lock)
+        first.ensure("g", say=quiet)
+        found = sorted((self.cache / "found").iterdir())
+        self.assertEqual(len(found), 1)
+        found[0].unlink()  # as for another clone, which has a file of its own
+        Toolchain(self.cache, lock).ensure("g", say=quiet)
+        self.assertEqual(self.ran().count("why3"), 4)
+        self.assertIn("WHY3CONFIG", first.environment())
+        self.assertEqual([path.name for path in (self.cache / "why3").rglob("*.conf")],
+                         ["why3.conf"])  # fmt: skip
+
+
 class TheLockFile(Sandbox):
     """The lock file that is shipped, and mistakes in one."""
 

@@ -172,7 +172,8 @@ class Toolchain:
         """A private why3 configuration that knows the provers chosen here.
 
         why3, and the why3 library inside Frama-C's WP, read the file that WHY3CONFIG names; the
-        user's own ~/.why3.conf stays as it is.
+        user's own ~/.why3.conf stays as it is. A file that says the same already stays, too: another
+        clone may be about to use it, to which a new one would be a changed tool.
         """
         place = self._findings.why3_place(spec)
         if not place:
@@ -186,7 +187,10 @@ class Toolchain:
         if unknown:
             fresh.unlink(missing_ok=True)
             raise ToolchainError(f"why3 does not see {', '.join(unknown)}:\n{output.strip()}")
-        os.replace(fresh, place)
+        if place.is_file() and place.read_bytes() == fresh.read_bytes():
+            fresh.unlink()
+        else:
+            os.replace(fresh, place)
         summary = ", ".join(f"{prover} {known[prover]}" for prover in spec.provers)
         return found(spec, f"({summary})", "made", place)
 
