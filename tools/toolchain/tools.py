@@ -172,8 +172,8 @@ class Toolchain:
         """A private why3 configuration that knows the provers chosen here.
 
         why3, and the why3 library inside Frama-C's WP, read the file that WHY3CONFIG names; the
-        user's own ~/.why3.conf stays as it is. A file that says the same already stays, too: another
-        clone may be about to use it, to which a new one would be a changed tool.
+        user's own ~/.why3.conf stays as it is. A file that says the same already stays, too:
+        another clone may be about to use it, to which a new one would be a changed tool.
         """
         place = self._findings.why3_place(spec)
         if not place:
