@@ -11,17 +11,28 @@
  * keel_reference_step_harness shows to be the model's, bit for bit.
  */
 
-/*@ // Of products, before there is rounding, of which not every prover knows.
-  @ lemma REF_008_exact: \forall real a, b, c; 0 <= a <= b && 0 <= c ==> 0 <= a * c <= b * c;
+/*@ lemma REF_010_product: \forall real x, y; 0 <= x && 0 <= y ==> 0 <= x * y;
   @
-  @ lemma REF_008_some: \forall real a, b; 0 <= a && 0 <= b <= 1 ==>
-  @     0 <= a * (1 - b) && 0 <= a * b <= a;
+  @ // Of products, before there is rounding, of which not every prover knows: all that the others
+  @ // use of them. With cases, or WP would put the product itself wherever it stands.
+  @ logic real times(real a, real b) = a == 0 ? 0 : a * b;
+  @
+  @ lemma REF_008_swapped: \forall real a, b; times(a, b) == times(b, a);
+  @
+  @ lemma REF_006_unit: \forall real a; times(1, a) == a && times(a, 1) == a;
+  @
+  @ lemma REF_007_none: \forall real a; times(0, a) == 0 && times(a, 0) == 0;
+  @
+  @ lemma REF_008_exact: \forall real a, b, c; 0 <= a <= b && 0 <= c ==>
+  @     0 <= times(a, c) <= times(b, c);
+  @
+  @ lemma REF_008_some: \forall real a, b; 0 <= a && 0 <= b <= 1 ==> 0 <= times(a, b) <= a;
   @
   @ lemma REF_008_scaled: \forall real a, b, scale; -1 <= a <= b <= 1 && 1 <= scale <= 2.5 ==>
-  @     -2.5 <= a * scale <= b * scale <= 2.5;
+  @     -2.5 <= times(a, scale) <= times(b, scale) <= 2.5;
   @
   @ lemma REF_007_scaled: \forall real a, scale; -1 <= a <= 0 && 1 <= scale <= 2.5 ==>
-  @     -2.5 <= a * scale <= 0;
+  @     -2.5 <= times(a, scale) <= 0;
   @
   @ logic real rounded(real x) = (real)(float)x;
   @
@@ -36,11 +47,9 @@
   @
   @ // What they use of products, as rounded. REF_008_left and REF_006_whole are those of a limit
   @ // with the size of a deflection, too, and of that with what the stick across leaves of it.
-  @ logic real product(real a, real b) = rounded(a * b);
+  @ logic real product(real a, real b) = rounded(times(a, b));
   @
   @ lemma REF_008_commuted: \forall real a, b; product(a, b) == product(b, a);
-  @
-  @ lemma REF_010_product: \forall real x, y; 0 <= x && 0 <= y ==> 0 <= x * y;
   @
   @ lemma REF_008_left: \forall real a, b, c; 0 <= a <= b <= 1 && 0 <= c <= 100 ==>
   @     0 <= product(a, c) <= product(b, c);

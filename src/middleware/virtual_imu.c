@@ -38,6 +38,18 @@ keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu,
     return KEEL_OK;
 }
 
+/* The bit of a channel among those of a unit. */
+/*@ requires channel < KEEL_VIRTUAL_IMU_CHANNELS;
+  @ assigns \nothing;
+  @*/
+static uint32_t bit_of(uint32_t channel)
+{
+    static const uint8_t bits[KEEL_VIRTUAL_IMU_CHANNELS] = {0x01u, 0x02u, 0x04u,
+                                                            0x08u, 0x10u, 0x20u};
+
+    return bits[channel];
+}
+
 /* Notes the verdicts of a channel's last vote. Of a sensor that contributed there is none. */
 /*@ requires \valid(imu) && channel < KEEL_VIRTUAL_IMU_CHANNELS;
   @ requires imu->channel[channel].config.sensors <= KEEL_VOTER_SENSORS;
@@ -46,7 +58,7 @@ keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu,
 static void note(keel_virtual_imu_t *imu, uint32_t channel)
 {
     const keel_voter_t *const voter = &imu->channel[channel];
-    const uint32_t bit = 1u << channel;
+    const uint32_t bit = bit_of(channel);
 
     /*@ loop invariant 0 <= i <= voter->config.sensors;
       @ loop assigns i, imu->used[0 .. KEEL_VOTER_SENSORS - 1],

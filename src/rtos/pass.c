@@ -271,6 +271,14 @@ static void close_pass(keel_scheduler_t *scheduler, uint64_t realtime_us, uint64
     //@ assert others: wake_others(scheduler);
 }
 
+/* Where release and period are the same, so is what is left of the grid. */
+/*@ lemma grid_same{L, M}: \forall keel_queue_t *q, integer x, integer now_us;
+  @     \at(q->release_us[x], L) == \at(q->release_us[x], M) ==>
+  @     \at(q->period_us[x], L) == \at(q->period_us[x], M) ==>
+  @     \at(grid_missed(q, x, now_us), L) == \at(grid_missed(q, x, now_us), M) &&
+  @     \at(grid_next(q, x, now_us), L) == \at(grid_next(q, x, now_us), M);
+  @*/
+
 const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
 {
     uint64_t realtime_us;

@@ -270,17 +270,33 @@ class Unpacking(Sandbox):
         self.assertEqual(again.parts[0]["name"], "prover")
         self.assertTrue(again.location.endswith("usr/bin/prover"))
 
-    def test_a_program_that_is_only_right_with_options_has_them_and_no_other_is_taken(self) -> None:
+    def test_a_program_that_is_only_right_behind_a_filter_is_and_no_other_is_taken(self) -> None:
         self.script("prover", "echo prover 6.6")
-        lock = self.lock(prover={**DEB, "options": ["-no-guess", "a b"]})
+        before = self.folder / "before.py"
+        before.write_text("import os, sys\nos.execv(sys.argv[1], sys.argv[1:])\n")
+        lock = self.lock(prover={**DEB, "before": str(before)})
         self.store.unpack(lock.tools["prover"], self.fill, Finder(self.cache))
         tools = Toolchain(self.cache, lock)
         tools.ensure("g", say=quiet)
         found = tools.versions("g")["prover"]
         self.assertEqual(found.origin, "cache")
-        self.assertEqual([found.location], tools.command("prover"))
-        # What identifies it is what starts it, for that has the options.
-        self.assertIn("-no-guess 'a b' \"$@\"", Path(found.location).read_text())
+        [starter] = tools.command("prover")
+        self.assertIn("before.py\" \"$root/usr/bin/prover\"", Path(starter).read_text())
+        # It is what stands before it that identifies it: of the program there is the manifest.
+        self.assertEqual(found.sha256, sha256_of(before))
+        self.assertEqual(found.parts[0]["name"], "prover")
+
+    def test_another_filter_makes_another_tree_and_what_was_found_is_forgotten(self) -> None:
+        before = self.folder / "before.py"
+        text = "import os, sys\nos.execv(sys.argv[1], sys.argv[1:])\n"
+        before.write_text(text)
+        lock = self.lock(prover={**DEB, "before": str(before)})
+        self.store.unpack(lock.tools["prover"], self.fill, Finder(self.cache))
+        Toolchain(self.cache, lock).ensure("g", say=quiet)
+        place = self.store.tree(lock.tools["prover"])
+        before.write_text(f"# another\n{text}")
+        self.assertNotEqual(self.store.tree(lock.tools["prover"]), place)
+        self.assertEqual(Toolchain(self.cache, lock).versions("g"), {})
 
     def test_a_download_that_is_not_the_pinned_one_leaves_nothing(self) -> None:
         def fill(tree: Tree) -> None:

@@ -19,7 +19,7 @@ OWN = Path(__file__).resolve().parent
 NO_JUDGES = ("muta", "explain", "counterexample", "sequents", "exports", "report", "times")
 # What asks one engine, and reads its answers.
 SERVANTS = {
-    "wp": ("wp.py", "wplog.py", "verdict.py", "ask_recorded.ml"),
+    "wp": ("wp.py", "wplog.py", "verdict.py", "ask_recorded.ml", "linear.py"),
     "cbmc": ("cbmc.py", "cbmc_answers.py", "harness.py", "wrong.py"),
     "gappa": ("gappa.py",),
 }

@@ -46,9 +46,9 @@ int twice(int a, int b)
 }
 """
 PROVERS = ("alt-ergo", "cvc4", "z3")
-# What every quotient of integers fulfils. r is what is left of x; without that hypothesis the goal
-# is false, and yet Alt-Ergo 2.0.0 proves it, unless it is started without its reasoning on
-# quotients. `div` and `size` stand for what a program divides by, and for the size of a number.
+# What every quotient of integers fulfils, and a goal without any. The goal that is seeded is false,
+# and yet Alt-Ergo 2.0.0 proves it, unless a filter keeps it from it (proofs/linear.py). `div` and
+# `size` stand for what a program divides by, and for the size of a number.
 QUOTIENTS = """\
 logic size : int -> int
 logic div : int, int -> int
@@ -61,8 +61,18 @@ axiom below : forall x, y:int. 0 < x and x <= y -> (-x) / y = -1
 axiom last : forall y:int. 1 < y -> (-1) % y = y - 1
 axiom up : forall n, d:int [div(n, d)]. 0 <= n -> 0 < d -> div(n, d) = n / d
 axiom down : forall n, d:int [div(n, d)]. n <= 0 -> 0 < d -> div(n, d) = -((-n) / d)
-goal rest : forall x, r:int. 3 <= x -> x <= 512 -> r = x - 3 - 256 * div(x - 3, 256) ->
-    x = 3 + 256 * div(x - 3, 256) + r
+goal rest : forall x, r:int. 3 <= x -> x <= 512 -> r = x - 3 -> x = 3 + r
+"""
+LENGTH = """\
+/*@ requires 3 <= size <= 512 && \\valid(bytes + (0 .. 1));
+  @ assigns bytes[0 .. 1];
+  @ ensures bytes[0] + 256 * bytes[1] == size - 3;
+  @*/
+void store(unsigned char *bytes, unsigned size)
+{
+    bytes[0] = (unsigned char)((size - 3u) % 256u);
+    bytes[1] = (unsigned char)((size - 3u) / 256u);
+}
 """
 # Each branch can be taken.
 NEAR = """\
@@ -220,7 +230,9 @@ SEEDS = (
     Seed("alt-ergo", "smoke", "a branch of floats that is never taken", NEAR, "0 <= most",
          "most == 2.0f", "near_wp_smoke_dead_code", "alt-ergo"),
     Seed("alt-ergo", "alt-ergo", "any number for a remainder", QUOTIENTS,
-         " r = x - 3 - 256 * div(x - 3, 256) ->", "", "I don't know"),
+         "r = x - 3 -> x = 3 + r", "x = 3 + 256 * div(x - 3, 256) + r", "I don't know"),
+    *(Seed(prover, "wp", "a wrong quotient", LENGTH, "/ 256u", "/ 257u", "store_ensures", prover)
+      for prover in ("cvc4", "z3")),
     Seed("frama-c", "eva", "an index out of bounds", ABSTRACT, "t[3]", "t[4]", "index_bound"),
     Seed("frama-c", "eva", "a write outside of the contract", ABSTRACT, "p[0] = 1",
          "p[0] = 1; p[1] = 1", "assigns of set: Unknown"),

@@ -13,6 +13,8 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from common.files import sha256_of
+
 from toolchain.apt import Log
 from toolchain.found import Finder, Found
 from toolchain.lock import Spec, ToolchainError
@@ -59,7 +61,8 @@ class Cache:
         tag = ""
         if spec.kind == "packages":  # Built for one version of Python.
             tag = f"-{sys.implementation.cache_tag}"
-        elif chosen := [*spec.keep, *spec.options]:  # What is kept of it, how it is started.
+        elif chosen := [*spec.keep, *([sha256_of(spec.filter)] if spec.filter else [])]:
+            # What is kept of it, and what stands before it.
             tag = f"-{hashlib.sha256(' '.join(chosen).encode()).hexdigest()[:6]}"
         return self.folder / "tools" / f"{spec.name}-{spec.pin}-{spec.sha256[:12]}{tag}"
 

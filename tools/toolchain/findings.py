@@ -72,7 +72,8 @@ class Findings:
         """One file per clone and state of its lock and code, so that clones do not interfere."""
         state = hashlib.sha256()
         state.update(f"{self.lock.digest} {TOOLS_DIR} {sys.implementation.cache_tag}".encode())
-        for path in [*sorted(Path(__file__).parent.glob("*.py")), MACHDEP_FILE]:
+        filters = [spec.filter for spec in self.lock.tools.values() if spec.filter]
+        for path in [*sorted(Path(__file__).parent.glob("*.py")), MACHDEP_FILE, *filters]:
             state.update(path.read_bytes())
         return self.folder / "found" / f"{state.hexdigest()[:24]}.json"
 

@@ -113,9 +113,8 @@ class Finder:
             return self._file(spec, root, "cache", parts)
         finding = self._in_directory(spec, root / "bin", "cache", parts)
         # What identifies the tool is the program, not the script that starts it.
-        # With options, what starts it is another program than the one that is started.
-        first = spec.commands[0]
-        program = f"bin/{first}" if spec.options else spec.started(first)
+        # With a filter before it, that filter: of the program the manifest has the package.
+        program = spec.filter.name if spec.filter else spec.started(spec.commands[0])
         return finding and replace(finding, **fingerprint(root / program))
 
     def _note(self, spec: Spec, text: str) -> None:

@@ -43,7 +43,7 @@ class Spec:
     folder: str = ""
     program: str = ""
     keep: tuple[str, ...] = ()
-    options: tuple[str, ...] = ()
+    before: str = ""
     requirements: str = ""
     libraries: tuple[str, ...] = ()
     loader: str = ""
@@ -80,6 +80,11 @@ class Spec:
     def derived(self) -> bool:
         """True when the tool is made from the others, and so can only be had after them."""
         return self.kind in {"why3-config", "machdep"}
+
+    @property
+    def filter(self) -> Path | None:
+        """The program of ours, below tools/, that stands before its command."""
+        return TOOLS_DIR / self.before if self.before else None
 
     def started(self, command: str) -> str:
         """The program behind a command of an unpacked tool, relative to its tree."""

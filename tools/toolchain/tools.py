@@ -95,8 +95,8 @@ class Toolchain:
         if spec.derived:
             return None
         # A suitable tool of the user's own goes first; a library of sources that we unpack, and a
-        # program that is only right with options, are not looked for elsewhere.
-        own = not spec.options and (spec.commands or not spec.cached)
+        # program that is only right behind a filter, are not looked for elsewhere.
+        own = not spec.before and (spec.commands or not spec.cached)
         if own and (finding := finder.system(spec)):
             return finding
         return self.cache.find(spec, finder) if spec.cached else None

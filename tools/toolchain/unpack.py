@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import os
 import shlex
+import shutil
+import sys
 import tarfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -71,18 +73,27 @@ def write_starter(tree: Tree, command: str, start: str = "") -> None:
     program = tree.spec.started(command)
     if not start and not (tree.root / program).is_file():
         raise ToolchainError(f"{tree.spec.name}: the package holds no {program}")
-    options = "".join(f"{shlex.quote(option)} " for option in tree.spec.options)
-    start = start or f'exec "$root/{program}" {options}"$@"'
+    start = start or _filtered(tree, f'"$root/{program}"')
     if tree.spec.loader:
         libraries = ":".join(f"$root/{part}" for part in tree.spec.library_path)
         start = (
             f'exec "$root/{tree.spec.loader}" --argv0 "$0" \\\n'
-            f'    --library-path "{libraries}" "$root/{program}" {options}"$@"'
+            f'    --library-path "{libraries}" "$root/{program}" "$@"'
         )
     target = tree.root / "bin" / command
     target.parent.mkdir(exist_ok=True)
     target.write_text(f"#!/bin/sh\nroot=${{0%/*}}/..\n{start}\n")
     target.chmod(0o755)
+
+
+def _filtered(tree: Tree, program: str) -> str:
+    """How a program is started behind the filter that it has, if any; the tree holds a copy."""
+    source = tree.spec.filter
+    if not source:
+        return f'exec {program} "$@"'
+    shutil.copyfile(source, tree.root / source.name)
+    python = shlex.quote(sys.executable)
+    return f'exec {python} -S -E "$root/{source.name}" {program} "$@"'
 
 
 def extract(archive: Path, place: Callable[[str], Path | None]) -> None:
