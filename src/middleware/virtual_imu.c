@@ -42,7 +42,7 @@ keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu,
 /*@ requires channel < KEEL_VIRTUAL_IMU_CHANNELS;
   @ assigns \nothing;
   @*/
-static uint32_t bit_of(uint32_t channel)
+static uint32_t channel_bit(uint32_t channel)
 {
     static const uint8_t bits[KEEL_VIRTUAL_IMU_CHANNELS] = {0x01u, 0x02u, 0x04u,
                                                             0x08u, 0x10u, 0x20u};
@@ -58,7 +58,7 @@ static uint32_t bit_of(uint32_t channel)
 static void note(keel_virtual_imu_t *imu, uint32_t channel)
 {
     const keel_voter_t *const voter = &imu->channel[channel];
-    const uint32_t bit = bit_of(channel);
+    const uint32_t bit = channel_bit(channel);
 
     /*@ loop invariant 0 <= i <= voter->config.sensors;
       @ loop assigns i, imu->used[0 .. KEEL_VOTER_SENSORS - 1],

@@ -45,8 +45,8 @@ class Terms(unittest.TestCase):
 
     def test_linear(self) -> None:
         for text in ("(256 * x)", "(x * 256)", "((256 * x) + (3 * y))", "(0.5 * r)", "(x + y)",
-                     "(division <= modulus)", "((- 3) * x)",
-                     "((1.0 / 1024.0) <= r)", "((- 1.0) * r)", "((1.0 / 3.0) * r)", "(f(x)[y] - 3)", "(256 * div1(x))"):  # fmt: skip
+                     "(division <= modulus)", "(f(x)[y] - 3)", "(256 * div1(x))", "((- 3) * x)",
+                     "((1.0 / 1024.0) <= r)", "((- 1.0) * r)", "((1.0 / 3.0) * r)"):  # fmt: skip
             self.assertFalse(is_nonlinear(text), text)
 
 
@@ -67,8 +67,8 @@ class Shown(unittest.TestCase):
 
     def test_a_hypothesis_that_divides_is_left_out(self) -> None:
         text = ("goal wp_goal :\n  (forall x:int. forall t:(int,int) farray.\n  ((3 <= x) ->\n"
-                "  ((div(x, 2) = 1) -> (((t[x]) = 0) -> (forall k:int. (((x * k) <= 9 -> (k = 1)) ->"
-                " ((f(k) <-> (k = 2)) -> (x = k))))))))\n")  # fmt: skip
+                "  ((div(x, 2) = 1) -> (((t[x]) = 0) -> (forall k:int. (((x * k) <= 9 -> (k = 1))"
+                " -> ((f(k) <-> (k = 2)) -> (x = k))))))))\n")  # fmt: skip
         self.assertEqual(linear_part(text),
             "goal wp_goal :\n  (forall x:int. forall t:(int,int) farray.\n  ((3 <= x) ->"
             "((((t[x]) = 0) ->(forall k:int. (((f(k) <-> (k = 2)) ->(x = k))))))))\n")  # fmt: skip
