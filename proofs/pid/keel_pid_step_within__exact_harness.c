@@ -3,8 +3,8 @@
 // sources: src/flight/pid.c src/flight/filter.c specs/model/pid.c specs/model/filter.c
 // covers: keel_pid_step_within model_pid_step_within
 //
-// On small whole numbers: the integral moves by ki T e where it may, and stays elsewhere; the
-// output is that of the step. The model does the same. Wrong bodies are refuted here: where floats
+// On small whole numbers, zeros of either sign: the integral moves by ki T e where it may, and stays
+// elsewhere; the output is that of the step. The model does the same. Wrong bodies are refuted here: where floats
 // differ, z3 finds no example.
 #include "../../specs/model/pid.h"
 #include "pid_proof.h"
@@ -22,6 +22,7 @@ void keel_pid_step_within__exact_harness(void)
     const bool rises = nondet_bool();
     const bool falls = nondet_bool();
     const bool far = nondet_bool();
+    const bool negative = nondet_bool();
     const bool stays = ((r > y) && !rises) || ((r < y) && !falls);
     keel_pid_t pid = {.config = {.gains = {2.0f, 0.0f, 0.0f, 0.0f},
                                  .rate_hz = 2.0f,
@@ -31,7 +32,7 @@ void keel_pid_step_within__exact_harness(void)
                                  .integral_max = 64.0f},
                       .filter = {.a = 1.0f, .energy_limit = KEEL_FILTER_LOW_ENERGY_LIMIT},
                       .integral_gain = 1.0f,
-                      .integral = (float)old};
+                      .integral = ((old == 0) && negative) ? -0.0f : (float)old};
     keel_pid_t model = pid;
     const float setpoint = far ? 1.0e6f : (float)r;
     const keel_status_t status = keel_pid_step_within(&pid, setpoint, (float)y, rises, falls);
