@@ -3,9 +3,9 @@
 // sources: src/flight/pid.c src/flight/filter.c specs/model/pid.c specs/model/filter.c
 // covers: keel_pid_step_within model_pid_step_within
 //
-// On small whole numbers, zeros of either sign: the integral moves by ki T e where it may, and stays
-// elsewhere; the output is that of the step. The model does the same. Wrong bodies are refuted here: where floats
-// differ, z3 finds no example.
+// On small whole numbers, zeros of either sign: the integral moves by ki T e where it may, and
+// stays elsewhere; the output is that of the step. The model does the same. Wrong bodies are
+// refuted here: where floats differ, z3 finds no example.
 #include "../../specs/model/pid.h"
 #include "pid_proof.h"
 
