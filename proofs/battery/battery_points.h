@@ -8,7 +8,7 @@
 
 #include "battery_proof.h"
 
-#define POINTS 31u
+#define POINTS 33u
 
 /* In flight with two modules, 4 cells, 1 Ah and 10 steps per second; all is known. */
 static const keel_battery_t flying = {.config = {.capacity_ah = 1.0f,
@@ -118,6 +118,10 @@ static void make_sample(unsigned point, keel_battery_t *battery, keel_battery_sa
         sample->module[1].has_current = false;
         battery->low.count = 2u;
         break;
+    case 31u: /* Just as large a load as is made up for: 16 A, 0.5 V a cell. */
+        sample->module[0].current = 8.0f;
+        sample->module[1].current = 8.0f;
+        break;
     default:
         break;
     }
@@ -213,6 +217,11 @@ static void make_alarms(unsigned point, keel_battery_t *battery, keel_battery_sa
         sample->module[1].has_voltage = false;
         battery->voltage = 9.0f;
         battery->critical.count = 2u;
+        break;
+    case 32u: /* Above by just the margin: 3.5 V, without load 3.75 V. Taken back. */
+        set_voltages(sample, 14.0f);
+        battery->low.count = 1u;
+        battery->low.raised = true;
         break;
     default:
         break;

@@ -26,7 +26,7 @@ void keel_battery_init__exact_harness(void)
                                           .cap_s = 2000.0f,
                                           .low_voltage = 3.5f,
                                           .critical_voltage = 3.25f,
-                                          .voltage_margin = 0.25f,
+                                          .voltage_margin = 0.375f,
                                           .low_charge = 0.25f,
                                           .critical_charge = 0.125f,
                                           .rate_hz = rate ? 16u : 0u,

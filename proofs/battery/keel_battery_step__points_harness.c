@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 32 --external-sat-solver cadical
+// cbmc: --unwind 34 --external-sat-solver cadical
 // checks: assertions
 // sources: src/flight/battery.c specs/model/battery.c
 // covers: keel_battery_step model_battery_step

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 32 --external-sat-solver cadical
+// cbmc: --unwind 34 --external-sat-solver cadical
 // sources: src/flight/battery.c specs/model/battery.c
 // covers: keel_battery_step take_current take_currents has_voltage take_lower take_voltage
 // covers: counted_up whole_of add_quanta amount add_up less time_left estimate_rest unload_cell
