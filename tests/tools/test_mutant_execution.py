@@ -203,12 +203,14 @@ class Checker:
     def __init__(self, answer: Answer) -> None:
         self.answer = answer
         self.text = ""
+        self.options: tuple[str, ...] = ()
 
     def build(self, harness: Any, _name: str) -> tuple[Path, str]:
         self.text = harness.path.read_text(encoding="utf-8")
         return harness.path, ""
 
-    def check(self, _harness: Any, _binary: Path, *_: object) -> Answer:
+    def check(self, harness: Any, _binary: Path, *_: object) -> Answer:
+        self.options = harness.options
         return self.answer
 
 
@@ -253,6 +255,11 @@ class Confirming(ExecutionCase):
         self.assertIn("keel_run_values[] = {0x", checker.text)
         self.assertEqual((trial.sample.executed, trial.sample.confirmed), (1, 1))
         self.assertIn("1 by executions of its harnesses", table([verdict], ("cbmc",))[0])
+
+    def test_cbmc_has_the_bound_of_the_harness_and_needs_no_solver(self) -> None:
+        self.write("// cbmc: --unwind 7 --external-sat-solver cadical\n" + HARNESS)
+        _, checker = self.tried(self.trial(), "*box = 1001;", answer("FAILURE"))
+        self.assertEqual(checker.options, ("--unwind", "7"))
 
     def test_a_kill_is_kept_under_its_harness(self) -> None:
         trial = self.trial()

@@ -39,7 +39,7 @@ from typing import Any
 from . import csource, declarations
 from .cache import Cache, digest
 from .cbmc import Cbmc
-from .harness import Harness
+from .harness import Harness, without_solver
 from .jobs import Finished, Runner
 from .mutant_harnesses import Seen, in_tree
 from .mutant_verdicts import EXECUTED
@@ -216,7 +216,9 @@ def replayed(kill: Kill, wrapping: Wrapping, checker: Cbmc, root: Path) -> bool 
     place = root / "build" / "replay" / f"{harness.name}.c"
     place.parent.mkdir(parents=True, exist_ok=True)
     place.write_text(wrapping.replay(harness.path, kill.values), encoding="utf-8")
-    alone = replace(harness, path=place, options=(), assertions_only=True, timeout=CONFIRMING)
+    # No solver is needed, but the bound of a loop whose end is not seen to be constant is.
+    options = tuple(without_solver(list(harness.options)))
+    alone = replace(harness, path=place, options=options, assertions_only=True, timeout=CONFIRMING)
     binary, complaint = checker.build(alone, f"{harness.name}-replay")
     if complaint:
         return None
