@@ -4,17 +4,18 @@
 from __future__ import annotations
 
 import json
-import shutil
-import tempfile
 import tomllib
 import unittest
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from common.packages import provide
 
 provide()
+
+from copied_tree import CopiedTree  # noqa: E402
 
 from common.source import STAMP  # noqa: E402
 from evidence.part import Context, Part  # noqa: E402
@@ -79,15 +80,17 @@ def report_of(root: Path) -> dict[str, Any]:
             STAMP: NOW}  # fmt: skip
 
 
+@cache
+def copied() -> CopiedTree:
+    """The copy that all tests of a process share."""
+    return CopiedTree(ROOT, COPIED)
+
+
 class EvidenceTest(unittest.TestCase):
     """A test with a copy of the tree, and a report about it."""
 
     def setUp(self) -> None:
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.root = Path(holder.name)
-        for name in COPIED:
-            shutil.copytree(ROOT / name, self.root / name)
+        self.root = copied().put_back()
         self.report = report_of(self.root)
 
     def write(self, name: str, report: Mapping[str, Any]) -> None:
