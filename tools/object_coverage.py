@@ -28,9 +28,11 @@ Exit status: 0 when all is seen or has a reason, 1 when not, 2 when it could not
 
 from __future__ import annotations
 
+import os
 import sys
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Annotated, Literal
@@ -42,12 +44,13 @@ from common.arguments import Parser
 from common.config import Field, Table, Text, read_toml
 from common.errors import ROOT, ToolError, program
 from common.files import read_text
+from common.run import Ended
 from common.source import write_report
 from emulated_tests import unit_image
 from firmware import Image
 from suites.emulated import EmulatedBoard
 from suites.outcomes import unity_outcome
-from suites.trace import traced
+from suites.trace import Outcomes, traced
 from toolchain import Toolchain
 
 REPORT = ROOT / "build/coverage-target/report.json"
@@ -147,6 +150,10 @@ def is_untraced(test: Path) -> bool:
     return name_of(test).endswith(UNTRACED_END) or name_of(test) in UNTRACED
 
 
+Pairs = list[tuple[Conditional, Condition]]  # Of an image, and of all images.
+Found = tuple[str, Pairs]  # With the name of the test.
+
+
 class Measurement:
     """Runs the unit tests' images, and puts together what they show."""
 
@@ -163,13 +170,26 @@ class Measurement:
         kept = [path for path in unit_tests(self.root) if not is_untraced(path)]
         return [path.relative_to(self.root).as_posix() for path in kept]
 
-    def run(self, source: str) -> None:
-        """Run one file of tests."""
-        name = f"unit/{Path(source).stem.removeprefix('test_')}"
-        image = unit_image(self.board, name, source)
-        found = self.conditions(image)
-        items = [item for item, _ in found]
-        ended, outcomes = traced(self.board.tools, self.board.board, image.elf, items)
+    def run(self, sources: Sequence[str]) -> None:
+        """Run files of tests: images are built one by one, while others run."""
+        running: deque[tuple[Found, Future[tuple[Ended, Outcomes]]]] = deque()
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            for source in sources:
+                name = f"unit/{name_of(Path(source))}"
+                image = unit_image(self.board, name, source)
+                found = self.conditions(image)
+                items = [item for item, _ in found]
+                running.append(((name, found), pool.submit(
+                    traced, self.board.tools, self.board.board, image.elf, items)))  # fmt: skip
+                while running and running[0][1].done():
+                    self.note(*running.popleft())
+            for made, run in running:
+                self.note(made, run)
+
+    def note(self, made: Found, run: Future[tuple[Ended, Outcomes]]) -> None:
+        """Keep what a run has shown, once it has ended."""
+        name, found = made
+        ended, outcomes = run.result()
         outcome = unity_outcome(name, ended)
         if outcome.failures or not outcome.passed:
             raise UncoveredError("\n".join([f"{name}: failed on the target", *outcome.failures]))
@@ -177,7 +197,7 @@ class Measurement:
             condition.seen |= outcomes[item.address]
         print(f"{name:<24} {outcome.passed:>4} passed", flush=True)
 
-    def conditions(self, image: Image) -> list[tuple[Conditional, Condition]]:
+    def conditions(self, image: Image) -> Pairs:
         """The conditional instructions of src/ in an image."""
         contents = read_contents(self.board.tools, image.elf)
         lines = read_lines(self.board.tools, image.elf, (SOURCE,))
@@ -237,8 +257,7 @@ def measure() -> tuple[list[Condition], dict[str, object]]:
     board = EmulatedBoard(tools)
     measurement = Measurement(board)
     tests = measurement.tests()
-    for source in tests:
-        measurement.run(source)
+    measurement.run(tests)
     measurement.check_all_functions()
     versions = {name: item.version for name, item in tools.versions("target", "stack").items()}
     untraced = [name_of(path) for path in unit_tests(ROOT) if is_untraced(path)]

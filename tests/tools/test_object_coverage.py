@@ -83,12 +83,20 @@ class Evaluation(unittest.TestCase):
     def test_a_log(self) -> None:
         log = LOG.format(0x100, C) + LOG.format(0x104, C) + LOG.format(0x100, C | Z)
         at = {0x100: conditional(0x100), 0x104: conditional(0x104, "cbnz", 1)}
-        seen = outcomes_of(log.splitlines(), {**at, 0x108: conditional(0x108)})
-        self.assertEqual(seen, {0x100: {True, False}, 0x104: {True}, 0x108: set()})
+        for chunk_b in (1, 7, 1000):  # However it is read.
+            seen = outcomes_of(io.BytesIO(log.encode()), {**at, 0x108: conditional(0x108)}, chunk_b)
+            self.assertEqual(seen, {0x100: {True, False}, 0x104: {True}, 0x108: set()})
 
     def test_half_a_log(self) -> None:
-        log = LOG.format(0x100, C).splitlines()
-        self.assertEqual(outcomes_of(log[:-1], {0x100: conditional(0x100)}), {0x100: set()})
+        log = LOG.format(0x100, C).encode()
+        for end in (log.index(b"XPSR"), log.index(b"XPSR=") + len(b"XPSR=2000")):
+            seen = outcomes_of(io.BytesIO(log[:end]), {0x100: conditional(0x100)})
+            self.assertEqual(seen, {0x100: set()})
+
+    def test_registers_are_those_of_the_same_instruction(self) -> None:
+        log = LOG.replace("R01=00000005", "R01=00000000").format(0x100, C) + LOG.format(0x104, C)
+        at = {0x104: conditional(0x104, "cbz", 1)}
+        self.assertEqual(outcomes_of(io.BytesIO(log.encode()), at), {0x104: {False}})
 
     def test_the_emulator_s_word_for_single_steps(self) -> None:
         self.assertEqual(one_by_one("7.2.22"), ["-singlestep"])
@@ -175,7 +183,7 @@ class Running(unittest.TestCase):
             "    return UNITY_END();\n}\n"
         )
         with self.assertRaisesRegex(UncoveredError, "failed on the target\n.*bad: Expected 1"):
-            Measurement(self.board).run(source.relative_to(ROOT).as_posix())
+            Measurement(self.board).run([source.relative_to(ROOT).as_posix()])
 
     def test_images_that_differ_are_refused(self) -> None:
         measurement = Measurement(self.board)

@@ -9,8 +9,9 @@ seen as well as a branch.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import BinaryIO
 
 from boards.board import Board
 from boards.conditions import Conditional
@@ -20,9 +21,11 @@ from toolchain import Toolchain
 from suites.emulated import emulator
 
 TIMEOUT_S = 300.0
-REGISTER = re.compile(r"\bR(\d\d)=([0-9a-f]{8})\b")
-STATUS = re.compile(r"^XPSR=([0-9a-f]{8})\b")
-PC = 15
+REGISTER = re.compile(rb"\bR(\d\d)=([0-9a-f]{8})\b")
+STATUS = re.compile(rb"[0-9a-f]{8}\b")
+MARK = b"XPSR="  # The last line that is logged of an instruction; the PC ends the one before.
+PC = slice(-9, -1)
+CHUNK_B = 1 << 24
 
 Outcomes = dict[int, set[bool]]  # By address: whether the condition held.
 
@@ -33,18 +36,33 @@ def one_by_one(version: str) -> list[str]:
     return ["-singlestep"] if (major, minor) < (8, 1) else ["-accel", "tcg,one-insn-per-tb=on"]
 
 
-def outcomes_of(log: Iterable[str], at: Mapping[int, Conditional]) -> Outcomes:
-    """The outcomes that a log of registers shows."""
+def parts_of(log: BinaryIO, chunk_b: int) -> Iterator[bytes]:
+    """What stands between the marks of a log: a status, and the registers of the next one."""
+    rest = b""
+    while chunk := log.read(chunk_b):
+        *whole, rest = (rest + chunk).split(MARK)
+        yield from whole
+    yield rest
+
+
+def outcomes_of(
+    log: BinaryIO, at: Mapping[int, Conditional], chunk_b: int = CHUNK_B
+) -> Outcomes:  # fmt: skip
+    """The outcomes that a log of registers shows.
+
+    A log has millions of instructions: registers are read only where an outcome is yet to be seen.
+    """
     seen: Outcomes = {address: set() for address in at}
-    registers: dict[int, int] = {}
-    for line in log:
-        if status := STATUS.match(line):
-            address = registers.get(PC, -1)
-            if address in at and len(seen[address]) < 2:
-                seen[address].add(at[address].holds(registers, int(status[1], 16)))
-            registers = {}
-        else:
-            registers |= {int(name): int(word, 16) for name, word in REGISTER.findall(line)}
+    waiting = {f"{address:08x}".encode(): address for address in at}
+    registers = b""
+    for part in parts_of(log, chunk_b):
+        address = waiting.get(registers[PC])
+        if address is not None and (status := STATUS.match(part)):
+            values = {int(name): int(word, 16) for name, word in REGISTER.findall(registers)}
+            seen[address].add(at[address].holds(values, int(status[0], 16)))
+            if len(seen[address]) == 2:
+                del waiting[registers[PC]]
+        registers = part
     return seen
 
 
@@ -58,7 +76,7 @@ def traced(
     version = tools.versions("target")["qemu"].version
     words = [*one_by_one(version), "-d", "cpu,nochain", "-dfilter", places, "-D", str(log)]
     ended = run([*emulator(tools, board, elf), *words], TIMEOUT_S)
-    with log.open(encoding="utf-8", errors="replace") as stream:
+    with log.open("rb") as stream:
         seen = outcomes_of(stream, {item.address: item for item in conditionals})
     log.unlink()
     return ended, seen
