@@ -95,6 +95,7 @@ class Kills(TreeTest):
         said = made.kills(harness, "keel_box_put", first, self.root)
         self.assertEqual(made.kills(harness, "keel_box_put", first, self.root), said)
         self.assertLessEqual(second.asked, 1)
+        self.asked = first.asked
         return said
 
     def test_a_failing_assertion_kills(self) -> None:
@@ -104,6 +105,10 @@ class Kills(TreeTest):
     def test_not_when_it_fails_unchanged_or_when_nobody_knows(self) -> None:
         self.assertEqual(self.kill(answer("BOX_001"), answer("BOX_001")), "")
         self.assertEqual(self.kill(answer("BOX_001"), answer(complete=False)), "")
+
+    def test_who_is_of_no_use_is_not_asked_again(self) -> None:
+        self.kill(answer("BOX_001"), answer(complete=False))
+        self.assertEqual(self.asked, 1)
 
     def test_nor_does_no_answer_kill_or_a_loop_that_goes_on(self) -> None:
         self.assertEqual(self.kill(answer(), answer()), "")

@@ -28,6 +28,8 @@ BEYOND = "unwinding assertion"  # what CBMC says of a loop that goes on
 TIME = 20.0  # seconds of processor time, for a question that is meant to be easy
 # How much longer than its processor time a question may take where other programs run, too.
 WALL = 6.0
+# Seconds for the unchanged code, once: where small is no easier, asking is not worth it.
+PATIENT = 240.0
 
 
 def small(harness: Harness, files: Iterable[Path]) -> Harness:
@@ -100,6 +102,8 @@ class Small:
 
     def kills(self, original: Harness, function: str, checker: Cbmc, root: Path) -> str:
         """What the small harness says against a mutant of a function in a tree; or nothing."""
+        if self._usable.get(original.name) is False:
+            return ""
         harness = small(in_tree(original, root), self._files[original.name])
         failure = _failure(checker, replace(harness, timeout=WALL * harness.timeout))
         if not failure or not self._passes_unchanged(original):
@@ -110,11 +114,11 @@ class Small:
         return f"killed: {original.name}: {failure}{sizes}"
 
     def _passes_unchanged(self, original: Harness) -> bool:
-        """Whether the small harness finds nothing in what is unchanged."""
+        """Whether the small harness finds nothing in what is unchanged, in a time that pays."""
         with self._lock:
             if original.name not in self._usable:
                 harness = small(original, self._files[original.name])
-                patient = replace(harness, timeout=original.timeout)
+                patient = replace(harness, timeout=min(PATIENT, original.timeout))
                 self._usable[original.name] = _failure(self._unchanged(), patient) == ""
             return self._usable[original.name]
 
