@@ -13,9 +13,11 @@ from __future__ import annotations
 import json
 import unittest
 from typing import Any
+from unittest import mock
 
 from evidence_project import HARNESS, HEADER, WholeProject
 
+from common.files import write_json
 from common.source import STAMP, VERDICT
 from evidence.package import SUMS, digests
 
@@ -135,6 +137,19 @@ class Faults(WholeProject):
         self.report("test/report.json", suites=suites, failed=1, verdict="failed")
         self.refused("build/test/report.json: its verdict is 'failed': make test",
                      "tests: unit/widget/it_loops failed on the host")  # fmt: skip
+
+    def test_a_stale_result_of_mutation_is_told_before_any_command_is_run(self) -> None:
+        made_of = {"source": "older", "proofs": "older"}
+        write_json(self.root / "specs/mutation/widget.json", {
+            "unit": "widget", "made_of": made_of, "problems": [], "summary": {}, "mutants": [],
+        })  # fmt: skip
+        with mock.patch.object(self.program, "run_commands") as run:
+            status, lines = self.run_it("--dirty", "--out", str(self.out))
+        run.assert_not_called()
+        self.assertEqual(status, 1)
+        self.assertEqual(lines[-2], "FAILED specs/mutation/widget.json: is stale, source, proofs"
+                                    " changed since: make mutate again")  # fmt: skip
+        self.assertIn("no command is run, nothing is written", lines[-1])
 
     def test_reports_of_an_older_source(self) -> None:
         self.write_reports()

@@ -24,7 +24,7 @@ STATES: Mapping[str, State] = {"killed": "good", "equivalent": "told"}
 NOT_RUN = "not run"
 CURRENT = "current"
 HEAD = ("unit", "made_of", "problems", "summary", "mutants")
-OURS = frozenset({"source", "proofs"})  # Of what a result is made of, what a commit changes.
+OURS = ("source", "proofs")  # Of what a result is made of, what a commit changes.
 MUTANT = ("function", "kind", "line", "original", "mutant", "status", "engines")
 
 
@@ -122,8 +122,8 @@ def problems(every: Sequence[Standing]) -> Iterator[str]:
     another machine they may be of other versions, which no commit can mend.
     """
     for one in every:
-        if OURS.intersection(one.stale):
-            yield f"{one.shown}: is stale, {', '.join(one.stale)} changed since: make mutate again"
+        if ours := [name for name in one.stale if name in OURS]:
+            yield f"{one.shown}: is stale, {', '.join(ours)} changed since: make mutate again"
         for mutant in one.with_status(*OPEN):
             yield (f"{one.shown}: {mutant['function']}:{mutant['line']}: {mutant['status']},"
                    f" unexplained: {change(mutant)}")  # fmt: skip
@@ -132,6 +132,13 @@ def problems(every: Sequence[Standing]) -> Iterator[str]:
                 yield f"{one.shown}: {mutant['function']}:{mutant['line']}: without a reason"
         if one.record:
             yield from (f"{one.shown}: {text}" for text in one.record["problems"])
+
+
+def foreseen(root: Path) -> list[str]:
+    """The problems that no command can mend which is run for the package, known before any is."""
+    found: list[str] = []
+    every = standings(root, {}, found)
+    return [*found, *problems(every)]
 
 
 def killer(mutant: Report) -> str:
