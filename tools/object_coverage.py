@@ -173,7 +173,7 @@ class Measurement:
     def run(self, sources: Sequence[str]) -> None:
         """Run files of tests: images are built one by one, while others run."""
         running: deque[tuple[Found, Future[tuple[Ended, Outcomes]]]] = deque()
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
+        with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
             for source in sources:
                 name = f"unit/{name_of(Path(source))}"
                 image = unit_image(self.board, name, source)
