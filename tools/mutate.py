@@ -257,7 +257,8 @@ class Measurement:
             if self._options.record:
                 harnesses = mutant_records.all_harnesses(one.unit.root)
                 versions = self._tools.versions("prove")
-                made_of = mutant_records.origin(one.unit, harnesses, versions)
+                judges = mutant_records.killers(verdict.engines for verdict in verdicts)
+                made_of = mutant_records.origin(one.unit, harnesses, versions, judges)
                 print(mutant_records.write(one.unit, verdicts, problems, made_of))
             print("\n".join(executed(one)))
             print(f"{one.unit.name}: dropped {one.dropped} that say the same as another")

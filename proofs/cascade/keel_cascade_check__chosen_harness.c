@@ -36,7 +36,8 @@ static void any_config(void)
     }
     config.reach[KEEL_CASCADE_ROLL] = chosen(0.5f, 0.75f);
     config.reach[KEEL_CASCADE_PITCH] = chosen(0.625f, 0.875f);
-    config.reaction_s = chosen(0.25f, 0.001f);
+    /* 0.01 s is one step at 100 Hz, as rounded. */
+    config.reaction_s = chosen(0.25f, nondet_bool() ? 0.01f : 0.001f);
 }
 
 /* What is taken is within its ranges. */

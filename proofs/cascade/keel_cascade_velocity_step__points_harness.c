@@ -8,25 +8,11 @@
 // covers: number_within nearest_within model_cascade_axis_step lies_within next_to
 //
 // A chosen cascade at chosen places, one after another: the same as the model's. All of them are
-// dealt with in keel_cascade_velocity_step_harness; wrong bodies are refuted here, for where floats
-// differ z3 finds no example.
-#include "cascade_points.h"
-#include "keel/flight/mode.h"
+// dealt with in keel_cascade_velocity_step_harness; wrong bodies are refuted here, and in
+// keel_cascade_velocity_step__edges_harness, for where floats differ z3 finds no example.
+#include "velocity_points.h"
 
 #define POINTS 14u
-
-typedef struct point {
-    keel_cascade_vector_t asked;
-    keel_cascade_estimate_t estimate;
-    keel_cascade_limit_t roll;
-    keel_cascade_limit_t pitch;
-    uint32_t gave_way;
-    uint8_t mode;
-} point_t;
-
-#define NONE  {false, false}
-#define LEAST {true, false}
-#define MOST  {false, true}
 
 /* Not flown at first; then north with a heading between the axes; each limit of the body, seen from
  * each side; near each side of the fence; near for the way of the reaction time alone, 0.5 m of the
@@ -119,44 +105,21 @@ static const point_t points[POINTS] = {
      KEEL_MODE_POSITION},
 };
 
-static keel_cascade_config_t config;
-static keel_cascade_t cascade;
-static keel_cascade_t model;
-
-/* What the angle stage has done. */
-static void tilt_to(keel_cascade_t *c, const point_t *point)
-{
-    c->axis[KEEL_CASCADE_ROLL].limit = point->roll;
-    c->axis[KEEL_CASCADE_PITCH].limit = point->pitch;
-    c->axis[KEEL_CASCADE_ROLL].running = true;
-    c->axis[KEEL_CASCADE_PITCH].running = true;
-    c->axis[KEEL_CASCADE_ROLL].pid.setpoint = 0.11f;
-    c->axis[KEEL_CASCADE_PITCH].pid.setpoint = -0.07f;
-    c->command.thrust = 0.43f;
-    c->gave_way = point->gave_way;
-}
-
 void keel_cascade_velocity_step__points_harness(void)
 {
     const float no_number = nondet_float();
 
     __CPROVER_assume(no_number != no_number);
-    good_config(&config);
-    __CPROVER_assert(keel_cascade_init(&cascade, &config) == KEEL_OK, "CAS_010_made: it is made");
-    model = cascade;
+    good_cascade();
     for (unsigned i = 0u; i < POINTS; i++) {
-        const point_t *const point = &points[i];
-        keel_cascade_estimate_t estimate = point->estimate;
+        keel_cascade_estimate_t estimate = points[i].estimate;
 
         if (estimate.forward_north > 1.0f) {
             estimate.forward_north = no_number;
         }
-        keel_cascade_enter(&cascade, point->mode);
-        model_cascade_enter(&model, point->mode);
-        tilt_to(&cascade, point);
-        tilt_to(&model, point);
-        keel_cascade_velocity_step(&cascade, point->asked, &estimate);
-        model_cascade_velocity_step(&model, point->asked, &estimate);
+        lead_to(&points[i]);
+        keel_cascade_velocity_step(&cascade, points[i].asked, &estimate);
+        model_cascade_velocity_step(&model, points[i].asked, &estimate);
 
         __CPROVER_assert(cascade_same(&cascade, &model),
                          "CAS_010_points: every field is what the model says");

@@ -53,7 +53,9 @@ class StrengthTest(EvidenceTest):
     def record(self) -> str:
         """Keep the verdicts as the result."""
         harnesses = mutant_records.all_harnesses(self.root)
-        made_of = mutant_records.origin(self.unit, harnesses, recorded.found_of(self.report))
+        judges = mutant_records.killers(verdict.engines for verdict in self.verdicts)
+        tools = recorded.found_of(self.report)
+        made_of = mutant_records.origin(self.unit, harnesses, tools, judges)
         return mutant_records.write(self.unit, self.verdicts, [], made_of)
 
     def part(self) -> Part:
@@ -117,6 +119,16 @@ class Mutants(StrengthTest):
         self.record()
         self.replace("proofs/range/keel_range_clamp_harness.c", "__CPROVER_assert(", "(void)(")
         self.assert_problem(self.part(), RECORD, "stale", "proofs")
+
+    def test_without_the_harness_that_killed_it_is_stale(self) -> None:
+        self.record()
+        (self.root / "proofs/range/keel_range_clamp_harness.c").unlink()
+        self.assert_problem(self.part(), RECORD, "stale", "proofs")
+
+    def test_a_harness_that_killed_nothing_makes_nothing_stale(self) -> None:
+        self.record()
+        self.replace("proofs/range/keel_range_contains_harness.c", "__CPROVER_assert(", "(void)(")
+        self.assertEqual(self.row()[1], "current")
 
     def test_comments_of_harnesses_and_provers_of_goals_make_nothing_stale(self) -> None:
         self.record()

@@ -4,14 +4,15 @@
 `make mutate ARGS=--record` writes specs/mutation/UNIT.json: every mutant with its line, change,
 verdict and who killed it, digests of the sources and the proofs that the result was had from, and
 the versions of the tools. Where one of these has changed, the result is stale: it says nothing
-about what is there. Other builds of the same versions are the same tools here: a distribution makes
-them anew for each release, and no commit could follow.
+about what is there. Of the proofs, the harnesses count that killed a mutant: whatever becomes of
+others, these kill the same, and what nobody killed has its reason. Other builds of the same versions
+are the same tools here: a distribution makes them anew for each release, and no commit could follow.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -42,17 +43,25 @@ def all_harnesses(root: Path) -> list[tuple[Harness, frozenset[Path]]]:
     return [(one, frozenset(closure(root, [one.path, *one.sources]))) for one in read]
 
 
+def killers(answers: Iterable[Mapping[str, str]]) -> frozenset[str]:
+    """The harnesses that killed a mutant; `answers` is what each engine said, mutant by mutant."""
+    said = (engines.get("cbmc", "").partition("killed: ") for engines in answers)
+    return frozenset(how.partition(":")[0] for before, kills, how in said if kills and not before)
+
+
 def origin(
-    unit: Unit, harnesses: Sequence[tuple[Harness, frozenset[Path]]], tools: Mapping[str, Found]
-) -> dict[str, str]:
-    """Digests of what a result on a unit depends on, and each tool's version.
+    unit: Unit, harnesses: Sequence[tuple[Harness, frozenset[Path]]], tools: Mapping[str, Found],
+    judges: Collection[str],
+) -> dict[str, str]:  # fmt: skip
+    """Digests of what a result on a unit depends on, and each tool's version; `judges` are the
+    names of the harnesses that killed.
 
     The sources count with their contracts, which are comments; harnesses and models without. Who
     proved a goal last does not matter, nor do the wrong bodies.
     """
     root = unit.root
     own = {path.resolve() for path in unit.own_files}
-    linked = [(one, files) for one, files in harnesses if own & files]
+    linked = [(one, files) for one, files in harnesses if own & files and one.name in judges]
     source = set(closure(root, unit.own_files))
     apart = set().union(*(files for _, files in linked)) - source
     texts = {path: path.read_text(encoding="utf-8") for path in (*source, *apart)}

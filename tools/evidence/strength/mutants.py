@@ -103,7 +103,8 @@ def standings(root: Path, report: Report, problems: list[str]) -> list[Standing]
         except ToolError as error:
             problems.append(str(error))
         if record:
-            now = mutant_records.origin(unit, harnesses, found_of(report))
+            judges = mutant_records.killers(one["engines"] for one in record["mutants"])
+            now = mutant_records.origin(unit, harnesses, found_of(report), judges)
             then = record["made_of"]
             stale = [name for name in {**now, **then} if then.get(name) != now.get(name)]
         found.append(Standing(unit.name, record, tuple(stale)))
