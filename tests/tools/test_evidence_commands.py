@@ -12,6 +12,7 @@ from __future__ import annotations
 import json
 import sys
 import tempfile
+import threading
 import unittest
 from collections.abc import Sequence
 from pathlib import Path
@@ -25,7 +26,7 @@ from evidence_sample import STAMP, context_in  # noqa: E402
 from common.run import Ended  # noqa: E402
 from common.source import STAMP as MADE_FROM  # noqa: E402
 from common.source import VERDICT, stamp_of, write_report  # noqa: E402
-from evidence.commands import Command, commands_of, not_good, run_commands  # noqa: E402
+from evidence.commands import Command, batches, commands_of, not_good, run_commands  # noqa: E402
 
 
 class InFolder(unittest.TestCase):
@@ -87,6 +88,25 @@ class Commands(InFolder):
         self.assertGreater(len(commands), 8)
         for command in commands:
             self.assertRegex(makefile, rf"(?m)^{command.words[0]}:")
+
+    def test_narrow_commands_that_follow_each_other_run_at_the_same_time(self) -> None:
+        wide, narrow = (Command(f"{word}.json", (word,), word != "w") for word in "wn")
+        other = Command("o.json", ("o",), narrow=True)
+        self.assertEqual(batches([narrow, other, wide, wide, narrow]),
+                         [[narrow, other], [wide], [wide], [narrow]])  # fmt: skip
+
+    def test_all_that_fail_at_the_same_time_are_told_in_their_order(self) -> None:
+        slow, quick = (Command(f"{word}.json", (word,), narrow=True) for word in ("slow", "quick"))
+        ended = threading.Event()
+
+        def start(words: Sequence[str], _: Path) -> Ended:
+            if words == slow.words:
+                ended.wait(5.0)
+            ended.set()
+            return Ended(1, words[0])
+
+        told = run_commands(context_in(self.folder), [slow, quick], start)
+        self.assertEqual([problem.split(":")[0] for problem in told], ["make slow", "make quick"])
 
     def test_a_half_written_report_is_made_anew(self) -> None:
         self.write('{"verdict": "good", "made')

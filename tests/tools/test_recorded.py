@@ -164,14 +164,16 @@ class Asking(TreeTest):
         self.assertEqual(rest, plain[len(plain) - len(rest) :])
         self.assertEqual(rest[0], "-wp")
 
-    def test_a_function_that_is_left_to_cbmc_in_part_has_no_recorded_pass(self) -> None:
-        for left, expected in ((None, 1), ((), 0)):
+    def test_of_a_function_that_is_left_to_cbmc_in_part_the_rest_is_selected(self) -> None:
+        for left, told, options in ((None, [PUT], 0), (("BOX_3",), [PUT, "-@ensures", "-BOX_3"], 1)):
             target = dataclasses.replace(self.function, left=left)
-            run = mock.Mock(return_value=Finished(0, ""))
-            with mock.patch.object(Runner, "run", run):
-                self.prover.prove(target, wp.QUICK, recorded={f"{PUT}_assigns": "z3"})
-            [command] = run.call_args.args
-            self.assertEqual(sum(word.endswith("ask_recorded.ml") for word in command), expected)
+            file = self.prover._recorded_file(target, {f"{PUT}_assigns": "z3"})
+            assert file
+            lines = file.read_text(encoding="utf-8").splitlines()
+            self.assertEqual(lines, [" ".join(told), f"{PUT}_assigns z3"])
+            command = self.prover.command(target, wp.QUICK, True, self.root / "r.json", True)
+            first = command[: command.index("-then")]
+            self.assertEqual(first.count("-warn-special-float"), options)
 
     def test_the_search_for_dead_branches_comes_first_where_a_goal_is_recorded_for_it(self) -> None:
         for name, expected in (("cvc4", [False, True, False]), ("pruned", [True, False, False])):

@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+import functools
+import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,7 +15,7 @@ from typing import Any
 from boards.board import board_names
 from common.errors import ROOT
 from common.files import write_text
-from common.run import Ended, run
+from common.run import Ended, run, stop_all
 from common.source import GOOD, VERDICT
 
 from evidence.part import Context
@@ -27,6 +30,8 @@ class Command:
 
     report: str
     words: tuple[str, ...]
+    # Whether it keeps one core busy, and needs nothing of those like it that stand beside it.
+    narrow: bool = False
 
     @property
     def shown(self) -> str:
@@ -39,19 +44,20 @@ def commands_of(root: Path) -> tuple[Command, ...]:
     boards = board_names(root)
     return (
         Command("prove/report.json", ("prove",)),
-        *(Command(f"firmware/{name}/report.json", ("firmware", f"BOARD={name}"))
+        *(Command(f"firmware/{name}/report.json", ("firmware", f"BOARD={name}"), narrow=True)
           for name in boards),
         Command("test-target/report.json", ("test-target",)),
         Command("test/report.json", ("test",)),
         Command("coverage/report.json", ("coverage",)),
         Command("coverage-target/report.json", ("coverage-target",)),
         Command("contracts-run/report.json", ("contracts-run",)),
-        Command("eva/report.json", ("eva",)),
-        Command("qualify/report.json", ("qualify",)),
-        Command("opinion/report.json", ("opinion",)),
-        Command("lint/report.json", ("lint",)),
-        *(Command(f"stack/{name}.json", ("stack", f"BOARD={name}")) for name in boards),
-        Command("bench/report.json", ("bench",)),
+        Command("qualify/report.json", ("qualify",), narrow=True),
+        Command("eva/report.json", ("eva",), narrow=True),
+        Command("lint/report.json", ("lint",), narrow=True),
+        Command("bench/report.json", ("bench",), narrow=True),
+        Command("opinion/report.json", ("opinion",), narrow=True),
+        *(Command(f"stack/{name}.json", ("stack", f"BOARD={name}"), narrow=True)
+          for name in boards),
     )  # fmt: skip
 
 
@@ -98,19 +104,52 @@ def run_commands(
     context: Context, commands: Sequence[Command], start: Start = start_make
 ) -> list[str]:
     """Run what has to be run, with progress; gives what went wrong."""
-    problems: list[str] = []
-    for number, command in enumerate(commands, 1):
-        place = f"[{number}/{len(commands)}] {command.shown}"
-        if still_holds(context, command):
-            context.say(f"{place}: holds, build/{command.report} is of this source")
-            continue
-        context.say(f"{place} ...")
-        begun = time.monotonic()
-        ended = start(command.words, context.root)
-        context.say(f"{place}: {ended.how}, {time.monotonic() - begun:.0f} s")
-        log = context.work / "logs" / f"{command.report.replace('/', '-')}.txt"
-        write_text(log, ended.output)
-        if not ended.good:
-            last = (ended.output.strip().splitlines() or ["it said nothing"])[-1]
-            problems.append(f"{command.shown}: {ended.how}: {last} (all of it: {log})")
-    return problems
+    places = {command: f"[{number}/{len(commands)}] {command.shown}"
+              for number, command in enumerate(commands, 1)}  # fmt: skip
+
+    def ran(command: Command) -> str:
+        return _run_one(context, command, places[command], start)
+
+    told: list[str] = []
+    for batch in batches(commands):
+        told += _side_by_side([functools.partial(ran, command) for command in batch])
+    return [problem for problem in told if problem]
+
+
+def batches(commands: Sequence[Command]) -> list[list[Command]]:
+    """Those that run at the same time: narrow ones that follow each other."""
+    found: list[list[Command]] = []
+    for command in commands:
+        if command.narrow and found and found[-1][-1].narrow:
+            found[-1].append(command)
+        else:
+            found.append([command])
+    return found
+
+
+def _side_by_side(tasks: Sequence[Callable[[], str]]) -> list[str]:
+    """What each says, as many at once as there are cores. Whatever ends this ends all programs."""
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        try:
+            return list(pool.map(lambda task: task(), tasks))
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            stop_all()
+            raise
+
+
+def _run_one(context: Context, command: Command, place: str, start: Start) -> str:
+    """Run a command unless its report holds; what went wrong."""
+    if still_holds(context, command):
+        context.say(f"{place}: holds, build/{command.report} is of this source")
+        return ""
+    context.say(f"{place} ...")
+    begun = time.monotonic()
+    ended = start(command.words, context.root)
+    context.say(f"{place}: {ended.how}, {time.monotonic() - begun:.0f} s")
+    log = context.work / "logs" / f"{command.report.replace('/', '-')}.txt"
+    write_text(log, ended.output)
+    if ended.good:
+        return ""
+    last = (ended.output.strip().splitlines() or ["it said nothing"])[-1]
+    return f"{command.shown}: {ended.how}: {last} (all of it: {log})"

@@ -4,13 +4,14 @@
    It decides who is asked first, and nothing else: the goals, the provers and the verdicts are
    WP's own, and the passes of WP that follow take up every goal that is not proved then.
 
-   KEEL_RECORDED names a file: the function, then a goal and its prover on each line. *)
+   KEEL_RECORDED names a file: the function and, if not all of its goals are WP's, those that are, as
+   -wp-prop has them; then a goal and its prover on each line. *)
 
 let recorded : (string, string) Hashtbl.t = Hashtbl.create 97
 let provers : string list ref = ref []
 
 let read channel =
-  let name = input_line channel in
+  let selection = String.split_on_char ' ' (input_line channel) in
   (try
      while true do
        Scanf.sscanf (input_line channel) "%s %s" (fun goal prover ->
@@ -18,7 +19,7 @@ let read channel =
            if not (List.mem prover !provers) then provers := !provers @ [ prover ])
      done
    with End_of_file -> ());
-  name
+  (List.hd selection, List.tl selection)
 
 (* A goal of a call through a pointer ends in the number of its statement, which no list has. *)
 let without_statement goal =
@@ -34,8 +35,8 @@ let prover_of vc =
   | Some prover -> Some prover
   | None -> Hashtbl.find_opt recorded (without_statement goal)
 
-let ask kf =
-  let goals = Wp.VC.generate_kf kf in
+let ask kf prop =
+  let goals = Wp.VC.generate_kf ~prop kf in
   let before = Wp.Wp_parameters.Provers.get () in
   List.iter
     (fun prover ->
@@ -52,10 +53,10 @@ let main () =
   if !waiting then begin
     waiting := false;
     let channel = open_in (Sys.getenv "KEEL_RECORDED") in
-    let name = read channel in
+    let name, prop = read channel in
     close_in channel;
     match Globals.Functions.find_by_name name with
-    | kf -> ask kf
+    | kf -> ask kf prop
     | exception Not_found -> ()
   end
 

@@ -29,12 +29,14 @@ INVARIANT = re.compile(r"\bloop invariant (\w+):")
 REQUIRES = re.compile(r"\brequires (\w+):")
 
 
+def not_left(left: tuple[str, ...] | None) -> list[str]:
+    """What WP proves, in the words of -wp-prop: all but these; nothing when it proves all."""
+    return [] if left is None else ["-@ensures", *(f"-{label}" for label in left)]
+
+
 def selection(left: tuple[str, ...] | None) -> list[str]:
     """The options that leave to CBMC what is CBMC's; nothing when WP proves all."""
-    if left is None:
-        return []
-    props = ",".join(["-@ensures", *(f"-{label}" for label in left)])
-    return [f"-wp-prop={props}", *NO_FLOATS]
+    return [] if left is None else [f"-wp-prop={','.join(not_left(left))}", *NO_FLOATS]
 
 
 def restricted(target: Target, exceptions: Exceptions) -> Target:

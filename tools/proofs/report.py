@@ -31,7 +31,6 @@ class UnitResult:
     smoke: int = 0
     accepted: list[str] = field(default_factory=list)
     stale: list[str] = field(default_factory=list)
-    unrecorded: list[str] = field(default_factory=list)
     pruned: list[str] = field(default_factory=list)
     harnesses: dict[str, dict[str, Any]] = field(default_factory=dict)
     negative: dict[str, bool] = field(default_factory=dict)
@@ -90,7 +89,6 @@ class UnitResult:
             self.goals += [{**goal, "target": job.name} for goal in result["goals"]]
             self.smoke += result["smoke"]
             self.stale += result["stale"]
-            self.unrecorded += result["unrecorded"]
             self.pruned += result["pruned"]
             self.accepted += [text for text in result["allowed"] if text not in self.accepted]
         elif job.kind == "cbmc":

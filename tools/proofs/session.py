@@ -299,8 +299,6 @@ class Session:
             goal["name"]: short_name(goal["prover"]) for goal in result.goals if goal["prover"]
         }
         provers |= dict.fromkeys(result.pruned, PRUNED)
-        for name in result.unrecorded:
-            provers.pop(name, None)
         text = as_text(seen, provers)
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
             write_text(path, text)

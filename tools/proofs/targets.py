@@ -53,9 +53,7 @@ class Result:
     problems: list[str] = field(default_factory=list)
     # Goals whose recorded prover did not prove them: that costs time, and nothing else.
     stale: list[str] = field(default_factory=list)
-    # Goals whose prover is not to be recorded, ...
-    unrecorded: list[str] = field(default_factory=list)
-    # ... and those of which it is that WP had to search for branches that cannot be taken.
+    # Goals for which it is recorded that WP had to search for branches that cannot be taken.
     pruned: list[str] = field(default_factory=list)
     seconds: float = 0.0
 

@@ -18,7 +18,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import wplog
+from . import frames, wplog
 from .goals import PRUNED, QED
 from .jobs import Runner
 from .project import include_options
@@ -66,8 +66,8 @@ THOROUGH = (
     Stage(("alt-ergo", "cvc4"), 20, pruning=True),
     Stage(("alt-ergo", "cvc4", "z3"), 100),
 )
-# Where nothing is recorded, as some goals are left to CBMC, Z3 is asked at once: it needs a moment
-# for some products, on which the others would spend all of their time.
+# Where some goals are left to CBMC, Z3 is asked at once for what no recorded prover has proved: it
+# needs a moment for some products, on which the others would spend all of their time.
 QUICK_OF_ALL = Stage(("alt-ergo", "cvc4", "z3"), 10)
 # A prover that is recorded for a goal proved it, if on a faster machine.
 RECORDED_SECONDS = 30
@@ -127,19 +127,13 @@ class Wp:
         self, target: Target, stages: Sequence[Stage] = THOROUGH, smoke: bool = True,
         allowed: Sequence[str] = (), recorded: Mapping[str, str] | None = None,
     ) -> Result:  # fmt: skip
-        """Prove a target; `recorded` are the provers to ask first, by goal.
-
-        That pass prepares all goals of a function, also those that are left to CBMC: where some
-        are, none is asked first.
-        """
+        """Prove a target; `recorded` are the provers to ask first, by goal."""
         start = time.monotonic()
-        known = recorded if recorded and target.left is None else {}
+        known = recorded or {}
         with self._answers_alone(target):
             result = self._prove_lemmas(target, allowed, known)
             if result is None or result.problems:
                 result = self._run(target, stages, smoke, allowed, known)
-        if target.left is not None:
-            result.unrecorded = [goal["name"] for goal in result.goals]
         result.seconds = round(time.monotonic() - start, 1)
         return result
 
@@ -205,7 +199,8 @@ class Wp:
             return None
         lines = [f"{goal} {asked[0] if name == QED else name}" for goal, name in own.items()]
         file = self._scratch / f"{target.identity}.recorded"
-        file.write_text("\n".join([target.function, *lines]) + "\n", encoding="utf-8")
+        selected = " ".join([target.function, *frames.not_left(target.left)])
+        file.write_text("\n".join([selected, *lines]) + "\n", encoding="utf-8")
         return file
 
     def first_problem(self, target: Target, stages: Sequence[Stage], allowed: Sequence[str]) -> str:
@@ -253,7 +248,7 @@ class Wp:
             passes = [Stage(tuple(names), max(stage.seconds for stage in stages))]
         first: list[str] = []
         if recorded and target.function:
-            first = self._recorded_pass(target.identity, target.function)
+            first = self._recorded_pass(target)
         selected = [(stage, target.selection) for stage in passes]
         return self._words(target, selected, report, first, smoke)
 
@@ -274,10 +269,11 @@ class Wp:
             command += ["-wp-smoke-tests", "-wp-smoke-timeout", str(passes[-1][0].seconds)]
         return [*command, "-wp-report-json", str(report)]
 
-    def _recorded_pass(self, name: str, function: str) -> list[str]:
+    def _recorded_pass(self, target: Target) -> list[str]:
         """A pass in which each goal is tried by the prover that is recorded for it."""
-        script = self._own_copy(Path(__file__).with_name("ask_recorded.ml"), name)
-        options = ["-load-script", script, "-rte", "-rte-select", function, "-wp-rte"]
+        script = self._own_copy(Path(__file__).with_name("ask_recorded.ml"), target.identity)
+        options = ["-load-script", script, "-rte", "-rte-select", str(target.function), "-wp-rte"]
+        options += frames.NO_FLOATS if target.left is not None else ()
         options += ["-wp-par", "2", "-wp-timeout", str(RECORDED_SECONDS), "-wp-no-pruning"]
         return [*options, "-then", "-no-rte"]
 
