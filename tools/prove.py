@@ -54,7 +54,7 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--unit", nargs="+", metavar="U", help="only these units")
     parser.add_argument("--engine", choices=ENGINES, help="only this engine")
     parser.add_argument("--update-goals", action="store_true", help="rewrite proofs/UNIT/goals.txt")
-    # One more than there are cores: WP waits a moment for each goal, also for those it proves itself.
+    # One more than there are cores, as WP waits a moment for each goal.
     parser.add_argument("-j", dest="width", type=int, default=(os.cpu_count() or 1) + 1,
                         metavar="N", help="jobs side by side (default %(default)s)")  # fmt: skip
     parser.add_argument("--fresh", action="store_true",

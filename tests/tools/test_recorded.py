@@ -165,7 +165,8 @@ class Asking(TreeTest):
         self.assertEqual(rest[0], "-wp")
 
     def test_of_a_function_that_is_left_to_cbmc_in_part_the_rest_is_selected(self) -> None:
-        for left, told, options in ((None, [PUT], 0), (("BOX_3",), [PUT, "-@ensures", "-BOX_3"], 1)):
+        whole, part = (None, [PUT], 0), (("BOX_3",), [PUT, "-@ensures", "-BOX_3"], 1)
+        for left, told, options in (whole, part):
             target = dataclasses.replace(self.function, left=left)
             file = self.prover._recorded_file(target, {f"{PUT}_assigns": "z3"})
             assert file
