@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --external-sat-solver cadical
+// cbmc: --refine
 // checks: assertions
 // sources: src/flight/attitude.c
 // covers: keel_attitude_step

@@ -3,6 +3,7 @@
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c specs/model/cascade.c
 // replaces: keel_cascade_check keel_pid_init
 // covers: keel_cascade_init model_cascade_init
+// reach: --z3 --fpa
 //
 // Any bit pattern for all of a configuration. What a check and the making of a controller come to
 // is unknown: anything to the model, within the contract; the code asks it of the same axes and

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 281 --external-sat-solver cadical
+// cbmc: --unwind 281 --unwindset is_table.0:5,in_order.0:5 --external-sat-solver cadical
 // sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c
 // covers: keel_mavlink_init is_table model_mavlink_init in_order
 //

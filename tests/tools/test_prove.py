@@ -30,7 +30,7 @@ sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 import prove  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
 from proofs.cbmc_answers import read_answer, refutation_problems  # noqa: E402
-from proofs.jobs import Runner, in_pool  # noqa: E402
+from proofs.jobs import Finished, Runner, in_pool  # noqa: E402
 from proofs.project import ProjectError, Unit, closure, find_units  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
 from proofs.syntax import SyntaxProblem  # noqa: E402
@@ -380,18 +380,43 @@ class WpRun(TreeTest):
         runner = Runner({}, self.root)
         frama_c = ["frama-c", "-load-script", str(self.root / "m.ml")]
         (self.root / "m.ml").write_text("", encoding="utf-8")
-        return wp.Wp(frama_c, runner, self.root, self.root, cache)
+        return wp.Wp(frama_c, runner, self.root, self.root, cache, ["true"])
 
     def test_each_stage_uses_its_own_provers_only(self) -> None:
         target = targets.Target(self.unit, self.unit.source, "keel_box_put")
         command = self.prover().command(target, wp.THOROUGH, True, self.root / "r.json")
         provers = [word for word in command if word.startswith("-wp-prover")]
         # WP asks a prover as often as it was named, so none is named again while it stays.
-        wanted = ["alt-ergo,cvc4", "z3", "-alt-ergo,-z3"]
-        self.assertEqual(provers, [f"-wp-prover={text}" for text in wanted])
-        smoke = command[len(command) - command[::-1].index("-then") :]
-        self.assertIn("-wp-smoke-tests", smoke)
-        self.assertEqual(command.count("-wp-smoke-tests"), 1)
+        self.assertEqual(provers, ["-wp-prover=alt-ergo,cvc4", "-wp-prover=z3"])
+
+    def test_contradictions_are_looked_for_in_functions_where_asked(self) -> None:
+        function = targets.Target(self.unit, self.unit.source, "keel_box_put")
+        lemmas = targets.Target(self.unit, self.unit.source, None, ("BOX_two",))
+        for target, smoke, times in ((function, True, 1), (function, False, 0), (lemmas, True, 0)):
+            command = self.prover().command(target, wp.QUICK, smoke, self.root / "r.json")
+            [modules] = [command[i + 1] for i, word in enumerate(command) if word == "-load-module"]
+            self.assertEqual(modules.count("find_contradictions.cmxs"), times)
+
+    def test_the_script_is_told_function_prover_and_what_is_left(self) -> None:
+        target = targets.Target(self.unit, self.unit.source, "keel_box_put", left=("BOX_3",))
+        with mock.patch.object(Runner, "run", return_value=Finished(0, "")) as run:
+            self.prover().prove(target, wp.QUICK)
+        self.assertEqual(
+            run.call_args.kwargs["extra"],
+            {"KEEL_SMOKE": "cvc4 60000 keel_box_put -@ensures -BOX_3"},
+        )
+
+    def test_a_script_is_compiled_once_and_a_complaint_ends_the_run(self) -> None:
+        prover = self.prover()
+        with mock.patch.object(Runner, "run", return_value=Finished(0, "lib")) as run:
+            for _ in range(2):
+                prover.survey(self.unit.source)
+        compiled = [call.args[0] for call in run.call_args_list if "ocamlopt" in call.args[0]]
+        self.assertEqual(len(compiled), 1)
+        prover = self.prover()
+        with mock.patch.object(Runner, "run", return_value=Finished(2, "Unbound module")):
+            with self.assertRaisesRegex(ProjectError, "m.ml: Unbound module"):
+                prover.survey(self.unit.source)
 
     def test_where_nothing_is_recorded_all_provers_are_asked_at_once(self) -> None:
         target = targets.Target(self.unit, self.unit.source, "keel_box_put", left=frozenset())
@@ -913,7 +938,7 @@ class WrongBodies(TreeTest):
             harness.read_harness(self.unit, self.unit.harnesses[0]), "zero", body
         )
         self.assertEqual(complaint, "")
-        return [word for path in sorted(binary.parent.glob("*.gb"))
+        return [word for path in sorted(binary.parent.parent.glob("*.gb"))
                 for word in path.read_text(encoding="utf-8").split()]  # fmt: skip
 
     def test_a_wrong_source_is_compiled_in_place_of_the_right_one(self) -> None:

@@ -4,14 +4,11 @@
 from __future__ import annotations
 
 import json
-import shutil
 import time
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
-
-from common.files import write_text
 
 from . import harness as harnesses
 from .cbmc_answers import (
@@ -23,9 +20,11 @@ from .cbmc_answers import (
     read_answer,
     refutation_problems,
 )
+from .cbmc_build import Builder
 from .harness import Harness
 from .jobs import Finished, Runner
-from .project import closure, include_options
+from .once import Once
+from .project import closure
 from .wrong import WrongBody
 
 CHECKS = (
@@ -78,7 +77,8 @@ class Cbmc:
         self._cbmc = list(cbmc)
         self._runner = runner
         self._root = root
-        self._scratch = scratch
+        self._builder = Builder(goto_cc, runner, root, scratch)
+        self._listings = Once()
 
     def options(self) -> list[str]:
         """What is the same for all harnesses."""
@@ -149,70 +149,27 @@ class Cbmc:
         return self.check(harness, binary, ["--stop-on-fail", "--trace", *selected]), ""
 
     def _selection(self, harness: Harness, binary: Path, expect: Sequence[str]) -> list[str]:
-        """Options that restrict CBMC to the assertions that are to fail: all others take longer."""
-        command = [*self._cbmc, str(binary), "--json-ui", "--show-properties", *checks_of(harness)]
-        done = self._runner.run(command, harness.timeout, merged=False)
-        return selection(done.output, expect)
+        """Options that restrict CBMC to the assertions that are to fail: all others take longer.
+
+        A harness's assertions have the same names whatever body it is linked with; checks do not.
+        """
+        def listed() -> str:
+            command = [*self._cbmc, str(binary), "--json-ui", "--show-properties"]
+            command += checks_of(harness)
+            return self._runner.run(command, harness.timeout, merged=False).output
+
+        listing = self._listings.get((harness.name, harness.defines), listed)
+        return selection(listing if are_assertions(listing, expect) else listed(), expect)
 
     def build(
         self, harness: Harness, name: str, wrong: WrongBody | None = None
     ) -> tuple[Path, str]:
-        """Compile and link; the binary, and the compiler's complaint if there is one.
-
-        A wrong body takes the place of the file that it changes, be it a source or a header.
-        """
-        folder = self._scratch / "cbmc" / name
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
-        include = include_options(self._root)
-        sources = list(harness.sources)
-        if wrong:
-            tree = self._write(wrong)
-            include.insert(0, f"-I{tree / 'include'}")
-            changed = tree / wrong.file.relative_to(self._root)
-            sources = [changed if path == wrong.file else path for path in sources]
-        objects: list[str] = []
-        for number, source in enumerate([*sources, harness.path]):
-            objects.append(str(folder / f"{number}.gb"))
-            options = [*include, *harness.defines, "-c", self._place(source), "-o", objects[-1]]
-            done = self._runner.run([*self._goto_cc, *options])
-            if done.status != 0 or "warning" in done.output.lower():
-                return folder, f"goto-cc: {done.output.strip()}"
-        binary = folder / "harness.gb"
-        done = self._runner.run(
-            [*self._goto_cc, *objects, "--function", harness.name, "-o", str(binary)]
-        )
-        complaint = (
-            f"goto-cc: {done.output.strip()}" if done.status != 0 or done.output.strip() else ""
-        )
-        if complaint or not harness.replaces:
-            return binary, complaint
-        return self._with_stand_ins(harness, binary)
-
-    def _place(self, source: Path) -> str:
-        inside = source.is_relative_to(self._root)
-        return str(source.relative_to(self._root) if inside else source)
-
-    def _with_stand_ins(self, harness: Harness, binary: Path) -> tuple[Path, str]:
-        """The binary with calls of stand-ins in the place of those of the replaced functions."""
-        replaced = binary.with_name("replaced.gb")
-        instrument = str(Path(self._goto_cc[0]).with_name("goto-instrument"))
-        calls = [word for name in harness.replaces
-                 for word in ("--replace-calls", f"{name}:{name}_stand_in")]  # fmt: skip
-        done = self._runner.run([instrument, *calls, str(binary), str(replaced)])
-        if done.status != 0 or "warning" in done.output.lower():
-            return replaced, f"goto-instrument: {done.output.strip()}"
-        return replaced, ""
-
-    def _write(self, wrong: WrongBody) -> Path:
-        """Write the file with the fault in it; the folder in which it has its usual place."""
-        tree = self._root / "build" / "prove" / "wrong" / wrong.unit.name / wrong.name
-        write_text(tree / wrong.file.relative_to(self._root), wrong.text())
-        return tree
+        """Compile and link; the binary, and the compiler's complaint if there is one."""
+        return self._builder.build(harness, name, wrong)
 
     def _measure(self, harness: Harness, binary: Path, result: Result) -> None:
         """Find out what the harness reaches."""
-        options = harnesses.without_solver(list(harness.options))
+        options = [*harnesses.without_solver(list(harness.options)), *harness.reach]
         command = [*self._cbmc, str(binary), "--json-ui", *COVERAGE, *options]
         listing = self._runner.run([*command, "--show-properties"], harness.timeout, merged=False)
         command += blocks_of(listing.output, looked_at(harness, result.properties))
@@ -237,6 +194,17 @@ def selection(listing: str, expect: Sequence[str]) -> list[str]:
     return _select(listing, lambda item: any(text in item["description"] for text in expect))
 
 
+def are_assertions(listing: str, expect: Sequence[str]) -> bool:
+    """Whether each expected text is an assertion's, and no other property's."""
+    return all(
+        found and all(ASSERTION.search(item["name"]) for item in found)
+        for found in (
+            [item for item in _properties(listing) if text in item["description"]]
+            for text in expect
+        )
+    )
+
+
 def looked_at(harness: Harness, properties: Sequence[dict[str, str]]) -> set[str]:
     """The functions whose blocks are looked at: what is to be covered, and where assertions are."""
     asserting = {item["function"] for item in properties if ASSERTION.search(item["name"])}
@@ -250,12 +218,16 @@ def blocks_of(listing: str, functions: Collection[str]) -> list[str]:
 
 def _select(listing: str, wanted: Callable[[dict[str, Any]], bool]) -> list[str]:
     """The options that select properties of a list by CBMC."""
+    found = filter(wanted, _properties(listing))
+    return [word for item in found for word in ("--property", item["name"])]
+
+
+def _properties(listing: str) -> list[dict[str, Any]]:
+    """The properties in a list by CBMC; none if it breaks off."""
     try:
-        entries = json.loads(listing)
+        return [item for entry in json.loads(listing) for item in entry.get("properties", [])]
     except ValueError:
         return []
-    found = (item for entry in entries for item in entry.get("properties", []) if wanted(item))
-    return [word for item in found for word in ("--property", item["name"])]
 
 
 def dependencies(harness: Harness, root: Path) -> list[Path]:

@@ -73,7 +73,7 @@ def survey_jobs(
         file = targets.translation_unit(unit)
 
         def execute(unit: Unit = unit, file: Path = file) -> dict[str, Any]:
-            log = prover.survey(unit.name, file)
+            log = prover.survey(file)
             problems = [
                 f"{unit.name}: Frama-C sees the function {name}, which the driver does not"
                 for name in log.functions
@@ -131,7 +131,7 @@ def cbmc_key(
         expected = (wrong.name, wrong.expect, place, wrong.defines)
     sources = [shown(path, root) for path in harness.sources]
     directives = [harness.name, harness.options, sources, harness.covers, harness.defines,
-                  harness.replaces, harness.assertions_only]
+                  harness.replaces, harness.assertions_only, harness.reach]
     # What is replaced is proved by other harnesses, at whose text this one's verdict looks.
     others = {shown(path, root): csource.essence(csource.read(path))
               for name in harness.replaces for path in harnesses_of(root, name)}  # fmt: skip

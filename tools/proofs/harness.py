@@ -6,6 +6,7 @@ Directives stand in the first comment lines of a harness, up to an empty one, wh
     // cbmc: --unwind 33 --external-sat-solver cadical   options of the search, from OPTIONS
     // sources: src/rtos/queue.c              what is linked; default: the unit's source
     // covers: keel_queue_add open_slot       functions that must be reached everywhere
+    // reach: --z3 --fpa                      options of the search for executions that reach all
     // defines: -DKEEL_QUEUE_CAPACITY=8u      for a smaller model, shown in the report
     // timeout: 900                           seconds
     // checks: assertions                     assertions and unwinding alone; default: all checks
@@ -35,7 +36,7 @@ from pathlib import Path
 from . import csource
 from .project import ProjectError, Unit, closure, find_file
 
-HARNESS_KEYS = frozenset("cbmc sources covers defines timeout entry replaces checks".split())
+HARNESS_KEYS = frozenset("cbmc sources covers reach defines timeout entry replaces checks".split())
 # What is meant as a directive, but is none of a harness.
 STRAY_KEYS = frozenset("harness expect source cover wp".split())
 DIRECTIVE = re.compile(r"^// ?(\w+): *(.*?)\s*$")
@@ -49,8 +50,9 @@ OPTIONS = {
     "--arrays-uf-always": False, "--arrays-uf-never": False, "--refine": False,
     "--max-field-sensitivity-array-size": True, "--no-array-field-sensitivity": False,
 }  # fmt: skip
-# Those that choose a solver, which the coverage run (many easy questions) does without. Each is one
-# of the pinned tools: a verdict depends on which it is.
+# Those that choose a solver. The coverage run (many easy questions, an answer to each) does without
+# or, where the answers are hard to find, has its own. Each is one of the pinned tools: a verdict
+# depends on which it is.
 SOLVERS = frozenset(["--external-sat-solver", "--z3", "--fpa"])
 EXTERNAL = ("cadical",)
 # Where models stand: they are compared, and bear no checks of their own.
@@ -72,7 +74,7 @@ def directives(path: Path) -> dict[str, list[str]]:
 
 
 def search_options(path: Path, lines: list[str]) -> list[str]:
-    """The options of a `cbmc` directive, checked."""
+    """The options of a `cbmc` or `reach` directive, checked."""
     words = shlex.split(" ".join(lines))
     expect_value = False
     before = ""
@@ -117,6 +119,8 @@ class Harness:
     replaces: tuple[str, ...] = ()
     # Whether CBMC is to look at assertions and unwinding alone.
     assertions_only: bool = False
+    # Options of the coverage run, beside those of the search.
+    reach: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -155,6 +159,7 @@ def read_harness(unit: Unit, path: Path) -> Harness:
         timeout=float(given.get("timeout", ["900"])[0]),
         replaces=tuple(" ".join(given.get("replaces", [])).split()),
         assertions_only=bool(checks),
+        reach=tuple(search_options(path, given.get("reach", []))),
     )  # fmt: skip
 
 

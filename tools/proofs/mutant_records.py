@@ -5,7 +5,8 @@
 verdict and who killed it, digests of the sources and the proofs that the result was had from, and
 the versions of the tools. Where one of these has changed, the result is stale: it says nothing
 about what is there. Of the proofs, the harnesses count that killed a mutant: whatever becomes of
-others, these kill the same, and what nobody killed has its reason. Other builds of the same
+others, these kill the same, and what nobody killed has its reason. How they search does not count:
+an execution that fails is one however it was found. Other builds of the same
 versions are the same tools here: a distribution makes them anew for each release, and no commit
 could follow.
 """
@@ -71,8 +72,7 @@ def origin(
         "source": digest({_shown(path, root): texts[path] for path in source}),
         "proofs": digest({
             "texts": {_shown(path, root): csource.essence(texts[path]) for path in apart},
-            "options": {one.name: [*one.options, *one.defines, *one.replaces, *one.covers]
-                        for one, _ in linked},
+            "options": {one.name: [*one.defines, *one.replaces, *one.covers] for one, _ in linked},
             "goals": read_goals(unit.goal_list, unit.goal_list.name).names,
             "equivalent": equivalent.read_text(encoding="utf-8") if equivalent.is_file() else "",
         }),

@@ -208,7 +208,7 @@ class Session:
         answers = prover_answers(self._root, tool_stamp(self._tools.versions("prove")))
         return wp.Wp(
             self._tools.frama_c(), runner, self._root, scratch,
-            None if self._choice.fresh else answers,
+            None if self._choice.fresh else answers, self._tools.command("ocamlfind"),
         )  # fmt: skip
 
     def _wp_jobs(

@@ -19,8 +19,11 @@ OWN = Path(__file__).resolve().parent
 NO_JUDGES = ("muta", "explain", "counterexample", "sequents", "exports", "report", "times")
 # What asks one engine, and reads its answers.
 SERVANTS = {
-    "wp": ("wp.py", "wplog.py", "verdict.py", "ask_recorded.ml", "linear.py"),
-    "cbmc": ("cbmc.py", "cbmc_answers.py", "harness.py", "wrong.py"),
+    "wp": (
+        "wp.py", "wplog.py", "verdict.py", "frama_modules.py", "ask_recorded.ml",
+        "find_contradictions.ml", "linear.py",
+    ),
+    "cbmc": ("cbmc.py", "cbmc_answers.py", "cbmc_build.py", "harness.py", "wrong.py"),
     "gappa": ("gappa.py",),
 }
 # The tools that an engine never starts. The compiler preprocesses for all of them; Z3 solves for
@@ -36,7 +39,7 @@ NOT_STARTED = {
 # functions and harnesses, makes mutants or prints is none of these: the key of a verdict has what
 # it finds, and a report its list of mutants.
 JUDGES = {
-    "cbmc": ("mutation.py", "mutant_small.py", "cbmc.py", "cbmc_answers.py"),
+    "cbmc": ("mutation.py", "mutant_small.py", "cbmc.py", "cbmc_answers.py", "cbmc_build.py"),
     "wp": (*SERVANTS["wp"], "../toolchain/provers.py"),
 }
 

@@ -12,19 +12,22 @@ import contextlib
 import fcntl
 import json
 import re
-import shutil
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from . import frames, wplog
+from .frama_modules import Modules
 from .goals import PRUNED, QED
 from .jobs import Runner
 from .project import include_options
 from .targets import Result, Target, dependencies
 from .verdict import judge, loop_problems, message_problems
 
+OWN = Path(__file__).resolve().parent
+# What Frama-C loads: each of its other plugins would take as long to load as a source to read.
+PLUGINS = ("rtegen", "wp")
 CHECKS = (
     "-warn-unsigned-overflow", "-warn-unsigned-downcast", "-warn-signed-downcast",
     # Each call through a pointer has a `calls` annotation, whose goal says more than that the
@@ -71,13 +74,14 @@ THOROUGH = (
 QUICK_OF_ALL = Stage(("alt-ergo", "cvc4", "z3"), 10)
 # A prover that is recorded for a goal proved it, if on a faster machine.
 RECORDED_SECONDS = 30
+SMOKE_SECONDS = 2
 # A contradiction shows early: seeded ones were found within a second by either prover, among
 # integers by CVC4 with 50 000 steps wherever with 75 000, among floats by Alt-Ergo with 300
 # wherever with 3000. Debian's CVC4 is built without floats: it gives up on the first literal of
 # one, and WP takes that for a test that was passed. WP proves calls through pointers once more in
 # this pass, which takes 56 000 steps. Steps count alike on every machine; the seconds only guard.
-SMOKE = Stage(("cvc4",), 2, steps=60_000)
-SMOKE_OF_FLOATS = Stage(("alt-ergo",), 2, steps=300)
+SMOKE = Stage(("cvc4",), SMOKE_SECONDS, steps=60_000)
+SMOKE_OF_FLOATS = Stage(("alt-ergo",), SMOKE_SECONDS, steps=300)
 FLOATS = re.compile(r"\b(?:float|double)\b")
 
 
@@ -92,35 +96,31 @@ class Wp:
 
     def __init__(
         self, frama_c: Sequence[str], runner: Runner, root: Path, scratch: Path,
-        prover_cache: Path | None = None,
+        prover_cache: Path | None = None, ocamlfind: Sequence[str] = ("ocamlfind",),
     ) -> None:  # fmt: skip
         self._frama_c = list(frama_c)
         self._runner = runner
         self._root = root
         self._scratch = scratch
         self._prover_cache = prover_cache
+        self._modules = Modules(frama_c, ocamlfind, runner, scratch / "modules")
 
     def options(self) -> list[str]:
         """Everything on the command line that is the same for all targets."""
         return [*self._frama_c, *CHECKS, f"-cpp-extra-args={' '.join(include_options(self._root))}"]
 
-    def _own_options(self, name: str) -> list[str]:
-        """The options for one process, with a machdep of its own."""
+    def _loaded(self, *scripts: str) -> list[str]:
+        """The options with nothing loaded but what WP needs, and these scripts, in their order."""
         options = self.options()
-        place = options.index("-load-script") + 1
-        copy = self._own_copy(Path(options[place]), name)
-        return [*options[:place], copy, *options[place + 1 :]]
+        place = options.index("-load-script")
+        paths = [Path(options[place + 1]), *(OWN / name for name in scripts)]
+        modules = ",".join([*PLUGINS, *map(self._modules.compiled, paths)])
+        loading = ["-no-autoload-plugins", "-load-module", modules]
+        return [*options[:place], *loading, *options[place + 2 :]]
 
-    def _own_copy(self, script: Path, name: str) -> str:
-        """Frama-C compiles a script beside its source, where two processes would collide."""
-        copy = self._scratch / name / script.name
-        copy.parent.mkdir(exist_ok=True)
-        shutil.copyfile(script, copy)
-        return str(copy)
-
-    def survey(self, unit: str, file: Path) -> wplog.Log:
+    def survey(self, file: Path) -> wplog.Log:
         """Parse a file and learn which functions it defines, includes and all."""
-        command = [*self._own_options(f"{unit}-survey"), self._shown(file), "-rte"]
+        command = [*self._loaded(), self._shown(file), "-rte"]
         return wplog.read_log(self._runner.run(command).output)
 
     def prove(
@@ -163,10 +163,18 @@ class Wp:
         if PRUNED in _own_provers(target, recorded).values():
             stages = sorted(stages, key=lambda stage: not stage.pruning)
         file = self._recorded_file(target, recorded)
-        extra = {"KEEL_RECORDED": str(file)} if file else None
+        extra = {"KEEL_RECORDED": str(file)} if file else {}
+        if smoke:
+            extra["KEEL_SMOKE"] = self._smoke_words(target)
         command = self.command(target, stages, smoke, report, file is not None)
         pruned = frozenset(number for number, stage in enumerate(stages, 1) if stage.pruning)
         return self._judged(target, command, report, allowed, recorded, pruned, extra)
+
+    def _smoke_words(self, target: Target) -> str:
+        """What find_contradictions.ml is told."""
+        stage = smoke_stage(target, self._root)
+        words = [*stage.provers, str(stage.steps), str(target.function)]
+        return " ".join([*words, *frames.not_left(target.left)])
 
     def _report_of(self, target: Target) -> Path:
         """Where WP is to write its report; none is there yet."""
@@ -241,41 +249,28 @@ class Wp:
         Lemmas are not filtered by WP in that way; they get all provers in one stage, and have no
         code that a smoke test could look at.
         """
-        smoke = smoke and target.function is not None
-        passes = [*stages, smoke_stage(target, self._root)] if smoke else list(stages)
         if target.function is None:
             names = dict.fromkeys(name for stage in stages for name in stage.provers)
-            passes = [Stage(tuple(names), max(stage.seconds for stage in stages))]
-        first: list[str] = []
-        if recorded and target.function:
-            first = self._recorded_pass(target)
-        selected = [(stage, target.selection) for stage in passes]
-        return self._words(target, selected, report, first, smoke)
+            stages = [Stage(tuple(names), max(stage.seconds for stage in stages))]
+        scripts = ["ask_recorded.ml"] * (recorded and target.function is not None)
+        scripts += ["find_contradictions.ml"] * (smoke and target.function is not None)
+        selected = [(stage, target.selection) for stage in stages]
+        return self._words(target, selected, report, scripts)
 
     def _words(
         self, target: Target, passes: Sequence[tuple[Stage, list[str]]], report: Path,
-        first: Sequence[str] = (), smoke: bool = False,
+        scripts: Sequence[str] = (),
     ) -> list[str]:  # fmt: skip
-        """The command line of these passes, each over its selection of goals."""
-        command = [*self._own_options(target.identity), self._shown(target.file)]
-        command += [*self._cache_options(target), *first]
+        """The command line of these passes, each over its selection of goals, after our scripts."""
+        command = [*self._loaded(*scripts), self._shown(target.file)]
+        command += [*self._cache_options(target), *(_scripts_pass(target) if scripts else ())]
         before: tuple[str, ...] = ()
         for number, (stage, selection) in enumerate(passes):
             command += ["-then"] if number else []
             command += ["-wp", "-wp-rte", "-wp-status-invalid", *selection, "-wp-par", "2"]
             command += stage.options(before)
             before = stage.provers
-        if smoke:
-            command += ["-wp-smoke-tests", "-wp-smoke-timeout", str(passes[-1][0].seconds)]
         return [*command, "-wp-report-json", str(report)]
-
-    def _recorded_pass(self, target: Target) -> list[str]:
-        """A pass in which each goal is tried by the prover that is recorded for it."""
-        script = self._own_copy(Path(__file__).with_name("ask_recorded.ml"), target.identity)
-        options = ["-load-script", script, "-rte", "-rte-select", str(target.function), "-wp-rte"]
-        options += frames.NO_FLOATS if target.left is not None else ()
-        options += ["-wp-par", "2", "-wp-timeout", str(RECORDED_SECONDS), "-wp-no-pruning"]
-        return [*options, "-then", "-no-rte"]
 
     def _shown(self, file: Path) -> str:
         return str(file.relative_to(self._root)) if file.is_relative_to(self._root) else str(file)
@@ -315,6 +310,15 @@ class Wp:
                 keep = False
             if not keep:
                 path.unlink(missing_ok=True)
+
+
+def _scripts_pass(target: Target) -> list[str]:
+    """The options of the pass in which our scripts have goals tried that they choose."""
+    options = ["-rte", "-rte-select", str(target.function), "-wp-rte"]
+    options += frames.NO_FLOATS if target.left is not None else ()
+    options += ["-wp-par", "2", "-wp-timeout", str(RECORDED_SECONDS), "-wp-no-pruning"]
+    options += ["-wp-smoke-timeout", str(SMOKE_SECONDS)]
+    return [*options, "-then", "-no-rte"]
 
 
 def _own_provers(target: Target, recorded: Mapping[str, str]) -> dict[str, str]:
