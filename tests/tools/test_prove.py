@@ -797,6 +797,18 @@ class Harnesses(TreeTest):
         self.assertEqual(harness.text_problems(read), [])
         self.assertEqual(harness.without_solver(list(read.options)), ["--unwind", "3"])
 
+    def test_the_coverage_run_may_search_in_a_way_of_its_own(self) -> None:
+        read = self.read(HARNESS.replace("// cbmc:", "// reach: --z3 --unwindset f.0:2\n// cbmc:"))
+        self.assertEqual(read.reach, ("--z3", "--unwindset", "f.0:2"))
+        self.assertNotIn("--z3", read.options)
+        checker = cbmc.Cbmc(["goto-cc"], ["cbmc"], Runner({}, self.root), self.root, self.root)
+        with mock.patch.object(Runner, "run", return_value=Finished(0, "")) as run:
+            checker._measure(read, self.root / "h.gb", cbmc.Result())
+        for call in run.call_args_list:
+            self.assertIn("--unwind 3 --z3 --unwindset f.0:2", " ".join(call.args[0]))
+        with self.assertRaisesRegex(ProjectError, "a harness may not use --cover"):
+            self.read(HARNESS.replace("// cbmc:", "// reach: --cover\n// cbmc:"))
+
     def test_options_that_weaken_are_refused(self) -> None:
         for option in ("--no-assertions", "--partial-loops", "--no-bounds-check", "--depth 3"):
             with self.subTest(option), self.assertRaisesRegex(ProjectError, option.split()[0]):
@@ -948,6 +960,42 @@ class WrongBodies(TreeTest):
         self.assertNotIn("src/rtos/box.c", words)
         self.assertIn("*box = 0;", (self.root / made).read_text(encoding="utf-8"))
         self.assertEqual(self.unit.source.read_text(encoding="utf-8"), SOURCE)
+
+    def compiled(self, *bodies: wrong.WrongBody | None) -> list[str]:
+        """What is compiled, in this order, for these bodies."""
+        runner = Runner({}, self.root)
+        checker = cbmc.Cbmc(["goto-cc"], ["cbmc"], runner, self.root, self.root / "scratch")
+        read = harness.read_harness(self.unit, self.unit.harnesses[0])
+
+        def run(command: list[str]) -> Finished:
+            Path(command[command.index("-o") + 1]).touch()
+            return Finished(0, "")
+
+        with mock.patch.object(runner, "run", side_effect=run) as started:
+            for body in bodies:
+                self.assertEqual(checker.build(read, body.name if body else read.name, body)[1], "")
+        commands = [call.args[0] for call in started.call_args_list]
+        return [one[one.index("-c") + 1] for one in commands if "-c" in one]
+
+    def test_what_is_the_same_is_compiled_once(self) -> None:
+        source, proof = "src/rtos/box.c", "proofs/box/keel_box_put_harness.c"
+        body = self.read(WRONG)
+        changed = f"build/prove/wrong/box/zero/{source}"
+        self.assertEqual(self.compiled(None, body, None), [source, proof, changed])
+
+    def test_what_includes_a_wrong_header_is_compiled_with_it(self) -> None:
+        self.inline()
+        proof = "proofs/box/keel_box_put_harness.c"
+        self.assertEqual(self.compiled(None, self.read(WRONG)), [proof, proof])
+
+    def test_names_of_assertions_hold_for_all_bodies_names_of_checks_do_not(self) -> None:
+        kept = {"name": "h.assertion.1", "description": "BOX_001: x"}
+        check = {"name": "keel_box_put.array_bounds.1", "description": "upper bound"}
+        listing = json.dumps([{"properties": [kept, check]}])
+        self.assertTrue(cbmc.are_assertions(listing, ["BOX_001"]))
+        for expect in (["upper bound"], ["BOX_001", "upper bound"], ["gone"]):
+            self.assertFalse(cbmc.are_assertions(listing, expect))
+        self.assertFalse(cbmc.are_assertions("[", ["BOX_001"]))
 
     def inline(self) -> None:
         self.unit.source.unlink()

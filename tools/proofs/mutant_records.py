@@ -6,9 +6,8 @@ verdict and who killed it, digests of the sources and the proofs that the result
 the versions of the tools. Where one of these has changed, the result is stale: it says nothing
 about what is there. Of the proofs, the harnesses count that killed a mutant: whatever becomes of
 others, these kill the same, and what nobody killed has its reason. How they search does not count:
-an execution that fails is one however it was found. Other builds of the same
-versions are the same tools here: a distribution makes them anew for each release, and no commit
-could follow.
+an execution that fails is one however it was found. Other builds of the same versions are the same
+tools here: a distribution makes them anew for each release, and no commit could follow.
 """
 
 from __future__ import annotations

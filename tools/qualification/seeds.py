@@ -87,6 +87,28 @@ int near(float most)
     return 0;
 }
 """
+# What nothing proves: the promise of whatever a pointer leads to. More is done behind the call.
+CALLED = """\
+/*@ assigns \\nothing;
+  @ ensures 0 <= \\result <= 9;
+  @*/
+int source(void);
+
+/*@ requires from == source;
+  @ assigns \\nothing;
+  @*/
+int take(int (*from)(void))
+{
+    int got;
+
+    //@ calls source;
+    got = from();
+    if (got > 4) {
+        return 1;
+    }
+    return 0;
+}
+"""
 # A goal for each prover that Qed does not prove alone.
 ARRAY = """\
 /*@ requires \\valid(t + (0 .. 9)) && 0 <= k < 10;
@@ -225,6 +247,9 @@ SEEDS = (
          "t[k] = k + 1; t[0] = 1", "set_assigns", "alt-ergo"),
     Seed("cvc4", "smoke", "a contradiction among integers", CONTRACT, "0 <= a <= 100",
          "100 < a <= b - 1", "twice_wp_smoke_default_requires", "cvc4"),
+    Seed("cvc4", "smoke", "a promise that nothing called through a pointer can keep", CALLED,
+         "0 <= \\result", "9 < \\result", "take_wp_smoke_dead_code",
+         "cvc4"),
     Seed("alt-ergo", "smoke", "a contradiction among floats", NEAR, "0 <= most", "most < -2.0f",
          "near_wp_smoke_default_requires", "alt-ergo"),
     Seed("alt-ergo", "smoke", "a branch of floats that is never taken", NEAR, "0 <= most",

@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of which smoke tests tools/proofs/find_contradictions.ml asks: no fewer than say all.
+
+    python3 tests/tools/test_contradictions.py
+
+They run Frama-C, and are skipped without it. What the tests find is seeded by `make qualify`.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from toolchain import MACHDEP_FILE, Toolchain, ToolchainError  # noqa: E402
+
+SCRIPT = ROOT / "tools/proofs/find_contradictions.ml"
+ASKED = re.compile(r"^\[wp\] \[(?:Passed|Failed)\] Smoke-test typed_(\w+)", re.MULTILINE)
+STEP = """\
+/*@ assigns \\nothing; ensures 0 <= \\result <= v; */
+extern unsigned step(unsigned v);
+
+/*@ requires v < 100; assigns \\nothing; */
+unsigned f(unsigned v)
+{
+"""
+BRANCHES = """\
+    if (v > 5u) {
+        v = step(v);
+        v++;
+    } else {
+        v = step(v + 1u);
+    }
+    v = step(v);
+    return v;
+"""
+LOOP = """\
+    /*@ loop invariant i <= 3; loop assigns i; loop variant 3 - i; */
+    for (unsigned i = 0u; i < 3u; i++) {
+    }
+    return v;
+"""
+
+
+def frama_c_tools() -> Toolchain | None:
+    """The tools, if Frama-C and its provers are among them."""
+    try:
+        tools = Toolchain()
+        tools.command("frama-c")
+        configured = Path(tools.environment()["WHY3CONFIG"]).is_file()
+    except (ToolchainError, KeyError):
+        return None
+    return tools if configured else None
+
+
+@unittest.skipUnless(frama_c_tools(), "Frama-C is not installed: make prove")
+class Places(unittest.TestCase):
+    def asked(self, body: str) -> list[str]:
+        """What is asked of a function, without the numbers of its statements, in order."""
+        tools = frama_c_tools()
+        assert tools
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            command = tools.frama_c()
+            command[command.index(str(MACHDEP_FILE))] = str(shutil.copy(MACHDEP_FILE, folder))
+            script = shutil.copy(SCRIPT, folder)
+            (folder / "f.c").write_text(f"{STEP}{body}}}\n", encoding="utf-8")
+            told = {"KEEL_SMOKE": "cvc4 60000 f", "PWD": name, "LC_ALL": "C"}
+            done = subprocess.run(
+                [*command, "-load-script", script, "-wp-rte", "-wp-smoke-timeout", "2", "f.c"],
+                cwd=folder, env={**os.environ, **tools.environment(), **told},
+                capture_output=True, text=True, check=True,
+            )  # fmt: skip
+        return sorted(re.sub(r"_s\d+$", "", one) for one in ASKED.findall(done.stdout))
+
+    def test_of_one_way_the_end_is_asked_and_the_precondition(self) -> None:
+        asked = self.asked("    v = step(v);\n    v = step(v);\n    v = step(v);\n    return v;\n")
+        end = ["f_wp_smoke_dead_code"]
+        self.assertEqual(asked, [*end, "f_wp_smoke_default_requires"])
+
+    def test_each_branch_is_asked_and_what_follows_them(self) -> None:
+        asked = self.asked(BRANCHES)
+        self.assertEqual(asked.count("f_wp_smoke_dead_code"), 2)
+        self.assertEqual(asked.count("step_wp_smoke_dead_call"), 1)
+
+    def test_a_loop_is_asked_inside_and_behind(self) -> None:
+        self.assertEqual(self.asked(LOOP).count("f_wp_smoke_dead_code"), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
