@@ -9,10 +9,8 @@ They run Frama-C, and are skipped without it. What the tests find is seeded by `
 
 from __future__ import annotations
 
-import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -21,7 +19,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from toolchain import MACHDEP_FILE, Toolchain, ToolchainError  # noqa: E402
+from qualification.trials import said_by_frama_c  # noqa: E402
+from toolchain import Toolchain, ToolchainError  # noqa: E402
 
 SCRIPT = ROOT / "tools/proofs/find_contradictions.ml"
 ASKED = re.compile(r"^\[wp\] \[(?:Passed|Failed)\] Smoke-test typed_(\w+)", re.MULTILINE)
@@ -70,17 +69,12 @@ class Places(unittest.TestCase):
         assert tools
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
-            command = tools.frama_c()
-            command[command.index(str(MACHDEP_FILE))] = str(shutil.copy(MACHDEP_FILE, folder))
-            script = shutil.copy(SCRIPT, folder)
-            (folder / "f.c").write_text(f"{STEP}{body}}}\n", encoding="utf-8")
-            told = {"KEEL_SMOKE": "cvc4 60000 f", "PWD": name, "LC_ALL": "C"}
-            done = subprocess.run(
-                [*command, "-load-script", script, "-wp-rte", "-wp-smoke-timeout", "2", "f.c"],
-                cwd=folder, env={**os.environ, **tools.environment(), **told},
-                capture_output=True, text=True, check=True,
-            )  # fmt: skip
-        return sorted(re.sub(r"_s\d+$", "", one) for one in ASKED.findall(done.stdout))
+            file = folder / "f.c"
+            file.write_text(f"{STEP}{body}}}\n", encoding="utf-8")
+            script = str(shutil.copy(SCRIPT, folder))
+            words = ["-load-script", script, "-wp-rte", "-wp-smoke-timeout", "2"]
+            said = said_by_frama_c(tools, file, words, {"KEEL_SMOKE": "cvc4 60000 f"})
+        return sorted(re.sub(r"_s\d+$", "", one) for one in ASKED.findall(said))
 
     def test_of_one_way_the_end_is_asked_and_the_precondition(self) -> None:
         asked = self.asked("    v = step(v);\n    v = step(v);\n    v = step(v);\n    return v;\n")

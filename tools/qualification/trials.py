@@ -57,19 +57,20 @@ def smoke(tools: Toolchain, file: Path, prover: str) -> list[str]:
     words = ["-load-script", str(script), "-wp-rte", "-wp-no-pruning"]
     words += ["-wp-smoke-timeout", str(stage.seconds)]
     told = {"KEEL_SMOKE": f"{prover} {stage.steps} {function}"}
-    log = read_log(_said_by_frama_c(tools, file, words, told))
+    log = read_log(said_by_frama_c(tools, file, words, told))
     if not log.smoke:
         raise ToolError("frama-c: no smoke test")
     return [name for name, passed in log.smoke.items() if not passed]
 
 
 def _said_by_wp(tools: Toolchain, file: Path, options: list[str]) -> str:
-    return _said_by_frama_c(tools, file, ["-wp", "-wp-rte", "-wp-cache", "none", *options])
+    return said_by_frama_c(tools, file, ["-wp", "-wp-rte", "-wp-cache", "none", *options])
 
 
-def _said_by_frama_c(
+def said_by_frama_c(
     tools: Toolchain, file: Path, options: list[str], told: Mapping[str, str] | None = None
 ) -> str:
+    """What Frama-C says of a file, in whose folder its scripts are; `told` are variables."""
     tools.ensure("prove", say=lambda _: None)  # Another clone may have made why3's file anew.
     command = tools.frama_c()
     script = file.with_name(MACHDEP_FILE.name)  # Frama-C compiles it beside its source.
