@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 34 --external-sat-solver cadical
+// cbmc: --unwind 34 --no-array-field-sensitivity --external-sat-solver cadical
 // sources: src/rtos/admission.c specs/model/admission_queue.c
 // replaces: keel_admission_admit
 // defines: -DKEEL_QUEUE_CAPACITY=8u

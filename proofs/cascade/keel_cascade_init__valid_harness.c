@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 12 --external-sat-solver cadical
+// cbmc: --unwind 12 --no-array-field-sensitivity --external-sat-solver cadical
 // checks: assertions
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c
 // replaces: keel_cascade_check keel_pid_init

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 15 --external-sat-solver cadical
+// cbmc: --unwind 15 --no-array-field-sensitivity --external-sat-solver cadical
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c
 // sources: specs/model/cascade.c specs/model/cascade_parts.c specs/model/pid.c specs/model/filter.c
 // covers: keel_cascade_velocity_step drive drive_with is_direction is_side_near near_sides admitted

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 256 --external-sat-solver cadical
+// reach: --refine
 // sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c
 // covers: keel_mavlink_take offer put_byte count_met id_in checksum_in end_of whole_frame place_of
 // covers: check_flags check_message timestamp_in publish_payload publish_signature publish_frame

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --external-sat-solver cadical
+// cbmc: --refine
 // sources: src/flight/pid.c src/flight/filter.c
 // covers: keel_pid_init are_gains are_limits is_limit is_gain
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 307 --external-sat-solver cadical
+// cbmc: --unwind 307 --refine
 // sources: src/middleware/signing.c specs/model/signing.c
 // covers: keel_signing_write sign_frame byte_in model_signing_write byte_of
 //

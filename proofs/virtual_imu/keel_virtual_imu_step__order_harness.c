@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 7
+// cbmc: --unwind 7 --no-array-field-sensitivity
 // sources: src/middleware/virtual_imu.c src/middleware/voter.c
 // defines: -DKEEL_VOTER_SENSORS=2u
 // replaces: keel_voter_step keel_voter_step_unanimous

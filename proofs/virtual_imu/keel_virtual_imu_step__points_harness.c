@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 8 --object-bits 10
+// cbmc: --unwind 8 --object-bits 10 --max-field-sensitivity-array-size 4
 // sources: src/middleware/virtual_imu.c src/middleware/voter.c specs/model/virtual_imu.c
 // sources: specs/model/voter.c specs/model/voter_parts.c specs/model/range.c
 // covers: keel_virtual_imu_step note channel_bit model_virtual_imu_step

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 7 --external-sat-solver cadical
+// cbmc: --unwind 7 --no-array-field-sensitivity --external-sat-solver cadical
 // sources: src/middleware/virtual_imu.c src/middleware/voter.c specs/model/virtual_imu.c
 // defines: -DVOTER_FLOATS_OPEN
 // replaces: keel_voter_step keel_voter_step_unanimous

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 5 --external-sat-solver cadical
+// cbmc: --unwind 5 --refine
 // sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
 // replaces: keel_voter_plain_mean keel_voter_within
 // defines: -DKEEL_VOTER_SENSORS=2u

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 5 --external-sat-solver cadical
+// cbmc: --unwind 5 --refine
 // sources: src/middleware/voter.c
 // replaces: keel_voter_mean
 // covers: keel_voter_step_unanimous is_at_rest is_unanimous keel_voter_within

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 5 --external-sat-solver cadical
+// cbmc: --unwind 5 --no-array-field-sensitivity --refine
 // sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
 // replaces: keel_voter_plain_mean keel_voter_within
 // covers: keel_voter_step_unanimous is_at_rest model_voter_step_unanimous

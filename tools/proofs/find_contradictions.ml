@@ -3,8 +3,9 @@
 
    WP would test after each statement whether what holds there proves false. All of that holds at the
    statements, too, to which every way leads past it; so a test is removed where another one comes
-   behind it. What nothing proves is tested apart: preconditions, assumptions of behaviours, and what
-   a function promises that is called through a pointer.
+   behind it. What nothing proves is tested apart: preconditions and assumptions of behaviours. What
+   a function promises that is called through a pointer is met by the tests behind the call: WP's own
+   test of such a call stands before the promise.
 
    KEEL_SMOKE is the prover, its steps, the function and, if not all of its goals are WP's, those that
    are, as -wp-prop has them. *)
@@ -27,15 +28,9 @@ let place_of test =
       | _ -> Other)
   | _ -> Other
 
-let through_pointer stmt =
-  match stmt.skind with
-  | Instr (Call (_, { enode = Lval (Mem _, _) }, _, _)) -> true
-  | _ -> false
-
 (* Whether what holds at a place holds at another, too. *)
 let is_before first place =
   match (first, place) with
-  | After a, _ when through_pointer a -> false
   | Before a, After b -> Dominators.dominates a b
   | (Before a | After a), (Before b | After b) -> a != b && Dominators.dominates a b
   | _ -> false

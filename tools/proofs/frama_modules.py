@@ -24,6 +24,7 @@ class Modules:
         self._runner = runner
         self._folder = folder
         self._made = Once()
+        self._library = Once()
 
     def compiled(self, script: Path) -> str:
         """The module of a script, for -load-module."""
@@ -34,7 +35,7 @@ class Modules:
         folder.mkdir(parents=True, exist_ok=True)
         module = folder / f"{script.stem}.cmxs"
         own = shutil.copyfile(script, folder / script.name)
-        library = self._runner.run([*self._frama_c, "-print-lib-path"], merged=False).output.strip()
+        library = self._library.get("", self._library_path)
         packages = ["-package", "zarith,ocamlgraph,why3"]
         included = ["-I", library, "-I", f"{library}/plugins"]
         done = self._runner.run(
@@ -44,3 +45,6 @@ class Modules:
         if done.status != 0:
             raise ProjectError(f"{script.name}: {done.output.strip()}")
         return str(module)
+
+    def _library_path(self) -> str:
+        return self._runner.run([*self._frama_c, "-print-lib-path"], merged=False).output.strip()

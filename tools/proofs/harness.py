@@ -43,6 +43,8 @@ DIRECTIVE = re.compile(r"^// ?(\w+): *(.*?)\s*$")
 
 # Options that choose how CBMC searches. None of them makes it overlook anything: unwinding too
 # little is caught by the unwinding assertions. True: takes a value.
+# Without field sensitivity of arrays, a structure of many members in an array is copied as one: the
+# symbolic execution of a step of the virtual unit takes 4 s, else 42 s.
 OPTIONS = {
     "--unwind": True, "--unwindset": True, "--object-bits": True, "--external-sat-solver": True,
     "--z3": False, "--fpa": False,

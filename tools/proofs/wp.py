@@ -26,7 +26,7 @@ from .targets import Result, Target, dependencies
 from .verdict import judge, loop_problems, message_problems
 
 OWN = Path(__file__).resolve().parent
-# What Frama-C loads: each of its other plugins would take as long to load as a source to read.
+# What Frama-C loads: with all of its plugins each of hundreds of processes took 0.2 s more.
 PLUGINS = ("rtegen", "wp")
 CHECKS = (
     "-warn-unsigned-overflow", "-warn-unsigned-downcast", "-warn-signed-downcast",
