@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 307 --unwindset place_of_stream.0:9,new_enough.0:9 --refine
+// cbmc: --unwind 307 --unwindset place_of_stream.0:9,new_enough.0:9
 // cbmc: --external-sat-solver cadical
 // sources: src/middleware/signing.c specs/model/signing.c
 // covers: keel_signing_accepts count_signed byte_in place_of_stream is_fresh put_frame
