@@ -45,7 +45,7 @@ from proofs.cache import Cache, digest
 from toolchain import Toolchain
 
 REPORT = "build/eva/report.json"
-KNOWN = "build/eva/known"
+KNOWN = "interpreted"  # In the user's cache, for all clones.
 SETTINGS = "specs/eva.toml"
 DEMO = "examples/urpilot"
 ENTRY = "keel_eva_entry"
@@ -175,7 +175,7 @@ def key_of(tools: Toolchain, root: Path) -> str:
     own = Path(__file__).resolve().parent
     return digest({
         "tools": {name: [found[name].version, found[name].sha256] for name in JUDGES},
-        "driver": digest_of_tree(own, ("interpretation", "machdep")),
+        "driver": digest_of_tree(own, ("common", "interpretation", "machdep")),
         "own": [sha256_of(own / "eva.py"), sha256_of(own / "toolchain/provers.py")],
         "source": digest_of_tree(root, ("include", "src", DEMO)),
         "precision": PRECISION,
@@ -212,7 +212,8 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         read_toml(root / SETTINGS, Settings)
         tools = Toolchain()
         tools.ensure("prove")
-        cache, key = Cache(root / KNOWN, options.fresh), key_of(tools, root)
+        cache = Cache(tools.cache.folder / KNOWN, options.fresh)
+        key = key_of(tools, root)
         found = cache.get(key)
         if found is None:
             begun = time.monotonic()
@@ -220,6 +221,7 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
             found = analyse(tools, root)
             found["seconds"] = round(time.monotonic() - begun, 1)
             cache.put(key, found)
+            cache.prune()
         return conclude(root, tools, found)
 
     return program("eva", work)

@@ -22,6 +22,7 @@ Exit status: 0 without findings, 1 with, 2 when something could not be checked.
 from __future__ import annotations
 
 import difflib
+import re
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -34,6 +35,8 @@ from linting.house import check_house
 from linting.misra import find_violations, judge, read_deviations
 from linting.texts import Finding, Text, read_texts
 from toolchain import Toolchain
+
+NOT_LAID_OUT = re.compile(r"^(.+?):\d+:\d+: error: code should be clang-formatted", re.MULTILINE)
 
 
 def clang_format(tools: Toolchain, root: Path) -> list[str]:
@@ -48,13 +51,27 @@ def changed_lines(before: Sequence[str], after: Sequence[str]) -> Iterator[int]:
 
 
 def check_layout(tools: Toolchain, root: Path, texts: Sequence[Text]) -> Iterator[Finding]:
+    """What clang-format would change: it is asked for all files at once, then for those alone."""
+    paths = [text.path for text in texts if text.has_layout]
+    command = [*clang_format(tools, root), "--dry-run", "-Werror", *paths]
+    done = run(command, cwd=root) if paths else None
+    if not done or done.good:
+        return
+    names = set(NOT_LAID_OUT.findall(done.output))
+    if not names:
+        raise ToolError(f"clang-format fails:\n{done.output.strip()}")
     for text in texts:
-        if text.has_layout:
-            done = run([*clang_format(tools, root), text.path], cwd=root, apart=True)
-            if not done.good:
-                raise ToolError(f"clang-format fails on {text.path}:\n{done.errors.strip()}")
-            for line in changed_lines(text.lines, done.output.splitlines()):
-                yield Finding(text.path, line, "not laid out as clang-format does (--fix does it)")
+        if text.path in names:
+            yield from differences(tools, root, text)
+
+
+def differences(tools: Toolchain, root: Path, text: Text) -> Iterator[Finding]:
+    """Where a file is not as clang-format writes it."""
+    done = run([*clang_format(tools, root), text.path], cwd=root, apart=True)
+    if not done.good:
+        raise ToolError(f"clang-format fails on {text.path}:\n{done.errors.strip()}")
+    for line in changed_lines(text.lines, done.output.splitlines()):
+        yield Finding(text.path, line, "not laid out as clang-format does (--fix does it)")
 
 
 def fix_layout(tools: Toolchain, root: Path, texts: Sequence[Text]) -> None:

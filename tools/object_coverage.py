@@ -59,7 +59,8 @@ SOURCE = "src"
 # Hundreds of thousands of steps each, which instruction by instruction would take an hour: whatever
 # is compared with the model in random steps, and these.
 UNTRACED_END = "specified"
-UNTRACED = ("mixer_equations", "reference_curves", "attitude_motion", "cascade_motion")
+UNTRACED = ("mixer_equations", "reference_curves", "attitude_motion", "cascade_motion",
+            "voter_influence")  # fmt: skip
 SHOWN = {BRANCH: "branches", BLOCK: "in IT blocks", SELECTION: "selections"}
 NEVER: dict[bool, Literal["taken", "not taken"]] = {True: "taken", False: "not taken"}
 

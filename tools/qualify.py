@@ -7,9 +7,9 @@
 
 Each fault stands beside the same text without it (tools/qualification/seeds.py). A tool passes when
 it complains of the fault, by the name under which the fault is known, and does not so without it.
-A new version of a tool, or another file of it, is asked anew. build/qualify/report.json has what
-became of each fault. What the project makes of a tool's words is tested elsewhere: specs/tools.toml
-names these tests.
+A new version of a tool, another file of it, or another way to ask is asked anew; what is known lies
+in the user's cache, for all clones. build/qualify/report.json has what became of each fault. What
+the project makes of a tool's words is tested elsewhere: specs/tools.toml names these tests.
 
 Exit status: 0 when each fault is detected, 1 when one is not, 2 when none could be tried.
 """
@@ -25,16 +25,21 @@ from pathlib import Path
 from common.arguments import Parser
 from common.errors import ROOT, ToolError, program
 from common.files import sha256_of
-from common.source import write_report
+from common.source import digest_of_tree, write_report
 from proofs.cache import Cache, digest
 from qualification.seeds import SEEDS, Seed
 from qualification.trials import ask
 from toolchain import Found, Toolchain
 
 REPORT = "build/qualify/report.json"
-KNOWN = "build/qualify/known"
+KNOWN = "qualified"  # In the user's cache.
 GROUPS = ("prove", "lint", "test", "coverage", "stack", "target")
-HOW = Path(__file__).resolve().parent / "qualification/trials.py"
+# What asks the tools, and the board that is run on the emulator.
+HOW = (
+    "bsp", "tools/boards", "tools/common", "tools/interpretation", "tools/machdep", "tools/proofs",
+    "tools/qualification", "tools/suites",
+)  # fmt: skip
+STARTS = ROOT / "tools/toolchain/provers.py"
 
 
 def verdict_of(tools: Toolchain, seed: Seed, folder: Path) -> str:
@@ -51,19 +56,24 @@ def verdict_of(tools: Toolchain, seed: Seed, folder: Path) -> str:
     return ""
 
 
-def key_of(seed: Seed, found: Mapping[str, Found]) -> str:
+def how_asked() -> list[str]:
+    """The digests of all that a verdict depends on besides the tools and the seed."""
+    return [digest_of_tree(ROOT, HOW), sha256_of(STARTS)]
+
+
+def key_of(seed: Seed, found: Mapping[str, Found], how: Sequence[str]) -> str:
     """All that a verdict depends on."""
     tools = {name: [one.version, one.sha256, one.parts] for name, one in found.items()
              if name not in ("why3-config",)}  # fmt: skip
-    return digest({"seed": asdict(seed), "tools": tools, "how": sha256_of(HOW)})
+    return digest({"seed": asdict(seed), "tools": tools, "how": how})
 
 
 def qualify(tools: Toolchain, seeds: Sequence[Seed], cache: Cache) -> list[dict[str, str]]:
     """Ask about each fault; those that were detected before by the same tools are known."""
-    found = tools.versions(*GROUPS)
+    found, how = tools.versions(*GROUPS), how_asked()
     runs = []
     for seed in seeds:
-        key = key_of(seed, found)
+        key = key_of(seed, found, how)
         known = cache.get(key)
         if known is None:
             with tempfile.TemporaryDirectory(prefix="keel-seed-") as folder:
@@ -79,8 +89,9 @@ def qualify(tools: Toolchain, seeds: Sequence[Seed], cache: Cache) -> list[dict[
 
 
 def main(
-    arguments: Sequence[str] | None = None, root: Path = ROOT, seeds: Sequence[Seed] = SEEDS
-) -> int:
+    arguments: Sequence[str] | None = None, root: Path = ROOT, seeds: Sequence[Seed] = SEEDS,
+    known: Path | None = None,
+) -> int:  # fmt: skip
     """Entry point."""
     parser = Parser("Show that each tool detects what it is trusted to detect.", "qualify")
     parser.add_argument("--fresh", action="store_true", help="ask also what is known")
@@ -90,7 +101,9 @@ def main(
         (root / REPORT).unlink(missing_ok=True)
         tools = Toolchain()
         tools.ensure(*GROUPS)
-        runs = qualify(tools, seeds, Cache(root / KNOWN, options.fresh))
+        cache = Cache(known or tools.cache.folder / KNOWN, options.fresh)
+        runs = qualify(tools, seeds, cache)
+        cache.prune()
         failed = [one for one in runs if one["wrong"]]
         problems = [f"{one['tool']}: {one['fault']}: {one['wrong']}" for one in failed]
         write_report(root / REPORT, {"problems": problems, "runs": runs}, root, good=not problems)

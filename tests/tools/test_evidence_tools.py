@@ -198,10 +198,11 @@ class Qualify(unittest.TestCase):
         self.root = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
         for folder in PRODUCT:
             (self.root / folder).mkdir()
+        self.known = self.root / "known"
 
     def qualify(self, **changes: str) -> tuple[int, dict[str, Any]]:
         with contextlib.redirect_stdout(io.StringIO()):
-            status = qualify.main([], self.root, [replace(self.gappa, **changes)])
+            status = qualify.main([], self.root, [replace(self.gappa, **changes)], self.known)
         report = json.loads((self.root / qualify.REPORT).read_text())
         assert isinstance(report, dict)
         return status, report
@@ -209,13 +210,13 @@ class Qualify(unittest.TestCase):
     def test_a_fault_that_is_detected_is_known_afterwards(self) -> None:
         status, report = self.qualify()
         self.assertEqual((status, report["problems"]), (0, []))
-        self.assertEqual(len(list((self.root / qualify.KNOWN).iterdir())), 1)
+        self.assertEqual(len(list(self.known.iterdir())), 1)
 
     def test_a_fault_that_is_not_detected(self) -> None:
         status, report = self.qualify(new="|d - 1| <= 0x1p-23")
         self.assertEqual((status, report["verdict"]), (1, "failed"))
         self.assertIn("gappa: a bound that is too narrow: does not say", report["problems"][0])
-        self.assertFalse((self.root / qualify.KNOWN).exists())
+        self.assertFalse(self.known.exists())
 
     def test_a_tool_that_refuses_everything_detects_nothing(self) -> None:
         text = self.gappa.text.replace("|e| <= 0x1p-24", "|e| <= 0x1p-20")

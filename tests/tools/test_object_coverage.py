@@ -34,6 +34,7 @@ from boards.conditions import (  # noqa: E402
 )
 from boards.elf import Contents, Symbol, read_contents  # noqa: E402
 from boards.lines import Lines, Place, read_lines  # noqa: E402
+from common.run import Ended  # noqa: E402
 from common.errors import ToolError  # noqa: E402
 from common.source import STAMP, VERDICT, stamp_of  # noqa: E402
 from object_coverage import (  # noqa: E402
@@ -43,6 +44,7 @@ from object_coverage import (  # noqa: E402
     UncoveredError,
     read_reasons,
 )
+from suites import trace  # noqa: E402
 from suites.emulated import EmulatedBoard  # noqa: E402
 from suites.trace import one_by_one, outcomes_of, traced  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
@@ -97,6 +99,38 @@ class Evaluation(unittest.TestCase):
         log = LOG.replace("R01=00000005", "R01=00000000").format(0x100, C) + LOG.format(0x104, C)
         at = {0x104: conditional(0x104, "cbz", 1)}
         self.assertEqual(outcomes_of(io.BytesIO(log.encode()), at), {0x104: {False}})
+
+    def test_a_condition_that_goes_another_way_late(self) -> None:
+        zero = LOG.replace("R01=00000005", "R01=00000000")
+        log = (LOG.format(0x100, C) + LOG.format(0x104, C)) * 3 + zero.format(0x104, C | N)
+        log += LOG.format(0x100, C | N) + LOG.format(0x100, Z)
+        at = {0x100: conditional(0x100), 0x104: conditional(0x104, "cbz", 1)}
+        self.assertEqual(
+            outcomes_of(io.BytesIO(log.encode()), at), {0x100: {True, False}, 0x104: {True, False}}
+        )
+
+    def test_what_has_had_both_outcomes_is_logged_no_more(self) -> None:
+        items = [conditional(address) for address in (0x100, 0x104, 0x108)]
+        broken_off, whole = Ended(-9, "", timed_out=True), Ended(0, "all of it")
+        runs = [
+            (broken_off, {0x100: {True, False}, 0x104: {True}, 0x108: set[bool]()}),
+            (broken_off, {0x104: {True}, 0x108: set()}),
+            (whole, {0x104: {True, False}, 0x108: {True}}),
+        ]
+        unused = mock.Mock()
+        with mock.patch.object(trace, "_logged", side_effect=runs) as logged:
+            ended, seen = traced(unused, unused, Path("image.elf"), items)
+        self.assertEqual(ended, whole)
+        self.assertEqual(seen, {0x100: {True, False}, 0x104: {True, False}, 0x108: {True}})
+        asked = [(call.args[3], call.args[4]) for call in logged.call_args_list]
+        self.assertEqual(asked, [(items, trace.LOOK_S), (items[1:], trace.LOOK_S),
+                                 (items[1:], trace.TIMEOUT_S)])  # fmt: skip
+
+    def test_a_run_that_hangs_is_told(self) -> None:
+        hung = Ended(-9, "", timed_out=True), {0x100: {True}}
+        with mock.patch.object(trace, "_logged", return_value=hung):
+            ended, _ = traced(mock.Mock(), mock.Mock(), Path("a.elf"), [conditional(0x100)])
+        self.assertTrue(ended.timed_out)
 
     def test_the_emulator_s_word_for_single_steps(self) -> None:
         self.assertEqual(one_by_one("7.2.22"), ["-singlestep"])
