@@ -15,6 +15,7 @@ import json
 import os
 import sys
 import tempfile
+import threading
 import unittest
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -25,7 +26,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import lint  # noqa: E402
 from common.errors import ToolError  # noqa: E402
-from common.source import STAMP, stamp_of  # noqa: E402
+from common.source import STAMP, files_below, stamp_of  # noqa: E402
 from linting import house, misra, record  # noqa: E402
 from linting.misra import Deviation, Violation  # noqa: E402
 from linting.texts import Finding, Text  # noqa: E402
@@ -413,6 +414,25 @@ class ToolTest(unittest.TestCase):
         status, lines = self.lint()
         self.assertEqual(status, 1)
         self.assertIn("MD-001 covers no finding", lines[0])
+
+    def test_nothing_is_written_beside_the_source(self) -> None:
+        """Another command that looks at the source meanwhile would see another one."""
+        for number in range(8):
+            self.write(f"src/rtos/clock_{number}.c", BARE)
+        before, during, ended = set(files_below(self.root)), set[Path](), threading.Event()
+
+        def look() -> None:
+            while not ended.is_set():
+                during.update(files_below(self.root))
+
+        looking = threading.Thread(target=look)
+        looking.start()
+        try:
+            self.lint()
+        finally:
+            ended.set()
+            looking.join()
+        self.assertEqual(during, before)
 
     def test_layout_is_told_and_mended(self) -> None:
         self.write("src/rtos/clock.c", BARE.replace("    return a", "  return  a"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -21,6 +22,7 @@ from toolchain import Toolchain
 
 DEVIATIONS = "specs/misra_deviations.toml"
 SARIF = "build/lint/cppcheck.sarif"
+DUMPS = "build/lint/cppcheck"  # Cppcheck would write them beside the source, while others read it.
 FATFS_DRIVERS = "bsp/fatfs"
 
 
@@ -139,12 +141,14 @@ def fatfs_flags(tools: Toolchain, root: Path) -> list[str]:
 def cppcheck_command(tools: Toolchain, root: Path) -> list[str]:
     """The command; writes the addon's settings beside the report."""
     folder = (root / SARIF).parent
-    folder.mkdir(parents=True, exist_ok=True)
+    shutil.rmtree(root / DUMPS, ignore_errors=True)  # It would believe what it found before.
+    (root / DUMPS).mkdir(parents=True)
     (folder / "rules.txt").write_text(rule_texts())
     addon = {"script": "misra.py", "args": [f"--rule-texts={folder / 'rules.txt'}"]}
     (folder / "misra.json").write_text(json.dumps(addon))
     return [
         *tools.command("cppcheck"), f"--addon={folder / 'misra.json'}", "--quiet", "--std=c99",
+        f"--cppcheck-build-dir={root / DUMPS}",
         "--enable=warning,style,performance,portability", "--check-level=exhaustive",
         "--platform=arm32-wchar_t4", "-Iinclude", "-Ibsp", "--output-format=sarif",
         f"--output-file={root / SARIF}", *fatfs_flags(tools, root), "src", *drivers(root),
