@@ -68,16 +68,19 @@ def why_not(harness: Harness) -> str:
 
 
 def reasons(opinions: Opinions, harnesses: Sequence[Bounded]) -> dict[str, str]:
-    """Why ESBMC is not asked about a harness."""
+    """Why ESBMC is not asked about a harness, of those that it is not asked about."""
+    asked = {one.harness for one in opinions.ask}
     given = {name: " ".join(one.reason.split()) for one in opinions.cannot for name in one.harness}
-    return {one.id: given.get(one.id) or why_not(one.harness) for one in harnesses}
+    return {one.id: given.get(one.id) or why_not(one.harness)
+            for one in harnesses if one.id not in asked}  # fmt: skip
 
 
-def file_problems(opinions: Opinions, harnesses: Sequence[Bounded]) -> Iterator[str]:
+def file_problems(
+    opinions: Opinions, harnesses: Sequence[Bounded], given: Mapping[str, str]
+) -> Iterator[str]:  # fmt: skip
     """A harness that is neither asked nor excused, and one that does not exist."""
     known = {one.id for one in harnesses}
     asked = {one.harness for one in opinions.ask}
-    given = reasons(opinions, harnesses)
     named = asked | {name for one in opinions.cannot for name in one.harness}
     for name in sorted(named - known):
         yield f"{FILE}: there is no harness {name}"
@@ -115,9 +118,11 @@ def good(answer: Report) -> bool:
     return answer["verdict"] == PROVED and answer["wrong"] in ("", REFUTED)
 
 
-def problems(report: Report, opinions: Opinions, harnesses: Sequence[Bounded]) -> Iterator[str]:
+def problems(
+    report: Report, opinions: Opinions, harnesses: Sequence[Bounded], given: Mapping[str, str]
+) -> Iterator[str]:  # fmt: skip
     """What is wrong with the file, a harness without an answer, and one ESBMC does not agree on."""
-    yield from file_problems(opinions, harnesses)
+    yield from file_problems(opinions, harnesses, given)
     answers = report.get("harnesses", {})
     for one in opinions.ask if report else ():
         answer = answers.get(one.harness)
@@ -137,10 +142,9 @@ def summary(report: Report, harnesses: Sequence[Bounded]) -> dict[str, str]:
     return {"ESBMC agrees on": said}
 
 
-def table(report: Report, opinions: Opinions, harnesses: Sequence[Bounded]) -> Shown:
+def table(report: Report, harnesses: Sequence[Bounded], given: Mapping[str, str]) -> Shown:
     """Every harness, with ESBMC's answer, or the reason why it was not asked."""
     answers = report.get("harnesses", {})
-    given = reasons(opinions, harnesses)
     rows = []
     for one in harnesses:
         answer = answers.get(one.id)
@@ -149,7 +153,8 @@ def table(report: Report, opinions: Opinions, harnesses: Sequence[Bounded]) -> S
                          answer["bounds"], answer["wrong_body"], answer["wrong"] or "none names it",
                          ""))  # fmt: skip
         else:
-            rows.append((f"harness:{one.id}", "not asked", "", "", "", "", given[one.id]))
+            rows.append((f"harness:{one.id}", "not asked", "", "", "", "",
+                         given.get(one.id, "")))  # fmt: skip
     return Shown(
         title="A third opinion: ESBMC",
         columns=("harness", "verdict", "properties", "unwinding and definitions", "wrong body",

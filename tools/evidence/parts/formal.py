@@ -147,7 +147,8 @@ def make(context: Context) -> Part:
     problems += theorems.problems(claims, items, known) if report else []
     asked = _kept(problems, lambda: [opinion.read_opinions(context.root)])
     answers = context.report(opinion.REPORT, problems)
-    problems += [text for one in asked for text in opinion.problems(answers, one, harnesses)]
+    given = {name: why for one in asked for name, why in opinion.reasons(one, harnesses).items()}
+    problems += [text for one in asked for text in opinion.problems(answers, one, harnesses, given)]
     reviewed = _kept(problems, lambda: reviews.read_reviews(context.root))
     problems += reviews.problems(context.root, reviewed)
     return Part(
@@ -156,7 +157,7 @@ def make(context: Context) -> Part:
         text=TEXT + ledger.prose_of(soundness),
         tables=(
             theorems.table(claims, items), determined_table(report),
-            *(opinion.table(answers, one, harnesses) for one in asked),
+            *(opinion.table(answers, harnesses, given) for _ in asked),
             bounds.table(harnesses, report), smoke_table(report), left_table(report),
             prover_table(items), ledger.ledger_table(assumptions), reviews.table(reviewed),
             *ledger.tables(soundness),
