@@ -126,6 +126,18 @@ class Evaluation(unittest.TestCase):
         self.assertEqual(asked, [(items, trace.LOOK_S), (items[1:], trace.LOOK_S),
                                  (items[1:], trace.TIMEOUT_S)])  # fmt: skip
 
+    def test_a_run_that_is_broken_off_before_it_begins(self) -> None:
+        tools = mock.Mock()
+        tools.versions.return_value = {"qemu": mock.Mock(version="7.2.0")}
+        ended = [Ended(-9, "", timed_out=True), Ended(-9, "", timed_out=True)]
+        with (
+            mock.patch.object(trace, "emulator", return_value=["qemu"]),
+            mock.patch.object(trace, "run", side_effect=ended),
+        ):
+            hung, seen = traced(tools, mock.Mock(), OWN / "none.elf", [conditional(0x100)])
+        self.assertTrue(hung.timed_out)
+        self.assertEqual(seen, {0x100: set()})
+
     def test_a_run_that_hangs_is_told(self) -> None:
         hung = Ended(-9, "", timed_out=True), {0x100: {True}}
         with mock.patch.object(trace, "_logged", return_value=hung):

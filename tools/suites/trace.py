@@ -106,7 +106,8 @@ def traced(
 def _logged(
     tools: Toolchain, board: Board, elf: Path, items: Sequence[Conditional], limit_s: float
 ) -> tuple[Ended, Outcomes]:  # fmt: skip
-    """Run an image, to its end or for a while, and log these instructions."""
+    """Run an image, to its end or for a while, and log these instructions. What is broken off may
+    not have begun to."""
     command = emulator(tools, board, elf)
     if not items:
         return run(command, limit_s), {}
@@ -115,6 +116,8 @@ def _logged(
     places = ",".join(f"0x{item.address:x}+0x2" for item in items)
     words = [*one_by_one(tools.versions("target")["qemu"].version), "-d", "cpu,nochain"]
     ended = run([*command, *words, "-dfilter", places, "-D", str(log)], limit_s)
+    if ended.timed_out and not log.is_file():
+        return ended, {}
     with log.open("rb") as stream:
         seen = outcomes_of(stream, {item.address: item for item in items})
     log.unlink()
