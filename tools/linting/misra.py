@@ -141,8 +141,7 @@ def fatfs_flags(tools: Toolchain, root: Path) -> list[str]:
 def cppcheck_command(tools: Toolchain, root: Path) -> list[str]:
     """The command; writes the addon's settings beside the report."""
     folder = (root / SARIF).parent
-    shutil.rmtree(root / DUMPS, ignore_errors=True)  # It would believe what it found before.
-    (root / DUMPS).mkdir(parents=True)
+    folder.mkdir(parents=True, exist_ok=True)
     (folder / "rules.txt").write_text(rule_texts())
     addon = {"script": "misra.py", "args": [f"--rule-texts={folder / 'rules.txt'}"]}
     (folder / "misra.json").write_text(json.dumps(addon))
@@ -169,6 +168,8 @@ def read_sarif(text: str) -> list[Violation]:
 def run_cppcheck(tools: Toolchain, root: Path) -> list[Violation]:
     report = root / SARIF
     report.unlink(missing_ok=True)
+    shutil.rmtree(root / DUMPS, ignore_errors=True)  # It would believe what it found before.
+    (root / DUMPS).mkdir(parents=True)
     done = run(cppcheck_command(tools, root), cwd=root)
     if not done.good or done.output.strip() or not report.is_file():
         raise ToolError(f"cppcheck: {done.how}\n{done.output}".strip())

@@ -84,8 +84,8 @@ def file_problems(
     named = asked | {name for one in opinions.cannot for name in one.harness}
     for name in sorted(named - known):
         yield f"{FILE}: there is no harness {name}"
-    for name in sorted(known - asked):
-        if not given[name]:
+    for name, why in sorted(given.items()):
+        if not why:
             yield f"{FILE}: {name} is neither asked about, nor is there a reason why not"
     for name in sorted(asked & {name for one in opinions.cannot for name in one.harness}):
         yield f"{FILE}: {name} is both asked about and excused"
