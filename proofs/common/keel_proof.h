@@ -199,17 +199,18 @@ static bool config_same(const keel_task_config_t *a, const keel_task_config_t *b
            (a->phase_us == b->phase_us) && (a->priority == b->priority);
 }
 
-/* Whether a slot holds what it held but for who the task is. Statistics are compared as copies: of
- * an object at a variable place in an array CBMC knows an address, behind which it looks at every
- * byte of the array (ten times the work). */
+/* Whether a slot holds what it held but for who the task is. Statistics are compared field by
+ * field: of an object at a variable place in an array CBMC knows an address, behind which it looks
+ * at every byte of the array (ten times the work). */
 static bool slot_same(const keel_queue_t *a, const keel_queue_t *b, uint32_t x)
 {
-    const keel_stats_t stats_a = a->stats[x];
-    const keel_stats_t stats_b = b->stats[x];
-
     return (a->release_us[x] == b->release_us[x]) && (a->period_us[x] == b->period_us[x]) &&
            (a->budget_us[x] == b->budget_us[x]) && (a->priority[x] == b->priority[x]) &&
-           (a->skipped[x] == b->skipped[x]) && stats_same(&stats_a, &stats_b);
+           (a->skipped[x] == b->skipped[x]) && (a->stats[x].total_us == b->stats[x].total_us) &&
+           (a->stats[x].runs == b->stats[x].runs) && (a->stats[x].last_us == b->stats[x].last_us) &&
+           (a->stats[x].longest_us == b->stats[x].longest_us) &&
+           (a->stats[x].overruns == b->stats[x].overruns) &&
+           (a->stats[x].promotions == b->stats[x].promotions);
 }
 
 /* Whether two queues are the same, as seen at a position and slot: if at any, they are. */

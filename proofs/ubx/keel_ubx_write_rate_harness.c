@@ -14,6 +14,8 @@ void keel_ubx_write_rate_harness(void)
 
     keel_ubx_write_rate(&message, period_ms);
 
-    __CPROVER_assert(ubx_message_same(&message, &model),
-                     "UBX_015_model: every byte is what the model says");
+    for (uint32_t i = 0u; i < KEEL_UBX_MESSAGE_BYTES; i++) {
+        __CPROVER_assert(ubx_message_same(&message, &model, i),
+                         "UBX_015_model: every byte is what the model says");
+    }
 }

@@ -14,6 +14,9 @@ void keel_ubx_write_value_harness(void)
     const keel_status_t status = keel_ubx_write_value(&message, key, value);
 
     __CPROVER_assert(status == expected, "UBX_014_taken: written or refused as the model says");
-    __CPROVER_assert(ubx_message_same(&message, &model),
-                     "UBX_014_model: every byte is what the model says, and none after a refusal");
+    for (uint32_t i = 0u; i < KEEL_UBX_MESSAGE_BYTES; i++) {
+        __CPROVER_assert(
+            ubx_message_same(&message, &model, i),
+            "UBX_014_model: every byte is what the model says, and none after a refusal");
+    }
 }

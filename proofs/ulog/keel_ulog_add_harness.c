@@ -22,6 +22,9 @@ void keel_ulog_add_harness(void)
 
     made = keel_ulog_add(&message, bytes, count);
 
-    __CPROVER_assert(message_same(&message, &model), "ULG_009_model: every byte as in the model");
+    for (uint32_t i = 0u; i < KEEL_ULOG_MESSAGE_BYTES; i++) {
+        __CPROVER_assert(message_same(&message, &model, i),
+                         "ULG_009_model: every byte as in the model");
+    }
     __CPROVER_assert(made == expected, "ULG_009_made: it is said whether there is one");
 }

@@ -18,5 +18,8 @@ void keel_ulog_data_harness(void)
 
     keel_ulog_data(&message, number);
 
-    __CPROVER_assert(message_same(&message, &model), "ULG_008_model: every byte as in the model");
+    for (uint32_t i = 0u; i < KEEL_ULOG_MESSAGE_BYTES; i++) {
+        __CPROVER_assert(message_same(&message, &model, i),
+                         "ULG_008_model: every byte as in the model");
+    }
 }

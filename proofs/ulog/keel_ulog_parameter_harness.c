@@ -23,6 +23,9 @@ void keel_ulog_parameter_harness(void)
 
     made = keel_ulog_parameter(&message, &name, type, value);
 
-    __CPROVER_assert(message_same(&message, &model), "ULG_006_model: every byte as in the model");
+    for (uint32_t i = 0u; i < KEEL_ULOG_MESSAGE_BYTES; i++) {
+        __CPROVER_assert(message_same(&message, &model, i),
+                         "ULG_006_model: every byte as in the model");
+    }
     __CPROVER_assert(made == expected, "ULG_006_made: it is said whether there is one");
 }

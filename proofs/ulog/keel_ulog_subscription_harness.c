@@ -20,5 +20,8 @@ void keel_ulog_subscription_harness(void)
 
     keel_ulog_subscription(&message, instance, number, &name);
 
-    __CPROVER_assert(message_same(&message, &model), "ULG_007_model: every byte as in the model");
+    for (uint32_t i = 0u; i < KEEL_ULOG_MESSAGE_BYTES; i++) {
+        __CPROVER_assert(message_same(&message, &model, i),
+                         "ULG_007_model: every byte as in the model");
+    }
 }

@@ -60,19 +60,19 @@ float model_box_angle(const keel_box_t *crate);
 """
 SAME = """\
 #define SIDES BOX_SIDES
+static inline bool float_same(float a, float b)
+{
+    return __CPROVER_equal(a, b);
+}
+
 static bool lid_same(const keel_lid_t *a, const keel_lid_t *b)
 {
     return float_same(a->angle, b->angle) && (a->name == b->name);
 }
 
-static bool box_same(const keel_box_t *a, const keel_box_t *b)
+static bool box_same(const keel_box_t *a, const keel_box_t *b, uint32_t i)
 {
-    bool same = (a->count == b->count) && lid_same(&a->lid, &b->lid);
-
-    for (uint32_t i = 0u; i < SIDES; i++) {
-        same = same && (a->side[i] == b->side[i]);
-    }
-    return same;
+    return (a->count == b->count) && lid_same(&a->lid, &b->lid) && (a->side[i] == b->side[i]);
 }
 """
 PUT = """\
@@ -84,7 +84,7 @@ PUT = """\
 void keel_box_put_harness(void)
 {
     const uint32_t more = any_bits(8u);
-    const uint32_t x = nondet_u32();
+    const uint32_t x = any_below(SIDES);
     keel_box_t box = any_box();
     keel_box_t model = box;
     int32_t status;
@@ -94,11 +94,12 @@ void keel_box_put_harness(void)
     status = keel_box_put(&box, more);
 
     __CPROVER_assert(status == model_box_put(&model, more), "BOX_001_model: (as) the model");
-    __CPROVER_assert((more > 0u) && box_same(&box, &model), "BOX_002_model: says");
+    __CPROVER_assert((more > 0u) && box_same(&box, &model, x), "BOX_002_model: says");
 }
 """
 ANGLE = """\
 // covers: keel_box_angle
+#include "../common/same_box.h"
 #include "../../specs/model/box.h"
 
 void keel_box_angle_harness(void)
@@ -179,9 +180,9 @@ class Equality(DeterminedTest):
         cases = {
             ("model_box_put(", "model_box_fill("): "no harness of it calls model_box_put",
             ("status == model", "status != model"): "the results are not asserted to be the same",
-            ("(more > 0u) && box_same(&box, &model)", "true"): "box: are not asserted",
+            ("(more > 0u) && box_same(&box, &model, x)", "true"): "box: are not asserted",
             ("&& box_same", "|| box_same"): "box: are not asserted",
-            ("box_same(&box, &model)", "box_same(&box, &box)"): "box: are not asserted",
+            ("box_same(&box, &model, x)", "box_same(&box, &box, x)"): "box: are not asserted",
             ("box_same(&box", "lid_same(&box"): "lid_same does not compare two keel_box_t",
             ("put(&model", "put(&box"): "both are given one object",
             ("put(&model, more", "put(&model, 1u"): "the model is given 1u, the function more",
@@ -238,23 +239,49 @@ class Equality(DeterminedTest):
         )
         self.assert_found("the results are not asserted")
 
-    def test_an_index_must_be_any(self) -> None:
-        for index, good in (("x", True), ("more", False), ("0u", False), ("status", False)):
-            with self.subTest(index):
-                self.change("put_harness.c", "same(&box, &model)", f"same(&box, &model, {index})")
-                self.change("same_box.h", "keel_box_t *b)", "keel_box_t *b, uint32_t i)")
-                found = self.problems()
-                self.assertEqual(found == [], good, found)
-                self.write_all()
+    def test_an_index_must_be_any_of_the_array(self) -> None:
+        claim = PUT[PUT.index("    __CPROVER_assert((more") : -len("}\n")]
+        within = claim.replace(", x)", ", i)").strip()
+        loop = "    for (uint32_t i = 0u; i < BOX_SIDES; i++) {\n        %s\n    }\n"
+        cases = {
+            claim: "",
+            claim.replace(", x)", ", more)"): "box_same: more is not arbitrary",
+            claim.replace(", x)", ", 0u)"): "box_same: 0u is not arbitrary",
+            claim.replace(", x)", ")"): "box_same is given 0 indices, not 1",
+            loop % within: "",
+            loop.replace("BOX_SIDES", "2u") % within: "",  # as the harness defines it
+            loop.replace("BOX_SIDES", "1u") % within: "i is below 1u, and an array has BOX_SIDES",
+            loop.replace("i = 0u", "i = 1u") % within: "does more than assert at every index",
+            loop.replace("i++", "i += 2u") % within: "does more than assert at every index",
+            loop % f"i++; {within}": "does more than assert at every index",
+            loop % f"break; {within}": "does more than assert at every index",
+            loop % f"{within} model = box;": "does more than assert at every index",
+            loop % f"if (more > 7u) {{ {within} }}": "box: are not asserted to be the same",
+        }
+        for text, why in cases.items():
+            with self.subTest(text):
+                self.change("put_harness.c", claim, text)
+                if why:
+                    self.assert_found(why)
+                else:
+                    self.assertEqual(self.problems(), [])
+        for old, new in (("any_below(SIDES)", "any_below(1u)"), ("any_below(SIDES)", "3u"),
+                         ("int32_t status;", "int32_t status;\n\n    x = 0u;")):  # fmt: skip
+            with self.subTest(new):
+                self.change("put_harness.c", old, new)
+                self.assertNotEqual(self.problems(), [])
+        self.change("same_box.h", "uint32_t i)", "uint8_t i)")
+        self.assert_found("box_same: an index is a uint32_t")
 
     def test_a_contract_of_stand_ins_counts_as_what_it_says(self) -> None:
         does = """
-static bool keel_box_put_does(const keel_box_t *is, const keel_box_t *was, int32_t a, int32_t b)
+static bool keel_box_put_does(const keel_box_t *is, const keel_box_t *was, int32_t a, int32_t b,
+                              uint32_t x)
 {
-    return box_same(is, was) && (a == b);
+    return box_same(is, was, x) && (a == b);
 }
 """
-        good = "keel_box_put_does(&box, &model, status, expected)"
+        good = "keel_box_put_does(&box, &model, status, expected, x)"
         head, _, tail = PUT.partition("    __CPROVER_assert(status")
         call = "    const int32_t expected = model_box_put(&model, more);\n"
         for text, claim, found in (
@@ -276,25 +303,96 @@ class Sameness(DeterminedTest):
     def test_a_field_left_out_is_named(self) -> None:
         cases = {
             ("(a->count == b->count) && ", ""): "box_same: keel_box_t.count is not compared",
-            ("a->count == b->count", "a->count == a->count"): "keel_box_t.count is not compared",
-            ("a->count == b->count", "a->count >= b->count"): "keel_box_t.count is not compared",
             (" && (a->name == b->name)", ""): "lid_same: keel_lid_t.name is not compared",
             (" && lid_same(&a->lid, &b->lid)", ""): "keel_box_t.lid is not compared by a function",
             ("&& lid_same", "&& any_same"): "keel_box_t.lid is not compared by a function",
-            ("(&a->lid, &b->lid)", "(&a->lid, &a->lid)"): "keel_box_t.lid is not compared",
             ("float_same(a->angle, b->angle)", "(a->angle == b->angle)"):
                 "keel_lid_t.angle is not compared by float_same",
-            ("i < SIDES", "i < 3u"): "keel_box_t.side is not compared at all of its BOX_SIDES",
-            ("i = 0u", "i = 1u"): "keel_box_t.side is not compared at all of its BOX_SIDES",
-            ("a->side[i] == b->side[i]", "a->side[0] == b->side[0]"): "is not compared at all",
-            ("b->side[i]", "b->side[x]"): "is compared at i with that at x",
-            ("same = same && (", "same = ("): "same forgets what was found before",
-            ("&& lid_same", "|| lid_same"): "may be true of objects that differ",
+            ("(a->side[i] == b->side[i])", "(a->side[0] == b->side[0])"):
+                "keel_box_t.side is not compared at all of its BOX_SIDES places",
+            ("lid_same(&a->lid, &b->lid)", "float_same(a->lid.angle, b->lid.angle)"):
+                "keel_box_t.lid is not compared by a function",
         }  # fmt: skip
         for (old, new), why in cases.items():
             with self.subTest(new):
                 self.change("same_box.h", old, new)
                 self.assert_found(why)
+
+    def test_what_compares_nothing_is_refused(self) -> None:
+        cases = {
+            ("a->count == b->count", "a->count == a->count"),
+            ("a->count == b->count", "a->count >= b->count"),
+            ("a->count == b->count", "a->count == b->lid.angle"),
+            ("a->count == b->count", "true"),
+            ("(&a->lid, &b->lid)", "(&a->lid, &a->lid)"),
+            ("b->side[i]", "b->side[x]"),
+            ("&& (a->side", "|| (a->side"),
+            ("a->side[i] == b->side[i]", "a->side[i + 0u] == b->side[i + 0u]"),
+            ("lid_same(&a->lid, &b->lid)", "lid_alike(&a->lid, &b->lid)"),
+            ("lid_same(&a->lid, &b->lid)", "(more ? lid_same(&a->lid, &b->lid) : true)"),
+        }
+        for old, new in cases:
+            with self.subTest(new):
+                self.change("same_box.h", old, new)
+                self.assert_found("compares nothing of the two")
+
+    def test_a_comparer_is_one_expression(self) -> None:
+        cases = {
+            "    if (b->count > 9u) {\n        return true;\n    }\n    return (a->count": "an if",
+            "    __CPROVER_assume(a->count == b->count);\n    return (a->count": "an assumption",
+            "    const keel_box_t *const c = a;\n    return (c->count": "a copy",
+            "    for (i = 0u; i < SIDES; i++) {\n    }\n    return (a->count": "a loop",
+            "    return true;\n    return (a->count": "a return before it",
+            "    i = 0u;\n    return (a->count": "an index changed",
+            "#ifdef NO\n    return (a->count": "a directive",
+        }
+        for text, what in cases.items():
+            with self.subTest(what):
+                end = "\n#else\n    return true;\n#endif\n}" if "#" in text else "\n}"
+                self.change("same_box.h", "    return (a->count", text)
+                path = self.root / "proofs/common/same_box.h"
+                head, _, tail = path.read_text(encoding="utf-8").rpartition("\n}")
+                path.write_text(head + end + tail, encoding="utf-8")
+                self.assert_found("box_same is not one expression")
+
+    def test_no_name_in_a_comparer_is_a_macro(self) -> None:
+        for line, name in (
+            ("#define float_same(a, b) true", "float_same"),
+            ("#define lid_same(a, b) (1 == 1)", "lid_same"),
+            ("#define count lid.angle", "count"),
+            ("#define b a", "b"),
+        ):
+            with self.subTest(line):
+                self.change("put_harness.c", "#include", f"{line}\n#include")
+                self.assert_found(f"{name} is a macro")
+        with self.subTest("defined on the command line"):
+            self.change("put_harness.c", "-DBOX_SIDES=2u", "-DBOX_SIDES=2u -Dlid_same(a,b)=true")
+            self.assert_found("lid_same is a macro")
+
+    def test_floats_are_compared_by_the_one_function_for_them(self) -> None:
+        for old, new in (("__CPROVER_equal(a, b)", "true"), ("__CPROVER_equal(a, b)", "a == b"),
+                         ("__CPROVER_equal(a, b)", "__CPROVER_equal(a, a)")):  # fmt: skip
+            with self.subTest(new):
+                self.change("same_box.h", old, new)
+                self.assert_found("float_same is not that of")
+
+    def test_a_comparer_is_defined_once(self) -> None:
+        self.write("proofs/common/same_box.h", SAME + """
+#ifdef BOX_SIDES
+static bool lid_same(const keel_lid_t *a, const keel_lid_t *b)
+{
+    return a->name == b->name;
+}
+#endif
+""")  # fmt: skip
+        self.assert_found("lid_same is defined more than once")
+
+    def test_an_array_may_be_compared_at_each_place_by_number(self) -> None:
+        sides = " && ".join(f"(a->side[{i}u] == b->side[{i}u])" for i in range(2))
+        self.change("same_box.h", "(a->side[i] == b->side[i])", sides)
+        self.assertEqual(self.problems(), [])
+        self.change("same_box.h", "(a->side[i] == b->side[i])", sides.replace("1u", "0u"))
+        self.assert_found("keel_box_t.side is not compared at all of its BOX_SIDES places")
 
     def test_a_part_may_be_compared_by_another_function(self) -> None:
         part = SAME.replace("(a->count == b->count) && ", "part_same(a, b) && ").replace(
@@ -309,17 +407,10 @@ class Sameness(DeterminedTest):
                 self.write("proofs/common/same_box.h", part.replace(old, new))
                 self.assertNotEqual(self.problems(), [])
 
-    def test_a_copy_stands_for_what_it_copies(self) -> None:
-        copies = SAME.replace("(&a->lid, &b->lid)", "(&lid_a, &lid_b)").replace(
-            "    bool same", "    const keel_lid_t lid_a = a->lid;\n"
-            "    const keel_lid_t lid_b = b->lid;\n    bool same")  # fmt: skip
-        self.write("proofs/common/same_box.h", copies)
+    def test_a_structure_may_be_compared_field_by_field(self) -> None:
+        fields = "float_same(a->lid.angle, b->lid.angle) && (a->lid.name == b->lid.name)"
+        self.change("same_box.h", "lid_same(&a->lid, &b->lid)", fields)
         self.assertEqual(self.problems(), [])
-        for old, new in (("= b->lid", "= a->lid"), ("&lid_b", "&lid_a"), ("const keel_lid_t lid_b",
-                         "keel_lid_t lid_b")):  # fmt: skip
-            with self.subTest(new):
-                self.write("proofs/common/same_box.h", copies.replace(old, new))
-                self.assert_found("keel_box_t.lid is not compared")
 
     def test_a_new_field_must_be_compared(self) -> None:
         self.change("rtos/box.h", "    keel_lid_t lid;\n", "    keel_lid_t lid;\n    bool shut;\n")
