@@ -7,6 +7,7 @@
 #ifndef FRAMING_CONTRACTS_H
 #define FRAMING_CONTRACTS_H
 
+#include "any_below.h"
 #include "keel/middleware/framing.h"
 
 #include <stdbool.h>

@@ -16,6 +16,7 @@
 #ifndef KEEL_PROOF_H
 #define KEEL_PROOF_H
 
+#include "any_below.h"
 #include "keel/rtos/clock.h"
 #include "keel/rtos/queue.h"
 #include "keel/rtos/stats.h"
@@ -37,14 +38,6 @@ uint64_t nondet_u64(void);
 keel_stats_t nondet_stats(void);
 keel_queue_t nondet_queue(void);
 keel_task_config_t nondet_config(void);
-
-static uint32_t any_below(uint32_t limit)
-{
-    const uint32_t value = nondet_u32();
-
-    __CPROVER_assume(value < limit);
-    return value;
-}
 
 /* An arbitrary value of so many bits. The bits above are 0 by construction, which the solver sees
  * at once, where it would have to reason from an assumption: products and quotients need it. */

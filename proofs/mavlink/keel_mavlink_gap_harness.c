@@ -6,6 +6,7 @@
 
 void keel_mavlink_gap_harness(void)
 {
+    const uint32_t at = any_below(KEEL_MAVLINK_PAYLOAD_MAX);
     keel_mavlink_t mavlink = any_mavlink();
     keel_mavlink_t model = mavlink;
 
@@ -13,8 +14,6 @@ void keel_mavlink_gap_harness(void)
 
     keel_mavlink_gap(&mavlink);
 
-    for (uint32_t i = 0u; i < KEEL_MAVLINK_PAYLOAD_MAX; i++) {
-        __CPROVER_assert(mavlink_same(&mavlink, &model, i),
-                         "MAV_010_model: every field is what the model says");
-    }
+    __CPROVER_assert(mavlink_same(&mavlink, &model, at),
+                     "MAV_010_model: every field is what the model says");
 }

@@ -8,6 +8,7 @@
 #define MAVLINK_PROOF_H
 
 #include "../../specs/model/mavlink.h"
+#include "../common/any_below.h"
 
 #include <stdbool.h>
 

@@ -8,6 +8,7 @@
 #define SBUS_PROOF_H
 
 #include "../../specs/model/sbus.h"
+#include "../common/any_below.h"
 
 #include <stdbool.h>
 

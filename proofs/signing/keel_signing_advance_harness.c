@@ -6,6 +6,7 @@
 
 void keel_signing_advance_harness(void)
 {
+    const uint32_t at = any_below(KEEL_SIGNING_TEXT_MAX);
     keel_signing_t signing = any_valid_signing();
     keel_signing_t model = signing;
     const uint64_t timestamp = nondet_u64();
@@ -14,8 +15,6 @@ void keel_signing_advance_harness(void)
 
     keel_signing_advance(&signing, timestamp);
 
-    for (uint32_t i = 0u; i < KEEL_SIGNING_TEXT_MAX; i++) {
-        __CPROVER_assert(signing_same(&signing, &model, i),
-                         "SGN_003_model: every field is what the model says");
-    }
+    __CPROVER_assert(signing_same(&signing, &model, at),
+                     "SGN_003_model: every field is what the model says");
 }

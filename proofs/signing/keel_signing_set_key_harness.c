@@ -6,6 +6,7 @@
 
 void keel_signing_set_key_harness(void)
 {
+    const uint32_t at = any_below(KEEL_SIGNING_TEXT_MAX);
     keel_signing_t signing = any_valid_signing();
     keel_signing_t model = signing;
     uint8_t key[KEEL_SIGNING_KEY_BYTES];
@@ -17,8 +18,6 @@ void keel_signing_set_key_harness(void)
 
     keel_signing_set_key(&signing, key);
 
-    for (uint32_t i = 0u; i < KEEL_SIGNING_TEXT_MAX; i++) {
-        __CPROVER_assert(signing_same(&signing, &model, i),
-                         "SGN_002_model: every field is what the model says");
-    }
+    __CPROVER_assert(signing_same(&signing, &model, at),
+                     "SGN_002_model: every field is what the model says");
 }

@@ -8,6 +8,7 @@
 #define SIGNING_PROOF_H
 
 #include "../../specs/model/signing.h"
+#include "../common/any_below.h"
 
 #include <stdbool.h>
 

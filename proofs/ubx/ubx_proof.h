@@ -8,6 +8,7 @@
 #define UBX_PROOF_H
 
 #include "../../specs/model/ubx.h"
+#include "../common/any_below.h"
 
 #include <stdbool.h>
 

@@ -8,6 +8,7 @@
 #define ULOG_PROOF_H
 
 #include "../../specs/model/ulog.h"
+#include "../common/any_below.h"
 
 #include <stdbool.h>
 
