@@ -85,7 +85,7 @@ void keel_box_put_harness(void)
 {
     const uint32_t more = any_bits(8u);
     const uint32_t x = any_below(SIDES);
-    keel_box_t box = any_box();
+    keel_box_t box = nondet_box();
     keel_box_t model = box;
     int32_t status;
 
@@ -104,7 +104,7 @@ ANGLE = """\
 
 void keel_box_angle_harness(void)
 {
-    const keel_box_t box = any_box();
+    const keel_box_t box = nondet_box();
     const float expected = model_box_angle(&box);
 
     __CPROVER_assert(float_same(keel_box_angle(&box), expected), "BOX_004_model: as the model");
@@ -159,13 +159,15 @@ class Equality(DeterminedTest):
         found = determined.of_tree(self.root)
         self.assertEqual([one.by for one in found], ["equality", "equality"])
         self.assertEqual(determined.summary(found),
-                         "determined: 2 of 2 functions (equality 2, WP 0)")  # fmt: skip
+                         "determined: 1 of 2 functions for every valid state, 1 within a bound"
+                         " (1 of them with WP's clauses on every field beyond it)")  # fmt: skip
 
     def test_what_a_harness_narrows_is_listed(self) -> None:
         bounds = self.outcome().harnesses["keel_box_put_harness"]
-        self.assertEqual(bounds, ["BOX_SIDES=2u", "any_bits(8u)", "more > 0u"])
+        self.assertEqual(bounds, ["BOX_SIDES = 2 (4 is shipped)", "more > 0u", "any_bits(8u)"])
         row = determined.as_markdown(determined.of_tree(self.root))
-        self.assertIn("| keel_box_put | equality | keel_box_put_harness | BOX_SIDES=2u; any", row)
+        self.assertIn("| keel_box_put | within a bound; WP's clauses name every field beyond it |"
+                      " keel_box_put_harness | BOX_SIDES = 2 (4 is shipped); more > 0u;", row)  # fmt: skip
 
     def test_a_model_must_be_declared_with_the_same_types(self) -> None:
         self.change("model/box.h", "model_box_put(", "model_box_fill(")
@@ -423,6 +425,168 @@ static bool lid_same(const keel_lid_t *a, const keel_lid_t *b)
                 self.problems()
 
 
+class Extent(DeterminedTest):
+    """For which states a harness shows what it shows."""
+
+    FREE = PUT.replace("// defines: -DBOX_SIDES=2u\n", "").replace(
+        "    __CPROVER_assume(more > 0u);\n\n", "").replace("any_bits(8u)", "nondet_u32()")  # fmt: skip
+
+    def put(self, *changes: tuple[str, str], name: str = "keel_box_put_harness") -> None:
+        """A harness that narrows nothing, but for changes."""
+        text = self.FREE.replace("keel_box_put_harness", name)
+        for old, new in changes:
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        self.write(f"proofs/box/{name}.c", text)
+
+    def bounds(self) -> list[str]:
+        return self.outcome().harnesses.get("keel_box_put_harness", ["it is not listed"])
+
+    def test_what_narrows_nothing_is_for_every_valid_state(self) -> None:
+        self.put()
+        self.assertEqual((self.outcome().extent, self.bounds()), ("every valid state", []))
+
+    def test_what_narrows_in_the_harness_is_a_bound(self) -> None:
+        start = "    const uint32_t more = nondet_u32();"
+        for line, bound in (
+            ("    const uint32_t more = any_bits(31u);", "any_bits(31u)"),
+            ("    const uint32_t more = any_below(16u);", "any_below(16u)"),
+            ("    const uint32_t more = nondet_u32() % 16u;", "nondet_u32() % 16u"),
+            ("    const uint32_t more = nondet_u32() & 15u;", "nondet_u32() & 15u"),
+            ("    const uint32_t more = nondet_bool() ? 1u : MANY;",
+             "more = nondet_bool() ? 1u : 7"),
+            (f"{start}\n    __CPROVER_assume((more < MANY) && f(more));", "more < 7"),
+            (f"{start}\n    uint8_t room[4];\n\n    fill(room, more);", ""),
+        ):
+            with self.subTest(line):
+                self.put((start, line), ("#include", "#define MANY 7u\n#include"))
+                found = self.bounds()
+                self.assertEqual(bound in found, bool(bound), found)
+
+    def test_a_part_that_is_set_is_a_bound(self) -> None:
+        self.put(("    int32_t status;", "    int32_t status;\n\n    box.count = 3u;"))
+        self.assertEqual(self.bounds(), ["box.count = 3u"])
+
+    def test_what_narrows_in_a_helper_is_a_bound(self) -> None:
+        helper = "static uint32_t any_more(void)\n{\n    const uint32_t m = nondet_u32();\n\n%s\n    return m;\n}\n"
+        for line, bound in (
+            ("    __CPROVER_assume(m < MANY);", "m < 9 in any_more"),
+            ("    lid.name = NULL;", "lid.name = NULL in any_more"),
+            ("    f(any_bits(9u));", "any_bits(9u) in any_more"),
+            ("    f(any_other());", "deep == 1 in any_other"),
+        ):
+            with self.subTest(line):
+                other = "static int any_other(void)\n{\n    __CPROVER_assume(deep == 1);\n}\n"
+                self.write("proofs/common/same_box.h", f"{SAME}#define MANY 9u\n{other}" + helper % line)
+                self.put(("nondet_u32();\n    const uint32_t x", "any_more();\n    const uint32_t x"))
+                self.assertEqual(self.bounds(), [bound])
+
+    def test_a_stand_in_is_looked_into_and_must_be_shown_to_keep_its_contract(self) -> None:
+        self.write("proofs/common/same_box.h", SAME + """
+float keel_box_angle_stand_in(const keel_box_t *box)
+{
+    __CPROVER_assume(box->count < 3u);
+    __CPROVER_assume(keel_box_angle_does(box));
+    return nondet_float();
+}
+""")  # fmt: skip
+        self.put(("// covers", "// replaces: keel_box_angle\n// covers"))
+        self.assertEqual(self.bounds(), [
+            "box->count < 3u in keel_box_angle_stand_in",
+            "keel_box_angle by its contract, shown within nothing: no harness asserts"
+            " keel_box_angle_does",
+        ])  # fmt: skip
+
+    def test_a_precondition_narrows_nothing(self) -> None:
+        assumed = "int32_t status;\n\n    __CPROVER_assume(keel_box_put_may(&box, more) && box_valid_here(&box)"
+        self.put(("int32_t status;", f"{assumed});"))
+        self.assertEqual(self.bounds(), [])
+        self.put(("int32_t status;", f"{assumed} && (more < 3u));"))
+        self.assertEqual(self.bounds(), ["more < 3u"])
+        part = '[[part]]\nin = "keel_box_put_harness"\nof = "BOX_001"\ntexts = ["more < 3u"]\n'
+        self.write("proofs/preconditions.toml", part)
+        self.assertEqual(self.bounds(), [])
+        self.put()
+        decider = determined.Decider(self.root)
+        decider.every()
+        self.assertEqual(decider.problems(), ["proofs/preconditions.toml: nothing in"
+                         " keel_box_put_harness says 'more < 3u' any more, remove it"])  # fmt: skip
+
+    def test_chosen_points_never_count(self) -> None:
+        table = "static const uint32_t points[2] = {1u, 2u};\n\nvoid keel"
+        start = "const uint32_t more = nondet_u32();"
+        points = {
+            "a row of a table": [("void keel", table), (start, "const uint32_t more = points[1];")],
+            "constants": [(start, "const uint32_t more = 1u;"), ("nondet_box()", "{0u}")],
+            "a constant for all that is read": [(start, "const uint32_t more = 1u;")],
+        }
+        for what, changes in points.items():
+            with self.subTest(what):
+                self.put(*changes)
+                self.assert_found("keel_box_put: only harnesses of chosen points compare it with"
+                                  " the model: keel_box_put_harness")  # fmt: skip
+        with self.subTest("by its name"):
+            (self.root / "proofs/box/keel_box_put_harness.c").unlink()
+            self.put(name="keel_box_put__points_harness")
+            self.assertEqual(self.outcome().points, ["keel_box_put__points_harness"])
+            self.assertEqual(len(self.problems()), 1)
+
+    def test_a_harness_of_points_beside_another_is_shown_as_such(self) -> None:
+        self.put()
+        self.put(name="keel_box_put__edges_harness")
+        found = determined.of_tree(self.root)
+        self.assertIn("keel_box_put_harness; (keel_box_put__edges_harness: chosen points)",
+                      determined.as_markdown(found))  # fmt: skip
+        self.assertEqual(determined.summary(found), "determined: 2 of 2 functions for every valid state")  # fmt: skip
+
+
+class Kept(DeterminedTest):
+    """proofs/determined.md, which shows a narrowing in a review."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        may = "static bool box_valid_here(const keel_box_t *b)\n{\n    return b->count < 99u;\n}\n"
+        self.same = f"{SAME}\n{may}"
+        self.write("proofs/common/same_box.h", self.same)
+        text = PUT.replace("(more > 0u);", "(more > 0u);\n    __CPROVER_assume(box_valid_here(&box));")
+        self.write("proofs/box/keel_box_put_harness.c", text)
+        self.assertTrue(determined.update_kept(self.root))
+
+    def differences(self, whole: bool = True) -> list[str]:
+        decider = determined.Decider(self.root)
+        found = decider.every()
+        if not whole:
+            found = [one for one in found if one.unit != "box"]
+        return determined.kept_problems(self.root, decider, found, whole)
+
+    def test_it_is_as_it_was_written(self) -> None:
+        self.assertEqual(self.differences(), [])
+        self.assertFalse(determined.update_kept(self.root))
+
+    def test_a_narrowing_is_a_difference(self) -> None:
+        self.change("put_harness.c", "any_bits(8u)", "any_bits(7u)")
+        self.assertIn("proofs/determined.md: keel_box_put is shown otherwise now: review, and run"
+                      " --update-goals", self.differences())  # fmt: skip
+        self.assertEqual(self.differences(whole=False), [])
+
+    def test_a_precondition_that_says_more_is_a_difference(self) -> None:
+        self.write("proofs/common/same_box.h", self.same.replace("< 99u", "< 9u"))
+        self.assertEqual(self.differences(), ["proofs/determined.md: proofs/common/same_box.h:"
+                         " box_valid_here says something else now: review, and run --update-goals"])  # fmt: skip
+
+    def test_what_is_gone_is_a_difference(self) -> None:
+        self.write("proofs/box/keel_box_angle_harness.c", "")
+        self.assertTrue(any("keel_box_angle is shown" in text for text in self.differences()))
+        path = self.root / "proofs/determined.md"
+        path.write_text(path.read_text(encoding="utf-8") + "\nmore\n", encoding="utf-8")
+        self.write("proofs/box/keel_box_angle_harness.c", ANGLE)
+        self.assertEqual(self.differences(), ["proofs/determined.md names what is not there any"
+                                              " more: review, and run --update-goals"])  # fmt: skip
+        path.unlink()
+        self.assertEqual(self.differences(), ["proofs/determined.md is missing: review, and run"
+                                              " --update-goals"])  # fmt: skip
+
+
 class ByWp(DeterminedTest):
     def setUp(self) -> None:
         super().setUp()
@@ -489,7 +653,7 @@ class ByWp(DeterminedTest):
         self.write("proofs/units.toml", BY_WP.replace('"wp"', '"nothing"'))
         self.assertEqual(self.problems(), [])
         found = determined.of_tree(self.root)
-        self.assertIn("determined: 1 of 2 functions (equality 1, WP 0), 1 excepted",
+        self.assertIn("determined: 1 of 2 functions for every valid state, 1 excepted",
                       determined.summary(found))  # fmt: skip
 
 

@@ -50,7 +50,6 @@ class Reading:
     harness: str
     compares: bool = False
     problems: list[str] = field(default_factory=list)
-    bounds: list[str] = field(default_factory=list)
 
 
 class Reader:
@@ -73,7 +72,6 @@ class Reader:
         reading.compares = bool(model)
         if not model:
             return reading
-        reading.bounds = bounds(harness, body, code[0] if code else None)
         if len(code) != 1 or len(model) != 1:
             reading.problems.append(f"must call {self._function} and {self._model} once each")
             return reading
@@ -395,16 +393,3 @@ def _replaced(node: Node, values: Mapping[str, str]) -> str:
         values.get(written(one), written(one)) if one.type == "identifier" else written(one)
         for one in words
     )
-
-
-def bounds(harness: Harness, body: str, call: Call | None) -> list[str]:
-    """What a harness narrows: numbers it defines and draws, what it assumes and takes as proved."""
-    narrowed = csource.calls(body, r"any_bits\w*")
-    assumed = [one.arguments[0] for one in csource.calls(body, "__CPROVER_assume")]
-    return [
-        *(word.removeprefix("-D") for word in harness.defines),
-        *dict.fromkeys(written(one.node) for one in narrowed),
-        *assumed,
-        *(f"for {head}" for head in (loops(call.node) if call else None) or ()),
-        *(f"{name} by its contract" for name in harness.replaces),
-    ]
