@@ -62,25 +62,18 @@ static bool battery_alarm_same(const keel_battery_alarm_t *a, const keel_battery
 
 static bool battery_same(const keel_battery_t *a, const keel_battery_t *b)
 {
-    bool same = battery_config_same(&a->config, &b->config) &&
-                battery_scale_same(&a->scale, &b->scale) &&
-                battery_sum_same(&a->charge, &b->charge) &&
-                battery_sum_same(&a->energy, &b->energy) && (a->initial == b->initial) &&
-                (a->left == b->left) && float_same(a->voltage, b->voltage) &&
-                float_same(a->current, b->current) && float_same(a->smoothed, b->smoothed) &&
-                float_same(a->cell_voltage, b->cell_voltage) &&
-                float_same(a->charge_c, b->charge_c) && float_same(a->energy_j, b->energy_j) &&
-                float_same(a->remaining, b->remaining) &&
-                float_same(a->remaining_s, b->remaining_s) &&
-                battery_alarm_same(&a->low, &b->low) &&
-                battery_alarm_same(&a->critical, &b->critical) &&
-                (a->voltage_age == b->voltage_age) && (a->known == b->known) &&
-                (a->flags == b->flags) && (a->count == b->count) && (a->level == b->level);
-
-    for (uint32_t i = 0u; i < KEEL_BATTERY_MODULES; i++) {
-        same = same && battery_module_same(&a->module[i], &b->module[i]);
-    }
-    return same;
+    return battery_config_same(&a->config, &b->config) &&
+           battery_scale_same(&a->scale, &b->scale) && battery_sum_same(&a->charge, &b->charge) &&
+           battery_sum_same(&a->energy, &b->energy) && (a->initial == b->initial) &&
+           (a->left == b->left) && float_same(a->voltage, b->voltage) &&
+           float_same(a->current, b->current) && float_same(a->smoothed, b->smoothed) &&
+           float_same(a->cell_voltage, b->cell_voltage) && float_same(a->charge_c, b->charge_c) &&
+           float_same(a->energy_j, b->energy_j) && float_same(a->remaining, b->remaining) &&
+           float_same(a->remaining_s, b->remaining_s) && battery_alarm_same(&a->low, &b->low) &&
+           battery_alarm_same(&a->critical, &b->critical) && (a->voltage_age == b->voltage_age) &&
+           (a->known == b->known) && (a->flags == b->flags) && (a->count == b->count) &&
+           (a->level == b->level) && battery_module_same(&a->module[0u], &b->module[0u]) &&
+           battery_module_same(&a->module[1u], &b->module[1u]);
 }
 
 static bool reading_same(const keel_battery_reading_t *a, const keel_battery_reading_t *b)
@@ -91,12 +84,8 @@ static bool reading_same(const keel_battery_reading_t *a, const keel_battery_rea
 
 static bool battery_sample_same(const keel_battery_sample_t *a, const keel_battery_sample_t *b)
 {
-    bool same = a->running == b->running;
-
-    for (uint32_t i = 0u; i < KEEL_BATTERY_MODULES; i++) {
-        same = same && reading_same(&a->module[i], &b->module[i]);
-    }
-    return same;
+    return (a->running == b->running) && reading_same(&a->module[0u], &b->module[0u]) &&
+           reading_same(&a->module[1u], &b->module[1u]);
 }
 
 static bool within(float value, float least, float most)

@@ -36,7 +36,6 @@ from . import (
     wp,
 )
 from .cache import Cache
-from .declarations import structures
 from .goals import PRUNED, as_text, read_goals, short_name
 from .harness import read_harness, unchecked
 from .jobs import Runner
@@ -265,10 +264,12 @@ class Session:
         accepted = {text for one in allowed.values() for text in one.conditionals}
         gathered.problems += disguises.problems(root, accepted)
         gathered.problems += unused.problems(root)
-        known = structures(clauses.header_texts(root))
+        decider = determined.Decider(root)
+        if self._choice.update_goals and determined.update_kept(root):
+            print(f"{determined.KEPT} rewritten: review the difference")
         for result in gathered.units.values():
             unit, exceptions = result.unit, result.exceptions
-            result.outcomes = determined.outcomes(unit, exceptions, known)
+            result.outcomes = decider.outcomes(unit)
             result.problems += [text for one in result.outcomes for text in one.problems]
             result.problems += rules.undefined_functions(unit, exceptions.no_body, root)
             result.problems += rules.left_by_wp(unit, exceptions.not_by_wp, root)
@@ -282,6 +283,9 @@ class Session:
             if "wp" in self._choice.engines:
                 self._check_warnings(result)
                 self._check_goal_list(result)
+        gathered.problems += determined.kept_problems(
+            root, decider, gathered.decided, not self._choice.partial
+        )
 
     @staticmethod
     def _check_warnings(result: report.UnitResult) -> None:
