@@ -80,6 +80,11 @@ class Log:
         """How many goals are proved."""
         return sum(goal.proved for goal in self.goals.values())
 
+    @property
+    def all_proved(self) -> bool:
+        """Whether no goal is left."""
+        return self.proved == len(self.goals)
+
 
 def _note_goal(log: Log, match: re.Match[str]) -> Goal:
     """Record a goal line. A goal tried again by a later stage keeps its best status."""
