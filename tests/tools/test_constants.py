@@ -190,6 +190,18 @@ SOURCES: dict[str, float] = {
     "KEEL_ALTITUDE_THIRD": single(1 / 3),
     "KEEL_CASCADE_GRAVITY": single(GRAVITY),
     "KEEL_CASCADE_PER_GRAVITY": single(1 / GRAVITY),
+    # Bounds of states and outputs that a proof was made for, as the headers' comments say them.
+    "KEEL_FILTER_LOW_STATE_LIMIT": 2**22,
+    "KEEL_FILTER_HIGH_STATE_LIMIT": 2**45,
+    "KEEL_FILTER_LOW_OUTPUT_LIMIT": 8 * 2**22,
+    "KEEL_FILTER_HIGH_OUTPUT_LIMIT": 8 * 2**45,
+    "KEEL_FILTER_LOW_ENERGY_LIMIT": 2**22 * 2**22,
+    "KEEL_FILTER_HIGH_ENERGY_LIMIT": 2**45 * 2**45,
+    "KEEL_PID_INTEGRAL_GAIN_LIMIT": 2**30,
+    "KEEL_PID_DERIVATIVE_LIMIT": 2**70,
+    "KEEL_ATTITUDE_NORM_MIN": 1 - 2.0**-12,
+    "KEEL_ATTITUDE_NORM_MAX": 1 + 2.0**-12,
+    "KEEL_REFERENCE_REACH": 1 + 2.0**-22,
     # A week of GPS; a degree in units of 1e-7; a minute in units of 10 us; parts per million.
     "KEEL_UBX_WEEK_MS": 7 * 24 * 60 * 60 * 1000,
     "KEEL_POSITION_HALF_TURN": 180 * 10**7,
