@@ -92,7 +92,7 @@ class Preconditions:
 def read_preconditions(path: Path) -> Preconditions:
     """Read the table; each entry says of which precondition its texts are parts."""
     entries = tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-    known = {}
+    known: dict[tuple[str, str], str] = {}
     for entry in entries.get("part", []):
         if set(entry) != {"in", "of", "texts"} or not all(entry.values()):
             raise ProjectError(f"{TABLE}: each part has `in`, `of` and `texts`: {entry}")
@@ -215,7 +215,8 @@ class _Scene:
 
     def _from(self, names: Iterable[str]) -> list[Function]:
         """The functions that these lead to, by a call or a pointer."""
-        waiting, seen = list(names), dict.fromkeys(())
+        waiting = list(names)
+        seen: dict[str, None] = {}
         while waiting:
             name = waiting.pop(0)
             if name in self._functions and name not in seen:
