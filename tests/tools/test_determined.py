@@ -204,6 +204,11 @@ class Equality(DeterminedTest):
                 self.assert_found("model_box_put(&model, more) is not called in every execution")
         self.change("put_harness.c", "    int32_t status;", "    int32_t status;\n    return;")
         self.assert_found("returns early")
+        for jump in ("goto end;", "continue;", "break;"):
+            with self.subTest(jump):
+                line = f"    int32_t status;\n    if (more > 9u) {{\n        {jump}\n    }}"
+                self.change("put_harness.c", "    int32_t status;", line)
+                self.assert_found("a harness that jumps may pass its assertions by")
 
     def test_a_loop_over_numbers_is_listed(self) -> None:
         self.change(
