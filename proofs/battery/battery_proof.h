@@ -162,7 +162,8 @@ static bool battery_counts_valid(const keel_battery_t *b)
 {
     return battery_counts_here(b) && (b->left <= b->initial) &&
            (b->known <= b->config.settle_steps) && (b->module[0].age <= b->config.hold_steps) &&
-           (b->module[1].age <= b->config.hold_steps) && (b->voltage_age <= b->config.hold_steps);
+           (b->module[1].age <= b->config.hold_steps) && (b->voltage_age <= b->config.hold_steps) &&
+           (b->count <= KEEL_BATTERY_UNCOUNTED) && (b->level <= KEEL_BATTERY_CRITICAL);
 }
 
 /* What came, and what is told of it. */
@@ -190,19 +191,13 @@ static bool battery_valid(const keel_battery_t *b)
            battery_counts_valid(b) && battery_values_valid(b);
 }
 
-/* Any monitor at all. A truth value is true or false, and an enumeration one of its own. */
+/* Any monitor at all. A truth value is true or false. */
 static keel_battery_t any_battery_at_all(void)
 {
     keel_battery_t battery = nondet_battery();
 
     battery.low.raised = nondet_bool();
     battery.critical.raised = nondet_bool();
-    battery.count = nondet_bool()   ? KEEL_BATTERY_WAITING
-                    : nondet_bool() ? KEEL_BATTERY_COUNTED
-                                    : KEEL_BATTERY_UNCOUNTED;
-    battery.level = nondet_bool()   ? (nondet_bool() ? KEEL_BATTERY_UNKNOWN : KEEL_BATTERY_OK)
-                    : nondet_bool() ? KEEL_BATTERY_LOW
-                                    : KEEL_BATTERY_CRITICAL;
     return battery;
 }
 

@@ -456,12 +456,12 @@ static void judge_count(keel_battery_t *battery, bool is_lost, bool running)
 {
     const bool waiting = battery->count == KEEL_BATTERY_WAITING;
 
-    if (!is_lost) {
-        battery->count = waiting ? KEEL_BATTERY_COUNTED : battery->count;
-    } else if (running || !waiting) {
+    if (is_lost && (running || !waiting)) {
         battery->count = KEEL_BATTERY_UNCOUNTED;
+    } else if (!is_lost && waiting) {
+        battery->count = KEEL_BATTERY_COUNTED;
     } else {
-        /* It still waits. */
+        /* It still waits, or stays what it was. */
     }
 }
 
@@ -480,9 +480,10 @@ static void judge_level(keel_battery_t *battery)
         battery->level = KEEL_BATTERY_CRITICAL;
     } else if (battery->low.raised) {
         battery->level = KEEL_BATTERY_LOW;
+    } else if (known && (battery->known >= most)) {
+        battery->level = KEEL_BATTERY_OK;
     } else {
-        battery->level = (known && (battery->known >= most)) ? KEEL_BATTERY_OK
-                                                             : KEEL_BATTERY_UNKNOWN;
+        battery->level = KEEL_BATTERY_UNKNOWN;
     }
 }
 

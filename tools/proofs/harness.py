@@ -34,11 +34,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import csource
-from .project import ProjectError, Unit, closure, find_file
+from .project import KEEL, ProjectError, Unit, closure, find_file
 
 HARNESS_KEYS = frozenset("cbmc sources covers reach defines timeout entry replaces checks".split())
 # What is meant as a directive, but is none of a harness.
 STRAY_KEYS = frozenset("harness expect source cover wp".split())
+# A smaller size, or a switch of the harness's own: what replaces code or an assertion is none.
+DEFINE = re.compile(r"-D[A-Z][A-Z0-9_]*(?:=\d+u?)?")
 DIRECTIVE = re.compile(r"^// ?(\w+): *(.*?)\s*$")
 
 # Options that choose how CBMC searches. None of them makes it overlook anything: unwinding too
@@ -57,10 +59,13 @@ OPTIONS = {
 # depends on which it is.
 SOLVERS = frozenset(["--external-sat-solver", "--z3", "--fpa"])
 EXTERNAL = ("cadical",)
+ANSWERING = ("--external-sat-solver", "--z3", "--refine")
 # What may be left out of a header of proofs, by a macro of a harness.
 CONDITIONS = frozenset(["VOTER_FLOATS_OPEN", "CRC_AS_IT_IS"])
 # Where models stand: they are compared, and bear no checks of their own.
 MODELS = "specs/model"
+# What harnesses link: the code that is built, and models. A copy would drift.
+LINKED = ("src", MODELS)
 
 
 def directives(path: Path) -> dict[str, list[str]]:
@@ -92,6 +97,8 @@ def search_options(path: Path, lines: list[str]) -> list[str]:
             raise ProjectError(f"{path}: a harness may not use {word}; it may: {' '.join(OPTIONS)}")
         else:
             expect_value = OPTIONS[word]
+    if sum(word in ANSWERING for word in words) > 1:
+        raise ProjectError(f"{path}: one solver answers, and CBMC does not say which: name one")
     return words
 
 
@@ -141,8 +148,8 @@ def read_harness(unit: Unit, path: Path) -> Harness:
     """Read a harness's directives."""
     given = directives(path)
     defines = tuple(" ".join(given.get("defines", [])).split())
-    if any(not word.startswith("-D") for word in defines):
-        raise ProjectError(f"{path}: `defines` takes -DNAME=VALUE only")
+    if strange := [word for word in defines if not DEFINE.fullmatch(word)]:
+        raise ProjectError(f"{path}: `defines` takes -DNAME=NUMBER only, NAME in capitals: {strange[0]}")
     if given.get("entry", [path.stem]) != [path.stem]:
         raise ProjectError(f"{path}: the entry of a harness bears the name of its file")
     checks = given.get("checks", [])
@@ -156,6 +163,8 @@ def read_harness(unit: Unit, path: Path) -> Harness:
     for source in sources:
         if not source.is_file():
             raise ProjectError(f"{path}: there is no source {source.relative_to(unit.root)}")
+        if not any(source.is_relative_to(root / place) for root in (unit.root, KEEL) for place in LINKED):
+            raise ProjectError(f"{path}: {source.name} is linked from elsewhere than {' or '.join(LINKED)}")
     return Harness(
         unit=unit, path=path, sources=sources, defines=defines,
         options=tuple(search_options(path, given.get("cbmc", []))),
