@@ -167,7 +167,8 @@ class Equality(DeterminedTest):
         self.assertEqual(bounds, ["BOX_SIDES = 2 (4 is shipped)", "more > 0u", "any_bits(8u)"])
         row = determined.as_markdown(determined.of_tree(self.root))
         self.assertIn("| keel_box_put | within a bound; WP's clauses name every field beyond it |"
-                      " keel_box_put_harness | BOX_SIDES = 2 (4 is shipped); more > 0u;", row)  # fmt: skip
+                      " keel_box_put_harness | BOX_SIDES = 2 (4 is shipped); more > 0u;",
+                      row)  # fmt: skip
 
     def test_a_model_must_be_declared_with_the_same_types(self) -> None:
         self.change("model/box.h", "model_box_put(", "model_box_fill(")
@@ -203,6 +204,11 @@ class Equality(DeterminedTest):
                 self.assert_found("model_box_put(&model, more) is not called in every execution")
         self.change("put_harness.c", "    int32_t status;", "    int32_t status;\n    return;")
         self.assert_found("returns early")
+        for jump in ("goto end;", "continue;", "break;"):
+            with self.subTest(jump):
+                line = f"    int32_t status;\n    if (more > 9u) {{\n        {jump}\n    }}"
+                self.change("put_harness.c", "    int32_t status;", line)
+                self.assert_found("a harness that jumps may pass its assertions by")
 
     def test_a_loop_over_numbers_is_listed(self) -> None:
         self.change(
@@ -429,7 +435,8 @@ class Extent(DeterminedTest):
     """For which states a harness shows what it shows."""
 
     FREE = PUT.replace("// defines: -DBOX_SIDES=2u\n", "").replace(
-        "    __CPROVER_assume(more > 0u);\n\n", "").replace("any_bits(8u)", "nondet_u32()")  # fmt: skip
+        "    __CPROVER_assume(more > 0u);\n\n", ""
+    ).replace("any_bits(8u)", "nondet_u32()")  # fmt: skip
 
     def put(self, *changes: tuple[str, str], name: str = "keel_box_put_harness") -> None:
         """A harness that narrows nothing, but for changes."""
@@ -468,7 +475,12 @@ class Extent(DeterminedTest):
         self.assertEqual(self.bounds(), ["box.count = 3u"])
 
     def test_what_narrows_in_a_helper_is_a_bound(self) -> None:
-        helper = "static uint32_t any_more(void)\n{\n    const uint32_t m = nondet_u32();\n\n%s\n    return m;\n}\n"
+        helper = (
+            "static uint32_t any_more(void)\n{\n    const uint32_t m = nondet_u32();\n\n"
+            "%s\n    return m;\n}\n"
+        )
+        other = "static int any_other(void)\n{\n    __CPROVER_assume(deep == 1);\n}\n"
+        plain = "nondet_u32();\n    const uint32_t x"
         for line, bound in (
             ("    __CPROVER_assume(m < MANY);", "m < 9 in any_more"),
             ("    lid.name = NULL;", "lid.name = NULL in any_more"),
@@ -476,9 +488,9 @@ class Extent(DeterminedTest):
             ("    f(any_other());", "deep == 1 in any_other"),
         ):
             with self.subTest(line):
-                other = "static int any_other(void)\n{\n    __CPROVER_assume(deep == 1);\n}\n"
-                self.write("proofs/common/same_box.h", f"{SAME}#define MANY 9u\n{other}" + helper % line)
-                self.put(("nondet_u32();\n    const uint32_t x", "any_more();\n    const uint32_t x"))
+                text = f"{SAME}#define MANY 9u\n{other}{helper % line}"
+                self.write("proofs/common/same_box.h", text)
+                self.put((plain, plain.replace("nondet_u32", "any_more")))
                 self.assertEqual(self.bounds(), [bound])
 
     def test_a_stand_in_is_looked_into_and_must_be_shown_to_keep_its_contract(self) -> None:
@@ -498,7 +510,8 @@ float keel_box_angle_stand_in(const keel_box_t *box)
         ])  # fmt: skip
 
     def test_a_precondition_narrows_nothing(self) -> None:
-        assumed = "int32_t status;\n\n    __CPROVER_assume(keel_box_put_may(&box, more) && box_valid_here(&box)"
+        valid = "keel_box_put_may(&box, more) && box_valid_here(&box)"
+        assumed = f"int32_t status;\n\n    __CPROVER_assume({valid}"
         self.put(("int32_t status;", f"{assumed});"))
         self.assertEqual(self.bounds(), [])
         self.put(("int32_t status;", f"{assumed} && (more < 3u));"))
@@ -537,7 +550,8 @@ float keel_box_angle_stand_in(const keel_box_t *box)
         found = determined.of_tree(self.root)
         self.assertIn("keel_box_put_harness; (keel_box_put__edges_harness: chosen points)",
                       determined.as_markdown(found))  # fmt: skip
-        self.assertEqual(determined.summary(found), "determined: 2 of 2 functions for every valid state")  # fmt: skip
+        said = "determined: 2 of 2 functions for every valid state"
+        self.assertEqual(determined.summary(found), said)
 
 
 class Kept(DeterminedTest):
@@ -545,10 +559,11 @@ class Kept(DeterminedTest):
 
     def setUp(self) -> None:
         super().setUp()
-        may = "static bool box_valid_here(const keel_box_t *b)\n{\n    return b->count < 99u;\n}\n"
-        self.same = f"{SAME}\n{may}"
+        head = "static bool box_valid_here(const keel_box_t *b)\n"
+        self.same = f"{SAME}\n{head}{{\n    return b->count < 99u;\n}}\n"
         self.write("proofs/common/same_box.h", self.same)
-        text = PUT.replace("(more > 0u);", "(more > 0u);\n    __CPROVER_assume(box_valid_here(&box));")
+        valid = "(more > 0u);\n    __CPROVER_assume(box_valid_here(&box));"
+        text = PUT.replace("(more > 0u);", valid)
         self.write("proofs/box/keel_box_put_harness.c", text)
         self.assertTrue(determined.update_kept(self.root))
 
@@ -572,7 +587,8 @@ class Kept(DeterminedTest):
     def test_a_precondition_that_says_more_is_a_difference(self) -> None:
         self.write("proofs/common/same_box.h", self.same.replace("< 99u", "< 9u"))
         self.assertEqual(self.differences(), ["proofs/determined.md: proofs/common/same_box.h:"
-                         " box_valid_here says something else now: review, and run --update-goals"])  # fmt: skip
+                         " box_valid_here says something else now: review, and run"
+                         " --update-goals"])  # fmt: skip
 
     def test_what_is_gone_is_a_difference(self) -> None:
         self.write("proofs/box/keel_box_angle_harness.c", "")

@@ -189,13 +189,13 @@ DEPTH = 20  # Macros behind each other.
 def number(text: str, known: Macros) -> int | None:
     """The number that a constant expression of macros and integers comes to, None if it is none."""
     for _ in range(DEPTH):
-        names = [name for name in re.findall(r"\b[A-Za-z_]\w*", NUMBER.sub("", text))]
+        names = re.findall(r"\b[A-Za-z_]\w*", NUMBER.sub("", text))
         if not names:
             break
         if any(name not in known or known[name][0] for name in names):
             return None
         for name in set(names):
-            text = re.sub(rf"\b{name}\b", lambda _, name=name: f"({known[name][1]})", text)  # type: ignore[misc]
+            text = re.sub(rf"\b{name}\b", f"({known[name][1]})".replace("\\", " "), text)
     plain = NUMBER.sub(lambda match: str(int(match[1], 0)), text).replace("/", "//")
     if not plain.strip() or ARITHMETIC.sub("", plain.replace("//", "/")):
         return None

@@ -28,6 +28,7 @@ WHOLE = re.compile(
 
 # What writes a variable.
 WRITES = ("assignment_expression", "update_expression", "init_declarator")
+JUMPS = ("break_statement", "continue_statement", "goto_statement")
 # What is around a place that not every execution reaches.
 CONDITIONAL = frozenset([
     "if_statement", "while_statement", "do_statement", "switch_statement", "conditional_expression",
@@ -106,6 +107,8 @@ class _Comparison:
                 problems.append(f"{written(call.node)} is not called in every execution")
         if syntax.found(syntax.parse(self._body), "return_statement"):
             problems.append("a harness that returns early may assert nothing")
+        if syntax.found(syntax.parse(self._body), *JUMPS):
+            problems.append("a harness that jumps may pass its assertions by")
         return problems
 
     def _taken(self, call: Call) -> str:

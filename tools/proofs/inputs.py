@@ -21,14 +21,17 @@ from pathlib import Path
 
 from . import csource, syntax
 from .declarations import Macros, Parameter, Signature, macros, number, signatures
-from .harness import Harness
+from .harness import Harness, taken
 from .project import ProjectError, closure
 from .syntax import Node, written
 
 EVERY, BOUND, CHOSEN = "every valid state", "within a bound", "chosen points"
 TABLE = "proofs/preconditions.toml"
+# What functions of proofs that bear the name of one of the code end in.
+ENDINGS = ("_harness", "_stand_in", "_may", "_does")
 # Names that harnesses of chosen points bear.
 POINTS = re.compile(r"__(?:\w+_)?(?:points|edges|chosen)_harness$")
+DEFINED = re.compile(r"^#define (\w+)", re.MULTILINE)
 NONDET = re.compile(r"nondet_\w+")
 DRAWS = re.compile(r"any_bits(?:64)?|any_below|any_within")
 # What a precondition is called, where a harness assumes it, and what a contract is.
@@ -92,7 +95,7 @@ class Preconditions:
 def read_preconditions(path: Path) -> Preconditions:
     """Read the table; each entry says of which precondition its texts are parts."""
     entries = tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-    known = {}
+    known: dict[tuple[str, str], str] = {}
     for entry in entries.get("part", []):
         if set(entry) != {"in", "of", "texts"} or not all(entry.values()):
             raise ProjectError(f"{TABLE}: each part has `in`, `of` and `texts`: {entry}")
@@ -119,7 +122,7 @@ class Reader:
         ]
         scene = _Scene(harness, paths, call, self._shipped)
         known = {**self._shipped, **macros(map(csource.read, paths)), **_defined(harness.defines)}
-        found = Inputs(bounds=list(self._defines(harness)))
+        found = Inputs(bounds=[*self._defines(harness), *scene.others()])
         for where, text in [
             *scene.narrowings(known), *((harness.name, f"for {head}") for head in loops)
         ]:  # fmt: skip
@@ -184,7 +187,9 @@ class _Scene:
     def __init__(
         self, harness: Harness, paths: list[Path], call: csource.Call, shipped: Macros
     ) -> None:
-        texts = [csource.read(path) for path in paths]
+        chosen = {word.removeprefix("-D").partition("=")[0] for word in harness.defines}
+        chosen |= set(DEFINED.findall(csource.read(harness.path)))
+        texts = [taken(csource.read(path), chosen) for path in paths]
         self._harness = harness
         self._shipped = shipped
         self._call = call
@@ -215,7 +220,8 @@ class _Scene:
 
     def _from(self, names: Iterable[str]) -> list[Function]:
         """The functions that these lead to, by a call or a pointer."""
-        waiting, seen = list(names), dict.fromkeys(())
+        waiting = list(names)
+        seen: dict[str, None] = {}
         while waiting:
             name = waiting.pop(0)
             if name in self._functions and name not in seen:
@@ -237,6 +243,13 @@ class _Scene:
             if not more:
                 return drawing
             drawing |= more
+
+    def others(self) -> Iterator[str]:
+        """Functions of the code for which there are others here."""
+        prefix = self._harness.unit.prefix
+        for name in self._functions:
+            if prefix and name.startswith(prefix) and not name.endswith(ENDINGS):
+                yield f"{name} is another function here"
 
     def narrowings(self, known: Macros) -> Iterator[tuple[str, str]]:
         """What narrows: in which function, and how."""

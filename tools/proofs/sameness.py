@@ -94,7 +94,8 @@ class Comparers:
                 if at in every:
                     every[at].add(field.size)
             inner = self.of(fact.by, self._type(same.type, fact.way))
-            for given, sizes in zip(fact.indices, self.sizes(inner).values() if inner else (), strict=False):
+            wanted = self.sizes(inner).values() if inner else ()
+            for given, sizes in zip(fact.indices, wanted, strict=False):
                 if given in every:
                     every[given] |= sizes
         return every
@@ -145,7 +146,8 @@ class Comparers:
             if not part:
                 every.append(fact)
             elif part.name != same.name:
-                names = {f"[{one}]": f"[{new}]" for one, new in zip(part.indices, fact.indices, strict=False)}
+                pairs = zip(part.indices, fact.indices, strict=False)
+                names = {f"[{one}]": f"[{new}]" for one, new in pairs}
                 every += [
                     Fact(tuple(names.get(step, step) for step in one.way), one.by)
                     for one in self._facts(part)
