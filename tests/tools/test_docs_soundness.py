@@ -55,10 +55,16 @@ def recipe(target: str) -> str:
     return found[1] if found else ""
 
 
+@cache
+def text_of(path: Path) -> str:
+    """A source."""
+    return path.read_text(encoding="utf-8")
+
+
 def imports(path: Path) -> Iterator[str]:
     """The modules that a program names, those in its own package with the package's name."""
     package = ".".join(path.parent.relative_to(ROOT / "tools").parts)
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in ast.walk(ast.parse(text_of(path))):
         if isinstance(node, ast.Import):
             yield from (one.name for one in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -94,10 +100,7 @@ def runs(target: str, name: str) -> bool:
     reached = {path for program in programs for path in sources(program)}
     last = [part for part in Path(name).parts if "*" not in part][-1]
     words = (last, f'"{Path(last).stem}"')  # Modules that are chosen by name have no suffix.
-    return ROOT / name in reached or any(
-        word in text for text in (path.read_text(encoding="utf-8") for path in reached)
-        for word in words
-    )  # fmt: skip
+    return ROOT / name in reached or any(word in text_of(path) for path in reached for word in words)
 
 
 def problems(row: Row) -> Iterator[str]:
