@@ -100,7 +100,8 @@ def runs(target: str, name: str) -> bool:
     reached = {path for program in programs for path in sources(program)}
     last = [part for part in Path(name).parts if "*" not in part][-1]
     words = (last, f'"{Path(last).stem}"')  # Modules that are chosen by name have no suffix.
-    return ROOT / name in reached or any(word in text_of(path) for path in reached for word in words)
+    texts = map(text_of, reached)
+    return ROOT / name in reached or any(word in text for text in texts for word in words)
 
 
 def problems(row: Row) -> Iterator[str]:

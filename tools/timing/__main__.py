@@ -5,8 +5,8 @@
 
 Exit status: 0 when all is well, 1 when a set is not shown to be schedulable (the last line tells
 whether it cannot be, is not admitted, or has no bound), a table is stale or a goal of an experiment
-is missed, 2 for a wrong command line, a bad file, or what could not be run. (`make` itself ends with
-2 for either.)
+is missed, 2 for a wrong command line, a bad file, or what could not be run. (`make` itself ends
+with 2 for either.)
 """
 
 from __future__ import annotations

@@ -13,8 +13,8 @@ from common.config import ConfigError, Field, Mistake, Table, model_validator, p
 from common.files import read_text
 
 # The kernel's own limits: priority.h (KEEL_PERIOD_LIMIT_US, KEEL_PRIORITY_*), queue.h
-# (KEEL_QUEUE_CAPACITY, as it ships, and the greatest). tests/timing/test_tools.py compares them with
-# the headers.
+# (KEEL_QUEUE_CAPACITY, as it ships, and the greatest). tests/timing/test_tools.py compares them
+# with the headers.
 PERIOD_LIMIT_US = 2**31
 QUEUE_CAPACITY = 32
 CAPACITY_LIMIT = 255
