@@ -290,9 +290,9 @@ def other_reasons(found: Bounds) -> Iterator[str]:
     for name, short in found.shortfalls.items():
         yield (
             f"{name} has no bound within its period of {short.period} us: it would be "
-            f"{short.least} us or more, {short.own} its own, {short.blocking} for what began before "
-            f"it, {short.realtime} for real-time tasks, {short.rivals} for tasks that may come first, "
-            f"{short.tails} for gaps that are too short for it"
+            f"{short.least} us or more, {short.own} its own, {short.blocking} for what began "
+            f"before it, {short.realtime} for real-time tasks, {short.rivals} for tasks that may "
+            f"come first, {short.tails} for gaps that are too short for it"
         )
     more = "" if found.promotion_excluded else " and be promoted"
     yield (f"tasks that are not real-time have no bounds that agree, so none is known to hold: "
