@@ -176,7 +176,8 @@ static void narrow_releases(keel_queue_t *queue, uint32_t bits)
 static bool stats_same(const keel_stats_t *a, const keel_stats_t *b)
 {
     return (a->total_us == b->total_us) && (a->runs == b->runs) && (a->last_us == b->last_us) &&
-           (a->longest_us == b->longest_us) && (a->overruns == b->overruns) &&
+           (a->longest_us == b->longest_us) && (a->remembered_us == b->remembered_us) &&
+           (a->forgotten_in == b->forgotten_in) && (a->overruns == b->overruns) &&
            (a->promotions == b->promotions);
 }
 
