@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from timing import textbook_tests as textbook
+from timing.isolation import Isolation, isolation_of
 from timing.scheduler_bounds import Bounds, Tails, bounds_of, collisions, declared, path_bound
 from timing.taskset import CLASSES, Task, TaskSet
 
@@ -116,6 +117,7 @@ class Analysis:
     realtime_rows: list[RealtimeRow]
     other_rows: list[OtherRow]
     promotion_excluded: bool
+    isolation: Isolation
     collisions: list[tuple[str, str]]  # Labels of tasks that may want the processor together.
     gaps: Gaps
     chains: list[ChainRow]
@@ -278,9 +280,10 @@ def reasons(tasks: TaskSet, found: Bounds, chains: list[ChainRow]) -> Iterator[s
         bound = found.realtime[task.name]
         if bound > task.period:
             yield f"{task.name} may respond after {bound} us, its deadline is {task.period} us"
-    if not found.promotion_excluded:
-        yield ("tasks that are not real-time have no bound within their periods: they may miss "
-               "deadlines and be promoted")  # fmt: skip
+    if any(bound.response is None for bound in found.others.values()):
+        more = "" if found.promotion_excluded else " and be promoted"
+        yield (f"tasks that are not real-time have no bound within their periods: they may miss "
+               f"deadlines{more}")  # fmt: skip
     for chain in chains:
         if not (chain.within or chain.advisory):
             yield (
@@ -309,6 +312,7 @@ def analyse(tasks: TaskSet) -> Analysis:
         realtime_rows=realtime_rows(tasks, found),
         other_rows=other_rows(tasks, found),
         promotion_excluded=found.promotion_excluded,
+        isolation=isolation_of(tasks, found, admission_reasons(tasks)),
         collisions=[(one.label, two.label) for one, two in collisions(tasks)],
         gaps=gaps_of(tasks),
         chains=chains,
