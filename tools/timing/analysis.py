@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from timing import textbook_tests as textbook
+from timing.isolation import Isolation, isolation_of
 from timing.scheduler_bounds import Bounds, Tails, bounds_of, collisions, declared, path_bound
 from timing.taskset import CLASSES, Task, TaskSet
 
@@ -122,6 +123,7 @@ class Analysis:
     realtime_rows: list[RealtimeRow]
     other_rows: list[OtherRow]
     promotion_excluded: bool
+    isolation: Isolation
     collisions: list[tuple[str, str]]  # Labels of tasks that may want the processor together.
     gaps: Gaps
     chains: list[ChainRow]
@@ -340,6 +342,7 @@ def analyse(tasks: TaskSet) -> Analysis:
         realtime_rows=realtime_rows(tasks, found),
         other_rows=other_rows(tasks, found),
         promotion_excluded=found.promotion_excluded,
+        isolation=isolation_of(tasks, found, admission_reasons(tasks)),
         collisions=[(one.label, two.label) for one, two in collisions(tasks)],
         gaps=gaps_of(tasks),
         chains=chains,

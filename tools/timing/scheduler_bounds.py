@@ -55,7 +55,7 @@ class OtherBound:
     response: int | None  # From its release to its end; None: no bound below its period.
     any_phase: int | None  # The same by (2) alone, should the other tasks' phases be others.
     promotion_wait: int  # From its release to its promotion.
-    promoted_response: int | None  # From its release to its end if it has to be promoted.
+    promoted_response: int | None  # From its release to its end if it has to be promoted, and is.
 
 
 @dataclass(frozen=True)
@@ -315,13 +315,17 @@ def bounds_of(tasks: TaskSet) -> Bounds:
     apart = None
     if not collisions(tasks):
         apart = {task.name: declared(tasks, task) + TICK for task in tasks.tasks}
-    excluded = apart is not None or all(response is not None for response in responses.values())
+    excluded = (
+        tasks.costs.without_promotion
+        or apart is not None
+        or all(response is not None for response in responses.values())
+    )
     others = {
         task.name: OtherBound(
             apart[task.name] if apart else responses[task.name],
             responses[task.name],
             promotion_wait(task),
-            promoted_response(tasks, task),
+            None if tasks.costs.without_promotion else promoted_response(tasks, task),
         )
         for task in tasks.others
     }

@@ -50,6 +50,7 @@ class Costs(Table):
     pass_us: Cost = 5
     dispatch_us: Cost = 1
     utilisation_limit_percent: Percent = 100.0
+    without_promotion: bool = False  # Nothing is promoted, however long it waits.
 
     @property
     def utilisation_limit_ppm(self) -> int:
