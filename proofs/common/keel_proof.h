@@ -203,6 +203,8 @@ static bool slot_same(const keel_queue_t *a, const keel_queue_t *b, uint32_t x)
            (a->skipped[x] == b->skipped[x]) && (a->stats[x].total_us == b->stats[x].total_us) &&
            (a->stats[x].runs == b->stats[x].runs) && (a->stats[x].last_us == b->stats[x].last_us) &&
            (a->stats[x].longest_us == b->stats[x].longest_us) &&
+           (a->stats[x].remembered_us == b->stats[x].remembered_us) &&
+           (a->stats[x].forgotten_in == b->stats[x].forgotten_in) &&
            (a->stats[x].overruns == b->stats[x].overruns) &&
            (a->stats[x].promotions == b->stats[x].promotions);
 }

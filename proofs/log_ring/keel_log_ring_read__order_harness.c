@@ -41,12 +41,12 @@ void keel_log_ring_read__order_harness(void)
     count = keel_log_ring_read(&ring, taken, most);
 
     __CPROVER_assert(count == expected, "RIN_009_count: by the index that was read");
-    __CPROVER_assert(bytes_same(taken, expected_bytes, RECORD_MOST),
+    __CPROVER_assert(bytes_equal(taken, expected_bytes, RECORD_MOST),
                      "RIN_009_taken: every byte is taken before its place is handed over");
     __CPROVER_assert((stores == 1u) && (ring.tail == model.tail) && (ring.head == stale),
                      "RIN_009_index: its own index is the model's, and the other one untouched");
-    __CPROVER_assert(bytes_same(handed.buffer, met.buffer, KEEL_LOG_RING_BYTES) &&
-                         bytes_same(ring.buffer, later.buffer, KEEL_LOG_RING_BYTES) &&
+    __CPROVER_assert(bytes_equal(handed.buffer, met.buffer, KEEL_LOG_RING_BYTES) &&
+                         bytes_equal(ring.buffer, later.buffer, KEEL_LOG_RING_BYTES) &&
                          loss_same(&ring.loss, &loss),
                      "RIN_009_only: and nothing else is written");
 }
