@@ -309,6 +309,8 @@ FIGURES: tuple[Figure, ...] = (
     Figure("docs/integration.md", r"Of the (\d+) units", lambda: (str(len(units())),)),
     Figure("include/keel/rtos/queue.h", r"The proofs are for (\d+)\.", of_capacity),
     Figure("include/keel/middleware/voter.h", r"The proofs are for (\d+),", of_sensors),
+    Figure("zephyr/Kconfig", r"The proofs are for (\d+)\.", of_capacity),
+    Figure("zephyr/Kconfig", r"The proofs are for (\d+),", of_sensors),
     Figure("docs/emulator.md", r"\*\*(\d+) faults", faults),
     Figure("docs/emulator.md", r"\*\*(\d[\d ]*) random vectors", vectors),
     Figure("docs/timing.md", r"(\d[\d ]*) random sets", random_sets),
