@@ -90,7 +90,8 @@ def qualify(tools: Toolchain, seeds: Sequence[Seed], cache: Cache) -> list[dict[
 
 
 def main(
-    arguments: Sequence[str] | None = None, root: Path = ROOT, seeds: Sequence[Seed] = (*SEEDS, *DECEPTIONS),
+    arguments: Sequence[str] | None = None, root: Path = ROOT,
+    seeds: Sequence[Seed] = (*SEEDS, *DECEPTIONS),
     known: Path | None = None,
 ) -> int:  # fmt: skip
     """Entry point."""

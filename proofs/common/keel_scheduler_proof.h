@@ -88,8 +88,7 @@ static void any_scheduler(keel_scheduler_t *scheduler, uint32_t of_interest)
 static bool setup_same(const keel_scheduler_config_t *a, const keel_scheduler_config_t *b)
 {
     return (a->read_clock == b->read_clock) && (a->clock_context == b->clock_context) &&
-           (a->guard_us == b->guard_us) &&
-           (a->utilisation_limit_ppm == b->utilisation_limit_ppm) &&
+           (a->guard_us == b->guard_us) && (a->utilisation_limit_ppm == b->utilisation_limit_ppm) &&
            (a->without_promotion == b->without_promotion);
 }
 

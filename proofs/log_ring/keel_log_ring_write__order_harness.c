@@ -47,7 +47,7 @@ void keel_log_ring_write__order_harness(void)
                          "RIN_009_bytes: every byte is there when it is handed over");
     }
     __CPROVER_assert(bytes_equal(ring.buffer, written ? later.buffer : met.buffer,
-                                KEEL_LOG_RING_BYTES),
+                                 KEEL_LOG_RING_BYTES),
                      "RIN_009_done: and none is written behind that");
     __CPROVER_assert(loss_same(&ring.loss, &model.loss), "RIN_009_loss: losses as in the model");
 }

@@ -15,7 +15,7 @@ static uint16_t count_one(uint16_t value)
   @ ensures remembered: stats->remembered_us == \max(\old(stats->remembered_us), elapsed_us);
   @ ensures left: stats->forgotten_in == KEEL_STATS_FORGET_RUNS;
   @*/
-static void remember(keel_stats_t *stats, uint32_t elapsed_us)
+static void remember_overrun(keel_stats_t *stats, uint32_t elapsed_us)
 {
     stats->forgotten_in = KEEL_STATS_FORGET_RUNS;
     if (elapsed_us > stats->remembered_us) {
@@ -49,7 +49,7 @@ void keel_stats_record(keel_stats_t *stats, uint32_t elapsed_us, uint32_t budget
     }
     if (elapsed_us > budget_us) {
         stats->overruns = count_one(stats->overruns);
-        remember(stats, elapsed_us);
+        remember_overrun(stats, elapsed_us);
     } else {
         count_down(stats);
     }

@@ -130,7 +130,7 @@ class RulesTest(unittest.TestCase):
 
     def test_what_is_linked_is_not_defined_beside_it(self) -> None:
         self.assert_found(HARNESS, "int model_box_put(int *box, int value)\n{\n    return 0;\n}",
-                          "model_box_put is defined by proofs, and by specs/model/box.c")  # fmt: skip
+                          "model_box_put is defined by proofs, and by specs/model/box.c")
 
     def test_what_is_called_has_a_body(self) -> None:
         for call in ("abort()", "exit(0)", "__builtin_unreachable()", "any_other()",

@@ -28,7 +28,12 @@ from toolchain.provers import CLOCK_PER_PROCESSOR, by_processor_time  # noqa: E4
 
 ENDLESS = "while True:\n    pass\n"
 # As much processor time as is told, and then a word.
-BURN = "import sys, time\nwhile time.process_time() < float(sys.argv[1]):\n    pass\nprint('done')\n"
+BURN = """\
+import sys, time
+while time.process_time() < float(sys.argv[1]):
+    pass
+print('done')
+"""
 CORES = os.cpu_count() or 1
 
 
@@ -123,7 +128,8 @@ class Provers(unittest.TestCase):
         goal.write_text(pigeons(11), encoding="utf-8")
         before = os.times()
         with busy(2 * CORES):
-            said = self.started(cvc4, f"--tlimit={CLOCK_PER_PROCESSOR}000", "--lang=smt2", str(goal))
+            limit = f"--tlimit={CLOCK_PER_PROCESSOR}000"
+            said = self.started(cvc4, limit, "--lang=smt2", str(goal))
         used = os.times().children_user - before.children_user
         self.assertEqual(said.stdout, "unknown\n")
         self.assertGreater(used, 0.8, "it was ended by the clock")

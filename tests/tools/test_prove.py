@@ -282,7 +282,8 @@ class WpVerdict(TreeTest):
         result = self.judge(log, wp_report(3, 2, "keel_box_put_ensures_BOX_001"))
         self.assert_fails(
             result,
-            "keel_box_put_ensures_BOX_001 is not proved, provers gave up (include/keel/rtos/box.h:7)",
+            "keel_box_put_ensures_BOX_001 is not proved, provers gave up"
+            " (include/keel/rtos/box.h:7)",
         )
         self.assertTrue(result.gave_up)
         self.assert_fails(result, "Alt-Ergo 2.0.0: Timeout, CVC4 1.8: Unknown")

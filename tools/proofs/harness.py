@@ -161,12 +161,17 @@ def read_harness(unit: Unit, path: Path) -> Harness:
     for source in sources:
         if not source.is_file():
             raise ProjectError(f"{path}: there is no source {source.relative_to(unit.root)}")
-        if not any(source.is_relative_to(root / place) for root in (unit.root, KEEL) for place in LINKED):
-            raise ProjectError(f"{path}: {source.name} is linked from elsewhere than {' or '.join(LINKED)}")
+        homes = (root / place for root in (unit.root, KEEL) for place in LINKED)
+        if not any(source.is_relative_to(home) for home in homes):
+            raise ProjectError(
+                f"{path}: {source.name} is linked from elsewhere than {' or '.join(LINKED)}"
+            )
     for word in defines:
         if not (DEFINE.fullmatch(word) or _is_left_to_builds(word, sources)):
-            raise ProjectError(f"{path}: `defines` takes -DNAME=NUMBER, NAME in capitals, or a macro"
-                               f" that a source leaves to builds: {word}")  # fmt: skip
+            raise ProjectError(
+                f"{path}: `defines` takes -DNAME=NUMBER, NAME in capitals, or a macro that a source"
+                f" leaves to builds: {word}"
+            )
     return Harness(
         unit=unit, path=path, sources=sources, defines=defines,
         options=tuple(search_options(path, given.get("cbmc", []))),

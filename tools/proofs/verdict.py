@@ -64,14 +64,15 @@ def _stale(log: wplog.Log, recorded: Mapping[str, str]) -> list[str]:
 
 
 def survey_problems(log: wplog.Log, file: str, proved: Collection[str]) -> list[str]:
-    """What is wrong with a file as Frama-C sees it; `proved` are the functions that somebody proves.
+    """What is wrong with a file as Frama-C sees it; `proved` are the functions proved anywhere.
 
     Its annotations are read behind the preprocessor, which may have made them of anything.
     """
     if not log.surveyed:
         return [f"{file}: Frama-C does not read it: {'; '.join(map(str, log.messages))}"]
     return [
-        *(f"{text}: it is assumed, not proved; state a lemma or a contract" for text in log.assumed),
+        *(f"{text}: it is assumed, not proved; state a lemma or a contract"
+          for text in log.assumed),
         *(f"{file}: Frama-C sees the function {name}, which the driver does not"
           for name in log.functions if name not in proved),
         *(f"{file}: {name} is declared here, and proved nowhere"

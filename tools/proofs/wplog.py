@@ -69,7 +69,7 @@ class Log:
     smoke: dict[str, bool] = field(default_factory=dict)
     messages: list[Message] = field(default_factory=list)
     functions: list[str] = field(default_factory=list)
-    # What annotations take for granted, and the functions without a body; whether all was looked at.
+    # What annotations take for granted, and functions without a body; whether all was looked at.
     assumed: list[str] = field(default_factory=list)
     declared: list[str] = field(default_factory=list)
     surveyed: bool = False

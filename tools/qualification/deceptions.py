@@ -29,7 +29,8 @@ ASSUMED = (
      "//@ assert even(2);", "#define HOLDS admit\n    //@ HOLDS even(3);", "admit"),
     ("admit in two lines", "//@ assert even(2);", "/*@ ad\\\nmit even(3); */", "admit"),
     ("an admitted precondition", "requires x <= 99", "admit requires x <= 9", "admit"),
-    ("an admitted postcondition", "ensures \\result == x + 1", "admit ensures \\result == x", "admit"),
+    ("an admitted postcondition", "ensures \\result == x + 1", "admit ensures \\result == x",
+     "admit"),
     ("a lemma that is only checked", "lemma none", "check lemma none", "check"),
     ("an axiom", "  @ lemma none: total(0) == 0;",
      "  @ axiomatic A { axiom none: total(0) == 1; }", "axiomatic A"),
@@ -39,14 +40,15 @@ ASSUMED = (
      "total is defined by itself"),
     ("a logic function that goes up", "total(n - 1) + 2", "total(n + 1) + 2",
      "total is defined by itself"),
-    ("a logic function whose end is passed by", "(n <= 0)", "(n == 0)", "total is defined by itself"),
+    ("a logic function whose end is passed by", "(n <= 0)", "(n == 0)",
+     "total is defined by itself"),
     ("a predicate that is its own denial", "n % 2 == 0", "!even(n)", "even is defined by itself"),
     ("an inductive definition", "  @ lemma none: total(0) == 0;",
      "  @ inductive odd(integer n) { case one: odd(2); }", "inductive definition of odd"),
     ("a function that need not end", "assigns \\nothing; */\nint last",
      "terminates \\false; assigns \\nothing; */\nint last", "need not terminate"),
-    ("a ghost function without a body", "static int two(void) { return 2; } */", "int two(void); */",
-     "ghost function two has no body"),
+    ("a ghost function without a body", "static int two(void) { return 2; } */",
+     "int two(void); */", "ghost function two has no body"),
 )  # fmt: skip
 
 BUILT = """\

@@ -101,7 +101,7 @@ def hidden(tools: Toolchain, file: Path, option: str) -> list[str]:
 
 
 def environment(tools: Toolchain, file: Path, option: str) -> list[str]:
-    """What the preprocessor complains about, where the caller's variables name a folder of headers."""
+    """What the preprocessor says where the caller's variables name a folder of headers."""
     folder = file.with_name("stray")
     folder.mkdir()
     (folder / "stray.h").touch()
