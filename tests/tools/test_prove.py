@@ -913,7 +913,7 @@ int keel_box_get_stand_in(int box)
         self.assertEqual(self.read("// defines: -DKEEL_BOX=4u\n" + HARNESS).defines,
                          ("-DKEEL_BOX=4u",))  # fmt: skip
         for word in ("-D__CPROVER_assert(c,t)=", "-Dfloat_same(a,b)=1", "-DKEEL_OK=KEEL_ERR_NULL"):
-            with self.assertRaisesRegex(ProjectError, "takes -DNAME=NUMBER only"):
+            with self.assertRaisesRegex(ProjectError, "takes -DNAME=NUMBER, NAME in"):
                 self.read(f"// defines: {word}\n" + HARNESS)
 
     def test_one_solver_answers(self) -> None:
