@@ -52,11 +52,11 @@ def files() -> frozenset[str]:
     return frozenset(p.as_posix() for p in paths if GENERATED.isdisjoint(p.parts))
 
 
-@cache
 # Written by a command, which compares it: it names functions of proofs.
 MADE = ("proofs/determined.md",)
 
 
+@cache
 def documents() -> dict[str, str]:
     """Every document by its path."""
     names = sorted(name for name in files() if name.endswith(".md") and name not in MADE)
