@@ -21,6 +21,9 @@ INDEX = "docs/README.md"
 PICTURES = "docs/pictures"
 GENERATED = frozenset({"build", "__pycache__", ".git", ".mypy_cache", ".ruff_cache", ".venv"})
 
+# Written by a command, which compares it: it names functions of proofs.
+MADE = ("proofs/determined.md",)
+
 # Names that stand for the reader's own.
 PLACEHOLDERS = frozenset({"my.toml", "keel_x"})
 CHECKED_NAMES = (".h", ".py", ".g", ".sdoc", ".toml")
@@ -53,10 +56,6 @@ def files() -> frozenset[str]:
 
 
 @cache
-# Written by a command, which compares it: it names functions of proofs.
-MADE = ("proofs/determined.md",)
-
-
 def documents() -> dict[str, str]:
     """Every document by its path."""
     names = sorted(name for name in files() if name.endswith(".md") and name not in MADE)
