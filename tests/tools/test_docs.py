@@ -21,6 +21,9 @@ INDEX = "docs/README.md"
 PICTURES = "docs/pictures"
 GENERATED = frozenset({"build", "__pycache__", ".git", ".mypy_cache", ".ruff_cache", ".venv"})
 
+# Written by a command, which compares it: it names functions of proofs.
+MADE = ("proofs/determined.md",)
+
 # Names that stand for the reader's own.
 PLACEHOLDERS = frozenset({"my.toml", "keel_x"})
 CHECKED_NAMES = (".h", ".py", ".g", ".sdoc", ".toml")
@@ -50,10 +53,6 @@ def files() -> frozenset[str]:
     """The project's files and folders, generated ones apart."""
     paths = [path.relative_to(ROOT) for path in ROOT.rglob("*")]
     return frozenset(p.as_posix() for p in paths if GENERATED.isdisjoint(p.parts))
-
-
-# Written by a command, which compares it: it names functions of proofs.
-MADE = ("proofs/determined.md",)
 
 
 @cache
