@@ -12,27 +12,28 @@
  *   - w is the budget, or the time of one of the runs, so it is no longer than needed;
  *   - w is the budget when the last KEEL_STATS_FORGET_RUNS runs were within it.
  *
- * The invariant: as many runs as were counted down since the last overrun were within the budget.
+ * The invariant: as many runs as were counted down since the last overrun were within the budget. The
+ * times are signed, which nothing in the statistics is: provers know memory by its type.
  */
 #include "keel/rtos/stats.h"
 
 #include <stdint.h>
 
 /*@ // The runs from one number to another took no longer than a time.
-  @ predicate ran_within(uint32_t *ran_us, integer first, integer last, integer time_us) =
+  @ predicate ran_within(int64_t *ran_us, integer first, integer last, integer time_us) =
   @     \forall integer k; 0 <= k && first <= k < last ==> ran_us[k] <= time_us;
   @
   @ // A run among the first took just so long.
-  @ predicate one_ran(uint32_t *ran_us, integer count, integer time_us) =
+  @ predicate one_ran(int64_t *ran_us, integer count, integer time_us) =
   @     \exists integer k; 0 <= k < count && ran_us[k] == time_us;
   @*/
 
 /*@ requires memory: \valid(stats) && \valid_read(ran_us + (0 .. count - 1));
-  @ requires apart: \separated(stats, ran_us + (0 .. count - 1));
+  @ requires times: \forall integer k; 0 <= k < count ==> 0 <= ran_us[k] <= UINT32_MAX;
   @ requires fresh: stats_fresh(*stats);
   @ assigns STATS_RUN(*stats);
   @*/
-void forgetting(keel_stats_t *stats, const uint32_t *ran_us, uint32_t count, uint32_t budget_us)
+void forgetting(keel_stats_t *stats, const int64_t *ran_us, uint32_t count, uint32_t budget_us)
 {
     /*@ loop invariant range: 0 <= i <= count;
       @ loop invariant left: stats->forgotten_in <= KEEL_STATS_FORGET_RUNS;
@@ -50,10 +51,7 @@ void forgetting(keel_stats_t *stats, const uint32_t *ran_us, uint32_t count, uin
       @ loop variant count - i;
       @*/
     for (uint32_t i = 0u; i < count; i++) {
-        keel_stats_record(stats, ran_us[i], budget_us);
-        /*@ assert unmoved: \forall integer k; 0 <= k < count ==>
-          @     ran_us[k] == \at(ran_us[k], LoopCurrent);
-          @*/
+        keel_stats_record(stats, (uint32_t)ran_us[i], budget_us);
         //@ assert STS_007_budget: budget_us <= stats_worst(budget_us, stats->remembered_us);
         /*@ assert STS_007_recent: ran_within(ran_us, i + 1 - KEEL_STATS_FORGET_RUNS, i + 1,
           @     stats_worst(budget_us, stats->remembered_us));
