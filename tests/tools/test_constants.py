@@ -5,7 +5,8 @@
 Code and model read one header, so each proof of equality holds with any numbers there. A set of
 bits is three or more constants, line by line, written in hexadecimal, most of which are single
 bits: then all of them are, and no two of a header are equal, unless WORDS says that they are bits
-of another word. Of three or more whole numbers that stand line by line no two are equal, either.
+of another word. Of three or more whole numbers that stand line by line no two are equal, either;
+where the first is 0, they count up.
 Numbers of physics and protocols are worked out here from what their standards say.
 
     python3 tests/tools/test_constants.py
@@ -102,12 +103,20 @@ def equal(group: list[Constant], kind: str) -> Iterator[str]:
             yield f"{first} and {one.name} are one {kind}"
 
 
+def uncounted(group: list[Constant]) -> Iterator[str]:
+    """Which do not follow the one before, where the first is 0."""
+    for one, before in zip(group[1:], group, strict=False):
+        if group[0].value == 0 and one.value != before.value + 1:
+            yield f"{one.name} is not one more than {before.name}"
+
+
 def problems(text: str) -> list[str]:
     """What is wrong with the numbers of a header."""
     bits = [one for group in sets(text) for one in group]
     wrong = [f"{one.name} is no single bit" for one in bits if not one.is_bit]
     numbers = [line for group in groups(text) for line in equal(group, "number")]
-    return [*wrong, *equal(bits, "bit"), *numbers]
+    rows = [line for group in groups(text) for line in uncounted(group)]
+    return [*wrong, *equal(bits, "bit"), *numbers, *rows]
 
 
 def combined(text: str) -> set[str]:
@@ -353,8 +362,13 @@ class RulesTest(unittest.TestCase):
 
     def test_equal_numbers(self) -> None:
         self.assertEqual(
-            problems(header("0", "1u", "2", "1")), ["KEEL_SIDE_B and KEEL_SIDE_D are one number"]
+            problems(header("5", "1u", "2", "1")), ["KEEL_SIDE_B and KEEL_SIDE_D are one number"]
         )  # fmt: skip
+
+    def test_a_gap(self) -> None:
+        [only] = problems(header("0", "1u", "3"))
+        self.assertEqual(only, "KEEL_SIDE_C is not one more than KEEL_SIDE_B")
+        self.assertEqual(problems(header("1", "2", "16")), [])
 
     def test_limits_may_be_equal(self) -> None:
         self.assertEqual(problems(header("1.0f", "1.0f", "16.0f") + header("8u", "8u")), [])
