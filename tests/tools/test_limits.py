@@ -7,7 +7,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import signal
 import subprocess
@@ -15,18 +14,18 @@ import sys
 import tempfile
 import time
 import unittest
-from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common import limits, run  # noqa: E402
+from common import run  # noqa: E402
+from endless import CORES, busy  # noqa: E402
+from endless import PROGRAM as ENDLESS  # noqa: E402
 from proofs.jobs import Runner  # noqa: E402
 from toolchain import Toolchain, ToolchainError, small_environment  # noqa: E402
 from toolchain.provers import CLOCK_PER_PROCESSOR, by_processor_time  # noqa: E402
 
-ENDLESS = "while True:\n    pass\n"
 # As much processor time as is told, and then a word.
 BURN = """\
 import sys, time
@@ -34,8 +33,6 @@ while time.process_time() < float(sys.argv[1]):
     pass
 print('done')
 """
-CORES = os.cpu_count() or 1
-
 
 def pigeons(holes: int) -> str:
     """That one pigeon more than there are holes finds no place: easy to say, and long to prove."""
@@ -46,18 +43,6 @@ def pigeons(holes: int) -> str:
         lines.append(f"(assert (or {' '.join(f'p{i}_{k}' for k in range(holes))}))")
         lines += [f"(assert (not (and p{i}_{k} p{j}_{k})))" for j in range(i) for k in range(holes)]
     return "\n".join([*lines, "(check-sat)\n"])
-
-
-@contextlib.contextmanager
-def busy(programs: int) -> Iterator[None]:
-    """A machine on which as many endless programs run."""
-    children = [subprocess.Popen([sys.executable, "-c", ENDLESS]) for _ in range(programs)]
-    try:
-        yield
-    finally:
-        for child in children:
-            child.kill()
-            child.wait()
 
 
 class Programs(unittest.TestCase):
