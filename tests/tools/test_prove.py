@@ -9,6 +9,7 @@ No prover is run: the engines are played by small scripts that print what the re
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import io
 import json
@@ -28,6 +29,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 import prove  # noqa: E402
+from common.files import write_text  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
 from proofs.cbmc_answers import read_answer, refutation_problems  # noqa: E402
 from proofs.jobs import Finished, Runner, in_pool  # noqa: E402
@@ -48,6 +50,7 @@ from proofs import (  # noqa: E402
     rules,
     settings,
     targets,
+    theorems,
     verdict,
     wp,
     wplog,
@@ -545,6 +548,51 @@ class Keys(TreeTest):
 
 
 ONE = driver.Pool(1)
+
+
+class CommandLine(unittest.TestCase):
+    def test_the_kernel_is_the_scheduler_voter_filter_and_pid(self) -> None:
+        units = find_units()
+        names = {name for name, unit in units.items() if prove.in_kernel(unit)}
+        self.assertLessEqual({"clock", "queue", "pass", "scheduler", "range", "voter", "filter",
+                              "pid"}, names)  # fmt: skip
+        self.assertTrue(names.isdisjoint({"mavlink", "attitude", "mixer", "virtual_imu"}))
+
+    def test_sizes_are_numbers(self) -> None:
+        self.assertEqual(prove.size("KEEL_QUEUE_CAPACITY=8"), "-DKEEL_QUEUE_CAPACITY=8u")
+        for text in ("KEEL_QUEUE_CAPACITY", "X=0", "x=3", "X=3 -DY", "X=KEEL_OK"):
+            with self.assertRaises(argparse.ArgumentTypeError):
+                prove.size(text)
+
+    def test_a_choice_is_no_shard(self) -> None:
+        for words in (["--kernel", "--shard", "1/2"], ["--size", "A=1", "--join", "f"],
+                      ["--kernel", "--unit", "queue"], ["--patience", "0"]):  # fmt: skip
+            with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()):
+                prove.parse(words, ["queue"])
+
+
+class Theorems(unittest.TestCase):
+    """Which theorems a run tells."""
+
+    LIST = """\
+[[theorem]]
+id = "queue"
+statement = "A queue has no gaps."
+rests_on = ["QUE-001", "QUE-002"]
+"""
+
+    def test_a_theorem_holds_when_all_that_it_rests_on_is_proved(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            root = Path(name)
+            self.assertEqual(theorems.told(root, {"QUE-001"}), [])
+            write_text(root / theorems.LIST, self.LIST)
+            self.assertEqual(theorems.told(root, {"QUE-001"}), [])
+            told = theorems.told(root, {"QUE-001", "QUE-002", "PID-001"})
+            self.assertEqual(told[1:], ["  queue: A queue has no gaps."])
+
+    def test_labels_are_read_off_goals_and_assertions(self) -> None:
+        names = ["keel_f_ensures_QUE_001_kept", "QUE_002_model: as it says", "XQUE_0031"]
+        self.assertEqual(theorems.labels(names), {"QUE-001", "QUE-002"})
 
 
 class Jobs(unittest.TestCase):
