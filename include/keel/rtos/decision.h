@@ -208,8 +208,7 @@ keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, ui
   @     (\exists integer i; queue->realtime_count <= i < queue->count &&
   @         \result == next_event(queue, queue->order[i], now_us, without_promotion));
   @*/
-uint64_t keel_decision_event_us(const keel_queue_t *queue, uint64_t now_us,
-                                bool without_promotion);
+uint64_t keel_decision_event_us(const keel_queue_t *queue, uint64_t now_us, bool without_promotion);
 
 KEEL_C_END
 
