@@ -89,10 +89,13 @@ static bool config_is_valid_here(const keel_task_config_t *config)
             (config->priority == KEEL_PRIORITY_REALTIME));
 }
 
-/* The slot at a position: each has one, and none its own number, if 5 divides no capacity. */
+/* Has no divisor in common with any capacity of up to 255. */
+#define STRIDE (((CAPACITY % 5u) != 0u) ? 5u : (((CAPACITY % 7u) != 0u) ? 7u : 11u))
+
+/* The slot at a position: each has one of its own. */
 static uint32_t slot_at(uint32_t position)
 {
-    return ((5u * position) + 7u) % CAPACITY;
+    return ((STRIDE * position) + 7u) % CAPACITY;
 }
 
 /* Any valid queue. Position of_interest holds the task that the harness is about, if it is within
