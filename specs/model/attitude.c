@@ -328,6 +328,8 @@ static void tilt_validity(keel_attitude_t *attitude, vector_t error, float cosin
         attitude->settled = near ? next_count(attitude->settled, true, most) : 0u;
         if (attitude->settled >= most) {
             attitude->phase = KEEL_ATTITUDE_RUNNING;
+        } else {
+            attitude->phase = KEEL_ATTITUDE_ALIGNING;
         }
     }
 }
