@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from common.files import write_text  # noqa: E402
-from proofs.harness import taken  # noqa: E402
+from proofs.inputs import taken  # noqa: E402
 from proofs.project import find_units  # noqa: E402
 from proofs.syntax import SyntaxProblem  # noqa: E402
 
