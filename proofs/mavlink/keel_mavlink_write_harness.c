@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 30 --unwindset mavlink_packet_same.0:281 --external-sat-solver cadical
-// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c
+// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c specs/model/crc.c
 // covers: keel_mavlink_write cut_of checksum_of
 // covers: model_mavlink_write sent_bytes model_mavlink_checksum
 //
