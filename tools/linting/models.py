@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rules of the executable specification (specs/model/README.md), as far as a text shows them."""
+"""The rules of the executable specification (specs/model/README.md) that a text shows."""
 
 from __future__ import annotations
 
@@ -23,11 +23,15 @@ HEAD = re.compile(
 LOOPS = ("for_statement", "while_statement", "do_statement")
 EXITS = ("break_statement", "continue_statement", "goto_statement", "return_statement")
 WRITES = ("assignment_expression", "update_expression")
+INCLUDE = re.compile(r'#include "(\w+)\.h"')
 REQUIREMENT = re.compile(r"/\*.*\b[A-Z]{3}-\d{3}\b")
 
 
-def check_models(texts: Sequence[Text]) -> Iterator[Finding]:
+def check_models(texts: Sequence[Text], layers: Sequence[str]) -> Iterator[Finding]:
     """What models do that they must not."""
+    layer_of = {PurePosixPath(text.path).stem: PurePosixPath(text.path).parent.name
+                for text in texts if text.path.startswith("include/keel/")}  # fmt: skip
+    rank = {unit: layers.index(layer) for unit, layer in layer_of.items() if layer in layers}
     models = {text.path: "\n".join(text.lines) + "\n" for text in texts
               if text.is_c and text.path.startswith(FOLDER)}  # fmt: skip
     declared = {
@@ -38,6 +42,11 @@ def check_models(texts: Sequence[Text]) -> Iterator[Finding]:
     for path, text in models.items():
         if path.endswith(".c"):
             yield from _source(path, text, declared)
+        own = rank.get(_unit_of(path, declared), len(layers))
+        for number, line in enumerate(text.splitlines(), 1):
+            match = INCLUDE.match(line)
+            if match and rank.get(match[1], -1) > own:
+                yield Finding(path, number, f"{match[1]} stands above: a model calls those below")
         yield from _data(path, text)
     for path, names in declared.items():
         unit = PurePosixPath(path).stem
@@ -76,7 +85,7 @@ def _source(path: str, text: str, declared: dict[str, frozenset[str]]) -> Iterat
         for leave in syntax.found(loop, *EXITS):
             decides = leave.type == "return_statement" and bool(leave.named_children)
             if not decides and not _in_switch(leave, loop):
-                yield Finding(path, _line(leave), "an early exit out of a loop that decides nothing")
+                yield Finding(path, _line(leave), "a loop is left early, and nothing is decided")
     yield from _refusals(path, text)
 
 

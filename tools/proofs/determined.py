@@ -268,6 +268,17 @@ def of_tree(root: Path) -> list[Outcome]:
     return Decider(root).every()
 
 
+def bounds_of(root: Path) -> dict[str, list[str]]:
+    """The bounds within which functions are shown, their own; of a unit, those of all of its."""
+    every: dict[str, list[str]] = {}
+    for outcome in of_tree(root):
+        own = [text for bounds in outcome.harnesses.values() for text in bounds
+               if outcome.extent == BOUND and " by its contract" not in text]  # fmt: skip
+        every[outcome.function] = own
+        every.setdefault(outcome.unit, []).extend(own)
+    return every
+
+
 def summary(found: Iterable[Outcome]) -> str:
     """How many functions are determined, in a line."""
     every = list(found)
