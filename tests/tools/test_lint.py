@@ -65,7 +65,8 @@ class ModelTest(unittest.TestCase):
             "for (uint32_t i = 0u; i < 64u; i += 8u) {", "if (box->side[i] > n) {",
             "return KEEL_OK;", "}", "}", "switch (n) {", "case 1u:", "break;", "}",
             "box->count = n;", "return KEEL_OK;",
-            before=("static const uint8_t table[2] = {1u, 2u};", '#include "box.h"')), [])  # fmt: skip
+            before=("static const uint8_t table[2] = {1u, 2u};", '#include "box.h"'),
+        ), [])  # fmt: skip
 
     def test_what_breaks_one(self) -> None:
         for body, why in (
@@ -86,7 +87,8 @@ class ModelTest(unittest.TestCase):
                 self.assertTrue(any(why in one for one in found), found)
 
     def test_a_refusal_that_writes_names_its_requirement(self) -> None:
-        self.assertEqual(self.findings("box->count = n;", "return KEEL_ERR_FULL; /* BOX-001 */"), [])
+        refusal = "return KEEL_ERR_FULL; /* BOX-001 */"
+        self.assertEqual(self.findings("box->count = n;", refusal), [])
 
     def test_data_includes_and_declarations_at_file_level(self) -> None:
         for line, why in (

@@ -70,7 +70,8 @@ class Beyond(unittest.TestCase):
     """Slips that show beyond a bound alone."""
 
     def test_an_index_comes_round(self) -> None:
-        self.assertEqual(beyond("p->side[a] = p->side[2];", 128), ["p->side[a % 128u] = p->side[2];"])
+        found = beyond("p->side[a] = p->side[2];", 128)
+        self.assertEqual(found, ["p->side[a % 128u] = p->side[2];"])
         self.assertEqual(beyond("p->side[BOX_RED] = 1u;", 128), [])
         self.assertEqual(beyond("p->side[a] = 1u;"), [])
 
@@ -87,8 +88,8 @@ class Beyond(unittest.TestCase):
         loop = "for (int i = 0; i != a; i++) { f(i, p); }"
         self.assertEqual(beyond(loop, 16), [loop.replace("i != a", "(i != a) && (i < 16u)")])
         loop = "while (p->width != 0u) { p->width -= 1u; }"
-        found = beyond(loop, 16)
-        self.assertEqual(found, [loop.replace("p->width != 0u", "(p->width != 0u) && (p->width < 16u)")])
+        ends = loop.replace("p->width != 0u", "(p->width != 0u) && (p->width < 16u)")
+        self.assertEqual(beyond(loop, 16), [ends])
 
     def test_a_loop_that_counts_nothing_ends_by_a_number_beside(self) -> None:
         loop = "while (p->width != 0u) { g(p); }"

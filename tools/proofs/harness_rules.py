@@ -45,7 +45,9 @@ WORD = re.compile(r"\b[A-Za-z_]\w*")
 RESERVED = frozenset(
     "NULL true false bool INFINITY NAN FLT_MAX FLT_MIN FLT_EPSILON DBL_MAX SIZE_MAX".split()
 )
-LIMITS = re.compile(r"U?INT(?:8|16|32|64|MAX|PTR)?_(?:MAX|MIN|C)|U?(?:CHAR|SHRT|INT|LONG|LLONG)_MAX")
+LIMITS = re.compile(
+    r"U?INT(?:8|16|32|64|MAX|PTR)?_(?:MAX|MIN|C)|U?(?:CHAR|SHRT|INT|LONG|LLONG)_MAX"
+)
 
 
 def problems(root: Path, units: Iterable[Unit]) -> list[str]:
