@@ -61,6 +61,7 @@ from toolchain import TARGET_FLAGS, Toolchain, ToolchainError, small_environment
 
 from proofs import (  # noqa: E402
     clauses,
+    determined,
     mutant_execution,
     mutant_records,
     mutant_slips,
@@ -184,7 +185,9 @@ class Measurement:
         exceptions = read_exceptions(root / "proofs" / "units.toml", list(find_units(root)))
         times = Times(root / "build/prove/times.json", root / RECORDED_TIMES)
         cache = Cache(self._build / "cache", options.fresh)
-        around = mutant_slips.surroundings(clauses.header_texts(root))
+        beyond = {name: mutant_slips.numbers_beyond(bounds)
+                  for name, bounds in determined.bounds_of(root).items()}  # fmt: skip
+        around = mutant_slips.surroundings(clauses.header_texts(root), beyond)
         self.units: list[Measured] = []
         seen = survey(root)
         for unit in units:

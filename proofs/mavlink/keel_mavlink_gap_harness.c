@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 256 --external-sat-solver cadical
-// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c
+// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c specs/model/crc.c
 // covers: keel_mavlink_gap count_met model_mavlink_gap tally
 #include "mavlink_proof.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 281 --external-sat-solver cadical
 // checks: assertions
-// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c
+// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c specs/model/crc.c
 // covers: keel_mavlink_init is_table model_mavlink_init in_order
 //
 // Chosen tables, among them a full one and one that is too long, for a decoder of which no field

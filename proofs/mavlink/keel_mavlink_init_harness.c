@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 281 --unwindset is_table.0:5,in_order.0:5 --external-sat-solver cadical
-// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c
+// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c specs/model/crc.c
 // covers: keel_mavlink_init is_table model_mavlink_init in_order
 //
 // Any table of 3 messages, and a number of them that is too large. WP shows the clauses for any

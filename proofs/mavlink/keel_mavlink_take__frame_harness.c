@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 256 --external-sat-solver cadical
-// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c
+// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c specs/model/crc.c
 // covers: keel_mavlink_take put_byte end_frame publish_frame
 //
 // Any frame of a message that is known, of a length that it may have: with nothing held its first

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 281 --external-sat-solver cadical
 // checks: assertions
-// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c
+// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c specs/model/crc.c
 // covers: keel_mavlink_take offer put_byte count_met id_in checksum_in end_of whole_frame place_of
 // covers: check_flags check_message timestamp_in publish_payload publish_signature publish_frame
 // covers: end_frame

@@ -603,6 +603,56 @@ class Kept(DeterminedTest):
                                               " --update-goals"])  # fmt: skip
 
 
+class SameTerm(DeterminedTest):
+    """Models that are the code under other names."""
+
+    CODE = """\
+int32_t keel_box_put(keel_box_t *box, uint32_t more)
+{
+    const uint32_t sum = box->count + more;
+
+    if (sum < more) {
+        return -1;
+    }
+    box->count = sum;
+    return 0;
+}
+"""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.write("src/rtos/box.c", self.CODE)
+        self.write("specs/model/box.c", self.CODE.replace("keel_", "model_").replace("sum", "all"))
+
+    def said(self) -> list[str]:
+        decider = determined.Decider(self.root)
+        decider.every()
+        return decider.problems()
+
+    def test_one_needs_an_entry_that_says_what_else_would_see_a_slip(self) -> None:
+        [problem] = self.said()
+        self.assertIn("[box]: its model is its code under other names", problem)
+        self.write("proofs/same_term.toml", '[box]\nseen_by = "values by hand"\n')
+        self.assertEqual(self.said(), [])
+        self.assertTrue(determined.update_kept(self.root))
+        kept = (self.root / "proofs/determined.md").read_text(encoding="utf-8")
+        self.assertIn("## box\n\nThe model is the same term, under other names; a slip in both is"
+                      " seen by: values by hand.\n", kept)  # fmt: skip
+
+    def test_another_formulation_needs_none(self) -> None:
+        other = "    box->count = (box->count > (UINT32_MAX - more)) ? box->count : 1u + more;\n"
+        self.write("specs/model/box.c", f"int32_t model_box_put(keel_box_t *box, uint32_t more)\n"
+                   f"{{\n{other}    return (int32_t)other(box)->last[3];\n}}\n")  # fmt: skip
+        self.assertEqual(self.said(), [])
+
+    def test_an_entry_is_read(self) -> None:
+        self.write("proofs/same_term.toml", '[lid]\nseen_by = "x"\n[box]\nseen_by = "y"\n')
+        self.assertEqual(self.said(), ["proofs/same_term.toml: there is no unit lid"])
+        self.write("proofs/same_term.toml", '[box]\nreason = "x"\n')
+        with self.assertRaises(ProjectError):
+            self.said()
+
+
 class ByWp(DeterminedTest):
     def setUp(self) -> None:
         super().setUp()

@@ -9,6 +9,7 @@
 #include <string.h>
 
 /* The model is part of this test: the kernel that it is linked with has none. */
+#include "../../specs/model/crc.c"
 #include "../../specs/model/mavlink.c"
 
 #define FRAMES 6000u

@@ -23,7 +23,7 @@ from typing import Any
 
 from common.files import write_text
 
-from . import clauses, csource, inputs
+from . import clauses, csource, inputs, similarity
 from .declarations import Signature, Structures, macros, signatures, structures
 from .equality import Reader, Reading, loops
 from .harness import MODELS, Harness, harnesses_of, read_harness
@@ -208,8 +208,27 @@ class Decider:
         return narrowest
 
     def problems(self) -> list[str]:
-        """What is wrong with the table of preconditions; all units must have been looked at."""
-        return self._parts.unused()
+        """What is wrong with the tables; all units must have been looked at."""
+        table = similarity.read_table(self._root)
+        found = self._parts.unused()
+        found += [f"{similarity.TABLE}: there is no unit {name}" for name in table
+                  if name not in self._units]  # fmt: skip
+        for name, unit in self._units.items():
+            alike = similarity.similarity(unit)
+            if alike >= similarity.ALIKE and name not in table:
+                found.append(f"{similarity.TABLE}: [{name}]: its model is its code under other"
+                             f" names ({alike:.2f}); say what else would see a slip")  # fmt: skip
+        return found
+
+    def notes(self, units: Iterable[str]) -> dict[str, str]:
+        """Of units whose models are their code under other names, what else would see a slip."""
+        table = similarity.read_table(self._root)
+        return {
+            name: f"The model is the same term, under other names; a slip in both is seen by:"
+            f" {table[name]}."
+            for name in units
+            if name in table
+        }
 
     def said(self, units: Iterable[str]) -> dict[str, list[str]]:
         """What the functions say that make a state valid, for units."""
@@ -268,6 +287,17 @@ def of_tree(root: Path) -> list[Outcome]:
     return Decider(root).every()
 
 
+def bounds_of(root: Path) -> dict[str, list[str]]:
+    """The bounds within which functions are shown, their own; of a unit, those of all of its."""
+    every: dict[str, list[str]] = {}
+    for outcome in of_tree(root):
+        own = [text for bounds in outcome.harnesses.values() for text in bounds
+               if outcome.extent == BOUND and " by its contract" not in text]  # fmt: skip
+        every[outcome.function] = own
+        every.setdefault(outcome.unit, []).extend(own)
+    return every
+
+
 def summary(found: Iterable[Outcome]) -> str:
     """How many functions are determined, in a line."""
     every = list(found)
@@ -304,12 +334,16 @@ COLUMNS = """
 """
 
 
-def as_markdown(found: Iterable[Outcome], said: Mapping[str, Sequence[str]] | None = None) -> str:
+def as_markdown(
+    found: Iterable[Outcome], said: Mapping[str, Sequence[str]] | None = None,
+    notes: Mapping[str, str] | None = None,
+) -> str:  # fmt: skip
     """The table, for people."""
     every = list(found)
     parts = [HEAD]
     for unit in dict.fromkeys(one.unit for one in every):
-        parts += [f"\n## {unit}\n", COLUMNS]
+        note = (notes or {}).get(unit)
+        parts += [f"\n## {unit}\n", *([f"\n{note}\n"] if note else []), COLUMNS]
         parts += [f"{_row(one)}\n" for one in every if one.unit == unit]
     parts.append(f"\n{summary(every)}\n")
     problems = [f"- {text}\n" for outcome in every for text in outcome.problems]
@@ -367,7 +401,10 @@ def kept_problems(
         block = _assumptions({name: own[name]}).removeprefix(SAID)
         if block not in kept:
             problems.append(f"{KEPT}: {name} says something else now: {advice}")
-    if whole and not problems and kept != as_markdown(found, own):
+    notes = decider.notes(dict.fromkeys(one.unit for one in found))
+    problems += [f"{KEPT}: what is said of the model of {unit} has changed: {advice}"
+                 for unit, note in notes.items() if note not in kept]  # fmt: skip
+    if whole and not problems and kept != as_markdown(found, own, notes):
         problems.append(f"{KEPT} names what is not there any more: {advice}")
     return problems + (decider.problems() if whole else [])
 
@@ -377,7 +414,8 @@ def update_kept(root: Path) -> bool:
     path = root / KEPT
     decider = Decider(root)
     found = decider.every()
-    text = as_markdown(found, decider.said({one.unit for one in found}))
+    units = dict.fromkeys(one.unit for one in found)
+    text = as_markdown(found, decider.said(units), decider.notes(units))
     if path.is_file() and path.read_text(encoding="utf-8") == text:
         return False
     write_text(path, text)
