@@ -12,8 +12,8 @@
  *   - w is the budget, or the time of one of the runs, so it is no longer than needed;
  *   - w is the budget when the last KEEL_STATS_FORGET_RUNS runs were within it.
  *
- * The invariant: as many runs as were counted down since the last overrun were within the budget. The
- * times are signed, which nothing in the statistics is: provers know memory by its type.
+ * The invariant: as many runs as were counted down since the last overrun were within the budget.
+ * The times are signed, which nothing in the statistics is: provers know memory by its type.
  */
 #include "keel/rtos/stats.h"
 

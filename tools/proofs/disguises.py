@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Refuses texts of C that a reader, a prover and the build's compiler may take for different things.
+"""Refuses texts of C that readers, provers and the build's compiler may take for different things.
 
 In all that is proved, and in the proofs: line splices outside of directives, trigraphs, digraphs,
 control characters, pragmas, #line, and headers that only the preprocessor could name. In what is

@@ -60,8 +60,6 @@ OPTIONS = {
 SOLVERS = frozenset(["--external-sat-solver", "--z3", "--fpa"])
 EXTERNAL = ("cadical",)
 ANSWERING = ("--external-sat-solver", "--z3", "--refine")
-# What may be left out of a header of proofs, by a macro of a harness.
-CONDITIONS = frozenset(["VOTER_FLOATS_OPEN", "CRC_AS_IT_IS"])
 # Where models stand: they are compared, and bear no checks of their own.
 MODELS = "specs/model"
 # What harnesses link: the code that is built, and models. A copy would drift.
@@ -274,22 +272,3 @@ def _lacks(body: str, name: str, before: str, after: str) -> list[str]:
     """What a body does not do with the two sides of a contract."""
     wanted = (f"__CPROVER_{before}({name}_may(", f"__CPROVER_{after}({name}_does(")
     return [text for text in wanted if text not in body]
-
-
-def taken(text: str, names: Iterable[str]) -> str:
-    """A text without what the conditions of CONDITIONS leave out, places kept."""
-    chosen = set(names)
-    result: list[str] = []
-    stack: list[bool] = []
-    for line in text.splitlines(keepends=True):
-        match = re.match(r"\s*#\s*(ifdef|ifndef|if|else|elif|endif)\b\s*(\w*)", line)
-        word, name = (match[1], match[2]) if match else ("", "")
-        shows = all(stack)
-        if word in ("ifdef", "ifndef", "if"):
-            stack.append(name not in CONDITIONS or (name in chosen) == (word == "ifdef"))
-        elif word == "else" and stack:
-            stack[-1] = not stack[-1]
-        elif word == "endif" and stack:
-            stack.pop()
-        result.append(line if shows or match else re.sub(r"[^\n]", " ", line))
-    return "".join(result)

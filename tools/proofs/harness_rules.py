@@ -20,8 +20,8 @@ from functools import lru_cache
 from pathlib import Path
 
 from . import csource, syntax
-from .harness import CONDITIONS, read_harness, taken
-from .inputs import ENDINGS
+from .harness import read_harness
+from .inputs import CONDITIONS, ENDINGS, taken
 from .project import Unit, closure, include_folders, shown
 from .syntax import Node, written
 

@@ -21,12 +21,14 @@ from pathlib import Path
 
 from . import csource, syntax
 from .declarations import Macros, Parameter, Signature, macros, number, signatures
-from .harness import Harness, taken
+from .harness import Harness
 from .project import ProjectError, closure
 from .syntax import Node, written
 
 EVERY, BOUND, CHOSEN = "every valid state", "within a bound", "chosen points"
 TABLE = "proofs/preconditions.toml"
+# What may be left out of a header of proofs, by a macro of a harness.
+CONDITIONS = frozenset(["VOTER_FLOATS_OPEN", "CRC_AS_IT_IS"])
 # What functions of proofs that bear the name of one of the code end in.
 ENDINGS = ("_harness", "_stand_in", "_may", "_does")
 # Names that harnesses of chosen points bear.
@@ -502,3 +504,22 @@ def _statics(texts: Iterable[str]) -> set[str]:
         for node in _file_level(texts)
         if not syntax.found(node, "function_declarator") and _root(node)
     }
+
+
+def taken(text: str, names: Iterable[str]) -> str:
+    """A text without what the conditions of CONDITIONS leave out, places kept."""
+    chosen = set(names)
+    result: list[str] = []
+    stack: list[bool] = []
+    for line in text.splitlines(keepends=True):
+        match = re.match(r"\s*#\s*(ifdef|ifndef|if|else|elif|endif)\b\s*(\w*)", line)
+        word, name = (match[1], match[2]) if match else ("", "")
+        shows = all(stack)
+        if word in ("ifdef", "ifndef", "if"):
+            stack.append(name not in CONDITIONS or (name in chosen) == (word == "ifdef"))
+        elif word == "else" and stack:
+            stack[-1] = not stack[-1]
+        elif word == "endif" and stack:
+            stack.pop()
+        result.append(line if shows or match else re.sub(r"[^\n]", " ", line))
+    return "".join(result)

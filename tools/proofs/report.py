@@ -305,7 +305,7 @@ def closing_lines(gathered: Gathered) -> list[str]:
     if given_up := [one.job for one in gathered.outcomes if one.result.get("gave_up")]:
         units = " ".join(dict.fromkeys(job.unit for job in given_up))
         lines.append(
-            f"{len(given_up)} jobs came to the limit of their processor time, which refutes nothing:"
+            f"{len(given_up)} jobs came to a limit of their processor time, which refutes nothing:"
             f" with more time, make prove UNIT='{units}' ARGS='--patience 8'"
         )
     for name, unit in gathered.units.items():

@@ -27,8 +27,8 @@ JUNIT = "junit.xml"
 
 @dataclass(frozen=True)
 class Suite:
-    """A named set of tests, with the groups of tools that it needs, the seconds that it takes alone,
-    and whether it runs only when all do; it may be run in any thread."""
+    """A named set of tests, with the groups of tools that it needs, the seconds that it takes
+    alone, and whether it runs only when all do; it may be run in any thread."""
 
     name: str
     groups: tuple[str, ...]

@@ -101,7 +101,7 @@ def provers_known(configuration: str) -> dict[str, str]:
 
 
 def by_processor_time(program: str) -> str:
-    """The script that starts a prover so that its processor time is limited, and not the clock's."""
+    """The script that starts a prover so that its processor time is limited, not the clock's."""
     return f'{BY_PROCESSOR_TIME}exec {shlex.quote(program)} "$@"\n'
 
 

@@ -27,8 +27,8 @@ typedef uint32_t (*keel_clock_fn_t)(void *context);
  * How a scheduler is set up.
  *
  * With promotion, which is what zeros mean, a task that does not fit the slack is served from a
- * stated age on nevertheless (WAIT-001). For real-time tasks the bound of ISO-001 then holds as long
- * as no task is promoted.
+ * stated age on nevertheless (WAIT-001). For real-time tasks the bound of ISO-001 then holds as
+ * long as no task is promoted.
  *
  * Without promotion a task that is not real-time starts only where its worst-case time fits the
  * slack, and ISO-001 needs no such condition. Waiting is then bounded by nothing but the slack: a
