@@ -415,6 +415,10 @@ keel_status_t keel_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us)
         const uint32_t ran_us = (uint32_t)(scheduler->clock.now_us - start_us);
 
         record_run(scheduler, (uint32_t)position, ran_us);
+        /*@ assert others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+          @     x != scheduler->queue.order[position] ==>
+          @     stats_same{Pre, Here}(&scheduler->queue.stats[x]);
+          @*/
     }
     return status;
 }
