@@ -6,11 +6,11 @@
 //
 // Any number of tasks that there is room for, from any state of the scheduler: each turn but the
 // last leaves the pass fewer tasks to look at, so there is at most one turn more than the capacity,
-// and each of them is looked at here. The nth turn of a pass is an unknown function of the scheduler
-// that is given to it: as the code's scheduler is seen to be the one that the turn before it left,
-// it is the same for the code and for the model. What a turn writes here is the stage, the pass, and
-// busy_us in the place of all other fields; of what it does no more is known than its contract
-// (step_contracts.h), and that outside of a pass it does nothing.
+// and each of them is looked at here. The nth turn of a pass is an unknown function of the
+// scheduler that is given to it: as the code's scheduler is seen to be the one that the turn before
+// it left, it is the same for the code and for the model. What a turn writes here is the stage, the
+// pass, and busy_us in the place of all other fields; of what it does no more is known than its
+// contract (step_contracts.h), and that outside of a pass it does nothing.
 #include "../../specs/model/pass.h"
 #include "../common/keel_scheduler_proof.h"
 #include "../common/step_contracts.h"
@@ -28,8 +28,8 @@ static uint32_t turns;          /* and the code. */
 static keel_scheduler_t left;   /* The scheduler as the code's last turn has left it. */
 static keel_scheduler_t before; /* The stage and the pass with which a turn began. */
 
-/* Whether nothing has been written since, but for the arrays of the queue: no turn writes them here,
- * and that nobody does is seen when the pass is over. */
+/* Whether nothing has been written since, but for the arrays of the queue: no turn writes them
+ * here, and that nobody does is seen when the pass is over. */
 static bool is_as_left(const keel_scheduler_t *scheduler)
 {
     return setup_same(&scheduler->config, &left.config) &&
