@@ -314,6 +314,64 @@ static void SCH_023_begin_and_run_pass_make_a_step(void)
     TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_READY, scheduler.stage);
 }
 
+static actor_t many[KEEL_QUEUE_CAPACITY];
+
+/* So many real-time tasks, of 1 us each: all of them run in one pass, each once, in queue order. */
+static void all_run_in_one_pass(uint32_t count)
+{
+    char names[KEEL_QUEUE_CAPACITY + 1u] = {0};
+
+    board_init(0u);
+    for (uint32_t i = 0u; i < count; i++) {
+        names[i] = (char)('A' + i);
+        declare(&many[i], names[i], KEEL_PRIORITY_REALTIME, 1000u, 1u);
+        add(&many[i]);
+    }
+    start();
+    step();
+    ran(names);
+    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_READY, scheduler.stage);
+    TEST_ASSERT_EQUAL_UINT64(count, scheduler.clock.now_us);
+    step();
+    ran("");
+    step_at(1000u);
+    ran(names);
+    for (uint32_t i = 0u; i < count; i++) {
+        TEST_ASSERT_EQUAL_UINT32(2u, report(&many[i]).stats.runs);
+        TEST_ASSERT_EQUAL_UINT64(2000u, report(&many[i]).release_us);
+    }
+}
+
+static void SCH_023_a_pass_runs_nine_realtime_tasks(void)
+{
+    all_run_in_one_pass(9u);
+}
+
+static void SCH_023_a_pass_runs_as_many_realtime_tasks_as_there_is_room_for(void)
+{
+    all_run_in_one_pass(KEEL_QUEUE_CAPACITY);
+}
+
+static void SCH_026_a_turn_runs_one_task(void)
+{
+    board_init(0u);
+    add(&a);
+    add(&o);
+    start();
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_pass_begin(&scheduler, 0u));
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_pass_turn(&scheduler));
+    ran("A");
+    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_PASS, scheduler.stage);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_pass_turn(&scheduler));
+    ran("O");
+    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_READY, scheduler.stage);
+    TEST_ASSERT_EQUAL_UINT64(60u, scheduler.clock.now_us); /* 10 + 50 */
+    remember();
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_pass_turn(&scheduler));
+    unchanged();
+    ran("");
+}
+
 static void SCH_018_finish_refuses_when_nothing_runs(void)
 {
     keel_scheduler_t *const s = &scheduler;
@@ -737,6 +795,9 @@ int main(void)
     RUN_TEST(SCH_017_begin_next_finish_make_a_step);
     RUN_TEST(SCH_023_without_a_pass_nothing_runs);
     RUN_TEST(SCH_023_begin_and_run_pass_make_a_step);
+    RUN_TEST(SCH_023_a_pass_runs_nine_realtime_tasks);
+    RUN_TEST(SCH_023_a_pass_runs_as_many_realtime_tasks_as_there_is_room_for);
+    RUN_TEST(SCH_026_a_turn_runs_one_task);
     RUN_TEST(SCH_018_finish_refuses_when_nothing_runs);
     RUN_TEST(SCH_018_broken_clock_ends_the_pass);
     RUN_TEST(SCH_012_an_idle_step_reads_the_clock_alone);

@@ -265,6 +265,9 @@ keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
   @   ensures SCH_020_closed: scheduler->stage == KEEL_STAGE_READY;
   @   ensures SCH_020_time: \old(scheduler->clock.now_us) <= scheduler->clock.now_us;
   @   ensures SCH_020_busy: scheduler->busy_us <= scheduler->clock.now_us;
+  @   ensures SCH_020_served: \result == KEEL_OK ==> asked_us <= \old(scheduler->clock.now_us) ==>
+  @       \forall integer i; 0 <= i < scheduler->pass_end ==>
+  @           asked_us < scheduler->queue.release_us[scheduler->queue.order[i]];
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
