@@ -55,15 +55,19 @@ help: ## this list
 SIZES = $(if $(CAPACITY),--size KEEL_QUEUE_CAPACITY=$(CAPACITY)) \
         $(if $(SENSORS),--size KEEL_VOTER_SENSORS=$(SENSORS))
 
-prove: python ## prove scheduler, voter, filter and PID (UNIT=queue: one unit; CAPACITY=8 SENSORS=3: your sizes)
+prove: python ## prove scheduler, voter, filter, PID (UNIT=queue: one unit; CAPACITY=8 SENSORS=3: your sizes)
 	@python3 tools/prove.py $(if $(UNIT),--unit $(UNIT),--kernel) $(SIZES) $(ARGS)
 
 .PHONY: prove-all
 prove-all: python ## prove every contract and harness of all units (ARGS='--shard 2/4': a quarter)
 	@python3 tools/prove.py $(SIZES) $(ARGS)
 
-test: python ## build and run all tests (ARGS='--filter unit/': some of them; ARGS='--jobs 1': one by one)
+test: python ## build and run tests, long ones aside (ARGS='--filter unit/': some of them; ARGS='--jobs 1')
 	@python3 tools/run_tests.py $(ARGS)
+
+.PHONY: test-all
+test-all: python ## run all tests, the long ones too: flights, models of chips, tests of tools
+	@python3 tools/run_tests.py --all $(ARGS)
 
 demo: python ## the paper's 21 tasks, one simulated minute on this host
 	@python3 tools/toolchain.py ensure test

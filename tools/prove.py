@@ -4,7 +4,7 @@
 
     python3 tools/prove.py                    # everything
     python3 tools/prove.py --unit queue       # one unit
-    python3 tools/prove.py --kernel           # scheduler, voter, filter, PID: what the paper is about
+    python3 tools/prove.py --kernel           # scheduler, voter, filter and PID
     python3 tools/prove.py --update-goals     # accept the goals as they are now, after review
     python3 tools/prove.py --shard 2/4        # a quarter of it: build/prove/shard-2-of-4.json
     python3 tools/prove.py --join FILE...     # the verdict on the whole, from all four reports

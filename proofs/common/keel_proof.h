@@ -89,10 +89,13 @@ static bool config_is_valid_here(const keel_task_config_t *config)
             (config->priority == KEEL_PRIORITY_REALTIME));
 }
 
-/* The slot at a position: each has one, and none its own number, if 5 divides no capacity. */
+/* Has no divisor in common with any capacity of up to 255. */
+#define STRIDE (((CAPACITY % 5u) != 0u) ? 5u : (((CAPACITY % 7u) != 0u) ? 7u : 11u))
+
+/* The slot at a position: each has one of its own. */
 static uint32_t slot_at(uint32_t position)
 {
-    return ((5u * position) + 7u) % CAPACITY;
+    return ((STRIDE * position) + 7u) % CAPACITY;
 }
 
 /* Any valid queue. Position of_interest holds the task that the harness is about, if it is within
@@ -176,7 +179,8 @@ static void narrow_releases(keel_queue_t *queue, uint32_t bits)
 static bool stats_same(const keel_stats_t *a, const keel_stats_t *b)
 {
     return (a->total_us == b->total_us) && (a->runs == b->runs) && (a->last_us == b->last_us) &&
-           (a->longest_us == b->longest_us) && (a->overruns == b->overruns) &&
+           (a->longest_us == b->longest_us) && (a->remembered_us == b->remembered_us) &&
+           (a->forgotten_in == b->forgotten_in) && (a->overruns == b->overruns) &&
            (a->promotions == b->promotions);
 }
 
@@ -202,6 +206,8 @@ static bool slot_same(const keel_queue_t *a, const keel_queue_t *b, uint32_t x)
            (a->skipped[x] == b->skipped[x]) && (a->stats[x].total_us == b->stats[x].total_us) &&
            (a->stats[x].runs == b->stats[x].runs) && (a->stats[x].last_us == b->stats[x].last_us) &&
            (a->stats[x].longest_us == b->stats[x].longest_us) &&
+           (a->stats[x].remembered_us == b->stats[x].remembered_us) &&
+           (a->stats[x].forgotten_in == b->stats[x].forgotten_in) &&
            (a->stats[x].overruns == b->stats[x].overruns) &&
            (a->stats[x].promotions == b->stats[x].promotions);
 }

@@ -390,9 +390,9 @@ static void run_realtime(keel_scheduler_t *s, const int64_t *sum)
 static void run_other(keel_scheduler_t *s, const int64_t *sum)
 {
     const uint32_t slot = s->queue.order[s->running];
-    const uint32_t longest_us = s->queue.stats[slot].longest_us;
+    const uint32_t remembered_us = s->queue.stats[slot].remembered_us;
     const uint32_t budget_us = s->queue.budget_us[slot];
-    const uint64_t worst_us = (longest_us > budget_us) ? longest_us : budget_us;
+    const uint64_t worst_us = (remembered_us > budget_us) ? remembered_us : budget_us;
 
     (void)sum;
     run_at_most(s, s->config.guard_us + worst_us);

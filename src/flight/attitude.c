@@ -431,6 +431,8 @@ static void judge_tilt(keel_attitude_t *attitude, keel_attitude_vector_t error, 
         attitude->settled = near ? counted(attitude->settled, true, most) : 0u;
         if (attitude->settled >= most) {
             attitude->phase = KEEL_ATTITUDE_RUNNING;
+        } else {
+            attitude->phase = KEEL_ATTITUDE_ALIGNING;
         }
     } else {
         /* Not before there is a bias. */

@@ -456,12 +456,14 @@ static void judge_count(keel_battery_t *battery, bool is_lost, bool running)
 {
     const bool waiting = battery->count == KEEL_BATTERY_WAITING;
 
-    if (is_lost && (running || !waiting)) {
+    if (!is_lost) {
+        if (waiting) {
+            battery->count = KEEL_BATTERY_COUNTED;
+        }
+    } else if (running || !waiting) {
         battery->count = KEEL_BATTERY_UNCOUNTED;
-    } else if (!is_lost && waiting) {
-        battery->count = KEEL_BATTERY_COUNTED;
     } else {
-        /* It still waits, or stays what it was. */
+        /* It still waits. */
     }
 }
 

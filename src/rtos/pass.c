@@ -124,7 +124,8 @@ static keel_choice_t choose_other(const keel_scheduler_t *scheduler, uint64_t re
       @                 scheduler->config.guard_us) <==>
       @      task_worst(&scheduler->queue, scheduler->queue.order[i]) <= room_us);
       @*/
-    return keel_decision_other(&scheduler->queue, now_us, room_us);
+    return keel_decision_other(&scheduler->queue, now_us, room_us,
+                               scheduler->config.without_promotion);
 }
 
 /* Remembers the earliest releases that a decision has found. */
@@ -193,13 +194,14 @@ static const keel_task_config_t *serve_other(keel_scheduler_t *scheduler, uint32
   @ ensures realtime: \result <= realtime_us;
   @ ensures others: \forall integer i;
   @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> \result <=
-  @     next_event(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us);
+  @     next_event(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us,
+  @                scheduler->config.without_promotion);
   @ ensures ahead: scheduler->clock.now_us < other_us ==>
   @     \result == \min(realtime_us, other_us);
   @ ensures exact: other_us <= scheduler->clock.now_us ==> \result == realtime_us ||
   @     \exists integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count &&
   @         \result == next_event(&scheduler->queue, scheduler->queue.order[i],
-  @                               scheduler->clock.now_us);
+  @                               scheduler->clock.now_us, scheduler->config.without_promotion);
   @*/
 static uint64_t find_wake(const keel_scheduler_t *scheduler, uint64_t realtime_us,
                           uint64_t other_us)
@@ -207,7 +209,8 @@ static uint64_t find_wake(const keel_scheduler_t *scheduler, uint64_t realtime_u
     uint64_t wake_us = other_us;
 
     if (wake_us <= scheduler->clock.now_us) {
-        wake_us = keel_decision_event_us(&scheduler->queue, scheduler->clock.now_us);
+        wake_us = keel_decision_event_us(&scheduler->queue, scheduler->clock.now_us,
+                                         scheduler->config.without_promotion);
     }
     return (realtime_us < wake_us) ? realtime_us : wake_us;
 }
@@ -228,14 +231,16 @@ static uint64_t find_wake(const keel_scheduler_t *scheduler, uint64_t realtime_u
   @ ensures realtime: wake_realtime(scheduler);
   @ ensures others: \forall integer i;
   @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> scheduler->wake_us <=
-  @     next_event(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us);
+  @     next_event(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us,
+  @                scheduler->config.without_promotion);
   @ ensures first: scheduler->wake_us <= realtime_us;
   @ ensures ahead: scheduler->clock.now_us < other_us ==>
   @     scheduler->wake_us == \min(realtime_us, other_us);
   @ ensures exact: other_us <= scheduler->clock.now_us ==> scheduler->wake_us == realtime_us ||
   @     \exists integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count &&
   @         scheduler->wake_us == next_event(&scheduler->queue, scheduler->queue.order[i],
-  @                                          scheduler->clock.now_us);
+  @                                          scheduler->clock.now_us,
+  @                                          scheduler->config.without_promotion);
   @ ensures known: scheduler->earliest_realtime_us == realtime_us &&
   @     scheduler->earliest_other_us == other_us;
   @ ensures releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
@@ -313,7 +318,9 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
       @     \at(grid_missed(&scheduler->queue, scheduler->queue.order[k],
       @                     scheduler->clock.now_us), Pre);
       @*/
-    task = serve_other(scheduler, choice.position, choice.priority == KEEL_PRIORITY_REALTIME);
+    task = serve_other(scheduler, choice.position,
+                       (choice.priority == KEEL_PRIORITY_REALTIME) &&
+                           !scheduler->config.without_promotion);
     /*@ assert others: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==>
       @     k != scheduler->running ==> left_alone{Pre, Here}(scheduler, k);
       @*/

@@ -5,7 +5,8 @@
 Code and model read one header, so each proof of equality holds with any numbers there. A set of
 bits is three or more constants, line by line, written in hexadecimal, most of which are single
 bits: then all of them are, and no two of a header are equal, unless WORDS says that they are bits
-of another word. Of three or more whole numbers that stand line by line no two are equal, either.
+of another word. Of three or more whole numbers that stand line by line no two are equal, either;
+where the first is 0, they count up.
 Numbers of physics and protocols are worked out here from what their standards say.
 
     python3 tests/tools/test_constants.py
@@ -102,12 +103,20 @@ def equal(group: list[Constant], kind: str) -> Iterator[str]:
             yield f"{first} and {one.name} are one {kind}"
 
 
+def uncounted(group: list[Constant]) -> Iterator[str]:
+    """Which do not follow the one before, where the first is 0."""
+    for one, before in zip(group[1:], group, strict=False):
+        if group[0].value == 0 and one.value != before.value + 1:
+            yield f"{one.name} is not one more than {before.name}"
+
+
 def problems(text: str) -> list[str]:
     """What is wrong with the numbers of a header."""
     bits = [one for group in sets(text) for one in group]
     wrong = [f"{one.name} is no single bit" for one in bits if not one.is_bit]
     numbers = [line for group in groups(text) for line in equal(group, "number")]
-    return [*wrong, *equal(bits, "bit"), *numbers]
+    rows = [line for group in groups(text) for line in uncounted(group)]
+    return [*wrong, *equal(bits, "bit"), *numbers, *rows]
 
 
 def combined(text: str) -> set[str]:
@@ -190,7 +199,19 @@ SOURCES: dict[str, float] = {
     "KEEL_ALTITUDE_THIRD": single(1 / 3),
     "KEEL_CASCADE_GRAVITY": single(GRAVITY),
     "KEEL_CASCADE_PER_GRAVITY": single(1 / GRAVITY),
-    # A week of GPS; a degree in units of 1e-7; a minute in units of 10 us; parts per million.
+    # Bounds of states and outputs that a proof was made for, as the headers' comments say them.
+    "KEEL_FILTER_LOW_STATE_LIMIT": 2**22,
+    "KEEL_FILTER_HIGH_STATE_LIMIT": 2**45,
+    "KEEL_FILTER_LOW_OUTPUT_LIMIT": 8 * 2**22,
+    "KEEL_FILTER_HIGH_OUTPUT_LIMIT": 8 * 2**45,
+    "KEEL_FILTER_LOW_ENERGY_LIMIT": 2**22 * 2**22,
+    "KEEL_FILTER_HIGH_ENERGY_LIMIT": 2**45 * 2**45,
+    "KEEL_PID_INTEGRAL_GAIN_LIMIT": 2**30,
+    "KEEL_PID_DERIVATIVE_LIMIT": 2**70,
+    "KEEL_ATTITUDE_NORM_MIN": 1 - 2.0**-12,
+    "KEEL_ATTITUDE_NORM_MAX": 1 + 2.0**-12,
+    "KEEL_REFERENCE_REACH": 1 + 2.0**-22,
+    # A week of GPS; turns in units of 1e-7 degrees; a minute in units of 10 us; parts per million.
     "KEEL_UBX_WEEK_MS": 7 * 24 * 60 * 60 * 1000,
     "KEEL_POSITION_HALF_TURN": 180 * 10**7,
     "KEEL_POSITION_FULL_TURN": 360 * 10**7,
@@ -203,6 +224,11 @@ SOURCES: dict[str, float] = {
     # Time wraps at 2^32 us, and half of it is the future.
     "KEEL_CLOCK_STEP_LIMIT_US": 2**31,
     "KEEL_PERIOD_LIMIT_US": 2**31,
+    "KEEL_CLOCK_TIME_LIMIT_US": 2**62,
+    # Two sensors of three axes.
+    "KEEL_VIRTUAL_IMU_CHANNELS": 2 * 3,
+    "KEEL_VIRTUAL_IMU_ACCELEROMETER": 3,
+    "KEEL_VIRTUAL_IMU_ALL": 2**6 - 1,
     # DVB-S2's polynomial, CRC-16/MCRF4XX and IEEE 802.3.
     "KEEL_CRC8_POLYNOMIAL": (1 << 7) + (1 << 6) + (1 << 4) + (1 << 2) + 1,
     "KEEL_CRC8_FIRST": 0,
@@ -253,6 +279,8 @@ SOURCES: dict[str, float] = {
     "KEEL_UBX_PAYLOAD": 92,
     "KEEL_UBX_BYTES": len(UBX_HEADER) + 92 + UBX_SUMS,
     "KEEL_UBX_3D": 3,
+    # The longest message that is written is CFG-PRT, with a payload of 20 bytes.
+    "KEEL_UBX_MESSAGE_BYTES": len(UBX_HEADER) + 20 + UBX_SUMS,
     # ULog: magic, version and time; size and kind; a dropout's two bytes; syslog's levels in ASCII.
     "KEEL_ULOG_BEGIN_BYTES": 7 + 1 + 8,
     "KEEL_ULOG_HEAD_BYTES": 2 + 1,
@@ -334,8 +362,13 @@ class RulesTest(unittest.TestCase):
 
     def test_equal_numbers(self) -> None:
         self.assertEqual(
-            problems(header("0", "1u", "2", "1")), ["KEEL_SIDE_B and KEEL_SIDE_D are one number"]
+            problems(header("5", "1u", "2", "1")), ["KEEL_SIDE_B and KEEL_SIDE_D are one number"]
         )  # fmt: skip
+
+    def test_a_gap(self) -> None:
+        [only] = problems(header("0", "1u", "3"))
+        self.assertEqual(only, "KEEL_SIDE_C is not one more than KEEL_SIDE_B")
+        self.assertEqual(problems(header("1", "2", "16")), [])
 
     def test_limits_may_be_equal(self) -> None:
         self.assertEqual(problems(header("1.0f", "1.0f", "16.0f") + header("8u", "8u")), [])

@@ -122,8 +122,11 @@ def run(
     command: Sequence[str | Path], timeout_s: float | None = TIMEOUT_S, *, cwd: Path = ROOT,
     environment: Mapping[str, str] | None = None, apart: bool = False,
 ) -> Ended:  # fmt: skip
-    """Run a program for at most so many seconds of processor time (limits.py). Variables are added
-    to ours. Its two output streams are one, unless `apart`. A program that is missing ends with 127."""
+    """Run a program, for at most so many seconds of processor time (limits.py).
+
+    Variables are added to ours. Its two output streams are one, unless `apart`. A program that is
+    missing ends with 127.
+    """
     try:
         words = [str(word) for word in command]
         child = RUNNING.start(words, cwd, {**os.environ, **(environment or {})}, apart)

@@ -47,7 +47,7 @@ def commands_of(root: Path) -> tuple[Command, ...]:
         *(Command(f"firmware/{name}/report.json", ("firmware", f"BOARD={name}"), narrow=True)
           for name in boards),
         Command("test-target/report.json", ("test-target",)),
-        Command("test/report.json", ("test",)),
+        Command("test/report.json", ("test-all",)),
         Command("coverage-target/report.json", ("coverage-target",)),
         Command("contracts-run/report.json", ("contracts-run",)),
         Command("coverage/report.json", ("coverage",), narrow=True),

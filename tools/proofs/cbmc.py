@@ -73,8 +73,8 @@ class Cbmc:
     """CBMC and its compiler for the target."""
 
     def __init__(
-        self, goto_cc: Sequence[str], cbmc: Sequence[str], runner: Runner, root: Path, scratch: Path,
-        defines: Sequence[str] = (),
+        self, goto_cc: Sequence[str], cbmc: Sequence[str], runner: Runner, root: Path,
+        scratch: Path, defines: Sequence[str] = (),
     ) -> None:  # fmt: skip
         """Take what is to be started, and the sizes that the build chooses, as -DNAME=NUMBER."""
         self._defines = tuple(defines)
@@ -90,7 +90,7 @@ class Cbmc:
         return [*self._goto_cc[1:], *CHECKS, *ASSERTIONS, *COVERAGE, *self._defines]
 
     def sized(self, harness: Harness) -> Harness:
-        """The harness with the sizes that the build chooses, but for those that it has its own of."""
+        """The harness with the sizes that the build chooses, where it has none of its own."""
         own = [word.partition("=")[0] for word in harness.defines]
         more = [word for word in self._defines if word.partition("=")[0] not in own]
         return replace(harness, defines=(*harness.defines, *more)) if more else harness

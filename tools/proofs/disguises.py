@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Refuses texts of C that a reader, a prover and the build's compiler could take for different things.
+"""Refuses texts of C that a reader, a prover and the build's compiler may take for different things.
 
 In all that is proved, and in the proofs: line splices outside of directives, trigraphs, digraphs,
 control characters, pragmas, #line, and headers that only the preprocessor could name. In what is
@@ -35,7 +35,9 @@ SPLICE = re.compile(r"\\[ \t]*$")
 DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(\w*)[ \t]*(.*)$")
 PLAIN = frozenset("include define error if ifdef ifndef else elif endif".split())
 RESERVED = re.compile(r"\b(?:__\w+|_[A-Z]\w*|linux|unix|i386|asm)\b")
-NUMBERS_ALONE = re.compile(r"(?:KEEL_\w+|[A-Z]+_[A-Z_]+|0[xX][0-9a-fA-F]+u?|\d+u?|[\s()<>=!&|+*-])*")
+NUMBERS_ALONE = re.compile(
+    r"(?:KEEL_\w+|[A-Z]+_[A-Z_]+|0[xX][0-9a-fA-F]+u?|\d+u?|[\s()<>=!&|+*-])*"
+)
 # A header for C++, of which neither the provers nor a compiler of C see anything else than nothing.
 FOR_CPP = "c_declarations.h"
 

@@ -86,7 +86,7 @@ def run_jobs(
     for index, result in in_pool(tasks, pool.width, runner):
         if result.get("gave_up") and pool.again:
             given_up.append(waiting[index])
-            print(f"{waiting[index].label}: given up for now, asked again alone when all else is done")
+            print(f"{waiting[index].label}: given up, asked again alone when all else is done")
         else:
             finish(Outcome(waiting[index], result, cached=False))
     for job in given_up:

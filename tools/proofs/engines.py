@@ -75,7 +75,8 @@ def survey_jobs(
         for file in (targets.translation_unit(unit), *unit.theorems):
 
             def execute(_room: int, file: Path = file) -> dict[str, Any]:
-                problems = verdict.survey_problems(prover.survey(file), shown(file, root), elsewhere)
+                log = prover.survey(file)
+                problems = verdict.survey_problems(log, shown(file, root), elsewhere)
                 return targets.Result(problems=problems).as_dict()
 
             def key(file: Path = file) -> str:

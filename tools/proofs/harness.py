@@ -146,8 +146,6 @@ def read_harness(unit: Unit, path: Path) -> Harness:
     """Read a harness's directives."""
     given = directives(path)
     defines = tuple(" ".join(given.get("defines", [])).split())
-    if strange := [word for word in defines if not DEFINE.fullmatch(word)]:
-        raise ProjectError(f"{path}: `defines` takes -DNAME=NUMBER only, NAME in capitals: {strange[0]}")
     if given.get("entry", [path.stem]) != [path.stem]:
         raise ProjectError(f"{path}: the entry of a harness bears the name of its file")
     checks = given.get("checks", [])
@@ -161,8 +159,17 @@ def read_harness(unit: Unit, path: Path) -> Harness:
     for source in sources:
         if not source.is_file():
             raise ProjectError(f"{path}: there is no source {source.relative_to(unit.root)}")
-        if not any(source.is_relative_to(root / place) for root in (unit.root, KEEL) for place in LINKED):
-            raise ProjectError(f"{path}: {source.name} is linked from elsewhere than {' or '.join(LINKED)}")
+        homes = (root / place for root in (unit.root, KEEL) for place in LINKED)
+        if not any(source.is_relative_to(home) for home in homes):
+            raise ProjectError(
+                f"{path}: {source.name} is linked from elsewhere than {' or '.join(LINKED)}"
+            )
+    for word in defines:
+        if not (DEFINE.fullmatch(word) or _is_left_to_builds(word, sources)):
+            raise ProjectError(
+                f"{path}: `defines` takes -DNAME=NUMBER, NAME in capitals, or a macro that a source"
+                f" leaves to builds: {word}"
+            )
     return Harness(
         unit=unit, path=path, sources=sources, defines=defines,
         options=tuple(search_options(path, given.get("cbmc", []))),
@@ -172,6 +179,15 @@ def read_harness(unit: Unit, path: Path) -> Harness:
         assertions_only=bool(checks),
         reach=tuple(search_options(path, given.get("reach", []))),
     )  # fmt: skip
+
+
+def _is_left_to_builds(word: str, sources: Iterable[Path]) -> bool:
+    """Whether a definition is of a macro with arguments of which a source says that a build may
+    define it."""
+    named = re.match(r"-D(KEEL_[A-Z0-9_]+)\(", word)
+    return named is not None and any(
+        f"#ifndef {named[1]}\n" in source.read_text(encoding="utf-8") for source in sources
+    )
 
 
 def text_problems(harness: Harness) -> list[str]:

@@ -302,11 +302,11 @@ def closing_lines(gathered: Gathered) -> list[str]:
         f"to see why: make prove UNIT={unit} ARGS='--explain {name}'"
         for unit, name in gathered.open[:EXPLAINED]
     ]
-    if left := [one.job for one in gathered.outcomes if one.result.get("gave_up")]:
-        units = " ".join(dict.fromkeys(job.unit for job in left))
+    if given_up := [one.job for one in gathered.outcomes if one.result.get("gave_up")]:
+        units = " ".join(dict.fromkeys(job.unit for job in given_up))
         lines.append(
-            f"{len(left)} jobs came to the limit of their processor time, which refutes nothing: with"
-            f" more time, make prove UNIT='{units}' ARGS='--patience 8'"
+            f"{len(given_up)} jobs came to the limit of their processor time, which refutes nothing:"
+            f" with more time, make prove UNIT='{units}' ARGS='--patience 8'"
         )
     for name, unit in gathered.units.items():
         if unit.exceptions.not_by_wp and "wp" in gathered.engines:

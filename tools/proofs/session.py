@@ -28,6 +28,7 @@ from . import (
     exports,
     frames,
     gappa,
+    harness_rules,
     report,
     rules,
     shards,
@@ -263,6 +264,7 @@ class Session:
         allowed = read_exceptions(self._exceptions, list(everything))
         accepted = {text for one in allowed.values() for text in one.conditionals}
         gathered.problems += disguises.problems(root, accepted)
+        gathered.problems += harness_rules.problems(root, everything.values())
         gathered.problems += unused.problems(root)
         decider = determined.Decider(root)
         if self._choice.update_goals and determined.update_kept(root):

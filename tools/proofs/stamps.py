@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What verdicts depend on besides the text that they are about: tools, and the judges of the driver.
+"""What verdicts depend on besides the text that they are about: tools, and the driver's judges.
 
 A kept verdict of an engine rests on the tools that the engine may start, on what reads C, and on
 what asks that engine and reads its answers. All else finds work, prints, or looks at the whole anew

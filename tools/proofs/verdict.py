@@ -12,7 +12,6 @@ from . import csource, goals, wplog
 from .project import shown
 from .targets import Result, Target
 
-LIMIT = re.compile(r"Timeout|Stepout|Failed")  # One that is ended by the system has failed.
 VARIANT = re.compile(r"(.*_loop_variant(?:_\d+)?_decrease)(?:_part\d+)?$")
 CLAUSE = re.compile(r"\b(ensures|invariant|assert|requires|lemma)\s+(\w+)\s*:")
 CLAUSE_LINES = 12  # of the longest clause that is shown whole
@@ -46,7 +45,8 @@ def judge(
     result.problems += loop_problems(target, log)
     others = len(result.problems)
     result.problems += _unproved(target, log, root)
-    result.gave_up = not others and any(gave_up(goal) for goal in log.goals.values())
+    # No prover refutes a goal here: each ends at a limit, of time or of what it tries.
+    result.gave_up = not others and all(log.smoke.values()) and not log.all_proved
     result.stale = _stale(log, recorded or {})
     # Their prover would be asked in vain in the pass for recorded provers, which does not search.
     result.pruned = [goal.name for goal in log.goals.values() if goal.passes in pruned]
@@ -64,14 +64,15 @@ def _stale(log: wplog.Log, recorded: Mapping[str, str]) -> list[str]:
 
 
 def survey_problems(log: wplog.Log, file: str, proved: Collection[str]) -> list[str]:
-    """What is wrong with a file as Frama-C sees it; `proved` are the functions that somebody proves.
+    """What is wrong with a file as Frama-C sees it; `proved` are the functions proved anywhere.
 
     Its annotations are read behind the preprocessor, which may have made them of anything.
     """
     if not log.surveyed:
         return [f"{file}: Frama-C does not read it: {'; '.join(map(str, log.messages))}"]
     return [
-        *(f"{text}: it is assumed, not proved; state a lemma or a contract" for text in log.assumed),
+        *(f"{text}: it is assumed, not proved; state a lemma or a contract"
+          for text in log.assumed),
         *(f"{file}: Frama-C sees the function {name}, which the driver does not"
           for name in log.functions if name not in proved),
         *(f"{file}: {name} is declared here, and proved nowhere"
@@ -110,11 +111,6 @@ def message_problems(log: wplog.Log, allowed: Sequence[str], used: list[str]) ->
     return list(dict.fromkeys(problems))
 
 
-def gave_up(goal: wplog.Goal) -> bool:
-    """Whether a prover came to its limit: more time may yet prove the goal."""
-    return not goal.proved and any(LIMIT.search(text) for text in goal.attempts)
-
-
 def _unproved(target: Target, log: wplog.Log, root: Path) -> list[str]:
     """The goals that no prover proved, and the smoke tests that failed."""
     problems = []
@@ -122,8 +118,7 @@ def _unproved(target: Target, log: wplog.Log, root: Path) -> list[str]:
         if not goal.proved:
             tried = ", ".join(dict.fromkeys(goal.attempts)) or goal.status
             place = place_of(target, goal.name, root)
-            how = ", nor refuted: provers gave up" if gave_up(goal) else ""
-            problems.append(f"{goal.name} is not proved{how} ({place}): {tried}")
+            problems.append(f"{goal.name} is not proved, provers gave up ({place}): {tried}")
     for name, passed in log.smoke.items():
         if not passed:
             seen = [m.place for m in log.messages if "Failed smoke-test" in m.text]

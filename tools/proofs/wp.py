@@ -91,7 +91,7 @@ THOROUGH = (
 # A prover that is recorded for a goal proved it, if on a faster machine: to wait for it costs less
 # than to ask all the others. Of the processor, as all limits here; the longest take 22 s.
 RECORDED = Stage((), 100)
-# By the clock: here the steps are the limit, and a test that ends before them looks as if it passed.
+# By the clock: the steps are the limit here, and a test that ends before them looks as if it passed
 SMOKE_SECONDS = 120
 # A contradiction shows early: seeded ones were found within a second by either prover, among
 # integers by CVC4 with 50 000 steps wherever with 75 000, among floats by Alt-Ergo with 300
@@ -141,7 +141,7 @@ class Wp:
         return [*options[:place], *loading, *options[place + 2 :]]
 
     def survey(self, file: Path) -> wplog.Log:
-        """Parse a file and learn which functions it defines, includes and all, and what it assumes."""
+        """Parse a file and learn what it defines, includes and all, and what it assumes."""
         command = [*self._loaded("find_assumptions.ml"), self._shown(file), "-rte"]
         return wplog.read_log(self._runner.run(command).output)
 

@@ -69,7 +69,7 @@ class Log:
     smoke: dict[str, bool] = field(default_factory=dict)
     messages: list[Message] = field(default_factory=list)
     functions: list[str] = field(default_factory=list)
-    # What annotations take for granted, and the functions without a body; whether all was looked at.
+    # What annotations take for granted, and functions without a body; whether all was looked at.
     assumed: list[str] = field(default_factory=list)
     declared: list[str] = field(default_factory=list)
     surveyed: bool = False
@@ -79,6 +79,11 @@ class Log:
     def proved(self) -> int:
         """How many goals are proved."""
         return sum(goal.proved for goal in self.goals.values())
+
+    @property
+    def all_proved(self) -> bool:
+        """Whether no goal is left."""
+        return self.proved == len(self.goals)
 
 
 def _note_goal(log: Log, match: re.Match[str]) -> Goal:

@@ -10,6 +10,7 @@ from plotting import BLUE, RED, grid_along, new_figure, write_svg
 from rich.console import Console
 
 from timing.analysis import Analysis, ChainRow, ClassLoad
+from timing.isolation import UNPROMOTED, WHATEVER, Isolation
 from timing.output import Cell, table
 
 PUBLISHED_LABELS = {
@@ -31,6 +32,12 @@ NOTE_REALTIME = (
     "its FCFS pass serves each\ntask once in turn, so all share one bound, with passes, dispatches "
     "and (promotion) one promoted task in it. A task\nthat falls due just after the pass has "
     "looked at it waits for all the others: no order of priorities describes that.\n"
+)
+NOTE_ISOLATION = (
+    "From the release to the start, by the theorems of specs/soundness.md. ISO-001, as long as "
+    "nothing is promoted: the other\nreal-time budgets and the guard. ISO-002, whatever is "
+    "promoted: the guard twice and the longest other budget more, and\nits own where that exceeds "
+    "its period. Budgets are the declared ones.\n"
 )
 NOTE_CHAINS = (
     "Eq. 5 to 7 are no bounds: they take each task to respond at once and to use the sample that "
@@ -91,8 +98,8 @@ def print_realtime(analysis: Analysis, out: Console) -> None:
                "Keel, guard", "Keel, promotion", "with these phases"]  # fmt: skip
     out.print(table("Worst response times, us", columns, rows, 2))
     out.print(NOTE_REALTIME)
-    excluded = "cannot happen: every other task responds within its period"
-    text = excluded if analysis.promotion_excluded else "cannot be excluded: its column counts"
+    why = analysis.isolation.unpromoted
+    text = f"cannot happen: {why}" if why else "cannot be excluded: its column counts"
     out.print(f"Promotion {text}.\n")
     found = analysis.jeffay
     verdict = (
@@ -102,6 +109,33 @@ def print_realtime(analysis: Analysis, out: Console) -> None:
         f", least slack {found.slack} us at L = {found.interval} us, blocked by {found.blocker}"
     )  # fmt: skip
     out.print(f"Jeffay's condition for non-preemptive EDF over all tasks: {verdict}{where}.\n")
+
+
+def print_isolation(analysis: Analysis, out: Console) -> None:
+    """How late real-time tasks start, by the theorem that holds."""
+    isolation = analysis.isolation
+    if not isolation.starts:
+        return
+    rows: list[list[Cell]] = [
+        [row.label, row.name, row.period, row.unpromoted, row.whatever,
+         "may be" if row.skipping else "none", row.bound]
+        for row in isolation.starts
+    ]  # fmt: skip
+    columns = ["", "real-time task", "T", UNPROMOTED, WHATEVER, "skipped by it", "holds"]
+    out.print(table("Latest starts, us from the release", columns, rows, 2))
+    out.print(NOTE_ISOLATION)
+    out.print(f"{isolation_verdict(isolation)}.\n")
+
+
+def isolation_verdict(isolation: Isolation) -> str:
+    """Which theorem holds, and why."""
+    if isolation.theorem is None:
+        return f"No isolation theorem holds: {isolation.reason}"
+    latest = max((row.bound or 0 for row in isolation.starts), default=0)
+    return (
+        f"Isolation: {isolation.theorem} holds, a start at most {latest} us after its release: "
+        f"{isolation.reason}"
+    )
 
 
 def print_others(analysis: Analysis, out: Console) -> None:
@@ -171,6 +205,7 @@ def print_analysis(analysis: Analysis, out: Console) -> None:
     """All tables, and the verdict."""
     print_utilisation(analysis, out)
     print_realtime(analysis, out)
+    print_isolation(analysis, out)
     print_others(analysis, out)
     print_collisions(analysis, out)
     print_chains(analysis, out)
@@ -198,7 +233,7 @@ def verdict(analysis: Analysis) -> str:
         )
     more = len(analysis.reasons) - 1
     rest = f" ({more} more)" if more else ""
-    return f"{analysis.name}: NOT schedulable: {analysis.reasons[0]}{rest}"
+    return f"{analysis.name}: {analysis.standing}: {analysis.reasons[0]}{rest}"
 
 
 # --- Plots ---------------------------------------------------------------------------------------

@@ -26,7 +26,7 @@ TARGET_FLAGS = ("-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=har
 CLOCK_PER_PROCESSOR = 20
 BY_PROCESSOR_TIME = f"""\
 #!/bin/sh
-# Starts a prover with a limit of its processor time: a part of the time by the clock that it is told.
+# Starts a prover with a limit of its processor time: a part of the clock's that it is told.
 before=
 for word do
     shift
@@ -89,7 +89,8 @@ def goto_cc(command: Command) -> list[str]:
 def header_folders(command: Command, answer: Answer) -> list[Path]:
     """The folders of the compiler's own headers, in which the preprocessor looks for <...>."""
     words = [*command("arm-none-eabi-gcc"), *TARGET_FLAGS, "-E", "-v", "-x", "c", os.devnull]
-    listed = re.search(r"^#include <\.\.\.> [^\n]*\n((?: [^\n]+\n)+)", answer(words), re.MULTILINE)
+    said = answer(words)
+    listed = re.search(r"^#include <\.\.\.> [^\n]*\n((?: [^\n]+\n)+)", said, re.MULTILINE)
     return [Path(line.strip()).resolve() for line in listed[1].splitlines()] if listed else []
 
 

@@ -222,6 +222,11 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @       scheduler->running >= scheduler->queue.realtime_count;
   @   ensures SCH_016_fits: scheduler->stage == KEEL_STAGE_OTHER ==>
   @       \at(other_may_run(scheduler, \at(scheduler->running, Post)), Pre);
+  @   ensures SCH_016_slack: scheduler->stage == KEEL_STAGE_OTHER ==>
+  @       scheduler->config.without_promotion != 0 ==>
+  @       \at(fits_slack(&scheduler->queue,
+  @                      scheduler->queue.order[\at(scheduler->running, Post)],
+  @                      scheduler->clock.now_us, scheduler->config.guard_us), Pre);
   @   ensures SCH_016_highest: scheduler->stage == KEEL_STAGE_OTHER ==>
   @       \forall integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
   @           \old(other_may_run(scheduler, i)) ==> \old(priority_at(scheduler, i)) <=
@@ -236,7 +241,7 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @   ensures SCH_016_promotion: scheduler->stage == KEEL_STAGE_OTHER ==>
   @       promotions_at(scheduler, scheduler->running) ==
   @           ((\at(priority_at(scheduler, \at(scheduler->running, Post)), Pre) ==
-  @             KEEL_PRIORITY_REALTIME)
+  @             KEEL_PRIORITY_REALTIME && scheduler->config.without_promotion == 0)
   @               ? counted(\at(promotions_at(scheduler, \at(scheduler->running, Post)), Pre),
   @                         UINT16_MAX)
   @               : \at(promotions_at(scheduler, \at(scheduler->running, Post)), Pre));
@@ -261,7 +266,8 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @   ensures SCH_012_others: \result == \null ==>
   @       \forall integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
   @           scheduler->wake_us <= next_event(&scheduler->queue, scheduler->queue.order[i],
-  @                                            scheduler->clock.now_us);
+  @                                            scheduler->clock.now_us,
+  @                                            scheduler->config.without_promotion);
   @   ensures SCH_012_first: \result == \null ==>
   @       scheduler->wake_us <= scheduler->earliest_realtime_us;
   @   ensures SCH_012_ahead: \result == \null ==>
@@ -272,7 +278,8 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @       scheduler->wake_us == scheduler->earliest_realtime_us ||
   @       \exists integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count &&
   @           scheduler->wake_us == next_event(&scheduler->queue, scheduler->queue.order[i],
-  @                                            scheduler->clock.now_us);
+  @                                            scheduler->clock.now_us,
+  @                                            scheduler->config.without_promotion);
   @ complete behaviors;
   @ disjoint behaviors;
   @*/

@@ -14,7 +14,8 @@
  *     for (;;) { keel_scheduler_step(&s); }
  *
  * A task is its declaration, a constant, whose address is its handle. While it runs it may add and
- * remove tasks, itself too, but change nothing else. The contracts' words: scheduler_state.h.
+ * remove tasks, itself too, but change nothing else. The contracts' words: scheduler_state.h; there
+ * also stands what the choice between promotion and none means for tasks of either class.
  */
 #ifndef KEEL_RTOS_SCHEDULER_H
 #define KEEL_RTOS_SCHEDULER_H
@@ -63,7 +64,8 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
                                   const keel_scheduler_config_t *config);
 
 /**
- * Checks whether the tasks can be scheduled, and names the first that cannot (SCH-003).
+ * Checks whether the tasks can be scheduled, and names the first that cannot (SCH-003). The rules
+ * are the same with and without promotion; which bound then holds: keel_scheduler_config_t.
  *
  * @param scheduler the scheduler
  * @param admitted  receives how many tasks are admitted: on refusal, the offender's position
