@@ -131,7 +131,8 @@ class RulesTest(unittest.TestCase):
     def test_what_is_linked_is_not_defined_beside_it(self) -> None:
         body = "(int *box, int value)\n{\n    return 0;\n}"
         self.assert_found(HARNESS, f"int model_box_put{body}",
-                          "model_box_put is defined by proofs, and by specs/model/box.c")  # fmt: skip
+                          "model_box_put is defined by proofs, and by specs/model/box.c",
+                          )  # fmt: skip
 
     def test_what_is_called_has_a_body(self) -> None:
         for call in ("abort()", "exit(0)", "__builtin_unreachable()", "any_other()",
