@@ -373,9 +373,9 @@ class Sameness(DeterminedTest):
             with self.subTest(line):
                 self.change("put_harness.c", "#include", f"{line}\n#include")
                 self.assert_found(f"{name} is a macro")
-        with self.subTest("defined on the command line"):
+        with self.subTest("defined on the command line"), self.assertRaises(ProjectError):
             self.change("put_harness.c", "-DBOX_SIDES=2u", "-DBOX_SIDES=2u -Dlid_same(a,b)=true")
-            self.assert_found("lid_same is a macro")
+            self.problems()
 
     def test_floats_are_compared_by_the_one_function_for_them(self) -> None:
         for old, new in (("__CPROVER_equal(a, b)", "true"), ("__CPROVER_equal(a, b)", "a == b"),
