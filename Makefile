@@ -7,13 +7,15 @@ MAKEFLAGS += --no-print-directory
 export PYTHONUNBUFFERED := 1
 
 UNIT ?=
+CAPACITY ?=
+SENSORS ?=
 SECONDS := 60
 TASKSET ?= specs/tasksets/urpilot.toml
 ARGS ?=
 BOARD ?=
 
 # The variables that a command line may set. Another one is a slip, and must not pass unnoticed.
-VARIABLES := UNIT SECONDS TASKSET ARGS BOARD DASK CFLAGS KEEL_CACHE KEEL_NO_INSTALL KEEL_FRESH \
+VARIABLES := UNIT CAPACITY SENSORS SECONDS TASKSET ARGS BOARD DASK CFLAGS KEEL_CACHE KEEL_NO_INSTALL KEEL_FRESH \
              KEEL_DEBIAN_MIRROR VERIFY SCENARIO SEED N JOBS ADDRESS FILE
 GIVEN := $(foreach name,$(.VARIABLES),$(if $(findstring command line,$(origin $(name))),$(name)))
 STRANGE := $(filter-out $(VARIABLES),$(GIVEN))
@@ -49,11 +51,23 @@ help: ## this list
 	        "\nEvidence\n" lines["Evidence"] "\nResearch\n" lines["Research"] }' \
 	    $(firstword $(MAKEFILE_LIST))
 
-prove: python ## prove every contract and harness (UNIT=queue: one unit; ARGS=--update-goals)
-	@python3 tools/prove.py $(if $(UNIT),--unit $(UNIT)) $(ARGS)
+# The sizes of a build other than the shipped one.
+SIZES = $(if $(CAPACITY),--size KEEL_QUEUE_CAPACITY=$(CAPACITY)) \
+        $(if $(SENSORS),--size KEEL_VOTER_SENSORS=$(SENSORS))
 
-test: python ## build and run all tests (ARGS='--filter unit/': some of them; ARGS='--jobs 1': one by one)
+prove: python ## prove scheduler, voter, filter, PID (UNIT=queue: one unit; CAPACITY=8 SENSORS=3: your sizes)
+	@python3 tools/prove.py $(if $(UNIT),--unit $(UNIT),--kernel) $(SIZES) $(ARGS)
+
+.PHONY: prove-all
+prove-all: python ## prove every contract and harness of all units (ARGS='--shard 2/4': a quarter)
+	@python3 tools/prove.py $(SIZES) $(ARGS)
+
+test: python ## build and run tests, long ones aside (ARGS='--filter unit/': some of them; ARGS='--jobs 1')
 	@python3 tools/run_tests.py $(ARGS)
+
+.PHONY: test-all
+test-all: python ## run all tests, the long ones too: flights, models of chips, tests of tools
+	@python3 tools/run_tests.py --all $(ARGS)
 
 demo: python ## the paper's 21 tasks, one simulated minute on this host
 	@python3 tools/toolchain.py ensure test

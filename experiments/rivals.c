@@ -108,7 +108,8 @@ static keel_status_t pass(keel_scheduler_t *scheduler, choose_t choose)
 /* With unlimited room the kernel's own choice knows no guard. */
 static uint32_t choose_unguarded(keel_scheduler_t *scheduler, uint64_t now_us)
 {
-    const keel_choice_t choice = keel_decision_other(&scheduler->queue, now_us, UINT32_MAX);
+    const keel_choice_t choice = keel_decision_other(&scheduler->queue, now_us, UINT32_MAX,
+                                                     scheduler->config.without_promotion);
 
     return (choice.priority > 0u) ? choice.position : scheduler->queue.count;
 }

@@ -57,10 +57,11 @@ from proofs.project import RECORDED_TIMES, ProjectError, Unit, find_units  # noq
 from proofs.settings import read_exceptions  # noqa: E402
 from proofs.stamps import judges_digest, own_digest, prover_answers, tool_stamp  # noqa: E402
 from proofs.times import Times  # noqa: E402
-from toolchain import TARGET_FLAGS, Toolchain, ToolchainError  # noqa: E402
+from toolchain import TARGET_FLAGS, Toolchain, ToolchainError, small_environment  # noqa: E402
 
 from proofs import (  # noqa: E402
     clauses,
+    determined,
     mutant_execution,
     mutant_records,
     mutant_slips,
@@ -129,7 +130,7 @@ def tools_for(toolchain: Toolchain, root: Path, scratch: Path, trying: bool) -> 
         frama_c=toolchain.frama_c(), goto_cc=toolchain.goto_cc(), cbmc=toolchain.command("cbmc"),
         compiler=compiler, scratch=scratch, answers=prover_answers(root, stamp),
         verdicts=toolchain.cache.folder / "verdicts",
-        environment={**os.environ, **toolchain.environment(), "TMPDIR": str(scratch)},
+        environment=small_environment({**toolchain.environment(), "TMPDIR": str(scratch)}),
         clang=toolchain.command(CLANG) if trying else (),
         clang_version=toolchain.versions("fuzz")[CLANG].version if trying else "",
         inputs=toolchain.cache.folder / "inputs",
@@ -184,7 +185,9 @@ class Measurement:
         exceptions = read_exceptions(root / "proofs" / "units.toml", list(find_units(root)))
         times = Times(root / "build/prove/times.json", root / RECORDED_TIMES)
         cache = Cache(self._build / "cache", options.fresh)
-        around = mutant_slips.surroundings(clauses.header_texts(root))
+        beyond = {name: mutant_slips.numbers_beyond(bounds)
+                  for name, bounds in determined.bounds_of(root).items()}  # fmt: skip
+        around = mutant_slips.surroundings(clauses.header_texts(root), beyond)
         self.units: list[Measured] = []
         seen = survey(root)
         for unit in units:

@@ -27,7 +27,8 @@ from common.errors import ROOT, ToolError, program
 from common.files import sha256_of
 from common.source import digest_of_tree, write_report
 from proofs.cache import Cache, digest
-from qualification.seeds import SEEDS, Seed
+from qualification.deceptions import SEEDS as DECEPTIONS  # noqa: E402
+from qualification.seeds import SEEDS, Seed  # noqa: E402
 from qualification.trials import ask
 from toolchain import Found, Toolchain
 
@@ -89,7 +90,8 @@ def qualify(tools: Toolchain, seeds: Sequence[Seed], cache: Cache) -> list[dict[
 
 
 def main(
-    arguments: Sequence[str] | None = None, root: Path = ROOT, seeds: Sequence[Seed] = SEEDS,
+    arguments: Sequence[str] | None = None, root: Path = ROOT,
+    seeds: Sequence[Seed] = (*SEEDS, *DECEPTIONS),
     known: Path | None = None,
 ) -> int:  # fmt: skip
     """Entry point."""

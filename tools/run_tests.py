@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Build and run Keel's tests on this host.
 
-    python3 tools/run_tests.py                    # everything
+    python3 tools/run_tests.py                    # what a newcomer wants to see: a few minutes
+    python3 tools/run_tests.py --all              # everything
     python3 tools/run_tests.py --filter unit/     # the suites whose name contains this
     python3 tools/run_tests.py --jobs 1           # one after another
 
@@ -235,7 +236,8 @@ def all_suites(builds: HostBuilds, needs: Needs) -> list[Suite]:
 def with_needs(suite: Suite, needs: Needs) -> Suite:
     """A suite with what tests/suites.toml says of it."""
     need = needs.of(suite.name)
-    return replace(suite, groups=(*suite.groups, *need.groups), seconds=need.seconds)
+    groups = (*suite.groups, *need.groups)
+    return replace(suite, groups=groups, seconds=need.seconds, more=need.more)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -243,14 +245,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     end_as_by_ctrl_c()
     parser = Parser("Build and run Keel's tests.", "test")
     running.add_options(parser)
+    parser.add_argument("--all", action="store_true", help="also long suites (make test-all)")
     options = running.parse(parser, arguments)
 
     def work() -> int:
         running.begin(ROOT / BUILD)
         builds = HostBuilds(Toolchain())
-        suites = running.chosen(all_suites(builds, read_needs()), options.filter)
+        named = running.chosen(all_suites(builds, read_needs()), options.filter)
+        left_out = [] if options.all or options.filter else [one.name for one in named if one.more]
+        suites = [suite for suite in named if suite.name not in left_out]
         outcomes = running.run_all(builds.tools, suites, options.jobs)
-        facts = {"filter": options.filter, "sanitizers": builds.sanitized}
+        if left_out:
+            print(f"not run, as they take long: {len(left_out)} suites (make test-all)")
+        facts = {"filter": options.filter, "left_out": left_out, "sanitizers": builds.sanitized}
         return running.end(ROOT / BUILD, "Keel", outcomes, facts)
 
     return program("test", work)

@@ -28,7 +28,7 @@ PAGE = Path("docs/status.md")
 INTRODUCTION = """\
 # Status
 
-What the last complete run of `make prove` proved. `make status` writes this page from the run's
+What the last complete run of `make prove-all` proved. `make status` writes this page from the run's
 report; nobody edits it.
 
 """
@@ -106,7 +106,7 @@ def exceptions(units: Mapping[str, Any]) -> str:
 def page(report: Mapping[str, Any]) -> str:
     """The report as a table, with a line under it that says whether everything is proved."""
     if report.get("partial"):
-        raise ToolError("the last run was not of all units and engines: run make prove first")
+        raise ToolError("the last run was not of all units and engines: run make prove-all first")
     units = {name: numbers(unit) for name, unit in report["units"].items()}
     if not units:
         raise ToolError("the report names no unit")
@@ -125,7 +125,7 @@ def write(root: Path) -> int:
     """Read the report, write the page."""
     path = root / "build/prove/report.json"
     if not path.is_file():
-        raise ToolError("there is no report: run make prove first")
+        raise ToolError("there is no report: run make prove-all first")
     write_text(root / PAGE, page(json.loads(read_text(path))))
     return 0
 

@@ -14,7 +14,6 @@ could not be asked.
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 import tempfile
 import time
@@ -29,7 +28,7 @@ from common.source import write_report  # noqa: E402
 from evidence.formal import bounds, esbmc, opinion  # noqa: E402
 from proofs.cache import Cache, digest  # noqa: E402
 from proofs.jobs import Runner, end_as_by_ctrl_c  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from toolchain import Toolchain, small_environment  # noqa: E402
 
 
 def key_of(question: esbmc.Question, tool: str) -> str:
@@ -63,7 +62,7 @@ def ask_all(root: Path, tools: Toolchain, fresh: bool) -> dict[str, dict[str, An
     tool = tools.versions("opinion")["esbmc"]
     answers: dict[str, dict[str, Any]] = {}
     with tempfile.TemporaryDirectory(prefix="keel-opinion-") as scratch:
-        runner = Runner({**os.environ, **tools.environment(), "TMPDIR": scratch}, root)
+        runner = Runner(small_environment({**tools.environment(), "TMPDIR": scratch}), root)
         try:
             headers = esbmc.headers_of(tools.command("gcc"), runner)
             asked = esbmc.Esbmc(tools.command("esbmc"), headers, runner, root, Path(scratch))

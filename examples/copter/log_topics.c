@@ -19,11 +19,6 @@
 #define PLACES(text, member) FIELD(text, KEEL_ULOG_INT32, 4u, member)
 #define BOOLS(text, member)  FIELD(text, KEEL_ULOG_BOOL, 1u, member)
 
-/* An enumeration, which a compiler may keep in a byte. */
-#define CHOICE(text, member)                                                                       \
-    FIELD(text, (SIZE_OF(member) == 1u) ? KEEL_ULOG_UINT8 : KEEL_ULOG_UINT32, SIZE_OF(member),     \
-          member)
-
 #define VOTE(text, number) FLOATS(text, inertia.imu.channel[number].vote.output)
 
 #define IMU(number)                                                                                \
@@ -59,7 +54,7 @@ const copter_topic_t copter_topic[] = {
                FLOATS("heading_error", inertia.attitude.heading_error),
                WORDS("flags", inertia.attitude.flags),
                BOOLS("heading_valid", inertia.attitude.heading_valid),
-               CHOICE("phase", inertia.attitude.phase)}},
+               BYTES("phase", inertia.attitude.phase)}},
     {.name = {"control"},
      .row = URPILOT_ANGLE_RATE_CONTROL,
      .every = 5u,
@@ -114,7 +109,7 @@ const copter_topic_t copter_topic[] = {
                FLOATS("charge_c", energy.battery.charge_c),
                FLOATS("remaining", energy.battery.remaining),
                FLOATS("remaining_s", energy.battery.remaining_s),
-               CHOICE("level", energy.battery.level)}},
+               BYTES("level", energy.battery.level)}},
     {.name = {"estimate"},
      .row = URPILOT_NAVIGATION,
      .every = 1u,
@@ -122,8 +117,8 @@ const copter_topic_t copter_topic[] = {
      .field = {FLOATS("position", estimate.here.position),
                FLOATS("velocity", estimate.here.velocity), WORDS("resets", estimate.resets),
                BOOLS("landed", estimate.is_landed),
-               CHOICE("place_quality", estimate.position.quality),
-               CHOICE("height_quality", estimate.altitude.axis.quality)}},
+               BYTES("place_quality", estimate.position.quality),
+               BYTES("height_quality", estimate.altitude.axis.quality)}},
     {.name = {"state"},
      .row = URPILOT_STATE_MACHINE,
      .every = 5u,

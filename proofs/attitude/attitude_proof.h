@@ -139,7 +139,7 @@ static bool attitude_counts_valid(const keel_attitude_t *a)
 {
     return (a->still < a->config.still_steps) && (a->settled <= a->config.settle_steps) &&
            (a->heading_settled <= a->config.settle_steps) && (a->lost <= a->config.lost_steps) &&
-           (a->field_age <= a->config.field_steps);
+           (a->field_age <= a->config.field_steps) && (a->phase <= KEEL_ATTITUDE_RUNNING);
 }
 
 /* What init computes. A part of the expected field over its square is at most 1000 / 0.0625^2. */
@@ -179,15 +179,12 @@ bool keel_attitude_is_unit_stand_in(keel_attitude_quaternion_t q)
     return is_unit;
 }
 
-/* Any estimator at all. A flag is true or false, and a phase one of three. */
+/* Any estimator at all. A flag is true or false. */
 static keel_attitude_t any_attitude_at_all(void)
 {
     keel_attitude_t attitude = nondet_attitude();
 
     attitude.heading_valid = nondet_bool();
-    attitude.phase = nondet_bool()   ? KEEL_ATTITUDE_STILL
-                     : nondet_bool() ? KEEL_ATTITUDE_ALIGNING
-                                     : KEEL_ATTITUDE_RUNNING;
     return attitude;
 }
 

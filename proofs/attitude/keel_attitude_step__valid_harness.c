@@ -29,6 +29,7 @@ void keel_attitude_step__valid_harness(void)
     __CPROVER_assert(keel_attitude_is_unit_does(true, attitude.quaternion),
                      "ATT_011_finite: the quaternion is finite and bounded");
     __CPROVER_assert(attitude_counts_valid(&attitude), "ATT_011_counts: the counts are in range");
+    __CPROVER_assert(attitude.phase <= KEEL_ATTITUDE_RUNNING, "ATT_014_one: one of three phases");
     __CPROVER_assert(vector_within(attitude.first_rate, KEEL_ATTITUDE_RATE_LIMIT) &&
                          vector_within(attitude.first_force, KEEL_ATTITUDE_FORCE_LIMIT),
                      "ATT_011_still: so is the first of the still samples");

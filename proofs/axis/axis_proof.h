@@ -52,13 +52,10 @@ static bool within(float value, float least, float most)
     return (least <= value) && (value <= most);
 }
 
-/* Any axis at all. Its quality is one of three. */
+/* Any axis at all. */
 static keel_axis_t any_axis_at_all(void)
 {
-    keel_axis_t axis = nondet_axis();
-
-    axis.quality = nondet_bool() ? KEEL_AXIS_NONE : nondet_bool() ? KEEL_AXIS_POOR : KEEL_AXIS_GOOD;
-    return axis;
+    return nondet_axis();
 }
 
 /* Any bit pattern for all that was measured. */
@@ -103,7 +100,7 @@ static bool axis_valid(const keel_axis_t *axis)
            within(axis->velocity, -KEEL_AXIS_VELOCITY_LIMIT, KEEL_AXIS_VELOCITY_LIMIT) &&
            within(axis->bias, -axis->config.bias_limit, axis->config.bias_limit) &&
            (axis->age <= axis->config.lost_steps) && (axis->agreed <= axis->config.settle_fixes) &&
-           (axis->jumped < axis->config.jump_fixes);
+           (axis->jumped < axis->config.jump_fixes) && (axis->quality <= KEEL_AXIS_GOOD);
 }
 
 static bool is_told(const keel_axis_t *axis, uint32_t flag)

@@ -88,4 +88,5 @@ void keel_axis_step__any_harness(void)
                           (axis.agreed >= config->settle_fixes) &&
                           !is_told(&axis, KEEL_AXIS_BLIND)),
                      "AXI_012_good: good is what came lately, agrees, and was carried on");
+    __CPROVER_assert(axis.quality <= KEEL_AXIS_GOOD, "AXI_012_one: one of three");
 }

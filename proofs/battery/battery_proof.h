@@ -62,25 +62,18 @@ static bool battery_alarm_same(const keel_battery_alarm_t *a, const keel_battery
 
 static bool battery_same(const keel_battery_t *a, const keel_battery_t *b)
 {
-    bool same = battery_config_same(&a->config, &b->config) &&
-                battery_scale_same(&a->scale, &b->scale) &&
-                battery_sum_same(&a->charge, &b->charge) &&
-                battery_sum_same(&a->energy, &b->energy) && (a->initial == b->initial) &&
-                (a->left == b->left) && float_same(a->voltage, b->voltage) &&
-                float_same(a->current, b->current) && float_same(a->smoothed, b->smoothed) &&
-                float_same(a->cell_voltage, b->cell_voltage) &&
-                float_same(a->charge_c, b->charge_c) && float_same(a->energy_j, b->energy_j) &&
-                float_same(a->remaining, b->remaining) &&
-                float_same(a->remaining_s, b->remaining_s) &&
-                battery_alarm_same(&a->low, &b->low) &&
-                battery_alarm_same(&a->critical, &b->critical) &&
-                (a->voltage_age == b->voltage_age) && (a->known == b->known) &&
-                (a->flags == b->flags) && (a->count == b->count) && (a->level == b->level);
-
-    for (uint32_t i = 0u; i < KEEL_BATTERY_MODULES; i++) {
-        same = same && battery_module_same(&a->module[i], &b->module[i]);
-    }
-    return same;
+    return battery_config_same(&a->config, &b->config) &&
+           battery_scale_same(&a->scale, &b->scale) && battery_sum_same(&a->charge, &b->charge) &&
+           battery_sum_same(&a->energy, &b->energy) && (a->initial == b->initial) &&
+           (a->left == b->left) && float_same(a->voltage, b->voltage) &&
+           float_same(a->current, b->current) && float_same(a->smoothed, b->smoothed) &&
+           float_same(a->cell_voltage, b->cell_voltage) && float_same(a->charge_c, b->charge_c) &&
+           float_same(a->energy_j, b->energy_j) && float_same(a->remaining, b->remaining) &&
+           float_same(a->remaining_s, b->remaining_s) && battery_alarm_same(&a->low, &b->low) &&
+           battery_alarm_same(&a->critical, &b->critical) && (a->voltage_age == b->voltage_age) &&
+           (a->known == b->known) && (a->flags == b->flags) && (a->count == b->count) &&
+           (a->level == b->level) && battery_module_same(&a->module[0u], &b->module[0u]) &&
+           battery_module_same(&a->module[1u], &b->module[1u]);
 }
 
 static bool reading_same(const keel_battery_reading_t *a, const keel_battery_reading_t *b)
@@ -91,12 +84,8 @@ static bool reading_same(const keel_battery_reading_t *a, const keel_battery_rea
 
 static bool battery_sample_same(const keel_battery_sample_t *a, const keel_battery_sample_t *b)
 {
-    bool same = a->running == b->running;
-
-    for (uint32_t i = 0u; i < KEEL_BATTERY_MODULES; i++) {
-        same = same && reading_same(&a->module[i], &b->module[i]);
-    }
-    return same;
+    return (a->running == b->running) && reading_same(&a->module[0u], &b->module[0u]) &&
+           reading_same(&a->module[1u], &b->module[1u]);
 }
 
 static bool within(float value, float least, float most)
@@ -173,7 +162,8 @@ static bool battery_counts_valid(const keel_battery_t *b)
 {
     return battery_counts_here(b) && (b->left <= b->initial) &&
            (b->known <= b->config.settle_steps) && (b->module[0].age <= b->config.hold_steps) &&
-           (b->module[1].age <= b->config.hold_steps) && (b->voltage_age <= b->config.hold_steps);
+           (b->module[1].age <= b->config.hold_steps) && (b->voltage_age <= b->config.hold_steps) &&
+           (b->count <= KEEL_BATTERY_UNCOUNTED) && (b->level <= KEEL_BATTERY_CRITICAL);
 }
 
 /* What came, and what is told of it. */
@@ -201,19 +191,13 @@ static bool battery_valid(const keel_battery_t *b)
            battery_counts_valid(b) && battery_values_valid(b);
 }
 
-/* Any monitor at all. A truth value is true or false, and an enumeration one of its own. */
+/* Any monitor at all. A truth value is true or false. */
 static keel_battery_t any_battery_at_all(void)
 {
     keel_battery_t battery = nondet_battery();
 
     battery.low.raised = nondet_bool();
     battery.critical.raised = nondet_bool();
-    battery.count = nondet_bool()   ? KEEL_BATTERY_WAITING
-                    : nondet_bool() ? KEEL_BATTERY_COUNTED
-                                    : KEEL_BATTERY_UNCOUNTED;
-    battery.level = nondet_bool()   ? (nondet_bool() ? KEEL_BATTERY_UNKNOWN : KEEL_BATTERY_OK)
-                    : nondet_bool() ? KEEL_BATTERY_LOW
-                                    : KEEL_BATTERY_CRITICAL;
     return battery;
 }
 

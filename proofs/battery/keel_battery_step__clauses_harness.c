@@ -112,6 +112,10 @@ static void check_level(void)
                           (now.voltage_age < now.config.hold_steps) &&
                           (now.known == now.config.settle_steps) && !is_told(lost)),
                      "BAT_014_ok: all is well only where all is known");
+    __CPROVER_assert((now.level <= KEEL_BATTERY_CRITICAL) &&
+                         ((old.count > KEEL_BATTERY_UNCOUNTED) ||
+                          (now.count <= KEEL_BATTERY_UNCOUNTED)),
+                     "BAT_014_one: one of four levels, and one of three counts");
     __CPROVER_assert((old.count != KEEL_BATTERY_UNCOUNTED) || (now.count == KEEL_BATTERY_UNCOUNTED),
                      "BAT_014_latched: what was not counted is not known any more");
 }

@@ -27,12 +27,8 @@ keel_calibration_vector_t nondet_vector(void);
 
 static bool vector_same(const keel_calibration_vector_t *a, const keel_calibration_vector_t *b)
 {
-    bool same = true;
-
-    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        same = same && float_same(a->axis[k], b->axis[k]);
-    }
-    return same;
+    return float_same(a->axis[0u], b->axis[0u]) && float_same(a->axis[1u], b->axis[1u]) &&
+           float_same(a->axis[2u], b->axis[2u]);
 }
 
 static bool three_same(const float *a, const float *b)
@@ -43,26 +39,21 @@ static bool three_same(const float *a, const float *b)
 static bool rest_config_same(const keel_calibration_rest_config_t *a,
                              const keel_calibration_rest_config_t *b)
 {
-    bool same = float_same(a->spread, b->spread) && float_same(a->limit, b->limit) &&
-                (a->samples == b->samples);
-
-    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        same = same && float_same(a->expected[k], b->expected[k]);
-    }
-    return same;
+    return float_same(a->spread, b->spread) && float_same(a->limit, b->limit) &&
+           (a->samples == b->samples) && float_same(a->expected[0u], b->expected[0u]) &&
+           float_same(a->expected[1u], b->expected[1u]) &&
+           float_same(a->expected[2u], b->expected[2u]);
 }
 
 static bool rest_same(const keel_calibration_rest_t *a, const keel_calibration_rest_t *b)
 {
-    bool same = rest_config_same(&a->config, &b->config) &&
-                float_same(a->per_sample, b->per_sample) && (a->count == b->count) &&
-                (a->state == b->state) && (a->restarts == b->restarts) && (a->beyond == b->beyond);
-
-    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        same = same && float_same(a->offset[k], b->offset[k]) &&
-               float_same(a->first[k], b->first[k]) && float_same(a->sum[k], b->sum[k]);
-    }
-    return same;
+    return rest_config_same(&a->config, &b->config) && float_same(a->per_sample, b->per_sample) &&
+           (a->count == b->count) && (a->state == b->state) && (a->restarts == b->restarts) &&
+           (a->beyond == b->beyond) && float_same(a->offset[0u], b->offset[0u]) &&
+           float_same(a->offset[1u], b->offset[1u]) && float_same(a->offset[2u], b->offset[2u]) &&
+           float_same(a->first[0u], b->first[0u]) && float_same(a->first[1u], b->first[1u]) &&
+           float_same(a->first[2u], b->first[2u]) && float_same(a->sum[0u], b->sum[0u]) &&
+           float_same(a->sum[1u], b->sum[1u]) && float_same(a->sum[2u], b->sum[2u]);
 }
 
 static bool field_config_same(const keel_calibration_field_config_t *a,
@@ -75,14 +66,12 @@ static bool field_config_same(const keel_calibration_field_config_t *a,
 
 static bool field_same(const keel_calibration_field_t *a, const keel_calibration_field_t *b)
 {
-    bool same = field_config_same(&a->config, &b->config) && (a->state == b->state) &&
-                (a->dropped == b->dropped);
-
-    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        same = same && float_same(a->offset[k], b->offset[k]) &&
-               float_same(a->lowest[k], b->lowest[k]) && float_same(a->highest[k], b->highest[k]);
-    }
-    return same;
+    return field_config_same(&a->config, &b->config) && (a->state == b->state) &&
+           (a->dropped == b->dropped) && float_same(a->offset[0u], b->offset[0u]) &&
+           float_same(a->offset[1u], b->offset[1u]) && float_same(a->offset[2u], b->offset[2u]) &&
+           float_same(a->lowest[0u], b->lowest[0u]) && float_same(a->lowest[1u], b->lowest[1u]) &&
+           float_same(a->lowest[2u], b->lowest[2u]) && float_same(a->highest[0u], b->highest[0u]) &&
+           float_same(a->highest[1u], b->highest[1u]) && float_same(a->highest[2u], b->highest[2u]);
 }
 
 static bool within(float value, float least, float most)
@@ -109,29 +98,15 @@ static uint32_t any_axis(void)
     return axis;
 }
 
-static keel_calibration_state_t any_state(void)
-{
-    return nondet_bool()   ? KEEL_CALIBRATION_IDLE
-           : nondet_bool() ? KEEL_CALIBRATION_COLLECTING
-           : nondet_bool() ? KEEL_CALIBRATION_DONE
-                           : KEEL_CALIBRATION_REFUSED;
-}
-
-/* Any calibration at all. Its state is one of four. */
+/* Any calibration at all. */
 static keel_calibration_rest_t any_rest_at_all(void)
 {
-    keel_calibration_rest_t rest = nondet_rest();
-
-    rest.state = any_state();
-    return rest;
+    return nondet_rest();
 }
 
 static keel_calibration_field_t any_field_at_all(void)
 {
-    keel_calibration_field_t field = nondet_field();
-
-    field.state = any_state();
-    return field;
+    return nondet_field();
 }
 
 static bool expected_fits(const keel_calibration_rest_config_t *c)
@@ -170,6 +145,7 @@ static bool rest_valid(const keel_calibration_rest_t *r)
            three_within(r->first, -LIMIT, LIMIT) && (r->count <= r->config.samples) &&
            (!collects || (r->count < r->config.samples)) && (r->beyond <= 7u) &&
            ((r->state == KEEL_CALIBRATION_REFUSED) == (r->beyond != 0u)) &&
+           (r->state <= KEEL_CALIBRATION_REFUSED) &&
            ((r->count == 0u) || (sum_valid(r->sum[0], r->count) && sum_valid(r->sum[1], r->count) &&
                                  sum_valid(r->sum[2], r->count))) &&
            three_within(r->sum, -0x1p31f, 0x1p31f);
@@ -199,8 +175,7 @@ static bool field_valid(const keel_calibration_field_t *f)
 
     return field_range(c) && field_limits(c) && three_within(f->offset, -c->limit, c->limit) &&
            three_within(f->lowest, c->lowest, c->highest) &&
-           three_within(f->highest, c->lowest, c->highest) &&
-           (f->state != KEEL_CALIBRATION_REFUSED);
+           three_within(f->highest, c->lowest, c->highest) && (f->state <= KEEL_CALIBRATION_DONE);
 }
 
 static uint32_t up_to_end(uint16_t count)

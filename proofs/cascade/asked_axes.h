@@ -53,7 +53,7 @@ void keel_cascade_axis_step_stand_in(keel_cascade_axis_t *axis, const keel_casca
 }
 
 /* Any valid cascade, and the model's, which is the same. */
-static void begin_same(void)
+static void begin_alike(void)
 {
     any_cascade(&cascade);
     __CPROVER_assume(cascade_valid_here(&cascade));

@@ -67,16 +67,16 @@ static bool command_same(const keel_mixer_command_t *a, const keel_mixer_command
 
 static bool cascade_same(const keel_cascade_t *a, const keel_cascade_t *b)
 {
-    bool same = fence_same(&a->fence, &b->fence) && float_same(a->hover, b->hover) &&
-                (a->axes == b->axes) && (a->gave_way == b->gave_way) &&
-                cascade_vector_same(&a->velocity, &b->velocity) && tilt_same(&a->tilt, &b->tilt) &&
-                float_same(a->thrust, b->thrust) && tilt_same(&a->rates, &b->rates) &&
-                command_same(&a->command, &b->command);
-
-    for (uint32_t i = 0u; i < AXES; i++) {
-        same = same && axis_same(&a->axis[i], &b->axis[i]);
-    }
-    return same;
+    return fence_same(&a->fence, &b->fence) && float_same(a->hover, b->hover) &&
+           (a->axes == b->axes) && (a->gave_way == b->gave_way) &&
+           cascade_vector_same(&a->velocity, &b->velocity) && tilt_same(&a->tilt, &b->tilt) &&
+           float_same(a->thrust, b->thrust) && tilt_same(&a->rates, &b->rates) &&
+           command_same(&a->command, &b->command) && axis_same(&a->axis[0u], &b->axis[0u]) &&
+           axis_same(&a->axis[1u], &b->axis[1u]) && axis_same(&a->axis[2u], &b->axis[2u]) &&
+           axis_same(&a->axis[3u], &b->axis[3u]) && axis_same(&a->axis[4u], &b->axis[4u]) &&
+           axis_same(&a->axis[5u], &b->axis[5u]) && axis_same(&a->axis[6u], &b->axis[6u]) &&
+           axis_same(&a->axis[7u], &b->axis[7u]) && axis_same(&a->axis[8u], &b->axis[8u]) &&
+           axis_same(&a->axis[9u], &b->axis[9u]) && axis_same(&a->axis[10u], &b->axis[10u]);
 }
 
 static bool estimate_same(const keel_cascade_estimate_t *a, const keel_cascade_estimate_t *b)

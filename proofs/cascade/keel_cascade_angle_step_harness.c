@@ -15,7 +15,7 @@ void keel_cascade_angle_step_harness(void)
     const keel_attitude_vector_t down = nondet_vector();
     const bool valid = nondet_bool();
 
-    begin_same();
+    begin_alike();
     model_cascade_angle_step(&model, asked, down, valid);
 
     keel_cascade_angle_step(&cascade, asked, down, valid);

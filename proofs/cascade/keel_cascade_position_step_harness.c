@@ -15,7 +15,7 @@ void keel_cascade_position_step_harness(void)
     keel_cascade_estimate_t estimate = any_estimate();
     const keel_cascade_estimate_t before = estimate;
 
-    begin_same();
+    begin_alike();
     model_cascade_position_step(&model, asked, &before);
 
     keel_cascade_position_step(&cascade, asked, &estimate);

@@ -15,7 +15,7 @@ void keel_cascade_rate_step_harness(void)
     const keel_attitude_vector_t rate = nondet_vector();
     const uint32_t gave_way = nondet_uint();
 
-    begin_same();
+    begin_alike();
     model_cascade_rate_step(&model, asked, rate, gave_way);
 
     keel_cascade_rate_step(&cascade, asked, rate, gave_way);

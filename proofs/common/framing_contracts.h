@@ -7,6 +7,7 @@
 #ifndef FRAMING_CONTRACTS_H
 #define FRAMING_CONTRACTS_H
 
+#include "any_below.h"
 #include "keel/middleware/framing.h"
 
 #include <stdbool.h>
@@ -35,15 +36,11 @@ static bool framing_late_here(const keel_framing_t *f, uint32_t elapsed_us)
            ((f->quiet_us > f->gap_us) || (elapsed_us > (f->gap_us - f->quiet_us)));
 }
 
-static bool framing_same(const keel_framing_t *a, const keel_framing_t *b)
+static bool framing_same(const keel_framing_t *a, const keel_framing_t *b, uint32_t i)
 {
-    bool same = (a->gap_us == b->gap_us) && (a->quiet_us == b->quiet_us) && (a->gaps == b->gaps) &&
-                (a->strays == b->strays) && (a->header == b->header) && (a->held == b->held);
-
-    for (uint32_t i = 0u; i < KEEL_FRAMING_BYTES; i++) {
-        same = same && (a->byte[i] == b->byte[i]);
-    }
-    return same;
+    return (a->gap_us == b->gap_us) && (a->quiet_us == b->quiet_us) && (a->gaps == b->gaps) &&
+           (a->strays == b->strays) && (a->header == b->header) && (a->held == b->held) &&
+           (a->byte[i] == b->byte[i]);
 }
 
 /* What keel_framing_drop asks for and does, as far as decoders need to know. */

@@ -16,6 +16,7 @@
 #ifndef KEEL_PROOF_H
 #define KEEL_PROOF_H
 
+#include "any_below.h"
 #include "keel/rtos/clock.h"
 #include "keel/rtos/queue.h"
 #include "keel/rtos/stats.h"
@@ -37,14 +38,6 @@ uint64_t nondet_u64(void);
 keel_stats_t nondet_stats(void);
 keel_queue_t nondet_queue(void);
 keel_task_config_t nondet_config(void);
-
-static uint32_t any_below(uint32_t limit)
-{
-    const uint32_t value = nondet_u32();
-
-    __CPROVER_assume(value < limit);
-    return value;
-}
 
 /* An arbitrary value of so many bits. The bits above are 0 by construction, which the solver sees
  * at once, where it would have to reason from an assumption: products and quotients need it. */
@@ -96,10 +89,13 @@ static bool config_is_valid_here(const keel_task_config_t *config)
             (config->priority == KEEL_PRIORITY_REALTIME));
 }
 
-/* The slot at a position: each has one, and none its own number, if 5 divides no capacity. */
+/* Has no divisor in common with any capacity of up to 255. */
+#define STRIDE (((CAPACITY % 5u) != 0u) ? 5u : (((CAPACITY % 7u) != 0u) ? 7u : 11u))
+
+/* The slot at a position: each has one of its own. */
 static uint32_t slot_at(uint32_t position)
 {
-    return ((5u * position) + 7u) % CAPACITY;
+    return ((STRIDE * position) + 7u) % CAPACITY;
 }
 
 /* Any valid queue. Position of_interest holds the task that the harness is about, if it is within
@@ -183,7 +179,8 @@ static void narrow_releases(keel_queue_t *queue, uint32_t bits)
 static bool stats_same(const keel_stats_t *a, const keel_stats_t *b)
 {
     return (a->total_us == b->total_us) && (a->runs == b->runs) && (a->last_us == b->last_us) &&
-           (a->longest_us == b->longest_us) && (a->overruns == b->overruns) &&
+           (a->longest_us == b->longest_us) && (a->remembered_us == b->remembered_us) &&
+           (a->forgotten_in == b->forgotten_in) && (a->overruns == b->overruns) &&
            (a->promotions == b->promotions);
 }
 
@@ -199,17 +196,20 @@ static bool config_same(const keel_task_config_t *a, const keel_task_config_t *b
            (a->phase_us == b->phase_us) && (a->priority == b->priority);
 }
 
-/* Whether a slot holds what it held but for who the task is. Statistics are compared as copies: of
- * an object at a variable place in an array CBMC knows an address, behind which it looks at every
- * byte of the array (ten times the work). */
+/* Whether a slot holds what it held but for who the task is. Statistics are compared field by
+ * field: of an object at a variable place in an array CBMC knows an address, behind which it looks
+ * at every byte of the array (ten times the work). */
 static bool slot_same(const keel_queue_t *a, const keel_queue_t *b, uint32_t x)
 {
-    const keel_stats_t stats_a = a->stats[x];
-    const keel_stats_t stats_b = b->stats[x];
-
     return (a->release_us[x] == b->release_us[x]) && (a->period_us[x] == b->period_us[x]) &&
            (a->budget_us[x] == b->budget_us[x]) && (a->priority[x] == b->priority[x]) &&
-           (a->skipped[x] == b->skipped[x]) && stats_same(&stats_a, &stats_b);
+           (a->skipped[x] == b->skipped[x]) && (a->stats[x].total_us == b->stats[x].total_us) &&
+           (a->stats[x].runs == b->stats[x].runs) && (a->stats[x].last_us == b->stats[x].last_us) &&
+           (a->stats[x].longest_us == b->stats[x].longest_us) &&
+           (a->stats[x].remembered_us == b->stats[x].remembered_us) &&
+           (a->stats[x].forgotten_in == b->stats[x].forgotten_in) &&
+           (a->stats[x].overruns == b->stats[x].overruns) &&
+           (a->stats[x].promotions == b->stats[x].promotions);
 }
 
 /* Whether two queues are the same, as seen at a position and slot: if at any, they are. */

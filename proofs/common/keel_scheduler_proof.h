@@ -48,6 +48,7 @@ static void any_state(keel_scheduler_t *scheduler)
     scheduler->config.clock_context = NULL;
     scheduler->config.guard_us = any_bits(31u);
     scheduler->config.utilisation_limit_ppm = any_below(KEEL_UTILISATION_FULL_PPM + 1u);
+    scheduler->config.without_promotion = nondet_bool();
     scheduler->clock.raw_us = nondet_u32();
     scheduler->clock.now_us = nondet_u64();
     __CPROVER_assume(scheduler->clock.now_us <= KEEL_CLOCK_TIME_LIMIT_US);
@@ -87,7 +88,8 @@ static void any_scheduler(keel_scheduler_t *scheduler, uint32_t of_interest)
 static bool setup_same(const keel_scheduler_config_t *a, const keel_scheduler_config_t *b)
 {
     return (a->read_clock == b->read_clock) && (a->clock_context == b->clock_context) &&
-           (a->guard_us == b->guard_us) && (a->utilisation_limit_ppm == b->utilisation_limit_ppm);
+           (a->guard_us == b->guard_us) && (a->utilisation_limit_ppm == b->utilisation_limit_ppm) &&
+           (a->without_promotion == b->without_promotion);
 }
 
 /* Whether two schedulers are the same, as seen at a position and slot: if at any, they are. */

@@ -109,38 +109,23 @@ static bool voter_sensor_same(const keel_voter_sensor_t *a, const keel_voter_sen
            (a->latched == b->latched);
 }
 
-static bool vote_same(const keel_vote_t *a, const keel_vote_t *b)
+static bool vote_same(const keel_vote_t *a, const keel_vote_t *b, uint32_t i)
 {
-    bool same = float_same(a->output, b->output) && (a->held == b->held) &&
-                (a->held_us == b->held_us) && (a->state == b->state) &&
-                (a->contributing == b->contributing);
-
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        same = same && float_same(a->weight[i], b->weight[i]) && (a->reason[i] == b->reason[i]);
-    }
-    return same;
+    return float_same(a->output, b->output) && (a->held == b->held) && (a->held_us == b->held_us) &&
+           (a->state == b->state) && (a->contributing == b->contributing) &&
+           float_same(a->weight[i], b->weight[i]) && (a->reason[i] == b->reason[i]);
 }
 
-static bool voter_same(const keel_voter_t *a, const keel_voter_t *b)
+static bool voter_same(const keel_voter_t *a, const keel_voter_t *b, uint32_t i)
 {
-    bool same = voter_config_same(&a->config, &b->config) && float_same(a->disagree, b->disagree) &&
-                vote_same(&a->vote, &b->vote) && (a->unanimous == b->unanimous);
-
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        same = same && voter_sensor_same(&a->sensor[i], &b->sensor[i]);
-    }
-    return same;
+    return voter_config_same(&a->config, &b->config) && float_same(a->disagree, b->disagree) &&
+           vote_same(&a->vote, &b->vote, i) && (a->unanimous == b->unanimous) &&
+           voter_sensor_same(&a->sensor[i], &b->sensor[i]);
 }
 
-static bool samples_same(const keel_voter_sample_t a[SENSORS], const keel_voter_sample_t b[SENSORS])
+static bool voter_sample_same(const keel_voter_sample_t *a, const keel_voter_sample_t *b)
 {
-    bool same = true;
-
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        same = same && float_same(a[i].value, b[i].value) && (a[i].age_us == b[i].age_us) &&
-               (a[i].present == b[i].present);
-    }
-    return same;
+    return float_same(a->value, b->value) && (a->age_us == b->age_us) && (a->present == b->present);
 }
 
 /* voter_unanimous */

@@ -4,7 +4,7 @@
 // covers: keel_crc16 crc_rest model_crc16 all_bits
 //
 // Any rest and any byte.
-#include "../../specs/model/crc.h"
+#include "../common/crc_contracts.h"
 
 #include <stdint.h>
 
@@ -15,7 +15,11 @@ void keel_crc16_harness(void)
 {
     const uint16_t crc = nondet_u16();
     const uint8_t byte = nondet_u8();
+    const uint16_t expected = model_crc16(crc, byte);
+    uint16_t is;
 
-    __CPROVER_assert(keel_crc16(crc, byte) == model_crc16(crc, byte),
-                     "CRC_002_model: as the model says");
+    __CPROVER_assume(keel_crc16_may(crc, byte));
+    is = keel_crc16(crc, byte);
+
+    __CPROVER_assert(keel_crc16_does(is, expected), "CRC_002_model: as the model says");
 }

@@ -27,13 +27,8 @@ static bool crsf_config_same(const keel_crsf_config_t *a, const keel_crsf_config
 
 static bool crsf_link_same(const keel_crsf_link_t *a, const keel_crsf_link_t *b)
 {
-    bool same = (a->quality == b->quality) && (a->snr == b->snr) && (a->antenna == b->antenna) &&
-                (a->mode == b->mode);
-
-    for (uint32_t i = 0u; i < 2; i++) {
-        same = same && (a->rssi[i] == b->rssi[i]);
-    }
-    return same;
+    return (a->quality == b->quality) && (a->snr == b->snr) && (a->antenna == b->antenna) &&
+           (a->mode == b->mode) && (a->rssi[0u] == b->rssi[0u]) && (a->rssi[1u] == b->rssi[1u]);
 }
 
 /* Whether these are the same channels. */
@@ -53,17 +48,19 @@ static bool crsf_count_same(const keel_crsf_count_t *a, const keel_crsf_count_t 
            (a->lengths == b->lengths) && (a->crcs == b->crcs);
 }
 
-static bool crsf_same(const keel_crsf_t *a, const keel_crsf_t *b)
+static bool crsf_same(const keel_crsf_t *a, const keel_crsf_t *b, uint32_t i)
 {
-    bool same = crsf_config_same(&a->config, &b->config) &&
-                framing_same(&a->framing, &b->framing) && crsf_count_same(&a->count, &b->count) &&
-                crsf_link_same(&a->link, &b->link) && (a->channels_age_us == b->channels_age_us) &&
-                (a->link_age_us == b->link_age_us);
-
-    for (uint32_t i = 0u; i < KEEL_CRSF_CHANNELS; i++) {
-        same = same && (a->channel[i] == b->channel[i]);
-    }
-    return same;
+    return crsf_config_same(&a->config, &b->config) && framing_same(&a->framing, &b->framing, i) &&
+           crsf_count_same(&a->count, &b->count) && crsf_link_same(&a->link, &b->link) &&
+           (a->channels_age_us == b->channels_age_us) && (a->link_age_us == b->link_age_us) &&
+           (a->channel[0u] == b->channel[0u]) && (a->channel[1u] == b->channel[1u]) &&
+           (a->channel[2u] == b->channel[2u]) && (a->channel[3u] == b->channel[3u]) &&
+           (a->channel[4u] == b->channel[4u]) && (a->channel[5u] == b->channel[5u]) &&
+           (a->channel[6u] == b->channel[6u]) && (a->channel[7u] == b->channel[7u]) &&
+           (a->channel[8u] == b->channel[8u]) && (a->channel[9u] == b->channel[9u]) &&
+           (a->channel[10u] == b->channel[10u]) && (a->channel[11u] == b->channel[11u]) &&
+           (a->channel[12u] == b->channel[12u]) && (a->channel[13u] == b->channel[13u]) &&
+           (a->channel[14u] == b->channel[14u]) && (a->channel[15u] == b->channel[15u]);
 }
 
 /* What keel_crsf_crc asks for and does, as far as the decoder needs to know. */

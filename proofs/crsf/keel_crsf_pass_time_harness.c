@@ -7,6 +7,7 @@
 
 void keel_crsf_pass_time_harness(void)
 {
+    const uint32_t at = any_below(KEEL_FRAMING_BYTES);
     keel_crsf_t crsf = nondet_crsf();
     keel_crsf_t model = crsf;
     const uint32_t elapsed_us = nondet_u32();
@@ -15,5 +16,6 @@ void keel_crsf_pass_time_harness(void)
 
     keel_crsf_pass_time(&crsf, elapsed_us);
 
-    __CPROVER_assert(crsf_same(&crsf, &model), "CRF_009_model: every field is what the model says");
+    __CPROVER_assert(crsf_same(&crsf, &model, at),
+                     "CRF_009_model: every field is what the model says");
 }

@@ -2,7 +2,7 @@
 // cbmc: --unwind 34
 // sources: src/rtos/decision.c src/rtos/priority.c specs/model/decision.c
 // replaces: keel_priority_promotion_age_us
-// covers: keel_decision_event_us model_decision_event_us
+// covers: keel_decision_event_us event_of model_decision_event_us
 // defines: -DKEEL_QUEUE_CAPACITY=3u
 //
 // Bounded to a capacity of 3 tasks, with which the solver comes to an end in a minute; the contract
@@ -37,6 +37,7 @@ void keel_decision_event_us_harness(void)
 {
     keel_queue_t queue;
     const uint64_t now_us = nondet_u64();
+    const bool without_promotion = nondet_bool();
     const uint32_t x = any_below(CAPACITY);
     uint64_t expected_us;
     uint64_t event_us;
@@ -45,9 +46,9 @@ void keel_decision_event_us_harness(void)
     any_queue(&queue, CAPACITY);
     __CPROVER_assume(keel_decision_event_us_may(&queue, now_us));
     before = queue;
-    expected_us = model_decision_event_us(&before, now_us);
+    expected_us = model_decision_event_us(&before, now_us, without_promotion);
 
-    event_us = keel_decision_event_us(&queue, now_us);
+    event_us = keel_decision_event_us(&queue, now_us, without_promotion);
 
     __CPROVER_assert(keel_decision_event_us_does(event_us, expected_us),
                      "DEC_004_model: as the model says");

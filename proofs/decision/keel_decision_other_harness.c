@@ -51,6 +51,7 @@ void keel_decision_other_harness(void)
     keel_queue_t queue;
     const uint64_t now_us = any_bits64(10u);
     const uint32_t room_us = nondet_u32();
+    const bool without_promotion = nondet_bool();
     const uint32_t x = any_below(CAPACITY);
     keel_choice_t choice;
     keel_choice_t expected;
@@ -61,9 +62,9 @@ void keel_decision_other_harness(void)
     narrow_releases(&queue, 10u);
     __CPROVER_assume(keel_decision_other_may(&queue, now_us));
     before = queue;
-    expected = model_decision_other(&before, now_us, room_us);
+    expected = model_decision_other(&before, now_us, room_us, without_promotion);
 
-    choice = keel_decision_other(&queue, now_us, room_us);
+    choice = keel_decision_other(&queue, now_us, room_us, without_promotion);
 
     __CPROVER_assert(keel_decision_other_does(&choice, &queue, now_us),
                      "DEC_003_earliest: as the pass takes it to do");

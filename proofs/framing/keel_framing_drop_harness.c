@@ -11,6 +11,7 @@
 
 void keel_framing_drop_harness(void)
 {
+    const uint32_t at = any_below(KEEL_FRAMING_BYTES);
     keel_framing_t framing = nondet_framing();
     keel_framing_t model = framing;
     const keel_framing_t before = framing;
@@ -22,7 +23,7 @@ void keel_framing_drop_harness(void)
 
     keel_framing_drop(&framing, count);
 
-    __CPROVER_assert(framing_same(&framing, &model),
+    __CPROVER_assert(framing_same(&framing, &model, at),
                      "FRG_006_model: every field is what the model says");
     __CPROVER_assert(keel_framing_drop_does(&framing, before.held, count),
                      "FRG_006_valid: what is left begins with a header");

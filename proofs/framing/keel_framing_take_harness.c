@@ -10,6 +10,7 @@
 
 void keel_framing_take_harness(void)
 {
+    const uint32_t at = any_below(KEEL_FRAMING_BYTES);
     keel_framing_t framing = nondet_framing();
     keel_framing_t model = framing;
     const keel_framing_t before = framing;
@@ -21,7 +22,7 @@ void keel_framing_take_harness(void)
 
     keel_framing_take(&framing, byte, elapsed_us);
 
-    __CPROVER_assert(framing_same(&framing, &model),
+    __CPROVER_assert(framing_same(&framing, &model, at),
                      "FRG_005_model: every field is what the model says");
     __CPROVER_assert(framing_begins_here(&framing),
                      "FRG_005_begins: what is held begins with a header");

@@ -50,16 +50,19 @@ static bool ibus_count_same(const keel_ibus_count_t *a, const keel_ibus_count_t 
            (a->ranges == b->ranges);
 }
 
-static bool ibus_same(const keel_ibus_t *a, const keel_ibus_t *b)
+static bool ibus_same(const keel_ibus_t *a, const keel_ibus_t *b, uint32_t i)
 {
-    bool same = ibus_config_same(&a->config, &b->config) &&
-                framing_same(&a->framing, &b->framing) && ibus_count_same(&a->count, &b->count) &&
-                (a->age_us == b->age_us);
-
-    for (uint32_t i = 0u; i < KEEL_IBUS_CHANNELS; i++) {
-        same = same && (a->channel[i] == b->channel[i]);
-    }
-    return same;
+    return ibus_config_same(&a->config, &b->config) && framing_same(&a->framing, &b->framing, i) &&
+           ibus_count_same(&a->count, &b->count) && (a->age_us == b->age_us) &&
+           (a->channel[0u] == b->channel[0u]) && (a->channel[1u] == b->channel[1u]) &&
+           (a->channel[2u] == b->channel[2u]) && (a->channel[3u] == b->channel[3u]) &&
+           (a->channel[4u] == b->channel[4u]) && (a->channel[5u] == b->channel[5u]) &&
+           (a->channel[6u] == b->channel[6u]) && (a->channel[7u] == b->channel[7u]) &&
+           (a->channel[8u] == b->channel[8u]) && (a->channel[9u] == b->channel[9u]) &&
+           (a->channel[10u] == b->channel[10u]) && (a->channel[11u] == b->channel[11u]) &&
+           (a->channel[12u] == b->channel[12u]) && (a->channel[13u] == b->channel[13u]) &&
+           (a->channel[14u] == b->channel[14u]) && (a->channel[15u] == b->channel[15u]) &&
+           (a->channel[16u] == b->channel[16u]) && (a->channel[17u] == b->channel[17u]);
 }
 
 static keel_ibus_config_t any_ibus_config(void)

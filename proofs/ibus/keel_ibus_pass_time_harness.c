@@ -7,6 +7,7 @@
 
 void keel_ibus_pass_time_harness(void)
 {
+    const uint32_t at = any_below(KEEL_FRAMING_BYTES);
     keel_ibus_t ibus = any_ibus();
     keel_ibus_t model = ibus;
     const uint32_t elapsed_us = nondet_u32();
@@ -15,5 +16,6 @@ void keel_ibus_pass_time_harness(void)
 
     keel_ibus_pass_time(&ibus, elapsed_us);
 
-    __CPROVER_assert(ibus_same(&ibus, &model), "IBU_008_model: every field is what the model says");
+    __CPROVER_assert(ibus_same(&ibus, &model, at),
+                     "IBU_008_model: every field is what the model says");
 }

@@ -54,17 +54,13 @@ static bool loss_same(const keel_log_ring_loss_t *a, const keel_log_ring_loss_t 
     return (a->records == b->records) && (a->since_us == b->since_us);
 }
 
-static bool ring_same(const keel_log_ring_t *a, const keel_log_ring_t *b)
+static bool ring_same(const keel_log_ring_t *a, const keel_log_ring_t *b, uint32_t i)
 {
-    bool same = (a->head == b->head) && (a->tail == b->tail) && loss_same(&a->loss, &b->loss);
-
-    for (uint32_t i = 0u; i < KEEL_LOG_RING_BYTES; i++) {
-        same = same && (a->buffer[i] == b->buffer[i]);
-    }
-    return same;
+    return (a->head == b->head) && (a->tail == b->tail) && loss_same(&a->loss, &b->loss) &&
+           (a->buffer[i] == b->buffer[i]);
 }
 
-static bool bytes_same(const uint8_t *a, const uint8_t *b, uint32_t count)
+static bool bytes_equal(const uint8_t *a, const uint8_t *b, uint32_t count)
 {
     bool same = true;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 281 --external-sat-solver cadical
 // checks: assertions
-// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c
+// sources: src/middleware/mavlink.c src/middleware/crc.c specs/model/mavlink.c specs/model/crc.c
 // covers: keel_mavlink_write cut_of checksum_of model_mavlink_checksum
 //
 // Chosen senders, messages and payloads, each in a case of its own, and the frames that are to be

@@ -8,6 +8,7 @@
 #define MAVLINK_PROOF_H
 
 #include "../../specs/model/mavlink.h"
+#include "../common/any_below.h"
 
 #include <stdbool.h>
 
@@ -92,21 +93,17 @@ static keel_mavlink_t any_valid_mavlink(void)
     return mavlink;
 }
 
-static bool mavlink_frame_same(const keel_mavlink_frame_t *a, const keel_mavlink_frame_t *b)
+static bool mavlink_frame_same(const keel_mavlink_frame_t *a, const keel_mavlink_frame_t *b,
+                               uint32_t i)
 {
-    bool same = (a->id == b->id) && (a->sequence == b->sequence) && (a->system == b->system) &&
-                (a->component == b->component) && (a->compatible == b->compatible) &&
-                (a->length == b->length) && (a->checksum == b->checksum) &&
-                (a->is_signed == b->is_signed) && (a->link == b->link) &&
-                (a->timestamp == b->timestamp);
-
-    for (uint32_t i = 0u; i < KEEL_MAVLINK_PAYLOAD_MAX; i++) {
-        same = same && (a->payload[i] == b->payload[i]);
-    }
-    for (uint32_t j = 0u; j < KEEL_MAVLINK_SEAL_BYTES; j++) {
-        same = same && (a->seal[j] == b->seal[j]);
-    }
-    return same;
+    return (a->id == b->id) && (a->sequence == b->sequence) && (a->system == b->system) &&
+           (a->component == b->component) && (a->compatible == b->compatible) &&
+           (a->length == b->length) && (a->checksum == b->checksum) &&
+           (a->is_signed == b->is_signed) && (a->link == b->link) &&
+           (a->timestamp == b->timestamp) && (a->payload[i] == b->payload[i]) &&
+           (a->seal[0u] == b->seal[0u]) && (a->seal[1u] == b->seal[1u]) &&
+           (a->seal[2u] == b->seal[2u]) && (a->seal[3u] == b->seal[3u]) &&
+           (a->seal[4u] == b->seal[4u]) && (a->seal[5u] == b->seal[5u]);
 }
 
 static bool mavlink_count_same(const keel_mavlink_count_t *a, const keel_mavlink_count_t *b)
@@ -116,33 +113,31 @@ static bool mavlink_count_same(const keel_mavlink_count_t *a, const keel_mavlink
            (a->others == b->others) && (a->gaps == b->gaps);
 }
 
-static bool mavlink_same(const keel_mavlink_t *a, const keel_mavlink_t *b)
+static bool mavlink_same(const keel_mavlink_t *a, const keel_mavlink_t *b, uint32_t i)
 {
-    bool same = (a->messages == b->messages) && (a->known == b->known) &&
-                mavlink_frame_same(&a->frame, &b->frame) &&
-                mavlink_count_same(&a->count, &b->count) && (a->held == b->held) &&
-                (a->crc == b->crc) && (a->message == b->message);
-
-    for (uint32_t i = 0u; i < KEEL_MAVLINK_HEADER_BYTES; i++) {
-        same = same && (a->header[i] == b->header[i]);
-    }
-    for (uint32_t j = 0u; j < KEEL_MAVLINK_PAYLOAD_MAX; j++) {
-        same = same && (a->payload[j] == b->payload[j]);
-    }
-    for (uint32_t k = 0u; k < KEEL_MAVLINK_TAIL_MAX; k++) {
-        same = same && (a->tail[k] == b->tail[k]);
-    }
-    return same;
+    return (a->messages == b->messages) && (a->known == b->known) &&
+           mavlink_frame_same(&a->frame, &b->frame, i) &&
+           mavlink_count_same(&a->count, &b->count) && (a->held == b->held) && (a->crc == b->crc) &&
+           (a->message == b->message) && (a->header[0u] == b->header[0u]) &&
+           (a->header[1u] == b->header[1u]) && (a->header[2u] == b->header[2u]) &&
+           (a->header[3u] == b->header[3u]) && (a->header[4u] == b->header[4u]) &&
+           (a->header[5u] == b->header[5u]) && (a->header[6u] == b->header[6u]) &&
+           (a->header[7u] == b->header[7u]) && (a->header[8u] == b->header[8u]) &&
+           (a->header[9u] == b->header[9u]) && (a->payload[i] == b->payload[i]) &&
+           (a->tail[0u] == b->tail[0u]) && (a->tail[1u] == b->tail[1u]) &&
+           (a->tail[2u] == b->tail[2u]) && (a->tail[3u] == b->tail[3u]) &&
+           (a->tail[4u] == b->tail[4u]) && (a->tail[5u] == b->tail[5u]) &&
+           (a->tail[6u] == b->tail[6u]) && (a->tail[7u] == b->tail[7u]) &&
+           (a->tail[8u] == b->tail[8u]) && (a->tail[9u] == b->tail[9u]) &&
+           (a->tail[10u] == b->tail[10u]) && (a->tail[11u] == b->tail[11u]) &&
+           (a->tail[12u] == b->tail[12u]) && (a->tail[13u] == b->tail[13u]) &&
+           (a->tail[14u] == b->tail[14u]);
 }
 
-static bool mavlink_packet_same(const keel_mavlink_packet_t *a, const keel_mavlink_packet_t *b)
+static bool mavlink_packet_same(const keel_mavlink_packet_t *a, const keel_mavlink_packet_t *b,
+                                uint32_t i)
 {
-    bool same = true;
-
-    for (uint32_t i = 0u; i < KEEL_MAVLINK_FRAME_MAX; i++) {
-        same = same && (a->bytes[i] == b->bytes[i]);
-    }
-    return same;
+    return a->bytes[i] == b->bytes[i];
 }
 
 static bool mavlink_sender_same(const keel_mavlink_sender_t *a, const keel_mavlink_sender_t *b)

@@ -7,9 +7,9 @@
 // covers: stop model_mixer_step
 //
 // Chosen commands to four motors, with all that can give way: the same as the model's, and no
-// operation overflows or gives a NaN: that is shown for these commands alone. For every command the
-// step is the model's in keel_mixer_step__three_harness and keel_mixer_step__quad_x_harness; wrong
-// bodies are refuted here, for where floats differ z3 finds no example.
+// operation overflows or gives a NaN: that is shown for these commands alone. For every command
+// the step is the model's in keel_mixer_step__three_harness and its like; wrong bodies are refuted
+// here, for where floats differ z3 finds no example.
 #include "mixer_proof.h"
 
 #define POINTS 12u

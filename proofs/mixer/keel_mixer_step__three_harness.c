@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 9 --z3 --fpa
+// reach: --refine
 // checks: assertions
 // sources: src/flight/mixer.c specs/model/mixer.c specs/model/range.c
 // covers: keel_mixer_step model_mixer_step
 //
 // An armed mixer of three motors, the fewest, any bit pattern of everything else: the same as the
 // model's step, bit for bit. With one number of motors both sides are the same terms, and z3 sees
-// at once that they are equal. From four motors on it does so, too, but to find what the harness
-// reaches takes CBMC minutes of dividing: there the factors are those of the airframes in X and
-// plus (keel_mixer_step__quad_x_harness and its like). On a Y6's, whose motors stand in pairs, z3
-// does not come to an end. Disarmed: keel_mixer_step_harness; all other checks, for chosen
-// commands: keel_mixer_step__points_harness.
+// at once that they are equal; so there is a harness for each number, from three to eight
+// (keel_mixer_step__four_harness and so on). What one reaches CBMC finds by refining: else it
+// divides for minutes. Disarmed: keel_mixer_step_harness; all other checks, for chosen commands:
+// keel_mixer_step__points_harness and keel_mixer_step__more_harness.
 #include "mixer_proof.h"
 
 void keel_mixer_step__three_harness(void)

@@ -60,12 +60,11 @@ static bool motor_same(const keel_mixer_motor_t *x, const keel_mixer_motor_t *y)
 
 static bool geometry_same(const keel_mixer_geometry_t *x, const keel_mixer_geometry_t *y)
 {
-    bool same = x->motors == y->motors;
-
-    for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
-        same = same && motor_same(&x->motor[i], &y->motor[i]);
-    }
-    return same;
+    return (x->motors == y->motors) && motor_same(&x->motor[0u], &y->motor[0u]) &&
+           motor_same(&x->motor[1u], &y->motor[1u]) && motor_same(&x->motor[2u], &y->motor[2u]) &&
+           motor_same(&x->motor[3u], &y->motor[3u]) && motor_same(&x->motor[4u], &y->motor[4u]) &&
+           motor_same(&x->motor[5u], &y->motor[5u]) && motor_same(&x->motor[6u], &y->motor[6u]) &&
+           motor_same(&x->motor[7u], &y->motor[7u]);
 }
 
 static bool config_same(const keel_mixer_config_t *x, const keel_mixer_config_t *y)
@@ -76,12 +75,11 @@ static bool config_same(const keel_mixer_config_t *x, const keel_mixer_config_t 
 
 static bool mixer_same(const keel_mixer_t *x, const keel_mixer_t *y)
 {
-    bool same = config_same(&x->config, &y->config) && (x->limited == y->limited);
-
-    for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
-        same = same && float_same(x->output[i], y->output[i]);
-    }
-    return same;
+    return config_same(&x->config, &y->config) && (x->limited == y->limited) &&
+           float_same(x->output[0u], y->output[0u]) && float_same(x->output[1u], y->output[1u]) &&
+           float_same(x->output[2u], y->output[2u]) && float_same(x->output[3u], y->output[3u]) &&
+           float_same(x->output[4u], y->output[4u]) && float_same(x->output[5u], y->output[5u]) &&
+           float_same(x->output[6u], y->output[6u]) && float_same(x->output[7u], y->output[7u]);
 }
 
 /* A valid mixer of four motors, each with other factors, that was put to use before. */

@@ -130,20 +130,16 @@ static bool mode_refusal_same(const keel_mode_refusal_t *a, const keel_mode_refu
     return (a->checks == b->checks) && (a->facts == b->facts);
 }
 
-static bool mode_same(const keel_mode_t *a, const keel_mode_t *b)
+static bool mode_same(const keel_mode_t *a, const keel_mode_t *b, uint32_t i)
 {
-    bool same = mode_config_same(&a->config, &b->config);
-
-    for (uint32_t i = 0u; i < FACTS; i++) {
-        same = same && (a->settle_us[i] == b->settle_us[i]) && (a->held_us[i] == b->held_us[i]);
-    }
-    return same && (a->silence_us == b->silence_us) && (a->state_us == b->state_us) &&
-           (a->seen == b->seen) && (a->settled == b->settled) && (a->overridden == b->overridden) &&
-           (a->cause == b->cause) && (a->missing == b->missing) &&
-           mode_refusal_same(&a->blocking, &b->blocking) &&
+    return mode_config_same(&a->config, &b->config) && (a->silence_us == b->silence_us) &&
+           (a->state_us == b->state_us) && (a->seen == b->seen) && (a->settled == b->settled) &&
+           (a->overridden == b->overridden) && (a->cause == b->cause) &&
+           (a->missing == b->missing) && mode_refusal_same(&a->blocking, &b->blocking) &&
            mode_refusal_same(&a->refused, &b->refused) && (a->state == b->state) &&
            (a->mode == b->mode) && (a->asked == b->asked) && (a->rests_at == b->rests_at) &&
-           (a->ready == b->ready) && (a->motors == b->motors);
+           (a->ready == b->ready) && (a->motors == b->motors) &&
+           (a->settle_us[i] == b->settle_us[i]) && (a->held_us[i] == b->held_us[i]);
 }
 
 #endif

@@ -31,6 +31,7 @@ static uint64_t earliest_us;
 static keel_choice_t choice;
 static uint64_t event_us;
 static uint32_t room_us; /* of which the choice is */
+static bool without;     /* and whether it is one without promotion */
 static uint32_t served;  /* the slot whose release has moved on */
 static uint64_t next_us;
 static uint16_t skipped;
@@ -79,37 +80,43 @@ uint32_t model_decision_room_us(uint64_t realtime_us, uint64_t now_us, uint32_t 
     return keel_decision_room_us(realtime_us, now_us, guard_us);
 }
 
-keel_choice_t model_decision_other(const keel_queue_t *queue, uint64_t now_us, uint32_t room)
+keel_choice_t model_decision_other(const keel_queue_t *queue, uint64_t now_us, uint32_t room,
+                                   bool without_promotion)
 {
     room_us = room;
+    without = without_promotion;
     __CPROVER_assume(keel_decision_other_does(&choice, queue, now_us));
     return choice;
 }
 
 keel_choice_t keel_decision_other_stand_in(const keel_queue_t *queue, uint64_t now_us,
-                                           uint32_t room)
+                                           uint32_t room, bool without_promotion)
 {
     __CPROVER_assert(keel_decision_other_may(queue, now_us), "precondition: keel_decision_other");
-    __CPROVER_assert(is_asked_of(queue, now_us) && (room == room_us),
+    __CPROVER_assert(is_asked_of(queue, now_us) && (room == room_us) &&
+                         (without_promotion == without),
                      "SCH_016_asked: with the room that the slack leaves");
     __CPROVER_assume(keel_decision_other_does(&choice, queue, now_us));
     return choice;
 }
 
-uint64_t model_decision_event_us(const keel_queue_t *queue, uint64_t now_us)
+uint64_t model_decision_event_us(const keel_queue_t *queue, uint64_t now_us, bool without_promotion)
 {
     (void)queue;
     (void)now_us;
+    without = without_promotion;
     return event_us;
 }
 
-uint64_t keel_decision_event_us_stand_in(const keel_queue_t *queue, uint64_t now_us)
+uint64_t keel_decision_event_us_stand_in(const keel_queue_t *queue, uint64_t now_us,
+                                         bool without_promotion)
 {
     const uint64_t told_us = event_us;
 
     __CPROVER_assert(keel_decision_event_us_may(queue, now_us),
                      "precondition: keel_decision_event_us");
-    __CPROVER_assert(is_asked_of(queue, now_us), "SCH_012_asked: of the same queue");
+    __CPROVER_assert(is_asked_of(queue, now_us) && (without_promotion == without),
+                     "SCH_012_asked: of the same queue");
     __CPROVER_assume(keel_decision_event_us_does(told_us, event_us));
     return told_us;
 }

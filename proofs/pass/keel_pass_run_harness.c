@@ -1,138 +1,100 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 7 --no-array-field-sensitivity --external-sat-solver cadical
+// cbmc: --unwind 34 --no-array-field-sensitivity --arrays-uf-always
 // sources: src/rtos/pass.c specs/model/pass_run.c
-// replaces: keel_pass_next keel_pass_finish
-// covers: keel_pass_run run_task model_pass_run
-// defines: -DKEEL_QUEUE_CAPACITY=4u
+// replaces: keel_pass_turn
+// covers: keel_pass_run model_pass_run
 //
-// Every valid scheduler of up to 4 tasks, with which the solver comes to an end in half a minute.
-// Next, the bodies, the clock and finish are unknown functions, the same for the code and for the
-// model, of what they are given and of the fields that they write here: the stage, the pass, and
-// busy_us in the place of all others. So a part that is called at another moment, with another
-// argument, or once more or less, leaves another state behind; and what the pass writes of itself
-// stays to be seen. Of the parts no more is known than their contracts (step_contracts.h), and
-// that outside a pass next and finish change nothing (SCH-014, SCH-018).
+// Any number of tasks that there is room for, from any state of the scheduler: each turn but the
+// last leaves the pass fewer tasks to look at, so there is at most one turn more than the capacity,
+// and each of them is looked at here. The nth turn of a pass is an unknown function of the
+// scheduler that is given to it: as the code's scheduler is seen to be the one that the turn before
+// it left, it is the same for the code and for the model. What a turn writes here is the stage, the
+// pass, and busy_us in the place of all other fields; of what it does no more is known than its
+// contract (step_contracts.h), and that outside of a pass it does nothing.
 #include "../../specs/model/pass.h"
 #include "../common/keel_scheduler_proof.h"
 #include "../common/step_contracts.h"
 
-uint32_t __CPROVER_uninterpreted_next(uint64_t mark, uint64_t pass);
-uint32_t __CPROVER_uninterpreted_body(uint64_t mark, uint64_t pass, uint32_t which, uint32_t given);
-uint32_t __CPROVER_uninterpreted_clock(uint64_t mark, uint64_t pass, uint32_t nth, uint32_t given);
-uint32_t __CPROVER_uninterpreted_finish(uint64_t mark, uint64_t pass, uint32_t raw_us);
+/* What each turn leaves behind, in one number. */
+typedef struct marks {
+    uint64_t of[KEEL_QUEUE_CAPACITY + 1u];
+} marks_t;
 
-static keel_scheduler_t *acting; /* The scheduler whose pass is run: the model's or the code's. */
-static keel_task_config_t declared[2];
-static uint32_t contexts[3]; /* The two tasks' and the clock's. */
+marks_t nondet_marks(void);
 
-static uint32_t number_of(const void *context)
+static marks_t marks;
+static uint32_t modelled_turns; /* How many turns the model has taken, */
+static uint32_t turns;          /* and the code. */
+static keel_scheduler_t left;   /* The scheduler as the code's last turn has left it. */
+static keel_scheduler_t before; /* The stage and the pass with which a turn began. */
+
+/* Whether nothing has been written since, but for the arrays of the queue: no turn writes them
+ * here, and that nobody does is seen when the pass is over. */
+static bool is_as_left(const keel_scheduler_t *scheduler)
 {
-    uint32_t number = 3u;
-
-    for (uint32_t i = 0u; i < 3u; i++) {
-        number = (context == &contexts[i]) ? i : number;
-    }
-    return number;
+    return setup_same(&scheduler->config, &left.config) &&
+           clock_same(&scheduler->clock, &left.clock) && (scheduler->wake_us == left.wake_us) &&
+           (scheduler->busy_us == left.busy_us) &&
+           (scheduler->earliest_realtime_us == left.earliest_realtime_us) &&
+           (scheduler->earliest_other_us == left.earliest_other_us) &&
+           (scheduler->stage == left.stage) && (scheduler->cursor == left.cursor) &&
+           (scheduler->pass_end == left.pass_end) && (scheduler->running == left.running) &&
+           (scheduler->queue.count == left.queue.count) &&
+           (scheduler->queue.realtime_count == left.queue.realtime_count);
 }
 
-static uint64_t pass_of(const keel_scheduler_t *scheduler)
+static void note_before(const keel_scheduler_t *scheduler)
 {
-    return ((uint64_t)(uint16_t)scheduler->cursor << 48u) |
-           ((uint64_t)(uint16_t)scheduler->pass_end << 32u) |
-           ((uint64_t)(uint16_t)(scheduler->running + 1) << 16u) | (uint16_t)scheduler->stage;
+    before.stage = scheduler->stage;
+    before.cursor = scheduler->cursor;
+    before.pass_end = scheduler->pass_end;
 }
 
-/* What a part leaves behind, out of one number. */
-static void leave(keel_scheduler_t *scheduler, uint32_t mark)
+/* The nth turn, whoever takes it. */
+static keel_status_t any_turn(keel_scheduler_t *scheduler, uint32_t nth)
 {
+    const uint64_t mark = marks.of[nth];
+
     scheduler->busy_us = mark;
-    scheduler->stage = (int16_t)(mark & 7u);
+    scheduler->stage = ((mark & 2u) != 0u) ? KEEL_STAGE_PASS : KEEL_STAGE_READY;
     scheduler->running = (int16_t)((mark >> 8u) & UINT8_MAX) - 1;
     scheduler->cursor = (int16_t)((mark >> 16u) & UINT8_MAX);
     scheduler->pass_end = (int16_t)((mark >> 24u) & UINT8_MAX);
+    return ((mark & 1u) != 0u) ? KEEL_OK : KEEL_ERR_CLOCK;
 }
 
-/* The bit of such a number that decides what a part returns. */
-static bool chooses(uint32_t mark, uint32_t bit)
+keel_status_t model_pass_turn(keel_scheduler_t *scheduler)
 {
-    return ((mark >> (3u + bit)) & 1u) != 0u;
-}
+    keel_status_t status = KEEL_OK;
 
-const keel_task_config_t *model_pass_next(keel_scheduler_t *scheduler)
-{
-    const keel_scheduler_t before = *scheduler;
-    const uint32_t mark = __CPROVER_uninterpreted_next(before.busy_us, pass_of(&before));
-    const keel_task_config_t *task = NULL;
-
-    if (before.stage == KEEL_STAGE_PASS) {
-        leave(scheduler, mark);
-        task = chooses(mark, 0u) ? &declared[chooses(mark, 1u) ? 1u : 0u] : NULL;
-        __CPROVER_assume(keel_pass_next_does(task, &before, scheduler, CAPACITY, false));
+    note_before(scheduler);
+    if (scheduler->stage == KEEL_STAGE_PASS) {
+        status = any_turn(scheduler, modelled_turns);
     }
-    return task;
-}
-
-const keel_task_config_t *keel_pass_next_stand_in(keel_scheduler_t *scheduler)
-{
-    const keel_scheduler_t before = *scheduler;
-    const keel_task_config_t *task;
-
-    __CPROVER_assert(keel_pass_next_may(scheduler), "precondition: keel_pass_next");
-    task = model_pass_next(scheduler);
-    __CPROVER_assume(keel_pass_next_does(task, &before, scheduler, CAPACITY, false));
-    return task;
-}
-
-/* What a body does, adding and removing tasks: the pass does not grow longer (SCH_007_pass). */
-static void run_body(uint32_t which, const void *context)
-{
-    const keel_scheduler_t before = *acting;
-
-    leave(acting, __CPROVER_uninterpreted_body(before.busy_us, pass_of(&before), which,
-                                               number_of(context)));
-    __CPROVER_assume((acting->stage == before.stage) && (acting->cursor <= acting->pass_end) &&
-                     ((acting->pass_end - acting->cursor) <= (before.pass_end - before.cursor)));
-}
-
-static void first_body(void *context)
-{
-    run_body(0u, context);
-}
-
-static void second_body(void *context)
-{
-    run_body(1u, context);
-}
-
-static uint32_t unknown_clock(void *context)
-{
-    clock_readings++;
-    return __CPROVER_uninterpreted_clock(acting->busy_us, pass_of(acting), clock_readings,
-                                         number_of(context));
-}
-
-keel_status_t model_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us)
-{
-    const keel_scheduler_t before = *scheduler;
-    const uint32_t mark = __CPROVER_uninterpreted_finish(before.busy_us, pass_of(&before), raw_us);
-    keel_status_t status = KEEL_ERR_STATE;
-
-    if ((before.stage == KEEL_STAGE_REALTIME) || (before.stage == KEEL_STAGE_OTHER)) {
-        leave(scheduler, mark);
-        status = chooses(mark, 0u) ? KEEL_OK : KEEL_ERR_CLOCK;
-        __CPROVER_assume(keel_pass_finish_does(status, &before, scheduler));
-    }
+    modelled_turns++;
+    __CPROVER_assume(keel_pass_turn_does(status, &before, scheduler));
     return status;
 }
 
-keel_status_t keel_pass_finish_stand_in(keel_scheduler_t *scheduler, uint32_t raw_us)
+keel_status_t keel_pass_turn_stand_in(keel_scheduler_t *scheduler)
 {
-    const keel_scheduler_t before = *scheduler;
     keel_status_t status;
 
-    __CPROVER_assert(keel_pass_finish_may(scheduler), "precondition: keel_pass_finish");
-    status = model_pass_finish(scheduler, raw_us);
-    __CPROVER_assume(keel_pass_finish_does(status, &before, scheduler));
+    __CPROVER_assert(keel_pass_turn_may(scheduler), "precondition: keel_pass_turn");
+    __CPROVER_assert((scheduler->stage == KEEL_STAGE_PASS) && is_as_left(scheduler),
+                     "SCH_023_turns: a turn begins with what the one before it has left");
+    __CPROVER_assert(pass_left(scheduler) <= (int32_t)(CAPACITY - turns),
+                     "SCH_023_ends: each turn leaves fewer tasks to look at");
+    __CPROVER_assume(pass_left(scheduler) <= (int32_t)(CAPACITY - turns));
+    note_before(scheduler);
+    status = any_turn(scheduler, turns);
+    turns++;
+    __CPROVER_assume(keel_pass_turn_does(status, &before, scheduler));
+    left.busy_us = scheduler->busy_us;
+    left.stage = scheduler->stage;
+    left.running = scheduler->running;
+    left.cursor = scheduler->cursor;
+    left.pass_end = scheduler->pass_end;
     return status;
 }
 
@@ -144,24 +106,15 @@ void keel_pass_run_harness(void)
     keel_status_t modelled;
     keel_status_t status;
 
-    any_scheduler(&scheduler, CAPACITY);
-    scheduler.config.read_clock = unknown_clock;
-    scheduler.config.clock_context = &contexts[2];
-    declared[0].run = first_body;
-    declared[0].context = &contexts[0];
-    declared[1].run = second_body;
-    declared[1].context = &contexts[1];
+    marks = nondet_marks();
     __CPROVER_assume(keel_pass_run_may(&scheduler));
+    left = scheduler;
     expected = scheduler;
-    acting = &expected;
     modelled = model_pass_run(&expected);
-    read_again();
-    acting = &scheduler;
 
     status = keel_pass_run(&scheduler);
 
-    __CPROVER_assert((status == modelled) && scheduler_same(&scheduler, &expected, x) &&
-                         is_read_as_often(),
+    __CPROVER_assert((status == modelled) && scheduler_same(&scheduler, &expected, x),
                      "SCH_023_model: as the model says");
     __CPROVER_assert(keel_pass_run_does(status, &scheduler),
                      "SCH_023_closed: the pass is closed, refused by the clock alone");

@@ -58,7 +58,7 @@ static bool pid_valid_here(const keel_pid_t *pid)
            rate_here(pid->config.rate_hz) &&
            magnitude(pid->integral_gain, KEEL_PID_INTEGRAL_GAIN_LIMIT) &&
            filter_coefficients_here(&pid->filter) && filter_bounded_here(&pid->filter) &&
-           pid_bounded_here(pid) && pid_remembers_here(pid);
+           pid_bounded_here(pid) && pid_remembers_here(pid) && (pid->saturation <= KEEL_PID_AT_MAX);
 }
 
 static bool pid_gains_same(const keel_pid_gains_t *x, const keel_pid_gains_t *y)
@@ -90,9 +90,6 @@ static keel_pid_t any_pid_at_all(void)
     keel_pid_t pid = nondet_pid();
 
     pid.started = nondet_bool();
-    pid.saturation = nondet_bool()   ? KEEL_PID_FREE
-                     : nondet_bool() ? KEEL_PID_AT_MIN
-                                     : KEEL_PID_AT_MAX;
     return pid;
 }
 

@@ -56,7 +56,6 @@ static keel_position_t any_position_at_all(void)
     position.north = any_axis_at_all();
     position.east = any_axis_at_all();
     position.has_origin = nondet_bool();
-    position.quality = any_axis_at_all().quality;
     return position;
 }
 

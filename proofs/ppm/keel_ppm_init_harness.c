@@ -15,7 +15,10 @@ void keel_ppm_init_harness(void)
     const keel_status_t status = keel_ppm_init(&ppm, &config);
 
     __CPROVER_assert(status == expected, "PPM_001_model: taken or refused as the model says");
-    __CPROVER_assert(ppm_same(&ppm, &model), "PPM_002_model: every field is what the model says");
+    for (uint32_t i = 0u; i < KEEL_PPM_CHANNELS; i++) {
+        __CPROVER_assert(ppm_same(&ppm, &model, i),
+                         "PPM_002_model: every field is what the model says");
+    }
     if (status == KEEL_OK) {
         __CPROVER_assert(ppm_valid_here(&ppm), "PPM_002_valid: what is made is valid");
     } else {

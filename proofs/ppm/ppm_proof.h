@@ -75,17 +75,13 @@ static bool ppm_channels_alike(const uint16_t *a, const uint16_t *b)
     return alike;
 }
 
-static bool ppm_same(const keel_ppm_t *a, const keel_ppm_t *b)
+static bool ppm_same(const keel_ppm_t *a, const keel_ppm_t *b, uint32_t i)
 {
-    bool same = ppm_config_same(&a->config, &b->config) && ppm_count_same(&a->count, &b->count) &&
-                (a->age_us == b->age_us) && (a->quiet_us == b->quiet_us) &&
-                (a->channels == b->channels) && (a->come == b->come) && (a->row_of == b->row_of) &&
-                (a->row == b->row) && (a->begun == b->begun);
-
-    for (uint32_t i = 0u; i < KEEL_PPM_CHANNELS; i++) {
-        same = same && (a->channel[i] == b->channel[i]) && (a->next[i] == b->next[i]);
-    }
-    return same;
+    return ppm_config_same(&a->config, &b->config) && ppm_count_same(&a->count, &b->count) &&
+           (a->age_us == b->age_us) && (a->quiet_us == b->quiet_us) &&
+           (a->channels == b->channels) && (a->come == b->come) && (a->row_of == b->row_of) &&
+           (a->row == b->row) && (a->begun == b->begun) && (a->channel[i] == b->channel[i]) &&
+           (a->next[i] == b->next[i]);
 }
 
 /* Any bits, but that a bool is one. */

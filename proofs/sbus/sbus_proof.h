@@ -8,6 +8,7 @@
 #define SBUS_PROOF_H
 
 #include "../../specs/model/sbus.h"
+#include "../common/any_below.h"
 
 #include <stdbool.h>
 
@@ -38,13 +39,16 @@ static bool sbus_config_same(const keel_sbus_config_t *a, const keel_sbus_config
 
 static bool sbus_frame_same(const keel_sbus_frame_t *a, const keel_sbus_frame_t *b)
 {
-    bool same = (a->digital_17 == b->digital_17) && (a->digital_18 == b->digital_18) &&
-                (a->lost == b->lost) && (a->failsafe == b->failsafe);
-
-    for (uint32_t i = 0u; i < KEEL_SBUS_CHANNELS; i++) {
-        same = same && (a->channel[i] == b->channel[i]);
-    }
-    return same;
+    return (a->digital_17 == b->digital_17) && (a->digital_18 == b->digital_18) &&
+           (a->lost == b->lost) && (a->failsafe == b->failsafe) &&
+           (a->channel[0u] == b->channel[0u]) && (a->channel[1u] == b->channel[1u]) &&
+           (a->channel[2u] == b->channel[2u]) && (a->channel[3u] == b->channel[3u]) &&
+           (a->channel[4u] == b->channel[4u]) && (a->channel[5u] == b->channel[5u]) &&
+           (a->channel[6u] == b->channel[6u]) && (a->channel[7u] == b->channel[7u]) &&
+           (a->channel[8u] == b->channel[8u]) && (a->channel[9u] == b->channel[9u]) &&
+           (a->channel[10u] == b->channel[10u]) && (a->channel[11u] == b->channel[11u]) &&
+           (a->channel[12u] == b->channel[12u]) && (a->channel[13u] == b->channel[13u]) &&
+           (a->channel[14u] == b->channel[14u]) && (a->channel[15u] == b->channel[15u]);
 }
 
 static bool sbus_count_same(const keel_sbus_count_t *a, const keel_sbus_count_t *b)
@@ -53,16 +57,11 @@ static bool sbus_count_same(const keel_sbus_count_t *a, const keel_sbus_count_t 
            (a->flags == b->flags) && (a->ranges == b->ranges) && (a->gaps == b->gaps);
 }
 
-static bool sbus_same(const keel_sbus_t *a, const keel_sbus_t *b)
+static bool sbus_same(const keel_sbus_t *a, const keel_sbus_t *b, uint32_t i)
 {
-    bool same = sbus_config_same(&a->config, &b->config) && sbus_frame_same(&a->frame, &b->frame) &&
-                sbus_count_same(&a->count, &b->count) && (a->age_us == b->age_us) &&
-                (a->quiet_us == b->quiet_us) && (a->held == b->held);
-
-    for (uint32_t i = 0u; i < KEEL_SBUS_BYTES; i++) {
-        same = same && (a->buffer[i] == b->buffer[i]);
-    }
-    return same;
+    return sbus_config_same(&a->config, &b->config) && sbus_frame_same(&a->frame, &b->frame) &&
+           sbus_count_same(&a->count, &b->count) && (a->age_us == b->age_us) &&
+           (a->quiet_us == b->quiet_us) && (a->held == b->held) && (a->buffer[i] == b->buffer[i]);
 }
 
 static keel_sbus_config_t any_sbus_config(void)

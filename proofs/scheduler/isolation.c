@@ -565,7 +565,7 @@ static uint64_t longest_run(const keel_scheduler_t *s, bool promoting, uint32_t 
 {
     const uint32_t slot = s->queue.order[s->running];
     const uint32_t budget_us = s->queue.budget_us[slot];
-    uint32_t worst_us = s->queue.stats[slot].longest_us;
+    uint32_t worst_us = s->queue.stats[slot].remembered_us;
 
     if (s->stage == KEEL_STAGE_REALTIME) {
         return budget_us;

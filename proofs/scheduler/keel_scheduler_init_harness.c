@@ -27,6 +27,7 @@ void keel_scheduler_init_harness(void)
     config.clock_context = nondet_bool() ? &config : NULL;
     config.guard_us = nondet_u32();
     config.utilisation_limit_ppm = nondet_u32();
+    config.without_promotion = nondet_bool();
     as_given = config;
     expected = scheduler;
     modelled = model_scheduler_init(given ? &expected : NULL, configured ? &config : NULL);

@@ -8,6 +8,7 @@
 #define SIGNING_PROOF_H
 
 #include "../../specs/model/signing.h"
+#include "../common/any_below.h"
 
 #include <stdbool.h>
 
@@ -118,13 +119,16 @@ static bool is_stream_of(const keel_signing_stream_t *stream, const keel_mavlink
 /* But for the text and the counts. */
 static bool decisions_same(const keel_signing_t *a, const keel_signing_t *b)
 {
-    bool same = (a->streams == b->streams) && (a->timestamp == b->timestamp) &&
-                (a->hash == b->hash) && (a->link == b->link) && (a->has_key == b->has_key);
-
-    for (uint32_t i = 0u; i < KEEL_SIGNING_STREAMS; i++) {
-        same = same && stream_same(&a->stream[i], &b->stream[i]);
-    }
-    return same;
+    return (a->streams == b->streams) && (a->timestamp == b->timestamp) && (a->hash == b->hash) &&
+           (a->link == b->link) && (a->has_key == b->has_key) &&
+           stream_same(&a->stream[0u], &b->stream[0u]) &&
+           stream_same(&a->stream[1u], &b->stream[1u]) &&
+           stream_same(&a->stream[2u], &b->stream[2u]) &&
+           stream_same(&a->stream[3u], &b->stream[3u]) &&
+           stream_same(&a->stream[4u], &b->stream[4u]) &&
+           stream_same(&a->stream[5u], &b->stream[5u]) &&
+           stream_same(&a->stream[6u], &b->stream[6u]) &&
+           stream_same(&a->stream[7u], &b->stream[7u]);
 }
 
 static bool signing_count_same(const keel_signing_count_t *a, const keel_signing_count_t *b)
@@ -133,19 +137,18 @@ static bool signing_count_same(const keel_signing_count_t *a, const keel_signing
            (a->replayed == b->replayed) && (a->old == b->old) && (a->full == b->full);
 }
 
-static bool signing_same(const keel_signing_t *a, const keel_signing_t *b)
+static bool signing_same(const keel_signing_t *a, const keel_signing_t *b, uint32_t i)
 {
-    bool same = (a->streams == b->streams) && signing_count_same(&a->count, &b->count) &&
-                (a->timestamp == b->timestamp) && (a->hash == b->hash) && (a->link == b->link) &&
-                (a->has_key == b->has_key);
-
-    for (uint32_t i = 0u; i < KEEL_SIGNING_STREAMS; i++) {
-        same = same && stream_same(&a->stream[i], &b->stream[i]);
-    }
-    for (uint32_t j = 0u; j < KEEL_SIGNING_TEXT_MAX; j++) {
-        same = same && (a->text[j] == b->text[j]);
-    }
-    return same;
+    return (a->streams == b->streams) && signing_count_same(&a->count, &b->count) &&
+           (a->timestamp == b->timestamp) && (a->hash == b->hash) && (a->link == b->link) &&
+           (a->has_key == b->has_key) && stream_same(&a->stream[0u], &b->stream[0u]) &&
+           stream_same(&a->stream[1u], &b->stream[1u]) &&
+           stream_same(&a->stream[2u], &b->stream[2u]) &&
+           stream_same(&a->stream[3u], &b->stream[3u]) &&
+           stream_same(&a->stream[4u], &b->stream[4u]) &&
+           stream_same(&a->stream[5u], &b->stream[5u]) &&
+           stream_same(&a->stream[6u], &b->stream[6u]) &&
+           stream_same(&a->stream[7u], &b->stream[7u]) && (a->text[i] == b->text[i]);
 }
 
 static bool sender_same(const keel_mavlink_sender_t *a, const keel_mavlink_sender_t *b)

@@ -70,14 +70,9 @@ uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_me
     return tell(sender, packet);
 }
 
-static bool packet_same(const keel_mavlink_packet_t *a, const keel_mavlink_packet_t *b)
+static bool packet_same(const keel_mavlink_packet_t *a, const keel_mavlink_packet_t *b, uint32_t i)
 {
-    bool same = true;
-
-    for (uint32_t i = 0u; i < KEEL_MAVLINK_FRAME_MAX; i++) {
-        same = same && (a->bytes[i] == b->bytes[i]);
-    }
-    return same;
+    return a->bytes[i] == b->bytes[i];
 }
 
 #endif

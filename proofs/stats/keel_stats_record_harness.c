@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 2
 // sources: src/rtos/stats.c specs/model/stats.c
-// covers: keel_stats_record count_one model_stats_record
+// covers: keel_stats_record count_one remember_overrun count_down model_stats_record
 #include "../../specs/model/stats.h"
 #include "../common/stats_contracts.h"
 

@@ -8,6 +8,7 @@
 #define UBX_PROOF_H
 
 #include "../../specs/model/ubx.h"
+#include "../common/any_below.h"
 
 #include <stdbool.h>
 
@@ -67,14 +68,9 @@ static bool ubx_same(const keel_ubx_t *a, const keel_ubx_t *b)
            (a->kind == b->kind) && (a->step == b->step);
 }
 
-static bool ubx_message_same(const keel_ubx_message_t *a, const keel_ubx_message_t *b)
+static bool ubx_message_same(const keel_ubx_message_t *a, const keel_ubx_message_t *b, uint32_t i)
 {
-    bool same = a->size == b->size;
-
-    for (uint32_t i = 0u; i < KEEL_UBX_MESSAGE_BYTES; i++) {
-        same = same && (a->bytes[i] == b->bytes[i]);
-    }
-    return same;
+    return (a->size == b->size) && (a->bytes[i] == b->bytes[i]);
 }
 
 /* Any bits, but that a bool is one. */

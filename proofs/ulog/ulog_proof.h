@@ -8,6 +8,7 @@
 #define ULOG_PROOF_H
 
 #include "../../specs/model/ulog.h"
+#include "../common/any_below.h"
 
 #include <stdbool.h>
 
@@ -63,14 +64,9 @@ static uint8_t any_count(void)
     return count;
 }
 
-static bool message_same(const keel_ulog_message_t *a, const keel_ulog_message_t *b)
+static bool message_same(const keel_ulog_message_t *a, const keel_ulog_message_t *b, uint32_t i)
 {
-    bool same = (a->size == b->size) && (a->overflowed == b->overflowed);
-
-    for (uint32_t i = 0u; i < KEEL_ULOG_MESSAGE_BYTES; i++) {
-        same = same && (a->bytes[i] == b->bytes[i]);
-    }
-    return same;
+    return (a->size == b->size) && (a->overflowed == b->overflowed) && (a->bytes[i] == b->bytes[i]);
 }
 
 #endif

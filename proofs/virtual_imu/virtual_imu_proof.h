@@ -70,30 +70,21 @@ static bool noted_here(const keel_virtual_imu_t *imu)
 
 static bool unit_sample_same(const keel_virtual_imu_sample_t *a, const keel_virtual_imu_sample_t *b)
 {
-    bool same = (a->age_us == b->age_us) && (a->present == b->present);
-
-    for (uint32_t k = 0u; k < CHANNELS; k++) {
-        same = same && float_same(a->value[k], b->value[k]);
-    }
-    return same;
+    return (a->age_us == b->age_us) && (a->present == b->present) &&
+           float_same(a->value[0u], b->value[0u]) && float_same(a->value[1u], b->value[1u]) &&
+           float_same(a->value[2u], b->value[2u]) && float_same(a->value[3u], b->value[3u]) &&
+           float_same(a->value[4u], b->value[4u]) && float_same(a->value[5u], b->value[5u]);
 }
 
-static bool voter_sample_same(const keel_voter_sample_t *a, const keel_voter_sample_t *b)
+static bool virtual_imu_same(const keel_virtual_imu_t *a, const keel_virtual_imu_t *b, uint32_t i)
 {
-    return float_same(a->value, b->value) && (a->age_us == b->age_us) && (a->present == b->present);
-}
-
-static bool virtual_imu_same(const keel_virtual_imu_t *a, const keel_virtual_imu_t *b)
-{
-    bool same = true;
-
-    for (uint32_t k = 0u; k < CHANNELS; k++) {
-        same = same && voter_same(&a->channel[k], &b->channel[k]);
-    }
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        same = same && (a->used[i] == b->used[i]) && (a->latched[i] == b->latched[i]);
-    }
-    return same;
+    return voter_same(&a->channel[0u], &b->channel[0u], i) &&
+           voter_same(&a->channel[1u], &b->channel[1u], i) &&
+           voter_same(&a->channel[2u], &b->channel[2u], i) &&
+           voter_same(&a->channel[3u], &b->channel[3u], i) &&
+           voter_same(&a->channel[4u], &b->channel[4u], i) &&
+           voter_same(&a->channel[5u], &b->channel[5u], i) && (a->used[i] == b->used[i]) &&
+           (a->latched[i] == b->latched[i]);
 }
 
 #endif

@@ -28,9 +28,14 @@ void keel_voter_step_unanimous__a_pair_harness(void)
     taken = keel_voter_step_unanimous(&voter, sample, oldest_us);
 
     __CPROVER_assert(taken == expected, "VOT_018_taken: as the model says");
-    __CPROVER_assert(voter_same(&voter, &model),
-                     "VOT_018_model: as the model says, in every field");
-    __CPROVER_assert(samples_same(sample, before), "VOT_018_read: the samples are only read");
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        __CPROVER_assert(voter_same(&voter, &model, i),
+                         "VOT_018_model: as the model says, in every field");
+    }
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        __CPROVER_assert(voter_sample_same(&sample[i], &before[i]),
+                         "VOT_018_read: the samples are only read");
+    }
     __CPROVER_assert(keel_voter_step_unanimous_does(&voter),
                      "VOT_018_valid: the channel stays valid");
 }

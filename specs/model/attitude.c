@@ -326,8 +326,11 @@ static void tilt_validity(keel_attitude_t *attitude, vector_t error, float cosin
                           (attitude->lost == 0u);
 
         attitude->settled = near ? next_count(attitude->settled, true, most) : 0u;
-        attitude->phase = (attitude->settled >= most) ? KEEL_ATTITUDE_RUNNING
-                                                      : KEEL_ATTITUDE_ALIGNING;
+        if (attitude->settled >= most) {
+            attitude->phase = KEEL_ATTITUDE_RUNNING;
+        } else {
+            attitude->phase = KEEL_ATTITUDE_ALIGNING;
+        }
     }
 }
 

@@ -263,7 +263,9 @@ static void level_step(keel_battery_t *b, bool lost, bool running)
     bool known;
 
     if (!lost) {
-        b->count = (b->count == KEEL_BATTERY_WAITING) ? KEEL_BATTERY_COUNTED : b->count;
+        if (b->count == KEEL_BATTERY_WAITING) {
+            b->count = KEEL_BATTERY_COUNTED;
+        }
     } else if (running || (b->count != KEEL_BATTERY_WAITING)) {
         b->count = KEEL_BATTERY_UNCOUNTED;
     }

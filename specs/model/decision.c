@@ -55,16 +55,18 @@ static uint32_t priority_of(const keel_queue_t *queue, uint32_t slot, uint64_t n
     return model_priority_dynamic(queue->priority[slot], age_us, queue->period_us[slot]);
 }
 
-/* DEC-003: W + w <= S, w being the budget or the longest run, whichever is longer. */
+/* DEC-003: W + w <= S, w being the budget or the longest overrun that is remembered, whichever is
+ * longer. */
 static bool fits(const keel_queue_t *queue, uint32_t slot, uint32_t room_us)
 {
-    const uint32_t longest_us = queue->stats[slot].longest_us;
+    const uint32_t remembered_us = queue->stats[slot].remembered_us;
     const uint32_t budget_us = queue->budget_us[slot];
 
-    return ((longest_us > budget_us) ? longest_us : budget_us) <= room_us;
+    return ((remembered_us > budget_us) ? remembered_us : budget_us) <= room_us;
 }
 
-keel_choice_t model_decision_other(const keel_queue_t *queue, uint64_t now_us, uint32_t room_us)
+keel_choice_t model_decision_other(const keel_queue_t *queue, uint64_t now_us, uint32_t room_us,
+                                   bool without_promotion)
 {
     keel_choice_t choice = {earliest_us_of(queue, queue->realtime_count, queue->count), 0u, 0u};
 
@@ -75,8 +77,9 @@ keel_choice_t model_decision_other(const keel_queue_t *queue, uint64_t now_us, u
         if ((queue->realtime_count <= i) && (i < queue->count) &&
             (queue->release_us[slot] <= now_us)) {
             priority = priority_of(queue, slot, now_us);
-            if ((priority < KEEL_PRIORITY_REALTIME) && !fits(queue, slot, room_us)) {
-                priority = 0u; /* DEC-003: a promoted task runs whether it fits or not */
+            if ((without_promotion || (priority < KEEL_PRIORITY_REALTIME)) &&
+                !fits(queue, slot, room_us)) {
+                priority = 0u; /* DEC-003: only a promoted task runs whether it fits or not */
             }
         }
         if (priority > choice.priority) { /* DEC-003: the first of the highest */
@@ -87,16 +90,18 @@ keel_choice_t model_decision_other(const keel_queue_t *queue, uint64_t now_us, u
     return choice;
 }
 
-uint64_t model_decision_event_us(const keel_queue_t *queue, uint64_t now_us)
+uint64_t model_decision_event_us(const keel_queue_t *queue, uint64_t now_us, bool without_promotion)
 {
     uint64_t event_us = KEEL_TIME_NEVER_US;
 
-    /* DEC-004: the first release that lies ahead, or promotion of a task that is released. */
+    /* DEC-004: the first release that lies ahead, or promotion of a task that is released; where
+     * none is promoted, none of these is an event. */
     for (uint32_t i = 0u; i < KEEL_QUEUE_CAPACITY; i++) {
         const uint32_t slot = queue->order[i];
         uint64_t at_us = KEEL_TIME_NEVER_US;
 
-        if ((queue->realtime_count <= i) && (i < queue->count)) {
+        if ((queue->realtime_count <= i) && (i < queue->count) &&
+            (!without_promotion || (queue->release_us[slot] > now_us))) {
             at_us = queue->release_us[slot];
             if (at_us <= now_us) {
                 at_us += model_priority_promotion_age_us(queue->priority[slot],

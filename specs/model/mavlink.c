@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "mavlink.h"
 
-#include "keel/middleware/crc.h"
+#include "crc.h"
 
 /* MAV-001 */
 static bool in_order(const keel_mavlink_message_t *messages, uint32_t known)
@@ -60,9 +60,9 @@ uint16_t model_mavlink_checksum(const uint8_t *bytes, uint8_t crc_extra)
     uint16_t crc = 0xFFFFu;
 
     for (uint32_t i = 1u; i < (10u + (uint32_t)bytes[1]); i++) {
-        crc = keel_crc16(crc, bytes[i]);
+        crc = model_crc16(crc, bytes[i]);
     }
-    return keel_crc16(crc, crc_extra);
+    return model_crc16(crc, crc_extra);
 }
 
 /* A number in so many bytes, the lowest first. */
@@ -124,7 +124,7 @@ static void keep(keel_mavlink_t *mavlink, uint8_t byte)
     if (at == 0u) {
         mavlink->crc = 0xFFFFu;
     } else if (is_header || is_payload) {
-        mavlink->crc = keel_crc16(mavlink->crc, byte);
+        mavlink->crc = model_crc16(mavlink->crc, byte);
     }
 }
 
@@ -158,20 +158,22 @@ static void begin_again(keel_mavlink_t *mavlink)
 static void look_up(keel_mavlink_t *mavlink)
 {
     const uint32_t id = (uint32_t)number(&mavlink->header[7], 3u);
+    uint32_t place = mavlink->known;
 
-    mavlink->message = mavlink->known;
     for (uint32_t i = 0u; i < mavlink->known; i++) {
         if (mavlink->messages[i].id == id) {
-            if ((mavlink->messages[i].shortest <= mavlink->header[1]) &&
-                (mavlink->header[1] <= mavlink->messages[i].longest)) {
-                mavlink->message = i;
-            } else {
-                tally(&mavlink->count.lengths);
-            }
-            return;
+            place = i;
         }
     }
-    tally(&mavlink->count.unknown);
+    mavlink->message = mavlink->known;
+    if (place == mavlink->known) {
+        tally(&mavlink->count.unknown);
+    } else if ((mavlink->messages[place].shortest <= mavlink->header[1]) &&
+               (mavlink->header[1] <= mavlink->messages[place].longest)) {
+        mavlink->message = place;
+    } else {
+        tally(&mavlink->count.lengths);
+    }
 }
 
 /* MAV-004, MAV-006 */
@@ -182,7 +184,7 @@ static bool finish_frame(keel_mavlink_t *mavlink)
         return false;
     }
     if (number(mavlink->tail, 2u) !=
-        keel_crc16(mavlink->crc, mavlink->messages[mavlink->message].crc_extra)) {
+        model_crc16(mavlink->crc, mavlink->messages[mavlink->message].crc_extra)) {
         tally(&mavlink->count.checksums);
         return false;
     }

@@ -46,7 +46,9 @@ static const keel_task_config_t *serve_other(keel_scheduler_t *scheduler)
     const uint64_t realtime_us = model_decision_earliest_us(&scheduler->queue);
     const uint32_t room_us = model_decision_room_us(realtime_us, now_us,
                                                     scheduler->config.guard_us);
-    const keel_choice_t choice = model_decision_other(&scheduler->queue, now_us, room_us);
+    const bool without_promotion = scheduler->config.without_promotion;
+    const keel_choice_t choice = model_decision_other(&scheduler->queue, now_us, room_us,
+                                                      without_promotion);
     uint64_t other_us = scheduler->earliest_other_us;
 
     /* What is remembered: a bound of the other releases stays until it has passed. */
@@ -56,14 +58,14 @@ static const keel_task_config_t *serve_other(keel_scheduler_t *scheduler)
     scheduler->earliest_realtime_us = realtime_us;
     scheduler->earliest_other_us = other_us;
     if (choice.priority > 0u) {
-        if (choice.priority == KEEL_PRIORITY_REALTIME) {
+        if (!without_promotion && (choice.priority == KEEL_PRIORITY_REALTIME)) {
             model_stats_promote(&scheduler->queue.stats[scheduler->queue.order[choice.position]]);
         }
         return serve(scheduler, choice.position, KEEL_STAGE_OTHER, (uint32_t)scheduler->pass_end);
     }
     /* SCH-012: nothing can run before the next real-time release, and the others' next event. */
     if (other_us <= now_us) {
-        other_us = model_decision_event_us(&scheduler->queue, now_us);
+        other_us = model_decision_event_us(&scheduler->queue, now_us, without_promotion);
     }
     scheduler->wake_us = (realtime_us < other_us) ? realtime_us : other_us;
     scheduler->stage = KEEL_STAGE_READY;

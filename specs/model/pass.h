@@ -11,6 +11,7 @@
 keel_status_t model_pass_begin(keel_scheduler_t *scheduler, uint32_t raw_us);
 const keel_task_config_t *model_pass_next(keel_scheduler_t *scheduler);
 keel_status_t model_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us);
+keel_status_t model_pass_turn(keel_scheduler_t *scheduler);
 keel_status_t model_pass_run(keel_scheduler_t *scheduler);
 
 #endif

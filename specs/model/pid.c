@@ -108,7 +108,10 @@ static keel_pid_saturation_t side_of(const keel_pid_config_t *config, float outp
     if (output > config->output_max) {
         return KEEL_PID_AT_MAX;
     }
-    return (output < config->output_min) ? KEEL_PID_AT_MIN : KEEL_PID_FREE;
+    if (output < config->output_min) {
+        return KEEL_PID_AT_MIN;
+    }
+    return KEEL_PID_FREE;
 }
 
 /* What the low-pass makes of an error. PID-009: at the first step it comes from the error itself,

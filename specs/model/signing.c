@@ -97,11 +97,13 @@ static uint32_t put_signed(keel_signing_t *signing, const keel_mavlink_frame_t *
 /* SGN-006, SGN-007: whether a frame is as new as it has to be; if not, why. */
 static bool new_enough(keel_signing_t *signing, const keel_mavlink_frame_t *frame, uint32_t *place)
 {
-    for (*place = 0u; *place < signing->streams; *place = *place + 1u) {
-        const keel_signing_stream_t *stream = &signing->stream[*place];
+    *place = signing->streams;
+    for (uint32_t i = 0u; i < signing->streams; i++) {
+        const keel_signing_stream_t *stream = &signing->stream[i];
 
         if ((stream->system == frame->system) && (stream->component == frame->component) &&
             (stream->link == frame->link)) {
+            *place = i;
             if (stream->timestamp >= frame->timestamp) {
                 note_one(&signing->count.replayed);
                 return false;

@@ -21,6 +21,17 @@ void model_stats_record(keel_stats_t *stats, uint32_t elapsed_us, uint32_t budge
     if ((elapsed_us > budget_us) && (stats->overruns < UINT16_MAX)) {
         stats->overruns++;
     }
+    /* STS-006: so many runs are left within the budget; behind the last nothing is remembered. */
+    if (elapsed_us > budget_us) {
+        stats->forgotten_in = KEEL_STATS_FORGET_RUNS;
+    } else if (stats->forgotten_in > 0u) {
+        stats->forgotten_in--;
+    }
+    if (stats->forgotten_in == 0u) {
+        stats->remembered_us = 0u;
+    } else if ((elapsed_us > budget_us) && (elapsed_us > stats->remembered_us)) {
+        stats->remembered_us = elapsed_us;
+    }
 }
 
 /* STS-004 */

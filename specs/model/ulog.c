@@ -21,11 +21,13 @@ static void append(draft_t *draft, uint8_t byte)
 /* A name that fills all of its characters has no 0 at its end. */
 static void append_name(draft_t *draft, const keel_ulog_name_t *name)
 {
+    bool ended = false;
+
     for (uint32_t i = 0u; i < KEEL_ULOG_NAME_LENGTH; i++) {
-        if (name->text[i] == '\0') {
-            break;
+        ended = ended || (name->text[i] == '\0');
+        if (!ended) {
+            append(draft, (uint8_t)name->text[i]);
         }
-        append(draft, (uint8_t)name->text[i]);
     }
 }
 

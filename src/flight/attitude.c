@@ -429,8 +429,11 @@ static void judge_tilt(keel_attitude_t *attitude, keel_attitude_vector_t error, 
                           (attitude->lost == 0u);
 
         attitude->settled = near ? counted(attitude->settled, true, most) : 0u;
-        attitude->phase = (attitude->settled >= most) ? KEEL_ATTITUDE_RUNNING
-                                                      : KEEL_ATTITUDE_ALIGNING;
+        if (attitude->settled >= most) {
+            attitude->phase = KEEL_ATTITUDE_RUNNING;
+        } else {
+            attitude->phase = KEEL_ATTITUDE_ALIGNING;
+        }
     } else {
         /* Not before there is a bias. */
     }

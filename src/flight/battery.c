@@ -457,7 +457,9 @@ static void judge_count(keel_battery_t *battery, bool is_lost, bool running)
     const bool waiting = battery->count == KEEL_BATTERY_WAITING;
 
     if (!is_lost) {
-        battery->count = waiting ? KEEL_BATTERY_COUNTED : battery->count;
+        if (waiting) {
+            battery->count = KEEL_BATTERY_COUNTED;
+        }
     } else if (running || !waiting) {
         battery->count = KEEL_BATTERY_UNCOUNTED;
     } else {
@@ -480,9 +482,10 @@ static void judge_level(keel_battery_t *battery)
         battery->level = KEEL_BATTERY_CRITICAL;
     } else if (battery->low.raised) {
         battery->level = KEEL_BATTERY_LOW;
+    } else if (known && (battery->known >= most)) {
+        battery->level = KEEL_BATTERY_OK;
     } else {
-        battery->level = (known && (battery->known >= most)) ? KEEL_BATTERY_OK
-                                                             : KEEL_BATTERY_UNKNOWN;
+        battery->level = KEEL_BATTERY_UNKNOWN;
     }
 }
 

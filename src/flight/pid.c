@@ -135,10 +135,16 @@ static keel_status_t differentiate(keel_pid_t *pid, float error)
   @*/
 static keel_pid_saturation_t limit_reached(const keel_pid_config_t *config, float output)
 {
+    keel_pid_saturation_t at = KEEL_PID_FREE;
+
     if (output > config->output_max) {
-        return KEEL_PID_AT_MAX;
+        at = KEEL_PID_AT_MAX;
+    } else if (output < config->output_min) {
+        at = KEEL_PID_AT_MIN;
+    } else {
+        /* Within the limits. */
     }
-    return (output < config->output_min) ? KEEL_PID_AT_MIN : KEEL_PID_FREE;
+    return at;
 }
 
 /*@ requires \is_finite(from) && \is_finite(to);

@@ -36,7 +36,18 @@
 /* ULog and its version. */
 #define MAGIC_BYTES 8u
 
-/*@ // What was there is, with so many bytes behind it at most; those fit, if that many do.
+/*@ // A name is so many characters long: those before the first 0, or all.
+  @ predicate ulog_length(keel_ulog_name_t *name, integer n) =
+  @     0 <= n <= KEEL_ULOG_NAME_LENGTH &&
+  @     (\forall integer k; 0 <= k < n ==> name->text[k] != 0) &&
+  @     (n < KEEL_ULOG_NAME_LENGTH ==> name->text[n] == 0);
+  @
+  @ // Each of its characters stands in the message, from there on.
+  @ predicate ulog_named(keel_ulog_message_t *m, integer at, keel_ulog_name_t *name) =
+  @     \forall integer n; ulog_length(name, n) ==>
+  @         \forall integer k; 0 <= k < n ==> m->bytes[at + k] == name->text[k];
+  @
+  @ // What was there is, with so many bytes behind it at most; those fit, if that many do.
   @ predicate ulog_kept{L, M}(keel_ulog_message_t *m, integer most) =
   @     ulog_valid{M}(m) && (\at(m->overflowed, L) != 0 ==> \at(m->overflowed, M) != 0) &&
   @     \at(m->size, L) <= \at(m->size, M) <= \at(m->size, L) + most &&
@@ -122,10 +133,16 @@ static void put_bytes(keel_ulog_message_t *message, const uint8_t *bytes, uint32
   @ assigns message->size, message->overflowed,
   @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
   @ ensures ulog_longer{Pre, Post}(message, count);
+  @ ensures \old(message->size) + count <= KEEL_ULOG_MESSAGE_BYTES ==>
+  @     \forall integer k; 0 <= k < count ==>
+  @         message->bytes[\at(message->size, Pre) + k] == text[k];
   @*/
 static void put_text(keel_ulog_message_t *message, const char *text, uint32_t count)
 {
     /*@ loop invariant 0 <= i <= count && ulog_longer{Pre, Here}(message, i);
+      @ loop invariant \at(message->size, Pre) + i <= KEEL_ULOG_MESSAGE_BYTES ==>
+      @     \forall integer k; 0 <= k < i ==>
+      @         message->bytes[\at(message->size, Pre) + k] == text[k];
       @ loop assigns i, message->size, message->overflowed,
       @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
       @ loop variant count - i;
@@ -141,10 +158,17 @@ static void put_text(keel_ulog_message_t *message, const char *text, uint32_t co
   @ assigns message->size, message->overflowed,
   @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
   @ ensures ulog_kept{Pre, Post}(message, KEEL_ULOG_NAME_LENGTH);
+  @ ensures \old(message->size) + KEEL_ULOG_NAME_LENGTH <= KEEL_ULOG_MESSAGE_BYTES ==>
+  @     ulog_named(message, \old(message->size), name) &&
+  @     \forall integer n; ulog_length(name, n) ==> message->size == \old(message->size) + n;
   @*/
 static void put_name(keel_ulog_message_t *message, const keel_ulog_name_t *name)
 {
     /*@ loop invariant 0 <= i <= KEEL_ULOG_NAME_LENGTH && ulog_longer{Pre, Here}(message, i);
+      @ loop invariant \forall integer k; 0 <= k < i ==> name->text[k] != 0;
+      @ loop invariant \at(message->size, Pre) + i <= KEEL_ULOG_MESSAGE_BYTES ==>
+      @     \forall integer k; 0 <= k < i ==>
+      @         message->bytes[\at(message->size, Pre) + k] == name->text[k];
       @ loop assigns i, message->size, message->overflowed,
       @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
       @ loop variant KEEL_ULOG_NAME_LENGTH - i;
@@ -280,6 +304,7 @@ static bool close_message(keel_ulog_message_t *message)
 /*@ requires \valid(message) && ulog_valid(message);
   @ requires KEY_AT < message->size <= KEY_AT + 1 + UINT8_MAX;
   @ assigns message->bytes[KEY_AT];
+  @ ensures message->bytes[KEY_AT] == message->size - (KEY_AT + 1);
   @*/
 static void set_key_length(keel_ulog_message_t *message)
 {

@@ -19,17 +19,17 @@
   @     a <= KEEL_TIME_NEVER_US ==> b <= KEEL_TIME_NEVER_US ==>
   @     is_earliest(q, first, last, a) ==> is_earliest(q, first, last, b) ==> a == b;
   @ lemma DEC_003_only: \forall keel_queue_t *q, keel_choice_t a, keel_choice_t b,
-  @     integer now_us, room_us;
-  @     chosen(q, a, now_us, room_us) ==> chosen(q, b, now_us, room_us) ==>
+  @     integer now_us, room_us, without;
+  @     chosen(q, a, now_us, room_us, without) ==> chosen(q, b, now_us, room_us, without) ==>
   @     (\forall integer i; q->realtime_count <= i < q->count ==>
-  @         eligible(q, q->order[i], now_us, room_us) ==>
+  @         eligible(q, q->order[i], now_us, room_us, without) ==>
   @         task_priority(q, q->order[i], now_us) <= a.priority &&
   @         task_priority(q, q->order[i], now_us) <= b.priority) ==>
   @     (\forall integer i; q->realtime_count <= i < a.position ==>
-  @         eligible(q, q->order[i], now_us, room_us) ==>
+  @         eligible(q, q->order[i], now_us, room_us, without) ==>
   @         task_priority(q, q->order[i], now_us) < a.priority) ==>
   @     (\forall integer i; q->realtime_count <= i < b.position ==>
-  @         eligible(q, q->order[i], now_us, room_us) ==>
+  @         eligible(q, q->order[i], now_us, room_us, without) ==>
   @         task_priority(q, q->order[i], now_us) < b.priority) ==>
   @     a.position == b.position && a.priority == b.priority;
   @*/
@@ -98,10 +98,11 @@ static uint32_t priority_of(const keel_queue_t *queue, uint32_t slot, uint64_t n
   @*/
 static bool fits(const keel_queue_t *queue, uint32_t slot, uint32_t room_us)
 {
-    return (queue->budget_us[slot] <= room_us) && (queue->stats[slot].longest_us <= room_us);
+    return (queue->budget_us[slot] <= room_us) && (queue->stats[slot].remembered_us <= room_us);
 }
 
-keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, uint32_t room_us)
+keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, uint32_t room_us,
+                                  bool without_promotion)
 {
     const uint32_t last = queue->count;
     keel_choice_t choice = {KEEL_TIME_NEVER_US, 0u, 0u};
@@ -111,17 +112,18 @@ keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, ui
       @ loop invariant earliest: is_earliest(queue, queue->realtime_count, i, choice.earliest_us);
       @ loop invariant before: choice.priority > 0 ==> choice.position < i;
       @ loop invariant nowhere: choice.priority == 0 ==> choice.position == 0;
-      @ loop invariant chosen: choice.priority > 0 ==> chosen(queue, choice, now_us, room_us);
+      @ loop invariant chosen: choice.priority > 0 ==>
+      @     chosen(queue, choice, now_us, room_us, without_promotion);
       @ loop invariant highest: \forall integer j; queue->realtime_count <= j < i ==>
-      @     eligible(queue, queue->order[j], now_us, room_us) ==>
+      @     eligible(queue, queue->order[j], now_us, room_us, without_promotion) ==>
       @     task_priority(queue, queue->order[j], now_us) <= choice.priority;
       @ loop invariant first: choice.priority > 0 ==>
       @     \forall integer j; queue->realtime_count <= j < choice.position ==>
-      @     eligible(queue, queue->order[j], now_us, room_us) ==>
+      @     eligible(queue, queue->order[j], now_us, room_us, without_promotion) ==>
       @     task_priority(queue, queue->order[j], now_us) < choice.priority;
       @ loop invariant none: choice.priority == 0 ==>
       @     \forall integer j; queue->realtime_count <= j < i ==>
-      @     !eligible(queue, queue->order[j], now_us, room_us);
+      @     !eligible(queue, queue->order[j], now_us, room_us, without_promotion);
       @ loop assigns i, choice;
       @ loop variant queue->count - i;
       @*/
@@ -136,7 +138,8 @@ keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, ui
             const uint32_t priority = priority_of(queue, slot, now_us);
 
             if ((priority > choice.priority) &&
-                ((priority == KEEL_PRIORITY_REALTIME) || fits(queue, slot, room_us))) {
+                (((priority == KEEL_PRIORITY_REALTIME) && !without_promotion) ||
+                 fits(queue, slot, room_us))) {
                 choice.position = i;
                 choice.priority = priority;
             }
@@ -145,27 +148,46 @@ keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, ui
     return choice;
 }
 
-uint64_t keel_decision_event_us(const keel_queue_t *queue, uint64_t now_us)
+/* When waiting alone makes the task in a slot run, which is not real-time. */
+/*@ requires \valid_read(queue) && slot < KEEL_QUEUE_CAPACITY;
+  @ requires period_valid(queue->period_us[slot]);
+  @ requires 1 <= queue->priority[slot] <= KEEL_PRIORITY_HIGH;
+  @ requires now_us <= KEEL_CLOCK_TIME_LIMIT_US;
+  @ assigns \nothing;
+  @ ensures \result == next_event(queue, slot, now_us, without_promotion);
+  @*/
+static uint64_t event_of(const keel_queue_t *queue, uint32_t slot, uint64_t now_us,
+                         bool without_promotion)
+{
+    const uint64_t release_us = queue->release_us[slot];
+
+    if (release_us > now_us) {
+        return release_us;
+    }
+    if (without_promotion) {
+        return KEEL_TIME_NEVER_US;
+    }
+    return release_us +
+           keel_priority_promotion_age_us(queue->priority[slot], queue->period_us[slot]) -
+           queue->period_us[slot];
+}
+
+uint64_t keel_decision_event_us(const keel_queue_t *queue, uint64_t now_us, bool without_promotion)
 {
     uint64_t event_us = KEEL_TIME_NEVER_US;
 
     /*@ loop invariant range: queue->realtime_count <= i <= queue->count;
       @ loop invariant bound: \forall integer j; queue->realtime_count <= j < i ==>
-      @     event_us <= next_event(queue, queue->order[j], now_us);
+      @     event_us <= next_event(queue, queue->order[j], now_us, without_promotion);
       @ loop invariant exact: event_us == KEEL_TIME_NEVER_US ||
       @     \exists integer j; queue->realtime_count <= j < i &&
-      @         event_us == next_event(queue, queue->order[j], now_us);
+      @         event_us == next_event(queue, queue->order[j], now_us, without_promotion);
       @ loop assigns i, event_us;
       @ loop variant queue->count - i;
       @*/
     for (uint32_t i = queue->realtime_count; i < queue->count; i++) {
-        const uint32_t slot = queue->order[i];
-        uint64_t at_us = queue->release_us[slot];
+        const uint64_t at_us = event_of(queue, queue->order[i], now_us, without_promotion);
 
-        if (at_us <= now_us) {
-            at_us += keel_priority_promotion_age_us(queue->priority[slot], queue->period_us[slot]) -
-                     queue->period_us[slot];
-        }
         if (at_us < event_us) {
             event_us = at_us;
         }

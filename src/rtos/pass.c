@@ -124,7 +124,8 @@ static keel_choice_t choose_other(const keel_scheduler_t *scheduler, uint64_t re
       @                 scheduler->config.guard_us) <==>
       @      task_worst(&scheduler->queue, scheduler->queue.order[i]) <= room_us);
       @*/
-    return keel_decision_other(&scheduler->queue, now_us, room_us);
+    return keel_decision_other(&scheduler->queue, now_us, room_us,
+                               scheduler->config.without_promotion);
 }
 
 /* Remembers the earliest releases that a decision has found. */
@@ -193,13 +194,14 @@ static const keel_task_config_t *serve_other(keel_scheduler_t *scheduler, uint32
   @ ensures realtime: \result <= realtime_us;
   @ ensures others: \forall integer i;
   @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> \result <=
-  @     next_event(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us);
+  @     next_event(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us,
+  @                scheduler->config.without_promotion);
   @ ensures ahead: scheduler->clock.now_us < other_us ==>
   @     \result == \min(realtime_us, other_us);
   @ ensures exact: other_us <= scheduler->clock.now_us ==> \result == realtime_us ||
   @     \exists integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count &&
   @         \result == next_event(&scheduler->queue, scheduler->queue.order[i],
-  @                               scheduler->clock.now_us);
+  @                               scheduler->clock.now_us, scheduler->config.without_promotion);
   @*/
 static uint64_t find_wake(const keel_scheduler_t *scheduler, uint64_t realtime_us,
                           uint64_t other_us)
@@ -207,7 +209,8 @@ static uint64_t find_wake(const keel_scheduler_t *scheduler, uint64_t realtime_u
     uint64_t wake_us = other_us;
 
     if (wake_us <= scheduler->clock.now_us) {
-        wake_us = keel_decision_event_us(&scheduler->queue, scheduler->clock.now_us);
+        wake_us = keel_decision_event_us(&scheduler->queue, scheduler->clock.now_us,
+                                         scheduler->config.without_promotion);
     }
     return (realtime_us < wake_us) ? realtime_us : wake_us;
 }
@@ -228,14 +231,16 @@ static uint64_t find_wake(const keel_scheduler_t *scheduler, uint64_t realtime_u
   @ ensures realtime: wake_realtime(scheduler);
   @ ensures others: \forall integer i;
   @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> scheduler->wake_us <=
-  @     next_event(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us);
+  @     next_event(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us,
+  @                scheduler->config.without_promotion);
   @ ensures first: scheduler->wake_us <= realtime_us;
   @ ensures ahead: scheduler->clock.now_us < other_us ==>
   @     scheduler->wake_us == \min(realtime_us, other_us);
   @ ensures exact: other_us <= scheduler->clock.now_us ==> scheduler->wake_us == realtime_us ||
   @     \exists integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count &&
   @         scheduler->wake_us == next_event(&scheduler->queue, scheduler->queue.order[i],
-  @                                          scheduler->clock.now_us);
+  @                                          scheduler->clock.now_us,
+  @                                          scheduler->config.without_promotion);
   @ ensures known: scheduler->earliest_realtime_us == realtime_us &&
   @     scheduler->earliest_other_us == other_us;
   @ ensures releases: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
@@ -313,7 +318,9 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
       @     \at(grid_missed(&scheduler->queue, scheduler->queue.order[k],
       @                     scheduler->clock.now_us), Pre);
       @*/
-    task = serve_other(scheduler, choice.position, choice.priority == KEEL_PRIORITY_REALTIME);
+    task = serve_other(scheduler, choice.position,
+                       (choice.priority == KEEL_PRIORITY_REALTIME) &&
+                           !scheduler->config.without_promotion);
     /*@ assert others: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==>
       @     k != scheduler->running ==> left_alone{Pre, Here}(scheduler, k);
       @*/
@@ -408,6 +415,10 @@ keel_status_t keel_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us)
         const uint32_t ran_us = (uint32_t)(scheduler->clock.now_us - start_us);
 
         record_run(scheduler, (uint32_t)position, ran_us);
+        /*@ assert others: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+          @     x != scheduler->queue.order[position] ==>
+          @     stats_same{Pre, Here}(&scheduler->queue.stats[x]);
+          @*/
     }
     return status;
 }
@@ -430,6 +441,7 @@ keel_status_t keel_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us)
   @ ensures busy: scheduler->busy_us <= scheduler->clock.now_us;
   @ ensures pass: scheduler->pass_end - scheduler->cursor <=
   @     \old(scheduler->pass_end - scheduler->cursor);
+  @ ensures served: \old(served(scheduler)) ==> served(scheduler);
   @ ensures clock: clock_modelled(scheduler);
   @ ensures bodies: bodies_modelled(scheduler);
   @*/
@@ -446,10 +458,87 @@ static keel_status_t run_task(keel_scheduler_t *scheduler, const keel_task_confi
     return keel_pass_finish(scheduler, raw_us);
 }
 
+/* The next decision, as far as a turn of a pass rests on it. */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
+  @ requires wake_right(scheduler) && bodies_modelled(scheduler);
+  @ assigns scheduler->wake_us, scheduler->stage, scheduler->cursor, scheduler->running,
+  @     scheduler->earliest_realtime_us, scheduler->earliest_other_us;
+  @ assigns scheduler->queue.skipped[0 .. KEEL_QUEUE_CAPACITY - 1],
+  @     scheduler->queue.release_us[0 .. KEEL_QUEUE_CAPACITY - 1],
+  @     scheduler->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1].promotions;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures wake: wake_right(scheduler);
+  @ ensures time: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
+  @     scheduler->busy_us == \old(scheduler->busy_us);
+  @ ensures bodies: bodies_modelled(scheduler);
+  @ ensures task: \result != \null ==> \valid_read(\result) && \result->run == &keel_any_body;
+  @ ensures open: \result != \null ==>
+  @     \old(scheduler->stage) == KEEL_STAGE_PASS && stage_running(scheduler);
+  @ ensures over: \old(scheduler->stage) == KEEL_STAGE_PASS ==> \result == \null ==>
+  @     scheduler->stage == KEEL_STAGE_READY;
+  @ ensures ahead: scheduler->stage == KEEL_STAGE_REALTIME ==> \result != \null ==>
+  @     scheduler->pass_end - scheduler->cursor < \old(scheduler->pass_end - scheduler->cursor);
+  @ ensures end: \old(scheduler->stage) == KEEL_STAGE_PASS ==>
+  @     scheduler->stage != KEEL_STAGE_REALTIME ==> scheduler->cursor == scheduler->pass_end;
+  @ ensures served: \old(scheduler->stage) == KEEL_STAGE_PASS ==>
+  @     asked_us <= \old(scheduler->clock.now_us) ==> \old(served(scheduler)) ==>
+  @     served(scheduler);
+  @*/
+static const keel_task_config_t *decide(keel_scheduler_t *scheduler)
+{
+    const keel_task_config_t *const task = keel_pass_next(scheduler);
+
+    /*@ assert waits: \at(scheduler->stage, Pre) == KEEL_STAGE_PASS ==>
+      @     \forall integer i; \at(scheduler->cursor, Pre) <= i < scheduler->cursor ==>
+      @     task == \null || i != scheduler->running ==> \at(!due(scheduler, i), Pre);
+      @*/
+    /*@ assert later: \at(scheduler->stage, Pre) == KEEL_STAGE_PASS ==>
+      @     \forall integer i; \at(scheduler->cursor, Pre) <= i < scheduler->cursor ==>
+      @     task == \null || i != scheduler->running ==>
+      @         \at(scheduler->clock.now_us <
+      @             scheduler->queue.release_us[scheduler->queue.order[i]], Pre);
+      @*/
+    //@ assert now: scheduler->clock.now_us == \at(scheduler->clock.now_us, Pre);
+    /*@ assert same: \at(scheduler->stage, Pre) == KEEL_STAGE_PASS ==>
+      @     \forall integer i; 0 <= i < scheduler->cursor ==>
+      @     task == \null || i != scheduler->running ==>
+      @         scheduler->queue.release_us[scheduler->queue.order[i]] ==
+      @             \at(scheduler->queue.release_us[scheduler->queue.order[i]], Pre);
+      @*/
+    /*@ assert skipped: \at(scheduler->stage, Pre) == KEEL_STAGE_PASS ==>
+      @     \forall integer i; \at(scheduler->cursor, Pre) <= i < scheduler->cursor ==>
+      @     task == \null || i != scheduler->running ==>
+      @         scheduler->clock.now_us < scheduler->queue.release_us[scheduler->queue.order[i]];
+      @*/
+    /*@ assert behind: \at(scheduler->stage, Pre) == KEEL_STAGE_PASS ==> task != \null ==>
+      @     scheduler->clock.now_us <
+      @         scheduler->queue.release_us[scheduler->queue.order[scheduler->running]];
+      @*/
+    /*@ assert before: \at(scheduler->stage, Pre) == KEEL_STAGE_PASS ==>
+      @     asked_us <= scheduler->clock.now_us ==> \at(served(scheduler), Pre) ==>
+      @     \forall integer i; 0 <= i < \at(scheduler->cursor, Pre) ==>
+      @         asked_us < scheduler->queue.release_us[scheduler->queue.order[i]];
+      @*/
+    return task;
+}
+
+keel_status_t keel_pass_turn(keel_scheduler_t *scheduler)
+{
+    const keel_task_config_t *const task = decide(scheduler);
+
+    if (task == NULL) {
+        return KEEL_OK;
+    }
+    return run_task(scheduler, task);
+}
+
 keel_status_t keel_pass_run(keel_scheduler_t *scheduler)
 {
-    keel_status_t status = KEEL_OK;
+    keel_status_t status;
 
+    if (scheduler->stage != KEEL_STAGE_PASS) {
+        return KEEL_OK;
+    }
     /*@ loop invariant same: scheduler == running_scheduler && scheduler == \at(scheduler, Pre);
       @ loop invariant memory: \valid(scheduler);
       @ loop invariant valid: scheduler_valid(scheduler);
@@ -457,41 +546,23 @@ keel_status_t keel_pass_run(keel_scheduler_t *scheduler)
       @ loop invariant wake: wake_right(scheduler);
       @ loop invariant clock: clock_modelled(scheduler);
       @ loop invariant bodies: bodies_modelled(scheduler);
-      @ loop invariant stage: scheduler->stage == KEEL_STAGE_READY ||
-      @     scheduler->stage == KEEL_STAGE_PASS;
-      @ loop invariant status: status == KEEL_OK || status == KEEL_ERR_CLOCK;
-      @ loop invariant left: scheduler->stage == KEEL_STAGE_PASS ==>
-      @     uptime_left(scheduler, scheduler->pass_end - scheduler->cursor + 1);
+      @ loop invariant open: scheduler->stage == KEEL_STAGE_PASS;
+      @ loop invariant left: uptime_left(scheduler, scheduler->pass_end - scheduler->cursor + 1);
       @ loop invariant time: \at(scheduler->clock.now_us, Pre) <= scheduler->clock.now_us;
       @ loop invariant busy: scheduler->busy_us <= scheduler->clock.now_us;
+      @ loop invariant served: asked_us <= \at(scheduler->clock.now_us, Pre) ==>
+      @     \at(served(scheduler), Pre) ==> served(scheduler);
       @ loop assigns status, *scheduler;
-      @ loop variant scheduler->pass_end - scheduler->cursor
-      @     + ((scheduler->stage == KEEL_STAGE_PASS) ? 1 : 0);
+      @ loop variant scheduler->pass_end - scheduler->cursor;
       @*/
-    while (scheduler->stage == KEEL_STAGE_PASS) {
-        const keel_task_config_t *task;
-
+    do {
         //@ assert ahead: scheduler->cursor <= scheduler->pass_end;
         //@ assert reading: uptime_left(scheduler, 1);
-        task = keel_pass_next(scheduler);
-        /*@ assert moved: scheduler->cursor <= scheduler->pass_end &&
-          @     \at(scheduler->cursor, LoopCurrent) <= scheduler->cursor;
+        status = keel_pass_turn(scheduler);
+        //@ assert uptime: in_uptime(scheduler);
+        /*@ assert left: scheduler->stage == KEEL_STAGE_PASS ==>
+          @     uptime_left(scheduler, scheduler->pass_end - scheduler->cursor + 1);
           @*/
-        /*@ assert realtime: scheduler->stage == KEEL_STAGE_REALTIME ==>
-          @     \at(scheduler->cursor, LoopCurrent) < scheduler->cursor;
-          @*/
-        if (task != NULL) {
-            //@ assert room: uptime_left(scheduler, 1);
-            status = run_task(scheduler, task);
-            //@ assert uptime: in_uptime(scheduler);
-            /*@ assert left: scheduler->stage == KEEL_STAGE_PASS ==>
-              @     scheduler->pass_end - scheduler->cursor <
-              @     \at(scheduler->pass_end - scheduler->cursor, LoopCurrent);
-              @*/
-        }
-        /*@ assert shrunk: scheduler->pass_end - scheduler->cursor <=
-          @     \at(scheduler->pass_end - scheduler->cursor, LoopCurrent);
-          @*/
-    }
+    } while (scheduler->stage == KEEL_STAGE_PASS);
     return status;
 }

@@ -70,6 +70,8 @@ static uint8_t fill_slot(keel_queue_t *queue, const keel_task_config_t *task, ui
     queue->stats[slot].runs = 0u;
     queue->stats[slot].last_us = 0u;
     queue->stats[slot].longest_us = 0u;
+    queue->stats[slot].remembered_us = 0u;
+    queue->stats[slot].forgotten_in = 0u;
     queue->stats[slot].overruns = 0u;
     queue->stats[slot].promotions = 0u;
     //@ assert order: order_same{Pre, Here}(queue, 0, KEEL_QUEUE_CAPACITY);

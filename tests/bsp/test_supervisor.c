@@ -44,7 +44,9 @@ static void add(const keel_task_config_t *task)
 
 void setUp(void)
 {
-    const keel_scheduler_config_t config = {read_clock, NULL, 10u, KEEL_UTILISATION_FULL_PPM};
+    const keel_scheduler_config_t config = {.read_clock = read_clock,
+                                            .guard_us = 10u,
+                                            .utilisation_limit_ppm = KEEL_UTILISATION_FULL_PPM};
 
     ticks = 0u;
     memset(&scheduler, 0, sizeof scheduler);

@@ -124,20 +124,31 @@ def output_of(command: Sequence[str], environment: dict[str, str], what: str) ->
     return done.stdout
 
 
-def compiler_values(tools: Toolchain, source: Path) -> list[int]:
+def words_of(assembly: str) -> list[int]:
+    """The facts in what a compiler writes."""
+    words = assembly.partition("\nfacts:")[2].partition("\n\t.size")[0]
+    found = re.findall(r"^\s+\.(?:word|long)\s+(\d+)$", words, re.MULTILINE)
+    return [int(value) for value in found]
+
+
+def compiler_values(
+    tools: Toolchain, source: Path, options: Sequence[str] = ("-std=gnu99",)
+) -> list[int]:  # fmt: skip
     """The facts as the compiler sees them: the words of its assembly."""
-    command = [*tools.command("arm-none-eabi-gcc"), *TARGET_FLAGS, "-std=gnu99", "-ffreestanding"]
+    command = [*tools.command("arm-none-eabi-gcc"), *TARGET_FLAGS, *options, "-ffreestanding"]
     text = output_of([*command, "-S", str(source), "-o", "-"], dict(os.environ), "the compiler")
-    words = text.partition("\nfacts:")[2]
-    return [int(value) for value in re.findall(r"^\s+\.word\s+(\d+)$", words, re.MULTILINE)]
+    return words_of(text)
 
 
-def frama_c_values(tools: Toolchain, source: Path, machdep: Path) -> tuple[list[int], str]:
+def frama_c_values(
+    tools: Toolchain, source: Path, machdep: Path, options: Sequence[str] = ()
+) -> tuple[list[int], str]:  # fmt: skip
     """The facts as Frama-C folds them, and its description of the machine."""
     # Frama-C compiles a script beside its source, where two processes would collide.
     script = source.with_name(machdep.name)
     shutil.copyfile(machdep, script)
     command = [str(script) if word == str(MACHDEP_FILE) else word for word in tools.frama_c()]
+    command += [f"-cpp-extra-args={' '.join(options)}"] if options else []
     environment = {**os.environ, **tools.environment()}
     text = output_of([*command, "-constfold", str(source), "-print"], environment, "frama-c")
     machine = output_of([*command, "-print-machdep"], environment, "frama-c")

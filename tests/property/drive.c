@@ -219,6 +219,9 @@ static void same_report(session_t *s, int i, const keel_task_report_t *kernel)
     same(s, "total", i, kernel->stats.total_us, model->total);
     same(s, "last", i, kernel->stats.last_us, model->last);
     same(s, "longest", i, kernel->stats.longest_us, model->longest);
+    same(s, "remembered", i, kernel->stats.remembered_us, model->remembered);
+    same(s, "forgotten in", i, kernel->stats.forgotten_in,
+         (model->remembered > 0) ? (8 - model->in_a_row) : 0);
     same(s, "overruns", i, kernel->stats.overruns, at_most(model->overruns, UINT16_MAX));
     same(s, "promotions", i, kernel->stats.promotions, at_most(model->promotions, UINT16_MAX));
 }
@@ -620,6 +623,7 @@ static void repeat_run(session_t *s, const run_t *run, int task)
     }
     s->tally->realtime_runs += s->model.serving_realtime ? 1 : 0;
     s->tally->other_runs += s->model.serving_realtime ? 0 : 1;
+    s->tally->unpromoted += (s->model.without_promotion && !s->model.serving_realtime) ? 1 : 0;
 }
 
 static keel_status_t model_step(session_t *s, uint32_t raw)
@@ -803,7 +807,8 @@ static void begin_session(session_t *s)
     static const uint32_t starts[] = {0u, 0xFFFFFF00u, 0x7FFFFFF0u, 0xFFFF0000u};
     const uint32_t guard = one_in(s, 16) ? pick(s, 0x80000000u) : pick(s, 24);
     const uint32_t limit = one_in(s, 4) ? pick(s, 1000001u) : 1000000u;
-    const keel_scheduler_config_t config = {read_counter, s, guard, limit};
+    const bool without = one_in(s, 4);
+    const keel_scheduler_config_t config = {read_counter, s, guard, limit, without};
 
     memset(s->kernel, 0, sizeof *s->kernel);
     memset(s->actor, 0, sizeof s->actor);
@@ -812,14 +817,16 @@ static void begin_session(session_t *s)
     }
     s->raw = starts[pick(s, 4)];
     s->pace = 4u << (2 * pick(s, 4)); /* 4, 16, 64 or 256 us */
-    tell(s, "init: guard %" PRIu32 " limit %" PRIu32 "\n", guard, limit);
-    model_init(&s->model, (int)KEEL_QUEUE_CAPACITY, guard, limit);
+    tell(s, "init: guard %" PRIu32 " limit %" PRIu32 "%s\n", guard, limit,
+         without ? " without promotion" : "");
+    model_init(&s->model, (int)KEEL_QUEUE_CAPACITY, guard, limit, without);
     same_status(s, "init", keel_scheduler_init(s->kernel, &config), KEEL_OK);
 }
 
 static void do_bad_init(session_t *s)
 {
-    const keel_scheduler_config_t config = {read_counter, s, pick(s, 2) * 0x80000000u, 1000001u};
+    const keel_scheduler_config_t config = {read_counter, s, pick(s, 2) * 0x80000000u, 1000001u,
+                                            false};
 
     same_status(s, "bad init", keel_scheduler_init(s->kernel, &config), KEEL_ERR_CONFIG);
     same_status(s, "null init", keel_scheduler_init(s->kernel, NULL), KEEL_ERR_NULL);
@@ -901,6 +908,7 @@ bool drive(const uint8_t *bytes, size_t size, drive_tally_t *tally, char *differ
     }
     for (int i = 0; i < TASKS; i++) {
         s->tally->promotions += s->model.task[i].promotions;
+        s->tally->forgotten += s->model.task[i].forgotten;
         s->tally->missed_releases += s->model.task[i].skipped;
         s->tally->overruns += s->model.task[i].overruns;
     }

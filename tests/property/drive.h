@@ -27,6 +27,8 @@ typedef struct drive_tally {
     uint64_t realtime_runs;
     uint64_t other_runs;
     uint64_t promotions;
+    uint64_t forgotten;  /**< Overruns that were remembered and are so no more. */
+    uint64_t unpromoted; /**< Runs of other tasks where none is promoted. */
     uint64_t missed_releases;
     uint64_t overruns;
     uint64_t inside_adds;    /**< Tasks added from inside a task. */

@@ -20,7 +20,8 @@ const char *lockstep_difference(void)
 static bool stats_are_same(const keel_stats_t *a, const keel_stats_t *b)
 {
     return (a->total_us == b->total_us) && (a->runs == b->runs) && (a->last_us == b->last_us) &&
-           (a->longest_us == b->longest_us) && (a->overruns == b->overruns) &&
+           (a->longest_us == b->longest_us) && (a->remembered_us == b->remembered_us) &&
+           (a->forgotten_in == b->forgotten_in) && (a->overruns == b->overruns) &&
            (a->promotions == b->promotions);
 }
 
@@ -51,6 +52,7 @@ static bool are_same(const keel_scheduler_t *a, const keel_scheduler_t *b)
            (a->config.clock_context == b->config.clock_context) &&
            (a->config.guard_us == b->config.guard_us) &&
            (a->config.utilisation_limit_ppm == b->config.utilisation_limit_ppm) &&
+           (a->config.without_promotion == b->config.without_promotion) &&
            (a->cursor == b->cursor) && (a->pass_end == b->pass_end) && (a->running == b->running) &&
            (a->stage == b->stage) && queues_are_same(&a->queue, &b->queue);
 }

@@ -112,12 +112,13 @@ keel_status_t model_check(const model_t *m, int *admitted)
 
 /* --- Setting up --- */
 
-void model_init(model_t *m, int capacity, uint64_t guard, uint64_t limit)
+void model_init(model_t *m, int capacity, uint64_t guard, uint64_t limit, bool without_promotion)
 {
     memset(m, 0, sizeof *m);
     m->capacity = capacity;
     m->guard = guard;
     m->limit = limit;
+    m->without_promotion = without_promotion;
     m->running = MODEL_NO_TASK;
 }
 
@@ -269,7 +270,7 @@ static int dynamic_priority(const model_t *m, int task)
 static bool leaves_room(const model_t *m, int task)
 {
     const model_task_t *const t = &m->task[task];
-    const uint64_t worst = (t->is.budget > t->longest) ? t->is.budget : t->longest;
+    const uint64_t worst = (t->is.budget > t->remembered) ? t->is.budget : t->remembered;
 
     for (int i = 0; i < m->realtime.length; i++) {
         if ((m->now + m->guard + worst) > m->task[m->realtime.item[i]].release) {
@@ -289,7 +290,8 @@ static int best_other(const model_t *m)
         if (!is_due(m, task)) {
             continue;
         }
-        if (!leaves_room(m, task) && (dynamic_priority(m, task) < HIGHEST)) {
+        if (!leaves_room(m, task) &&
+            (m->without_promotion || (dynamic_priority(m, task) < HIGHEST))) {
             continue;
         }
         if ((best == MODEL_NO_TASK) || (dynamic_priority(m, task) > dynamic_priority(m, best))) {
@@ -333,7 +335,7 @@ int model_next(model_t *m)
         m->idle = true;
         return MODEL_NO_TASK;
     }
-    if (dynamic_priority(m, task) == HIGHEST) {
+    if (!m->without_promotion && (dynamic_priority(m, task) == HIGHEST)) {
         m->task[task].promotions++;
     }
     m->serving_realtime = false;
@@ -359,6 +361,14 @@ keel_status_t model_finish(model_t *m, uint64_t raw)
         t->overruns += (t->last > t->is.budget) ? 1 : 0;
         t->total += t->last;
         t->runs++;
+        t->in_a_row = (t->last > t->is.budget) ? 0 : (t->in_a_row + 1);
+        if (t->in_a_row >= 8) {
+            t->forgotten += (t->remembered > 0) ? 1 : 0;
+            t->remembered = 0;
+        }
+        if ((t->last > t->is.budget) && (t->last > t->remembered)) {
+            t->remembered = t->last;
+        }
     }
     m->stage = ((status == KEEL_OK) && m->serving_realtime) ? DECIDING : BETWEEN;
     m->running = MODEL_NO_TASK;
@@ -380,6 +390,7 @@ uint64_t model_wake(const model_t *m)
             const uint64_t enough = (HIGHEST - 1u) * t->is.period; /* Of sp * age. */
 
             at += ((enough + t->is.priority - 1) / t->is.priority) - t->is.period;
+            at = m->without_promotion ? UINT64_MAX : at;
         }
         wake = (at < wake) ? at : wake;
     }

@@ -29,6 +29,9 @@ typedef struct model_task {
     model_declaration_t is;
     uint64_t release, skipped;
     uint64_t runs, total, last, longest, overruns, promotions;
+    uint64_t remembered; /* The longest overrun since eight runs in a row were within the budget. */
+    uint64_t forgotten;  /* How often it was forgotten. */
+    uint64_t in_a_row;   /* Runs within the budget since the last overrun, or the first run. */
 } model_task_t;
 
 /** Numbers of tasks in order. */
@@ -47,6 +50,7 @@ typedef enum model_stage {
 typedef struct model {
     int capacity;
     uint64_t guard, limit;
+    bool without_promotion;
     model_task_t task[MODEL_TASKS];
     model_list_t realtime, others;
     model_list_t pass; /* Real-time tasks that this pass still has to look at. */
@@ -58,7 +62,7 @@ typedef struct model {
     uint64_t raw; /* The last reading of the counter. */
 } model_t;
 
-void model_init(model_t *m, int capacity, uint64_t guard, uint64_t limit);
+void model_init(model_t *m, int capacity, uint64_t guard, uint64_t limit, bool without_promotion);
 bool model_holds(const model_t *m, int task);
 keel_status_t model_check(const model_t *m, int *admitted);
 keel_status_t model_add(model_t *m, int task);

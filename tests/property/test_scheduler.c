@@ -82,6 +82,8 @@ static int report_tally(const drive_tally_t *t)
         {"real-time runs", t->realtime_runs},
         {"other runs", t->other_runs},
         {"promotions", t->promotions},
+        {"forgotten overruns", t->forgotten},
+        {"unpromoted runs", t->unpromoted},
         {"missed releases", t->missed_releases},
         {"overruns", t->overruns},
         {"adds inside a task", t->inside_adds},

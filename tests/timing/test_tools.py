@@ -17,12 +17,13 @@ from common.config import ConfigError
 from fuzz_taskset import fuzz
 from timing import ctable, taskset
 from timing.__main__ import main
-from timing.analysis import analyse
+from timing.analysis import NOT_SHOWN, analyse
+from timing.board import for_capacity
 from timing.phases import spread, without_phases
 from timing.report import plot_responses, plot_utilisation, verdict
 from timing.scheduler_bounds import collisions, declared, needs, promotion_wait
 from timing.synthesis import LADDER, SynthesisError, keeps_limits, synthesize, with_periods
-from timing.taskset import Task, TaskSet, parse, read
+from timing.taskset import Costs, Task, TaskSet, parse, read
 from timing.textbook_tests import hyperperiod
 from toolchain import Toolchain
 
@@ -65,6 +66,8 @@ def defined(header: str, name: str) -> int:
 def test_limits_are_the_kernels() -> None:
     assert defined("priority.h", "KEEL_PERIOD_LIMIT_US") == taskset.PERIOD_LIMIT_US
     assert defined("queue.h", "KEEL_QUEUE_CAPACITY") == taskset.QUEUE_CAPACITY
+    header = (ROOT / "include/keel/rtos/queue.h").read_text(encoding="utf-8")
+    assert f"#if KEEL_QUEUE_CAPACITY > {taskset.CAPACITY_LIMIT}u" in header
     assert defined("priority.h", "KEEL_PRIORITY_REALTIME") == taskset.PRIORITY_MAX
     for name, symbol in ctable.PRIORITIES.items():
         assert defined("priority.h", symbol) == taskset.CLASSES[name]
@@ -85,13 +88,15 @@ def test_promotion_wait_by_hand() -> None:
     [
         ("budget_us = 355", "budget_us = 355", 0, "urpilot: schedulable"),
         ("budget_us = 355", "budget_us = 930", 1,
-         "NOT schedulable: the kernel refuses it: GPS needs 962 us with the guard, and "
+         "not admitted: the kernel refuses it: GPS needs 962 us with the guard, and "
          "Background IMU leaves 931 us"),
         ("budget_us = 83", "budget_us = 900", 1,
-         "NOT schedulable: the kernel refuses it: real-time budgets and twice the guard"),
+         "not admitted: the kernel refuses it: real-time budgets and twice the guard"),
         ("reaction_limit_us = 10000", "reaction_limit_us = 3102", 1,
-         "NOT schedulable: path IMU, rate: E = 3103 us of 3102 us"),
-        ("budget_us = 71", "budget_us = 700", 1, "NOT schedulable: tasks that are not real-time"),
+         "not shown to be schedulable: path IMU, rate: E = 3103 us of 3102 us"),
+        ("budget_us = 71", "budget_us = 700", 1,
+         "urpilot: not shown to be schedulable: Background magnetometer has no bound within its "
+         "period of 10000 us: it would be "),
         ("period_us = 2000\nbudget_us = 71\nphase_us = 249", "period_us = 80\nbudget_us = 72", 1,
          "NOT schedulable: utilisation is 108.99 %, above 100 % (eq. 11)"),
         ("budget_us = 355", "budget_us = 0", 2, ""),
@@ -108,6 +113,41 @@ def test_exit_status_and_first_reason(
         assert output.err.startswith(f"{path}:{line}: task GPS: budget_us")
     else:
         assert told in output.out.splitlines()[-1]
+
+
+def test_a_bound_that_fails_is_told_with_its_numbers() -> None:
+    """By hand: the other task takes 12, a pass 2 and a dispatch 1; before it, a pass and a tick;
+    a run of the real-time task, 7 and 2 and 1 and a tick; and 3 + 15 us before its release, in
+    which the other does not fit, with the pass at the release."""
+    costs = Costs(guard_us=3, pass_us=2, dispatch_us=1)
+    pair = Task("rt", "rt", "real-time", 40, 7), Task("o", "o", "low", 40, 12)
+    analysis = analyse(TaskSet("pair", pair, (), costs))
+    assert (analysis.standing, analysis.schedulable) == (NOT_SHOWN, False)
+    assert verdict(analysis) == (
+        "pair: not shown to be schedulable: o has no bound within its period of 40 us: it would be "
+        "49 us or more, 15 its own, 3 for what began before it, 11 for real-time tasks, 0 for "
+        "tasks that may come first, 20 for gaps that are too short for it (1 more)"
+    )
+
+
+def many(count: int, capacity: str = "") -> str:
+    """A set of that many tasks, which take 5 us every 20 ms each."""
+    task = '[[task]]\nname = "t{0}"\nclass = "low"\nperiod_us = 20000\nbudget_us = 5\n'
+    return f'name = "many"\n[scheduler]\n{capacity}\n' + "".join(map(task.format, range(count)))
+
+
+def test_the_queue_holds_what_the_set_says() -> None:
+    assert len(parse(many(32)).tasks) == 32
+    with pytest.raises(ConfigError, match=r"task t32: name: expected at most 32 tasks"):
+        parse(many(33))
+    found = parse(many(40, "capacity = 40"))
+    assert analyse(found).schedulable
+    assert for_capacity(found) == ["-DKEEL_QUEUE_CAPACITY=40u"]
+    assert not for_capacity(parse(many(32)))
+    assert len(parse(many(255, "capacity = 255")).tasks) == 255
+    for text in (many(41, "capacity = 40"), many(1, "capacity = 0"), many(1, "capacity = 256")):
+        with pytest.raises(ConfigError):
+            parse(text)
 
 
 def test_the_report_and_the_plots(urpilot: TaskSet, tmp_path: Path) -> None:

@@ -117,8 +117,9 @@ class Directive(TreeTest):
         alone = self.read(ALONE.replace("covers: ", "covers: helper "))
         [problem] = harness.unchecked([alone, self.case(CASE)])
         self.assertIn("covers helper with all checks", problem)
-        (self.root / "copy.c").write_text("", encoding="utf-8")
-        self.assertEqual(len(harness.unchecked([alone, self.case("// sources: copy.c\n" + CASE)])),
+        (self.root / "src/rtos/copy.c").write_text("", encoding="utf-8")
+        copied = "// sources: src/rtos/copy.c\n" + CASE
+        self.assertEqual(len(harness.unchecked([alone, self.case(copied)])),
                          2)  # fmt: skip
         lazy = self.case("// checks: assertions\n" + CASE)
         self.assertEqual(len(harness.unchecked([alone, lazy])), 3)

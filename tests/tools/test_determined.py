@@ -60,19 +60,19 @@ float model_box_angle(const keel_box_t *crate);
 """
 SAME = """\
 #define SIDES BOX_SIDES
+static inline bool float_same(float a, float b)
+{
+    return __CPROVER_equal(a, b);
+}
+
 static bool lid_same(const keel_lid_t *a, const keel_lid_t *b)
 {
     return float_same(a->angle, b->angle) && (a->name == b->name);
 }
 
-static bool box_same(const keel_box_t *a, const keel_box_t *b)
+static bool box_same(const keel_box_t *a, const keel_box_t *b, uint32_t i)
 {
-    bool same = (a->count == b->count) && lid_same(&a->lid, &b->lid);
-
-    for (uint32_t i = 0u; i < SIDES; i++) {
-        same = same && (a->side[i] == b->side[i]);
-    }
-    return same;
+    return (a->count == b->count) && lid_same(&a->lid, &b->lid) && (a->side[i] == b->side[i]);
 }
 """
 PUT = """\
@@ -84,8 +84,8 @@ PUT = """\
 void keel_box_put_harness(void)
 {
     const uint32_t more = any_bits(8u);
-    const uint32_t x = nondet_u32();
-    keel_box_t box = any_box();
+    const uint32_t x = any_below(SIDES);
+    keel_box_t box = nondet_box();
     keel_box_t model = box;
     int32_t status;
 
@@ -94,16 +94,17 @@ void keel_box_put_harness(void)
     status = keel_box_put(&box, more);
 
     __CPROVER_assert(status == model_box_put(&model, more), "BOX_001_model: (as) the model");
-    __CPROVER_assert((more > 0u) && box_same(&box, &model), "BOX_002_model: says");
+    __CPROVER_assert((more > 0u) && box_same(&box, &model, x), "BOX_002_model: says");
 }
 """
 ANGLE = """\
 // covers: keel_box_angle
+#include "../common/same_box.h"
 #include "../../specs/model/box.h"
 
 void keel_box_angle_harness(void)
 {
-    const keel_box_t box = any_box();
+    const keel_box_t box = nondet_box();
     const float expected = model_box_angle(&box);
 
     __CPROVER_assert(float_same(keel_box_angle(&box), expected), "BOX_004_model: as the model");
@@ -158,13 +159,16 @@ class Equality(DeterminedTest):
         found = determined.of_tree(self.root)
         self.assertEqual([one.by for one in found], ["equality", "equality"])
         self.assertEqual(determined.summary(found),
-                         "determined: 2 of 2 functions (equality 2, WP 0)")  # fmt: skip
+                         "determined: 1 of 2 functions for every valid state, 1 within a bound"
+                         " (1 of them with WP's clauses on every field beyond it)")  # fmt: skip
 
     def test_what_a_harness_narrows_is_listed(self) -> None:
         bounds = self.outcome().harnesses["keel_box_put_harness"]
-        self.assertEqual(bounds, ["BOX_SIDES=2u", "any_bits(8u)", "more > 0u"])
+        self.assertEqual(bounds, ["BOX_SIDES = 2 (4 is shipped)", "more > 0u", "any_bits(8u)"])
         row = determined.as_markdown(determined.of_tree(self.root))
-        self.assertIn("| keel_box_put | equality | keel_box_put_harness | BOX_SIDES=2u; any", row)
+        self.assertIn("| keel_box_put | within a bound; WP's clauses name every field beyond it |"
+                      " keel_box_put_harness | BOX_SIDES = 2 (4 is shipped); more > 0u;",
+                      row)  # fmt: skip
 
     def test_a_model_must_be_declared_with_the_same_types(self) -> None:
         self.change("model/box.h", "model_box_put(", "model_box_fill(")
@@ -179,9 +183,9 @@ class Equality(DeterminedTest):
         cases = {
             ("model_box_put(", "model_box_fill("): "no harness of it calls model_box_put",
             ("status == model", "status != model"): "the results are not asserted to be the same",
-            ("(more > 0u) && box_same(&box, &model)", "true"): "box: are not asserted",
+            ("(more > 0u) && box_same(&box, &model, x)", "true"): "box: are not asserted",
             ("&& box_same", "|| box_same"): "box: are not asserted",
-            ("box_same(&box, &model)", "box_same(&box, &box)"): "box: are not asserted",
+            ("box_same(&box, &model, x)", "box_same(&box, &box, x)"): "box: are not asserted",
             ("box_same(&box", "lid_same(&box"): "lid_same does not compare two keel_box_t",
             ("put(&model", "put(&box"): "both are given one object",
             ("put(&model, more", "put(&model, 1u"): "the model is given 1u, the function more",
@@ -200,6 +204,11 @@ class Equality(DeterminedTest):
                 self.assert_found("model_box_put(&model, more) is not called in every execution")
         self.change("put_harness.c", "    int32_t status;", "    int32_t status;\n    return;")
         self.assert_found("returns early")
+        for jump in ("goto end;", "continue;", "break;"):
+            with self.subTest(jump):
+                line = f"    int32_t status;\n    if (more > 9u) {{\n        {jump}\n    }}"
+                self.change("put_harness.c", "    int32_t status;", line)
+                self.assert_found("a harness that jumps may pass its assertions by")
 
     def test_a_loop_over_numbers_is_listed(self) -> None:
         self.change(
@@ -238,23 +247,49 @@ class Equality(DeterminedTest):
         )
         self.assert_found("the results are not asserted")
 
-    def test_an_index_must_be_any(self) -> None:
-        for index, good in (("x", True), ("more", False), ("0u", False), ("status", False)):
-            with self.subTest(index):
-                self.change("put_harness.c", "same(&box, &model)", f"same(&box, &model, {index})")
-                self.change("same_box.h", "keel_box_t *b)", "keel_box_t *b, uint32_t i)")
-                found = self.problems()
-                self.assertEqual(found == [], good, found)
-                self.write_all()
+    def test_an_index_must_be_any_of_the_array(self) -> None:
+        claim = PUT[PUT.index("    __CPROVER_assert((more") : -len("}\n")]
+        within = claim.replace(", x)", ", i)").strip()
+        loop = "    for (uint32_t i = 0u; i < BOX_SIDES; i++) {\n        %s\n    }\n"
+        cases = {
+            claim: "",
+            claim.replace(", x)", ", more)"): "box_same: more is not arbitrary",
+            claim.replace(", x)", ", 0u)"): "box_same: 0u is not arbitrary",
+            claim.replace(", x)", ")"): "box_same is given 0 indices, not 1",
+            loop % within: "",
+            loop.replace("BOX_SIDES", "2u") % within: "",  # as the harness defines it
+            loop.replace("BOX_SIDES", "1u") % within: "i is below 1u, and an array has BOX_SIDES",
+            loop.replace("i = 0u", "i = 1u") % within: "does more than assert at every index",
+            loop.replace("i++", "i += 2u") % within: "does more than assert at every index",
+            loop % f"i++; {within}": "does more than assert at every index",
+            loop % f"break; {within}": "does more than assert at every index",
+            loop % f"{within} model = box;": "does more than assert at every index",
+            loop % f"if (more > 7u) {{ {within} }}": "box: are not asserted to be the same",
+        }
+        for text, why in cases.items():
+            with self.subTest(text):
+                self.change("put_harness.c", claim, text)
+                if why:
+                    self.assert_found(why)
+                else:
+                    self.assertEqual(self.problems(), [])
+        for old, new in (("any_below(SIDES)", "any_below(1u)"), ("any_below(SIDES)", "3u"),
+                         ("int32_t status;", "int32_t status;\n\n    x = 0u;")):  # fmt: skip
+            with self.subTest(new):
+                self.change("put_harness.c", old, new)
+                self.assertNotEqual(self.problems(), [])
+        self.change("same_box.h", "uint32_t i)", "uint8_t i)")
+        self.assert_found("box_same: an index is a uint32_t")
 
     def test_a_contract_of_stand_ins_counts_as_what_it_says(self) -> None:
         does = """
-static bool keel_box_put_does(const keel_box_t *is, const keel_box_t *was, int32_t a, int32_t b)
+static bool keel_box_put_does(const keel_box_t *is, const keel_box_t *was, int32_t a, int32_t b,
+                              uint32_t x)
 {
-    return box_same(is, was) && (a == b);
+    return box_same(is, was, x) && (a == b);
 }
 """
-        good = "keel_box_put_does(&box, &model, status, expected)"
+        good = "keel_box_put_does(&box, &model, status, expected, x)"
         head, _, tail = PUT.partition("    __CPROVER_assert(status")
         call = "    const int32_t expected = model_box_put(&model, more);\n"
         for text, claim, found in (
@@ -276,25 +311,96 @@ class Sameness(DeterminedTest):
     def test_a_field_left_out_is_named(self) -> None:
         cases = {
             ("(a->count == b->count) && ", ""): "box_same: keel_box_t.count is not compared",
-            ("a->count == b->count", "a->count == a->count"): "keel_box_t.count is not compared",
-            ("a->count == b->count", "a->count >= b->count"): "keel_box_t.count is not compared",
             (" && (a->name == b->name)", ""): "lid_same: keel_lid_t.name is not compared",
             (" && lid_same(&a->lid, &b->lid)", ""): "keel_box_t.lid is not compared by a function",
             ("&& lid_same", "&& any_same"): "keel_box_t.lid is not compared by a function",
-            ("(&a->lid, &b->lid)", "(&a->lid, &a->lid)"): "keel_box_t.lid is not compared",
             ("float_same(a->angle, b->angle)", "(a->angle == b->angle)"):
                 "keel_lid_t.angle is not compared by float_same",
-            ("i < SIDES", "i < 3u"): "keel_box_t.side is not compared at all of its BOX_SIDES",
-            ("i = 0u", "i = 1u"): "keel_box_t.side is not compared at all of its BOX_SIDES",
-            ("a->side[i] == b->side[i]", "a->side[0] == b->side[0]"): "is not compared at all",
-            ("b->side[i]", "b->side[x]"): "is compared at i with that at x",
-            ("same = same && (", "same = ("): "same forgets what was found before",
-            ("&& lid_same", "|| lid_same"): "may be true of objects that differ",
+            ("(a->side[i] == b->side[i])", "(a->side[0] == b->side[0])"):
+                "keel_box_t.side is not compared at all of its BOX_SIDES places",
+            ("lid_same(&a->lid, &b->lid)", "float_same(a->lid.angle, b->lid.angle)"):
+                "keel_box_t.lid is not compared by a function",
         }  # fmt: skip
         for (old, new), why in cases.items():
             with self.subTest(new):
                 self.change("same_box.h", old, new)
                 self.assert_found(why)
+
+    def test_what_compares_nothing_is_refused(self) -> None:
+        cases = {
+            ("a->count == b->count", "a->count == a->count"),
+            ("a->count == b->count", "a->count >= b->count"),
+            ("a->count == b->count", "a->count == b->lid.angle"),
+            ("a->count == b->count", "true"),
+            ("(&a->lid, &b->lid)", "(&a->lid, &a->lid)"),
+            ("b->side[i]", "b->side[x]"),
+            ("&& (a->side", "|| (a->side"),
+            ("a->side[i] == b->side[i]", "a->side[i + 0u] == b->side[i + 0u]"),
+            ("lid_same(&a->lid, &b->lid)", "lid_alike(&a->lid, &b->lid)"),
+            ("lid_same(&a->lid, &b->lid)", "(more ? lid_same(&a->lid, &b->lid) : true)"),
+        }
+        for old, new in cases:
+            with self.subTest(new):
+                self.change("same_box.h", old, new)
+                self.assert_found("compares nothing of the two")
+
+    def test_a_comparer_is_one_expression(self) -> None:
+        cases = {
+            "    if (b->count > 9u) {\n        return true;\n    }\n    return (a->count": "an if",
+            "    __CPROVER_assume(a->count == b->count);\n    return (a->count": "an assumption",
+            "    const keel_box_t *const c = a;\n    return (c->count": "a copy",
+            "    for (i = 0u; i < SIDES; i++) {\n    }\n    return (a->count": "a loop",
+            "    return true;\n    return (a->count": "a return before it",
+            "    i = 0u;\n    return (a->count": "an index changed",
+            "#ifdef NO\n    return (a->count": "a directive",
+        }
+        for text, what in cases.items():
+            with self.subTest(what):
+                end = "\n#else\n    return true;\n#endif\n}" if "#" in text else "\n}"
+                self.change("same_box.h", "    return (a->count", text)
+                path = self.root / "proofs/common/same_box.h"
+                head, _, tail = path.read_text(encoding="utf-8").rpartition("\n}")
+                path.write_text(head + end + tail, encoding="utf-8")
+                self.assert_found("box_same is not one expression")
+
+    def test_no_name_in_a_comparer_is_a_macro(self) -> None:
+        for line, name in (
+            ("#define float_same(a, b) true", "float_same"),
+            ("#define lid_same(a, b) (1 == 1)", "lid_same"),
+            ("#define count lid.angle", "count"),
+            ("#define b a", "b"),
+        ):
+            with self.subTest(line):
+                self.change("put_harness.c", "#include", f"{line}\n#include")
+                self.assert_found(f"{name} is a macro")
+        with self.subTest("defined on the command line"):
+            self.change("put_harness.c", "-DBOX_SIDES=2u", "-DBOX_SIDES=2u -Dlid_same(a,b)=true")
+            self.assert_found("lid_same is a macro")
+
+    def test_floats_are_compared_by_the_one_function_for_them(self) -> None:
+        for old, new in (("__CPROVER_equal(a, b)", "true"), ("__CPROVER_equal(a, b)", "a == b"),
+                         ("__CPROVER_equal(a, b)", "__CPROVER_equal(a, a)")):  # fmt: skip
+            with self.subTest(new):
+                self.change("same_box.h", old, new)
+                self.assert_found("float_same is not that of")
+
+    def test_a_comparer_is_defined_once(self) -> None:
+        self.write("proofs/common/same_box.h", SAME + """
+#ifdef BOX_SIDES
+static bool lid_same(const keel_lid_t *a, const keel_lid_t *b)
+{
+    return a->name == b->name;
+}
+#endif
+""")  # fmt: skip
+        self.assert_found("lid_same is defined more than once")
+
+    def test_an_array_may_be_compared_at_each_place_by_number(self) -> None:
+        sides = " && ".join(f"(a->side[{i}u] == b->side[{i}u])" for i in range(2))
+        self.change("same_box.h", "(a->side[i] == b->side[i])", sides)
+        self.assertEqual(self.problems(), [])
+        self.change("same_box.h", "(a->side[i] == b->side[i])", sides.replace("1u", "0u"))
+        self.assert_found("keel_box_t.side is not compared at all of its BOX_SIDES places")
 
     def test_a_part_may_be_compared_by_another_function(self) -> None:
         part = SAME.replace("(a->count == b->count) && ", "part_same(a, b) && ").replace(
@@ -309,17 +415,10 @@ class Sameness(DeterminedTest):
                 self.write("proofs/common/same_box.h", part.replace(old, new))
                 self.assertNotEqual(self.problems(), [])
 
-    def test_a_copy_stands_for_what_it_copies(self) -> None:
-        copies = SAME.replace("(&a->lid, &b->lid)", "(&lid_a, &lid_b)").replace(
-            "    bool same", "    const keel_lid_t lid_a = a->lid;\n"
-            "    const keel_lid_t lid_b = b->lid;\n    bool same")  # fmt: skip
-        self.write("proofs/common/same_box.h", copies)
+    def test_a_structure_may_be_compared_field_by_field(self) -> None:
+        fields = "float_same(a->lid.angle, b->lid.angle) && (a->lid.name == b->lid.name)"
+        self.change("same_box.h", "lid_same(&a->lid, &b->lid)", fields)
         self.assertEqual(self.problems(), [])
-        for old, new in (("= b->lid", "= a->lid"), ("&lid_b", "&lid_a"), ("const keel_lid_t lid_b",
-                         "keel_lid_t lid_b")):  # fmt: skip
-            with self.subTest(new):
-                self.write("proofs/common/same_box.h", copies.replace(old, new))
-                self.assert_found("keel_box_t.lid is not compared")
 
     def test_a_new_field_must_be_compared(self) -> None:
         self.change("rtos/box.h", "    keel_lid_t lid;\n", "    keel_lid_t lid;\n    bool shut;\n")
@@ -330,6 +429,228 @@ class Sameness(DeterminedTest):
             with self.subTest(field), self.assertRaises(ProjectError):
                 self.change("rtos/box.h", "    uint32_t count;", f"    {field}")
                 self.problems()
+
+
+class Extent(DeterminedTest):
+    """For which states a harness shows what it shows."""
+
+    FREE = PUT.replace("// defines: -DBOX_SIDES=2u\n", "").replace(
+        "    __CPROVER_assume(more > 0u);\n\n", ""
+    ).replace("any_bits(8u)", "nondet_u32()")  # fmt: skip
+
+    def put(self, *changes: tuple[str, str], name: str = "keel_box_put_harness") -> None:
+        """A harness that narrows nothing, but for changes."""
+        text = self.FREE.replace("keel_box_put_harness", name)
+        for old, new in changes:
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        self.write(f"proofs/box/{name}.c", text)
+
+    def bounds(self) -> list[str]:
+        return self.outcome().harnesses.get("keel_box_put_harness", ["it is not listed"])
+
+    def test_what_narrows_nothing_is_for_every_valid_state(self) -> None:
+        self.put()
+        self.assertEqual((self.outcome().extent, self.bounds()), ("every valid state", []))
+
+    def test_what_narrows_in_the_harness_is_a_bound(self) -> None:
+        start = "    const uint32_t more = nondet_u32();"
+        for line, bound in (
+            ("    const uint32_t more = any_bits(31u);", "any_bits(31u)"),
+            ("    const uint32_t more = any_below(16u);", "any_below(16u)"),
+            ("    const uint32_t more = nondet_u32() % 16u;", "nondet_u32() % 16u"),
+            ("    const uint32_t more = nondet_u32() & 15u;", "nondet_u32() & 15u"),
+            ("    const uint32_t more = nondet_bool() ? 1u : MANY;",
+             "more = nondet_bool() ? 1u : 7"),
+            (f"{start}\n    __CPROVER_assume((more < MANY) && f(more));", "more < 7"),
+            (f"{start}\n    uint8_t room[4];\n\n    fill(room, more);", ""),
+        ):
+            with self.subTest(line):
+                self.put((start, line), ("#include", "#define MANY 7u\n#include"))
+                found = self.bounds()
+                self.assertEqual(bound in found, bool(bound), found)
+
+    def test_a_part_that_is_set_is_a_bound(self) -> None:
+        self.put(("    int32_t status;", "    int32_t status;\n\n    box.count = 3u;"))
+        self.assertEqual(self.bounds(), ["box.count = 3u"])
+
+    def test_what_narrows_in_a_helper_is_a_bound(self) -> None:
+        helper = (
+            "static uint32_t any_more(void)\n{\n    const uint32_t m = nondet_u32();\n\n"
+            "%s\n    return m;\n}\n"
+        )
+        other = "static int any_other(void)\n{\n    __CPROVER_assume(deep == 1);\n}\n"
+        plain = "nondet_u32();\n    const uint32_t x"
+        for line, bound in (
+            ("    __CPROVER_assume(m < MANY);", "m < 9 in any_more"),
+            ("    lid.name = NULL;", "lid.name = NULL in any_more"),
+            ("    f(any_bits(9u));", "any_bits(9u) in any_more"),
+            ("    f(any_other());", "deep == 1 in any_other"),
+        ):
+            with self.subTest(line):
+                text = f"{SAME}#define MANY 9u\n{other}{helper % line}"
+                self.write("proofs/common/same_box.h", text)
+                self.put((plain, plain.replace("nondet_u32", "any_more")))
+                self.assertEqual(self.bounds(), [bound])
+
+    def test_a_stand_in_is_looked_into_and_must_be_shown_to_keep_its_contract(self) -> None:
+        self.write("proofs/common/same_box.h", SAME + """
+float keel_box_angle_stand_in(const keel_box_t *box)
+{
+    __CPROVER_assume(box->count < 3u);
+    __CPROVER_assume(keel_box_angle_does(box));
+    return nondet_float();
+}
+""")  # fmt: skip
+        self.put(("// covers", "// replaces: keel_box_angle\n// covers"))
+        self.assertEqual(self.bounds(), [
+            "box->count < 3u in keel_box_angle_stand_in",
+            "keel_box_angle by its contract, shown within nothing: no harness asserts"
+            " keel_box_angle_does",
+        ])  # fmt: skip
+
+    def test_a_precondition_narrows_nothing(self) -> None:
+        valid = "keel_box_put_may(&box, more) && box_valid_here(&box)"
+        assumed = f"int32_t status;\n\n    __CPROVER_assume({valid}"
+        self.put(("int32_t status;", f"{assumed});"))
+        self.assertEqual(self.bounds(), [])
+        self.put(("int32_t status;", f"{assumed} && (more < 3u));"))
+        self.assertEqual(self.bounds(), ["more < 3u"])
+        part = '[[part]]\nin = "keel_box_put_harness"\nof = "BOX_001"\ntexts = ["more < 3u"]\n'
+        self.write("proofs/preconditions.toml", part)
+        self.assertEqual(self.bounds(), [])
+        self.put()
+        decider = determined.Decider(self.root)
+        decider.every()
+        self.assertEqual(decider.problems(), ["proofs/preconditions.toml: nothing in"
+                         " keel_box_put_harness says 'more < 3u' any more, remove it"])  # fmt: skip
+
+    def test_chosen_points_never_count(self) -> None:
+        table = "static const uint32_t points[2] = {1u, 2u};\n\nvoid keel"
+        start = "const uint32_t more = nondet_u32();"
+        points = {
+            "a row of a table": [("void keel", table), (start, "const uint32_t more = points[1];")],
+            "constants": [(start, "const uint32_t more = 1u;"), ("nondet_box()", "{0u}")],
+            "a constant for all that is read": [(start, "const uint32_t more = 1u;")],
+        }
+        for what, changes in points.items():
+            with self.subTest(what):
+                self.put(*changes)
+                self.assert_found("keel_box_put: only harnesses of chosen points compare it with"
+                                  " the model: keel_box_put_harness")  # fmt: skip
+        with self.subTest("by its name"):
+            (self.root / "proofs/box/keel_box_put_harness.c").unlink()
+            self.put(name="keel_box_put__points_harness")
+            self.assertEqual(self.outcome().points, ["keel_box_put__points_harness"])
+            self.assertEqual(len(self.problems()), 1)
+
+    def test_a_harness_of_points_beside_another_is_shown_as_such(self) -> None:
+        self.put()
+        self.put(name="keel_box_put__edges_harness")
+        found = determined.of_tree(self.root)
+        self.assertIn("keel_box_put_harness; (keel_box_put__edges_harness: chosen points)",
+                      determined.as_markdown(found))  # fmt: skip
+        said = "determined: 2 of 2 functions for every valid state"
+        self.assertEqual(determined.summary(found), said)
+
+
+class Kept(DeterminedTest):
+    """proofs/determined.md, which shows a narrowing in a review."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        head = "static bool box_valid_here(const keel_box_t *b)\n"
+        self.same = f"{SAME}\n{head}{{\n    return b->count < 99u;\n}}\n"
+        self.write("proofs/common/same_box.h", self.same)
+        valid = "(more > 0u);\n    __CPROVER_assume(box_valid_here(&box));"
+        text = PUT.replace("(more > 0u);", valid)
+        self.write("proofs/box/keel_box_put_harness.c", text)
+        self.assertTrue(determined.update_kept(self.root))
+
+    def differences(self, whole: bool = True) -> list[str]:
+        decider = determined.Decider(self.root)
+        found = decider.every()
+        if not whole:
+            found = [one for one in found if one.unit != "box"]
+        return determined.kept_problems(self.root, decider, found, whole)
+
+    def test_it_is_as_it_was_written(self) -> None:
+        self.assertEqual(self.differences(), [])
+        self.assertFalse(determined.update_kept(self.root))
+
+    def test_a_narrowing_is_a_difference(self) -> None:
+        self.change("put_harness.c", "any_bits(8u)", "any_bits(7u)")
+        self.assertIn("proofs/determined.md: keel_box_put is shown otherwise now: review, and run"
+                      " --update-goals", self.differences())  # fmt: skip
+        self.assertEqual(self.differences(whole=False), [])
+
+    def test_a_precondition_that_says_more_is_a_difference(self) -> None:
+        self.write("proofs/common/same_box.h", self.same.replace("< 99u", "< 9u"))
+        self.assertEqual(self.differences(), ["proofs/determined.md: proofs/common/same_box.h:"
+                         " box_valid_here says something else now: review, and run"
+                         " --update-goals"])  # fmt: skip
+
+    def test_what_is_gone_is_a_difference(self) -> None:
+        self.write("proofs/box/keel_box_angle_harness.c", "")
+        self.assertTrue(any("keel_box_angle is shown" in text for text in self.differences()))
+        path = self.root / "proofs/determined.md"
+        path.write_text(path.read_text(encoding="utf-8") + "\nmore\n", encoding="utf-8")
+        self.write("proofs/box/keel_box_angle_harness.c", ANGLE)
+        self.assertEqual(self.differences(), ["proofs/determined.md names what is not there any"
+                                              " more: review, and run --update-goals"])  # fmt: skip
+        path.unlink()
+        self.assertEqual(self.differences(), ["proofs/determined.md is missing: review, and run"
+                                              " --update-goals"])  # fmt: skip
+
+
+class SameTerm(DeterminedTest):
+    """Models that are the code under other names."""
+
+    CODE = """\
+int32_t keel_box_put(keel_box_t *box, uint32_t more)
+{
+    const uint32_t sum = box->count + more;
+
+    if (sum < more) {
+        return -1;
+    }
+    box->count = sum;
+    return 0;
+}
+"""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.write("src/rtos/box.c", self.CODE)
+        self.write("specs/model/box.c", self.CODE.replace("keel_", "model_").replace("sum", "all"))
+
+    def said(self) -> list[str]:
+        decider = determined.Decider(self.root)
+        decider.every()
+        return decider.problems()
+
+    def test_one_needs_an_entry_that_says_what_else_would_see_a_slip(self) -> None:
+        [problem] = self.said()
+        self.assertIn("[box]: its model is its code under other names", problem)
+        self.write("proofs/same_term.toml", '[box]\nseen_by = "values by hand"\n')
+        self.assertEqual(self.said(), [])
+        self.assertTrue(determined.update_kept(self.root))
+        kept = (self.root / "proofs/determined.md").read_text(encoding="utf-8")
+        self.assertIn("## box\n\nThe model is the same term, under other names; a slip in both is"
+                      " seen by: values by hand.\n", kept)  # fmt: skip
+
+    def test_another_formulation_needs_none(self) -> None:
+        other = "    box->count = (box->count > (UINT32_MAX - more)) ? box->count : 1u + more;\n"
+        self.write("specs/model/box.c", f"int32_t model_box_put(keel_box_t *box, uint32_t more)\n"
+                   f"{{\n{other}    return (int32_t)other(box)->last[3];\n}}\n")  # fmt: skip
+        self.assertEqual(self.said(), [])
+
+    def test_an_entry_is_read(self) -> None:
+        self.write("proofs/same_term.toml", '[lid]\nseen_by = "x"\n[box]\nseen_by = "y"\n')
+        self.assertEqual(self.said(), ["proofs/same_term.toml: there is no unit lid"])
+        self.write("proofs/same_term.toml", '[box]\nreason = "x"\n')
+        with self.assertRaises(ProjectError):
+            self.said()
 
 
 class ByWp(DeterminedTest):
@@ -398,7 +719,7 @@ class ByWp(DeterminedTest):
         self.write("proofs/units.toml", BY_WP.replace('"wp"', '"nothing"'))
         self.assertEqual(self.problems(), [])
         found = determined.of_tree(self.root)
-        self.assertIn("determined: 1 of 2 functions (equality 1, WP 0), 1 excepted",
+        self.assertIn("determined: 1 of 2 functions for every valid state, 1 excepted",
                       determined.summary(found))  # fmt: skip
 
 

@@ -221,9 +221,9 @@ class Blocks(StrengthTest):
                             "a reason for 0")  # fmt: skip
 
     def test_a_reason_for_what_is_reached(self) -> None:
-        self.coverage("pass", "keel_pass_run_harness")["reached"] = 30
-        self.assert_problem(self.part(), "pass/keel_pass_run_harness", "0 blocks",
-                            "a reason for 20")  # fmt: skip
+        self.coverage("pass", "keel_pass_turn_harness")["reached"] = 42
+        self.assert_problem(self.part(), "pass/keel_pass_turn_harness", "0 blocks",
+                            "a reason for 12")  # fmt: skip
 
     def test_a_function_that_no_harness_covers(self) -> None:
         self.replace("src/rtos/queue.c", "static ", "static void lonely(void)\n{\n}\n\nstatic ")
@@ -234,7 +234,7 @@ class Blocks(StrengthTest):
         self.assertEqual(self.part().problems, ())
 
     def test_an_entry_without_a_reason(self) -> None:
-        self.replace("specs/unreached.toml", '"as in keel_pass_run_harness"', '""')
+        self.replace("specs/unreached.toml", '"as in keel_pass_turn_harness"', '""')
         self.assert_problem(self.part(), "specs/unreached.toml", "reason")
 
     def test_unreached_blocks_are_listed_by_function_and_line(self) -> None:
@@ -242,7 +242,7 @@ class Blocks(StrengthTest):
         line = source.index("    task->run(task->context);") + 1
         (table,) = [one for one in self.part().tables if one.title.startswith("Blocks that")]
         rows = {row[0]: row[1:3] for row in table.rows}
-        blocks, places = rows["harness:pass/keel_pass_run__once_harness"]
+        blocks, places = rows["harness:pass/keel_pass_turn__once_harness"]
         self.assertEqual(blocks, "6")
         self.assertIn(f"run_task at src/rtos/pass.c:{line}", places.split("; "))
         self.assertNotIn("specs/model", places)
@@ -251,13 +251,13 @@ class Blocks(StrengthTest):
         self.coverage("queue", "keel_queue_add_harness")["reached"] -= 1
         reasons = self.root / "specs/unreached.toml"
         entry = ('\n[[unreached]]\nharness = "queue/keel_queue_add_harness"\nblocks = 1\n'
-                 'reason = "as in keel_pass_run_harness"\n')  # fmt: skip
+                 'reason = "as in keel_pass_turn_harness"\n')  # fmt: skip
         reasons.write_text(reasons.read_text("utf-8") + entry, "utf-8")
         self.assert_problem(self.part(), "specs/unreached.toml: queue/keel_queue_add_harness",
                             "nothing that it covers calls through a pointer")  # fmt: skip
 
     def test_an_entry_that_is_of_nothing(self) -> None:
-        self.replace("specs/unreached.toml", "keel_pass_run__once_harness", "keel_gone_harness")
+        self.replace("specs/unreached.toml", "keel_pass_turn__once_harness", "keel_gone_harness")
         self.assert_problem(self.part(), "there is no harness pass/keel_gone_harness")
 
 

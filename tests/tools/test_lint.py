@@ -27,7 +27,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 import lint  # noqa: E402
 from common.errors import ToolError  # noqa: E402
 from common.source import STAMP, files_below, stamp_of  # noqa: E402
-from linting import house, misra, record  # noqa: E402
+from linting import house, misra, models, record  # noqa: E402
 from linting.misra import Deviation, Violation  # noqa: E402
 from linting.texts import Finding, Text  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
@@ -40,6 +40,69 @@ def text(path: str, *lines: str) -> Text:
 def places(findings: object) -> list[tuple[str, int]]:
     assert isinstance(findings, list)
     return [(finding.file, finding.line) for finding in findings]
+
+
+class ModelTest(unittest.TestCase):
+    """The rules of the executable specification."""
+
+    HEADER = text("specs/model/box.h", "keel_status_t model_box_put(keel_box_t *box, uint32_t n);")
+    ABOVE = (
+        text("include/keel/rtos/box.h", ""), text("include/keel/flight/plane.h", ""),
+        text("specs/model/plane.h", ""),
+    )  # fmt: skip
+
+    def findings(self, *body: str, before: tuple[str, ...] = ()) -> list[str]:
+        source = text("specs/model/box.c", *before,
+                      "keel_status_t model_box_put(keel_box_t *box, uint32_t n)", "{", *body,
+                      "}")  # fmt: skip
+        texts = [self.HEADER, *self.ABOVE, source]
+        return [one.reason for one in models.check_models(texts, house.LAYERS)]
+
+    def test_a_model_that_keeps_them(self) -> None:
+        self.assertEqual(self.findings(
+            "if (n > 3u) {", "return KEEL_ERR_FULL;", "}",
+            "for (uint32_t i = 0u; i < n; i++) {", "box->side[i] = other(i);", "}",
+            "for (uint32_t i = 0u; i < 64u; i += 8u) {", "if (box->side[i] > n) {",
+            "return KEEL_OK;", "}", "}", "switch (n) {", "case 1u:", "break;", "}",
+            "box->count = n;", "return KEEL_OK;",
+            before=("static const uint8_t table[2] = {1u, 2u};", '#include "box.h"'),
+        ), [])  # fmt: skip
+
+    def test_what_breaks_one(self) -> None:
+        for body, why in (
+            ("keel_box_add(box);", "keel_box_add is of the code: a model calls models"),
+            ("while (n > 0u) {\n}", "this loop does not count to a bound that it leaves"),
+            ("for (;;) {\n}", "this loop does not count to a bound that it leaves"),
+            ("for (uint32_t i = 0u; i < n; i++) {\nn = n + 1u;\n}", "this loop does not count"),
+            ("for (uint32_t i = 0u; i < n; i++) {\ni = 0u;\n}", "this loop does not count"),
+            ("for (uint32_t i = 0u; i < box->n; i++) {\nbox->n = 9u;\n}", "does not count to"),
+            ("for (uint32_t i = 0u; i < n; i++) {\nbreak;\n}", "a loop is left early"),
+            ("for (uint32_t i = 0u; i < n; i++) {\nreturn;\n}", "a loop is left early"),
+            ("static uint32_t calls;", "static data: static uint32_t calls;"),
+            ("box->count = n;\nif (n > 3u) {\nreturn KEEL_ERR_FULL;\n}",
+             "model_box_put writes before it refuses"),
+        ):  # fmt: skip
+            with self.subTest(body):
+                found = self.findings(*body.split("\n"))
+                self.assertTrue(any(why in one for one in found), found)
+
+    def test_a_refusal_that_writes_names_its_requirement(self) -> None:
+        refusal = "return KEEL_ERR_FULL; /* BOX-001 */"
+        self.assertEqual(self.findings("box->count = n;", refusal), [])
+
+    def test_data_includes_and_declarations_at_file_level(self) -> None:
+        for line, why in (
+            ("uint32_t calls;", "static data: uint32_t calls;"),
+            ('#include "plane.h"', "plane stands above: a model calls those below"),
+            ("void model_box_shut(void)\n{\n}", "model_box_shut is not declared in box.h"),
+        ):
+            with self.subTest(line):
+                self.assertEqual(self.findings(before=tuple(line.split("\n"))), [why])
+
+    def test_what_is_declared_is_said(self) -> None:
+        found = [one.reason for one in models.check_models([self.HEADER], house.LAYERS)]
+        why = "model_box_put is declared, and no source of box says what it does"
+        self.assertEqual(found, [why])
 
 
 class HouseTest(unittest.TestCase):

@@ -9,6 +9,7 @@ No prover is run: the engines are played by small scripts that print what the re
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import io
 import json
@@ -28,6 +29,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 import prove  # noqa: E402
+from common.files import write_text  # noqa: E402
 from proofs.cache import Cache  # noqa: E402
 from proofs.cbmc_answers import read_answer, refutation_problems  # noqa: E402
 from proofs.jobs import Finished, Runner, in_pool  # noqa: E402
@@ -48,6 +50,7 @@ from proofs import (  # noqa: E402
     rules,
     settings,
     targets,
+    theorems,
     verdict,
     wp,
     wplog,
@@ -180,7 +183,9 @@ class CSource(unittest.TestCase):
 
     def test_includes_in_comments_do_not_count(self) -> None:
         text = '/* #include "a.h" */\n#include "b.h"\n#include <c.h>\n'
-        self.assertEqual(csource.includes(text), ("b.h",))
+        self.assertEqual(csource.includes(text), (("b.h", True), ("c.h", False)))
+        with self.assertRaisesRegex(SyntaxProblem, "1: #include NAME: which file"):
+            csource.includes("#include NAME\n")
 
     def test_essence_keeps_literals_and_drops_comments(self) -> None:
         self.assertEqual(
@@ -279,8 +284,11 @@ class WpVerdict(TreeTest):
         )
         result = self.judge(log, wp_report(3, 2, "keel_box_put_ensures_BOX_001"))
         self.assert_fails(
-            result, "keel_box_put_ensures_BOX_001 is not proved (include/keel/rtos/box.h:7)"
+            result,
+            "keel_box_put_ensures_BOX_001 is not proved, provers gave up"
+            " (include/keel/rtos/box.h:7)",
         )
+        self.assertTrue(result.gave_up)
         self.assert_fails(result, "Alt-Ergo 2.0.0: Timeout, CVC4 1.8: Unknown")
 
     def test_a_later_stage_may_prove_what_an_earlier_one_did_not(self) -> None:
@@ -412,7 +420,7 @@ class WpRun(TreeTest):
             for _ in range(2):
                 prover.survey(self.unit.source)
         compiled = [call.args[0] for call in run.call_args_list if "ocamlopt" in call.args[0]]
-        self.assertEqual(len(compiled), 1)
+        self.assertEqual(len(compiled), 2, "the machdep's, and find_assumptions.ml")
         prover = self.prover()
         with mock.patch.object(Runner, "run", return_value=Finished(2, "Unbound module")):
             with self.assertRaisesRegex(ProjectError, "m.ml: Unbound module"):
@@ -539,6 +547,54 @@ class Keys(TreeTest):
         self.assertEqual(sorted(names), ["box.c", "box.h", "status.h"])
 
 
+ONE = driver.Pool(1)
+
+
+class CommandLine(unittest.TestCase):
+    def test_the_kernel_is_the_scheduler_voter_filter_and_pid(self) -> None:
+        units = find_units()
+        names = {name for name, unit in units.items() if prove.in_kernel(unit)}
+        self.assertLessEqual({"clock", "queue", "pass", "scheduler", "range", "voter", "filter",
+                              "pid"}, names)  # fmt: skip
+        self.assertTrue(names.isdisjoint({"mavlink", "attitude", "mixer", "virtual_imu"}))
+
+    def test_sizes_are_numbers(self) -> None:
+        self.assertEqual(prove.size("KEEL_QUEUE_CAPACITY=8"), "-DKEEL_QUEUE_CAPACITY=8u")
+        for text in ("KEEL_QUEUE_CAPACITY", "X=0", "x=3", "X=3 -DY", "X=KEEL_OK"):
+            with self.assertRaises(argparse.ArgumentTypeError):
+                prove.size(text)
+
+    def test_a_choice_is_no_shard(self) -> None:
+        for words in (["--kernel", "--shard", "1/2"], ["--size", "A=1", "--join", "f"],
+                      ["--kernel", "--unit", "queue"], ["--patience", "0"]):  # fmt: skip
+            with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()):
+                prove.parse(words, ["queue"])
+
+
+class Theorems(unittest.TestCase):
+    """Which theorems a run tells."""
+
+    LIST = """\
+[[theorem]]
+id = "queue"
+statement = "A queue has no gaps."
+rests_on = ["QUE-001", "QUE-002"]
+"""
+
+    def test_a_theorem_holds_when_all_that_it_rests_on_is_proved(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            root = Path(name)
+            self.assertEqual(theorems.told(root, {"QUE-001"}), [])
+            write_text(root / theorems.LIST, self.LIST)
+            self.assertEqual(theorems.told(root, {"QUE-001"}), [])
+            told = theorems.told(root, {"QUE-001", "QUE-002", "PID-001"})
+            self.assertEqual(told[1:], ["  queue: A queue has no gaps."])
+
+    def test_labels_are_read_off_goals_and_assertions(self) -> None:
+        names = ["keel_f_ensures_QUE_001_kept", "QUE_002_model: as it says", "XQUE_0031"]
+        self.assertEqual(theorems.labels(names), {"QUE-001", "QUE-002"})
+
+
 class Jobs(unittest.TestCase):
     def setUp(self) -> None:
         folder = tempfile.TemporaryDirectory()
@@ -551,7 +607,7 @@ class Jobs(unittest.TestCase):
         """Run a job with these problems; how often it was executed, and its outcome."""
         executed: list[int] = []
 
-        def execute() -> dict[str, Any]:
+        def execute(_room: int) -> dict[str, Any]:
             executed.append(1)
             return {"problems": list(problems), "seconds": 1.0}
 
@@ -560,7 +616,7 @@ class Jobs(unittest.TestCase):
         runner = Runner({}, self.folder)
         times = Times(self.folder / "times.json")
         cache = Cache(self.folder / "cache")
-        [outcome] = driver.run_jobs([job], cache, runner, 1, times, lambda _: None)
+        [outcome] = driver.run_jobs([job], cache, runner, ONE, times, lambda _: None)
         return len(executed), outcome
 
     def test_success_is_remembered(self) -> None:
@@ -593,7 +649,7 @@ class Jobs(unittest.TestCase):
         order: list[str] = []
 
         def job(name: str) -> driver.Job:
-            def execute() -> dict[str, Any]:
+            def execute(_room: int) -> dict[str, Any]:
                 order.append(name)
                 return {"problems": [], "seconds": 0.0}
 
@@ -601,8 +657,33 @@ class Jobs(unittest.TestCase):
 
         jobs = [job("short"), job("long"), job("new")]
         times = Times(self.folder / "times.json")
-        driver.run_jobs(jobs, Cache(None), Runner({}, self.folder), 1, times, lambda _: None)
+        driver.run_jobs(jobs, Cache(None), Runner({}, self.folder), ONE, times, lambda _: None)
         self.assertEqual(order, ["new", "long", "short"])
+
+    def test_what_was_given_up_is_asked_again_alone_with_more_room(self) -> None:
+        order: list[tuple[str, int]] = []
+
+        def job(name: str, needs: int) -> driver.Job:
+            def execute(room: int) -> dict[str, Any]:
+                order.append((name, room))
+                lacks = room < needs
+                return {"problems": ["open"] * lacks, "seconds": 0.0, "gave_up": lacks}
+
+            return driver.Job("b", "wp", name, lambda: name, execute)
+
+        jobs = [job("hard", 2), job("easy", 1), job("harder", 3)]
+        times = Times(self.folder / "times.json")
+        (self.folder / "times.json").write_text(json.dumps({"b/wp/hard": 9, "b/wp/harder": 8}))
+        runner = Runner({}, self.folder)
+        seen = driver.run_jobs(jobs, Cache(None), runner, ONE, times, lambda _: None)
+        self.assertEqual(sorted(order[:3]), [("easy", 1), ("hard", 1), ("harder", 1)])
+        self.assertEqual(sorted(order[3:]), [("hard", 2), ("harder", 2)])
+        self.assertEqual({one.job.name: one.problems for one in seen},
+                         {"easy": [], "hard": [], "harder": ["open"]})  # fmt: skip
+        order.clear()
+        quick = driver.Pool(1, again=False)
+        driver.run_jobs(jobs, Cache(None), Runner({}, self.folder), quick, times, lambda _: None)
+        self.assertEqual(len(order), 3)
 
 
 class Rules(TreeTest):
@@ -610,9 +691,19 @@ class Rules(TreeTest):
         ghost = "/*@ ghost\nstatic void {}(int n)\n{{\n    {}(n);\n}}\n*/\n"
         path = self.root / "src/rtos/ghost.c"
         path.write_text(ghost.format("one", "two") + ghost.format("two", "one"), encoding="utf-8")
-        self.assertEqual(len(rules.endless_ghosts([path])), 2)
+        self.assertEqual(len(rules.endless([path])), 2)
         path.write_text(ghost.format("one", "two") + ghost.format("two", "put"), encoding="utf-8")
-        self.assertEqual(rules.endless_ghosts([path]), [])
+        self.assertEqual(rules.endless([path]), [])
+        path.write_text("int one(int n)\n{\n    return one(n - 1);\n}\n", encoding="utf-8")
+        [problem] = rules.endless([path])
+        self.assertIn("one calls itself", problem)
+
+    def test_code_of_no_unit_is_proved_nowhere(self) -> None:
+        units = find_units(self.root).values()
+        self.assertEqual(rules.strays(self.root, units), [])
+        (self.root / "src/rtos/hidden.c").write_text("int hidden;\n", encoding="utf-8")
+        [problem] = rules.strays(self.root, units)
+        self.assertIn("src/rtos/hidden.c: it belongs to no unit", problem)
 
     def test_a_vanished_goal_is_a_failure(self) -> None:
         [problem] = rules.compare_goals(["a", "b"], ["a"], "goals.txt")
@@ -859,9 +950,23 @@ int keel_box_get_stand_in(int box)
         self.assertIn("get_harness lacks __CPROVER_assume(", problems(text)[0])
 
     def test_the_very_source_must_be_linked(self) -> None:
-        (self.root / "copy.c").write_text(SOURCE, encoding="utf-8")
-        read = self.read("// sources: copy.c\n" + HARNESS)
+        (self.root / "src/rtos/copy.c").write_text(SOURCE, encoding="utf-8")
+        read = self.read("// sources: src/rtos/copy.c\n" + HARNESS)
         self.assertIn("does not link src/rtos/box.c", harness.text_problems(read)[0])
+        (self.root / "copy.c").write_text(SOURCE, encoding="utf-8")
+        with self.assertRaisesRegex(ProjectError, "copy.c is linked from elsewhere than src"):
+            self.read("// sources: src/rtos/box.c copy.c\n" + HARNESS)
+
+    def test_a_definition_is_a_number(self) -> None:
+        self.assertEqual(self.read("// defines: -DKEEL_BOX=4u\n" + HARNESS).defines,
+                         ("-DKEEL_BOX=4u",))  # fmt: skip
+        for word in ("-D__CPROVER_assert(c,t)=", "-Dfloat_same(a,b)=1", "-DKEEL_OK=KEEL_ERR_NULL"):
+            with self.assertRaisesRegex(ProjectError, "takes -DNAME=NUMBER, NAME in"):
+                self.read(f"// defines: {word}\n" + HARNESS)
+
+    def test_one_solver_answers(self) -> None:
+        with self.assertRaisesRegex(ProjectError, "one solver answers"):
+            self.read("// cbmc: --external-sat-solver cadical --refine\n" + HARNESS)
 
 
 class WrongBodies(TreeTest):
@@ -1028,6 +1133,8 @@ if name == "frama-c":
     if "-wp" not in arguments:
         print("[rte:annot] annotating function helper")
         print("[rte:annot] annotating function keel_box_put")
+        print(*play.get("told", []), sep=chr(10))
+        print("keel: looked")
         sys.exit()
     if "sleep" in play:
         print("started", flush=True)
@@ -1083,6 +1190,9 @@ class FakeTools:
 
     def versions(self, *_: str) -> dict[str, Any]:
         return {}
+
+    def header_folders(self) -> list[Path]:
+        return []
 
 
 class WholeRunCase(TreeTest):
@@ -1191,6 +1301,17 @@ class WholeRun(WholeRunCase):
         text = SOURCE.replace("static int helper", "static int MACRO(helper)")
         self.unit.source.write_text(text, encoding="utf-8")
         self.assertIn("Frama-C sees the function helper", self.prove()[1])
+
+    def test_what_annotations_take_for_granted_fails(self) -> None:
+        said = {
+            "keel: assumed: src/rtos/box.c:3: admit": "src/rtos/box.c:3: admit: it is assumed, not",
+            "keel: declared: keel_stray": "box.c: keel_stray is declared here, and proved nowhere",
+        }
+        for told, problem in said.items():
+            self.play(told=[told])
+            status, output, _ = self.prove()
+            self.assertEqual(status, 1)
+            self.assertIn(problem, output)
 
     def test_an_old_report_does_not_outlive_the_start_of_a_run(self) -> None:
         self.prove()

@@ -15,7 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from proofs.mutant_slips import surroundings  # noqa: E402
+from proofs.mutant_slips import numbers_beyond, surroundings  # noqa: E402
 from proofs.mutants import Generated, generate  # noqa: E402
 
 HEADER = """\
@@ -51,9 +51,71 @@ def generated(body: str) -> Generated:
         return generate(path, surroundings([HEADER]))
 
 
+def beyond(body: str, *numbers: int) -> list[str]:
+    """What the slips beyond numbers make of a body."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "f.c"
+        text = f"static int f(int a, box_t *p)\n{{\n    {body}\n}}\n"
+        path.write_text(text, encoding="utf-8")
+        around = surroundings([HEADER], {"f": numbers})
+        return [one.after for one in generate(path, around).mutants if one.kind == "beyond"]
+
+
 def made(body: str, kind: str) -> list[str]:
     """What the mutants of a kind make of a body."""
     return [mutant.after for mutant in generated(body).mutants if mutant.kind == kind]
+
+
+class Beyond(unittest.TestCase):
+    """Slips that show beyond a bound alone."""
+
+    def test_an_index_comes_round(self) -> None:
+        found = beyond("p->side[a] = p->side[2];", 128)
+        self.assertEqual(found, ["p->side[a % 128u] = p->side[2];"])
+        self.assertEqual(beyond("p->side[BOX_RED] = 1u;", 128), [])
+        self.assertEqual(beyond("p->side[a] = 1u;"), [])
+
+    def test_a_size_comes_round_and_a_comparison_changes(self) -> None:
+        self.assertEqual(beyond("return p->width < 9u;", 64), [
+            "return (p->width % 64u) < 9u;",
+            "return ((p->width < 9u) && (p->width < 64u));",
+            "return ((p->width < 9u) || (p->width >= 64u));",
+        ])  # fmt: skip
+        self.assertEqual(beyond("return p->width == 9u;", 64), [])
+        self.assertEqual(len(beyond("return a > BOX_RED;", 64, 256)), 6)
+
+    def test_a_loop_ends_by_its_head(self) -> None:
+        loop = "for (int i = 0; i != a; i++) { f(i, p); }"
+        self.assertEqual(beyond(loop, 16), [loop.replace("i != a", "(i != a) && (i < 16u)")])
+        loop = "while (p->width != 0u) { p->width -= 1u; }"
+        ends = loop.replace("p->width != 0u", "(p->width != 0u) && (p->width < 16u)")
+        self.assertEqual(beyond(loop, 16), [ends])
+
+    def test_a_loop_that_counts_nothing_ends_by_a_number_beside(self) -> None:
+        loop = "while (p->width != 0u) { g(p); }"
+        names = ["depth", "height", "width"]
+        self.assertEqual(beyond(loop, 16), [
+            loop.replace("p->width != 0u", f"(p->width != 0u) && (p->{name} < 16u)")
+            for name in names
+        ])  # fmt: skip
+
+    def test_no_slip_has_a_block_of_its_own(self) -> None:
+        body = "for (int i = 0; i < a; i++) { if (i > 3) { p->side[i] = 1u; } }"
+        made_ones = beyond(body, 8)
+        self.assertGreater(len(made_ones), 8)
+        self.assertTrue(all(one.count("{") == body.count("{") for one in made_ones))
+
+    def test_numbers_beyond_bounds(self) -> None:
+        for bounds, numbers in (
+            (["KEEL_QUEUE_CAPACITY = 4 (32 is shipped)"], (8,)),
+            (["any_bits(5u)", "any_bits64(62u)"], (32,)),
+            (["count <= 8u in any_count", "text[36]"], (16, 64)),
+            (["table_in_order(3) in any_valid_mavlink", "mavlink.known = 3 in any_mavlink"], (4,)),
+            (["for (uint32_t sensors = 2u; sensors <= 2u; sensors++)"], (4,)),
+            (["more > 0u", "x < 0xFFu", "y = nondet_bool() ? 1u : A"], ()),
+        ):
+            with self.subTest(bounds):
+                self.assertEqual(numbers_beyond(bounds), numbers)
 
 
 class Slips(unittest.TestCase):

@@ -12,6 +12,7 @@
 #include "keel/rtos/scheduler.h"
 #include "unity.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 #define BOARD_LOG_SIZE 200u
@@ -94,8 +95,10 @@ static inline void board_reset(uint32_t raw_us)
 
 static inline keel_scheduler_config_t board_config(uint32_t guard_us)
 {
-    const keel_scheduler_config_t config = {board_read, &board, guard_us,
-                                            KEEL_UTILISATION_FULL_PPM};
+    const keel_scheduler_config_t config = {.read_clock = board_read,
+                                            .clock_context = &board,
+                                            .guard_us = guard_us,
+                                            .utilisation_limit_ppm = KEEL_UTILISATION_FULL_PPM};
 
     return config;
 }
@@ -104,6 +107,15 @@ static inline void board_init(uint32_t guard_us)
 {
     const keel_scheduler_config_t config = board_config(guard_us);
 
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_init(&scheduler, &config));
+}
+
+/* The same, and no task is ever promoted. */
+static inline void board_init_without_promotion(uint32_t guard_us)
+{
+    keel_scheduler_config_t config = board_config(guard_us);
+
+    config.without_promotion = true;
     TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_init(&scheduler, &config));
 }
 
@@ -178,12 +190,18 @@ static inline keel_status_t step_when(uint64_t now_us)
     return keel_scheduler_step(&scheduler);
 }
 
+/* Nobody looks at who ran so far: for runs longer than the log. */
+static inline void board_quiet(void)
+{
+    memset(board.ran, 0, sizeof board.ran);
+    board.log_length = 0u;
+}
+
 /* These ran since the last look, in this order. */
 static inline void ran_at(const char *names, int line)
 {
     UNITY_TEST_ASSERT_EQUAL_STRING(names, board.ran, line, "ran");
-    memset(board.ran, 0, sizeof board.ran);
-    board.log_length = 0u;
+    board_quiet();
 }
 
 static inline void remember(void)

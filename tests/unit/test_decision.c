@@ -125,7 +125,7 @@ static void DEC_005_room_stops_at_its_limit(void)
 /* The position of the choice among the other tasks, or NOBODY. */
 static uint32_t with_room(uint64_t now_us, uint32_t room_us)
 {
-    const keel_choice_t choice = keel_decision_other(&queue, now_us, room_us);
+    const keel_choice_t choice = keel_decision_other(&queue, now_us, room_us, false);
 
     return (choice.priority > 0u) ? choice.position : NOBODY;
 }
@@ -187,28 +187,36 @@ static void DEC_003_worst_case_just_fits_the_room(void)
     TEST_ASSERT_EQUAL_UINT32(NOBODY, with_room(0u, 0u));
 }
 
-static void DEC_003_worst_case_is_budget_or_longest_run(void)
+static void DEC_003_worst_case_is_budget_or_remembered_overrun(void)
 {
     const uint32_t slot = queued(KEEL_PRIORITY_LOW, 0u);
 
-    queue.stats[slot].longest_us = 150u;
+    queue.stats[slot].remembered_us = 150u;
     TEST_ASSERT_EQUAL_UINT32(NOBODY, with_room(0u, 149u));
     TEST_ASSERT_EQUAL_UINT32(0u, with_room(0u, 150u));
-    queue.stats[slot].longest_us = 50u;
+    queue.stats[slot].remembered_us = 50u;
+    TEST_ASSERT_EQUAL_UINT32(NOBODY, with_room(0u, 99u));
+    TEST_ASSERT_EQUAL_UINT32(0u, with_room(0u, 100u));
+}
+
+/* The longest run is reported; decisions do not look at it. */
+static void DEC_003_a_long_run_that_was_forgotten_is_not_reckoned_with(void)
+{
+    queue.stats[queued(KEEL_PRIORITY_LOW, 0u)].longest_us = UINT32_MAX;
     TEST_ASSERT_EQUAL_UINT32(NOBODY, with_room(0u, 99u));
     TEST_ASSERT_EQUAL_UINT32(0u, with_room(0u, 100u));
 }
 
 static void DEC_003_the_longest_worst_case(void)
 {
-    queue.stats[queued(KEEL_PRIORITY_LOW, 0u)].longest_us = UINT32_MAX;
+    queue.stats[queued(KEEL_PRIORITY_LOW, 0u)].remembered_us = UINT32_MAX;
     TEST_ASSERT_EQUAL_UINT32(NOBODY, with_room(0u, UINT32_MAX - 1u));
     TEST_ASSERT_EQUAL_UINT32(0u, with_room(0u, UINT32_MAX));
 }
 
 static void DEC_003_lower_priority_runs_when_the_higher_does_not_fit(void)
 {
-    queue.stats[queued(KEEL_PRIORITY_HIGH, 0u)].longest_us = 500u;
+    queue.stats[queued(KEEL_PRIORITY_HIGH, 0u)].remembered_us = 500u;
     queued(KEEL_PRIORITY_LOW, 0u);
     TEST_ASSERT_EQUAL_UINT32(1u, with_room(0u, 499u));
     TEST_ASSERT_EQUAL_UINT32(0u, with_room(0u, 500u));
@@ -231,6 +239,35 @@ static void DEC_003_promoted_are_served_first_come_first(void)
     TEST_ASSERT_EQUAL_UINT32(1u, choice(20000u));
 }
 
+/* The same where none is promoted. */
+static keel_choice_t without_promotion(uint64_t now_us, uint32_t room_us)
+{
+    return keel_decision_other(&queue, now_us, room_us, true);
+}
+
+static void DEC_003_without_promotion_none_runs_that_does_not_fit(void)
+{
+    queued(KEEL_PRIORITY_HIGH, 0u);
+    TEST_ASSERT_EQUAL_UINT32(0u, without_promotion(2750u, 99u).priority);
+    TEST_ASSERT_EQUAL_UINT32(0u, without_promotion(1000000000u, 99u).priority);
+    TEST_ASSERT_EQUAL_UINT32(16u, without_promotion(2750u, 100u).priority);
+    TEST_ASSERT_EQUAL_UINT32(12u, without_promotion(1750u, 100u).priority); /* 1 + 4 * 2.75 */
+}
+
+static void DEC_003_without_promotion_the_order_is_the_same(void)
+{
+    uint32_t low;
+
+    queued(KEEL_PRIORITY_HIGH, 20000u);
+    low = queued(KEEL_PRIORITY_LOW, 6000u);
+    queued(KEEL_PRIORITY_HIGH, 0u);
+    /* 5, and twice the highest. */
+    TEST_ASSERT_EQUAL_UINT32(1u, without_promotion(20000u, 100u).position);
+    queue.stats[low].remembered_us = 101u;
+    TEST_ASSERT_EQUAL_UINT32(2u, without_promotion(20000u, 100u).position);
+    TEST_ASSERT_EQUAL_UINT64(0u, without_promotion(20000u, 0u).earliest_us);
+}
+
 static void DEC_003_empty_queue(void)
 {
     TEST_ASSERT_EQUAL_UINT32(NOBODY, choice(0u));
@@ -240,28 +277,28 @@ static void DEC_003_empty_queue(void)
 static void DEC_003_dynamic_priority_of_the_choice(void)
 {
     queued(KEEL_PRIORITY_MEDIUM_HIGH, 5000u);
-    TEST_ASSERT_EQUAL_UINT32(0u, keel_decision_other(&queue, 4999u, 100u).priority);
-    TEST_ASSERT_EQUAL_UINT32(4u, keel_decision_other(&queue, 5000u, 100u).priority);
-    TEST_ASSERT_EQUAL_UINT32(4u, keel_decision_other(&queue, 5333u, 100u).priority);
-    TEST_ASSERT_EQUAL_UINT32(5u, keel_decision_other(&queue, 5334u, 100u).priority);
-    TEST_ASSERT_EQUAL_UINT32(6u, keel_decision_other(&queue, 5999u, 100u).priority);
-    TEST_ASSERT_EQUAL_UINT32(7u, keel_decision_other(&queue, 6000u, 100u).priority);
-    TEST_ASSERT_EQUAL_UINT32(15u, keel_decision_other(&queue, 8999u, 100u).priority);
-    TEST_ASSERT_EQUAL_UINT32(16u, keel_decision_other(&queue, 9000u, 100u).priority);
-    TEST_ASSERT_EQUAL_UINT32(16u, keel_decision_other(&queue, 9000000u, 100u).priority);
+    TEST_ASSERT_EQUAL_UINT32(0u, keel_decision_other(&queue, 4999u, 100u, false).priority);
+    TEST_ASSERT_EQUAL_UINT32(4u, keel_decision_other(&queue, 5000u, 100u, false).priority);
+    TEST_ASSERT_EQUAL_UINT32(4u, keel_decision_other(&queue, 5333u, 100u, false).priority);
+    TEST_ASSERT_EQUAL_UINT32(5u, keel_decision_other(&queue, 5334u, 100u, false).priority);
+    TEST_ASSERT_EQUAL_UINT32(6u, keel_decision_other(&queue, 5999u, 100u, false).priority);
+    TEST_ASSERT_EQUAL_UINT32(7u, keel_decision_other(&queue, 6000u, 100u, false).priority);
+    TEST_ASSERT_EQUAL_UINT32(15u, keel_decision_other(&queue, 8999u, 100u, false).priority);
+    TEST_ASSERT_EQUAL_UINT32(16u, keel_decision_other(&queue, 9000u, 100u, false).priority);
+    TEST_ASSERT_EQUAL_UINT32(16u, keel_decision_other(&queue, 9000000u, 100u, false).priority);
 }
 
 static void DEC_003_tells_the_earliest_release_of_the_others(void)
 {
-    TEST_ASSERT_EQUAL_UINT64(UINT64_MAX, keel_decision_other(&queue, 0u, 0u).earliest_us);
+    TEST_ASSERT_EQUAL_UINT64(UINT64_MAX, keel_decision_other(&queue, 0u, 0u, false).earliest_us);
     queued(KEEL_PRIORITY_REALTIME, 100u);
-    TEST_ASSERT_EQUAL_UINT64(UINT64_MAX, keel_decision_other(&queue, 0u, 0u).earliest_us);
+    TEST_ASSERT_EQUAL_UINT64(UINT64_MAX, keel_decision_other(&queue, 0u, 0u, false).earliest_us);
     queued(KEEL_PRIORITY_HIGH, 800u);
     queued(KEEL_PRIORITY_LOW, 700u);
-    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_other(&queue, 0u, 0u).earliest_us);
+    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_other(&queue, 0u, 0u, false).earliest_us);
     /* Also when that task does not run, and when another does. */
-    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_other(&queue, 750u, 0u).earliest_us);
-    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_other(&queue, 900u, 100u).earliest_us);
+    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_other(&queue, 750u, 0u, false).earliest_us);
+    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_other(&queue, 900u, 100u, false).earliest_us);
 }
 
 static void DEC_004_event_is_the_first_release(void)
@@ -270,12 +307,12 @@ static void DEC_004_event_is_the_first_release(void)
 
     queued(KEEL_PRIORITY_LOW, 700u);
     queued(KEEL_PRIORITY_HIGH, 800u);
-    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_event_us(&queue, 0u));
-    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_event_us(&queue, 699u));
+    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_event_us(&queue, 0u, false));
+    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_event_us(&queue, 699u, false));
     realtime = queued(KEEL_PRIORITY_REALTIME, 600u);
-    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_event_us(&queue, 0u));
+    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_event_us(&queue, 0u, false));
     queue.release_us[realtime] = 0u;
-    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_event_us(&queue, 0u));
+    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_event_us(&queue, 0u, false));
 }
 
 static void DEC_004_event_is_a_promotion(void)
@@ -284,21 +321,30 @@ static void DEC_004_event_is_a_promotion(void)
 
     queued(KEEL_PRIORITY_HIGH, 700u);
     /* Released but too long: promoted 2.75 periods behind its release. */
-    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_event_us(&queue, 699u));
-    TEST_ASSERT_EQUAL_UINT64(3450u, keel_decision_event_us(&queue, 700u));
-    TEST_ASSERT_EQUAL_UINT64(3450u, keel_decision_event_us(&queue, 2000u));
+    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_event_us(&queue, 699u, false));
+    TEST_ASSERT_EQUAL_UINT64(3450u, keel_decision_event_us(&queue, 700u, false));
+    TEST_ASSERT_EQUAL_UINT64(3450u, keel_decision_event_us(&queue, 2000u, false));
     low = queued(KEEL_PRIORITY_LOW, 3000u);
-    TEST_ASSERT_EQUAL_UINT64(3000u, keel_decision_event_us(&queue, 2000u));
+    TEST_ASSERT_EQUAL_UINT64(3000u, keel_decision_event_us(&queue, 2000u, false));
     /* Promoted 14 periods behind its release. */
     queue.release_us[low] = 0u;
-    TEST_ASSERT_EQUAL_UINT64(3450u, keel_decision_event_us(&queue, 2000u));
+    TEST_ASSERT_EQUAL_UINT64(3450u, keel_decision_event_us(&queue, 2000u, false));
+}
+
+static void DEC_004_without_promotion_only_releases_are_events(void)
+{
+    queued(KEEL_PRIORITY_HIGH, 700u);
+    TEST_ASSERT_EQUAL_UINT64(700u, keel_decision_event_us(&queue, 699u, true));
+    TEST_ASSERT_EQUAL_UINT64(UINT64_MAX, keel_decision_event_us(&queue, 700u, true));
+    queued(KEEL_PRIORITY_LOW, 5000u);
+    TEST_ASSERT_EQUAL_UINT64(5000u, keel_decision_event_us(&queue, 700u, true));
 }
 
 static void DEC_004_never_an_event_without_others(void)
 {
-    TEST_ASSERT_EQUAL_UINT64(UINT64_MAX, keel_decision_event_us(&queue, 0u));
+    TEST_ASSERT_EQUAL_UINT64(UINT64_MAX, keel_decision_event_us(&queue, 0u, false));
     queued(KEEL_PRIORITY_REALTIME, 900u);
-    TEST_ASSERT_EQUAL_UINT64(UINT64_MAX, keel_decision_event_us(&queue, 5000u));
+    TEST_ASSERT_EQUAL_UINT64(UINT64_MAX, keel_decision_event_us(&queue, 5000u, false));
 }
 
 static void DEC_004_decisions_change_nothing(void)
@@ -312,7 +358,7 @@ static void DEC_004_decisions_change_nothing(void)
     TEST_ASSERT_EQUAL_UINT32(1u, keel_decision_realtime(&queue, 0u, 1u, 5u));
     TEST_ASSERT_EQUAL_UINT64(900u, keel_decision_earliest_us(&queue));
     TEST_ASSERT_EQUAL_UINT32(1u, choice(5u));
-    TEST_ASSERT_EQUAL_UINT64(2750u, keel_decision_event_us(&queue, 5u));
+    TEST_ASSERT_EQUAL_UINT64(2750u, keel_decision_event_us(&queue, 5u, false));
     TEST_ASSERT_EQUAL_MEMORY(&before, &queue, sizeof queue);
 }
 
@@ -334,16 +380,20 @@ int main(void)
     RUN_TEST(DEC_003_ties_go_to_the_first_queued);
     RUN_TEST(DEC_003_realtime_tasks_are_not_looked_at);
     RUN_TEST(DEC_003_worst_case_just_fits_the_room);
-    RUN_TEST(DEC_003_worst_case_is_budget_or_longest_run);
+    RUN_TEST(DEC_003_worst_case_is_budget_or_remembered_overrun);
+    RUN_TEST(DEC_003_a_long_run_that_was_forgotten_is_not_reckoned_with);
     RUN_TEST(DEC_003_the_longest_worst_case);
     RUN_TEST(DEC_003_lower_priority_runs_when_the_higher_does_not_fit);
     RUN_TEST(DEC_003_promoted_runs_without_slack);
     RUN_TEST(DEC_003_promoted_are_served_first_come_first);
+    RUN_TEST(DEC_003_without_promotion_none_runs_that_does_not_fit);
+    RUN_TEST(DEC_003_without_promotion_the_order_is_the_same);
     RUN_TEST(DEC_003_empty_queue);
     RUN_TEST(DEC_003_dynamic_priority_of_the_choice);
     RUN_TEST(DEC_003_tells_the_earliest_release_of_the_others);
     RUN_TEST(DEC_004_event_is_the_first_release);
     RUN_TEST(DEC_004_event_is_a_promotion);
+    RUN_TEST(DEC_004_without_promotion_only_releases_are_events);
     RUN_TEST(DEC_004_never_an_event_without_others);
     RUN_TEST(DEC_004_decisions_change_nothing);
     return UNITY_END();

@@ -9,17 +9,33 @@
 #include <string.h>
 
 /* The model is part of this test: the kernel that it is linked with has none. */
+#include "../../specs/model/crc.c"
 #include "../../specs/model/mavlink.c"
 
 #define FRAMES 6000u
 #define SEED   20261125u
-#define KNOWN  5u
+#define KNOWN  20u
 
 static const keel_mavlink_message_t messages[KNOWN] = {
     {.id = 0u, .crc_extra = 50u, .shortest = 1u, .longest = 9u},
     {.id = 30u, .crc_extra = 39u, .shortest = 20u, .longest = 28u},
     {.id = 253u, .crc_extra = 83u, .shortest = 0u, .longest = 255u},
     {.id = 300u, .crc_extra = 217u, .shortest = 1u, .longest = 255u},
+    {.id = 301u, .crc_extra = 1u, .shortest = 1u, .longest = 13u},
+    {.id = 302u, .crc_extra = 2u, .shortest = 3u, .longest = 3u},
+    {.id = 303u, .crc_extra = 3u, .shortest = 1u, .longest = 34u},
+    {.id = 511u, .crc_extra = 4u, .shortest = 1u, .longest = 255u},
+    {.id = 512u, .crc_extra = 5u, .shortest = 0u, .longest = 1u},
+    {.id = 513u, .crc_extra = 6u, .shortest = 1u, .longest = 128u},
+    {.id = 0x1234u, .crc_extra = 7u, .shortest = 2u, .longest = 37u},
+    {.id = 0x3412u, .crc_extra = 8u, .shortest = 1u, .longest = 200u},
+    {.id = 0xFFFFu, .crc_extra = 9u, .shortest = 1u, .longest = 42u},
+    {.id = 0x10000u, .crc_extra = 10u, .shortest = 1u, .longest = 64u},
+    {.id = 0x10001u, .crc_extra = 11u, .shortest = 1u, .longest = 254u},
+    {.id = 0x20000u, .crc_extra = 12u, .shortest = 5u, .longest = 31u},
+    {.id = 0x7FFFFFu, .crc_extra = 13u, .shortest = 1u, .longest = 33u},
+    {.id = 0x800000u, .crc_extra = 14u, .shortest = 1u, .longest = 255u},
+    {.id = 0xFFFFFEu, .crc_extra = 15u, .shortest = 1u, .longest = 16u},
     {.id = 0xFFFFFFu, .crc_extra = 255u, .shortest = 1u, .longest = 40u},
 };
 
@@ -144,13 +160,18 @@ static void MAV_003_noise_is_as_specified(void)
 static void MAV_001_each_table_is_as_specified(void)
 {
     for (uint32_t n = 0u; n < 20000u; n++) {
-        keel_mavlink_message_t table[4];
-        const uint32_t known = one_in(16u) ? (257u + (any() % 8u)) : (any() % 5u);
+        keel_mavlink_message_t table[24];
+        const uint32_t known = one_in(16u) ? (257u + (any() % 8u)) : (any() % 25u);
+        const uint32_t wrong = any() % 24u; /* There and behind it one may be wrong. */
 
-        for (uint32_t i = 0u; i < 4u; i++) {
-            table[i].id = one_in(16u) ? any() : ((i * 2u) + (any() % 3u));
-            table[i].shortest = (uint8_t)(one_in(8u) ? any() : 1u);
-            table[i].longest = (uint8_t)any();
+        for (uint32_t i = 0u; i < 24u; i++) {
+            const bool is_right = i < wrong;
+
+            table[i].id = (is_right || !one_in(16u)) ? ((i * 2u) + (any() % (is_right ? 2u : 3u)))
+                                                     : any();
+            table[i].crc_extra = (uint8_t)any();
+            table[i].shortest = (uint8_t)((is_right || !one_in(8u)) ? 1u : any());
+            table[i].longest = (uint8_t)(is_right ? (1u + (any() % 255u)) : any());
         }
         TEST_ASSERT_EQUAL(model_mavlink_init(&model, table, known),
                           keel_mavlink_init(&mavlink, table, known));

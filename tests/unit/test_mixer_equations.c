@@ -123,6 +123,26 @@ static void expected_of(const keel_mixer_command_t *command, double output[])
     }
 }
 
+/* Any command, on the geometry that is configured. */
+static void check_any_step(double margin)
+{
+    const float size = between(0.0f, 1.0f);
+    const keel_mixer_command_t command = {between(-size, size), between(-size, size),
+                                          between(-1.0f, 1.0f), between(0.0f, 1.0f)};
+    double expected[KEEL_MIXER_MOTORS];
+
+    config.idle = between(KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX);
+    config.highest = between(KEEL_MIXER_HIGHEST_MIN, 1.0f);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_mixer_init(&mixer, &config));
+    keel_mixer_step(&mixer, &command, true);
+    expected_of(&command, expected);
+    for (uint32_t i = 0u; i < config.geometry.motors; i++) {
+        TEST_ASSERT_TRUE(magnitude((double)mixer.output[i] - expected[i]) < margin);
+        TEST_ASSERT_TRUE(mixer.output[i] >= config.idle);
+        TEST_ASSERT_TRUE(mixer.output[i] <= config.highest);
+    }
+}
+
 static void MIX_004_outputs_are_those_of_the_equations(void)
 {
     const keel_mixer_geometry_t *const tables[] = {
@@ -131,22 +151,26 @@ static void MIX_004_outputs_are_those_of_the_equations(void)
     };
 
     for (uint32_t n = 0u; n < CASES; n++) {
-        const float size = between(0.0f, 1.0f);
-        const keel_mixer_command_t command = {between(-size, size), between(-size, size),
-                                              between(-1.0f, 1.0f), between(0.0f, 1.0f)};
-        double expected[KEEL_MIXER_MOTORS];
-
         config.geometry = *tables[n % 7u];
-        config.idle = between(KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX);
-        config.highest = between(KEEL_MIXER_HIGHEST_MIN, 1.0f);
-        TEST_ASSERT_EQUAL(KEEL_OK, keel_mixer_init(&mixer, &config));
-        keel_mixer_step(&mixer, &command, true);
-        expected_of(&command, expected);
-        for (uint32_t i = 0u; i < config.geometry.motors; i++) {
-            TEST_ASSERT_TRUE(magnitude((double)mixer.output[i] - expected[i]) < MARGIN);
-            TEST_ASSERT_TRUE(mixer.output[i] >= config.idle);
-            TEST_ASSERT_TRUE(mixer.output[i] <= config.highest);
-        }
+        check_any_step(MARGIN);
+    }
+}
+
+/* Three to eight motors, wherever they are, that can be flown. How much the rounding of one moves
+ * the others, by the part of the yaw that fits, grows as its own yaw gets small. */
+static void MIX_004_so_are_those_of_any_airframe(void)
+{
+    for (uint32_t n = 0u; n < CASES; n++) {
+        config = (keel_mixer_config_t){.idle = 0.25f, .highest = 0.75f};
+        config.geometry.motors = (uint8_t)(3u + (n % 6u));
+        do {
+            for (uint32_t i = 0u; i < config.geometry.motors; i++) {
+                config.geometry.motor[i].roll = between(-1.0f, 1.0f);
+                config.geometry.motor[i].pitch = between(-1.0f, 1.0f);
+                config.geometry.motor[i].yaw = between(0.5f, 1.0f) * (one_in(2u) ? 1.0f : -1.0f);
+            }
+        } while (keel_mixer_check(&config) != KEEL_OK);
+        check_any_step(4.0 * MARGIN);
     }
 }
 
@@ -156,5 +180,6 @@ int main(void)
     RUN_TEST(MIX_007_full_thrust_alone_never_gives_way);
     RUN_TEST(MIX_006_the_ratio_holds_within_rounding);
     RUN_TEST(MIX_004_outputs_are_those_of_the_equations);
+    RUN_TEST(MIX_004_so_are_those_of_any_airframe);
     return UNITY_END();
 }

@@ -167,6 +167,26 @@ static void MOD_001_ends_of_ranges_are_accepted(void)
     TEST_ASSERT_EQUAL(KEEL_OK, keel_mode_init(&machine, &config));
 }
 
+/* With all other times an hour, it is the range of the silence alone that decides. */
+static void MOD_001_the_longest_silence_that_is_accepted(void)
+{
+    const uint32_t hour_us = 3600000000u;
+    const keel_mode_config_t config = {.loss_us = 2000000u,
+                                       .regain_us = hour_us,
+                                       .request_us = hour_us,
+                                       .kill_us = hour_us,
+                                       .landed_us = hour_us,
+                                       .estimate_us = hour_us,
+                                       .alarm_us = hour_us,
+                                       .idle_us = hour_us,
+                                       .required = 1u};
+    keel_mode_config_t longer = config;
+
+    longer.loss_us = 2000001u;
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_mode_init(&machine, &config));
+    TEST_ASSERT_EQUAL(KEEL_ERR_LIMITS, keel_mode_init(&machine, &longer));
+}
+
 static void MOD_002_begins_disarmed(void)
 {
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_DISARMED, machine.state);
@@ -581,6 +601,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(MOD_001_each_time_is_checked);
     RUN_TEST(MOD_001_ends_of_ranges_are_accepted);
+    RUN_TEST(MOD_001_the_longest_silence_that_is_accepted);
     RUN_TEST(MOD_002_begins_disarmed);
     RUN_TEST(MOD_003_a_fact_counts_after_its_time);
     RUN_TEST(MOD_003_two_frames_do_not_count);

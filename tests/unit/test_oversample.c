@@ -63,6 +63,17 @@ static void OVS_003_bad_samples_do_not_enter(void)
     take(3.0f);
 }
 
+static void OVS_003_the_ends_of_the_range_enter(void)
+{
+    /* 1000000064 is the next number behind 1e9. */
+    TEST_ASSERT_EQUAL(KEEL_ERR_VALUE, keel_oversample_add(&channel, 1000000064.0f));
+    TEST_ASSERT_EQUAL(KEEL_ERR_VALUE, keel_oversample_add(&channel, -1000000064.0f));
+    add(-1.0e9f);
+    take(-1.0e9f);
+    add(1.0e9f);
+    take(1.0e9f);
+}
+
 static void OVS_003_runs_are_full(void)
 {
     channel.runs = UINT16_MAX - 1u;
@@ -142,6 +153,7 @@ int main(void)
     RUN_TEST(OVS_001_factor_zero_is_refused);
     RUN_TEST(OVS_002_mean_of_two);
     RUN_TEST(OVS_003_bad_samples_do_not_enter);
+    RUN_TEST(OVS_003_the_ends_of_the_range_enter);
     RUN_TEST(OVS_003_runs_are_full);
     RUN_TEST(OVS_004_mean_stays_among_the_samples);
     RUN_TEST(OVS_004_no_sample_no_mean);

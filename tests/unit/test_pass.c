@@ -314,6 +314,64 @@ static void SCH_023_begin_and_run_pass_make_a_step(void)
     TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_READY, scheduler.stage);
 }
 
+static actor_t many[KEEL_QUEUE_CAPACITY];
+
+/* So many real-time tasks, of 1 us each: all of them run in one pass, each once, in queue order. */
+static void all_run_in_one_pass(uint32_t count)
+{
+    char names[KEEL_QUEUE_CAPACITY + 1u] = {0};
+
+    board_init(0u);
+    for (uint32_t i = 0u; i < count; i++) {
+        names[i] = (char)('A' + i);
+        declare(&many[i], names[i], KEEL_PRIORITY_REALTIME, 1000u, 1u);
+        add(&many[i]);
+    }
+    start();
+    step();
+    ran(names);
+    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_READY, scheduler.stage);
+    TEST_ASSERT_EQUAL_UINT64(count, scheduler.clock.now_us);
+    step();
+    ran("");
+    step_at(1000u);
+    ran(names);
+    for (uint32_t i = 0u; i < count; i++) {
+        TEST_ASSERT_EQUAL_UINT32(2u, report(&many[i]).stats.runs);
+        TEST_ASSERT_EQUAL_UINT64(2000u, report(&many[i]).release_us);
+    }
+}
+
+static void SCH_023_a_pass_runs_nine_realtime_tasks(void)
+{
+    all_run_in_one_pass(9u);
+}
+
+static void SCH_023_a_pass_runs_as_many_realtime_tasks_as_there_is_room_for(void)
+{
+    all_run_in_one_pass(KEEL_QUEUE_CAPACITY);
+}
+
+static void SCH_026_a_turn_runs_one_task(void)
+{
+    board_init(0u);
+    add(&a);
+    add(&o);
+    start();
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_pass_begin(&scheduler, 0u));
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_pass_turn(&scheduler));
+    ran("A");
+    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_PASS, scheduler.stage);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_pass_turn(&scheduler));
+    ran("O");
+    TEST_ASSERT_EQUAL_UINT32(KEEL_STAGE_READY, scheduler.stage);
+    TEST_ASSERT_EQUAL_UINT64(60u, scheduler.clock.now_us); /* 10 + 50 */
+    remember();
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_pass_turn(&scheduler));
+    unchanged();
+    ran("");
+}
+
 static void SCH_018_finish_refuses_when_nothing_runs(void)
 {
     keel_scheduler_t *const s = &scheduler;
@@ -465,7 +523,7 @@ static void SCH_012_wakes_for_a_promotion(void)
     add(&a);
     add(&o);
     start();
-    scheduler.queue.stats[slot_of(&o)].longest_us = 5000u; /* Fits no gap. */
+    scheduler.queue.stats[slot_of(&o)].remembered_us = 5000u; /* Fits no gap. */
     step();
     /* Promoted at age 375, which is 275 behind the release. */
     TEST_ASSERT_EQUAL_UINT64(275u, scheduler.wake_us);
@@ -507,6 +565,45 @@ static void SCH_016_a_long_run_is_outlived_through_promotion(void)
     TEST_ASSERT_EQUAL_UINT64(40000u, report(&o).release_us);
 }
 
+/* The same real-time task, and another with a stall of 500 ms. It is promoted as soon as the stall
+ * is over, at an age of 50 periods, and then at one of 15: at 650, 800, ... 1550 ms. The eighth run
+ * within the budget is the last of these, 1.05 s behind the stall; from then on it fits again. */
+static void SCH_016_a_stall_is_forgotten_after_eight_runs(void)
+{
+    uint64_t now_us;
+
+    board_init(10u);
+    declare(&a, 'A', KEEL_PRIORITY_REALTIME, 1000u, 50u);
+    declare(&o, 'O', KEEL_PRIORITY_LOW, 10000u, 100u);
+    o.cost_us = 500000u;
+    add(&a);
+    add(&o);
+    start();
+    step();
+    ran("AO");
+    o.cost_us = 90u;
+    step();
+    ran("AO"); /* at 500050 */
+    TEST_ASSERT_EQUAL_UINT64(510000u, report(&o).release_us);
+    for (now_us = 501000u; now_us <= 1549000u; now_us += 1000u) {
+        board_quiet();
+        step_at(now_us);
+    }
+    TEST_ASSERT_EQUAL_UINT32(8u, report(&o).stats.runs); /* of them six at 650, ... 1400 ms */
+    TEST_ASSERT_EQUAL_UINT16(7u, report(&o).stats.promotions);
+    TEST_ASSERT_EQUAL_UINT32(500000u, report(&o).stats.remembered_us);
+    for (; now_us <= 1650000u; now_us += 1000u) {
+        board_quiet();
+        step_at(now_us);
+    }
+    /* One more by promotion, at 1550 ms, then ten in 100 ms, as many as it has periods. */
+    TEST_ASSERT_EQUAL_UINT32(19u, report(&o).stats.runs);
+    TEST_ASSERT_EQUAL_UINT16(8u, report(&o).stats.promotions);
+    TEST_ASSERT_EQUAL_UINT32(0u, report(&o).stats.remembered_us);
+    TEST_ASSERT_EQUAL_UINT32(500000u, report(&o).stats.longest_us);
+    TEST_ASSERT_EQUAL_UINT16(1u, report(&o).stats.overruns);
+}
+
 static void SCH_016_promoted_runs_behind_due_realtime_tasks(void)
 {
     board_init(10u);
@@ -542,6 +639,130 @@ static void SCH_016_promoted_tasks_run_first_come_first_served(void)
     TEST_ASSERT_EQUAL_UINT16(1u, report(&p).stats.promotions);
 }
 
+/* --- Without promotion --- */
+
+static void SCH_012_without_promotion_wakes_for_the_next_gap(void)
+{
+    board_init_without_promotion(20u);
+    o.config.period_us = 100u;
+    o.config.priority = KEEL_PRIORITY_HIGH;
+    a.config.phase_us = 999u;
+    add(&a);
+    add(&o);
+    start();
+    scheduler.queue.stats[slot_of(&o)].remembered_us = 970u; /* Fits behind A alone. */
+    step_at(10u);
+    TEST_ASSERT_EQUAL_UINT64(999u, scheduler.wake_us);
+    step_at(998u);
+    ran("");
+    step_at(999u);
+    ran("AO"); /* A ends at 1009: 20 + 970 are just left. */
+    TEST_ASSERT_EQUAL_UINT16(0u, report(&o).stats.promotions);
+    TEST_ASSERT_EQUAL_UINT32(10u, report(&o).skipped);
+}
+
+/* Promoted or not, what fits the slack runs in the same order; no promotion is counted. */
+static void SCH_016_without_promotion_what_fits_runs(void)
+{
+    board_init_without_promotion(10u);
+    declare(&p, 'P', KEEL_PRIORITY_HIGH, 1000u, 60u);
+    add(&a);
+    add(&o);
+    add(&p);
+    start();
+    step_at(3000u); /* P: age 4000 of 1000, the highest priority; O: 1 + 5000 / 2000. */
+    ran("AP");
+    step();
+    ran("O");
+    TEST_ASSERT_EQUAL_UINT16(0u, report(&p).stats.promotions);
+    TEST_ASSERT_EQUAL_UINT16(0u, report(&o).stats.promotions);
+}
+
+/* A real-time task that leaves 950 us of each 1000, and another whose first run takes 950: it never
+ * fits again, until it is added anew. */
+static void SCH_016_without_promotion_what_never_fits_never_runs(void)
+{
+    board_init_without_promotion(10u);
+    declare(&a, 'A', KEEL_PRIORITY_REALTIME, 1000u, 50u);
+    declare(&o, 'O', KEEL_PRIORITY_HIGH, 10000u, 100u);
+    o.cost_us = 950u;
+    add(&a);
+    add(&o);
+    start();
+    step();
+    ran("AO");
+    o.cost_us = 90u;
+    for (uint64_t now_us = 1000u; now_us <= 1000000u; now_us += 1000u) {
+        board_quiet();
+        step_at(now_us);
+        TEST_ASSERT_EQUAL_UINT64(now_us + 1000u, scheduler.wake_us);
+    }
+    ran("A");
+    TEST_ASSERT_EQUAL_UINT32(1u, report(&o).stats.runs);
+    discard(&o);
+    add(&o);
+    step();
+    ran("O");
+}
+
+static uint32_t latest_us; /* How late a real-time task has started at most. */
+
+static void note(uint32_t late_us)
+{
+    latest_us = (late_us > latest_us) ? late_us : latest_us;
+}
+
+static void note_a(void)
+{
+    note(board.raw_us % 1000u);
+}
+
+static void note_b(void)
+{
+    note(board.raw_us % 1001u);
+}
+
+/* Two real-time tasks whose gap is shorter than 720 us for half a second, longer than another task
+ * waits for its promotion, which is 27.5 ms. */
+static void run_drifting(void)
+{
+    declare(&a, 'A', KEEL_PRIORITY_REALTIME, 1000u, 50u);
+    declare(&b, 'B', KEEL_PRIORITY_REALTIME, 1001u, 50u);
+    declare(&o, 'O', KEEL_PRIORITY_HIGH, 10000u, 700u);
+    a.act = note_a;
+    b.act = note_b;
+    latest_us = 0u;
+    add(&a);
+    add(&b);
+    add(&o);
+    start();
+    step();
+    while (scheduler.clock.now_us < 1001000u) {
+        const uint64_t now_us = scheduler.clock.now_us;
+
+        board_quiet();
+        step_at((scheduler.wake_us > now_us) ? scheduler.wake_us : now_us);
+    }
+    TEST_ASSERT_EQUAL_UINT16(0u, report(&a).stats.overruns);
+    TEST_ASSERT_EQUAL_UINT16(0u, report(&b).stats.overruns);
+    TEST_ASSERT_EQUAL_UINT16(0u, report(&o).stats.overruns);
+}
+
+/* ISO-001: the other real-time budget, which is 50 us, and the guard. */
+static void SCH_016_without_promotion_no_realtime_task_is_later_than_its_bound(void)
+{
+    board_init(20u);
+    run_drifting();
+    TEST_ASSERT_GREATER_THAN_UINT32(70u, latest_us);
+    TEST_ASSERT_GREATER_THAN_UINT16(0u, report(&o).stats.promotions);
+    board_reset(0u);
+    board_init_without_promotion(20u);
+    run_drifting();
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32(70u, latest_us);
+    TEST_ASSERT_EQUAL_UINT16(0u, report(&o).stats.promotions);
+    TEST_ASSERT_GREATER_THAN_UINT32(40u, report(&o).stats.runs); /* of 100 periods */
+}
+
 static void SCH_013_begin_refuses_in_an_open_pass(void)
 {
     board_init(0u);
@@ -574,6 +795,9 @@ int main(void)
     RUN_TEST(SCH_017_begin_next_finish_make_a_step);
     RUN_TEST(SCH_023_without_a_pass_nothing_runs);
     RUN_TEST(SCH_023_begin_and_run_pass_make_a_step);
+    RUN_TEST(SCH_023_a_pass_runs_nine_realtime_tasks);
+    RUN_TEST(SCH_023_a_pass_runs_as_many_realtime_tasks_as_there_is_room_for);
+    RUN_TEST(SCH_026_a_turn_runs_one_task);
     RUN_TEST(SCH_018_finish_refuses_when_nothing_runs);
     RUN_TEST(SCH_018_broken_clock_ends_the_pass);
     RUN_TEST(SCH_012_an_idle_step_reads_the_clock_alone);
@@ -584,8 +808,13 @@ int main(void)
     RUN_TEST(SCH_012_sleeps_for_ever_without_tasks);
     RUN_TEST(SCH_012_wakes_for_a_promotion);
     RUN_TEST(SCH_016_a_long_run_is_outlived_through_promotion);
+    RUN_TEST(SCH_016_a_stall_is_forgotten_after_eight_runs);
     RUN_TEST(SCH_016_promoted_runs_behind_due_realtime_tasks);
     RUN_TEST(SCH_016_promoted_tasks_run_first_come_first_served);
+    RUN_TEST(SCH_012_without_promotion_wakes_for_the_next_gap);
+    RUN_TEST(SCH_016_without_promotion_what_fits_runs);
+    RUN_TEST(SCH_016_without_promotion_what_never_fits_never_runs);
+    RUN_TEST(SCH_016_without_promotion_no_realtime_task_is_later_than_its_bound);
     RUN_TEST(SCH_013_begin_refuses_in_an_open_pass);
     return UNITY_END();
 }

@@ -56,7 +56,7 @@ static void refuses_gain(float *gain)
         *gain = bad[i];
         init_refuses(KEEL_ERR_GAIN);
     }
-    *gain = KEEL_PID_GAIN_LIMIT;
+    *gain = 1.0e6f;
     TEST_ASSERT_EQUAL(KEEL_OK, keel_pid_init(&pid, &config));
     *gain = good;
 }
@@ -94,10 +94,13 @@ static void PID_001_bad_limits_are_refused(void)
     refuses_limit(&config.integral_min, 1.1e9f);
     refuses_limit(&config.integral_max, -0.001f);
     refuses_limit(&config.integral_max, 1.1e9f);
-    config.output_min = -KEEL_PID_OUTPUT_LIMIT;
-    config.output_max = KEEL_PID_OUTPUT_LIMIT;
-    config.integral_min = -KEEL_PID_OUTPUT_LIMIT;
-    config.integral_max = KEEL_PID_OUTPUT_LIMIT;
+    /* The next number behind 1e9. */
+    refuses_limit(&config.output_max, 1000000064.0f);
+    refuses_limit(&config.integral_min, -1000000064.0f);
+    config.output_min = -1.0e9f;
+    config.output_max = 1.0e9f;
+    config.integral_min = -1.0e9f;
+    config.integral_max = 1.0e9f;
     TEST_ASSERT_EQUAL(KEEL_OK, keel_pid_init(&pid, &config));
 }
 

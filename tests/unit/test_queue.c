@@ -182,7 +182,7 @@ static void QUE_003_add_moves_a_nearly_full_queue(void)
 /* A slot that a task has left is as new for the next. */
 static void QUE_003_add_clears_what_was_known(void)
 {
-    const keel_stats_t none = {0u, 0u, 0u, 0u, 0u, 0u};
+    const keel_stats_t none = {0};
     uint32_t slot;
 
     memset(queue.stats, 0xA5, sizeof queue.stats);
@@ -194,6 +194,8 @@ static void QUE_003_add_clears_what_was_known(void)
     TEST_ASSERT_EQUAL_UINT32(none.runs, queue.stats[slot].runs);
     TEST_ASSERT_EQUAL_UINT32(none.last_us, queue.stats[slot].last_us);
     TEST_ASSERT_EQUAL_UINT32(none.longest_us, queue.stats[slot].longest_us);
+    TEST_ASSERT_EQUAL_UINT32(none.remembered_us, queue.stats[slot].remembered_us);
+    TEST_ASSERT_EQUAL_UINT32(none.forgotten_in, queue.stats[slot].forgotten_in);
     TEST_ASSERT_EQUAL_UINT16(none.overruns, queue.stats[slot].overruns);
     TEST_ASSERT_EQUAL_UINT16(none.promotions, queue.stats[slot].promotions);
 }
@@ -348,7 +350,7 @@ static void QUE_009_all_else_is_left_alone(void)
     keel_queue_t before;
 
     fill("Bc");
-    queue.stats[slot] = (keel_stats_t){1u, 2u, 3u, 4u, 5u, 6u};
+    queue.stats[slot] = (keel_stats_t){1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u};
     memcpy(&before, &queue, sizeof before);
     keel_queue_advance(&queue, slot, 1250u);
     before.release_us[slot] = 1300u;

@@ -17,9 +17,10 @@ void tearDown(void)
 
 static void SCH_001_init_makes_an_empty_scheduler(void)
 {
-    const keel_scheduler_config_t config = board_config(25u);
+    keel_scheduler_config_t config = board_config(25u);
     keel_scheduler_t *const s = &scheduler;
 
+    config.without_promotion = true;
     memset(s, 0xA5, sizeof *s);
     TEST_ASSERT_EQUAL(KEEL_OK, keel_scheduler_init(s, &config));
     TEST_ASSERT_EQUAL_UINT32(0u, s->queue.count);
@@ -31,6 +32,7 @@ static void SCH_001_init_makes_an_empty_scheduler(void)
     TEST_ASSERT_EQUAL_PTR(&board, s->config.clock_context);
     TEST_ASSERT_EQUAL_UINT32(25u, s->config.guard_us);
     TEST_ASSERT_EQUAL_UINT32(1000000u, s->config.utilisation_limit_ppm);
+    TEST_ASSERT_TRUE(s->config.without_promotion);
     TEST_ASSERT_EQUAL_UINT64(0u, s->clock.now_us);
     TEST_ASSERT_EQUAL_UINT32(0u, s->clock.raw_us);
     TEST_ASSERT_EQUAL_UINT64(0u, s->wake_us);
@@ -134,7 +136,7 @@ static void SCH_004_add_after_the_start_arms_the_task_from_now(void)
 
 static void SCH_004_a_task_added_again_begins_anew(void)
 {
-    const keel_stats_t none = {0u, 0u, 0u, 0u, 0u, 0u};
+    const keel_stats_t none = {0};
     keel_task_report_t again;
 
     board_init(0u);

@@ -107,6 +107,82 @@ static void STS_005_mean_rounds_down(void)
     TEST_ASSERT_EQUAL_UINT64(1000u, keel_stats_mean_us(&stats));
 }
 
+/* What decisions reckon with, and for how many runs within the budget of 100 still. */
+static void remembers(uint32_t remembered_us, uint32_t forgotten_in)
+{
+    TEST_ASSERT_EQUAL_UINT32(remembered_us, stats.remembered_us);
+    TEST_ASSERT_EQUAL_UINT32(forgotten_in, stats.forgotten_in);
+}
+
+static void record_times(uint32_t elapsed_us, uint32_t times)
+{
+    for (uint32_t i = 0u; i < times; i++) {
+        keel_stats_record(&stats, elapsed_us, 100u);
+    }
+}
+
+static void STS_006_runs_within_the_budget_are_not_remembered(void)
+{
+    record_times(99u, 3u);
+    record_times(100u, 3u);
+    remembers(0u, 0u);
+}
+
+static void STS_006_the_longest_overrun_is_remembered(void)
+{
+    record_times(101u, 1u);
+    remembers(101u, 8u);
+    record_times(500u, 1u);
+    remembers(500u, 8u);
+    record_times(300u, 1u);
+    remembers(500u, 8u);
+    record_times(UINT32_MAX, 1u);
+    remembers(UINT32_MAX, 8u);
+}
+
+static void STS_006_eight_runs_within_the_budget_forget_it(void)
+{
+    record_times(500u, 1u);
+    record_times(100u, 1u);
+    remembers(500u, 7u);
+    record_times(0u, 6u);
+    remembers(500u, 1u);
+    record_times(100u, 1u);
+    remembers(0u, 0u);
+    TEST_ASSERT_EQUAL_UINT32(500u, stats.longest_us); /* What is reported stays. */
+    TEST_ASSERT_EQUAL_UINT16(1u, stats.overruns);
+    record_times(100u, 9u);
+    remembers(0u, 0u);
+}
+
+static void STS_006_an_overrun_starts_the_count_anew(void)
+{
+    record_times(500u, 1u);
+    record_times(100u, 7u);
+    remembers(500u, 1u);
+    record_times(101u, 1u); /* Shorter than what is remembered, which stays. */
+    remembers(500u, 8u);
+    record_times(100u, 7u);
+    remembers(500u, 1u);
+    record_times(100u, 1u);
+    remembers(0u, 0u);
+}
+
+static void STS_006_what_was_forgotten_does_not_come_back(void)
+{
+    record_times(500u, 1u);
+    record_times(100u, 8u);
+    record_times(150u, 1u);
+    remembers(150u, 8u);
+}
+
+static void STS_006_promotions_forget_nothing(void)
+{
+    record_times(500u, 1u);
+    keel_stats_promote(&stats);
+    remembers(500u, 8u);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -118,5 +194,11 @@ int main(void)
     RUN_TEST(STS_003_mean_freezes_when_the_sum_is_full);
     RUN_TEST(STS_004_promotions_stop_at_their_limit);
     RUN_TEST(STS_005_mean_rounds_down);
+    RUN_TEST(STS_006_runs_within_the_budget_are_not_remembered);
+    RUN_TEST(STS_006_the_longest_overrun_is_remembered);
+    RUN_TEST(STS_006_eight_runs_within_the_budget_forget_it);
+    RUN_TEST(STS_006_an_overrun_starts_the_count_anew);
+    RUN_TEST(STS_006_what_was_forgotten_does_not_come_back);
+    RUN_TEST(STS_006_promotions_forget_nothing);
     return UNITY_END();
 }

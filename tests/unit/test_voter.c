@@ -99,7 +99,11 @@ static void VOT_001_distance_of_agreement(void)
     refuses(KEEL_ERR_AGREEMENT);
     config.agree = 1000.5f;
     refuses(KEEL_ERR_AGREEMENT);
-    config.agree = KEEL_VOTER_AGREE_MIN;
+    config.agree = 0x1.fffffep-11f; /* the last number before 2^-10 */
+    refuses(KEEL_ERR_AGREEMENT);
+    config.agree = 0x1p-10f;
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_voter_check(&config));
+    config.agree = 1000.0f;
     TEST_ASSERT_EQUAL(KEEL_OK, keel_voter_check(&config));
 }
 
@@ -543,7 +547,6 @@ static void VOT_018_at_rest_just_beyond_a(void)
 {
     const float beyond = nextafterf(1.0f, 2.0f);
 
-    config.cutoff = 100000.0f;
     restart();
     vote(0.0f, 0.5f, beyond);
     expect_weights(1.0f, 1.0f, 1.0f);

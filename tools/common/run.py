@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs programs: with a time limit, in a session of their own, so that none outlives its caller."""
+"""Runs programs: each with a limit of its processor time, in a session of its own, so that none
+outlives its caller."""
 
 from __future__ import annotations
 
@@ -13,6 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from common import limits
 from common.errors import ROOT, ToolError
 
 TIMEOUT_S = 300.0
@@ -40,7 +42,7 @@ class Ended:
     def how(self) -> str:
         """In words."""
         if self.timed_out:
-            return "hung: killed at its time limit"
+            return "hung: killed at the limit of its processor time, or as it did nothing"
         if self.status < 0:
             return f"crashed: {signal.Signals(-self.status).name}"
         return f"exit status {self.status}"
@@ -120,8 +122,11 @@ def run(
     command: Sequence[str | Path], timeout_s: float | None = TIMEOUT_S, *, cwd: Path = ROOT,
     environment: Mapping[str, str] | None = None, apart: bool = False,
 ) -> Ended:  # fmt: skip
-    """Run a program. Variables are added to ours. Its two output streams are one, unless `apart`.
-    A program that is missing ends with 127."""
+    """Run a program, for at most so many seconds of processor time (limits.py).
+
+    Variables are added to ours. Its two output streams are one, unless `apart`. A program that is
+    missing ends with 127.
+    """
     try:
         words = [str(word) for word in command]
         child = RUNNING.start(words, cwd, {**os.environ, **(environment or {})}, apart)
@@ -136,7 +141,7 @@ def run(
 def _end_of(child: subprocess.Popen[str], timeout_s: float | None) -> Ended:
     """Wait for the end of a program, or make one."""
     try:
-        output, errors = child.communicate(timeout=timeout_s)
+        output, errors = limits.communicate(child, timeout_s)
     except BaseException as error:
         # The whole session: a child of the program would keep the pipe open.
         os.killpg(child.pid, signal.SIGKILL)

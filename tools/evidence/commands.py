@@ -43,11 +43,11 @@ def commands_of(root: Path) -> tuple[Command, ...]:
     """In the order in which they run: images are built before they are run and looked into."""
     boards = board_names(root)
     return (
-        Command("prove/report.json", ("prove",)),
+        Command("prove/report.json", ("prove-all",)),
         *(Command(f"firmware/{name}/report.json", ("firmware", f"BOARD={name}"), narrow=True)
           for name in boards),
         Command("test-target/report.json", ("test-target",)),
-        Command("test/report.json", ("test",)),
+        Command("test/report.json", ("test-all",)),
         Command("coverage-target/report.json", ("coverage-target",)),
         Command("contracts-run/report.json", ("contracts-run",)),
         Command("coverage/report.json", ("coverage",), narrow=True),

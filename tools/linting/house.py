@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import PurePosixPath
 
+from linting.models import check_models
 from linting.texts import Finding, Text
 
 LINE_LIMIT = 100
@@ -182,3 +183,4 @@ def check_house(texts: Sequence[Text]) -> Iterator[Finding]:
         for check in HOUSE_CHECKS:
             yield from check(text)
     yield from check_reached(texts)
+    yield from check_models(texts, LAYERS)

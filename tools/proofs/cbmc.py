@@ -55,6 +55,8 @@ class Result:
     covered: int = 0
     blocks: int = 0
     problems: list[str] = field(default_factory=list)
+    # Whether nothing is wrong but that CBMC came to the limit of its time.
+    gave_up: bool = False
     seconds: float = 0.0
 
     def as_dict(self) -> dict[str, Any]:
@@ -71,8 +73,11 @@ class Cbmc:
     """CBMC and its compiler for the target."""
 
     def __init__(
-        self, goto_cc: Sequence[str], cbmc: Sequence[str], runner: Runner, root: Path, scratch: Path
-    ) -> None:
+        self, goto_cc: Sequence[str], cbmc: Sequence[str], runner: Runner, root: Path,
+        scratch: Path, defines: Sequence[str] = (),
+    ) -> None:  # fmt: skip
+        """Take what is to be started, and the sizes that the build chooses, as -DNAME=NUMBER."""
+        self._defines = tuple(defines)
         self._goto_cc = list(goto_cc)
         self._cbmc = list(cbmc)
         self._runner = runner
@@ -82,11 +87,18 @@ class Cbmc:
 
     def options(self) -> list[str]:
         """What is the same for all harnesses."""
-        return [*self._goto_cc[1:], *CHECKS, *ASSERTIONS, *COVERAGE]
+        return [*self._goto_cc[1:], *CHECKS, *ASSERTIONS, *COVERAGE, *self._defines]
 
-    def prove(self, harness: Harness) -> Result:
-        """Prove a harness and measure what it reaches."""
+    def sized(self, harness: Harness) -> Harness:
+        """The harness with the sizes that the build chooses, where it has none of its own."""
+        own = [word.partition("=")[0] for word in harness.defines]
+        more = [word for word in self._defines if word.partition("=")[0] not in own]
+        return replace(harness, defines=(*harness.defines, *more)) if more else harness
+
+    def prove(self, harness: Harness, room: int = 1) -> Result:
+        """Prove a harness and measure what it reaches, in `room` times its processor time."""
         start = time.monotonic()
+        harness = replace(self.sized(harness), timeout=harness.timeout * room)
         problems = harnesses.text_problems(harness)
         result = Result(
             problems=problems, defines=list(harness.defines), replaces=list(harness.replaces),
@@ -98,17 +110,20 @@ class Cbmc:
         else:
             answer = self.check(harness, binary)
             result.properties = answer.properties
+            result.gave_up = answer.gave_up and not result.problems
             result.problems += proof_problems(answer)
-            self._measure(harness, binary, result)
+            if not answer.gave_up:
+                self._measure(harness, binary, result)
         shown = harness.path.relative_to(self._root)
         result.problems = [f"{shown}: {text}" if not text.startswith(str(shown)) else text
                            for text in result.problems]  # fmt: skip
         result.seconds = round(time.monotonic() - start, 1)
         return result
 
-    def refute(self, wrong: WrongBody, harness: Harness) -> Result:
+    def refute(self, wrong: WrongBody, harness: Harness, room: int = 1) -> Result:
         """Show that a harness notices a wrong body, by the assertions that it should."""
         start = time.monotonic()
+        harness = replace(self.sized(harness), timeout=harness.timeout * room)
         result = Result()
         if wrong.defines:
             harness = replace(harness, defines=wrong.defines)
@@ -117,8 +132,9 @@ class Cbmc:
             result.problems.append(f"{wrong.shown}: {complaint}")
         else:
             answer = self.check(harness, binary, self._selection(harness, binary, wrong.expect))
+            result.gave_up = answer.gave_up
             result.problems += refutation_problems(answer, wrong)
-            if result.problems:
+            if result.problems and not answer.gave_up:
                 other = self.check(harness, binary, ["--stop-on-fail"]).first_failure
                 result.problems[0] += f"; what fails is: {other or 'nothing'}"
         result.seconds = round(time.monotonic() - start, 1)
@@ -176,6 +192,7 @@ class Cbmc:
         answer = self._answer(self._runner.run(command, harness.timeout, merged=False), harness)
         found = blocks(answer.goals)
         if not answer.complete:
+            result.gave_up = answer.gave_up and not result.problems
             result.problems += ["the coverage run did not finish", *answer.warnings]
             return
         result.problems += coverage_problems(found, harness, result.properties)
@@ -185,7 +202,8 @@ class Cbmc:
     @staticmethod
     def _answer(done: Finished, harness: Harness) -> Answer:
         if done.timed_out:
-            return Answer([], [], [f"no answer in {harness.timeout:.0f} s"], complete=False)
+            said = f"gave up after {harness.timeout:.0f} s of processor time, which refutes nothing"
+            return Answer([], [], [said], complete=False, gave_up=True)
         return read_answer(done.output)
 
 

@@ -19,6 +19,8 @@ HARMLESS = (
     "--cover is incompatible with --unwinding-assertions",
     "Use --unwinding-assertions to obtain sound verification results",
 )
+# CBMC's words, and those of the reader: a failure comes with a counterexample.
+VERDICTS = {"FAILURE": "REFUTED by a counterexample"}
 ASSERTION = re.compile(r"\.assertion\.\d+$")
 
 
@@ -31,6 +33,8 @@ class Answer:
     warnings: list[str]
     complete: bool
     failed: bool = False
+    # CBMC was ended at the limit of its time.
+    gave_up: bool = False
     # With --stop-on-fail: the execution that fails, step by step.
     trace: list[dict[str, Any]] = field(default_factory=list)
 
@@ -80,7 +84,7 @@ def read_answer(text: str) -> Answer:
         complete = complete or ended or "goalsCovered" in entry
         failed = failed or entry.get("cProverStatus") == "failure"
         trace += entry.get("trace", [])
-    return Answer(properties, goals, warnings, complete, failed, trace)
+    return Answer(properties, goals, warnings, complete, failed, trace=trace)
 
 
 def numbers(ranges: str) -> set[int]:
@@ -124,7 +128,8 @@ def blocks(goals: Iterable[dict[str, Any]]) -> list[Block]:
 def proof_problems(answer: Answer) -> list[str]:
     """Every property that is not proved, and reasons not to believe the rest."""
     problems = [
-        f"{item['place']}: {item['description']}: {item['status']} ({item['name']})"
+        f"{item['place']}: {item['description']}: {VERDICTS.get(item['status'], item['status'])}"
+        f" ({item['name']})"
         for item in answer.properties
         if item["status"] != "SUCCESS"
     ]

@@ -205,10 +205,18 @@ def lemmas(text: str) -> list[str]:
 
 
 @lru_cache(maxsize=1024)
-def includes(text: str) -> tuple[str, ...]:
-    """The files that a text includes with quotation marks."""
-    paths = (node.child_by_field_name("path") for node in found(parse(text), "preproc_include"))
-    return tuple(written(path)[1:-1] for path in paths if path and path.type == "string_literal")
+def includes(text: str) -> tuple[tuple[str, bool], ...]:
+    """The files that a text includes, and whether with quotation marks.
+
+    A name that only the preprocessor could tell is an error.
+    """
+    named = []
+    for node in found(parse(text), "preproc_include"):
+        path = node.child_by_field_name("path")
+        if path is None or path.type not in ("string_literal", "system_lib_string"):
+            raise SyntaxProblem(f"{node.start_point.row + 1}: {written(node)}: which file is that?")
+        named.append((written(path)[1:-1], path.type == "string_literal"))
+    return tuple(named)
 
 
 @dataclass(frozen=True)
@@ -217,6 +225,11 @@ class Call:
 
     node: Node
     arguments: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """Of what is called."""
+        return written(self.node.child_by_field_name("function"))
 
     @property
     def start(self) -> int:

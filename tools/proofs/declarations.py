@@ -181,6 +181,30 @@ def resolved(word: str, known: Macros) -> str:
     return word
 
 
+NUMBER = re.compile(r"\b(0[xX][0-9a-fA-F]+|\d+)(?:[uU]?[lL]{0,2}|[lL]{1,2}[uU]?)\b")
+ARITHMETIC = re.compile(r"[\s()+*]|\d+|0[xX][0-9a-fA-F]+|-|/|<<|>>")
+DEPTH = 20  # Macros behind each other.
+
+
+def number(text: str, known: Macros) -> int | None:
+    """The number that a constant expression of macros and integers comes to, None if it is none."""
+    for _ in range(DEPTH):
+        names = re.findall(r"\b[A-Za-z_]\w*", NUMBER.sub("", text))
+        if not names:
+            break
+        if any(name not in known or known[name][0] for name in names):
+            return None
+        for name in set(names):
+            text = re.sub(rf"\b{name}\b", f"({known[name][1]})".replace("\\", " "), text)
+    plain = NUMBER.sub(lambda match: str(int(match[1], 0)), text).replace("/", "//")
+    if not plain.strip() or ARITHMETIC.sub("", plain.replace("//", "/")):
+        return None
+    try:
+        return int(eval(plain, {"__builtins__": {}}))  # noqa: S307  digits and operators alone
+    except (SyntaxError, ValueError, TypeError, ZeroDivisionError):
+        return None
+
+
 def closing(text: str, start: int) -> int:
     """The index behind the parenthesis that closes the one at `start`."""
     depth = 0

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from . import cbmc, csource, frames, gappa, targets, wp
+from . import cbmc, csource, frames, gappa, targets, verdict, wp
 from .cache import digest
 from .driver import Job
 from .goals import read_goals
@@ -44,9 +44,9 @@ def placeless(options: Iterable[str], root: Path) -> list[str]:
 
 def _prove(
     prover: wp.Wp, target: targets.Target, stages: Sequence[wp.Stage], allowed: Sequence[str],
-    recorded: Mapping[str, str],
+    recorded: Mapping[str, str], room: int,
 ) -> dict[str, Any]:  # fmt: skip
-    return prover.prove(target, stages, True, allowed, recorded).as_dict()
+    return prover.prove(target, stages, True, allowed, recorded, room).as_dict()
 
 
 def wp_key(
@@ -65,30 +65,27 @@ def wp_key(
 
 def survey_jobs(
     units: Iterable[Unit], prover: wp.Wp, root: Path, stamp: Mapping[str, str],
-    known: frozenset[str],
+    known: frozenset[str], exceptions: Mapping[str, Exceptions],
 ) -> list[Job]:  # fmt: skip
-    """A job for each unit: does Frama-C see functions that this driver would prove nowhere?"""
+    """A job for each file that WP proves: is there a function in it that this driver would prove
+    nowhere, or anything that its annotations take for granted?"""
     jobs = []
+    elsewhere = known.union(*(one.no_body for one in exceptions.values()))
     for unit in units:
-        file = targets.translation_unit(unit)
+        for file in (targets.translation_unit(unit), *unit.theorems):
 
-        def execute(unit: Unit = unit, file: Path = file) -> dict[str, Any]:
-            log = prover.survey(file)
-            problems = [
-                f"{unit.name}: Frama-C sees the function {name}, which the driver does not"
-                for name in log.functions
-                if name not in known
-            ]
-            if not log.functions:
-                problems.append(f"{unit.name}: Frama-C sees no function: {log.messages}")
-            return targets.Result(problems=problems).as_dict()
+            def execute(_room: int, file: Path = file) -> dict[str, Any]:
+                log = prover.survey(file)
+                problems = verdict.survey_problems(log, shown(file, root), elsewhere)
+                return targets.Result(problems=problems).as_dict()
 
-        def key(file: Path = file) -> str:
-            files = closure(root, [file])
-            text = {shown(path, root): path.read_text("utf-8") for path in files}
-            return digest({"survey": text, "stamp": dict(stamp), "known": sorted(known)})
+            def key(file: Path = file) -> str:
+                files = closure(root, [file])
+                text = {shown(path, root): path.read_text("utf-8") for path in files}
+                return digest({"survey": text, "stamp": dict(stamp), "known": sorted(elsewhere)})
 
-        jobs.append(Job(unit.name, "wp", "survey", key, execute))
+            theorem = f"{file.stem}:" if file in unit.theorems else ""
+            jobs.append(Job(unit.name, "wp", f"{theorem}survey", key, execute))
     return jobs
 
 
@@ -161,7 +158,7 @@ def gappa_jobs(
             for path in paths:
 
                 def execute(
-                    path: Path = path, judge: Callable[[Path], gappa.Result] = judge
+                    _room: int, path: Path = path, judge: Callable[[Path], gappa.Result] = judge
                 ) -> dict[str, Any]:
                     return judge(path).as_dict()
 
@@ -170,8 +167,8 @@ def gappa_jobs(
 
 
 def _harness_job(harness: Harness, checker: cbmc.Cbmc, root: Path, stamp: Mapping[str, str]) -> Job:
-    def execute() -> dict[str, Any]:
-        return checker.prove(harness).as_dict()
+    def execute(room: int) -> dict[str, Any]:
+        return checker.prove(harness, room).as_dict()
 
     key = functools.partial(cbmc_key, harness, checker, root, stamp)
     return Job(harness.unit.name, "cbmc", harness.name, key, execute)
@@ -180,8 +177,8 @@ def _harness_job(harness: Harness, checker: cbmc.Cbmc, root: Path, stamp: Mappin
 def _wrong_job(
     wrong: WrongBody, harness: Harness, checker: cbmc.Cbmc, root: Path, stamp: Mapping[str, str]
 ) -> Job:
-    def execute() -> dict[str, Any]:
-        return checker.refute(wrong, harness).as_dict()
+    def execute(room: int) -> dict[str, Any]:
+        return checker.refute(wrong, harness, room).as_dict()
 
     key = functools.partial(cbmc_key, harness, checker, root, stamp, wrong)
     return Job(wrong.unit.name, "negative", wrong.name, key, execute)

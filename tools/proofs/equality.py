@@ -18,14 +18,17 @@ from .csource import Call
 from .declarations import Parameter, Signature, Structures, read, signatures
 from .harness import Harness
 from .project import closure
-from .sameness import FLOATS, Comparers
+from .sameness import FLOATS, Comparers, Same
 from .syntax import Node, written
 
-# What may be anything, as far as there is room.
-ANY = re.compile(r"(?:nondet|any)_\w+\(\)|any_below\([A-Z]\w*\)")
+# The head of a loop over a whole array.
+WHOLE = re.compile(
+    r"\(uint32_t (?P<name>\w+) = 0u; (?P=name) < (?P<size>\w+); (?:(?P=name)\+\+|\+\+(?P=name))\)"
+)
 
 # What writes a variable.
 WRITES = ("assignment_expression", "update_expression", "init_declarator")
+JUMPS = ("break_statement", "continue_statement", "goto_statement")
 # What is around a place that not every execution reaches.
 CONDITIONAL = frozenset([
     "if_statement", "while_statement", "do_statement", "switch_statement", "conditional_expression",
@@ -48,7 +51,6 @@ class Reading:
     harness: str
     compares: bool = False
     problems: list[str] = field(default_factory=list)
-    bounds: list[str] = field(default_factory=list)
 
 
 class Reader:
@@ -71,12 +73,13 @@ class Reader:
         reading.compares = bool(model)
         if not model:
             return reading
-        reading.bounds = bounds(harness, body, code[0] if code else None)
         if len(code) != 1 or len(model) != 1:
             reading.problems.append(f"must call {self._function} and {self._model} once each")
             return reading
         texts = read(closure(harness.unit.root, [harness.path]))
-        comparison = _Comparison(body, code[0], model[0], texts, self._structures)
+        comparison = _Comparison(
+            body, (code[0], model[0]), texts, self._structures, harness.defines
+        )
         reading.problems += comparison.start()
         reading.problems += comparison.results(self._signature.result, self._structures)
         for number, parameter in enumerate(self._signature.parameters):
@@ -88,12 +91,12 @@ class _Comparison:
     """Two calls in a body, and what is asserted of them."""
 
     def __init__(
-        self, body: str, code: Call, model: Call, texts: Sequence[str], structures: Structures
+        self, body: str, calls: tuple[Call, Call], texts: Sequence[str], structures: Structures,
+        defines: Sequence[str],
     ) -> None:  # fmt: skip
         self._body = body
-        self._code = code
-        self._model = model
-        self._comparers = Comparers(texts, structures)
+        self._code, self._model = calls
+        self._comparers = Comparers(texts, structures, defines)
         self._claims = claims(body, texts)
 
     def start(self) -> list[str]:
@@ -104,6 +107,8 @@ class _Comparison:
                 problems.append(f"{written(call.node)} is not called in every execution")
         if syntax.found(syntax.parse(self._body), "return_statement"):
             problems.append("a harness that returns early may assert nothing")
+        if syntax.found(syntax.parse(self._body), *JUMPS):
+            problems.append("a harness that jumps may pass its assertions by")
         return problems
 
     def _taken(self, call: Call) -> str:
@@ -142,7 +147,10 @@ class _Comparison:
         last = max(self._code, self._model, key=lambda call: call.start)
         place = loops(last.node)
         for claim in self._claims:
-            if claim.call.end <= last.start or loops(claim.call.node) != place:
+            heads = loops(claim.call.node)
+            if claim.call.end <= last.start or place is None or heads is None:
+                continue
+            if heads[: len(place)] != place:
                 continue
             name = _compares(claim.text, pair, type_ in structures or type_ in FLOATS)
             if name is not None:
@@ -155,7 +163,8 @@ class _Comparison:
         """What is wrong with a claim that two things are the same."""
         problems = []
         calls = (self._code, self._model)
-        between = (min(call.end for call in calls), claim.call.end)
+        over = self._over(claim)
+        between = (min(call.end for call in calls), over[-1].end_byte if over else claim.call.end)
         for one in pair:
             root = re.match(r"\w+", one)
             calls_it = one in [written(call.node) for call in calls]
@@ -166,8 +175,10 @@ class _Comparison:
             if not same:
                 return [*problems, f"{name} does not compare two {type_}"]
             problems += self._comparers.problems(same)
-            problems += [f"{name}: {index} is not arbitrary" for index in self._indices(claim)]
-        elif type_ in FLOATS and name != "float_same":
+            problems += self._indices(claim, same)
+        elif over:
+            problems.append(f"{' and '.join(pair)}: asserted in a loop of its own")
+        if type_ in FLOATS and name != "float_same":
             problems.append(f"{' and '.join(pair)}: floats are compared by float_same")
         return problems
 
@@ -179,15 +190,85 @@ class _Comparison:
             for node, name, value in _assigned(self._body)
         )
 
-    def _indices(self, claim: Claim) -> list[str]:
-        """The indices of a claim that are not just any."""
-        [call] = csource.calls(syntax.expression(claim.text), r"\w+_same")
-        arbitrary = {
-            name
-            for _, name, value in _assigned(self._body)
-            if value and ANY.fullmatch(written(value))
-        }
-        return [index for index in call.arguments[2:] if index not in arbitrary]
+    def _over(self, claim: Claim) -> list[Node]:
+        """The loops around a claim that are not around the calls, from within."""
+        last = max(self._code, self._model, key=lambda call: call.start)
+        around = _loops_around(claim.call.node)
+        return around[len(_loops_around(last.node)) :][::-1]
+
+    def _indices(self, claim: Claim, same: Same) -> list[str]:
+        """The indices of a claim that are not all of those that an array has."""
+        [call] = csource.calls(syntax.expression(claim.text), rf"{same.name}")
+        given = call.arguments[2:]
+        sizes = self._comparers.sizes(same)
+        if len(given) != len(sizes):
+            return [f"{same.name} is given {len(given)} indices, not {len(sizes)}"]
+        problems = []
+        every = self._whole_loops(claim)
+        if every is None:
+            return [f"{same.name}: a loop around it does more than assert at every index"]
+        for index, wanted in zip(given, sizes.values(), strict=True):
+            size = every.get(index) or self._any_below(index)
+            if not size:
+                problems.append(f"{same.name}: {index} is not arbitrary")
+            problems += [
+                f"{same.name}: {index} is below {size}, and an array has {one} places"
+                for one in sorted(wanted)
+                if size and not self._comparers.equal(size, one)
+            ]
+        return problems
+
+    def _whole_loops(self, claim: Claim) -> dict[str, str] | None:
+        """The variables of the loops around a claim, each with what it stays below; None if one of
+        the loops is none that does nothing but assert."""
+        every: dict[str, str] = {}
+        for loop in self._over(claim):
+            head = loops_head(loop)
+            match = WHOLE.fullmatch(head)
+            body = loop.child_by_field_name("body")
+            if not match or not body or not _asserts_alone(body):
+                return None
+            every[match["name"]] = match["size"]
+        return every
+
+    def _any_below(self, index: str) -> str:
+        """What an arbitrary index stays below; "" if it is none, or is written again."""
+        values = [value for _, name, value in _assigned(self._body) if name == index]
+        if len(values) != 1 or not values[0]:
+            return ""
+        match = re.fullmatch(r"any_below\(\s*(\w+)\s*\)", written(values[0]))
+        return match[1] if match else ""
+
+
+def _loops_around(node: Node) -> list[Node]:
+    """The loops around a node, from without."""
+    every: list[Node] = []
+    while node.parent:
+        body = node.parent.child_by_field_name("body")
+        if node.parent.type == "for_statement" and body == node:
+            every.insert(0, node.parent)
+        node = node.parent
+    return every
+
+
+def loops_head(loop: Node) -> str:
+    """What stands in the parentheses of a `for`, with them."""
+    body = loop.child_by_field_name("body")
+    head = loop.text[: body.start_byte - loop.start_byte].decode() if body and loop.text else ""
+    return " ".join(head.split()).removeprefix("for ")
+
+
+def _asserts_alone(body: Node) -> bool:
+    """Whether a loop's body does nothing but assert, in loops of its own perhaps."""
+    inner = body.named_children if body.type == "compound_statement" else [body]
+    for one in inner:
+        if one.type == "for_statement":
+            within = one.child_by_field_name("body")
+            if not within or not _asserts_alone(within):
+                return False
+        elif one.type != "comment" and not re.match(r"__CPROVER_assert\b", written(one)):
+            return False
+    return True
 
 
 def _root(node: Node | None) -> str:
@@ -253,9 +334,8 @@ def loops(node: Node) -> tuple[str, ...] | None:
     while node.parent and node.parent.parent and node.parent.parent.parent:
         around = node.parent
         body = around.child_by_field_name("body")
-        if around.type == "for_statement" and body and around.text:
-            head = around.text[: body.start_byte - around.start_byte].decode()
-            heads.insert(0, " ".join(head.split()).removeprefix("for "))
+        if around.type == "for_statement" and body:
+            heads.insert(0, loops_head(around))
         elif around.type in CONDITIONAL or _skipped(around, node):
             return None
         node = around
@@ -316,16 +396,3 @@ def _replaced(node: Node, values: Mapping[str, str]) -> str:
         values.get(written(one), written(one)) if one.type == "identifier" else written(one)
         for one in words
     )
-
-
-def bounds(harness: Harness, body: str, call: Call | None) -> list[str]:
-    """What a harness narrows: numbers it defines and draws, what it assumes and takes as proved."""
-    narrowed = csource.calls(body, r"any_bits\w*")
-    assumed = [one.arguments[0] for one in csource.calls(body, "__CPROVER_assume")]
-    return [
-        *(word.removeprefix("-D") for word in harness.defines),
-        *dict.fromkeys(written(one.node) for one in narrowed),
-        *assumed,
-        *(f"for {head}" for head in (loops(call.node) if call else None) or ()),
-        *(f"{name} by its contract" for name in harness.replaces),
-    ]

@@ -34,11 +34,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import csource
-from .project import ProjectError, Unit, closure, find_file
+from .project import KEEL, ProjectError, Unit, closure, find_file
 
 HARNESS_KEYS = frozenset("cbmc sources covers reach defines timeout entry replaces checks".split())
 # What is meant as a directive, but is none of a harness.
 STRAY_KEYS = frozenset("harness expect source cover wp".split())
+# A smaller size, or a switch of the harness's own: what replaces code or an assertion is none.
+DEFINE = re.compile(r"-D[A-Z][A-Z0-9_]*(?:=\d+u?)?")
 DIRECTIVE = re.compile(r"^// ?(\w+): *(.*?)\s*$")
 
 # Options that choose how CBMC searches. None of them makes it overlook anything: unwinding too
@@ -57,8 +59,11 @@ OPTIONS = {
 # depends on which it is.
 SOLVERS = frozenset(["--external-sat-solver", "--z3", "--fpa"])
 EXTERNAL = ("cadical",)
+ANSWERING = ("--external-sat-solver", "--z3", "--refine")
 # Where models stand: they are compared, and bear no checks of their own.
 MODELS = "specs/model"
+# What harnesses link: the code that is built, and models. A copy would drift.
+LINKED = ("src", MODELS)
 
 
 def directives(path: Path) -> dict[str, list[str]]:
@@ -90,6 +95,8 @@ def search_options(path: Path, lines: list[str]) -> list[str]:
             raise ProjectError(f"{path}: a harness may not use {word}; it may: {' '.join(OPTIONS)}")
         else:
             expect_value = OPTIONS[word]
+    if sum(word in ANSWERING for word in words) > 1:
+        raise ProjectError(f"{path}: one solver answers, and CBMC does not say which: name one")
     return words
 
 
@@ -139,8 +146,6 @@ def read_harness(unit: Unit, path: Path) -> Harness:
     """Read a harness's directives."""
     given = directives(path)
     defines = tuple(" ".join(given.get("defines", [])).split())
-    if any(not word.startswith("-D") for word in defines):
-        raise ProjectError(f"{path}: `defines` takes -DNAME=VALUE only")
     if given.get("entry", [path.stem]) != [path.stem]:
         raise ProjectError(f"{path}: the entry of a harness bears the name of its file")
     checks = given.get("checks", [])
@@ -154,6 +159,17 @@ def read_harness(unit: Unit, path: Path) -> Harness:
     for source in sources:
         if not source.is_file():
             raise ProjectError(f"{path}: there is no source {source.relative_to(unit.root)}")
+        homes = (root / place for root in (unit.root, KEEL) for place in LINKED)
+        if not any(source.is_relative_to(home) for home in homes):
+            raise ProjectError(
+                f"{path}: {source.name} is linked from elsewhere than {' or '.join(LINKED)}"
+            )
+    for word in defines:
+        if not (DEFINE.fullmatch(word) or _is_left_to_builds(word, sources)):
+            raise ProjectError(
+                f"{path}: `defines` takes -DNAME=NUMBER, NAME in capitals, or a macro that a source"
+                f" leaves to builds: {word}"
+            )
     return Harness(
         unit=unit, path=path, sources=sources, defines=defines,
         options=tuple(search_options(path, given.get("cbmc", []))),
@@ -163,6 +179,15 @@ def read_harness(unit: Unit, path: Path) -> Harness:
         assertions_only=bool(checks),
         reach=tuple(search_options(path, given.get("reach", []))),
     )  # fmt: skip
+
+
+def _is_left_to_builds(word: str, sources: Iterable[Path]) -> bool:
+    """Whether a definition is of a macro with arguments of which a source says that a build may
+    define it."""
+    named = re.match(r"-D(KEEL_[A-Z0-9_]+)\(", word)
+    return named is not None and any(
+        f"#ifndef {named[1]}\n" in source.read_text(encoding="utf-8") for source in sources
+    )
 
 
 def text_problems(harness: Harness) -> list[str]:

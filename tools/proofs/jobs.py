@@ -14,6 +14,8 @@ from pathlib import Path
 from types import FrameType
 from typing import Protocol, TypeVar
 
+from common import limits
+
 T = TypeVar("T")
 
 
@@ -34,6 +36,7 @@ class Runner:
     """Starts programs in process groups of their own, so that all of a group can be ended."""
 
     def __init__(self, environment: dict[str, str], folder: Path) -> None:
+        """Take the whole environment, and the folder in which programs run."""
         # Frama-C believes PWD rather than its working directory.
         self._environment = {**environment, "PWD": str(folder), "LC_ALL": "C"}
         self._folder = folder
@@ -45,10 +48,13 @@ class Runner:
         self, command: Sequence[str], timeout: float | None = None, merged: bool = True,
         extra: dict[str, str] | None = None,
     ) -> Finished:  # fmt: skip
-        """Run a program to its end; its output is both streams, or stdout if not `merged`."""
+        """Run a program to its end; its output is both streams, or stdout if not `merged`.
+
+        The time-out is of processor time (limits.py).
+        """
         process = self._start(command, merged, {**self._environment, **(extra or {})})
         try:
-            output, _ = process.communicate(timeout=timeout)
+            output, _ = limits.communicate(process, timeout)
             return Finished(process.returncode, output)
         except subprocess.TimeoutExpired:
             self._kill(process)

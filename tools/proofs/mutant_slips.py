@@ -4,12 +4,16 @@
 Wrong order, a stale value, the neighbour's field or index, a check that comes too late, a clause
 forgotten, an update left out in one branch, two arguments exchanged, another constant of the same
 kind. All of them are generated, wherever the text allows; none is picked.
+
+And slips that show beyond a bound alone: of what is proved within a bound, another body above it
+would pass. An index or a count comes round, a loop ends, a condition changes, at a number that no
+value within the bound reaches. None has a block of its own, which coverage would notice.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from . import csource
@@ -33,6 +37,8 @@ COMPUTES = re.compile(
 SIDE_EFFECT = re.compile(r"\+\+|--|(?<![=!<>])=(?!=)")
 LOCAL = re.compile(r"(?:[\w ]+[\s*]+)?\w+\s*[-+*/|&]?=(?!=)")
 CALL = re.compile(r"\b([a-z_]\w*)\s*\(")
+MOST = 1 << 31  # Numbers beyond bounds stay below.
+INTEGER = re.compile(r"u?int(?:8|16|32)_t")
 CONSTANT = re.compile(r"[A-Z][A-Z0-9]*_[A-Z0-9_]+")
 FUNCTION = re.compile(r"[a-z_]\w*")
 
@@ -53,13 +59,32 @@ class Surroundings:
 
     structures: Structures = field(default_factory=dict)
     families: tuple[tuple[str, ...], ...] = ()
+    # By functions: numbers that nothing within the bounds reaches within which they are proved.
+    beyond: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
 
 
-def surroundings(texts: Iterable[str]) -> Surroundings:
-    """Structures and families of constants of these texts."""
+def surroundings(
+    texts: Iterable[str], beyond: Mapping[str, tuple[int, ...]] | None = None
+) -> Surroundings:
+    """Structures and families of constants of these texts, with numbers beyond bounds."""
     every = list(texts)
     families = [family for text in every for family in _families(text)]
-    return Surroundings(structures(every), tuple(families))
+    return Surroundings(structures(every), tuple(families), beyond or {})
+
+
+def numbers_beyond(bounds: Iterable[str]) -> tuple[int, ...]:
+    """Of bounds as proofs/determined.md has them: for each the next power of two above it, which
+    no size, count or index within it reaches."""
+    found_ones = set()
+    for bound in bounds:
+        text = re.sub(r"\(\d+ is shipped\)", "", bound)
+        for bits in re.findall(r"\bany_bits(?:64)?\((\d+)", text):
+            found_ones.add(1 << int(bits))
+        text = re.sub(r"\bany_bits\w*\(.*?\)", "", text)
+        for number in re.findall(r"(?:=|<=|<|\[|any_below\()\s*(\d+)", text):
+            if int(number) > 1:
+                found_ones.add(1 << int(number).bit_length())
+    return tuple(sorted(one for one in found_ones if one < MOST))
 
 
 def _families(text: str) -> Iterator[tuple[str, ...]]:
@@ -139,6 +164,70 @@ def changes(text: str, code: str, block: Node, around: Surroundings) -> Iterator
     yield from _indices(block)
     yield from _arguments(code, block)
     yield from _constants(block, around.families)
+
+
+def changes_beyond(
+    code: str, block: Node, numbers: Iterable[int], known: Structures
+) -> Iterator[Change]:  # fmt: skip
+    """Slips that show at these numbers, or above, alone."""
+    for number in numbers:
+        for node in found(block, "subscript_expression"):
+            index = node.child_by_field_name("index")
+            if index and index.type == "identifier" and not CONSTANT.fullmatch(written(index)):
+                yield Change("beyond", *span(index), f"{written(index)} % {number}u")
+        for node in found(block, "binary_expression"):
+            yield from _relation_beyond(code, node, number)
+        for node in found(block, "for_statement", "while_statement", "do_statement"):
+            yield from _loop_beyond(code, node, number, known)
+
+
+def _relation_beyond(code: str, node: Node, number: int) -> Iterator[Change]:
+    """A size that comes round in a comparison; a comparison that comes out otherwise above."""
+    left, operator, right = node.children
+    if operator.type not in ("<", "<=", ">", ">="):
+        return
+    for side in (left, right):
+        name = written(side)
+        if side.type in ("identifier", "field_expression") and not CONSTANT.fullmatch(name):
+            yield Change("beyond", *span(side), f"({name} % {number}u)")
+            text = code[slice(*span(node))]
+            yield Change("beyond", *span(node), f"(({text}) || ({name} >= {number}u))")
+            yield Change("beyond", *span(node), f"(({text}) && ({name} < {number}u))")
+
+
+def _loop_beyond(code: str, node: Node, number: int, known: Structures) -> Iterator[Change]:
+    """A loop that ends by its head before what it counts comes so far; or, where it counts nothing
+    itself, while a number beside what it looks at is so large."""
+    condition = node.child_by_field_name("condition")
+    if condition and condition.type == "parenthesized_expression":
+        condition = condition.named_children[0]
+    if not condition:
+        return
+    counted = {
+        written(one.child_by_field_name("argument") or one.child_by_field_name("left"))
+        for one in found(node, "update_expression", "assignment_expression")
+    }
+    text = code[slice(*span(condition))]
+    looked_at = [name for name in sorted(counted) if _is_in(name, text)]
+    for name in looked_at or _numbers_beside(condition, known):
+        yield Change("beyond", *span(condition), f"({text}) && ({name} < {number}u)")
+
+
+def _is_in(name: str, text: str) -> bool:
+    """Whether a text has a variable or a field, as a whole."""
+    return bool(re.search(rf"(?<![\w>.]){re.escape(name)}(?!\w|->|\.)", text))
+
+
+def _numbers_beside(condition: Node, known: Structures) -> Iterator[str]:
+    """The whole numbers of the structure whose fields a condition looks at."""
+    for node in found(condition, "field_expression"):
+        field_name = written(node.child_by_field_name("field"))
+        start = written(node).removesuffix(field_name)
+        for fields in known.values():
+            if any(one.name == field_name for one in fields):
+                for one in fields:
+                    if INTEGER.fullmatch(one.type) and not one.pointer and not one.size:
+                        yield f"{start}{one.name}"
 
 
 def _order(text: str, code: str, own: list[Item]) -> Iterator[Change]:

@@ -146,11 +146,18 @@ def find_file(root: Path, name: str) -> Path:
     return own if own.exists() or not (KEEL / name).is_file() else KEEL / name
 
 
-def resolve(root: Path, including: Path, name: str) -> Path:
-    """The project's file behind an #include with quotation marks."""
-    for folder in (including.parent, *include_folders(root)):
+def resolve(root: Path, including: Path, name: str, quoted: bool = True) -> Path | None:
+    """The project's file behind an #include; None for a header of the compiler's own.
+
+    The order is the preprocessor's: a header of the project hides the compiler's of that name.
+    """
+    if Path(name).is_absolute() or (not quoted and ".." in Path(name).parts):
+        raise ProjectError(f"{shown(including, root)} includes {name}: give a place below include/")
+    for folder in (*([including.parent] if quoted else []), *include_folders(root)):
         if (folder / name).is_file():
             return (folder / name).resolve()
+    if not quoted:
+        return None
     raise ProjectError(f"{shown(including, root)} includes {name}, which is not there")
 
 
@@ -162,5 +169,6 @@ def closure(root: Path, files: list[Path]) -> list[Path]:
         path = waiting.pop()
         if path not in seen:
             seen.add(path)
-            waiting += [resolve(root, path, name) for name in csource.includes(csource.read(path))]
+            named = csource.includes(csource.read(path))
+            waiting += filter(None, (resolve(root, path, *one) for one in named))
     return sorted(seen)

@@ -15,6 +15,7 @@ from . import cbmc_answers, determined
 from .driver import Job, Outcome
 from .project import Unit
 from .settings import Exceptions
+from .theorems import labels
 from .times import Forecast, Times, estimates
 
 EXPLAINED = 5  # commands that a summary names
@@ -162,6 +163,19 @@ class Gathered:
         self.fresh += not outcome.cached
 
     @property
+    def requirements(self) -> set[str]:
+        """Those of which a goal or an assertion is proved, and none is not."""
+        goals = {
+            text: one.get("status") in ("Valid", "SUCCESS")
+            for outcome in self.outcomes
+            for kind in ("goals", "properties")
+            for one in outcome.result.get(kind, ())
+            for text in (f"{outcome.job.label} {one.get('name')} {one.get('description', '')}",)
+        }
+        proved = labels(text for text, good in goals.items() if good)
+        return proved - labels(text for text, good in goals.items() if not good)
+
+    @property
     def wp_total(self) -> int:
         """WP's goals."""
         return sum(unit.wp_total for unit in self.units.values())
@@ -288,6 +302,12 @@ def closing_lines(gathered: Gathered) -> list[str]:
         f"to see why: make prove UNIT={unit} ARGS='--explain {name}'"
         for unit, name in gathered.open[:EXPLAINED]
     ]
+    if given_up := [one.job for one in gathered.outcomes if one.result.get("gave_up")]:
+        units = " ".join(dict.fromkeys(job.unit for job in given_up))
+        lines.append(
+            f"{len(given_up)} jobs came to a limit of their processor time, which refutes nothing:"
+            f" with more time, make prove UNIT='{units}' ARGS='--patience 8'"
+        )
     for name, unit in gathered.units.items():
         if unit.exceptions.not_by_wp and "wp" in gathered.engines:
             left = len(unit.exceptions.not_by_wp)

@@ -29,12 +29,13 @@ def assumptions_in(files: Iterable[Path], root: Path) -> list[str]:
     return problems
 
 
-def endless_ghosts(files: Iterable[Path]) -> list[str]:
-    """Ghost functions that lead back to themselves: each would rest on its own contract."""
+def endless(files: Iterable[Path]) -> list[str]:
+    """Functions, ghosts too, that lead back to themselves: each would rest on its own contract."""
     bodies: dict[str, str] = {}
     for path in dict.fromkeys(files):
-        bodies |= csource.ghosts(csource.read(path))
-    called = {name: {other for other in bodies if csource.calls(body, other)}
+        text = csource.with_ghosts(csource.read(path))
+        bodies |= {one.name: csource.body_of(text, one.name) for one in csource.defined(text)}
+    called = {name: {call.name for call in csource.calls(body, r"\w+")} & bodies.keys()
               for name, body in bodies.items()}  # fmt: skip
     problems = []
     for name in called:
@@ -46,8 +47,18 @@ def endless_ghosts(files: Iterable[Path]) -> list[str]:
                 reached.add(other)
                 waiting += called[other]
         if name in reached:
-            problems.append(f"the ghost function {name} calls itself: what ends its argument?")
+            problems.append(f"the function {name} calls itself: what ends its argument?")
     return problems
+
+
+def strays(root: Path, units: Iterable[Unit]) -> list[str]:
+    """Code that belongs to no unit, and so is proved nowhere."""
+    own = {path for unit in units for path in unit.own_files}
+    return [
+        f"{path.relative_to(root)}: it belongs to no unit, so nobody proves it"
+        for path in sorted((root / "src").rglob("*.[ch]"))
+        if path not in own
+    ]
 
 
 def switched_off_checks(files: Iterable[Path], root: Path) -> list[str]:

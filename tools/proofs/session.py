@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import shutil
 import sys
 import tempfile
@@ -14,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from common.files import write_text
-from toolchain import Toolchain
+from toolchain import Toolchain, small_environment
 
 from . import (
     assertions,
@@ -22,26 +21,28 @@ from . import (
     clauses,
     csource,
     determined,
+    disguises,
     driver,
     engines,
     explain,
     exports,
     frames,
     gappa,
+    harness_rules,
     report,
     rules,
     shards,
+    theorems,
     unused,
     wp,
 )
 from .cache import Cache
-from .declarations import structures
 from .goals import PRUNED, as_text, read_goals, short_name
 from .harness import read_harness, unchecked
 from .jobs import Runner
-from .project import RECORDED_TIMES, Unit, closure, find_units
+from .project import KEEL, RECORDED_TIMES, Unit, closure, find_units
 from .settings import Exceptions, read_exceptions
-from .stamps import prover_answers, tool_stamp, verdict_stamp
+from .stamps import headers_digest, prover_answers, tool_stamp, verdict_stamp
 from .times import Times, read_times, recorded_anew
 from .times import as_text as times_text
 
@@ -58,7 +59,11 @@ class Choice:
     verdicts: Path
     fresh: bool = False
     quick: bool = False
+    # How many times the usual limits of processor time provers have.
+    patience: int = 1
     update_goals: bool = False
+    # The sizes that a build chooses, as -DNAME=NUMBER; none: those that are shipped.
+    defines: tuple[str, ...] = ()
     # A part of the jobs, or the reports of all parts.
     shard: shards.Shard | None = None
     join: tuple[Path, ...] = ()
@@ -79,8 +84,8 @@ class Session:
         """What starts programs, and a folder for what they write; both end with the block."""
         # Not below build/: why3 puts a socket there, whose path must be short.
         scratch = Path(tempfile.mkdtemp(prefix="keel-prove-"))
-        environment = {**os.environ, **self._tools.environment(), "TMPDIR": str(scratch)}
-        runner = Runner(environment, self._root)
+        tools = {**self._tools.environment(), "TMPDIR": str(scratch)}
+        runner = Runner(small_environment(tools), self._root)
         try:
             yield runner, scratch
         finally:
@@ -129,8 +134,19 @@ class Session:
                 self._build / "determined.md", determined.as_markdown(gathered.decided)
             )
         exports.write(self._build, gathered)
+        if gathered.success and not gathered.shard:
+            told = theorems.told(self._root, gathered.requirements)
+            print("\n".join([*told, *self._what_is_left()]), flush=True)
         print("\n".join(report.closing_lines(gathered)), flush=True)
         return 0 if gathered.success else 1
+
+    def _what_is_left(self) -> list[str]:
+        """How to go on after a run that was not of all units."""
+        left = [name for name in find_units(self._root)
+                if name not in [unit.name for unit in self._choice.units]]  # fmt: skip
+        if not left or self._root != KEEL:
+            return []
+        return [f"not looked at: {len(left)} units ({', '.join(left)}): make prove-all"]
 
     def _prove(self, runner: Runner, scratch: Path) -> report.Gathered:
         """Have the verdicts of the choice, and apply the rules."""
@@ -142,7 +158,8 @@ class Session:
             choice.engines,
         )
         tools = tool_stamp(self._tools.versions("prove"))
-        stamps = {engine: verdict_stamp(engine, tools) for engine in choice.engines}
+        headers = headers_digest(self._tools.header_folders())
+        stamps = {engine: verdict_stamp(engine, tools, headers) for engine in choice.engines}
         jobs = self._jobs(runner, scratch, stamps, everything, exceptions)
         times = Times(self._build / "times.json", self._root / RECORDED_TIMES)
         made_of = shards.origin(jobs, stamps) if choice.shard or choice.join else {}
@@ -155,7 +172,8 @@ class Session:
                 console.done(outcome)
         else:
             cache = Cache(choice.verdicts, choice.fresh)
-            outcomes = driver.run_jobs(jobs, cache, runner, choice.width, times, console.done)
+            pool = driver.Pool(choice.width, choice.patience, again=not choice.quick)
+            outcomes = driver.run_jobs(jobs, cache, runner, pool, times, console.done)
             times.save()
             cache.prune()
         for outcome in outcomes:
@@ -201,14 +219,16 @@ class Session:
 
     def _checker(self, runner: Runner, scratch: Path) -> cbmc.Cbmc:
         return cbmc.Cbmc(
-            self._tools.goto_cc(), self._tools.command("cbmc"), runner, self._root, scratch
-        )
+            self._tools.goto_cc(), self._tools.command("cbmc"), runner, self._root, scratch,
+            self._choice.defines,
+        )  # fmt: skip
 
     def _prover(self, runner: Runner, scratch: Path) -> wp.Wp:
         answers = prover_answers(self._root, tool_stamp(self._tools.versions("prove")))
         return wp.Wp(
             self._tools.frama_c(), runner, self._root, scratch,
             None if self._choice.fresh else answers, self._tools.command("ocamlfind"),
+            self._choice.defines,
         )  # fmt: skip
 
     def _wp_jobs(
@@ -226,7 +246,7 @@ class Session:
         stages = wp.QUICK if choice.quick else wp.THOROUGH
         place = (self._root, stamp)
         return [
-            *engines.survey_jobs(choice.units, prover, *place, known),
+            *engines.survey_jobs(choice.units, prover, *place, known, exceptions),
             *engines.wp_jobs(choice.units, prover, *place, exceptions, stages),
         ]
 
@@ -236,12 +256,22 @@ class Session:
         own = [path for unit in self._choice.units for path in (*unit.own_files, *unit.theorems)]
         shared = [*(root / "include").glob("keel/*.h"), *(root / "specs").glob("**/*.[ch]")]
         gathered.problems += rules.assumptions_in([*own, *sorted(shared)], root)
-        gathered.problems += rules.endless_ghosts(own)
+        everything = find_units(root)
+        gathered.problems += rules.endless(
+            path for unit in everything.values() for path in (*unit.own_files, *unit.theorems)
+        )
+        gathered.problems += rules.strays(root, everything.values())
+        allowed = read_exceptions(self._exceptions, list(everything))
+        accepted = {text for one in allowed.values() for text in one.conditionals}
+        gathered.problems += disguises.problems(root, accepted)
+        gathered.problems += harness_rules.problems(root, everything.values())
         gathered.problems += unused.problems(root)
-        known = structures(clauses.header_texts(root))
+        decider = determined.Decider(root)
+        if self._choice.update_goals and determined.update_kept(root):
+            print(f"{determined.KEPT} rewritten: review the difference")
         for result in gathered.units.values():
             unit, exceptions = result.unit, result.exceptions
-            result.outcomes = determined.outcomes(unit, exceptions, known)
+            result.outcomes = decider.outcomes(unit)
             result.problems += [text for one in result.outcomes for text in one.problems]
             result.problems += rules.undefined_functions(unit, exceptions.no_body, root)
             result.problems += rules.left_by_wp(unit, exceptions.not_by_wp, root)
@@ -255,6 +285,9 @@ class Session:
             if "wp" in self._choice.engines:
                 self._check_warnings(result)
                 self._check_goal_list(result)
+        gathered.problems += determined.kept_problems(
+            root, decider, gathered.decided, not self._choice.partial
+        )
 
     @staticmethod
     def _check_warnings(result: report.UnitResult) -> None:

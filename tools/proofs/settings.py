@@ -8,10 +8,12 @@
     by_cbmc = [{ function = "f", clause = "label", harness = "f_harness", reason = "…" }]
     determined = [{ function = "keel_queue_find", by = "wp", reason = "…" }]
     warnings = [{ text = "part of a message of Frama-C", reason = "…" }]
+    conditionals = [{ text = "#ifdef MY_BOARD", reason = "…" }]
 
 Of a function under not_by_wp WP proves all but the postconditions, and that no result of floats
 overflows (frames.py); by_cbmc names what else WP does not prove of it. `determined` names the
 functions whose outcome no harness shows to be a model's (determined.py): by "wp", or by "nothing".
+`conditionals` are those of the preprocessor in what is built (disguises.py).
 An exception without a reason, or that nothing needs any more, is an error.
 """
 
@@ -31,7 +33,10 @@ KINDS = {
     "by_cbmc": ("function", "clause", "harness"),
     "determined": ("function", "by"),
     "warnings": ("text",),
+    "conditionals": ("text",),
 }
+# A shorter part of a message might be one of any message.
+TELLING = 20
 
 
 @dataclass
@@ -47,6 +52,7 @@ class Exceptions:
     by_cbmc: dict[str, str] = field(default_factory=dict)
     determined: dict[str, str] = field(default_factory=dict)
     warnings: dict[str, str] = field(default_factory=dict)
+    conditionals: dict[str, str] = field(default_factory=dict)
 
 
 def _read_kind(unit: str, kind: str, entries: Any) -> dict[str, str]:
@@ -61,6 +67,8 @@ def _read_kind(unit: str, kind: str, entries: Any) -> dict[str, str]:
             raise ProjectError(
                 f"units.toml: [{unit}] {kind}: each entry needs {' and '.join(sorted(wanted))}"
             )
+        if kind == "warnings" and len(str(entry["text"])) < TELLING:
+            raise ProjectError(f"units.toml: [{unit}] warnings: quote more of {entry['text']!r}")
         found[" ".join(str(entry[key]) for key in KINDS[kind])] = str(entry["reason"])
     return found
 

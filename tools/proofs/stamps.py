@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What verdicts depend on besides the text that they are about: tools, and the driver itself.
+"""What verdicts depend on besides the text that they are about: tools, and the driver's judges.
 
-A verdict of an engine depends on the tools that the engine may start, and on the sources of the
-driver but for those that serve other engines alone. Where it is not plain whom a source serves, it
-counts for all.
+A kept verdict of an engine rests on the tools that the engine may start, on what reads C, and on
+what asks that engine and reads its answers. All else finds work, prints, or looks at the whole anew
+in each run: a change of it voids nothing.
 """
 
 from __future__ import annotations
@@ -15,13 +15,14 @@ from pathlib import Path
 from toolchain import Found
 
 OWN = Path(__file__).resolve().parent
-# Makes mutants, or tells what others found: no verdict depends on it.
-NO_JUDGES = ("muta", "explain", "counterexample", "sequents", "exports", "report", "times")
+# What reads C, its parser being pinned, and how provers are started: for which target, under which
+# environment, with which limits.
+READERS = ("csource.py", "syntax.py", "requirements.txt", "../toolchain/provers.py")
 # What asks one engine, and reads its answers.
 SERVANTS = {
     "wp": (
-        "wp.py", "wplog.py", "verdict.py", "frama_modules.py", "ask_recorded.ml",
-        "find_contradictions.ml", "linear.py",
+        "wp.py", "wplog.py", "verdict.py", "targets.py", "frama_modules.py", "ask_recorded.ml",
+        "find_contradictions.ml", "find_assumptions.ml", "linear.py",
     ),
     "cbmc": ("cbmc.py", "cbmc_answers.py", "cbmc_build.py", "harness.py", "wrong.py"),
     "gappa": ("gappa.py",),
@@ -63,23 +64,24 @@ def started(engine: str, stamp: Mapping[str, str]) -> dict[str, str]:
     return {name: text for name, text in stamp.items() if name not in NOT_STARTED[engine]}
 
 
-def verdict_stamp(engine: str, tools: Mapping[str, str]) -> dict[str, str]:
-    """What a verdict of the engine depends on: tools and driver."""
-    return {**started(engine, tools), "driver": own_digest(engine)}
+def verdict_stamp(engine: str, tools: Mapping[str, str], headers: str) -> dict[str, str]:
+    """What a verdict of the engine depends on: tools, the compiler's headers, and the driver."""
+    return {**started(engine, tools), "headers": headers, "driver": own_digest(engine)}
+
+
+def headers_digest(folders: Iterable[Path]) -> str:
+    """SHA-256 over all headers in the folders, each with its name."""
+    state = hashlib.sha256()
+    for folder in folders:
+        for path in sorted(folder.rglob("*.h")):
+            state.update(f"{path.relative_to(folder)}\0".encode())
+            state.update(hashlib.sha256(path.read_bytes()).digest())
+    return state.hexdigest()
 
 
 def own_digest(engine: str, folder: Path = OWN) -> str:
-    """SHA-256 over the sources of the driver that may change a verdict of the engine. How the
-    provers are installed does not matter, how they are started does."""
-    # The parser of C is pinned there: another one may see other functions.
-    others = (folder / "requirements.txt", folder.parent / "toolchain/provers.py")
-    own = [*folder.glob("*.py"), *folder.glob("*.ml"), *others]
-    strangers = [name for other, names in SERVANTS.items() if other != engine for name in names]
-    return _digest_of(
-        path
-        for path in sorted(own)
-        if not path.stem.startswith(NO_JUDGES) and path.name not in strangers
-    )
+    """SHA-256 over the judges of an engine's verdicts."""
+    return _digest_of(folder / name for name in (*READERS, *SERVANTS[engine]))
 
 
 def judges_digest(engine: str, folder: Path = OWN) -> str:

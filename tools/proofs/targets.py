@@ -51,6 +51,8 @@ class Result:
     smoke: int = 0
     allowed: list[str] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
+    # Whether nothing is wrong but that provers came to the limit of their time.
+    gave_up: bool = False
     # Goals whose recorded prover did not prove them: that costs time, and nothing else.
     stale: list[str] = field(default_factory=list)
     # Goals for which it is recorded that WP had to search for branches that cannot be taken.

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from . import csource, goals, wplog
@@ -42,8 +42,11 @@ def judge(
     ]
     result.problems += _structure(target, log, report, output)
     result.problems += message_problems(log, allowed, result.allowed)
-    result.problems += _unproved(target, log, root)
     result.problems += loop_problems(target, log)
+    others = len(result.problems)
+    result.problems += _unproved(target, log, root)
+    # No prover refutes a goal here: each ends at a limit, of time or of what it tries.
+    result.gave_up = not others and all(log.smoke.values()) and not log.all_proved
     result.stale = _stale(log, recorded or {})
     # Their prover would be asked in vain in the pass for recorded provers, which does not search.
     result.pruned = [goal.name for goal in log.goals.values() if goal.passes in pruned]
@@ -58,6 +61,23 @@ def _stale(log: wplog.Log, recorded: Mapping[str, str]) -> list[str]:
         if goal.proved and before and now not in (before, goals.QED) and before != goals.PRUNED:
             found.append(f"{goal.name}: recorded is {before}, but {now} proved it")
     return found
+
+
+def survey_problems(log: wplog.Log, file: str, proved: Collection[str]) -> list[str]:
+    """What is wrong with a file as Frama-C sees it; `proved` are the functions proved anywhere.
+
+    Its annotations are read behind the preprocessor, which may have made them of anything.
+    """
+    if not log.surveyed:
+        return [f"{file}: Frama-C does not read it: {'; '.join(map(str, log.messages))}"]
+    return [
+        *(f"{text}: it is assumed, not proved; state a lemma or a contract"
+          for text in log.assumed),
+        *(f"{file}: Frama-C sees the function {name}, which the driver does not"
+          for name in log.functions if name not in proved),
+        *(f"{file}: {name} is declared here, and proved nowhere"
+          for name in log.declared if name not in proved),
+    ]  # fmt: skip
 
 
 def _structure(target: Target, log: wplog.Log, report: str, output: str) -> list[str]:
@@ -98,7 +118,7 @@ def _unproved(target: Target, log: wplog.Log, root: Path) -> list[str]:
         if not goal.proved:
             tried = ", ".join(dict.fromkeys(goal.attempts)) or goal.status
             place = place_of(target, goal.name, root)
-            problems.append(f"{goal.name} is not proved ({place}): {tried}")
+            problems.append(f"{goal.name} is not proved, provers gave up ({place}): {tried}")
     for name, passed in log.smoke.items():
         if not passed:
             seen = [m.place for m in log.messages if "Failed smoke-test" in m.text]

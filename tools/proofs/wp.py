@@ -14,8 +14,10 @@ import json
 import re
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+
+from toolchain.provers import CLOCK_PER_PROCESSOR
 
 from . import frames, wplog
 from .frama_modules import Modules
@@ -41,6 +43,7 @@ class Stage:
     """One pass over the goals that are still open. Several provers race for each goal."""
 
     provers: tuple[str, ...]
+    # Of the processor.
     seconds: int
     pruning: bool = False
     steps: int = 0
@@ -54,28 +57,42 @@ class Stage:
         dropped = [f"-{name}" for name in before if name not in self.provers]
         changes = ",".join([*dropped, *added])
         options = [f"-wp-prover={changes}"] if changes else []
-        options += ["-wp-timeout", str(self.seconds)]
+        options += ["-wp-timeout", str(self.seconds * CLOCK_PER_PROCESSOR)]
         options += ["-wp-pruning" if self.pruning else "-wp-no-pruning"]
         return [*options, "-wp-steps", str(self.steps)] if self.steps else options
+
+    def of(self, *provers: str) -> Stage:
+        """The same for these provers."""
+        return replace(self, provers=provers)
+
+    def of_all(self) -> Stage:
+        """The same for all provers.
+
+        Where some goals are left to CBMC, Z3 is asked at once for what no recorded prover has
+        proved: it needs a moment for some products, on which the others would spend all their time.
+        """
+        return self.of("alt-ergo", "cvc4", "z3")
+
+    def with_room(self, room: int) -> Stage:
+        """The same with so many times the processor time."""
+        return replace(self, seconds=self.seconds * room)
 
 
 # Alt-Ergo proves nearly everything in milliseconds, CVC4 what is left in little more; z3 hardly
 # ever helps. To prepare the goals costs WP more than to prove them, and two thirds of that is its
 # search for branches that cannot be taken; the few goals that need it get it in a pass of their
-# own. Long limits come last, and cost time only when something is wrong or the machine is loaded.
+# own. Long limits come last, and cost time only when something is wrong.
 QUICK = (Stage(("alt-ergo", "cvc4"), 10),)
 THOROUGH = (
     *QUICK,
     Stage(("alt-ergo", "cvc4"), 60, pruning=True),
     Stage(("alt-ergo", "cvc4", "z3"), 100),
 )
-# Where some goals are left to CBMC, Z3 is asked at once for what no recorded prover has proved: it
-# needs a moment for some products, on which the others would spend all of their time.
-QUICK_OF_ALL = Stage(("alt-ergo", "cvc4", "z3"), 10)
 # A prover that is recorded for a goal proved it, if on a faster machine: to wait for it costs less
-# than to ask all the others. The longest take 22 s of processor time.
-RECORDED_SECONDS = 100
-SMOKE_SECONDS = 2
+# than to ask all the others. Of the processor, as all limits here; the longest take 22 s.
+RECORDED = Stage((), 100)
+# By the clock: the steps are the limit here, and a test that ends before them looks as if it passed
+SMOKE_SECONDS = 120
 # A contradiction shows early: seeded ones were found within a second by either prover, among
 # integers by CVC4 with 50 000 steps wherever with 75 000, among floats by Alt-Ergo with 300
 # wherever with 3000. Debian's CVC4 is built without floats: it gives up on the first literal of
@@ -98,7 +115,10 @@ class Wp:
     def __init__(
         self, frama_c: Sequence[str], runner: Runner, root: Path, scratch: Path,
         prover_cache: Path | None = None, ocamlfind: Sequence[str] = ("ocamlfind",),
+        defines: Sequence[str] = (),
     ) -> None:  # fmt: skip
+        """Take what is to be started, and the sizes that the build chooses, as -DNAME=NUMBER."""
+        self._defines = list(defines)
         self._frama_c = list(frama_c)
         self._runner = runner
         self._root = root
@@ -108,7 +128,8 @@ class Wp:
 
     def options(self) -> list[str]:
         """Everything on the command line that is the same for all targets."""
-        return [*self._frama_c, *CHECKS, f"-cpp-extra-args={' '.join(include_options(self._root))}"]
+        words = " ".join([*include_options(self._root), *self._defines])
+        return [*self._frama_c, *CHECKS, f"-cpp-extra-args={words}"]
 
     def _loaded(self, *scripts: str) -> list[str]:
         """The options with nothing loaded but what WP needs, and these scripts, in their order."""
@@ -120,27 +141,32 @@ class Wp:
         return [*options[:place], *loading, *options[place + 2 :]]
 
     def survey(self, file: Path) -> wplog.Log:
-        """Parse a file and learn which functions it defines, includes and all."""
-        command = [*self._loaded(), self._shown(file), "-rte"]
+        """Parse a file and learn what it defines, includes and all, and what it assumes."""
+        command = [*self._loaded("find_assumptions.ml"), self._shown(file), "-rte"]
         return wplog.read_log(self._runner.run(command).output)
 
     def prove(
         self, target: Target, stages: Sequence[Stage] = THOROUGH, smoke: bool = True,
-        allowed: Sequence[str] = (), recorded: Mapping[str, str] | None = None,
+        allowed: Sequence[str] = (), recorded: Mapping[str, str] | None = None, room: int = 1,
     ) -> Result:  # fmt: skip
-        """Prove a target; `recorded` are the provers to ask first, by goal."""
+        """Prove a target; `recorded` are the provers to ask first, by goal.
+
+        All provers have `room` times their processor time.
+        """
         start = time.monotonic()
         known = recorded or {}
+        stages = [stage.with_room(room) for stage in stages]
         with self._answers_alone(target):
-            result = self._prove_lemmas(target, allowed, known)
+            result = self._prove_lemmas(target, allowed, known, room)
             if result is None or result.problems:
-                result = self._run(target, stages, smoke, allowed, known)
+                result = self._run(target, stages, smoke, allowed, known, room)
         result.seconds = round(time.monotonic() - start, 1)
         return result
 
     def _prove_lemmas(
-        self, target: Target, allowed: Sequence[str], recorded: Mapping[str, str]
-    ) -> Result | None:
+        self, target: Target, allowed: Sequence[str], recorded: Mapping[str, str],
+        room: int = 1,
+    ) -> Result | None:  # fmt: skip
         """Lemmas, each by the prover that is recorded for it; None if it is not for all of them."""
         groups: dict[str, list[str]] = {}
         for name in target.lemmas:
@@ -148,7 +174,7 @@ class Wp:
         if target.function or not groups.keys().isdisjoint((PRUNED, QED)):
             return None
         passes = [
-            (Stage((prover,), RECORDED_SECONDS), ["-wp-prop", ",".join(names)])
+            (RECORDED.of(prover).with_room(room), ["-wp-prop", ",".join(names)])
             for prover, names in sorted(groups.items())
         ]
         report = self._report_of(target)
@@ -156,18 +182,19 @@ class Wp:
 
     def _run(
         self, target: Target, stages: Sequence[Stage], smoke: bool, allowed: Sequence[str],
-        recorded: Mapping[str, str],
+        recorded: Mapping[str, str], room: int = 1,
     ) -> Result:  # fmt: skip
         report = self._report_of(target)
         if target.left is not None:
-            stages = [QUICK_OF_ALL if stage in QUICK else stage for stage in stages]
+            stages = [stage.of_all() if number == 0 else stage
+                      for number, stage in enumerate(stages)]  # fmt: skip
         if PRUNED in _own_provers(target, recorded).values():
             stages = sorted(stages, key=lambda stage: not stage.pruning)
         file = self._recorded_file(target, recorded)
         extra = {"KEEL_RECORDED": str(file)} if file else {}
         if smoke:
             extra["KEEL_SMOKE"] = self._smoke_words(target)
-        command = self.command(target, stages, smoke, report, file is not None)
+        command = self.command(target, stages, smoke, report, file is not None, room)
         pruned = frozenset(number for number, stage in enumerate(stages, 1) if stage.pruning)
         return self._judged(target, command, report, allowed, recorded, pruned, extra)
 
@@ -243,7 +270,7 @@ class Wp:
 
     def command(
         self, target: Target, stages: Sequence[Stage], smoke: bool, report: Path,
-        recorded: bool = False,
+        recorded: bool = False, room: int = 1,
     ) -> list[str]:  # fmt: skip
         """One process; each stage takes up what the stages before it left open.
 
@@ -256,15 +283,16 @@ class Wp:
         scripts = ["ask_recorded.ml"] * (recorded and target.function is not None)
         scripts += ["find_contradictions.ml"] * (smoke and target.function is not None)
         selected = [(stage, target.selection) for stage in stages]
-        return self._words(target, selected, report, scripts)
+        return self._words(target, selected, report, scripts, room)
 
     def _words(
         self, target: Target, passes: Sequence[tuple[Stage, list[str]]], report: Path,
-        scripts: Sequence[str] = (),
+        scripts: Sequence[str] = (), room: int = 1,
     ) -> list[str]:  # fmt: skip
         """The command line of these passes, each over its selection of goals, after our scripts."""
         command = [*self._loaded(*scripts), self._shown(target.file)]
-        command += [*self._cache_options(target), *(_scripts_pass(target) if scripts else ())]
+        command += self._cache_options(target)
+        command += _scripts_pass(target, room) if scripts else ()
         before: tuple[str, ...] = ()
         for number, (stage, selection) in enumerate(passes):
             command += ["-then"] if number else []
@@ -313,11 +341,11 @@ class Wp:
                 path.unlink(missing_ok=True)
 
 
-def _scripts_pass(target: Target) -> list[str]:
+def _scripts_pass(target: Target, room: int) -> list[str]:
     """The options of the pass in which our scripts have goals tried that they choose."""
     options = ["-rte", "-rte-select", str(target.function), "-wp-rte"]
     options += frames.NO_FLOATS if target.left is not None else ()
-    options += ["-wp-par", "2", "-wp-timeout", str(RECORDED_SECONDS), "-wp-no-pruning"]
+    options += ["-wp-par", "2", *RECORDED.with_room(room).options(())]
     options += ["-wp-smoke-timeout", str(SMOKE_SECONDS)]
     return [*options, "-then", "-no-rte"]
 

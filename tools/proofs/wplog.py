@@ -24,6 +24,10 @@ MESSAGE = re.compile(
 )
 ABORT = re.compile(r"^\[(?P<who>[\w:.-]+)\] (?P<text>.*(?:aborted|Unexpected|unsupported).*)$")
 CALL_POINT = re.compile(r"(_call_point_\w+)_s\d+$")
+# What find_assumptions.ml tells.
+ASSUMED = re.compile(r"^keel: assumed: (.*)$", re.MULTILINE)
+DECLARED = re.compile(r"^keel: declared: (\w+)$", re.MULTILINE)
+SURVEYED = "keel: looked"
 ANNOTATED = re.compile(r"^\[rte:annot\] annotating function (\w+)$", re.MULTILINE)
 
 
@@ -65,12 +69,21 @@ class Log:
     smoke: dict[str, bool] = field(default_factory=dict)
     messages: list[Message] = field(default_factory=list)
     functions: list[str] = field(default_factory=list)
+    # What annotations take for granted, and functions without a body; whether all was looked at.
+    assumed: list[str] = field(default_factory=list)
+    declared: list[str] = field(default_factory=list)
+    surveyed: bool = False
     passes: int = 0
 
     @property
     def proved(self) -> int:
         """How many goals are proved."""
         return sum(goal.proved for goal in self.goals.values())
+
+    @property
+    def all_proved(self) -> bool:
+        """Whether no goal is left."""
+        return self.proved == len(self.goals)
 
 
 def _note_goal(log: Log, match: re.Match[str]) -> Goal:
@@ -89,7 +102,10 @@ def _note_goal(log: Log, match: re.Match[str]) -> Goal:
 
 def read_log(text: str) -> Log:
     """Read the output of Frama-C, all stages."""
-    log = Log(functions=ANNOTATED.findall(text))
+    log = Log(
+        functions=ANNOTATED.findall(text), assumed=ASSUMED.findall(text),
+        declared=DECLARED.findall(text), surveyed=SURVEYED in text,
+    )  # fmt: skip
     goal: Goal | None = None
     message: Message | None = None
     for line in text.splitlines():

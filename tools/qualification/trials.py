@@ -12,20 +12,23 @@ import re
 import shutil
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from unittest import mock
 
 from boards.call_graph import Graph, StackError, parse
 from boards.stack_bounds import Bounds
 from common.build import BuildError
 from common.errors import ToolError
-from common.files import read_text
+from common.files import read_text, write_text
 from common.run import output_of, run
 from interpretation.analysis import Eva
-from proofs import csource
+from proofs import csource, disguises, targets
 from proofs.cbmc import CHECKS as CBMC_CHECKS
+from proofs.jobs import Runner
+from proofs.project import Unit, find_units
 from proofs.wp import OWN, SMOKE, SMOKE_OF_FLOATS
 from proofs.wplog import read_log
 from suites.emulated import EmulatedBoard
-from toolchain import MACHDEP_FILE, TARGET_FLAGS, Toolchain
+from toolchain import MACHDEP_FILE, TARGET_FLAGS, Toolchain, small_environment
 
 Trial = Callable[[Toolchain, Path, str], list[str]]  # The tools, the text's file, the option.
 
@@ -36,6 +39,7 @@ FAILED = re.compile(r"^\[([\w.]+)\] .*: FAILURE$", re.MULTILINE)
 SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 PROVER_SECONDS = "2"  # Of the processor. What is right takes a moment, what is wrong all of them.
 UNWIND = "6"
+ASSUMPTIONS = OWN / "find_assumptions.ml"
 CONTRADICTIONS = OWN / "find_contradictions.ml"
 ENDINGS = {"gappa": "g", "alt-ergo": "why"}
 
@@ -78,6 +82,53 @@ def said_by_frama_c(
     command[command.index(str(MACHDEP_FILE))] = str(script)
     environment = {**tools.environment(), **(told or {}), "PWD": str(file.parent), "LC_ALL": "C"}
     return output_of([*command, *options, file.name], cwd=file.parent, environment=environment)
+
+
+def assumptions(tools: Toolchain, file: Path, option: str) -> list[str]:
+    """What the annotations take for granted."""
+    script = shutil.copyfile(ASSUMPTIONS, file.with_name(ASSUMPTIONS.name))
+    log = read_log(said_by_frama_c(tools, file, ["-load-script", str(script), "-rte"]))
+    if not log.surveyed:
+        raise ToolError(f"frama-c: no verdict: {'; '.join(map(str, log.messages))}")
+    return log.assumed
+
+
+def hidden(tools: Toolchain, file: Path, option: str) -> list[str]:
+    """What a header may show to one tool and not to another."""
+    text = file.read_text(encoding="utf-8")
+    found = (*disguises.everywhere(text), *disguises.in_what_is_built(text, file.name, ()))
+    return [f"{line}: {what}" for line, what in found]
+
+
+def environment(tools: Toolchain, file: Path, option: str) -> list[str]:
+    """What the preprocessor says where the caller's variables name a folder of headers."""
+    folder = file.with_name("stray")
+    folder.mkdir()
+    (folder / "stray.h").touch()
+    stray = dict.fromkeys(("CPATH", "C_INCLUDE_PATH"), str(folder))
+    with mock.patch.dict(os.environ, stray):
+        runner = Runner(small_environment(tools.environment()), file.parent)
+    return runner.run([*tools.command("arm-none-eabi-gcc"), "-E", str(file)]).output.splitlines()
+
+
+def keys(tools: Toolchain, file: Path, option: str) -> list[str]:
+    """Whether a verdict's key has a header that the unit includes in <...>."""
+    root = file.with_name("project")
+    unit = write_project(root)
+    made = []
+    for state in file.read_text(encoding="utf-8").split("-----\n"):
+        write_text(root / "include/limit.h", state)
+        [function] = [one for one in targets.targets(unit) if one.function]
+        made.append(targets.dependencies(function, root))
+    return ["another key"] if made[0] != made[1] else []
+
+
+def write_project(root: Path) -> Unit:
+    """A project of one unit that includes a header of its own in <...>."""
+    write_text(root / "include/box/box.h", "#include <limit.h>\nint box(int x);\n")
+    write_text(root / "src/box/box.c",
+               '#include "box/box.h"\nint box(int x)\n{\n    return x + LIMIT;\n}\n')  # fmt: skip
+    return find_units(root)["box"]
 
 
 def alt_ergo(tools: Toolchain, file: Path, option: str) -> list[str]:
@@ -172,7 +223,8 @@ def emulated(tools: Toolchain, file: Path, option: str) -> list[str]:
 TRIALS: dict[str, Trial] = {
     "wp": wp, "smoke": smoke, "alt-ergo": alt_ergo, "eva": eva, "cbmc": cbmc, "gappa": gappa,
     "cppcheck": cppcheck, "stack": stack, "sanitizers": sanitizers, "coverage": coverage,
-    "emulated": emulated,
+    "emulated": emulated, "assumptions": assumptions, "disguises": hidden,
+    "environment": environment, "keys": keys,
 }  # fmt: skip
 
 

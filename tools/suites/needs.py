@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What suites of `make test` need, from tests/suites.toml."""
+"""What suites of `make test` and `make test-all` need, from tests/suites.toml."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ class Need(Table):
     name: Text
     groups: list[Text] = []
     seconds: Annotated[float, Field(ge=0.0)] = 0.0
+    more: bool = False
 
 
 class Absent(Table):

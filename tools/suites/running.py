@@ -27,13 +27,14 @@ JUNIT = "junit.xml"
 
 @dataclass(frozen=True)
 class Suite:
-    """A named set of tests, with the groups of tools that it needs, and the seconds that it takes
-    alone; it may be run in any thread."""
+    """A named set of tests, with the groups of tools that it needs, the seconds that it takes
+    alone, and whether it runs only when all do; it may be run in any thread."""
 
     name: str
     groups: tuple[str, ...]
     run: Callable[[], Outcome]
     seconds: float = 0.0
+    more: bool = False
 
 
 def add_options(parser: Parser) -> None:
@@ -150,7 +151,7 @@ def end(
     counted = {"passed": passed, "failed": failed}
     good = passed > 0 and failed == 0
     write_report(folder / REPORT, {**counted, **facts, "suites": suites}, good=good,
-                 whole=not facts.get("filter"))  # fmt: skip
+                 whole=not (facts.get("filter") or facts.get("left_out")))  # fmt: skip
     sys.stderr.flush()
     for name, outcome in outcomes.items():
         for test in outcome.texts:

@@ -12,6 +12,12 @@ from timing.isolation import Isolation, isolation_of
 from timing.scheduler_bounds import Bounds, Tails, bounds_of, collisions, declared, path_bound
 from timing.taskset import CLASSES, Task, TaskSet
 
+# How a set stands: by the first of its reasons, most basic first.
+SCHEDULABLE = "schedulable"
+NOT_SHOWN = "not shown to be schedulable"  # A bound fails, which is sufficient, not necessary.
+REFUSED = "not admitted"  # keel_scheduler_start refuses it, by rules that are sufficient alone.
+IMPOSSIBLE = "NOT schedulable"  # By any scheduler, if runs take as long as declared.
+
 LOAD_TARGET = 40.0  # Percent; section IV-C of the paper.
 LOAD_ALARM = (65.0, 75.0)
 
@@ -122,12 +128,13 @@ class Analysis:
     gaps: Gaps
     chains: list[ChainRow]
     hyperperiod: int
+    standing: str
     reasons: list[str]
 
     @property
     def schedulable(self) -> bool:
-        """The verdict."""
-        return not self.reasons
+        """Whether every task meets its deadline, and every path its limits, by bounds that hold."""
+        return self.standing == SCHEDULABLE
 
     @property
     def load_zone(self) -> str:
@@ -270,23 +277,45 @@ def admission_reasons(tasks: TaskSet) -> Iterator[str]:
                f"{ppm / 10_000:.2f} %, exceeds the limit of {limit / 10_000:.2f} %")  # fmt: skip
 
 
-def reasons(tasks: TaskSet, found: Bounds, chains: list[ChainRow]) -> Iterator[str]:
-    """Why the set is not schedulable, most basic first."""
-    total = textbook.utilisation(tasks.tasks)
-    if total > 1:
-        yield f"utilisation is {100.0 * float(total):.2f} %, above 100 % (eq. 11)"
-    yield from admission_reasons(tasks)
+def realtime_reasons(tasks: TaskSet, found: Bounds) -> Iterator[str]:
+    """Which bounds of real-time tasks exceed their deadlines."""
+    behind = "" if found.promotion_excluded else ", one promoted task in it"
     for task in tasks.realtime:
         bound = found.realtime[task.name]
         if bound > task.period:
-            yield f"{task.name} may respond after {bound} us, its deadline is {task.period} us"
+            yield (f"{task.name} responds within {bound} us by its bound{behind}; its deadline is "
+                   f"{task.period} us")  # fmt: skip
+
+
+def other_reasons(found: Bounds) -> Iterator[str]:
+    """Why tasks that are not real-time have no bounds, and what follows."""
+    for name, short in found.shortfalls.items():
+        yield (
+            f"{name} has no bound within its period of {short.period} us: it would be "
+            f"{short.least} us or more, {short.own} its own, {short.blocking} for what began "
+            f"before it, {short.realtime} for real-time tasks, {short.rivals} for tasks that may "
+            f"come first, {short.tails} for gaps that are too short for it"
+        )
+    more = "" if found.promotion_excluded else " and be promoted"
+    yield (f"tasks that are not real-time have no bounds that agree, so none is known to hold: "
+           f"they may miss deadlines{more}")  # fmt: skip
+
+
+def reasons(
+    tasks: TaskSet, found: Bounds, chains: list[ChainRow]
+) -> Iterator[tuple[str, str]]:  # fmt: skip
+    """Why the set is not schedulable, or not shown to be: how it stands by that, and the reason,
+    most basic first."""
+    total = textbook.utilisation(tasks.tasks)
+    if total > 1:
+        yield IMPOSSIBLE, f"utilisation is {100.0 * float(total):.2f} %, above 100 % (eq. 11)"
+    yield from ((REFUSED, text) for text in admission_reasons(tasks))
+    yield from ((NOT_SHOWN, text) for text in realtime_reasons(tasks, found))
     if any(bound.response is None for bound in found.others.values()):
-        more = "" if found.promotion_excluded else " and be promoted"
-        yield (f"tasks that are not real-time have no bound within their periods: they may miss "
-               f"deadlines{more}")  # fmt: skip
+        yield from ((NOT_SHOWN, text) for text in other_reasons(found))
     for chain in chains:
         if not (chain.within or chain.advisory):
-            yield (
+            yield NOT_SHOWN, (
                 f"path {chain.name}: E = {chain.reaction} us of {chain.reaction_limit} us, "
                 f"F = {chain.freshness} us of {chain.freshness_limit} us (eq. 5 to 7)"
             )
@@ -297,6 +326,7 @@ def analyse(tasks: TaskSet) -> Analysis:
     found = bounds_of(tasks)
     chains = chain_rows(tasks, found)
     published = tasks.published.model_dump() if tasks.published else None
+    why = list(reasons(tasks, found, chains))
     return Analysis(
         name=tasks.name,
         classes=[
@@ -317,5 +347,6 @@ def analyse(tasks: TaskSet) -> Analysis:
         gaps=gaps_of(tasks),
         chains=chains,
         hyperperiod=textbook.hyperperiod(tasks.tasks),
-        reasons=list(reasons(tasks, found, chains)),
+        standing=why[0][0] if why else SCHEDULABLE,
+        reasons=[text for _, text in why],
     )

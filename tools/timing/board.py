@@ -15,7 +15,7 @@ from common.errors import ROOT, ToolError
 from toolchain import Toolchain
 
 from timing.scheduler_bounds import declared
-from timing.taskset import Task, TaskSet
+from timing.taskset import QUEUE_CAPACITY, Task, TaskSet
 
 BUILD = Path("build/timing")
 TURN_NS = 200  # A turn of the main loop that does nothing: 30 instructions and the loop.
@@ -132,6 +132,12 @@ def read_result(line: str, experiment: Experiment) -> Result:
         for name, item in zip(chains, raw["chains"], strict=True)
     }  # fmt: skip
     return Result(**raw)
+
+
+def for_capacity(tasks: TaskSet) -> list[str]:
+    """The flag of a build whose queue holds what the set says; none for the capacity that ships."""
+    capacity = tasks.costs.capacity
+    return [] if capacity == QUEUE_CAPACITY else [f"-DKEEL_QUEUE_CAPACITY={capacity}u"]
 
 
 def build(tools: Toolchain, name: str = "experiment", extra: Sequence[str] = ()) -> Path:

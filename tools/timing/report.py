@@ -233,7 +233,7 @@ def verdict(analysis: Analysis) -> str:
         )
     more = len(analysis.reasons) - 1
     rest = f" ({more} more)" if more else ""
-    return f"{analysis.name}: NOT schedulable: {analysis.reasons[0]}{rest}"
+    return f"{analysis.name}: {analysis.standing}: {analysis.reasons[0]}{rest}"
 
 
 # --- Plots ---------------------------------------------------------------------------------------

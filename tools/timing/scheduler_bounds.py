@@ -59,6 +59,24 @@ class OtherBound:
 
 
 @dataclass(frozen=True)
+class Shortfall:
+    """Why a task that is not real-time has no bound: what it may wait for, in us, worked out until
+    that left the period. The bound would be as much or more."""
+
+    period: int
+    own: int  # Its run, a pass and a dispatch.
+    blocking: int  # A run that began before, and a pass.
+    realtime: int  # Real-time tasks.
+    rivals: int  # Tasks that may be chosen before it.
+    tails: int  # Time before real-time releases in which it does not fit, and their passes.
+
+    @property
+    def least(self) -> int:
+        """What the bound would be at least."""
+        return self.own + self.blocking + self.realtime + self.rivals + self.tails
+
+
+@dataclass(frozen=True)
 class Bounds:
     """What holds for a task set."""
 
@@ -68,6 +86,7 @@ class Bounds:
     others: dict[str, OtherBound]
     promotion_excluded: bool
     apart: dict[str, int] | None  # Every task's response by (4); None where tasks collide.
+    shortfalls: dict[str, Shortfall]  # Of the tasks at which the bounds of (2) failed.
 
 
 def declared(tasks: TaskSet, task: Task) -> int:
@@ -184,6 +203,11 @@ def competes(task: Task, rival: Task, rival_first: bool, rival_response: int) ->
     return highest > lowest or (highest == lowest and rival_first)
 
 
+def demanded(tasks: Sequence[tuple[int, int, int]], window: int) -> int:
+    """What tasks of (period, cost of a run, response) take of a window at most."""
+    return sum(((window + carry) // period + 1) * cost for period, cost, carry in tasks)
+
+
 class Others:
     """The bound of 2, for all tasks that are not real-time together."""
 
@@ -192,6 +216,7 @@ class Others:
         self.tails = Tails(tasks.realtime)
         self.realtime_response = realtime_response
         self.effort = EFFORT
+        self.shortfalls: dict[str, Shortfall] = {}
         self.run_cost = tasks.costs.pass_us + tasks.costs.dispatch_us + TICK
 
     def responses(self) -> dict[str, int | None]:
@@ -215,26 +240,27 @@ class Others:
         """From the release to the end, if it is within the period."""
         rivals, blocking = self.rivals(task, assumed)
         costs = self.tasks.costs
-        demand = [
+        realtime = [
             (rt.period, rt.budget + self.run_cost, self.realtime_response)
             for rt in self.tasks.realtime
         ]
-        demand += [(k.period, k.budget + self.run_cost, assumed[k.name]) for k in rivals]
+        before = [(k.period, k.budget + self.run_cost, assumed[k.name]) for k in rivals]
         tail = costs.guard_us + declared(self.tasks, task)
         constant = blocking + costs.pass_us + TICK
         own = task.budget + costs.pass_us + costs.dispatch_us
         wait = constant
         while self.effort > 0:
             self.effort -= 1
-            longer = constant + sum(
-                ((wait + carry) // period + 1) * budget for period, budget, carry in demand
+            tails = self.tails.total(wait, tail) + self.tails.count(wait) * costs.pass_us
+            found = Shortfall(
+                task.period, own, constant, demanded(realtime, wait), demanded(before, wait), tails
             )
-            longer += self.tails.total(wait, tail) + self.tails.count(wait) * costs.pass_us
-            if longer + own > task.period:
+            if found.least > task.period:
+                self.shortfalls[task.name] = found
                 return None
-            if longer == wait:
+            if found.least == wait + own:
                 return wait + own
-            wait = longer
+            wait = found.least - own
         return None
 
     def rivals(self, task: Task, assumed: dict[str, int]) -> tuple[list[Task], int]:
@@ -284,7 +310,8 @@ def bounds_of(tasks: TaskSet) -> Bounds:
     promoted = realtime_bound(tasks, promotion_blocking(tasks))
     realtime_fits = all(guarded <= task.period for task in tasks.realtime)
     none: dict[str, int | None] = {task.name: None for task in tasks.others}
-    responses = Others(tasks, guarded).responses() if realtime_fits else none
+    bound_of = Others(tasks, guarded)
+    responses = bound_of.responses() if realtime_fits else none
     apart = None
     if not collisions(tasks):
         apart = {task.name: declared(tasks, task) + TICK for task in tasks.tasks}
@@ -311,6 +338,7 @@ def bounds_of(tasks: TaskSet) -> Bounds:
         others=others,
         promotion_excluded=excluded,
         apart=apart,
+        shortfalls=bound_of.shortfalls,
     )
 
 

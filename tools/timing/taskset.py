@@ -13,9 +13,11 @@ from common.config import ConfigError, Field, Mistake, Table, model_validator, p
 from common.files import read_text
 
 # The kernel's own limits: priority.h (KEEL_PERIOD_LIMIT_US, KEEL_PRIORITY_*), queue.h
-# (KEEL_QUEUE_CAPACITY). tests/timing/test_tools.py compares them with the headers.
+# (KEEL_QUEUE_CAPACITY, as it ships, and the greatest). tests/timing/test_tools.py compares them
+# with the headers.
 PERIOD_LIMIT_US = 2**31
 QUEUE_CAPACITY = 32
+CAPACITY_LIMIT = 255
 PRIORITY_MAX = 16
 CLASSES = {"low": 1, "medium": 2, "medium-high": 3, "high": 4, "real-time": PRIORITY_MAX}
 REALTIME = "real-time"
@@ -39,7 +41,10 @@ Label = Annotated[str, Field(pattern=r"^[A-Za-zΑ-ω][A-Za-z0-9_]{0,7}$")]
 
 
 class Costs(Table):
-    """The scheduler: its guard, what a pass and a dispatch cost, and the admission's limit."""
+    """The scheduler: how many tasks its queue holds (KEEL_QUEUE_CAPACITY of the build), its guard,
+    what a pass and a dispatch cost, and the admission's limit."""
+
+    capacity: Annotated[int, Field(ge=1, le=CAPACITY_LIMIT)] = QUEUE_CAPACITY
 
     guard_us: Cost = 20
     pass_us: Cost = 5
@@ -99,7 +104,7 @@ class Chain(Table):
     """A path from a sensor to an actuator; limits that are advice are told, not judged."""
 
     name: Name
-    path: Annotated[list[Name], Field(min_length=2, max_length=QUEUE_CAPACITY)]
+    path: Annotated[list[Name], Field(min_length=2, max_length=CAPACITY_LIMIT)]
     reaction_limit_us: Time
     freshness_limit_us: Time
     advisory: bool = False
@@ -111,7 +116,7 @@ class RawTaskSet(Table):
     name: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,31}$")]
     scheduler: Costs = DEFAULT_COSTS
     published: Published | None = None
-    task: Annotated[list[RawTask], Field(min_length=1, max_length=QUEUE_CAPACITY)]
+    task: Annotated[list[RawTask], Field(min_length=1, max_length=CAPACITY_LIMIT)]
     chain: Annotated[list[Chain], Field(max_length=64)] = []
 
 
@@ -177,6 +182,16 @@ def symbol_of(name: str) -> str:
     return re.sub(r"[^A-Z0-9]+", "_", name.upper()).strip("_")
 
 
+def wrong_count(raw: RawTaskSet) -> Iterator[Mistake]:
+    """More tasks than the queue holds."""
+    capacity = raw.scheduler.capacity
+    if len(raw.task) > capacity:
+        yield ("task", capacity, "name"), (
+            f"expected at most {capacity} tasks, which the queue holds; `capacity` of [scheduler] "
+            "is for builds with another KEEL_QUEUE_CAPACITY"
+        )
+
+
 def wrong_times(raw: RawTaskSet) -> Iterator[Mistake]:
     """Budgets and phases beyond their periods."""
     for number, task in enumerate(raw.task):
@@ -221,6 +236,7 @@ def wrong_chains(raw: RawTaskSet) -> Iterator[Mistake]:
 
 def mistakes(raw: RawTaskSet) -> Iterator[Mistake]:
     """What types cannot say."""
+    yield from wrong_count(raw)
     yield from wrong_times(raw)
     yield from wrong_names(raw)
     yield from wrong_chains(raw)

@@ -18,7 +18,9 @@ command_line     what tools/toolchain.py takes
 
 from toolchain.found import Found
 from toolchain.lock import ToolchainError
-from toolchain.provers import MACHDEP_FILE, TARGET_FLAGS
+from toolchain.provers import MACHDEP_FILE, TARGET_FLAGS, small_environment
 from toolchain.tools import Toolchain
 
-__all__ = ["MACHDEP_FILE", "TARGET_FLAGS", "Found", "Toolchain", "ToolchainError"]
+__all__ = [
+    "MACHDEP_FILE", "TARGET_FLAGS", "Found", "Toolchain", "ToolchainError", "small_environment",
+]  # fmt: skip

@@ -16,7 +16,7 @@ from common.files import write_text
 
 from toolchain.found import Found, path_outside
 from toolchain.lock import TOOLS_DIR, Lock, Spec
-from toolchain.provers import MACHDEP_FILE
+from toolchain.provers import MACHDEP_FILE, by_processor_time
 
 
 class Findings:
@@ -48,8 +48,11 @@ class Findings:
         write_text(self._file(), text)
 
     def why3_place(self, spec: Spec) -> Path | None:
-        """Where the configuration for just these provers lies; None while one is missing."""
-        chosen = ""
+        """Where the configuration for just these provers lies; None while one is missing.
+
+        Clones that start them differently have one each.
+        """
+        chosen = by_processor_time("")
         for name in (*(prover.lower() for prover in spec.provers), "why3"):
             finding = self.get(self.lock.tools[name])
             if not finding:

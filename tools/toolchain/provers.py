@@ -2,14 +2,15 @@
 """How the provers are started: for which target, with which flags and which configuration.
 
 Verdicts depend on this file beside the tools' versions: a change of it makes them void
-(tools/proofs/session.py), while a change of how tools are found and installed does not.
+(tools/proofs/stamps.py), while a change of how tools are found and installed does not.
 """
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 MACHDEP_FILE = Path(__file__).resolve().parents[1] / "machdep" / "keel_cortex_m7.ml"
@@ -18,6 +19,35 @@ MACHDEP = "keel_cortex_m7"
 # The target, as the firmware is built for it. Proof, firmware and the check of the machdep must
 # not disagree about it, so they all read it here.
 TARGET_FLAGS = ("-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard")
+
+# WP ends a prover by the clock. So it is told so many times the processor time that a prover has:
+# no verdict depends on what else the machine does, unless a prover gets less than one part in so
+# many of a processor. The script takes the provers' time limits from the words of why3.
+CLOCK_PER_PROCESSOR = 20
+BY_PROCESSOR_TIME = f"""\
+#!/bin/sh
+# Starts a prover with a limit of its processor time: a part of the clock's that it is told.
+before=
+for word do
+    shift
+    case $before$word in
+        --tlimit=*)
+            set -- "$@" --cpu-time "--tlimit=$((${{word#--tlimit=}} / {CLOCK_PER_PROCESSOR}))" ;;
+        -T:*)
+            ulimit -S -t "$((${{word#-T:}} / {CLOCK_PER_PROCESSOR}))"
+            set -- "$@" "$word" ;;
+        -timelimit[0-9]*)
+            set -- "$@" "$((word / {CLOCK_PER_PROCESSOR}))" ;;
+        *)
+            set -- "$@" "$word" ;;
+    esac
+    before=
+    test "$word" != -timelimit || before=$word
+done
+"""
+# All that provers, compilers and preprocessors see of the caller's environment: another variable,
+# such as CPATH, might change what they read. PATH is the tools' own, then the caller's.
+INHERITED = ("PATH", "HOME", "USER", "LOGNAME", "TMPDIR")
 
 Command = Callable[[str], list[str]]
 Answer = Callable[[Sequence[str]], str]
@@ -56,7 +86,26 @@ def goto_cc(command: Command) -> list[str]:
     ]  # fmt: skip
 
 
+def header_folders(command: Command, answer: Answer) -> list[Path]:
+    """The folders of the compiler's own headers, in which the preprocessor looks for <...>."""
+    words = [*command("arm-none-eabi-gcc"), *TARGET_FLAGS, "-E", "-v", "-x", "c", os.devnull]
+    said = answer(words)
+    listed = re.search(r"^#include <\.\.\.> [^\n]*\n((?: [^\n]+\n)+)", said, re.MULTILINE)
+    return [Path(line.strip()).resolve() for line in listed[1].splitlines()] if listed else []
+
+
 def provers_known(configuration: str) -> dict[str, str]:
     """The provers that a configuration of why3 knows, with their versions."""
     entry = re.compile(r'^name = "(.+)"\n(?:.*\n)*?version = "(.+)"', re.MULTILINE)
     return dict(entry.findall(configuration))
+
+
+def by_processor_time(program: str) -> str:
+    """The script that starts a prover so that its processor time is limited, not the clock's."""
+    return f'{BY_PROCESSOR_TIME}exec {shlex.quote(program)} "$@"\n'
+
+
+def small_environment(tools: Mapping[str, str]) -> dict[str, str]:
+    """The variables under which verdicts are had: few of the caller's, and those of the tools."""
+    inherited = {name: os.environ[name] for name in INHERITED if name in os.environ}
+    return {**inherited, **tools}

@@ -9,6 +9,7 @@ import shutil
 from collections.abc import Iterable
 from pathlib import Path
 
+from common.files import write_text
 from toolchain import provers, python_packages
 from toolchain.apt import HostApt, Suite
 from toolchain.cache import Cache, Say, default_cache
@@ -73,6 +74,10 @@ class Toolchain:
     def goto_cc(self) -> list[str]:
         """goto-cc for the target."""
         return provers.goto_cc(self.command)
+
+    def header_folders(self) -> list[Path]:
+        """Where the target's compiler has its own headers."""
+        return provers.header_folders(self.command, answer)
 
     # Looking.
 
@@ -187,12 +192,27 @@ class Toolchain:
         if unknown:
             fresh.unlink(missing_ok=True)
             raise ToolchainError(f"why3 does not see {', '.join(unknown)}:\n{output.strip()}")
+        self._limit_by_processor_time(fresh, place.parent)
         if place.is_file() and place.read_bytes() == fresh.read_bytes():
             fresh.unlink()
         else:
             os.replace(fresh, place)
         summary = ", ".join(f"{prover} {known[prover]}" for prover in spec.provers)
         return found(spec, f"({summary})", "made", place)
+
+    @staticmethod
+    def _limit_by_processor_time(configuration: Path, folder: Path) -> None:
+        """Have each prover of a configuration started by a script, in a folder."""
+
+        def started(match: re.Match[str]) -> str:
+            script = folder / f"{Path(match['program']).name}-by-processor-time"
+            write_text(script, provers.by_processor_time(match["program"]))
+            script.chmod(0o755)
+            return f'path = "{script}"'
+
+        text = re.sub(r'^path = "(?P<program>.+)"$', started, configuration.read_text(),
+                      flags=re.MULTILINE)  # fmt: skip
+        write_text(configuration, text)
 
     def _machdep(self, spec: Spec) -> Found:
         """Load the machdep once: it needs OCaml and the libraries that Frama-C was built with."""

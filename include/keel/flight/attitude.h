@@ -129,6 +129,11 @@ KEEL_C_BEGIN
 #define KEEL_ATTITUDE_BIASED      0x20u /**< Still, but the mean rate is beyond bias_limit. */
 #define KEEL_ATTITUDE_CORRUPTED   0x40u /**< No unit quaternion was found: begun anew. */
 
+/* How far an estimator is: keel_attitude_phase_t. */
+#define KEEL_ATTITUDE_STILL    0u /**< Waits for the vehicle to be still. */
+#define KEEL_ATTITUDE_ALIGNING 1u /**< Has a bias, converges. */
+#define KEEL_ATTITUDE_RUNNING  2u /**< Tilt and rate are valid. */
+
 /** A vector in the body's frame (forward, right, down) or the Earth's (north, east, down). */
 typedef struct keel_attitude_vector {
     float x;
@@ -179,12 +184,9 @@ typedef struct keel_attitude_sample {
     bool has_acceleration;
 } keel_attitude_sample_t;
 
-/** How far an estimator is. */
-typedef enum keel_attitude_phase {
-    KEEL_ATTITUDE_STILL = 0, /**< Waits for the vehicle to be still. */
-    KEEL_ATTITUDE_ALIGNING,  /**< Has a bias, converges. */
-    KEEL_ATTITUDE_RUNNING    /**< Tilt and rate are valid. */
-} keel_attitude_phase_t;
+/** How far an estimator is: KEEL_ATTITUDE_STILL, ... A plain number, as structures hold it: an
+ * enumeration's size differs between compilers. */
+typedef uint8_t keel_attitude_phase_t;
 
 /** What init computes from a configuration. */
 typedef struct keel_attitude_scale {
@@ -217,7 +219,7 @@ typedef struct keel_attitude {
     uint16_t field_age;                    /**< Steps since the field was taken, to field_steps. */
     uint32_t flags;                        /**< KEEL_ATTITUDE_LOST, ...: what the last step did. */
     bool heading_valid;                    /**< Whether the heading is that of the field. */
-    keel_attitude_phase_t phase;           /**< Whether tilt and rate are valid. */
+    keel_attitude_phase_t phase;           /**< Whether tilt and rate are valid: one of three. */
 } keel_attitude_t;
 
 /*@ predicate attitude_number(float value, real least, real most) =
@@ -362,6 +364,8 @@ void keel_attitude_take(keel_attitude_sample_t *sample, const keel_virtual_imu_t
   @     attitude->phase != KEEL_ATTITUDE_RUNNING ==>
   @     attitude->phase == KEEL_ATTITUDE_ALIGNING && attitude->settled == 0 &&
   @     !attitude->heading_valid;
+  @ ensures ATT_014_one: \old(attitude->phase) <= KEEL_ATTITUDE_RUNNING ==>
+  @     attitude->phase <= KEEL_ATTITUDE_RUNNING;
   @ ensures ATT_015_begins: attitude->heading_valid && !\old(attitude->heading_valid) ==>
   @     attitude->phase == KEEL_ATTITUDE_RUNNING &&
   @     (attitude->flags & KEEL_ATTITUDE_FIELD) != 0 &&

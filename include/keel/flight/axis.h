@@ -70,6 +70,11 @@ KEEL_C_BEGIN
 #define KEEL_AXIS_UNUSABLE 0x08u /**< A fix came that does not count. */
 #define KEEL_AXIS_BLIND    0x10u /**< No acceleration came, or none that can be: 0 was taken. */
 
+/* How good position and velocity are, from worst to best: keel_axis_quality_t. */
+#define KEEL_AXIS_NONE 0u /**< Not known. */
+#define KEEL_AXIS_POOR 1u /**< Known, but see above. */
+#define KEEL_AXIS_GOOD 2u /**< Fixes come, and agree. */
+
 /** What an axis is made from. */
 typedef struct keel_axis_config {
     float rate_hz;         /**< Steps per second, RATE_MIN_HZ to RATE_MAX_HZ. */
@@ -97,12 +102,9 @@ typedef struct keel_axis_sample {
     bool is_usable;        /**< Whether its source says that it can be used. */
 } keel_axis_sample_t;
 
-/** How good position and velocity are, from worst to best. */
-typedef enum keel_axis_quality {
-    KEEL_AXIS_NONE = 0, /**< Not known. */
-    KEEL_AXIS_POOR,     /**< Known, but see above. */
-    KEEL_AXIS_GOOD      /**< Fixes come, and agree. */
-} keel_axis_quality_t;
+/** How good position and velocity are: KEEL_AXIS_NONE, ... A plain number, as structures hold it:
+ * an enumeration's size differs between compilers. */
+typedef uint8_t keel_axis_quality_t;
 
 /** An axis. Written by the functions below alone; all of it may be read. */
 typedef struct keel_axis {
@@ -116,7 +118,7 @@ typedef struct keel_axis {
     uint16_t agreed;             /**< Fixes that agreed since one did not, to settle_fixes. */
     uint16_t jumped;             /**< Jumps since a fix was taken. */
     uint32_t flags;              /**< KEEL_AXIS_FIXED, ...: what the last step did. */
-    keel_axis_quality_t quality; /**< How good all this is. */
+    keel_axis_quality_t quality; /**< How good all this is: KEEL_AXIS_NONE, _POOR or _GOOD. */
 } keel_axis_t;
 
 /*@ predicate axis_number(float value, real least, real most) =
@@ -248,6 +250,7 @@ void keel_axis_restart(keel_axis_t *axis);
   @ ensures AXI_012_good: axis->quality == KEEL_AXIS_GOOD <==>
   @     axis->age < axis->config.late_steps && axis->age < axis->config.lost_steps &&
   @     axis->agreed >= axis->config.settle_fixes && !axis_told(axis, KEEL_AXIS_BLIND);
+  @ ensures AXI_012_one: axis->quality <= KEEL_AXIS_GOOD;
   @*/
 void keel_axis_step(keel_axis_t *axis, const keel_axis_sample_t *sample);
 

@@ -108,6 +108,17 @@ KEEL_C_BEGIN
 #define KEEL_BATTERY_SAG          0x0400u /**< The load's part in a cell is at its limit. */
 #define KEEL_BATTERY_FULL         0x0800u /**< A sum is at its end, and stays there. */
 
+/* What is known of the charge used: keel_battery_count_t. */
+#define KEEL_BATTERY_WAITING   0u /**< Not all modules have come yet. */
+#define KEEL_BATTERY_COUNTED   1u /**< Every current since the start is in it, or was held a bit. */
+#define KEEL_BATTERY_UNCOUNTED 2u /**< A module was lost: it is an estimate until a restart. */
+
+/* How much the battery still has: keel_battery_level_t. */
+#define KEEL_BATTERY_UNKNOWN  0u /**< No alarm, but voltage or charge are not known. */
+#define KEEL_BATTERY_OK       1u /**< All has been known for settle_steps, and there is no alarm. */
+#define KEEL_BATTERY_LOW      2u /**< Time to return. */
+#define KEEL_BATTERY_CRITICAL 3u /**< Time to land. */
+
 /** What a monitor is made from. */
 typedef struct keel_battery_config {
     float capacity_ah;        /**< C, CAPACITY_MIN_AH to CAPACITY_MAX_AH, in Ah. */
@@ -147,20 +158,12 @@ typedef struct keel_battery_sample {
     bool running; /**< Whether the motors run: then J follows the current. */
 } keel_battery_sample_t;
 
-/** What is known of the charge used. */
-typedef enum keel_battery_count {
-    KEEL_BATTERY_WAITING = 0, /**< Not all modules have come yet. */
-    KEEL_BATTERY_COUNTED,     /**< Every current since the start is in it, or was held shortly. */
-    KEEL_BATTERY_UNCOUNTED    /**< A module was lost: it is an estimate until a restart. */
-} keel_battery_count_t;
+/** What is known of the charge used: KEEL_BATTERY_WAITING, ... A plain number, as structures hold
+ * it: an enumeration's size differs between compilers. */
+typedef uint8_t keel_battery_count_t;
 
-/** How much the battery still has. */
-typedef enum keel_battery_level {
-    KEEL_BATTERY_UNKNOWN = 0, /**< No alarm, but voltage or charge are not known. */
-    KEEL_BATTERY_OK,          /**< All has been known for settle_steps, and there is no alarm. */
-    KEEL_BATTERY_LOW,         /**< Time to return. */
-    KEEL_BATTERY_CRITICAL     /**< Time to land. */
-} keel_battery_level_t;
+/** How much the battery still has: KEEL_BATTERY_UNKNOWN, ... A plain number, too. */
+typedef uint8_t keel_battery_level_t;
 
 /** A sum over steps: whole + part / KEEL_BATTERY_QUANTA, of A T or of 256 W T. */
 typedef struct keel_battery_sum {
@@ -215,8 +218,8 @@ typedef struct keel_battery {
     uint16_t voltage_age;          /**< Steps since a voltage came, to hold_steps. */
     uint16_t known;                /**< Steps in a row in which all is known, to settle_steps. */
     uint32_t flags;                /**< KEEL_BATTERY_NO_VOLTAGE, ...: what the last step met. */
-    keel_battery_count_t count;    /**< Whether the charge used is known. */
-    keel_battery_level_t level;    /**< How much the battery still has. */
+    keel_battery_count_t count;    /**< Whether the charge used is known: one of three. */
+    keel_battery_level_t level;    /**< How much the battery still has: one of four. */
 } keel_battery_t;
 
 /*@ predicate battery_number(float value, real least, real most) =
@@ -376,6 +379,9 @@ keel_status_t keel_battery_restart(keel_battery_t *battery, float part);
   @     battery->voltage_age < battery->config.hold_steps &&
   @     battery->known == battery->config.settle_steps && (battery->flags &
   @         (KEEL_BATTERY_LOST | KEEL_BATTERY_LOST << 1 | KEEL_BATTERY_VOLTAGE_LOST)) == 0;
+  @ ensures BAT_014_one: battery->level <= KEEL_BATTERY_CRITICAL &&
+  @     (\old(battery->count) <= KEEL_BATTERY_UNCOUNTED ==>
+  @     battery->count <= KEEL_BATTERY_UNCOUNTED);
   @ ensures BAT_014_latched: \old(battery->count) == KEEL_BATTERY_UNCOUNTED ==>
   @     battery->count == KEEL_BATTERY_UNCOUNTED;
   @ ensures BAT_015_bounded: battery_number(battery->current, 0, KEEL_BATTERY_TOTAL_LIMIT) &&

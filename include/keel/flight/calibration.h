@@ -55,18 +55,20 @@ KEEL_C_BEGIN
 /** The most samples of a mean. */
 #define KEEL_CALIBRATION_SAMPLES_MAX 65536u
 
+/* How far a calibration is: keel_calibration_state_t. */
+#define KEEL_CALIBRATION_IDLE       0u /**< None was begun. */
+#define KEEL_CALIBRATION_COLLECTING 1u /**< Samples are looked at. */
+#define KEEL_CALIBRATION_DONE       2u /**< The offset was taken. */
+#define KEEL_CALIBRATION_REFUSED    3u /**< At rest: it was beyond its limit, and is as before. */
+
 /** A sample of which the offset was taken off. */
 typedef struct keel_calibration_vector {
     float axis[KEEL_CALIBRATION_AXES]; /**< In the unit of the sample. */
 } keel_calibration_vector_t;
 
-/** How far a calibration is. */
-typedef enum keel_calibration_state {
-    KEEL_CALIBRATION_IDLE = 0,   /**< None was begun. */
-    KEEL_CALIBRATION_COLLECTING, /**< Samples are looked at. */
-    KEEL_CALIBRATION_DONE,       /**< The offset was taken. */
-    KEEL_CALIBRATION_REFUSED /**< At rest: it was beyond its limit, and is what it was before. */
-} keel_calibration_state_t;
+/** How far a calibration is: KEEL_CALIBRATION_IDLE, ... A plain number, as structures hold it: an
+ * enumeration's size differs between compilers. */
+typedef uint8_t keel_calibration_state_t;
 
 /** What a calibration at rest is made from. */
 typedef struct keel_calibration_rest_config {
@@ -84,7 +86,7 @@ typedef struct keel_calibration_rest {
     float first[KEEL_CALIBRATION_AXES];    /**< The first sample of the run. */
     float sum[KEEL_CALIBRATION_AXES];      /**< Of how far the run's samples lie from it. */
     uint32_t count;                        /**< Samples of the run, 0 to samples. */
-    keel_calibration_state_t state;        /**< How far it is. */
+    keel_calibration_state_t state;        /**< How far it is: one of four. */
     uint16_t restarts; /**< Runs that were broken off since begin; stays at 65535. */
     uint16_t beyond;   /**< Refused: bit k is set when axis k was beyond the limit. */
 } keel_calibration_rest_t;
@@ -112,7 +114,7 @@ typedef struct keel_calibration_field {
     float offset[KEEL_CALIBRATION_AXES];    /**< In force; 0 before the first calibration. */
     float lowest[KEEL_CALIBRATION_AXES];    /**< Seen since begin; config.highest before. */
     float highest[KEEL_CALIBRATION_AXES];   /**< Seen since begin; config.lowest before. */
-    keel_calibration_state_t state;         /**< How far it is; never REFUSED. */
+    keel_calibration_state_t state;         /**< How far it is: one of four, never REFUSED. */
     uint16_t dropped;                       /**< Samples out of the range; stays at 65535. */
 } keel_calibration_field_t;
 
@@ -165,14 +167,15 @@ typedef struct keel_calibration_field {
   @     (r->count != 0 ==> calibration_sum(r, 0) && calibration_sum(r, 1) &&
   @         calibration_sum(r, 2)) && r->count <= r->config.samples && r->beyond <= 7 &&
   @     (r->state == KEEL_CALIBRATION_COLLECTING ==> r->count < r->config.samples) &&
-  @     (r->state == KEEL_CALIBRATION_REFUSED <==> r->beyond != 0);
+  @     (r->state == KEEL_CALIBRATION_REFUSED <==> r->beyond != 0) &&
+  @     r->state <= KEEL_CALIBRATION_REFUSED;
   @
   @ predicate calibration_field_valid(keel_calibration_field_t *f) =
   @     calibration_field_range(f->config) && calibration_field_limits(f->config) &&
   @     calibration_three(&f->offset[0], -f->config.limit, f->config.limit) &&
   @     calibration_three(&f->lowest[0], f->config.lowest, f->config.highest) &&
   @     calibration_three(&f->highest[0], f->config.lowest, f->config.highest) &&
-  @     f->state != KEEL_CALIBRATION_REFUSED;
+  @     f->state <= KEEL_CALIBRATION_DONE;
   @
   @ // A value that is near the first of its run; rounded, as the difference is.
   @ predicate calibration_near(float value, float first, float spread) =

@@ -46,11 +46,11 @@ KEEL_C_BEGIN
 #define KEEL_MIXER_AUTHORITY 0.125f
 
 /** What gave way in a step: bits of keel_mixer_t.limited. */
-#define KEEL_MIXER_YAW     1u  /**< Yaw torque is less than asked for. */
-#define KEEL_MIXER_RAISED  2u  /**< Thrust is more than asked for. */
-#define KEEL_MIXER_LOWERED 4u  /**< Thrust is less than asked for. */
-#define KEEL_MIXER_TILT    8u  /**< Roll and pitch torque are less than asked for. */
-#define KEEL_MIXER_COMMAND 16u /**< A part of the command was not finite or out of its range. */
+#define KEEL_MIXER_YAW     0x01u /**< Yaw torque is less than asked for. */
+#define KEEL_MIXER_RAISED  0x02u /**< Thrust is more than asked for. */
+#define KEEL_MIXER_LOWERED 0x04u /**< Thrust is less than asked for. */
+#define KEEL_MIXER_TILT    0x08u /**< Roll and pitch torque are less than asked for. */
+#define KEEL_MIXER_COMMAND 0x10u /**< A part of the command was not finite or out of its range. */
 
 /** What a motor adds to its output for each unit of torque that is asked for, from -1 to 1. */
 typedef struct keel_mixer_motor {

@@ -30,6 +30,7 @@
 #include "keel/status.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 KEEL_C_BEGIN
 
@@ -46,6 +47,11 @@ KEEL_C_BEGIN
 /** What ki T and the derivative never exceed, in any state: 2^30 and 2^70, far from overflow. */
 #define KEEL_PID_INTEGRAL_GAIN_LIMIT 1073741824.0f
 #define KEEL_PID_DERIVATIVE_LIMIT    1180591620717411303424.0f
+
+/* Whether the last output is at a limit: keel_pid_saturation_t. */
+#define KEEL_PID_FREE   0u /**< Within the limits. */
+#define KEEL_PID_AT_MIN 1u /**< Would have been below output_min. */
+#define KEEL_PID_AT_MAX 2u /**< Would have been above output_max. */
 
 /** The gains of eq. 4, each from 0 to KEEL_PID_GAIN_LIMIT. u is the unit of the output, e that of
  * the error. */
@@ -67,25 +73,23 @@ typedef struct keel_pid_config {
     float integral_max;     /**< Greatest contribution of the integral, not below 0. */
 } keel_pid_config_t;
 
-/** Whether the last output is at a limit because it would have been beyond it. */
-typedef enum keel_pid_saturation {
-    KEEL_PID_FREE = 0, /**< Within the limits. */
-    KEEL_PID_AT_MIN,   /**< Would have been below output_min. */
-    KEEL_PID_AT_MAX    /**< Would have been above output_max. */
-} keel_pid_saturation_t;
+/** Whether the last output is at a limit because it would have been beyond it: KEEL_PID_FREE, ... A
+ * plain number, as structures hold it: an enumeration's size differs between compilers. */
+typedef uint8_t keel_pid_saturation_t;
 
 /** A controller. */
 typedef struct keel_pid {
-    keel_pid_config_t config;         /**< As checked by init, with the gains in force. */
-    keel_filter_t filter;             /**< The low-pass of the error. */
-    float integral_gain;              /**< ki T. */
-    float integral;                   /**< What the integral contributes, in the output's unit. */
-    float setpoint;                   /**< The last set-point; 0 before the first step. */
-    float error;                      /**< The last error; 0 before the first step. */
-    float derivative;                 /**< The last d(e_f)/dt, in e/s; 0 before the second step. */
-    float output;                     /**< The last output. */
-    keel_pid_saturation_t saturation; /**< Whether that is at a limit. */
-    bool started;                     /**< Whether a step was made since the last reset. */
+    keel_pid_config_t config; /**< As checked by init, with the gains in force. */
+    keel_filter_t filter;     /**< The low-pass of the error. */
+    float integral_gain;      /**< ki T. */
+    float integral;           /**< What the integral contributes, in the output's unit. */
+    float setpoint;           /**< The last set-point; 0 before the first step. */
+    float error;              /**< The last error; 0 before the first step. */
+    float derivative;         /**< The last d(e_f)/dt, in e/s; 0 before the second step. */
+    float output;             /**< The last output. */
+    keel_pid_saturation_t
+        saturation; /**< Whether that is at a limit: KEEL_PID_FREE, _AT_MIN or _AT_MAX. */
+    bool started;   /**< Whether a step was made since the last reset. */
 } keel_pid_t;
 
 /*@ predicate pid_gain(float gain) = \is_finite(gain) && 0 <= gain <= KEEL_PID_GAIN_LIMIT;
@@ -121,7 +125,8 @@ typedef struct keel_pid {
   @ predicate pid_valid(keel_pid_t pid) =
   @     pid_gains(pid.config.gains) && pid_limits(pid.config) && filter_rate(pid.config.rate_hz) &&
   @     filter_magnitude(pid.integral_gain, KEEL_PID_INTEGRAL_GAIN_LIMIT) &&
-  @     filter_valid(pid.filter) && pid_bounded(pid) && pid_remembers(pid);
+  @     filter_valid(pid.filter) && pid_bounded(pid) && pid_remembers(pid) &&
+  @     pid.saturation <= KEEL_PID_AT_MAX;
   @*/
 
 /**

@@ -180,6 +180,9 @@ bool keel_ulog_format(keel_ulog_message_t *message, const keel_ulog_format_t *fo
   @ assigns message->size, message->overflowed,
   @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
   @ ensures ULG_002_information: ulog_made(message, 'I', \result);
+  @ ensures ULG_005_text: \result ==> length <= message->size &&
+  @     \forall integer k; 0 <= k < length ==>
+  @         message->bytes[message->size - length + k] == text[k];
   @*/
 bool keel_ulog_information(keel_ulog_message_t *message, const keel_ulog_name_t *name,
                            const char *text, uint8_t length);
@@ -273,6 +276,11 @@ bool keel_ulog_add(keel_ulog_message_t *message, const uint8_t *bytes, uint16_t 
   @ assigns message->size, message->overflowed,
   @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
   @ ensures ULG_002_logging: ulog_made(message, 'L', \result);
+  @ ensures ULG_010_fits: \result <==>
+  @     length <= KEEL_ULOG_MESSAGE_BYTES - KEEL_ULOG_HEAD_BYTES - 9;
+  @ ensures ULG_010_text: \result ==> message->size == KEEL_ULOG_HEAD_BYTES + 9 + length &&
+  @     \forall integer k; 0 <= k < length ==>
+  @         message->bytes[KEEL_ULOG_HEAD_BYTES + 9 + k] == text[k];
   @*/
 bool keel_ulog_logging(keel_ulog_message_t *message, uint8_t level, uint64_t time_us,
                        const char *text, uint8_t length);

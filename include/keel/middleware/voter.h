@@ -41,7 +41,7 @@
 
 KEEL_C_BEGIN
 
-/** The most sensors that can vote. */
+/** The most sensors that can vote: 2 to 4. The proofs are for 4, channels of fewer included. */
 #ifndef KEEL_VOTER_SENSORS
 #define KEEL_VOTER_SENSORS 4u
 #endif

@@ -10,6 +10,8 @@
  * queued first. A promoted task's dynamic priority is the real-time priority, the maximum, so
  * promoted tasks come before all others and among themselves in queue order: first come, first
  * served.
+ *
+ * Without promotion only those are eligible that fit the slack, in the same order.
  */
 #ifndef KEEL_RTOS_DECISION_H
 #define KEEL_RTOS_DECISION_H
@@ -19,6 +21,7 @@
 #include "keel/rtos/priority.h"
 #include "keel/rtos/queue.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 KEEL_C_BEGIN
@@ -37,9 +40,9 @@ KEEL_C_BEGIN
   @ predicate promoted(keel_queue_t *q, integer x, integer now_us) =
   @     task_priority(q, x, now_us) == KEEL_PRIORITY_REALTIME;
   @
-  @ // w: the declared budget or the longest measured run, whichever is longer.
+  @ // w: the declared budget or the longest overrun that is remembered, whichever is longer.
   @ logic integer task_worst(keel_queue_t *q, integer x) =
-  @     \max(q->budget_us[x], q->stats[x].longest_us);
+  @     stats_worst(q->budget_us[x], q->stats[x].remembered_us);
   @
   @ // Time to a task's release, none when it is due.
   @ logic integer time_to(keel_queue_t *q, integer x, integer now_us) =
@@ -50,20 +53,27 @@ KEEL_C_BEGIN
   @     \forall integer j; 0 <= j < q->realtime_count ==>
   @         guard_us + task_worst(q, x) <= time_to(q, q->order[j], now_us);
   @
-  @ // Whether a task may run that is not real-time, if no real-time task is due.
-  @ predicate may_run(keel_queue_t *q, integer x, integer now_us, integer guard_us) =
-  @     released(q, x, now_us) && (promoted(q, x, now_us) || fits_slack(q, x, now_us, guard_us));
+  @ // Whether a task may run that is not real-time, if no real-time task is due; without is 0
+  @ // where tasks are promoted.
+  @ predicate may_run(keel_queue_t *q, integer x, integer now_us, integer guard_us,
+  @                   integer without) =
+  @     released(q, x, now_us) &&
+  @     ((without == 0 && promoted(q, x, now_us)) || fits_slack(q, x, now_us, guard_us));
   @
   @ // The same with the room that the slack leaves beside the guard, which is computed once.
-  @ predicate eligible(keel_queue_t *q, integer x, integer now_us, integer room_us) =
-  @     released(q, x, now_us) && (promoted(q, x, now_us) || task_worst(q, x) <= room_us);
+  @ predicate eligible(keel_queue_t *q, integer x, integer now_us, integer room_us,
+  @                    integer without) =
+  @     released(q, x, now_us) &&
+  @     ((without == 0 && promoted(q, x, now_us)) || task_worst(q, x) <= room_us);
   @
-  @ // When waiting alone makes a task run that is not real-time: its release, or its promotion.
+  @ // When waiting alone makes a task run that is not real-time: its release, or its promotion, if
+  @ // there is any.
   @ logic integer promotion(keel_queue_t *q, integer x) =
   @     q->release_us[x] - q->period_us[x] + promotion_age(q->priority[x], q->period_us[x]);
   @
-  @ logic integer next_event(keel_queue_t *q, integer x, integer now_us) =
-  @     (q->release_us[x] > now_us) ? q->release_us[x] : promotion(q, x);
+  @ logic integer next_event(keel_queue_t *q, integer x, integer now_us, integer without) =
+  @     (q->release_us[x] > now_us) ? q->release_us[x]
+  @         : ((without == 0) ? promotion(q, x) : KEEL_TIME_NEVER_US);
   @
   @ // The earliest release among positions first to last - 1; later than any time if there is none.
   @ predicate is_earliest(keel_queue_t *q, integer first, integer last, integer time_us) =
@@ -139,9 +149,10 @@ typedef struct keel_choice {
 } keel_choice_t;
 
 /*@ // What a choice at now_us is, by what each of the tasks was allowed then.
-  @ predicate chosen(keel_queue_t *q, keel_choice_t c, integer now_us, integer room_us) =
+  @ predicate chosen(keel_queue_t *q, keel_choice_t c, integer now_us, integer room_us,
+  @                  integer without) =
   @     q->realtime_count <= c.position < q->count &&
-  @     eligible(q, q->order[c.position], now_us, room_us) &&
+  @     eligible(q, q->order[c.position], now_us, room_us, without) &&
   @     c.priority == task_priority(q, q->order[c.position], now_us);
   @*/
 
@@ -149,9 +160,10 @@ typedef struct keel_choice {
  * EDF with dynamic priority: the task that runs among those that are not real-time (eq. 3,
  * requirement DEC-003).
  *
- * @param queue   a valid queue
- * @param now_us  the time, in us
- * @param room_us the room that the slack leaves, in us (keel_decision_room_us)
+ * @param queue             a valid queue
+ * @param now_us            the time, in us
+ * @param room_us           the room that the slack leaves, in us (keel_decision_room_us)
+ * @param without_promotion whether only those run that fit the room
  * @return the choice
  */
 /*@ requires \valid_read(queue) && queue_valid(queue);
@@ -160,40 +172,43 @@ typedef struct keel_choice {
   @ ensures range: \result.priority <= KEEL_PRIORITY_REALTIME;
   @ ensures DEC_003_earliest:
   @     is_earliest(queue, queue->realtime_count, queue->count, \result.earliest_us);
-  @ ensures DEC_003_eligible: \result.priority > 0 ==> chosen(queue, \result, now_us, room_us);
+  @ ensures DEC_003_eligible: \result.priority > 0 ==>
+  @     chosen(queue, \result, now_us, room_us, without_promotion);
   @ ensures DEC_003_highest: \forall integer i; queue->realtime_count <= i < queue->count ==>
-  @     eligible(queue, queue->order[i], now_us, room_us) ==>
+  @     eligible(queue, queue->order[i], now_us, room_us, without_promotion) ==>
   @     task_priority(queue, queue->order[i], now_us) <= \result.priority;
   @ ensures DEC_003_first: \result.priority > 0 ==>
   @     \forall integer i; queue->realtime_count <= i < \result.position ==>
-  @     eligible(queue, queue->order[i], now_us, room_us) ==>
+  @     eligible(queue, queue->order[i], now_us, room_us, without_promotion) ==>
   @     task_priority(queue, queue->order[i], now_us) < \result.priority;
   @ ensures DEC_003_none: \result.priority == 0 ==>
   @     \forall integer i; queue->realtime_count <= i < queue->count ==>
-  @     !eligible(queue, queue->order[i], now_us, room_us);
+  @     !eligible(queue, queue->order[i], now_us, room_us, without_promotion);
   @ ensures DEC_003_nowhere: \result.priority == 0 ==> \result.position == 0;
   @*/
-keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, uint32_t room_us);
+keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, uint32_t room_us,
+                                  bool without_promotion);
 
 /**
  * How long no task that is not real-time can become eligible when none is now (requirement
  * DEC-004): until the first release, or the promotion of a task that is released but does not fit.
  * Slack only shrinks until a real-time task runs, so what does not fit now will not before that.
  *
- * @param queue  a valid queue
- * @param now_us the time, in us
+ * @param queue             a valid queue
+ * @param now_us            the time, in us
+ * @param without_promotion whether no task is ever promoted
  * @return the earliest such time in us, or KEEL_TIME_NEVER_US
  */
 /*@ requires \valid_read(queue) && queue_valid(queue);
   @ requires now_us <= KEEL_CLOCK_TIME_LIMIT_US;
   @ assigns \nothing;
   @ ensures DEC_004_bound: \forall integer i; queue->realtime_count <= i < queue->count ==>
-  @     \result <= next_event(queue, queue->order[i], now_us);
+  @     \result <= next_event(queue, queue->order[i], now_us, without_promotion);
   @ ensures DEC_004_exact: \result == KEEL_TIME_NEVER_US ||
   @     (\exists integer i; queue->realtime_count <= i < queue->count &&
-  @         \result == next_event(queue, queue->order[i], now_us));
+  @         \result == next_event(queue, queue->order[i], now_us, without_promotion));
   @*/
-uint64_t keel_decision_event_us(const keel_queue_t *queue, uint64_t now_us);
+uint64_t keel_decision_event_us(const keel_queue_t *queue, uint64_t now_us, bool without_promotion);
 
 KEEL_C_END
 

@@ -5,8 +5,9 @@
  *        one's own.
  *
  * Begin opens the pass, next decides and hands out the task to run, finish takes its statistics;
- * none of them calls a task. Run is what follows begin in a step: next, the body and finish in
- * turn. They take a scheduler that is not null; a firmware calls keel_scheduler_step.
+ * none of them calls a task. A turn is next, the body and finish; run takes turns until the pass is
+ * closed, which is what follows begin in a step. They take a scheduler that is not null; a firmware
+ * calls keel_scheduler_step.
  */
 #ifndef KEEL_RTOS_PASS_H
 #define KEEL_RTOS_PASS_H
@@ -33,6 +34,14 @@ KEEL_C_BEGIN
 /*@ assigns \nothing; */
 uint32_t keel_any_clock(void *context);
 
+/* Any moment: what is proved of it holds of each. Nothing assigns it; it exists in proofs alone. */
+//@ ghost extern uint64_t asked_us;
+
+/*@ // Of the tasks that the pass has looked at none is left that was due at the moment asked about.
+  @ predicate served(keel_scheduler_t *s) = \forall integer i; 0 <= i < s->cursor ==>
+  @     asked_us < s->queue.release_us[s->queue.order[i]];
+  @*/
+
 /* Any body: of what the kernel reads it writes the scheduler alone, and that only through
  * keel_scheduler_add and keel_scheduler_remove, which keep these. */
 /*@ requires \valid(running_scheduler) && scheduler_valid(running_scheduler);
@@ -44,6 +53,7 @@ uint32_t keel_any_clock(void *context);
   @ ensures busy: running_scheduler->busy_us == \old(running_scheduler->busy_us);
   @ ensures pass: running_scheduler->pass_end - running_scheduler->cursor <=
   @     \old(running_scheduler->pass_end - running_scheduler->cursor);
+  @ ensures served: \old(served(running_scheduler)) ==> served(running_scheduler);
   @ ensures clock: running_scheduler->config.read_clock ==
   @     \old(running_scheduler->config.read_clock);
   @ ensures declared: \forall integer i; 0 <= i < running_scheduler->queue.count ==>
@@ -222,6 +232,11 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @       scheduler->running >= scheduler->queue.realtime_count;
   @   ensures SCH_016_fits: scheduler->stage == KEEL_STAGE_OTHER ==>
   @       \at(other_may_run(scheduler, \at(scheduler->running, Post)), Pre);
+  @   ensures SCH_016_slack: scheduler->stage == KEEL_STAGE_OTHER ==>
+  @       scheduler->config.without_promotion != 0 ==>
+  @       \at(fits_slack(&scheduler->queue,
+  @                      scheduler->queue.order[\at(scheduler->running, Post)],
+  @                      scheduler->clock.now_us, scheduler->config.guard_us), Pre);
   @   ensures SCH_016_highest: scheduler->stage == KEEL_STAGE_OTHER ==>
   @       \forall integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
   @           \old(other_may_run(scheduler, i)) ==> \old(priority_at(scheduler, i)) <=
@@ -236,7 +251,7 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @   ensures SCH_016_promotion: scheduler->stage == KEEL_STAGE_OTHER ==>
   @       promotions_at(scheduler, scheduler->running) ==
   @           ((\at(priority_at(scheduler, \at(scheduler->running, Post)), Pre) ==
-  @             KEEL_PRIORITY_REALTIME)
+  @             KEEL_PRIORITY_REALTIME && scheduler->config.without_promotion == 0)
   @               ? counted(\at(promotions_at(scheduler, \at(scheduler->running, Post)), Pre),
   @                         UINT16_MAX)
   @               : \at(promotions_at(scheduler, \at(scheduler->running, Post)), Pre));
@@ -261,7 +276,8 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @   ensures SCH_012_others: \result == \null ==>
   @       \forall integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
   @           scheduler->wake_us <= next_event(&scheduler->queue, scheduler->queue.order[i],
-  @                                            scheduler->clock.now_us);
+  @                                            scheduler->clock.now_us,
+  @                                            scheduler->config.without_promotion);
   @   ensures SCH_012_first: \result == \null ==>
   @       scheduler->wake_us <= scheduler->earliest_realtime_us;
   @   ensures SCH_012_ahead: \result == \null ==>
@@ -272,7 +288,8 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @       scheduler->wake_us == scheduler->earliest_realtime_us ||
   @       \exists integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count &&
   @           scheduler->wake_us == next_event(&scheduler->queue, scheduler->queue.order[i],
-  @                                            scheduler->clock.now_us);
+  @                                            scheduler->clock.now_us,
+  @                                            scheduler->config.without_promotion);
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
@@ -341,8 +358,48 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler);
 keel_status_t keel_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us);
 
 /**
- * Runs the pass that keel_pass_begin has opened to its end (requirement SCH-023): next, the body
- * and finish in turn. Does nothing when none is open.
+ * One turn of a pass (requirement SCH-026): next, and if it hands out a task, its body, and finish
+ * with the clock as it reads then. Does nothing when no pass is open.
+ *
+ * @param scheduler a started scheduler, not from within a task
+ * @return KEEL_OK, or KEEL_ERR_CLOCK when the clock jumped backwards, which ends the pass
+ */
+/*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
+  @ requires scheduler == running_scheduler && clock_modelled(scheduler) &&
+  @     bodies_modelled(scheduler);
+  @ requires wake_right(scheduler) && scheduler->busy_us <= scheduler->clock.now_us;
+  @ requires scheduler->stage == KEEL_STAGE_PASS ==> uptime_left(scheduler, 1);
+  @ assigns *scheduler;
+  @ SCHEDULER_STAYS_VALID(scheduler)
+  @ ensures SCH_026_wake: wake_right(scheduler);
+  @ ensures SCH_026_clock: clock_modelled(scheduler);
+  @ ensures SCH_026_bodies: bodies_modelled(scheduler);
+  @ behavior closed:
+  @   assumes scheduler->stage != KEEL_STAGE_PASS;
+  @   ensures SCH_026_closed: \result == KEEL_OK;
+  @ behavior open:
+  @   assumes scheduler->stage == KEEL_STAGE_PASS;
+  @   ensures SCH_026_result: \result == KEEL_OK || \result == KEEL_ERR_CLOCK;
+  @   ensures SCH_026_stage: scheduler->stage == KEEL_STAGE_READY ||
+  @       (scheduler->stage == KEEL_STAGE_PASS && \result == KEEL_OK);
+  @   ensures SCH_026_time: \old(scheduler->clock.now_us) <= scheduler->clock.now_us <
+  @       \old(scheduler->clock.now_us) + KEEL_CLOCK_STEP_LIMIT_US;
+  @   ensures SCH_026_busy: scheduler->busy_us <= scheduler->clock.now_us;
+  @   ensures SCH_026_shorter: scheduler->stage == KEEL_STAGE_PASS ==>
+  @       scheduler->pass_end - scheduler->cursor <
+  @       \old(scheduler->pass_end - scheduler->cursor);
+  @   ensures SCH_026_looked: \result == KEEL_OK ==> scheduler->stage == KEEL_STAGE_READY ==>
+  @       scheduler->cursor == scheduler->pass_end;
+  @   ensures SCH_026_served: asked_us <= \old(scheduler->clock.now_us) ==>
+  @       \old(served(scheduler)) ==> served(scheduler);
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_pass_turn(keel_scheduler_t *scheduler);
+
+/**
+ * Runs the pass that keel_pass_begin has opened to its end (requirement SCH-023): turn after turn.
+ * Does nothing when none is open.
  *
  * @param scheduler a started scheduler, not from within a task
  * @return KEEL_OK, or KEEL_ERR_CLOCK when the clock jumped backwards: see keel_scheduler_resync
@@ -363,6 +420,10 @@ keel_status_t keel_pass_finish(keel_scheduler_t *scheduler, uint32_t raw_us);
   @ ensures SCH_023_busy: scheduler->busy_us <= scheduler->clock.now_us;
   @ ensures SCH_023_clock: clock_modelled(scheduler);
   @ ensures SCH_023_bodies: bodies_modelled(scheduler);
+  @ ensures SCH_023_looked: \result == KEEL_OK ==> \old(scheduler->stage) == KEEL_STAGE_PASS ==>
+  @     scheduler->cursor == scheduler->pass_end;
+  @ ensures SCH_023_served: asked_us <= \old(scheduler->clock.now_us) ==>
+  @     \old(served(scheduler)) ==> served(scheduler);
   @*/
 keel_status_t keel_pass_run(keel_scheduler_t *scheduler);
 

@@ -9,7 +9,8 @@
  *
  * where age is the time since its last release but one on the grid, so that dp = 1 + sp at the
  * moment of its release. A task whose dp saturates is promoted: the scheduler serves it whether
- * or not it fits the slack. With the values below, counted from the previous release:
+ * or not it fits the slack, unless it is configured without promotion (scheduler_state.h). With the
+ * values below, counted from the previous release:
  *
  *     | class       | sp | promoted at age |
  *     | low         |  1 | 15    periods   |

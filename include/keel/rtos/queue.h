@@ -28,7 +28,7 @@
 
 KEEL_C_BEGIN
 
-/** How many tasks a queue holds. */
+/** How many tasks a queue holds: 1 to 255. The proofs are for 32. */
 #ifndef KEEL_QUEUE_CAPACITY
 #define KEEL_QUEUE_CAPACITY 32u
 #endif

@@ -14,7 +14,8 @@
  *     for (;;) { keel_scheduler_step(&s); }
  *
  * A task is its declaration, a constant, whose address is its handle. While it runs it may add and
- * remove tasks, itself too, but change nothing else. The contracts' words: scheduler_state.h.
+ * remove tasks, itself too, but change nothing else. The contracts' words: scheduler_state.h; there
+ * also stands what the choice between promotion and none means for tasks of either class.
  */
 #ifndef KEEL_RTOS_SCHEDULER_H
 #define KEEL_RTOS_SCHEDULER_H
@@ -63,7 +64,8 @@ keel_status_t keel_scheduler_init(keel_scheduler_t *scheduler,
                                   const keel_scheduler_config_t *config);
 
 /**
- * Checks whether the tasks can be scheduled, and names the first that cannot (SCH-003).
+ * Checks whether the tasks can be scheduled, and names the first that cannot (SCH-003). The rules
+ * are the same with and without promotion; which bound then holds: keel_scheduler_config_t.
  *
  * @param scheduler the scheduler
  * @param admitted  receives how many tasks are admitted: on refusal, the offender's position
@@ -263,6 +265,9 @@ keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
   @   ensures SCH_020_closed: scheduler->stage == KEEL_STAGE_READY;
   @   ensures SCH_020_time: \old(scheduler->clock.now_us) <= scheduler->clock.now_us;
   @   ensures SCH_020_busy: scheduler->busy_us <= scheduler->clock.now_us;
+  @   ensures SCH_020_served: \result == KEEL_OK ==> asked_us <= \old(scheduler->clock.now_us) ==>
+  @       \forall integer i; 0 <= i < scheduler->pass_end ==>
+  @           asked_us < scheduler->queue.release_us[scheduler->queue.order[i]];
   @ complete behaviors;
   @ disjoint behaviors;
   @*/

@@ -15,6 +15,7 @@
 #include "keel/rtos/decision.h"
 #include "keel/rtos/queue.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 KEEL_C_BEGIN
@@ -22,12 +23,25 @@ KEEL_C_BEGIN
 /** Reads a free-running counter of microseconds, which wraps at 2^32. */
 typedef uint32_t (*keel_clock_fn_t)(void *context);
 
-/** How a scheduler is set up. */
+/**
+ * How a scheduler is set up.
+ *
+ * With promotion, which is what zeros mean, a task that does not fit the slack is served from a
+ * stated age on nevertheless (WAIT-001). For real-time tasks the bound of ISO-001 then holds as
+ * long as no task is promoted.
+ *
+ * Without promotion a task that is not real-time starts only where its worst-case time fits the
+ * slack, and ISO-001 needs no such condition. Waiting is then bounded by nothing but the slack: a
+ * task that fits no gap between real-time releases never runs. One overrun can do that, as what
+ * never runs forgets nothing (KEEL_STATS_FORGET_RUNS). Removing the task and adding it again clears
+ * its statistics, so that its budget counts.
+ */
 typedef struct keel_scheduler_config {
     keel_clock_fn_t read_clock;     /**< The clock. */
     void *clock_context;            /**< Handed to read_clock; may be null. */
     uint32_t guard_us;              /**< W of eq. 2: time for a decision, below 2^31 us. */
     uint32_t utilisation_limit_ppm; /**< Highest utilisation, at most KEEL_UTILISATION_FULL_PPM. */
+    bool without_promotion;         /**< Whether a task that does not fit the slack never runs. */
 } keel_scheduler_config_t;
 
 /* What the scheduler is doing. Plain numbers: an enumeration's size differs between compilers. */
@@ -113,6 +127,7 @@ typedef struct keel_task_report {
   @ predicate config_copied(keel_scheduler_t *s, keel_scheduler_config_t *config) =
   @     s->config.guard_us == config->guard_us &&
   @     s->config.utilisation_limit_ppm == config->utilisation_limit_ppm &&
+  @     s->config.without_promotion == config->without_promotion &&
   @     s->config.read_clock == config->read_clock &&
   @     s->config.clock_context == config->clock_context;
   @
@@ -135,7 +150,8 @@ typedef struct keel_task_report {
   @
   @ // Whether the task at position i may run now, if no real-time task is due.
   @ predicate other_may_run(keel_scheduler_t *s, integer i) =
-  @     may_run(&s->queue, s->queue.order[i], s->clock.now_us, s->config.guard_us);
+  @     may_run(&s->queue, s->queue.order[i], s->clock.now_us, s->config.guard_us,
+  @             s->config.without_promotion);
   @
   @ predicate due(keel_scheduler_t *s, integer i) =
   @     released(&s->queue, s->queue.order[i], s->clock.now_us);
@@ -158,13 +174,15 @@ typedef struct keel_task_report {
   @     \at(s->queue.skipped[s->queue.order[i]], M) ==
   @         \at(s->queue.skipped[s->queue.order[i]], L);
   @
-  @ // What scheduling reads of the declarations, and the guard, is the same in states L and M.
+  @ // What scheduling reads of the declarations, and of the configuration, is the same in states
+  @ // L and M.
   @ predicate declared_same{L, M}(keel_scheduler_t *s) =
   @     (\forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
   @         \at(s->queue.period_us[x], M) == \at(s->queue.period_us[x], L)) &&
   @     (\forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
   @         \at(s->queue.budget_us[x], M) == \at(s->queue.budget_us[x], L)) &&
-  @     \at(s->config.guard_us, M) == \at(s->config.guard_us, L);
+  @     \at(s->config.guard_us, M) == \at(s->config.guard_us, L) &&
+  @     \at(s->config.without_promotion, M) == \at(s->config.without_promotion, L);
   @
   @ logic integer promotions_at(keel_scheduler_t *s, integer i) =
   @     s->queue.stats[s->queue.order[i]].promotions;
@@ -176,10 +194,12 @@ typedef struct keel_task_report {
   @         !other_may_run(s, i));
   @
   @ // Why the task at a position, not a real-time one, cannot run before wake_us: it is not
-  @ // released before, or does not fit the slack, which only shrinks, and is not promoted before.
+  @ // released before, or does not fit the slack, which only shrinks, and is not promoted before,
+  @ // if ever.
   @ predicate waits(keel_scheduler_t *s, integer i) =
   @     s->wake_us <= s->queue.release_us[s->queue.order[i]] ||
-  @     (s->wake_us <= promotion(&s->queue, s->queue.order[i]) &&
+  @     ((s->config.without_promotion != 0 ||
+  @       s->wake_us <= promotion(&s->queue, s->queue.order[i])) &&
   @      !fits_slack(&s->queue, s->queue.order[i], s->clock.now_us, s->config.guard_us));
   @
   @ // The claim that wake_us makes while it lies ahead: nothing is due before it.

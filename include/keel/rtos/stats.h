@@ -5,6 +5,11 @@
  *
  * Everything is integer arithmetic; what saturates says so in its comment and stops exactly at
  * its limit.
+ *
+ * Besides what is reported the statistics keep what decisions reckon with: the longest overrun that
+ * is remembered. A task's worst-case time w is its budget or this overrun, whichever is longer. The
+ * overrun is forgotten after KEEL_STATS_FORGET_RUNS runs in a row within the budget; the longest
+ * run that is reported stays.
  */
 #ifndef KEEL_RTOS_STATS_H
 #define KEEL_RTOS_STATS_H
@@ -15,29 +20,57 @@
 
 KEEL_C_BEGIN
 
+/**
+ * So many runs in a row within the budget, and a task's overruns are forgotten.
+ *
+ * A task that fits no gap with its overrun runs by promotion alone, about once in 15 / sp periods:
+ * after about 120 / sp of them it is forgotten. On the other side an overrun that comes when none
+ * is remembered, and so surprises a decision, comes at most once in any nine runs. A smaller number
+ * would sooner forget what happens again.
+ */
+#define KEEL_STATS_FORGET_RUNS 8u
+
 /** Statistics of one task's runs (fig. 4). All zero at first. */
 typedef struct keel_stats {
-    uint64_t total_us;   /**< Sum of the counted runs' execution times, in us. */
-    uint32_t runs;       /**< Counted runs; stays at UINT32_MAX, then the mean is frozen. */
-    uint32_t last_us;    /**< The last run, in us. */
-    uint32_t longest_us; /**< The longest run, in us. */
-    uint16_t overruns;   /**< Runs longer than the budget; stays at UINT16_MAX. */
-    uint16_t promotions; /**< Times it was served by promotion; stays at UINT16_MAX. */
+    uint64_t total_us;      /**< Sum of the counted runs' execution times, in us. */
+    uint32_t runs;          /**< Counted runs; stays at UINT32_MAX, then the mean is frozen. */
+    uint32_t last_us;       /**< The last run, in us. */
+    uint32_t longest_us;    /**< The longest run, in us; never forgotten. */
+    uint32_t remembered_us; /**< The longest overrun that decisions reckon with; 0: none. */
+    uint32_t forgotten_in;  /**< So many runs within the budget, and it is forgotten. */
+    uint16_t overruns;      /**< Runs longer than the budget; stays at UINT16_MAX. */
+    uint16_t promotions;    /**< Times it was served by promotion; stays at UINT16_MAX. */
 } keel_stats_t;
 
 /* The parts of statistics for an assigns clause: a structure named as a whole would count as
- * written anywhere in it, which costs provers far more than six fields. */
+ * written anywhere in it, which costs provers far more than eight fields. */
 #define STATS_FIELDS(stats)                                                                        \
-    (stats).total_us, (stats).runs, (stats).last_us, (stats).longest_us, (stats).overruns,         \
-        (stats).promotions
+    (stats).total_us, (stats).runs, (stats).last_us, (stats).longest_us, (stats).remembered_us,    \
+        (stats).forgotten_in, (stats).overruns, (stats).promotions
 
 /* Those of them that a run writes. */
 #define STATS_RUN(stats)                                                                           \
-    (stats).total_us, (stats).runs, (stats).last_us, (stats).longest_us, (stats).overruns
+    (stats).total_us, (stats).runs, (stats).last_us, (stats).longest_us, (stats).remembered_us,    \
+        (stats).forgotten_in, (stats).overruns
 
 /*@ predicate stats_fresh(keel_stats_t stats) =
   @     stats.total_us == 0 && stats.runs == 0 && stats.last_us == 0 &&
-  @     stats.longest_us == 0 && stats.overruns == 0 && stats.promotions == 0;
+  @     stats.longest_us == 0 && stats.remembered_us == 0 && stats.forgotten_in == 0 &&
+  @     stats.overruns == 0 && stats.promotions == 0;
+  @
+  @ // w: what decisions reckon with.
+  @ logic integer stats_worst(integer budget_us, integer remembered_us) =
+  @     \max(budget_us, remembered_us);
+  @
+  @ // What is remembered behind a run, and for how many runs within the budget.
+  @ logic integer remembered_after(integer elapsed_us, integer budget_us,
+  @                                integer remembered_us, integer forgotten_in) =
+  @     (elapsed_us > budget_us) ? \max(remembered_us, elapsed_us)
+  @                              : ((forgotten_in > 1) ? remembered_us : 0);
+  @
+  @ logic integer forgotten_after(integer elapsed_us, integer budget_us, integer forgotten_in) =
+  @     (elapsed_us > budget_us) ? KEEL_STATS_FORGET_RUNS
+  @                              : ((forgotten_in > 1) ? forgotten_in - 1 : 0);
   @
   @ // Counting that stops at a limit.
   @ logic integer counted(integer value, integer limit) = (value < limit) ? value + 1 : limit;
@@ -52,6 +85,10 @@ typedef struct keel_stats {
   @     \at(stats->longest_us, M) == \max(\at(stats->longest_us, L), elapsed_us) &&
   @     \at(stats->overruns, M) == ((elapsed_us > budget_us)
   @         ? counted(\at(stats->overruns, L), UINT16_MAX) : \at(stats->overruns, L)) &&
+  @     \at(stats->remembered_us, M) == remembered_after(elapsed_us, budget_us,
+  @         \at(stats->remembered_us, L), \at(stats->forgotten_in, L)) &&
+  @     \at(stats->forgotten_in, M) ==
+  @         forgotten_after(elapsed_us, budget_us, \at(stats->forgotten_in, L)) &&
   @     \at(stats->runs, M) == \at(stats->runs, L) +
   @         ((\at(stats->runs, L) < UINT32_MAX &&
   @           \at(stats->total_us, L) + elapsed_us <= UINT64_MAX) ? 1 : 0) &&
@@ -62,13 +99,15 @@ typedef struct keel_stats {
   @ predicate stats_same{L, M}(keel_stats_t *stats) =
   @     \at(stats->last_us, M) == \at(stats->last_us, L) &&
   @     \at(stats->longest_us, M) == \at(stats->longest_us, L) &&
+  @     \at(stats->remembered_us, M) == \at(stats->remembered_us, L) &&
   @     \at(stats->overruns, M) == \at(stats->overruns, L) &&
+  @     \at(stats->forgotten_in, M) == \at(stats->forgotten_in, L) &&
   @     \at(stats->runs, M) == \at(stats->runs, L) &&
   @     \at(stats->total_us, M) == \at(stats->total_us, L);
   @*/
 
 /**
- * Records one run of a task (requirements STS-001 to STS-003).
+ * Records one run of a task (requirements STS-001 to STS-003 and STS-006).
  *
  * @param stats      the task's statistics
  * @param elapsed_us how long the run took, in us
@@ -80,6 +119,15 @@ typedef struct keel_stats {
   @ ensures STS_001_longest: stats->longest_us == \max(\old(stats->longest_us), elapsed_us);
   @ ensures STS_002: stats->overruns == ((elapsed_us > budget_us)
   @     ? counted(\old(stats->overruns), UINT16_MAX) : \old(stats->overruns));
+  @ ensures STS_006_overrun: elapsed_us > budget_us ==>
+  @     stats->remembered_us == \max(\old(stats->remembered_us), elapsed_us) &&
+  @     stats->forgotten_in == KEEL_STATS_FORGET_RUNS;
+  @ ensures STS_006_kept: elapsed_us <= budget_us && \old(stats->forgotten_in) > 1 ==>
+  @     stats->remembered_us == \old(stats->remembered_us) &&
+  @     stats->forgotten_in == \old(stats->forgotten_in) - 1;
+  @ ensures STS_006_forgotten: elapsed_us <= budget_us && \old(stats->forgotten_in) <= 1 ==>
+  @     stats->remembered_us == 0 && stats->forgotten_in == 0;
+  @ ensures STS_006_covers: stats_worst(budget_us, stats->remembered_us) >= elapsed_us;
   @ ensures STS_003_recorded: stats_recorded{Pre, Post}(stats, elapsed_us, budget_us);
   @ behavior open:
   @   assumes stats_open(*stats, elapsed_us);

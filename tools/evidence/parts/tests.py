@@ -58,6 +58,10 @@ def read_run(context: Context, run: str, problems: list[str]) -> Report:
     if report.get("filter"):
         problems.append(f"build/{folder}/report.json: only the suites with "
                         f"{report['filter']!r} in their names ran")  # fmt: skip
+    if left := report.get("left_out"):
+        problems.append(
+            f"build/{folder}/report.json: {len(left)} suites did not run: make test-all"
+        )
     if report.get("sanitizers") is False:
         problems.append(f"build/{folder}/report.json: the sanitizers' libraries were missing")
     return report

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 9 --z3 --fpa
+// reach: --refine
 // checks: assertions
 // sources: src/flight/mixer.c specs/model/mixer.c specs/model/range.c
 // covers: keel_mixer_step model_mixer_step
 //
-// An armed quadcopter's plus: as in keel_mixer_step__quad_x_harness.
+// An armed mixer of eight motors, any bit pattern of everything else: as in
+// keel_mixer_step__three_harness.
 #include "mixer_proof.h"
 
-void keel_mixer_step__quad_plus_harness(void)
+void keel_mixer_step__eight_harness(void)
 {
     const keel_mixer_command_t command = nondet_command();
     const bool armed = nondet_bool();
     keel_mixer_t mixer = nondet_mixer();
     keel_mixer_t model;
 
-    mixer.config.geometry = keel_mixer_quad_plus;
+    mixer.config.geometry.motors = 8u;
     model = mixer;
     model_mixer_step(&model, &command, armed);
 

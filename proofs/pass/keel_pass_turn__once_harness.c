@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 7 --no-array-field-sensitivity
+// cbmc: --unwind 4 --no-array-field-sensitivity
 // sources: src/rtos/pass.c
 // replaces: keel_pass_next keel_pass_finish
-// covers: keel_pass_run run_task
-// defines: -DKEEL_QUEUE_CAPACITY=4u
+// covers: keel_pass_turn run_task
 //
-// One arbitrary real-time task is followed through a pass, by its position: if it is due, and
-// nobody removes it, it runs, once, and none before it in the queue runs later. Next and finish are
+// One arbitrary real-time task is followed through a pass, by its position: if it is due when the
+// pass begins, and nobody removes it, it runs, once, and none before it in the queue runs later.
+// What is known of it when the pass begins, each turn keeps, and from that the claim follows when
+// the pass ends: an induction over the turns of a pass, of which there are any number, for any
+// number of tasks; that a pass is its turns, keel_pass_run_harness.c shows. Next and finish are
 // whatever their contracts allow (step_contracts.h), a body is whatever adding and removing tasks
-// do to a pass. Bounded to a capacity of 4 tasks; the contract under WP has no bound. Which parts a
-// pass calls, when and with what: keel_pass_run_harness.c.
+// do to a pass. Which parts a turn calls, when and with what: keel_pass_turn_harness.c.
 #include "../common/keel_scheduler_proof.h"
 #include "../common/step_contracts.h"
 
@@ -19,7 +20,22 @@ static keel_scheduler_t scheduler;
 static keel_task_config_t declaration;
 static uint32_t followed; /* The position of the task that is followed; GONE when it was removed. */
 static bool due;
+static bool was_due; /* When the pass began. */
 static uint32_t runs;
+
+/* The task is due, and the pass has yet to look at it. */
+static bool waits(void)
+{
+    return due && ((uint32_t)scheduler.cursor <= followed) &&
+           (followed < (uint32_t)scheduler.pass_end);
+}
+
+/* What holds of the task between two turns: one that was due still waits, or has run. */
+static bool is_followed(void)
+{
+    return (followed == GONE) || ((runs == 0u) && (!was_due || waits())) ||
+           ((runs == 1u) && (followed < (uint32_t)scheduler.cursor));
+}
 
 /* One who may change the scheduler does. */
 static void change(void)
@@ -91,25 +107,29 @@ keel_status_t keel_pass_finish_stand_in(keel_scheduler_t *given, uint32_t raw_us
     return status;
 }
 
-void keel_pass_run__once_harness(void)
+void keel_pass_turn__once_harness(void)
 {
-    bool must_run;
     keel_status_t status;
 
     declaration.run = body;
-    scheduler.queue.count = nondet_u8();
-    scheduler.queue.realtime_count = nondet_u8();
     scheduler.config.read_clock = any_clock;
     change();
-    __CPROVER_assume(keel_pass_run_may(&scheduler));
-    followed = any_below(CAPACITY);
+    followed = nondet_u32();
     due = nondet_bool();
-    must_run = (scheduler.stage == KEEL_STAGE_PASS) && due && (scheduler.cursor <= followed) &&
-               (followed < scheduler.pass_end);
+    was_due = nondet_bool();
+    runs = any_below(2u);
+    __CPROVER_assume(keel_pass_turn_may(&scheduler) && (scheduler.stage == KEEL_STAGE_PASS));
+    __CPROVER_assume((followed == GONE) || (followed < UINT8_MAX));
+    __CPROVER_assert((runs != 0u) || (was_due && !waits()) || is_followed(),
+                     "SCH_023_begun: it holds when the pass begins");
+    __CPROVER_assume(is_followed());
 
-    status = keel_pass_run(&scheduler);
+    status = keel_pass_turn(&scheduler);
 
     __CPROVER_assert(runs <= 1u, "SCH_023_once: no real-time task runs twice in a pass");
-    __CPROVER_assert((status != KEEL_OK) || !must_run || (followed == GONE) || (runs == 1u),
+    __CPROVER_assert((scheduler.stage != KEEL_STAGE_PASS) || is_followed(),
+                     "SCH_023_kept: what is known of the task holds after a turn");
+    __CPROVER_assert((scheduler.stage == KEEL_STAGE_PASS) || (status != KEEL_OK) || !was_due ||
+                         (followed == GONE) || (runs == 1u),
                      "SCH_023_all: no due real-time task that is left is left out");
 }

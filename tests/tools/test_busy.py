@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Some of the dearest goals are proved while each core runs an endless program, too.
+
+    python3 tests/tools/test_busy.py
+
+They run Frama-C and CBMC, believe no verdict that is known, and are skipped without the provers.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from endless import CORES, busy  # noqa: E402
+from proofs import cbmc, targets, wp  # noqa: E402
+from proofs.goals import read_goals  # noqa: E402
+from proofs.harness import read_harness  # noqa: E402
+from proofs.jobs import Runner  # noqa: E402
+from proofs.project import find_units  # noqa: E402
+from toolchain import Toolchain, ToolchainError, small_environment  # noqa: E402
+
+# A goal that CVC4 and Alt-Ergo once gave up, by the clock, on a machine with other work; and the
+# harness that keeps a solver busy for longest among the voter's.
+FUNCTION = ("signing", "keel_signing_accepts")
+HARNESS = ("voter", "keel_voter_agreement__bounds_harness")
+
+
+def installed() -> bool:
+    """Whether the provers are there."""
+    try:
+        Toolchain().frama_c()
+        Toolchain().goto_cc()
+    except ToolchainError:
+        return False
+    return True
+
+
+@unittest.skipUnless(installed(), "the provers are not installed: make prove")
+class Dearest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.tools = Toolchain()
+        self.tools.ensure("prove", say=lambda _: None)
+        self.scratch = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        variables = {**self.tools.environment(), "TMPDIR": str(self.scratch)}
+        self.runner = Runner(small_environment(variables), ROOT)
+        self.enterContext(busy(CORES))
+
+    def test_a_function(self) -> None:
+        name, function = FUNCTION
+        unit = find_units()[name]
+        [target] = [one for one in targets.targets(unit) if one.function == function]
+        prover = wp.Wp(self.tools.frama_c(), self.runner, ROOT, self.scratch, None,
+                       self.tools.command("ocamlfind"))  # fmt: skip
+        recorded = read_goals(unit.goal_list, str(unit.goal_list)).provers
+        result = prover.prove(target, recorded=recorded)
+        self.assertEqual(result.problems, [])
+        self.assertGreater(result.proved, 0)
+
+    def test_a_harness(self) -> None:
+        name, harness = HARNESS
+        unit = find_units()[name]
+        path = unit.folder / f"{harness}.c"
+        checker = cbmc.Cbmc(self.tools.goto_cc(), self.tools.command("cbmc"), self.runner, ROOT,
+                            self.scratch)  # fmt: skip
+        result = checker.prove(read_harness(unit, path))
+        self.assertEqual(result.problems, [])
+
+
+if __name__ == "__main__":
+    unittest.main()

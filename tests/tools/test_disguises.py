@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of which texts `make prove` refuses as they may look different to provers and compilers.
+
+    python3 tests/tools/test_disguises.py
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from common.files import write_text  # noqa: E402
+from proofs import disguises  # noqa: E402
+from proofs.syntax import SyntaxProblem  # noqa: E402
+from qualification.deceptions import BUILT, HIDDEN  # noqa: E402
+
+HARNESS = """\
+// SPDX-License-Identifier: Apache-2.0
+void keel_box_harness(void)
+{
+    __CPROVER_assert(keel_box(1u) == 5u, "BOX_001: four more");
+}
+"""
+
+
+class Projects(unittest.TestCase):
+    def setUp(self) -> None:
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.write("include/keel/rtos/box.h", BUILT)
+        self.write("proofs/box/keel_box_harness.c", HARNESS)
+
+    def write(self, name: str, text: str) -> None:
+        write_text(self.root / name, text)
+
+    def problems(self, *allowed: str) -> list[str]:
+        return disguises.problems(self.root, allowed)
+
+    def test_a_guard_a_default_and_a_refusal_are_fine(self) -> None:
+        self.assertEqual(self.problems(), [])
+
+    def test_each_disguise_is_named_with_its_place(self) -> None:
+        for fault, old, new, what in HIDDEN:
+            with self.subTest(fault):
+                self.write("include/keel/rtos/box.h", BUILT.replace(old, new))
+                try:
+                    problems = self.problems()
+                except SyntaxProblem as error:
+                    problems = [str(error).removeprefix(f"{self.root}/")]
+                    what = "no C that can be parsed"
+                self.assertTrue(any(what in text for text in problems), problems)
+                self.assertRegex(problems[0], r"^include/keel/rtos/box\.h:\d+: ")
+
+    def test_a_conditional_needs_a_reason_and_a_reason_a_conditional(self) -> None:
+        said = "#ifdef KEEL_BOX_ROUND"
+        text = BUILT.replace("    return", f"{said}\n    x++;\n#endif\n    return")
+        self.write("include/keel/rtos/box.h", text)
+        [problem] = self.problems()
+        self.assertIn(f"box.h:13: `{said}`: provers and compilers may see different code", problem)
+        self.assertEqual(self.problems(said), [])
+        self.write("include/keel/rtos/box.h", BUILT)
+        self.assertIn("stands nowhere any more", self.problems(said)[0])
+
+    def test_a_harness_has_no_conditional_at_all(self) -> None:
+        self.write("proofs/box/keel_box_harness.c", HARNESS.replace("    __", "#if 0\n    __")
+                   .replace(");\n}", ");\n#endif\n}"))  # fmt: skip
+        self.assertEqual(self.problems(), ["proofs/box/keel_box_harness.c:4: `#if 0`"])
+
+    def test_lines_are_counted_across_those_that_go_on(self) -> None:
+        text = BUILT.replace("#include", "#define KEEL_BOX_TWO(x) \\\n    ((x) + 2u)\n#include")
+        self.write("include/keel/rtos/box.h", text.replace("    return", "    _Bad();\n    return"))
+        [problem] = self.problems()
+        self.assertIn("box.h:15: `_Bad`", problem)
+
+
+if __name__ == "__main__":
+    unittest.main()
