@@ -4,8 +4,9 @@
  * The isolation theorems, for any admitted set and runs of any length, while execution times are
  * within their bounds. C sums all real-time budgets, and W is the guard.
  *
- *   - ISO-001: as long as nothing is promoted, a real-time task starts at most the sum of the other
- *     real-time budgets and W after its release, and none of its periods is skipped.
+ *   - ISO-001: as long as nothing is promoted, and so for ever where the scheduler is configured
+ *     without promotion, a real-time task starts at most the sum of the other real-time budgets and
+ *     W after its release, and none of its periods is skipped.
  *   - ISO-002: whatever is promoted, it starts at most C, 2 W and L after its release, if no other
  *     task runs longer than L and W. Where its period holds all of that, its own budget does not
  *     count, and none of its periods is skipped.
@@ -137,7 +138,7 @@ typedef struct {
   @             <= s->queue.release_us[s->queue.order[j]];
   @
   @ // Whether a task that is not real-time has waited so long that it is promoted.
-  @ predicate promotion_due(keel_scheduler_t *s) =
+  @ predicate promotion_due(keel_scheduler_t *s) = s->config.without_promotion == 0 &&
   @     \exists integer i; s->queue.realtime_count <= i < s->queue.count &&
   @         due(s, i) && promoted(&s->queue, s->queue.order[i], s->clock.now_us);
   @*/
@@ -262,6 +263,8 @@ static void count_own(const keel_scheduler_t *s, account_t *a)
   @             <= s->queue.period_us[s->queue.order[j]];
   @ ensures ready: \result == KEEL_OK ==> s->stage == KEEL_STAGE_READY;
   @ ensures late: \result == KEEL_OK ==> late_between(s, a);
+  @ ensures none: \result == KEEL_OK ==> a->other_us == 0 ==>
+  @     a->all_us == a->sum[s->queue.realtime_count] ==> none_counted(s, a);
   @*/
 static keel_status_t start(keel_scheduler_t *s, const account_t *a)
 {
@@ -331,6 +334,9 @@ static bool is_promotion_due(const keel_scheduler_t *s)
 {
     const uint64_t now_us = s->clock.now_us;
 
+    if (s->config.without_promotion) {
+        return false;
+    }
     /*@ loop invariant range: s->queue.realtime_count <= i <= s->queue.count;
       @ loop invariant none: \forall integer k; s->queue.realtime_count <= k < i ==>
       @     !(due(s, k) && promoted(&s->queue, s->queue.order[k], now_us));
@@ -640,6 +646,36 @@ static uint64_t serve(keel_scheduler_t *s, const account_t *a, bool promoting, u
     return run_us;
 }
 
+/* One call of the kernel: the one that the stage asks for. Returns how long the task may run that it
+ * hands out. */
+/*@ SET_GIVEN(s, a)
+  @ requires kept: stage_kept(s, a, run_us);
+  @ requires other: a->other_us == (promoting ? s->config.guard_us + longest_us : 0);
+  @ requires none: !promoting ==> none_counted(s, a);
+  @ assigns *s;
+  @ SET_STAYS(s, a)
+  @ ensures none: !promoting ==> none_counted(s, a);
+  @ ensures kept: promoting || !\old(s->stage == KEEL_STAGE_PASS && promotion_due(s)) ||
+  @     s->stage != KEEL_STAGE_OTHER ==> stage_kept(s, a, \result);
+  @*/
+static uint64_t move_on(keel_scheduler_t *s, const account_t *a, bool promoting,
+                        uint32_t longest_us, uint64_t run_us)
+{
+    if (s->stage == KEEL_STAGE_READY) {
+        open_pass(s, a);
+        return 0u;
+    }
+    if (s->stage == KEEL_STAGE_REALTIME) {
+        run_realtime(s, a, run_us);
+        return 0u;
+    }
+    if (s->stage == KEEL_STAGE_OTHER) {
+        run_other(s, a, run_us);
+        return 0u;
+    }
+    return serve(s, a, promoting, longest_us);
+}
+
 /*@ // As keel_scheduler_init and keel_scheduler_add leave it.
   @ requires memory: \valid(s) && scheduler_valid(s) && setup_unmoved(s);
   @ requires clock: clock_modelled(s);
@@ -675,22 +711,15 @@ void isolation(keel_scheduler_t *s, bool promoting, uint32_t longest_us, uint64_
       @ loop variant moves - move;
       @*/
     for (uint64_t move = 0u; move < moves; move++) {
+        bool ends;
+
         if (s->clock.now_us > (KEEL_CLOCK_TIME_LIMIT_US - KEEL_CLOCK_STEP_LIMIT_US)) {
             return;
         }
-        if (s->stage == KEEL_STAGE_READY) {
-            open_pass(s, &a);
-        } else if (s->stage == KEEL_STAGE_REALTIME) {
-            run_realtime(s, &a, run_us);
-        } else if (s->stage == KEEL_STAGE_OTHER) {
-            run_other(s, &a, run_us);
-        } else {
-            const bool ends = !promoting && is_promotion_due(s);
-
-            run_us = serve(s, &a, promoting, longest_us);
-            if (ends && (s->stage == KEEL_STAGE_OTHER)) {
-                return;
-            }
+        ends = !promoting && (s->stage == KEEL_STAGE_PASS) && is_promotion_due(s);
+        run_us = move_on(s, &a, promoting, longest_us, run_us);
+        if (ends && (s->stage == KEEL_STAGE_OTHER)) {
+            return;
         }
     }
 }
