@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // wp: theorem
 /**
- * The isolation theorem (requirement ISO-001): with no promotion, and execution times within their
- * budgets, a real-time task starts at most the sum of the other real-time budgets plus the guard W
- * after its release. It holds for any admitted set, and for runs of any length.
+ * The isolation theorems, for any admitted set and runs of any length, while execution times are
+ * within their bounds. C sums all real-time budgets, and W is the guard.
+ *
+ *   - ISO-001: as long as nothing is promoted, and so for ever where the scheduler is configured
+ *     without promotion, a real-time task starts at most the sum of the other real-time budgets and
+ *     W after its release, and none of its periods is skipped.
+ *   - ISO-002: whatever is promoted, it starts at most C, 2 W and L after its release, if no other
+ *     task runs longer than L and W. Where its period holds all of that, its own budget does not
+ *     count, and none of its periods is skipped.
  *
  * The function `isolation` is the life of a scheduler: it is started, and then begin, next and
  * finish are called for as long as one likes, each where the scheduler's stage asks for it, as
@@ -13,12 +19,18 @@
  *
  *   - W, when a pass begins;
  *   - its budget, when a real-time task has run;
- *   - W and its worst-case time, when another task has run.
+ *   - W and its worst-case time, when another task has run, as long as nothing is promoted;
+ *   - W and L, when another task has run and tasks are promoted.
  *
- * sum[j] is the sum of the first j real-time budgets, sum[n] that of all. Between passes task j is
- * late by at most sum[n] - sum[j + 1], the budgets of the tasks behind it, because only those have
- * run since the pass looked at it. That, and what becomes of it within a pass, is the invariant of
- * the loop in `isolation`; a function for each stage shows that one call of the kernel keeps it.
+ * sum[j] is the sum of the first j real-time budgets, sum[n] that of all: C. other_us is what a run
+ * of another task adds to the lateness of a real-time one: nothing as long as nothing is promoted,
+ * as it has ended before a release comes; else W and L. Once the pass has looked at task j, no
+ * release of it has passed: it was not due, or it starts and its release moves on. Between passes
+ * it is late by at most what has run since: the budgets behind its own, sum[n] - sum[j + 1], and
+ * other_us. Its own run counts, too (own), unless its period is so long that its next release is at
+ * least as far away as its run is long. That, and what becomes of it within a pass, is the
+ * invariant of the loop in `isolation` (stage_kept); a function for each stage shows that one call
+ * of the kernel keeps it.
  */
 #include "keel/rtos/scheduler.h"
 
@@ -33,40 +45,91 @@
   @*/
 uint32_t read_within(uint32_t raw_us, uint64_t limit_us);
 
+/** What the bounds are made of. The kernel has no numbers of that type, so it writes none. */
+typedef struct {
+    int64_t sum[KEEL_QUEUE_CAPACITY + 1u]; /**< The sums of the first real-time budgets. */
+    int64_t own[KEEL_QUEUE_CAPACITY]; /**< By slot: what its own run may add to it. */
+    int64_t all_us;                   /**< The sum of all real-time budgets. */
+    int64_t other_us; /**< What another task's run may add to the lateness of any. */
+} account_t;
+
 /*@ // Who has missed no period goes on by one.
   @ lemma one_period{L}: \forall keel_queue_t *q, integer x, integer now_us;
   @     grid_missed(q, x, now_us) == 0 ==>
   @         grid_next(q, x, now_us) == q->release_us[x] + q->period_us[x];
   @
   @ // sum holds the sums of the real-time budgets, which never fall.
-  @ predicate budgets_summed(keel_scheduler_t *s, int64_t *sum) =
+  @ predicate budgets_summed(keel_scheduler_t *s, account_t *a) =
   @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
-  @         sum[j + 1] == sum[j] + s->queue.budget_us[s->queue.order[j]];
+  @         a->sum[j + 1] == a->sum[j] + s->queue.budget_us[s->queue.order[j]];
   @
-  @ predicate sums_rise(int64_t *sum, integer n) =
-  @     \forall integer j, k; 0 <= j <= k <= n ==> sum[j] <= sum[k];
+  @ predicate sums_rise(account_t *a, integer n) =
+  @     \forall integer j, k; 0 <= j <= k <= n ==> a->sum[j] <= a->sum[k];
   @
-  @ // ADM-004: every real-time period holds all real-time budgets and the guard twice.
-  @ predicate periods_hold(keel_scheduler_t *s, int64_t *sum) =
+  @ // All that can pass between two looks at a task.
+  @ logic integer turn(keel_scheduler_t *s, account_t *a) =
+  @     a->all_us + s->config.guard_us + a->other_us;
+  @
+  @ predicate own_counted(keel_scheduler_t *s, account_t *a) =
   @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
-  @         sum[s->queue.realtime_count] + 2 * s->config.guard_us
-  @             <= s->queue.period_us[s->queue.order[j]];
+  @         a->own[s->queue.order[j]] ==
+  @             ((turn(s, a) <= s->queue.period_us[s->queue.order[j]])
+  @                  ? 0 : s->queue.budget_us[s->queue.order[j]]);
+  @
+  @ predicate own_least(keel_scheduler_t *s, account_t *a) =
+  @     \forall integer j; 0 <= j < s->queue.realtime_count ==> 0 <= a->own[s->queue.order[j]];
+  @
+  @ predicate none_counted(keel_scheduler_t *s, account_t *a) =
+  @     \forall integer j; 0 <= j < s->queue.realtime_count ==> a->own[s->queue.order[j]] == 0;
+  @
+  @ predicate all_counted(keel_scheduler_t *s, account_t *a) =
+  @     a->sum[s->queue.realtime_count] <= a->all_us;
   @
   @ // How late the tasks from one index to another are: at most limit_us less the budgets up to
-  @ // and with their own.
-  @ predicate late(keel_scheduler_t *s, int64_t *sum, integer from, integer to,
+  @ // and with their own, which counts where the period is too short.
+  @ predicate late(keel_scheduler_t *s, account_t *a, integer from, integer to,
   @                integer limit_us) =
   @     \forall integer j; from <= j < to ==>
-  @         s->clock.now_us - s->queue.release_us[s->queue.order[j]] <= limit_us - sum[j + 1];
+  @         s->clock.now_us - s->queue.release_us[s->queue.order[j]] <=
+  @             limit_us - a->sum[j + 1] + a->own[s->queue.order[j]];
   @
-  @ // The same of those that the pass has looked at, and of those that it has yet to, when it has
-  @ // come to an index.
-  @ predicate late_before(keel_scheduler_t *s, int64_t *sum, integer index) =
-  @     late(s, sum, 0, s->cursor, sum[index]);
+  @ // The pass is one over all real-time tasks.
+  @ predicate pass_whole(keel_scheduler_t *s) = s->pass_end == s->queue.realtime_count;
   @
-  @ predicate late_behind(keel_scheduler_t *s, int64_t *sum, integer index) =
-  @     late(s, sum, s->cursor, s->queue.realtime_count,
-  @          s->config.guard_us + sum[index] + sum[s->queue.realtime_count]);
+  @ // Between passes ...
+  @ predicate late_between(keel_scheduler_t *s, account_t *a) =
+  @     late(s, a, 0, s->queue.realtime_count, a->all_us + a->other_us);
+  @
+  @ // ... and within one, of those that the pass has looked at, and of those that it has yet to,
+  @ // so long before the budgets of all that it has looked at are used up.
+  @ predicate late_before(keel_scheduler_t *s, account_t *a, integer left_us) =
+  @     late(s, a, 0, s->cursor, a->sum[s->cursor] - left_us);
+  @
+  @ predicate late_behind(keel_scheduler_t *s, account_t *a, integer left_us) =
+  @     late(s, a, s->cursor, s->queue.realtime_count, s->config.guard_us + a->other_us
+  @          + a->all_us + a->sum[s->cursor] - left_us);
+  @
+  @ // When another task runs, the pass has looked at all of them.
+  @ predicate late_all(keel_scheduler_t *s, account_t *a) =
+  @     late(s, a, 0, s->queue.realtime_count, a->sum[s->queue.realtime_count]);
+  @
+  @ // Its run adds no more than what is allowed for, or ends before every real-time release.
+  @ predicate held(keel_scheduler_t *s, account_t *a, integer run_us) =
+  @     run_us <= a->other_us || \forall integer j; 0 <= j < s->queue.realtime_count ==>
+  @         s->clock.now_us + run_us <= s->queue.release_us[s->queue.order[j]];
+  @
+  @ // What holds at each stage; the task that runs takes at most run_us.
+  @ predicate stage_kept(keel_scheduler_t *s, account_t *a, integer run_us) =
+  @     KEEL_STAGE_READY <= s->stage <= KEEL_STAGE_OTHER &&
+  @     (s->stage == KEEL_STAGE_READY ==> late_between(s, a)) &&
+  @     (s->stage == KEEL_STAGE_PASS ==> pass_whole(s)) &&
+  @     (s->stage == KEEL_STAGE_PASS ==> late_before(s, a, 0)) &&
+  @     (s->stage == KEEL_STAGE_PASS ==> late_behind(s, a, 0)) &&
+  @     (s->stage == KEEL_STAGE_REALTIME ==> pass_whole(s)) &&
+  @     (s->stage == KEEL_STAGE_REALTIME ==> late_before(s, a, run_us)) &&
+  @     (s->stage == KEEL_STAGE_REALTIME ==> late_behind(s, a, run_us)) &&
+  @     (s->stage == KEEL_STAGE_OTHER ==> late_all(s, a)) &&
+  @     (s->stage == KEEL_STAGE_OTHER ==> held(s, a, run_us));
   @
   @ // Every real-time release lies so far ahead that the task at an index ends before it.
   @ predicate room(keel_scheduler_t *s, integer index) =
@@ -74,65 +137,69 @@ uint32_t read_within(uint32_t raw_us, uint64_t limit_us);
   @         s->clock.now_us + s->config.guard_us + task_worst(&s->queue, s->queue.order[index])
   @             <= s->queue.release_us[s->queue.order[j]];
   @
-  @ // The pass is one over all real-time tasks.
-  @ predicate pass_whole(keel_scheduler_t *s) = s->pass_end == s->queue.realtime_count;
-  @
   @ // Whether a task that is not real-time has waited so long that it is promoted.
-  @ predicate promotion_due(keel_scheduler_t *s) =
+  @ predicate promotion_due(keel_scheduler_t *s) = s->config.without_promotion == 0 &&
   @     \exists integer i; s->queue.realtime_count <= i < s->queue.count &&
   @         due(s, i) && promoted(&s->queue, s->queue.order[i], s->clock.now_us);
   @*/
 
 /* clang-format off: the formatter does not know these clauses. */
 /* What every function below asks for ... */
-#define SET_GIVEN(s, sum)                                                                          \
+#define SET_GIVEN(s, a)                                                                            \
     requires memory : \valid(s) && scheduler_valid(s) && in_uptime(s);                             \
     requires wake : wake_right(s);                                                                 \
     requires busy : (s)->busy_us <= (s)->clock.now_us;                                             \
-    requires summed : budgets_summed(s, sum);                                                      \
-    requires rise : sum[0] == 0 && sums_rise(sum, (s)->queue.realtime_count);                      \
-    requires hold : periods_hold(s, sum);
+    requires summed : budgets_summed(s, a);                                                        \
+    requires rise : (a)->sum[0] == 0 && sums_rise(a, (s)->queue.realtime_count);                   \
+    requires own : own_counted(s, a);                                                              \
+    requires least : own_least(s, a);                                                              \
+    requires all : all_counted(s, a);                                                              \
+    requires more : 0 <= (a)->other_us;
 
 /* ... and keeps. */
-#define SET_STAYS(s, sum)                                                                          \
+#define SET_STAYS(s, a)                                                                            \
     SCHEDULER_STAYS_VALID(s)                                                                       \
     ensures wake : wake_right(s);                                                                  \
     ensures busy : (s)->busy_us <= (s)->clock.now_us;                                              \
     ensures counts : (s)->queue.realtime_count == \old((s)->queue.realtime_count);                 \
-    ensures summed : budgets_summed(s, sum);                                                       \
-    ensures hold : periods_hold(s, sum);
+    ensures guard : (s)->config.guard_us == \old((s)->config.guard_us);                            \
+    ensures summed : budgets_summed(s, a);                                                         \
+    ensures own : own_counted(s, a);                                                               \
+    ensures least : own_least(s, a);                                                               \
+    ensures all : all_counted(s, a);
 /* clang-format on */
 
 /* Adds up the real-time budgets. */
 /*@ requires memory: \valid_read(s) && scheduler_valid(s);
-  @ requires room: \valid(sum + (0 .. KEEL_QUEUE_CAPACITY));
-  @ assigns sum[0 .. KEEL_QUEUE_CAPACITY];
-  @ ensures summed: budgets_summed(s, sum);
-  @ ensures rise: sum[0] == 0 && sums_rise(sum, s->queue.realtime_count);
-  @ ensures demand: sum[s->queue.realtime_count] ==
+  @ requires room: \valid(a);
+  @ assigns a->sum[0 .. KEEL_QUEUE_CAPACITY];
+  @ ensures summed: budgets_summed(s, a);
+  @ ensures rise: a->sum[0] == 0 && sums_rise(a, s->queue.realtime_count);
+  @ ensures bound: a->sum[s->queue.realtime_count] <= KEEL_QUEUE_CAPACITY * UINT32_MAX;
+  @ ensures demand: a->sum[s->queue.realtime_count] ==
   @     realtime_demand(&s->queue, s->queue.count);
   @*/
-static void add_up(const keel_scheduler_t *s, int64_t *sum)
+static void add_up(const keel_scheduler_t *s, account_t *a)
 {
     const uint32_t n = s->queue.realtime_count;
 
-    sum[0] = 0;
+    a->sum[0] = 0;
     /*@ loop invariant range: 0 <= j <= n;
-      @ loop invariant first: sum[0] == 0;
+      @ loop invariant first: a->sum[0] == 0;
       @ loop invariant summed: \forall integer i; 0 <= i < j ==>
-      @     sum[i + 1] == sum[i] + s->queue.budget_us[s->queue.order[i]];
-      @ loop invariant rise: sums_rise(sum, j);
-      @ loop invariant bound: sum[j] <= j * UINT32_MAX;
-      @ loop invariant demand: sum[j] == realtime_demand(&s->queue, j);
-      @ loop assigns j, sum[0 .. KEEL_QUEUE_CAPACITY];
+      @     a->sum[i + 1] == a->sum[i] + s->queue.budget_us[s->queue.order[i]];
+      @ loop invariant rise: sums_rise(a, j);
+      @ loop invariant bound: a->sum[j] <= j * UINT32_MAX;
+      @ loop invariant demand: a->sum[j] == realtime_demand(&s->queue, j);
+      @ loop assigns j, a->sum[0 .. KEEL_QUEUE_CAPACITY];
       @ loop variant n - j;
       @*/
     for (uint32_t j = 0u; j < n; j++) {
-        sum[j + 1u] = sum[j] + (int64_t)s->queue.budget_us[s->queue.order[j]];
-        //@ assert next: realtime_demand(&s->queue, j + 1) == sum[j + 1];
+        a->sum[j + 1u] = a->sum[j] + (int64_t)s->queue.budget_us[s->queue.order[j]];
+        //@ assert next: realtime_demand(&s->queue, j + 1) == a->sum[j + 1];
     }
     /*@ loop invariant range: n <= i <= s->queue.count;
-      @ loop invariant demand: sum[n] == realtime_demand(&s->queue, i);
+      @ loop invariant demand: a->sum[n] == realtime_demand(&s->queue, i);
       @ loop assigns i;
       @ loop variant s->queue.count - i;
       @*/
@@ -142,49 +209,97 @@ static void add_up(const keel_scheduler_t *s, int64_t *sum)
     }
 }
 
+/* Says for each real-time task whether its own run counts. */
+/*@ requires memory: \valid_read(s) && scheduler_valid(s);
+  @ requires room: \valid(a);
+  @ requires range: 0 <= a->all_us <= KEEL_QUEUE_CAPACITY * UINT32_MAX;
+  @ requires more: 0 <= a->other_us <= 2 * UINT32_MAX;
+  @ assigns a->own[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ ensures own: own_counted(s, a);
+  @ ensures least: own_least(s, a);
+  @*/
+static void count_own(const keel_scheduler_t *s, account_t *a)
+{
+    const uint32_t n = s->queue.realtime_count;
+    const int64_t turn_us = a->all_us + (int64_t)s->config.guard_us + a->other_us;
+
+    /*@ loop invariant range: 0 <= j <= n;
+      @ loop invariant own: \forall integer i; 0 <= i < j ==>
+      @     a->own[s->queue.order[i]] == ((turn_us <= s->queue.period_us[s->queue.order[i]])
+      @                                       ? 0 : s->queue.budget_us[s->queue.order[i]]);
+      @ loop assigns j, a->own[0 .. KEEL_QUEUE_CAPACITY - 1];
+      @ loop variant n - j;
+      @*/
+    for (uint32_t j = 0u; j < n; j++) {
+        const uint32_t slot = s->queue.order[j];
+        const bool holds = turn_us <= (int64_t)s->queue.period_us[slot];
+
+        a->own[slot] = holds ? 0 : (int64_t)s->queue.budget_us[slot];
+    }
+}
+
 /* Starts the scheduler: from then on what is asked for below holds. */
 /*@ requires memory: \valid(s) && scheduler_valid(s) && setup_unmoved(s);
   @ requires clock: clock_modelled(s);
   @ requires fresh: s->wake_us == 0 && s->busy_us == 0;
-  @ requires summed: budgets_summed(s, sum);
-  @ requires rise: sum[0] == 0 && sums_rise(sum, s->queue.realtime_count);
-  @ requires demand: sum[s->queue.realtime_count] ==
+  @ requires summed: budgets_summed(s, a);
+  @ requires rise: a->sum[0] == 0 && sums_rise(a, s->queue.realtime_count);
+  @ requires own: own_counted(s, a);
+  @ requires least: own_least(s, a);
+  @ requires all: all_counted(s, a);
+  @ requires more: 0 <= a->other_us;
+  @ requires demand: a->sum[s->queue.realtime_count] ==
   @     realtime_demand(&s->queue, s->queue.count);
   @ assigns s->clock.now_us, s->clock.raw_us, s->stage, s->earliest_realtime_us;
   @ SCHEDULER_STAYS_VALID(s)
   @ ensures wake: wake_right(s);
   @ ensures busy: s->busy_us <= s->clock.now_us;
-  @ ensures summed: budgets_summed(s, sum);
-  @ ensures hold: \result == KEEL_OK ==> periods_hold(s, sum);
+  @ ensures summed: budgets_summed(s, a);
+  @ ensures own: own_counted(s, a);
+  @ ensures guard: s->config.guard_us == \old(s->config.guard_us);
+  @ ensures hold: \result == KEEL_OK ==>
+  @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
+  @         a->sum[s->queue.realtime_count] + 2 * s->config.guard_us
+  @             <= s->queue.period_us[s->queue.order[j]];
   @ ensures ready: \result == KEEL_OK ==> s->stage == KEEL_STAGE_READY;
-  @ ensures late: \result == KEEL_OK ==>
-  @     late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
+  @ ensures late: \result == KEEL_OK ==> late_between(s, a);
+  @ ensures none: \result == KEEL_OK ==> a->other_us == 0 ==>
+  @     a->all_us == a->sum[s->queue.realtime_count] ==> none_counted(s, a);
   @*/
-static keel_status_t start(keel_scheduler_t *s, const int64_t *sum)
+static keel_status_t start(keel_scheduler_t *s, const account_t *a)
 {
-    (void)sum;
-    return keel_scheduler_start(s);
+    const keel_status_t status = keel_scheduler_start(s);
+
+    (void)a;
+    /*@ assert periods: \forall integer k; 0 <= k < s->queue.count ==>
+      @     s->queue.period_us[s->queue.order[k]] ==
+      @         \at(s->queue.period_us[s->queue.order[k]], Pre);
+      @*/
+    /*@ assert budgets: \forall integer k; 0 <= k < s->queue.count ==>
+      @     s->queue.budget_us[s->queue.order[k]] ==
+      @         \at(s->queue.budget_us[s->queue.order[k]], Pre);
+      @*/
+    //@ assert turn: turn(s, a) == \at(turn(s, a), Pre);
+    /*@ assert early: status == KEEL_OK ==> \forall integer j; 0 <= j < s->queue.realtime_count ==>
+      @     s->clock.now_us <= s->queue.release_us[s->queue.order[j]];
+      @*/
+    return status;
 }
 
 /* Between passes: a pass begins, or nothing is due. */
-/*@ SET_GIVEN(s, sum)
+/*@ SET_GIVEN(s, a)
   @ requires ready: s->stage == KEEL_STAGE_READY;
-  @ requires late: late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
+  @ requires late: late_between(s, a);
   @ assigns s->clock.now_us, s->clock.raw_us, s->wake_us, s->stage, s->cursor, s->pass_end;
-  @ SET_STAYS(s, sum)
-  @ ensures stage: s->stage == KEEL_STAGE_READY || s->stage == KEEL_STAGE_PASS;
-  @ ensures late: s->stage == KEEL_STAGE_READY ==>
-  @     late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
-  @ ensures whole: s->stage == KEEL_STAGE_PASS ==> pass_whole(s);
-  @ ensures before: s->stage == KEEL_STAGE_PASS ==> late_before(s, sum, s->cursor);
-  @ ensures behind: s->stage == KEEL_STAGE_PASS ==> late_behind(s, sum, s->cursor);
+  @ SET_STAYS(s, a)
+  @ ensures kept: stage_kept(s, a, 0);
   @*/
-static void open_pass(keel_scheduler_t *s, const int64_t *sum)
+static void open_pass(keel_scheduler_t *s, const account_t *a)
 {
     const uint32_t raw_us = read_within(s->clock.raw_us, s->config.guard_us);
     const keel_status_t status = keel_pass_begin(s, raw_us);
 
-    (void)sum;
+    (void)a;
     (void)status;
     /*@ assert releases: \forall integer k; 0 <= k < s->queue.count ==>
       @     s->queue.release_us[s->queue.order[k]] ==
@@ -203,6 +318,10 @@ static void open_pass(keel_scheduler_t *s, const int64_t *sum)
       @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
       @         s->clock.now_us < s->queue.release_us[s->queue.order[j]];
       @*/
+    //@ assert stage: s->stage == KEEL_STAGE_READY || s->stage == KEEL_STAGE_PASS;
+    //@ assert late: s->stage == KEEL_STAGE_READY ==> late_between(s, a);
+    //@ assert before: s->stage == KEEL_STAGE_PASS ==> late_before(s, a, 0);
+    //@ assert behind: s->stage == KEEL_STAGE_PASS ==> late_behind(s, a, 0);
 }
 
 /* Whether the next task that is not real-time is served by promotion: as promotion is the highest
@@ -215,6 +334,9 @@ static bool is_promotion_due(const keel_scheduler_t *s)
 {
     const uint64_t now_us = s->clock.now_us;
 
+    if (s->config.without_promotion) {
+        return false;
+    }
     /*@ loop invariant range: s->queue.realtime_count <= i <= s->queue.count;
       @ loop invariant none: \forall integer k; s->queue.realtime_count <= k < i ==>
       @     !(due(s, k) && promoted(&s->queue, s->queue.order[k], now_us));
@@ -236,38 +358,44 @@ static bool is_promotion_due(const keel_scheduler_t *s)
 }
 
 /* In a pass: a task starts, or the pass ends. */
-/*@ SET_GIVEN(s, sum)
+/*@ SET_GIVEN(s, a)
   @ requires pass: s->stage == KEEL_STAGE_PASS && pass_whole(s);
-  @ requires before: late_before(s, sum, s->cursor);
-  @ requires behind: late_behind(s, sum, s->cursor);
+  @ requires before: late_before(s, a, 0);
+  @ requires behind: late_behind(s, a, 0);
   @ assigns s->wake_us, s->stage, s->cursor, s->running, s->earliest_realtime_us,
   @     s->earliest_other_us, s->queue.skipped[0 .. KEEL_QUEUE_CAPACITY - 1],
   @     s->queue.release_us[0 .. KEEL_QUEUE_CAPACITY - 1],
   @     s->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1].promotions;
-  @ SET_STAYS(s, sum)
+  @ SET_STAYS(s, a)
   @ ensures memory: \valid(s);
-  @ ensures rise: sum[0] == 0 && sums_rise(sum, s->queue.realtime_count);
+  @ ensures rise: a->sum[0] == 0 && sums_rise(a, s->queue.realtime_count);
   @ ensures stage: s->stage == KEEL_STAGE_READY || stage_running(s);
   @ ensures whole: pass_whole(s);
-  @ ensures ready: s->stage == KEEL_STAGE_READY ==>
-  @     late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
+  @ ensures ready: s->stage == KEEL_STAGE_READY ==> late_between(s, a);
   @ ensures realtime: s->stage == KEEL_STAGE_REALTIME ==>
   @     0 <= s->running && s->cursor == s->running + 1 <= s->queue.realtime_count;
   @ ensures bound: s->stage == KEEL_STAGE_REALTIME ==>
   @     s->clock.now_us - \at(s->queue.release_us[s->queue.order[\at(s->running, Post)]], Pre) <=
-  @         sum[s->queue.realtime_count] - s->queue.budget_us[s->queue.order[s->running]]
-  @         + s->config.guard_us;
-  @ ensures before: s->stage == KEEL_STAGE_REALTIME ==> late_before(s, sum, s->running);
-  @ ensures behind: s->stage == KEEL_STAGE_REALTIME ==> late_behind(s, sum, s->running);
+  @         a->all_us - s->queue.budget_us[s->queue.order[s->running]]
+  @         + s->config.guard_us + a->other_us + a->own[s->queue.order[s->running]];
+  @ ensures unskipped: s->stage == KEEL_STAGE_REALTIME ==>
+  @     a->own[s->queue.order[s->running]] == 0 ==>
+  @     s->queue.skipped[s->queue.order[s->running]] ==
+  @         \at(s->queue.skipped[s->queue.order[\at(s->running, Post)]], Pre);
+  @ ensures before: s->stage == KEEL_STAGE_REALTIME ==>
+  @     late_before(s, a, s->queue.budget_us[s->queue.order[s->running]]);
+  @ ensures behind: s->stage == KEEL_STAGE_REALTIME ==>
+  @     late_behind(s, a, s->queue.budget_us[s->queue.order[s->running]]);
   @ ensures other: s->stage == KEEL_STAGE_OTHER ==> 0 <= s->running < s->queue.count;
+  @ ensures all_late: s->stage == KEEL_STAGE_OTHER ==> late_all(s, a);
   @ ensures room: s->stage == KEEL_STAGE_OTHER ==> !\old(promotion_due(s)) ==>
   @     room(s, s->running);
   @*/
-static void decide(keel_scheduler_t *s, const int64_t *sum)
+static void decide(keel_scheduler_t *s, const account_t *a)
 {
     const keel_task_config_t *const task = keel_pass_next(s);
 
-    (void)sum;
+    (void)a;
     /*@ assert first: s->stage == KEEL_STAGE_REALTIME ==>
       @     \forall integer j; \at(s->cursor, Pre) <= j < s->running ==>
       @         s->clock.now_us < \at(s->queue.release_us[s->queue.order[j]], Pre);
@@ -289,10 +417,11 @@ static void decide(keel_scheduler_t *s, const int64_t *sum)
     /*@ assert late: s->stage == KEEL_STAGE_REALTIME ==>
       @     s->clock.now_us -
       @         \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], Pre) <=
-      @         s->config.guard_us + sum[s->running] + sum[s->queue.realtime_count]
-      @         - sum[s->running + 1];
+      @         s->config.guard_us + a->other_us + a->all_us + a->sum[s->running]
+      @         - a->sum[s->running + 1] + a->own[s->queue.order[s->running]];
       @*/
     /*@ assert none_missed: s->stage == KEEL_STAGE_REALTIME ==>
+      @     a->own[s->queue.order[s->running]] == 0 ==>
       @     \at(grid_missed(&s->queue, s->queue.order[\at(s->running, Here)], s->clock.now_us), Pre)
       @     == 0;
       @*/
@@ -302,14 +431,50 @@ static void decide(keel_scheduler_t *s, const int64_t *sum)
       @                       s->clock.now_us), Pre);
       @*/
     /*@ assert by_one: s->stage == KEEL_STAGE_REALTIME ==>
+      @     a->own[s->queue.order[s->running]] == 0 ==>
       @     \at(grid_next(&s->queue, s->queue.order[\at(s->running, Here)], s->clock.now_us), Pre)
       @     == \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], Pre)
       @         + \at(s->queue.period_us[s->queue.order[\at(s->running, Here)]], Pre);
       @*/
     /*@ assert on_time: s->stage == KEEL_STAGE_REALTIME ==>
+      @     a->own[s->queue.order[s->running]] == 0 ==>
       @     s->queue.release_us[s->queue.order[s->running]] ==
       @         \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], Pre)
       @         + s->queue.period_us[s->queue.order[s->running]];
+      @*/
+    /*@ assert ahead: s->stage == KEEL_STAGE_REALTIME ==>
+      @     s->clock.now_us < s->queue.release_us[s->queue.order[s->running]];
+      @*/
+    /*@ assert counted: s->stage == KEEL_STAGE_REALTIME ==>
+      @     (a->own[s->queue.order[s->running]] == 0 &&
+      @      turn(s, a) <= s->queue.period_us[s->queue.order[s->running]]) ||
+      @     a->own[s->queue.order[s->running]] == a->sum[s->running + 1] - a->sum[s->running];
+      @*/
+    /*@ assert served: s->stage == KEEL_STAGE_REALTIME ==>
+      @     s->clock.now_us - s->queue.release_us[s->queue.order[s->running]] <=
+      @         a->sum[s->running] - a->sum[s->running + 1] + a->own[s->queue.order[s->running]];
+      @*/
+    /*@ assert passed: s->stage == KEEL_STAGE_REALTIME ==>
+      @     \forall integer j; \at(s->cursor, Pre) <= j < s->running ==>
+      @         s->clock.now_us - s->queue.release_us[s->queue.order[j]] <=
+      @             a->sum[s->running] - a->sum[j + 1] + a->own[s->queue.order[j]];
+      @*/
+    /*@ assert looked: \forall integer j; 0 <= j < \at(s->cursor, Pre) ==>
+      @     s->clock.now_us - s->queue.release_us[s->queue.order[j]] <=
+      @         a->sum[\at(s->cursor, Pre)] - a->sum[j + 1] + a->own[s->queue.order[j]];
+      @*/
+    /*@ assert further: a->sum[\at(s->cursor, Pre)] <=
+      @     ((s->stage == KEEL_STAGE_REALTIME) ? a->sum[s->running]
+      @                                        : a->sum[s->queue.realtime_count]);
+      @*/
+    /*@ assert budget: s->stage == KEEL_STAGE_REALTIME ==>
+      @     a->sum[s->cursor] - s->queue.budget_us[s->queue.order[s->running]] ==
+      @         a->sum[s->running];
+      @*/
+    /*@ assert unserved: s->stage != KEEL_STAGE_REALTIME ==>
+      @     \forall integer j; \at(s->cursor, Pre) <= j < s->queue.realtime_count ==>
+      @         s->clock.now_us - s->queue.release_us[s->queue.order[j]] <=
+      @             a->sum[s->queue.realtime_count] - a->sum[j + 1] + a->own[s->queue.order[j]];
       @*/
     /*@ assert fits: s->stage == KEEL_STAGE_OTHER ==> !\at(promotion_due(s), Pre) ==>
       @     \at(fits_slack(&s->queue, s->queue.order[\at(s->running, Here)], s->clock.now_us,
@@ -320,7 +485,7 @@ static void decide(keel_scheduler_t *s, const int64_t *sum)
 /* The running task runs for at most so long: time goes on; releases and declarations stay. */
 /*@ requires memory: \valid(s) && scheduler_valid(s) && in_uptime(s) && wake_right(s);
   @ requires busy: s->busy_us <= s->clock.now_us;
-  @ requires running: stage_running(s) && 0 <= s->running < s->queue.count;
+  @ requires running: stage_running(s);
   @ assigns s->clock.now_us, s->clock.raw_us, s->busy_us, s->stage, s->running,
   @     STATS_RUN(s->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1]);
   @ SCHEDULER_STAYS_VALID(s)
@@ -345,60 +510,170 @@ static void run_at_most(keel_scheduler_t *s, uint64_t limit_us)
 
     status = keel_pass_finish(s, raw_us);
     (void)status;
-    /*@ assert release: s->queue.release_us[s->queue.order[\at(s->running, Pre)]] ==
-      @     \at(s->queue.release_us[s->queue.order[s->running]], Pre);
-      @*/
-    /*@ assert releases_others: \forall integer k; 0 <= k < s->queue.count ==>
-      @     k != \at(s->running, Pre) ==>
-      @     s->queue.release_us[s->queue.order[k]] ==
-      @         \at(s->queue.release_us[s->queue.order[k]], Pre);
-      @*/
 }
 
 /* A real-time task runs: the pass goes on behind it. */
-/*@ SET_GIVEN(s, sum)
+/*@ SET_GIVEN(s, a)
   @ requires stage: s->stage == KEEL_STAGE_REALTIME && pass_whole(s);
-  @ requires running: 0 <= s->running && s->cursor == s->running + 1 <= s->queue.realtime_count;
-  @ requires before: late_before(s, sum, s->running);
-  @ requires behind: late_behind(s, sum, s->running);
+  @ requires before: late_before(s, a, run_us);
+  @ requires behind: late_behind(s, a, run_us);
   @ assigns s->clock.now_us, s->clock.raw_us, s->busy_us, s->stage, s->running,
   @     STATS_RUN(s->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1]);
-  @ SET_STAYS(s, sum)
-  @ ensures pass: s->stage == KEEL_STAGE_PASS && pass_whole(s);
-  @ ensures before: late_before(s, sum, s->cursor);
-  @ ensures behind: late_behind(s, sum, s->cursor);
+  @ SET_STAYS(s, a)
+  @ ensures kept: stage_kept(s, a, 0);
   @*/
-static void run_realtime(keel_scheduler_t *s, const int64_t *sum)
+static void run_realtime(keel_scheduler_t *s, const account_t *a, uint64_t run_us)
 {
-    (void)sum;
-    run_at_most(s, s->queue.budget_us[s->queue.order[s->running]]);
-    /*@ assert time: s->clock.now_us + sum[\at(s->running, Pre)] <=
-      @     \at(s->clock.now_us, Pre) + sum[s->cursor];
+    (void)a;
+    run_at_most(s, run_us);
+    /*@ assert releases: \forall integer j; 0 <= j < s->queue.realtime_count ==>
+      @     s->queue.release_us[s->queue.order[j]] ==
+      @         \at(s->queue.release_us[s->queue.order[j]], Pre);
       @*/
+    //@ assert time: s->clock.now_us <= \at(s->clock.now_us, Pre) + run_us;
+    //@ assert cursor: s->cursor == \at(s->cursor, Pre);
+    //@ assert before: late_before(s, a, 0);
+    //@ assert behind: late_behind(s, a, 0);
 }
 
-/* Another task runs: the pass is over before any real-time task is due. */
-/*@ SET_GIVEN(s, sum)
-  @ requires stage: s->stage == KEEL_STAGE_OTHER && 0 <= s->running < s->queue.count;
-  @ requires room: room(s, s->running);
+/* Another task runs: the pass is over. */
+/*@ SET_GIVEN(s, a)
+  @ requires stage: s->stage == KEEL_STAGE_OTHER;
+  @ requires all_late: late_all(s, a);
+  @ requires held: held(s, a, run_us);
   @ assigns s->clock.now_us, s->clock.raw_us, s->busy_us, s->stage, s->running,
   @     STATS_RUN(s->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1]);
-  @ SET_STAYS(s, sum)
-  @ ensures ready: s->stage == KEEL_STAGE_READY;
-  @ ensures late: late(s, sum, 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
+  @ SET_STAYS(s, a)
+  @ ensures kept: stage_kept(s, a, 0);
   @*/
-static void run_other(keel_scheduler_t *s, const int64_t *sum)
+static void run_other(keel_scheduler_t *s, const account_t *a, uint64_t run_us)
+{
+    (void)a;
+    run_at_most(s, run_us);
+    /*@ assert releases: \forall integer j; 0 <= j < s->queue.realtime_count ==>
+      @     s->queue.release_us[s->queue.order[j]] ==
+      @         \at(s->queue.release_us[s->queue.order[j]], Pre);
+      @*/
+    //@ assert time: s->clock.now_us <= \at(s->clock.now_us, Pre) + run_us;
+    //@ assert late: late_between(s, a);
+}
+
+/* How long the task may run that was just handed out. */
+/*@ requires memory: \valid_read(s) && scheduler_valid(s);
+  @ requires running: stage_running(s) && 0 <= s->running < s->queue.count;
+  @ assigns \nothing;
+  @ ensures realtime: s->stage == KEEL_STAGE_REALTIME ==>
+  @     \result == s->queue.budget_us[s->queue.order[s->running]];
+  @ ensures other: s->stage == KEEL_STAGE_OTHER ==> \result == s->config.guard_us +
+  @     (promoting ? longest_us : task_worst(&s->queue, s->queue.order[s->running]));
+  @*/
+static uint64_t longest_run(const keel_scheduler_t *s, bool promoting, uint32_t longest_us)
 {
     const uint32_t slot = s->queue.order[s->running];
-    const uint32_t remembered_us = s->queue.stats[slot].remembered_us;
     const uint32_t budget_us = s->queue.budget_us[slot];
-    const uint64_t worst_us = (remembered_us > budget_us) ? remembered_us : budget_us;
+    uint32_t worst_us = s->queue.stats[slot].remembered_us;
 
-    (void)sum;
-    run_at_most(s, s->config.guard_us + worst_us);
-    /*@ assert time: s->clock.now_us <= \at(s->clock.now_us
-      @     + s->config.guard_us + task_worst(&s->queue, s->queue.order[s->running]), Pre);
+    if (s->stage == KEEL_STAGE_REALTIME) {
+        return budget_us;
+    }
+    if (promoting) {
+        return s->config.guard_us + (uint64_t)longest_us;
+    }
+    if (worst_us < budget_us) {
+        worst_us = budget_us;
+    }
+    return s->config.guard_us + (uint64_t)worst_us;
+}
+
+/* In a pass: a task starts, for which the theorems say how late, or the pass ends. Returns how long
+ * the task may run. */
+/*@ SET_GIVEN(s, a)
+  @ requires pass: s->stage == KEEL_STAGE_PASS;
+  @ requires kept: stage_kept(s, a, 0);
+  @ requires other: a->other_us == (promoting ? s->config.guard_us + longest_us : 0);
+  @ requires none: !promoting ==> none_counted(s, a);
+  @ assigns s->wake_us, s->stage, s->cursor, s->running, s->earliest_realtime_us,
+  @     s->earliest_other_us, s->queue.skipped[0 .. KEEL_QUEUE_CAPACITY - 1],
+  @     s->queue.release_us[0 .. KEEL_QUEUE_CAPACITY - 1],
+  @     s->queue.stats[0 .. KEEL_QUEUE_CAPACITY - 1].promotions;
+  @ SET_STAYS(s, a)
+  @ ensures kept: promoting || !\old(promotion_due(s)) || s->stage != KEEL_STAGE_OTHER ==>
+  @     stage_kept(s, a, \result);
+  @*/
+static uint64_t serve(keel_scheduler_t *s, const account_t *a, bool promoting, uint32_t longest_us)
+{
+    uint64_t run_us = 0u;
+
+    decide(s, a);
+    //@ assert realtime: !promoting ==> turn(s, a) == a->all_us + s->config.guard_us;
+    /*@ assert whatever: promoting ==>
+      @     turn(s, a) == a->all_us + 2 * s->config.guard_us + longest_us;
       @*/
+    /*@ assert ISO_001: !promoting ==> s->stage == KEEL_STAGE_REALTIME ==>
+      @     s->clock.now_us -
+      @         \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], Pre) <=
+      @     a->all_us - s->queue.budget_us[s->queue.order[s->running]] + s->config.guard_us;
+      @*/
+    /*@ assert ISO_001_unskipped: !promoting ==> s->stage == KEEL_STAGE_REALTIME ==>
+      @     s->queue.skipped[s->queue.order[s->running]] ==
+      @         \at(s->queue.skipped[s->queue.order[\at(s->running, Here)]], Pre);
+      @*/
+    /*@ assert ISO_002: promoting ==> s->stage == KEEL_STAGE_REALTIME ==>
+      @     s->clock.now_us -
+      @         \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], Pre) <=
+      @     a->all_us + 2 * s->config.guard_us + longest_us;
+      @*/
+    /*@ assert ISO_002_held: promoting ==> s->stage == KEEL_STAGE_REALTIME ==>
+      @     a->all_us + 2 * s->config.guard_us + longest_us <=
+      @         s->queue.period_us[s->queue.order[s->running]] ==>
+      @     s->clock.now_us -
+      @         \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], Pre) <=
+      @     a->all_us - s->queue.budget_us[s->queue.order[s->running]]
+      @         + 2 * s->config.guard_us + longest_us;
+      @*/
+    /*@ assert ISO_002_unskipped: promoting ==> s->stage == KEEL_STAGE_REALTIME ==>
+      @     a->all_us + 2 * s->config.guard_us + longest_us <=
+      @         s->queue.period_us[s->queue.order[s->running]] ==>
+      @     s->queue.skipped[s->queue.order[s->running]] ==
+      @         \at(s->queue.skipped[s->queue.order[\at(s->running, Here)]], Pre);
+      @*/
+    if (s->stage != KEEL_STAGE_READY) {
+        run_us = longest_run(s, promoting, longest_us);
+    }
+    /*@ assert held: s->stage == KEEL_STAGE_OTHER ==> promoting || !\at(promotion_due(s), Pre) ==>
+      @     held(s, a, run_us);
+      @*/
+    return run_us;
+}
+
+/* One call of the kernel: the one that the stage asks for. Returns how long the task may run that it
+ * hands out. */
+/*@ SET_GIVEN(s, a)
+  @ requires kept: stage_kept(s, a, run_us);
+  @ requires other: a->other_us == (promoting ? s->config.guard_us + longest_us : 0);
+  @ requires none: !promoting ==> none_counted(s, a);
+  @ assigns *s;
+  @ SET_STAYS(s, a)
+  @ ensures none: !promoting ==> none_counted(s, a);
+  @ ensures kept: promoting || !\old(s->stage == KEEL_STAGE_PASS && promotion_due(s)) ||
+  @     s->stage != KEEL_STAGE_OTHER ==> stage_kept(s, a, \result);
+  @*/
+static uint64_t move_on(keel_scheduler_t *s, const account_t *a, bool promoting,
+                        uint32_t longest_us, uint64_t run_us)
+{
+    if (s->stage == KEEL_STAGE_READY) {
+        open_pass(s, a);
+        return 0u;
+    }
+    if (s->stage == KEEL_STAGE_REALTIME) {
+        run_realtime(s, a, run_us);
+        return 0u;
+    }
+    if (s->stage == KEEL_STAGE_OTHER) {
+        run_other(s, a, run_us);
+        return 0u;
+    }
+    return serve(s, a, promoting, longest_us);
 }
 
 /*@ // As keel_scheduler_init and keel_scheduler_add leave it.
@@ -407,64 +682,44 @@ static void run_other(keel_scheduler_t *s, const int64_t *sum)
   @ requires fresh: s->wake_us == 0 && s->busy_us == 0;
   @ assigns *s;
   @*/
-void isolation(keel_scheduler_t *s, uint64_t moves)
+void isolation(keel_scheduler_t *s, bool promoting, uint32_t longest_us, uint64_t moves)
 {
-    int64_t sum[KEEL_QUEUE_CAPACITY + 1u];
+    account_t a;
+    uint64_t run_us = 0u;
 
-    add_up(s, sum);
-    if (start(s, sum) != KEEL_OK) {
+    a.other_us = promoting ? ((int64_t)s->config.guard_us + (int64_t)longest_us) : 0;
+    add_up(s, &a);
+    a.all_us = a.sum[s->queue.realtime_count];
+    count_own(s, &a);
+    if (start(s, &a) != KEEL_OK) {
         return;
     }
+    //@ assert none: !promoting ==> none_counted(s, &a);
     /*@ loop invariant memory: \valid(s) && scheduler_valid(s);
       @ loop invariant wake: wake_right(s);
       @ loop invariant busy: s->busy_us <= s->clock.now_us;
-      @ loop invariant summed: budgets_summed(s, &sum[0]);
-      @ loop invariant rise: sum[0] == 0 && sums_rise(&sum[0], s->queue.realtime_count);
-      @ loop invariant hold: periods_hold(s, &sum[0]);
-      @ loop invariant stage: KEEL_STAGE_READY <= s->stage <= KEEL_STAGE_OTHER;
-      @ loop invariant ready: s->stage == KEEL_STAGE_READY ==>
-      @     late(s, &sum[0], 0, s->queue.realtime_count, sum[s->queue.realtime_count]);
-      @ loop invariant whole: s->stage == KEEL_STAGE_PASS || s->stage == KEEL_STAGE_REALTIME ==>
-      @     pass_whole(s);
-      @ loop invariant before: s->stage == KEEL_STAGE_PASS ==>
-      @     late_before(s, &sum[0], s->cursor);
-      @ loop invariant behind: s->stage == KEEL_STAGE_PASS ==>
-      @     late_behind(s, &sum[0], s->cursor);
-      @ loop invariant running: s->stage == KEEL_STAGE_REALTIME ==>
-      @     0 <= s->running && s->cursor == s->running + 1 <= s->queue.realtime_count;
-      @ loop invariant running_before: s->stage == KEEL_STAGE_REALTIME ==>
-      @     late_before(s, &sum[0], s->running);
-      @ loop invariant running_behind: s->stage == KEEL_STAGE_REALTIME ==>
-      @     late_behind(s, &sum[0], s->running);
-      @ loop invariant other: s->stage == KEEL_STAGE_OTHER ==>
-      @     0 <= s->running < s->queue.count && room(s, s->running);
-      @ loop assigns move, *s;
+      @ loop invariant summed: budgets_summed(s, &a);
+      @ loop invariant rise: a.sum[0] == 0 && sums_rise(&a, s->queue.realtime_count);
+      @ loop invariant own: own_counted(s, &a);
+      @ loop invariant least: own_least(s, &a);
+      @ loop invariant all: all_counted(s, &a);
+      @ loop invariant none: !promoting ==> none_counted(s, &a);
+      @ loop invariant sum: a.all_us == a.sum[s->queue.realtime_count];
+      @ loop invariant more: a.other_us == (promoting ? s->config.guard_us + longest_us : 0);
+      @ loop invariant kept: stage_kept(s, &a, run_us);
+      @ loop assigns move, run_us, *s;
       @ loop variant moves - move;
       @*/
     for (uint64_t move = 0u; move < moves; move++) {
+        bool ends;
+
         if (s->clock.now_us > (KEEL_CLOCK_TIME_LIMIT_US - KEEL_CLOCK_STEP_LIMIT_US)) {
             return;
         }
-        if (s->stage == KEEL_STAGE_READY) {
-            open_pass(s, sum);
-        } else if (s->stage == KEEL_STAGE_REALTIME) {
-            run_realtime(s, sum);
-        } else if (s->stage == KEEL_STAGE_OTHER) {
-            run_other(s, sum);
-        } else {
-            const bool by_promotion = is_promotion_due(s);
-
-            decide(s, sum);
-            /*@ assert ISO_001: s->stage == KEEL_STAGE_REALTIME ==>
-              @     s->clock.now_us -
-              @         \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]],
-              @             LoopCurrent) <=
-              @     sum[s->queue.realtime_count] - s->queue.budget_us[s->queue.order[s->running]]
-              @         + s->config.guard_us;
-              @*/
-            if ((s->stage == KEEL_STAGE_OTHER) && by_promotion) {
-                return;
-            }
+        ends = !promoting && (s->stage == KEEL_STAGE_PASS) && is_promotion_due(s);
+        run_us = move_on(s, &a, promoting, longest_us, run_us);
+        if (ends && (s->stage == KEEL_STAGE_OTHER)) {
+            return;
         }
     }
 }
