@@ -8,8 +8,9 @@
  *     policy keel|edf|unguarded|paper|literal|ungated
  *     model constant|uniform|heavy|either
  *     costs TURN PASS DISPATCH
- *     set SEED DURATION FIRST GUARD LIMIT SKIP   the counter's first reading; the limit of
- *                                          utilisation, in ppm; SKIP 0 makes every turn
+ *     set SEED DURATION FIRST GUARD LIMIT SKIP WITHOUT   the counter's first reading; the limit of
+ *                                          utilisation, in ppm; SKIP 0 makes every turn; WITHOUT 1
+ *                                          promotes nothing
  *     task PRIORITY PERIOD BUDGET WORK PHASE   BUDGET is declared, WORK is the longest run
  *     spike TASK RUN WORK                      one run that takes so long
  *     chain N TASK ... TASK                    a path from a sensor to an actuator
@@ -80,7 +81,7 @@ struct experiment {
     uint64_t random;
     uint64_t duration_us;
     uint32_t first_us, guard_us, utilisation_limit_ppm;
-    bool skip;
+    bool skip, without_promotion;
     uint32_t actors, chains;
     actor_t actor[KEEL_QUEUE_CAPACITY];
     chain_t chain[CHAINS];
@@ -240,7 +241,8 @@ static keel_status_t set_up(experiment_t *e)
     const keel_scheduler_config_t config = {.read_clock = host_board_read,
                                             .clock_context = &e->board,
                                             .guard_us = e->guard_us,
-                                            .utilisation_limit_ppm = e->utilisation_limit_ppm};
+                                            .utilisation_limit_ppm = e->utilisation_limit_ppm,
+                                            .without_promotion = e->without_promotion};
     keel_status_t status = keel_scheduler_init(e->scheduler, &config);
 
     host_board_init(&e->board, e->scheduler, &e->costs, e->first_us);
@@ -398,13 +400,14 @@ static bool order_costs(experiment_t *e, const char *words)
 static bool order_set(experiment_t *e, const char *words)
 {
     uint64_t seed;
-    unsigned skip;
+    unsigned skip, without;
 
-    if (sscanf(words, "%" SCNu64 " %" SCNu64 " %" SCNu32 " %" SCNu32 " %" SCNu32 " %u", &seed,
-               &e->duration_us, &e->first_us, &e->guard_us, &e->utilisation_limit_ppm,
-               &skip) != 6) {
+    if (sscanf(words, "%" SCNu64 " %" SCNu64 " %" SCNu32 " %" SCNu32 " %" SCNu32 " %u %u", &seed,
+               &e->duration_us, &e->first_us, &e->guard_us, &e->utilisation_limit_ppm, &skip,
+               &without) != 7) {
         return false;
     }
+    e->without_promotion = without != 0u;
     e->random = (seed * 0x9E3779B97F4A7C15u) | 1u;
     e->skip = skip != 0u;
     return true;

@@ -52,7 +52,7 @@ class Experiment:
             f"model {self.model}",
             f"costs {self.turn_ns} {costs.pass_us * 1000} {costs.dispatch_us * 1000}",
             f"set {self.seed} {self.duration_us} {self.first_us} {costs.guard_us} "
-            f"{costs.utilisation_limit_ppm} {int(self.skip_idle)}",
+            f"{costs.utilisation_limit_ppm} {int(self.skip_idle)} {int(costs.without_promotion)}",
         ]
         lines += [self.task(task) for task in self.tasks.tasks]
         number = {task.name: index for index, task in enumerate(self.tasks.tasks)}

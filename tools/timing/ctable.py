@@ -104,9 +104,13 @@ keel_scheduler_config_t {name}_scheduler_config(keel_clock_fn_t read_clock, void
     return (keel_scheduler_config_t){{.read_clock = read_clock,
                                      .clock_context = clock_context,
                                      .guard_us = {upper}_GUARD_US,
-                                     .utilisation_limit_ppm = {upper}_UTILISATION_LIMIT_PPM}};
+                                     .utilisation_limit_ppm = {upper}_UTILISATION_LIMIT_PPM{more}}};
 }}
 """
+
+
+# Zeros mean that tasks are promoted, so a table says it only where they are not.
+WITHOUT_PROMOTION = f",\n{' ' * 37}.without_promotion = true"
 
 
 def row(tasks: TaskSet, task: Task) -> str:
@@ -127,6 +131,7 @@ def table(tasks: TaskSet, source: str) -> dict[str, str]:
         "name": tasks.name, "upper": upper, "count": len(tasks.tasks), "source": source,
         "guard": guard.ljust(width), "limit": limit.ljust(width),
         "indices": ",\n".join(symbols),
+        "more": WITHOUT_PROMOTION if tasks.costs.without_promotion else "",
         "rows": "\n".join(row(tasks, task) for task in tasks.tasks),
     }  # fmt: skip
     return {
