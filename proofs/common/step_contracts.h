@@ -67,9 +67,8 @@ static int32_t pass_left(const keel_scheduler_t *scheduler)
 static bool keel_pass_turn_may(const keel_scheduler_t *scheduler)
 {
     return (scheduler != NULL) && (KEEL_STAGE_SETUP <= scheduler->stage) &&
-           (scheduler->stage <= KEEL_STAGE_OTHER) &&
-           (KEEL_POSITION_NONE <= scheduler->running) && (0 <= scheduler->cursor) &&
-           (scheduler->cursor <= scheduler->pass_end);
+           (scheduler->stage <= KEEL_STAGE_OTHER) && (KEEL_POSITION_NONE <= scheduler->running) &&
+           (0 <= scheduler->cursor) && (scheduler->cursor <= scheduler->pass_end);
 }
 
 /* Outside of a pass it does nothing: as far as is said here, the stage stays. */

@@ -48,8 +48,8 @@ uint32_t read_within(uint32_t raw_us, uint64_t limit_us);
 /** What the bounds are made of. The kernel has no numbers of that type, so it writes none. */
 typedef struct {
     int64_t sum[KEEL_QUEUE_CAPACITY + 1u]; /**< The sums of the first real-time budgets. */
-    int64_t own[KEEL_QUEUE_CAPACITY]; /**< By slot: what its own run may add to it. */
-    int64_t all_us;                   /**< The sum of all real-time budgets. */
+    int64_t own[KEEL_QUEUE_CAPACITY];      /**< By slot: what its own run may add to it. */
+    int64_t all_us;                        /**< The sum of all real-time budgets. */
     int64_t other_us; /**< What another task's run may add to the lateness of any. */
 } account_t;
 
@@ -646,8 +646,8 @@ static uint64_t serve(keel_scheduler_t *s, const account_t *a, bool promoting, u
     return run_us;
 }
 
-/* One call of the kernel: the one that the stage asks for. Returns how long the task may run that it
- * hands out. */
+/* One call of the kernel: the one that the stage asks for. Returns how long the task may run that
+ * it hands out. */
 /*@ SET_GIVEN(s, a)
   @ requires kept: stage_kept(s, a, run_us);
   @ requires other: a->other_us == (promoting ? s->config.guard_us + longest_us : 0);
