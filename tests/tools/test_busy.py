@@ -25,10 +25,10 @@ from proofs.jobs import Runner  # noqa: E402
 from proofs.project import find_units  # noqa: E402
 from toolchain import Toolchain, ToolchainError, small_environment  # noqa: E402
 
-# A goal that CVC4 and Alt-Ergo once gave up, by the clock, on a machine with other work; and the
-# harness that keeps a solver busy for longest among the voter's.
+# A goal that CVC4 and Alt-Ergo once gave up, by the clock, on a machine with other work; and a
+# harness that keeps z3 busy.
 FUNCTION = ("signing", "keel_signing_accepts")
-HARNESS = ("voter", "keel_voter_agreement__bounds_harness")
+HARNESS = ("priority", "keel_priority_dynamic__exact_harness")
 
 
 def installed() -> bool:
