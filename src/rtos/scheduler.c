@@ -106,6 +106,34 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
     return keel_admission_admit(&admission, task->priority, task->period_us, task->budget_us);
 }
 
+/* Puts a task into the queue, to be released a phase from now. */
+/*@ requires \valid(scheduler) && queue_valid(&scheduler->queue) && in_uptime(scheduler);
+  @ requires \valid_read(task) && \separated(scheduler, task) && addable(scheduler, task);
+  @ assigns scheduler->queue.count, scheduler->queue.realtime_count,
+  @     scheduler->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ assigns QUEUE_SLOT(&scheduler->queue, scheduler->queue.order[scheduler->queue.count]);
+  @ ensures queue: queue_valid(&scheduler->queue);
+  @ ensures order: order_joined{Pre, Post}(&scheduler->queue, task->priority);
+  @ ensures copied: slot_copied(&scheduler->queue,
+  @     \old(scheduler->queue.order[scheduler->queue.count]), task);
+  @ ensures fresh: slot_fresh(&scheduler->queue,
+  @     \old(scheduler->queue.order[scheduler->queue.count]));
+  @ ensures release:
+  @     scheduler->queue.release_us[\old(scheduler->queue.order[scheduler->queue.count])] ==
+  @     scheduler->clock.now_us + task->phase_us;
+  @ ensures time: scheduler->clock.now_us == \old(scheduler->clock.now_us);
+  @ ensures guard: scheduler->config.guard_us == \old(scheduler->config.guard_us);
+  @ ensures limit: scheduler->config.utilisation_limit_ppm ==
+  @     \old(scheduler->config.utilisation_limit_ppm);
+  @*/
+static void put_in(keel_scheduler_t *scheduler, const keel_task_config_t *task)
+{
+    keel_queue_add(&scheduler->queue, task, scheduler->clock.now_us + task->phase_us);
+    /*@ assert slot: 0 <= \at(scheduler->queue.order[scheduler->queue.count], Pre) <
+      @     KEEL_QUEUE_CAPACITY;
+      @*/
+}
+
 /* Puts a task that was found fit into the queue, to be released a phase from now; the running task
  * may move down by one position. */
 /*@ requires \valid(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
@@ -131,7 +159,7 @@ static void insert(keel_scheduler_t *scheduler, const keel_task_config_t *task)
 {
     const int16_t place = (int16_t)scheduler->queue.realtime_count;
 
-    keel_queue_add(&scheduler->queue, task, scheduler->clock.now_us + task->phase_us);
+    put_in(scheduler, task);
     /*@ assert slot: 0 <= \at(scheduler->queue.order[scheduler->queue.count], Pre) <
       @     KEEL_QUEUE_CAPACITY;
       @*/

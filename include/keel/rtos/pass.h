@@ -162,6 +162,17 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
       @                 scheduler->config.guard_us);
       @*/
     if (scheduler->clock.now_us < scheduler->wake_us) {
+        /*@ assert same: scheduler->wake_us == \at(scheduler->wake_us, Pre) && \forall integer i;
+          @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
+          @     scheduler->queue.release_us[scheduler->queue.order[i]] ==
+          @         \at(scheduler->queue.release_us[scheduler->queue.order[i]], Pre) &&
+          @     promotion(&scheduler->queue, scheduler->queue.order[i]) ==
+          @         \at(promotion(&scheduler->queue, scheduler->queue.order[i]), Pre);
+          @*/
+        /*@ assert waits: \forall integer i;
+          @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
+          @     \at(waits(scheduler, i), Pre) && waits(scheduler, i);
+          @*/
         return KEEL_OK;
     }
     scheduler->wake_us = 0u;
