@@ -120,7 +120,8 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @     \old(scheduler->queue.order[scheduler->queue.count]));
   @ ensures release:
   @     scheduler->queue.release_us[\old(scheduler->queue.order[scheduler->queue.count])] ==
-  @     scheduler->clock.now_us + task->phase_us;
+  @     \old(scheduler->clock.now_us + task->phase_us);
+  @ ensures phase: task->phase_us == \old(task->phase_us);
   @ ensures time: scheduler->clock.now_us == \old(scheduler->clock.now_us);
   @ ensures guard: scheduler->config.guard_us == \old(scheduler->config.guard_us);
   @ ensures limit: scheduler->config.utilisation_limit_ppm ==
