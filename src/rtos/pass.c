@@ -264,6 +264,7 @@ static void close_pass(keel_scheduler_t *scheduler, uint64_t realtime_us, uint64
       @*/
     /*@ assert misfits: \forall integer i;
       @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> due(scheduler, i) ==>
+      @     !\at(other_may_run(scheduler, i), Pre) &&
       @     !\at(fits_slack(&scheduler->queue, scheduler->queue.order[i], scheduler->clock.now_us,
       @                     scheduler->config.guard_us), Pre);
       @*/
@@ -273,6 +274,18 @@ static void close_pass(keel_scheduler_t *scheduler, uint64_t realtime_us, uint64
       @                 scheduler->config.guard_us);
       @*/
     //@ assert realtime: wake_realtime(scheduler);
+    /*@ assert ahead: \forall integer i;
+      @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> !due(scheduler, i) ==>
+      @     scheduler->wake_us <= scheduler->queue.release_us[scheduler->queue.order[i]];
+      @*/
+    /*@ assert unpromoted: \forall integer i;
+      @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> due(scheduler, i) ==>
+      @     scheduler->config.without_promotion != 0 ||
+      @     scheduler->wake_us <= promotion(&scheduler->queue, scheduler->queue.order[i]);
+      @*/
+    /*@ assert waits: \forall integer i;
+      @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==> waits(scheduler, i);
+      @*/
     //@ assert others: wake_others(scheduler);
 }
 

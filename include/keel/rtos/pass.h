@@ -173,6 +173,10 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
           @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
           @     \at(waits(scheduler, i), Pre) && waits(scheduler, i);
           @*/
+        /*@ assert idle: \forall integer i;
+          @     scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
+          @     waits(scheduler, i) && !other_may_run(scheduler, i);
+          @*/
         return KEEL_OK;
     }
     scheduler->wake_us = 0u;
