@@ -215,6 +215,8 @@ void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_
 
     //@ assert fresh: slot_fresh(queue, slot);
     enqueue(queue, slot, task);
+    //@ assert priority: queue->priority[slot] == task->priority;
+    //@ assert task: queue->task[slot] == task;
 }
 
 void keel_queue_remove(keel_queue_t *queue, uint32_t position)
