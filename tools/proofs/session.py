@@ -136,7 +136,8 @@ class Session:
         exports.write(self._build, gathered)
         if gathered.success and not gathered.shard:
             told = theorems.told(self._root, gathered.requirements)
-            print("\n".join([*told, *self._what_is_left()]), flush=True)
+            for line in (*told, *self._what_is_left()):
+                print(line, flush=True)
         print("\n".join(report.closing_lines(gathered)), flush=True)
         return 0 if gathered.success else 1
 
