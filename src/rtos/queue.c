@@ -150,6 +150,7 @@ static uint8_t close_place(keel_queue_t *queue, uint32_t place)
   @     + ((\old(queue->priority[slot]) == KEEL_PRIORITY_REALTIME) ? 1 : 0);
   @ ensures slot: queue->order[\old(queue_place(queue, queue->priority[slot]))] == slot;
   @ ensures task: queue->task[slot] == task;
+  @ ensures priority: queue->priority[slot] == \old(queue->priority[slot]);
   @ ensures before: order_same{Pre, Post}(queue, 0,
   @     \old(queue_place(queue, queue->priority[slot])));
   @ ensures behind: order_down{Pre, Post}(queue,
@@ -213,10 +214,23 @@ void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_
 {
     const uint8_t slot = fill_slot(queue, task, release_us);
 
+    //@ assert slot: 0 <= slot < KEEL_QUEUE_CAPACITY;
     //@ assert fresh: slot_fresh(queue, slot);
+    //@ assert filled: queue->priority[slot] == task->priority;
+    /*@ assert place: queue_place(queue, queue->priority[slot])
+      @     == \at(queue_place(queue, task->priority), Pre);
+      @*/
     enqueue(queue, slot, task);
     //@ assert priority: queue->priority[slot] == task->priority;
     //@ assert task: queue->task[slot] == task;
+    /*@ assert before: order_same{Pre, Here}(queue, 0,
+      @     \at(queue_place(queue, task->priority), Pre));
+      @*/
+    //@ assert joined: queue->order[\at(queue_place(queue, task->priority), Pre)] == slot;
+    /*@ assert behind: order_down{Pre, Here}(queue,
+      @     \at(queue_place(queue, task->priority), Pre) + 1, queue->count);
+      @*/
+    //@ assert rest: order_same{Pre, Here}(queue, queue->count, KEEL_QUEUE_CAPACITY);
 }
 
 void keel_queue_remove(keel_queue_t *queue, uint32_t position)
