@@ -214,10 +214,6 @@ def known_messages() -> tuple[str, ...]:
     return (macro("proofs/mavlink/mavlink_proof.h", "MESSAGES"),)
 
 
-def pass_tasks() -> tuple[str, ...]:
-    return (set_in("proofs/pass/keel_pass_run_harness.c", "KEEL_QUEUE_CAPACITY"),)
-
-
 def ring_bytes() -> tuple[str, ...]:
     return (set_in("proofs/log_ring/keel_log_ring_write_harness.c", "KEEL_LOG_RING_BYTES"),)
 
@@ -281,7 +277,6 @@ FIGURES: tuple[Figure, ...] = (
     Figure("docs/proved.md",
            r"Of (\d+) mutants of all (\d+) units.*?refute (\d+)\. Of the other (\d+), (\d+) "
            r"compile to the same object code, and (\d+) mean", mutants),
-    Figure("docs/proved.md", r"`keel_scheduler_step` \| up to (\d+) tasks", pass_tasks),
     Figure("docs/proved.md", r"tables of (\d+) messages", known_messages),
     Figure("docs/proved.md", r"payloads of up to (\d+) bytes; the checksum as such up to (\d+)",
            payloads),
@@ -294,7 +289,6 @@ FIGURES: tuple[Figure, ...] = (
            payloads),
     Figure(SOUNDNESS, r"messages of up to (\d+) bytes, names of up to (\d+) characters, formats "
            r"of up to (\d+) fields", ulog_sizes),
-    Figure(SOUNDNESS, r"`keel_pass_run` \| CBMC, (\d+) tasks", pass_tasks),
     Figure(SOUNDNESS, r"(\d[\d ]*) random sets", random_sets),
     Figure(SOUNDNESS, r"CBMC is shown one in (\d+)", confirmed),
     Figure(SOUNDNESS, r"\((\d+\.\d) minutes\)", half_turn),

@@ -221,7 +221,8 @@ class Blocks(StrengthTest):
                             "a reason for 0")  # fmt: skip
 
     def test_a_reason_for_what_is_reached(self) -> None:
-        self.coverage("pass", "keel_pass_turn_harness")["reached"] = 42
+        coverage = self.coverage("pass", "keel_pass_turn_harness")
+        coverage["reached"] = coverage["blocks"]
         self.assert_problem(self.part(), "pass/keel_pass_turn_harness", "0 blocks",
                             "a reason for 12")  # fmt: skip
 

@@ -66,7 +66,7 @@ class OwnUnit(unittest.TestCase):
         self.slip("low < BATTERY_MONITOR_SAMPLES", "low <= BATTERY_MONITOR_SAMPLES")
         status, output = self.make("prove", "UNIT=monitor", "ARGS=--engine cbmc")
         self.assertNotEqual(status, 0)
-        self.assertIn("BAT_002_model: as the model says: FAILURE", output)
+        self.assertIn("BAT_002_model: as the model says: REFUTED by a counterexample", output)
         command = "make prove UNIT=monitor ARGS='--explain battery_monitor_step_harness'"
         self.assertIn(f"to see why: {command}", output)
         status, output = self.make("prove", "UNIT=monitor", "ARGS=--explain BAT_002_model")

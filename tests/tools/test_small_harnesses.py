@@ -67,7 +67,7 @@ class SmallHarness(TreeTest):
 def answer(failure: str = "", complete: bool = True) -> Answer:
     """What CBMC says."""
     trace = [{"stepType": "failure", "reason": failure}] if failure else []
-    return Answer([], [], [], complete, bool(failure), trace)
+    return Answer([], [], [], complete, bool(failure), trace=trace)
 
 
 class Checker:

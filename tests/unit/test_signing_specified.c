@@ -9,6 +9,7 @@
 #include <string.h>
 
 /* The models are part of this test: the kernel that it is linked with has none. */
+#include "../../specs/model/crc.c"
 #include "../../specs/model/mavlink.c"
 #include "../../specs/model/signing.c"
 

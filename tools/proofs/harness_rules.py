@@ -100,13 +100,14 @@ def _directives(text: str, path: Path, words: set[str]) -> Iterator[tuple[int, s
     # Of the same length, so that places stay what they are.
     bare = csource.without_comments(text).replace("\\\n", "  ")
     guard = re.sub(r"\W", "_", path.name).upper()
+    guards = (guard, f"MODEL_{guard}", f"{path.parent.name.upper()}_{guard}")
     for match in STRANGE.finditer(bare):
         yield text.count("\n", 0, match.start()) + 1, f"{match[0]} has no place in proofs"
     for match in DIRECTIVE.finditer(bare):
         line = text.count("\n", 0, match.start("word")) + 1
         word, rest = match["word"], match["rest"].strip()
         name = (WORD.match(rest) or [""])[0]
-        own_guard = name in (guard, f"MODEL_{guard}") and path.suffix == ".h"
+        own_guard = name in guards and path.suffix == ".h"
         if word == "define" and not own_guard:
             reason = _macro(name, words)
             if reason:
