@@ -29,6 +29,7 @@ from proofs.wp import OWN, SMOKE, SMOKE_OF_FLOATS
 from proofs.wplog import read_log
 from suites.emulated import EmulatedBoard
 from toolchain import MACHDEP_FILE, TARGET_FLAGS, Toolchain, small_environment
+from toolchain.provers import CLOCK_PER_PROCESSOR
 
 Trial = Callable[[Toolchain, Path, str], list[str]]  # The tools, the text's file, the option.
 
@@ -37,7 +38,7 @@ PROVED = re.compile(r"Proved goals: +\d+ */ *\d+")
 ANSWER = re.compile(r"Valid|Invalid|Timeout|I don't know")
 FAILED = re.compile(r"^\[([\w.]+)\] .*: FAILURE$", re.MULTILINE)
 SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
-PROVER_SECONDS = "2"  # Of the processor. What is right takes a moment, what is wrong all of them.
+PROVER_SECONDS = 2  # Of the processor. What is right takes a moment, what is wrong all of them.
 UNWIND = "6"
 ASSUMPTIONS = OWN / "find_assumptions.ml"
 CONTRADICTIONS = OWN / "find_contradictions.ml"
@@ -46,7 +47,8 @@ ENDINGS = {"gappa": "g", "alt-ergo": "why"}
 
 def wp(tools: Toolchain, file: Path, prover: str) -> list[str]:
     """The goals that WP does not prove with a prover."""
-    words = ["-wp-prover", prover, "-wp-timeout", PROVER_SECONDS, "-wp-status-all"]
+    words = ["-wp-prover", prover, "-wp-timeout",
+             str(PROVER_SECONDS * CLOCK_PER_PROCESSOR), "-wp-status-all"]  # fmt: skip
     said = _said_by_wp(tools, file, words)
     if not PROVED.search(said):
         raise ToolError(f"frama-c: no verdict:\n{said.strip()}")
@@ -133,7 +135,7 @@ def write_project(root: Path) -> Unit:
 
 def alt_ergo(tools: Toolchain, file: Path, option: str) -> list[str]:
     """The answers but "Valid"."""
-    done = run([*tools.command("alt-ergo"), "-timelimit", PROVER_SECONDS, file])
+    done = run([*tools.command("alt-ergo"), "-timelimit", str(PROVER_SECONDS), file])
     answers = ANSWER.findall(done.output)
     if not answers:
         raise ToolError(f"alt-ergo: no verdict:\n{done.output.strip()}")
