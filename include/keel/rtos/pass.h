@@ -247,11 +247,6 @@ static inline keel_status_t keel_pass_begin(keel_scheduler_t *scheduler, uint32_
   @       scheduler->running >= scheduler->queue.realtime_count;
   @   ensures SCH_016_fits: scheduler->stage == KEEL_STAGE_OTHER ==>
   @       \at(other_may_run(scheduler, \at(scheduler->running, Post)), Pre);
-  @   ensures SCH_016_slack: scheduler->stage == KEEL_STAGE_OTHER ==>
-  @       scheduler->config.without_promotion != 0 ==>
-  @       \at(fits_slack(&scheduler->queue,
-  @                      scheduler->queue.order[\at(scheduler->running, Post)],
-  @                      scheduler->clock.now_us, scheduler->config.guard_us), Pre);
   @   ensures SCH_016_highest: scheduler->stage == KEEL_STAGE_OTHER ==>
   @       \forall integer i; scheduler->queue.realtime_count <= i < scheduler->queue.count ==>
   @           \old(other_may_run(scheduler, i)) ==> \old(priority_at(scheduler, i)) <=
