@@ -277,8 +277,8 @@ FIGURES: tuple[Figure, ...] = (
     Figure("docs/proved.md", r"each of the (\d+) public functions", functions),
     Figure("docs/proved.md", r"queues of (\d+) tasks, (\d+) sensors;", both),
     Figure("docs/proved.md",
-           r"now for (\d+) of the (\d+) units\. Of their (\d+) mutants.*?refute (\d+)\. Of the other "
-           r"(\d+), (\d+) compile to the same object code, and (\d+) mean", mutants),
+           r"now for (\d+) of the (\d+) units\. Of their (\d+) mutants.*?refute (\d+)\. Of the "
+           r"other (\d+), (\d+) compile to the same object code, and (\d+) mean", mutants),
     Figure("docs/proved.md", r"tables of (\d+) messages", known_messages),
     Figure("docs/proved.md", r"payloads of up to (\d+) bytes; the checksum as such up to (\d+)",
            payloads),
