@@ -590,6 +590,18 @@ class Kept(DeterminedTest):
                          " box_valid_here says something else now: review, and run"
                          " --update-goals"])  # fmt: skip
 
+    def test_a_form_that_units_not_looked_at_have_is_no_difference(self) -> None:
+        path = self.root / "proofs/determined.md"
+        text = path.read_text(encoding="utf-8")
+        here = "    return b->count < 99u;\n"
+        self.assertEqual(text.count(here), 1)
+        decider = determined.Decider(self.root)
+        found = decider.every()
+        for kept, good in ((f"    return true;\n{here}", True), ("    return true;\n", False)):
+            path.write_text(text.replace(here, kept), encoding="utf-8")
+            problems = determined.kept_problems(self.root, decider, found, whole=False)
+            self.assertEqual(not problems, good, problems)
+
     def test_what_is_gone_is_a_difference(self) -> None:
         self.write("proofs/box/keel_box_angle_harness.c", "")
         self.assertTrue(any("keel_box_angle is shown" in text for text in self.differences()))
