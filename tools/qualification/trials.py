@@ -38,7 +38,7 @@ PROVED = re.compile(r"Proved goals: +\d+ */ *\d+")
 ANSWER = re.compile(r"Valid|Invalid|Timeout|I don't know")
 FAILED = re.compile(r"^\[([\w.]+)\] .*: FAILURE$", re.MULTILINE)
 SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
-PROVER_SECONDS = 2  # Of the processor. What is right takes a moment, what is wrong all of them.
+PROVER_SECONDS = 2  # Of the processor. A right goal takes a moment, a wrong one all of them.
 UNWIND = "6"
 ASSUMPTIONS = OWN / "find_assumptions.ml"
 CONTRADICTIONS = OWN / "find_contradictions.ml"
