@@ -23,13 +23,15 @@ import io
 import json
 import os
 import re
-import subprocess
 import sys
 import tarfile
 from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
+
+from common.errors import ToolError
+from common.git import commit_of, git
 
 ROOT = Path(__file__).resolve().parents[1]
 LOCK = "tools/toolchain.lock.json"
@@ -38,21 +40,10 @@ PINNED = re.compile(r"^([\w.-]+)==(\S+?)(?: |$)", re.MULTILINE)
 REGISTRIES = {"wheel": "pypi", "crate": "cargo"}
 
 
-class DistError(Exception):
-    """There is no release; the message says why."""
-
-
-def git(root: Path, *words: str) -> str:
-    """What git answers."""
-    try:
-        done = subprocess.run(
-            ["git", *words], cwd=root, capture_output=True, text=True, check=False
-        )
-    except FileNotFoundError:
-        raise DistError("git is missing: a release is made from a commit") from None
-    if done.returncode != 0:
-        raise DistError(f"{root} is no clone of Keel with a commit (git {words[0]} fails)")
-    return done.stdout
+def require_commit(root: Path) -> None:
+    """Refuse what has no commit, as an archive."""
+    if not commit_of(root):
+        raise ToolError(f"{root} is no clone of Keel with a commit")
 
 
 def require_clean(root: Path) -> None:
@@ -60,7 +51,7 @@ def require_clean(root: Path) -> None:
     changed = git(root, "status", "--porcelain", "-z").split("\0")[:-1]
     if changed:
         more = f" and {len(changed) - 1} more" if len(changed) > 1 else ""
-        raise DistError(f"{changed[0][3:]}{more} not committed: commit, or say --dirty")
+        raise ToolError(f"{changed[0][3:]}{more} not committed: commit, or say --dirty")
 
 
 def version(root: Path) -> str:
@@ -68,12 +59,12 @@ def version(root: Path) -> str:
     try:
         text = (root / VERSION).read_text(encoding="utf-8")
     except OSError as error:
-        raise DistError(f"{VERSION}: {error.strerror}") from error
+        raise ToolError(f"{VERSION}: {error.strerror}") from error
     numbers = []
     for part in ("MAJOR", "MINOR", "PATCH"):
         match = re.search(rf"^#define KEEL_VERSION_{part} (\d+)$", text, re.MULTILINE)
         if not match:
-            raise DistError(f"{VERSION} does not define KEEL_VERSION_{part} as a number")
+            raise ToolError(f"{VERSION} does not define KEEL_VERSION_{part} as a number")
         numbers.append(match[1])
     return ".".join(numbers)
 
@@ -85,7 +76,7 @@ def archive(root: Path, folder: str, when: int) -> bytes:
         for name in sorted(git(root, "ls-files", "-z").split("\0")[:-1]):
             path = root / name
             if path.is_symlink() or not path.is_file():
-                raise DistError(f"{name}: tracked, but no plain file")
+                raise ToolError(f"{name}: tracked, but no plain file")
             data = path.read_bytes()
             entry = tarfile.TarInfo(f"{folder}/{name}")
             entry.size, entry.mtime = len(data), when
@@ -112,7 +103,7 @@ def tools(root: Path) -> Iterator[dict[str, Any]]:
     try:
         lock = json.loads((root / LOCK).read_text(encoding="utf-8"))["tools"]
     except (OSError, ValueError, KeyError) as error:
-        raise DistError(f"{LOCK}: cannot be read: {error}") from error
+        raise ToolError(f"{LOCK}: cannot be read: {error}") from error
     for name, spec in sorted(lock.items()):
         file = spec.get("path") if spec["kind"] == "packages" else None
         if "requirements" in spec:
@@ -182,10 +173,11 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     parser.add_argument("--out", type=Path, default=root / "build/dist", metavar="FOLDER")
     options = parser.parse_args(arguments)
     try:
+        require_commit(root)
         if not options.dirty:
             require_clean(root)
         written = release(root, options.out)
-    except (DistError, OSError) as error:
+    except (ToolError, OSError) as error:
         print(f"dist: {error}", file=sys.stderr)
         return 1
     for path in written:

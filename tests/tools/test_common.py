@@ -11,6 +11,7 @@ import contextlib
 import errno
 import io
 import os
+import subprocess
 import sys
 import tempfile
 import threading
@@ -19,7 +20,7 @@ import unittest
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated, ClassVar, NoReturn
 from unittest import mock
 from xml.etree import ElementTree
 
@@ -39,8 +40,10 @@ from common.config import (  # noqa: E402
 )
 from common.errors import ToolError, nearest, program, unknown  # noqa: E402
 from common.files import write_json, write_text  # noqa: E402
+from common.git import commit_of, git  # noqa: E402
 from common.junit import JUnitSuite, write_junit  # noqa: E402
 from common.run import output_of, run  # noqa: E402
+from common.source import stamp_of  # noqa: E402
 
 
 class FolderTest(unittest.TestCase):
@@ -55,6 +58,83 @@ class FolderTest(unittest.TestCase):
         path = self.folder / name
         path.write_text(text, encoding="utf-8")
         return path
+
+
+class Git(FolderTest):
+    """A clone, an archive, and a git that fails are three things."""
+
+    # Neither the user's settings nor those of CI may make a strange owner trusted.
+    ALONE: ClassVar = {
+        "HOME": "/nowhere", "XDG_CONFIG_HOME": "/nowhere", "GIT_CONFIG_NOSYSTEM": "1",
+        "GIT_CONFIG_COUNT": "0",
+    }  # fmt: skip
+
+    def setUp(self) -> None:
+        super().setUp()
+        patched = mock.patch.dict(os.environ, self.ALONE)
+        patched.start()
+        self.addCleanup(patched.stop)
+
+    def real(self, *words: str) -> str:
+        who = ["-c", "user.name=a", "-c", "user.email=a@b"]
+        done = subprocess.run(["git", *who, *words], cwd=self.folder, check=True,
+                              capture_output=True, text=True)  # fmt: skip
+        return done.stdout
+
+    def clone(self) -> str:
+        """Make the folder a clone with a commit, which it gives."""
+        self.real("init", "-q")
+        self.real("commit", "-q", "--allow-empty", "-m", "x")
+        return self.real("log", "--format=%H").strip()
+
+    def test_a_clone_has_a_commit(self) -> None:
+        commit = self.clone()
+        self.assertEqual(commit_of(self.folder), commit)
+
+    def test_a_clone_before_its_first_commit_has_none(self) -> None:
+        self.real("init", "-q")
+        self.assertEqual(commit_of(self.folder), "")
+
+    def test_an_archive_has_none_and_git_is_not_asked(self) -> None:
+        with mock.patch.dict(os.environ, PATH="/nowhere"):
+            self.assertEqual(commit_of(self.folder), "")
+
+    def test_an_archive_within_another_clone_has_none(self) -> None:
+        self.clone()
+        (self.folder / "archive").mkdir()
+        self.assertEqual(commit_of(self.folder / "archive"), "")
+
+    def refused(self, words: str) -> None:
+        for ask in (commit_of, stamp_of, lambda root: git(root, "ls-files")):
+            with self.assertRaisesRegex(ToolError, words):
+                ask(self.folder)
+
+    def test_a_clone_that_git_does_not_trust_is_an_error_in_its_words(self) -> None:
+        self.clone()
+        with mock.patch.dict(os.environ, GIT_TEST_ASSUME_DIFFERENT_OWNER="1"):
+            self.refused("git fails: fatal: detected dubious ownership(.|\n)*safe.directory")
+
+    @unittest.skipUnless(os.geteuid() == 0, "root alone gives files away")
+    def test_the_clone_of_another_user_is_an_error_unless_it_is_trusted(self) -> None:
+        commit = self.clone()
+        for path in (self.folder, *self.folder.rglob("*")):
+            os.chown(path, 1234, 1234)
+        with mock.patch.dict(os.environ):
+            os.environ.pop("SUDO_UID", None)  # Whom git trusts, too.
+            self.refused("git fails: fatal: detected dubious ownership")
+            trusted = {"GIT_CONFIG_COUNT": "1", "GIT_CONFIG_KEY_0": "safe.directory",
+                       "GIT_CONFIG_VALUE_0": "*"}  # fmt: skip
+            with mock.patch.dict(os.environ, trusted):
+                self.assertEqual(commit_of(self.folder), commit)
+
+    def test_a_broken_clone_is_an_error(self) -> None:
+        (self.folder / ".git").write_text("gitdir: nowhere\n")
+        self.refused("git fails: fatal: ")
+
+    def test_a_clone_without_git_is_an_error(self) -> None:
+        self.clone()
+        with mock.patch.dict(os.environ, PATH="/nowhere"):
+            self.refused("is a clone, but git does not start: git: No such file")
 
 
 class Names(unittest.TestCase):

@@ -19,6 +19,7 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
@@ -131,6 +132,15 @@ class SmallTest(unittest.TestCase):
         status, said = self.dist()
         self.assertEqual((status, said.count("\n")), (1, 1))
         self.assertIn("is no clone of Keel", said)
+
+    def test_a_clone_that_git_does_not_trust_is_told_in_its_words(self) -> None:
+        distrusted = {"GIT_TEST_ASSUME_DIFFERENT_OWNER": "1", "GIT_CONFIG_COUNT": "0",
+                      "GIT_CONFIG_NOSYSTEM": "1", "HOME": "/nowhere"}  # fmt: skip
+        with mock.patch.dict(os.environ, distrusted):
+            status, said = self.dist()
+        self.assertEqual(status, 1)
+        self.assertIn("git fails: fatal: detected dubious ownership", said)
+        self.assertFalse((self.root.parent / "out").exists())
 
 
 class ReleaseTest(ConsumerTest):

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from common.errors import ROOT, ToolError
 from common.files import sha256_of, write_json
-from common.run import run
+from common.git import commit_of
 
 PRODUCT = ("include", "src")  # What is proved, and what goes into a firmware.
 MADE = ("build", "__pycache__", ".git", ".mypy_cache", ".ruff_cache")  # Nobody's source.
@@ -39,12 +39,6 @@ def digest_of_tree(root: Path, folders: Sequence[str] = ()) -> str:
             content = sha256_of(path) if path.is_file() else "none"
             whole.update(f"{path.relative_to(root).as_posix()} {content}\n".encode())
     return whole.hexdigest()
-
-
-def commit_of(root: Path) -> str:
-    """The commit that is checked out; empty where there is no git, as in a release archive."""
-    asked = run(["git", "rev-parse", "HEAD"], cwd=root)
-    return asked.output.strip() if asked.good and (root / ".git").exists() else ""
 
 
 def stamp_of(root: Path = ROOT) -> dict[str, str]:

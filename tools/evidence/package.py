@@ -13,7 +13,7 @@ from typing import Any
 
 from common.errors import ToolError
 from common.files import sha256_of, write_bytes, write_json, write_text
-from common.run import run
+from common.git import git
 
 from evidence import attestation, measured
 from evidence.assemble import Assembled
@@ -41,12 +41,10 @@ def source_of(root: Path, stamp: dict[str, str]) -> Source:
     """What git says of the source; a release archive has no git, and no time."""
     if not stamp["commit"]:
         return Source(stamp, 0)
-    asked = run(["git", "log", "-1", "--format=%ct"], cwd=root, apart=True)
-    status = run(["git", "status", "--porcelain", "-z"], cwd=root, apart=True)
-    if not (asked.good and status.good):
-        raise ToolError(f"git does not tell the commit's time: {asked.errors}{status.errors}")
-    changed = tuple(line[3:] for line in status.output.split("\0") if line)
-    return Source(stamp, int(asked.output), changed)
+    seconds = int(git(root, "log", "-1", "--format=%ct"))
+    status = git(root, "status", "--porcelain", "-z")
+    changed = tuple(line[3:] for line in status.split("\0") if line)
+    return Source(stamp, seconds, changed)
 
 
 def files_of(folder: Path) -> Iterator[Path]:

@@ -8,9 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import dist
-from common.errors import ToolError
 from common.files import sha256_of, write_json, write_text
-from common.run import output_of
+from common.git import git, is_clone
 from common.source import files_below
 
 from evidence.part import Context, Item, Part, Table
@@ -26,8 +25,8 @@ itself contains no code of others, so none of them is flown."""
 
 def names(root: Path) -> list[str]:
     """All files of the commit, or of the archive."""
-    if (root / ".git").exists():
-        listed = output_of(["git", "ls-files", "-z"], cwd=root).split("\0")
+    if is_clone(root):
+        listed = git(root, "ls-files", "-z").split("\0")
         return sorted(name for name in listed if name)
     return [path.relative_to(root).as_posix() for path in files_below(root)]
 
@@ -61,12 +60,9 @@ def make(context: Context) -> Part:
     sums = context.work / "items.sha256"
     write_text(sums, "".join(f"{item.facts['SHA-256']}  {item.id}\n" for item in items))
     files, summary = {sums.name: sums}, {}
-    try:
-        if (context.root / dist.LOCK).is_file():
-            summary = {"version": dist.version(context.root)}
-            files |= bill(context)
-    except dist.DistError as error:
-        raise ToolError(str(error)) from error
+    if (context.root / dist.LOCK).is_file():
+        summary = {"version": dist.version(context.root)}
+        files |= bill(context)
     summary |= {
         "commit": context.stamp["commit"] or "none, from an archive",
         "source, SHA-256": context.stamp["tree"], "product, SHA-256": context.stamp["product"],
