@@ -10,7 +10,9 @@
     python3 tools/evidence.py --project FOLDER    # the package of a project that uses Keel
 
 A package is written as a whole, and only when nothing is wrong; else the one that was there stays,
-and each problem is told in a line. build/evidence-work has the logs of the commands that were run,
+and each problem is told in a line. With KEEL_PROVED=1 in the environment nothing is proved: the
+report of the proofs is the one that --join of tools/prove.py has written, of the same commit, files
+and tools; another one is refused. build/evidence-work has the logs of the commands that were run,
 and summary.md, a short table for CI.
 
 Exit status: 0 when the package is written or is as it was made, 1 when something is wrong, 2 when
@@ -44,6 +46,7 @@ from evidence.assemble import (  # noqa: E402
 from evidence.commands import (  # noqa: E402
     Command,
     commands_of,
+    handed_over,
     not_good,
     own_commands,
     run_commands,
@@ -51,6 +54,7 @@ from evidence.commands import (  # noqa: E402
 from evidence.digest import as_markdown  # noqa: E402
 from evidence.package import Source, source_of, write_package  # noqa: E402
 from evidence.part import Context  # noqa: E402
+from evidence.parts.tools import GROUPS  # noqa: E402
 from evidence.strength.mutants import foreseen  # noqa: E402
 from evidence.verify import reproduced, verify  # noqa: E402
 
@@ -122,7 +126,11 @@ def make(choice: Choice) -> int:
     problems = [] if choice.dirty else refused(source)
     if not choice.as_is and not problems:
         # The commands take a quarter of an hour, which is lost where it is known how it ends.
-        problems = [] if choice.own else foreseen(choice.root)
+        problems = handed_over(context)
+        problems += [] if choice.own else foreseen(choice.root)
+        if not choice.own:
+            # Where the reports of other machines hold, no command installs what they are held to.
+            Toolchain().ensure(*GROUPS)
         if problems:
             return closing(problems, "no command is run, nothing is written")
         problems = run_commands(context, choice.commands())

@@ -357,7 +357,10 @@ class Program(InFolder):
         self.program = the_program()
         self.out = self.folder / "out"
 
-    def run_it(self, *words: str, **parts: Callable[[Context], Part]) -> tuple[int, list[str]]:
+    def run_it(
+        self, *words: str, as_is: tuple[str, ...] = ("--as-is",),
+        **parts: Callable[[Context], Part],
+    ) -> tuple[int, list[str]]:  # fmt: skip
         def sample(context: Context) -> Any:
             return assembled(self.folder, **parts)
 
@@ -366,7 +369,7 @@ class Program(InFolder):
                 mock.patch.object(self.program, "stamp_of", lambda _: STAMP), \
                 mock.patch.object(self.program, "source_of", lambda *_: self.source), \
                 contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):  # fmt: skip
-            status = self.program.main(["--as-is", "--out", str(self.out), *words])
+            status = self.program.main([*as_is, "--out", str(self.out), *words])
         return status, said.getvalue().splitlines()
 
     source = SOURCE
@@ -385,6 +388,16 @@ class Program(InFolder):
         status, lines = self.run_it("--verify", str(self.out))
         self.assertEqual(status, 1)
         self.assertIn(f"FAILED index.html: is missing, {SUMS} has it", lines)
+
+    def test_where_others_prove_nothing_is_run_without_their_report(self) -> None:
+        with mock.patch.object(self.program, "run_commands") as run, \
+                mock.patch.object(self.program, "foreseen", return_value=[]), \
+                mock.patch.object(self.program, "handed_over", return_value=["refused"]), \
+                mock.patch.object(self.program, "Toolchain"):  # fmt: skip
+            status, lines = self.run_it(as_is=())
+        run.assert_not_called()
+        self.assertEqual((status, lines[0]), (1, "FAILED refused"))
+        self.assertIn("no command is run", lines[-1])
 
     def test_with_a_problem_it_leaves_what_was_there(self) -> None:
         self.run_it()

@@ -10,6 +10,7 @@ The make that is started only notes what it was asked.
 from __future__ import annotations
 
 import json
+import os
 import sys
 import tempfile
 import threading
@@ -17,6 +18,7 @@ import unittest
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -26,7 +28,15 @@ from evidence_sample import STAMP, context_in  # noqa: E402
 from common.run import Ended  # noqa: E402
 from common.source import STAMP as MADE_FROM  # noqa: E402
 from common.source import VERDICT, stamp_of, write_report  # noqa: E402
-from evidence.commands import Command, batches, commands_of, not_good, run_commands  # noqa: E402
+from evidence.commands import (  # noqa: E402
+    Command,
+    batches,
+    commands_of,
+    handed_over,
+    not_good,
+    run_commands,
+)
+from toolchain.lock import Lock  # noqa: E402
 
 
 class InFolder(unittest.TestCase):
@@ -120,6 +130,57 @@ class Commands(InFolder):
         self.assertIn("much", log.read_text(encoding="utf-8"))
 
 
+class Elsewhere(InFolder):
+    """Proofs of other machines, joined in one report."""
+
+    command = Command("prove/report.json", ("prove-all",))
+    z3 = mock.Mock(version="4.8.12", sha256="a" * 64)
+    report = {VERDICT: "proved", MADE_FROM: STAMP,
+              "tools": {"z3": {"version": "4.8.12", "sha256": "a" * 64}}}  # fmt: skip
+
+    def told(self, proved: str = "1") -> list[str]:
+        """Why the report cannot serve."""
+        tools = mock.Mock(lock=Lock.read(), **{"versions.return_value": {"z3": self.z3}})
+        with mock.patch.dict(os.environ, KEEL_PROVED=proved), \
+                mock.patch("evidence.commands.Toolchain", lambda: tools):  # fmt: skip
+            return handed_over(context_in(self.folder))
+
+    def told_of(self, **changed: Any) -> str:
+        self.write(json.dumps({**self.report, **changed}))
+        [problem] = self.told()
+        self.assertRegex(problem, r"^build/prove/report\.json: .*\(KEEL_PROVED=1: nothing is ")
+        return problem
+
+    def test_one_of_this_commit_and_these_tools_serves(self) -> None:
+        self.write(json.dumps(self.report))
+        self.assertEqual(self.told(), [])
+
+    def test_where_this_machine_proves_none_is_needed(self) -> None:
+        self.assertEqual(self.told("0"), [])
+
+    def test_one_that_is_missing(self) -> None:
+        [problem] = self.told()
+        self.assertIn("is missing (KEEL_PROVED=1", problem)
+
+    def test_one_of_another_commit_or_of_other_files(self) -> None:
+        self.assertIn("(commit 000000000000, here cccccccccccc)",
+                      self.told_of(**{MADE_FROM: {**STAMP, "commit": "0" * 40}}))  # fmt: skip
+        self.assertIn("(the same commit, other files)",
+                      self.told_of(**{MADE_FROM: {**STAMP, "tree": "0" * 64}}))  # fmt: skip
+        self.assertIn("(it names none)", self.told_of(**{MADE_FROM: None}))
+
+    def test_one_that_says_that_something_failed_or_was_left_out(self) -> None:
+        self.assertIn("does not say that all is proved", self.told_of(verdict="failed"))
+        self.assertIn("does not say that all is proved", self.told_of(partial=True))
+
+    def test_one_of_other_tools(self) -> None:
+        for version, digest, why in (("4.8.13", "a" * 64, "z3 4.8.13, here is 4.8.12"),
+                                     ("4.8.12", "b" * 64, "another file of z3"),
+                                     ("5.0", "a" * 64, "z3 5.0, locked is")):  # fmt: skip
+            tools = {"z3": {"version": version, "sha256": digest}}
+            self.assertIn(why, self.told_of(tools=tools))
+
+
 class Verdicts(InFolder):
     """What reports say of themselves, also when nothing is run."""
 
@@ -174,10 +235,14 @@ class Reports(InFolder):
         self.assertRegex(self.told('{"units": {')[0], r"^build/test/report\.json: is not whole: ")
 
     def test_stale(self) -> None:
-        for stamp in ({}, {**STAMP, "commit": "0" * 40}, {**STAMP, "tree": "0" * 64}):
+        for stamp, how in (({}, "it names none"),
+                           ({**STAMP, "commit": "0" * 40},
+                            "commit 000000000000, here cccccccccccc"),
+                           ({**STAMP, "commit": ""}, "commit none, here cccccccccccc"),
+                           ({**STAMP, "tree": "0" * 64}, "the same commit, other files")):
             told = self.told(json.dumps({MADE_FROM: stamp}))
             self.assertEqual(told, ["build/test/report.json: speaks of another source than the one"
-                                    " that is here"])  # fmt: skip
+                                    f" that is here ({how})"])  # fmt: skip
 
     def test_good(self) -> None:
         self.assertEqual(self.told(json.dumps({MADE_FROM: STAMP})), [])

@@ -106,7 +106,8 @@ class RequirementsTest(TracedProject):
     def test_a_report_of_another_source(self) -> None:
         self.reports["test/report.json"]["made_from"] = {**STAMP, "tree": "other"}
         self.assertEqual(self.problems(make), [
-            "build/test/report.json: speaks of another source than the one that is here"])
+            "build/test/report.json: speaks of another source than the one that is here "
+            "(the same commit, other files)"])
 
     def test_no_requirements(self) -> None:
         for name in (LOW, "specs/requirements/high_level.sdoc"):

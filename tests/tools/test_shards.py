@@ -134,6 +134,11 @@ class Joining(WholeRunCase):
         self.change(second, lambda report: report["origin"].update(tools="0"))
         self.refused("shard-2-of-2.json: made with another tools", first, second)
 
+    def test_another_commit_is_told(self) -> None:
+        first, second = self.shards()
+        self.change(second, lambda report: report["origin"].update(commit="0" * 40))
+        self.refused("shard-2-of-2.json: made with another commit", first, second)
+
     @staticmethod
     def change(path: Path, how: Any) -> None:
         report = json.loads(path.read_text(encoding="utf-8"))

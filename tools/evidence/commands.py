@@ -17,9 +17,13 @@ from common.errors import ROOT
 from common.files import write_text
 from common.run import Ended, run, stop_all
 from common.source import GOOD, VERDICT
+from toolchain import Toolchain
 
 from evidence.part import Context
+from evidence.parts.tools import report_problems
 
+PROOFS = "prove/report.json"
+ELSEWHERE = "KEEL_PROVED"
 PROVED = "proved"  # The word of make prove, whose reports are joined from those of shards.
 TIMEOUT_S = 3600.0
 
@@ -43,7 +47,7 @@ def commands_of(root: Path) -> tuple[Command, ...]:
     """In the order in which they run: images are built before they are run and looked into."""
     boards = board_names(root)
     return (
-        Command("prove/report.json", ("prove-all",)),
+        Command(PROOFS, ("prove-all",)),
         *(Command(f"firmware/{name}/report.json", ("firmware", f"BOARD={name}"), narrow=True)
           for name in boards),
         Command("test-target/report.json", ("test-target",)),
@@ -64,8 +68,24 @@ def commands_of(root: Path) -> tuple[Command, ...]:
 def own_commands() -> tuple[Command, ...]:
     """Those of a project that uses Keel."""
     rules = ("-f", str(ROOT / "keel.mk"))
-    return (Command("prove/report.json", (*rules, "prove")),
+    return (Command(PROOFS, (*rules, "prove")),
             Command("test/report.json", (*rules, "test")))  # fmt: skip
+
+
+def handed_over(context: Context) -> list[str]:
+    """Why the proofs of other machines, of which KEEL_PROVED=1 tells, cannot serve; none if they
+    can, or if this machine proves."""
+    if os.environ.get(ELSEWHERE) != "1":
+        return []
+    tools = Toolchain()
+    tools.ensure("prove")
+    problems: list[str] = []
+    report = context.report(PROOFS, problems)
+    if report and not is_good(report):
+        problems.append(f"build/{PROOFS}: does not say that all is proved")
+    specs = {spec.name: spec for spec in tools.lock.of_groups(("prove",))}
+    problems += report_problems(PROOFS, report, specs, tools.versions("prove"))
+    return [f"{problem} ({ELSEWHERE}=1: nothing is proved here)" for problem in problems]
 
 
 Start = Callable[[Sequence[str], Path], Ended]

@@ -90,6 +90,18 @@ class Context:
             problems.append(f"{shown}: is not whole: {error}")
             return {}
         if not isinstance(read, dict) or read.get(STAMP) != self.stamp:
-            problems.append(f"{shown}: speaks of another source than the one that is here")
+            problems.append(f"{shown}: {self.another_source(read)}")
             return {}
         return read
+
+    def another_source(self, read: Any) -> str:
+        """How the source that a report speaks of differs from the one that is here."""
+        told = read.get(STAMP) if isinstance(read, dict) else None
+        commit = told.get("commit") if isinstance(told, dict) else None
+        if commit is None:
+            how = "it names none"
+        elif commit == self.stamp["commit"]:
+            how = "the same commit, other files"
+        else:
+            how = f"commit {commit[:12] or 'none'}, here {self.stamp['commit'][:12] or 'none'}"
+        return f"speaks of another source than the one that is here ({how})"

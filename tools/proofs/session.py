@@ -163,7 +163,8 @@ class Session:
         stamps = {engine: verdict_stamp(engine, tools, headers) for engine in choice.engines}
         jobs = self._jobs(runner, scratch, stamps, everything, exceptions)
         times = Times(self._build / "times.json", self._root / RECORDED_TIMES)
-        made_of = shards.origin(jobs, stamps) if choice.shard or choice.join else {}
+        commit = gathered.stamp.get("commit", "")
+        made_of = shards.origin(jobs, stamps, commit) if choice.shard or choice.join else {}
         if choice.shard:
             jobs = shards.part(jobs, choice.shard, times.recorded)
         console = report.Console(jobs, times, choice.width)

@@ -56,11 +56,14 @@ def part(jobs: Sequence[Job], shard: Shard, recorded: Mapping[str, float]) -> li
     return own
 
 
-def origin(jobs: Sequence[Job], stamps: Mapping[str, Mapping[str, str]]) -> dict[str, str]:
-    """What a report was made of: the tools, by engine, and the text behind every job of the whole
-    run."""
+def origin(
+    jobs: Sequence[Job], stamps: Mapping[str, Mapping[str, str]], commit: str
+) -> dict[str, str]:
+    """What a report was made of: the tools, by engine, the text behind every job of the whole run,
+    and the commit."""
     tools = {engine: dict(stamp) for engine, stamp in stamps.items()}
-    return {"tools": digest(tools), "source": digest({job.label: job.key() for job in jobs})}
+    source = {job.label: job.key() for job in jobs}
+    return {"tools": digest(tools), "source": digest(source), "commit": commit}
 
 
 def entries(
@@ -91,7 +94,7 @@ def _results(files: Sequence[Path], made_of: Mapping[str, str]) -> dict[str, dic
     results: dict[str, dict[str, Any]] = {}
     for path in files:
         shard, report = _read(path)
-        for what in ("tools", "source"):
+        for what in ("tools", "source", "commit"):
             if report["origin"].get(what) != made_of[what]:
                 raise ProjectError(f"{path}: made with another {what} than there is here")
         if shard in seen:
