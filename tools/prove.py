@@ -13,7 +13,8 @@
                                               # body is refuted
 
 Exit status: 0 when all is proved and the goals are those of proofs/UNIT/goals.txt, 1 when not, 2
-when it could not be tried, or a name is unknown. build/prove/report.json has the details; junit.xml
+when it could not be tried (a name that is unknown, a tool that is missing), 130 when it was
+interrupted. make ends with 2 for all of them. build/prove/report.json has the details; junit.xml
 and results.sarif beside it say the same to CI systems and editors. There is none while a run is not
 over. A verdict is kept in the user's cache (KEEL_CACHE) under all that it depends on, and only
 success is: another clone of the same text has it, too.

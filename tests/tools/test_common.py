@@ -174,6 +174,12 @@ class Programs(FolderTest):
         self.assertEqual(self.told(KeyboardInterrupt())[0], 130)
         self.assertEqual(self.told(None), (0, ""))
 
+    def test_a_fault_of_the_program_itself_is_status_2_and_shows_where(self) -> None:
+        status, said = self.told(KeyError("queue"))
+        self.assertEqual(status, 2)
+        self.assertIn("KeyError: 'queue'\ntool: a fault of the program itself\n", said)
+        self.assertIn("in raising", said)
+
     def test_a_command_line_is_refused_in_one_line(self) -> None:
         parser = Parser("A tool.", prog="tool")
         parser.add_argument("--filter")

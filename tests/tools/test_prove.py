@@ -550,7 +550,7 @@ class Keys(TreeTest):
 ONE = driver.Pool(1)
 
 
-class CommandLine(unittest.TestCase):
+class Choices(unittest.TestCase):
     def test_the_kernel_is_the_scheduler_voter_filter_and_pid(self) -> None:
         units = find_units()
         names = {name for name, unit in units.items() if prove.in_kernel(unit)}
@@ -1428,6 +1428,32 @@ class CommandLine(unittest.TestCase):
                 contextlib.redirect_stderr(error):  # fmt: skip
             self.assertEqual(prove.main([]), 2)
         self.assertEqual(error.getvalue(), "prove: cbmc is missing\n")
+
+    def refused(self, *words: str, **variables: str) -> str:
+        """What the program says, as a user starts it, of something that could not be tried."""
+        ended = subprocess.run([sys.executable, str(ROOT / "tools/prove.py"), *words],
+                               env={**os.environ, **variables}, capture_output=True, text=True,
+                               check=False, timeout=300)  # fmt: skip
+        self.assertEqual(ended.returncode, 2, ended.stdout + ended.stderr)
+        return ended.stderr
+
+    def test_what_could_not_be_tried_is_status_2(self) -> None:
+        self.assertIn("no such unit: queu (there are: ", self.refused("--unit", "queu"))
+        self.assertIn("unrecognized arguments: --units", self.refused("--units", "queue"))
+        self.assertIn("/nowhere: there is no unit", self.refused("--project", "/nowhere"))
+
+    def test_a_tool_that_is_missing_is_status_2(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            nothing = {"KEEL_NO_INSTALL": "1", "KEEL_CACHE": folder, "PATH": folder}
+            told = "KEEL_NO_INSTALL=1 forbids to install"
+            self.assertIn(told, self.refused("--unit", "clock", **nothing))
+            # With what reads C, and with pip, it is a prover that is missing.
+            reader = Path(Toolchain().command("c-syntax-packages")[0])
+            (Path(folder) / "tools").mkdir()
+            (Path(folder) / "tools" / reader.name).symlink_to(reader)
+            (Path(folder) / "python3").symlink_to(sys.executable)
+            said = self.refused("--unit", "clock", **nothing)
+            self.assertRegex(said, f"prove: .*cbmc.*: missing; {told}")
 
 
 class Logs(unittest.TestCase):

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import difflib
 import sys
+import traceback
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
@@ -56,4 +57,8 @@ def program(name: str, body: Callable[[], int]) -> int:
     except KeyboardInterrupt:
         print(f"{name}: interrupted", file=sys.stderr)
         return INTERRUPTED
+    except Exception:
+        # Python's own status is 1, which would say that something was checked.
+        traceback.print_exc()
+        print(f"{name}: a fault of the program itself", file=sys.stderr)
     return CANNOT
