@@ -79,7 +79,7 @@ demo: python ## the paper's 21 tasks, one simulated minute on this host
 bench: python ## instructions per pass and per step, code size and RAM; over the Cortex-M7's budget it fails
 	@python3 tools/bench.py $(ARGS)
 
-lint: python ## layout, MISRA C:2012 and the rules of the house (ARGS=--fix: lay out first)
+lint: python ## layout, MISRA C:2012, the rules of the house, workflows of CI (ARGS=--fix: lay out first)
 	@python3 tools/lint.py $(ARGS)
 
 .PHONY: eva

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Check the text of the project: layout of C and C++, MISRA C:2012, and the rules of the house.
+"""Check the text of the project: layout of C and C++, MISRA C:2012, the rules of the house, and
+the workflows of CI.
 
     python3 tools/lint.py           # every finding as file:line: reason
     python3 tools/lint.py --fix     # lay out the code first
@@ -13,6 +14,9 @@ themselves. The texts of the guidelines cannot be distributed, so findings name 
 
 build/lint/results.sarif has all findings with file and line, build/lint/report.json these, what
 each deviation allows, and the rules that nothing looks for; an unfinished run leaves neither.
+
+The workflows of .github are held against the schema of GitHub's (check-jsonschema), and zizmor
+looks for what strangers may use in them; neither asks the network.
 
 The rules of the house: see HOUSE_CHECKS in tools/linting/house.py.
 
@@ -29,12 +33,17 @@ from pathlib import Path
 
 from common.arguments import Parser
 from common.errors import ROOT, ToolError, program
+from common.packages import provide
 from common.run import run
 from linting import record
 from linting.house import check_house
 from linting.misra import find_violations, judge, read_deviations
 from linting.texts import Finding, Text, read_texts
 from toolchain import Toolchain
+
+provide("ci")
+
+from linting.workflows import check_workflows  # noqa: E402
 
 NOT_LAID_OUT = re.compile(r"^(.+?):\d+:\d+: error: code should be clang-formatted", re.MULTILINE)
 
@@ -91,6 +100,7 @@ def lint(tools: Toolchain, root: Path, fix: bool) -> list[Finding]:
         "layout": list(check_layout(tools, root, texts)),
         "misra": list(judge(violations, read_deviations(root), texts)),
         "house": list(check_house(texts)),
+        "workflows": check_workflows(tools, root, texts),
     }
     record.write(tools, root, texts, findings, violations)
     return sorted({one for every in findings.values() for one in every})
@@ -98,7 +108,7 @@ def lint(tools: Toolchain, root: Path, fix: bool) -> list[Finding]:
 
 def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     """Entry point."""
-    parser = Parser("Check layout, MISRA C:2012 and the house's rules.", "lint")
+    parser = Parser("Check layout, MISRA C:2012, the house's rules and workflows.", "lint")
     parser.add_argument("--fix", action="store_true", help="lay out the C code first")
     options = parser.parse_args(arguments)
 
@@ -111,7 +121,8 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         for finding in findings:
             print(finding)
         number = f"{len(findings)} findings" if findings else "no finding"
-        print(f"lint: {number}; layout, MISRA C:2012 with {deviations} deviations, house rules.")
+        print(f"lint: {number}; layout, MISRA C:2012 with {deviations} deviations, house rules,"
+              " workflows.")
         return 1 if findings else 0
 
     return program("lint", work)

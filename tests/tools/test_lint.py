@@ -532,6 +532,64 @@ class ToolTest(unittest.TestCase):
             f"lint: {place}:2: deviation MD-001: reason: is missing",
             f"{place}:7: deviation MD-001: reson: unknown key; did you mean reason?"])  # fmt: skip
 
+    WORKFLOW = ".github/workflows/ci.yml"
+    # By hand; the commit is no action's.
+    GOOD_WORKFLOW = """\
+name: CI
+on: push
+permissions: {}
+jobs:
+  check:
+    runs-on: ubuntu-24.04
+    steps:
+      - &checkout
+        uses: actions/checkout@0123456789abcdef0123456789abcdef01234567
+        with:
+          persist-credentials: false
+      - run: make lint
+  again:
+    runs-on: ubuntu-24.04
+    steps:
+      - *checkout
+"""
+
+    def workflow(self, old: str = "", new: str = "") -> list[str]:
+        """What is found in a workflow with a slip."""
+        self.assertIn(old, self.GOOD_WORKFLOW)
+        self.write("src/rtos/clock.c", BARE)
+        self.write(self.WORKFLOW, self.GOOD_WORKFLOW.replace(old, new))
+        status, lines = self.lint()
+        self.assertEqual(status, 1 if lines[:-1] else 0, lines)
+        return lines[:-1]
+
+    def test_a_workflow_that_is_good(self) -> None:
+        self.assertEqual(self.workflow(), [])
+
+    def test_a_workflow_that_is_no_yaml(self) -> None:
+        [line] = self.workflow("on: push", "on: [push")
+        self.assertTrue(line.startswith(f"{self.WORKFLOW}:3: no YAML: "), line)
+
+    def test_a_workflow_of_another_form_is_told_with_its_line(self) -> None:
+        [line] = self.workflow("- run: make", "- rn: make")
+        self.assertTrue(line.startswith(f"{self.WORKFLOW}:12: $.jobs.check.steps[1]: "), line)
+        [line] = self.workflow("runs-on: ubuntu-24.04\n    steps:\n      - *c",
+                               "runs-on: x\n    timeout: 3\n    steps:\n      - *c")  # fmt: skip
+        self.assertTrue(line.startswith(f"{self.WORKFLOW}:13: $.jobs.again: "), line)
+        self.assertIn("'timeout' was unexpected", line)
+
+    def test_what_strangers_may_use_in_a_workflow(self) -> None:
+        for old, new, line, why in (
+            ("@0123456789abcdef0123456789abcdef01234567", "@v7", 9, "unpinned-uses"),
+            ("persist-credentials: false", "fetch-depth: 1", 8, "artipacked"),
+            ("permissions: {}", "permissions: write-all", 3, "excessive-permissions"),
+            ("make lint", "echo ${{ github.head_ref }}", 12, "template-injection"),
+        ):
+            found = self.workflow(old, new)
+            self.assertTrue(any(one.startswith(f"{self.WORKFLOW}:{line}: {why}: ")
+                                for one in found), (why, found))  # fmt: skip
+            rules = {one["rule"] for one in self.report()["findings"]}
+            self.assertEqual(rules, {"workflows"})
+
 
 if __name__ == "__main__":
     os.environ.setdefault("PYTHONDONTWRITEBYTECODE", "1")
