@@ -46,7 +46,6 @@ function(keel_layer layer)
   add_library(Keel::${layer} ALIAS keel_${layer})
   set_target_properties(keel_${layer} PROPERTIES
     EXPORT_NAME ${layer} C_STANDARD 99 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)
-  target_compile_features(keel_${layer} INTERFACE c_std_99)
   if(NOT CMAKE_C_COMPILER_ID MATCHES "GNU|Clang")
     message(FATAL_ERROR "Keel: for the compiler ${CMAKE_C_COMPILER_ID} the flags that keep the "
                         "arithmetic of the proofs are not known; GCC and Clang have them")

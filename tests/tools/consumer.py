@@ -30,9 +30,9 @@ STRICT = (
 )
 CMAKE = """\
 cmake_minimum_required(VERSION 3.16)
-project(aircraft LANGUAGES C)
+project(aircraft LANGUAGES {language})
 {keel}
-add_executable(aircraft main.c)
+add_executable(aircraft {main})
 target_link_libraries(aircraft PRIVATE {targets})
 install(TARGETS aircraft)
 """
@@ -127,10 +127,14 @@ class ConsumerTest(unittest.TestCase):
         packages = self.tools.command("consumer-packages")[0]
         return self.good([sys.executable, *arguments], PYTHONPATH=packages, **variables)
 
-    def project(self, keel: str, targets: str = ALL_TARGETS, main: str = MAIN) -> None:
+    def project(
+        self, keel: str, targets: str = ALL_TARGETS, main: str = MAIN, language: str = "C"
+    ) -> None:
         """Write the project; `keel` are the lines that make Keel's targets known."""
-        (self.folder / "CMakeLists.txt").write_text(CMAKE.format(keel=keel, targets=targets))
-        (self.folder / "main.c").write_text(main)
+        name = "main.c" if language == "C" else "main.cpp"
+        lines = CMAKE.format(keel=keel, targets=targets, language=language, main=name)
+        (self.folder / "CMakeLists.txt").write_text(lines)
+        (self.folder / name).write_text(main)
 
     def build(self, *options: str, flags: str = STRICT, into: str = "build") -> Path:
         """Configure and build the project; where its program is."""

@@ -24,12 +24,26 @@ class FolderTest(ConsumerTest):
         self.project(AS_FOLDER)
         self.build_for_both()
 
-    def test_fetched_as_an_archive(self) -> None:
+    def test_in_a_project_of_cxx_alone(self) -> None:
+        """CMake knows C in Keel's folder only: nothing that needs it may reach the project."""
+        self.project(AS_FOLDER, language="CXX")
+        self.assertEqual(self.attempt([self.build()]).returncode, answer())
+
+    def test_fetched_by_a_project_of_cxx_alone(self) -> None:
+        self.project(self.fetch(), language="CXX")
+        program = self.build("-DCMAKE_POLICY_DEFAULT_CMP0135=NEW")
+        self.assertEqual(self.attempt([program]).returncode, answer())
+
+    def fetch(self) -> str:
+        """The lines that fetch Keel as an archive."""
         archive = keel_archive(self.folder / "keel.tar.gz")
         digest = sha256(archive.read_bytes()).hexdigest()
         source = f"URL {archive} URL_HASH SHA256={digest}"
         lines = ["include(FetchContent)", f"FetchContent_Declare(keel {source})"]
-        self.project("\n".join([*lines, "FetchContent_MakeAvailable(keel)"]))
+        return "\n".join([*lines, "FetchContent_MakeAvailable(keel)"])
+
+    def test_fetched_as_an_archive(self) -> None:
+        self.project(self.fetch())
         self.build_for_both("-DCMAKE_POLICY_DEFAULT_CMP0135=NEW")
 
     def test_one_layer_alone(self) -> None:

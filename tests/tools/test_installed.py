@@ -50,6 +50,11 @@ class PackageTest(ConsumerTest):
         self.project(SENSIBLE)
         self.assertEqual(self.attempt([self.build(self.search())]).returncode, answer())
 
+    def test_in_a_project_of_cxx_alone(self) -> None:
+        self.installed()
+        self.project(SENSIBLE, language="CXX")
+        self.assertEqual(self.attempt([self.build(self.search())]).returncode, answer())
+
     def test_components_for_the_target(self) -> None:
         self.installed(*CORTEX_M7)
         self.project(SENSIBLE)
