@@ -47,7 +47,7 @@ def test(arguments: Sequence[str] | None) -> int:
     if not tests:
         raise ToolError(f"{root}: there is no tests/unit/test_*.c")
     tools = Toolchain()
-    tools.ensure("test")
+    tools.ensure("own-test")
     unity = tools.command("unity")[0]
     include = ("-Iinclude", f"-I{ROOT}/include", "-isystem", unity)
     build = Build(tools, "gcc", (*FLAGS, *include), root / "build/test", root, FLAGS)

@@ -180,7 +180,7 @@ class DocumentsTest(unittest.TestCase):
         self.none(everywhere(TABLE), is_uneven)
 
     def test_targets_exist(self) -> None:
-        makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+        makefile = "".join((ROOT / name).read_text("utf-8") for name in ("Makefile", "keel.mk"))
         targets = set(re.findall(r"^([a-z][a-z-]*):", makefile, re.MULTILINE))
         self.none(commands(), lambda text: bool(set(TARGET.findall(text)) - targets))
 

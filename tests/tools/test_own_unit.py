@@ -18,6 +18,9 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from toolchain.cache import default_cache  # noqa: E402
 
 
 class OwnUnit(unittest.TestCase):
@@ -51,9 +54,35 @@ class OwnUnit(unittest.TestCase):
         self.assertEqual(list(report["units"]), ["monitor"])
 
     def test_its_own_makefile_does_the_same(self) -> None:
-        command = ["make", "-n", "prove", f"KEEL={ROOT}"]
+        output = self.dry("keel-prove", f"KEEL={ROOT}", "KEEL_UNIT=monitor", "KEEL_ARGS=--fresh")
+        program = f'"{ROOT}/tools/prove.py" --project "{self.project}"'
+        self.assertIn(f"{program} --unit monitor --fresh", " ".join(output.split()))
+
+    def dry(self, *words: str) -> str:
+        """What the project's own Makefile would run, and what it has to say."""
+        ended = subprocess.run(["make", "-n", *words], cwd=self.project, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True, check=False)  # fmt: skip
+        return ended.stdout.replace("\\\n", "")
+
+    def test_an_including_makefile_keeps_its_own_names(self) -> None:
+        """Before and behind the project's own rules; a warning of make's would be an overriding."""
+        own = "all: ; @echo all $(UNIT) $(ARGS)\ntest: ; @echo own test\nhelp: ; @echo own help\n"
+        include = f"include {ROOT}/keel.mk\n"
+        for text in (own + include, include + own):
+            (self.project / "Makefile").write_text(f"UNIT := u\nARGS := a\n{text}")
+            for target, said in (("", "all u a"), ("test", "own test"), ("help", "own help")):
+                words = [target] if target else []
+                self.assertEqual(self.dry(*words), f"echo {said}\n")
+            program = f'"{ROOT}/tools/prove.py" --project "{self.project}"'
+            self.assertTrue(" ".join(self.dry("keel-prove").split()).endswith(program))
+            self.assertIn("No rule to make target 'prove'", self.dry("prove"))
+
+    def test_its_help_has_the_names_that_can_be_typed(self) -> None:
+        self.assertRegex(self.make("help")[1], r"make prove +prove the project \(UNIT=monitor; ARGS")
+        self.assertNotIn("keel-", self.make("help")[1])
+        command = ["make", "keel-help", f"KEEL={ROOT}"]
         output = subprocess.check_output(command, cwd=self.project, text=True)
-        self.assertIn(f"{ROOT}/tools/prove.py --project", output)
+        self.assertRegex(output, r"make keel-prove +prove the project \(KEEL_UNIT=monitor; KEEL_ARGS")
 
     def test_its_unit_tests_pass_and_notice_a_mistake(self) -> None:
         status, output = self.make("test")
@@ -63,12 +92,28 @@ class OwnUnit(unittest.TestCase):
         self.assertNotEqual(status, 0)
         self.assertRegex(output, r"FAILED BAT_002_\w+: tests/unit/test_monitor.c:\d+")
 
+    def test_its_unit_tests_need_no_compiler_of_cxx(self) -> None:
+        """A machine that has the programs of C alone, and may install nothing."""
+        programs, cache = self.project.parent / "programs", self.project.parent / "cache"
+        programs.mkdir()
+        cache.mkdir()
+        (cache / "tools").symlink_to(default_cache() / "tools")
+        for name in ("make", "python3", "gcc", "as", "ld", "sh"):
+            (programs / name).symlink_to(Path(shutil.which(name) or name).resolve())
+        ended = subprocess.run(
+            [programs / "make", "-f", ROOT / "keel.mk", "test"], cwd=self.project, text=True,
+            env={"PATH": str(programs), "KEEL_CACHE": str(cache), "KEEL_NO_INSTALL": "1"},
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, timeout=900,
+        )  # fmt: skip
+        self.assertIn("4 of 4 tests passed", ended.stdout)
+
     def test_a_mistake_fails_the_proof_and_is_explained(self) -> None:
         self.slip("low < BATTERY_MONITOR_SAMPLES", "low <= BATTERY_MONITOR_SAMPLES")
         status, output = self.make("prove", "UNIT=monitor", "ARGS=--engine cbmc")
         self.assertEqual(status, 2)  # As make ends, whatever the reason; the program tells it.
         self.assertIn("BAT_002_model: as the model says: REFUTED by a counterexample", output)
-        command = "make prove UNIT=monitor ARGS='--explain battery_monitor_step_harness'"
+        explain = "UNIT=monitor ARGS='--explain battery_monitor_step_harness'"
+        command = f"make -f {ROOT}/keel.mk prove {explain}"
         self.assertIn(f"to see why: {command}", output)
         status, output = self.make("prove", "UNIT=monitor", "ARGS=--explain BAT_002_model")
         self.assertNotEqual(status, 0)

@@ -36,7 +36,7 @@ from linting.workflows import schema_errors  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 WORKFLOWS = sorted((ROOT / ".github/workflows").glob("*.yml"))
-SETTING = r"-f +\S+|[A-Z]+=(?:\"[^\"]*\"|'[^']*'|[^\s`]+)"
+SETTING = r"-f +\S+|[A-Z_]+=(?:\"[^\"]*\"|'[^']*'|[^\s`]+)"
 MAKE = re.compile(rf"(?:^|`|&& |run: )[ ]*make((?: +(?:{SETTING}|[a-z][\w-]*))+)", re.M)
 PROVE = re.compile(r"tools/prove\.py([^`\n]*)")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
@@ -98,7 +98,7 @@ class Workflows(unittest.TestCase):
 
     def test_every_target_of_make_exists(self) -> None:
         for command in commands():
-            file = "keel.mk" if "keel.mk" in command else "Makefile"
+            file = "keel.mk" if "keel" in command else "Makefile"
             for target in re.sub(SETTING, "", command).split():
                 self.assertIn(target, targets(ROOT / file), command)
 

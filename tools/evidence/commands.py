@@ -93,7 +93,9 @@ Start = Callable[[Sequence[str], Path], Ended]
 
 def start_make(words: Sequence[str], root: Path) -> Ended:
     """Run make, without the variables of the make that may have started us."""
-    outside = {"MAKEFLAGS": "", "MAKELEVEL": "", "MFLAGS": "", "ARGS": "", "UNIT": "", "BOARD": ""}
+    names = ("MAKEFLAGS", "MAKELEVEL", "MFLAGS", "ARGS", "UNIT", "BOARD", "PROJECT",
+             "KEEL_ARGS", "KEEL_UNIT", "KEEL_PROJECT")  # fmt: skip
+    outside = dict.fromkeys(names, "")
     return run(["make", "--no-print-directory", *words], TIMEOUT_S, cwd=root, environment=outside)
 
 

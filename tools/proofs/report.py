@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -295,18 +296,24 @@ class Console:
         print(text.rstrip(), flush=True)
 
 
+def typed(unit: str, arguments: str) -> str:
+    """The command that proves with these arguments; keel.mk says how a project that uses it does."""
+    call = os.environ.get("KEEL_CALL", "make prove UNIT={unit} ARGS={arguments}")
+    return call.replace("{unit}", unit).replace("{arguments}", f"'{arguments}'")
+
+
 def closing_lines(gathered: Gathered) -> list[str]:
     """What is wrong, together, and the line that says whether all is well, and what is proved."""
     lines = [f"FAILED {text}" for text in gathered.all_problems]
     lines += [
-        f"to see why: make prove UNIT={unit} ARGS='--explain {name}'"
+        f"to see why: {typed(unit, f'--explain {name}')}"
         for unit, name in gathered.open[:EXPLAINED]
     ]
     if given_up := [one.job for one in gathered.outcomes if one.result.get("gave_up")]:
-        units = " ".join(dict.fromkeys(job.unit for job in given_up))
+        again = typed(f"'{' '.join(dict.fromkeys(job.unit for job in given_up))}'", "--patience 8")
         lines.append(
             f"{len(given_up)} jobs came to a limit of their processor time, which refutes nothing:"
-            f" with more time, make prove UNIT='{units}' ARGS='--patience 8'"
+            f" with more time, {again}"
         )
     for name, unit in gathered.units.items():
         if unit.exceptions.not_by_wp and "wp" in gathered.engines:
