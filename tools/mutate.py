@@ -6,7 +6,7 @@
     python3 tools/mutate.py --unit queue                 # CBMC first, WP if CBMC does not notice
     python3 tools/mutate.py --unit queue --engine both   # each engine by itself
     python3 tools/mutate.py --unit queue --list          # the mutants, without trying them
-    python3 tools/mutate.py --status                     # the last results, and which are stale
+    python3 tools/mutate.py --status                     # results kept and had, and which are stale
     python3 tools/mutate.py --record                     # keep the results in specs/mutation
     python3 tools/mutate.py --unit sbus --confirm 1      # CBMC confirms all executions that kill
     DASK=tcp://host:8786 python3 tools/mutate.py         # on a Dask cluster (make mutate)
@@ -65,6 +65,7 @@ from proofs import (  # noqa: E402
     mutant_execution,
     mutant_records,
     mutant_slips,
+    mutant_standing,
     mutant_verdicts,
 )
 
@@ -89,7 +90,8 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
     parser.add_argument("--max-seconds", type=float, default=float("inf"), metavar="S",
                         help="start no mutant after this time")  # fmt: skip
     parser.add_argument("--list", action="store_true", help="print the mutants, try none")
-    parser.add_argument("--status", action="store_true", help="print the last results, try none")
+    parser.add_argument("--status", action="store_true",
+                        help="print the results that there are, try none")  # fmt: skip
     parser.add_argument("--quick", action="store_true",
                         help="short limits for WP; what they leave open is not killed")  # fmt: skip
     parser.add_argument("--small", action="store_true",
@@ -167,6 +169,11 @@ class Measured:
         return self.trial.digest_of(self.found, text)
 
 
+def report_of(unit: Unit) -> Path:
+    """Where the report of the last trials of a unit is."""
+    return unit.root / "build" / "mutate" / f"{unit.name}.json"
+
+
 class Measurement:
     """The trials of some units, with what they need."""
 
@@ -213,15 +220,11 @@ class Measurement:
         self.stop()
         shutil.rmtree(self._scratch, ignore_errors=True)
 
-    def report_of(self, unit: Unit) -> Path:
-        """Where the report on a unit is."""
-        return self._build / f"{unit.name}.json"
-
     def run(self, crew: Threads | Dask) -> None:
         """Have a verdict on every mutant, those that are known without asking again."""
         for one in self.units:
             if not self._options.function:
-                self.report_of(one.unit).unlink(missing_ok=True)
+                report_of(one.unit).unlink(missing_ok=True)
             for place, mutant in enumerate(one.found):
                 known = one.trial.known(mutant)
                 if known and known.is_lasting:
@@ -256,7 +259,7 @@ class Measurement:
                 one.unit.name, verdicts, problems, one.dropped, one.digest
             )
             if not self._options.function:
-                write_text(self.report_of(one.unit), text)
+                write_text(report_of(one.unit), text)
             if self._options.record:
                 harnesses = mutant_records.all_harnesses(one.unit.root)
                 versions = self._tools.versions("prove")
@@ -306,8 +309,9 @@ def measure(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolc
     measurement = Measurement(units, options, toolchain)
     crew: Threads | Dask | None = None
     try:
-        if not tries(options):
-            tell(measurement, options)
+        if options.list:
+            found = [mutant for one in measurement.units for mutant in one.found]
+            print("\n".join(f"{mutant.kind:<10} {mutant}" for mutant in found))
             return 0
         if address := os.environ.get("DASK"):
             order = {"engine": options.engine, "quick": options.quick, "small": options.small}
@@ -323,14 +327,21 @@ def measure(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolc
         measurement.close()
 
 
-def tell(measurement: Measurement, options: argparse.Namespace) -> None:
-    """The mutants that there are, or what became of them."""
-    for one in measurement.units:
-        if options.status:
-            report = measurement.report_of(one.unit)
-            print(mutant_verdicts.standing(one.unit.name, report, one.digest))
-        else:
-            print("\n".join(f"{mutant.kind:<10} {mutant}" for mutant in one.found))
+def tell_status(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolchain) -> int:
+    """What specs/mutation and build/mutate have on units, and whether it is of what is there."""
+    problems: list[str] = []
+    tools = toolchain.versions("prove")
+    for kept in mutant_standing.standings(units[0].root, units, tools, problems):
+        print(kept.line)
+    if tried := [unit for unit in units if report_of(unit).is_file()]:
+        print("last tried in this tree, in build/mutate:")
+        measurement = Measurement(tried, options, toolchain)
+        for one in measurement.units:
+            print(mutant_verdicts.standing(one.unit.name, report_of(one.unit), one.digest))
+        measurement.close()
+    for text in problems:
+        print(f"mutate: {text}", file=sys.stderr)
+    return 2 if problems else 0
 
 
 def carry_out(
@@ -369,7 +380,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         toolchain.ensure("prove")
         if tries(options):
             toolchain.ensure("fuzz")
-        return measure([units[name] for name in options.unit], options, toolchain)
+        chosen = [units[name] for name in options.unit]
+        if options.status:
+            return tell_status(chosen, options, toolchain)
+        return measure(chosen, options, toolchain)
     except (ProjectError, ToolchainError) as error:
         print(f"mutate: {error}", file=sys.stderr)
         return 2

@@ -15,6 +15,8 @@ import sys
 import unittest
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/tools")]
@@ -91,6 +93,29 @@ class Mutants(StrengthTest):
         item = self.item("range/1")
         self.assertEqual((item.state, item.facts["verdict"]), ("good", "killed"))
         self.assertIn("keel_range_clamp_harness", item.facts["noticed by"])
+
+    def told(self) -> tuple[int, str, str]:
+        """What mutate --status makes of the tree: exit status, output, errors."""
+        tools: Any = SimpleNamespace(versions=lambda _: recorded.found_of(self.report))
+        output, errors = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
+            options = mutate.parse(["--status"], ["range"])
+            status = mutate.tell_status([self.unit], options, tools)
+        return status, output.getvalue(), errors.getvalue()
+
+    def test_mutate_tells_what_is_kept_and_whether_it_is_current(self) -> None:
+        """In a clone where no mutant was tried."""
+        self.assertEqual(self.told(), (0, "range        no result is kept\n", ""))
+        self.record()
+        line = "range        killed 4 of 4, 0 equivalent; "
+        self.assertEqual(self.told(), (0, f"{line}current\n", ""))
+        self.report["tools"]["cbmc"]["version"] = "6.7.0"
+        self.assertEqual(self.told(), (0, f"{line}STALE: cbmc changed since\n", ""))
+        path = self.root / RECORD
+        path.write_text(path.read_text(encoding="utf-8")[:-20], encoding="utf-8")
+        status, _, errors = self.told()
+        self.assertEqual(status, 2)
+        self.assertIn(f"mutate: {RECORD}: is not whole: ", errors)
 
     def test_a_result_on_another_source_is_stale_and_does_not_count(self) -> None:
         self.record()

@@ -139,16 +139,20 @@ def report(
     return json.dumps(content, indent=1) + "\n"
 
 
+def score(summary: Mapping[str, int]) -> str:
+    """What became of the mutants of a unit that compile, in a line."""
+    of = sum(summary[name] for name in STATUSES) - summary["stillborn"]
+    line = f"killed {summary['killed']} of {of}, {summary['equivalent']} equivalent"
+    open_ones = summary["survived"] + summary["undecided"] + summary["skipped"]
+    return line + (f", {open_ones} open" if open_ones else "")
+
+
 def standing(unit: str, path: Path, digest: str) -> str:
     """A line about the last report on a unit, and whether it is about what there is now."""
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
-        summary = {name: int(content["summary"][name]) for name in STATUSES}
+        line = f"{unit:<12} {score(content['summary'])}"
         made_of = str(content["digest"])
     except (OSError, ValueError, KeyError, TypeError):
         return f"{unit:<12} no result"
-    of = sum(summary.values()) - summary["stillborn"]
-    open_ones = summary["survived"] + summary["undecided"] + summary["skipped"]
-    line = f"{unit:<12} killed {summary['killed']} of {of}, {summary['equivalent']} equivalent"
-    line += f", {open_ones} open" if open_ones else ""
     return line if made_of == digest else f"{line}; STALE: sources, proofs or tools have changed"

@@ -297,7 +297,7 @@ class Console:
 
 
 def typed(unit: str, arguments: str) -> str:
-    """The command that proves with these arguments; keel.mk says how a project that uses it does."""
+    """The command that proves with these arguments; keel.mk says how its projects do."""
     call = os.environ.get("KEEL_CALL", "make prove UNIT={unit} ARGS={arguments}")
     return call.replace("{unit}", unit).replace("{arguments}", f"'{arguments}'")
 

@@ -3,15 +3,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from common.errors import ToolError
-from common.files import read_text
-from proofs import mutant_records
+from proofs import mutant_standing
+from proofs.mutant_standing import Standing
 from proofs.project import find_units
 from toolchain import Found
 
@@ -21,48 +18,7 @@ Report = Mapping[str, Any]
 
 OPEN = ("survived", "undecided", "skipped")
 STATES: Mapping[str, State] = {"killed": "good", "equivalent": "told"}
-NOT_RUN = "not run"
-CURRENT = "current"
-HEAD = ("unit", "made_of", "problems", "summary", "mutants")
 OURS = ("source", "proofs")  # Of what a result is made of, what a commit changes.
-MUTANT = ("function", "kind", "line", "original", "mutant", "status", "engines")
-
-
-@dataclass(frozen=True)
-class Standing:
-    """A unit, the result that is kept of it, and what of it is stale."""
-
-    unit: str
-    record: Report | None
-    stale: tuple[str, ...] = ()
-
-    @property
-    def shown(self) -> str:
-        """The file."""
-        return f"{mutant_records.FOLDER}/{self.unit}.json"
-
-    @property
-    def current(self) -> bool:
-        """Whether there is a result, about what is there now."""
-        return self.record is not None and not self.stale
-
-    @property
-    def how(self) -> str:
-        """For people."""
-        if self.record is None:
-            return NOT_RUN
-        return f"STALE: {', '.join(self.stale)} changed since" if self.stale else CURRENT
-
-    @property
-    def counted(self) -> list[Report]:
-        """The mutants that compile and make a difference."""
-        every = self.record["mutants"] if self.record else []
-        return [one for one in every if one["status"] not in ("stillborn", "equivalent")]
-
-    def with_status(self, *statuses: str) -> list[Report]:
-        """The mutants with a status."""
-        every = self.record["mutants"] if self.record else []
-        return [one for one in every if one["status"] in statuses]
 
 
 def found_of(report: Report) -> dict[str, Found]:
@@ -73,42 +29,10 @@ def found_of(report: Report) -> dict[str, Found]:
     }
 
 
-def read_record(path: Path) -> Report:
-    """A result that is kept; one that is not whole is refused."""
-    shown = f"{mutant_records.FOLDER}/{path.name}"
-    try:
-        read = json.loads(read_text(path))
-    except ValueError as error:
-        raise ToolError(f"{shown}: is not whole: {error}") from error
-    lacking = [name for name in HEAD if not isinstance(read, dict) or name not in read]
-    lacking += [name for one in ([] if lacking else read["mutants"]) for name in MUTANT
-                if name not in one][:1]  # fmt: skip
-    if lacking:
-        raise ToolError(f"{shown}: lacks {lacking[0]}: write it with make mutate ARGS=--record")
-    record: Report = read
-    return record
-
-
 def standings(root: Path, report: Report, problems: list[str]) -> list[Standing]:
-    """Every unit with proofs; what cannot be read is a problem."""
-    harnesses = mutant_records.all_harnesses(root)
-    found = []
-    for unit in find_units(root).values():
-        path = mutant_records.record_of(unit)
-        if not unit.folder.is_dir():
-            continue
-        record, stale = None, []
-        try:
-            record = read_record(path) if path.is_file() else None
-        except ToolError as error:
-            problems.append(str(error))
-        if record:
-            judges = mutant_records.killers(one["engines"] for one in record["mutants"])
-            now = mutant_records.origin(unit, harnesses, found_of(report), judges)
-            then = record["made_of"]
-            stale = [name for name in {**now, **then} if then.get(name) != now.get(name)]
-        found.append(Standing(unit.name, record, tuple(stale)))
-    return found
+    """Every unit with proofs, beside the tools of a report; what cannot be read is a problem."""
+    units = find_units(root).values()
+    return list(mutant_standing.standings(root, units, found_of(report), problems))
 
 
 def change(mutant: Report) -> str:
