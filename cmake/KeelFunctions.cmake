@@ -2,6 +2,7 @@
 # What CMakeLists.txt is made of.
 
 set(KEEL_ROOT ${CMAKE_CURRENT_LIST_DIR}/..)
+include(${CMAKE_CURRENT_LIST_DIR}/KeelFloats.cmake)
 
 # The number that a header of Keel defines as a macro.
 function(keel_defined variable header name)
@@ -33,12 +34,6 @@ function(keel_number name header lowest highest text)
   endif()
 endfunction()
 
-# The proofs are about C99 with IEEE 754 arithmetic in the order that is written, nothing fused
-# (A-23 of specs/soundness.md). These undo flags of the project around Keel that break it.
-set(KEEL_FLOAT_FLAGS
-    -fno-fast-math -fno-unsafe-math-optimizations -fno-associative-math -fno-reciprocal-math
-    -fno-finite-math-only -fsigned-zeros -ffp-contract=off)
-
 # One layer as a static library, with the name Keel::<layer> for users.
 function(keel_layer layer)
   file(GLOB sources CONFIGURE_DEPENDS ${KEEL_ROOT}/src/${layer}/*.c)
@@ -46,11 +41,8 @@ function(keel_layer layer)
   add_library(Keel::${layer} ALIAS keel_${layer})
   set_target_properties(keel_${layer} PROPERTIES
     EXPORT_NAME ${layer} C_STANDARD 99 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)
-  if(NOT CMAKE_C_COMPILER_ID MATCHES "GNU|Clang")
-    message(FATAL_ERROR "Keel: for the compiler ${CMAKE_C_COMPILER_ID} the flags that keep the "
-                        "arithmetic of the proofs are not known; GCC and Clang have them")
-  endif()
-  target_compile_options(keel_${layer} PRIVATE ${KEEL_FLOAT_FLAGS})
+  keel_float_flags(flags)
+  target_compile_options(keel_${layer} PRIVATE ${flags})
   target_include_directories(keel_${layer} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
 endfunction()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# `cmake --install`: headers, libraries, what find_package(Keel) reads, and keel.pc for pkg-config.
+# `cmake --install`: headers, libraries, the licence, what find_package(Keel) reads, and keel.pc for pkg-config.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -9,6 +9,7 @@ install(TARGETS keel_rtos keel_middleware keel_flight EXPORT KeelTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY include/keel DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/keel)
 install(EXPORT KeelTargets NAMESPACE Keel:: DESTINATION ${KEEL_PACKAGE_DIR})
 
 configure_package_config_file(

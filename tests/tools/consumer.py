@@ -78,7 +78,7 @@ def answer(capacity: int = 32, sensors: int = 4) -> int:
 def keel_archive(path: Path) -> Path:
     """An archive of what a project needs of Keel, in a folder named keel."""
     with tarfile.open(path, "w:gz") as archive:
-        for name in ("CMakeLists.txt", "cmake", "include", "src"):
+        for name in ("CMakeLists.txt", "LICENSE", "cmake", "include", "src"):
             archive.add(ROOT / name, f"keel/{name}")
     return path
 
@@ -100,7 +100,7 @@ class ConsumerTest(unittest.TestCase):
 
     def environment(self) -> dict[str, str]:
         """The pinned programs first, and no setting of the user that steers a build."""
-        commands = ("cmake", "gcc", "arm-none-eabi-gcc", "pkg-config")
+        commands = ("cmake", "gcc", "tcc", "arm-none-eabi-gcc", "pkg-config")
         paths = [str(Path(self.tools.command(name)[0]).parent) for name in commands]
         kept = {key: os.environ[key] for key in ("HOME", "PATH") if key in os.environ}
         kept["PATH"] = os.pathsep.join([*dict.fromkeys(paths), kept["PATH"]])

@@ -46,7 +46,8 @@ class PackageTest(ConsumerTest):
         return " ".join(done.stderr.split())
 
     def test_components_on_the_host(self) -> None:
-        self.installed()
+        licence = self.installed() / "share/licenses/keel/LICENSE"
+        self.assertEqual(licence.read_bytes(), (ROOT / "LICENSE").read_bytes())
         self.project(SENSIBLE)
         self.assertEqual(self.attempt([self.build(self.search())]).returncode, answer())
 
