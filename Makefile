@@ -30,7 +30,7 @@ RESEARCH := timing campaign pictures
 
 ALL_TOOLS := prove test lint coverage bench fuzz oracles firmware stack target registers model \
              flash-openocd flash-pyocd flash-st-flash flash-px4 timing tools-tests timing-tests \
-             consumer opinion evidence browser attestation contracts-run trace c-syntax dask ci \
+             consumer packaging opinion evidence browser attestation contracts-run trace c-syntax dask ci \
              fly flights fly-tests messages sim clients fatfs card
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
