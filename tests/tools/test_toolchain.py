@@ -32,7 +32,7 @@ from common.files import sha256_of  # noqa: E402
 from toolchain import Toolchain, ToolchainError, command_line, python_packages  # noqa: E402
 from toolchain.apt import Log, Suite  # noqa: E402
 from toolchain.cache import Cache  # noqa: E402
-from toolchain.found import Finder  # noqa: E402
+from toolchain.found import Finder, answer  # noqa: E402
 from toolchain.lock import LOCK_FILE, Lock, Spec  # noqa: E402
 from toolchain.mirror import debian_mirror  # noqa: E402
 from toolchain.unpack import Tree, write_starter  # noqa: E402
@@ -460,45 +460,72 @@ class OtherSuites(Sandbox):
         self.assertIn("mirror:/debian trixie main", (suite.folder / "sources.list").read_text())
 
 
-class Mirrors(Sandbox):
-    """The mirror is the one that the host takes Debian from, however it is written down."""
+RELEASE = """\
+Origin: {owner}
+Codename: bookworm
+Components: main
+Date: Sat, 11 Jul 2026 09:00:00 UTC
+SHA256:
+ """  # What apt keeps of an archive's description.
+RELEASE += f"{'0' * 64} 11 main/binary-amd64/Packages\n"
 
-    def etc(self, **files: str) -> Path:
-        """An apt configuration; `list`, `parts_x_list` and `parts_x_sources` are its files."""
-        etc = self.folder / "etc"
+
+@unittest.skipUnless(shutil.which("apt-get"), "the host has no apt")
+class Mirrors(Sandbox):
+    """The mirror is the one that the host takes Debian from, however it is written down. The host's
+    apt reads configurations of the test's own."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.set_path(*map(Path, OUTSIDE["PATH"].split(os.pathsep)))
+
+    def mirror(self, **files: str) -> str:
+        """What apt says of a configuration; `list`, `parts_x_list` and `parts_x_sources` are its
+        files, the others lists that it has read."""
+        etc, lists = self.folder / "etc", self.folder / "lists"
         (etc / "sources.list.d").mkdir(parents=True)
+        (lists / "partial").mkdir(parents=True)
         for name, text in files.items():
             file = name.removeprefix("parts_").replace("_", ".")
-            target = etc / "sources.list.d" / file if "_" in name else etc / "sources.list"
+            target = etc / "sources.list.d" / file if "parts_" in name else etc / "sources.list"
             target.write_text(text)
-        return etc
+        return debian_mirror(["-o", f"Dir::Etc={etc}", "-o", f"Dir::State::lists={lists}"])
 
     def test_one_line_format(self) -> None:
-        text = "# deb x:/old bookworm main\ndeb-src x:/src bookworm main\n"
-        text += "deb [arch=amd64 signed-by=/k.gpg] x:/debian bookworm main contrib # ours\n"
-        self.assertEqual(debian_mirror(self.etc(list=text)), "x:/debian")
+        text = "# deb http://old/debian bookworm main\ndeb-src http://src/debian bookworm main\n"
+        text += "deb [signed-by=/k.gpg] http://host/debian bookworm main contrib # ours\n"
+        self.assertEqual(self.mirror(list=text), "http://host/debian")
 
     def test_deb822_format(self) -> None:
-        text = "Types: deb\nEnabled: no\nURIs: x:/off\nSuites: bookworm\nComponents: main\n\n"
-        text += "Types: deb deb-src\n# a comment\nURIs: x:/debian x:/second\n"
+        text = "Types: deb\nEnabled: no\nURIs: http://off/debian\nSuites: bookworm\n"
+        text += "Components: main\n\nTypes: deb deb-src\n# a comment\n"
+        text += "URIs: http://host/debian http://second/debian\n"
         text += "Suites: bookworm\n  bookworm-updates\nComponents: main\n"
-        self.assertEqual(debian_mirror(self.etc(parts_a_sources=text)), "x:/debian")
+        self.assertEqual(self.mirror(parts_a_sources=text), "http://host/debian")
 
     def test_third_parties_with_the_same_suite_name_come_last(self) -> None:
-        third = "deb [signed-by=/usr/share/keyrings/other.gpg] x:/apt bookworm main\n"
-        signed = "Types: deb\nURIs: x:/mirror\nSuites: bookworm\nComponents: main\n"
-        signed += "Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg\n"
-        etc = self.etc(list=third, parts_z_sources=signed)
-        self.assertEqual(debian_mirror(etc), "x:/mirror")
+        """Before the lists are read, by the archive's name; afterwards by what the lists say."""
+        text = "deb http://other/apt bookworm main\ndeb http://host/debian bookworm main\n"
+        text += "deb http://house/mirror bookworm main\n"
+        self.assertEqual(self.mirror(list=text), "http://host/debian")
+        settings = [f"Dir::Etc={self.folder}/etc", f"Dir::State::lists={self.folder}/lists"]
+        for place, owner in (("other_apt", "Other"), ("house_mirror", "Debian")):
+            read = self.folder / f"lists/{place}_dists_bookworm"
+            Path(f"{read}_Release").write_text(RELEASE.format(owner=owner))
+            architecture = answer(["dpkg", "--print-architecture"]).strip()
+            Path(f"{read}_main_binary-{architecture}_Packages").write_text("Package: x\n")
+        mirror = debian_mirror([word for one in settings for word in ("-o", one)])
+        self.assertEqual(mirror, "http://house/mirror")
 
     def test_security_and_media_do_not_count(self) -> None:
-        text = "deb x:/debian-security bookworm-security main\ndeb cdrom:[D]/ bookworm main\n"
+        text = "deb http://host/debian-security bookworm-security main\n"
+        text += "deb cdrom:[D]/ bookworm main\n"
         with self.assertRaisesRegex(ToolchainError, "no Debian mirror"):
-            debian_mirror(self.etc(list=text))
+            self.mirror(list=text)
 
     def test_the_environment_may_choose(self) -> None:
         os.environ["KEEL_DEBIAN_MIRROR"] = "x:/chosen"
-        self.assertEqual(debian_mirror(self.etc()), "x:/chosen")
+        self.assertEqual(self.mirror(), "x:/chosen")
 
 
 class Verdicts(Sandbox):
