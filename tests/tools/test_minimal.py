@@ -8,6 +8,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 import sys
 import unittest
 from pathlib import Path
@@ -15,6 +16,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from consumer import ROOT, ConsumerTest  # noqa: E402
+from toolchain import TARGET_FLAGS  # noqa: E402
 
 
 class ExampleTest(ConsumerTest):
@@ -48,6 +50,33 @@ class ExampleTest(ConsumerTest):
         (self.folder / "main.c").write_text(blocks["c"])
         told = self.good(["bash", "-euc", blocks["sh"]], CFLAGS="-Wall -Wextra -Werror")
         self.assertRegex(told, r"telemetry (ran )?50")
+
+    def test_makefile_of_the_scheduler_alone(self) -> None:
+        """The documents' Makefile with the README's program, and no file of Keel but those named."""
+        text = (ROOT / "docs/integration.md").read_text(encoding="utf-8")
+        [makefile] = re.findall(r"^```make\n(.*?)^```$", text, re.M | re.S)
+        self.assertEqual(len(makefile.splitlines()), 5)
+        shutil.copytree(ROOT / "src/rtos", self.folder / "keel/src/rtos")
+        shutil.copytree(ROOT / "include", self.folder / "keel/include")
+        sources = list((self.folder / "keel/src").rglob("*.c"))
+        self.assertIn("ten files" if len(sources) == 10 else "", text)
+        (self.folder / "Makefile").write_text(makefile)
+        (self.folder / "main.c").write_text(self.blocks()["c"])
+        self.good(["make"])
+        self.assertRegex(self.good([self.folder / "flight"]), "telemetry 50 times")
+
+    def test_the_scheduler_calls_nobody(self) -> None:
+        """What its objects leave to the linker is theirs, or what a compiler may call by itself."""
+        compiler = ["arm-none-eabi-gcc", *TARGET_FLAGS, "-std=c99", "-O2", f"-I{ROOT}/include"]
+        for source in sorted((ROOT / "src/rtos").glob("*.c")):
+            self.good([*compiler, "-c", source, "-o", f"{source.stem}.o"])
+        objects = sorted(path.name for path in self.folder.glob("*.o"))
+        told = self.good(["arm-none-eabi-nm", *objects])
+        defined = set(re.findall(r" [TDBR] (\w+)", told))
+        self.assertGreater(len(defined), 10)
+        left = set(re.findall(r" U (\w+)", told)) - defined
+        of_compiler = {"memcpy", "memmove", "memset", "__aeabi_ldivmod", "__aeabi_uldivmod"}
+        self.assertLessEqual(left, of_compiler)
 
 
 if __name__ == "__main__":

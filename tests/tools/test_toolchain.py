@@ -460,14 +460,15 @@ class OtherSuites(Sandbox):
         self.assertIn("mirror:/debian trixie main", (suite.folder / "sources.list").read_text())
 
 
+# What apt keeps of an archive's description.
 RELEASE = """\
 Origin: {owner}
 Codename: bookworm
 Components: main
 Date: Sat, 11 Jul 2026 09:00:00 UTC
 SHA256:
- """  # What apt keeps of an archive's description.
-RELEASE += f"{'0' * 64} 11 main/binary-amd64/Packages\n"
+ 0000000000000000000000000000000000000000000000000000000000000000 11 main/binary-{cpu}/Packages
+"""
 
 
 @unittest.skipUnless(shutil.which("apt-get"), "the host has no apt")
@@ -509,11 +510,11 @@ class Mirrors(Sandbox):
         text += "deb http://house/mirror bookworm main\n"
         self.assertEqual(self.mirror(list=text), "http://host/debian")
         settings = [f"Dir::Etc={self.folder}/etc", f"Dir::State::lists={self.folder}/lists"]
+        cpu = answer(["dpkg", "--print-architecture"]).strip()
         for place, owner in (("other_apt", "Other"), ("house_mirror", "Debian")):
             read = self.folder / f"lists/{place}_dists_bookworm"
-            Path(f"{read}_Release").write_text(RELEASE.format(owner=owner))
-            architecture = answer(["dpkg", "--print-architecture"]).strip()
-            Path(f"{read}_main_binary-{architecture}_Packages").write_text("Package: x\n")
+            Path(f"{read}_Release").write_text(RELEASE.format(owner=owner, cpu=cpu))
+            Path(f"{read}_main_binary-{cpu}_Packages").write_text("Package: x\n")
         mirror = debian_mirror([word for one in settings for word in ("-o", one)])
         self.assertEqual(mirror, "http://house/mirror")
 
