@@ -5,10 +5,10 @@
 
 set(KEEL_FLOATS_FOLDER ${CMAKE_CURRENT_LIST_DIR})
 
-# What GCC and Clang are asked, and all that are made of them.
+# What GCC and Clang are asked, and all compilers that are made of them.
 set(KEEL_FLOAT_FLAGS_GNU
-    "-fno-fast-math -fno-unsafe-math-optimizations -fno-associative-math -fno-reciprocal-math"
-    "-fno-finite-math-only -fsigned-zeros -ffp-contract=off")
+    -fno-fast-math -fno-unsafe-math-optimizations -fno-associative-math -fno-reciprocal-math
+    -fno-finite-math-only -fsigned-zeros -ffp-contract=off)
 
 # What it means when float_check.c ends with 1, 2, 3...
 set(KEEL_FLOAT_QUESTIONS

@@ -3,8 +3,8 @@
 """Tests of what package managers read of Keel: PlatformIO's manifest, Zephyr's module, and that all
 of them name the same version and numbers.
 
-PlatformIO's platforms and Zephyr's tree are not to be had here. The manifest is judged, and packed,
-by PlatformIO itself; Zephyr's CMake functions have stand-ins of a line each.
+PlatformIO's platforms and Zephyr's tree are in no registry that the tests ask. The manifest is
+judged, and packed, by PlatformIO itself; Zephyr's CMake functions have stand-ins of a line each.
 
     python3 tests/tools/test_manifests.py
 """

@@ -52,7 +52,7 @@ class ExampleTest(ConsumerTest):
         self.assertRegex(told, r"telemetry (ran )?50")
 
     def test_makefile_of_the_scheduler_alone(self) -> None:
-        """The documents' Makefile with the README's program, and no file of Keel but those named."""
+        """The documents' Makefile, the README's program, and no file of Keel but those named."""
         text = (ROOT / "docs/integration.md").read_text(encoding="utf-8")
         [makefile] = re.findall(r"^```make\n(.*?)^```$", text, re.M | re.S)
         self.assertEqual(len(makefile.splitlines()), 5)
