@@ -12,6 +12,7 @@ import io
 import json
 import sys
 import unittest
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +21,11 @@ sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from proofs.counterexample import changes, lines, read_trace  # noqa: E402
 from proofs.explain import UnknownName, named, subjects  # noqa: E402
+from proofs.located import line_of, locate  # noqa: E402
 from proofs.project import find_units  # noqa: E402
 from proofs.sequents import of_goal, read_sequents, relevant  # noqa: E402
 from proofs.session import Choice, Session  # noqa: E402
+from proofs.targets import Result  # noqa: E402
 from proofs.verdict import clause_at  # noqa: E402
 from test_prove import ASSERTED, GOALS, WRONG, WholeRunCase, cbmc_output, item  # noqa: E402
 
@@ -162,6 +165,56 @@ class Sequents(unittest.TestCase):
         self.assertEqual(of_goal("keel_queue_find_ensures_other", every), [])
 
 
+ACCESSES = """\
+
+Goal Assertion 'rte,mem_access' (file src/rtos/box.c, line 4):
+Prove: valid_rw(Malloc_0, box, 1).
+
+------------------------------------------------------------
+
+Goal Assertion 'rte,mem_access' (file src/rtos/box.c, line 5):
+Prove: true.
+
+------------------------------------------------------------
+
+Goal Assertion 'rte,mem_access' (file src/rtos/box.c, line 6):
+Prove: valid_rw(Malloc_0, other, 1).
+
+------------------------------------------------------------
+"""
+ACCESS = "keel_box_put_assert_rte_mem_access"
+
+
+class Lines(unittest.TestCase):
+    NAMES = (ACCESS, f"{ACCESS}_2", f"{ACCESS}_3", "keel_box_put_assigns")
+
+    def line(self, goal: str, names: Sequence[str] = NAMES) -> str:
+        return line_of(goal, names, read_sequents(ACCESSES, ()))
+
+    def test_goals_of_one_kind_are_told_apart_by_their_number(self) -> None:
+        self.assertEqual(self.line(ACCESS), "src/rtos/box.c:4")
+        self.assertEqual(self.line(f"{ACCESS}_3"), "src/rtos/box.c:6")
+
+    def test_no_line_is_told_where_there_is_a_doubt(self) -> None:
+        self.assertEqual(self.line("keel_box_put_assigns"), "", "WP tells none")
+        self.assertEqual(self.line(f"{ACCESS}_2"), "", "that is proved, so the order is another")
+        self.assertEqual(self.line(ACCESS, self.NAMES[:2]), "", "not as many goals as are printed")
+
+    def test_an_open_goal_has_its_line_and_its_provers_words(self) -> None:
+        said = f"{ACCESS}_3 is not proved, provers gave up (include/box.h:9): Z3 4.8.12: Failed"
+        goals = [{"name": name, "status": "Valid"} for name in self.NAMES]
+        goals[2] |= {"status": "Unproved", "place": "include/box.h:9"}
+        result = Result(goals=goals, problems=[said, "another (include/box.h:9)"])
+        locate(result, lambda: ACCESSES)
+        self.assertEqual(goals[2]["place"], "src/rtos/box.c:6")
+        self.assertIn("gave up (src/rtos/box.c:6): Z3 4.8.12: ended without an answer",
+                      result.problems[0])  # fmt: skip
+        self.assertEqual(result.problems[1], "another (include/box.h:9)")
+
+    def test_where_all_is_proved_nothing_is_printed(self) -> None:
+        locate(Result(goals=[{"name": ACCESS, "status": "Valid"}]), self.fail)
+
+
 class Names(WholeRunCase):
     def test_a_label_leads_to_the_harness_that_asserts_it(self) -> None:
         every = subjects([self.unit], self.report_file)
@@ -229,8 +282,10 @@ class Explained(WholeRunCase):
     def test_a_run_that_fails_names_the_command(self) -> None:
         goals = {**GOALS, "keel_box_put": {"ensures_BOX_001": "Timeout", "assigns": "Valid"}}
         self.play(goals=goals)
-        self.assertIn("make prove UNIT=box ARGS='--explain keel_box_put_ensures_BOX_001'",
-                      self.prove()[1])  # fmt: skip
+        output = self.prove()[1]
+        self.assertIn("make prove UNIT=box ARGS='--explain keel_box_put_ensures_BOX_001'", output)
+        self.assertEqual(output.count("FAILED keel_box_put_ensures_BOX_001"), 1)
+        self.assertIn("all that failed, together: build/prove/summary.md", output)
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -685,8 +686,50 @@ class Jobs(unittest.TestCase):
         driver.run_jobs(jobs, Cache(None), Runner({}, self.folder), quick, times, lambda _: None)
         self.assertEqual(len(order), 3)
 
+    def test_of_a_unit_that_is_wrong_nothing_is_asked_again(self) -> None:
+        rooms: list[int] = []
+
+        def job(name: str, gave_up: bool) -> driver.Job:
+            def execute(room: int) -> dict[str, Any]:
+                rooms.append(room)
+                return {"problems": ["open"], "seconds": 0.0, "gave_up": gave_up}
+
+            return driver.Job("b", "wp", name, lambda: name, execute)
+
+        jobs = [job("hard", True), job("refuted", False)]
+        times = Times(self.folder / "times.json")
+        runner = Runner({}, self.folder)
+        seen = driver.run_jobs(jobs, Cache(None), runner, ONE, times, lambda _: None)
+        self.assertEqual((rooms, len(seen)), ([1, 1], 2))
+
+    def test_what_takes_long_is_heard_of_while_it_runs(self) -> None:
+        heard: list[str] = []
+        ended: list[str] = []
+        job = driver.Job("b", "wp", "slow", lambda: "key", lambda _: time.sleep(1.5) or
+                         {"problems": [], "seconds": 1.5})  # fmt: skip
+
+        def late(one: driver.Job, _seconds: float) -> None:
+            self.assertEqual(ended, [])
+            heard.append(one.name)
+
+        with mock.patch("proofs.running.PATIENCE_S", 0.1):
+            driver.run_jobs([job], Cache(None), Runner({}, self.folder), ONE,
+                            Times(self.folder / "times.json"),
+                            lambda one: ended.append(one.job.name), late)  # fmt: skip
+        self.assertIn("slow", heard)
+        self.assertEqual(ended, ["slow"])
+
 
 class Rules(TreeTest):
+    def test_a_public_function_without_a_contract_is_named(self) -> None:
+        self.assertEqual(rules.without_contract(self.unit, self.root), [])
+        text = "/*@ predicate fits(integer x) = x < 3; */\nvoid keel_box_empty(int *box);\n"
+        with self.unit.header.open("a", encoding="utf-8") as stream:
+            stream.write(text)
+        line = self.unit.header.read_text(encoding="utf-8").count("\n")
+        [problem] = rules.without_contract(self.unit, self.root)
+        self.assertIn(f"include/keel/rtos/box.h:{line}: keel_box_empty has no contract", problem)
+
     def test_a_ghost_function_that_leads_back_to_itself_fails(self) -> None:
         ghost = "/*@ ghost\nstatic void {}(int n)\n{{\n    {}(n);\n}}\n*/\n"
         path = self.root / "src/rtos/ghost.c"

@@ -8,14 +8,19 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 import tempfile
 import unittest
+from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
+from proofs.driver import Job  # noqa: E402
+from proofs.report import HELP  # noqa: E402
+from proofs.running import Running  # noqa: E402
 from proofs.times import (  # noqa: E402
     PRIOR,
     UNKNOWN,
@@ -102,6 +107,44 @@ class Left(unittest.TestCase):
         forecast.done("a", 5.0)
         self.assertEqual((forecast.seconds(), forecast.text()), (0.0, ""))
 
+    def test_no_time_is_told_while_one_of_the_jobs_was_never_timed(self) -> None:
+        forecast = Forecast({"a": 1.0, "b": 1.0, "new": 1.0}, 1, ["new"])
+        self.assertEqual(forecast.text(), "3 jobs left")
+        forecast.done("new", 5.0)
+        self.assertEqual(forecast.text(), "less than 1 min left")
+
+    def test_no_time_is_told_while_a_job_is_late(self) -> None:
+        forecast = Forecast({"a": 1.0}, 1)
+        forecast.late("a")
+        self.assertEqual(forecast.text(), "1 job left")
+
+
+class Late(unittest.TestCase):
+    def test_a_job_is_named_after_a_minute_and_whenever_it_has_run_twice_as_long(self) -> None:
+        self.assertEqual(self.named(None, (59, 60, 100, 120, 200, 240)), [60, 120, 240])
+
+    def test_a_job_that_was_timed_is_named_when_it_takes_twice_as_long(self) -> None:
+        self.assertEqual(self.named(100.0, (60, 199, 201)), [201])
+
+    def test_a_job_that_has_ended_is_not_named(self) -> None:
+        self.assertEqual(self.named(None, (), after=(300,)), [])
+
+    def named(
+        self, expected: float | None, during: Sequence[int], after: Sequence[int] = ()
+    ) -> list[float]:
+        """At which seconds a job is named, of those at which is looked."""
+        now = 0.0
+        heard: list[float] = []
+        job = Job("box", "cbmc", "h", lambda: "key", lambda _room: {})
+        running = Running(lambda _job, seconds: heard.append(seconds), lambda _: expected,
+                          lambda: now)  # fmt: skip
+        with running.now(job):
+            for now in during:  # noqa: B007  the clock reads it
+                running.look()
+        for now in after:  # noqa: B007
+            running.look()
+        return heard
+
 
 class Run(WholeRunCase):
     def test_a_run_records_its_times_when_it_is_asked_to(self) -> None:
@@ -114,7 +157,14 @@ class Run(WholeRunCase):
         self.assertEqual(list(recorded), [f"box/{name}" for name in names])
         self.assertTrue(all(seconds >= 1 for seconds in recorded.values()))
 
+    def test_what_is_told_to_help_is_there(self) -> None:
+        page, _, anchor = HELP.rpartition("#")
+        headings = re.findall(r"^#+ (.*)$", Path(page).read_text(encoding="utf-8"), re.MULTILINE)
+        self.assertIn(anchor, [heading.lower().replace(" ", "-") for heading in headings])
+
     def test_what_is_left_is_told(self) -> None:
+        self.assertIn("3 jobs left", self.prove()[1])
+        self.fresh = True
         self.assertIn("less than 1 min left", self.prove()[1])
 
 

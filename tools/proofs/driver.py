@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from .cache import Cache
 from .jobs import Runner, in_pool
 from .project import ProjectError
+from .running import Running
 from .times import Times
 
 
@@ -62,11 +63,12 @@ class Pool:
 
 def run_jobs(
     jobs: Sequence[Job], cache: Cache, runner: Runner, pool: Pool, times: Times,
-    done: Callable[[Outcome], None],
+    done: Callable[[Outcome], None], late: Callable[[Job, float], None] = lambda _job, _s: None,
 ) -> list[Outcome]:  # fmt: skip
-    """Have a verdict for every job; `done` hears of each as it comes."""
+    """Have a verdict for every job; `done` hears of each as it comes, `late` of what takes long."""
     outcomes: list[Outcome] = []
-    given_up: list[Job] = []
+    given_up: list[Outcome] = []
+    running = Running(late, lambda job: times.seconds.get(job.label))
 
     def finish(outcome: Outcome) -> None:
         outcomes.append(outcome)
@@ -82,24 +84,36 @@ def run_jobs(
         else:
             finish(Outcome(job, known, cached=True))
     waiting.sort(key=lambda job: (-times.expected(job.label), job.label))
-    tasks = [functools.partial(_execute, job, cache, pool.room) for job in waiting]
-    for index, result in in_pool(tasks, pool.width, runner):
-        if result.get("gave_up") and pool.again:
-            given_up.append(waiting[index])
-            print(f"{waiting[index].label}: given up, asked again alone when all else is done")
+
+    def ended(chosen: Sequence[Job], width: int, room: int) -> Iterator[Outcome]:
+        tasks = [functools.partial(_execute, job, cache, room, running) for job in chosen]
+        for index, result in in_pool(tasks, width, runner, running.look):
+            yield Outcome(chosen[index], result, cached=False)
+
+    for outcome in ended(waiting, pool.width, pool.room):
+        if outcome.result.get("gave_up") and pool.again:
+            given_up.append(outcome)
+            print(f"{outcome.job.label}: given up, asked again alone when all else is done",
+                  flush=True)  # fmt: skip
         else:
-            finish(Outcome(waiting[index], result, cached=False))
-    for job in given_up:
-        result = _execute(job, cache, pool.room * ALONE)
-        finish(Outcome(job, result, cached=False))
+            finish(outcome)
+    # More time proves nothing of a unit of which something else is known to be wrong.
+    wrong = {one.job.unit for one in outcomes if one.problems and not one.result.get("gave_up")}
+    for outcome in given_up:
+        if outcome.job.unit in wrong:
+            finish(outcome)
+    again = [one.job for one in given_up if one.job.unit not in wrong]
+    for outcome in ended(again, 1, pool.room * ALONE):
+        finish(outcome)
     return outcomes
 
 
-def _execute(job: Job, cache: Cache, room: int) -> dict[str, Any]:
+def _execute(job: Job, cache: Cache, room: int, running: Running) -> dict[str, Any]:
     """Run a job and keep its success, if it is one about the text that is still there."""
     try:
         before = job.key()
-        result = job.execute(room)
+        with running.now(job):
+            result = job.execute(room)
         changed = job.key() != before
     except OSError as error:
         raise ProjectError(f"{job.label}: did the tree change meanwhile? {error}") from error

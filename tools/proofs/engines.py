@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from . import cbmc, csource, frames, gappa, targets, verdict, wp
+from . import cbmc, csource, frames, gappa, located, targets, verdict, wp
 from .cache import digest
 from .driver import Job
 from .goals import read_goals
@@ -21,8 +21,9 @@ from .wrong import WrongBody, read_wrong_body
 def wp_jobs(
     units: Iterable[Unit], prover: wp.Wp, root: Path, stamp: Mapping[str, str],
     exceptions: Mapping[str, Exceptions], stages: Sequence[wp.Stage] = wp.THOROUGH,
+    printed: Callable[[targets.Target], str] = lambda _: "",
 ) -> list[Job]:  # fmt: skip
-    """A job for each function, and for the lemmas, of the units."""
+    """A job for each function, and for the lemmas, of the units; `printed` is what WP prints."""
     jobs = []
     for unit in units:
         allowed = list(exceptions[unit.name].warnings)
@@ -30,7 +31,8 @@ def wp_jobs(
         for whole in targets.targets(unit):
             target = frames.restricted(whole, exceptions[unit.name])
 
-            execute = functools.partial(_prove, prover, target, stages, allowed, recorded)
+            execute = functools.partial(_prove, prover, printed, target, stages, allowed,
+                                        recorded)  # fmt: skip
             key = functools.partial(wp_key, target, prover, root, stamp, allowed)
             theorem = f"{target.file.stem}:" if target.file in unit.theorems else ""
             jobs.append(Job(unit.name, "wp", theorem + target.name, key, execute))
@@ -43,10 +45,12 @@ def placeless(options: Iterable[str], root: Path) -> list[str]:
 
 
 def _prove(
-    prover: wp.Wp, target: targets.Target, stages: Sequence[wp.Stage], allowed: Sequence[str],
-    recorded: Mapping[str, str], room: int,
+    prover: wp.Wp, printed: Callable[[targets.Target], str], target: targets.Target,
+    stages: Sequence[wp.Stage], allowed: Sequence[str], recorded: Mapping[str, str], room: int,
 ) -> dict[str, Any]:  # fmt: skip
-    return prover.prove(target, stages, True, allowed, recorded, room).as_dict()
+    result = prover.prove(target, stages, True, allowed, recorded, room)
+    located.locate(result, functools.partial(printed, target))
+    return result.as_dict()
 
 
 def wp_key(

@@ -20,6 +20,7 @@ from .counterexample import changes, lines, read_trace
 from .declarations import structures
 from .goals import read_goals
 from .harness import Harness, read_harness
+from .located import in_words
 from .project import Unit
 from .settings import Exceptions
 from .targets import Target, targets
@@ -161,7 +162,8 @@ class Explainer:
 
     def _sequent(self, target: Target, goal: str, one: sequents.Sequent) -> Iterator[str]:
         """A goal of WP."""
-        yield f"{goal} is {'proved' if one.proved else 'not proved'}: {', '.join(one.said)}"
+        verdict = "proved" if one.proved else "not proved"
+        yield f"{goal} is {verdict}: {in_words(', '.join(one.said))}"
         yield f"  {one.title}"
         for place in dict.fromkeys([place_of(target, goal, self._root), one.place]):
             if text := clause_at(self._root, place):

@@ -131,9 +131,13 @@ class Stoppable(Protocol):
 
 
 def in_pool(
-    tasks: Sequence[Callable[[], T]], width: int, runner: Stoppable
-) -> Iterator[tuple[int, T]]:
-    """Run tasks, `width` at a time, in their order; yield index and result as each finishes."""
+    tasks: Sequence[Callable[[], T]], width: int, runner: Stoppable,
+    look: Callable[[], None] = lambda: None,
+) -> Iterator[tuple[int, T]]:  # fmt: skip
+    """Run tasks, `width` at a time, in their order; yield index and result as each finishes.
+
+    `look` is called now and then while they run.
+    """
     pool = ThreadPoolExecutor(max_workers=width)
     futures: dict[Future[T], int] = {}
     complete = False
@@ -144,6 +148,7 @@ def in_pool(
         while waiting:
             # A timeout lets Ctrl-C through.
             done, waiting = wait(waiting, timeout=0.5, return_when=FIRST_COMPLETED)
+            look()
             for future in done:
                 yield futures[future], future.result()
         complete = True

@@ -7,6 +7,7 @@ import json
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from common.source import STAMP, stamp_of
@@ -14,11 +15,14 @@ from toolchain import Found
 
 from . import cbmc_answers, determined
 from .driver import Job, Outcome
-from .project import Unit
+from .project import KEEL, Unit
 from .settings import Exceptions
 from .theorems import labels
 from .times import Forecast, Times, estimates
 
+# Where it stands what helps a proof that takes too long.
+PAGE = KEEL / "docs" / "finding_a_proof.md"
+HELP = f"{PAGE.relative_to(Path.cwd()) if PAGE.is_relative_to(Path.cwd()) else PAGE}#what-helps"
 EXPLAINED = 5  # commands that a summary names
 
 
@@ -248,8 +252,9 @@ class Console:
     """Tells people how far the run is: a line for each job that ran, and for each unit."""
 
     def __init__(self, jobs: Sequence[Job], times: Times, width: int) -> None:
-        expected = estimates([job.label for job in jobs], times.seconds)
-        self._forecast = Forecast(expected, width)
+        labels = [job.label for job in jobs]
+        guessed = [label for label in labels if label not in times.seconds]
+        self._forecast = Forecast(estimates(labels, times.seconds), width, guessed)
         self._waiting = [(job.unit, job.kind) for job in jobs]
         self._sums: dict[tuple[str, str], tuple[int, int, float]] = {}
 
@@ -274,6 +279,13 @@ class Console:
         self._waiting.remove(kind)
         if kind not in self._waiting:
             self._line(job, "", *self._sums[kind])
+
+    def late(self, job: Job, seconds: float) -> None:
+        """A job takes long: name it, and where it stands what helps."""
+        self._forecast.late(job.label)
+        start = f"{job.unit:<10} {KINDS[job.kind][0]:<5} {job.name:<37}"
+        print(f"{start} still runs after {seconds / 60:.0f} min: what helps, see {HELP}",
+              flush=True)  # fmt: skip
 
     @staticmethod
     def _numbers(outcome: Outcome) -> tuple[int, int]:
@@ -303,8 +315,11 @@ def typed(unit: str, arguments: str) -> str:
 
 
 def closing_lines(gathered: Gathered) -> list[str]:
-    """What is wrong, together, and the line that says whether all is well, and what is proved."""
-    lines = [f"FAILED {text}" for text in gathered.all_problems]
+    """What is wrong and was not told when a job ended, and whether all is well, and proved."""
+    told = {text for outcome in gathered.outcomes for text in outcome.problems}
+    lines = [f"FAILED {text}" for text in gathered.all_problems if text not in told]
+    if told:
+        lines.append("all that failed, together: build/prove/summary.md")
     lines += [
         f"to see why: {typed(unit, f'--explain {name}')}"
         for unit, name in gathered.open[:EXPLAINED]
@@ -312,8 +327,8 @@ def closing_lines(gathered: Gathered) -> list[str]:
     if given_up := [one.job for one in gathered.outcomes if one.result.get("gave_up")]:
         again = typed(f"'{' '.join(dict.fromkeys(job.unit for job in given_up))}'", "--patience 8")
         lines.append(
-            f"{len(given_up)} jobs came to a limit of their processor time, which refutes nothing:"
-            f" with more time, {again}"
+            f"provers gave up on {len(given_up)} jobs, which refutes nothing: more time may help,"
+            f" {again}"
         )
     for name, unit in gathered.units.items():
         if unit.exceptions.not_by_wp and "wp" in gathered.engines:

@@ -7,7 +7,8 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-from . import csource
+from . import csource, frames
+from .clauses import CLAUSE
 from .harness import read_harness
 from .project import Unit
 
@@ -69,6 +70,18 @@ def switched_off_checks(files: Iterable[Path], root: Path) -> list[str]:
             if "CPROVER" in line and "pragma" in line:
                 problems.append(f"{path.relative_to(root)}:{number}: switches a check off")
     return problems
+
+
+def without_contract(unit: Unit, root: Path) -> list[str]:
+    """Functions of a unit's header whose contract nobody has written: nothing can be proved."""
+    text = csource.read(unit.header)
+    lines = {function.name: function.line for function in csource.functions(text)}
+    return [
+        f"{unit.header.relative_to(root)}:{lines[name]}: {name} has no contract: write /*@ requires"
+        " ...; assigns ...; ensures ...; */ before it"
+        for name, annotations in frames.contracts(text)
+        if name in lines and not CLAUSE.search(annotations)
+    ]
 
 
 def undefined_functions(unit: Unit, excepted: Mapping[str, str], root: Path) -> list[str]:

@@ -129,8 +129,8 @@ def _reads(text: str) -> str:
     return text.replace("&{", "&").replace("}", "")
 
 
-def of_goal(goal: str, sequents: Sequence[Sequent]) -> list[Sequent]:
-    """The sequents that bear a goal's name: those that are open, if any is."""
+def bearing(goal: str, sequents: Sequence[Sequent]) -> list[Sequent]:
+    """The sequents that bear a goal's name, its number aside, in WP's order."""
     found = []
     for one in sequents:
         labels = [re.sub(r"\W", "_", text) for text in LABEL.findall(one.title)]
@@ -138,6 +138,12 @@ def of_goal(goal: str, sequents: Sequence[Sequent]) -> list[Sequent]:
         fits = all(WORDS[word] in goal for word in words if word in WORDS)
         if fits and all(re.search(rf"_{label}(_|$)", goal) for label in labels[:1]):
             found.append(one)
+    return found
+
+
+def of_goal(goal: str, sequents: Sequence[Sequent]) -> list[Sequent]:
+    """The sequents that bear a goal's name: those that are open, if any is."""
+    found = bearing(goal, sequents)
     return [one for one in found if not one.proved] or found
 
 

@@ -29,6 +29,7 @@ from . import (
     frames,
     gappa,
     harness_rules,
+    located,
     report,
     rules,
     shards,
@@ -40,7 +41,7 @@ from .cache import Cache
 from .goals import PRUNED, as_text, read_goals, short_name
 from .harness import read_harness, unchecked
 from .jobs import Runner
-from .project import KEEL, RECORDED_TIMES, Unit, closure, find_units
+from .project import KEEL, RECORDED_TIMES, ProjectError, Unit, closure, find_units
 from .settings import Exceptions, read_exceptions
 from .stamps import headers_digest, prover_answers, tool_stamp, verdict_stamp
 from .times import Times, read_times, recorded_anew
@@ -152,6 +153,8 @@ class Session:
     def _prove(self, runner: Runner, scratch: Path) -> report.Gathered:
         """Have the verdicts of the choice, and apply the rules."""
         choice = self._choice
+        if "wp" in choice.engines:
+            self._need_contracts()
         everything = find_units(self._root)
         exceptions = read_exceptions(self._exceptions, list(everything))
         gathered = report.Gathered(
@@ -175,7 +178,8 @@ class Session:
         else:
             cache = Cache(choice.verdicts, choice.fresh)
             pool = driver.Pool(choice.width, choice.patience, again=not choice.quick)
-            outcomes = driver.run_jobs(jobs, cache, runner, pool, times, console.done)
+            outcomes = driver.run_jobs(jobs, cache, runner, pool, times, console.done,
+                                       console.late)  # fmt: skip
             times.save()
             cache.prune()
         for outcome in outcomes:
@@ -188,6 +192,14 @@ class Session:
         if choice.update_goals:
             self._record_times(outcomes)
         return gathered
+
+    def _need_contracts(self) -> None:
+        """Ask no prover for what no contract says."""
+        lacking = [
+            text for unit in self._choice.units for text in rules.without_contract(unit, self._root)
+        ]
+        if lacking:
+            raise ProjectError("\n".join(lacking))
 
     def _record_times(self, outcomes: Sequence[driver.Outcome]) -> None:
         """Record how long the jobs took, for everybody; what failed says nothing."""
@@ -247,9 +259,10 @@ class Session:
         )
         stages = wp.QUICK if choice.quick else wp.THOROUGH
         place = (self._root, stamp)
+        printer = located.Printer(prover, runner, scratch)
         return [
             *engines.survey_jobs(choice.units, prover, *place, known, exceptions),
-            *engines.wp_jobs(choice.units, prover, *place, exceptions, stages),
+            *engines.wp_jobs(choice.units, prover, *place, exceptions, stages, printer),
         ]
 
     def _apply_rules(self, gathered: report.Gathered) -> None:

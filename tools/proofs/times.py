@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 
 from common.files import write_text
@@ -87,14 +87,22 @@ def as_text(seconds: Mapping[str, float]) -> str:
 class Forecast:
     """How long a run will still take, from what its jobs should take and how fast it is."""
 
-    def __init__(self, expected: Mapping[str, float], width: int) -> None:
+    def __init__(
+        self, expected: Mapping[str, float], width: int, guessed: Collection[str] = ()
+    ) -> None:
+        """Take what each job should take, and of which that is a guess: they were never timed."""
         self._left = dict(expected)
         self._width = width
+        self._unknown = set(guessed)
         self._should = self._did = PRIOR
 
     def known(self, label: str) -> None:
         """A job that need not run."""
         self._left.pop(label, None)
+
+    def late(self, label: str) -> None:
+        """A job that runs for longer than it should: nobody knows for how long it will."""
+        self._unknown.add(label)
 
     def done(self, label: str, seconds: float) -> None:
         """A job that ran."""
@@ -111,7 +119,9 @@ class Forecast:
         return whole * self._did / self._should
 
     def text(self) -> str:
-        """What is left, in words; nothing at the end."""
+        """What is left, in words; nothing at the end. Where time is not known, it is not told."""
+        if not self._unknown.isdisjoint(self._left):
+            return f"{len(self._left)} job{'s' * (len(self._left) > 1)} left"
         seconds = self.seconds()
         if not seconds:
             return ""
