@@ -21,8 +21,9 @@ KEEL_VERIFY := $(or $(KEEL_VERIFY),$(VERIFY))
 KEEL_SHOWN := sed 's/keel-//; s/KEEL_//g'
 KEEL_CALL := make -f $(KEEL_MK) prove UNIT={unit} ARGS={arguments}
 
-.PHONY: help prove test evidence
+.PHONY: help new prove test evidence
 help: keel-help
+new: keel-new
 prove: keel-prove
 test: keel-test
 evidence: keel-evidence
@@ -34,11 +35,14 @@ endif
 
 KEEL_AT = --project "$(or $(KEEL_PROJECT),$(CURDIR))"
 
-.PHONY: keel-help keel-prove keel-test keel-evidence
+.PHONY: keel-help keel-new keel-prove keel-test keel-evidence
 
 keel-help: ## this list
 	@sed -nE 's/^(keel-[a-z]+):[^#]*## (.*)/  make \1\t\2/p' "$(KEEL_FOLDER)/keel.mk" \
 	    | $(KEEL_SHOWN) | expand -t 24
+
+keel-new: ## begin a unit (KEEL_UNIT=limiter; KEEL_ARGS='--layer app'), or harnesses from its header's prototypes
+	@python3 "$(KEEL_FOLDER)/tools/new_unit.py" $(KEEL_AT) --unit "$(KEEL_UNIT)" $(KEEL_ARGS)
 
 keel-prove: ## prove the project (KEEL_UNIT=monitor; KEEL_ARGS=--update-goals; KEEL_ARGS='--explain NAME')
 	@KEEL_CALL="$(KEEL_CALL)" python3 "$(KEEL_FOLDER)/tools/prove.py" $(KEEL_AT) \

@@ -57,6 +57,9 @@ class OwnUnit(unittest.TestCase):
         output = self.dry("keel-prove", f"KEEL={ROOT}", "KEEL_UNIT=monitor", "KEEL_ARGS=--fresh")
         program = f'"{ROOT}/tools/prove.py" --project "{self.project}"'
         self.assertIn(f"{program} --unit monitor --fresh", " ".join(output.split()))
+        begun = " ".join(self.dry("keel-new", f"KEEL={ROOT}", "KEEL_UNIT=gauge").split())
+        program = f'"{ROOT}/tools/new_unit.py" --project "{self.project}"'
+        self.assertIn(f'{program} --unit "gauge"', begun)
 
     def dry(self, *words: str) -> str:
         """What the project's own Makefile would run, and what it has to say."""
