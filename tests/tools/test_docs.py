@@ -180,7 +180,8 @@ class DocumentsTest(unittest.TestCase):
         self.none(everywhere(TABLE), is_uneven)
 
     def test_targets_exist(self) -> None:
-        makefile = "".join((ROOT / name).read_text("utf-8") for name in ("Makefile", "keel.mk"))
+        names = ("Makefile", "keel.mk")  # Keel's own, and what a user's project includes.
+        makefile = "\n".join((ROOT / name).read_text(encoding="utf-8") for name in names)
         targets = set(re.findall(r"^([a-z][a-z-]*):", makefile, re.MULTILINE))
         self.none(commands(), lambda text: bool(set(TARGET.findall(text)) - targets))
 
