@@ -28,6 +28,7 @@ Exit status: 0 when at least one test ran and none failed, 1 otherwise, 2 when n
 
 from __future__ import annotations
 
+import os
 import sys
 import threading
 from collections.abc import Callable, Sequence
@@ -243,6 +244,9 @@ def with_needs(suite: Suite, needs: Needs) -> Suite:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
     end_as_by_ctrl_c()
+    # A suite that calls make would hand on what the make that began this was told.
+    for name in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS", "ARGS", "UNIT"):
+        os.environ.pop(name, None)
     parser = Parser("Build and run Keel's tests.", "test")
     running.add_options(parser)
     parser.add_argument("--all", action="store_true", help="also long suites (make test-all)")

@@ -26,8 +26,10 @@ from .declarations import (
 )
 from .project import ProjectError, Unit
 
+# REUSE-IgnoreStart
 HEAD = "/* SPDX-License-Identifier: Apache-2.0 */\n"
 LINE = "// SPDX-License-Identifier: Apache-2.0\n"
+# REUSE-IgnoreEnd
 WIDTH = 100
 # An array in a structure is compared place by place, up to so many.
 PLACES = 16
