@@ -31,7 +31,7 @@ RESEARCH := timing campaign pictures
 ALL_TOOLS := prove test lint coverage bench fuzz oracles firmware stack target registers model \
              flash-openocd flash-pyocd flash-st-flash flash-px4 timing tools-tests timing-tests \
              consumer packaging opinion evidence browser attestation contracts-run trace c-syntax dask ci \
-             fly flights fly-tests messages sim clients fatfs card
+             fly flights fly-tests messages sim clients fatfs card schedule
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
 TIMING := python3 tools/with_packages.py timing -m timing
@@ -124,6 +124,10 @@ flights: python ## N flights with everything varied (N=1000; JOBS=4; DASK=tcp://
 log: python ## plot a flight's log (FILE=build/fly/hover-jsbsim.ulg): attitude, motors, votes, load, vibration
 	@python3 tools/with_packages.py fly tools/log.py "$(FILE)" $(ARGS)
 
+.PHONY: schedule
+schedule: python ## see each run of each task: for Perfetto, and as a page (FILE=flight.ulg: of a log)
+	@python3 tools/with_packages.py schedule tools/schedule.py $(if $(FILE),"$(FILE)") $(ARGS)
+
 .PHONY: sim
 sim: python ## fly the copter in real time with MAVLink at UDP 14550 (ADDRESS=127.0.0.1:14550; SCENARIO=wind)
 	@python3 tools/with_packages.py sim tools/sim.py $(foreach one,$(ADDRESS),--address "$(one)") \
@@ -133,8 +137,12 @@ sim: python ## fly the copter in real time with MAVLink at UDP 14550 (ADDRESS=12
 flight-picture: python
 	@python3 tools/with_packages.py fly -m flight.figure
 
+.PHONY: schedule-picture
+schedule-picture: python
+	@python3 tools/with_packages.py schedule tools/schedule.py --picture
+
 .PHONY: pictures
-pictures: campaign timing flight-picture ## the pictures of the documents, in docs/pictures
+pictures: campaign timing flight-picture schedule-picture ## the pictures of the documents, in docs/pictures
 	@python3 tools/with_packages.py timing tools/pictures.py
 
 coverage: python ## lines, branches and MC/DC that the unit tests reach

@@ -5,8 +5,8 @@
     make pictures
 
 Draws what Keel is made of (layers.svg), and takes over the plots that `make campaign`,
-`make timing` and flight/figure.py have left in build. Committed pictures are small: a larger one is
-refused.
+`make timing`, `make schedule` and flight/figure.py have left in build. Committed pictures are
+small: a larger one is refused.
 
 Exit status: 0 when all were written, 2 when one is missing or too large.
 """
@@ -31,6 +31,7 @@ TAKEN = (
     "build/campaign/faults.svg",
     "build/campaign/figure14.svg",
     "build/fly/flight.svg",
+    "build/schedule/schedule.svg",
     "build/timing/experiments/figure10.svg",
     "build/timing/experiments/figure12.svg",
 )

@@ -30,8 +30,10 @@ class TypesTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
         tools = Toolchain()
-        tools.ensure("types", "fly-tests", "evidence", "trace", "c-syntax", "model", "stack")
-        groups = ("types", "fly-tests", "evidence", "trace", "c-syntax", "model", "stack")
+        tools.ensure("types", "fly-tests", "evidence", "trace", "c-syntax", "model", "stack",
+                     "schedule")  # fmt: skip
+        groups = ("types", "fly-tests", "evidence", "trace", "c-syntax", "model", "stack",
+                  "schedule")  # fmt: skip
         names = dict.fromkeys(name for group in groups for name in tools.lock.groups[group])
         places = [tools.command(name)[0] for name in names
                   if tools.lock.tools[name].kind in ("packages", "wheel")]  # fmt: skip

@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A schedule as it ran, from a log that has each run of a task.
+
+runs       reading it; slack and deadlines, worked out from the runs
+pftrace    as a trace for Perfetto
+page       as a page of HTML that needs nothing else
+picture    a part of it as a picture
+"""
