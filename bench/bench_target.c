@@ -13,6 +13,7 @@
  * is taken off: what is printed is the kernel's own, with the compiler's library that it calls.
  */
 #include "board.h"
+#include "common/trace.h"
 #include "console.h"
 #include "copter.h"
 #include "desk.h"
@@ -520,6 +521,44 @@ static void bench_ulog(void)
     print(&steps);
 }
 
+/* What a run costs that is traced, the clock's reading included. */
+static void traced_run(keel_trace_t *trace, const keel_scheduler_t *of, keel_log_ring_t *ring)
+{
+    keel_trace_begin(trace, of);
+    keel_trace_end(trace, of);
+    keel_trace_store(trace, ring);
+}
+
+static void bench_trace(void)
+{
+    static keel_scheduler_t traced KEEL_REALTIME_ZERO;
+    static keel_trace_t trace KEEL_REALTIME_ZERO;
+    static keel_log_ring_t ring KEEL_REALTIME_ZERO;
+    const keel_task_config_t task = {.run = bench_body,
+                                     .period_us = POLL_US,
+                                     .budget_us = 1u,
+                                     .priority = KEEL_PRIORITY_REALTIME};
+    uint8_t read[KEEL_TRACE_RUN_BYTES];
+    kind_t steps = {"trace", 0u, 0u, 0u};
+
+    traced.config.read_clock = bench_clock;
+    traced.config.clock_context = &virtual_clock;
+    keel_queue_init(&traced.queue);
+    keel_queue_add(&traced.queue, &task, 0u);
+    keel_trace_start(&trace, &traced);
+    keel_log_ring_init(&ring);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        keel_queue_advance(&traced.queue, 0u, traced.clock.now_us);
+        add(&steps,
+            measure((function_t)traced_run, &trace, (uint32_t)&traced, (uint32_t)&ring, false));
+        require(keel_log_ring_read(&ring, read, sizeof read) == KEEL_TRACE_RUN_BYTES);
+        traced.queue.stats[0].runs++;
+        traced.clock.now_us += POLL_US;
+    }
+    require(trace.run.late_us == 0u);
+    print(&steps);
+}
+
 static void bench_mavlink(void)
 {
     static keel_mavlink_t mavlink KEEL_REALTIME_ZERO;
@@ -739,6 +778,7 @@ int main(void)
     bench_ubx();
     bench_log_ring();
     bench_ulog();
+    bench_trace();
     bench_mavlink();
     bench_signing();
     bench_crsf();

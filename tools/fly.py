@@ -7,7 +7,8 @@
 build/fly gets fly.json (every flight, its errors, limits and the SHA-256 of its trace) and a
 picture of each flight. With --scenario the report is named after it. --seed flies a flight of
 `make flights` again and draws it. With either, or with --logs, there is the flight's log, too, for
-`make log`.
+`make log`; with --trace it has each run of each task, and stands beside its two files of
+`make schedule`.
 
 Exit status: 0 when every flight keeps its limits (or breaks them, where that is expected), 1 when
 not, 2 when it could not be flown.
@@ -32,6 +33,8 @@ from flight.loop import Order  # noqa: E402
 from flight.varied import order_of  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
+import schedule  # noqa: E402
+
 BUILD = ROOT / "build/fly"
 SCHEMA = 1
 
@@ -50,6 +53,8 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
                         help="where the report and the pictures go")  # fmt: skip
     parser.add_argument("--no-pictures", action="store_true")
     parser.add_argument("--logs", action="store_true", help="keep the log of every flight")
+    parser.add_argument("--trace", action="store_true",
+                        help="with the log, each run of each task, for Perfetto and as a page")
     found = parser.parse_args(arguments)
     if found.seed is not None and (found.scenario or found.plant):
         raise ToolError("--seed: says scenario and plant by itself")
@@ -63,7 +68,8 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
     if options.seed is not None:
         name = report_name(options)
         picture = None if options.no_pictures else options.build / f"{name}.svg"
-        return [Job(name, order_of(options.seed), copter, picture, options.build / f"{name}.ulg")]
+        log = options.build / f"{name}.ulg"
+        return [Job(name, order_of(options.seed), copter, picture, log, options.trace)]
     known = scenario.names(options.scenarios)
     names = [options.scenario] if options.scenario else known
     if not names:
@@ -74,9 +80,10 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
         for plant in found.plants:
             if options.plant in (None, plant):
                 picture = None if options.no_pictures else options.build / f"{name}-{plant}.svg"
-                wanted = options.logs or options.scenario
+                wanted = options.logs or options.scenario or options.trace
                 log = options.build / f"{name}-{plant}.ulg" if wanted else None
-                jobs.append(Job(name, Order(found, plant, found.seed), copter, picture, log))
+                jobs.append(Job(name, Order(found, plant, found.seed), copter, picture, log,
+                                options.trace))  # fmt: skip
     if not jobs:
         raise ToolError(f"{options.scenario or 'no scenario'}: is not flown in {options.plant}")
     return jobs
@@ -129,6 +136,9 @@ def fly(arguments: Sequence[str] | None) -> int:
         "flights": [outcome.as_json() for outcome in outcomes],
     })  # fmt: skip
     tell(outcomes, report, report_name(options) != "fly")
+    for job in jobs:
+        if job.trace and job.log:
+            schedule.tell(job.log)
     return 0 if all(outcome.good for outcome in outcomes) else 1
 
 

@@ -6,7 +6,9 @@
 
 It stands on the ground, its pilot's sticks low and his arm switch off. A ground station arms it;
 the pilot then climbs to 5 m and lets go of the sticks. With --scenario he arms and flies that
-instead. Each --address is a link of its own, at most three. The flight's log is build/sim/sim.ulg.
+instead. Each --address is a link of its own, at most three. The flight's log is build/sim/sim.ulg;
+with --trace it has each run of each task, and at the end stands beside its two files of
+`make schedule`.
 
 Exit status: 0 when it is interrupted, 1 when the aircraft crashes, 2 when it cannot be flown.
 """
@@ -33,6 +35,8 @@ from flight.loop import Crashed, NotFlown, Order  # noqa: E402
 from flight.pilot import Bystander, Pilot  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
+import schedule  # noqa: E402
+
 BUILD = ROOT / "build/sim"
 GROUND_STATIONS = "127.0.0.1:14550"
 WARM_S = 12.0  # Until calibrations, estimates and the radio link have settled.
@@ -54,6 +58,8 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--scenario", metavar="NAME", help="one of examples/copter/scenarios")
     parser.add_argument("--plant", choices=plants.NAMES, default="jsbsim")
     parser.add_argument("--cold", action="store_true", help="begin with the power-up")
+    parser.add_argument("--trace", action="store_true",
+                        help="log each run of each task, for Perfetto and as a page")
     parser.add_argument("--build", type=Path, default=BUILD, metavar="FOLDER")
     found = parser.parse_args(arguments)
     found.address = [address_of(text) for text in found.address or [GROUND_STATIONS]]
@@ -102,9 +108,10 @@ def fly(arguments: Sequence[str] | None) -> int:
     lines = [Line(one) for one in options.address]
     links = [Link(options.rate, not options.listens)] * len(lines)
     pilot: type[Pilot] = Pilot if options.scenario else Bystander
+    log = options.build / "sim.ulg"
+    copter.log(log, options.trace)
     live = Live(copter, order, pilot, links, lines, key,
                 options.build / "parameters")  # fmt: skip
-    copter.log(options.build / "sim.ulg")
     signal.signal(signal.SIGINT, signal.default_int_handler)  # Also in a shell's background.
     try:
         if not options.cold:
@@ -121,6 +128,8 @@ def fly(arguments: Sequence[str] | None) -> int:
         copter.log(None)
         for line in lines:
             line.close()
+        if options.trace:
+            schedule.tell(log)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

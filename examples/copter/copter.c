@@ -41,11 +41,19 @@ const keel_task_config_t *copter_declaration(uint32_t row)
 static void copter_body(void *context)
 {
     const copter_task_t *const task = context;
-    const copter_port_t *const port = task->copter->port;
+    copter_t *const copter = task->copter;
+    const copter_port_t *const port = copter->port;
 
-    task->body(task->copter);
-    copter_log_sample(task->copter, task->row);
+    if (copter->log.traces) {
+        keel_trace_begin(&copter->log.trace, &copter->scheduler);
+    }
+    task->body(copter);
+    copter_log_sample(copter, task->row);
     port->end_run(port->context, task->row, task->wcet_us);
+    if (copter->log.traces) {
+        keel_trace_end(&copter->log.trace, &copter->scheduler);
+        copter_log_run(copter);
+    }
 }
 
 /* The first that is not KEEL_OK. */

@@ -265,6 +265,21 @@ keel_status_t copter_add(copter_t *copter, const copter_own_task_t *own);
 keel_status_t copter_log_start(copter_t *copter);
 
 /**
+ * Has each run of each task logged, too (bsp/common/trace_log.h). What the inertial units measured
+ * is left out then: there is no room for both.
+ *
+ * @param copter the copter, behind copter_log_start and before the first step
+ */
+void copter_log_runs(copter_t *copter);
+
+/**
+ * Logs the run of copter->log.trace.
+ *
+ * @param copter the copter
+ */
+void copter_log_run(copter_t *copter);
+
+/**
  * Samples the topics of a task whose run ends.
  *
  * @param copter the copter

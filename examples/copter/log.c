@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The log: its beginning, samples of its topics, and its task, which moves them to the port. */
+#include "common/trace_log.h"
 #include "copter.h"
 
 #include <string.h>
@@ -36,6 +37,20 @@ static bool define_format(copter_log_t *log, const copter_topic_t *topic)
     return (topic->instance == 0u) && keel_ulog_format(&log->message, &format);
 }
 
+/* The formats of runs and of tasks, then their numbers, which are behind those of the topics. */
+static void define_trace(copter_log_t *log, uint32_t number)
+{
+    const uint32_t topic = number % KEEL_TRACE_TOPICS;
+    keel_ulog_format_t format;
+
+    keel_trace_format(&format, topic);
+    if (number < KEEL_TRACE_TOPICS) {
+        (void)keel_ulog_format(&log->message, &format);
+    } else {
+        keel_ulog_subscription(&log->message, 0u, (uint16_t)(copter_topics + topic), &format.name);
+    }
+}
+
 /* A bool is an int32 of 0 or 1. */
 static bool define_parameter(copter_t *copter, uint16_t index)
 {
@@ -67,28 +82,43 @@ static bool define_head(copter_log_t *log, uint32_t number, uint64_t now_us)
     return true;
 }
 
+/* Whether a topic is in the log. */
+static bool is_logged(const copter_log_t *log, const copter_topic_t *topic)
+{
+    return !(log->traces && topic->gives_way);
+}
+
+static bool define_subscription(copter_log_t *log, uint32_t number)
+{
+    const copter_topic_t *const topic = &copter_topic[number];
+
+    keel_ulog_subscription(&log->message, topic->instance, (uint16_t)number, &topic->name);
+    return is_logged(log, topic);
+}
+
 /* A part of what a log begins with becomes log->message; whether there is such a message. */
 static bool define(copter_t *copter, uint32_t number)
 {
     copter_log_t *const log = &copter->log;
     const uint32_t formats = 3u;
     const uint32_t parameters = formats + copter_topics;
-    const uint32_t subscriptions = parameters + COPTER_PARAMETER_COUNT;
+    const uint32_t trace = parameters + COPTER_PARAMETER_COUNT;
+    const uint32_t subscriptions = trace + (log->traces ? (2u * KEEL_TRACE_TOPICS) : 0u);
+    bool is_made = true;
 
     if (number < formats) {
-        return define_head(log, number, copter->scheduler.clock.now_us);
+        is_made = define_head(log, number, copter->scheduler.clock.now_us);
+    } else if (number < parameters) {
+        is_made = define_format(log, &copter_topic[number - formats]);
+    } else if (number < trace) {
+        is_made = define_parameter(copter, (uint16_t)(number - parameters));
+    } else if (number < subscriptions) {
+        define_trace(log, number - trace);
+    } else {
+        is_made = define_subscription(log, number - subscriptions);
     }
-    if (number < parameters) {
-        return define_format(log, &copter_topic[number - formats]);
-    }
-    if (number < subscriptions) {
-        return define_parameter(copter, (uint16_t)(number - parameters));
-    }
-    keel_ulog_subscription(&log->message, copter_topic[number - subscriptions].instance,
-                           (uint16_t)(number - subscriptions),
-                           &copter_topic[number - subscriptions].name);
     log->samples = number == (subscriptions + copter_topics - 1u);
-    return true;
+    return is_made;
 }
 
 static void write_definitions(copter_t *copter)
@@ -141,6 +171,30 @@ static void store(copter_log_t *log, uint64_t now_us)
     (void)keel_log_ring_write(&log->ring, log->message.bytes, log->message.size, now_us);
 }
 
+void copter_log_run(copter_t *copter)
+{
+    copter_log_t *const log = &copter->log;
+    const keel_trace_run_t *const run = &log->trace.run;
+
+    if (!log->samples) {
+        return;
+    }
+    if (!log->told[run->slot] || ((run->flags & KEEL_TRACE_FIRST) != 0u)) {
+        keel_trace_task_message(&log->message, (uint16_t)(copter_topics + KEEL_TRACE_TOPIC_TASK),
+                                &copter->scheduler, run->slot);
+        store(log, run->start_us);
+        log->told[run->slot] = true;
+    }
+    keel_trace_run_message(&log->message, (uint16_t)(copter_topics + KEEL_TRACE_TOPIC_RUN), run);
+    store(log, run->start_us);
+}
+
+void copter_log_runs(copter_t *copter)
+{
+    copter->log.traces = true;
+    keel_trace_start(&copter->log.trace, &copter->scheduler);
+}
+
 /* A line of text for each state that begins. */
 static void tell_state(copter_t *copter)
 {
@@ -164,7 +218,7 @@ void copter_log_sample(copter_t *copter, uint32_t row)
     for (uint32_t i = 0u; log->samples && (i < copter_topics); i++) {
         const copter_topic_t *const topic = &copter_topic[i];
 
-        if (topic->row == row) {
+        if ((topic->row == row) && is_logged(log, topic)) {
             if (log->left[i] == 0u) {
                 log->left[i] = topic->every;
                 if (take(copter, i)) {

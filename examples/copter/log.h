@@ -11,6 +11,7 @@
 #ifndef COPTER_LOG_H
 #define COPTER_LOG_H
 
+#include "common/trace.h"
 #include "keel/middleware/log_ring.h"
 #include "keel/middleware/ulog.h"
 
@@ -38,6 +39,7 @@ typedef struct copter_topic {
     uint8_t instance; /**< Which of several of this name, from 0 on, one behind the other. */
     uint8_t row;      /**< The task of table 2 that writes it, or COPTER_LOG_ROW. */
     uint16_t every;   /**< It is sampled at every so many runs of it. */
+    bool gives_way;   /**< It is left out where each run of a task is logged. */
     uint8_t fields;   /**< Without the time, with which each begins. */
     copter_log_field_t field[KEEL_ULOG_FIELDS - 1u];
 } copter_topic_t;
@@ -61,6 +63,9 @@ typedef struct copter_log {
     uint32_t busy_us[COPTER_LOG_TASKS];
     uint32_t longest_us[COPTER_LOG_TASKS];
     uint16_t skipped[COPTER_LOG_TASKS];
+    bool traces;                    /**< Each run of a task is logged. */
+    keel_trace_t trace;             /**< What is remembered for that. */
+    bool told[KEEL_QUEUE_CAPACITY]; /**< By slot: whether what its task declares is in the log. */
 } copter_log_t;
 
 #endif

@@ -24,7 +24,7 @@
 #define IMU(number)                                                                                \
     {                                                                                              \
         .name = {"imu"}, .instance = (number), .row = URPILOT_FOREGROUND_IMU, .every = 1u,         \
-        .fields = 4u, .field = {                                                                   \
+        .gives_way = true, .fields = 4u, .field = {                                                \
             FLOATS("value", inertia.unit[number].value),                                           \
             WORDS("age_us", inertia.unit[number].age_us),                                          \
             SHORTS("temperature_cdeg", inertia.temperature[number]),                               \

@@ -291,6 +291,9 @@ int sim_start(const sim_options_t *chosen)
     memset(&copter, 0, sizeof copter);
     status = copter_start(&copter, &port, options.plain_mean != 0u);
     status = (status == KEEL_OK) ? copter_log_start(&copter) : status;
+    if (options.trace != 0u) {
+        copter_log_runs(&copter);
+    }
     return (int)((status == KEEL_OK) ? start_telemetry() : status);
 }
 

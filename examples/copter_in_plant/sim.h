@@ -97,6 +97,7 @@ typedef struct sim_options {
     uint8_t key[SIM_KEY];            /**< What frames are signed with, if there is a hash. */
     sim_hash_t hash;                 /**< Null: frames are neither signed nor checked. */
     uint64_t timestamp;              /**< Now, in 10 us since 2015 began (UTC). */
+    uint32_t trace;                  /**< 1: each run of a task is in the log. */
     const char *memory;              /**< The file that keeps parameters; null: none. It is read and
                                           written as long as the copter runs. */
 } sim_options_t;

@@ -21,6 +21,7 @@ from flight.loop import Order, Trace
 from flight.sensors import TEMPERATURES
 from flight.spectrum import spectrum
 from pyulog import ULog
+from timeline import runs
 from toolchain import Toolchain
 
 from common.errors import ROOT, ToolError
@@ -196,6 +197,46 @@ def test_rates_are_as_stated(flown: tuple[Path, Trace]) -> None:
     ):  # fmt: skip
         data = log.data[name, 0]
         assert abs(np.median(np.diff(data["timestamp"].astype(int))) - period_us) <= 400, name
+
+
+@pytest.fixture(scope="module")
+def traced(copter: Copter, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Trace]:
+    """The flight again, with each run of each task in its log."""
+    folder = tmp_path_factory.mktemp("traced")
+    path = folder / "traced.ulg"
+    return path, loop.fly(copter, order(folder), path, trace=True)
+
+
+def test_each_run_in_a_log_changes_no_flight_and_is_taken_whole(
+    traced: tuple[Path, Trace], flown: tuple[Path, Trace]
+) -> None:
+    assert traced[1].digest == flown[1].digest
+    told = tool("info", traced[0])
+    assert "No Dropouts" in told
+    assert {topic.name for topic in ULog(str(traced[0])).data_list} == (
+        {name for name, _ in ulog.read(flown[0]).data} - {"imu"} | {"run", "task"})  # fmt: skip
+
+
+def test_runs_are_what_the_scheduler_counted(traced: tuple[Path, Trace]) -> None:
+    """Between each two of the counts that the log's own task samples once a second."""
+    log, names = ulog.read(traced[0]), log_tool.task_names()
+    counts, ran = log.topic("tasks"), runs.read(traced[0])
+    assert len(counts) > 10 and len(ran.tasks) == 22
+    for number, task in enumerate(ran.tasks):
+        row, own = names.index(task.name), ran.of(number)
+        edges = np.searchsorted(own["start"], counts["timestamp"])
+        lengths = own["end"] - own["start"]
+        done, busy = np.append(0, np.cumsum(lengths)), counts["busy_us"][:, row].astype(int)
+        np.testing.assert_array_equal(np.diff(counts["runs"][:, row].astype(int)), np.diff(edges))
+        np.testing.assert_array_equal(np.diff(busy), np.diff(done[edges]))
+        assert max(lengths[: edges[-1]]) == counts["longest_us"][-1, row]
+        assert own["skipped"].sum() == counts["skipped"][-1, row] == 0
+    np.testing.assert_array_equal(ran.runs["start"][1:] >= ran.runs["end"][:-1], True)
+
+
+def test_a_log_with_each_run_is_drawn(traced: tuple[Path, Trace], tmp_path: Path) -> None:
+    assert log_tool.main([str(traced[0]), "--picture", str(tmp_path / "traced.svg")]) == 0
+    assert ">aft left<" in (tmp_path / "traced.svg").read_text()
 
 
 def test_what_does_not_fit_is_a_dropout(tmp_path: Path) -> None:

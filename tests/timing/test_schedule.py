@@ -20,7 +20,11 @@ from toolchain import Toolchain
 
 provide("schedule")
 import schedule  # noqa: E402
-from perfetto.protos.perfetto.trace.perfetto_trace_pb2 import Trace, TrackEvent  # noqa: E402
+from perfetto.protos.perfetto.trace.perfetto_trace_pb2 import (  # noqa: E402
+    Trace,
+    TrackDescriptor,
+    TrackEvent,
+)
 from timeline import picture, runs  # noqa: E402
 
 SECONDS = 3
@@ -39,6 +43,7 @@ class Track:
     parent: int
     rank: int
     unit: str = ""
+    ordered: bool = False  # Whether the tracks below it stand by their ranks.
     slices: list[tuple[str, int, int, dict[str, int]]] = field(default_factory=list)
     instants: list[tuple[str, int]] = field(default_factory=list)
     counts: list[tuple[int, int]] = field(default_factory=list)
@@ -68,7 +73,8 @@ def tracks_of(path: Path) -> dict[int, Track]:
         told = packet.track_descriptor
         if packet.HasField("track_descriptor"):
             tracks[told.uuid] = Track(told.name, told.parent_uuid, told.sibling_order_rank,
-                                      told.counter.unit_name)  # fmt: skip
+                                      told.counter.unit_name,
+                                      told.child_ordering == TrackDescriptor.EXPLICIT)  # fmt: skip
     open_slices: dict[int, list[Any]] = defaultdict(list)
     events = [packet for packet in trace.packet if packet.HasField("track_event")]
     for packet in sorted(events, key=us):  # As a reader does: by time, else as they stand.
@@ -171,7 +177,7 @@ def test_tracks_stand_below_one_in_the_order_of_the_first_runs(demo: Demo) -> No
     top = sorted((track.rank, track.name) for track in demo.tracks.values() if track.parent == root)
     assert [name for _, name in top][:4] == ["slack", "guard", "Background IMU (realtime, 1 ms)",
                                              "Foreground IMU (realtime, 2 ms)"]  # fmt: skip
-    assert len(top) == 2 + len(TASKS)
+    assert len(top) == 2 + len(TASKS) and demo.tracks[root].ordered
 
 
 def test_a_log_made_by_hand(tmp_path: Path) -> None:

@@ -54,6 +54,7 @@ bench mavlink passes 1000 instructions 120000 longest 700
 bench signing passes 1000 instructions 3000000 longest 3000
 bench log_ring passes 1000 instructions 830000 longest 840
 bench ulog passes 1000 instructions 610000 longest 610
+bench trace passes 1000 instructions 280000 longest 290
 bench crsf passes 1000 instructions 130000 longest 2900
 bench ibus passes 1000 instructions 120000 longest 2700
 bench ppm passes 1000 instructions 90000 longest 500
@@ -90,6 +91,7 @@ FIGURES = {
     "signing": Figure(1000, 3000000, 3000),
     "log_ring": Figure(1000, 830000, 840),
     "ulog": Figure(1000, 610000, 610),
+    "trace": Figure(1000, 280000, 290),
     "crsf": Figure(1000, 130000, 2900),
     "ibus": Figure(1000, 120000, 2700),
     "ppm": Figure(1000, 90000, 500),
@@ -125,6 +127,7 @@ mavlink = 120.0
 signing = 3000.0
 log_ring = 830.0
 ulog = 610.0
+trace = 280.0
 crsf = 130.0
 ibus = 120.0
 ppm = 90.0
@@ -233,6 +236,7 @@ class Budgets(unittest.TestCase):
                 "signing": 3000.0,
                 "log_ring": 830.0,
                 "ulog": 610.0,
+                "trace": 280.0,
                 "crsf": 130.0,
                 "ibus": 120.0,
                 "ppm": 90.0,

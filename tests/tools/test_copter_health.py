@@ -99,7 +99,8 @@ class CopterHealth(unittest.TestCase):
         shim.write_text(SHIM, encoding="utf-8")
         folders = ("include", "bsp", "examples/urpilot", "examples/copter")
         sources = [*sorted((ROOT / "examples/copter").glob("*.c")),
-                   ROOT / "examples/urpilot/urpilot_tasks.c", ROOT / "bsp/common/slots.c",
+                   ROOT / "examples/urpilot/urpilot_tasks.c",
+                   *(ROOT / f"bsp/common/{name}.c" for name in ("slots", "trace", "trace_log")),
                    *sorted((ROOT / "src").rglob("*.c"))]  # fmt: skip
         output_of(["gcc", "-std=c99", "-O1", "-Wall", "-Werror", "-shared", "-fPIC",
                    *(f"-I{ROOT / folder}" for folder in folders), shim, *sources, "-lm",

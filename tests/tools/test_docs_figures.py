@@ -357,7 +357,7 @@ MADE = {
     # tests/tools/test_primer.py compares what these commands say.
     "docs/primer.md": {"69 goals": "--update-goals", "3 functions": "keel.mk prove"},
     "docs/telemetry.md": {"12 700 instructions": "x86-64"},
-    "docs/timing.md": {"3086 random paths": "`make test`"},
+    "docs/timing.md": {"3086 random paths": "`make test`", "308 instructions": "`make bench`"},
 }  # fmt: skip
 COUNTED = re.compile(
     r"(?<![\d.])(\d[\d ]*\d|\d+)\s+(public functions|functions|goals|mutants|harnesses|mistakes|"
@@ -389,6 +389,7 @@ COSTS = {
     "a reading of the barometer MS5611 in frost": "ms5611",
     "a record of 36 bytes into the log's ring": "log_ring",
     "a log's message of 36 bytes of data": "ulog",
+    "a traced run of a task": "trace",
 }  # fmt: skip
 
 

@@ -65,6 +65,8 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "signing": ("signatures, a right frame", ("signing",), 1500, ("steps", "signing")),
     "log_ring": ("log ring, a record of 36 bytes", ("log_ring",), 1200, ("steps", "log_ring")),
     "ulog": ("ULog, 36 bytes of data", ("ulog",), 1000, ("steps", "ulog")),
+    # Begin, end and the record in the ring; the board's own clock is not in it.
+    "trace": ("trace, a run of a task", ("trace",), None, ()),
     "crsf": ("CRSF, a byte of right frames", ("crsf",), 200, ("steps", "crsf")),
     "ibus": ("IBUS, a byte of right frames", ("ibus",), 200, ("steps", "ibus")),
     "ppm": ("PPM, an edge of right frames", ("ppm",), 200, ("steps", "ppm")),

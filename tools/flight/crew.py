@@ -27,13 +27,14 @@ COPTERS: dict[str, Copter] = {}  # Of this process, by the library's path.
 @dataclass(frozen=True)
 class Job:
     """A flight to be made and judged; `picture` is where it is drawn, `log` where its log goes, if
-    it is wanted."""
+    it is wanted, and `trace` whether that has each run of a task."""
 
     name: str
     order: Order
     library: Path
     picture: Path | None = None
     log: Path | None = None
+    trace: bool = False
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,7 @@ def copter_of(library: Path) -> Copter:
 def flown(job: Job) -> Outcome:
     """Make a flight, and the unbroken one that it is compared with."""
     copter, order = copter_of(job.library), job.order
-    trace = fly(copter, order, job.log)
+    trace = fly(copter, order, job.log, job.trace)
     unbroken: Trace | None = None
     if order.scenario.limits.without_fault_deg is not None:
         unbroken = fly(copter, without_faults(order))

@@ -28,7 +28,7 @@ MODE = "include/keel/flight/mode.h"
 FLAGS = ("-std=c99", "-O2", "-fPIC", "-ffp-contract=off", "-Wall", "-Wextra", "-Iinclude", "-Ibsp",
          "-Iexamples/urpilot", "-Iexamples/copter", "-Iexamples/copter_in_plant")  # fmt: skip
 SOURCES = ("src", "examples/urpilot/urpilot_tasks.c", "bsp/common/slots.c",
-           "bsp/host/host_board.c")  # fmt: skip
+           "bsp/common/trace.c", "bsp/common/trace_log.c", "bsp/host/host_board.c")  # fmt: skip
 FOLDERS = ("examples/copter", "examples/copter_in_plant")  # Without what lies below them.
 LINE_BYTES = 4096  # At most so many wait in a link.
 KINDS = {"float": "<f4", "uint32_t": "<u4", "int32_t": "<i4", "int16_t": "<i2",
@@ -130,6 +130,7 @@ class Copter:
         self._bytes: Any = self._ffi.new("uint8_t[]", LINE_BYTES)
         self._hash = self._ffi.callback("sim_hash_t", self._sha256)
         self.links = int(self._library.SIM_LINKS)
+        self._trace = False  # Whether the next flight's log has each run of a task.
         self._done: Any = np.frombuffer(done, dtype=kind)
         self.tasks = [self._ffi.string(self._library.sim_task_name(number)).decode()
                       for number in range(count)]  # fmt: skip
@@ -141,8 +142,10 @@ class Copter:
             raise ToolError(f"{SIM}: {name} is not made of words alone")
         return np.frombuffer(self._ffi.buffer(pointer, kind.itemsize), dtype=kind)[0]
 
-    def log(self, path: Path | None) -> None:
-        """Where the next flight's log goes; what was open is closed."""
+    def log(self, path: Path | None, trace: bool = False) -> None:
+        """Where the next flight's log goes, with each run of a task or without; what was open is
+        closed."""
+        self._trace = trace
         if self._library.sim_log(str(path or "").encode()):
             raise ToolError("the flight's log could not be written")
 
@@ -153,6 +156,7 @@ class Copter:
         self._ffi.memmove(self._library.sim_sensors(), bytes(size), size)
         options = self._ffi.new("sim_options_t *")
         options.costs_percent, options.plain_mean = costs_percent, int(plain_mean)
+        options.trace = int(self._trace)
         for number, link in enumerate(links):
             options.bytes_per_s[number] = link.bytes_per_s
             options.listens[number] = int(not link.commands)

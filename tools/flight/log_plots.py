@@ -138,17 +138,23 @@ def draw_spectrum(axes: Axes, log: Log, kind: tuple[str, str, int]) -> None:
     axes.set_ylabel(f"{name},\n{unit_of_measure}")
 
 
+def name_lines(axes: Axes) -> None:
+    """A legend, if there is a line: a log that has each run has no samples of inertial units."""
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="upper right", ncols=4)
+
+
 def plot_log(title: str, log: Log, path: Path) -> None:
     """All of it, one above the other."""
     figure = new_figure(9.0, 15.0)
     rows = figure.subplots(len(OVER_TIME) + len(KINDS), 1)
     for axes, draw in zip(rows, OVER_TIME, strict=False):
         draw(axes, log)
-        axes.legend(loc="upper right", ncols=4)
+        name_lines(axes)
     rows[len(OVER_TIME) - 1].set_xlabel("time since power-up, s")
     for axes, kind in zip(rows[len(OVER_TIME) :], KINDS, strict=True):
         draw_spectrum(axes, log, kind)
-        axes.legend(loc="upper right", ncols=4)
+        name_lines(axes)
     rows[-1].set_xlabel("frequency, Hz; the length of the three axes' amplitudes")
     figure.suptitle(title, x=0.01, ha="left")
     write_svg(path, figure)
