@@ -204,7 +204,7 @@ def traced(copter: Copter, tmp_path_factory: pytest.TempPathFactory) -> tuple[Pa
     """The flight again, with each run of each task in its log."""
     folder = tmp_path_factory.mktemp("traced")
     path = folder / "traced.ulg"
-    return path, loop.fly(copter, order(folder), path, trace=True)
+    return path, loop.fly(copter, order(folder), path, runs=True)
 
 
 def test_each_run_in_a_log_changes_no_flight_and_is_taken_whole(

@@ -223,9 +223,9 @@ def is_whole(truth: Truth) -> bool:
     return known and not lies and truth.place[2] > -1.0
 
 
-def fly(copter: Copter, order: Order, log: Path | None = None, trace: bool = False) -> Trace:
+def fly(copter: Copter, order: Order, log: Path | None = None, runs: bool = False) -> Trace:
     """Make a flight, and its log, if there is to be one, with each run of a task if so wanted."""
-    copter.log(log, trace)
+    copter.log(log, runs)
     trace = Flight(copter, order).fly()
     copter.log(None)
     return trace
