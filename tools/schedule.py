@@ -6,7 +6,9 @@
 
 Without a log it runs the paper's 21 tasks for some seconds on the virtual board (examples/traced)
 and leaves build/schedule/demo.ulg. Beside the log it writes two files of the same name: .pftrace
-for Perfetto (ui.perfetto.dev), and .html for any browser.
+for Perfetto (ui.perfetto.dev), and .html for any browser. It prints a table of the tasks: their
+times, how late their runs started, and how often each was longer than its budget, promoted,
+skipped, or behind its deadline.
 
 Exit status: 0, or 2 when the log cannot be read or made.
 """
@@ -23,7 +25,8 @@ from common.arguments import Parser  # noqa: E402
 from common.build import Build  # noqa: E402
 from common.errors import ROOT, ToolError, program  # noqa: E402
 from common.run import output_of  # noqa: E402
-from timeline import page, pftrace, picture, runs  # noqa: E402
+from rich.console import Console  # noqa: E402
+from timeline import page, pftrace, picture, runs, table  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 BUILD = ROOT / "build/schedule"
@@ -32,6 +35,7 @@ FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-Iinclude", "-Ibsp",
 SOURCES = ("src", "bsp/common/trace.c", "bsp/common/trace_log.c", "bsp/host/host_board.c",
            "examples/urpilot/urpilot_tasks.c", "examples/traced")  # fmt: skip
 SECONDS_MOST = 3600
+WIDTH = 160  # Of the table.
 PICTURED_US = (1_000_000, 1_006_000)
 
 
@@ -59,6 +63,7 @@ def shown(path: Path) -> str:
 def tell(log: Path) -> runs.Schedule:
     """Write the files of a log and say so."""
     schedule, files = written(log)
+    Console(width=WIDTH, highlight=False).print(table.table(schedule))
     ran = schedule.runs
     promoted, missed = int(ran["promoted"].sum()), int((ran["end"] > ran["deadline"]).sum())
     lost = f"; runs were lost at {len(schedule.dropouts)} places" if schedule.dropouts else ""

@@ -25,7 +25,7 @@ from perfetto.protos.perfetto.trace.perfetto_trace_pb2 import (  # noqa: E402
     TrackDescriptor,
     TrackEvent,
 )
-from timeline import picture, runs  # noqa: E402
+from timeline import picture, runs, table  # noqa: E402
 
 SECONDS = 3
 COUNTED = re.compile(
@@ -198,6 +198,25 @@ def test_a_log_made_by_hand(tmp_path: Path) -> None:
     assert called(tracks, "lost").slices == [("runs lost", 9100, 11100, {})]
 
 
+def test_the_table_of_a_log_made_by_hand(tmp_path: Path) -> None:
+    """The time from the first run to the end of the last is 11080 us."""
+    loop, low = table.rows_of(runs.read(written(tmp_path / "hand.ulg", SAMPLE)))
+    assert loop == table.Row(
+        "Rate <loop>", 1000, 4, 85.0, 90, 100, pytest.approx(100.0 * 340 / 11080), 6100,
+        (2, 1, 0, 0, 0, 0, 1), overruns=0, promotions=0, skipped=6, missed=0)  # fmt: skip
+    assert low == table.Row(
+        "Telemetry", 4000, 2, 2175.0, 4000, 300, pytest.approx(100.0 * 4350 / 11080), 100,
+        (0, 0, 1, 1, 0, 0, 0), overruns=2, promotions=1, skipped=0, missed=1)  # fmt: skip
+
+
+def test_the_table_of_the_demo_is_what_the_scheduler_counted(demo: Demo) -> None:
+    for row in table.rows_of(runs.read(demo.log)):
+        count, busy, longest, *_ = demo.counted[row.name]
+        assert (row.runs, row.mean_us, row.longest_us) == (count, busy / count, longest)
+        assert row.load == pytest.approx(100.0 * busy / (SECONDS * 1e6), rel=0.001)
+        assert sum(row.late) == count
+
+
 def test_a_task_that_takes_the_slot_of_another_has_a_track_of_its_own(tmp_path: Path) -> None:
     other = (2, 2000, 50, 2, "Blackbox")
     messages = [task(*LOOP), run(0, 0, 0, 50, flags=1), task(*LOW), run(2, 100, 0, 60),
@@ -243,7 +262,9 @@ def test_the_command_tells_what_it_found(
 ) -> None:  # fmt: skip
     log = written(tmp_path / "hand.ulg", SAMPLE)
     assert schedule.main([str(log)]) == 0
-    assert capsys.readouterr().out == (
+    *rows, last = capsys.readouterr().out.splitlines(keepends=True)
+    assert [row.split()[0] for row in rows[2:]] == ["Rate", "Telemetry"]
+    assert last == (
         f"schedule: 6 runs of 2 tasks, 1 promoted, 1 behind their deadlines; runs were lost at 1 "
         f"places; {log.with_suffix('.pftrace')} for ui.perfetto.dev, {log.with_suffix('.html')} "
         f"for any browser\n")  # fmt: skip

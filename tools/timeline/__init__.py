@@ -4,5 +4,6 @@
 runs       reading it; slack and deadlines, worked out from the runs
 pftrace    as a trace for Perfetto
 page       as a page of HTML that needs nothing else
+table      as a table of the tasks
 picture    a part of it as a picture
 """
