@@ -5,7 +5,8 @@
     python3 tools/with_packages.py schedule tools/schedule.py [build/fly/hover-jsbsim.ulg]
 
 Without a log it runs the paper's 21 tasks for some seconds on the virtual board (examples/traced)
-and leaves build/schedule/demo.ulg. Beside the log it writes two files of the same name: .pftrace
+and leaves build/schedule/demo.ulg. Of what a board's console said (.txt or .log), it first makes a
+log. Beside the log it writes two files of the same name: .pftrace
 for Perfetto (ui.perfetto.dev), and .html for any browser. It prints a table of the tasks: their
 times, how late their runs started, and how often each was longer than its budget, promoted,
 skipped, or behind its deadline.
@@ -26,7 +27,7 @@ from common.build import Build  # noqa: E402
 from common.errors import ROOT, ToolError, program  # noqa: E402
 from common.run import output_of  # noqa: E402
 from rich.console import Console  # noqa: E402
-from timeline import page, pftrace, picture, runs, table  # noqa: E402
+from timeline import console, page, pftrace, picture, runs, table  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
 BUILD = ROOT / "build/schedule"
@@ -36,6 +37,7 @@ SOURCES = ("src", "bsp/common/trace.c", "bsp/common/trace_log.c", "bsp/host/host
            "examples/urpilot/urpilot_tasks.c", "examples/traced")  # fmt: skip
 SECONDS_MOST = 3600
 WIDTH = 160  # Of the table.
+CONSOLES = (".txt", ".log")  # What a board's console said.
 PICTURED_US = (1_000_000, 1_006_000)
 
 
@@ -76,14 +78,16 @@ def tell(log: Path) -> runs.Schedule:
 def show(arguments: Sequence[str] | None) -> int:
     """Make a log, or take one; write and tell."""
     parser = Parser("Show a schedule as it ran.", "schedule")
-    parser.add_argument("file", nargs="?", metavar="FILE", help="a log in ULog with runs of tasks")
+    parser.add_argument("file", nargs="?", metavar="FILE",
+                        help="a log in ULog with runs of tasks, or a board's console (.txt, .log)")
     parser.add_argument("--seconds", type=int, default=10, help="of the demo, without FILE")
     parser.add_argument("--picture", action="store_true", help="draw the demo's for the documents")
     options = parser.parse_args(arguments)
     if not 1 <= options.seconds <= SECONDS_MOST:
         raise ToolError(f"--seconds: expected 1 to {SECONDS_MOST}, found {options.seconds}")
     if options.file:
-        tell(Path(options.file))
+        path = Path(options.file)
+        tell(console.log_of(path) if path.suffix in CONSOLES else path)
         return 0
     log, _ = demo(Toolchain(), BUILD, options.seconds)
     schedule = tell(log)

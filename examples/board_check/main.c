@@ -14,11 +14,14 @@
  * console tells every second how it goes. The watchdog is fed only while every real-time task meets
  * its releases. What the kernel refuses ends as a fault does.
  *
- * Keys: p lets pulses of 1000 us out, o switches the outputs off, t prints a table of the tasks;
- * and, to see what follows: u an undefined instruction, n a null pointer, s a stack that overflows,
- * h a task that hangs.
+ * Keys: p lets pulses of 1000 us out, o switches the outputs off, t prints a table of the tasks, r
+ * records each run of them until a ring is full and then sends it, for `make schedule`; and, to see
+ * what follows: u an undefined instruction, n a null pointer, s a stack that overflows, h a task
+ * that hangs.
  */
 #include "board.h"
+#include "common/trace.h"
+#include "common/trace_log.h"
 #include "console.h"
 #include "cortex_m7/fault.h"
 #include "cortex_m7/startup.h"
@@ -67,8 +70,30 @@ static keel_scheduler_t scheduler KEEL_REALTIME_ZERO;
  * the task. */
 static keel_task_config_t declaration[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
 
-/* How long each task's body works: the context of its body. */
-static uint32_t wcet_us[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
+/* What a task does, and how long: the context of its body. */
+typedef struct work {
+    void (*body)(uint32_t length_us);
+    uint32_t wcet_us;
+} work_t;
+
+static work_t work[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
+
+/* The runs that are recorded on request, and the log that is sent of them, a line at a time. */
+#define TRACE_ROOM                                                                                 \
+    256u /* So much is left in the ring when recording ends: more than a pass stores. */
+#define CHARACTER_US   90u /* On the line, rounded up. */
+#define HEX_DIGIT_BITS 4u
+
+typedef struct tracing {
+    bool records;
+    bool sends;
+    uint64_t next_us; /* When the next line may be sent. */
+} tracing_t;
+
+static keel_trace_t trace KEEL_REALTIME_ZERO;
+static tracing_t tracing;
+static keel_log_ring_t trace_ring;
+static keel_trace_log_t trace_log;
 
 static imu_t imu KEEL_REALTIME_ZERO;
 static bool hang;
@@ -80,16 +105,13 @@ KEEL_REALTIME_CODE static void work_until(uint32_t start_us, uint32_t length_us)
     }
 }
 
-KEEL_REALTIME_CODE static void body(void *context)
+KEEL_REALTIME_CODE static void plain_body(uint32_t length_us)
 {
-    const uint32_t *const length_us = context;
-
-    work_until(keel_board_clock_us(NULL), *length_us);
+    work_until(keel_board_clock_us(NULL), length_us);
 }
 
-KEEL_REALTIME_CODE static void imu_body(void *context)
+KEEL_REALTIME_CODE static void imu_body(uint32_t length_us)
 {
-    const uint32_t *const length_us = context;
     const uint32_t start_us = keel_board_clock_us(NULL);
 
     while (hang) {
@@ -101,18 +123,17 @@ KEEL_REALTIME_CODE static void imu_body(void *context)
             imu.failures++;
         }
     }
-    work_until(start_us, *length_us);
+    work_until(start_us, length_us);
 }
 
-static void state_body(void *context)
+static void state_body(uint32_t length_us)
 {
     static uint32_t runs;
-    const uint32_t *const length_us = context;
     const uint32_t start_us = keel_board_clock_us(NULL);
 
     keel_chip_led(KEEL_LED_GREEN, (runs % (2u * BLINK_RUNS)) < BLINK_RUNS);
     runs++;
-    work_until(start_us, *length_us);
+    work_until(start_us, length_us);
 }
 
 static keel_bsp_status_t measure_pin(uint32_t pin)
@@ -156,16 +177,15 @@ static void start_analogue(void)
 /* A conversion takes 12 us of the 18 that this body works in table 2, so there is one in a run, and
  * a line has no value that is older than eight runs. One that fails takes up to 30 us, which is the
  * task's budget. */
-static void adc_body(void *context)
+static void adc_body(uint32_t length_us)
 {
-    const uint32_t *const length_us = context;
     const uint32_t start_us = keel_board_clock_us(NULL);
 
     if (analogue.start == KEEL_BSP_OK) {
         measure(analogue.next);
         analogue.next = (analogue.next + 1u) % measures();
     }
-    work_until(start_us, *length_us);
+    work_until(start_us, length_us);
 }
 
 static void require(keel_status_t status, uint32_t code)
@@ -175,7 +195,22 @@ static void require(keel_status_t status, uint32_t code)
     }
 }
 
-static keel_task_fn_t body_of(uint32_t i)
+/* The body of every task, so that each run can be recorded. */
+KEEL_REALTIME_CODE static void body(void *context)
+{
+    const work_t *const own = context;
+
+    if (tracing.records) {
+        keel_trace_begin(&trace, &scheduler);
+    }
+    own->body(own->wcet_us);
+    if (tracing.records) {
+        keel_trace_end(&trace, &scheduler);
+        keel_trace_store(&trace, &trace_ring);
+    }
+}
+
+static void (*body_of(uint32_t i))(uint32_t length_us)
 {
     if (i == (uint32_t)URPILOT_BACKGROUND_IMU) {
         return imu_body;
@@ -183,7 +218,7 @@ static keel_task_fn_t body_of(uint32_t i)
     if (i == (uint32_t)URPILOT_ADC) {
         return adc_body;
     }
-    return (i == (uint32_t)URPILOT_STATE_MACHINE) ? state_body : body;
+    return (i == (uint32_t)URPILOT_STATE_MACHINE) ? state_body : plain_body;
 }
 
 static void start(void)
@@ -192,8 +227,8 @@ static void start(void)
 
     require(keel_scheduler_init(&scheduler, &config), FAULT_SETUP);
     for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
-        wcet_us[i] = urpilot_task[i].wcet_us;
-        declaration[i] = urpilot_task_config(i, body_of(i), &wcet_us[i]);
+        work[i] = (work_t){.body = body_of(i), .wcet_us = urpilot_task[i].wcet_us};
+        declaration[i] = urpilot_task_config(i, body, &work[i]);
         require(keel_scheduler_add(&scheduler, &declaration[i]), FAULT_SETUP);
     }
     require(keel_scheduler_start(&scheduler), FAULT_SETUP);
@@ -312,6 +347,50 @@ static void print_table(void)
     keel_console_text(" bytes\n");
 }
 
+static void start_trace(void)
+{
+    if (!tracing.records && !tracing.sends) {
+        keel_trace_start(&trace, &scheduler);
+        keel_log_ring_init(&trace_ring);
+        keel_trace_log_start(&trace_log, &scheduler, &trace_ring);
+        tracing.records = true;
+    }
+}
+
+/* A message of the log as a line of hexadecimal digits, which any terminal can save. */
+static void send_message(const keel_ulog_message_t *message)
+{
+    static const char digit[] = "0123456789abcdef";
+
+    keel_console_text("log ");
+    for (uint32_t i = 0u; i < message->size; i++) {
+        keel_board_put(digit[message->bytes[i] >> HEX_DIGIT_BITS]);
+        keel_board_put(digit[message->bytes[i] & 0xFu]);
+    }
+    keel_console_text("\n");
+}
+
+/* Between two steps: ends the recording when the ring is full, then sends what it holds. */
+static void turn_trace(void)
+{
+    const uint64_t now_us = scheduler.clock.now_us;
+
+    if (tracing.records &&
+        ((keel_log_ring_held(&trace_ring) + TRACE_ROOM) >= KEEL_LOG_RING_BYTES)) {
+        tracing = (tracing_t){.sends = true};
+    }
+    if (!tracing.sends || (now_us < tracing.next_us)) {
+        return;
+    }
+    if (keel_trace_log_next(&trace_log)) {
+        send_message(&trace_log.message);
+        tracing.next_us = now_us + ((8u + (2u * (uint64_t)trace_log.message.size)) * CHARACTER_US);
+    } else {
+        keel_console_text("log ends\n");
+        tracing.sends = false;
+    }
+}
+
 static void outputs(bool on)
 {
     for (uint32_t channel = 0u; channel < KEEL_PWM_OUTPUTS; channel++) {
@@ -355,6 +434,9 @@ static void obey(char key)
     case 't':
         print_table();
         break;
+    case 'r':
+        start_trace();
+        break;
     case 'u':
         __asm volatile("udf #1");
         break;
@@ -368,7 +450,7 @@ static void obey(char key)
         hang = true;
         break;
     default:
-        keel_console_text("keys: p o t, and u n s h for faults\n");
+        keel_console_text("keys: p o t r, and u n s h for faults\n");
         break;
     }
 }
@@ -431,5 +513,6 @@ int main(void)
         if (keel_chip_get(&key)) {
             obey(key);
         }
+        turn_trace();
     }
 }

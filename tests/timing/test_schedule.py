@@ -272,6 +272,48 @@ def test_the_command_tells_what_it_found(
     assert "--seconds: expected 1 to 3600, found 0" in capsys.readouterr().err
 
 
+def console_of(messages: list[bytes], before: str = "") -> str:
+    """What a board's console says: a log's messages, a line each, among other lines."""
+    lines = "".join(f"log {one.hex()}\r\nt 1 s load 232055 ppm\r\n" for one in messages)
+    return f"{before}Keel on fmuv5: 21 tasks\r\n{lines}log ends\r\n"
+
+
+def parts(log: Path) -> list[bytes]:
+    """A log's beginning, and each message of it."""
+    content = log.read_bytes()
+    found, at = [content[:16]], 16
+    while at < len(content):
+        end = at + 3 + int.from_bytes(content[at : at + 2], "little")
+        found.append(content[at:end])
+        at = end
+    return found
+
+
+def test_a_log_comes_from_the_console_of_a_board(tmp_path: Path) -> None:
+    """The last one that was sent, whatever else was."""
+    log = written(tmp_path / "hand.ulg", SAMPLE)
+    text = tmp_path / "board.txt"
+    earlier = f"log {parts(log)[0].hex()}\r\nlog 0400440000ff\r\n"  # A reset ended it.
+    text.write_text(console_of(parts(log), before=earlier), newline="")
+    assert schedule.main([str(text)]) == 0
+    assert (tmp_path / "board.ulg").read_bytes() == log.read_bytes()
+    assert called(tracks_of(tmp_path / "board.pftrace"), "Telemetry").slices
+
+
+@pytest.mark.parametrize(("said", "told"), [
+    ("Keel on fmuv5: 21 tasks\n", "board.txt: has no line of a log; a board sends it when `r`"),
+    ("log 00\nlog 0g\n", "board.txt:2: expected hexadecimal digits behind `log`: 'log 0g'"),
+    ("log 123\n", "board.txt:1: expected hexadecimal digits"),
+    ("log 554c\n", "board.ulg: is no log in ULog"),
+])  # fmt: skip
+def test_a_console_without_a_whole_log_is_refused(
+    said: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:  # fmt: skip
+    (tmp_path / "board.txt").write_text(said)
+    assert schedule.main([str(tmp_path / "board.txt")]) == 2
+    assert told in capsys.readouterr().err
+
+
 def test_a_picture_is_the_same_bytes_for_the_same_schedule(demo: Demo, tmp_path: Path) -> None:
     found = runs.read(demo.log)
     for name in ("first.svg", "second.svg"):

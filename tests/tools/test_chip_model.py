@@ -13,9 +13,11 @@ import contextlib
 import io
 import re
 import shutil
+import struct
 import sys
 import tempfile
 import unittest
+from itertools import pairwise
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -31,6 +33,9 @@ from boards.fram import Fram  # noqa: E402
 from boards.rebuilt import SOURCES  # noqa: E402
 from boards.stack_bounds import EXCEPTION_FRAME_B  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
+
+
+IMU_SLOT = 10  # Of the background task of the inertial unit, in the order of table 2.
 
 
 class ImageTest(unittest.TestCase):
@@ -96,6 +101,21 @@ class ImageTest(unittest.TestCase):
         stacks = stack.measure(self.tools, self.root, "nucleo_f767zi")["stacks"]
         assert isinstance(stacks, dict)
         self.assertLessEqual(int(used[1]), stacks["main"]["bound"] - EXCEPTION_FRAME_B)
+
+    def test_the_runs_of_tasks_are_sent_as_a_log(self) -> None:
+        """Recorded for an eighth of a second; then its beginning comes at the line's pace."""
+        board = self.run_image(0.5, keys="r", step_us=2)
+        lines = [bytes.fromhex(line) for line in re.findall(r"(?m)^log ([0-9a-f]+)\r$", board.text)]
+        self.assertEqual(lines[0][:4], b"ULog")
+        kinds = [chr(line[2]) for line in lines[1:6]]
+        self.assertEqual(kinds, ["B", "F", "F", "A", "A"])
+        data = [struct.unpack_from("<HQIIHBB", line, 3) for line in lines[6:-1] if len(line) == 25]
+        self.assertGreater(len(data), 8)
+        starts = [one[1] for one in data]
+        self.assertEqual(starts, sorted(starts))
+        fast = [start for _, start, late, _, skipped, slot, _ in data if slot == IMU_SLOT]
+        self.assertGreater(len(fast), 2)
+        self.assertTrue(all(900 <= b - a <= 1100 for a, b in pairwise(fast)), fast)
 
     def test_the_brown_out_level_is_set_by_hand_and_once(self) -> None:
         delivered = 0xFFFF_AAFD
