@@ -35,8 +35,6 @@ from flight.loop import Crashed, NotFlown, Order  # noqa: E402
 from flight.pilot import Bystander, Pilot  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
-import schedule  # noqa: E402
-
 BUILD = ROOT / "build/sim"
 GROUND_STATIONS = "127.0.0.1:14550"
 WARM_S = 12.0  # Until calibrations, estimates and the radio link have settled.
@@ -98,6 +96,13 @@ def tell(addresses: Sequence[Address]) -> None:
     print("Ctrl-C ends it.", flush=True)
 
 
+def show_trace(log: Path) -> None:
+    """The schedule of the flight that has ended."""
+    import schedule  # Perfetto's definitions are there for this alone.
+
+    schedule.tell(log)
+
+
 def fly(arguments: Sequence[str] | None) -> int:
     """Build, warm up, serve."""
     options = parsed(arguments)
@@ -129,7 +134,7 @@ def fly(arguments: Sequence[str] | None) -> int:
         for line in lines:
             line.close()
         if options.trace:
-            schedule.tell(log)
+            show_trace(log)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
