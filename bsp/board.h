@@ -35,6 +35,21 @@ extern const char keel_board_name[];
  */
 uint32_t keel_board_clock_us(void *context);
 
+/**
+ * Sleeps, with the core stopped and all else running: what a main loop does with what
+ * keel_scheduler_idle_us says.
+ *
+ * @param us how long at most
+ */
+void keel_board_sleep_us(uint32_t us);
+
+/** How long after such a sleep a step reads the clock, at most, in us. Not measured on a chip. */
+#define KEEL_BOARD_WAKE_US 2u
+
+/** The longest sleep of a main loop that looks at the console: a character comes each 87 us, and the
+ *  chip holds one. In us. */
+#define KEEL_BOARD_SLEEP_US 80u
+
 /** Writes one character to the console; waits at most as long as two characters take. */
 void keel_board_put(char c);
 

@@ -2,6 +2,7 @@
 /* The board that QEMU emulates as mps2-an500: console, time base, memory protection, its end. */
 #include "board.h"
 
+#include "cortex_m7/sleep.h"
 #include "mps2_an500/emulator.h"
 
 #define ELEMENTS(array) (sizeof(array) / sizeof((array)[0]))
@@ -68,6 +69,11 @@ uint32_t keel_board_clock_us(void *context)
 {
     (void)context;
     return FPGAIO->COUNTER;
+}
+
+void keel_board_sleep_us(uint32_t us)
+{
+    keel_core_sleep_us(us, TICKS_PER_US);
 }
 
 void keel_board_put(char c)

@@ -1,17 +1,35 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#define _POSIX_C_SOURCE 199309L /* For the host's clock and sleep. */
+
 #include "keel/rtos/scheduler.h"
 #include "keel/version.h"
 
 #include <stdio.h>
 #include <time.h>
 
+#define LATENCY_US 100u    /* How late this host may wake; on a board, a few us. */
+#define LONGEST_US 100000u /* How often a watchdog would have to be fed. */
+
 static unsigned runs[3]; /* Of gyro, control and telemetry. */
 
-/* On the host, the processor's time; on a board, a timer that counts microseconds and wraps. */
+/* On a board, a timer that counts microseconds and wraps. */
 static uint32_t read_clock(void *context)
 {
+    struct timespec now;
+
     (void)context;
-    return (uint32_t)clock();
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (uint32_t)(((uint64_t)now.tv_sec * 1000000u) + ((uint64_t)now.tv_nsec / 1000u));
+}
+
+/* On a board, the core waits for an interrupt; in an RTOS, its other threads run. */
+static void sleep_for_us(uint32_t us)
+{
+    const struct timespec time = {.tv_sec = 0, .tv_nsec = (long)us * 1000L};
+
+    if (us > 0u) {
+        (void)nanosleep(&time, NULL);
+    }
 }
 
 static void count(void *context)
@@ -56,6 +74,7 @@ int main(void)
     }
     while ((status == KEEL_OK) && (runs[2] < 50u)) { /* A second; in an aircraft, for ever. */
         status = keel_scheduler_step(&scheduler);
+        sleep_for_us(keel_scheduler_idle_us(&scheduler, LATENCY_US, LONGEST_US));
     }
     printf("Keel %d.%d.%d: gyro %u, control %u, telemetry %u\n", KEEL_VERSION_MAJOR,
            KEEL_VERSION_MINOR, KEEL_VERSION_PATCH, runs[0], runs[1], runs[2]);

@@ -3,6 +3,7 @@
 // checks: assertions
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c
 // sources: specs/model/cascade.c specs/model/cascade_parts.c specs/model/pid.c specs/model/filter.c
+// sources: specs/model/pid_within.c
 // covers: keel_cascade_velocity_step
 //
 // A chosen cascade where a comparison of the stage is decided by the last bit, or by one of its

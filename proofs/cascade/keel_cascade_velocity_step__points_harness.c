@@ -2,6 +2,7 @@
 // cbmc: --unwind 15 --no-array-field-sensitivity --external-sat-solver cadical
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c
 // sources: specs/model/cascade.c specs/model/cascade_parts.c specs/model/pid.c specs/model/filter.c
+// sources: specs/model/pid_within.c
 // covers: keel_cascade_velocity_step drive drive_with is_direction is_side_near near_sides admitted
 // covers: holds shared_limit keel_cascade_axis_step within_reach asks_for is_asked_for is_flown
 // covers: model_cascade_velocity_step driven side_near no_more axis_output output_of setpoint_of

@@ -51,6 +51,16 @@ static bool keel_pid_enter_does(keel_status_t status, const keel_pid_t *pid,
     return pid_valid_here(pid) && pid_made_as_before(pid, before) && (entered || refused);
 }
 
+static bool keel_pid_step_may(const keel_pid_t *pid)
+{
+    return pid_valid_here(pid);
+}
+
+static bool keel_pid_step_does(keel_status_t status, const keel_pid_t *pid)
+{
+    return pid_valid_here(pid) && ((status == KEEL_OK) || (status == KEEL_ERR_INPUT));
+}
+
 static bool keel_pid_step_within_may(const keel_pid_t *pid)
 {
     return pid_valid_here(pid);

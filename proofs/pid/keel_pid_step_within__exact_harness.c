@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/pid.c src/flight/filter.c specs/model/pid.c specs/model/filter.c
+// sources: specs/model/pid_within.c
 // covers: keel_pid_step_within model_pid_step_within
 //
 // On small whole numbers, zeros of either sign: the integral moves by ki T e where it may, and

@@ -17,7 +17,8 @@
  * contracts in pass.h and scheduler.h and nothing else. The world is a clock, read at most so long
  * after it was last read:
  *
- *   - W, when a pass begins;
+ *   - W, when a pass begins, or, behind a sleep, what keel_pass_idle_us has allowed for it and the
+ *     latency that it was told;
  *   - its budget, when a real-time task has run;
  *   - W and its worst-case time, when another task has run, as long as nothing is promoted;
  *   - W and L, when another task has run and tasks are promoted.
@@ -44,6 +45,11 @@
   @ ensures known: clock_elapsed(raw_us, \result) < KEEL_CLOCK_STEP_LIMIT_US;
   @*/
 uint32_t read_within(uint32_t raw_us, uint64_t limit_us);
+
+/*@ // The loop: whether it asks how long it may sleep before a step, and with which numbers.
+  @ assigns \nothing;
+  @*/
+uint32_t any_number(void);
 
 /** What the bounds are made of. The kernel has no numbers of that type, so it writes none. */
 typedef struct {
@@ -286,6 +292,32 @@ static keel_status_t start(keel_scheduler_t *s, const account_t *a)
     return status;
 }
 
+/* Between passes: the clock's reading for the next step, behind a sleep or not. */
+/*@ requires memory: \valid_read(s) && scheduler_valid(s) && in_uptime(s);
+  @ requires ready: s->stage == KEEL_STAGE_READY;
+  @ assigns \nothing;
+  @ ensures known: clock_elapsed(s->clock.raw_us, \result) < KEEL_CLOCK_STEP_LIMIT_US;
+  @ ensures soon: clock_elapsed(s->clock.raw_us, \result) <= s->config.guard_us ||
+  @     (s->clock.now_us < s->wake_us &&
+  @      s->clock.now_us + clock_elapsed(s->clock.raw_us, \result) <= s->wake_us);
+  @*/
+static uint32_t read_for_step(const keel_scheduler_t *s)
+{
+    const uint32_t latency_us = any_number();
+    const uint32_t asked_at = read_within(s->clock.raw_us, KEEL_CLOCK_STEP_LIMIT_US);
+    const uint32_t idle_us = keel_pass_idle_us(s, asked_at, latency_us, any_number());
+    uint32_t raw_us;
+
+    if (idle_us == 0u) {
+        return read_within(s->clock.raw_us, s->config.guard_us);
+    }
+    raw_us = read_within(asked_at, (uint64_t)idle_us + latency_us);
+    /*@ assert slept: clock_elapsed(s->clock.raw_us, raw_us) ==
+      @     clock_elapsed(s->clock.raw_us, asked_at) + clock_elapsed(asked_at, raw_us);
+      @*/
+    return raw_us;
+}
+
 /* Between passes: a pass begins, or nothing is due. */
 /*@ SET_GIVEN(s, a)
   @ requires ready: s->stage == KEEL_STAGE_READY;
@@ -296,7 +328,7 @@ static keel_status_t start(keel_scheduler_t *s, const account_t *a)
   @*/
 static void open_pass(keel_scheduler_t *s, const account_t *a)
 {
-    const uint32_t raw_us = read_within(s->clock.raw_us, s->config.guard_us);
+    const uint32_t raw_us = read_for_step(s);
     const keel_status_t status = keel_pass_begin(s, raw_us);
 
     (void)a;
@@ -313,7 +345,10 @@ static void open_pass(keel_scheduler_t *s, const account_t *a)
       @     s->queue.budget_us[s->queue.order[k]] ==
       @         \at(s->queue.budget_us[s->queue.order[k]], Pre);
       @*/
-    //@ assert time: s->clock.now_us <= \at(s->clock.now_us, Pre) + s->config.guard_us;
+    /*@ assert time: s->clock.now_us <= \at(s->clock.now_us, Pre) + s->config.guard_us ||
+      @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
+      @         s->clock.now_us <= s->queue.release_us[s->queue.order[j]];
+      @*/
     /*@ assert idle: s->stage == KEEL_STAGE_READY ==>
       @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
       @         s->clock.now_us < s->queue.release_us[s->queue.order[j]];

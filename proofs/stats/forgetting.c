@@ -30,7 +30,7 @@
 
 /*@ requires memory: \valid(stats) && \valid_read(ran_us + (0 .. count - 1));
   @ requires times: \forall integer k; 0 <= k < count ==> 0 <= ran_us[k] <= UINT32_MAX;
-  @ requires fresh: stats_fresh(*stats);
+  @ requires fresh: STATS_FRESH(*stats);
   @ assigns STATS_RUN(*stats);
   @*/
 void forgetting(keel_stats_t *stats, const int64_t *ran_us, uint32_t count, uint32_t budget_us)

@@ -176,6 +176,15 @@ keel_status_t model_scheduler_step(keel_scheduler_t *scheduler)
     return status;
 }
 
+uint32_t model_scheduler_idle_us(const keel_scheduler_t *scheduler, uint32_t latency_us,
+                                 uint32_t longest_us)
+{
+    /* SCH-028: as from a reading now. */
+    return (scheduler == NULL)
+               ? 0u
+               : model_pass_idle_us(scheduler, reading(scheduler), latency_us, longest_us);
+}
+
 keel_status_t model_scheduler_resync(keel_scheduler_t *scheduler)
 {
     if (scheduler == NULL) {

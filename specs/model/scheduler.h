@@ -15,6 +15,8 @@ keel_status_t model_scheduler_add(keel_scheduler_t *scheduler, const keel_task_c
 keel_status_t model_scheduler_remove(keel_scheduler_t *scheduler, const keel_task_config_t *task);
 keel_status_t model_scheduler_start(keel_scheduler_t *scheduler);
 keel_status_t model_scheduler_step(keel_scheduler_t *scheduler);
+uint32_t model_scheduler_idle_us(const keel_scheduler_t *scheduler, uint32_t latency_us,
+                                 uint32_t longest_us);
 keel_status_t model_scheduler_resync(keel_scheduler_t *scheduler);
 const keel_task_config_t *model_scheduler_task(const keel_scheduler_t *scheduler,
                                                uint32_t position);

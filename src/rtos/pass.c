@@ -579,3 +579,24 @@ keel_status_t keel_pass_run(keel_scheduler_t *scheduler)
     } while (scheduler->stage == KEEL_STAGE_PASS);
     return status;
 }
+
+uint32_t keel_pass_idle_us(const keel_scheduler_t *scheduler, uint32_t raw_us, uint32_t latency_us,
+                           uint32_t longest_us)
+{
+    const uint64_t now_us = scheduler->clock.now_us;
+    const uint64_t gone_us =
+        (uint64_t)keel_clock_elapsed_us(scheduler->clock.raw_us, raw_us) + latency_us;
+    uint64_t ahead_us;
+
+    if ((scheduler->stage != KEEL_STAGE_READY) || (scheduler->wake_us <= now_us)) {
+        return 0u;
+    }
+    ahead_us = scheduler->wake_us - now_us;
+    if (ahead_us >= KEEL_CLOCK_STEP_LIMIT_US) {
+        ahead_us = KEEL_CLOCK_STEP_LIMIT_US - 1u;
+    }
+    if (ahead_us <= gone_us) {
+        return 0u;
+    }
+    return ((ahead_us - gone_us) < longest_us) ? (uint32_t)(ahead_us - gone_us) : longest_us;
+}

@@ -53,7 +53,7 @@ uint32_t keel_queue_find(const keel_queue_t *queue, const keel_task_config_t *ta
   @ ensures budget: queue->budget_us[\result] == task->budget_us;
   @ ensures priority: queue->priority[\result] == task->priority;
   @ ensures skipped: queue->skipped[\result] == 0;
-  @ ensures stats: stats_fresh(queue->stats[\result]);
+  @ ensures stats: STATS_FRESH(queue->stats[\result]);
   @ ensures order: order_same{Pre, Post}(queue, 0, KEEL_QUEUE_CAPACITY);
   @*/
 static uint8_t fill_slot(keel_queue_t *queue, const keel_task_config_t *task, uint64_t release_us)
@@ -215,7 +215,7 @@ void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_
     const uint8_t slot = fill_slot(queue, task, release_us);
 
     //@ assert slot: 0 <= slot < KEEL_QUEUE_CAPACITY;
-    //@ assert fresh: slot_fresh(queue, slot);
+    //@ assert fresh: SLOT_FRESH(queue, slot);
     //@ assert filled: queue->priority[slot] == task->priority;
     /*@ assert place: queue_place(queue, queue->priority[slot])
       @     == \at(queue_place(queue, task->priority), Pre);

@@ -116,7 +116,7 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @ ensures order: order_joined{Pre, Post}(&scheduler->queue, task->priority);
   @ ensures copied: slot_copied(&scheduler->queue,
   @     \old(scheduler->queue.order[scheduler->queue.count]), task);
-  @ ensures fresh: slot_fresh(&scheduler->queue,
+  @ ensures fresh: SLOT_FRESH(&scheduler->queue,
   @     \old(scheduler->queue.order[scheduler->queue.count]));
   @ ensures release:
   @     scheduler->queue.release_us[\old(scheduler->queue.order[scheduler->queue.count])] ==
@@ -148,7 +148,7 @@ static void put_in(keel_scheduler_t *scheduler, const keel_task_config_t *task)
   @ ensures order: order_joined{Pre, Post}(&scheduler->queue, task->priority);
   @ ensures copied: slot_copied(&scheduler->queue,
   @     \old(scheduler->queue.order[scheduler->queue.count]), task);
-  @ ensures fresh: slot_fresh(&scheduler->queue,
+  @ ensures fresh: SLOT_FRESH(&scheduler->queue,
   @     \old(scheduler->queue.order[scheduler->queue.count]));
   @ ensures release:
   @     scheduler->queue.release_us[\old(scheduler->queue.order[scheduler->queue.count])] ==
@@ -171,7 +171,7 @@ static void insert(keel_scheduler_t *scheduler, const keel_task_config_t *task)
     if ((task->priority == KEEL_PRIORITY_REALTIME) && (scheduler->running >= place)) {
         scheduler->running++;
     }
-    /*@ assert fresh: slot_fresh(&scheduler->queue,
+    /*@ assert fresh: SLOT_FRESH(&scheduler->queue,
       @     \at(scheduler->queue.order[scheduler->queue.count], Pre));
       @*/
     scheduler->earliest_realtime_us = 0u;
@@ -315,6 +315,15 @@ keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler)
         return status;
     }
     return keel_pass_run(scheduler);
+}
+
+uint32_t keel_scheduler_idle_us(const keel_scheduler_t *scheduler, uint32_t latency_us,
+                                uint32_t longest_us)
+{
+    if (scheduler == NULL) {
+        return 0u;
+    }
+    return keel_pass_idle_us(scheduler, read_clock(scheduler), latency_us, longest_us);
 }
 
 keel_status_t keel_scheduler_resync(keel_scheduler_t *scheduler)

@@ -487,6 +487,9 @@ static void do_nulls(session_t *s)
     same_status(s, "start null", keel_scheduler_start(NULL), KEEL_ERR_NULL);
     same_status(s, "step null", keel_scheduler_step(NULL), KEEL_ERR_NULL);
     same_status(s, "resync null", keel_scheduler_resync(NULL), KEEL_ERR_NULL);
+    if (keel_scheduler_idle_us(NULL, 0, UINT32_MAX) != 0) {
+        differ(s, "no scheduler may sleep");
+    }
     report_nulls(s);
 }
 
@@ -677,9 +680,22 @@ static uint32_t until_wake(const session_t *s)
     return ((wake > now) && ((wake - now) < 0x7FFFFFFFu)) ? (uint32_t)(wake - now) : 1;
 }
 
+/* The longest sleep, of which the step behind it must be in time; or a shorter one. */
+static void sleep_on(session_t *s)
+{
+    const uint32_t latency = pick(s, 0x100);
+    const uint32_t longest = one_in(s, 4) ? pick(s, 0x1000) : UINT32_MAX;
+    const uint32_t idle = lockstep_idle(s->kernel, latency, longest);
+
+    if ((idle > 0) && ((s->kernel->clock.now_us + idle + latency) > model_wake(&s->model))) {
+        differ(s, "a sleep of %" PRIu32 " is too long", idle);
+    }
+    pass_time(s, idle);
+}
+
 static void let_time_pass(session_t *s)
 {
-    switch (pick(s, 12)) {
+    switch (pick(s, 13)) {
     case 0:
     case 1:
         break;
@@ -697,6 +713,9 @@ static void let_time_pass(session_t *s)
         break;
     case 6:
         pass_time(s, one_in(s, 64) ? pick(s, 0x7FFFFFFF) : pick(s, 0x1000));
+        break;
+    case 7:
+        sleep_on(s);
         break;
     default:
         pass_time(s, pick(s, s->pace));

@@ -107,6 +107,12 @@ keel_status_t lockstep_resync(keel_scheduler_t *scheduler)
     LOCKSTEP(keel_status_t, scheduler_resync, (&copy), (scheduler));
 }
 
+uint32_t lockstep_idle(keel_scheduler_t *scheduler, uint32_t latency_us, uint32_t longest_us)
+{
+    LOCKSTEP(uint32_t, scheduler_idle_us, (&copy, latency_us, longest_us),
+             (scheduler, latency_us, longest_us));
+}
+
 keel_status_t lockstep_begin(keel_scheduler_t *scheduler, uint32_t raw_us)
 {
     LOCKSTEP(keel_status_t, pass_begin, (&copy, raw_us), (scheduler, raw_us));

@@ -17,6 +17,7 @@ keel_status_t lockstep_add(keel_scheduler_t *scheduler, const keel_task_config_t
 keel_status_t lockstep_remove(keel_scheduler_t *scheduler, const keel_task_config_t *task);
 keel_status_t lockstep_start(keel_scheduler_t *scheduler);
 keel_status_t lockstep_resync(keel_scheduler_t *scheduler);
+uint32_t lockstep_idle(keel_scheduler_t *scheduler, uint32_t latency_us, uint32_t longest_us);
 keel_status_t lockstep_begin(keel_scheduler_t *scheduler, uint32_t raw_us);
 const keel_task_config_t *lockstep_next(keel_scheduler_t *scheduler);
 keel_status_t lockstep_finish(keel_scheduler_t *scheduler, uint32_t raw_us);

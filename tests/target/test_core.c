@@ -240,6 +240,38 @@ static void BRD_007_stack_use_is_seen(void)
     TEST_ASSERT_GREATER_OR_EQUAL_UINT32(6000u, keel_stack_used_b() + large[0]);
 }
 
+/* A handler that ran would end the program: all of them are faults here. */
+static void BRD_011_a_sleep_lasts_as_long(void)
+{
+    static const uint32_t lengths_us[] = {1u, 2u, 80u, 1000u, 100000u};
+
+    for (uint32_t i = 0u; i < (sizeof lengths_us / sizeof lengths_us[0]); i++) {
+        const uint32_t start_us = keel_board_clock_us(NULL);
+
+        keel_board_sleep_us(lengths_us[i]);
+        TEST_ASSERT_UINT32_WITHIN(KEEL_BOARD_WAKE_US, lengths_us[i],
+                                  keel_board_clock_us(NULL) - start_us);
+    }
+    TEST_ASSERT_NULL(keel_fault_last());
+}
+
+static void BRD_011_no_time_is_no_sleep(void)
+{
+    const uint32_t start_us = keel_board_clock_us(NULL);
+
+    keel_board_sleep_us(0u);
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32(1u, keel_board_clock_us(NULL) - start_us);
+}
+
+/* 2^24 - 1 turns at 25 MHz are 671088 us. */
+static void BRD_011_a_sleep_is_no_longer_than_its_timer(void)
+{
+    const uint32_t start_us = keel_board_clock_us(NULL);
+
+    keel_board_sleep_us(UINT32_MAX);
+    TEST_ASSERT_UINT32_WITHIN(KEEL_BOARD_WAKE_US, 671088u, keel_board_clock_us(NULL) - start_us);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -254,6 +286,9 @@ int main(void)
     RUN_TEST(BRD_004_tables_that_cannot_be);
     RUN_TEST(BRD_005_time_base_counts_microseconds);
     RUN_TEST(BRD_005_time_base_wraps);
+    RUN_TEST(BRD_011_a_sleep_lasts_as_long);
+    RUN_TEST(BRD_011_no_time_is_no_sleep);
+    RUN_TEST(BRD_011_a_sleep_is_no_longer_than_its_timer);
     RUN_TEST(BRD_006_no_fault_after_power_on);
     RUN_TEST(BRD_006_a_record_is_whole_or_not);
     RUN_TEST(BRD_006_safe_state_is_entered_once);

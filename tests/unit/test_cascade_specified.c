@@ -11,6 +11,7 @@
 #include "../../specs/model/cascade_parts.c"
 #include "../../specs/model/filter.c"
 #include "../../specs/model/pid.c"
+#include "../../specs/model/pid_within.c"
 
 #define STEPS       400000u
 #define SETUP_EVERY 2048u

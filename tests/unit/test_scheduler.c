@@ -942,6 +942,116 @@ static void SCH_013_step_refuses_a_backwards_clock(void)
     TEST_ASSERT_EQUAL_UINT64(510u + 0x7FFFFFFFu + 10u, scheduler.clock.now_us);
 }
 
+/* --- Sleeping --- */
+
+#define idle_is(expected, latency_us, longest_us)                                                  \
+    TEST_ASSERT_EQUAL_UINT32(expected, keel_scheduler_idle_us(&scheduler, latency_us, longest_us))
+
+/* A every 1000, O every 2000; both ran, and the pass behind them found nothing else. */
+static void sleep_after_a_and_o(uint32_t raw_us)
+{
+    board_reset(raw_us);
+    board_init(0u);
+    add(&a);
+    add(&o);
+    start();
+    step();
+    ran("AO");
+    idle_is(0u, 0u, UINT32_MAX); /* Another task ran: more of them may be due. */
+    step();
+    ran("");
+}
+
+/* 60 us have gone; A is due at 1000. */
+static void SCH_028_until_the_next_release(void)
+{
+    sleep_after_a_and_o(0u);
+    idle_is(940u, 0u, UINT32_MAX);
+    idle_is(930u, 10u, UINT32_MAX);
+    idle_is(1u, 939u, UINT32_MAX);
+    idle_is(0u, 940u, UINT32_MAX);
+    idle_is(0u, UINT32_MAX, UINT32_MAX);
+    idle_is(100u, 10u, 100u);
+    idle_is(0u, 0u, 0u);
+}
+
+/* The time since the step counts, also where the counter wraps in it. */
+static void SCH_028_counts_what_has_gone_by(void)
+{
+    sleep_after_a_and_o(UINT32_MAX - 70u);
+    wait_us(40u);
+    idle_is(900u, 0u, UINT32_MAX);
+    wait_us(899u);
+    idle_is(1u, 0u, UINT32_MAX);
+    wait_us(1u);
+    idle_is(0u, 0u, UINT32_MAX);
+    wait_us(5000u);
+    idle_is(0u, 0u, UINT32_MAX);
+}
+
+/* Steps at 1000 (A), 2000 (A, O), 2060 (is anything else due?) and 3000 (A). */
+static void SCH_028_sleeping_loses_no_release(void)
+{
+    uint32_t steps = 0u;
+
+    sleep_after_a_and_o(0u);
+    while (scheduler.clock.now_us < 3000u) {
+        wait_us(keel_scheduler_idle_us(&scheduler, 0u, UINT32_MAX));
+        step();
+        steps++;
+    }
+    ran("AAOA");
+    TEST_ASSERT_EQUAL_UINT32(0u, report(&a).skipped);
+    TEST_ASSERT_EQUAL_UINT64(3010u, scheduler.clock.now_us);
+    TEST_ASSERT_EQUAL_UINT32(4u, steps);
+}
+
+/* Of a longer time the counter could not tell whether it went on or back. */
+static void SCH_028_never_longer_than_the_counter_tells(void)
+{
+    board_init(0u);
+    start();
+    step();
+    idle_is(0x7FFFFFFFu, 0u, UINT32_MAX);
+    wait_us(1000u);
+    idle_is(0x7FFFFFFFu - 1000u, 0u, UINT32_MAX);
+    idle_is(0x7FFFFFFFu - 1007u, 7u, UINT32_MAX);
+    wait_us(0x7FFFFFFFu - 1000u);
+    idle_is(0u, 0u, UINT32_MAX);
+    wait_us(1u); /* As if it had gone back. */
+    idle_is(0u, 0u, UINT32_MAX);
+}
+
+static uint32_t idle_inside;
+
+static void ask_inside(void)
+{
+    idle_inside = keel_scheduler_idle_us(&scheduler, 0u, UINT32_MAX);
+}
+
+static void SCH_028_not_before_the_start_nor_within_a_task(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0u, keel_scheduler_idle_us(NULL, 0u, UINT32_MAX));
+    board_init(0u);
+    idle_is(0u, 0u, UINT32_MAX);
+    add(&a);
+    start();
+    idle_is(0u, 0u, UINT32_MAX);
+    idle_inside = 1u;
+    a.act = ask_inside;
+    step();
+    ran("A");
+    TEST_ASSERT_EQUAL_UINT32(0u, idle_inside);
+}
+
+static void SCH_028_writes_nothing(void)
+{
+    sleep_after_a_and_o(0u);
+    remember();
+    idle_is(940u, 0u, UINT32_MAX);
+    unchanged();
+}
+
 static void resync_adopts_the_clock(void)
 {
     board_init(0u);
@@ -1098,6 +1208,12 @@ int main(void)
     RUN_TEST(SCH_013_step_refuses_before_the_start);
     RUN_TEST(SCH_013_step_refuses_inside_a_running_task);
     RUN_TEST(SCH_013_step_refuses_a_backwards_clock);
+    RUN_TEST(SCH_028_until_the_next_release);
+    RUN_TEST(SCH_028_counts_what_has_gone_by);
+    RUN_TEST(SCH_028_sleeping_loses_no_release);
+    RUN_TEST(SCH_028_never_longer_than_the_counter_tells);
+    RUN_TEST(SCH_028_not_before_the_start_nor_within_a_task);
+    RUN_TEST(SCH_028_writes_nothing);
     RUN_TEST(resync_adopts_the_clock);
     RUN_TEST(resync_after_a_task_s_clock_jumped);
     RUN_TEST(resync_refuses_null_and_wrong_stages);

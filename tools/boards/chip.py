@@ -36,6 +36,7 @@ RESETS = {
 OPTION_KEYS = [0x0819_2A3B, 0x4C5D_6E7F]
 FLASH_KEYS, FLASH_LOCK = [0x4567_0123, 0xCDEF_89AB], 1 << 31
 OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
+CORE_MHZ = 216
 BROKEN = ("hse", "pll", "overdrive", "sensor", "other-sensor", "adc", "memory")
 
 
@@ -200,7 +201,8 @@ class Chip:
         if SDMMC1 <= address < SDMMC1 + 0x84:
             return self._sdmmc_read(address - SDMMC1)
         if address == SCB + 4:
-            return self.exception | (0x800 if self.exception else 0)  # RETTOBASE.
+            pending = self.words.get(address, 0) & 1 << 26
+            return pending | self.exception | (0x800 if self.exception else 0)  # RETTOBASE.
         return self.words.get(address, 0)
 
     def write(self, address: int, value: int) -> None:
@@ -210,12 +212,18 @@ class Chip:
         handler: Callable[[int, int], None] | None = {
             RCC: self._rcc, PWR: self._pwr, IWDG: self._iwdg, SPI1: self._spi, SPI2: self._spi2,
             TIM1: self._tim1, TIM5: self._tim5, self.console: self._uart, SCB: self._scb,
-            FLASHR: self._flash, ADC1: self._adc, ADC_COMMON: self._adc_common, SDMMC1: self._sdmmc,
+            SYSTICK: self._systick, FLASHR: self._flash, ADC1: self._adc, ADC_COMMON: self._adc_common, SDMMC1: self._sdmmc,
         }.get(base)  # fmt: skip
         if handler:
             handler(address - base, value)
         elif GPIOA <= base < GPIOA + 11 * 0x400:
             self._gpio((base - GPIOA) // 0x400, address - base, value)
+
+    def _systick(self, offset: int, value: int) -> None:
+        """Who starts it waits for its end, asleep: that is at once, and so much time has gone by."""
+        if offset == 0 and value & 1:
+            self.tick((self.words[SYSTICK + 4] + 1) // CORE_MHZ)
+            self.words[SCB + 4] = 1 << 26  # PENDSTSET.
 
     def _follow(self, word: int, control: int, flag: int, broken: bool) -> int:
         return word | flag if word & control and not broken else word & ~flag

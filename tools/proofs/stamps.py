@@ -22,7 +22,7 @@ READERS = ("csource.py", "syntax.py", "requirements.txt", "../toolchain/provers.
 SERVANTS = {
     "wp": (
         "wp.py", "wplog.py", "verdict.py", "targets.py", "frama_modules.py", "ask_recorded.ml",
-        "find_contradictions.ml", "find_assumptions.ml", "linear.py",
+        "find_contradictions.ml", "find_assumptions.ml", "linear.py", "../toolchain/limits.py",
     ),
     "cbmc": ("cbmc.py", "cbmc_answers.py", "cbmc_build.py", "harness.py", "wrong.py"),
     "gappa": ("gappa.py",),

@@ -17,6 +17,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from toolchain.limits import SMOKE_SECONDS
 from toolchain.provers import CLOCK_PER_PROCESSOR
 
 from . import frames, wplog
@@ -91,13 +92,12 @@ THOROUGH = (
 # A prover that is recorded for a goal proved it, if on a faster machine: to wait for it costs less
 # than to ask all the others. Of the processor, as all limits here; the longest take 22 s.
 RECORDED = Stage((), 100)
-# By the clock: the steps are the limit here, and a test that ends before them looks as if it passed
-SMOKE_SECONDS = 120
 # A contradiction shows early: seeded ones were found within a second by either prover, among
 # integers by CVC4 with 50 000 steps wherever with 75 000, among floats by Alt-Ergo with 300
 # wherever with 3000. Debian's CVC4 is built without floats: it gives up on the first literal of
 # one, and WP takes that for a test that was passed. WP proves calls through pointers once more in
-# this pass, which takes 56 000 steps. Steps count alike on every machine; the seconds only guard.
+# this pass, which takes 56 000 steps. Steps count alike on every machine; what has steps left ends by
+# the processor's time (toolchain/limits.py).
 SMOKE = Stage(("cvc4",), SMOKE_SECONDS, steps=60_000)
 SMOKE_OF_FLOATS = Stage(("alt-ergo",), SMOKE_SECONDS, steps=300)
 FLOATS = re.compile(r"\b(?:float|double)\b")
@@ -346,7 +346,7 @@ def _scripts_pass(target: Target, room: int) -> list[str]:
     options = ["-rte", "-rte-select", str(target.function), "-wp-rte"]
     options += frames.NO_FLOATS if target.left is not None else ()
     options += ["-wp-par", "2", *RECORDED.with_room(room).options(())]
-    options += ["-wp-smoke-timeout", str(SMOKE_SECONDS)]
+    options += ["-wp-smoke-timeout", str(SMOKE_SECONDS * CLOCK_PER_PROCESSOR)]
     return [*options, "-then", "-no-rte"]
 
 

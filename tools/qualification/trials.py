@@ -61,7 +61,7 @@ def smoke(tools: Toolchain, file: Path, prover: str) -> list[str]:
     function = csource.defined(file.read_text(encoding="utf-8"))[-1].name
     script = shutil.copyfile(CONTRADICTIONS, file.with_name(CONTRADICTIONS.name))
     words = ["-load-script", str(script), "-wp-rte", "-wp-no-pruning"]
-    words += ["-wp-smoke-timeout", str(stage.seconds)]
+    words += ["-wp-smoke-timeout", str(stage.seconds * CLOCK_PER_PROCESSOR)]
     told = {"KEEL_SMOKE": f"{prover} {stage.steps} {function}"}
     log = read_log(said_by_frama_c(tools, file, words, told))
     if not log.smoke:

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 KERNEL = ["src"]
 SMALL = "-DKEEL_QUEUE_CAPACITY=6u"  # A queue that is often full.
-SPECIFIED = ("admission", "admission_queue", "clock", "decision", "pass", "pass_run", "pass_turn",
+SPECIFIED = ("admission", "admission_queue", "clock", "decision", "pass", "pass_idle", "pass_run",
+             "pass_turn",
              "priority", "queue", "scheduler", "stats", "task")  # fmt: skip
 # The scheduler's model, and what drives both.
 MODEL_SOURCES = [f"tests/property/{name}.c" for name in ("model", "drive", "lockstep")]

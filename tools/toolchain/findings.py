@@ -15,8 +15,9 @@ from pathlib import Path
 from common.files import write_text
 
 from toolchain.found import Found, path_outside
+from toolchain.limits import within_limits
 from toolchain.lock import TOOLS_DIR, Lock, Spec
-from toolchain.provers import MACHDEP_FILE, by_processor_time
+from toolchain.provers import MACHDEP_FILE
 
 
 class Findings:
@@ -52,7 +53,7 @@ class Findings:
 
         Clones that start them differently have one each.
         """
-        chosen = by_processor_time("")
+        chosen = within_limits("")
         for name in (*(prover.lower() for prover in spec.provers), "why3"):
             finding = self.get(self.lock.tools[name])
             if not finding:

@@ -15,6 +15,7 @@ from toolchain.apt import HostApt, Suite
 from toolchain.cache import Cache, Say, default_cache
 from toolchain.findings import Findings
 from toolchain.found import Finder, Found, answer, found
+from toolchain.limits import within_limits
 from toolchain.lock import Lock, Spec, ToolchainError
 from toolchain.unpack import Tree, unpack_crate, unpack_deb, unpack_source
 
@@ -206,7 +207,7 @@ class Toolchain:
 
         def started(match: re.Match[str]) -> str:
             script = folder / f"{Path(match['program']).name}-by-processor-time"
-            write_text(script, provers.by_processor_time(match["program"]))
+            write_text(script, within_limits(match["program"]))
             script.chmod(0o755)
             return f'path = "{script}"'
 

@@ -6,6 +6,7 @@
 #include "common/supervisor.h"
 #include "cortex_m7/core.h"
 #include "cortex_m7/fault.h"
+#include "cortex_m7/sleep.h"
 #include "devices/fm25v02.h"
 #include "stm32f767/flash_medium.h"
 #include "stm32f767/power.h"
@@ -34,6 +35,7 @@
 #define ELEMENTS(array) (sizeof(array) / sizeof((array)[0]))
 
 #define HSI_HZ           16000000u /* The internal oscillator, when the clocks did not start. */
+#define MEGAHERTZ        1000000u
 #define BAUD             115200u
 #define PWM_RATE_HZ      400u
 #define WATCHDOG_US      50000u
@@ -159,6 +161,8 @@ static void freeze_with_the_core(void)
     DBGMCU->APB2_FZ |= DBGMCU_APB2_FZ_DBG_TIM1_STOP;
 }
 
+static uint32_t core_mhz; /* What the core runs at since the start. */
+
 /* Without the oscillator the board still tells why, on the internal one; and the record is written
  * but once, or reset would follow reset. */
 void keel_board_start(void)
@@ -174,6 +178,7 @@ void keel_board_start(void)
     const keel_fault_record_t *const record = keel_fault_last();
     const bool told = (record != NULL) && (record->fresh == 1u);
 
+    core_mhz = core_hz / MEGAHERTZ;
     if (!good) { /* The buses as the reset left them. */
         keel_bits_put(&RCC->CFGR, RCC_CFGR_HPRE | RCC_CFGR_PPRE1 | RCC_CFGR_PPRE2, 0u);
     }
@@ -196,6 +201,11 @@ KEEL_REALTIME_CODE uint32_t keel_board_clock_us(void *context)
 {
     (void)context;
     return TIM5->CNT;
+}
+
+void keel_board_sleep_us(uint32_t us)
+{
+    keel_core_sleep_us(us, core_mhz);
 }
 
 /* Also moves the console on, for applications that do not call keel_chip_turn. */

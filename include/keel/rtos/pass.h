@@ -5,7 +5,7 @@
  *        one's own.
  *
  * Begin opens the pass, next decides and hands out the task to run, finish takes its statistics;
- * none of them calls a task. A turn is next, the body and finish; run takes turns until the pass is
+ * none of them calls a task. Between two passes idle says how long a loop may sleep. A turn is next, the body and finish; run takes turns until the pass is
  * closed, which is what follows begin in a step. They take a scheduler that is not null; a firmware
  * calls keel_scheduler_step.
  */
@@ -436,6 +436,34 @@ keel_status_t keel_pass_turn(keel_scheduler_t *scheduler);
   @     \old(served(scheduler)) ==> served(scheduler);
   @*/
 keel_status_t keel_pass_run(keel_scheduler_t *scheduler);
+
+/*@ // Nothing can be due before it, and the counter tells any time up to it from a step backwards.
+  @ logic integer sleep_end(keel_scheduler_t *s) =
+  @     \min(s->wake_us, s->clock.now_us + KEEL_CLOCK_STEP_LIMIT_US - 1);
+  @
+  @ // What is left until then at a reading of the clock, behind the time that waking takes.
+  @ logic integer sleep_left(keel_scheduler_t *s, integer raw_us, integer latency_us) =
+  @     sleep_end(s) - s->clock.now_us - clock_elapsed(s->clock.raw_us, raw_us) - latency_us;
+  @*/
+
+/**
+ * How long a loop may sleep before its next step (requirement SCH-027): until then no task can run,
+ * and a step that reads the clock no more than the latency later begins no later than a release.
+ *
+ * @param scheduler  a scheduler
+ * @param raw_us     the clock now
+ * @param latency_us how long after the sleep the next step reads the clock, at most
+ * @param longest_us what the sleep may last at most, for a watchdog that must be fed
+ * @return how long, in us from that reading on; 0 when a task may be due within the latency, while a
+ *         pass is open, before the start, and when the clock jumped backwards
+ */
+/*@ requires \valid_read(scheduler) && in_uptime(scheduler);
+  @ assigns \nothing;
+  @ ensures SCH_027_idle: \result == ((scheduler->stage == KEEL_STAGE_READY)
+  @     ? \max(0, \min(longest_us, sleep_left(scheduler, raw_us, latency_us))) : 0);
+  @*/
+uint32_t keel_pass_idle_us(const keel_scheduler_t *scheduler, uint32_t raw_us, uint32_t latency_us,
+                           uint32_t longest_us);
 
 KEEL_C_END
 

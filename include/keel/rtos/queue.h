@@ -137,14 +137,10 @@ typedef struct keel_queue {
   @     \at(q->order[q->count], M) == \at(q->order[i], L) &&
   @     order_same{L, M}(q, \at(q->count, L), KEEL_QUEUE_CAPACITY);
   @
-  @ // Slot x holds a task that was just added: what scheduling reads of its declaration, ...
+  @ // Slot x holds what scheduling reads of a task's declaration.
   @ predicate slot_copied(keel_queue_t *q, integer x, keel_task_config_t *task) =
   @     q->task[x] == task && q->period_us[x] == task->period_us &&
   @     q->budget_us[x] == task->budget_us && q->priority[x] == task->priority;
-  @
-  @ // ... and fresh statistics.
-  @ predicate slot_fresh(keel_queue_t *q, integer x) =
-  @     q->skipped[x] == 0 && stats_fresh(q->stats[x]);
   @*/
 
 /* clang-format off: the formatter does not know these clauses. */
@@ -163,6 +159,9 @@ typedef struct keel_queue {
 #define QUEUE_SLOT(q, x)                                                                           \
     (q)->task[x], (q)->release_us[x], (q)->period_us[x], (q)->budget_us[x], (q)->priority[x],      \
         (q)->skipped[x], STATS_FIELDS((q)->stats[x])
+
+/* What it counts of a task that was just added. */
+#define SLOT_FRESH(q, x) ((q)->skipped[x] == 0 && STATS_FRESH((q)->stats[x]))
 /* clang-format on */
 
 /**
@@ -211,7 +210,7 @@ uint32_t keel_queue_find(const keel_queue_t *queue, const keel_task_config_t *ta
   @ QUEUE_STAYS_VALID(queue)
   @ ensures QUE_003_order: order_joined{Pre, Post}(queue, task->priority);
   @ ensures QUE_003_copied: slot_copied(queue, \old(queue->order[queue->count]), task);
-  @ ensures QUE_003_fresh: slot_fresh(queue, \old(queue->order[queue->count]));
+  @ ensures QUE_003_fresh: SLOT_FRESH(queue, \old(queue->order[queue->count]));
   @ ensures QUE_003_release: queue->release_us[\old(queue->order[queue->count])] == release_us;
   @*/
 void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_t release_us);

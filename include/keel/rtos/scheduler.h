@@ -11,7 +11,10 @@
  *     keel_scheduler_init(&s, &config);
  *     keel_scheduler_add(&s, &gyro);        for every task
  *     keel_scheduler_start(&s);             admission; from here on time counts
- *     for (;;) { keel_scheduler_step(&s); }
+ *     for (;;) {
+ *         keel_scheduler_step(&s);
+ *         sleep_for_us(keel_scheduler_idle_us(&s, LATENCY_US, LONGEST_US));    or poll
+ *     }
  *
  * A task is its declaration, a constant, whose address is its handle. While it runs it may add and
  * remove tasks, itself too, but change nothing else. The contracts' words: scheduler_state.h; there
@@ -135,7 +138,7 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @   ensures SCH_004_order: order_joined{Pre, Post}(&scheduler->queue, task->priority);
   @   ensures SCH_004_copied: slot_copied(&scheduler->queue,
   @       \old(scheduler->queue.order[scheduler->queue.count]), task);
-  @   ensures SCH_004_fresh: slot_fresh(&scheduler->queue,
+  @   ensures SCH_004_fresh: SLOT_FRESH(&scheduler->queue,
   @       \old(scheduler->queue.order[scheduler->queue.count]));
   @   ensures SCH_004_release:
   @       scheduler->queue.release_us[\old(scheduler->queue.order[scheduler->queue.count])] ==
@@ -235,7 +238,8 @@ keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
 
 /**
  * One step: a pass over the tasks, if any can be due (requirement SCH-020). To be called for ever,
- * at most 2^31 us apart; for the isolation theorem (specs/soundness.md) at most W apart.
+ * at most 2^31 us apart; for the isolation theorems (specs/soundness.md) at most W apart, but for
+ * sleeps as keel_scheduler_idle_us allows them.
  *
  * @param scheduler a started scheduler, or null
  * @return KEEL_OK; KEEL_ERR_NULL; KEEL_ERR_STATE before the start and from within a task;
@@ -272,6 +276,37 @@ keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
   @ disjoint behaviors;
   @*/
 keel_status_t keel_scheduler_step(keel_scheduler_t *scheduler);
+
+/**
+ * How long a loop may sleep before its next step (requirement SCH-028): keel_pass_idle_us with the
+ * clock as it reads now. Such a sleep, or a shorter one, loses no release: no step meanwhile would
+ * run a task, and the isolation theorems hold as for a loop that polls (specs/soundness.md). It
+ * gives the processor to an RTOS' other threads, or to a core that waits for an interrupt.
+ *
+ * @param scheduler  a scheduler between two steps, or null
+ * @param latency_us how long after the sleep the next step reads the clock, at most
+ * @param longest_us what the sleep may last at most, for a watchdog that must be fed
+ * @return how long, in us; 0 when a task may be due within the latency, for null, before the start,
+ *         from within a task, and when the clock jumped backwards
+ */
+/*@ requires scheduler == \null || (\valid_read(scheduler) && in_uptime(scheduler) &&
+  @     clock_modelled(scheduler));
+  @ assigns \nothing;
+  @ behavior null:
+  @   assumes scheduler == \null;
+  @   ensures SCH_028_null: \result == 0;
+  @ behavior state:
+  @   assumes scheduler != \null && scheduler->stage != KEEL_STAGE_READY;
+  @   ensures SCH_028_state: \result == 0;
+  @ behavior ready:
+  @   assumes scheduler != \null && scheduler->stage == KEEL_STAGE_READY;
+  @   ensures SCH_028_reading: \exists integer raw_us; 0 <= raw_us <= UINT32_MAX &&
+  @       \result == \max(0, \min(longest_us, sleep_left(scheduler, raw_us, latency_us)));
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+uint32_t keel_scheduler_idle_us(const keel_scheduler_t *scheduler, uint32_t latency_us,
+                                uint32_t longest_us);
 
 /**
  * Takes up a clock that has jumped, as if no time had passed (requirement SCH-021).
