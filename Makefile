@@ -60,7 +60,7 @@ prove: python ## prove scheduler, voter, filter, PID (UNIT=queue: one unit; CAPA
 
 .PHONY: prove-all
 prove-all: python ## prove every contract and harness of all units (ARGS='--shard 2/4': a quarter)
-	@python3 tools/prove.py $(SIZES) $(ARGS)
+	@python3 tools/prove.py $(if $(UNIT),--unit $(UNIT)) $(SIZES) $(ARGS)
 
 test: python ## build and run tests, long ones aside (ARGS='--filter unit/': some of them; ARGS='--jobs 1')
 	@python3 tools/run_tests.py $(ARGS)

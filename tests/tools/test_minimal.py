@@ -8,6 +8,7 @@
 from __future__ import annotations
 
 import re
+import resource
 import shutil
 import sys
 import unittest
@@ -23,14 +24,18 @@ class ExampleTest(ConsumerTest):
     """What a newcomer copies."""
 
     def test_minimal(self) -> None:
-        """Periods of 1, 4 and 20 ms, until the slowest ran 50 times: 980 ms and a little more."""
+        """Periods of 1, 4 and 20 ms, until the slowest ran 50 times: 980 ms and a little more, of which
+        the program sleeps most. A busy host costs runs of the others."""
         self.good(["cmake", "-S", ROOT / "examples/minimal", "-B", "build"])
         self.good(["cmake", "--build", "build"])
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         told = self.good([self.folder / "build/flight"])
-        runs = dict(re.findall(r"(\w+) (\d+)", told))
-        self.assertEqual(int(runs["telemetry"]), 50)
-        self.assertTrue(900 <= int(runs["gyro"]) <= 1000, told)
-        self.assertTrue(225 <= int(runs["control"]) <= 250, told)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        runs = {name: int(count) for name, count in re.findall(r"(\w+) (\d+)", told)}
+        self.assertEqual(runs["telemetry"], 50)
+        self.assertTrue(50 < runs["control"] < runs["gyro"], told)
+        # One that polls takes the processor for all of 980 ms.
+        self.assertLess(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 0.5)
 
     def blocks(self) -> dict[str, str]:
         """The fenced blocks of the README's section, by language."""
