@@ -46,8 +46,8 @@ void keel_board_sleep_us(uint32_t us);
 /** How long after such a sleep a step reads the clock, at most, in us. Not measured on a chip. */
 #define KEEL_BOARD_WAKE_US 2u
 
-/** The longest sleep of a main loop that looks at the console: a character comes each 87 us, and the
- *  chip holds one. In us. */
+/** The longest sleep of a main loop that looks at the console, in us: a character comes each 87 us,
+ *  and the chip holds one. */
 #define KEEL_BOARD_SLEEP_US 80u
 
 /** Writes one character to the console; waits at most as long as two characters take. */

@@ -12,7 +12,7 @@ typedef struct systick {
     volatile uint32_t VAL;
 } systick_t;
 
-#define SYSTICK     ((systick_t *)0xE000E010u)
+#define SYSTICK  ((systick_t *)0xE000E010u)
 #define CTRL_ON  7u /* Counts the core's clock, and its end is an exception. */
 #define LOAD_MAX 0x00FFFFFFu
 

@@ -85,8 +85,8 @@ int main(void)
     require(copter_start(&copter, &port, false), FAULT_SETUP);
     while (copter.scheduler.clock.now_us < LENGTH_US) {
         require(keel_scheduler_step(&copter.scheduler), FAULT_STEP);
-        keel_board_sleep_us(
-            keel_scheduler_idle_us(&copter.scheduler, KEEL_BOARD_WAKE_US, KEEL_BOARD_SLEEP_US));
+        keel_board_sleep_us(keel_scheduler_idle_us(&copter.scheduler, KEEL_BOARD_WAKE_US,
+                                                   KEEL_BOARD_SLEEP_US));
     }
     print_tasks();
     print_number("time ", copter.scheduler.clock.now_us);

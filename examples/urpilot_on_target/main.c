@@ -111,8 +111,8 @@ int main(void)
     demo_start();
     while (scheduler.clock.now_us < DEMO_LENGTH_US) {
         require(keel_scheduler_step(&scheduler), FAULT_STEP);
-        keel_board_sleep_us(
-            keel_scheduler_idle_us(&scheduler, KEEL_BOARD_WAKE_US, KEEL_BOARD_SLEEP_US));
+        keel_board_sleep_us(keel_scheduler_idle_us(&scheduler, KEEL_BOARD_WAKE_US,
+                                                   KEEL_BOARD_SLEEP_US));
     }
     demo_print();
     flight_print();

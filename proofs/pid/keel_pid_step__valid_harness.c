@@ -20,8 +20,7 @@ void keel_pid_step__valid_harness(void)
 
     status = keel_pid_step(&pid, setpoint, measurement);
 
-    __CPROVER_assert(keel_pid_step_does(status, &pid),
-                     "PID_006_valid: the controller stays valid");
+    __CPROVER_assert(keel_pid_step_does(status, &pid), "PID_006_valid: the controller stays valid");
     if (status != KEEL_OK) {
         __CPROVER_assert(unchanged(&pid, &before, sizeof(pid)),
                          "STA_001_kept: a refusal changes nothing");

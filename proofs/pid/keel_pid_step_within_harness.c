@@ -4,8 +4,8 @@
 // replaces: keel_pid_step
 // covers: keel_pid_step_within model_pid_step_within
 //
-// Any valid controller, any bit pattern for both inputs: the same as the model's, bit for bit. What a
-// step makes of a controller is the same unknown for code and model; that the step itself is the
+// Any valid controller, any bit pattern for both inputs: the same as the model's, bit for bit. What
+// a step makes of a controller is the same unknown for code and model; that the step itself is the
 // model's, keel_pid_step_harness shows.
 #include "../../specs/model/pid.h"
 #include "../common/pid_contracts.h"

@@ -3,10 +3,10 @@
 /**
  * A loop that sleeps as long as keel_pass_idle_us says loses nothing (requirement SCH-027).
  *
- * The function `sleeping` is such a loop between two steps: it reads the clock, asks how long it may
- * sleep, and steps again after that time and the latency at most. The proof knows the contracts of
- * keel_pass_idle_us and keel_pass_begin and nothing else. Of a step at any moment of the sleep, and
- * of the latency behind it:
+ * The function `sleeping` is such a loop between two steps: it reads the clock, asks how long it
+ * may sleep, and steps again after that time and the latency at most. The proof knows the contracts
+ * of keel_pass_idle_us and keel_pass_begin and nothing else. Of a step at any moment of the sleep,
+ * and of the latency behind it:
  *
  *   - its reading of the clock is told from a step backwards;
  *   - it comes no later than any release of a real-time task;

@@ -13,13 +13,13 @@ static uint64_t least(uint64_t one_us, uint64_t other_us)
     return (other_us < one_us) ? other_us : one_us;
 }
 
-/* SCH-027: what is left, when the step comes so long after the last reading, until a task may be due,
- * and until the counter's turns cannot be told; or the longest sleep. */
-uint32_t model_pass_idle_us(const keel_scheduler_t *scheduler, uint32_t raw_us,
-                            uint32_t latency_us, uint32_t longest_us)
+/* SCH-027: what is left, when the step comes so long after the last reading, until a task may be
+ * due, and until the counter's turns cannot be told; or the longest sleep. */
+uint32_t model_pass_idle_us(const keel_scheduler_t *scheduler, uint32_t raw_us, uint32_t latency_us,
+                            uint32_t longest_us)
 {
-    const uint64_t since_us =
-        (uint64_t)model_clock_elapsed_us(scheduler->clock.raw_us, raw_us) + latency_us;
+    const uint64_t since_us = (uint64_t)model_clock_elapsed_us(scheduler->clock.raw_us, raw_us) +
+                              latency_us;
     const uint64_t due_us = rest(scheduler->wake_us, scheduler->clock.now_us + since_us);
     const uint64_t told_us = rest(0x7FFFFFFFu, since_us);
 

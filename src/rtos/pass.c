@@ -584,8 +584,8 @@ uint32_t keel_pass_idle_us(const keel_scheduler_t *scheduler, uint32_t raw_us, u
                            uint32_t longest_us)
 {
     const uint64_t now_us = scheduler->clock.now_us;
-    const uint64_t gone_us =
-        (uint64_t)keel_clock_elapsed_us(scheduler->clock.raw_us, raw_us) + latency_us;
+    const uint64_t gone_us = (uint64_t)keel_clock_elapsed_us(scheduler->clock.raw_us, raw_us) +
+                             latency_us;
     uint64_t ahead_us;
 
     if ((scheduler->stage != KEEL_STAGE_READY) || (scheduler->wake_us <= now_us)) {

@@ -24,8 +24,10 @@ class ExampleTest(ConsumerTest):
     """What a newcomer copies."""
 
     def test_minimal(self) -> None:
-        """Periods of 1, 4 and 20 ms, until the slowest ran 50 times: 980 ms and a little more, of which
-        the program sleeps most. A busy host costs runs of the others."""
+        """Periods of 1, 4 and 20 ms, until the slowest ran 50 times: 980 ms and a little more.
+
+        Of them the program sleeps most. A busy host costs runs of the others.
+        """
         self.good(["cmake", "-S", ROOT / "examples/minimal", "-B", "build"])
         self.good(["cmake", "--build", "build"])
         before = resource.getrusage(resource.RUSAGE_CHILDREN)

@@ -212,7 +212,8 @@ class Chip:
         handler: Callable[[int, int], None] | None = {
             RCC: self._rcc, PWR: self._pwr, IWDG: self._iwdg, SPI1: self._spi, SPI2: self._spi2,
             TIM1: self._tim1, TIM5: self._tim5, self.console: self._uart, SCB: self._scb,
-            SYSTICK: self._systick, FLASHR: self._flash, ADC1: self._adc, ADC_COMMON: self._adc_common, SDMMC1: self._sdmmc,
+            FLASHR: self._flash, ADC1: self._adc, ADC_COMMON: self._adc_common,
+            SDMMC1: self._sdmmc, SYSTICK: self._systick,
         }.get(base)  # fmt: skip
         if handler:
             handler(address - base, value)
@@ -220,7 +221,7 @@ class Chip:
             self._gpio((base - GPIOA) // 0x400, address - base, value)
 
     def _systick(self, offset: int, value: int) -> None:
-        """Who starts it waits for its end, asleep: that is at once, and so much time has gone by."""
+        """Whoever starts it sleeps until its end, which is at once: the time has gone by."""
         if offset == 0 and value & 1:
             self.tick((self.words[SYSTICK + 4] + 1) // CORE_MHZ)
             self.words[SCB + 4] = 1 << 26  # PENDSTSET.

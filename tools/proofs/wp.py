@@ -96,8 +96,8 @@ RECORDED = Stage((), 100)
 # integers by CVC4 with 50 000 steps wherever with 75 000, among floats by Alt-Ergo with 300
 # wherever with 3000. Debian's CVC4 is built without floats: it gives up on the first literal of
 # one, and WP takes that for a test that was passed. WP proves calls through pointers once more in
-# this pass, which takes 56 000 steps. Steps count alike on every machine; what has steps left ends by
-# the processor's time (toolchain/limits.py).
+# this pass, which takes 56 000 steps. Steps count alike on every machine; what has steps left ends
+# by the processor's time (toolchain/limits.py).
 SMOKE = Stage(("cvc4",), SMOKE_SECONDS, steps=60_000)
 SMOKE_OF_FLOATS = Stage(("alt-ergo",), SMOKE_SECONDS, steps=300)
 FLOATS = re.compile(r"\b(?:float|double)\b")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How long a prover may take: what it is told, and of a test for contradictions the time as well."""
+"""How long a prover may take: as it is told, and for a test for contradictions, in time, too."""
 
 from __future__ import annotations
 

@@ -5,9 +5,9 @@
  *        one's own.
  *
  * Begin opens the pass, next decides and hands out the task to run, finish takes its statistics;
- * none of them calls a task. Between two passes idle says how long a loop may sleep. A turn is next, the body and finish; run takes turns until the pass is
- * closed, which is what follows begin in a step. They take a scheduler that is not null; a firmware
- * calls keel_scheduler_step.
+ * none of them calls a task. A turn is next, the body and finish; run takes turns until the pass is
+ * closed, which is what follows begin in a step. Between two passes idle says how long a loop may
+ * sleep. They take a scheduler that is not null; a firmware calls keel_scheduler_step.
  */
 #ifndef KEEL_RTOS_PASS_H
 #define KEEL_RTOS_PASS_H
@@ -454,8 +454,8 @@ keel_status_t keel_pass_run(keel_scheduler_t *scheduler);
  * @param raw_us     the clock now
  * @param latency_us how long after the sleep the next step reads the clock, at most
  * @param longest_us what the sleep may last at most, for a watchdog that must be fed
- * @return how long, in us from that reading on; 0 when a task may be due within the latency, while a
- *         pass is open, before the start, and when the clock jumped backwards
+ * @return how long, in us from that reading on; 0 when a task may be due within the latency, while
+ *         a pass is open, before the start, and when the clock jumped backwards
  */
 /*@ requires \valid_read(scheduler) && in_uptime(scheduler);
   @ assigns \nothing;
