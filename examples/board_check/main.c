@@ -514,5 +514,7 @@ int main(void)
             obey(key);
         }
         turn_trace();
+        keel_board_sleep_us(keel_scheduler_idle_us(&scheduler, KEEL_BOARD_WAKE_US,
+                                                   KEEL_BOARD_SLEEP_US));
     }
 }

@@ -246,5 +246,7 @@ int main(void)
         if (keel_chip_get(&key) && (key == 'q')) {
             end();
         }
+        keel_board_sleep_us(keel_scheduler_idle_us(&scheduler, KEEL_BOARD_WAKE_US,
+                                                   KEEL_BOARD_SLEEP_US));
     }
 }
