@@ -50,6 +50,7 @@ class Parameter(Table):
     default: bool | int | float
     description: Words
     fields: Annotated[list[str], Field(min_length=1)]
+    restart: bool = False
     as_: Literal["uint8_t", "uint16_t", "uint32_t", "int32_t"] = Field("uint32_t", alias="as")
 
     @property
@@ -112,10 +113,16 @@ def fits(number: Number, type_: str) -> bool:
     return abs(number) <= LARGEST
 
 
+def unit_of(field: str) -> str:
+    """Whose settings a field is of: what it is made anew with."""
+    return field.partition(".")[0]
+
+
 def mistakes(file: File) -> Iterator[Mistake]:
     """What a single parameter does not show: names and fields that there are twice."""
     names: set[str] = set()
     taken: set[str] = set()
+    restarts: dict[str, bool] = {}
     for g, group in enumerate(file.group):
         for p, one in enumerate(group.parameter):
             place = ("group", g, "parameter", p)
@@ -130,6 +137,8 @@ def mistakes(file: File) -> Iterator[Mistake]:
                     yield (*place, "fields"), f"{text!r}: a factor is for floats"
                 elif match[2] in taken:
                     yield (*place, "fields"), f"{match[2]} is set by another parameter"
+                elif restarts.setdefault(unit_of(match[2]), one.restart) != one.restart:
+                    yield (*place, "restart"), f"another parameter of {unit_of(match[2])} differs"
                 else:
                     taken.add(match[2])
     if len(names) > MOST:
@@ -200,6 +209,9 @@ void {name}_apply_parameters({name}_settings_t *settings, const keel_parameter_e
 """
 
 
+RESTARTS = ",\n     .restarts = true"
+
+
 def row(one: Parameter) -> str:
     """The row of a parameter."""
     low, high = one.bounds
@@ -207,7 +219,7 @@ def row(one: Parameter) -> str:
         f'    {{.name = "{one.name}",\n'
         f"     .initial = {value(one.type, one.default)},\n"
         f"     .lowest = {value(one.type, low)},\n"
-        f"     .highest = {value(one.type, high)}}},"
+        f"     .highest = {value(one.type, high)}{RESTARTS if one.restart else ''}}},"
     )
 
 
@@ -244,6 +256,31 @@ def shown(number: Number, kind: str) -> str:
     return f"{number:g}" if kind == "float" else str(number)
 
 
+PAGE = """\
+A value is taken only when it is within its range and all units accept the configuration that
+results; otherwise nothing changes, and the reason is told. It is saved on the ground, and a
+power cut leaves the set that was saved before, or this one.
+
+On the ground it is in force at once; what is set in flight is so once the copter is disarmed.
+Where the table says "restart" it is in force from the next start on: a text says so when it is
+set, again when the copter is armed, and whenever a station asks for the list.
+
+## How ground stations see them
+
+On a link each parameter is a float, `MAV_PARAM_TYPE_REAL32`. MAVLink has two ways to write an
+integer: the bits of it, or its number. A client that expects the other way shows 7.0e-39 where 5
+is meant. All clients agree on a float, so whole numbers are sent as one, and a switch as 0 or 1.
+
+- pymavlink and MAVProxy show and set numbers, and MAVProxy's `param save` and `param load` keep
+  them.
+- In MAVSDK, `get_param_float` and `set_param_float` are for all parameters; `get_param_int` and
+  `set_param_int` answer WRONG_TYPE.
+- What is set as another type, is no number, or has a fraction where none can be is refused: with
+  a text, PARAM_ERROR, and the value as it is.
+- A float has 24 bits: whole numbers above 16 777 216 are rounded, by at most 64.
+"""
+
+
 def page(file: File, source: str) -> str:
     """The page of the documentation."""
     lines = [
@@ -251,24 +288,25 @@ def page(file: File, source: str) -> str:
         f"What can be set without compiling anew: {len(file.parameters)} parameters of",
         f"`examples/{file.name}`. This page, the C table and the metadata for ground stations are",
         f"made from `{source}` by `make tables`.", "",
-        "A value is used from the next start on. It is taken only when it is within its range and",
-        "all units accept the configuration that results; otherwise nothing changes, and the",
-        "reason is told.", "",
+        *PAGE.splitlines(), "",
     ]  # fmt: skip
     for group in file.group:
         lines += [f"## {group.name}", ""]
-        lines += ["| name | default | range | unit | |", "|---|---|---|---|---|"]
+        lines += ["| name | default | range | unit | in force | |", "|---|---|---|---|---|---|"]
         for one in group.parameter:
             low, high = (shown(number, one.type) for number in one.bounds)
             span = "on, off" if one.type == "bool" else f"{low} to {high}"
             lines.append(f"| `{one.name}` | {shown(one.default, one.type)} | {span} |"
-                         f" {one.unit or ''} | {one.description} |")  # fmt: skip
+                         f" {one.unit or ''} | {'restart' if one.restart else 'at once'} |"
+                         f" {one.description} |")  # fmt: skip
         lines.append("")
     return "\n".join(lines)
 
 
 def decimals(one: Parameter) -> int:
     """How many places a value needs."""
+    if one.type != "float":
+        return 0
     texts = [f"{float(number)!r}" for number in (*one.bounds, one.default)]
     return max(len(text.partition(".")[2].rstrip("0")) for text in texts) + 1
 
@@ -281,18 +319,19 @@ def metadata(file: File) -> str:
             low, high = one.bounds
             entry: dict[str, object] = {
                 "name": one.name,
-                "type": {"float": "Float", "int32": "Int32", "bool": "Uint8"}[one.type],
+                "type": "Float",  # As it is sent.
                 "shortDesc": one.description,
                 "group": group.name,
                 "default": int(one.default) if one.type == "bool" else one.default,
                 "min": low,
                 "max": high,
-                "rebootRequired": True,
+                "rebootRequired": one.restart,
+                "decimalPlaces": decimals(one),
             }
             if one.unit:
                 entry["units"] = one.unit
-            if one.type == "float":
-                entry["decimalPlaces"] = decimals(one)
+            if one.type != "float":
+                entry["increment"] = 1
             if one.type == "bool":
                 entry["values"] = [{"value": 0, "description": "off"},
                                    {"value": 1, "description": "on"}]  # fmt: skip

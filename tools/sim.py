@@ -39,6 +39,7 @@ BUILD = ROOT / "build/sim"
 GROUND_STATIONS = "127.0.0.1:14550"
 WARM_S = 12.0  # Until calibrations, estimates and the radio link have settled.
 EPOCH_S = 1_420_070_400  # 2015 began (UTC).
+MINUTE = 6_000_000  # In 10 us: frames of a new sender may be so old, but not from before the start.
 MOST_BYTES_PER_S = 1_000_000
 
 
@@ -73,7 +74,7 @@ def key_of(path: Path | None) -> Key | None:
     text = read_text(path).strip()
     if not re.fullmatch(r"[0-9A-Fa-f]{64}", text):
         raise ToolError(f"{path}: expected 64 hexadecimal digits")
-    return Key(bytes.fromhex(text), round((time.time() - EPOCH_S) * 1e5))
+    return Key(bytes.fromhex(text), round((time.time() - EPOCH_S) * 1e5) + MINUTE)
 
 
 def order_of(options: argparse.Namespace) -> Order:

@@ -119,6 +119,16 @@ keel_status_t copter_add(copter_t *copter, const copter_own_task_t *own)
     return add(copter, own->body, own->wcet_us);
 }
 
+/* Neither the cascade, nor the mixer, nor the sticks' curves remember anything between flights. Both
+ * take their settings: the check of the parameters has asked them. */
+void copter_retune(copter_t *copter)
+{
+    if (copter_tuning_apply(&copter->tuning)) {
+        (void)copter_control_init(&copter->control);
+        (void)keel_reference_init(&copter->pilot.reference, &copter_settings.reference);
+    }
+}
+
 keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool plain_mean)
 {
     const keel_scheduler_config_t config = urpilot_scheduler_config(port->read_clock, port->clock);

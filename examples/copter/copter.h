@@ -288,6 +288,14 @@ void copter_log_run(copter_t *copter);
 void copter_log_sample(copter_t *copter, uint32_t row);
 
 /**
+ * Puts in force what was set of parameters and does not wait for a restart. Units that hold such
+ * settings are made anew, which is for the ground alone: the copter is disarmed.
+ *
+ * @param copter the copter
+ */
+void copter_retune(copter_t *copter);
+
+/**
  * The declaration by which the scheduler knows a task: one set, for one copter.
  *
  * @param row which of urpilot_task; those that were added follow

@@ -51,17 +51,18 @@ static void define_trace(copter_log_t *log, uint32_t number)
     }
 }
 
-/* A bool is an int32 of 0 or 1. */
+/* What is in force. A bool is an int32 of 0 or 1. */
 static bool define_parameter(copter_t *copter, uint16_t index)
 {
     const keel_parameters_t *const table = &copter->tuning.table;
-    const keel_parameter_value_t value = keel_parameters_get(table, index);
+    const keel_parameter_value_t value = copter->tuning.in_force[index].value;
     const uint32_t bits = keel_parameter_bits(value);
     keel_ulog_name_t name = {.text = {0}};
     uint8_t bytes[sizeof bits];
 
     memcpy(name.text, keel_parameters_name(table, index), KEEL_PARAMETER_NAME_LENGTH);
     memcpy(bytes, &bits, sizeof bytes);
+    copter->log.parameter[index] = bits;
     return keel_ulog_parameter(&copter->log.message, &name,
                                (value.type == KEEL_PARAMETER_FLOAT) ? KEEL_ULOG_FLOAT
                                                                     : KEEL_ULOG_INT32,
@@ -251,6 +252,19 @@ static void look_at_tasks(copter_t *copter)
     }
 }
 
+/* The next one of all parameters, if its value in force is another than the log has. */
+static void log_parameter(copter_t *copter)
+{
+    copter_log_t *const log = &copter->log;
+    const uint16_t index = (uint16_t)((log->looked_at + 1u) % COPTER_PARAMETER_COUNT);
+
+    log->looked_at = index;
+    if ((keel_parameter_bits(copter->tuning.in_force[index].value) != log->parameter[index]) &&
+        define_parameter(copter, index)) {
+        store(log, copter->scheduler.clock.now_us);
+    }
+}
+
 static void copter_log_task(copter_t *copter)
 {
     copter_log_t *const log = &copter->log;
@@ -259,6 +273,9 @@ static void copter_log_task(copter_t *copter)
     uint32_t room;
 
     write_definitions(copter);
+    if (log->samples) {
+        log_parameter(copter);
+    }
     room = port->log_room(port->context);
     port->write_log(port->context, chunk,
                     keel_log_ring_read(&log->ring, chunk, (room < CHUNK) ? room : CHUNK));

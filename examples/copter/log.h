@@ -5,7 +5,8 @@
  *
  * At the end of a task's run the topics that are of that task are sampled, at their rates, into a
  * ring; nobody waits. A task of its own moves the ring's bytes to the port. Before that it hands
- * over what a log begins with: formats, parameters, subscriptions. What is lost, because the port
+ * over what a log begins with: formats, parameters, subscriptions; later it writes those parameters
+ * whose value in force changes. What is lost, because the port
  * is too slow for the ring, is in the log as a dropout.
  */
 #ifndef COPTER_LOG_H
@@ -14,6 +15,7 @@
 #include "common/trace.h"
 #include "keel/middleware/log_ring.h"
 #include "keel/middleware/ulog.h"
+#include "parameter_table.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -58,6 +60,8 @@ typedef struct copter_log {
     uint32_t rounds;                  /**< Runs of the log's task. */
     uint32_t lost;                    /**< Records, as far as dropouts tell. */
     uint8_t state;                    /**< Of the state machine, as the log has it. */
+    uint32_t parameter[COPTER_PARAMETER_COUNT]; /**< The bits of each, as the log has it. */
+    uint16_t looked_at;                         /**< Of these, in the last run. */
     uint16_t left[COPTER_LOG_TOPICS]; /**< Runs until a topic is sampled. */
     uint32_t runs[COPTER_LOG_TASKS];  /**< Of each task, and so on. */
     uint32_t busy_us[COPTER_LOG_TASKS];

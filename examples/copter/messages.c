@@ -28,6 +28,7 @@ const keel_mavlink_message_t messages_sent[MESSAGES_SENT] = {
     {MESSAGE_EXTENDED_SYS_STATE, 130u, 1u, MESSAGE_EXTENDED_SYS_STATE_LENGTH},
     {MESSAGE_NAMED_VALUE_INT, 44u, 1u, MESSAGE_NAMED_VALUE_INT_LENGTH},
     {MESSAGE_STATUSTEXT, 83u, 1u, MESSAGE_STATUSTEXT_LENGTH},
+    {MESSAGE_PARAM_ERROR, 209u, 1u, MESSAGE_PARAM_ERROR_LENGTH},
 };
 
 const keel_mavlink_message_t messages_taken[MESSAGES_TAKEN] = {
@@ -478,6 +479,18 @@ void message_statustext_pack(const message_statustext_t *from,
     }
     put_u16(&payload[51], from->id);
     put_u8(&payload[53], from->chunk_seq);
+}
+
+void message_param_error_pack(const message_param_error_t *from,
+                              uint8_t payload[MESSAGE_PARAM_ERROR_LENGTH])
+{
+    put_i16(&payload[0], from->param_index);
+    put_u8(&payload[2], from->target_system);
+    put_u8(&payload[3], from->target_component);
+    for (uint32_t i = 0u; i < 16u; i++) {
+        put_u8(&payload[4u + (1u * i)], (uint8_t)from->param_id[i]);
+    }
+    put_u8(&payload[20], from->error);
 }
 
 void message_ping_unpack(message_ping_t *to, const uint8_t payload[MESSAGE_PING_LENGTH])

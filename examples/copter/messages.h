@@ -49,8 +49,10 @@
 #define MAV_CMD_COMPONENT_ARM_DISARM                  400u
 #define MAV_CMD_SET_MESSAGE_INTERVAL                  511u
 #define MAV_CMD_REQUEST_MESSAGE                       512u
-#define MAV_PARAM_TYPE_INT32                          6u
 #define MAV_PARAM_TYPE_REAL32                         9u
+#define MAV_PARAM_ERROR_DOES_NOT_EXIST                1u
+#define MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE            2u
+#define MAV_PARAM_ERROR_PERMISSION_DENIED             3u
 #define MAV_SEVERITY_CRITICAL                         2u
 #define MAV_SEVERITY_WARNING                          4u
 #define MAV_SEVERITY_INFO                             6u
@@ -135,10 +137,12 @@
 #define MESSAGE_NAMED_VALUE_INT_LENGTH     18u
 #define MESSAGE_STATUSTEXT                 253u
 #define MESSAGE_STATUSTEXT_LENGTH          54u
+#define MESSAGE_PARAM_ERROR                345u
+#define MESSAGE_PARAM_ERROR_LENGTH         21u
 /** @} */
 
 /** What is sent. */
-#define MESSAGES_SENT 23u
+#define MESSAGES_SENT 24u
 extern const keel_mavlink_message_t messages_sent[MESSAGES_SENT];
 
 /** What is taken, of senders who know more fields too. */
@@ -169,7 +173,8 @@ typedef enum message_sent {
     SENT_HOME_POSITION,
     SENT_EXTENDED_SYS_STATE,
     SENT_NAMED_VALUE_INT,
-    SENT_STATUSTEXT
+    SENT_STATUSTEXT,
+    SENT_PARAM_ERROR
 } message_sent_t;
 
 /** HEARTBEAT. */
@@ -537,6 +542,15 @@ typedef struct message_statustext {
     uint8_t chunk_seq;
 } message_statustext_t;
 
+/** PARAM_ERROR. */
+typedef struct message_param_error {
+    int16_t param_index;
+    uint8_t target_system;
+    uint8_t target_component;
+    char param_id[16];
+    uint8_t error;
+} message_param_error_t;
+
 /** @name Payloads. */
 /** @{ */
 void message_heartbeat_pack(const message_heartbeat_t *from,
@@ -584,6 +598,8 @@ void message_named_value_int_pack(const message_named_value_int_t *from,
                                   uint8_t payload[MESSAGE_NAMED_VALUE_INT_LENGTH]);
 void message_statustext_pack(const message_statustext_t *from,
                              uint8_t payload[MESSAGE_STATUSTEXT_LENGTH]);
+void message_param_error_pack(const message_param_error_t *from,
+                              uint8_t payload[MESSAGE_PARAM_ERROR_LENGTH]);
 void message_ping_unpack(message_ping_t *to, const uint8_t payload[MESSAGE_PING_LENGTH]);
 void message_set_mode_unpack(message_set_mode_t *to,
                              const uint8_t payload[MESSAGE_SET_MODE_LENGTH]);

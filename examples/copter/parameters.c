@@ -237,8 +237,15 @@ keel_parameter_value_t keel_parameters_get(const keel_parameters_t *parameters, 
 keel_status_t keel_parameters_set(keel_parameters_t *parameters, uint16_t index,
                                   keel_parameter_value_t value)
 {
-    return (index < parameters->config.count) ? take_value(parameters, index, &value, true)
-                                              : KEEL_ERR_INPUT;
+    keel_status_t status = KEEL_ERR_INPUT;
+
+    if (index < parameters->config.count) {
+        status = take_value(parameters, index, &value, true);
+    }
+    if (status == KEEL_OK) {
+        parameters->config.entry[index].refused = KEEL_OK;
+    }
+    return status;
 }
 
 keel_status_t keel_parameters_set_by_name(keel_parameters_t *parameters, const char *name,

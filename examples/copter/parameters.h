@@ -50,12 +50,14 @@ typedef struct keel_parameter {
     keel_parameter_value_t initial;            /**< The default; lowest to highest. */
     keel_parameter_value_t lowest;             /**< Of the same type. */
     keel_parameter_value_t highest;            /**< Of the same type. */
+    bool restarts; /**< What is set is used from the next start on; this unit does not ask. */
 } keel_parameter_t;
 
 /** What is known of a parameter. */
 typedef struct keel_parameter_entry {
     keel_parameter_value_t value;
-    keel_status_t refused; /**< Why its value in the set that was loaded was not taken, or OK. */
+    keel_status_t refused; /**< Why its value in the set that was loaded was not taken; OK when it
+                                was, or another has been set since. */
 } keel_parameter_entry_t;
 
 /**
@@ -129,7 +131,7 @@ uint16_t keel_parameters_find(const keel_parameters_t *parameters, const char *n
 keel_parameter_value_t keel_parameters_get(const keel_parameters_t *parameters, uint16_t index);
 
 /**
- * Sets one. It is used from the next start on: nothing that flies changes.
+ * Sets one. Nothing that flies changes by that: whoever uses the values says when they are.
  *
  * @return KEEL_OK; KEEL_ERR_INPUT when there is no such parameter; KEEL_ERR_VALUE when the value
  *         is of another type, not finite, or out of the range; or what check says of the whole.

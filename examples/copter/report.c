@@ -6,7 +6,6 @@
 #include "keel/version.h"
 
 #include <math.h>
-#include <string.h>
 
 #define MILLI      1000.0f
 #define CENTI      100.0f
@@ -540,14 +539,10 @@ static bool command_ack(copter_link_t *link, uint8_t *payload)
     return true;
 }
 
-/* The bits of any value are sent as those of a float. */
+/* A whole number is sent as a float, too; above 2^24 it is rounded to one. */
 static float sent_as(keel_parameter_value_t value)
 {
-    const uint32_t bits = keel_parameter_bits(value);
-    float sent;
-
-    (void)memcpy(&sent, &bits, sizeof sent);
-    return sent;
+    return (value.type == KEEL_PARAMETER_FLOAT) ? value.real : (float)value.whole;
 }
 
 /* The next one that is wanted behind the one that was sent last; or none. */
@@ -581,11 +576,23 @@ static bool param_value(const keel_parameters_t *parameters, copter_link_t *link
             message.param_id[i] = name[i];
         }
         message.param_value = sent_as(value);
-        message.param_type = (uint8_t)((value.type == KEEL_PARAMETER_FLOAT) ? MAV_PARAM_TYPE_REAL32
-                                                                            : MAV_PARAM_TYPE_INT32);
+        message.param_type = (uint8_t)MAV_PARAM_TYPE_REAL32;
         message_param_value_pack(&message, payload);
     }
     return index < COPTER_PARAMETER_COUNT;
+}
+
+static bool param_error(copter_link_t *link, uint8_t *payload)
+{
+    if (link->errors == 0u) {
+        return false;
+    }
+    message_param_error_pack(&link->error[0], payload);
+    for (uint32_t i = 1u; i < link->errors; i++) {
+        link->error[i - 1u] = link->error[i];
+    }
+    link->errors--;
+    return true;
 }
 
 static bool answers(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
@@ -598,6 +605,9 @@ static bool answers(const copter_t *copter, copter_link_t *link, uint32_t sent, 
         break;
     case SENT_PARAM_VALUE:
         said = param_value(&copter->tuning.table, link, payload);
+        break;
+    case SENT_PARAM_ERROR:
+        said = param_error(link, payload);
         break;
     case SENT_STATUSTEXT:
         said = statustext(copter->telemetry, link, payload);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What a ground station may ask:
  *
- *     parameters                      list, read, set: used from the next start on, saved on the
- *                                     ground
+ *     parameters                      list, read, set: see take_parameters.c
  *     COMMAND_LONG, COMMAND_INT       COMPONENT_ARM_DISARM, DO_SET_MODE, SET_MESSAGE_INTERVAL and
  *                                     REQUEST_MESSAGE; others are answered with UNSUPPORTED
  *     SET_MODE                        as DO_SET_MODE
@@ -16,14 +15,11 @@
 #include "telemetry.h"
 
 #include <math.h>
-#include <string.h>
 
 #define ANYBODY   0u
 #define LEAST_US  10000.0f
 #define MOST_US   60000000.0f
-#define NO_INDEX  (-1)
 #define ID_MOST   16777215.0f
-#define WORD      32u
 #define NOT_FOUND UINT32_MAX
 #define MODE_MOST ((float)KEEL_MODE_NONE)
 #define CUSTOM    (MAV_MODE_FLAG_CUSTOM_MODE_ENABLED)
@@ -241,8 +237,8 @@ static uint32_t sent_of(float id)
 /* Answers are sent to what they answer alone. */
 static bool is_answer(uint32_t sent)
 {
-    return (sent == SENT_PING) || (sent == SENT_PARAM_VALUE) || (sent == SENT_COMMAND_ACK) ||
-           (sent == SENT_TIMESYNC) || (sent == SENT_STATUSTEXT);
+    return (sent == SENT_PING) || (sent == SENT_PARAM_VALUE) || (sent == SENT_PARAM_ERROR) ||
+           (sent == SENT_COMMAND_ACK) || (sent == SENT_TIMESYNC) || (sent == SENT_STATUSTEXT);
 }
 
 static uint32_t set_interval(copter_t *copter, const command_t *command)
@@ -370,25 +366,13 @@ static void take_set_mode(copter_t *copter, const keel_mavlink_frame_t *frame, u
     }
 }
 
-static void want(copter_link_t *link, uint32_t index)
-{
-    link->wanted[index / WORD] |= (uint32_t)1u << (index % WORD);
-}
-
 static void take_read(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
 {
-    const keel_parameters_t *const parameters = &copter->tuning.table;
     message_param_request_read_t message;
-    uint32_t index;
 
     message_param_request_read_unpack(&message, frame->payload);
-    if (!is_ours(message.target_system, message.target_component)) {
-        return;
-    }
-    index = (message.param_index == NO_INDEX) ? keel_parameters_find(parameters, message.param_id)
-                                              : (uint32_t)message.param_index;
-    if (index < COPTER_PARAMETER_COUNT) {
-        want(&copter->telemetry->link[link], index);
+    if (is_ours(message.target_system, message.target_component)) {
+        copter_take_read(copter, link, frame, &message);
     }
 }
 
@@ -398,55 +382,17 @@ static void take_list(copter_t *copter, const keel_mavlink_frame_t *frame, uint3
 
     message_param_request_list_unpack(&message, frame->payload);
     if (is_ours(message.target_system, message.target_component)) {
-        for (uint32_t i = 0u; i < COPTER_PARAMETER_COUNT; i++) {
-            want(&copter->telemetry->link[link], i);
-        }
+        copter_take_list(copter, link);
     }
-}
-
-/* What is told to be of another type than the parameter is none that it can have. */
-static keel_parameter_value_t value_of(keel_parameter_type_t type,
-                                       const message_param_set_t *message)
-{
-    const bool is_real = type == KEEL_PARAMETER_FLOAT;
-    const uint32_t told = is_real ? MAV_PARAM_TYPE_REAL32 : MAV_PARAM_TYPE_INT32;
-    keel_parameter_value_t value = {.type = KEEL_PARAMETER_FLOAT, .real = NAN};
-    uint32_t bits;
-
-    if (message->param_type == told) {
-        (void)memcpy(&bits, &message->param_value, sizeof bits);
-        value = keel_parameter_from_bits(type, bits);
-    }
-    return value;
 }
 
 static void take_set(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
 {
-    copter_telemetry_t *const self = copter->telemetry;
-    keel_parameters_t *const parameters = &copter->tuning.table;
     message_param_set_t message;
-    keel_parameter_value_t value;
-    uint16_t index;
 
     message_param_set_unpack(&message, frame->payload);
-    if (!is_ours(message.target_system, message.target_component) || !may_command(self, link)) {
-        return;
-    }
-    index = keel_parameters_find(parameters, message.param_id);
-    if (index >= COPTER_PARAMETER_COUNT) {
-        copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "parameter: ", "there is no such one");
-        return;
-    }
-    value = value_of(keel_parameters_get(parameters, index).type, &message);
-    if (keel_parameters_set(parameters, index, value) == KEEL_OK) {
-        self->saves = true;
-    } else {
-        copter_text(self, (uint8_t)MAV_SEVERITY_WARNING,
-                    "not set: ", keel_parameters_name(parameters, index));
-    }
-    /* All are told what it is now, also when that is what it was. */
-    for (uint32_t i = 0u; i < COPTER_LINKS; i++) {
-        want(&self->link[i], index);
+    if (is_ours(message.target_system, message.target_component)) {
+        copter_take_set(copter, link, frame, &message, may_command(copter->telemetry, link));
     }
 }
 

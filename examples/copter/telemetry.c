@@ -105,8 +105,11 @@ void copter_text(copter_telemetry_t *self, uint8_t severity, const char *first, 
 }
 
 /* Says when the state machine's state is another. */
-static void tell_state(copter_telemetry_t *self, const keel_mode_t *mode)
+static void tell_state(copter_t *copter)
 {
+    copter_telemetry_t *const self = copter->telemetry;
+    const keel_mode_t *const mode = &copter->state.mode;
+
     if (mode->state != self->state) {
         const bool alone = (mode->state >= KEEL_MODE_HOLDING);
 
@@ -114,6 +117,9 @@ static void tell_state(copter_telemetry_t *self, const keel_mode_t *mode)
                     states[mode->state],
                     ((mode->cause & KEEL_MODE_LINK_LOST) != 0u) ? ": radio link lost" : "");
         self->state = mode->state;
+        if (mode->state == KEEL_MODE_ARMED) {
+            copter_tell_parameters(copter);
+        }
     }
 }
 
@@ -159,6 +165,9 @@ static void ask_for_queues(const copter_telemetry_t *self, copter_link_t *link)
     }
     if (wanted) {
         copter_turns_ask(&link->turns, SENT_PARAM_VALUE);
+    }
+    if (link->errors > 0u) {
+        copter_turns_ask(&link->turns, SENT_PARAM_ERROR);
     }
     if (link->acks > 0u) {
         copter_turns_ask(&link->turns, SENT_COMMAND_ACK);
@@ -242,11 +251,16 @@ void copter_telemetry(copter_t *copter)
 {
     copter_telemetry_t *const self = copter->telemetry;
 
-    tell_state(self, &copter->state.mode);
+    tell_state(copter);
     copter_take_answers(copter);
     save_parameters(copter);
     self->turn = next_link(self);
-    if (self->config.link[self->turn].bytes_per_s > 0u) {
+    if (self->applies && (copter->state.mode.state == KEEL_MODE_DISARMED)) {
+        self->applies = false;
+        copter_retune(copter); /* That is enough for a run. */
+    } else if (self->config.link[self->turn].bytes_per_s > 0u) {
         run_link(copter, self->turn);
+    } else {
+        /* There is no link. */
     }
 }

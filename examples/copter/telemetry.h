@@ -9,7 +9,8 @@
  * looks at no more than COPTER_LINK_BYTES of it, acts on at most one frame, and sends at most one:
  * so its time is bounded, whatever comes.
  *
- * What a ground station may ask is in take.c; what moves the aircraft goes through request.h.
+ * What a ground station may ask is in take.c, and of parameters in take_parameters.c; what moves the
+ * aircraft goes through request.h.
  */
 #ifndef COPTER_TELEMETRY_H
 #define COPTER_TELEMETRY_H
@@ -29,6 +30,7 @@
 #define COPTER_LINKS       3u
 #define COPTER_LINK_BYTES  64u
 #define COPTER_LINK_ACKS   4u
+#define COPTER_LINK_ERRORS 4u
 #define COPTER_TEXTS       16u
 #define COPTER_TEXT_LENGTH 50u
 #define COPTER_NAMED       3u /**< Values that NAMED_VALUE_INT tells in turn. */
@@ -77,6 +79,8 @@ typedef struct copter_link {
     uint64_t ran_us;                             /**< When it had its last run. */
     message_command_ack_t ack[COPTER_LINK_ACKS]; /**< To be sent, the oldest first. */
     uint32_t acks;
+    message_param_error_t error[COPTER_LINK_ERRORS]; /**< The same. */
+    uint32_t errors;
     uint32_t texts;      /**< Of telemetry.texts, those sent or missed. */
     uint32_t missed;     /**< Texts that were overwritten before they were sent. */
     uint32_t dropped;    /**< Answers for which there was no place. */
@@ -113,6 +117,7 @@ typedef struct copter_telemetry {
     copter_waiter_t mode_waiter;
     uint32_t turn; /**< The link that had the last run. */
     bool saves;    /**< Parameters were set, and are to be saved on the ground. */
+    bool applies;  /**< The same, and are to be put in force there. */
     uint8_t state; /**< The state machine's, in the last run. */
 } copter_telemetry_t;
 
@@ -141,6 +146,15 @@ void copter_text(copter_telemetry_t *self, uint8_t severity, const char *first, 
 /** @{ */
 /** Acts on the frame that a link's decoder has. */
 void copter_take(copter_t *copter, uint32_t link);
+/** Tells parameters, or why not. */
+void copter_take_read(copter_t *copter, uint32_t link, const keel_mavlink_frame_t *from,
+                      const message_param_request_read_t *message);
+void copter_take_list(copter_t *copter, uint32_t link);
+/** Sets a parameter, if the link may. */
+void copter_take_set(copter_t *copter, uint32_t link, const keel_mavlink_frame_t *from,
+                     const message_param_set_t *message, bool may);
+/** Says in words which parameters wait for a restart, and which stored values were not taken. */
+void copter_tell_parameters(copter_t *copter);
 /** Answers those whose requests the state machine decided. */
 void copter_take_answers(copter_t *copter);
 /** Fills the payload of one of messages_sent; returns whether there is anything to say. */

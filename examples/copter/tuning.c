@@ -80,6 +80,31 @@ static void load(copter_tuning_t *tuning, const keel_medium_t *memory)
     }
 }
 
+bool copter_tuning_differs(const copter_tuning_t *tuning, uint16_t index)
+{
+    return keel_parameter_bits(tuning->entry[index].value) !=
+           keel_parameter_bits(tuning->in_force[index].value);
+}
+
+/* Whether anything is changed by it. What waits for a restart is left as it is unless this is one:
+ * those are all parameters of the units that have them, so that each unit's settings are either as
+ * they were, or as the check has seen them. */
+static bool put_in_force(copter_tuning_t *tuning, bool is_start)
+{
+    bool changes = is_start;
+
+    for (uint16_t i = 0u; i < COPTER_PARAMETER_COUNT; i++) {
+        if (is_start || (!copter_parameter[i].restarts && copter_tuning_differs(tuning, i))) {
+            tuning->in_force[i] = tuning->entry[i];
+            changes = true;
+        }
+    }
+    if (changes) {
+        set_fields(&copter_settings, tuning->in_force);
+    }
+    return changes;
+}
+
 keel_status_t copter_tuning_start(copter_tuning_t *tuning, const keel_medium_t *memory)
 {
     const keel_parameters_config_t config = {.table = copter_parameter,
@@ -99,8 +124,13 @@ keel_status_t copter_tuning_start(copter_tuning_t *tuning, const keel_medium_t *
     if (memory != NULL) {
         load(tuning, memory);
     }
-    set_fields(&copter_settings, tuning->entry);
+    put_in_force(tuning, true);
     return KEEL_OK;
+}
+
+bool copter_tuning_apply(copter_tuning_t *tuning)
+{
+    return put_in_force(tuning, false);
 }
 
 keel_status_t copter_tuning_save(copter_tuning_t *tuning)

@@ -20,14 +20,15 @@
 
 /** Parameters, and the memory that keeps them. */
 typedef struct copter_tuning {
-    keel_parameters_t table;         /**< To get and set them: used from the next start on. */
+    keel_parameters_t table;         /**< To get and set them. */
     keel_parameters_loaded_t loaded; /**< What the start found of a stored set. */
     keel_slots_result_t found;       /**< Whether it found one, or why not. */
     keel_slots_result_t saved;       /**< What became of the last save, or that it goes on. */
     bool has_memory;                 /**< There is one, and slots were made of it. */
     keel_slots_t slots;              /**< In the memory. */
     uint32_t length;                 /**< Of the set that was loaded, or is being saved. */
-    keel_parameter_entry_t entry[COPTER_PARAMETER_COUNT];
+    keel_parameter_entry_t entry[COPTER_PARAMETER_COUNT];    /**< As they were set. */
+    keel_parameter_entry_t in_force[COPTER_PARAMETER_COUNT]; /**< As copter_settings has them. */
     uint8_t image[COPTER_PARAMETER_BYTES];
 } copter_tuning_t;
 
@@ -40,6 +41,16 @@ typedef struct copter_tuning {
  *         this firmware does not know, is told in parameters, and no reason not to start
  */
 keel_status_t copter_tuning_start(copter_tuning_t *tuning, const keel_medium_t *memory);
+
+/** Whether what was set is not what is in force. */
+bool copter_tuning_differs(const copter_tuning_t *tuning, uint16_t index);
+
+/**
+ * Puts in force what was set, but for parameters that wait for a restart: changes copter_settings.
+ *
+ * @return whether anything was changed
+ */
+bool copter_tuning_apply(copter_tuning_t *tuning);
 
 /**
  * Begins to save all parameters that do not have their defaults.

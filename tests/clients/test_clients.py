@@ -6,6 +6,7 @@ Nothing here depends on how fast this machine is: each step waits for what it ex
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import socket
@@ -18,7 +19,8 @@ from typing import Any
 
 import pytest
 from flight import ulog
-from pymavlink import mavutil
+from other_values import defaults, others
+from pymavlink import mavparm, mavutil
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 LONG_S = 60.0
@@ -110,28 +112,35 @@ class Station:
         self.until("SYS_STATUS", lambda m: m.onboard_control_sensors_health & 0x10000000)
 
 
-@pytest.fixture(scope="module")
-def ports(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[int]]:
-    """A copter that has just been powered up: the ports at which its three links arrive."""
-    found = free_ports(3)
-    log = tmp_path_factory.mktemp("sim")
-    addresses = [part for port in found for part in ("--address", f"127.0.0.1:{port}")]
-    with (log / "log").open("w") as out:
+@contextlib.contextmanager
+def powered_up(ports: list[int], folder: Path, *options: str) -> Iterator[None]:
+    """A copter with a link to each of these ports."""
+    addresses = [part for port in ports for part in ("--address", f"127.0.0.1:{port}")]
+    with (folder / "log").open("w") as out:
         sim = subprocess.Popen(
-            [sys.executable, str(TOOLS / "sim.py"), "--cold", "--build", str(log), *addresses],
+            [sys.executable, str(TOOLS / "sim.py"), "--cold", "--build", str(folder), *addresses,
+             *options],
             stdout=out, stderr=subprocess.STDOUT,
         )  # fmt: skip
         try:
-            wait_for(lambda: "Ctrl-C" in (log / "log").read_text() or sim.poll() is not None,
+            wait_for(lambda: "Ctrl-C" in (folder / "log").read_text() or sim.poll() is not None,
                      "the copter's start")  # fmt: skip
-            yield found
+            yield
         finally:
             sim.send_signal(signal.SIGINT)
             try:
-                assert sim.wait(LONG_S) == 0, (log / "log").read_text()
-                assert len(ulog.read(log / "sim.ulg").topic("attitude")) > 100
+                assert sim.wait(LONG_S) == 0, (folder / "log").read_text()
             finally:
                 sim.kill()
+
+
+@pytest.fixture(scope="module")
+def ports(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[int]]:
+    """A copter that has just been powered up: the ports at which its three links arrive."""
+    found, folder = free_ports(3), tmp_path_factory.mktemp("sim")
+    with powered_up(found, folder):
+        yield found
+    assert len(ulog.read(folder / "sim.ulg").topic("attitude")) > 100
 
 
 @pytest.fixture(scope="module")
@@ -177,8 +186,38 @@ def test_pymavlink_lists_and_sets_parameters(station: Station) -> None:
         mav.param_set_send(1, 1, b"HEIGHT_P", value, kind)
         same = station.until("PARAM_VALUE", lambda m: m.param_id == "HEIGHT_P")
         assert same.param_value == 1.25
+        assert station.see("PARAM_ERROR").param_id == "HEIGHT_P"
     mav.param_request_read_send(1, 1, b"HEIGHT_P", -1)
     assert station.until("PARAM_VALUE", lambda m: m.param_id == "HEIGHT_P").param_value == 1.25
+
+
+def values_seen(station: Station) -> dict[str, float]:
+    """All parameters, as pymavlink reads them; what is lost on the way is asked for again."""
+    station.link.mav.param_request_list_send(1, 1)
+    known: dict[str, float] = {}
+    missing = range(len(defaults()))
+    for _ in range(10):
+        for index in missing if known else ():
+            station.link.mav.param_request_read_send(1, 1, b"", index)
+        while value := station.link.recv_match(type="PARAM_VALUE", blocking=True, timeout=1):
+            known[value.param_id] = value.param_value
+            missing = [index for index in missing if index != value.param_index]
+            if not missing:
+                return known
+    raise AssertionError(f"parameters {missing}: not told")
+
+
+def test_pymavlink_keeps_parameters_in_a_file(station: Station, tmp_path: Path) -> None:
+    kept = mavparm.MAVParmDict()
+    kept.update(values_seen(station))
+    kept.save(str(tmp_path / "kept.parm"))
+    asked = others()
+    for name, value in asked.items():
+        assert kept.mavset(station.link, name, value)
+    assert values_seen(station) == asked
+    assert kept.load(str(tmp_path / "kept.parm"), mav=station.link)
+    expected = {**defaults(), "HEIGHT_P": 1.25}  # As a test before has set it.
+    assert values_seen(station) == expected
 
 
 def test_pymavlink_is_refused_what_must_be(station: Station) -> None:
@@ -210,6 +249,28 @@ def test_pymavlink_flies(station: Station) -> None:
     assert {"armed", "flying", "landing"} <= set(station.texts)
 
 
+def mavsdk_sets_parameters(param: Any) -> None:
+    """All of them by the functions for floats; those for integers say that it is no integer."""
+    from mavsdk.plugins.param.param import ParamError, ParamResult
+
+    known = param.get_all_params()
+    before = {one.name: one.value for one in known.float_params}
+    assert set(before) == set(defaults()) and not known.int_params
+    for name, value in others().items():
+        param.set_param_float(name, value)
+        assert param.get_param_float(name) == value
+        param.set_param_float(name, before[name])
+    with pytest.raises(ParamError) as refused:
+        param.set_param_float("FS_RETURN", 0.5)
+    for wrong in (lambda: param.get_param_int("BAT_CELLS"),
+                  lambda: param.set_param_int("BAT_CELLS", 5)):  # fmt: skip
+        with pytest.raises(ParamError) as refused:
+            wrong()
+        assert ParamResult.WRONG_TYPE.name in str(refused.value)
+    after = {one.name: one.value for one in param.get_all_params().float_params}
+    assert after == before
+
+
 def test_mavsdk(station: Station, ports: list[int]) -> None:
     from mavsdk.component_type import ComponentType
     from mavsdk.mavsdk import Configuration, Mavsdk
@@ -230,13 +291,7 @@ def test_mavsdk(station: Station, ports: list[int]) -> None:
         assert abs(seen.attitude_euler().roll_deg) < 5.0
         wait_for(lambda: 14.0 < seen.battery().voltage_v < 17.5, "a battery")
         wait_for(lambda: seen.health().is_global_position_ok, "its health")
-        names = {one.name: one.value for one in param.get_all_params().float_params}
-        assert names["LAND_NEAR"] == 5.0
-        param.set_param_float("LAND_NEAR", 6.5)
-        assert param.get_param_float("LAND_NEAR") == 6.5
-        assert param.get_param_int("FS_HOLD_TIME") == 5_000_000
-        param.set_param_int("FS_HOLD_TIME", 4_000_000)
-        assert param.get_param_int("FS_HOLD_TIME") == 4_000_000
+        mavsdk_sets_parameters(param)
         for refused in (action.arm_force, action.kill, action.return_to_launch, action.land):
             with pytest.raises(ActionError):
                 refused()
@@ -266,10 +321,27 @@ def test_mavproxy(station: Station, ports: list[int], tmp_path: Path) -> None:
                 for text in expected:
                     wait_for(lambda: text in log.read_text(), f"{text} in {log.read_text()}")
 
-            wait_for(lambda: "Received 57 parameters" in log.read_text(), "parameters")
+            wait_for(lambda: f"Received {len(defaults())} parameters" in log.read_text(), "parameters")
             says("param set RTL_HEIGHT 12")
             station.until("PARAM_VALUE", lambda m: m.param_id == "RTL_HEIGHT")
             says("param fetch RTL_HEIGHT", "RTL_HEIGHT = 12.0")
+            before, count = values_seen(station), len(defaults())
+            says("param save before.parm", f"Saved {count} parameters to before.parm")
+            says("param show FS_RETURN", "FS_RETURN        1.0")
+            asked = {**others(), "BAT_CELLS": 6.0}
+            lines = [f"{name} {value:.9g}\n" for name, value in asked.items()]
+            (tmp_path / "asked.parm").write_text("".join(lines))
+            says("param load asked.parm", f"Loaded {count} parameters from asked.parm")
+            wait_for(lambda: values_seen(station) == asked, "what MAVProxy has loaded")
+            says("param fetch BAT_CELLS", "BAT_CELLS = 6.0")
+            says("param save after.parm", f"Saved {count} parameters to after.parm")
+            saved = dict(line.split() for line in (tmp_path / "after.parm").read_text().splitlines())
+            assert {name: float(value) for name, value in saved.items()} == pytest.approx(asked, abs=1e-6)
+            says("param load before.parm", f"Loaded {count} parameters from before.parm")
+            wait_for(lambda: values_seen(station) == before, "what it had before")
+            says("param set BAT_CELLS 4.5", "BAT_CELLS: not set, not a whole number",
+                 "Failed to set BAT_CELLS to 4.5 (invalid returned value 4.0)")
+            assert values_seen(station) == before
             says("mode 3", "DO_SET_MODE: ACCEPTED")
             says("arm throttle", "COMPONENT_ARM_DISARM: ACCEPTED", "ARMED")
             says("mode 0", "DO_SET_MODE: DENIED")
@@ -287,3 +359,35 @@ def mavproxy_program() -> Path:
         if starter.is_file():
             return starter
     raise AssertionError("mavproxy.py: is not there")
+
+
+def test_a_restart_with_signatures_and_parameters(tmp_path: Path) -> None:
+    """By one key: the station goes on, what was set is there, and a frame that was recorded before
+    the restart does not count again."""
+    (tmp_path / "key").write_text("5A" * 32)
+    port = free_ports(1)
+    station = Station(port[0])
+    station.link.setup_signing(b"\x5a" * 32)
+    options = ("--key", str(tmp_path / "key"))
+    try:
+        with powered_up(port, tmp_path, *options):
+            station.see("HEARTBEAT")
+            station.link.param_set_send("HEIGHT_P", 1.25)
+            station.until("PARAM_VALUE", lambda m: m.param_value == 1.25)
+            set_to_2 = station.link.mav.param_set_encode(1, 1, b"HEIGHT_P", 2.0, 9)
+            frame = set_to_2.pack(station.link.mav)  # Signed, and sent twice below.
+            station.link.write(frame)
+            station.until("PARAM_VALUE", lambda m: m.param_value == 2.0)
+            station.link.param_set_send("HEIGHT_P", 1.25)
+            station.until("PARAM_VALUE", lambda m: m.param_value == 1.25)
+            station.until("SYS_STATUS", lambda m: True)
+            time.sleep(2.0)  # It is saved.
+        with powered_up(port, tmp_path, *options):
+            station.see("HEARTBEAT")
+            station.link.write(frame)
+            time.sleep(1.0)
+            station.link.param_fetch_one("HEIGHT_P")
+            assert station.see("PARAM_VALUE").param_value == 1.25
+            assert station.see("HEARTBEAT").get_signed()
+    finally:
+        station.link.close()

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import random
 import struct
+import zlib
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,11 +16,12 @@ from typing import Any
 from unittest import mock
 
 import pytest
-from flight import judge, library, scenario, sensors
+from flight import judge, library, scenario, sensors, ulog
 from flight.library import Copter, Key, Link
 from flight.loop import Flight, Order, fly
 from flight.pilot import Bystander, Pilot, Sight
 from flight.sensors import TEMPERATURES
+from other_values import others
 from pymavlink.dialects.v20 import common as mavlink
 from toolchain import Toolchain
 
@@ -29,6 +31,8 @@ LAND, ANGLE, ALTITUDE, POSITION = 1, 2, 3, 4
 ARM, SET_MODE, INTERVAL, REQUEST = 400, 176, 511, 512
 THROTTLE, ARM_SWITCH, MODE_SWITCH, KILL = 2, 4, 5, 6
 LOW, ON, OFF = 988, 2000, 1000
+MINUTE = 6_000_000  # In 10 us.
+REAL32 = mavlink.MAV_PARAM_TYPE_REAL32
 BURST = 512
 WARM_MS = 12_000
 SENT = {"HEARTBEAT", "SYS_STATUS", "GPS_RAW_INT", "ATTITUDE", "LOCAL_POSITION_NED",
@@ -328,25 +332,167 @@ def value_in(rig: Rig, name: str) -> Any:
     rig.send(mavlink.MAVLink_param_request_read_message(1, 1, name.encode(), -1))
     rig.run(300)
     values = [one for one in rig.seen[0] if one.get_type() == "PARAM_VALUE"]
-    return values[-1]
+    assert (values[-1].param_id, values[-1].param_type) == (name, REAL32)
+    return values[-1].param_value
 
 
-def test_parameters_are_kept(copter: Copter, tmp_path: Path) -> None:
+def set_to(rig: Rig, name: str, value: float, kind: int = REAL32, link: int = 0) -> list[str]:
+    """Set a parameter; what is said meanwhile."""
+    begun = len(rig.texts(link))
+    rig.send(mavlink.MAVLink_param_set_message(1, 1, name.encode(), value, kind), link)
+    rig.run(300)
+    return rig.texts(link)[begun:]
+
+
+def errors_in(rig: Rig, link: int = 0) -> list[tuple[str, int, int]]:
+    """Of which parameters there was an error, by name or index, and which."""
+    errors = [one for one in rig.seen[link] if one.get_type() == "PARAM_ERROR"]
+    assert all((one.target_system, one.target_component) == (255, 190) for one in errors)
+    return [(one.param_id, one.param_index, one.error) for one in errors]
+
+
+def test_each_parameter_is_set_told_and_kept(copter: Copter, tmp_path: Path) -> None:
     rig = Rig(copter, warm_ms=1000, memory=tmp_path / "memory")
-    whole = struct.unpack("<f", struct.pack("<i", 4_000_000))[0]
-    for name, value, kind in ((b"HEIGHT_P", 1.5, 9), (b"FS_HOLD_TIME", whole, 6),
-                              (b"POS_P", float("nan"), 9), (b"POS_P", 1.0, 1),
-                              (b"POS_P", 1.0, 6), (b"VEL_P", 11.0, 9)):  # fmt: skip
-        rig.send(mavlink.MAVLink_param_set_message(1, 1, name, value, kind))
-        rig.run(300)
-    assert rig.texts()[-4:] == ["not set: POS_P"] * 3 + ["not set: VEL_P"]
+    asked = others()
+    for name, value in asked.items():
+        assert value_in(rig, name) != value
+        assert not [text for text in set_to(rig, name, value) if "not set" in text]
+        assert value_in(rig, name) == value
     rig.run(4000)
     again = Rig(copter, warm_ms=500, memory=tmp_path / "memory")
-    assert value_in(again, "HEIGHT_P").param_value == 1.5
-    assert abs(value_in(again, "POS_P").param_value - 0.8) < 1e-6
-    held = value_in(again, "FS_HOLD_TIME")
-    assert struct.pack("<f", held.param_value) == struct.pack("<i", 4_000_000)
-    assert held.param_type == 6
+    assert {name: value_in(again, name) for name in asked} == asked
+    assert not errors_in(rig) and not errors_in(again)
+
+
+@pytest.mark.parametrize(("name", "value", "kind", "reason"), [
+    ("POS_P", float("nan"), REAL32, "not a number"),
+    ("POS_P", float("inf"), REAL32, "out of its range"),
+    ("POS_P", 1.0, 1, "its type is REAL32"),
+    ("POS_P", 1.0, 6, "its type is REAL32"),
+    ("VEL_P", 11.0, REAL32, "out of its range"),
+    ("BAT_CELLS", 4.5, REAL32, "not a whole number"),
+    ("BAT_CELLS", float("nan"), REAL32, "not a number"),
+    ("BAT_CELLS", 15.0, REAL32, "out of its range"),
+    ("BAT_CELLS", float("-inf"), REAL32, "out of its range"),
+    ("BAT_CELLS", 1e30, REAL32, "out of its range"),
+    ("BAT_CELLS", 2147483648.0, REAL32, "out of its range"),
+    ("BAT_CELLS", 6.0, 6, "its type is REAL32"),
+    ("FS_RETURN", 0.5, REAL32, "not a whole number"),
+    ("FS_RETURN", 2.0, REAL32, "out of its range"),
+    ("BAT_V_CRIT", 3.75, REAL32, "contradicts another"),  # The low voltage is 3.5.
+])  # fmt: skip
+def test_what_no_parameter_can_be_is_refused(
+    copter: Copter, name: str, value: float, kind: int, reason: str
+) -> None:
+    rig = Rig(copter, warm_ms=500)
+    before = value_in(rig, name)
+    told = rig.counts()["PARAM_VALUE"]
+    assert set_to(rig, name, value, kind) == [f"{name}: not set, {reason}"]
+    assert rig.counts()["PARAM_VALUE"] == told + 1
+    assert errors_in(rig) == [(name, -1, mavlink.MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE)]
+    assert value_in(rig, name) == before
+
+
+def test_parameters_that_there_are_not(copter: Copter) -> None:
+    rig = Rig(copter, warm_ms=500)
+    none = mavlink.MAV_PARAM_ERROR_DOES_NOT_EXIST
+    rig.send(mavlink.MAVLink_param_request_read_message(1, 1, b"SIXTEEN_LETTERS_", -1))
+    rig.send(mavlink.MAVLink_param_request_read_message(1, 1, b"", 57))
+    rig.send(mavlink.MAVLink_param_request_read_message(1, 1, b"", -2))
+    rig.run(300)
+    assert errors_in(rig) == [("SIXTEEN_LETTERS_", -1, none), ("", 57, none), ("", -2, none)]
+    assert set_to(rig, "SYSID_NONE", 1.0) == ["parameter: there is no such one"]
+    assert errors_in(rig)[3:] == [("SYSID_NONE", -1, none)]
+    assert rig.counts()["PARAM_VALUE"] == 0
+
+
+def armed(rig: Rig) -> None:
+    """By telemetry."""
+    assert rig.ask(ARM, 1) == ACCEPTED
+    rig.run(1000)
+
+
+def idle_of(rig: Rig) -> int:
+    """The first motor's pulse, as it is told."""
+    told = [one for one in rig.seen[0] if one.get_type() == "SERVO_OUTPUT_RAW"]
+    return int(told[-1].servo1_raw)
+
+
+def test_what_is_set_on_the_ground_is_in_force_at_once(copter: Copter, tmp_path: Path) -> None:
+    copter.log(tmp_path / "log.ulg")
+    rig = Rig(copter, memory=tmp_path / "memory")
+    assert set_to(rig, "MOT_IDLE", 0.125) == []
+    armed(rig)
+    rig.run(1000)
+    assert idle_of(rig) == 1125
+    assert set_to(rig, "MOT_IDLE", 0.0625) == ["MOT_IDLE: in force once disarmed"]
+    assert idle_of(rig) == 1125 and value_in(rig, "MOT_IDLE") == 0.0625
+    assert rig.ask(ARM, 0) == ACCEPTED
+    armed(rig)
+    rig.run(1000)
+    assert idle_of(rig) == 1062
+    assert not [text for text in rig.texts() if "restart" in text]
+    rig.run(1000)
+    copter.log(None)
+    log = ulog.read(tmp_path / "log.ulg")
+    assert log.parameters["MOT_IDLE"] == 0.0625  # What it was last.
+    assert len(log.parameters) == len(others())
+
+
+def test_what_waits_for_a_restart_is_told(copter: Copter, tmp_path: Path) -> None:
+    rig = Rig(copter, memory=tmp_path / "memory")
+    waits = "KILL_TIME: in force after a restart"
+    assert set_to(rig, "KILL_TIME", 900_000.0) == [waits]
+    assert set_to(rig, "KILL_TIME", 1_000_000.0) == []  # As it is in force.
+    assert set_to(rig, "KILL_TIME", 900_000.0) == [waits]
+    begun = len(rig.texts())
+    armed(rig)
+    assert set(rig.texts()[begun:]) == {"armed", waits}
+    assert rig.ask(ARM, 0) == ACCEPTED
+    rig.run(4000)
+    begun = len(rig.texts())
+    rig.send(mavlink.MAVLink_param_request_list_message(1, 1))
+    rig.run(2000)
+    assert rig.texts()[begun:] == [waits]
+    again = Rig(copter, memory=tmp_path / "memory")
+    again.send(mavlink.MAVLink_param_request_list_message(1, 1))
+    armed(again)
+    assert "armed" in again.texts() and waits not in again.texts()
+    assert value_in(again, "KILL_TIME") == 900_000.0
+
+
+def stored(*records: tuple[str, int, bytes]) -> bytes:
+    """A memory whose first slot has a set, as slots.h and parameters.h lay it out."""
+    image = b"".join(name.encode().ljust(16, b"\0") + bytes([kind]) + bits
+                     for name, kind, bits in records)  # fmt: skip
+    head = struct.pack("<II", 1, len(image))
+    return b"\x4B" + head + image + struct.pack("<I", zlib.crc32(head + image))
+
+
+def test_a_set_of_another_version_is_loaded_and_told(copter: Copter, tmp_path: Path) -> None:
+    (tmp_path / "memory").write_bytes(stored(
+        ("MOT_IDLE", 0, struct.pack("<f", 0.125)),
+        ("OF_ANOTHER", 0, struct.pack("<f", 1.0)),
+        ("BAT_CELLS", 0, struct.pack("<f", 6.0)),  # It was a float there,
+        ("POS_P", 0, struct.pack("<f", 99.0)),  # and this had another range.
+    ))  # fmt: skip
+    rig = Rig(copter, warm_ms=500, memory=tmp_path / "memory")
+    assert [value_in(rig, name) for name in ("MOT_IDLE", "BAT_CELLS")] == [0.125, 4.0]
+    assert abs(value_in(rig, "POS_P") - 0.8) < 1e-6
+    rig.send(mavlink.MAVLink_param_request_list_message(1, 1))
+    rig.run(2000)
+    assert rig.texts() == ["POS_P: the stored value is not taken",
+                           "BAT_CELLS: the stored value is not taken",
+                           "parameters: unknown ones are stored"]  # fmt: skip
+    assert set_to(rig, "BAT_CELLS", 6.0) == ["BAT_CELLS: in force after a restart"]
+    set_to(rig, "POS_P", 0.75)
+    rig.run(4000)
+    again = Rig(copter, warm_ms=500, memory=tmp_path / "memory")
+    again.send(mavlink.MAVLink_param_request_list_message(1, 1))
+    again.run(2000)
+    assert again.texts() == []
+    assert [value_in(again, name) for name in ("MOT_IDLE", "BAT_CELLS", "POS_P")] \
+        == [0.125, 6.0, 0.75]  # fmt: skip
 
 
 def test_anything_may_come(copter: Copter) -> None:
@@ -392,13 +538,14 @@ def test_a_link_may_be_for_listening_alone(copter: Copter) -> None:
     assert rig.ask(ARM, 1, link=1) == DENIED
     assert rig.ask(SET_MODE, 1, LAND, link=1) == DENIED
     rig.send(mavlink.MAVLink_set_mode_message(1, 1, LAND), 1)
-    rig.send(mavlink.MAVLink_param_set_message(1, 1, b"HEIGHT_P", 2.0, 9), 1)
-    rig.run(1000)
-    assert rig.state() == DISARMED and rig.counts(1)["PARAM_VALUE"] == 0
+    set_to(rig, "HEIGHT_P", 2.0, link=1)
+    assert rig.state() == DISARMED
+    assert errors_in(rig, 1) == [("HEIGHT_P", -1, mavlink.MAV_PARAM_ERROR_PERMISSION_DENIED)]
+    assert rig.counts()["PARAM_VALUE"] == 0
     rig.send(mavlink.MAVLink_param_request_read_message(1, 1, b"HEIGHT_P", -1), 1)
     rig.run(1000)
     values = [message for message in rig.seen[1] if message.get_type() == "PARAM_VALUE"]
-    assert [value.param_value for value in values] == [1.0]
+    assert [value.param_value for value in values] == [1.0, 1.0]
     assert rig.ask(ARM, 1) == ACCEPTED
 
 
@@ -580,6 +727,28 @@ def test_with_a_key_only_what_is_signed_counts(copter: Copter) -> None:
         rig.copter.send(link, frame)
         rig.run(500)
     assert rig.counts()["COMMAND_ACK"] == 1 and rig.counts(1)["COMMAND_ACK"] == 0
+
+
+def test_signing_goes_on_over_a_restart(copter: Copter) -> None:
+    """With the time that A-42 asks for, what was signed before does not count again."""
+    now, key = 35_000_000_000_000, bytes(range(32))
+    rig = Rig(copter, key=Key(key, now))
+    sign(rig.station, key, now + 1000)
+    old = mavlink.MAVLink_param_set_message(1, 1, b"POS_P", 0.75, REAL32).pack(rig.station)
+    rig.copter.send(0, old)
+    rig.run(500)
+    assert [text for text in rig.texts() if "POS_P" in text] == []
+    assert rig.counts()["PARAM_VALUE"] == 1
+    later = now + 1000 + MINUTE + 1
+    again = Rig(copter, key=Key(key, later))
+    sign(again.parsers[0], key, now)
+    again.copter.send(0, old)
+    again.run(500)
+    assert again.counts()["PARAM_VALUE"] == 0  # Heard before the restart.
+    sign(again.station, key, later - MINUTE)  # The clock of a station that knows the date.
+    again.send(mavlink.MAVLink_param_set_message(1, 1, b"POS_P", 0.75, REAL32))
+    again.run(500)
+    assert again.counts()["PARAM_VALUE"] == 1 and again.counts()["BAD_DATA"] == 0
 
 
 def test_the_bystander_flies_when_others_arm(copter: Copter) -> None:

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The copter's settings through its parameters: defaults, what is set, saved and loaded again."""
+"""The copter's settings through its parameters: defaults, what is set, put in force, saved and loaded
+again, also when the power fails meanwhile."""
 
 from __future__ import annotations
 
@@ -25,13 +26,29 @@ SHIM = """\
 static copter_tuning_t all;
 static keel_medium_t memory;
 static char path[512];
+static keel_medium_t whole;
+static uint32_t left = UINT32_MAX; /* Bytes that are written before the power fails. */
+static bool cut(void *context, uint32_t address, const uint8_t *bytes, uint32_t count)
+{
+    const uint32_t now = (count < left) ? count : left;
+    left -= now;
+    return (now == 0u) || whole.write(context, address, bytes, now);
+}
+uint32_t power_for(uint32_t bytes)
+{
+    const uint32_t before = left;
+    left = bytes;
+    return before;
+}
 int start(const char *file)
 {
     memset(&all, 0x5A, sizeof all);
     memset(&copter_settings, 0x5A, sizeof copter_settings);
     if (file == NULL) { return (int)copter_tuning_start(&all, NULL); }
     strncpy(path, file, sizeof path - 1u);
-    memory = file_medium(path);
+    whole = file_medium(path);
+    memory = whole;
+    memory.write = cut;
     return (int)copter_tuning_start(&all, &memory);
 }
 int is_default(void)
@@ -45,6 +62,19 @@ int set(const char *name, int type, double number)
                                           type == 0 ? 0 : (int32_t)number};
     return (int)keel_parameters_set_by_name(&all.table, name, value);
 }
+int apply(void) { return copter_tuning_apply(&all); }
+int differs(const char *name)
+{
+    return copter_tuning_differs(&all, keel_parameters_find(&all.table, name));
+}
+void look(float *number)
+{
+    for (uint16_t i = 0u; i < keel_parameters_count(&all.table); i++) {
+        const keel_parameter_value_t value = keel_parameters_get(&all.table, i);
+        number[i] = value.type == KEEL_PARAMETER_FLOAT ? value.real : (float)value.whole;
+    }
+}
+double idle_thrust(void) { return copter_settings.mixer.idle; }
 int save(void) { return (int)copter_tuning_save(&all); }
 int step(void) { copter_tuning_step(&all); return (int)all.saved; }
 int found(void) { return (int)all.found; }
@@ -66,6 +96,7 @@ int refused_defaults(void)
 OK, NONE, BUSY = 0, 2, 1
 NO_MEMORY, UNDER_WAY = 1, 2  # KEEL_ERR_NULL, KEEL_ERR_STATE
 FLOAT, INT32, BOOL = 0, 1, 2
+ENDLESS = 2**32 - 1
 
 
 class CopterParameters(unittest.TestCase):
@@ -91,7 +122,7 @@ class CopterParameters(unittest.TestCase):
                    *(f"-I{ROOT / folder}" for folder in folders), shim, *sources, "-lm",
                    "-o", library])  # fmt: skip
         cls.copter = ctypes.CDLL(str(library))
-        for name in ("critical", "thrust"):
+        for name in ("critical", "thrust", "idle_thrust"):
             getattr(cls.copter, name).restype = ctypes.c_double
 
     def setUp(self) -> None:
@@ -138,6 +169,60 @@ class CopterParameters(unittest.TestCase):
         self.save()
         self.start()
         self.assertEqual(self.copter.taken(), 2)
+
+    def test_PAR_011_what_is_set_on_the_ground_is_in_force_at_once(self) -> None:
+        self.start()
+        self.assertEqual(self.set("MOT_IDLE", FLOAT, 0.125), OK)
+        self.assertTrue(self.copter.differs(b"MOT_IDLE"))
+        self.assertTrue(self.copter.is_default())
+        self.assertTrue(self.copter.apply())
+        self.assertEqual(self.copter.idle_thrust(), 0.125)
+        self.assertFalse(self.copter.differs(b"MOT_IDLE"))
+        self.assertFalse(self.copter.apply())
+
+    def test_PAR_011_what_waits_for_a_restart_is_in_force_after_it(self) -> None:
+        self.start()
+        self.assertEqual(self.set("BAT_CELLS", INT32, 3), OK)
+        self.assertEqual(self.set("THR_HOVER", FLOAT, 0.5), OK)
+        self.assertTrue(self.copter.apply())
+        self.assertEqual((self.copter.cells(), self.copter.thrust()), (4, 0.375))
+        self.assertTrue(self.copter.differs(b"BAT_CELLS"))
+        self.save()
+        self.start()
+        self.assertEqual(self.copter.cells(), 3)
+        self.assertFalse(self.copter.differs(b"BAT_CELLS"))
+
+    def look(self) -> list[float]:
+        numbers = (ctypes.c_float * 200)()
+        self.copter.look(numbers)
+        return list(numbers)
+
+    def save_anew(self, saved: bytes, cut: int) -> tuple[list[float], int]:
+        """Save other values than a file has, with power for so many bytes; what was to be saved,
+        and how many bytes were not needed."""
+        self.file.write_bytes(saved)
+        self.start()
+        for name, number in (("BAT_CELLS", 6), ("RTL_TIME", 130_000_000)):
+            self.assertEqual(self.set(name, INT32, number), OK)
+        self.assertEqual(self.set("HEIGHT_P", FLOAT, 1.25), OK)
+        values = self.look()
+        self.copter.power_for(cut)
+        self.save()
+        return values, int(self.copter.power_for(ENDLESS))
+
+    def test_PAR_012_a_power_cut_leaves_the_old_set_or_the_new_one(self) -> None:
+        self.start()
+        for name, number in (("BAT_CELLS", 3), ("KILL_TIME", 900_000)):
+            self.assertEqual(self.set(name, INT32, number), OK)
+        self.save()
+        old, saved = self.look(), self.file.read_bytes()
+        new, left = self.save_anew(saved, 1000)
+        # The slot's mark cleared and set, 8 bytes of its head, 4 records, and 4 bytes of its check.
+        self.assertEqual(1000 - left, 1 + 8 + 4 * 21 + 4 + 1)
+        for cut in range(1000 - left + 1):
+            self.save_anew(saved, cut)
+            self.start()
+            self.assertEqual(self.look(), new if cut == 1000 - left else old, cut)
 
     def test_PAR_010_defaults_are_stored_as_nothing(self) -> None:
         self.start()

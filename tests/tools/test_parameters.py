@@ -30,6 +30,7 @@ type = "int32"
 as = "uint8_t"
 range = [1, 14]
 default = 4
+restart = true
 description = "Cells in series."
 fields = ["battery.cells"]
 
@@ -40,7 +41,7 @@ unit = "V"
 range = [2.5, 4.2]
 default = 3.5
 description = "A voltage."
-fields = ["battery.low_voltage", "0.5 * other[KEEL_ROLL].value", "-1 * less"]
+fields = ["warning.low_voltage", "0.5 * other[KEEL_ROLL].value", "-1 * less"]
 
 [[group.parameter]]
 name = "RETURNS"
@@ -52,14 +53,14 @@ fields = ["mode.returns"]
 
 # What is changed in it, and what is said: the line, the key and the reason.
 WRONG: list[tuple[str, str, str]] = [
-    ('name = "BAT_LOW"', 'name = "BAT_LOW_VOLTAGE_X"', "x.toml:16: group Battery: parameter"),
+    ('name = "BAT_LOW"', 'name = "BAT_LOW_VOLTAGE_X"', "x.toml:17: group Battery: parameter"),
     ('name = "BAT_LOW"', 'name = "bat_low"', ": name: expected to match pattern"),
-    ('name = "BAT_LOW"', 'name = "BAT_CELLS"', "x.toml:16: group Battery: parameter BAT_CELLS: "
+    ('name = "BAT_LOW"', 'name = "BAT_CELLS"', "x.toml:17: group Battery: parameter BAT_CELLS: "
      "name: there is another BAT_CELLS"),
-    ('type = "float"', 'type = "double"', "x.toml:17: group Battery: parameter BAT_LOW: type: "
+    ('type = "float"', 'type = "double"', "x.toml:18: group Battery: parameter BAT_LOW: type: "
      "expected to be 'float', 'int32' or 'bool'"),
-    ("range = [2.5, 4.2]\n", "", "x.toml:15: group Battery: parameter BAT_LOW: a range is what"),
-    ("range = [2.5, 4.2]", "range = [2.5]", "x.toml:19: group Battery: parameter BAT_LOW: range:"),
+    ("range = [2.5, 4.2]\n", "", "x.toml:16: group Battery: parameter BAT_LOW: a range is what"),
+    ("range = [2.5, 4.2]", "range = [2.5]", "x.toml:20: group Battery: parameter BAT_LOW: range:"),
     ("default = 3.5", "default = 2.4", "the default 2.4 is not within 2.5 to 4.2"),
     ("default = 3.5", "default = nan", "parameter BAT_LOW: nan is no float"),
     ("default = 3.5", "default = true", "True is no float"),
@@ -70,12 +71,15 @@ WRONG: list[tuple[str, str, str]] = [
     ("range = [1, 14]", "range = [1, 2147483648]", "2147483648 is no int32"),
     ("default = true", "default = 1", "1 is no bool"),
     ("default = true", "range = [0, 1]\ndefault = true", "and a bool has not"),
-    ('"mode.returns"', '"battery.cells"', "x.toml:29: group Battery: parameter RETURNS: fields: "
+    ('"mode.returns"', '"battery.cells"', "x.toml:30: group Battery: parameter RETURNS: fields: "
      "battery.cells is set by another parameter"),
     ('"mode.returns"', '"mode.returns; x"', "fields: 'mode.returns; x' is no field"),
     ('"mode.returns"', '"2 * mode.returns"', "a factor is for floats"),
-    ('fields = ["mode.returns"]', "fields = []", "x.toml:29: group Battery: parameter RETURNS: "),
-    ('unit = "V"', 'units = "V"', "x.toml:18: group Battery: parameter BAT_LOW: units: unknown"),
+    ('fields = ["mode.returns"]', "fields = []", "x.toml:30: group Battery: parameter RETURNS: "),
+    ('"0.5 * other[KEEL_ROLL].value"', '"battery.cells_2"', "parameter BAT_LOW: restart: another "
+     "parameter of battery differs"),
+    ("restart = true", "restart = 1", "parameter BAT_CELLS: restart: expected to be"),
+    ('unit = "V"', 'units = "V"', "x.toml:19: group Battery: parameter BAT_LOW: units: unknown"),
     ('description = "A voltage."\n', "", "parameter BAT_LOW: description: is missing"),
     ('description = "A voltage."', 'description = "A | voltage"', "description: expected to match"),
     ('[[group]]', '[[groups]]', "x.toml:3: groups: unknown key; did you mean group?"),
@@ -118,6 +122,9 @@ class Made(unittest.TestCase):
             "     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 4.2f}},",
             code,
         )
+        self.assertIn(".highest = {.type = KEEL_PARAMETER_INT32, .whole = 14},\n"
+                      "     .restarts = true},", code)  # fmt: skip
+        self.assertEqual(code.count(".restarts"), 1)
         self.assertIn("settings->battery.cells = (uint8_t)entry[0].value.whole;", code)
         self.assertIn("settings->other[KEEL_ROLL].value = 0.5f * entry[1].value.real;", code)
         self.assertIn("settings->less = -entry[1].value.real;", code)
@@ -125,12 +132,16 @@ class Made(unittest.TestCase):
 
     def test_PAR_009_the_page(self) -> None:
         page = parameters.page(self.file, "x.toml")
-        self.assertIn("| `BAT_LOW` | 3.5 | 2.5 to 4.2 | V | A voltage. |", page)
-        self.assertIn("| `RETURNS` | on | on, off |  | Whether it returns. |", page)
+        self.assertIn("| `BAT_LOW` | 3.5 | 2.5 to 4.2 | V | at once | A voltage. |", page)
+        self.assertIn("| `RETURNS` | on | on, off |  | at once | Whether it returns. |", page)
 
     def test_PAR_009_the_metadata(self) -> None:
         cells, low, returns = json.loads(parameters.metadata(self.file))["parameters"]
-        self.assertEqual((cells["type"], low["type"], returns["type"]), ("Int32", "Float", "Uint8"))
+        self.assertEqual({one["type"] for one in (cells, low, returns)}, {"Float"})  # As sent.
+        self.assertEqual([one.get("increment") for one in (cells, low, returns)], [1, None, 1])
+        self.assertEqual([one["decimalPlaces"] for one in (cells, low, returns)], [0, 2, 0])
+        self.assertEqual([one["rebootRequired"] for one in (cells, low, returns)],
+                         [True, False, False])  # fmt: skip
         self.assertEqual((low["default"], low["min"], low["max"]), (3.5, 2.5, 4.2))
         self.assertEqual((low["units"], low["group"]), ("V", "Battery"))
         self.assertEqual([one["value"] for one in returns["values"]], [0, 1])
@@ -144,7 +155,7 @@ class Made(unittest.TestCase):
 ENTRY: dict[str, type | tuple[type, ...]] = {
     "name": str, "type": str, "shortDesc": str, "units": str, "group": str, "values": list,
     "default": (int, float), "min": (int, float), "max": (int, float), "decimalPlaces": int,
-    "rebootRequired": bool,
+    "increment": int, "rebootRequired": bool,
 }  # fmt: skip
 
 
@@ -163,15 +174,14 @@ class Metadata(unittest.TestCase):
             for key, found in entry.items():
                 self.assertIsInstance(found, ENTRY[key], f"{entry['name']}: {key}")
             self.assertRegex(entry["name"], r"^[-.a-zA-Z0-9_]{1,16}$")
-            self.assertIn(entry["type"], ("Uint8", "Int32", "Float"))
+            self.assertEqual(entry["type"], "Float")
             self.assertLessEqual(entry["min"], entry["default"])
             self.assertLessEqual(entry["default"], entry["max"])
 
     def test_PAR_009_what_is_shown_is_what_is_meant(self) -> None:
         for entry in self.data["parameters"]:
-            if entry["type"] == "Float":
-                shown = round(entry["default"], entry["decimalPlaces"])
-                self.assertEqual(struct.pack("f", shown), struct.pack("f", entry["default"]))
+            shown = round(entry["default"], entry["decimalPlaces"])
+            self.assertEqual(struct.pack("f", shown), struct.pack("f", entry["default"]))
 
     def test_PAR_009_the_defaults_are_those_of_the_settings(self) -> None:
         text = (ROOT / "examples/copter/settings.c").read_text(encoding="utf-8")

@@ -309,6 +309,17 @@ static void PAR_008_values_that_do_not_go_together(void)
     TEST_ASSERT_EQUAL_FLOAT(2.0f, real_of(HIGH));
 }
 
+static void PAR_008_what_is_set_afterwards_is_no_stored_value(void)
+{
+    static const uint8_t foreign[21] = "LOW\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x7F"; /* Infinity. */
+
+    TEST_ASSERT_EQUAL_UINT32(1u, loaded(foreign, sizeof foreign).refused);
+    TEST_ASSERT_EQUAL(KEEL_ERR_VALUE, keel_parameters_set(&all, LOW, real(9.0f)));
+    TEST_ASSERT_EQUAL(KEEL_ERR_VALUE, entry[LOW].refused);
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_parameters_set(&all, LOW, real(2.0f)));
+    TEST_ASSERT_EQUAL(KEEL_OK, entry[LOW].refused);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -323,5 +334,6 @@ int main(void)
     RUN_TEST(PAR_007_what_was_stored_is_loaded);
     RUN_TEST(PAR_008_a_set_of_another_firmware);
     RUN_TEST(PAR_008_values_that_do_not_go_together);
+    RUN_TEST(PAR_008_what_is_set_afterwards_is_no_stored_value);
     return UNITY_END();
 }

@@ -104,7 +104,7 @@ class Key:
     """What frames of telemetry are signed with."""
 
     key: bytes  # 32 of them.
-    timestamp: int  # In 10 us since 2015 began (UTC): no frame was signed later.
+    timestamp: int  # In 10 us since 2015 began (UTC): a minute later than any frame was signed.
 
 
 class Copter:
