@@ -27,7 +27,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from common.arguments import Parser  # noqa: E402
 from common.errors import ROOT, ToolError, program  # noqa: E402
-from common.files import read_text  # noqa: E402
+from common.files import read_text, write_text  # noqa: E402
 from flight import library, plants, scenario  # noqa: E402
 from flight.library import Copter, Key, Link  # noqa: E402
 from flight.live import Address, Line, Live, address_of  # noqa: E402
@@ -39,7 +39,8 @@ BUILD = ROOT / "build/sim"
 GROUND_STATIONS = "127.0.0.1:14550"
 WARM_S = 12.0  # Until calibrations, estimates and the radio link have settled.
 EPOCH_S = 1_420_070_400  # 2015 began (UTC).
-MINUTE = 6_000_000  # In 10 us: frames of a new sender may be so old, but not from before the start.
+TICKS_PER_S = 100_000  # Of the times in signatures.
+SPARE_S = 61  # Frames of a new sender may be a minute old, but not from before the start.
 MOST_BYTES_PER_S = 1_000_000
 
 
@@ -67,14 +68,27 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     return found
 
 
-def key_of(path: Path | None) -> Key | None:
-    """The key in a file."""
+def key_of(path: Path | None, kept: Path) -> Key | None:
+    """The key in a file. Its time is later than any before, of which the last start's is kept."""
     if path is None:
         return None
     text = read_text(path).strip()
     if not re.fullmatch(r"[0-9A-Fa-f]{64}", text):
         raise ToolError(f"{path}: expected 64 hexadecimal digits")
-    return Key(bytes.fromhex(text), round((time.time() - EPOCH_S) * 1e5) + MINUTE)
+    now = round((time.time() - EPOCH_S) * TICKS_PER_S)
+    begun = max(now, last_begun(kept)) + SPARE_S * TICKS_PER_S
+    write_text(kept, f"{begun}\n")
+    return Key(bytes.fromhex(text), begun)
+
+
+def last_begun(kept: Path) -> int:
+    """When frames began to be signed at the last start."""
+    if not kept.is_file():
+        return 0
+    text = read_text(kept).strip()
+    if not re.fullmatch(r"[0-9]{1,15}", text):
+        raise ToolError(f"{kept}: expected the time of the last start, found {text[:20]!r}")
+    return int(text)
 
 
 def order_of(options: argparse.Namespace) -> Order:
@@ -107,7 +121,7 @@ def show_trace(log: Path) -> None:
 def fly(arguments: Sequence[str] | None) -> int:
     """Build, warm up, serve."""
     options = parsed(arguments)
-    order, key = order_of(options), key_of(options.key)
+    order, key = order_of(options), key_of(options.key, options.build / "signed_from")
     copter = Copter(library.build(Toolchain(), options.build))
     if len(options.address) > copter.links:
         raise ToolError(f"--address: at most {copter.links}")

@@ -745,7 +745,7 @@ def test_signing_goes_on_over_a_restart(copter: Copter) -> None:
     again.copter.send(0, old)
     again.run(500)
     assert again.counts()["PARAM_VALUE"] == 0  # Heard before the restart.
-    sign(again.station, key, later - MINUTE)  # The clock of a station that knows the date.
+    sign(again.station, key, later - MINUTE + 100_000)  # Whose clock has the date, a second on.
     again.send(mavlink.MAVLink_param_set_message(1, 1, b"POS_P", 0.75, REAL32))
     again.run(500)
     assert again.counts()["PARAM_VALUE"] == 1 and again.counts()["BAD_DATA"] == 0
