@@ -119,8 +119,8 @@ keel_status_t copter_add(copter_t *copter, const copter_own_task_t *own)
     return add(copter, own->body, own->wcet_us);
 }
 
-/* Neither the cascade, nor the mixer, nor the sticks' curves remember anything between flights. Both
- * take their settings: the check of the parameters has asked them. */
+/* Neither the cascade, nor the mixer, nor the sticks' curves remember anything between flights.
+ * All take their settings: the check of the parameters has asked them. */
 void copter_retune(copter_t *copter)
 {
     if (copter_tuning_apply(&copter->tuning)) {

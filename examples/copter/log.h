@@ -53,17 +53,17 @@ extern const uint32_t copter_topics;
 /** Written by the log, but for the ring, whose tail is its task's. */
 typedef struct copter_log {
     keel_log_ring_t ring;
-    keel_ulog_message_t message;      /**< Being made. */
-    keel_ulog_message_t dropout;      /**< The same. */
-    uint32_t defined;                 /**< How much of the log's beginning is written. */
-    bool samples;                     /**< All of it. */
-    uint32_t rounds;                  /**< Runs of the log's task. */
-    uint32_t lost;                    /**< Records, as far as dropouts tell. */
-    uint8_t state;                    /**< Of the state machine, as the log has it. */
+    keel_ulog_message_t message;                /**< Being made. */
+    keel_ulog_message_t dropout;                /**< The same. */
+    uint32_t defined;                           /**< How much of the log's beginning is written. */
+    bool samples;                               /**< All of it. */
+    uint32_t rounds;                            /**< Runs of the log's task. */
+    uint32_t lost;                              /**< Records, as far as dropouts tell. */
+    uint8_t state;                              /**< Of the state machine, as the log has it. */
     uint32_t parameter[COPTER_PARAMETER_COUNT]; /**< The bits of each, as the log has it. */
     uint16_t looked_at;                         /**< Of these, in the last run. */
-    uint16_t left[COPTER_LOG_TOPICS]; /**< Runs until a topic is sampled. */
-    uint32_t runs[COPTER_LOG_TASKS];  /**< Of each task, and so on. */
+    uint16_t left[COPTER_LOG_TOPICS];           /**< Runs until a topic is sampled. */
+    uint32_t runs[COPTER_LOG_TASKS];            /**< Of each task, and so on. */
     uint32_t busy_us[COPTER_LOG_TASKS];
     uint32_t longest_us[COPTER_LOG_TASKS];
     uint16_t skipped[COPTER_LOG_TASKS];

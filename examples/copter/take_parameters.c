@@ -147,10 +147,9 @@ void copter_take_read(copter_t *copter, uint32_t link, const keel_mavlink_frame_
                       const message_param_request_read_t *message)
 {
     copter_link_t *const to = &copter->telemetry->link[link];
-    const uint32_t index =
-        (message->param_index == NO_INDEX)
-            ? keel_parameters_find(&copter->tuning.table, message->param_id)
-            : (uint32_t)message->param_index;
+    const uint32_t index = (message->param_index == NO_INDEX)
+                               ? keel_parameters_find(&copter->tuning.table, message->param_id)
+                               : (uint32_t)message->param_index;
 
     if (index < COPTER_PARAMETER_COUNT) {
         want(to, index);

@@ -9,8 +9,8 @@
  * looks at no more than COPTER_LINK_BYTES of it, acts on at most one frame, and sends at most one:
  * so its time is bounded, whatever comes.
  *
- * What a ground station may ask is in take.c, and of parameters in take_parameters.c; what moves the
- * aircraft goes through request.h.
+ * What a ground station may ask is in take.c, and of parameters in take_parameters.c; what moves
+ * the aircraft goes through request.h.
  */
 #ifndef COPTER_TELEMETRY_H
 #define COPTER_TELEMETRY_H

@@ -301,6 +301,27 @@ def test_mavsdk(station: Station, ports: list[int]) -> None:
     station.rest()
 
 
+def mavproxy_keeps_parameters(station: Station, says: Callable[..., None], folder: Path) -> None:
+    """It shows them, saves them to a file, loads others, and hears why it cannot set one."""
+    before, count = values_seen(station), len(defaults())
+    says("param save before.parm", f"Saved {count} parameters to before.parm")
+    says("param show FS_RETURN", "FS_RETURN        1.0")
+    asked = {**others(), "BAT_CELLS": 6.0}
+    lines = [f"{name} {value:.9g}\n" for name, value in asked.items()]
+    (folder / "asked.parm").write_text("".join(lines))
+    says("param load asked.parm", f"Loaded {count} parameters from asked.parm")
+    wait_for(lambda: values_seen(station) == asked, "what MAVProxy has loaded")
+    says("param fetch BAT_CELLS", "BAT_CELLS = 6.0")
+    says("param save after.parm", f"Saved {count} parameters to after.parm")
+    saved = dict(line.split() for line in (folder / "after.parm").read_text().splitlines())
+    assert {name: float(value) for name, value in saved.items()} == pytest.approx(asked, abs=1e-6)
+    says("param load before.parm", f"Loaded {count} parameters from before.parm")
+    wait_for(lambda: values_seen(station) == before, "what it had before")
+    says("param set BAT_CELLS 4.5", "BAT_CELLS: not set, not a whole number",
+         "Failed to set BAT_CELLS to 4.5 (invalid returned value 4.0)")
+    assert values_seen(station) == before
+
+
 def test_mavproxy(station: Station, ports: list[int], tmp_path: Path) -> None:
     station.rest()
     station.ready()
@@ -321,27 +342,11 @@ def test_mavproxy(station: Station, ports: list[int], tmp_path: Path) -> None:
                 for text in expected:
                     wait_for(lambda: text in log.read_text(), f"{text} in {log.read_text()}")
 
-            wait_for(lambda: f"Received {len(defaults())} parameters" in log.read_text(), "parameters")
+            says("", f"Received {len(defaults())} parameters")
             says("param set RTL_HEIGHT 12")
             station.until("PARAM_VALUE", lambda m: m.param_id == "RTL_HEIGHT")
             says("param fetch RTL_HEIGHT", "RTL_HEIGHT = 12.0")
-            before, count = values_seen(station), len(defaults())
-            says("param save before.parm", f"Saved {count} parameters to before.parm")
-            says("param show FS_RETURN", "FS_RETURN        1.0")
-            asked = {**others(), "BAT_CELLS": 6.0}
-            lines = [f"{name} {value:.9g}\n" for name, value in asked.items()]
-            (tmp_path / "asked.parm").write_text("".join(lines))
-            says("param load asked.parm", f"Loaded {count} parameters from asked.parm")
-            wait_for(lambda: values_seen(station) == asked, "what MAVProxy has loaded")
-            says("param fetch BAT_CELLS", "BAT_CELLS = 6.0")
-            says("param save after.parm", f"Saved {count} parameters to after.parm")
-            saved = dict(line.split() for line in (tmp_path / "after.parm").read_text().splitlines())
-            assert {name: float(value) for name, value in saved.items()} == pytest.approx(asked, abs=1e-6)
-            says("param load before.parm", f"Loaded {count} parameters from before.parm")
-            wait_for(lambda: values_seen(station) == before, "what it had before")
-            says("param set BAT_CELLS 4.5", "BAT_CELLS: not set, not a whole number",
-                 "Failed to set BAT_CELLS to 4.5 (invalid returned value 4.0)")
-            assert values_seen(station) == before
+            mavproxy_keeps_parameters(station, says, tmp_path)
             says("mode 3", "DO_SET_MODE: ACCEPTED")
             says("arm throttle", "COMPONENT_ARM_DISARM: ACCEPTED", "ARMED")
             says("mode 0", "DO_SET_MODE: DENIED")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The copter's settings through its parameters: defaults, what is set, put in force, saved and loaded
-again, also when the power fails meanwhile."""
+"""The copter's settings through its parameters: defaults, what is set, put in force, saved and
+loaded again, also when the power fails meanwhile."""
 
 from __future__ import annotations
 

@@ -311,8 +311,10 @@ static void PAR_008_values_that_do_not_go_together(void)
 
 static void PAR_008_what_is_set_afterwards_is_no_stored_value(void)
 {
-    static const uint8_t foreign[21] = "LOW\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x7F"; /* Infinity. */
+    uint8_t foreign[21] = "LOW";
 
+    foreign[19] = 0x80u; /* Infinity. */
+    foreign[20] = 0x7Fu;
     TEST_ASSERT_EQUAL_UINT32(1u, loaded(foreign, sizeof foreign).refused);
     TEST_ASSERT_EQUAL(KEEL_ERR_VALUE, keel_parameters_set(&all, LOW, real(9.0f)));
     TEST_ASSERT_EQUAL(KEEL_ERR_VALUE, entry[LOW].refused);
