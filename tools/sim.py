@@ -102,7 +102,7 @@ def order_of(options: argparse.Namespace) -> Order:
 def tell(addresses: Sequence[Address]) -> None:
     """How to connect."""
     print(f"MAVLink 2 goes to {', '.join(str(one) for one in addresses)}, by UDP. "
-          "System 1, component 1.")  # fmt: skip
+          "Its system id is MAV_SYS_ID.")  # fmt: skip
     print("QGroundControl listens at 14550 by itself. Others:")
     for one in addresses:
         print(f"    mavproxy.py --master=udpin:{one}")

@@ -29,6 +29,8 @@ const keel_mavlink_message_t messages_sent[MESSAGES_SENT] = {
     {MESSAGE_NAMED_VALUE_INT, 44u, 1u, MESSAGE_NAMED_VALUE_INT_LENGTH},
     {MESSAGE_STATUSTEXT, 83u, 1u, MESSAGE_STATUSTEXT_LENGTH},
     {MESSAGE_PARAM_ERROR, 209u, 1u, MESSAGE_PARAM_ERROR_LENGTH},
+    {MESSAGE_AVAILABLE_MODES, 134u, 1u, MESSAGE_AVAILABLE_MODES_LENGTH},
+    {MESSAGE_CURRENT_MODE, 193u, 1u, MESSAGE_CURRENT_MODE_LENGTH},
 };
 
 const keel_mavlink_message_t messages_taken[MESSAGES_TAKEN] = {
@@ -491,6 +493,27 @@ void message_param_error_pack(const message_param_error_t *from,
         put_u8(&payload[4u + (1u * i)], (uint8_t)from->param_id[i]);
     }
     put_u8(&payload[20], from->error);
+}
+
+void message_available_modes_pack(const message_available_modes_t *from,
+                                  uint8_t payload[MESSAGE_AVAILABLE_MODES_LENGTH])
+{
+    put_u32(&payload[0], from->custom_mode);
+    put_u32(&payload[4], from->properties);
+    put_u8(&payload[8], from->number_modes);
+    put_u8(&payload[9], from->mode_index);
+    put_u8(&payload[10], from->standard_mode);
+    for (uint32_t i = 0u; i < 35u; i++) {
+        put_u8(&payload[11u + (1u * i)], (uint8_t)from->mode_name[i]);
+    }
+}
+
+void message_current_mode_pack(const message_current_mode_t *from,
+                               uint8_t payload[MESSAGE_CURRENT_MODE_LENGTH])
+{
+    put_u32(&payload[0], from->custom_mode);
+    put_u32(&payload[4], from->intended_custom_mode);
+    put_u8(&payload[8], from->standard_mode);
 }
 
 void message_ping_unpack(message_ping_t *to, const uint8_t payload[MESSAGE_PING_LENGTH])

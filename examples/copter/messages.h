@@ -24,7 +24,7 @@
 #define MAV_MODE_FLAG_SAFETY_ARMED                    128u
 #define MAV_MODE_FLAG_MANUAL_INPUT_ENABLED            64u
 #define MAV_MODE_FLAG_STABILIZE_ENABLED               16u
-#define MAV_MODE_FLAG_GUIDED_ENABLED                  8u
+#define MAV_MODE_FLAG_AUTO_ENABLED                    4u
 #define MAV_STATE_BOOT                                1u
 #define MAV_STATE_CALIBRATING                         2u
 #define MAV_STATE_STANDBY                             3u
@@ -39,16 +39,32 @@
 #define MAV_SYS_STATUS_SENSOR_RC_RECEIVER             65536u
 #define MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS           32768u
 #define MAV_SYS_STATUS_SENSOR_BATTERY                 33554432u
+#define MAV_SYS_STATUS_GEOFENCE                       1048576u
 #define MAV_SYS_STATUS_PREARM_CHECK                   268435456u
 #define MAV_RESULT_ACCEPTED                           0u
 #define MAV_RESULT_TEMPORARILY_REJECTED               1u
 #define MAV_RESULT_DENIED                             2u
 #define MAV_RESULT_UNSUPPORTED                        3u
+#define MAV_RESULT_FAILED                             4u
 #define MAV_RESULT_IN_PROGRESS                        5u
 #define MAV_CMD_DO_SET_MODE                           176u
 #define MAV_CMD_COMPONENT_ARM_DISARM                  400u
 #define MAV_CMD_SET_MESSAGE_INTERVAL                  511u
 #define MAV_CMD_REQUEST_MESSAGE                       512u
+#define MAV_CMD_NAV_LOITER_UNLIM                      17u
+#define MAV_CMD_NAV_RETURN_TO_LAUNCH                  20u
+#define MAV_CMD_NAV_LAND                              21u
+#define MAV_CMD_NAV_TAKEOFF                           22u
+#define MAV_CMD_DO_SET_STANDARD_MODE                  262u
+#define MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN             246u
+#define MAV_STANDARD_MODE_NON_STANDARD                0u
+#define MAV_STANDARD_MODE_POSITION_HOLD               1u
+#define MAV_STANDARD_MODE_ALTITUDE_HOLD               4u
+#define MAV_STANDARD_MODE_SAFE_RECOVERY               5u
+#define MAV_STANDARD_MODE_LAND                        7u
+#define MAV_MODE_PROPERTY_ADVANCED                    1u
+#define MAV_MODE_PROPERTY_NOT_USER_SELECTABLE         2u
+#define REBOOT_SHUTDOWN_ACTION_REBOOT                 1u
 #define MAV_PARAM_TYPE_REAL32                         9u
 #define MAV_PARAM_ERROR_DOES_NOT_EXIST                1u
 #define MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE            2u
@@ -139,10 +155,14 @@
 #define MESSAGE_STATUSTEXT_LENGTH          54u
 #define MESSAGE_PARAM_ERROR                345u
 #define MESSAGE_PARAM_ERROR_LENGTH         21u
+#define MESSAGE_AVAILABLE_MODES            435u
+#define MESSAGE_AVAILABLE_MODES_LENGTH     46u
+#define MESSAGE_CURRENT_MODE               436u
+#define MESSAGE_CURRENT_MODE_LENGTH        9u
 /** @} */
 
 /** What is sent. */
-#define MESSAGES_SENT 24u
+#define MESSAGES_SENT 26u
 extern const keel_mavlink_message_t messages_sent[MESSAGES_SENT];
 
 /** What is taken, of senders who know more fields too. */
@@ -174,7 +194,9 @@ typedef enum message_sent {
     SENT_EXTENDED_SYS_STATE,
     SENT_NAMED_VALUE_INT,
     SENT_STATUSTEXT,
-    SENT_PARAM_ERROR
+    SENT_PARAM_ERROR,
+    SENT_AVAILABLE_MODES,
+    SENT_CURRENT_MODE
 } message_sent_t;
 
 /** HEARTBEAT. */
@@ -551,6 +573,23 @@ typedef struct message_param_error {
     uint8_t error;
 } message_param_error_t;
 
+/** AVAILABLE_MODES. */
+typedef struct message_available_modes {
+    uint32_t custom_mode;
+    uint32_t properties;
+    uint8_t number_modes;
+    uint8_t mode_index;
+    uint8_t standard_mode;
+    char mode_name[35];
+} message_available_modes_t;
+
+/** CURRENT_MODE. */
+typedef struct message_current_mode {
+    uint32_t custom_mode;
+    uint32_t intended_custom_mode;
+    uint8_t standard_mode;
+} message_current_mode_t;
+
 /** @name Payloads. */
 /** @{ */
 void message_heartbeat_pack(const message_heartbeat_t *from,
@@ -600,6 +639,10 @@ void message_statustext_pack(const message_statustext_t *from,
                              uint8_t payload[MESSAGE_STATUSTEXT_LENGTH]);
 void message_param_error_pack(const message_param_error_t *from,
                               uint8_t payload[MESSAGE_PARAM_ERROR_LENGTH]);
+void message_available_modes_pack(const message_available_modes_t *from,
+                                  uint8_t payload[MESSAGE_AVAILABLE_MODES_LENGTH]);
+void message_current_mode_pack(const message_current_mode_t *from,
+                               uint8_t payload[MESSAGE_CURRENT_MODE_LENGTH]);
 void message_ping_unpack(message_ping_t *to, const uint8_t payload[MESSAGE_PING_LENGTH]);
 void message_set_mode_unpack(message_set_mode_t *to,
                              const uint8_t payload[MESSAGE_SET_MODE_LENGTH]);

@@ -248,6 +248,11 @@ const keel_parameter_t copter_parameter[COPTER_PARAMETER_COUNT] = {
      .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
      .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 50.0f},
      .restarts = true},
+    {.name = "MAV_SYS_ID",
+     .initial = {.type = KEEL_PARAMETER_INT32, .whole = 1},
+     .lowest = {.type = KEEL_PARAMETER_INT32, .whole = 1},
+     .highest = {.type = KEEL_PARAMETER_INT32, .whole = 250},
+     .restarts = true},
 };
 
 void copter_apply_parameters(copter_settings_t *settings, const keel_parameter_entry_t *entry)
@@ -322,5 +327,6 @@ void copter_apply_parameters(copter_settings_t *settings, const keel_parameter_e
     settings->attitude.north = entry[54].value.real;
     settings->attitude.east = entry[55].value.real;
     settings->position.accuracy = entry[56].value.real;
+    settings->system = (uint8_t)entry[57].value.whole;
 }
 /* clang-format on */

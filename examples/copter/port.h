@@ -19,6 +19,9 @@
 #define COPTER_MODULES 2u
 #define COPTER_MOTORS  4u
 
+/** Bytes of a chip's own number: 96 bits, as an STM32's. */
+#define COPTER_UID_BYTES 12u
+
 /** @name Receivers: devices that send bytes. */
 /** @{ */
 #define COPTER_RADIO     0u /**< The pilot's receiver: SBUS. */
@@ -87,6 +90,10 @@ typedef struct copter_port {
     /** A task's run ends: which, and what it is said to have cost at most. */
     void (*end_run)(void *context, uint32_t row, uint32_t wcet_us);
     const keel_medium_t *memory; /**< Keeps parameters; null: there is none. */
+    const uint8_t *uid;          /**< COPTER_UID_BYTES that no other chip has; null: none. */
+    /** Starts all anew, as power that is switched on does; returns on a host alone. Null: there is
+        no way. Called with the motors off. */
+    void (*reboot)(void *context);
 } copter_port_t;
 
 #endif

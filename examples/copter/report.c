@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What telemetry tells: each message of what the copter's structures have. */
-#include "telemetry.h"
-
 #include "keel/middleware/range.h"
 #include "keel/version.h"
+#include "modes.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #define MILLI      1000.0f
 #define CENTI      100.0f
@@ -109,18 +109,30 @@ static uint8_t status_of(const copter_t *copter)
                                                                                : MAV_STATE_BOOT);
 }
 
+/* What flies: the pilot's sticks, or the aircraft by itself; and whether it is stabilised. */
+static uint32_t flags_of(const keel_mode_t *machine, uint8_t told)
+{
+    const bool alone = is_alone(machine->state) || (told == KEEL_MODE_LAND) ||
+                       (told == KEEL_MODE_RETURN);
+
+    if (told == KEEL_MODE_NONE) {
+        return 0u;
+    }
+    return (alone ? MAV_MODE_FLAG_AUTO_ENABLED : MAV_MODE_FLAG_MANUAL_INPUT_ENABLED) |
+           when(told != KEEL_MODE_ACRO, MAV_MODE_FLAG_STABILIZE_ENABLED);
+}
+
 static void heartbeat(const copter_t *copter, uint8_t *payload)
 {
-    const keel_mode_t *const mode = &copter->state.mode;
+    const keel_mode_t *const machine = &copter->state.mode;
+    const uint8_t told = copter_mode_told(copter);
     const message_heartbeat_t message = {
-        .custom_mode = mode->motors ? mode->mode : mode->asked,
+        .custom_mode = copter_mode_number(told),
         .type = (uint8_t)MAV_TYPE_QUADROTOR,
         .autopilot = (uint8_t)MAV_AUTOPILOT_GENERIC,
         .base_mode = (uint8_t)(MAV_MODE_FLAG_CUSTOM_MODE_ENABLED |
-                               when(mode->motors, MAV_MODE_FLAG_SAFETY_ARMED) |
-                               when(!is_alone(mode->state), MAV_MODE_FLAG_MANUAL_INPUT_ENABLED) |
-                               when(is_alone(mode->state), MAV_MODE_FLAG_GUIDED_ENABLED) |
-                               when(mode->mode != KEEL_MODE_ACRO, MAV_MODE_FLAG_STABILIZE_ENABLED)),
+                               when(machine->motors, MAV_MODE_FLAG_SAFETY_ARMED) |
+                               flags_of(machine, told)),
         .system_status = status_of(copter),
         .mavlink_version = 3u};
 
@@ -158,6 +170,7 @@ static uint32_t healthy(const copter_t *copter)
            when(copter->estimate.position.quality == KEEL_AXIS_GOOD, MAV_SYS_STATUS_SENSOR_GPS) |
            when((mode->settled & KEEL_MODE_IS_LINKED) != 0u, MAV_SYS_STATUS_SENSOR_RC_RECEIVER) |
            when(copter->energy.battery.level == KEEL_BATTERY_OK, MAV_SYS_STATUS_SENSOR_BATTERY) |
+           when((mode->seen & KEEL_MODE_IS_OUTSIDE) == 0u, MAV_SYS_STATUS_GEOFENCE) |
            when(mode->motors || ((blocking == 0u) && (mode->blocking.facts == 0u)),
                 MAV_SYS_STATUS_PREARM_CHECK);
 }
@@ -168,7 +181,7 @@ static void sys_status(const copter_t *copter, const copter_link_t *link, uint8_
                              MAV_SYS_STATUS_SENSOR_3D_MAG |
                              MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE | MAV_SYS_STATUS_SENSOR_GPS |
                              MAV_SYS_STATUS_SENSOR_RC_RECEIVER | MAV_SYS_STATUS_SENSOR_BATTERY |
-                             MAV_SYS_STATUS_PREARM_CHECK;
+                             MAV_SYS_STATUS_GEOFENCE | MAV_SYS_STATUS_PREARM_CHECK;
     const uint32_t errors = link->decoder.count.checksums + link->decoder.count.lengths;
     const message_sys_status_t message = {
         .onboard_control_sensors_present = present,
@@ -434,18 +447,33 @@ static void battery_status(const copter_t *copter, uint8_t *payload)
     message_battery_status_pack(&message, payload);
 }
 
-static void autopilot_version(uint8_t *payload)
+/* Older clients know 64 bits: all of the chip's are in them. */
+static uint64_t short_uid(const uint8_t uid[COPTER_UID_BYTES])
 {
+    uint64_t bits = 0u;
+
+    for (uint32_t i = 0u; i < COPTER_UID_BYTES; i++) {
+        bits ^= (uint64_t)uid[i] << (8u * (i % 8u));
+    }
+    return bits;
+}
+
+static void autopilot_version(const copter_t *copter, uint8_t *payload)
+{
+    const uint8_t *const uid = copter->port->uid;
     const uint32_t version = ((uint32_t)KEEL_VERSION_MAJOR << 24) |
                              ((uint32_t)KEEL_VERSION_MINOR << 16) |
                              ((uint32_t)KEEL_VERSION_PATCH << 8);
-    const message_autopilot_version_t message = {
+    message_autopilot_version_t message = {
         .capabilities = MAV_PROTOCOL_CAPABILITY_MAVLINK2 |
                         MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE,
-        .uid = 1u, /* Clients wait for one. */
+        .uid = (uid != NULL) ? short_uid(uid) : 0u,
         .flight_sw_version = version,
         .middleware_sw_version = version};
 
+    for (uint32_t i = 0u; (uid != NULL) && (i < COPTER_UID_BYTES); i++) {
+        message.uid2[i] = uid[i];
+    }
     message_autopilot_version_pack(&message, payload);
 }
 
@@ -618,6 +646,9 @@ static bool answers(const copter_t *copter, copter_link_t *link, uint32_t sent, 
     case SENT_TIMESYNC:
         message_timesync_pack(&link->timesync, payload);
         break;
+    case SENT_AVAILABLE_MODES:
+        said = copter_modes_available(link, payload);
+        break;
     default:
         said = false;
         break;
@@ -685,7 +716,10 @@ bool copter_report(const copter_t *copter, copter_link_t *link, uint32_t sent, u
         battery_status(copter, payload);
         break;
     case SENT_AUTOPILOT_VERSION:
-        autopilot_version(payload);
+        autopilot_version(copter, payload);
+        break;
+    case SENT_CURRENT_MODE:
+        copter_modes_current(copter, payload);
         break;
     case SENT_ESTIMATOR_STATUS:
         estimator_status(copter, payload);

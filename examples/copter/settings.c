@@ -188,4 +188,5 @@ const copter_settings_t copter_defaults =
      .land_thrust = 0.95f * HOVER,
      .stop_s = 0.8f,
      .fence_margin = 2.0f,
-     .fence_rate = 0.25f};
+     .fence_rate = 0.25f,
+     .system = 1u};

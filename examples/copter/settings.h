@@ -51,6 +51,7 @@ typedef struct copter_settings {
     float stop_s;            /**< How far it goes on when the sticks are let go: in s. */
     float fence_margin;      /**< The pilot comes so near to the fence, in m. */
     float fence_rate;        /**< Of the way that is left, so much a second, in 1/s. */
+    uint8_t system;          /**< Its number among the vehicles that MAVLink connects. */
 } copter_settings_t;
 
 /** A quadcopter of 1.4 kg: the F450 that JSBSim comes with. */

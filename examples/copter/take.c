@@ -2,8 +2,8 @@
 /* What a ground station may ask:
  *
  *     parameters                      list, read, set: see take_parameters.c
- *     COMMAND_LONG, COMMAND_INT       COMPONENT_ARM_DISARM, DO_SET_MODE, SET_MESSAGE_INTERVAL and
- *                                     REQUEST_MESSAGE; others are answered with UNSUPPORTED
+ *     COMMAND_LONG, COMMAND_INT       COMPONENT_ARM_DISARM, SET_MESSAGE_INTERVAL, REQUEST_MESSAGE,
+ *                                     and those of command.h; others are answered with UNSUPPORTED
  *     SET_MODE                        as DO_SET_MODE
  *     PING, TIMESYNC                  answered
  *
@@ -11,8 +11,9 @@
  * what it refuses is answered with TEMPORARILY_REJECTED and a text for each thing that stands in
  * the way. DENIED is what can never be: to force it, to stop motors in flight, a mode in which the
  * throttle is the thrust, as whoever asks does not hold the throttle. */
+#include "command.h"
 #include "keel/middleware/range.h"
-#include "telemetry.h"
+#include "modes.h"
 
 #include <math.h>
 
@@ -21,17 +22,6 @@
 #define MOST_US   60000000.0f
 #define ID_MOST   16777215.0f
 #define NOT_FOUND UINT32_MAX
-#define MODE_MOST ((float)KEEL_MODE_NONE)
-#define CUSTOM    (MAV_MODE_FLAG_CUSTOM_MODE_ENABLED)
-
-/* A command, of whichever message. */
-typedef struct command {
-    uint32_t link;
-    uint8_t system;
-    uint8_t component;
-    uint16_t id;
-    float param[3];
-} command_t;
 
 /* A bit and what it says. */
 typedef struct word {
@@ -55,12 +45,18 @@ static const word_t checks[] = {
 };
 
 static const word_t facts[] = {
-    {KEEL_MODE_IS_LINKED, "no radio link"},      {KEEL_MODE_IS_ON, "arm switch"},
-    {KEEL_MODE_IS_OFF, "arm switch not off"},    {KEEL_MODE_IS_LOW, "throttle not low"},
-    {KEEL_MODE_IS_KILL, "kill switch"},          {KEEL_MODE_IS_AT, "mode switch moves"},
-    {KEEL_MODE_IS_LANDED, "not landed"},         {KEEL_MODE_HAS_ANGLE, "no attitude"},
-    {KEEL_MODE_HAS_HEIGHT, "no altitude"},       {KEEL_MODE_HAS_PLACE, "no position"},
-    {KEEL_MODE_IS_OUTSIDE, "outside the fence"}, {KEEL_MODE_IS_CRITICAL, "battery critical"},
+    {KEEL_MODE_IS_LINKED, "no radio link"},
+    {KEEL_MODE_IS_ON, "arm switch"},
+    {KEEL_MODE_IS_OFF, "arm switch not off"},
+    {KEEL_MODE_IS_LOW, "throttle not low"},
+    {KEEL_MODE_IS_KILL, "kill switch"},
+    {KEEL_MODE_IS_AT, "mode switch not at a mode to fly"},
+    {KEEL_MODE_IS_LANDED, "not landed"},
+    {KEEL_MODE_HAS_ANGLE, "no attitude"},
+    {KEEL_MODE_HAS_HEIGHT, "no altitude"},
+    {KEEL_MODE_HAS_PLACE, "no position"},
+    {KEEL_MODE_IS_OUTSIDE, "outside the fence"},
+    {KEEL_MODE_IS_CRITICAL, "battery critical"},
     {KEEL_MODE_IS_EMPTY, "battery empty"},
 };
 
@@ -96,7 +92,7 @@ static void acknowledge(copter_telemetry_t *self, const copter_waiter_t *to, uin
     }
 }
 
-static copter_waiter_t waiter_of(const command_t *command)
+copter_waiter_t copter_command_waiter(const copter_command_t *command)
 {
     return (copter_waiter_t){.link = command->link,
                              .command = command->id,
@@ -104,11 +100,15 @@ static copter_waiter_t waiter_of(const command_t *command)
                              .component = command->component};
 }
 
-/* Whether it is who waits already: it asks again until it is answered. */
-static bool is_again(const copter_waiter_t *waiter, const command_t *command)
+bool copter_command_is_again(const copter_waiter_t *waiter, const copter_command_t *command)
 {
     return (waiter->link == command->link) && (waiter->command == command->id) &&
            (waiter->system == command->system) && (waiter->component == command->component);
+}
+
+bool copter_command_is_empty(float param)
+{
+    return isnan(param) || keel_range_contains(param, 0.0f, 0.0f);
 }
 
 static uint32_t arm(copter_t *copter)
@@ -151,13 +151,7 @@ static uint32_t disarm(copter_t *copter)
     return MAV_RESULT_IN_PROGRESS;
 }
 
-/* Whether a number says nothing: some stations send 0, others none. */
-static bool is_empty(float param)
-{
-    return isnan(param) || keel_range_contains(param, 0.0f, 0.0f);
-}
-
-static uint32_t arm_or_disarm(copter_t *copter, const command_t *command)
+static uint32_t arm_or_disarm(copter_t *copter, const copter_command_t *command)
 {
     copter_telemetry_t *const self = copter->telemetry;
     const bool on = keel_range_contains(command->param[0], 1.0f, 1.0f);
@@ -165,60 +159,19 @@ static uint32_t arm_or_disarm(copter_t *copter, const command_t *command)
     uint32_t result;
 
     if (copter->request.arm.answer == COPTER_ANSWER_WAITS) {
-        return (is_again(&self->arm_waiter, command) && (on == copter->request.arms))
+        return (copter_command_is_again(&self->arm_waiter, command) && (on == copter->request.arms))
                    ? MAV_RESULT_IN_PROGRESS
                    : MAV_RESULT_TEMPORARILY_REJECTED;
     }
     if ((on == off) || (copter->state.mode.state == KEEL_MODE_TERMINATED) ||
-        !is_empty(command->param[1])) {
+        !copter_command_is_empty(command->param[1])) {
         return MAV_RESULT_DENIED; /* A second number asks to force it. */
     }
     result = on ? arm(copter) : disarm(copter);
     if (result == MAV_RESULT_IN_PROGRESS) {
-        self->arm_waiter = waiter_of(command);
+        self->arm_waiter = copter_command_waiter(command);
     }
     return result;
-}
-
-/* Modes in which an aircraft whose sticks nobody holds stays in the air. */
-static bool is_safe(uint32_t mode)
-{
-    return (mode == KEEL_MODE_LAND) || (mode == KEEL_MODE_ALTITUDE) ||
-           (mode == KEEL_MODE_POSITION) || (mode == KEEL_MODE_RETURN);
-}
-
-static uint32_t set_mode(copter_t *copter, const command_t *command, bool is_custom, uint32_t mode)
-{
-    copter_telemetry_t *const self = copter->telemetry;
-    const copter_request_t *const request = &copter->request;
-
-    if (request->mode.answer == COPTER_ANSWER_WAITS) {
-        return (is_again(&self->mode_waiter, command) && (mode == request->asked))
-                   ? MAV_RESULT_IN_PROGRESS
-                   : MAV_RESULT_TEMPORARILY_REJECTED;
-    }
-    if (!is_custom || !is_safe(mode)) {
-        copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "mode: ", "only by the pilot's switch");
-        return MAV_RESULT_DENIED;
-    }
-    if ((copter->state.mode.settled & KEEL_MODE_IS_LINKED) == 0u) {
-        copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "mode: ", "no radio link");
-        return MAV_RESULT_TEMPORARILY_REJECTED;
-    }
-    copter_request_mode(&copter->request, (uint8_t)mode, copter->pilot.asked);
-    self->mode_waiter = waiter_of(command);
-    return MAV_RESULT_IN_PROGRESS;
-}
-
-static uint32_t do_set_mode(copter_t *copter, const command_t *command)
-{
-    const bool known = keel_range_contains(command->param[0], 0.0f, 255.0f) &&
-                       keel_range_contains(command->param[1], 0.0f, MODE_MOST) &&
-                       is_empty(command->param[2]); /* There are no modes within modes. */
-    const uint32_t base = known ? (uint32_t)command->param[0] : 0u;
-    const uint32_t mode = known ? (uint32_t)command->param[1] : KEEL_MODE_NONE;
-
-    return set_mode(copter, command, (base & CUSTOM) != 0u, mode);
 }
 
 /* The place of a message among those that are sent. */
@@ -241,14 +194,14 @@ static bool is_answer(uint32_t sent)
            (sent == SENT_COMMAND_ACK) || (sent == SENT_TIMESYNC) || (sent == SENT_STATUSTEXT);
 }
 
-static uint32_t set_interval(copter_t *copter, const command_t *command)
+static uint32_t set_interval(copter_t *copter, const copter_command_t *command)
 {
     const uint32_t sent = sent_of(command->param[0]);
     const float interval = command->param[1];
     uint32_t interval_us = 0u; /* Below 0: never. */
 
     if ((sent == NOT_FOUND) || is_answer(sent) || (sent == SENT_HEARTBEAT) ||
-        !keel_range_contains(interval, -1.0f, MOST_US)) {
+        (sent == SENT_AVAILABLE_MODES) || !keel_range_contains(interval, -1.0f, MOST_US)) {
         return MAV_RESULT_DENIED;
     }
     if (interval >= LEAST_US) {
@@ -264,11 +217,13 @@ static uint32_t set_interval(copter_t *copter, const command_t *command)
     return MAV_RESULT_ACCEPTED;
 }
 
-static uint32_t request_message(copter_t *copter, const command_t *command)
+static uint32_t request_message(copter_t *copter, const copter_command_t *command)
 {
     const uint32_t sent = sent_of(command->param[0]);
 
-    if ((sent == NOT_FOUND) || is_answer(sent)) {
+    if ((sent == NOT_FOUND) || is_answer(sent) ||
+        ((sent == SENT_AVAILABLE_MODES) &&
+         !copter_modes_want(&copter->telemetry->link[command->link], command->param[1]))) {
         return MAV_RESULT_DENIED;
     }
     copter_turns_ask(&copter->telemetry->link[command->link].turns, sent);
@@ -283,86 +238,126 @@ static bool may_command(copter_telemetry_t *self, uint32_t link)
     return may;
 }
 
-static uint32_t result_of(copter_t *copter, const command_t *command)
+/* A command that moves the aircraft or stops it, and who carries it out. */
+typedef struct order {
+    uint16_t id;
+    uint32_t (*obey)(copter_t *copter, const copter_command_t *command);
+} order_t;
+
+static const order_t orders[] = {
+    {MAV_CMD_COMPONENT_ARM_DISARM, arm_or_disarm},
+    {MAV_CMD_DO_SET_MODE, copter_command_set_mode},
+    {MAV_CMD_DO_SET_STANDARD_MODE, copter_command_set_standard_mode},
+    {MAV_CMD_NAV_LAND, copter_command_land},
+    {MAV_CMD_NAV_RETURN_TO_LAUNCH, copter_command_return},
+    {MAV_CMD_NAV_LOITER_UNLIM, copter_command_hold},
+    {MAV_CMD_NAV_TAKEOFF, copter_command_take_off},
+    {MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, copter_command_reboot},
+};
+
+static uint32_t order(copter_t *copter, const copter_command_t *command)
+{
+    for (uint32_t i = 0u; i < (sizeof orders / sizeof orders[0]); i++) {
+        if (orders[i].id == command->id) {
+            return may_command(copter->telemetry, command->link) ? orders[i].obey(copter, command)
+                                                                 : MAV_RESULT_DENIED;
+        }
+    }
+    return MAV_RESULT_UNSUPPORTED;
+}
+
+static uint32_t result_of(copter_t *copter, const copter_command_t *command)
 {
     switch (command->id) {
-    case MAV_CMD_COMPONENT_ARM_DISARM:
-        return may_command(copter->telemetry, command->link) ? arm_or_disarm(copter, command)
-                                                             : MAV_RESULT_DENIED;
-    case MAV_CMD_DO_SET_MODE:
-        return may_command(copter->telemetry, command->link) ? do_set_mode(copter, command)
-                                                             : MAV_RESULT_DENIED;
     case MAV_CMD_SET_MESSAGE_INTERVAL:
         return set_interval(copter, command);
     case MAV_CMD_REQUEST_MESSAGE:
         return request_message(copter, command);
     default:
-        return MAV_RESULT_UNSUPPORTED;
+        return order(copter, command);
     }
 }
 
-static void obey(copter_t *copter, const command_t *command)
+static void obey(copter_t *copter, const copter_command_t *command)
 {
     const uint32_t result = result_of(copter, command);
 
     if (result != MAV_RESULT_IN_PROGRESS) {
-        const copter_waiter_t to = waiter_of(command);
+        const copter_waiter_t to = copter_command_waiter(command);
 
         acknowledge(copter->telemetry, &to, result);
     }
 }
 
 /* Whether it is for this copter; of those that name nobody it is told as well. */
-static bool is_ours(uint8_t system, uint8_t component)
+static bool is_ours(const copter_t *copter, uint8_t system, uint8_t component)
 {
-    return ((system == ANYBODY) || (system == COPTER_SYSTEM)) &&
+    return ((system == ANYBODY) || (system == copter->telemetry->system)) &&
            ((component == ANYBODY) || (component == MAV_COMP_ID_AUTOPILOT1));
 }
 
-static command_t command_from(const keel_mavlink_frame_t *frame, uint32_t link)
+static copter_command_t command_from(const keel_mavlink_frame_t *frame, uint32_t link)
 {
-    return (command_t){.link = link, .system = frame->system, .component = frame->component};
+    return (copter_command_t){.link = link, .system = frame->system, .component = frame->component};
 }
 
 static void take_command_long(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
 {
-    command_t command = command_from(frame, link);
+    copter_command_t command = command_from(frame, link);
     message_command_long_t message;
 
     message_command_long_unpack(&message, frame->payload);
-    if (is_ours(message.target_system, message.target_component)) {
+    if (is_ours(copter, message.target_system, message.target_component)) {
         command.id = message.command;
         command.param[0] = message.param1;
         command.param[1] = message.param2;
         command.param[2] = message.param3;
+        command.param[3] = message.param4;
+        command.param[4] = message.param5;
+        command.param[5] = message.param6;
+        command.param[6] = message.param7;
         obey(copter, &command);
     }
 }
 
+/* The greatest number stands for none. */
+static float place_of(int32_t number)
+{
+    return (number == INT32_MAX) ? NAN : (float)number;
+}
+
 static void take_command_int(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
 {
-    command_t command = command_from(frame, link);
+    copter_command_t command = command_from(frame, link);
     message_command_int_t message;
 
     message_command_int_unpack(&message, frame->payload);
-    if (is_ours(message.target_system, message.target_component)) {
+    if (is_ours(copter, message.target_system, message.target_component)) {
         command.id = message.command;
         command.param[0] = message.param1;
         command.param[1] = message.param2;
         command.param[2] = message.param3;
+        command.param[3] = message.param4;
+        command.param[4] = place_of(message.x);
+        command.param[5] = place_of(message.y);
+        command.param[6] = message.z;
         obey(copter, &command);
     }
 }
 
 static void take_set_mode(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
 {
-    command_t command = command_from(frame, link);
+    copter_command_t command = command_from(frame, link);
     message_set_mode_t message;
 
     message_set_mode_unpack(&message, frame->payload);
-    if ((message.target_system == COPTER_SYSTEM) && may_command(copter->telemetry, link)) {
+    if ((message.target_system == copter->telemetry->system) &&
+        may_command(copter->telemetry, link)) {
         command.id = MESSAGE_SET_MODE;
-        (void)set_mode(copter, &command, (message.base_mode & CUSTOM) != 0u, message.custom_mode);
+        (void)copter_command_set_mode_by_number(copter, &command,
+                                                (message.base_mode &
+                                                 MAV_MODE_FLAG_CUSTOM_MODE_ENABLED) != 0u,
+                                                message.custom_mode);
     }
 }
 
@@ -371,7 +366,7 @@ static void take_read(copter_t *copter, const keel_mavlink_frame_t *frame, uint3
     message_param_request_read_t message;
 
     message_param_request_read_unpack(&message, frame->payload);
-    if (is_ours(message.target_system, message.target_component)) {
+    if (is_ours(copter, message.target_system, message.target_component)) {
         copter_take_read(copter, link, frame, &message);
     }
 }
@@ -381,7 +376,7 @@ static void take_list(copter_t *copter, const keel_mavlink_frame_t *frame, uint3
     message_param_request_list_t message;
 
     message_param_request_list_unpack(&message, frame->payload);
-    if (is_ours(message.target_system, message.target_component)) {
+    if (is_ours(copter, message.target_system, message.target_component)) {
         copter_take_list(copter, link);
     }
 }
@@ -391,7 +386,7 @@ static void take_set(copter_t *copter, const keel_mavlink_frame_t *frame, uint32
     message_param_set_t message;
 
     message_param_set_unpack(&message, frame->payload);
-    if (is_ours(message.target_system, message.target_component)) {
+    if (is_ours(copter, message.target_system, message.target_component)) {
         copter_take_set(copter, link, frame, &message, may_command(copter->telemetry, link));
     }
 }

@@ -2,6 +2,9 @@
 /* Telemetry's task: takes what came on its links, and sends what is due. */
 #include "telemetry.h"
 
+#include "command.h"
+#include "modes.h"
+
 #include <stddef.h>
 
 #define MILLION   1000000u
@@ -26,6 +29,7 @@ static const uint32_t interval_us[MESSAGES_SENT] = {
     [SENT_SERVO_OUTPUT_RAW] = MILLION / 5u,
     [SENT_RC_CHANNELS] = MILLION / 5u,
     [SENT_BATTERY_STATUS] = MILLION,
+    [SENT_CURRENT_MODE] = 2u * MILLION,
     [SENT_ESTIMATOR_STATUS] = MILLION,
     [SENT_HOME_POSITION] = 5u * MILLION,
     [SENT_EXTENDED_SYS_STATE] = MILLION,
@@ -49,7 +53,7 @@ static keel_status_t start_link(copter_telemetry_t *self, uint32_t number)
     copter_link_t *const link = &self->link[number];
 
     link->parameter = COPTER_PARAMETER_COUNT - 1u; /* The first one is next. */
-    link->sender = (keel_mavlink_sender_t){.system = COPTER_SYSTEM,
+    link->sender = (keel_mavlink_sender_t){.system = self->system,
                                            .component = (uint8_t)MAV_COMP_ID_AUTOPILOT1};
     copter_turns_init(&link->turns, self->config.link[number].bytes_per_s);
     for (uint32_t i = 0u; i < MESSAGES_SENT; i++) {
@@ -70,7 +74,7 @@ keel_status_t copter_telemetry_start(copter_t *copter, copter_telemetry_t *telem
                                            .phase_us = PHASE_US};
     keel_status_t status = KEEL_OK;
 
-    *telemetry = (copter_telemetry_t){.config = *config};
+    *telemetry = (copter_telemetry_t){.config = *config, .system = copter_settings.system};
     keel_signing_init(&telemetry->signing, 0u, config->key.hash);
     keel_signing_advance(&telemetry->signing, config->key.timestamp);
     if (config->key.key != NULL) {
@@ -123,6 +127,15 @@ static void tell_state(copter_t *copter)
     }
 }
 
+/* A mode that is another is told at once. */
+static void tell_mode(copter_telemetry_t *self, uint8_t mode)
+{
+    for (uint32_t i = 0u; (mode != self->mode) && (i < COPTER_LINKS); i++) {
+        copter_turns_ask(&self->link[i].turns, SENT_CURRENT_MODE);
+    }
+    self->mode = mode;
+}
+
 /* Whoever does not sign, where frames are signed, is not heard. */
 static void take(copter_t *copter, uint32_t number, const keel_mavlink_frame_t *frame)
 {
@@ -168,6 +181,9 @@ static void ask_for_queues(const copter_telemetry_t *self, copter_link_t *link)
     }
     if (link->errors > 0u) {
         copter_turns_ask(&link->turns, SENT_PARAM_ERROR);
+    }
+    if (link->modes != 0u) {
+        copter_turns_ask(&link->turns, SENT_AVAILABLE_MODES);
     }
     if (link->acks > 0u) {
         copter_turns_ask(&link->turns, SENT_COMMAND_ACK);
@@ -252,8 +268,10 @@ void copter_telemetry(copter_t *copter)
     copter_telemetry_t *const self = copter->telemetry;
 
     tell_state(copter);
+    tell_mode(self, copter_mode_told(copter));
     copter_take_answers(copter);
     save_parameters(copter);
+    copter_reboot_step(copter);
     self->turn = next_link(self);
     if (self->applies && (copter->state.mode.state == KEEL_MODE_DISARMED)) {
         self->applies = false;

@@ -24,15 +24,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/** The number of the copter among vehicles. */
-#define COPTER_SYSTEM 1u
-
 #define COPTER_LINKS       3u
 #define COPTER_LINK_BYTES  64u
 #define COPTER_LINK_ACKS   4u
 #define COPTER_LINK_ERRORS 4u
 #define COPTER_TEXTS       16u
 #define COPTER_TEXT_LENGTH 50u
+#define COPTER_MODES       6u /**< That a pilot or a station may ask for: those of mode.h. */
 #define COPTER_NAMED       3u /**< Values that NAMED_VALUE_INT tells in turn. */
 #define COPTER_WORDS       ((COPTER_PARAMETER_COUNT + 31u) / 32u)
 
@@ -90,6 +88,7 @@ typedef struct copter_link {
     uint32_t wanted[COPTER_WORDS]; /**< Parameters to be sent, a bit each. */
     uint32_t parameter;            /**< The one sent last. */
     uint32_t named;                /**< Of the values of NAMED_VALUE_INT, the next one. */
+    uint32_t modes;                /**< Modes to be sent as AVAILABLE_MODES, a bit each. */
 } copter_link_t;
 
 /** A text for all links. */
@@ -115,10 +114,13 @@ typedef struct copter_telemetry {
     uint32_t texts;                   /**< How many there were. */
     copter_waiter_t arm_waiter;
     copter_waiter_t mode_waiter;
-    uint32_t turn; /**< The link that had the last run. */
-    bool saves;    /**< Parameters were set, and are to be saved on the ground. */
-    bool applies;  /**< The same, and are to be put in force there. */
-    uint8_t state; /**< The state machine's, in the last run. */
+    uint64_t reboots_us; /**< When it starts anew, as a station asked; 0: nobody has. */
+    uint32_t turn;       /**< The link that had the last run. */
+    bool saves;          /**< Parameters were set, and are to be saved on the ground. */
+    bool applies;        /**< The same, and are to be put in force there. */
+    uint8_t system;      /**< The copter's number among vehicles. */
+    uint8_t state;       /**< The state machine's, in the last run. */
+    uint8_t mode;        /**< The mode that was told in the last run. */
 } copter_telemetry_t;
 
 /**

@@ -62,6 +62,9 @@ static float motors[COPTER_MOTORS];
 static FILE *log_file; /* Null: nobody wants the log. */
 static int log_errors;
 static keel_medium_t memory;
+static bool reboots;      /* The copter asked to start anew. */
+static uint64_t begun_ns; /* When it started: the board's time counts from there. */
+static const uint8_t uid[COPTER_UID_BYTES] = {'K', 'e', 'e', 'l', 0u, 's', 'i', 'm'};
 
 /* Whether a device's count has moved; it is taken then. */
 static bool is_new(uint32_t *last, uint32_t count)
@@ -112,7 +115,7 @@ static bool read_barometer(void *context, copter_pressure_t *sample)
 static bool read_byte(void *context, uint32_t receiver, copter_byte_t *byte)
 {
     const sim_receiver_t *const from = &sensors.receiver[receiver];
-    const uint32_t now_us = (uint32_t)(board.now_ns / HOST_NS_PER_US);
+    const uint32_t now_us = (uint32_t)((begun_ns + board.now_ns) / HOST_NS_PER_US);
     uint32_t *const next = &taken.bytes[receiver];
     uint32_t at;
     bool there;
@@ -193,6 +196,12 @@ static void end_run(void *context, uint32_t row, uint32_t wcet_us)
     host_board_work(&board, work_us * HOST_NS_PER_US);
 }
 
+static void reboot(void *context)
+{
+    (void)context;
+    reboots = true;
+}
+
 static uint32_t put(line_t *line, const uint8_t *bytes, uint32_t size)
 {
     const uint32_t room = LINE_BYTES - line->count;
@@ -258,19 +267,46 @@ static keel_status_t start_telemetry(void)
     return wanted ? copter_telemetry_start(&copter, &telemetry, &config) : KEEL_OK;
 }
 
-int sim_start(const sim_options_t *chosen)
+/* Power up, of a board and devices that are there. */
+static keel_status_t start_copter(void)
 {
     const host_costs_t costs = {.turn_ns = TURN_NS, .pass_ns = PASS_NS, .dispatch_ns = DISPATCH_NS};
     keel_status_t status;
 
+    reboots = false;
+    host_board_init(&board, &copter.scheduler, &costs, (uint32_t)(begun_ns / HOST_NS_PER_US));
+    memset(motors, 0, sizeof motors);
+    memset(&copter, 0, sizeof copter);
+    status = copter_start(&copter, &port, options.plain_mean != 0u);
+    status = (status == KEEL_OK) ? copter_log_start(&copter) : status;
+    if (options.trace != 0u) {
+        copter_log_runs(&copter);
+    }
+    return (status == KEEL_OK) ? start_telemetry() : status;
+}
+
+/* Devices, lines and time go on. A log is of one start: it ends here. What is signed from now on is
+ * later than all that was signed. */
+static keel_status_t start_anew(void)
+{
+    if (log_file != NULL) {
+        log_errors += (fclose(log_file) != 0) ? 1 : 0;
+        log_file = NULL;
+    }
+    options.timestamp = telemetry.signing.timestamp + 1u;
+    begun_ns += board.now_ns;
+    return start_copter();
+}
+
+int sim_start(const sim_options_t *chosen)
+{
     options = *chosen;
+    begun_ns = 0u;
     memset(&sensors, 0, sizeof sensors);
     memset(&taken, 0, sizeof taken);
     memset(delay, 0, sizeof delay);
-    memset(motors, 0, sizeof motors);
     memset(up, 0, sizeof up);
     memset(down, 0, sizeof down);
-    host_board_init(&board, &copter.scheduler, &costs, 0u);
     if (options.memory != NULL) {
         memory = file_medium(options.memory);
     }
@@ -287,14 +323,10 @@ int sim_start(const sim_options_t *chosen)
                            .log_room = log_room,
                            .write_log = write_log,
                            .end_run = end_run,
-                           .memory = (options.memory != NULL) ? &memory : NULL};
-    memset(&copter, 0, sizeof copter);
-    status = copter_start(&copter, &port, options.plain_mean != 0u);
-    status = (status == KEEL_OK) ? copter_log_start(&copter) : status;
-    if (options.trace != 0u) {
-        copter_log_runs(&copter);
-    }
-    return (int)((status == KEEL_OK) ? start_telemetry() : status);
+                           .memory = (options.memory != NULL) ? &memory : NULL,
+                           .uid = uid,
+                           .reboot = reboot};
+    return (int)start_copter();
 }
 
 int sim_log(const char *path)
@@ -316,10 +348,11 @@ int sim_run_until(uint64_t time_us)
     const uint64_t end_ns = time_us * HOST_NS_PER_US;
     keel_status_t status = KEEL_OK;
 
-    while ((board.now_ns < end_ns) && (status == KEEL_OK)) {
+    while (((begun_ns + board.now_ns) < end_ns) && (status == KEEL_OK)) {
         status = keel_scheduler_step(&copter.scheduler);
         host_board_turn(&board);
-        host_board_idle(&board, end_ns);
+        status = (reboots && (status == KEEL_OK)) ? start_anew() : status;
+        host_board_idle(&board, (end_ns > begun_ns) ? (end_ns - begun_ns) : 0u);
     }
     return (int)status;
 }

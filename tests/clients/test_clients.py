@@ -24,7 +24,8 @@ from pymavlink import mavparm, mavutil
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 LONG_S = 60.0
-LAND, POSITION, ALTITUDE, ACRO = 1, 4, 3, 0
+# docs/telemetry.md.
+LAND, POSITION, ALTITUDE, ACRO = 100925440, 196608, 131072, 327680
 ARM, SET_MODE = 400, 176
 ACCEPTED, REJECTED, DENIED, UNSUPPORTED = 0, 1, 2, 3
 ARMED = 128
@@ -226,7 +227,7 @@ def test_pymavlink_is_refused_what_must_be(station: Station) -> None:
     assert station.ask(ARM, 0.5) == DENIED
     assert station.ask(ARM, float("nan")) == DENIED
     assert station.ask(SET_MODE, 1, ACRO) == DENIED
-    assert station.ask(SET_MODE, 1, 4, 5) == DENIED  # Others' return to launch.
+    assert station.ask(SET_MODE, 1, 4) == DENIED  # ArduCopter's "guided".
     assert station.ask(SET_MODE, 0, POSITION) == DENIED
     assert station.ask(511, 77, 100000) == DENIED  # Intervals of answers.
     assert station.ask(22) == UNSUPPORTED
@@ -347,9 +348,9 @@ def test_mavproxy(station: Station, ports: list[int], tmp_path: Path) -> None:
             station.until("PARAM_VALUE", lambda m: m.param_id == "RTL_HEIGHT")
             says("param fetch RTL_HEIGHT", "RTL_HEIGHT = 12.0")
             mavproxy_keeps_parameters(station, says, tmp_path)
-            says("mode 3", "DO_SET_MODE: ACCEPTED")
+            says(f"mode {ALTITUDE}", "DO_SET_MODE: ACCEPTED")
             says("arm throttle", "COMPONENT_ARM_DISARM: ACCEPTED", "ARMED")
-            says("mode 0", "DO_SET_MODE: DENIED")
+            says(f"mode {ACRO}", "DO_SET_MODE: DENIED")
             says("status ATTITUDE", "ATTITUDE {")
         finally:
             proxy.kill()  # It does not heed SIGTERM for long.
