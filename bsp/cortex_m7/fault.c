@@ -5,6 +5,7 @@
 #include "console.h"
 #include "cortex_m7/core.h"
 #include "cortex_m7/memory.h"
+#include "cortex_m7/reset.h"
 
 #include <stddef.h>
 
@@ -167,17 +168,6 @@ static void note_stacked(keel_fault_record_t *record, uint32_t sp)
     }
 }
 
-static void reset(void) __attribute__((noreturn));
-
-static void reset(void)
-{
-    __asm volatile("dsb" ::: "memory");
-    SCB->AIRCR = FIELD(SCB_AIRCR_VECTKEYSTAT, SCB_AIRCR_KEY) | SCB_AIRCR_SYSRESETREQ;
-    __asm volatile("dsb" ::: "memory");
-    for (;;) {
-    }
-}
-
 /**
  * Records and resets. Called by the handler alone, on the fault stack.
  *
@@ -196,7 +186,7 @@ void keel_fault_finish(uint32_t sp, uint32_t exc_return, const uint32_t *registe
     /* Nothing before this, not even a look at the record: its memory may be what faults. */
     keel_board_outputs_off();
     if ((SCB->ICSR & ICSR_RETTOBASE) == 0u) { /* A fault in this handler: the record is as it is. */
-        reset();
+        keel_core_reset();
     }
     before = keel_fault_is_whole(record) ? record->count : 0u;
     record->magic = 0u;
@@ -219,7 +209,7 @@ void keel_fault_finish(uint32_t sp, uint32_t exc_return, const uint32_t *registe
     }
     keel_fault_seal(record);
     note_task(record);
-    reset();
+    keel_core_reset();
 }
 
 /* Takes a stack of its own: the one in use may be what is broken. It never returns. */

@@ -207,12 +207,12 @@ KEEPER = """\
 #include "board.h"
 #include "common/slots.h"
 #include "console.h"
-#include "cortex_m7/core.h"
 #include "stm32f767/target/chip.h"
 
-/* Counts its starts, and starts again. */
+/* Counts its starts, and starts again; says the chip's number. */
 int main(void)
 {
+    uint8_t uid[KEEL_CHIP_UID_BYTES];
     static keel_slots_t slots KEEL_REALTIME_ZERO;
     keel_slots_config_t config = {.room = 8u};
     static uint8_t starts[8];
@@ -233,14 +233,18 @@ int main(void)
     }
     keel_console_text(" save ");
     keel_console_number((uint64_t)result);
+    keel_console_text(" uid");
+    keel_chip_uid(uid);
+    for (uint32_t i = 0u; i < KEEL_CHIP_UID_BYTES; i++) {
+        keel_console_text(" ");
+        keel_console_number(uid[i]);
+    }
     keel_console_text("\\n");
     if (result != KEEL_SLOTS_DONE) {
         keel_board_halt(1);
     }
     (void)keel_board_clock_us(NULL);
-    ((keel_scb_t *)SCB_BASE)->AIRCR = 0x05FA0004u; /* A reset. */
-    for (;;) {
-    }
+    keel_chip_reset();
 }
 """
 
@@ -267,10 +271,11 @@ class KeptTest(unittest.TestCase):
     def test_sets_are_kept_over_resets(self) -> None:
         for name in chip_model.CONSOLES:
             with self.subTest(name):
-                self.check(chip_model.simulate(self.tools, self.root, name, 0.03, step_us=4))
+                self.check(chip_model.simulate(self.tools, self.root, name, 0.05, step_us=4))
 
     def check(self, board: Chip) -> None:
-        found = re.findall(r"medium 0 load (\d) starts (\d+) save 0", board.text)
+        uid = " ".join(str(byte) for byte in chip.UID)
+        found = re.findall(rf"medium 0 load (\d) starts (\d+) save 0 uid {uid}", board.text)
         self.assertGreater(len(found), 3)
         self.assertEqual(found[0], ("2", "0"))  # None is there yet.
         self.assertEqual(found[1:], [("0", str(starts)) for starts in range(1, len(found))])

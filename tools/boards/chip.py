@@ -101,6 +101,8 @@ class Sensor:
 
 # What the maker counted: the reference at 3.3 V, the temperature at 30 and at 110 degrees.
 SYSTEM, CALIBRATION = 0x1FF0_F44A, (1502, 943, 1186)
+# The chip's own number, 96 bits.
+UID_PLACE, UID = 0x1FF0_F420, bytes(range(0x41, 0x4D))
 # What ADC1 counts on each channel: pins 0 to 15, the reference, and temperature or battery.
 COUNTS = {0: 1026, 1: 200, 2: 0, 3: 4095, 10: 3138, 11: 2071, 17: 1519, 18: 1000}
 BATTERY = 950

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from toolchain import Toolchain
 
-from boards.chip import CALIBRATION, SCB, SYSTEM, Chip, ModelError
+from boards.chip import CALIBRATION, SCB, SYSTEM, UID, UID_PLACE, Chip, ModelError
 from boards.packages import load
 
 ITCM, FLASH, DTCM, SRAM, BACKUP = 0x0, 0x0800_0000, 0x2000_0000, 0x2002_0000, 0x4002_4000
@@ -39,6 +39,7 @@ class Processor:
             self.uc.mem_map(base, size)
             self.uc.mem_write(base, (b"\xff" if base == FLASH else NOISE[:1]) * size)
         self.uc.mem_write(address, image)
+        self.uc.mem_write(UID_PLACE, UID)
         self.uc.mem_write(SYSTEM, b"".join(it.to_bytes(2, "little") for it in CALIBRATION))
         for start, end in ((0x4000_0000, BACKUP), (BACKUP + 0x1000, 0x4008_0000),
                            (0xE000_0000, 0xE010_0000)):  # fmt: skip

@@ -6,6 +6,7 @@
 #include "common/supervisor.h"
 #include "cortex_m7/core.h"
 #include "cortex_m7/fault.h"
+#include "cortex_m7/reset.h"
 #include "cortex_m7/sleep.h"
 #include "devices/fm25v02.h"
 #include "stm32f767/flash_medium.h"
@@ -464,16 +465,44 @@ static uint16_t factory_value(uint32_t address)
 }
 
 /* The system memory lies where the regions let nobody read, and there is no ninth region to open
- * it. So the protection is off for three readings; there are no interrupts that could come
+ * it. So the protection is off for some readings; there are no interrupts that could come
  * meanwhile. */
-static void read_calibration(void)
+static void open_factory(void)
 {
     ((keel_mpu_t *)MPU_BASE)->CTRL = 0u;
     __asm volatile("dsb\n\tisb" ::: "memory");
+}
+
+static void close_factory(void)
+{
+    keel_mpu_start(keel_board_regions, keel_board_region_count);
+}
+
+static void read_calibration(void)
+{
+    open_factory();
     calibration.reference = factory_value(VREFINTCAL_BASE);
     calibration.at_30 = factory_value(TS_CAL1_BASE);
     calibration.at_110 = factory_value(TS_CAL2_BASE);
-    keel_mpu_start(keel_board_regions, keel_board_region_count);
+    close_factory();
+}
+
+void keel_chip_uid(uint8_t uid[KEEL_CHIP_UID_BYTES])
+{
+    open_factory();
+    for (uint32_t i = 0u; i < KEEL_CHIP_UID_BYTES; i += 2u) {
+        const uint16_t value = factory_value(UID_BASE + i);
+
+        uid[i] = (uint8_t)(value & 0xFFu);
+        uid[i + 1u] = (uint8_t)(value >> 8);
+    }
+    close_factory();
+}
+
+void keel_chip_reset(void)
+{
+    keel_board_outputs_off();
+    keel_core_reset();
 }
 
 keel_bsp_status_t keel_chip_adc_start(void)

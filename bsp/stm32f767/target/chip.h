@@ -171,6 +171,20 @@ bool keel_chip_card(keel_disk_t *disk);
  */
 keel_bsp_status_t keel_chip_memory(keel_medium_t *medium, uint32_t *slot_bytes);
 
+/** Bytes of the chip's own number. */
+#define KEEL_CHIP_UID_BYTES 12u
+
+/**
+ * Reads the chip's own number, which no other STM32 has: for the port of a copter, say. Memory is
+ * not protected meanwhile, so this is for the time before tasks run.
+ *
+ * @param uid the number, its lowest byte first
+ */
+void keel_chip_uid(uint8_t uid[KEEL_CHIP_UID_BYTES]);
+
+/** Starts all anew, as a reset does, with the outputs off. */
+void keel_chip_reset(void) __attribute__((noreturn));
+
 /** Whether the brown-out level is 2.7 V, below which the flash is too slow for the core's clock. */
 bool keel_chip_brownout_is_set(void);
 
