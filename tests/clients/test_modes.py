@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import json
 import math
-import struct
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -346,14 +345,11 @@ def test_the_chips_number_is_told(copter: Copter) -> None:
 
 
 def set_system(rig: Rig, system: int) -> None:
-    """The parameter, as it is told, and until it is saved."""
-    rig.send(mavlink.MAVLink_param_request_read_message(1, 1, b"MAV_SYS_ID", -1))
-    rig.run(300)
-    kind = last(rig, "PARAM_VALUE").param_type
-    real = kind == mavlink.MAV_PARAM_TYPE_REAL32
-    value = float(system) if real else struct.unpack("<f", struct.pack("<i", system))[0]
-    rig.send(mavlink.MAVLink_param_set_message(1, 1, b"MAV_SYS_ID", value, kind))
+    """The parameter, and until it is saved."""
+    real = mavlink.MAV_PARAM_TYPE_REAL32
+    rig.send(mavlink.MAVLink_param_set_message(1, 1, b"MAV_SYS_ID", float(system), real))
     rig.run(3000)
+    assert last(rig, "PARAM_VALUE").param_value == system
 
 
 def test_it_answers_to_its_own_number(copter: Copter, tmp_path: Path) -> None:

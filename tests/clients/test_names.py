@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from test_clients import LONG_S, Station, flying_copter, mavproxy_program, wait_for
+from test_clients import LONG_S, Station, free_ports, mavproxy_program, powered_up, wait_for
 
 ROOT = Path(__file__).resolve().parents[2]
 ARM, SET_MODE = 400, 176
@@ -27,8 +27,10 @@ POSITION = 196608  # docs/telemetry.md.
 
 @pytest.fixture(scope="module")
 def ports(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[int]]:
-    """A copter that may be armed: the ports at which its three links arrive."""
-    yield from flying_copter(tmp_path_factory.mktemp("sim"))
+    """A copter that has just been powered up: the ports at which its three links arrive."""
+    found = free_ports(3)
+    with powered_up(found, tmp_path_factory.mktemp("sim")):
+        yield found
 
 
 @pytest.fixture(scope="module")
