@@ -4,8 +4,9 @@
 
     python3 tools/with_packages.py messages tools/messages.py [--check]
 
-The definitions are those that the pinned pymavlink carries. Only facts are taken of them: names,
-numbers, types, and the order on the wire. What is written is Keel's own; see examples/copter.
+The definitions are those that the pinned pymavlink carries, and examples/copter/messages.xml has those of
+MAVLink's messages that it leaves out. Only facts are taken of them: names, numbers, types, and the
+order on the wire. What is written is Keel's own; see examples/copter.
 
 Exit status: 0 when done; 1 when --check finds a file that is not up to date; 2 when it cannot read
 the definitions.
@@ -30,6 +31,7 @@ from toolchain import Toolchain  # noqa: E402
 
 FOLDER = ROOT / "examples/copter"
 DEFINITIONS = ("minimal", "standard", "common", "development")
+LEFT_OUT = FOLDER / "messages.xml"
 
 SENT = (
     "HEARTBEAT", "SYS_STATUS", "PING", "PARAM_VALUE", "GPS_RAW_INT", "ATTITUDE",
@@ -37,10 +39,17 @@ SENT = (
     "TIMESYNC", "BATTERY_STATUS", "AUTOPILOT_VERSION", "ESTIMATOR_STATUS", "HOME_POSITION",
     "EXTENDED_SYS_STATE", "STATUSTEXT", "SCALED_IMU", "SCALED_IMU2", "SCALED_IMU3",
     "NAMED_VALUE_INT", "SCALED_PRESSURE", "PARAM_ERROR", "AVAILABLE_MODES", "CURRENT_MODE",
+    "SYSTEM_TIME", "ATTITUDE_QUATERNION", "VFR_HUD", "ALTITUDE", "PROTOCOL_VERSION",
+    "COMPONENT_METADATA", "MISSION_COUNT", "MISSION_ACK", "LOG_ENTRY", "LOG_DATA",
+    "FILE_TRANSFER_PROTOCOL",
 )  # fmt: skip
 TAKEN = (
     "PING", "SET_MODE", "PARAM_REQUEST_READ", "PARAM_REQUEST_LIST", "PARAM_SET", "COMMAND_INT",
     "COMMAND_LONG", "TIMESYNC",
+    "MISSION_REQUEST_LIST", "MISSION_REQUEST_PARTIAL_LIST", "MISSION_REQUEST",
+    "MISSION_REQUEST_INT", "MISSION_COUNT", "MISSION_WRITE_PARTIAL_LIST", "MISSION_ITEM",
+    "MISSION_ITEM_INT", "MISSION_CLEAR_ALL", "MISSION_SET_CURRENT", "LOG_REQUEST_LIST",
+    "LOG_REQUEST_DATA", "LOG_ERASE", "FILE_TRANSFER_PROTOCOL",
 )  # fmt: skip
 CONSTANTS = (
     "MAV_TYPE_QUADROTOR", "MAV_AUTOPILOT_GENERIC", "MAV_COMP_ID_AUTOPILOT1",
@@ -75,6 +84,16 @@ CONSTANTS = (
     "MAV_BATTERY_FUNCTION_ALL", "MAV_BATTERY_TYPE_LIPO", "MAV_BATTERY_CHARGE_STATE_UNDEFINED",
     "MAV_BATTERY_CHARGE_STATE_OK", "MAV_BATTERY_CHARGE_STATE_LOW",
     "MAV_BATTERY_CHARGE_STATE_CRITICAL",
+    "MAV_PROTOCOL_CAPABILITY_FTP",
+    "MAV_MISSION_TYPE_RALLY", "MAV_MISSION_TYPE_ALL", "MAV_MISSION_ACCEPTED",
+    "MAV_MISSION_UNSUPPORTED", "MAV_MISSION_INVALID_SEQUENCE",
+    "MAV_FTP_OPCODE_NONE", "MAV_FTP_OPCODE_TERMINATESESSION", "MAV_FTP_OPCODE_RESETSESSION",
+    "MAV_FTP_OPCODE_LISTDIRECTORY", "MAV_FTP_OPCODE_OPENFILERO", "MAV_FTP_OPCODE_READFILE",
+    "MAV_FTP_OPCODE_CREATEFILE", "MAV_FTP_OPCODE_RENAME", "MAV_FTP_OPCODE_CALCFILECRC",
+    "MAV_FTP_OPCODE_BURSTREADFILE", "MAV_FTP_OPCODE_ACK", "MAV_FTP_OPCODE_NAK",
+    "MAV_FTP_ERR_NONE", "MAV_FTP_ERR_INVALIDDATASIZE", "MAV_FTP_ERR_INVALIDSESSION",
+    "MAV_FTP_ERR_EOF", "MAV_FTP_ERR_UNKNOWNCOMMAND", "MAV_FTP_ERR_FILEPROTECTED",
+    "MAV_FTP_ERR_FILENOTFOUND",
 )  # fmt: skip
 BYTES = {"char": 1, "int8_t": 1, "uint8_t": 1, "int16_t": 2, "uint16_t": 2, "int32_t": 4,
          "uint32_t": 4, "float": 4, "int64_t": 8, "uint64_t": 8, "double": 8}  # fmt: skip
@@ -168,8 +187,7 @@ def read(folder: Path) -> tuple[dict[str, Message], dict[str, int]]:
     """All messages and constants."""
     messages: dict[str, Message] = {}
     constants: dict[str, int] = {}
-    for name in DEFINITIONS:
-        path = folder / f"{name}.xml"
+    for path in (*(folder / f"{name}.xml" for name in DEFINITIONS), LEFT_OUT):
         try:
             root = ET.parse(path).getroot()
         except (OSError, ET.ParseError) as error:

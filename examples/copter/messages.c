@@ -7,20 +7,29 @@
 const keel_mavlink_message_t messages_sent[MESSAGES_SENT] = {
     {MESSAGE_HEARTBEAT, 50u, 1u, MESSAGE_HEARTBEAT_LENGTH},
     {MESSAGE_SYS_STATUS, 124u, 1u, MESSAGE_SYS_STATUS_LENGTH},
+    {MESSAGE_SYSTEM_TIME, 137u, 1u, MESSAGE_SYSTEM_TIME_LENGTH},
     {MESSAGE_PING, 237u, 1u, MESSAGE_PING_LENGTH},
     {MESSAGE_PARAM_VALUE, 220u, 1u, MESSAGE_PARAM_VALUE_LENGTH},
     {MESSAGE_GPS_RAW_INT, 24u, 1u, MESSAGE_GPS_RAW_INT_LENGTH},
     {MESSAGE_SCALED_IMU, 170u, 1u, MESSAGE_SCALED_IMU_LENGTH},
     {MESSAGE_SCALED_PRESSURE, 115u, 1u, MESSAGE_SCALED_PRESSURE_LENGTH},
     {MESSAGE_ATTITUDE, 39u, 1u, MESSAGE_ATTITUDE_LENGTH},
+    {MESSAGE_ATTITUDE_QUATERNION, 246u, 1u, MESSAGE_ATTITUDE_QUATERNION_LENGTH},
     {MESSAGE_LOCAL_POSITION_NED, 185u, 1u, MESSAGE_LOCAL_POSITION_NED_LENGTH},
     {MESSAGE_GLOBAL_POSITION_INT, 104u, 1u, MESSAGE_GLOBAL_POSITION_INT_LENGTH},
     {MESSAGE_SERVO_OUTPUT_RAW, 222u, 1u, MESSAGE_SERVO_OUTPUT_RAW_LENGTH},
+    {MESSAGE_MISSION_COUNT, 221u, 1u, MESSAGE_MISSION_COUNT_LENGTH},
+    {MESSAGE_MISSION_ACK, 153u, 1u, MESSAGE_MISSION_ACK_LENGTH},
     {MESSAGE_RC_CHANNELS, 118u, 1u, MESSAGE_RC_CHANNELS_LENGTH},
+    {MESSAGE_VFR_HUD, 20u, 1u, MESSAGE_VFR_HUD_LENGTH},
     {MESSAGE_COMMAND_ACK, 143u, 1u, MESSAGE_COMMAND_ACK_LENGTH},
+    {MESSAGE_FILE_TRANSFER_PROTOCOL, 84u, 1u, MESSAGE_FILE_TRANSFER_PROTOCOL_LENGTH},
     {MESSAGE_TIMESYNC, 34u, 1u, MESSAGE_TIMESYNC_LENGTH},
     {MESSAGE_SCALED_IMU2, 76u, 1u, MESSAGE_SCALED_IMU2_LENGTH},
+    {MESSAGE_LOG_ENTRY, 56u, 1u, MESSAGE_LOG_ENTRY_LENGTH},
+    {MESSAGE_LOG_DATA, 134u, 1u, MESSAGE_LOG_DATA_LENGTH},
     {MESSAGE_SCALED_IMU3, 46u, 1u, MESSAGE_SCALED_IMU3_LENGTH},
+    {MESSAGE_ALTITUDE, 47u, 1u, MESSAGE_ALTITUDE_LENGTH},
     {MESSAGE_BATTERY_STATUS, 154u, 1u, MESSAGE_BATTERY_STATUS_LENGTH},
     {MESSAGE_AUTOPILOT_VERSION, 178u, 1u, MESSAGE_AUTOPILOT_VERSION_LENGTH},
     {MESSAGE_ESTIMATOR_STATUS, 163u, 1u, MESSAGE_ESTIMATOR_STATUS_LENGTH},
@@ -28,7 +37,9 @@ const keel_mavlink_message_t messages_sent[MESSAGES_SENT] = {
     {MESSAGE_EXTENDED_SYS_STATE, 130u, 1u, MESSAGE_EXTENDED_SYS_STATE_LENGTH},
     {MESSAGE_NAMED_VALUE_INT, 44u, 1u, MESSAGE_NAMED_VALUE_INT_LENGTH},
     {MESSAGE_STATUSTEXT, 83u, 1u, MESSAGE_STATUSTEXT_LENGTH},
+    {MESSAGE_PROTOCOL_VERSION, 217u, 1u, MESSAGE_PROTOCOL_VERSION_LENGTH},
     {MESSAGE_PARAM_ERROR, 209u, 1u, MESSAGE_PARAM_ERROR_LENGTH},
+    {MESSAGE_COMPONENT_METADATA, 182u, 1u, MESSAGE_COMPONENT_METADATA_LENGTH},
     {MESSAGE_AVAILABLE_MODES, 134u, 1u, MESSAGE_AVAILABLE_MODES_LENGTH},
     {MESSAGE_CURRENT_MODE, 193u, 1u, MESSAGE_CURRENT_MODE_LENGTH},
 };
@@ -39,9 +50,23 @@ const keel_mavlink_message_t messages_taken[MESSAGES_TAKEN] = {
     {MESSAGE_PARAM_REQUEST_READ, 214u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
     {MESSAGE_PARAM_REQUEST_LIST, 159u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
     {MESSAGE_PARAM_SET, 168u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_MISSION_REQUEST_PARTIAL_LIST, 212u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_MISSION_WRITE_PARTIAL_LIST, 9u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_MISSION_ITEM, 254u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_MISSION_REQUEST, 230u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_MISSION_SET_CURRENT, 28u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_MISSION_REQUEST_LIST, 132u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_MISSION_COUNT, 221u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_MISSION_CLEAR_ALL, 232u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_MISSION_REQUEST_INT, 196u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_MISSION_ITEM_INT, 38u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
     {MESSAGE_COMMAND_INT, 158u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
     {MESSAGE_COMMAND_LONG, 152u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_FILE_TRANSFER_PROTOCOL, 84u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
     {MESSAGE_TIMESYNC, 34u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_LOG_REQUEST_LIST, 128u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_LOG_REQUEST_DATA, 116u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_LOG_ERASE, 237u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
 };
 
 /* Numbers, the lowest byte first. */
@@ -172,6 +197,13 @@ void message_sys_status_pack(const message_sys_status_t *from,
     put_u32(&payload[39], from->onboard_control_sensors_health_extended);
 }
 
+void message_system_time_pack(const message_system_time_t *from,
+                              uint8_t payload[MESSAGE_SYSTEM_TIME_LENGTH])
+{
+    put_u64(&payload[0], from->time_unix_usec);
+    put_u32(&payload[8], from->time_boot_ms);
+}
+
 void message_ping_pack(const message_ping_t *from, uint8_t payload[MESSAGE_PING_LENGTH])
 {
     put_u64(&payload[0], from->time_usec);
@@ -250,6 +282,22 @@ void message_attitude_pack(const message_attitude_t *from, uint8_t payload[MESSA
     put_float(&payload[24], from->yawspeed);
 }
 
+void message_attitude_quaternion_pack(const message_attitude_quaternion_t *from,
+                                      uint8_t payload[MESSAGE_ATTITUDE_QUATERNION_LENGTH])
+{
+    put_u32(&payload[0], from->time_boot_ms);
+    put_float(&payload[4], from->q1);
+    put_float(&payload[8], from->q2);
+    put_float(&payload[12], from->q3);
+    put_float(&payload[16], from->q4);
+    put_float(&payload[20], from->rollspeed);
+    put_float(&payload[24], from->pitchspeed);
+    put_float(&payload[28], from->yawspeed);
+    for (uint32_t i = 0u; i < 4u; i++) {
+        put_float(&payload[32u + (4u * i)], from->repr_offset_q[i]);
+    }
+}
+
 void message_local_position_ned_pack(const message_local_position_ned_t *from,
                                      uint8_t payload[MESSAGE_LOCAL_POSITION_NED_LENGTH])
 {
@@ -299,6 +347,24 @@ void message_servo_output_raw_pack(const message_servo_output_raw_t *from,
     put_u16(&payload[35], from->servo16_raw);
 }
 
+void message_mission_count_pack(const message_mission_count_t *from,
+                                uint8_t payload[MESSAGE_MISSION_COUNT_LENGTH])
+{
+    put_u16(&payload[0], from->count);
+    put_u8(&payload[2], from->target_system);
+    put_u8(&payload[3], from->target_component);
+    put_u8(&payload[4], from->mission_type);
+}
+
+void message_mission_ack_pack(const message_mission_ack_t *from,
+                              uint8_t payload[MESSAGE_MISSION_ACK_LENGTH])
+{
+    put_u8(&payload[0], from->target_system);
+    put_u8(&payload[1], from->target_component);
+    put_u8(&payload[2], from->type);
+    put_u8(&payload[3], from->mission_type);
+}
+
 void message_rc_channels_pack(const message_rc_channels_t *from,
                               uint8_t payload[MESSAGE_RC_CHANNELS_LENGTH])
 {
@@ -325,6 +391,16 @@ void message_rc_channels_pack(const message_rc_channels_t *from,
     put_u8(&payload[41], from->rssi);
 }
 
+void message_vfr_hud_pack(const message_vfr_hud_t *from, uint8_t payload[MESSAGE_VFR_HUD_LENGTH])
+{
+    put_float(&payload[0], from->airspeed);
+    put_float(&payload[4], from->groundspeed);
+    put_float(&payload[8], from->alt);
+    put_float(&payload[12], from->climb);
+    put_i16(&payload[16], from->heading);
+    put_u16(&payload[18], from->throttle);
+}
+
 void message_command_ack_pack(const message_command_ack_t *from,
                               uint8_t payload[MESSAGE_COMMAND_ACK_LENGTH])
 {
@@ -334,6 +410,17 @@ void message_command_ack_pack(const message_command_ack_t *from,
     put_i32(&payload[4], from->result_param2);
     put_u8(&payload[8], from->target_system);
     put_u8(&payload[9], from->target_component);
+}
+
+void message_file_transfer_protocol_pack(const message_file_transfer_protocol_t *from,
+                                         uint8_t payload[MESSAGE_FILE_TRANSFER_PROTOCOL_LENGTH])
+{
+    put_u8(&payload[0], from->target_network);
+    put_u8(&payload[1], from->target_system);
+    put_u8(&payload[2], from->target_component);
+    for (uint32_t i = 0u; i < 251u; i++) {
+        put_u8(&payload[3u + (1u * i)], from->payload[i]);
+    }
 }
 
 void message_timesync_pack(const message_timesync_t *from, uint8_t payload[MESSAGE_TIMESYNC_LENGTH])
@@ -358,6 +445,26 @@ void message_scaled_imu2_pack(const message_scaled_imu2_t *from,
     put_i16(&payload[22], from->temperature);
 }
 
+void message_log_entry_pack(const message_log_entry_t *from,
+                            uint8_t payload[MESSAGE_LOG_ENTRY_LENGTH])
+{
+    put_u32(&payload[0], from->time_utc);
+    put_u32(&payload[4], from->size);
+    put_u16(&payload[8], from->id);
+    put_u16(&payload[10], from->num_logs);
+    put_u16(&payload[12], from->last_log_num);
+}
+
+void message_log_data_pack(const message_log_data_t *from, uint8_t payload[MESSAGE_LOG_DATA_LENGTH])
+{
+    put_u32(&payload[0], from->ofs);
+    put_u16(&payload[4], from->id);
+    put_u8(&payload[6], from->count);
+    for (uint32_t i = 0u; i < 90u; i++) {
+        put_u8(&payload[7u + (1u * i)], from->data[i]);
+    }
+}
+
 void message_scaled_imu3_pack(const message_scaled_imu3_t *from,
                               uint8_t payload[MESSAGE_SCALED_IMU3_LENGTH])
 {
@@ -372,6 +479,17 @@ void message_scaled_imu3_pack(const message_scaled_imu3_t *from,
     put_i16(&payload[18], from->ymag);
     put_i16(&payload[20], from->zmag);
     put_i16(&payload[22], from->temperature);
+}
+
+void message_altitude_pack(const message_altitude_t *from, uint8_t payload[MESSAGE_ALTITUDE_LENGTH])
+{
+    put_u64(&payload[0], from->time_usec);
+    put_float(&payload[8], from->altitude_monotonic);
+    put_float(&payload[12], from->altitude_amsl);
+    put_float(&payload[16], from->altitude_local);
+    put_float(&payload[20], from->altitude_relative);
+    put_float(&payload[24], from->altitude_terrain);
+    put_float(&payload[28], from->bottom_clearance);
 }
 
 void message_battery_status_pack(const message_battery_status_t *from,
@@ -483,6 +601,20 @@ void message_statustext_pack(const message_statustext_t *from,
     put_u8(&payload[53], from->chunk_seq);
 }
 
+void message_protocol_version_pack(const message_protocol_version_t *from,
+                                   uint8_t payload[MESSAGE_PROTOCOL_VERSION_LENGTH])
+{
+    put_u16(&payload[0], from->version);
+    put_u16(&payload[2], from->min_version);
+    put_u16(&payload[4], from->max_version);
+    for (uint32_t i = 0u; i < 8u; i++) {
+        put_u8(&payload[6u + (1u * i)], from->spec_version_hash[i]);
+    }
+    for (uint32_t i = 0u; i < 8u; i++) {
+        put_u8(&payload[14u + (1u * i)], from->library_version_hash[i]);
+    }
+}
+
 void message_param_error_pack(const message_param_error_t *from,
                               uint8_t payload[MESSAGE_PARAM_ERROR_LENGTH])
 {
@@ -493,6 +625,16 @@ void message_param_error_pack(const message_param_error_t *from,
         put_u8(&payload[4u + (1u * i)], (uint8_t)from->param_id[i]);
     }
     put_u8(&payload[20], from->error);
+}
+
+void message_component_metadata_pack(const message_component_metadata_t *from,
+                                     uint8_t payload[MESSAGE_COMPONENT_METADATA_LENGTH])
+{
+    put_u32(&payload[0], from->time_boot_ms);
+    put_u32(&payload[4], from->file_crc);
+    for (uint32_t i = 0u; i < 100u; i++) {
+        put_u8(&payload[8u + (1u * i)], (uint8_t)from->uri[i]);
+    }
 }
 
 void message_available_modes_pack(const message_available_modes_t *from,
@@ -561,6 +703,119 @@ void message_param_set_unpack(message_param_set_t *to,
     to->param_type = get_u8(&payload[22]);
 }
 
+void message_mission_request_partial_list_unpack(
+    message_mission_request_partial_list_t *to,
+    const uint8_t payload[MESSAGE_MISSION_REQUEST_PARTIAL_LIST_LENGTH])
+{
+    to->start_index = get_i16(&payload[0]);
+    to->end_index = get_i16(&payload[2]);
+    to->target_system = get_u8(&payload[4]);
+    to->target_component = get_u8(&payload[5]);
+    to->mission_type = get_u8(&payload[6]);
+}
+
+void message_mission_write_partial_list_unpack(
+    message_mission_write_partial_list_t *to,
+    const uint8_t payload[MESSAGE_MISSION_WRITE_PARTIAL_LIST_LENGTH])
+{
+    to->start_index = get_i16(&payload[0]);
+    to->end_index = get_i16(&payload[2]);
+    to->target_system = get_u8(&payload[4]);
+    to->target_component = get_u8(&payload[5]);
+    to->mission_type = get_u8(&payload[6]);
+}
+
+void message_mission_item_unpack(message_mission_item_t *to,
+                                 const uint8_t payload[MESSAGE_MISSION_ITEM_LENGTH])
+{
+    to->param1 = get_float(&payload[0]);
+    to->param2 = get_float(&payload[4]);
+    to->param3 = get_float(&payload[8]);
+    to->param4 = get_float(&payload[12]);
+    to->x = get_float(&payload[16]);
+    to->y = get_float(&payload[20]);
+    to->z = get_float(&payload[24]);
+    to->seq = get_u16(&payload[28]);
+    to->command = get_u16(&payload[30]);
+    to->target_system = get_u8(&payload[32]);
+    to->target_component = get_u8(&payload[33]);
+    to->frame = get_u8(&payload[34]);
+    to->current = get_u8(&payload[35]);
+    to->autocontinue = get_u8(&payload[36]);
+    to->mission_type = get_u8(&payload[37]);
+}
+
+void message_mission_request_unpack(message_mission_request_t *to,
+                                    const uint8_t payload[MESSAGE_MISSION_REQUEST_LENGTH])
+{
+    to->seq = get_u16(&payload[0]);
+    to->target_system = get_u8(&payload[2]);
+    to->target_component = get_u8(&payload[3]);
+    to->mission_type = get_u8(&payload[4]);
+}
+
+void message_mission_set_current_unpack(message_mission_set_current_t *to,
+                                        const uint8_t payload[MESSAGE_MISSION_SET_CURRENT_LENGTH])
+{
+    to->seq = get_u16(&payload[0]);
+    to->target_system = get_u8(&payload[2]);
+    to->target_component = get_u8(&payload[3]);
+}
+
+void message_mission_request_list_unpack(message_mission_request_list_t *to,
+                                         const uint8_t payload[MESSAGE_MISSION_REQUEST_LIST_LENGTH])
+{
+    to->target_system = get_u8(&payload[0]);
+    to->target_component = get_u8(&payload[1]);
+    to->mission_type = get_u8(&payload[2]);
+}
+
+void message_mission_count_unpack(message_mission_count_t *to,
+                                  const uint8_t payload[MESSAGE_MISSION_COUNT_LENGTH])
+{
+    to->count = get_u16(&payload[0]);
+    to->target_system = get_u8(&payload[2]);
+    to->target_component = get_u8(&payload[3]);
+    to->mission_type = get_u8(&payload[4]);
+}
+
+void message_mission_clear_all_unpack(message_mission_clear_all_t *to,
+                                      const uint8_t payload[MESSAGE_MISSION_CLEAR_ALL_LENGTH])
+{
+    to->target_system = get_u8(&payload[0]);
+    to->target_component = get_u8(&payload[1]);
+    to->mission_type = get_u8(&payload[2]);
+}
+
+void message_mission_request_int_unpack(message_mission_request_int_t *to,
+                                        const uint8_t payload[MESSAGE_MISSION_REQUEST_INT_LENGTH])
+{
+    to->seq = get_u16(&payload[0]);
+    to->target_system = get_u8(&payload[2]);
+    to->target_component = get_u8(&payload[3]);
+    to->mission_type = get_u8(&payload[4]);
+}
+
+void message_mission_item_int_unpack(message_mission_item_int_t *to,
+                                     const uint8_t payload[MESSAGE_MISSION_ITEM_INT_LENGTH])
+{
+    to->param1 = get_float(&payload[0]);
+    to->param2 = get_float(&payload[4]);
+    to->param3 = get_float(&payload[8]);
+    to->param4 = get_float(&payload[12]);
+    to->x = get_i32(&payload[16]);
+    to->y = get_i32(&payload[20]);
+    to->z = get_float(&payload[24]);
+    to->seq = get_u16(&payload[28]);
+    to->command = get_u16(&payload[30]);
+    to->target_system = get_u8(&payload[32]);
+    to->target_component = get_u8(&payload[33]);
+    to->frame = get_u8(&payload[34]);
+    to->current = get_u8(&payload[35]);
+    to->autocontinue = get_u8(&payload[36]);
+    to->mission_type = get_u8(&payload[37]);
+}
+
 void message_command_int_unpack(message_command_int_t *to,
                                 const uint8_t payload[MESSAGE_COMMAND_INT_LENGTH])
 {
@@ -595,8 +850,46 @@ void message_command_long_unpack(message_command_long_t *to,
     to->confirmation = get_u8(&payload[32]);
 }
 
+void message_file_transfer_protocol_unpack(message_file_transfer_protocol_t *to,
+                                           const uint8_t
+                                               payload[MESSAGE_FILE_TRANSFER_PROTOCOL_LENGTH])
+{
+    to->target_network = get_u8(&payload[0]);
+    to->target_system = get_u8(&payload[1]);
+    to->target_component = get_u8(&payload[2]);
+    for (uint32_t i = 0u; i < 251u; i++) {
+        to->payload[i] = get_u8(&payload[3u + (1u * i)]);
+    }
+}
+
 void message_timesync_unpack(message_timesync_t *to, const uint8_t payload[MESSAGE_TIMESYNC_LENGTH])
 {
     to->tc1 = get_i64(&payload[0]);
     to->ts1 = get_i64(&payload[8]);
+}
+
+void message_log_request_list_unpack(message_log_request_list_t *to,
+                                     const uint8_t payload[MESSAGE_LOG_REQUEST_LIST_LENGTH])
+{
+    to->start = get_u16(&payload[0]);
+    to->end = get_u16(&payload[2]);
+    to->target_system = get_u8(&payload[4]);
+    to->target_component = get_u8(&payload[5]);
+}
+
+void message_log_request_data_unpack(message_log_request_data_t *to,
+                                     const uint8_t payload[MESSAGE_LOG_REQUEST_DATA_LENGTH])
+{
+    to->ofs = get_u32(&payload[0]);
+    to->count = get_u32(&payload[4]);
+    to->id = get_u16(&payload[8]);
+    to->target_system = get_u8(&payload[10]);
+    to->target_component = get_u8(&payload[11]);
+}
+
+void message_log_erase_unpack(message_log_erase_t *to,
+                              const uint8_t payload[MESSAGE_LOG_ERASE_LENGTH])
+{
+    to->target_system = get_u8(&payload[0]);
+    to->target_component = get_u8(&payload[1]);
 }

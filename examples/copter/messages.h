@@ -91,102 +91,182 @@
 #define MAV_BATTERY_CHARGE_STATE_OK                   1u
 #define MAV_BATTERY_CHARGE_STATE_LOW                  2u
 #define MAV_BATTERY_CHARGE_STATE_CRITICAL             3u
+#define MAV_PROTOCOL_CAPABILITY_FTP                   32u
+#define MAV_MISSION_TYPE_RALLY                        2u
+#define MAV_MISSION_TYPE_ALL                          255u
+#define MAV_MISSION_ACCEPTED                          0u
+#define MAV_MISSION_UNSUPPORTED                       3u
+#define MAV_MISSION_INVALID_SEQUENCE                  13u
+#define MAV_FTP_OPCODE_NONE                           0u
+#define MAV_FTP_OPCODE_TERMINATESESSION               1u
+#define MAV_FTP_OPCODE_RESETSESSION                   2u
+#define MAV_FTP_OPCODE_LISTDIRECTORY                  3u
+#define MAV_FTP_OPCODE_OPENFILERO                     4u
+#define MAV_FTP_OPCODE_READFILE                       5u
+#define MAV_FTP_OPCODE_CREATEFILE                     6u
+#define MAV_FTP_OPCODE_RENAME                         13u
+#define MAV_FTP_OPCODE_CALCFILECRC                    14u
+#define MAV_FTP_OPCODE_BURSTREADFILE                  15u
+#define MAV_FTP_OPCODE_ACK                            128u
+#define MAV_FTP_OPCODE_NAK                            129u
+#define MAV_FTP_ERR_NONE                              0u
+#define MAV_FTP_ERR_INVALIDDATASIZE                   3u
+#define MAV_FTP_ERR_INVALIDSESSION                    4u
+#define MAV_FTP_ERR_EOF                               6u
+#define MAV_FTP_ERR_UNKNOWNCOMMAND                    7u
+#define MAV_FTP_ERR_FILEPROTECTED                     9u
+#define MAV_FTP_ERR_FILENOTFOUND                      10u
 /** @} */
 
 /** @name Messages: their numbers, and bytes of all fields. */
 /** @{ */
-#define MESSAGE_HEARTBEAT                  0u
-#define MESSAGE_HEARTBEAT_LENGTH           9u
-#define MESSAGE_SYS_STATUS                 1u
-#define MESSAGE_SYS_STATUS_LENGTH          43u
-#define MESSAGE_PING                       4u
-#define MESSAGE_PING_LENGTH                14u
-#define MESSAGE_SET_MODE                   11u
-#define MESSAGE_SET_MODE_LENGTH            6u
-#define MESSAGE_PARAM_REQUEST_READ         20u
-#define MESSAGE_PARAM_REQUEST_READ_LENGTH  20u
-#define MESSAGE_PARAM_REQUEST_LIST         21u
-#define MESSAGE_PARAM_REQUEST_LIST_LENGTH  2u
-#define MESSAGE_PARAM_VALUE                22u
-#define MESSAGE_PARAM_VALUE_LENGTH         25u
-#define MESSAGE_PARAM_SET                  23u
-#define MESSAGE_PARAM_SET_LENGTH           23u
-#define MESSAGE_GPS_RAW_INT                24u
-#define MESSAGE_GPS_RAW_INT_LENGTH         52u
-#define MESSAGE_SCALED_IMU                 26u
-#define MESSAGE_SCALED_IMU_LENGTH          24u
-#define MESSAGE_SCALED_PRESSURE            29u
-#define MESSAGE_SCALED_PRESSURE_LENGTH     16u
-#define MESSAGE_ATTITUDE                   30u
-#define MESSAGE_ATTITUDE_LENGTH            28u
-#define MESSAGE_LOCAL_POSITION_NED         32u
-#define MESSAGE_LOCAL_POSITION_NED_LENGTH  28u
-#define MESSAGE_GLOBAL_POSITION_INT        33u
-#define MESSAGE_GLOBAL_POSITION_INT_LENGTH 28u
-#define MESSAGE_SERVO_OUTPUT_RAW           36u
-#define MESSAGE_SERVO_OUTPUT_RAW_LENGTH    37u
-#define MESSAGE_RC_CHANNELS                65u
-#define MESSAGE_RC_CHANNELS_LENGTH         42u
-#define MESSAGE_COMMAND_INT                75u
-#define MESSAGE_COMMAND_INT_LENGTH         35u
-#define MESSAGE_COMMAND_LONG               76u
-#define MESSAGE_COMMAND_LONG_LENGTH        33u
-#define MESSAGE_COMMAND_ACK                77u
-#define MESSAGE_COMMAND_ACK_LENGTH         10u
-#define MESSAGE_TIMESYNC                   111u
-#define MESSAGE_TIMESYNC_LENGTH            16u
-#define MESSAGE_SCALED_IMU2                116u
-#define MESSAGE_SCALED_IMU2_LENGTH         24u
-#define MESSAGE_SCALED_IMU3                129u
-#define MESSAGE_SCALED_IMU3_LENGTH         24u
-#define MESSAGE_BATTERY_STATUS             147u
-#define MESSAGE_BATTERY_STATUS_LENGTH      54u
-#define MESSAGE_AUTOPILOT_VERSION          148u
-#define MESSAGE_AUTOPILOT_VERSION_LENGTH   78u
-#define MESSAGE_ESTIMATOR_STATUS           230u
-#define MESSAGE_ESTIMATOR_STATUS_LENGTH    42u
-#define MESSAGE_HOME_POSITION              242u
-#define MESSAGE_HOME_POSITION_LENGTH       60u
-#define MESSAGE_EXTENDED_SYS_STATE         245u
-#define MESSAGE_EXTENDED_SYS_STATE_LENGTH  2u
-#define MESSAGE_NAMED_VALUE_INT            252u
-#define MESSAGE_NAMED_VALUE_INT_LENGTH     18u
-#define MESSAGE_STATUSTEXT                 253u
-#define MESSAGE_STATUSTEXT_LENGTH          54u
-#define MESSAGE_PARAM_ERROR                345u
-#define MESSAGE_PARAM_ERROR_LENGTH         21u
-#define MESSAGE_AVAILABLE_MODES            435u
-#define MESSAGE_AVAILABLE_MODES_LENGTH     46u
-#define MESSAGE_CURRENT_MODE               436u
-#define MESSAGE_CURRENT_MODE_LENGTH        9u
+#define MESSAGE_HEARTBEAT                           0u
+#define MESSAGE_HEARTBEAT_LENGTH                    9u
+#define MESSAGE_SYS_STATUS                          1u
+#define MESSAGE_SYS_STATUS_LENGTH                   43u
+#define MESSAGE_SYSTEM_TIME                         2u
+#define MESSAGE_SYSTEM_TIME_LENGTH                  12u
+#define MESSAGE_PING                                4u
+#define MESSAGE_PING_LENGTH                         14u
+#define MESSAGE_SET_MODE                            11u
+#define MESSAGE_SET_MODE_LENGTH                     6u
+#define MESSAGE_PARAM_REQUEST_READ                  20u
+#define MESSAGE_PARAM_REQUEST_READ_LENGTH           20u
+#define MESSAGE_PARAM_REQUEST_LIST                  21u
+#define MESSAGE_PARAM_REQUEST_LIST_LENGTH           2u
+#define MESSAGE_PARAM_VALUE                         22u
+#define MESSAGE_PARAM_VALUE_LENGTH                  25u
+#define MESSAGE_PARAM_SET                           23u
+#define MESSAGE_PARAM_SET_LENGTH                    23u
+#define MESSAGE_GPS_RAW_INT                         24u
+#define MESSAGE_GPS_RAW_INT_LENGTH                  52u
+#define MESSAGE_SCALED_IMU                          26u
+#define MESSAGE_SCALED_IMU_LENGTH                   24u
+#define MESSAGE_SCALED_PRESSURE                     29u
+#define MESSAGE_SCALED_PRESSURE_LENGTH              16u
+#define MESSAGE_ATTITUDE                            30u
+#define MESSAGE_ATTITUDE_LENGTH                     28u
+#define MESSAGE_ATTITUDE_QUATERNION                 31u
+#define MESSAGE_ATTITUDE_QUATERNION_LENGTH          48u
+#define MESSAGE_LOCAL_POSITION_NED                  32u
+#define MESSAGE_LOCAL_POSITION_NED_LENGTH           28u
+#define MESSAGE_GLOBAL_POSITION_INT                 33u
+#define MESSAGE_GLOBAL_POSITION_INT_LENGTH          28u
+#define MESSAGE_SERVO_OUTPUT_RAW                    36u
+#define MESSAGE_SERVO_OUTPUT_RAW_LENGTH             37u
+#define MESSAGE_MISSION_REQUEST_PARTIAL_LIST        37u
+#define MESSAGE_MISSION_REQUEST_PARTIAL_LIST_LENGTH 7u
+#define MESSAGE_MISSION_WRITE_PARTIAL_LIST          38u
+#define MESSAGE_MISSION_WRITE_PARTIAL_LIST_LENGTH   7u
+#define MESSAGE_MISSION_ITEM                        39u
+#define MESSAGE_MISSION_ITEM_LENGTH                 38u
+#define MESSAGE_MISSION_REQUEST                     40u
+#define MESSAGE_MISSION_REQUEST_LENGTH              5u
+#define MESSAGE_MISSION_SET_CURRENT                 41u
+#define MESSAGE_MISSION_SET_CURRENT_LENGTH          4u
+#define MESSAGE_MISSION_REQUEST_LIST                43u
+#define MESSAGE_MISSION_REQUEST_LIST_LENGTH         3u
+#define MESSAGE_MISSION_COUNT                       44u
+#define MESSAGE_MISSION_COUNT_LENGTH                5u
+#define MESSAGE_MISSION_CLEAR_ALL                   45u
+#define MESSAGE_MISSION_CLEAR_ALL_LENGTH            3u
+#define MESSAGE_MISSION_ACK                         47u
+#define MESSAGE_MISSION_ACK_LENGTH                  4u
+#define MESSAGE_MISSION_REQUEST_INT                 51u
+#define MESSAGE_MISSION_REQUEST_INT_LENGTH          5u
+#define MESSAGE_RC_CHANNELS                         65u
+#define MESSAGE_RC_CHANNELS_LENGTH                  42u
+#define MESSAGE_MISSION_ITEM_INT                    73u
+#define MESSAGE_MISSION_ITEM_INT_LENGTH             38u
+#define MESSAGE_VFR_HUD                             74u
+#define MESSAGE_VFR_HUD_LENGTH                      20u
+#define MESSAGE_COMMAND_INT                         75u
+#define MESSAGE_COMMAND_INT_LENGTH                  35u
+#define MESSAGE_COMMAND_LONG                        76u
+#define MESSAGE_COMMAND_LONG_LENGTH                 33u
+#define MESSAGE_COMMAND_ACK                         77u
+#define MESSAGE_COMMAND_ACK_LENGTH                  10u
+#define MESSAGE_FILE_TRANSFER_PROTOCOL              110u
+#define MESSAGE_FILE_TRANSFER_PROTOCOL_LENGTH       254u
+#define MESSAGE_TIMESYNC                            111u
+#define MESSAGE_TIMESYNC_LENGTH                     16u
+#define MESSAGE_SCALED_IMU2                         116u
+#define MESSAGE_SCALED_IMU2_LENGTH                  24u
+#define MESSAGE_LOG_REQUEST_LIST                    117u
+#define MESSAGE_LOG_REQUEST_LIST_LENGTH             6u
+#define MESSAGE_LOG_ENTRY                           118u
+#define MESSAGE_LOG_ENTRY_LENGTH                    14u
+#define MESSAGE_LOG_REQUEST_DATA                    119u
+#define MESSAGE_LOG_REQUEST_DATA_LENGTH             12u
+#define MESSAGE_LOG_DATA                            120u
+#define MESSAGE_LOG_DATA_LENGTH                     97u
+#define MESSAGE_LOG_ERASE                           121u
+#define MESSAGE_LOG_ERASE_LENGTH                    2u
+#define MESSAGE_SCALED_IMU3                         129u
+#define MESSAGE_SCALED_IMU3_LENGTH                  24u
+#define MESSAGE_ALTITUDE                            141u
+#define MESSAGE_ALTITUDE_LENGTH                     32u
+#define MESSAGE_BATTERY_STATUS                      147u
+#define MESSAGE_BATTERY_STATUS_LENGTH               54u
+#define MESSAGE_AUTOPILOT_VERSION                   148u
+#define MESSAGE_AUTOPILOT_VERSION_LENGTH            78u
+#define MESSAGE_ESTIMATOR_STATUS                    230u
+#define MESSAGE_ESTIMATOR_STATUS_LENGTH             42u
+#define MESSAGE_HOME_POSITION                       242u
+#define MESSAGE_HOME_POSITION_LENGTH                60u
+#define MESSAGE_EXTENDED_SYS_STATE                  245u
+#define MESSAGE_EXTENDED_SYS_STATE_LENGTH           2u
+#define MESSAGE_NAMED_VALUE_INT                     252u
+#define MESSAGE_NAMED_VALUE_INT_LENGTH              18u
+#define MESSAGE_STATUSTEXT                          253u
+#define MESSAGE_STATUSTEXT_LENGTH                   54u
+#define MESSAGE_PROTOCOL_VERSION                    300u
+#define MESSAGE_PROTOCOL_VERSION_LENGTH             22u
+#define MESSAGE_PARAM_ERROR                         345u
+#define MESSAGE_PARAM_ERROR_LENGTH                  21u
+#define MESSAGE_COMPONENT_METADATA                  397u
+#define MESSAGE_COMPONENT_METADATA_LENGTH           108u
+#define MESSAGE_AVAILABLE_MODES                     435u
+#define MESSAGE_AVAILABLE_MODES_LENGTH              46u
+#define MESSAGE_CURRENT_MODE                        436u
+#define MESSAGE_CURRENT_MODE_LENGTH                 9u
 /** @} */
 
 /** What is sent. */
-#define MESSAGES_SENT 26u
+#define MESSAGES_SENT 37u
 extern const keel_mavlink_message_t messages_sent[MESSAGES_SENT];
 
 /** What is taken, of senders who know more fields too. */
-#define MESSAGES_TAKEN 8u
+#define MESSAGES_TAKEN 22u
 extern const keel_mavlink_message_t messages_taken[MESSAGES_TAKEN];
 
 /** The places in messages_sent. */
 typedef enum message_sent {
     SENT_HEARTBEAT,
     SENT_SYS_STATUS,
+    SENT_SYSTEM_TIME,
     SENT_PING,
     SENT_PARAM_VALUE,
     SENT_GPS_RAW_INT,
     SENT_SCALED_IMU,
     SENT_SCALED_PRESSURE,
     SENT_ATTITUDE,
+    SENT_ATTITUDE_QUATERNION,
     SENT_LOCAL_POSITION_NED,
     SENT_GLOBAL_POSITION_INT,
     SENT_SERVO_OUTPUT_RAW,
+    SENT_MISSION_COUNT,
+    SENT_MISSION_ACK,
     SENT_RC_CHANNELS,
+    SENT_VFR_HUD,
     SENT_COMMAND_ACK,
+    SENT_FILE_TRANSFER_PROTOCOL,
     SENT_TIMESYNC,
     SENT_SCALED_IMU2,
+    SENT_LOG_ENTRY,
+    SENT_LOG_DATA,
     SENT_SCALED_IMU3,
+    SENT_ALTITUDE,
     SENT_BATTERY_STATUS,
     SENT_AUTOPILOT_VERSION,
     SENT_ESTIMATOR_STATUS,
@@ -194,7 +274,9 @@ typedef enum message_sent {
     SENT_EXTENDED_SYS_STATE,
     SENT_NAMED_VALUE_INT,
     SENT_STATUSTEXT,
+    SENT_PROTOCOL_VERSION,
     SENT_PARAM_ERROR,
+    SENT_COMPONENT_METADATA,
     SENT_AVAILABLE_MODES,
     SENT_CURRENT_MODE
 } message_sent_t;
@@ -228,6 +310,12 @@ typedef struct message_sys_status {
     uint32_t onboard_control_sensors_enabled_extended;
     uint32_t onboard_control_sensors_health_extended;
 } message_sys_status_t;
+
+/** SYSTEM_TIME. */
+typedef struct message_system_time {
+    uint64_t time_unix_usec;
+    uint32_t time_boot_ms;
+} message_system_time_t;
 
 /** PING. */
 typedef struct message_ping {
@@ -331,6 +419,19 @@ typedef struct message_attitude {
     float yawspeed;
 } message_attitude_t;
 
+/** ATTITUDE_QUATERNION. */
+typedef struct message_attitude_quaternion {
+    uint32_t time_boot_ms;
+    float q1;
+    float q2;
+    float q3;
+    float q4;
+    float rollspeed;
+    float pitchspeed;
+    float yawspeed;
+    float repr_offset_q[4];
+} message_attitude_quaternion_t;
+
 /** LOCAL_POSITION_NED. */
 typedef struct message_local_position_ned {
     uint32_t time_boot_ms;
@@ -377,6 +478,96 @@ typedef struct message_servo_output_raw {
     uint16_t servo16_raw;
 } message_servo_output_raw_t;
 
+/** MISSION_REQUEST_PARTIAL_LIST. */
+typedef struct message_mission_request_partial_list {
+    int16_t start_index;
+    int16_t end_index;
+    uint8_t target_system;
+    uint8_t target_component;
+    uint8_t mission_type;
+} message_mission_request_partial_list_t;
+
+/** MISSION_WRITE_PARTIAL_LIST. */
+typedef struct message_mission_write_partial_list {
+    int16_t start_index;
+    int16_t end_index;
+    uint8_t target_system;
+    uint8_t target_component;
+    uint8_t mission_type;
+} message_mission_write_partial_list_t;
+
+/** MISSION_ITEM. */
+typedef struct message_mission_item {
+    float param1;
+    float param2;
+    float param3;
+    float param4;
+    float x;
+    float y;
+    float z;
+    uint16_t seq;
+    uint16_t command;
+    uint8_t target_system;
+    uint8_t target_component;
+    uint8_t frame;
+    uint8_t current;
+    uint8_t autocontinue;
+    uint8_t mission_type;
+} message_mission_item_t;
+
+/** MISSION_REQUEST. */
+typedef struct message_mission_request {
+    uint16_t seq;
+    uint8_t target_system;
+    uint8_t target_component;
+    uint8_t mission_type;
+} message_mission_request_t;
+
+/** MISSION_SET_CURRENT. */
+typedef struct message_mission_set_current {
+    uint16_t seq;
+    uint8_t target_system;
+    uint8_t target_component;
+} message_mission_set_current_t;
+
+/** MISSION_REQUEST_LIST. */
+typedef struct message_mission_request_list {
+    uint8_t target_system;
+    uint8_t target_component;
+    uint8_t mission_type;
+} message_mission_request_list_t;
+
+/** MISSION_COUNT. */
+typedef struct message_mission_count {
+    uint16_t count;
+    uint8_t target_system;
+    uint8_t target_component;
+    uint8_t mission_type;
+} message_mission_count_t;
+
+/** MISSION_CLEAR_ALL. */
+typedef struct message_mission_clear_all {
+    uint8_t target_system;
+    uint8_t target_component;
+    uint8_t mission_type;
+} message_mission_clear_all_t;
+
+/** MISSION_ACK. */
+typedef struct message_mission_ack {
+    uint8_t target_system;
+    uint8_t target_component;
+    uint8_t type;
+    uint8_t mission_type;
+} message_mission_ack_t;
+
+/** MISSION_REQUEST_INT. */
+typedef struct message_mission_request_int {
+    uint16_t seq;
+    uint8_t target_system;
+    uint8_t target_component;
+    uint8_t mission_type;
+} message_mission_request_int_t;
+
 /** RC_CHANNELS. */
 typedef struct message_rc_channels {
     uint32_t time_boot_ms;
@@ -401,6 +592,35 @@ typedef struct message_rc_channels {
     uint8_t chancount;
     uint8_t rssi;
 } message_rc_channels_t;
+
+/** MISSION_ITEM_INT. */
+typedef struct message_mission_item_int {
+    float param1;
+    float param2;
+    float param3;
+    float param4;
+    int32_t x;
+    int32_t y;
+    float z;
+    uint16_t seq;
+    uint16_t command;
+    uint8_t target_system;
+    uint8_t target_component;
+    uint8_t frame;
+    uint8_t current;
+    uint8_t autocontinue;
+    uint8_t mission_type;
+} message_mission_item_int_t;
+
+/** VFR_HUD. */
+typedef struct message_vfr_hud {
+    float airspeed;
+    float groundspeed;
+    float alt;
+    float climb;
+    int16_t heading;
+    uint16_t throttle;
+} message_vfr_hud_t;
 
 /** COMMAND_INT. */
 typedef struct message_command_int {
@@ -444,6 +664,14 @@ typedef struct message_command_ack {
     uint8_t target_component;
 } message_command_ack_t;
 
+/** FILE_TRANSFER_PROTOCOL. */
+typedef struct message_file_transfer_protocol {
+    uint8_t target_network;
+    uint8_t target_system;
+    uint8_t target_component;
+    uint8_t payload[251];
+} message_file_transfer_protocol_t;
+
 /** TIMESYNC. */
 typedef struct message_timesync {
     int64_t tc1;
@@ -465,6 +693,46 @@ typedef struct message_scaled_imu2 {
     int16_t temperature;
 } message_scaled_imu2_t;
 
+/** LOG_REQUEST_LIST. */
+typedef struct message_log_request_list {
+    uint16_t start;
+    uint16_t end;
+    uint8_t target_system;
+    uint8_t target_component;
+} message_log_request_list_t;
+
+/** LOG_ENTRY. */
+typedef struct message_log_entry {
+    uint32_t time_utc;
+    uint32_t size;
+    uint16_t id;
+    uint16_t num_logs;
+    uint16_t last_log_num;
+} message_log_entry_t;
+
+/** LOG_REQUEST_DATA. */
+typedef struct message_log_request_data {
+    uint32_t ofs;
+    uint32_t count;
+    uint16_t id;
+    uint8_t target_system;
+    uint8_t target_component;
+} message_log_request_data_t;
+
+/** LOG_DATA. */
+typedef struct message_log_data {
+    uint32_t ofs;
+    uint16_t id;
+    uint8_t count;
+    uint8_t data[90];
+} message_log_data_t;
+
+/** LOG_ERASE. */
+typedef struct message_log_erase {
+    uint8_t target_system;
+    uint8_t target_component;
+} message_log_erase_t;
+
 /** SCALED_IMU3. */
 typedef struct message_scaled_imu3 {
     uint32_t time_boot_ms;
@@ -479,6 +747,17 @@ typedef struct message_scaled_imu3 {
     int16_t zmag;
     int16_t temperature;
 } message_scaled_imu3_t;
+
+/** ALTITUDE. */
+typedef struct message_altitude {
+    uint64_t time_usec;
+    float altitude_monotonic;
+    float altitude_amsl;
+    float altitude_local;
+    float altitude_relative;
+    float altitude_terrain;
+    float bottom_clearance;
+} message_altitude_t;
 
 /** BATTERY_STATUS. */
 typedef struct message_battery_status {
@@ -564,6 +843,15 @@ typedef struct message_statustext {
     uint8_t chunk_seq;
 } message_statustext_t;
 
+/** PROTOCOL_VERSION. */
+typedef struct message_protocol_version {
+    uint16_t version;
+    uint16_t min_version;
+    uint16_t max_version;
+    uint8_t spec_version_hash[8];
+    uint8_t library_version_hash[8];
+} message_protocol_version_t;
+
 /** PARAM_ERROR. */
 typedef struct message_param_error {
     int16_t param_index;
@@ -572,6 +860,13 @@ typedef struct message_param_error {
     char param_id[16];
     uint8_t error;
 } message_param_error_t;
+
+/** COMPONENT_METADATA. */
+typedef struct message_component_metadata {
+    uint32_t time_boot_ms;
+    uint32_t file_crc;
+    char uri[100];
+} message_component_metadata_t;
 
 /** AVAILABLE_MODES. */
 typedef struct message_available_modes {
@@ -596,6 +891,8 @@ void message_heartbeat_pack(const message_heartbeat_t *from,
                             uint8_t payload[MESSAGE_HEARTBEAT_LENGTH]);
 void message_sys_status_pack(const message_sys_status_t *from,
                              uint8_t payload[MESSAGE_SYS_STATUS_LENGTH]);
+void message_system_time_pack(const message_system_time_t *from,
+                              uint8_t payload[MESSAGE_SYSTEM_TIME_LENGTH]);
 void message_ping_pack(const message_ping_t *from, uint8_t payload[MESSAGE_PING_LENGTH]);
 void message_param_value_pack(const message_param_value_t *from,
                               uint8_t payload[MESSAGE_PARAM_VALUE_LENGTH]);
@@ -607,22 +904,37 @@ void message_scaled_pressure_pack(const message_scaled_pressure_t *from,
                                   uint8_t payload[MESSAGE_SCALED_PRESSURE_LENGTH]);
 void message_attitude_pack(const message_attitude_t *from,
                            uint8_t payload[MESSAGE_ATTITUDE_LENGTH]);
+void message_attitude_quaternion_pack(const message_attitude_quaternion_t *from,
+                                      uint8_t payload[MESSAGE_ATTITUDE_QUATERNION_LENGTH]);
 void message_local_position_ned_pack(const message_local_position_ned_t *from,
                                      uint8_t payload[MESSAGE_LOCAL_POSITION_NED_LENGTH]);
 void message_global_position_int_pack(const message_global_position_int_t *from,
                                       uint8_t payload[MESSAGE_GLOBAL_POSITION_INT_LENGTH]);
 void message_servo_output_raw_pack(const message_servo_output_raw_t *from,
                                    uint8_t payload[MESSAGE_SERVO_OUTPUT_RAW_LENGTH]);
+void message_mission_count_pack(const message_mission_count_t *from,
+                                uint8_t payload[MESSAGE_MISSION_COUNT_LENGTH]);
+void message_mission_ack_pack(const message_mission_ack_t *from,
+                              uint8_t payload[MESSAGE_MISSION_ACK_LENGTH]);
 void message_rc_channels_pack(const message_rc_channels_t *from,
                               uint8_t payload[MESSAGE_RC_CHANNELS_LENGTH]);
+void message_vfr_hud_pack(const message_vfr_hud_t *from, uint8_t payload[MESSAGE_VFR_HUD_LENGTH]);
 void message_command_ack_pack(const message_command_ack_t *from,
                               uint8_t payload[MESSAGE_COMMAND_ACK_LENGTH]);
+void message_file_transfer_protocol_pack(const message_file_transfer_protocol_t *from,
+                                         uint8_t payload[MESSAGE_FILE_TRANSFER_PROTOCOL_LENGTH]);
 void message_timesync_pack(const message_timesync_t *from,
                            uint8_t payload[MESSAGE_TIMESYNC_LENGTH]);
 void message_scaled_imu2_pack(const message_scaled_imu2_t *from,
                               uint8_t payload[MESSAGE_SCALED_IMU2_LENGTH]);
+void message_log_entry_pack(const message_log_entry_t *from,
+                            uint8_t payload[MESSAGE_LOG_ENTRY_LENGTH]);
+void message_log_data_pack(const message_log_data_t *from,
+                           uint8_t payload[MESSAGE_LOG_DATA_LENGTH]);
 void message_scaled_imu3_pack(const message_scaled_imu3_t *from,
                               uint8_t payload[MESSAGE_SCALED_IMU3_LENGTH]);
+void message_altitude_pack(const message_altitude_t *from,
+                           uint8_t payload[MESSAGE_ALTITUDE_LENGTH]);
 void message_battery_status_pack(const message_battery_status_t *from,
                                  uint8_t payload[MESSAGE_BATTERY_STATUS_LENGTH]);
 void message_autopilot_version_pack(const message_autopilot_version_t *from,
@@ -637,8 +949,12 @@ void message_named_value_int_pack(const message_named_value_int_t *from,
                                   uint8_t payload[MESSAGE_NAMED_VALUE_INT_LENGTH]);
 void message_statustext_pack(const message_statustext_t *from,
                              uint8_t payload[MESSAGE_STATUSTEXT_LENGTH]);
+void message_protocol_version_pack(const message_protocol_version_t *from,
+                                   uint8_t payload[MESSAGE_PROTOCOL_VERSION_LENGTH]);
 void message_param_error_pack(const message_param_error_t *from,
                               uint8_t payload[MESSAGE_PARAM_ERROR_LENGTH]);
+void message_component_metadata_pack(const message_component_metadata_t *from,
+                                     uint8_t payload[MESSAGE_COMPONENT_METADATA_LENGTH]);
 void message_available_modes_pack(const message_available_modes_t *from,
                                   uint8_t payload[MESSAGE_AVAILABLE_MODES_LENGTH]);
 void message_current_mode_pack(const message_current_mode_t *from,
@@ -652,12 +968,43 @@ void message_param_request_list_unpack(message_param_request_list_t *to,
                                        const uint8_t payload[MESSAGE_PARAM_REQUEST_LIST_LENGTH]);
 void message_param_set_unpack(message_param_set_t *to,
                               const uint8_t payload[MESSAGE_PARAM_SET_LENGTH]);
+void message_mission_request_partial_list_unpack(
+    message_mission_request_partial_list_t *to,
+    const uint8_t payload[MESSAGE_MISSION_REQUEST_PARTIAL_LIST_LENGTH]);
+void message_mission_write_partial_list_unpack(
+    message_mission_write_partial_list_t *to,
+    const uint8_t payload[MESSAGE_MISSION_WRITE_PARTIAL_LIST_LENGTH]);
+void message_mission_item_unpack(message_mission_item_t *to,
+                                 const uint8_t payload[MESSAGE_MISSION_ITEM_LENGTH]);
+void message_mission_request_unpack(message_mission_request_t *to,
+                                    const uint8_t payload[MESSAGE_MISSION_REQUEST_LENGTH]);
+void message_mission_set_current_unpack(message_mission_set_current_t *to,
+                                        const uint8_t payload[MESSAGE_MISSION_SET_CURRENT_LENGTH]);
+void message_mission_request_list_unpack(
+    message_mission_request_list_t *to, const uint8_t payload[MESSAGE_MISSION_REQUEST_LIST_LENGTH]);
+void message_mission_count_unpack(message_mission_count_t *to,
+                                  const uint8_t payload[MESSAGE_MISSION_COUNT_LENGTH]);
+void message_mission_clear_all_unpack(message_mission_clear_all_t *to,
+                                      const uint8_t payload[MESSAGE_MISSION_CLEAR_ALL_LENGTH]);
+void message_mission_request_int_unpack(message_mission_request_int_t *to,
+                                        const uint8_t payload[MESSAGE_MISSION_REQUEST_INT_LENGTH]);
+void message_mission_item_int_unpack(message_mission_item_int_t *to,
+                                     const uint8_t payload[MESSAGE_MISSION_ITEM_INT_LENGTH]);
 void message_command_int_unpack(message_command_int_t *to,
                                 const uint8_t payload[MESSAGE_COMMAND_INT_LENGTH]);
 void message_command_long_unpack(message_command_long_t *to,
                                  const uint8_t payload[MESSAGE_COMMAND_LONG_LENGTH]);
+void message_file_transfer_protocol_unpack(message_file_transfer_protocol_t *to,
+                                           const uint8_t
+                                               payload[MESSAGE_FILE_TRANSFER_PROTOCOL_LENGTH]);
 void message_timesync_unpack(message_timesync_t *to,
                              const uint8_t payload[MESSAGE_TIMESYNC_LENGTH]);
+void message_log_request_list_unpack(message_log_request_list_t *to,
+                                     const uint8_t payload[MESSAGE_LOG_REQUEST_LIST_LENGTH]);
+void message_log_request_data_unpack(message_log_request_data_t *to,
+                                     const uint8_t payload[MESSAGE_LOG_REQUEST_DATA_LENGTH]);
+void message_log_erase_unpack(message_log_erase_t *to,
+                              const uint8_t payload[MESSAGE_LOG_ERASE_LENGTH]);
 /** @} */
 
 #endif
