@@ -146,6 +146,27 @@ class Made(unittest.TestCase):
         self.assertEqual((low["units"], low["group"]), ("V", "Battery"))
         self.assertEqual([one["value"] for one in returns["values"]], [0, 1])
 
+    def test_PAR_009_the_files_that_ground_stations_load(self) -> None:
+        made = parameters.component_files(self.file)
+        self.assertEqual(list(made), ["general.json", "parameters.json"])
+        self.assertEqual(json.loads(made["parameters.json"]),
+                         json.loads(parameters.metadata(self.file)))  # fmt: skip
+        general = json.loads(made["general.json"])
+        self.assertEqual(general["version"], 1)
+        self.assertEqual(general["metadataTypes"], [
+            {"type": 1, "uri": "mftp://[;comp=1]/parameters.json",
+             "fileCrc": parameters.crc32(made["parameters.json"])}])  # fmt: skip
+        code = parameters.embedded(self.file, "x.toml")
+        held = re.findall(r"static const uint8_t (\w+)\[(\d+)\] = \{([^}]*)\}", code)
+        self.assertEqual([(f"{name}.json", bytes(int(one, 16) for one in text.split(",")))
+                          for name, _, text in held], list(made.items()))  # fmt: skip
+        self.assertEqual([int(size) for _, size, _ in held], [len(data) for data in made.values()])
+
+    def test_PAR_009_sums_are_mavlinks(self) -> None:
+        # By hand: eight shifts of a byte of 1 are the table's entry 1, and those of 0 keep 0.
+        self.assertEqual(parameters.crc32(b"\x00\x00"), 0)
+        self.assertEqual(parameters.crc32(b"\x01"), 0x77073096)
+
     def test_PAR_009_the_limits_are_the_kernels(self) -> None:
         header = (ROOT / "examples/copter/parameters.h").read_text(encoding="utf-8")
         self.assertIn(f"#define KEEL_PARAMETER_NAME_LENGTH {parameters.NAME_LENGTH}\n", header)
