@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #define MILLI      1000.0f
 #define CENTI      100.0f
@@ -17,6 +18,11 @@
 #define UNKNOWN_16 65535u
 #define UNKNOWN_8  255u
 #define WORD       32u
+#define MAVLINK_2  200u
+
+/* What ALTITUDE says of what is not known. */
+#define NO_TERRAIN   (-1001.0f)
+#define NO_CLEARANCE (-1.0f)
 
 /* A pressure that is older is not told, in us. */
 #define FRESH_US 1000000u
@@ -311,6 +317,99 @@ static bool attitude(const copter_t *copter, uint8_t *payload)
     return from->phase == KEEL_ATTITUDE_RUNNING;
 }
 
+static bool attitude_quaternion(const copter_t *copter, uint8_t *payload)
+{
+    const keel_attitude_t *const from = &copter->inertia.attitude;
+    const message_attitude_quaternion_t message = {.time_boot_ms = now_ms(copter),
+                                                   .q1 = from->quaternion.w,
+                                                   .q2 = from->quaternion.x,
+                                                   .q3 = from->quaternion.y,
+                                                   .q4 = from->quaternion.z,
+                                                   .rollspeed = from->rate.x,
+                                                   .pitchspeed = from->rate.y,
+                                                   .yawspeed = from->rate.z};
+
+    message_attitude_quaternion_pack(&message, payload);
+    return from->phase == KEEL_ATTITUDE_RUNNING;
+}
+
+/* What instruments show. There is no speed through the air but that over the ground. */
+static bool vfr_hud(const copter_t *copter, uint8_t *payload)
+{
+    const keel_cascade_estimate_t *const here = &copter->estimate.here;
+    const keel_altitude_t *const altitude = &copter->estimate.altitude;
+    const float north = here->velocity.north;
+    const float east = here->velocity.east;
+    const float thrust = copter->state.mode.motors ? copter->control.cascade.command.thrust : 0.0f;
+    const float speed = here->has_place ? sqrtf((north * north) + (east * east)) : 0.0f;
+    float angle[3];
+    float heading;
+
+    angles_of(&copter->inertia.attitude.quaternion, angle);
+    heading = angle[2] * DEGREES;
+    {
+        const message_vfr_hud_t message = {
+            .airspeed = speed,
+            .groundspeed = speed,
+            .alt = sea_level_of_reference(altitude) + altitude->axis.position,
+            .climb = altitude->axis.velocity,
+            .heading = small((heading < 0.0f) ? (heading + FULL_TURN) : heading),
+            .throttle = (uint16_t)within(thrust * PERCENT, 0.0f, PERCENT)};
+
+        message_vfr_hud_pack(&message, payload);
+    }
+    return (altitude->axis.quality != KEEL_AXIS_NONE) &&
+           (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING);
+}
+
+/* Nothing looks down: terrain and clearance are what stands for unknown. */
+static bool altitude_of(const copter_t *copter, uint8_t *payload)
+{
+    const keel_altitude_t *const altitude = &copter->estimate.altitude;
+    const float up = altitude->axis.position;
+    const message_altitude_t message = {.time_usec = copter->scheduler.clock.now_us,
+                                        .altitude_monotonic = up,
+                                        .altitude_amsl = sea_level_of_reference(altitude) + up,
+                                        .altitude_local = up,
+                                        .altitude_relative = altitude->height,
+                                        .altitude_terrain = NO_TERRAIN,
+                                        .bottom_clearance = NO_CLEARANCE};
+
+    message_altitude_pack(&message, payload);
+    return altitude->axis.quality != KEEL_AXIS_NONE;
+}
+
+/* 0: the date is not known. */
+static void system_time(const copter_t *copter, uint8_t *payload)
+{
+    const message_system_time_t message = {.time_boot_ms = now_ms(copter)};
+
+    message_system_time_pack(&message, payload);
+}
+
+/* As MAVLink counts: 100 times its own version, of the latest and of the least that is heard. */
+static void protocol_version(uint8_t *payload)
+{
+    const message_protocol_version_t message = {
+        .version = MAVLINK_2, .min_version = MAVLINK_2, .max_version = MAVLINK_2};
+
+    message_protocol_version_pack(&message, payload);
+}
+
+static void component_metadata(const copter_t *copter, uint8_t *payload)
+{
+    static const char begin[] = "mftp://[;comp=1]/";
+    const copter_file_t *const file = &copter_file[COPTER_FILE_MAIN];
+    message_component_metadata_t message = {.time_boot_ms = now_ms(copter), .file_crc = file->crc};
+    const size_t length = sizeof begin - 1u;
+
+    (void)memcpy(message.uri, begin, length);
+    for (size_t i = 0u; (file->name[i] != '\0') && ((length + i) < sizeof message.uri); i++) {
+        message.uri[length + i] = file->name[i];
+    }
+    message_component_metadata_pack(&message, payload);
+}
+
 static bool local_position_ned(const copter_t *copter, uint8_t *payload)
 {
     const keel_cascade_estimate_t *const here = &copter->estimate.here;
@@ -466,7 +565,7 @@ static void autopilot_version(const copter_t *copter, uint8_t *payload)
                              ((uint32_t)KEEL_VERSION_PATCH << 8);
     message_autopilot_version_t message = {
         .capabilities = MAV_PROTOCOL_CAPABILITY_MAVLINK2 |
-                        MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE,
+                        MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE | MAV_PROTOCOL_CAPABILITY_FTP,
         .uid = (uid != NULL) ? short_uid(uid) : 0u,
         .flight_sw_version = version,
         .middleware_sw_version = version};
@@ -623,6 +722,51 @@ static bool param_error(copter_link_t *link, uint8_t *payload)
     return true;
 }
 
+static bool file_transfer(copter_link_t *link, uint8_t *payload)
+{
+    message_file_transfer_protocol_t message;
+    const bool said = copter_ftp_report(&link->ftp, &message);
+
+    if (said) {
+        message_file_transfer_protocol_pack(&message, payload);
+    }
+    return said;
+}
+
+/* What a station shows, and what it asks for as it connects. */
+static bool stations(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
+{
+    bool said = true;
+
+    switch (sent) {
+    case SENT_ATTITUDE_QUATERNION:
+        said = attitude_quaternion(copter, payload);
+        break;
+    case SENT_VFR_HUD:
+        said = vfr_hud(copter, payload);
+        break;
+    case SENT_ALTITUDE:
+        said = altitude_of(copter, payload);
+        break;
+    case SENT_SYSTEM_TIME:
+        system_time(copter, payload);
+        break;
+    case SENT_PROTOCOL_VERSION:
+        protocol_version(payload);
+        break;
+    case SENT_COMPONENT_METADATA:
+        component_metadata(copter, payload);
+        break;
+    case SENT_FILE_TRANSFER_PROTOCOL:
+        said = file_transfer(link, payload);
+        break;
+    default:
+        said = copter_report_lists(link, sent, payload);
+        break;
+    }
+    return said;
+}
+
 static bool answers(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
 {
     bool said = true;
@@ -650,7 +794,7 @@ static bool answers(const copter_t *copter, copter_link_t *link, uint32_t sent, 
         said = copter_modes_available(link, payload);
         break;
     default:
-        said = false;
+        said = stations(copter, link, sent, payload);
         break;
     }
     return said;

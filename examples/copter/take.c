@@ -6,6 +6,8 @@
  *                                     and those of command.h; others are answered with UNSUPPORTED
  *     SET_MODE                        as DO_SET_MODE
  *     PING, TIMESYNC                  answered
+ *     missions, logs                  as lists.h says
+ *     FILE_TRANSFER_PROTOCOL          as ftp.h says
  *
  * Arming, disarming and modes are asked of the state machine, as request.h says. It answers, and
  * what it refuses is answered with TEMPORARILY_REJECTED and a text for each thing that stands in
@@ -191,7 +193,9 @@ static uint32_t sent_of(float id)
 static bool is_answer(uint32_t sent)
 {
     return (sent == SENT_PING) || (sent == SENT_PARAM_VALUE) || (sent == SENT_PARAM_ERROR) ||
-           (sent == SENT_COMMAND_ACK) || (sent == SENT_TIMESYNC) || (sent == SENT_STATUSTEXT);
+           (sent == SENT_COMMAND_ACK) || (sent == SENT_TIMESYNC) || (sent == SENT_STATUSTEXT) ||
+           (sent == SENT_MISSION_COUNT) || (sent == SENT_MISSION_ACK) || (sent == SENT_LOG_ENTRY) ||
+           (sent == SENT_LOG_DATA) || (sent == SENT_FILE_TRANSFER_PROTOCOL);
 }
 
 static uint32_t set_interval(copter_t *copter, const copter_command_t *command)
@@ -418,6 +422,18 @@ static void take_timesync(copter_t *copter, const keel_mavlink_frame_t *frame, u
     }
 }
 
+static void take_ftp(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
+{
+    copter_link_t *const to = &copter->telemetry->link[link];
+    message_file_transfer_protocol_t message;
+
+    message_file_transfer_protocol_unpack(&message, frame->payload);
+    if (copter_is_meant(to, message.target_system, message.target_component) &&
+        !copter_ftp_take(&to->ftp, &message, frame->system, frame->component)) {
+        to->dropped++;
+    }
+}
+
 void copter_take(copter_t *copter, uint32_t link)
 {
     const keel_mavlink_frame_t *const frame = &copter->telemetry->link[link].decoder.frame;
@@ -447,8 +463,11 @@ void copter_take(copter_t *copter, uint32_t link)
     case MESSAGE_TIMESYNC:
         take_timesync(copter, frame, link);
         break;
+    case MESSAGE_FILE_TRANSFER_PROTOCOL:
+        take_ftp(copter, frame, link);
+        break;
     default:
-        /* It is not taken. */
+        copter_take_lists(copter, link);
         break;
     }
 }

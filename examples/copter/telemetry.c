@@ -12,6 +12,7 @@
 #define WCET_US   250u
 #define BUDGET_US 262u
 #define PHASE_US  1900u
+#define EVERYBODY 0u
 
 /* Bytes of a frame around its payload. */
 #define AROUND                                                                                     \
@@ -37,6 +38,10 @@ static const uint32_t interval_us[MESSAGES_SENT] = {
     [SENT_SCALED_IMU2] = MILLION,
     [SENT_SCALED_IMU3] = MILLION,
     [SENT_SCALED_PRESSURE] = 2u * MILLION,
+    [SENT_SYSTEM_TIME] = MILLION,
+    [SENT_ATTITUDE_QUATERNION] = MILLION / 10u,
+    [SENT_VFR_HUD] = MILLION / 4u,
+    [SENT_ALTITUDE] = MILLION / 2u,
     [SENT_NAMED_VALUE_INT] = (5u * MILLION) / COPTER_NAMED, /* In turn. */
 };
 
@@ -46,6 +51,12 @@ static const char *const states[KEEL_MODE_STATES] = {"disarmed",  "armed",   "fl
 uint32_t copter_telemetry_interval_us(uint32_t sent)
 {
     return interval_us[sent];
+}
+
+bool copter_is_meant(const copter_link_t *link, uint8_t system, uint8_t component)
+{
+    return ((system == EVERYBODY) || (system == link->sender.system)) &&
+           ((component == EVERYBODY) || (component == link->sender.component));
 }
 
 static keel_status_t start_link(copter_telemetry_t *self, uint32_t number)
@@ -190,6 +201,12 @@ static void ask_for_queues(const copter_telemetry_t *self, copter_link_t *link)
     }
     if (link->texts != self->texts) {
         copter_turns_ask(&link->turns, SENT_STATUSTEXT);
+    }
+    if (link->replies.count > 0u) {
+        copter_turns_ask(&link->turns, link->replies.reply[0].sent);
+    }
+    if (link->ftp.count > 0u) {
+        copter_turns_ask(&link->turns, SENT_FILE_TRANSFER_PROTOCOL);
     }
 }
 

@@ -16,8 +16,10 @@
 #define COPTER_TELEMETRY_H
 
 #include "copter.h"
+#include "ftp.h"
 #include "keel/middleware/mavlink.h"
 #include "keel/middleware/signing.h"
+#include "lists.h"
 #include "messages.h"
 #include "turns.h"
 
@@ -89,6 +91,8 @@ typedef struct copter_link {
     uint32_t parameter;            /**< The one sent last. */
     uint32_t named;                /**< Of the values of NAMED_VALUE_INT, the next one. */
     uint32_t modes;                /**< Modes to be sent as AVAILABLE_MODES, a bit each. */
+    copter_replies_t replies;      /**< Of lists.h, to be sent. */
+    copter_ftp_t ftp;
 } copter_link_t;
 
 /** A text for all links. */
@@ -144,6 +148,9 @@ uint32_t copter_telemetry_interval_us(uint32_t sent);
 /** Queues a text of two parts for all links; what does not fit is left out. */
 void copter_text(copter_telemetry_t *self, uint8_t severity, const char *first, const char *then);
 
+/** Whether a message is for the copter, by the target that it names; 0 means all. */
+bool copter_is_meant(const copter_link_t *link, uint8_t system, uint8_t component);
+
 /** @name The parts of telemetry. */
 /** @{ */
 /** Acts on the frame that a link's decoder has. */
@@ -157,6 +164,10 @@ void copter_take_set(copter_t *copter, uint32_t link, const keel_mavlink_frame_t
                      const message_param_set_t *message, bool may);
 /** Says in words which parameters wait for a restart, and which stored values were not taken. */
 void copter_tell_parameters(copter_t *copter);
+/** The same, for requests about missions and logs (lists.h). */
+void copter_take_lists(copter_t *copter, uint32_t link);
+/** Fills the payload of an answer to those, if it is the next one of a link. */
+bool copter_report_lists(copter_link_t *link, uint32_t sent, uint8_t *payload);
 /** Answers those whose requests the state machine decided. */
 void copter_take_answers(copter_t *copter);
 /** Fills the payload of one of messages_sent; returns whether there is anything to say. */
