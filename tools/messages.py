@@ -4,9 +4,9 @@
 
     python3 tools/with_packages.py messages tools/messages.py [--check]
 
-The definitions are those that the pinned pymavlink carries, and examples/copter/messages.xml has those of
-MAVLink's messages that it leaves out. Only facts are taken of them: names, numbers, types, and the
-order on the wire. What is written is Keel's own; see examples/copter.
+The definitions are those that the pinned pymavlink carries, and examples/copter/messages.xml has
+those of MAVLink's messages that it leaves out. Only facts are taken of them: names, numbers, types,
+and the order on the wire. What is written is Keel's own; see examples/copter.
 
 Exit status: 0 when done; 1 when --check finds a file that is not up to date; 2 when it cannot read
 the definitions.
@@ -84,7 +84,7 @@ CONSTANTS = (
     "MAV_BATTERY_FUNCTION_ALL", "MAV_BATTERY_TYPE_LIPO", "MAV_BATTERY_CHARGE_STATE_UNDEFINED",
     "MAV_BATTERY_CHARGE_STATE_OK", "MAV_BATTERY_CHARGE_STATE_LOW",
     "MAV_BATTERY_CHARGE_STATE_CRITICAL",
-    "MAV_PROTOCOL_CAPABILITY_FTP",
+    "MAV_PROTOCOL_CAPABILITY_FTP", "MAV_PROTOCOL_CAPABILITY_MISSION_INT",
     "MAV_MISSION_TYPE_RALLY", "MAV_MISSION_TYPE_ALL", "MAV_MISSION_ACCEPTED",
     "MAV_MISSION_UNSUPPORTED", "MAV_MISSION_INVALID_SEQUENCE",
     "MAV_FTP_OPCODE_NONE", "MAV_FTP_OPCODE_TERMINATESESSION", "MAV_FTP_OPCODE_RESETSESSION",

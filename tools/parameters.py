@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The table of parameters, from one file: in C, as a page, and as MAVLink's metadata, which is in C, too,
-for ground stations that load it from the vehicle.
+"""The table of parameters, from one file: in C, as a page, and as MAVLink's metadata.
+
+The metadata is in C, too, for ground stations that load it from the vehicle.
 
     python3 tools/parameters.py          # writes what has changed
     python3 tools/parameters.py --check  # only sees whether all are up to date
@@ -391,8 +392,8 @@ def embedded(file: File, source: str) -> str:
     """The files in C."""
     made = component_files(file)
     names = {name: name.partition(".")[0] for name in made}
-    rows = [f'    {{"{name}", "F{name}\\t{len(data)}", {names[name]}, {len(data)}u, 0x{crc32(data):08X}u}},'
-            for name, data in made.items()]  # fmt: skip
+    rows = [f'    {{"{name}", "F{name}\\t{len(data)}", {names[name]}, {len(data)}u,'
+            f" 0x{crc32(data):08X}u}}," for name, data in made.items()]  # fmt: skip
     arrays = [byte_array(names[name], data) for name, data in made.items()]
     return FILES.format(source=source, arrays="\n\n".join(arrays), rows="\n".join(rows))
 

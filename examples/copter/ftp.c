@@ -87,8 +87,57 @@ static uint8_t error_of_path(copter_ftp_reply_t *reply, path_t path)
 {
     const uint32_t file = file_at(path);
 
-    reply->session = (uint8_t)((file < COPTER_FILES) ? file : 0u);
+    reply->file = (uint8_t)((file < COPTER_FILES) ? file : 0u);
     return (uint8_t)((file < COPTER_FILES) ? MAV_FTP_ERR_NONE : MAV_FTP_ERR_FILENOTFOUND);
+}
+
+/* The place of who asks among those that read, or COPTER_FTP_READERS. */
+static uint32_t reader_of(const copter_ftp_t *ftp, const copter_ftp_reply_t *reply)
+{
+    uint32_t found = COPTER_FTP_READERS;
+
+    for (uint32_t i = 0u; i < COPTER_FTP_READERS; i++) {
+        const copter_ftp_reader_t *const reader = &ftp->reader[i];
+
+        if (reader->is_open && (reader->system == reply->system) &&
+            (reader->component == reply->component)) {
+            found = i;
+        }
+    }
+    return found;
+}
+
+static void open_file(copter_ftp_t *ftp, const copter_ftp_reply_t *reply)
+{
+    uint32_t place = reader_of(ftp, reply);
+
+    if (place == COPTER_FTP_READERS) {
+        place = ftp->next_reader;
+        ftp->next_reader = (place + 1u) % COPTER_FTP_READERS;
+    }
+    ftp->reader[place] = (copter_ftp_reader_t){.system = reply->system,
+                                               .component = reply->component,
+                                               .file = reply->file,
+                                               .is_open = true};
+}
+
+static void close_file(copter_ftp_t *ftp, const copter_ftp_reply_t *reply)
+{
+    const uint32_t place = reader_of(ftp, reply);
+
+    if (place < COPTER_FTP_READERS) {
+        ftp->reader[place].is_open = false;
+    }
+}
+
+static uint8_t error_of_open(copter_ftp_t *ftp, copter_ftp_reply_t *reply, path_t path)
+{
+    const uint8_t error = error_of_path(reply, path);
+
+    if (error == MAV_FTP_ERR_NONE) {
+        open_file(ftp, reply);
+    }
+    return error;
 }
 
 /* There is one directory. */
@@ -101,15 +150,18 @@ static uint8_t error_of_list(const copter_ftp_reply_t *reply, path_t path)
 }
 
 /* A burst of no bytes each would never end. */
-static uint8_t error_of_read(const copter_ftp_reply_t *reply)
+static uint8_t error_of_read(const copter_ftp_t *ftp, copter_ftp_reply_t *reply)
 {
+    const uint32_t place = reader_of(ftp, reply);
     uint32_t error = MAV_FTP_ERR_NONE;
 
-    if (reply->session >= COPTER_FILES) {
-        error = MAV_FTP_ERR_INVALIDSESSION;
-    } else if (reply->size == 0u) {
+    if (place == COPTER_FTP_READERS) {
+        return (uint8_t)MAV_FTP_ERR_INVALIDSESSION;
+    }
+    reply->file = ftp->reader[place].file;
+    if (reply->size == 0u) {
         error = MAV_FTP_ERR_INVALIDDATASIZE;
-    } else if (reply->offset >= copter_file[reply->session].size) {
+    } else if (reply->offset >= copter_file[reply->file].size) {
         error = MAV_FTP_ERR_EOF;
     } else {
         /* There is something to read. */
@@ -124,26 +176,30 @@ static uint8_t error_of_others(uint8_t opcode)
     return (uint8_t)(writes ? MAV_FTP_ERR_FILEPROTECTED : MAV_FTP_ERR_UNKNOWNCOMMAND);
 }
 
-/* What stands in the way of a request; its session, where a path names it. */
-static uint8_t judged(copter_ftp_reply_t *reply, const uint8_t *payload)
+/* What stands in the way of a request; what it is about. */
+static uint8_t judged(copter_ftp_t *ftp, copter_ftp_reply_t *reply, const uint8_t *payload)
 {
     uint8_t error = (uint8_t)MAV_FTP_ERR_NONE;
 
     switch (reply->opcode) {
     case MAV_FTP_OPCODE_NONE:
+        break;
     case MAV_FTP_OPCODE_TERMINATESESSION:
     case MAV_FTP_OPCODE_RESETSESSION:
+        close_file(ftp, reply);
         break;
     case MAV_FTP_OPCODE_LISTDIRECTORY:
         error = error_of_list(reply, path_of(payload));
         break;
     case MAV_FTP_OPCODE_OPENFILERO:
+        error = error_of_open(ftp, reply, path_of(payload));
+        break;
     case MAV_FTP_OPCODE_CALCFILECRC:
         error = error_of_path(reply, path_of(payload));
         break;
     case MAV_FTP_OPCODE_READFILE:
     case MAV_FTP_OPCODE_BURSTREADFILE:
-        error = error_of_read(reply);
+        error = error_of_read(ftp, reply);
         break;
     default:
         error = error_of_others(reply->opcode);
@@ -191,7 +247,7 @@ bool copter_ftp_take(copter_ftp_t *ftp, const message_file_transfer_protocol_t *
                                 .component = component};
 
     reply.sequence = (uint16_t)((number_at(payload, 2u) + 1u) & UINT16_MAX);
-    reply.error = judged(&reply, payload);
+    reply.error = judged(ftp, &reply, payload);
     if (ends_burst(reply.opcode)) {
         end_burst(ftp, system, component);
     }
@@ -223,7 +279,7 @@ static uint32_t list(uint32_t from, uint8_t data[COPTER_FTP_DATA])
 /* Bytes of a file; tells how many. */
 static uint32_t read_file(const copter_ftp_reply_t *reply, uint8_t data[COPTER_FTP_DATA])
 {
-    const copter_file_t *const file = &copter_file[reply->session];
+    const copter_file_t *const file = &copter_file[reply->file];
     const uint32_t left = file->size - reply->offset;
     uint32_t size = (reply->size < COPTER_FTP_DATA) ? reply->size : COPTER_FTP_DATA;
 
@@ -248,11 +304,11 @@ static uint32_t carried(const copter_ftp_reply_t *reply, uint8_t data[COPTER_FTP
         size = list(reply->offset, data);
         break;
     case MAV_FTP_OPCODE_OPENFILERO:
-        put_number(data, WORD, copter_file[reply->session].size);
+        put_number(data, WORD, copter_file[reply->file].size);
         size = WORD;
         break;
     case MAV_FTP_OPCODE_CALCFILECRC:
-        put_number(data, WORD, copter_file[reply->session].crc);
+        put_number(data, WORD, copter_file[reply->file].crc);
         size = WORD;
         break;
     case MAV_FTP_OPCODE_READFILE:
@@ -272,7 +328,7 @@ static bool is_complete(copter_ftp_t *ftp, copter_ftp_reply_t *reply, uint32_t s
 {
     reply->offset += size;
     reply->sequence = (uint16_t)((reply->sequence + 1u) & UINT16_MAX);
-    if (reply->offset < copter_file[reply->session].size) {
+    if (reply->offset < copter_file[reply->file].size) {
         ftp->reply[ftp->count] = *reply;
         ftp->count++;
         return false;

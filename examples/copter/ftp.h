@@ -3,10 +3,11 @@
  * @file ftp.h
  * @brief MAVLink's file transfer, to read alone: the files are constant bytes of the image.
  *
- * A session is the number of its file. So there is nothing to open or to close: no station is in
- * another's way, and a request that comes again, as its answer was lost, has the same answer. What
- * is to be sent waits in a queue; what it carries is put together when its turn comes. A burst
- * stands in the queue with what is left of it, behind whoever waits by then.
+ * Each station has one file open at most, whatever number it gives its session: some stations
+ * choose one, some take the server's, some use 0 always. So its number is what it says. A request
+ * that comes again, as its answer was lost, has the same answer. What is to be sent waits in a
+ * queue; what it carries is put together when its turn comes. A burst stands in the queue with what
+ * is left of it, behind whoever waits by then.
  */
 #ifndef COPTER_FTP_H
 #define COPTER_FTP_H
@@ -18,6 +19,9 @@
 
 /** Answers that wait. */
 #define COPTER_FTP_REPLIES 4u
+
+/** Stations that read at a time. One more takes the place of the one that began first. */
+#define COPTER_FTP_READERS 4u
 
 /** Bytes that one message carries at most. */
 #define COPTER_FTP_DATA 239u
@@ -42,16 +46,27 @@ extern const copter_file_t copter_file[COPTER_FILES];
 typedef struct copter_ftp_reply {
     uint32_t offset;
     uint16_t sequence;
-    uint8_t session;
-    uint8_t opcode; /**< That was asked for. */
-    uint8_t size;   /**< Of what is read, at most. */
-    uint8_t error;  /**< MAV_FTP_ERR_NONE: it is done. */
-    uint8_t system; /**< Who asked. */
+    uint8_t session; /**< As it was said. */
+    uint8_t file;    /**< Which one it is about. */
+    uint8_t opcode;  /**< That was asked for. */
+    uint8_t size;    /**< Of what is read, at most. */
+    uint8_t error;   /**< MAV_FTP_ERR_NONE: it is done. */
+    uint8_t system;  /**< Who asked. */
     uint8_t component;
 } copter_ftp_reply_t;
 
-/** Answers, the oldest first. */
+/** A station that reads. */
+typedef struct copter_ftp_reader {
+    uint8_t system;
+    uint8_t component;
+    uint8_t file;
+    bool is_open; /**< Otherwise there is none. */
+} copter_ftp_reader_t;
+
+/** Who reads, and answers, the oldest first. */
 typedef struct copter_ftp {
+    copter_ftp_reader_t reader[COPTER_FTP_READERS];
+    uint32_t next_reader; /**< The place of one more. */
     copter_ftp_reply_t reply[COPTER_FTP_REPLIES];
     uint32_t count;
 } copter_ftp_t;

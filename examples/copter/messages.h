@@ -92,6 +92,7 @@
 #define MAV_BATTERY_CHARGE_STATE_LOW                  2u
 #define MAV_BATTERY_CHARGE_STATE_CRITICAL             3u
 #define MAV_PROTOCOL_CAPABILITY_FTP                   32u
+#define MAV_PROTOCOL_CAPABILITY_MISSION_INT           4u
 #define MAV_MISSION_TYPE_RALLY                        2u
 #define MAV_MISSION_TYPE_ALL                          255u
 #define MAV_MISSION_ACCEPTED                          0u

@@ -565,7 +565,8 @@ static void autopilot_version(const copter_t *copter, uint8_t *payload)
                              ((uint32_t)KEEL_VERSION_PATCH << 8);
     message_autopilot_version_t message = {
         .capabilities = MAV_PROTOCOL_CAPABILITY_MAVLINK2 |
-                        MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE | MAV_PROTOCOL_CAPABILITY_FTP,
+                        MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE |
+                        MAV_PROTOCOL_CAPABILITY_FTP | MAV_PROTOCOL_CAPABILITY_MISSION_INT,
         .uid = (uid != NULL) ? short_uid(uid) : 0u,
         .flight_sw_version = version,
         .middleware_sw_version = version};

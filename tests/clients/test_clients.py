@@ -7,6 +7,7 @@ Nothing here depends on how fast this machine is: each step waits for what it ex
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import signal
 import socket
@@ -21,8 +22,10 @@ import pytest
 from flight import ulog
 from other_values import defaults, others
 from pymavlink import mavparm, mavutil
+from qgroundcontrol import Driver, QGroundControl
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
+PARAMETERS = json.loads((TOOLS.parent / "examples/copter/parameters.json").read_text("utf-8"))
 LONG_S = 60.0
 # docs/telemetry.md.
 LAND, POSITION, ALTITUDE, ACRO = 100925440, 196608, 131072, 327680
@@ -323,6 +326,76 @@ def mavproxy_keeps_parameters(station: Station, says: Callable[..., None], folde
     assert values_seen(station) == before
 
 
+def test_mavsdk_reads_files_and_empty_lists(station: Station, ports: list[int],
+                                            tmp_path: Path) -> None:  # fmt: skip
+    from mavsdk.component_type import ComponentType
+    from mavsdk.mavsdk import Configuration, Mavsdk
+    from mavsdk.plugins.component_metadata import ComponentMetadata
+    from mavsdk.plugins.component_metadata.component_metadata import MetadataType
+    from mavsdk.plugins.ftp import Ftp
+    from mavsdk.plugins.ftp.ftp import FtpResult
+    from mavsdk.plugins.log_files import LogFiles
+    from mavsdk.plugins.log_files.log_files import LogFilesError
+    from mavsdk.plugins.mission_raw import MissionRaw
+    from mavsdk.plugins.mission_raw.mission_raw import MissionRawError
+
+    kind = Configuration.create_with_component_type(ComponentType.GROUND_STATION)
+    with Mavsdk(kind) as sdk:
+        sdk.add_any_connection(f"udpin://127.0.0.1:{ports[1]}")
+        system = sdk.first_autopilot(LONG_S)
+        assert system is not None
+        files = Ftp(system)
+        listed = files.list_directory("/").entries
+        assert [one.name for one in listed] == ["general.json", "parameters.json"]
+        for use_burst in (True, False):
+            folder = tmp_path / str(use_burst)
+            folder.mkdir()
+            ended: list[int] = []
+            files.download_async("/parameters.json", str(folder), use_burst,
+                                 lambda result, _progress, _data: ended.append(int(result)))
+            wait_for(lambda: any(one != FtpResult.NEXT for one in ended), "a file")
+            assert ended[-1] == FtpResult.SUCCESS
+            assert json.loads((folder / "parameters.json").read_text()) == PARAMETERS
+            assert files.are_files_identical(str(folder / "parameters.json"), "/parameters.json")
+        metadata = ComponentMetadata(system)
+        updates: list[str] = []
+        metadata.subscribe_metadata_available(lambda one, _: updates.append(one.json_metadata))
+        metadata.request_autopilot_component()
+        wait_for(lambda: updates, "metadata")
+        found = metadata.get_metadata(1, int(MetadataType.PARAMETER)).json_metadata
+        assert json.loads(found) == PARAMETERS
+        with pytest.raises(LogFilesError, match="NO_LOGFILES"):
+            LogFiles(system).get_entries()
+        plans = MissionRaw(system)
+        begun = time.monotonic()
+        plans.clear_mission()
+        for download in (plans.download_mission, plans.download_geofence,
+                         plans.download_rallypoints):  # fmt: skip
+            try:
+                assert download() == []
+            except MissionRawError as error:
+                assert "NO_MISSION" in str(error), error
+        assert time.monotonic() - begun < 5.0  # Without a time-out.
+
+
+def test_qgroundcontrol(station: Station, ports: list[int]) -> None:
+    """Its sequence (see qgroundcontrol.py), in real time."""
+    link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{ports[2]}", source_system=253)
+    link.wait_heartbeat()
+    driver, begun = Driver(), time.monotonic()
+    made = QGroundControl(link.mav.send, 253)
+    driver.add(made.connect(), 0)
+    while driver.done[0] < 0:
+        assert time.monotonic() - begun < LONG_S
+        message = link.recv_match(blocking=True, timeout=0.1)
+        now_ms = round(1000.0 * (time.monotonic() - begun))
+        driver.hear(0, [] if message is None else [message], now_ms)
+    link.close()
+    assert not made.met.errors
+    assert json.loads(made.met.files["parameters"]) == PARAMETERS
+    assert made.met.plans == {"mission": 0, "fence": 0, "rally": 0}
+
+
 def test_mavproxy(station: Station, ports: list[int], tmp_path: Path) -> None:
     station.rest()
     station.ready()
@@ -331,7 +404,7 @@ def test_mavproxy(station: Station, ports: list[int], tmp_path: Path) -> None:
     with log.open("w") as out:
         proxy = subprocess.Popen(
             [sys.executable, str(found), f"--master=udpin:127.0.0.1:{ports[2]}",
-             "--default-modules=param,arm,mode", f"--state-basedir={tmp_path}"],
+             "--default-modules=param,arm,mode,ftp,wp,log", f"--state-basedir={tmp_path}"],
             stdin=subprocess.PIPE, stdout=out, stderr=subprocess.STDOUT, cwd=tmp_path, text=True,
             env={**os.environ, "HOME": str(tmp_path)},
         )  # fmt: skip
@@ -352,6 +425,8 @@ def test_mavproxy(station: Station, ports: list[int], tmp_path: Path) -> None:
             says("arm throttle", "COMPONENT_ARM_DISARM: ACCEPTED", "ARMED")
             says(f"mode {ACRO}", "DO_SET_MODE: DENIED")
             says("status ATTITUDE", "ATTITUDE {")
+            says("ftp list /", "general.json", "parameters.json")
+            says("wp list", "Requesting 0 waypoints")
         finally:
             proxy.kill()  # It does not heed SIGTERM for long.
             proxy.wait(LONG_S)

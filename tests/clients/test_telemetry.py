@@ -40,7 +40,8 @@ WARM_MS = 12_000
 SENT = {"HEARTBEAT", "SYS_STATUS", "GPS_RAW_INT", "ATTITUDE", "LOCAL_POSITION_NED",
         "GLOBAL_POSITION_INT", "SERVO_OUTPUT_RAW", "RC_CHANNELS", "BATTERY_STATUS",
         "ESTIMATOR_STATUS", "HOME_POSITION", "EXTENDED_SYS_STATE", "SCALED_IMU", "SCALED_IMU2",
-        "SCALED_IMU3", "NAMED_VALUE_INT", "SCALED_PRESSURE", "CURRENT_MODE"}  # fmt: skip
+        "SCALED_IMU3", "NAMED_VALUE_INT", "SCALED_PRESSURE", "ATTITUDE_QUATERNION", "VFR_HUD",
+        "ALTITUDE", "SYSTEM_TIME", "CURRENT_MODE"}  # fmt: skip
 
 
 class Hands(Pilot):
@@ -260,7 +261,8 @@ def test_rates_are_kept_and_frames_are_numbered(copter: Copter) -> None:
     rig.run(10_000)
     came = rig.counts() - before
     expected = {"HEARTBEAT": 10, "ATTITUDE": 200, "LOCAL_POSITION_NED": 100, "RC_CHANNELS": 50,
-                "SCALED_PRESSURE": 5, "NAMED_VALUE_INT": 6}  # fmt: skip
+                "SCALED_PRESSURE": 5, "NAMED_VALUE_INT": 6, "ATTITUDE_QUATERNION": 100,
+                "VFR_HUD": 40, "ALTITUDE": 20, "SYSTEM_TIME": 10}  # fmt: skip
     for name, count in expected.items():
         assert 0.8 * count - 1 <= came[name] <= count + 1, (name, came[name])
     numbers = [message.get_seq() for message in rig.seen[0]]
@@ -292,7 +294,7 @@ def test_a_slow_link_carries_all_and_no_more_than_it_can(copter: Copter, rate: i
     # Those that are wanted each second, from the start on.
     turns = [counts[name] for name in ("HEARTBEAT", "SYS_STATUS", "BATTERY_STATUS",
                                        "ESTIMATOR_STATUS", "EXTENDED_SYS_STATE")]  # fmt: skip
-    assert min(turns) >= (5 if rate < 600 else 18) and max(turns) <= min(turns) + 2, counts
+    assert min(turns) >= (4 if rate < 600 else 16) and max(turns) <= min(turns) + 2, counts
     assert counts["SERVO_OUTPUT_RAW"] <= (30 if rate < 600 else 80)  # Of 150.
     assert rig.counts(1)["ATTITUDE"] > 300  # The other link does not notice.
 
