@@ -117,9 +117,18 @@ typedef struct copter_fix {
     bool is_valid;        /**< Usable, by the receiver's limits. */
 } copter_fix_t;
 
+/** The date, as the satellite receiver told it last. */
+typedef struct copter_date {
+    uint8_t bytes[KEEL_UBX_BYTES]; /**< The receiver's last ones. */
+    uint32_t next;                 /**< Of the next one, which is the place of the oldest. */
+    uint64_t utc_us;               /**< Since 1970 began (UTC); 0: it is not known. */
+    uint64_t read_us;              /**< When that was, by our clock. */
+} copter_date_t;
+
 /** Written by GPS. */
 typedef struct copter_satellites {
     keel_ubx_t receiver;
+    copter_date_t date;
     copter_fix_t fix;
     uint32_t fixes; /**< How many there were. */
     uint64_t fixed_us;
@@ -318,6 +327,14 @@ void copter_foreground_barometer(copter_t *copter);
 
 keel_status_t copter_satellites_init(copter_satellites_t *satellites);
 void copter_gps(copter_t *copter);
+
+/** Remembers a byte of the satellite receiver. */
+void copter_date_take(copter_date_t *date, uint8_t byte);
+/** Reads the date of the NAV-PVT that the last byte ended; without one it stays what it is. */
+void copter_date_read(copter_date_t *date, uint64_t now_us);
+/** The date now, in us since 1970 began (UTC), late by what the receiver takes, a tenth of a second
+ * or two; 0: it is not known. */
+uint64_t copter_utc_us(const copter_date_t *date, uint64_t now_us);
 
 keel_status_t copter_pilot_init(copter_pilot_t *pilot);
 void copter_background_radio(copter_t *copter);

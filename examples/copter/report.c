@@ -379,10 +379,12 @@ static bool altitude_of(const copter_t *copter, uint8_t *payload)
     return altitude->axis.quality != KEEL_AXIS_NONE;
 }
 
-/* 0: the date is not known. */
+/* The date is 0 where it is not known. */
 static void system_time(const copter_t *copter, uint8_t *payload)
 {
-    const message_system_time_t message = {.time_boot_ms = now_ms(copter)};
+    const message_system_time_t message = {
+        .time_unix_usec = copter_utc_us(&copter->satellites.date, copter->scheduler.clock.now_us),
+        .time_boot_ms = now_ms(copter)};
 
     message_system_time_pack(&message, payload);
 }

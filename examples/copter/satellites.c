@@ -53,11 +53,13 @@ void copter_gps(copter_t *copter)
 
     for (uint32_t i = 0u; (i < COPTER_BYTES) && port->read_byte(port->context, COPTER_GPS, &byte);
          i++) {
+        copter_date_take(&self->date, byte.value);
         if (keel_ubx_take(&self->receiver, byte.value, byte.elapsed_us)) {
             const copter_fix_t before = self->fix;
 
             self->fix = fix_of(&self->receiver);
             derive(self, &before);
+            copter_date_read(&self->date, now_us);
             self->fixed_us = now_us;
             self->fixes++;
         }

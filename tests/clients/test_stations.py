@@ -11,11 +11,13 @@ import json
 import random
 import struct
 from collections.abc import Iterable
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import pytest
-from flight import library
+from flight import frames, library
 from flight.library import Copter, Link
 from pymavlink.dialects.v20 import common as mavlink
 from qgroundcontrol import Driver, Met, QGroundControl, Reply, kind_of, payload_of
@@ -423,6 +425,43 @@ def test_what_instruments_show(copter: Copter) -> None:
     norm = turned.q1**2 + turned.q2**2 + turned.q3**2 + turned.q4**2
     assert abs(norm - 1.0) < 1e-4
     assert told["SYSTEM_TIME"].time_boot_ms > 11_000
+
+
+def told_time(rig: Rig) -> tuple[int, float]:
+    """The last date that was told, in s since 1970 began, and when, in s since power-up."""
+    last = [message for message in rig.seen[0] if message.get_type() == "SYSTEM_TIME"][-1]
+    return last.time_unix_usec / 1e6, last.time_boot_ms / 1e3
+
+
+@pytest.mark.parametrize("begun", [
+    datetime(2026, 11, 24, 12, tzinfo=UTC), datetime(2026, 12, 31, 23, 59, 57, tzinfo=UTC),
+    datetime(2028, 2, 28, 23, 59, 57, tzinfo=UTC), datetime(2028, 2, 29, 23, 59, 57, tzinfo=UTC),
+    datetime(2027, 2, 28, 23, 59, 57, 750_000, tzinfo=UTC),
+    datetime(2099, 12, 31, 23, 59, tzinfo=UTC), datetime(2017, 1, 1, tzinfo=UTC),
+])  # fmt: skip
+def test_the_date_is_the_receivers(copter: Copter, begun: datetime) -> None:
+    """As Python's calendar has it; late by what the receiver takes."""
+    with mock.patch.object(frames, "BEGUN", begun):
+        rig = Rig(copter, warm_ms=5500)
+    date, boot = told_time(rig)
+    assert 0.0 <= begun.timestamp() + boot - date < 0.35
+    with mock.patch.object(rig.flight._slow, "_satellites"):  # It goes on without the receiver.
+        rig.run(3000)
+    later, boot = told_time(rig)
+    assert later - date > 2.0 and 0.0 <= begun.timestamp() + boot - later < 0.35
+
+
+@pytest.mark.parametrize(("begun", "dated"), [
+    (frames.BEGUN, 0x03), (frames.BEGUN, 0x05), (frames.BEGUN, 0x06), (frames.BEGUN, 0),
+    (datetime(1980, 1, 6, tzinfo=UTC), 0x07), (datetime(2100, 1, 1, tzinfo=UTC), 0x07),
+])  # fmt: skip
+def test_a_date_that_is_not_sure_is_not_told(
+    copter: Copter, begun: datetime, dated: int
+) -> None:
+    with (mock.patch.object(frames, "BEGUN", begun),
+          mock.patch.object(frames, "DATED", dated)):  # fmt: skip
+        rig = Rig(copter, warm_ms=3000)
+    assert told_time(rig)[0] == 0.0
 
 
 def test_metadata_and_protocol_are_told_when_asked_for(copter: Copter) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Sequence
+from datetime import UTC, datetime, timedelta
 
 SBUS_CHANNELS = 16
 SBUS_FAILSAFE = 0x08
@@ -18,6 +19,10 @@ SBUS_LEAST_US, SBUS_STEP_US, SBUS_MIDDLE = 880.0, 0.625, 992
 # of these; dilution of precision, flags; heading and declination.
 NAV_PVT = struct.Struct("<I H6B I i 4B 4i 2I 5i 2I 2H 4x i h H")
 WEEK_MS = 604_800_000
+
+# When a flight begins, and that the receiver is sure of it.
+BEGUN = datetime(2026, 11, 24, 12, tzinfo=UTC)
+DATED = 0x07
 
 
 def sbus(pulses_us: Sequence[int], failsafe: bool = False) -> bytes:
@@ -53,8 +58,12 @@ def nav_pvt(
     north, east, down = (round(1e3 * part) for part in speed)
     height, place, pace = (round(1e3 * part) for part in (height_m, accuracy_m, speed_accuracy))
     kind, flags, satellites = (3, 1, 14) if is_fixed else (0, 0, 0)
+    now = BEGUN + timedelta(milliseconds=tow_ms)
+    second = (now + timedelta(milliseconds=500)).replace(microsecond=0)  # The nearest one.
+    nano = 1000 * round((now - second) / timedelta(microseconds=1))
     payload = NAV_PVT.pack(
-        tow_ms % WEEK_MS, 2026, 11, 24, 12, 0, 0, 0x07, 50, 0, kind, flags, 0, satellites,
+        tow_ms % WEEK_MS, second.year, second.month, second.day, second.hour, second.minute,
+        second.second, DATED, 50, nano, kind, flags, 0, satellites,
         longitude, latitude, height, height, place, place, north, east, down,
         round((north**2 + east**2) ** 0.5), 0, pace, 0, 150, 0, 0, 0, 0,
     )  # fmt: skip
