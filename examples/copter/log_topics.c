@@ -15,6 +15,7 @@
 #define BYTES(text, member)  FIELD(text, KEEL_ULOG_UINT8, 1u, member)
 #define HALVES(text, member) FIELD(text, KEEL_ULOG_UINT16, 2u, member)
 #define WORDS(text, member)  FIELD(text, KEEL_ULOG_UINT32, 4u, member)
+#define LONGS(text, member)  FIELD(text, KEEL_ULOG_UINT64, 8u, member)
 #define SHORTS(text, member) FIELD(text, KEEL_ULOG_INT16, 2u, member)
 #define PLACES(text, member) FIELD(text, KEEL_ULOG_INT32, 4u, member)
 #define BOOLS(text, member)  FIELD(text, KEEL_ULOG_BOOL, 1u, member)
@@ -85,8 +86,8 @@ const copter_topic_t copter_topic[] = {
     {.name = {"satellites"},
      .row = URPILOT_GPS,
      .every = 5u,
-     .fields = 8u,
-     .field = {PLACES("latitude", satellites.fix.latitude),
+     .fields = 9u,
+     .field = {LONGS("utc_us", satellites.date.utc_us), PLACES("latitude", satellites.fix.latitude),
                PLACES("longitude", satellites.fix.longitude),
                FLOATS("velocity_north", satellites.fix.north),
                FLOATS("velocity_east", satellites.fix.east),

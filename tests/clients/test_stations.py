@@ -17,7 +17,7 @@ from typing import Any
 from unittest import mock
 
 import pytest
-from flight import frames, library
+from flight import frames, library, ulog
 from flight.library import Copter, Link
 from pymavlink.dialects.v20 import common as mavlink
 from qgroundcontrol import Driver, Met, QGroundControl, Reply, kind_of, payload_of
@@ -449,6 +449,15 @@ def test_the_date_is_the_receivers(copter: Copter, begun: datetime) -> None:
         rig.run(3000)
     later, boot = told_time(rig)
     assert later - date > 2.0 and 0.0 <= begun.timestamp() + boot - later < 0.35
+
+
+def test_the_log_has_the_date(copter: Copter, tmp_path: Path) -> None:
+    copter.log(tmp_path / "log.ulg")
+    Rig(copter, warm_ms=4000)
+    copter.log(None)
+    topic = ulog.read(tmp_path / "log.ulg").topic("satellites")
+    date, boot = int(topic["utc_us"][-1]) / 1e6, int(topic["timestamp"][-1]) / 1e6
+    assert 0.0 <= frames.BEGUN.timestamp() + boot - date < 0.35
 
 
 @pytest.mark.parametrize(("begun", "dated"), [
