@@ -23,7 +23,7 @@ LIST_MS, LIST_RETRIES, PARAMETER_MS, PARAMETER_TRIES, BATCH = 5000, 4, 3000, 5, 
 PLAN_MS, PLAN_RETRIES = 1500, 5
 
 REQUEST_MESSAGE, SYSTEM, AUTOPILOT = 512, 1, 1
-PROTOCOL_VERSION, COMPONENT_METADATA, AUTOPILOT_VERSION = 300, 397, 148
+PROTOCOL_VERSION, COMPONENT_METADATA, AUTOPILOT_VERSION, AVAILABLE_MODES = 300, 397, 148, 435
 OPEN, READ, BURST, RESET, ACK, NAK, EOF = 4, 5, 15, 2, 128, 129, 6
 DATA = 239
 PARAMETERS = 1  # COMP_METADATA_TYPE_PARAMETER.
@@ -80,6 +80,7 @@ class QGroundControl:
         answer = yield from self._message(PROTOCOL_VERSION, "protocol")
         if answer is not None:
             met.protocol = struct.unpack("<3H", payload_of(answer)[:6])
+        yield from self._modes()
         yield from self._metadata()
         yield from self._parameters()
         for kind, name in KINDS.items():
@@ -88,11 +89,20 @@ class QGroundControl:
     def _mine(self, message: Any) -> bool:
         return bool(message.target_system == self._system)
 
-    def _message(self, number: int, name: str) -> Step:
+    def _modes(self) -> Step:
+        """One after the other, as long as the vehicle says that there are more."""
+        index, count = 1, 1
+        while index <= count:
+            answer = yield from self._message(AVAILABLE_MODES, "modes", index)
+            if answer is None:
+                return
+            count, index = payload_of(answer)[8], index + 1
+
+    def _message(self, number: int, name: str, which: int = 0) -> Step:
         """REQUEST_MESSAGE: the acknowledgement and the message come in any order."""
         for _ in range(COMMAND_TRIES):
             self._send(mavlink.MAVLink_command_long_message(
-                SYSTEM, AUTOPILOT, REQUEST_MESSAGE, 0, number, 0, 0, 0, 0, 0, 0))  # fmt: skip
+                SYSTEM, AUTOPILOT, REQUEST_MESSAGE, 0, number, which, 0, 0, 0, 0, 0))  # fmt: skip
             seen: dict[str, Any] = {}
             while "ack" not in seen:
                 got = yield Wait(
