@@ -293,13 +293,6 @@ static void obey(copter_t *copter, const copter_command_t *command)
     }
 }
 
-/* Whether it is for this copter; of those that name nobody it is told as well. */
-static bool is_ours(const copter_t *copter, uint8_t system, uint8_t component)
-{
-    return ((system == ANYBODY) || (system == copter->telemetry->system)) &&
-           ((component == ANYBODY) || (component == MAV_COMP_ID_AUTOPILOT1));
-}
-
 static copter_command_t command_from(const keel_mavlink_frame_t *frame, uint32_t link)
 {
     return (copter_command_t){.link = link, .system = frame->system, .component = frame->component};
@@ -311,7 +304,8 @@ static void take_command_long(copter_t *copter, const keel_mavlink_frame_t *fram
     message_command_long_t message;
 
     message_command_long_unpack(&message, frame->payload);
-    if (is_ours(copter, message.target_system, message.target_component)) {
+    if (copter_is_meant(&copter->telemetry->link[link], message.target_system,
+                        message.target_component)) {
         command.id = message.command;
         command.param[0] = message.param1;
         command.param[1] = message.param2;
@@ -336,7 +330,8 @@ static void take_command_int(copter_t *copter, const keel_mavlink_frame_t *frame
     message_command_int_t message;
 
     message_command_int_unpack(&message, frame->payload);
-    if (is_ours(copter, message.target_system, message.target_component)) {
+    if (copter_is_meant(&copter->telemetry->link[link], message.target_system,
+                        message.target_component)) {
         command.id = message.command;
         command.param[0] = message.param1;
         command.param[1] = message.param2;
@@ -370,7 +365,8 @@ static void take_read(copter_t *copter, const keel_mavlink_frame_t *frame, uint3
     message_param_request_read_t message;
 
     message_param_request_read_unpack(&message, frame->payload);
-    if (is_ours(copter, message.target_system, message.target_component)) {
+    if (copter_is_meant(&copter->telemetry->link[link], message.target_system,
+                        message.target_component)) {
         copter_take_read(copter, link, frame, &message);
     }
 }
@@ -380,7 +376,8 @@ static void take_list(copter_t *copter, const keel_mavlink_frame_t *frame, uint3
     message_param_request_list_t message;
 
     message_param_request_list_unpack(&message, frame->payload);
-    if (is_ours(copter, message.target_system, message.target_component)) {
+    if (copter_is_meant(&copter->telemetry->link[link], message.target_system,
+                        message.target_component)) {
         copter_take_list(copter, link);
     }
 }
@@ -390,7 +387,8 @@ static void take_set(copter_t *copter, const keel_mavlink_frame_t *frame, uint32
     message_param_set_t message;
 
     message_param_set_unpack(&message, frame->payload);
-    if (is_ours(copter, message.target_system, message.target_component)) {
+    if (copter_is_meant(&copter->telemetry->link[link], message.target_system,
+                        message.target_component)) {
         copter_take_set(copter, link, frame, &message, may_command(copter->telemetry, link));
     }
 }
