@@ -6,7 +6,8 @@
 
 The picture has attitude, place, motors, votes, the processor's load, and the spectrum of each
 inertial unit while the motors turned (the paper's fig. 13); the tables have the topics, the tasks'
-times and the strongest vibrations.
+times and the strongest vibrations. Of a log of PX4 it has what is alike. Where the file is damaged
+is told by the byte, and the rest is shown.
 
 Exit status: 0, or 2 when the log cannot be read.
 """
@@ -25,12 +26,22 @@ from common.errors import ROOT, ToolError, program  # noqa: E402
 from common.files import read_text  # noqa: E402
 from flight import log_plots, tables, ulog  # noqa: E402
 
+TOLD = 20  # Places of damage, one by one.
 TASKS = ROOT / "examples/urpilot/urpilot_tasks.c"
 
 
 def task_names() -> list[str]:
     """Those of table 2, in order, and the two beside them."""
     return [*re.findall(r'^    \{"([^"]+)",', read_text(TASKS), re.MULTILINE), "Log", "Telemetry"]
+
+
+def tell_damage(path: Path, log: ulog.Log) -> None:
+    """Where the file makes no sense, the first places of many, and how much was left out."""
+    for damage in log.damage[:TOLD]:
+        print(f"{path}: byte {damage.at}: {damage.reason}; {damage.size} bytes left out")
+    if log.damage:
+        print(f"{path}: {len(log.damage)} places are damaged; "
+              f"{sum(damage.size for damage in log.damage)} bytes left out")  # fmt: skip
 
 
 def show(arguments: Sequence[str] | None) -> int:
@@ -44,16 +55,18 @@ def show(arguments: Sequence[str] | None) -> int:
     path = Path(options.file)
     log = ulog.read(path)
     picture: Path = options.picture or path.with_suffix(".log.svg")
-    log_plots.plot_log(path.name, log, picture)
+    drawn = log_plots.plot_log(path.name, log, picture)
     console = tables.console()
-    console.print(log_plots.topics(log))
-    console.print(log_plots.tasks(log, task_names()))
-    console.print(log_plots.vibration(log))
-    for time_us, text in log.texts:
-        print(f"{time_us / 1e6:10.3f} s  {text}")
+    for table in (log_plots.topics(log), log_plots.tasks(log, task_names()),
+                  log_plots.vibration(log)):  # fmt: skip
+        if table:
+            console.print(table)
+    for text in log.texts:
+        print(f"{text.time_us / 1e6:10.3f} s  {text.text}")
+    tell_damage(path, log)
     lost_ms = sum(length for _, length in log.dropouts)
     print(f"log: {len(log.dropouts)} dropouts, {lost_ms} ms; {log.cut} bytes cut off at the end; "
-          f"{picture} drawn")  # fmt: skip
+          + (f"{picture} drawn" if drawn else "it has nothing that a picture shows"))  # fmt: skip
     return 0
 
 

@@ -34,8 +34,9 @@ class Spectrum:
 
 
 def rate_of(time_us: Any) -> float:
-    """Samples per second, by the usual time between two."""
-    return 1e6 / float(np.median(np.diff(time_us.astype(np.int64))))
+    """Samples per second, by the usual time between two; 0 when that is none."""
+    period_us = float(np.median(np.diff(time_us.astype(float))))
+    return 1e6 / period_us if period_us > 0.0 else 0.0
 
 
 def spectrum(values: Any, rate_hz: float) -> Spectrum:
