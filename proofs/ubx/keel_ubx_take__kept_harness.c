@@ -54,19 +54,29 @@ static void check_search(const keel_ubx_t *u, const keel_ubx_t *before, uint8_t 
 {
     const uint64_t latest = (uint64_t)byte * 0x10000000000u;
     const uint64_t window = (before->window / 256u) + latest;
-    const bool begins = window == 0x005C070162B5u;
+    const bool begins_14 = window == 0x0054070162B5u;
+    const bool begins = (window == 0x005C070162B5u) || begins_14;
+    const uint64_t length = window >> 32;
 
     if (gap) {
         __CPROVER_assert(!is_fix && (u->step == 0u) && (u->window == latest),
                          "UBX_009_gap: silence ended what was under way");
     } else if (begins && ((before->step != 3u) || (byte != before->sum_b))) {
-        __CPROVER_assert((u->step == 1u) && (u->kind == 1u) && (u->left == 92u) &&
-                             (u->sum_a == 0x64u) && (u->sum_b == 0xD1u),
+        __CPROVER_assert((u->step == 1u) && (u->kind == 1u) && (u->length == length) &&
+                             (u->left == length) && (u->sum_a == (begins_14 ? 0x5Cu : 0x64u)) &&
+                             (u->sum_b == (begins_14 ? 0xC1u : 0xD1u)),
                          "UBX_010_header: a NAV-PVT has begun");
     } else if (!begins && (before->step == 1u)) {
-        __CPROVER_assert((u->left == (before->left - 1u)) &&
+        __CPROVER_assert((u->left == (before->left - 1u)) && (u->length == before->length) &&
                              (u->step == ((u->left > 0u) ? 1u : 2u)),
                          "UBX_011_skipped: one byte of the payload less is to come");
+    } else if ((before->step == 0u) && ((window & 0xFFFFFFFFu) == 0x070162B5u)) {
+        __CPROVER_assert(
+            (u->kind == 1u) == (length >= 84u),
+            "UBX_016_kind: of at least 84 bytes it is a NAV-PVT, else another message");
+        __CPROVER_assert((u->step == ((length > 0u) ? 1u : 2u)) && (u->length == length) &&
+                             (u->left == length),
+                         "UBX_016_begins: one of any length has begun");
     }
 }
 

@@ -23,8 +23,8 @@ keel_ubx_message_t nondet_ubx_message(void);
 /* ubx_valid */
 static bool ubx_valid_here(const keel_ubx_t *u)
 {
-    return (u->step <= 3u) && ((u->window >> 48) == 0u) && ((u->step != 1u) || (u->left > 0u)) &&
-           ((u->kind != 1u) || (u->left <= 92u));
+    return (u->step <= 3u) && ((u->window >> 48) == 0u) && (u->left <= u->length) &&
+           ((u->step != 1u) || (u->left > 0u)) && ((u->kind != 1u) || (u->length >= 84u));
 }
 
 /* ubx_config */
@@ -64,8 +64,8 @@ static bool ubx_same(const keel_ubx_t *a, const keel_ubx_t *b)
            ubx_count_same(&a->count, &b->count) && (a->is_advancing == b->is_advancing) &&
            (a->age_us == b->age_us) && (a->quiet_us == b->quiet_us) &&
            ubx_fix_same(&a->pending, &b->pending) && (a->window == b->window) &&
-           (a->left == b->left) && (a->sum_a == b->sum_a) && (a->sum_b == b->sum_b) &&
-           (a->kind == b->kind) && (a->step == b->step);
+           (a->length == b->length) && (a->left == b->left) && (a->sum_a == b->sum_a) &&
+           (a->sum_b == b->sum_b) && (a->kind == b->kind) && (a->step == b->step);
 }
 
 static bool ubx_message_same(const keel_ubx_message_t *a, const keel_ubx_message_t *b, uint32_t i)

@@ -40,8 +40,8 @@ static int32_t whole_of(uint32_t number)
     return (int32_t)((wide >= 0x80000000) ? (wide - 0x100000000) : wide);
 }
 
-/* UBX-005: byte by byte, as the receiver's manual has it. */
-keel_ubx_fix_t model_ubx_fix(const uint8_t *payload)
+/* UBX-005, UBX-016: byte by byte, as the receiver's manual has it. */
+keel_ubx_fix_t model_ubx_fix(const uint8_t *payload, uint32_t length)
 {
     const keel_ubx_fix_t fix = {.tow_ms = number_at(payload, 0u),
                                 .type = payload[20],
@@ -56,7 +56,7 @@ keel_ubx_fix_t model_ubx_fix(const uint8_t *payload)
                                 .east = whole_of(number_at(payload, 52u)),
                                 .down = whole_of(number_at(payload, 56u)),
                                 .speed_accuracy = number_at(payload, 68u),
-                                .is_invalid = (payload[78] % 2u) == 1u};
+                                .is_invalid = (length > 91u) && ((payload[78] % 2u) == 1u)};
 
     return fix;
 }
@@ -123,8 +123,8 @@ static void put_field(keel_ubx_t *ubx, uint32_t at)
     if (at == 71u) {
         to->speed_accuracy = number;
     }
-    if (at == 79u) { /* Byte 78. */
-        to->is_invalid = (number & 0x10000u) != 0u;
+    if (at == 79u) { /* Byte 78; reserved in protocol 14 (UBX-016). */
+        to->is_invalid = (ubx->length > 91u) && ((number & 0x10000u) != 0u);
     }
 }
 
@@ -145,7 +145,7 @@ static bool end_message(keel_ubx_t *ubx)
     return ubx->kind == 1u;
 }
 
-/* UBX-010, UBX-011: the window holds a header: sync, sync, class, id, length. */
+/* UBX-010, UBX-011, UBX-016: the window holds a header: sync, sync, class, id, length. */
 static void start_message(keel_ubx_t *ubx)
 {
     const uint32_t group = (uint32_t)((ubx->window >> 16) & 0xFFu);
@@ -156,12 +156,13 @@ static void start_message(keel_ubx_t *ubx)
         ubx->count.cut = ubx_end(ubx->count.cut, 1u);
     }
     ubx->kind = 0u;
-    if ((group == 1u) && (id == 7u) && (length == 92u)) {
+    if ((group == 1u) && (id == 7u) && (length > 83u)) {
         ubx->kind = 1u;
     }
     if ((group == 5u) && (id < 2u) && (length == 2u)) {
         ubx->kind = (id == 1u) ? 2u : 3u;
     }
+    ubx->length = (uint16_t)length;
     ubx->left = (uint16_t)length;
     ubx->step = (length == 0u) ? 2u : 1u;
     ubx->sum_a = 0u;
@@ -194,7 +195,7 @@ static bool add_byte(keel_ubx_t *ubx, uint8_t byte)
     }
     sum_with(ubx, byte);
     if (ubx->kind == 1u) {
-        put_field(ubx, 92u - ubx->left);
+        put_field(ubx, (uint32_t)ubx->length - ubx->left);
     }
     ubx->left = (uint16_t)(ubx->left - 1u);
     ubx->step = (ubx->left == 0u) ? 2u : 1u;
@@ -223,6 +224,8 @@ bool model_ubx_take(keel_ubx_t *ubx, uint8_t byte, uint32_t elapsed_us)
     ubx->window = (ubx->window >> 8) | ((uint64_t)byte << 40);
     is_fix = add_byte(ubx, byte);
     if (ubx->window == 0x005C070162B5u) { /* UBX-010: B5 62 01 07 5C 00 */
+        start_message(ubx);
+    } else if (ubx->window == 0x0054070162B5u) { /* B5 62 01 07 54 00 */
         start_message(ubx);
     } else if ((ubx->step == 0u) && ((ubx->window & 0xFFFFu) == 0x62B5u)) {
         start_message(ubx);

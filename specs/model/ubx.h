@@ -17,7 +17,7 @@ void model_ubx_write_output(keel_ubx_message_t *message, uint8_t group, uint8_t 
 void model_ubx_write_rate(keel_ubx_message_t *message, uint16_t period_ms);
 void model_ubx_write_port(keel_ubx_message_t *message, uint32_t baud);
 
-/* What a NAV-PVT says, from the 92 bytes of its payload (UBX-005). */
-keel_ubx_fix_t model_ubx_fix(const uint8_t *payload);
+/* What a NAV-PVT says, from its payload of at least 84 bytes (UBX-005, UBX-016). */
+keel_ubx_fix_t model_ubx_fix(const uint8_t *payload, uint32_t length);
 
 #endif

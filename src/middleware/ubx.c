@@ -8,10 +8,11 @@
 #define SYNC       0x62B5u
 #define SYNC_LIMIT 0x10000u
 
-/* Class, id and length behind them. */
+/* Class, id and length behind them; a NAV-PVT's length is one of many. */
 #define MESSAGE_ACK 0x00020105u
 #define MESSAGE_NAK 0x00020005u
-#define MESSAGE_PVT 0x005C0701u
+#define PVT         0x0701u
+#define PVT_LIMIT   0x10000u
 
 /* In a window: the latest byte's place; behind two bytes the latest four. */
 #define LATEST 0x10000000000u
@@ -123,11 +124,12 @@ static void add_to_sums(keel_ubx_t *ubx, uint8_t byte)
     ubx->sum_b = (uint8_t)(((uint32_t)ubx->sum_b + ubx->sum_a) % 256u);
 }
 
-/* A word of a NAV-PVT's payload ended with this byte of it. */
+/* A word of a NAV-PVT's payload ended with this byte of it. What says that the place is invalid
+ * came with protocol 15: in a shorter payload those bits are reserved. */
 /*@ requires \valid(pending);
   @ assigns *pending;
   @*/
-static void gather(keel_ubx_fix_t *pending, uint32_t at, uint32_t word)
+static void gather(keel_ubx_fix_t *pending, uint32_t length, uint32_t at, uint32_t word)
 {
     switch (at) {
     case TOW_END:
@@ -166,7 +168,8 @@ static void gather(keel_ubx_fix_t *pending, uint32_t at, uint32_t word)
         pending->speed_accuracy = word;
         break;
     case INVALID_END:
-        pending->is_invalid = ((word / THIRD) % FLAG) != 0u;
+        pending->is_invalid = (length >= (uint32_t)KEEL_UBX_PAYLOAD) &&
+                              (((word / THIRD) % FLAG) != 0u);
         break;
     default:
         /* Nothing that is handed out ends here. */
@@ -184,7 +187,7 @@ static void take_data(keel_ubx_t *ubx, uint8_t byte)
 {
     add_to_sums(ubx, byte);
     if (ubx->kind == (uint8_t)KEEL_UBX_PVT) {
-        gather(&ubx->pending, (uint32_t)KEEL_UBX_PAYLOAD - ubx->left,
+        gather(&ubx->pending, ubx->length, (uint32_t)ubx->length - ubx->left,
                (uint32_t)(ubx->window / TWO));
     }
     ubx->left--;
@@ -302,13 +305,14 @@ static bool go_on_with(keel_ubx_t *ubx, uint8_t byte)
 
 /*@ assigns \nothing;
   @ ensures \result <= KEEL_UBX_NAK;
-  @ ensures \result == KEEL_UBX_PVT <==> message == 0x005C0701;
+  @ ensures \result == KEEL_UBX_PVT <==>
+  @     message % 0x10000 == 0x0701 && message / 0x10000 >= KEEL_UBX_PAYLOAD_LEAST;
   @*/
 static uint8_t kind_of(uint32_t message)
 {
     uint32_t kind = KEEL_UBX_OTHER;
 
-    if (message == MESSAGE_PVT) {
+    if (((message % PVT_LIMIT) == PVT) && ((message / THIRD) >= (uint32_t)KEEL_UBX_PAYLOAD_LEAST)) {
         kind = KEEL_UBX_PVT;
     } else if (message == MESSAGE_ACK) {
         kind = KEEL_UBX_ACK;
@@ -322,12 +326,17 @@ static uint8_t kind_of(uint32_t message)
 
 /* The window holds the header of a message. */
 /*@ requires \valid(ubx) && ubx->window < 0x1000000000000;
-  @ assigns ubx->count.cut, ubx->left, ubx->sum_a, ubx->sum_b, ubx->kind, ubx->step;
+  @ assigns ubx->count.cut, ubx->length, ubx->left, ubx->sum_a, ubx->sum_b, ubx->kind, ubx->step;
   @ ensures ubx_valid(ubx);
   @ ensures ubx->step == KEEL_UBX_DATA || ubx->step == KEEL_UBX_SUM_A;
+  @ ensures ubx->left == ubx->length && ubx->length == ubx_length(ubx->window);
+  @ ensures ubx_is_pvt(ubx->window) ==> ubx->step == KEEL_UBX_DATA && ubx->kind == KEEL_UBX_PVT;
   @ ensures ubx->window == KEEL_UBX_HEADER ==> ubx->step == KEEL_UBX_DATA &&
   @     ubx->kind == KEEL_UBX_PVT && ubx->left == KEEL_UBX_PAYLOAD && ubx->sum_a == 0x64 &&
   @     ubx->sum_b == 0xD1;
+  @ ensures ubx->window == KEEL_UBX_HEADER_14 ==> ubx->step == KEEL_UBX_DATA &&
+  @     ubx->kind == KEEL_UBX_PVT && ubx->left == KEEL_UBX_PAYLOAD_LEAST &&
+  @     ubx->sum_a == 0x5C && ubx->sum_b == 0xC1;
   @*/
 static void begin_message(keel_ubx_t *ubx)
 {
@@ -338,11 +347,13 @@ static void begin_message(keel_ubx_t *ubx)
     const uint32_t high = message / FOURTH;
 
     //@ assert fix: ubx->window == KEEL_UBX_HEADER ==> message == 0x005C0701;
+    //@ assert fix_14: ubx->window == KEEL_UBX_HEADER_14 ==> message == 0x00540701;
     if (ubx->step != (uint8_t)KEEL_UBX_SEARCH) {
         count_event(&ubx->count.cut);
     }
     ubx->kind = kind_of(message);
-    ubx->left = (uint16_t)(message / THIRD);
+    ubx->length = (uint16_t)(message / THIRD);
+    ubx->left = ubx->length;
     ubx->step = (uint8_t)((ubx->left > 0u) ? KEEL_UBX_DATA : KEEL_UBX_SUM_A);
     ubx->sum_a = (uint8_t)((group + id + low + high) % 256u);
     ubx->sum_b = (uint8_t)(((4u * group) + (3u * id) + (2u * low) + high) % 256u);
@@ -374,19 +385,26 @@ static void let_in(keel_ubx_t *ubx, uint8_t byte)
 
 /* Whether a message begins with the latest byte. */
 /*@ requires \valid(ubx) && ubx_valid(ubx);
-  @ assigns ubx->count.cut, ubx->left, ubx->sum_a, ubx->sum_b, ubx->kind, ubx->step;
+  @ assigns ubx->count.cut, ubx->length, ubx->left, ubx->sum_a, ubx->sum_b, ubx->kind, ubx->step;
   @ ensures ubx_valid(ubx);
   @ ensures ubx->window == KEEL_UBX_HEADER ==> ubx->step == KEEL_UBX_DATA &&
-  @     ubx->kind == KEEL_UBX_PVT && ubx->left == KEEL_UBX_PAYLOAD && ubx->sum_a == 0x64 &&
-  @     ubx->sum_b == 0xD1;
-  @ ensures ubx->window != KEEL_UBX_HEADER && (\old(ubx->step) != KEEL_UBX_SEARCH ||
-  @     ubx->window % 0x10000 != 0x62B5) ==>
-  @     ubx->step == \old(ubx->step) && ubx->left == \old(ubx->left);
+  @     ubx->kind == KEEL_UBX_PVT && ubx->length == KEEL_UBX_PAYLOAD &&
+  @     ubx->left == KEEL_UBX_PAYLOAD && ubx->sum_a == 0x64 && ubx->sum_b == 0xD1;
+  @ ensures ubx->window == KEEL_UBX_HEADER_14 ==> ubx->step == KEEL_UBX_DATA &&
+  @     ubx->kind == KEEL_UBX_PVT && ubx->length == KEEL_UBX_PAYLOAD_LEAST &&
+  @     ubx->left == KEEL_UBX_PAYLOAD_LEAST && ubx->sum_a == 0x5C && ubx->sum_b == 0xC1;
+  @ ensures \old(ubx->step) == KEEL_UBX_SEARCH && ubx_is_pvt(ubx->window) ==>
+  @     ubx->step == KEEL_UBX_DATA && ubx->kind == KEEL_UBX_PVT &&
+  @     ubx->length == ubx_length(ubx->window) && ubx->left == ubx->length;
+  @ ensures !ubx_begins(ubx->window) && (\old(ubx->step) != KEEL_UBX_SEARCH ||
+  @     ubx->window % 0x10000 != 0x62B5) ==> ubx->step == \old(ubx->step) &&
+  @     ubx->left == \old(ubx->left) && ubx->length == \old(ubx->length);
   @ ensures \old(ubx->step) == KEEL_UBX_SEARCH ==> ubx->step != KEEL_UBX_SUM_B;
   @*/
 static void look_for_header(keel_ubx_t *ubx)
 {
     if ((ubx->window == (uint64_t)KEEL_UBX_HEADER) ||
+        (ubx->window == (uint64_t)KEEL_UBX_HEADER_14) ||
         ((ubx->step == (uint8_t)KEEL_UBX_SEARCH) && ((ubx->window % SYNC_LIMIT) == SYNC))) {
         begin_message(ubx);
     }
@@ -411,6 +429,7 @@ keel_status_t keel_ubx_init(keel_ubx_t *ubx, const keel_ubx_config_t *config)
     ubx->age_us = UINT32_MAX;
     ubx->quiet_us = UINT32_MAX;
     ubx->window = 0u;
+    ubx->length = 0u;
     ubx->left = 0u;
     ubx->sum_a = 0u;
     ubx->sum_b = 0u;

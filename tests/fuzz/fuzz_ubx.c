@@ -61,7 +61,8 @@ static bool both_take(uint8_t byte, uint32_t elapsed_us)
     return taken;
 }
 
-/* A NAV-PVT behind a gap: taken when ublox takes it, with the same fields, and not else. */
+/* A NAV-PVT behind a gap: taken when ublox takes it, with the same fields, and not else. Of 92
+ * bytes, which ublox was built to read; those of 84 and of more are compared with the model. */
 static void judge_message(const uint8_t *payload, uint8_t last)
 {
     static const uint8_t head[HEAD] = {0xB5u, 0x62u, 0x01u, 0x07u, KEEL_UBX_PAYLOAD, 0x00u};

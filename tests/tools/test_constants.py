@@ -191,6 +191,7 @@ MAVLINK_HEADER = 1 + 1 + 2 + 1 + 1 + 1 + 3
 MAVLINK_SIGNATURE = 1 + 6 + 6
 # UBX: two bytes of sync, class, id, two of length; two of checksum behind the payload.
 UBX_HEADER, UBX_SUMS = b"\xb5\x62\x01\x07" + struct.pack("<H", 92), 2
+UBX_HEADER_14 = b"\xb5\x62\x01\x07" + struct.pack("<H", 84)
 
 # What a number is by its source.
 SOURCES: dict[str, float] = {
@@ -274,9 +275,11 @@ SOURCES: dict[str, float] = {
     "KEEL_SIGNING_DIGEST_BYTES": 256 // 8,
     "KEEL_SIGNING_TIME_MAX": 2**48 - 1,
     "KEEL_SIGNING_TEXT_MAX": 32 + MAVLINK_HEADER + 255 + 2 + MAVLINK_SIGNATURE - 6,
-    # UBX's NAV-PVT; fixType 3 is a fix in three dimensions.
+    # UBX's NAV-PVT, of protocols from 15 on and of 14; fixType 3 is a fix in three dimensions.
     "KEEL_UBX_HEADER": int.from_bytes(UBX_HEADER, "little"),
+    "KEEL_UBX_HEADER_14": int.from_bytes(UBX_HEADER_14, "little"),
     "KEEL_UBX_PAYLOAD": 92,
+    "KEEL_UBX_PAYLOAD_LEAST": 84,
     "KEEL_UBX_BYTES": len(UBX_HEADER) + 92 + UBX_SUMS,
     "KEEL_UBX_3D": 3,
     # The longest message that is written is CFG-PRT, with a payload of 20 bytes.

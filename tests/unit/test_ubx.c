@@ -448,14 +448,84 @@ static void UBX_011_skips_any_length(void)
     TEST_ASSERT_EQUAL_UINT32(0u, ubx.count.checksums);
 }
 
-/* Older receivers' NAV-PVT is shorter: it is none. */
-static void UBX_011_a_shorter_one_is_another(void)
+/* A NAV-PVT of another length: the bytes of the usual one, and 0xFF behind them. */
+static uint32_t of_length(uint32_t length)
 {
-    uint8_t payload[84];
+    uint8_t payload[4096];
 
-    memset(payload, 0, sizeof payload);
-    TEST_ASSERT_EQUAL_UINT32(0u, feed(sent, write(sent, 0x01u, 0x07u, payload, 84u), BYTE_US));
+    memset(payload, 0xFF, sizeof payload);
+    memcpy(payload, &fix_bytes[6], (length < 92u) ? length : 92u);
+    return write(sent, 0x01u, 0x07u, payload, length);
+}
+
+/* What a receiver of any protocol says, all but the last byte taking nothing. */
+static void says_the_same(uint32_t length, uint32_t first_us)
+{
+    const uint32_t size = of_length(length);
+
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(sent, size - 1u, first_us));
+    TEST_ASSERT_TRUE(keel_ubx_take(&ubx, sent[size - 1u], BYTE_US));
+    TEST_ASSERT_EQUAL_UINT32(100000u, ubx.fix.tow_ms);
+    TEST_ASSERT_EQUAL_UINT8(KEEL_UBX_3D, ubx.fix.type);
+    TEST_ASSERT_TRUE(ubx.fix.is_ok);
+    TEST_ASSERT_EQUAL_UINT8(14u, ubx.fix.satellites);
+    TEST_ASSERT_EQUAL_INT32(85455940, ubx.fix.longitude);
+    TEST_ASSERT_EQUAL_INT32(-473977420, ubx.fix.latitude);
+    TEST_ASSERT_EQUAL_INT32(-12345, ubx.fix.height_mm);
+    TEST_ASSERT_EQUAL_UINT32(800u, ubx.fix.accuracy_mm);
+    TEST_ASSERT_EQUAL_INT32(-3, ubx.fix.down);
+    TEST_ASSERT_EQUAL_UINT32(200u, ubx.fix.speed_accuracy);
+}
+
+/* Of an u-blox 7, 84 bytes; of receivers to come, more. */
+static void UBX_016_other_protocols_say_the_same(void)
+{
+    static const uint32_t lengths[8] = {84u, 85u, 91u, 92u, 93u, 100u, 256u, 4096u};
+
+    for (uint32_t i = 0u; i < 8u; i++) {
+        TEST_ASSERT_EQUAL(KEEL_OK, keel_ubx_init(&ubx, &usual));
+        says_the_same(lengths[i], SILENT_US);
+        TEST_ASSERT_FALSE(ubx.fix.is_invalid);
+        TEST_ASSERT_EQUAL_UINT32(1u, ubx.count.fixes);
+        TEST_ASSERT_EQUAL_UINT32(0u, ubx.count.others);
+    }
+}
+
+/* Bytes 78 and 79 of protocol 14 are reserved, whatever they are; what was said before is over. */
+static void UBX_016_invalid_is_of_92_bytes(void)
+{
+    change(78u, 0x01u);
+    says_the_same(92u, SILENT_US);
+    TEST_ASSERT_TRUE(ubx.fix.is_invalid);
+    says_the_same(84u, SILENT_US);
+    TEST_ASSERT_FALSE(ubx.fix.is_invalid);
+    says_the_same(91u, SILENT_US);
+    TEST_ASSERT_FALSE(ubx.fix.is_invalid);
+    says_the_same(93u, SILENT_US);
+    TEST_ASSERT_TRUE(ubx.fix.is_invalid);
+}
+
+static void UBX_016_a_shorter_one_is_another(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(sent, of_length(83u), BYTE_US));
     TEST_ASSERT_EQUAL_UINT32(1u, ubx.count.others);
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(sent, of_length(0u), BYTE_US));
+    TEST_ASSERT_EQUAL_UINT32(2u, ubx.count.others);
+    TEST_ASSERT_EQUAL_UINT32(0u, ubx.count.fixes);
+}
+
+/* One of 84 bytes begins in the midst of another message; one of 85 does not, but after a gap. */
+static void UBX_010_of_protocol_14_within_another(void)
+{
+    static const uint8_t promise[6] = {0xB5, 0x62, 0x0A, 0x04, 0xFF, 0xFF};
+
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(promise, sizeof promise, SILENT_US));
+    says_the_same(84u, BYTE_US);
+    TEST_ASSERT_EQUAL_UINT32(1u, ubx.count.cut);
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(promise, sizeof promise, SILENT_US));
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(sent, of_length(85u), BYTE_US));
+    TEST_ASSERT_EQUAL_UINT32(1u, ubx.count.fixes);
+    says_the_same(85u, SILENT_US);
 }
 
 static void UBX_012_time_advances(void)
@@ -617,7 +687,10 @@ int main(void)
     RUN_TEST(UBX_010_where_a_wrong_sum_is);
     RUN_TEST(UBX_010_a_message_that_ends_in_it);
     RUN_TEST(UBX_011_skips_any_length);
-    RUN_TEST(UBX_011_a_shorter_one_is_another);
+    RUN_TEST(UBX_010_of_protocol_14_within_another);
+    RUN_TEST(UBX_016_other_protocols_say_the_same);
+    RUN_TEST(UBX_016_invalid_is_of_92_bytes);
+    RUN_TEST(UBX_016_a_shorter_one_is_another);
     RUN_TEST(UBX_012_time_advances);
     RUN_TEST(UBX_013_each_reason);
     RUN_TEST(UBX_014_writes_values);

@@ -118,11 +118,11 @@ static void UBX_003_each_byte_is_as_specified(void)
 
 static void UBX_003_noise_is_as_specified(void)
 {
-    const uint8_t often[8] = {0xB5, 0x62, 0x01, 0x07, 0x5C, 0x00, 0x05, 0x02};
+    const uint8_t often[9] = {0xB5, 0x62, 0x01, 0x07, 0x5C, 0x00, 0x05, 0x02, 0x54};
 
     set_up();
     for (uint32_t n = 0u; n < (MESSAGES * 50u); n++) {
-        const uint32_t at = any() % 8u;
+        const uint32_t at = any() % 9u;
 
         both_take(one_in(4u) ? (uint8_t)any() : often[one_in(2u) ? (n % 6u) : at], any() % 5100u);
     }

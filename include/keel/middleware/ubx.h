@@ -5,15 +5,20 @@
  *
  * A message is 0xB5 0x62, its class, its id, the length of its payload in two bytes, the payload,
  * and two bytes of checksum (Fletcher-8) over all but the first two; numbers have their lowest byte
- * first. NAV-PVT (0x01 0x07, 92 bytes) is a fix, and is decoded; ACK-ACK and ACK-NAK, the answers
- * to what sets a receiver up, are counted, and so are all others, of any length. No payload is
- * held: a field of a fix is put together from its bytes as they come.
+ * first. NAV-PVT (0x01 0x07) is a fix, and is decoded; ACK-ACK and ACK-NAK, the answers to what
+ * sets a receiver up, are counted, and so are all others, of any length. No payload is held: a
+ * field of a fix is put together from its bytes as they come.
  *
- * The six bytes that a NAV-PVT begins with begin one wherever they come, in the midst of another
- * message too. So a right one is taken by its last byte, whatever was before, unless a right
- * message ends in its first five bytes, or those six come in it again: one in 2^41 does by chance,
- * and the next one is taken. After a gap the former cannot be. Bytes that look like the header of
- * another message hide others for its length, 65535 bytes at most, or until a gap or a NAV-PVT.
+ * NAV-PVT has 84 bytes from an u-blox 7 (protocol 14), and 92 from later receivers. Both are taken,
+ * and longer ones too, by the part that is known here; shorter ones are other messages.
+ *
+ * The six bytes that a NAV-PVT of 84 or 92 bytes begins with begin one wherever they come, in the
+ * midst of another message too. So a right one is taken by its last byte, whatever was before,
+ * unless a right message ends in its first five bytes, or such six come in it again: one in 2^40
+ * does by chance, and the next one is taken. After a gap the former cannot be. One of another
+ * length begins where no message is under way, so it is taken after a gap. Bytes that look like the
+ * header of another message hide others for its length, 65535 bytes at most, or until a gap or a
+ * NAV-PVT of 84 or 92 bytes.
  *
  * A message with a wrong checksum changes no fix; it is counted. The checksum finds all changes of
  * one byte, and lets one in 65536 of others through.
@@ -31,12 +36,18 @@
 
 KEEL_C_BEGIN
 
-/** Bytes of a NAV-PVT's payload, and of all of it. */
+/** Bytes of a NAV-PVT's payload from protocol 15 on, and of all of it. */
 #define KEEL_UBX_PAYLOAD 92
 #define KEEL_UBX_BYTES   100
 
+/** Bytes of its payload in protocol 14: the least that it has. */
+#define KEEL_UBX_PAYLOAD_LEAST 84
+
 /** What a NAV-PVT begins with, the first byte the lowest. */
 #define KEEL_UBX_HEADER 0x005C070162B5
+
+/** What one of protocol 14 begins with. */
+#define KEEL_UBX_HEADER_14 0x0054070162B5
 
 /** A fix in three dimensions, in keel_ubx_fix_t. */
 #define KEEL_UBX_3D 3
@@ -85,13 +96,14 @@ typedef struct keel_ubx_fix {
     uint8_t type;             /**< KEEL_UBX_3D, or what the receiver's manual says. */
     uint8_t satellites;       /**< Used. */
     bool is_ok;               /**< Within the receiver's own limits (gnssFixOK). */
-    bool is_invalid; /**< Longitude, latitude and height are not to be used (invalidLlh). */
+    bool is_invalid; /**< Longitude, latitude and height are not to be used (invalidLlh); false of
+                          fewer than 92 bytes, which have no such bit. */
 } keel_ubx_fix_t;
 
 /** What was met since the start. */
 typedef struct keel_ubx_count {
     uint32_t bytes;     /**< All that came. */
-    uint32_t fixes;     /**< Right NAV-PVT. */
+    uint32_t fixes;     /**< Right NAV-PVT of at least 84 bytes. */
     uint32_t acks;      /**< Right ACK-ACK: the receiver has done what it was told. */
     uint32_t naks;      /**< Right ACK-NAK: it has refused to. */
     uint32_t others;    /**< Right messages beside those. */
@@ -109,7 +121,8 @@ typedef struct keel_ubx {
     uint32_t quiet_us;        /**< Since the last byte, in us. */
     keel_ubx_fix_t pending;   /**< What came of the next one. */
     uint64_t window;          /**< The last six bytes, the latest the highest; 0 for none. */
-    uint16_t left;            /**< Bytes of the payload to come. */
+    uint16_t length;          /**< Bytes of the payload. */
+    uint16_t left;            /**< How many of them are to come. */
     uint8_t sum_a;            /**< The checksum so far. */
     uint8_t sum_b;            /**< The checksum so far. */
     uint8_t kind;             /**< KEEL_UBX_OTHER, ...: the message under way. */
@@ -138,11 +151,12 @@ typedef struct keel_ubx_message {
     uint8_t size;                          /**< How many of them are the message. */
 } keel_ubx_message_t;
 
-/*@ // Between any two calls: of a payload at least a byte is to come, of a fix's at most 92.
+/*@ // Between any two calls: of a payload at least a byte is to come, and at most all of it; a
+  @ // fix's has what every NAV-PVT has.
   @ predicate ubx_valid(keel_ubx_t *u) =
-  @     u->step <= KEEL_UBX_SUM_B && u->window < 0x1000000000000 &&
+  @     u->step <= KEEL_UBX_SUM_B && u->window < 0x1000000000000 && u->left <= u->length &&
   @     (u->step == KEEL_UBX_DATA ==> u->left > 0) &&
-  @     (u->kind == KEEL_UBX_PVT ==> u->left <= KEEL_UBX_PAYLOAD);
+  @     (u->kind == KEEL_UBX_PVT ==> u->length >= KEEL_UBX_PAYLOAD_LEAST);
   @
   @ predicate ubx_limits(keel_ubx_config_t *c) = c->accuracy_mm > 0 && c->speed_accuracy > 0;
   @
@@ -155,6 +169,17 @@ typedef struct keel_ubx_message {
   @ // The last six bytes with one more.
   @ logic integer ubx_shifted(integer window, integer byte) =
   @     window / 256 + 0x10000000000 * byte;
+  @
+  @ // The length that a header in it tells, and whether it is a NAV-PVT's.
+  @ logic integer ubx_length(integer window) = (window / 0x10000) / 0x10000;
+  @
+  @ predicate ubx_is_pvt(integer window) =
+  @     window % 0x10000 == 0x62B5 && (window / 0x10000) % 0x10000 == 0x0701 &&
+  @     ubx_length(window) >= KEEL_UBX_PAYLOAD_LEAST;
+  @
+  @ // Whether a message begins with it, whatever is under way.
+  @ predicate ubx_begins(integer window) =
+  @     window == KEEL_UBX_HEADER || window == KEEL_UBX_HEADER_14;
   @
   @ // The fix stays as it is.
   @ predicate ubx_kept{L, M}(keel_ubx_t *u) =
@@ -237,7 +262,7 @@ typedef struct keel_ubx_message {
 keel_status_t keel_ubx_init(keel_ubx_t *ubx, const keel_ubx_config_t *config);
 
 /**
- * Takes a byte from the receiver (requirements UBX-003 to UBX-012).
+ * Takes a byte from the receiver (requirements UBX-003 to UBX-012 and UBX-016).
  *
  * @param ubx        the decoder, initialised
  * @param byte       what came
@@ -247,7 +272,7 @@ keel_status_t keel_ubx_init(keel_ubx_t *ubx, const keel_ubx_config_t *config);
  */
 /*@ requires \valid(ubx) && ubx_valid(ubx);
   @ assigns ubx->fix, ubx->count, ubx->is_advancing, ubx->age_us, ubx->quiet_us, ubx->pending,
-  @     ubx->window, ubx->left, ubx->sum_a, ubx->sum_b, ubx->kind, ubx->step;
+  @     ubx->window, ubx->length, ubx->left, ubx->sum_a, ubx->sum_b, ubx->kind, ubx->step;
   @ ensures UBX_003_valid: ubx_valid(ubx);
   @ ensures UBX_004_last: \result ==> \old(ubx->step) == KEEL_UBX_SUM_B &&
   @     \old(ubx->kind) == KEEL_UBX_PVT && byte == \old(ubx->sum_b);
@@ -269,12 +294,25 @@ keel_status_t keel_ubx_init(keel_ubx_t *ubx, const keel_ubx_config_t *config);
   @     !(\old(ubx->step) == KEEL_UBX_SUM_B && byte == \old(ubx->sum_b)) &&
   @     ubx_shifted(\old(ubx->window), byte) == KEEL_UBX_HEADER ==>
   @         ubx->step == KEEL_UBX_DATA && ubx->kind == KEEL_UBX_PVT &&
-  @         ubx->left == KEEL_UBX_PAYLOAD && ubx->sum_a == 0x64 && ubx->sum_b == 0xD1;
+  @         ubx->length == KEEL_UBX_PAYLOAD && ubx->left == KEEL_UBX_PAYLOAD &&
+  @         ubx->sum_a == 0x64 && ubx->sum_b == 0xD1;
+  @ ensures UBX_010_header_14:
+  @     ubx_sum(\old(ubx->quiet_us), elapsed_us) <= ubx->config.gap_us &&
+  @     !(\old(ubx->step) == KEEL_UBX_SUM_B && byte == \old(ubx->sum_b)) &&
+  @     ubx_shifted(\old(ubx->window), byte) == KEEL_UBX_HEADER_14 ==>
+  @         ubx->step == KEEL_UBX_DATA && ubx->kind == KEEL_UBX_PVT &&
+  @         ubx->length == KEEL_UBX_PAYLOAD_LEAST && ubx->left == KEEL_UBX_PAYLOAD_LEAST &&
+  @         ubx->sum_a == 0x5C && ubx->sum_b == 0xC1;
+  @ ensures UBX_016_begins:
+  @     ubx_sum(\old(ubx->quiet_us), elapsed_us) <= ubx->config.gap_us &&
+  @     \old(ubx->step) == KEEL_UBX_SEARCH && ubx_is_pvt(ubx_shifted(\old(ubx->window), byte)) ==>
+  @         ubx->step == KEEL_UBX_DATA && ubx->kind == KEEL_UBX_PVT &&
+  @         ubx->length == ubx_length(ubx_shifted(\old(ubx->window), byte)) &&
+  @         ubx->left == ubx->length;
   @ ensures UBX_011_skipped:
   @     ubx_sum(\old(ubx->quiet_us), elapsed_us) <= ubx->config.gap_us &&
-  @     \old(ubx->step) == KEEL_UBX_DATA &&
-  @     ubx_shifted(\old(ubx->window), byte) != KEEL_UBX_HEADER ==>
-  @         ubx->left == \old(ubx->left) - 1 &&
+  @     \old(ubx->step) == KEEL_UBX_DATA && !ubx_begins(ubx_shifted(\old(ubx->window), byte)) ==>
+  @         ubx->left == \old(ubx->left) - 1 && ubx->length == \old(ubx->length) &&
   @         ubx->step == (ubx->left > 0 ? KEEL_UBX_DATA : KEEL_UBX_SUM_A);
   @ ensures UBX_012_advancing: \result ==> (ubx->is_advancing != 0 <==>
   @     (\old(ubx->count.fixes) > 0 &&
