@@ -171,7 +171,8 @@ static uint32_t healthy(const copter_t *copter)
     return when((blocking & KEEL_MODE_CHECK_GYROSCOPE) == 0u, MAV_SYS_STATUS_SENSOR_3D_GYRO) |
            when((blocking & KEEL_MODE_CHECK_ACCELEROMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_ACCEL) |
            when((blocking & KEEL_MODE_CHECK_MAGNETOMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_MAG) |
-           when(copter->estimate.altitude.axis.quality == KEEL_AXIS_GOOD,
+           when((copter->estimate.altitude.axis.quality == KEEL_AXIS_GOOD) &&
+                    ((blocking & COPTER_CHECK_PRESSURE) == 0u),
                 MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE) |
            when(copter->estimate.position.quality == KEEL_AXIS_GOOD, MAV_SYS_STATUS_SENSOR_GPS) |
            when((mode->settled & KEEL_MODE_IS_LINKED) != 0u, MAV_SYS_STATUS_SENSOR_RC_RECEIVER) |

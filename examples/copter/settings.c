@@ -143,7 +143,7 @@ const copter_settings_t copter_defaults =
                           KEEL_MODE_CHECK_MAGNETOMETER | KEEL_MODE_CHECK_BAROMETER |
                           KEEL_MODE_CHECK_POSITIONING | KEEL_MODE_CHECK_CALIBRATION |
                           KEEL_MODE_CHECK_LEVEL | KEEL_MODE_CHECK_BATTERY | KEEL_MODE_CHECK_LOAD |
-                          KEEL_MODE_CHECK_HOME,
+                          KEEL_MODE_CHECK_HOME | COPTER_CHECK_PRESSURE,
               .returns = true},
      .cascade =
          {.pid =
@@ -176,6 +176,8 @@ const copter_settings_t copter_defaults =
      .mixer = {.idle = 0.05f, .highest = 1.0f},
      .load_limit_ppm = 500000u,
      .level = 0.94f,
+     .ground_least = 55000.0f, /* Half of the greatest, and 4860 m in the standard atmosphere. */
+     .ground_most = 110000.0f,
      .landed_rate = 0.3f,
      .landed_force = 1.5f,
      .landed_speed = 0.4f,

@@ -21,6 +21,9 @@
 
 #include <stdint.h>
 
+/** A check before arming beside KEEL_MODE_CHECK_: the pressure may be that of the ground. */
+#define COPTER_CHECK_PRESSURE 0x1000u
+
 /** All that a unit is made from, and what the tasks decide by. */
 typedef struct copter_settings {
     keel_virtual_imu_config_t imu;
@@ -38,6 +41,9 @@ typedef struct copter_settings {
     keel_mixer_config_t mixer;
     uint32_t load_limit_ppm; /**< The greatest load with which it may be armed. */
     float level;             /**< The least cosine of the tilt with which it may be armed. */
+    float ground_least;      /**< The least pressure with which it may be armed, in Pa: not below
+                                  half of the greatest, or an MS5607 may be taken for an MS5611. */
+    float ground_most;       /**< The greatest pressure with which it may be armed, in Pa. */
     float landed_rate;       /**< Less than this on the ground, in rad/s. */
     float landed_force;      /**< Less than this on the ground, forwards and sideways, in m/s^2. */
     float landed_speed;      /**< Less than this on the ground, up or down, in m/s. */

@@ -2,6 +2,8 @@
 /* The state machine: it is told plain facts, and says which mode flies and whether motors turn. */
 #include "copter.h"
 
+#include "keel/middleware/range.h"
+
 keel_status_t copter_state_init(copter_state_t *state)
 {
     return keel_mode_init(&state->mode, &copter_settings.mode);
@@ -71,6 +73,15 @@ static bool are_confirmed(const keel_virtual_imu_t *imu, uint32_t from, uint32_t
     return confirmed;
 }
 
+/* An MS5607 whose readings are taken for an MS5611's shows half of the pressure, and all else of it
+ * looks right. Without a pressure there is nothing to say. */
+static bool may_be_of_ground(const copter_air_t *air)
+{
+    return (air->samples == 0u) ||
+           keel_range_contains(air->pressure_pa, copter_settings.ground_least,
+                               copter_settings.ground_most);
+}
+
 static uint32_t checks_of(const copter_t *copter)
 {
     const keel_virtual_imu_t *const imu = &copter->inertia.imu;
@@ -85,7 +96,8 @@ static uint32_t checks_of(const copter_t *copter)
            when(estimate->position.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_POSITIONING) |
            when(copter->inertia.down.z >= copter_settings.level, KEEL_MODE_CHECK_LEVEL) |
            when(copter->energy.battery.level == KEEL_BATTERY_OK, KEEL_MODE_CHECK_BATTERY) |
-           when(estimate->position.has_origin, KEEL_MODE_CHECK_HOME);
+           when(estimate->position.has_origin, KEEL_MODE_CHECK_HOME) |
+           when(may_be_of_ground(&copter->air), COPTER_CHECK_PRESSURE);
 }
 
 void copter_state_machine(copter_t *copter)

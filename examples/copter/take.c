@@ -44,6 +44,7 @@ static const word_t checks[] = {
     {KEEL_MODE_CHECK_LOAD, "processor load"},
     {KEEL_MODE_CHECK_STORAGE, "storage"},
     {KEEL_MODE_CHECK_HOME, "no home"},
+    {COPTER_CHECK_PRESSURE, "pressure not of the ground: an MS5607?"},
 };
 
 static const word_t facts[] = {

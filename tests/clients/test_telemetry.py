@@ -16,7 +16,7 @@ from typing import Any
 from unittest import mock
 
 import pytest
-from flight import judge, library, scenario, sensors, ulog
+from flight import judge, library, mujoco_plant, scenario, sensors, ulog
 from flight.library import Copter, Key, Link
 from flight.loop import Flight, Order, fly
 from flight.pilot import Bystander, Pilot, Sight
@@ -578,6 +578,18 @@ def test_what_stands_in_the_way_is_named(
     rig.run(500)
     assert rig.state() == DISARMED
     assert any(said.startswith("not armed: ") and text in said for said in rig.texts())
+
+
+def test_half_of_the_pressure_is_named(copter: Copter) -> None:
+    """HEA-005: what an MS5607 shows whose readings are taken for an MS5611's."""
+    whole = mujoco_plant.MujocoPlant.pressure
+    with mock.patch.object(mujoco_plant.MujocoPlant, "pressure", lambda plant: whole(plant) / 2.0):
+        rig = Rig(copter)
+        assert rig.ask(ARM, 1) == REJECTED
+        rig.run(500)
+        assert rig.state() == DISARMED
+    assert "not armed: pressure not of the ground: an MS5607?" in rig.texts()
+    assert not any("altitude" in said for said in rig.texts())
 
 
 def test_without_the_pilots_link_nothing_moves(copter: Copter) -> None:

@@ -64,6 +64,20 @@ void background(int there, double pressure, int temperature)
 void foreground(void) { copter_foreground_barometer(&copter); }
 int air_temperature(void) { return copter.air.temperature; }
 double air_pressure(void) { return copter.air.pressure_pa; }
+int blocks_by_pressure(void)
+{
+    copter_settings = copter_defaults;
+    (void)copter_state_init(&copter.state);
+    copter_state_machine(&copter);
+    return (copter.state.mode.blocking.checks & COPTER_CHECK_PRESSURE) != 0u;
+}
+int healthy_barometer(void)
+{
+    uint8_t payload[KEEL_MAVLINK_PAYLOAD_MAX] = {0};
+    copter.estimate.altitude.axis.quality = KEEL_AXIS_GOOD;
+    (void)copter_report(&copter, &link_of_test, SENT_SYS_STATUS, payload);
+    return (payload[8] & MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE) != 0;
+}
 int measure(int has_supply, int supply, int has_temperature, int temperature)
 {
     chip = (copter_chip_t){(uint16_t)supply, (int16_t)temperature, has_supply != 0,
@@ -245,6 +259,28 @@ class CopterHealth(unittest.TestCase):
         ):
             self.copter.measure(supply, 3300, temperature, 4000)
             self.assertEqual(self.turns(len(told)), told)
+
+    def blocked(self, pressure: float) -> bool:
+        """Whether this pressure stands in the way of arming; SYS_STATUS says the same."""
+        self.breathe(pressure, 2154)
+        blocked = bool(self.copter.blocks_by_pressure())
+        self.assertEqual(bool(self.copter.healthy_barometer()), not blocked, pressure)
+        return blocked
+
+    def test_HEA_005_ends_of_what_a_ground_has(self) -> None:
+        for pressure, blocked in ((54999.0, True), (55000.0, False), (101325.0, False),
+                                  (110000.0, False), (110001.0, True)):  # fmt: skip
+            self.assertEqual(self.blocked(pressure), blocked, pressure)
+
+    def test_HEA_005_half_of_any_grounds_pressure(self) -> None:
+        """From the highest airport (4411 m) to the shore of the Dead Sea and to the highest that
+        was measured at a level of the sea."""
+        for pressure in (58600.0, 65000.0, 101325.0, 106500.0, 108480.0):
+            self.assertFalse(self.blocked(pressure), pressure)
+            self.assertTrue(self.blocked(pressure / 2.0), pressure)
+
+    def test_HEA_005_nothing_is_said_before_the_first_pressure(self) -> None:
+        self.assertFalse(self.copter.blocks_by_pressure())
 
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ from toolchain import Toolchain
 
 SIM = "examples/copter_in_plant/sim.h"
 MODE = "include/keel/flight/mode.h"
+SETTINGS = "examples/copter/settings.h"
 FLAGS = ("-std=c99", "-O2", "-fPIC", "-ffp-contract=off", "-Wall", "-Wextra", "-Iinclude", "-Ibsp",
          "-Iexamples/urpilot", "-Iexamples/copter", "-Iexamples/copter_in_plant")  # fmt: skip
 SOURCES = ("src", "examples/urpilot/urpilot_tasks.c", "bsp/common/slots.c",
@@ -197,9 +198,10 @@ class Copter:
 
 
 @functools.cache
-def numbered(prefix: str, kind: str = "u") -> dict[str, int]:
-    """Constants of mode.h in lower case, without their prefix: angle is 2."""
-    found = re.findall(rf"#define {prefix}(\w+)\s+(0x[0-9A-Fa-f]+|\d+){kind}", mode_header())
+def numbered(prefix: str, kind: str = "u", header: str = MODE) -> dict[str, int]:
+    """Constants of a header in lower case, without their prefix: angle is 2."""
+    text = read_text(ROOT / header)
+    found = re.findall(rf"#define {prefix}(\w+)\s+(0x[0-9A-Fa-f]+|\d+){kind}", text)
     return {name.lower(): int(value, 0) for name, value in found}
 
 
@@ -227,7 +229,8 @@ def named(group: str) -> list[str]:
 
 def checks_of(bits: int) -> Sequence[str]:
     """What stands in the way of arming, in words."""
-    return [name for name, bit in numbered("KEEL_MODE_CHECK_").items() if bits & bit]
+    known = {**numbered("KEEL_MODE_CHECK_"), **numbered("COPTER_CHECK_", header=SETTINGS)}
+    return [name for name, bit in known.items() if bits & bit]
 
 
 def facts_of(bits: int) -> Sequence[str]:
