@@ -159,22 +159,43 @@ static void take(copter_t *copter, uint32_t number, const keel_mavlink_frame_t *
     }
 }
 
-/* Acts on one frame at most; the bytes behind it wait for the next run. */
-static void receive(copter_t *copter, uint32_t number)
+/* Reads what came when nothing waits; whether the line is silent. */
+static bool read_line(copter_t *copter, uint32_t number)
 {
     const copter_lines_t *const lines = &copter->telemetry->config.lines;
     copter_link_t *const link = &copter->telemetry->link[number];
-    bool taken = false;
 
     if (link->looked_at == link->count) {
         link->count = lines->read(lines->context, number, link->bytes, COPTER_LINK_BYTES);
         link->looked_at = 0u;
+        link->heard_us = (link->count > 0u) ? copter->scheduler.clock.now_us : link->heard_us;
     }
-    while (!taken && (link->looked_at < link->count)) {
-        taken = keel_mavlink_take(&link->decoder, link->bytes[link->looked_at]);
-        link->looked_at++;
+    return (link->count == 0u) &&
+           ((copter->scheduler.clock.now_us - link->heard_us) > COPTER_LINK_SILENCE_US);
+}
+
+/* Acts on one frame at most; what is behind it waits for the next run, as does what is behind so
+ * many looks that found a frame or a false beginning of one. */
+static void receive(copter_t *copter, uint32_t number)
+{
+    copter_link_t *const link = &copter->telemetry->link[number];
+    const bool silent = read_line(copter, number);
+    keel_mavlink_look_t seen = KEEL_MAVLINK_NOTHING;
+    uint32_t looks = 0u;
+    bool more = true;
+
+    while (more && (seen != KEEL_MAVLINK_FRAME) && (looks < COPTER_LINK_LOOKS)) {
+        seen = silent ? keel_mavlink_gap(&link->decoder) : keel_mavlink_look(&link->decoder);
+        if (seen != KEEL_MAVLINK_NOTHING) {
+            looks++;
+        } else if (link->looked_at < link->count) {
+            (void)keel_mavlink_take(&link->decoder, link->bytes[link->looked_at]);
+            link->looked_at++;
+        } else {
+            more = false;
+        }
     }
-    if (taken) {
+    if (seen == KEEL_MAVLINK_FRAME) {
         take(copter, number, &link->decoder.frame);
     }
 }

@@ -6,8 +6,8 @@
  * A copter has up to COPTER_LINKS links, each with its own decoder, intervals, answers and bytes
  * per second (turns.h). Nothing waits: what finds no room on a link is sent later, and what does
  * not fit into a queue is not sent; texts that a link missed are counted. A run is for one link,
- * looks at no more than COPTER_LINK_BYTES of it, acts on at most one frame, and sends at most one:
- * so its time is bounded, whatever comes.
+ * looks at no more than COPTER_LINK_BYTES of it and COPTER_LINK_LOOKS beginnings of frames, acts on
+ * at most one frame, and sends at most one: so its time is bounded, whatever comes.
  *
  * What a ground station may ask is in take.c, and of parameters in take_parameters.c; what moves
  * the aircraft goes through request.h.
@@ -28,13 +28,17 @@
 
 #define COPTER_LINKS       3u
 #define COPTER_LINK_BYTES  64u
+#define COPTER_LINK_LOOKS  8u /**< Looks of a run that find a frame or a false beginning. */
 #define COPTER_LINK_ACKS   4u
 #define COPTER_LINK_ERRORS 4u
 #define COPTER_TEXTS       16u
 #define COPTER_TEXT_LENGTH 50u
 #define COPTER_MODES       6u /**< That a pilot or a station may ask for: those of mode.h. */
 #define COPTER_NAMED       3u /**< Values that NAMED_VALUE_INT tells in turn. */
-#define COPTER_WORDS       ((COPTER_PARAMETER_COUNT + 31u) / 32u)
+/** No byte for longer than this: what is held of a frame is none. Radios pause within frames, for
+ *  shorter than this; ground stations ask again after longer. */
+#define COPTER_LINK_SILENCE_US 300000u
+#define COPTER_WORDS           ((COPTER_PARAMETER_COUNT + 31u) / 32u)
 
 /** The lines that links run on. */
 typedef struct copter_lines {
@@ -77,6 +81,7 @@ typedef struct copter_link {
     uint32_t count;
     uint32_t looked_at;
     uint64_t ran_us;                             /**< When it had its last run. */
+    uint64_t heard_us;                           /**< When its last byte came. */
     message_command_ack_t ack[COPTER_LINK_ACKS]; /**< To be sent, the oldest first. */
     uint32_t acks;
     message_param_error_t error[COPTER_LINK_ERRORS]; /**< The same. */

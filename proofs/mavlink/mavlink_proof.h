@@ -12,10 +12,6 @@
 
 #include <stdbool.h>
 
-/* How many messages decoders know here: a number that CBMC sees, so that it looks no further. WP
- * shows the clauses for any number of them. */
-#define MESSAGES 3u
-
 bool nondet_bool(void);
 uint8_t nondet_u8(void);
 uint16_t nondet_u16(void);
@@ -23,36 +19,22 @@ uint32_t nondet_u32(void);
 keel_mavlink_t nondet_mavlink(void);
 keel_mavlink_message_t nondet_message(void);
 
-static keel_mavlink_message_t table[MESSAGES];
+/* All that may be known, drawn at once: one by one takes CBMC longer. */
+typedef struct {
+    keel_mavlink_message_t messages[KEEL_MAVLINK_MESSAGES_MAX];
+} table_t;
 
-/* mavlink_table */
-static bool table_in_order(uint32_t known)
-{
-    bool ordered = true;
+table_t nondet_table(void);
 
-    for (uint32_t i = 0u; i < MESSAGES; i++) {
-        ordered = ordered && ((i >= known) || ((table[i].id <= 0xFFFFFFu) &&
-                                               (table[i].shortest <= table[i].longest)));
-        ordered = ordered && ((i == 0u) || (i >= known) || (table[i - 1u].id < table[i].id));
-    }
-    return ordered;
-}
-
-static void any_table(void)
-{
-    for (uint32_t i = 0u; i < MESSAGES; i++) {
-        table[i] = nondet_message();
-    }
-}
+static table_t table;
 
 /* Any bits, but that a bool is one and that the table is the one here. */
 static keel_mavlink_t any_mavlink(void)
 {
     keel_mavlink_t mavlink = nondet_mavlink();
 
-    any_table();
-    mavlink.messages = table;
-    mavlink.known = MESSAGES;
+    table = nondet_table();
+    mavlink.messages = table.messages;
     mavlink.frame.is_signed = nondet_bool();
     return mavlink;
 }
@@ -62,34 +44,29 @@ static uint32_t id_of(const uint8_t *bytes)
     return bytes[7] + ((uint32_t)bytes[8] << 8u) + ((uint32_t)bytes[9] << 16u);
 }
 
-/* mavlink_is_of */
-static bool is_of(const uint8_t *bytes, const keel_mavlink_message_t *message)
+/* mavlink_fits */
+static bool fits_here(const uint8_t *bytes, const keel_mavlink_message_t *message)
 {
-    return (message->id == id_of(bytes)) && (message->shortest <= bytes[1]) &&
+    return (bytes[2] <= 1u) && (message->id == id_of(bytes)) && (message->shortest <= bytes[1]) &&
            (bytes[1] <= message->longest);
 }
 
 /* mavlink_valid */
 static bool mavlink_valid_here(const keel_mavlink_t *m)
 {
-    bool valid = (m->held < 280u) && ((m->held == 0u) || (m->header[0] == 0xFDu));
+    const bool begins = (m->held <= 280u) && ((m->held == 0u) || (m->bytes[0] == 0xFDu));
 
-    valid = valid && ((m->held < 3u) ||
-                      ((m->header[2] <= 1u) && (m->held < model_mavlink_whole(m->header))));
-    if (m->held >= 10u) {
-        valid = valid && (m->message <= MESSAGES);
-        for (uint32_t i = 0u; i < MESSAGES; i++) {
-            valid = valid && ((i != m->message) || is_of(m->header, &table[i]));
-        }
-    }
-    return valid;
+    return begins && ((m->awaited == 10u) || ((m->held >= 10u) && (m->message < m->known) &&
+                                              (m->awaited == model_mavlink_whole(m->bytes)) &&
+                                              fits_here(m->bytes, &table.messages[m->message])));
 }
 
+/* Also of tables that are in no order. */
 static keel_mavlink_t any_valid_mavlink(void)
 {
     const keel_mavlink_t mavlink = any_mavlink();
 
-    __CPROVER_assume(table_in_order(MESSAGES) && mavlink_valid_here(&mavlink));
+    __CPROVER_assume((mavlink.known <= 256u) && mavlink_valid_here(&mavlink));
     return mavlink;
 }
 
@@ -110,28 +87,15 @@ static bool mavlink_count_same(const keel_mavlink_count_t *a, const keel_mavlink
 {
     return (a->frames == b->frames) && (a->checksums == b->checksums) &&
            (a->unknown == b->unknown) && (a->lengths == b->lengths) && (a->flags == b->flags) &&
-           (a->others == b->others) && (a->gaps == b->gaps);
+           (a->gaps == b->gaps) && (a->others == b->others);
 }
 
 static bool mavlink_same(const keel_mavlink_t *a, const keel_mavlink_t *b, uint32_t i)
 {
     return (a->messages == b->messages) && (a->known == b->known) &&
-           mavlink_frame_same(&a->frame, &b->frame, i) &&
-           mavlink_count_same(&a->count, &b->count) && (a->held == b->held) && (a->crc == b->crc) &&
-           (a->message == b->message) && (a->header[0u] == b->header[0u]) &&
-           (a->header[1u] == b->header[1u]) && (a->header[2u] == b->header[2u]) &&
-           (a->header[3u] == b->header[3u]) && (a->header[4u] == b->header[4u]) &&
-           (a->header[5u] == b->header[5u]) && (a->header[6u] == b->header[6u]) &&
-           (a->header[7u] == b->header[7u]) && (a->header[8u] == b->header[8u]) &&
-           (a->header[9u] == b->header[9u]) && (a->payload[i] == b->payload[i]) &&
-           (a->tail[0u] == b->tail[0u]) && (a->tail[1u] == b->tail[1u]) &&
-           (a->tail[2u] == b->tail[2u]) && (a->tail[3u] == b->tail[3u]) &&
-           (a->tail[4u] == b->tail[4u]) && (a->tail[5u] == b->tail[5u]) &&
-           (a->tail[6u] == b->tail[6u]) && (a->tail[7u] == b->tail[7u]) &&
-           (a->tail[8u] == b->tail[8u]) && (a->tail[9u] == b->tail[9u]) &&
-           (a->tail[10u] == b->tail[10u]) && (a->tail[11u] == b->tail[11u]) &&
-           (a->tail[12u] == b->tail[12u]) && (a->tail[13u] == b->tail[13u]) &&
-           (a->tail[14u] == b->tail[14u]);
+           mavlink_frame_same(&a->frame, &b->frame, (i < 255u) ? i : 0u) &&
+           mavlink_count_same(&a->count, &b->count) && (a->message == b->message) &&
+           (a->held == b->held) && (a->awaited == b->awaited) && (a->bytes[i] == b->bytes[i]);
 }
 
 static bool mavlink_packet_same(const keel_mavlink_packet_t *a, const keel_mavlink_packet_t *b,

@@ -35,8 +35,8 @@ keel_status_t model_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_mes
     *mavlink = nothing;
     mavlink->messages = messages;
     mavlink->known = known;
-    mavlink->crc = 0xFFFFu;
     mavlink->message = known;
+    mavlink->awaited = 10u;
     return KEEL_OK;
 }
 
@@ -77,148 +77,150 @@ static uint64_t number(const uint8_t *bytes, uint32_t count)
 }
 
 /* MAV-005 */
-keel_mavlink_frame_t model_mavlink_frame(const keel_mavlink_t *mavlink)
+keel_mavlink_frame_t model_mavlink_frame(const uint8_t *bytes)
 {
-    const uint8_t *header = mavlink->header;
-    keel_mavlink_frame_t frame = {.id = (uint32_t)number(&header[7], 3u),
-                                  .sequence = header[4],
-                                  .system = header[5],
-                                  .component = header[6],
-                                  .compatible = header[3],
-                                  .length = header[1],
-                                  .checksum = (uint16_t)number(mavlink->tail, 2u),
-                                  .is_signed = (header[2] & 1u) != 0u};
+    const uint8_t *tail = &bytes[10u + bytes[1]];
+    keel_mavlink_frame_t frame = {.id = (uint32_t)number(&bytes[7], 3u),
+                                  .sequence = bytes[4],
+                                  .system = bytes[5],
+                                  .component = bytes[6],
+                                  .compatible = bytes[3],
+                                  .length = bytes[1],
+                                  .checksum = (uint16_t)number(tail, 2u),
+                                  .is_signed = (bytes[2] & 1u) != 0u};
 
     for (uint32_t i = 0u; i < 255u; i++) {
-        if (i < header[1]) {
-            frame.payload[i] = mavlink->payload[i];
+        if (i < bytes[1]) {
+            frame.payload[i] = bytes[10u + i];
         }
     }
     if (frame.is_signed) {
-        frame.link = mavlink->tail[2];
-        frame.timestamp = number(&mavlink->tail[3], 6u);
+        frame.link = tail[2];
+        frame.timestamp = number(&tail[3], 6u);
         for (uint32_t i = 0u; i < 6u; i++) {
-            frame.seal[i] = mavlink->tail[9u + i];
+            frame.seal[i] = tail[9u + i];
         }
     }
     return frame;
 }
 
-/* MAV-008: the byte is held, and counts for the checksum unless it is of that, or behind it. */
-static void keep(keel_mavlink_t *mavlink, uint8_t byte)
+/* MAV-008 */
+keel_status_t model_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte)
 {
-    const uint32_t at = mavlink->held;
-
-    const uint32_t length = mavlink->header[1];
-    const bool is_header = at < 10u;
-    const bool is_payload = !is_header && ((at - 10u) < length);
-
-    if (is_header) {
-        mavlink->header[at] = byte;
-    } else if (is_payload) {
-        mavlink->payload[at - 10u] = byte;
-    } else {
-        mavlink->tail[at - (10u + length)] = byte;
+    if (mavlink->held == 280u) {
+        return KEEL_ERR_FULL;
     }
-    mavlink->held = (uint16_t)(at + 1u);
-    if (at == 0u) {
-        mavlink->crc = 0xFFFFu;
-    } else if (is_header || is_payload) {
-        mavlink->crc = model_crc16(mavlink->crc, byte);
-    }
-}
-
-/* MAV-008: what is no beginning is not held. */
-static void begin_with(keel_mavlink_t *mavlink, uint8_t byte)
-{
-    if (byte == 0xFDu) {
-        keep(mavlink, byte);
+    if ((mavlink->held > 0u) || (byte == 0xFDu)) {
+        mavlink->bytes[mavlink->held] = byte;
+        mavlink->held = (uint16_t)(mavlink->held + 1u);
     } else {
         tally(&mavlink->count.others);
     }
+    return KEEL_OK;
 }
 
-/* MAV-009: the search goes on at the second byte, and then at the third. */
-static void begin_again(keel_mavlink_t *mavlink)
+/* MAV-014: what is left begins with the first 0xFD that is not among the first bytes; those between
+ * are of no frame. */
+static void go_on(keel_mavlink_t *mavlink, uint32_t count)
 {
-    const uint8_t second = mavlink->header[1];
-    const uint8_t third = mavlink->header[2];
+    const keel_mavlink_t old = *mavlink;
+    uint32_t first = old.held;
 
-    tally(&mavlink->count.flags);
-    mavlink->held = 0u;
-    begin_with(mavlink, second);
-    if (mavlink->held == 1u) {
-        keep(mavlink, third);
-    } else {
-        begin_with(mavlink, third);
-    }
-}
-
-/* MAV-004, MAV-007: the place of the message that the header names, if it may be so long. */
-static void look_up(keel_mavlink_t *mavlink)
-{
-    const uint32_t id = (uint32_t)number(&mavlink->header[7], 3u);
-    uint32_t place = mavlink->known;
-
-    for (uint32_t i = 0u; i < mavlink->known; i++) {
-        if (mavlink->messages[i].id == id) {
-            place = i;
+    for (uint32_t i = 280u; i > count; i--) {
+        if (((i - 1u) < old.held) && (old.bytes[i - 1u] == 0xFDu)) {
+            first = i - 1u;
         }
     }
-    mavlink->message = mavlink->known;
-    if (place == mavlink->known) {
-        tally(&mavlink->count.unknown);
-    } else if ((mavlink->messages[place].shortest <= mavlink->header[1]) &&
-               (mavlink->header[1] <= mavlink->messages[place].longest)) {
-        mavlink->message = place;
-    } else {
-        tally(&mavlink->count.lengths);
+    for (uint32_t i = count; i < first; i++) {
+        tally(&mavlink->count.others);
     }
+    for (uint32_t i = 0u; (first + i) < old.held; i++) {
+        mavlink->bytes[i] = old.bytes[first + i];
+    }
+    mavlink->held = (uint16_t)(old.held - first);
+    mavlink->awaited = 10u;
 }
 
-/* MAV-004, MAV-006 */
-static bool finish_frame(keel_mavlink_t *mavlink)
+/* MAV-004: the place of the message with this id, or how many there are. */
+static uint32_t find(const keel_mavlink_t *mavlink, uint32_t id)
 {
-    mavlink->held = 0u;
-    if (mavlink->message == mavlink->known) {
+    for (uint32_t i = 0u; i < mavlink->known; i++) {
+        if (mavlink->messages[i].id == id) {
+            return i;
+        }
+    }
+    return mavlink->known;
+}
+
+/* MAV-004, MAV-007, MAV-009: whether the header is of a frame that may be right. */
+static bool may_be(keel_mavlink_t *mavlink)
+{
+    const uint32_t place = find(mavlink, (uint32_t)number(&mavlink->bytes[7], 3u));
+
+    if (mavlink->bytes[2] >= 2u) {
+        tally(&mavlink->count.flags);
         return false;
     }
-    if (number(mavlink->tail, 2u) !=
-        model_crc16(mavlink->crc, mavlink->messages[mavlink->message].crc_extra)) {
-        tally(&mavlink->count.checksums);
+    if (place == mavlink->known) {
+        tally(&mavlink->count.unknown);
         return false;
     }
-    mavlink->frame = model_mavlink_frame(mavlink);
-    tally(&mavlink->count.frames);
+    if ((mavlink->bytes[1] < mavlink->messages[place].shortest) ||
+        (mavlink->bytes[1] > mavlink->messages[place].longest)) {
+        tally(&mavlink->count.lengths);
+        return false;
+    }
+    mavlink->message = place;
     return true;
 }
 
-bool model_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte)
+/* MAV-004, MAV-006: whether the frame is right; if so, it is told. */
+static bool is_taken(keel_mavlink_t *mavlink)
 {
-    if (mavlink->held == 0u) {
-        begin_with(mavlink, byte);
+    const keel_mavlink_frame_t frame = model_mavlink_frame(mavlink->bytes);
+
+    if (frame.checksum !=
+        model_mavlink_checksum(mavlink->bytes, mavlink->messages[mavlink->message].crc_extra)) {
+        tally(&mavlink->count.checksums);
         return false;
     }
-    keep(mavlink, byte);
-    if ((mavlink->held == 3u) && (mavlink->header[2] >= 2u)) {
-        begin_again(mavlink);
+    tally(&mavlink->count.frames);
+    mavlink->frame = frame;
+    return true;
+}
+
+keel_mavlink_look_t model_mavlink_look(keel_mavlink_t *mavlink)
+{
+    if (mavlink->held < mavlink->awaited) {
+        return KEEL_MAVLINK_NOTHING;
     }
-    if (mavlink->held == 10u) {
-        look_up(mavlink);
+    if (mavlink->awaited == 10u) {
+        if (may_be(mavlink)) {
+            mavlink->awaited = (uint16_t)model_mavlink_whole(mavlink->bytes);
+        } else {
+            go_on(mavlink, 1u);
+        }
+        return KEEL_MAVLINK_AGAIN;
     }
-    if ((mavlink->held >= 12u) && (mavlink->held == model_mavlink_whole(mavlink->header))) {
-        return finish_frame(mavlink);
+    if (is_taken(mavlink)) {
+        go_on(mavlink, mavlink->awaited);
+        return KEEL_MAVLINK_FRAME;
     }
-    return false;
+    go_on(mavlink, 1u);
+    return KEEL_MAVLINK_AGAIN;
 }
 
 /* MAV-010 */
-void model_mavlink_gap(keel_mavlink_t *mavlink)
+keel_mavlink_look_t model_mavlink_gap(keel_mavlink_t *mavlink)
 {
-    if (mavlink->held != 0u) {
-        tally(&mavlink->count.gaps);
+    const bool is_partial = (mavlink->held != 0u) && (mavlink->held < mavlink->awaited);
+
+    if (!is_partial) {
+        return model_mavlink_look(mavlink);
     }
-    mavlink->held = 0u;
+    tally(&mavlink->count.gaps);
+    go_on(mavlink, 1u);
+    return KEEL_MAVLINK_AGAIN;
 }
 
 /* MAV-012: up to the last byte that is not 0, or the first of all. */

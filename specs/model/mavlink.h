@@ -10,15 +10,16 @@
 
 keel_status_t model_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_message_t *messages,
                                  uint32_t known);
-bool model_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte);
-void model_mavlink_gap(keel_mavlink_t *mavlink);
+keel_status_t model_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte);
+keel_mavlink_look_t model_mavlink_look(keel_mavlink_t *mavlink);
+keel_mavlink_look_t model_mavlink_gap(keel_mavlink_t *mavlink);
 uint16_t model_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_message_t *message,
                              const uint8_t *payload, uint8_t length, keel_mavlink_packet_t *packet);
 
 /* The bytes of a frame that begins with these (with its length and flags), and what the whole frame
- * says that a decoder holds: what the proofs and tests say frames by. */
+ * says: what the proofs and tests say frames by. */
 uint32_t model_mavlink_whole(const uint8_t *header);
-keel_mavlink_frame_t model_mavlink_frame(const keel_mavlink_t *mavlink);
+keel_mavlink_frame_t model_mavlink_frame(const uint8_t *bytes);
 
 /* The checksum of a whole frame, the byte of its message included. */
 uint16_t model_mavlink_checksum(const uint8_t *bytes, uint8_t crc_extra);

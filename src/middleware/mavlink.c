@@ -13,7 +13,7 @@
 /* Where the payload is in a frame. */
 #define PAYLOAD_AT ((uint32_t)KEEL_MAVLINK_HEADER_BYTES)
 
-/* Where it is in a tail, behind the checksum. */
+/* Where it is behind the payload, when the frame is signed. */
 #define LINK_AT      2u
 #define TIMESTAMP_AT 3u
 #define SEAL_AT      9u
@@ -39,48 +39,72 @@ static void count_met(uint32_t *count)
     *count += (*count < UINT32_MAX) ? 1u : 0u;
 }
 
-/* With a header: its message. */
-/*@ requires \valid_read(mavlink);
+/* A header's message. */
+/*@ requires \valid_read(bytes + (0 .. KEEL_MAVLINK_HEADER_BYTES - 1));
   @ assigns \nothing;
-  @ ensures \result == mavlink_id(&mavlink->header[0]);
+  @ ensures \result == mavlink_id(bytes);
   @*/
-static uint32_t id_in(const keel_mavlink_t *mavlink)
+static uint32_t id_in(const uint8_t *bytes)
 {
-    return mavlink->header[ID_AT] + (256u * mavlink->header[ID_AT + 1u]) +
-           (65536u * mavlink->header[ID_AT + 2u]);
+    return bytes[ID_AT] + (256u * bytes[ID_AT + 1u]) + (65536u * bytes[ID_AT + 2u]);
 }
 
-/* With a checksum: that. */
-/*@ requires \valid_read(mavlink);
+/* Where a frame's checksum is. */
+/*@ requires \valid_read(bytes + (0 .. KEEL_MAVLINK_HEADER_BYTES - 1));
   @ assigns \nothing;
+  @ ensures \result == mavlink_end(bytes);
   @*/
-static uint16_t checksum_in(const keel_mavlink_t *mavlink)
+static uint32_t end_of(const uint8_t *bytes)
 {
-    return (uint16_t)(mavlink->tail[0] + (256u * mavlink->tail[1]));
+    return PAYLOAD_AT + (uint32_t)bytes[LENGTH_AT];
 }
 
-/* With a length: where its checksum is. */
-/*@ requires \valid_read(mavlink);
+/* How many bytes a frame has. */
+/*@ requires \valid_read(bytes + (0 .. KEEL_MAVLINK_HEADER_BYTES - 1));
   @ assigns \nothing;
-  @ ensures \result == mavlink_end(&mavlink->header[0]);
+  @ ensures \result == mavlink_whole(bytes);
   @*/
-static uint32_t end_of(const keel_mavlink_t *mavlink)
+static uint32_t whole_frame(const uint8_t *bytes)
 {
-    return PAYLOAD_AT + (uint32_t)mavlink->header[LENGTH_AT];
+    const uint32_t signature = (bytes[FLAGS_AT] != 0u) ? (uint32_t)KEEL_MAVLINK_SIGNATURE_BYTES
+                                                       : 0u;
+
+    return end_of(bytes) + (uint32_t)KEEL_MAVLINK_CHECKSUM_BYTES + signature;
 }
 
-/* With flags: how many bytes it has. */
-/*@ requires \valid_read(mavlink);
+/* A frame's checksum, as it was sent. */
+/*@ requires \valid_read(bytes + (0 .. KEEL_MAVLINK_FRAME_MAX - 1));
   @ assigns \nothing;
-  @ ensures \result == mavlink_whole(&mavlink->header[0]);
+  @ ensures \result == mavlink_sent(bytes);
   @*/
-static uint32_t whole_frame(const keel_mavlink_t *mavlink)
+static uint16_t checksum_in(const uint8_t *bytes)
 {
-    const uint32_t signature = (mavlink->header[FLAGS_AT] != 0u)
-                                   ? (uint32_t)KEEL_MAVLINK_SIGNATURE_BYTES
-                                   : 0u;
+    const uint32_t end = end_of(bytes);
 
-    return end_of(mavlink) + (uint32_t)KEEL_MAVLINK_CHECKSUM_BYTES + signature;
+    return (uint16_t)(bytes[end] + (256u * bytes[end + 1u]));
+}
+
+/* What the checksum is of such bytes of a frame, and of its message. */
+/*@ requires 1 <= end <= KEEL_MAVLINK_FRAME_MAX && \valid_read(bytes + (0 .. end - 1));
+  @ assigns \nothing;
+  @ ensures \result == mavlink_checksum(bytes, end, extra);
+  @*/
+static uint16_t checksum_of(const uint8_t *bytes, uint32_t end, uint8_t extra)
+{
+    uint16_t crc = KEEL_CRC16_FIRST;
+
+    /*@ loop invariant LENGTH_AT <= i <= end;
+      @ loop invariant crc == mavlink_crc(bytes, i);
+      @ loop assigns i, crc;
+      @ loop variant end - i;
+      @*/
+    for (uint32_t i = LENGTH_AT; i < end; i++) {
+        /*@ assert more: mavlink_crc(bytes, i + 1) ==
+          @     mavlink_crc16(mavlink_crc(bytes, i), bytes[i]);
+          @*/
+        crc = keel_crc16(crc, bytes[i]);
+    }
+    return keel_crc16(crc, extra);
 }
 
 /* The message's place; the number of messages when there is none. */
@@ -88,7 +112,8 @@ static uint32_t whole_frame(const keel_mavlink_t *mavlink)
   @ assigns \nothing;
   @ ensures \result <= mavlink->known;
   @ ensures \result < mavlink->known ==> mavlink->messages[\result].id == id;
-  @ ensures \forall integer i; 0 <= i < \result ==> mavlink->messages[i].id != id;
+  @ ensures \forall integer i; 0 <= i < mavlink->known && i != \result ==>
+  @     mavlink->messages[i].id != id;
   @*/
 static uint32_t place_of(const keel_mavlink_t *mavlink, uint32_t id)
 {
@@ -105,130 +130,93 @@ static uint32_t place_of(const keel_mavlink_t *mavlink, uint32_t id)
     return place;
 }
 
-/* Puts a byte where it belongs. Whether the checksum is of it, too. */
-/*@ requires \valid(mavlink) && mavlink->held < KEEL_MAVLINK_FRAME_MAX;
-  @ requires mavlink->held > 2 ==> mavlink->header[2] <= 1 &&
-  @     mavlink->held < mavlink_whole(&mavlink->header[0]);
-  @ assigns mavlink->header[0 .. KEEL_MAVLINK_HEADER_BYTES - 1],
-  @     mavlink->payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1],
-  @     mavlink->tail[0 .. KEEL_MAVLINK_TAIL_MAX - 1];
-  @ ensures \result <==> \old(mavlink->held < mavlink_end(&mavlink->header[0]));
-  @ ensures \forall integer i; 0 <= i < KEEL_MAVLINK_HEADER_BYTES ==> mavlink->header[i] ==
-  @     (i == mavlink->held ? byte : \old(mavlink->header[i]));
-  @ ensures \forall integer i; 0 <= i < \old(mavlink->header[1]) ==> mavlink->payload[i] ==
-  @     (KEEL_MAVLINK_HEADER_BYTES + i == mavlink->held ? byte : \old(mavlink->payload[i]));
-  @*/
-static bool put_byte(keel_mavlink_t *mavlink, uint8_t byte)
-{
-    const uint32_t at = mavlink->held;
-    const uint32_t end = end_of(mavlink);
-
-    if (at < PAYLOAD_AT) {
-        mavlink->header[at] = byte;
-    } else if (at < end) {
-        mavlink->payload[at - PAYLOAD_AT] = byte;
-    } else {
-        mavlink->tail[at - end] = byte;
-    }
-    return at < end;
-}
-
-/* Takes a byte into a partial frame, or begins one with it. */
-/*@ requires \valid(mavlink) && mavlink->held < KEEL_MAVLINK_FRAME_MAX;
-  @ requires mavlink->held > 2 ==> mavlink->header[2] <= 1 &&
-  @     mavlink->held < mavlink_whole(&mavlink->header[0]);
-  @ assigns mavlink->header[0 .. KEEL_MAVLINK_HEADER_BYTES - 1],
-  @     mavlink->payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1],
-  @     mavlink->tail[0 .. KEEL_MAVLINK_TAIL_MAX - 1], mavlink->held, mavlink->crc,
+/* Drops bytes from the front, and those behind them up to the next beginning. */
+/*@ requires \valid(mavlink) && 1 <= count <= mavlink->held <= KEEL_MAVLINK_FRAME_MAX;
+  @ assigns mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1], mavlink->held, mavlink->awaited,
   @     mavlink->count.others;
-  @ ensures \old(mavlink->held) == 0 && byte != KEEL_MAVLINK_FIRST ==> mavlink->held == 0 &&
-  @     mavlink->crc == \old(mavlink->crc);
-  @ ensures \old(mavlink->held) > 0 || byte == KEEL_MAVLINK_FIRST ==>
-  @     mavlink->held == \old(mavlink->held) + 1;
-  @ ensures \old(mavlink->held) > 0 || byte == KEEL_MAVLINK_FIRST ==>
-  @     \forall integer i; 0 <= i < KEEL_MAVLINK_HEADER_BYTES ==> mavlink->header[i] ==
-  @         (i == \old(mavlink->held) ? byte : \old(mavlink->header[i]));
-  @ ensures \old(mavlink->held) > 0 ==>
-  @     \forall integer i; 0 <= i < \old(mavlink->header[1]) ==> mavlink->payload[i] ==
-  @         (KEEL_MAVLINK_HEADER_BYTES + i == \old(mavlink->held) ? byte :
-  @             \old(mavlink->payload[i]));
-  @ ensures \old(mavlink->held) == 0 && byte == KEEL_MAVLINK_FIRST ==>
-  @     mavlink->crc == KEEL_CRC16_FIRST;
+  @ ensures mavlink_dropped{Pre, Post}(mavlink, count) && mavlink->held < \old(mavlink->held);
+  @ ensures mavlink->held > 0 ==> mavlink->bytes[0] == KEEL_MAVLINK_FIRST;
+  @ ensures mavlink->awaited == KEEL_MAVLINK_HEADER_BYTES;
   @*/
-static void offer(keel_mavlink_t *mavlink, uint8_t byte)
+static void drop(keel_mavlink_t *mavlink, uint32_t count)
 {
-    if (mavlink->held > 0u) {
-        if (put_byte(mavlink, byte)) {
-            mavlink->crc = keel_crc16(mavlink->crc, byte);
+    uint32_t from = 1u;
+    uint32_t left;
+
+    /*@ loop invariant 1 <= from <= mavlink->held;
+      @ loop invariant \forall integer j; count <= j < from ==>
+      @     mavlink->bytes[j] != KEEL_MAVLINK_FIRST;
+      @ loop assigns from, mavlink->count.others;
+      @ loop variant mavlink->held - from;
+      @*/
+    while ((from < mavlink->held) &&
+           ((from < count) || (mavlink->bytes[from] != (uint8_t)KEEL_MAVLINK_FIRST))) {
+        if (from >= count) {
+            count_met(&mavlink->count.others);
         }
-        mavlink->held++;
-    } else if (byte == (uint8_t)KEEL_MAVLINK_FIRST) {
-        (void)put_byte(mavlink, byte);
-        mavlink->crc = KEEL_CRC16_FIRST;
-        mavlink->held = 1u;
-    } else {
-        count_met(&mavlink->count.others);
+        from++;
     }
+    left = mavlink->held - from;
+    /*@ loop invariant 0 <= i <= left;
+      @ loop invariant \forall integer j; from <= j < from + i ==>
+      @     mavlink->bytes[j - from] == \at(mavlink->bytes[j], Pre);
+      @ loop invariant \forall integer j; i <= j < KEEL_MAVLINK_FRAME_MAX ==>
+      @     mavlink->bytes[j] == \at(mavlink->bytes[j], Pre);
+      @ loop assigns i, mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1];
+      @ loop variant left - i;
+      @*/
+    for (uint32_t i = 0u; i < left; i++) {
+        mavlink->bytes[i] = mavlink->bytes[from + i];
+    }
+    mavlink->held = (uint16_t)left;
+    mavlink->awaited = (uint16_t)KEEL_MAVLINK_HEADER_BYTES;
 }
 
-/* With three bytes. When they begin no frame, one may begin at the second or the third. */
-/*@ requires \valid(mavlink) && mavlink->held == 3 && mavlink->header[0] == KEEL_MAVLINK_FIRST;
-  @ assigns mavlink->header[0 .. KEEL_MAVLINK_HEADER_BYTES - 1],
-  @     mavlink->payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1],
-  @     mavlink->tail[0 .. KEEL_MAVLINK_TAIL_MAX - 1], mavlink->held, mavlink->crc,
-  @     mavlink->count.others, mavlink->count.flags;
-  @ ensures \old(mavlink->header[2]) <= 1 ==> mavlink->held == 3 &&
-  @     mavlink->crc == \old(mavlink->crc) &&
-  @     (\forall integer i; 0 <= i < KEEL_MAVLINK_HEADER_BYTES ==>
-  @         mavlink->header[i] == \old(mavlink->header[i])) &&
-  @     (\forall integer i; 0 <= i < KEEL_MAVLINK_PAYLOAD_MAX ==>
-  @         mavlink->payload[i] == \old(mavlink->payload[i]));
-  @ ensures \old(mavlink->header[2]) > 1 ==> mavlink->held <= 2;
-  @ ensures mavlink->held > 0 ==> mavlink->header[0] == KEEL_MAVLINK_FIRST;
+/* With a header: awaits its frame when it may be one, and otherwise drops its first byte. */
+/*@ requires mavlink_apart(mavlink) && mavlink_valid(mavlink);
+  @ requires KEEL_MAVLINK_HEADER_BYTES == mavlink->awaited <= mavlink->held;
+  @ assigns mavlink->message, mavlink->count.flags, mavlink->count.unknown,
+  @     mavlink->count.lengths, mavlink->count.others, mavlink->held, mavlink->awaited,
+  @     mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1];
+  @ ensures mavlink_valid(mavlink);
+  @ ensures mavlink->held == \old(mavlink->held) ==>
+  @     mavlink->awaited > KEEL_MAVLINK_HEADER_BYTES &&
+  @     \forall integer j; 0 <= j < KEEL_MAVLINK_FRAME_MAX ==>
+  @         mavlink->bytes[j] == \old(mavlink->bytes[j]);
+  @ ensures mavlink->held != \old(mavlink->held) ==> !\old(mavlink_right(mavlink)) &&
+  @     mavlink_dropped{Pre, Post}(mavlink, 1) && mavlink->held < \old(mavlink->held) &&
+  @     mavlink->awaited == KEEL_MAVLINK_HEADER_BYTES;
   @*/
-static void check_flags(keel_mavlink_t *mavlink)
+static void read_header(keel_mavlink_t *mavlink)
 {
-    const uint8_t second = mavlink->header[LENGTH_AT];
-    const uint8_t third = mavlink->header[FLAGS_AT];
+    const uint8_t length = mavlink->bytes[LENGTH_AT];
+    const uint32_t place = place_of(mavlink, id_in(mavlink->bytes));
+    bool fits = false;
 
-    if (third > FLAG_SIGNED) {
+    if (mavlink->bytes[FLAGS_AT] > FLAG_SIGNED) {
         count_met(&mavlink->count.flags);
-        mavlink->held = 0u;
-        offer(mavlink, second);
-        offer(mavlink, third);
-    }
-}
-
-/* With a header. */
-/*@ requires mavlink_apart(mavlink);
-  @ assigns mavlink->message, mavlink->count.unknown, mavlink->count.lengths;
-  @ ensures mavlink->message <= mavlink->known;
-  @ ensures mavlink->message < mavlink->known ==>
-  @     mavlink_is_of(&mavlink->header[0], mavlink->messages + mavlink->message);
-  @*/
-static void check_message(keel_mavlink_t *mavlink)
-{
-    const uint8_t length = mavlink->header[LENGTH_AT];
-
-    mavlink->message = place_of(mavlink, id_in(mavlink));
-    if (mavlink->message == mavlink->known) {
+    } else if (place == mavlink->known) {
         count_met(&mavlink->count.unknown);
-    } else if ((length < mavlink->messages[mavlink->message].shortest) ||
-               (length > mavlink->messages[mavlink->message].longest)) {
+    } else if ((length < mavlink->messages[place].shortest) ||
+               (length > mavlink->messages[place].longest)) {
         count_met(&mavlink->count.lengths);
-        mavlink->message = mavlink->known;
     } else {
-        /* It is one that may be taken. */
+        fits = true;
+    }
+    if (fits) {
+        mavlink->message = place;
+        mavlink->awaited = (uint16_t)whole_frame(mavlink->bytes);
+    } else {
+        drop(mavlink, 1u);
     }
 }
 
-/* With a signature: its time. */
-/*@ requires \valid_read(mavlink);
+/* A signature's time. */
+/*@ requires \valid_read(byte + (0 .. 5));
   @ assigns \nothing;
   @*/
-static uint64_t timestamp_in(const keel_mavlink_t *mavlink)
+static uint64_t timestamp_in(const uint8_t *byte)
 {
-    const uint8_t *const byte = &mavlink->tail[TIMESTAMP_AT];
     const uint32_t low = (uint32_t)byte[0] + ((uint32_t)byte[1] * SECOND) +
                          ((uint32_t)byte[2] * THIRD) + ((uint32_t)byte[3] * FOURTH);
     const uint32_t high = (uint32_t)byte[4] + ((uint32_t)byte[5] * SECOND);
@@ -239,104 +227,96 @@ static uint64_t timestamp_in(const keel_mavlink_t *mavlink)
 /*@ requires \valid(mavlink);
   @ assigns mavlink->frame.payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1];
   @ ensures \forall integer i; 0 <= i < KEEL_MAVLINK_PAYLOAD_MAX ==> mavlink->frame.payload[i] ==
-  @     \old(i < mavlink->header[1] ? mavlink->payload[i] : 0);
+  @     \old(i < mavlink->bytes[1] ? mavlink->bytes[KEEL_MAVLINK_HEADER_BYTES + i] : 0);
   @*/
 static void publish_payload(keel_mavlink_t *mavlink)
 {
-    const uint8_t length = mavlink->header[LENGTH_AT];
+    const uint8_t length = mavlink->bytes[LENGTH_AT];
 
     /*@ loop invariant 0 <= i <= KEEL_MAVLINK_PAYLOAD_MAX;
       @ loop invariant \forall integer j; 0 <= j < i ==> mavlink->frame.payload[j] ==
-      @     \at(j < mavlink->header[1] ? mavlink->payload[j] : 0, Pre);
+      @     \at(j < mavlink->bytes[1] ? mavlink->bytes[KEEL_MAVLINK_HEADER_BYTES + j] : 0, Pre);
       @ loop assigns i, mavlink->frame.payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1];
       @ loop variant KEEL_MAVLINK_PAYLOAD_MAX - i;
       @*/
     for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_PAYLOAD_MAX; i++) {
-        mavlink->frame.payload[i] = (i < length) ? mavlink->payload[i] : 0u;
+        mavlink->frame.payload[i] = (i < length) ? mavlink->bytes[PAYLOAD_AT + i] : 0u;
     }
 }
 
 /*@ requires \valid(mavlink);
   @ assigns mavlink->frame.is_signed, mavlink->frame.link, mavlink->frame.timestamp,
   @     mavlink->frame.seal[0 .. KEEL_MAVLINK_SEAL_BYTES - 1];
-  @ ensures mavlink->frame.is_signed <==> \old(mavlink->header[2]) != 0;
+  @ ensures mavlink->frame.is_signed <==> \old(mavlink->bytes[2]) != 0;
   @*/
 static void publish_signature(keel_mavlink_t *mavlink)
 {
-    const bool is_signed = mavlink->header[FLAGS_AT] != 0u;
+    const uint32_t end = end_of(mavlink->bytes);
+    const bool is_signed = mavlink->bytes[FLAGS_AT] != 0u;
 
     mavlink->frame.is_signed = is_signed;
-    mavlink->frame.link = is_signed ? mavlink->tail[LINK_AT] : 0u;
-    mavlink->frame.timestamp = is_signed ? timestamp_in(mavlink) : 0u;
+    mavlink->frame.link = is_signed ? mavlink->bytes[end + LINK_AT] : 0u;
+    mavlink->frame.timestamp = is_signed ? timestamp_in(&mavlink->bytes[end + TIMESTAMP_AT]) : 0u;
     /*@ loop invariant 0 <= i <= KEEL_MAVLINK_SEAL_BYTES;
       @ loop assigns i, mavlink->frame.seal[0 .. KEEL_MAVLINK_SEAL_BYTES - 1];
       @ loop variant KEEL_MAVLINK_SEAL_BYTES - i;
       @*/
     for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_SEAL_BYTES; i++) {
-        mavlink->frame.seal[i] = is_signed ? mavlink->tail[SEAL_AT + i] : 0u;
+        mavlink->frame.seal[i] = is_signed ? mavlink->bytes[end + SEAL_AT + i] : 0u;
     }
 }
 
+/* What the frame says that begins with the first byte. */
 /*@ requires \valid(mavlink);
   @ assigns mavlink->frame;
-  @ ensures mavlink->frame.length == \old(mavlink->header[1]) &&
-  @     (mavlink->frame.is_signed <==> \old(mavlink->header[2]) != 0) &&
-  @     mavlink->frame.compatible == \old(mavlink->header[3]) &&
-  @     mavlink->frame.sequence == \old(mavlink->header[4]) &&
-  @     mavlink->frame.system == \old(mavlink->header[5]) &&
-  @     mavlink->frame.component == \old(mavlink->header[6]) &&
-  @     mavlink->frame.id == \old(mavlink_id(&mavlink->header[0]));
+  @ ensures mavlink_header_of{Pre, Post}(mavlink);
   @ ensures \forall integer i; 0 <= i < KEEL_MAVLINK_PAYLOAD_MAX ==> mavlink->frame.payload[i] ==
-  @     \old(i < mavlink->header[1] ? mavlink->payload[i] : 0);
+  @     \old(i < mavlink->bytes[1] ? mavlink->bytes[KEEL_MAVLINK_HEADER_BYTES + i] : 0);
   @*/
 static void publish_frame(keel_mavlink_t *mavlink)
 {
-    mavlink->frame.id = id_in(mavlink);
-    mavlink->frame.sequence = mavlink->header[SEQUENCE_AT];
-    mavlink->frame.system = mavlink->header[SYSTEM_AT];
-    mavlink->frame.component = mavlink->header[COMPONENT_AT];
-    mavlink->frame.compatible = mavlink->header[COMPATIBLE_AT];
-    mavlink->frame.length = mavlink->header[LENGTH_AT];
+    mavlink->frame.id = id_in(mavlink->bytes);
+    mavlink->frame.sequence = mavlink->bytes[SEQUENCE_AT];
+    mavlink->frame.system = mavlink->bytes[SYSTEM_AT];
+    mavlink->frame.component = mavlink->bytes[COMPONENT_AT];
+    mavlink->frame.compatible = mavlink->bytes[COMPATIBLE_AT];
+    mavlink->frame.length = mavlink->bytes[LENGTH_AT];
+    mavlink->frame.checksum = checksum_in(mavlink->bytes);
     publish_signature(mavlink);
     publish_payload(mavlink);
 }
 
-/* With all of its bytes: takes the frame, or counts why not. */
-/*@ requires mavlink_apart(mavlink) && mavlink->message <= mavlink->known;
-  @ requires mavlink->header[2] <= 1;
-  @ assigns mavlink->frame, mavlink->count.frames, mavlink->count.checksums;
-  @ ensures \result ==> \old(mavlink->message < mavlink->known);
-  @ ensures \result ==> mavlink->frame.length == \old(mavlink->header[1]) &&
-  @     mavlink->frame.is_signed == \old(mavlink->header[2]) &&
-  @     mavlink->frame.compatible == \old(mavlink->header[3]) &&
-  @     mavlink->frame.sequence == \old(mavlink->header[4]) &&
-  @     mavlink->frame.system == \old(mavlink->header[5]) &&
-  @     mavlink->frame.component == \old(mavlink->header[6]) &&
-  @     mavlink->frame.id == \old(mavlink_id(&mavlink->header[0]));
+/* With a whole frame: takes it, or drops its first byte. */
+/*@ requires mavlink_apart(mavlink) && mavlink_valid(mavlink);
+  @ requires KEEL_MAVLINK_HEADER_BYTES < mavlink->awaited <= mavlink->held;
+  @ assigns mavlink->frame, mavlink->count.frames, mavlink->count.checksums,
+  @     mavlink->count.others, mavlink->held, mavlink->awaited,
+  @     mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1];
+  @ ensures mavlink_valid(mavlink) && mavlink->awaited == KEEL_MAVLINK_HEADER_BYTES;
+  @ ensures \result <==> \old(mavlink_right(mavlink));
+  @ ensures \result ==> mavlink_dropped{Pre, Post}(mavlink, \old(mavlink->awaited)) &&
+  @     mavlink_header_of{Pre, Post}(mavlink);
   @ ensures \result ==>
   @     \forall integer i; 0 <= i < KEEL_MAVLINK_PAYLOAD_MAX ==> mavlink->frame.payload[i] ==
-  @         \old(i < mavlink->header[1] ? mavlink->payload[i] : 0);
-  @ ensures !\result ==> mavlink_kept{Pre, Post}(mavlink);
+  @         \old(i < mavlink->bytes[1] ? mavlink->bytes[KEEL_MAVLINK_HEADER_BYTES + i] : 0);
+  @ ensures !\result ==> mavlink_kept{Pre, Post}(mavlink) &&
+  @     mavlink_dropped{Pre, Post}(mavlink, 1);
   @ ensures mavlink->count.frames ==
   @     (\result ? mavlink_sum(\old(mavlink->count.frames)) : \old(mavlink->count.frames));
   @*/
 static bool end_frame(keel_mavlink_t *mavlink)
 {
-    bool right = false;
+    const uint8_t extra = mavlink->messages[mavlink->message].crc_extra;
+    const uint16_t checksum = checksum_of(mavlink->bytes, end_of(mavlink->bytes), extra);
+    const bool right = checksum_in(mavlink->bytes) == checksum;
 
-    if (mavlink->message < mavlink->known) {
-        const uint8_t extra = mavlink->messages[mavlink->message].crc_extra;
-        const uint16_t checksum = keel_crc16(mavlink->crc, extra);
-
-        right = checksum_in(mavlink) == checksum;
-        if (right) {
-            publish_frame(mavlink);
-            mavlink->frame.checksum = checksum;
-            count_met(&mavlink->count.frames);
-        } else {
-            count_met(&mavlink->count.checksums);
-        }
+    if (right) {
+        count_met(&mavlink->count.frames);
+        publish_frame(mavlink);
+    } else {
+        count_met(&mavlink->count.checksums);
     }
+    drop(mavlink, right ? mavlink->awaited : 1u);
     return right;
 }
 
@@ -375,60 +355,62 @@ keel_status_t keel_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_mess
     mavlink->messages = messages;
     mavlink->known = known;
     mavlink->count = no_count;
-    /*@ loop invariant 0 <= i <= KEEL_MAVLINK_HEADER_BYTES;
-      @ loop invariant \forall integer j; 0 <= j < i ==> mavlink->header[j] == 0;
-      @ loop assigns i, mavlink->header[0 .. KEEL_MAVLINK_HEADER_BYTES - 1];
-      @ loop variant KEEL_MAVLINK_HEADER_BYTES - i;
-      @*/
-    for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_HEADER_BYTES; i++) {
-        mavlink->header[i] = 0u;
-    }
-    /*@ loop invariant 0 <= i <= KEEL_MAVLINK_PAYLOAD_MAX;
-      @ loop assigns i, mavlink->payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1];
-      @ loop variant KEEL_MAVLINK_PAYLOAD_MAX - i;
-      @*/
-    for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_PAYLOAD_MAX; i++) {
-        mavlink->payload[i] = 0u;
-    }
-    /*@ loop invariant 0 <= i <= KEEL_MAVLINK_TAIL_MAX;
-      @ loop assigns i, mavlink->tail[0 .. KEEL_MAVLINK_TAIL_MAX - 1];
-      @ loop variant KEEL_MAVLINK_TAIL_MAX - i;
-      @*/
-    for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_TAIL_MAX; i++) {
-        mavlink->tail[i] = 0u;
-    }
-    publish_frame(mavlink);
-    mavlink->frame.checksum = 0u;
-    mavlink->held = 0u;
-    mavlink->crc = KEEL_CRC16_FIRST;
     mavlink->message = known;
+    mavlink->held = 0u;
+    mavlink->awaited = (uint16_t)KEEL_MAVLINK_HEADER_BYTES;
+    /*@ loop invariant 0 <= i <= KEEL_MAVLINK_FRAME_MAX;
+      @ loop invariant \forall integer j; 0 <= j < i ==> mavlink->bytes[j] == 0;
+      @ loop assigns i, mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1];
+      @ loop variant KEEL_MAVLINK_FRAME_MAX - i;
+      @*/
+    for (uint32_t i = 0u; i < (uint32_t)KEEL_MAVLINK_FRAME_MAX; i++) {
+        mavlink->bytes[i] = 0u;
+    }
+    publish_frame(mavlink); /* Of zeros, which say zeros. */
     return KEEL_OK;
 }
 
-void keel_mavlink_gap(keel_mavlink_t *mavlink)
+keel_status_t keel_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte)
 {
-    if (mavlink->held > 0u) {
-        count_met(&mavlink->count.gaps);
-        mavlink->held = 0u;
+    if (mavlink->held >= (uint16_t)KEEL_MAVLINK_FRAME_MAX) {
+        return KEEL_ERR_FULL;
     }
+    if ((mavlink->held == 0u) && (byte != (uint8_t)KEEL_MAVLINK_FIRST)) {
+        count_met(&mavlink->count.others);
+    } else {
+        mavlink->bytes[mavlink->held] = byte;
+        mavlink->held++;
+    }
+    return KEEL_OK;
 }
 
-bool keel_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte)
+keel_mavlink_look_t keel_mavlink_look(keel_mavlink_t *mavlink)
 {
-    bool right = false;
+    keel_mavlink_look_t seen = KEEL_MAVLINK_AGAIN;
 
-    offer(mavlink, byte);
-    if (mavlink->held == (FLAGS_AT + 1u)) {
-        check_flags(mavlink);
-    } else if (mavlink->held == PAYLOAD_AT) {
-        check_message(mavlink);
-    } else if ((mavlink->held > PAYLOAD_AT) && (mavlink->held == whole_frame(mavlink))) {
-        mavlink->held = 0u;
-        right = end_frame(mavlink);
+    if (mavlink->held < mavlink->awaited) {
+        seen = KEEL_MAVLINK_NOTHING;
+    } else if (mavlink->awaited == (uint16_t)KEEL_MAVLINK_HEADER_BYTES) {
+        read_header(mavlink);
+    } else if (end_frame(mavlink)) {
+        seen = KEEL_MAVLINK_FRAME;
     } else {
-        /* It is not whole yet. */
+        /* Its first byte was no beginning. */
     }
-    return right;
+    return seen;
+}
+
+keel_mavlink_look_t keel_mavlink_gap(keel_mavlink_t *mavlink)
+{
+    keel_mavlink_look_t seen = KEEL_MAVLINK_AGAIN;
+
+    if ((mavlink->held > 0u) && (mavlink->held < mavlink->awaited)) {
+        count_met(&mavlink->count.gaps);
+        drop(mavlink, 1u);
+    } else {
+        seen = keel_mavlink_look(mavlink);
+    }
+    return seen;
 }
 
 /* The bytes of a payload without its trailing zeros; the first one stays. */
@@ -438,35 +420,18 @@ bool keel_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte)
   @*/
 static uint8_t cut_of(const uint8_t *payload, uint8_t length)
 {
-    uint8_t cut = length;
+    uint8_t cut = 1u;
 
-    /*@ loop invariant 1 <= cut <= length;
-      @ loop invariant \forall integer i; cut <= i < length ==> payload[i] == 0;
-      @ loop assigns cut;
-      @ loop variant cut;
+    /*@ loop invariant 0 <= i <= length;
+      @ loop invariant 1 <= cut <= length && (cut > 1 ==> cut <= i && payload[cut - 1] != 0);
+      @ loop invariant \forall integer j; cut <= j < i ==> payload[j] == 0;
+      @ loop assigns i, cut;
+      @ loop variant length - i;
       @*/
-    while ((cut > 1u) && (payload[cut - 1u] == 0u)) {
-        cut--;
+    for (uint32_t i = 0u; i < length; i++) {
+        cut = (payload[i] != 0u) ? (uint8_t)(i + 1u) : cut;
     }
     return cut;
-}
-
-/* What the checksum is of such bytes of a frame, and of its message. */
-/*@ requires 1 <= end <= KEEL_MAVLINK_FRAME_MAX && \valid_read(bytes + (0 .. end - 1));
-  @ assigns \nothing;
-  @*/
-static uint16_t checksum_of(const uint8_t *bytes, uint32_t end, uint8_t extra)
-{
-    uint16_t crc = KEEL_CRC16_FIRST;
-
-    /*@ loop invariant LENGTH_AT <= i <= end;
-      @ loop assigns i, crc;
-      @ loop variant end - i;
-      @*/
-    for (uint32_t i = LENGTH_AT; i < end; i++) {
-        crc = keel_crc16(crc, bytes[i]);
-    }
-    return keel_crc16(crc, extra);
 }
 
 uint16_t keel_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_message_t *message,

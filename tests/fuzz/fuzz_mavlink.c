@@ -44,34 +44,25 @@ static void differs(const char *what)
 /* The byte of the right checksum that is due, or the one that came. */
 static uint8_t repaired(uint8_t byte)
 {
-    const uint32_t end = 10u + (uint32_t)mavlink.header[1];
-    uint16_t checksum;
+    const uint8_t *const frame = mavlink.bytes;
+    const uint32_t end = 10u + (uint32_t)frame[1];
+    uint16_t checksum = KEEL_CRC16_FIRST;
 
-    if ((mavlink.held < 10u) || (mavlink.held < end) || (mavlink.message >= mavlink.known) ||
-        ((mavlink.header[4] & 1u) != 0u)) {
+    if ((mavlink.awaited == 10u) || (mavlink.held < end) || ((frame[4] & 1u) != 0u)) {
         return byte;
     }
-    checksum = keel_crc16(mavlink.crc, messages[mavlink.message].crc_extra);
+    for (uint32_t i = 1u; i < end; i++) {
+        checksum = keel_crc16(checksum, frame[i]);
+    }
+    checksum = keel_crc16(checksum, messages[mavlink.message].crc_extra);
     if (mavlink.held == end) {
         return (uint8_t)(checksum & 0xFFu);
     }
     return (mavlink.held == (end + 1u)) ? (uint8_t)(checksum >> 8) : byte;
 }
 
-static bool both_take(uint8_t byte)
-{
-    const bool taken = keel_mavlink_take(&mavlink, byte);
-
-    if (ALONE) {
-        return taken;
-    }
-    if (model_mavlink_take(&model, byte) != taken) {
-        differs("whether a frame ends");
-    }
-    return taken;
-}
-
-static void write_again(uint32_t whole)
+/* The frame that was found, and the bytes that it came in. */
+static void write_again(const uint8_t *came, uint32_t whole)
 {
     const keel_mavlink_frame_t *frame = &mavlink.frame;
     keel_mavlink_sender_t sender = {.system = frame->system,
@@ -85,21 +76,59 @@ static void write_again(uint32_t whole)
     const bool cut = (frame->length > 1u) && (frame->payload[frame->length - 1u] == 0u);
 
     if ((frame->length > 0u) && !cut && (frame->compatible == 0u)) {
-        if ((written != whole) || (memcmp(out, mavlink.header, 10u) != 0) ||
-            (memcmp(&out[10], mavlink.payload, frame->length) != 0) ||
-            (memcmp(&out[10u + frame->length], mavlink.tail, 2u) != 0)) {
+        if ((written != whole) || (memcmp(out, came, frame->length + 12u) != 0)) {
             differs("what is written is not what came");
         }
     }
 }
 
-static void both_gap(void)
+/* One look of each, or what both do at a gap; what is found, written again, is what came. */
+static keel_mavlink_look_t both_look(bool is_gap)
 {
-    keel_mavlink_gap(&mavlink);
-    model_mavlink_gap(&model);
-    if (!ALONE && (memcmp(&mavlink, &model, sizeof mavlink) != 0)) {
+    const keel_mavlink_t before = mavlink;
+    const keel_mavlink_look_t seen = is_gap ? keel_mavlink_gap(&mavlink)
+                                            : keel_mavlink_look(&mavlink);
+
+    if (ALONE) {
+        return seen;
+    }
+    if (seen != (is_gap ? model_mavlink_gap(&model) : model_mavlink_look(&model))) {
+        differs("what a look finds");
+    }
+    if (memcmp(&mavlink, &model, sizeof mavlink) != 0) {
         differs("a field");
     }
+    if (seen == KEEL_MAVLINK_FRAME) {
+        write_again(before.bytes, before.awaited);
+    }
+    return seen;
+}
+
+/* Looks until nothing is found; how many frames were. */
+static uint32_t both_search(bool is_gap)
+{
+    const uint32_t most = 2u * mavlink.held;
+    uint32_t frames = 0u;
+    keel_mavlink_look_t seen = both_look(is_gap);
+
+    for (uint32_t looks = 1u; seen != KEEL_MAVLINK_NOTHING; looks++) {
+        if (looks > most) {
+            differs("looks are more than twice the bytes");
+        }
+        frames += (seen == KEEL_MAVLINK_FRAME) ? 1u : 0u;
+        seen = both_look(is_gap);
+    }
+    return frames;
+}
+
+static uint32_t both_take(uint8_t byte)
+{
+    const keel_status_t status = keel_mavlink_take(&mavlink, byte);
+
+    if (!ALONE && ((status != KEEL_OK) || (model_mavlink_take(&model, byte) != KEEL_OK))) {
+        differs("whether there is room behind a look");
+    }
+    return both_search(false);
 }
 
 /* Whether MAVLink's parser and ours read the same; of zeros at the end ours tells none. */
@@ -131,12 +160,14 @@ static void judge_frame(const uint8_t *bytes)
                                              (uint8_t)(message->id >> 8),
                                              0u};
     oracle_mavlink_t said;
+    uint32_t refused;
     bool taken = false;
 
-    both_gap();
+    (void)both_search(true);
+    refused = mavlink.count.checksums;
     for (uint32_t i = 0u; i < (length + 12u); i++) {
         frame[i] = (i < 10u) ? frame[i] : repaired(bytes[i - 4u]);
-        taken = both_take(frame[i]);
+        taken = (both_take(frame[i]) > 0u) && (mavlink.count.checksums == refused);
     }
     if (taken != oracle_mavlink(frame, length + 12u, &said)) {
         differs("whether MAVLink's parser takes a frame");
@@ -155,16 +186,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     (void)keel_mavlink_init(&mavlink, messages, known);
     (void)model_mavlink_init(&model, messages, known);
     for (size_t i = 1u; (i < size) && !ALONE; i++) {
-        const uint32_t whole = model.held + 1u;
-
-        if (both_take(repaired(data[i]))) {
-            write_again(whole);
-        }
+        (void)both_take(repaired(data[i]));
         if ((data[i] == 0x5Au) && (data[i - 1u] == 0xA5u)) {
-            both_gap();
-        }
-        if (memcmp(&mavlink, &model, sizeof mavlink) != 0) {
-            differs("a field");
+            (void)both_search(true);
         }
     }
     if ((known == KNOWN) && (size >= JUDGED)) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""MAVLink's frames beside pymavlink: what one writes, the other reads, and both refuse the same.
+"""MAVLink's frames beside pymavlink: what one writes, the other reads, and both refuse the same;
+and among any bytes each frame that pymavlink takes where it begins is found.
 
 Needs the group "mavlink" of the toolchain: pymavlink, with its definitions of the common messages.
 """
@@ -14,6 +15,7 @@ import shutil
 import sys
 import tempfile
 import unittest
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -42,8 +44,11 @@ int begin(const unsigned *rows, unsigned known)
     }
     return (int)keel_mavlink_init(&mavlink, table, known);
 }
-int take(int byte) { return keel_mavlink_take(&mavlink, (uint8_t)byte) ? 1 : 0; }
-void gap(void) { keel_mavlink_gap(&mavlink); }
+/* 1: the bytes that are held are full. */
+int take(int byte) { return keel_mavlink_take(&mavlink, (uint8_t)byte) != KEEL_OK ? 1 : 0; }
+/* 0: nothing, 1: look again, 2: a frame. */
+int look(void) { return (int)keel_mavlink_look(&mavlink); }
+int gap(void) { return (int)keel_mavlink_gap(&mavlink); }
 int says(int what)
 {
     const keel_mavlink_frame_t *f = &mavlink.frame;
@@ -72,6 +77,9 @@ int put(int place, int sequence, int system, int component, const unsigned char 
 }
 """
 FRAMES, CHECKSUMS, UNKNOWN, LENGTHS, FLAGS, OTHERS = range(6)
+NOTHING, AGAIN, FRAME = range(3)
+# A frame is found so many bytes behind its last one at the latest.
+LATEST = 265
 
 
 def pymavlink() -> Any:
@@ -121,9 +129,27 @@ class Frames(unittest.TestCase):
         table = (ctypes.c_uint * len(rows))(*rows)
         self.assertEqual(self.library.begin(table, len(self.known)), 0)
 
+    def found(self, look: Callable[[], int]) -> int:
+        """How many frames looks find until there is nothing."""
+        frames = 0
+        for _ in range(2 * 280 + 1):
+            seen = look()
+            frames += seen == FRAME
+            if seen == NOTHING:
+                return frames
+        raise AssertionError("looks are more than twice the bytes")
+
     def feed(self, data: bytes) -> list[int]:
-        """Behind which bytes a frame was taken."""
-        return [at for at, byte in enumerate(data) if self.library.take(byte)]
+        """Behind which bytes a frame was found; as often as there were frames."""
+        ends: list[int] = []
+        for at, byte in enumerate(data):
+            self.assertEqual(self.library.take(byte), 0)
+            ends += [at] * self.found(self.library.look)
+        return ends
+
+    def gap(self) -> int:
+        """How many frames are found when nothing follows."""
+        return self.found(self.library.gap)
 
     def payload(self) -> bytes:
         return bytes(self.library.payload()[:PAYLOAD_MAX])
@@ -195,7 +221,7 @@ class Frames(unittest.TestCase):
             frame = bytearray(self.packed(number, self.any_payload(number), self.sender()))
             for _ in range(self.random.randrange(3)):
                 frame[self.random.randrange(3, len(frame))] ^= 1 << self.random.randrange(8)
-            self.library.gap()
+            self.gap()
             right = self.accepts(bytes(frame))
             self.assertEqual(self.feed(bytes(frame)), [len(frame) - 1] if right else [])
             taken += right
@@ -208,36 +234,25 @@ class Frames(unittest.TestCase):
             number = self.random.choice(self.known)
             frame = self.packed(number, self.any_payload(number), self.sender())
             self.assertEqual(self.feed(frame[: self.random.randrange(len(frame))]), [])
-            self.library.gap()
+            self.gap()
             self.assertEqual(self.feed(frame), [len(frame) - 1])
 
-    def expected_ends(self, stream: bytes) -> list[int]:
-        """Where frames end for a search that looks at all bytes at once."""
-        ends, at = [], 0
-        while at < len(stream):
-            if stream[at] != FIRST:
-                at += 1
-                continue
-            if at + 3 > len(stream):
-                break
-            if stream[at + 2] > SIGNED:
-                at += 1
-                continue
-            whole = 12 + stream[at + 1] + 13 * stream[at + 2]
-            if at + whole > len(stream):
-                break
-            if self.is_right(stream[at : at + whole]):
-                ends.append(at + whole - 1)
-            at += whole
-        return ends
+    def expected(self, stream: bytes) -> list[tuple[int, int]]:
+        """Where frames begin and end: at each place, behind the last frame, pymavlink is asked."""
+        frames, at = [], stream.find(FIRST)
+        while at >= 0:
+            whole = self.whole(stream[at:])
+            if 0 < whole <= len(stream) - at and self.accepts(stream[at : at + whole]):
+                frames.append((at, at + whole - 1))
+                at += whole - 1
+            at = stream.find(FIRST, at + 1)
+        return frames
 
-    def is_right(self, frame: bytes) -> bool:
-        number, end = int.from_bytes(frame[7:10], "little"), 10 + frame[1]
-        message = self.common.mavlink_map.get(number)
-        if message is None or not 1 <= frame[1] <= message.unpacker.size:
-            return False
-        crc = self.common.x25crc([*frame[1:end], message.crc_extra]).crc
-        return int(crc) == int.from_bytes(frame[end : end + 2], "little")
+    def whole(self, frame: bytes) -> int:
+        """The bytes of the frame that begins so; 0: none does."""
+        if len(frame) < 3 or frame[2] > SIGNED:
+            return 0
+        return 12 + frame[1] + 13 * frame[2]
 
     def any_stretch(self) -> bytes:
         """A frame, whole or not; or bytes that are none; or beginnings of one."""
@@ -246,22 +261,72 @@ class Frames(unittest.TestCase):
         choice = self.random.random()
         if choice < 0.6:
             return frame
-        if choice < 0.7:
+        if choice < 0.65:
             return frame[: self.random.randrange(len(frame))]
-        if choice < 0.8:
+        if choice < 0.7:
+            return frame[self.random.randrange(len(frame)) :]
+        if choice < 0.75:
             return bytes([FIRST] * self.random.randrange(1, 5))
+        if choice < 0.8:
+            return bytes([FIRST, 0xFF, 0])
+        if choice < 0.85:
+            return self.carrier(frame)
+        if choice < 0.9:
+            return self.any_beginnings()
         return self.random.randbytes(self.random.randrange(1, 40))
 
-    def test_a_stream_without_gaps(self) -> None:
-        frames = 0
-        for _ in range(150):
+    def any_beginnings(self) -> bytes:
+        """Headers of messages that are known, one in the other, without their frames."""
+        some = bytearray()
+        for _ in range(self.random.randrange(1, 20)):
+            number = self.random.choice(self.known)
+            length = self.common.mavlink_map[number].unpacker.size
+            header = bytes([FIRST, length, self.random.randrange(2), 0, 0, 1, 1])
+            some += (header + number.to_bytes(3, "little"))[: self.random.randrange(3, 11)]
+        return bytes(some)
+
+    def carrier(self, frame: bytes) -> bytes:
+        """A frame whose payload has a frame in it, or what looks like beginnings of some."""
+        inner = frame if self.random.random() < 0.5 else bytes([FIRST, 0x20, 0]) * 40
+        number = 385 if self.random.random() < 0.5 else 12918 * 1000  # TUNNEL, and none
+        payload = bytes(5) + inner[:120] + b"\1"
+        if number in self.common.mavlink_map:
+            return self.packed(number, payload.ljust(133, b"\0"), self.sender())
+        return (bytes([FIRST, len(payload), 0, 0, 0, 1, 1]) + number.to_bytes(3, "little")
+                + payload + b"\0\0")  # fmt: skip
+
+    def test_each_frame_in_a_stream_is_found(self) -> None:
+        frames = late = 0
+        for _ in range(100):
             stream = b"".join(self.any_stretch() for _ in range(40))
-            expected = self.expected_ends(stream)
+            expected = self.expected(stream)
             self.begin()
-            self.assertEqual(self.feed(stream), expected)
+            ends = self.feed(stream)
+            count = len(ends) + self.gap()
+            self.assertEqual(count, len(expected))
+            for (_, last), found in zip(expected, ends, strict=False):
+                self.assertTrue(last <= found <= last + LATEST, (last, found))
+                late += found > last
             self.assertEqual(self.library.counted(FRAMES), len(expected))
             frames += len(expected)
-        self.assertGreater(frames, 1000)
+        self.assertGreater(frames, 1500)
+        self.assertGreater(late, 100)
+
+    def test_what_a_datagram_holds_behind_garbage_is_found(self) -> None:
+        for _ in range(500):
+            garbage = self.random.choice([bytes([FIRST, 0xFF, 0]), self.any_beginnings()])
+            commands = b"".join(
+                self.packed(76, self.any_payload(76), self.sender()) for _ in range(6)
+            )
+            expected = self.expected(garbage + commands)
+            self.assertEqual(len(self.feed(garbage + commands)) + self.gap(), len(expected))
+
+    def test_frames_of_a_whole_log_one_behind_the_other(self) -> None:
+        """Whoever begins to listen in the middle of frames full of beginnings."""
+        payload = bytes([FIRST, 0x20, 0]) * 44 + b"\1"
+        stream = b"".join(self.packed(385, payload, self.sender()) for _ in range(30))
+        ends = self.feed(stream[50:])
+        self.assertEqual(len(ends) + self.gap(), 29)
 
 
 if __name__ == "__main__":

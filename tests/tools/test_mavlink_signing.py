@@ -57,8 +57,13 @@ int take(const unsigned char *bytes, int count)
 {
     int taken = 0;
     for (int i = 0; i < count; i++) {
-        if (keel_mavlink_take(&mavlink, bytes[i])) {
-            taken += keel_signing_accepts(&signing, &mavlink.frame) ? 1 : 100;
+        keel_mavlink_look_t seen = KEEL_MAVLINK_AGAIN;
+        (void)keel_mavlink_take(&mavlink, bytes[i]);
+        while (seen != KEEL_MAVLINK_NOTHING) {
+            seen = keel_mavlink_look(&mavlink);
+            if (seen == KEEL_MAVLINK_FRAME) {
+                taken += keel_signing_accepts(&signing, &mavlink.frame) ? 1 : 100;
+            }
         }
     }
     return taken;

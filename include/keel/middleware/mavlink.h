@@ -8,12 +8,32 @@
  * The checksum begins where the length is, and ends with a byte that is not sent and stands for the
  * layout of the message, so a frame can be checked only when its message is known.
  *
- * The decoder takes a frame when it is right as a whole; nothing else changes what it tells. When a
- * beginning cannot be one, for a flag that nobody knows, it looks for the next from the very next
- * byte on. Otherwise it skips as many bytes as the frame says that it has: bytes in a payload that
- * look like a frame are none, nor are those of a message that is not known. So a beginning that was
- * none costs the frames that begin in the next 279 bytes; a driver that tells the gaps of its line
- * ends that at the next gap. The time for a byte is bounded, whatever came before.
+ * The decoder takes a frame when it is right as a whole; nothing else changes what it tells. It
+ * holds bytes from a beginning on until it can tell whether a right frame begins there. When none
+ * does, it goes on at the next 0xFD behind that byte, among the bytes that it holds. So a right
+ * frame is taken whatever came before it, unless it begins within another one that was taken: by
+ * its last byte, or, when bytes before it look like a beginning, at most 265 bytes later, or when
+ * a gap is told.
+ *
+ *     (void)keel_mavlink_take(&mavlink, byte);
+ *     while ((seen = keel_mavlink_look(&mavlink)) != KEEL_MAVLINK_NOTHING) {
+ *         if (seen == KEEL_MAVLINK_FRAME) {
+ *             act_on(&mavlink.frame);
+ *         }
+ *     }
+ *
+ * A look reads at most one header, or sums up at most one frame, so its time is bounded. One byte
+ * may decide about several beginnings; each is looked at no more than twice, so looks that do not
+ * find nothing are never more than twice the bytes that came.
+ *
+ * Where a frame cannot lie in two pieces, as in datagrams, or the line was silent, the bytes that
+ * are held are all that come: keel_mavlink_gap is called instead of keel_mavlink_look, again until
+ * it finds nothing.
+ *
+ * The payload of a frame that is not taken is searched, too: that of a message that is not known
+ * may hold a frame, and that one is taken. Its length may not be believed, as its checksum cannot
+ * be checked. Whoever wants the payloads of a message left alone adds it to the messages that are
+ * known; what must not be acted on for any other reason, signatures prevent.
  *
  * Frames of MAVLink 1, which begin with 0xFE, are not taken: their bytes are counted as others.
  *
@@ -48,9 +68,6 @@ KEEL_C_BEGIN
 
 /** Bytes of a signature, behind the checksum. */
 #define KEEL_MAVLINK_SIGNATURE_BYTES 13
-
-/** Bytes behind the payload, at most. */
-#define KEEL_MAVLINK_TAIL_MAX 15
 
 /** Of a signature's the last ones, which the key is needed for. */
 #define KEEL_MAVLINK_SEAL_BYTES 6
@@ -93,26 +110,31 @@ typedef struct keel_mavlink_frame {
 /** What was met since the start. */
 typedef struct keel_mavlink_count {
     uint32_t frames;    /**< Right frames. */
-    uint32_t checksums; /**< Frames refused for their checksum. */
-    uint32_t unknown;   /**< Frames skipped, as their message is not known. */
-    uint32_t lengths;   /**< Frames skipped for a length that is not of their message. */
-    uint32_t flags;     /**< Beginnings refused for a flag that nobody knows. */
-    uint32_t others;    /**< Bytes that were no beginning where a frame should begin. */
-    uint32_t gaps;      /**< Partial frames that a gap ended. */
+    uint32_t checksums; /**< Beginnings refused for the checksum, */
+    uint32_t unknown;   /**< for a message that is not known, */
+    uint32_t lengths;   /**< for a length that is not of their message, */
+    uint32_t flags;     /**< for a flag that nobody knows, */
+    uint32_t gaps;      /**< or as a gap came before their last byte. */
+    uint32_t others;    /**< Bytes that are of no frame and no beginning. */
 } keel_mavlink_count_t;
+
+/** What a look at the bytes that are held found. */
+typedef enum keel_mavlink_look {
+    KEEL_MAVLINK_NOTHING, /**< More bytes are needed. */
+    KEEL_MAVLINK_AGAIN,   /**< No frame yet: look again. */
+    KEEL_MAVLINK_FRAME    /**< A right frame: look again when it was read. */
+} keel_mavlink_look_t;
 
 /** A decoder. Written by the functions below alone; all of it may be read. */
 typedef struct keel_mavlink {
-    const keel_mavlink_message_t *messages;    /**< The messages that are known, */
-    uint32_t known;                            /**< and how many there are. */
-    keel_mavlink_frame_t frame;                /**< The last right frame; all 0 before. */
-    keel_mavlink_count_t count;                /**< What was met. */
-    uint8_t header[KEEL_MAVLINK_HEADER_BYTES]; /**< A partial frame: its first bytes, */
-    uint8_t payload[KEEL_MAVLINK_PAYLOAD_MAX]; /**< its payload, */
-    uint8_t tail[KEEL_MAVLINK_TAIL_MAX];       /**< and what is behind that. */
-    uint16_t held;                             /**< Its bytes, fewer than it says that it has. */
-    uint16_t crc;                              /**< Of its bytes that count for it. */
-    uint32_t message; /**< With its header: its message's place; known when it is skipped. */
+    const keel_mavlink_message_t *messages; /**< The messages that are known, */
+    uint32_t known;                         /**< and how many there are. */
+    keel_mavlink_frame_t frame;             /**< The last right frame; all 0 before. */
+    keel_mavlink_count_t count;             /**< What was met. */
+    uint32_t message;                       /**< The place of the last header's message that fit. */
+    uint16_t held;                          /**< How many bytes are held. */
+    uint16_t awaited; /**< How many the next look needs: a header, or, when that fits, the frame. */
+    uint8_t bytes[KEEL_MAVLINK_FRAME_MAX]; /**< Those held, and behind them what was before. */
 } keel_mavlink_t;
 
 /** Who sends. Two senders of one system and component share one. */
@@ -131,10 +153,10 @@ typedef struct keel_mavlink_packet {
 
 /*@ // The first messages are in order: their ids ascend, and their lengths are ranges.
   @ predicate mavlink_table(keel_mavlink_message_t *messages, integer known) =
-  @     \forall integer i; 0 <= i < known ==>
+  @     (\forall integer i; 0 <= i < known ==>
   @         messages[i].id <= KEEL_MAVLINK_ID_MAX &&
-  @         messages[i].shortest <= messages[i].longest &&
-  @         (i > 0 ==> messages[i - 1].id < messages[i].id);
+  @         messages[i].shortest <= messages[i].longest) &&
+  @     (\forall integer i, j; 0 <= i < j < known ==> messages[i].id < messages[j].id);
   @
   @ // Its message: the number in three bytes, the lowest first.
   @ logic integer mavlink_id(uint8_t *bytes) =
@@ -152,19 +174,64 @@ typedef struct keel_mavlink_packet {
   @ predicate mavlink_is_of(uint8_t *bytes, keel_mavlink_message_t *message) =
   @     message->id == mavlink_id(bytes) && message->shortest <= bytes[1] <= message->longest;
   @
+  @ // What keel_crc16 comes to.
+  @ logic integer mavlink_crc16(integer crc, integer byte) =
+  @     crc_down(crc ^ byte, KEEL_CRC16_POLYNOMIAL, 8) & 0xFFFF;
+  @
+  @ // The checksum of a frame's bytes before the end, and of its message's byte.
+  @ logic integer mavlink_crc(uint8_t *bytes, integer end) =
+  @     end <= 1 ? KEEL_CRC16_FIRST :
+  @     mavlink_crc16(mavlink_crc(bytes, end - 1), bytes[end - 1]);
+  @ logic integer mavlink_checksum(uint8_t *bytes, integer end, integer extra) =
+  @     mavlink_crc16(mavlink_crc(bytes, end), extra);
+  @
+  @ // As it was sent, behind the payload.
+  @ logic integer mavlink_sent(uint8_t *bytes) =
+  @     bytes[mavlink_end(bytes)] + 256 * bytes[mavlink_end(bytes) + 1];
+  @
+  @ // The header may be one of that message: of no other one, as ids ascend.
+  @ predicate mavlink_fits(uint8_t *bytes, keel_mavlink_message_t *message) =
+  @     bytes[2] <= 1 && mavlink_is_of(bytes, message);
+  @
+  @ // A right frame begins with the first byte that is held, and all of it is.
+  @ predicate mavlink_right(keel_mavlink_t *m) =
+  @     m->held >= KEEL_MAVLINK_HEADER_BYTES && m->held >= mavlink_whole(&m->bytes[0]) &&
+  @     \exists integer i; 0 <= i < m->known && mavlink_fits(&m->bytes[0], m->messages + i) &&
+  @         mavlink_sent(&m->bytes[0]) == mavlink_checksum(&m->bytes[0],
+  @             mavlink_end(&m->bytes[0]), m->messages[i].crc_extra);
+  @
   @ // Between any two calls.
   @ predicate mavlink_valid(keel_mavlink_t *m) =
-  @     m->held < KEEL_MAVLINK_FRAME_MAX &&
-  @     (m->held > 0 ==> m->header[0] == KEEL_MAVLINK_FIRST) &&
-  @     (m->held > 2 ==> m->header[2] <= 1 && m->held < mavlink_whole(&m->header[0])) &&
-  @     (m->held >= KEEL_MAVLINK_HEADER_BYTES ==> m->message <= m->known) &&
-  @     (m->held >= KEEL_MAVLINK_HEADER_BYTES && m->message < m->known ==>
-  @         mavlink_is_of(&m->header[0], m->messages + m->message));
+  @     m->held <= KEEL_MAVLINK_FRAME_MAX &&
+  @     (m->held > 0 ==> m->bytes[0] == KEEL_MAVLINK_FIRST) &&
+  @     (m->awaited != KEEL_MAVLINK_HEADER_BYTES ==> m->held >= KEEL_MAVLINK_HEADER_BYTES &&
+  @         m->message < m->known && m->awaited == mavlink_whole(&m->bytes[0]) &&
+  @         mavlink_fits(&m->bytes[0], m->messages + m->message));
+  @
+  @ // Bytes from the front are gone: count of them, and up to the next beginning. All others stay.
+  @ predicate mavlink_dropped{L, M}(keel_mavlink_t *m, integer count) =
+  @     \let n = \at(m->held, L) - \at(m->held, M);
+  @     count <= n &&
+  @     (\forall integer j; count <= j < n ==> \at(m->bytes[j], L) != KEEL_MAVLINK_FIRST) &&
+  @     (\forall integer j; 0 <= j < \at(m->held, M) ==>
+  @         \at(m->bytes[j], M) == \at(m->bytes[n + j], L));
   @
   @ predicate mavlink_apart(keel_mavlink_t *m) =
   @     \valid(m) && m->known <= KEEL_MAVLINK_MESSAGES_MAX &&
   @     \valid_read(m->messages + (0 .. m->known - 1)) &&
-  @     \separated(m, m->messages + (0 .. m->known - 1));
+  @     \separated(m, m->messages + (0 .. m->known - 1)) &&
+  @     mavlink_table(m->messages, m->known);
+  @
+  @ // What a frame says beside its payload and signature.
+  @ predicate mavlink_header_of{L, M}(keel_mavlink_t *m) =
+  @     \at(m->frame.length, M) == \at(m->bytes[1], L) &&
+  @     (\at(m->frame.is_signed, M) != 0 <==> \at(m->bytes[2], L) != 0) &&
+  @     \at(m->frame.compatible, M) == \at(m->bytes[3], L) &&
+  @     \at(m->frame.sequence, M) == \at(m->bytes[4], L) &&
+  @     \at(m->frame.system, M) == \at(m->bytes[5], L) &&
+  @     \at(m->frame.component, M) == \at(m->bytes[6], L) &&
+  @     \at(m->frame.id, M) == \at(mavlink_id(&m->bytes[0]), L) &&
+  @     \at(m->frame.checksum, M) == \at(mavlink_sent(&m->bytes[0]), L);
   @
   @ predicate mavlink_kept{L, M}(keel_mavlink_t *m) =
   @     \at(m->frame.id, M) == \at(m->frame.id, L) &&
@@ -215,7 +282,8 @@ typedef struct keel_mavlink_packet {
   @ behavior made:
   @   assumes known <= KEEL_MAVLINK_MESSAGES_MAX && mavlink_table(messages, known);
   @   ensures MAV_002_made: \result == KEEL_OK && mavlink_valid(mavlink) &&
-  @       mavlink_apart(mavlink) && mavlink->held == 0;
+  @       mavlink_apart(mavlink) && mavlink->held == 0 &&
+  @       mavlink->awaited == KEEL_MAVLINK_HEADER_BYTES;
   @   ensures MAV_002_messages: mavlink->messages == messages && mavlink->known == known;
   @   ensures MAV_002_none: mavlink->count.frames == 0 && mavlink->frame.length == 0;
   @ complete behaviors;
@@ -225,70 +293,104 @@ keel_status_t keel_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_mess
                                 uint32_t known);
 
 /**
- * Takes a byte from the line (requirements MAV-003 to MAV-009).
+ * Takes a byte from the line (requirement MAV-008). What it ends, keel_mavlink_look finds.
  *
  * @param mavlink the decoder, initialised
  * @param byte    what came
- * @return whether it ended a right frame: it is in mavlink->frame then, until the next one.
- *         Otherwise that is as it was
+ * @return KEEL_OK; KEEL_ERR_FULL when KEEL_MAVLINK_FRAME_MAX bytes are held, which is never so
+ *         behind a look that found nothing: then nothing is changed
  */
 /*@ requires mavlink_apart(mavlink) && mavlink_valid(mavlink);
-  @ assigns mavlink->frame, mavlink->count,
-  @     mavlink->header[0 .. KEEL_MAVLINK_HEADER_BYTES - 1],
-  @     mavlink->payload[0 .. KEEL_MAVLINK_PAYLOAD_MAX - 1],
-  @     mavlink->tail[0 .. KEEL_MAVLINK_TAIL_MAX - 1], mavlink->held, mavlink->crc,
-  @     mavlink->message;
-  @ ensures MAV_003_valid: mavlink_valid(mavlink) && mavlink_apart(mavlink);
-  @ ensures MAV_004_whole: \result ==> mavlink->held == 0 && \old(mavlink->held) > 2 &&
-  @     \old(mavlink->held) + 1 == \old(mavlink_whole(&mavlink->header[0]));
-  @ ensures MAV_004_message: \result ==> \old(mavlink->message < mavlink->known &&
-  @     mavlink_is_of(&mavlink->header[0], mavlink->messages + mavlink->message));
-  @ ensures MAV_005_header: \result ==> mavlink->frame.length == \old(mavlink->header[1]) &&
-  @     mavlink->frame.is_signed == \old(mavlink->header[2]) &&
-  @     mavlink->frame.compatible == \old(mavlink->header[3]) &&
-  @     mavlink->frame.sequence == \old(mavlink->header[4]) &&
-  @     mavlink->frame.system == \old(mavlink->header[5]) &&
-  @     mavlink->frame.component == \old(mavlink->header[6]) &&
-  @     mavlink->frame.id == \old(mavlink_id(&mavlink->header[0]));
-  @ ensures MAV_005_payload: \result ==>
-  @     \forall integer i; 0 <= i < KEEL_MAVLINK_PAYLOAD_MAX ==> mavlink->frame.payload[i] ==
-  @         \old(i < mavlink->header[1] ? mavlink->payload[i] : 0);
-  @ ensures MAV_006_kept: !\result ==> mavlink_kept{Pre, Post}(mavlink);
-  @ ensures MAV_007_frames: mavlink->count.frames ==
-  @     (\result ? mavlink_sum(\old(mavlink->count.frames)) : \old(mavlink->count.frames));
-  @ ensures MAV_008_held: \old(mavlink->held) > 2 &&
-  @     \old(mavlink->held) + 1 < \old(mavlink_whole(&mavlink->header[0])) ==>
-  @         !\result && mavlink->held == \old(mavlink->held) + 1;
-  @ ensures MAV_008_ended: \old(mavlink->held) > 2 &&
-  @     \old(mavlink->held) + 1 >= \old(mavlink_whole(&mavlink->header[0])) ==>
-  @         mavlink->held == 0;
-  @ ensures MAV_008_header: mavlink->held == \old(mavlink->held) + 1 ==>
-  @     \forall integer i; 0 <= i < KEEL_MAVLINK_HEADER_BYTES ==> mavlink->header[i] ==
-  @         (i == \old(mavlink->held) ? byte : \old(mavlink->header[i]));
-  @ ensures MAV_008_payload: \old(mavlink->held) > 2 ==>
-  @     \forall integer i; 0 <= i < \old(mavlink->header[1]) ==> mavlink->payload[i] ==
-  @         (KEEL_MAVLINK_HEADER_BYTES + i == \old(mavlink->held) ? byte :
-  @             \old(mavlink->payload[i]));
-  @ ensures MAV_008_first: \old(mavlink->held) == 0 ==> !\result &&
-  @     mavlink->held == (byte == KEEL_MAVLINK_FIRST ? 1 : 0) &&
-  @     (byte == KEEL_MAVLINK_FIRST ==> mavlink->crc == KEEL_CRC16_FIRST);
+  @ assigns mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1], mavlink->held, mavlink->count.others;
+  @ ensures MAV_003_valid: mavlink_valid(mavlink);
+  @ ensures MAV_003_apart: mavlink_apart(mavlink);
+  @ behavior full:
+  @   assumes mavlink->held >= KEEL_MAVLINK_FRAME_MAX;
+  @   assigns \nothing;
+  @   ensures MAV_008_full: \result == KEEL_ERR_FULL;
+  @ behavior other:
+  @   assumes mavlink->held == 0 && byte != KEEL_MAVLINK_FIRST;
+  @   assigns mavlink->count.others;
+  @   ensures MAV_008_other: \result == KEEL_OK &&
+  @       mavlink->count.others == mavlink_sum(\old(mavlink->count.others));
+  @ behavior held:
+  @   assumes 0 < mavlink->held < KEEL_MAVLINK_FRAME_MAX ||
+  @       (mavlink->held == 0 && byte == KEEL_MAVLINK_FIRST);
+  @   assigns mavlink->bytes[mavlink->held], mavlink->held;
+  @   ensures MAV_008_held: \result == KEEL_OK && mavlink->held == \old(mavlink->held) + 1 &&
+  @       mavlink->bytes[\old(mavlink->held)] == byte;
+  @ complete behaviors;
+  @ disjoint behaviors;
   @*/
-bool keel_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte);
+keel_status_t keel_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte);
 
 /**
- * Tells that the line was silent for longer than it is within a frame: the next byte begins one
- * (requirement MAV-010). A driver that knows no gaps need not call it.
+ * Looks whether a right frame begins with the first byte that is held (requirements MAV-003 to
+ * MAV-009 and MAV-014). Call it again until it finds nothing, before the next byte is taken.
  *
  * @param mavlink the decoder, initialised
+ * @return what was found. A frame is in mavlink->frame until the next one; otherwise that is as it
+ *         was
  */
-/*@ requires \valid(mavlink);
-  @ assigns mavlink->count.gaps, mavlink->held;
-  @ ensures MAV_010_begin: mavlink->held == 0;
-  @ ensures MAV_010_counted: mavlink->count.gaps ==
-  @     (\old(mavlink->held) > 0 ? mavlink_sum(\old(mavlink->count.gaps)) :
-  @         \old(mavlink->count.gaps));
+/*@ requires mavlink_apart(mavlink) && mavlink_valid(mavlink);
+  @ assigns mavlink->frame, mavlink->count, mavlink->message, mavlink->held, mavlink->awaited,
+  @     mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1];
+  @ ensures MAV_003_valid: mavlink_valid(mavlink);
+  @ ensures MAV_003_apart: mavlink_apart(mavlink);
+  @ ensures MAV_004_right: \result == KEEL_MAVLINK_FRAME ==> \old(mavlink_right(mavlink));
+  @ ensures MAV_004_dropped: \result == KEEL_MAVLINK_FRAME ==>
+  @     mavlink_dropped{Pre, Post}(mavlink, \old(mavlink->awaited)) &&
+  @     mavlink->awaited == KEEL_MAVLINK_HEADER_BYTES;
+  @ ensures MAV_005_header: \result == KEEL_MAVLINK_FRAME ==>
+  @     mavlink_header_of{Pre, Post}(mavlink);
+  @ ensures MAV_005_payload: \result == KEEL_MAVLINK_FRAME ==>
+  @     \forall integer i; 0 <= i < KEEL_MAVLINK_PAYLOAD_MAX ==> mavlink->frame.payload[i] ==
+  @         \old(i < mavlink->bytes[1] ? mavlink->bytes[KEEL_MAVLINK_HEADER_BYTES + i] : 0);
+  @ ensures MAV_006_kept: \result != KEEL_MAVLINK_FRAME ==> mavlink_kept{Pre, Post}(mavlink);
+  @ ensures MAV_007_frames: mavlink->count.frames == (\result == KEEL_MAVLINK_FRAME ?
+  @     mavlink_sum(\old(mavlink->count.frames)) : \old(mavlink->count.frames));
+  @ ensures MAV_009_nothing: \result == KEEL_MAVLINK_NOTHING <==>
+  @     \old(mavlink->held) < \old(mavlink->awaited);
+  @ ensures MAV_009_waits: \result == KEEL_MAVLINK_NOTHING ==>
+  @     mavlink->held == \old(mavlink->held) && mavlink->awaited == \old(mavlink->awaited) &&
+  @     \forall integer j; 0 <= j < KEEL_MAVLINK_FRAME_MAX ==>
+  @         mavlink->bytes[j] == \old(mavlink->bytes[j]);
+  @ ensures MAV_009_again: \result == KEEL_MAVLINK_AGAIN ==>
+  @     mavlink->held < \old(mavlink->held) ||
+  @     (\old(mavlink->awaited) == KEEL_MAVLINK_HEADER_BYTES &&
+  @      mavlink->awaited > KEEL_MAVLINK_HEADER_BYTES && mavlink->held == \old(mavlink->held) &&
+  @      \forall integer j; 0 <= j < KEEL_MAVLINK_FRAME_MAX ==>
+  @         mavlink->bytes[j] == \old(mavlink->bytes[j]));
+  @ ensures MAV_014_refused: \result == KEEL_MAVLINK_AGAIN &&
+  @     mavlink->held < \old(mavlink->held) ==> !\old(mavlink_right(mavlink)) &&
+  @         mavlink_dropped{Pre, Post}(mavlink, 1) &&
+  @         mavlink->awaited == KEEL_MAVLINK_HEADER_BYTES;
   @*/
-void keel_mavlink_gap(keel_mavlink_t *mavlink);
+keel_mavlink_look_t keel_mavlink_look(keel_mavlink_t *mavlink);
+
+/**
+ * Looks as keel_mavlink_look does, when no byte will follow those that are held: a frame that is
+ * not whole is none (requirement MAV-010). Call it again until it finds nothing: then nothing is
+ * held. A driver that knows no gaps need not call it.
+ *
+ * @param mavlink the decoder, initialised
+ * @return as keel_mavlink_look
+ */
+/*@ requires mavlink_apart(mavlink) && mavlink_valid(mavlink);
+  @ assigns mavlink->frame, mavlink->count, mavlink->message, mavlink->held, mavlink->awaited,
+  @     mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1];
+  @ ensures MAV_003_valid: mavlink_valid(mavlink);
+  @ ensures MAV_003_apart: mavlink_apart(mavlink);
+  @ ensures MAV_010_nothing: \result == KEEL_MAVLINK_NOTHING <==> \old(mavlink->held) == 0;
+  @ ensures MAV_010_empty: \result == KEEL_MAVLINK_NOTHING ==> mavlink->held == 0;
+  @ ensures MAV_010_partial: 0 < \old(mavlink->held) < \old(mavlink->awaited) ==>
+  @     \result == KEEL_MAVLINK_AGAIN && !\old(mavlink_right(mavlink)) &&
+  @     mavlink_dropped{Pre, Post}(mavlink, 1) &&
+  @     mavlink->count.gaps == mavlink_sum(\old(mavlink->count.gaps));
+  @ ensures MAV_006_kept: \result != KEEL_MAVLINK_FRAME ==> mavlink_kept{Pre, Post}(mavlink);
+  @ ensures MAV_010_right: \result == KEEL_MAVLINK_FRAME ==> \old(mavlink_right(mavlink));
+  @*/
+keel_mavlink_look_t keel_mavlink_gap(keel_mavlink_t *mavlink);
 
 /**
  * Writes a frame (requirements MAV-011 to MAV-013). Trailing zeros of the payload are left out, but
