@@ -5,9 +5,8 @@
 // covers: keel_mavlink_write cut_of checksum_of
 // covers: model_mavlink_write sent_bytes model_mavlink_checksum
 //
-// Any sender and message, and any payload of up to 32 bytes: the solver's time grows with them. WP
-// shows the clauses, all but the checksum, for any payload. What a byte makes of a checksum is
-// unknown, the same for code and model.
+// Any sender and message, and any payload of up to 32 bytes: the solver's time grows with them.
+// What a byte makes of a checksum is unknown, the same for code and model.
 //
 // What a decoder takes from a frame is what was written, zeros for what was left out.
 #include "mavlink_proof.h"

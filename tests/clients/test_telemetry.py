@@ -531,6 +531,14 @@ def test_anything_may_come(copter: Copter) -> None:
     assert rig.ask(ARM, 1) == ACCEPTED
 
 
+def test_garbage_costs_no_command(copter: Copter) -> None:
+    rig = Rig(copter)
+    rig.copter.send(0, bytes([0xFD, 0xFF, 0]))  # A frame of 267 bytes seems to begin.
+    assert rig.ask(REQUEST, 30) == ACCEPTED
+    rig.copter.send(0, bytes([0xFD]) * 100)  # More beginnings than are looked at in a run.
+    assert rig.ask(REQUEST, 30) == ACCEPTED
+
+
 def test_who_is_not_meant_does_nothing(copter: Copter) -> None:
     rig = Rig(copter)
     for system, component in ((2, 1), (1, 190)):

@@ -303,7 +303,6 @@ keel_status_t keel_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_mess
 /*@ requires mavlink_apart(mavlink) && mavlink_valid(mavlink);
   @ assigns mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1], mavlink->held, mavlink->count.others;
   @ ensures MAV_003_valid: mavlink_valid(mavlink);
-  @ ensures MAV_003_apart: mavlink_apart(mavlink);
   @ behavior full:
   @   assumes mavlink->held >= KEEL_MAVLINK_FRAME_MAX;
   @   assigns \nothing;
@@ -336,7 +335,6 @@ keel_status_t keel_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte);
   @ assigns mavlink->frame, mavlink->count, mavlink->message, mavlink->held, mavlink->awaited,
   @     mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1];
   @ ensures MAV_003_valid: mavlink_valid(mavlink);
-  @ ensures MAV_003_apart: mavlink_apart(mavlink);
   @ ensures MAV_004_right: \result == KEEL_MAVLINK_FRAME ==> \old(mavlink_right(mavlink));
   @ ensures MAV_004_dropped: \result == KEEL_MAVLINK_FRAME ==>
   @     mavlink_dropped{Pre, Post}(mavlink, \old(mavlink->awaited)) &&
@@ -380,7 +378,6 @@ keel_mavlink_look_t keel_mavlink_look(keel_mavlink_t *mavlink);
   @ assigns mavlink->frame, mavlink->count, mavlink->message, mavlink->held, mavlink->awaited,
   @     mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1];
   @ ensures MAV_003_valid: mavlink_valid(mavlink);
-  @ ensures MAV_003_apart: mavlink_apart(mavlink);
   @ ensures MAV_010_nothing: \result == KEEL_MAVLINK_NOTHING <==> \old(mavlink->held) == 0;
   @ ensures MAV_010_empty: \result == KEEL_MAVLINK_NOTHING ==> mavlink->held == 0;
   @ ensures MAV_010_partial: 0 < \old(mavlink->held) < \old(mavlink->awaited) ==>
