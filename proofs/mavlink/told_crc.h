@@ -3,17 +3,12 @@
  * @file told_crc.h
  * @brief A checksum that is any function of the one before and a byte. The model is told any
  *        numbers, which are drawn before; the code must ask the same, byte by byte, and is told the
- *        same.
+ *        same. Of how many bytes, that of the message included, whoever includes this says: ASKED.
  */
 #ifndef TOLD_CRC_H
 #define TOLD_CRC_H
 
 #include "../common/crc_contracts.h"
-
-/* The bytes that a checksum can be of, and its message's: 265 of the longest payload. */
-#ifndef ASKED
-#define ASKED 265u
-#endif
 
 uint16_t nondet_u16(void);
 
