@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 199309L /* For the host's clock and sleep. */
 
 #include "keel/rtos/scheduler.h"
+#include "keel/rtos/spread.h"
 #include "keel/version.h"
 
 #include <stdio.h>
@@ -65,9 +66,13 @@ int main(void)
         .read_clock = read_clock, .guard_us = 20u, .utilisation_limit_ppm = 700000u, /* 70 % */
     };
     keel_status_t status = keel_scheduler_init(&scheduler, &config);
+    uint32_t crowded;
 
     for (unsigned i = 0u; (i < 3u) && (status == KEEL_OK); i++) {
         status = keel_scheduler_add(&scheduler, &tasks[i]);
+    }
+    if (status == KEEL_OK) {
+        status = keel_scheduler_spread(&scheduler, &crowded); /* Here all find room. */
     }
     if (status == KEEL_OK) {
         status = keel_scheduler_start(&scheduler); /* Refuses a set that cannot hold. */

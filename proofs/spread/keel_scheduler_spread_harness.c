@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// cbmc: --unwind 4 --external-sat-solver cadical
+// cbmc: --unwindset greatest_divisor.0:4,tried_phase_us.0:5,falls_into.0:9,is_free.0:3
+// sources: src/rtos/spread.c specs/model/spread.c
+// defines: -DKEEL_QUEUE_CAPACITY=3u -DKEEL_SPREAD_ROUNDS_MAX=3u
+// covers: keel_scheduler_spread place_all place first_phase_us one_round next_free need_us
+// covers: greatest_divisor next_other begin_placing not_placed model_scheduler_spread
+//
+// Any arguments, at any stage. Bounded to 3 tasks, periods and budgets up to 2^2 us and guards up
+// to 1 us, with which the solver comes to an end in some minutes: 3 rounds are enough there.
+// tests/unit/test_spread_specified.c goes through all sets of 3 tasks up to 2^3 us.
+#include "../../specs/model/spread.h"
+#include "../common/keel_scheduler_proof.h"
+
+void keel_scheduler_spread_harness(void)
+{
+    keel_scheduler_t scheduler;
+    const uint32_t x = any_below(CAPACITY);
+    const bool given = nondet_bool();
+    const bool asked = nondet_bool();
+    uint32_t crowded = nondet_u32();
+    uint32_t counted = crowded;
+    keel_scheduler_t expected;
+    keel_status_t modelled;
+    keel_status_t status;
+
+    any_scheduler(&scheduler, CAPACITY);
+    narrow_tasks(&scheduler.queue, 2u);
+    scheduler.config.guard_us = any_bits(1u);
+    expected = scheduler;
+    modelled = model_scheduler_spread(given ? &expected : NULL, asked ? &counted : NULL);
+
+    status = keel_scheduler_spread(given ? &scheduler : NULL, asked ? &crowded : NULL);
+
+    __CPROVER_assert((status == modelled) && scheduler_same(&scheduler, &expected, x),
+                     "SPR_002_model: as the model says");
+    __CPROVER_assert(crowded == counted, "SPR_002_model: as many as it says are not placed");
+}
