@@ -5,7 +5,7 @@
  *
  * Input, one order a line; times in us, costs in ns:
  *
- *     policy keel|edf|unguarded|paper|literal|ungated
+ *     policy keel|spread|edf|unguarded|paper|literal|ungated   spread: Keel, which finds the phases
  *     model constant|uniform|heavy|either
  *     costs TURN PASS DISPATCH
  *     set SEED DURATION FIRST GUARD LIMIT SKIP WITHOUT   the counter's first reading; the limit of
@@ -22,6 +22,7 @@
  */
 #include "bsp/host/host_board.h"
 #include "keel/rtos/load.h"
+#include "keel/rtos/spread.h"
 #include "rivals.h"
 
 #include <inttypes.h>
@@ -81,7 +82,7 @@ struct experiment {
     uint64_t random;
     uint64_t duration_us;
     uint32_t first_us, guard_us, utilisation_limit_ppm;
-    bool skip, without_promotion;
+    bool skip, without_promotion, spread;
     uint32_t actors, chains;
     actor_t actor[KEEL_QUEUE_CAPACITY];
     chain_t chain[CHAINS];
@@ -247,8 +248,15 @@ static keel_status_t set_up(experiment_t *e)
 
     host_board_init(&e->board, e->scheduler, &e->costs, e->first_us);
     for (uint32_t i = 0u; (i < e->actors) && (status == KEEL_OK); i++) {
-        e->actor[i].due_us = e->actor[i].config.phase_us;
         status = keel_scheduler_add(e->scheduler, &e->actor[i].config);
+    }
+    if ((status == KEEL_OK) && e->spread) {
+        uint32_t crowded;
+
+        status = keel_scheduler_spread(e->scheduler, &crowded);
+    }
+    for (uint32_t i = 0u; (i < e->actors) && (status == KEEL_OK); i++) {
+        e->actor[i].due_us = report_of(&e->actor[i]).release_us;
     }
     return (status == KEEL_OK) ? keel_scheduler_start(e->scheduler) : status;
 }
@@ -363,13 +371,17 @@ static bool order_policy(experiment_t *e, const char *words)
     static const struct {
         const char *name;
         rival_step_t step;
-    } policies[] = {{"keel\n", keel_scheduler_step},       {"edf\n", rival_edf_step},
-                    {"unguarded\n", rival_unguarded_step}, {"paper\n", rival_paper_step},
-                    {"literal\n", rival_literal_step},     {"ungated\n", rival_ungated_step}};
+        bool spread;
+    } policies[] = {
+        {"keel\n", keel_scheduler_step, false},  {"spread\n", keel_scheduler_step, true},
+        {"edf\n", rival_edf_step, false},        {"unguarded\n", rival_unguarded_step, false},
+        {"paper\n", rival_paper_step, false},    {"literal\n", rival_literal_step, false},
+        {"ungated\n", rival_ungated_step, false}};
 
     for (size_t i = 0u; i < (sizeof policies / sizeof policies[0]); i++) {
         if (strcmp(words, policies[i].name) == 0) {
             e->step = policies[i].step;
+            e->spread = policies[i].spread;
             return true;
         }
     }

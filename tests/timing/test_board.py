@@ -10,10 +10,13 @@ from pathlib import Path
 
 import pytest
 from rich.console import Console
+from sets import random_set
 from timing import board
 from timing.board import BoardError, Experiment, Result
 from timing.deviation import Together, drift, excuse, turn_ceiling
 from timing.experiments import (
+    SECOND,
+    SIGMA_GOALS,
     Findings,
     Runner,
     at_goal_cost,
@@ -23,7 +26,7 @@ from timing.experiments import (
 from timing.least_deviation import least, least_of_class
 from timing.observed import Seen, judge_paths
 from timing.overload import counted, overload_bound, overload_plans, overloaded, silent
-from timing.phases import without_phases
+from timing.phases import spread, without_phases
 from timing.scheduler_bounds import TICK, realtime_bound
 from timing.taskset import Chain, Costs, Task, TaskSet, read
 from timing.textbook_tests import fixed_priority
@@ -288,6 +291,48 @@ def test_the_least_deviation_by_hand(urpilot: TaskSet) -> None:
     both = math.sqrt(ahead / 24) + math.sqrt((ahead + 37**2) / 24)
     found = least_of_class(urpilot, "medium-high", behind=True)
     assert found == pytest.approx(100 * both / 20_000 / 2)
+
+
+def test_the_kernel_finds_phases_by_hand(program: Path) -> None:
+    """Budget and a tick keep 21 behind R, and 61 behind L, which comes at 21. At 82 the 31 of H would
+    reach into R at 100, so it comes behind that. Nobody waits."""
+    result = run(program, Experiment(SMALL, "spread", duration_us=4000, turn_ns=0))
+    assert worst(result) == {"R": 20, "L": 60, "H": 30}
+    last = {name: outcome.last for name, outcome in result.tasks.items()}
+    assert last == {"R": 3900, "L": 3621, "H": 3721}
+
+
+def pass_as_guard(tasks: TaskSet) -> TaskSet:
+    """The set with a pass as long as the guard: both then keep the same distances."""
+    costs = tasks.costs.model_copy(update={"pass_us": tasks.costs.guard_us})
+    return replace(tasks, costs=costs)
+
+
+def test_the_kernel_finds_the_phases_that_the_analyser_finds(program: Path) -> None:
+    """Sets with periods up to 1.2 ms, beyond what the proofs of equality reach; admitted or not."""
+    sets = [pass_as_guard(random_set(number, 0.3)) for number in range(1000)]
+    plans = [Experiment(tasks, "spread", duration_us=1) for tasks in sets]
+    results = board.run_batch(program, plans, 60.0, refusals=True)
+    found = [spread(tasks) for tasks in sets]
+    for (tasks, _), result in zip(found, results, strict=True):
+        for task in tasks.tasks:
+            assert result.tasks[task.name].due % task.period == task.phase, (tasks.name, task.name)
+    crowded = sum(1 for _, names in found if names)
+    assert 100 < crowded < 900
+
+
+def test_the_kernels_phases_are_steadier_than_the_best_firmware(
+    program: Path, urpilot: TaskSet
+) -> None:
+    """Cleanflight's and Betaflight's figures are the goals; nobody gives phases here."""
+    tasks = without_phases(urpilot)
+    plan = Experiment(tasks, "spread", "uniform", duration_us=100 * SECOND)
+    result = run(program, plan)
+    assert all(outcome.skipped == 0 for outcome in result.tasks.values())
+    for class_name, goal in SIGMA_GOALS.items():
+        assert class_sigma(tasks, result, class_name) < goal, class_name
+    together = run(program, replace(plan, policy="keel"))
+    assert class_sigma(tasks, together, "high") > SIGMA_GOALS["high"]
 
 
 def simulated_least(program: Path, tasks: list[Task]) -> float:

@@ -184,6 +184,9 @@ def judge_deviation(tasks: TaskSet, results: Deviations, findings: Findings) -> 
         value = class_sigma(tasks, results["Keel", GOAL_MODEL], class_name)
         findings.goal(f"deviation, {class_name}", f"below {limit} %", f"{value:.4f} %",
                       value < limit)  # fmt: skip
+        value = class_sigma(tasks, results["spread", GOAL_MODEL], class_name)
+        findings.goal(f"deviation, {class_name}, phases found by the kernel", f"below {limit} %",
+                      f"{value:.4f} %", value < limit)  # fmt: skip
     for name in ("Keel", "RT phases"):
         value = class_sigma(tasks, results[name, GOAL_MODEL], "real-time")
         findings.goal(f"deviation, real-time, {name}", f"below {REALTIME_SIGMA_GOAL} %",

@@ -135,6 +135,7 @@ def variants(tasks: TaskSet) -> list[Variant]:
         Variant("5 us turn", "keel", tasks, 5000),
         Variant("RT phases", "keel", realtime_phases(tasks)),
         Variant("no phases", "keel", plain),
+        Variant("spread", "spread", plain),
         Variant("by rate", "keel", by_rate(plain)),
         Variant("unguarded", "unguarded", plain),
         Variant("EDF", "edf", plain),
