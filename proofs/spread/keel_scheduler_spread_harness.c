@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 4 --external-sat-solver cadical
-// cbmc: --unwindset greatest_divisor.0:4,tried_phase_us.0:5,falls_into.0:9,is_free.0:3
+// cbmc: --unwind 3 --external-sat-solver cadical
+// cbmc: --unwindset tried_phase_us.0:5,falls_into.0:9,is_free.0:2,model_spread_divisor.0:5
 // sources: src/rtos/spread.c specs/model/spread.c
-// defines: -DKEEL_QUEUE_CAPACITY=3u -DKEEL_SPREAD_ROUNDS_MAX=3u
+// replaces: keel_spread_divisor
+// defines: -DKEEL_QUEUE_CAPACITY=2u -DKEEL_SPREAD_ROUNDS_MAX=2u
 // covers: keel_scheduler_spread place_all place first_phase_us one_round next_free need_us
-// covers: greatest_divisor next_other begin_placing not_placed model_scheduler_spread
+// covers: next_other begin_placing not_placed model_scheduler_spread
 //
-// Any arguments, at any stage. Bounded to 3 tasks, periods and budgets up to 2^2 us and guards up
-// to 1 us, with which the solver comes to an end in some minutes: 3 rounds are enough there.
-// tests/unit/test_spread_specified.c goes through all sets of 3 tasks up to 2^3 us.
-#include "../../specs/model/spread.h"
-#include "../common/keel_scheduler_proof.h"
+// Any arguments, at any stage. Bounded to 2 tasks, periods and budgets up to 2^2 us and guards up
+// to 1 us: 2 rounds are enough there. A third task: keel_scheduler_spread__three_harness, and
+// tests/unit/test_spread_specified.c, which goes through all sets of 3 tasks up to 2^3 us.
+#include "spread_contracts.h"
 
 void keel_scheduler_spread_harness(void)
 {

@@ -1,10 +1,23 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* By trying: every phase, against every release. No divisor, no jump, and no end before the last
+/* By trying: every phase, against every release. No divisor there, no jump, and no end before the last
  * phase; so it is the code's where KEEL_SPREAD_ROUNDS_MAX rounds are enough. */
 #include "spread.h"
 
 #include <stdbool.h>
 #include <stddef.h>
+
+/* SPR-004: by trying every number. */
+uint32_t model_spread_divisor(uint32_t a, uint32_t b)
+{
+    uint32_t greatest = 1u;
+
+    for (uint32_t d = 1u; d <= a; d++) {
+        if (((a % d) == 0u) && ((b % d) == 0u)) {
+            greatest = d;
+        }
+    }
+    return greatest;
+}
 
 /* What keeps others away from a release. */
 typedef struct row {

@@ -30,12 +30,7 @@ typedef struct progress {
   @     \forall integer i; 0 <= i < q->count ==> queued(q, q->order[i]);
   @*/
 
-/*@ requires 0 < a < KEEL_PERIOD_LIMIT_US && b < KEEL_PERIOD_LIMIT_US;
-  @ assigns \nothing;
-  @ ensures divisor: \result == common_divisor(a, b);
-  @ ensures range: 0 < \result < KEEL_PERIOD_LIMIT_US;
-  @*/
-static uint32_t greatest_divisor(uint32_t a, uint32_t b)
+uint32_t keel_spread_divisor(uint32_t a, uint32_t b)
 {
     uint32_t divisor = a;
     uint32_t rest = b;
@@ -120,7 +115,7 @@ static uint32_t one_round(const keel_queue_t *queue, const progress_t *progress,
       @*/
     for (uint32_t y = 0u; y < KEEL_QUEUE_CAPACITY; y++) {
         if (progress->placed[y] && (later_us < period_us)) {
-            const uint32_t cycle_us = greatest_divisor(period_us, queue->period_us[y]);
+            const uint32_t cycle_us = keel_spread_divisor(period_us, queue->period_us[y]);
 
             later_us = next_free(later_us, (uint32_t)queue->release_us[y], cycle_us,
                                  need_us(queue, y, guard_us), need_us(queue, slot, guard_us));

@@ -142,6 +142,16 @@ static void SPR_001_twice_is_once(void)
     unchanged();
 }
 
+static void SPR_004_divides_both(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(6u, keel_spread_divisor(12u, 18u));
+    TEST_ASSERT_EQUAL_UINT32(6u, keel_spread_divisor(18u, 12u));
+    TEST_ASSERT_EQUAL_UINT32(7u, keel_spread_divisor(7u, 0u));
+    TEST_ASSERT_EQUAL_UINT32(1u, keel_spread_divisor(1000u, 1001u));
+    TEST_ASSERT_EQUAL_UINT32(1u, keel_spread_divisor(KEEL_PERIOD_LIMIT_US - 1u,
+                                                     KEEL_PERIOD_LIMIT_US - 2u));
+}
+
 static void SPR_003_refuses_null(void)
 {
     add(&a);
@@ -175,6 +185,7 @@ int main(void)
     RUN_TEST(SPR_002_a_crowded_task_keeps_its_phase);
     RUN_TEST(SPR_001_phases_are_kept_from_the_start_on);
     RUN_TEST(SPR_001_twice_is_once);
+    RUN_TEST(SPR_004_divides_both);
     RUN_TEST(SPR_003_refuses_null);
     RUN_TEST(SPR_003_refuses_after_the_start);
     return UNITY_END();

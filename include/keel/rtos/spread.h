@@ -77,6 +77,21 @@ KEEL_C_BEGIN
   @*/
 
 /**
+ * The greatest common divisor of two times (requirement SPR-004): two periods come together again
+ * and again at every multiple of it.
+ *
+ * @param a more than 0 and below 2^31
+ * @param b below 2^31; of 0 and a it is a
+ * @return what divides both
+ */
+/*@ requires 0 < a < KEEL_PERIOD_LIMIT_US && b < KEEL_PERIOD_LIMIT_US;
+  @ assigns \nothing;
+  @ ensures SPR_004_divisor: \result == common_divisor(a, b);
+  @ ensures SPR_004_range: 0 < \result < KEEL_PERIOD_LIMIT_US;
+  @*/
+uint32_t keel_spread_divisor(uint32_t a, uint32_t b);
+
+/**
  * Sets the first releases of the tasks so that they keep apart (requirements SPR-001 and SPR-002).
  *
  * The tasks are placed one after the other: the real-time ones in queue order, then the others by
