@@ -105,6 +105,16 @@ static uint32_t feed(const uint8_t *bytes, uint32_t count, uint32_t first_us)
     return taken;
 }
 
+/* A NAV-PVT of another length: the bytes of the usual one, and 0xFF behind them. */
+static uint32_t of_length(uint32_t length)
+{
+    uint8_t payload[4096];
+
+    memset(payload, 0xFF, sizeof payload);
+    memcpy(payload, &fix_bytes[6], (length < 92u) ? length : 92u);
+    return write(sent, 0x01u, 0x07u, payload, length);
+}
+
 /* All but the last byte take nothing, and the last one takes it. */
 static void is_taken(uint32_t first_us)
 {
@@ -376,6 +386,8 @@ static void UBX_010_within_any_message(void)
 
         TEST_ASSERT_EQUAL_UINT32(0u, feed(cut, 6u, SILENT_US));
         is_taken(BYTE_US);
+        TEST_ASSERT_EQUAL_UINT32(0u, feed(cut, 6u, SILENT_US));
+        TEST_ASSERT_EQUAL_UINT32(1u, feed(sent, of_length(84u), BYTE_US));
     }
 }
 
@@ -446,16 +458,6 @@ static void UBX_011_skips_any_length(void)
     }
     TEST_ASSERT_EQUAL_UINT32(0u, ubx.count.cut);
     TEST_ASSERT_EQUAL_UINT32(0u, ubx.count.checksums);
-}
-
-/* A NAV-PVT of another length: the bytes of the usual one, and 0xFF behind them. */
-static uint32_t of_length(uint32_t length)
-{
-    uint8_t payload[4096];
-
-    memset(payload, 0xFF, sizeof payload);
-    memcpy(payload, &fix_bytes[6], (length < 92u) ? length : 92u);
-    return write(sent, 0x01u, 0x07u, payload, length);
 }
 
 /* What a receiver of any protocol says, all but the last byte taking nothing. */
