@@ -440,7 +440,8 @@ def test_what_is_set_on_the_ground_is_in_force_at_once(copter: Copter, tmp_path:
     rig.run(1000)
     copter.log(None)
     log = ulog.read(tmp_path / "log.ulg")
-    assert log.parameters["MOT_IDLE"] == 0.0625  # What it was last.
+    assert abs(log.parameters["MOT_IDLE"] - 0.05) < 1e-6
+    assert [one[1:] for one in log.changed] == [("MOT_IDLE", 0.125), ("MOT_IDLE", 0.0625)]
     assert len(log.parameters) == len(others())
 
 
