@@ -209,7 +209,7 @@ def test_mavproxys_names(station: Station, proxy: Callable[[bool], Proxy]) -> No
     at.types("reboot", "PREFLIGHT_REBOOT_SHUTDOWN: TEMPORARILY_REJECTED", "not rebooted: armed")
     hovers(station)
     at.types("long NAV_RETURN_TO_LAUNCH", "NAV_RETURN_TO_LAUNCH: ACCEPTED", "returning")
-    at.types("long NAV_LAND", "NAV_LAND: ACCEPTED", "landing")
+    at.types("long NAV_LAND", "NAV_LAND: ACCEPTED")
 
 
 # With Keel's table: what a name is answered on the ground and in flight, and what is shown then.
