@@ -280,7 +280,10 @@ def test_mavsdks_actions(station: Station, ports: list[int]) -> None:
         mode("LAND")
         for number in (seen.position().relative_altitude_m, seen.heading().heading_deg,
                        seen.velocity_ned().down_m_s, seen.battery().voltage_v,
-                       seen.attitude_euler().roll_deg):  # fmt: skip
+                       seen.attitude_euler().roll_deg, seen.attitude_quaternion().w,
+                       seen.altitude().altitude_relative_m,
+                       seen.fixedwing_metrics().climb_rate_m_s, seen.raw_gps().hdop,
+                       seen.position_velocity_ned().position.down_m):  # fmt: skip
             assert math.isfinite(number)
         rest(station)
         begun = station.see("ATTITUDE").time_boot_ms
