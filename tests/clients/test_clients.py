@@ -292,7 +292,7 @@ def test_mavsdk(station: Station, ports: list[int]) -> None:
         assert system is not None
         seen, param, action = Telemetry(system), Param(system), Action(system)
         wait_for(lambda: abs(seen.position().latitude_deg - 47.3977) < 0.001, "a position")
-        assert abs(seen.attitude_euler().roll_deg) < 5.0
+        wait_for(lambda: abs(seen.attitude_euler().roll_deg) < 5.0, "an attitude")
         wait_for(lambda: 14.0 < seen.battery().voltage_v < 17.5, "a battery")
         wait_for(lambda: seen.health().is_global_position_ok, "its health")
         mavsdk_sets_parameters(param)

@@ -130,15 +130,20 @@ def test_it_connects_by_a_modem(copter: Copter) -> None:
     assert took_ms < 20_000
 
 
-@pytest.mark.parametrize(("lost", "most_s"), [(0.05, 60), (0.3, 120)])
-def test_it_connects_over_a_bad_link(copter: Copter, lost: float, most_s: int) -> None:
-    """It ends; what it needs to show the vehicle is there in the end. Files may be given up."""
+@pytest.mark.parametrize(("lost", "most_s", "missing"), [(0.05, 60, 0), (0.3, 120, 3)])
+def test_it_connects_over_a_bad_link(
+    copter: Copter, lost: float, most_s: int, missing: int
+) -> None:
+    """It ends. Files may be given up, and so may a parameter that QGroundControl has asked for in
+    vain six times."""
     meeting = Meeting(Rig(copter, warm_ms=0), lost)
     met = meeting.station(0)
     meeting.until_done(1000 * most_s)
     assert met.late  # Something was lost.
-    assert not [error for error in met.errors if "mftp" not in error]
-    assert len(met.parameters) == next(iter(met.parameters.values())).param_count
+    assert not [error for error in met.errors
+                if "mftp" not in error and (not missing or "missing" not in error)]  # fmt: skip
+    count = next(iter(met.parameters.values())).param_count
+    assert len(met.parameters) >= count - missing
     assert met.plans == {"mission": 0, "fence": 0, "rally": 0}
 
 
