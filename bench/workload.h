@@ -338,7 +338,7 @@ static uint32_t ms5611_temperature_at(uint32_t n)
 /* --- SBUS ------------------------------------------------------------------------------------- */
 
 static const keel_sbus_config_t sbus_workload = {
-    .gap_us = 1000u, .lowest = 172u, .highest = 1811u, .sbus2 = false};
+    .gap_us = 1000u, .lowest = 8u, .highest = 1976u, .judged = 0x000Fu};
 
 /* One frame behind the other, all channels in the middle, 8 in 11 bytes. */
 static uint8_t sbus_byte_at(uint32_t n)
@@ -438,7 +438,7 @@ static uint8_t crsf_byte_at(uint32_t n)
 /* --- IBUS ------------------------------------------------------------------------------------- */
 
 static const keel_ibus_config_t ibus_workload = {
-    .gap_us = 500u, .lowest = 900u, .highest = 2100u, .extended = false};
+    .gap_us = 500u, .judged = 0x0000Fu, .lowest = 885u, .highest = 2115u, .extended = false};
 
 /* One frame behind the other: channels of 1500 us. */
 static uint8_t ibus_byte_at(uint32_t n)
@@ -461,6 +461,7 @@ static const keel_ppm_config_t ppm_workload = {.lost_us = 100000u,
                                                .lowest_us = 800u,
                                                .highest_us = 2200u,
                                                .sync_us = 2300u,
+                                               .judged = 0x000Fu,
                                                .least = 4u,
                                                .frames_to_take = 3u};
 

@@ -91,7 +91,7 @@ const copter_settings_t copter_defaults =
                            .jump_fixes = 30u},
                   .accuracy = 5.0f,
                   .speed_accuracy = 1.0f},
-     .radio = {.gap_us = 1000u, .lowest = 172u, .highest = 1811u, .sbus2 = false},
+     .radio = {.gap_us = 1000u, .lowest = 8u, .highest = 1976u, .judged = 0x000Fu},
      .satellites = {.gap_us = 20000u,
                     .max_age_us = 500000u,
                     .accuracy_mm = 5000u,

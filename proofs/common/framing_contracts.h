@@ -17,10 +17,17 @@ uint16_t nondet_u16(void);
 uint32_t nondet_u32(void);
 keel_framing_t nondet_framing(void);
 
+/* framing_header */
+static bool framing_header_here(const keel_framing_t *f, uint8_t byte)
+{
+    return (byte == f->header[0]) || (byte == f->header[1]) || (byte == f->header[2]) ||
+           (byte == f->header[3]);
+}
+
 /* framing_begins */
 static bool framing_begins_here(const keel_framing_t *f)
 {
-    return (f->held <= 64u) && ((f->held == 0u) || (f->byte[0] == f->header));
+    return (f->held <= 64u) && ((f->held == 0u) || framing_header_here(f, f->byte[0]));
 }
 
 /* framing_valid */
@@ -39,8 +46,9 @@ static bool framing_late_here(const keel_framing_t *f, uint32_t elapsed_us)
 static bool framing_same(const keel_framing_t *a, const keel_framing_t *b, uint32_t i)
 {
     return (a->gap_us == b->gap_us) && (a->quiet_us == b->quiet_us) && (a->gaps == b->gaps) &&
-           (a->strays == b->strays) && (a->header == b->header) && (a->held == b->held) &&
-           (a->byte[i] == b->byte[i]);
+           (a->strays == b->strays) && (a->held == b->held) && (a->byte[i] == b->byte[i]) &&
+           (a->header[0u] == b->header[0u]) && (a->header[1u] == b->header[1u]) &&
+           (a->header[2u] == b->header[2u]) && (a->header[3u] == b->header[3u]);
 }
 
 /* What keel_framing_drop asks for and does, as far as decoders need to know. */
@@ -61,7 +69,7 @@ static bool framing_left_at(const keel_framing_t *f, const keel_framing_t *befor
 {
     const uint32_t n = (uint32_t)before->held - f->held;
 
-    return ((place < count) || (place >= n) || (before->byte[place] != before->header)) &&
+    return ((place < count) || (place >= n) || !framing_header_here(before, before->byte[place])) &&
            ((place >= f->held) || (f->byte[place] == before->byte[n + place]));
 }
 

@@ -16,7 +16,9 @@ keel_crsf_config_t nondet_crsf_config(void);
 /* crsf_valid */
 static bool crsf_valid_here(const keel_crsf_t *s)
 {
-    return framing_valid_here(&s->framing) && (s->framing.header == 0xC8u);
+    return framing_valid_here(&s->framing) && (s->framing.header[0] == 0xC8u) &&
+           (s->framing.header[1] == 0x00u) && (s->framing.header[2] == 0xECu) &&
+           (s->framing.header[3] == 0xEEu);
 }
 
 static bool crsf_config_same(const keel_crsf_config_t *a, const keel_crsf_config_t *b)
@@ -44,8 +46,8 @@ static bool crsf_channels_alike(const uint16_t *a, const uint16_t *b)
 
 static bool crsf_count_same(const keel_crsf_count_t *a, const keel_crsf_count_t *b)
 {
-    return (a->channels == b->channels) && (a->links == b->links) && (a->others == b->others) &&
-           (a->lengths == b->lengths) && (a->crcs == b->crcs);
+    return (a->channels == b->channels) && (a->links == b->links) && (a->shorts == b->shorts) &&
+           (a->others == b->others) && (a->lengths == b->lengths) && (a->crcs == b->crcs);
 }
 
 static bool crsf_same(const keel_crsf_t *a, const keel_crsf_t *b, uint32_t i)
@@ -123,10 +125,15 @@ static void any_right_frame(uint8_t *frame)
 /* What a byte ends that ends this frame. */
 static keel_crsf_taken_t kind_of(const uint8_t *frame)
 {
-    if ((frame[2] == 0x16u) && (frame[1] == 24u)) {
-        return KEEL_CRSF_TOOK_CHANNELS;
+    keel_crsf_taken_t kind = KEEL_CRSF_TOOK_OTHER;
+
+    if (frame[2] == 0x16u) {
+        kind = (frame[1] < 24u) ? KEEL_CRSF_TOOK_SHORT : KEEL_CRSF_TOOK_CHANNELS;
     }
-    return ((frame[2] == 0x14u) && (frame[1] == 12u)) ? KEEL_CRSF_TOOK_LINK : KEEL_CRSF_TOOK_OTHER;
+    if (frame[2] == 0x14u) {
+        kind = (frame[1] < 12u) ? KEEL_CRSF_TOOK_SHORT : KEEL_CRSF_TOOK_LINK;
+    }
+    return kind;
 }
 
 /* Whether what was published is this frame. */

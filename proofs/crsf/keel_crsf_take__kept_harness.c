@@ -3,7 +3,7 @@
 // sources: src/middleware/crsf.c src/middleware/framing.c specs/model/crsf.c specs/model/framing.c
 // replaces: keel_crsf_crc keel_framing_drop
 // covers: keel_crsf_take keel_crsf_pass_time take_first take_or_refuse take_whole take_channels
-// covers: take_link channel_of model_crsf_right crc_right
+// covers: take_link channel_of model_crsf_right begins crc_right
 //
 // The clauses, without the model: what is published was right as a whole, and nothing else is. The
 // bytes that may be a frame: those held, and the one that comes.

@@ -38,13 +38,12 @@ void keel_crsf_take__search_harness(void)
 
     taken = keel_crsf_take(&crsf, byte, elapsed_us);
 
-    __CPROVER_assert(counted(crsf.count.channels, before.count.channels,
-                             taken == KEEL_CRSF_TOOK_CHANNELS) &&
-                         counted(crsf.count.links, before.count.links,
-                                 taken == KEEL_CRSF_TOOK_LINK) &&
-                         counted(crsf.count.others, before.count.others,
-                                 taken == KEEL_CRSF_TOOK_OTHER),
-                     "CRF_008_counts: right frames are counted, by what they are");
+    __CPROVER_assert(
+        counted(crsf.count.channels, before.count.channels, taken == KEEL_CRSF_TOOK_CHANNELS) &&
+            counted(crsf.count.links, before.count.links, taken == KEEL_CRSF_TOOK_LINK) &&
+            counted(crsf.count.shorts, before.count.shorts, taken == KEEL_CRSF_TOOK_SHORT) &&
+            counted(crsf.count.others, before.count.others, taken == KEEL_CRSF_TOOK_OTHER),
+        "CRF_008_counts: right frames are counted, by what they are");
     __CPROVER_assert(aged(crsf.channels_age_us, before.channels_age_us, elapsed_us,
                           taken == KEEL_CRSF_TOOK_CHANNELS) &&
                          aged(crsf.link_age_us, before.link_age_us, elapsed_us,
@@ -52,7 +51,8 @@ void keel_crsf_take__search_harness(void)
                      "CRF_009_ages: channels and statistics are new, or older by the time");
     if (late) {
         __CPROVER_assert((taken == KEEL_CRSF_NOTHING) &&
-                             (crsf.framing.held == ((byte == 0xC8u) ? 1u : 0u)),
+                             (crsf.framing.held ==
+                              (framing_header_here(&before.framing, byte) ? 1u : 0u)),
                          "CRF_010_gap: behind a gap nothing is held but this byte, if a header");
     } else if ((taken == KEEL_CRSF_NOTHING) && (before.framing.held > 0u)) {
         const uint32_t n = before.framing.held + 1u - crsf.framing.held;
@@ -61,8 +61,9 @@ void keel_crsf_take__search_harness(void)
         __CPROVER_assert(crsf.framing.held <= (before.framing.held + 1u),
                          "CRF_011_none_more: as many bytes are held as came, or fewer");
         __CPROVER_assert((place < 1u) || (place >= n) ||
-                             (((place < before.framing.held) ? before.framing.byte[place] : byte) !=
-                              0xC8u),
+                             !framing_header_here(&before.framing, (place < before.framing.held)
+                                                                       ? before.framing.byte[place]
+                                                                       : byte),
                          "CRF_011_first: of what went behind the first byte, none is a header");
         __CPROVER_assert((place >= crsf.framing.held) ||
                              (crsf.framing.byte[place] ==

@@ -11,7 +11,8 @@ void keel_framing_begin_harness(void)
     keel_framing_t framing = nondet_framing();
     keel_framing_t model = framing;
     const uint32_t gap_us = nondet_u32();
-    const uint8_t header = nondet_u8();
+    const uint8_t header[KEEL_FRAMING_HEADERS] = {nondet_u8(), nondet_u8(), nondet_u8(),
+                                                  nondet_u8()};
 
     model_framing_begin(&model, gap_us, header);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 65 --unwindset keel_framing_drop.0:9,keel_framing_drop.1:9
 // cbmc: --external-sat-solver cadical
-// sources: src/middleware/framing.c specs/model/framing_parts.c
-// covers: keel_framing_drop model_framing_drop
+// sources: src/middleware/framing.c specs/model/framing.c specs/model/framing_parts.c
+// covers: keel_framing_drop is_header model_framing_drop model_framing_header
 //
 // Up to 8 bytes that are held, any of them dropped; each byte that is left. For as many as can be
 // held, WP proves which are left (FRG_006_first, FRG_006_shifted).

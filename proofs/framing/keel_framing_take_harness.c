@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 65 --external-sat-solver cadical
 // sources: src/middleware/framing.c specs/model/framing.c
-// covers: keel_framing_take keel_framing_pass_time keel_framing_sum
-// covers: model_framing_take model_framing_sum hold
+// covers: keel_framing_take keel_framing_pass_time keel_framing_sum is_header
+// covers: model_framing_take model_framing_sum model_framing_header hold
 //
 // Any valid state, any byte, any time.
 #include "../../specs/model/framing.h"

@@ -17,8 +17,9 @@ keel_ibus_config_t nondet_ibus_config(void);
 /* ibus_valid */
 static bool ibus_valid_here(const keel_ibus_t *s)
 {
-    return framing_valid_here(&s->framing) && (s->framing.header == 0x20u) &&
-           (s->framing.held < 32u);
+    return framing_valid_here(&s->framing) && (s->framing.held < 32u) &&
+           (s->framing.header[0] == 0x20u) && (s->framing.header[1] == 0x20u) &&
+           (s->framing.header[2] == 0x20u) && (s->framing.header[3] == 0x20u);
 }
 
 /* ibus_config */
@@ -30,7 +31,7 @@ static bool ibus_config_valid(const keel_ibus_config_t *c)
 static bool ibus_config_same(const keel_ibus_config_t *a, const keel_ibus_config_t *b)
 {
     return (a->gap_us == b->gap_us) && (a->lowest == b->lowest) && (a->highest == b->highest) &&
-           (a->extended == b->extended);
+           (a->extended == b->extended) && (a->judged == b->judged);
 }
 
 /* Whether these are the same channels. */

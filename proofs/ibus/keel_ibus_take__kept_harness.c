@@ -2,8 +2,8 @@
 // cbmc: --unwind 65 --external-sat-solver cadical
 // sources: src/middleware/ibus.c src/middleware/framing.c specs/model/ibus.c specs/model/framing.c
 // replaces: keel_framing_drop
-// covers: keel_ibus_take keel_ibus_pass_time word_of extra_of channel_us adds_up all_in_range take_words
-// covers: take_held
+// covers: keel_ibus_take keel_ibus_pass_time word_of extra_of channel_us adds_up all_in_range judges
+// covers: take_words take_held
 // covers: model_ibus_right
 //
 // The clauses, without the model: what is published was right as a whole, and nothing else is. The

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 17 --external-sat-solver cadical
 // sources: src/middleware/ppm.c specs/model/ppm.c specs/model/framing.c
-// covers: keel_ppm_take keel_ppm_pass_time take_next close_frame add_channel
+// covers: keel_ppm_take keel_ppm_pass_time take_next close_frame is_right add_channel
 //
 // The clauses of the contract, without the model, each of them for any valid decoder and any time.
 #include "ppm_proof.h"
@@ -19,8 +19,8 @@ static bool ends_here(void)
 /* ppm_goes_on */
 static bool goes_on_here(void)
 {
-    return (width < before.config.sync_us) && before.begun && ppm_in_range_here(&before, width) &&
-           (before.come < 16u);
+    return (width < before.config.sync_us) && before.begun && (before.come < 16u) &&
+           ppm_right_here(&before, before.come, width);
 }
 
 /* ppm_row */
@@ -35,8 +35,8 @@ static void check_taken(const keel_ppm_t *ppm, uint32_t i)
 {
     __CPROVER_assert(ends_here(), "PPM_004_ends: the frame was right as a whole, and ended");
     __CPROVER_assert((ppm->config.least <= ppm->channels) && (ppm->channels <= 16u) &&
-                         all_in_range_here(ppm, ppm->channel, ppm->channels),
-                     "PPM_004_range: it had enough channels, all in range");
+                         all_right_here(ppm, ppm->channel, ppm->channels),
+                     "PPM_004_range: it had enough channels, all right");
     __CPROVER_assert(((uint32_t)before.row + 1u >= before.config.frames_to_take) &&
                          ((before.config.frames_to_take == 1u) || (before.row_of == before.come)),
                      "PPM_009_before: and so had as many before it, with as many channels");

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 17 --external-sat-solver cadical
 // sources: src/middleware/ppm.c specs/model/ppm.c specs/model/framing.c
-// covers: keel_ppm_take keel_ppm_pass_time take_next close_frame add_channel
-// covers: model_ppm_take model_ppm_pass_time refused row_with published ended went_on
+// covers: keel_ppm_take keel_ppm_pass_time take_next close_frame is_right add_channel
+// covers: model_ppm_take model_ppm_pass_time refused row_with published ended judged
+// covers: went_on
 //
 // Any valid decoder, any time: the same as the model's in every field, and valid.
 #include "ppm_proof.h"

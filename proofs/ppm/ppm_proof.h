@@ -20,18 +20,20 @@ static uint32_t sum_here(uint32_t a, uint32_t b)
     return ((UINT32_MAX - a) < b) ? UINT32_MAX : (a + b);
 }
 
-static bool ppm_in_range_here(const keel_ppm_t *s, uint32_t us)
+/* ppm_right */
+static bool ppm_right_here(const keel_ppm_t *s, uint32_t i, uint32_t us)
 {
-    return (s->config.lowest_us <= us) && (us <= s->config.highest_us);
+    return ((((uint32_t)s->config.judged >> i) & 1u) == 0u) ||
+           ((s->config.lowest_us <= us) && (us <= s->config.highest_us));
 }
 
-/* Whether all of so many channels are in range. */
-static bool all_in_range_here(const keel_ppm_t *s, const uint16_t *channel, uint32_t count)
+/* Whether all of so many channels are right. */
+static bool all_right_here(const keel_ppm_t *s, const uint16_t *channel, uint32_t count)
 {
     bool all = true;
 
     for (uint32_t i = 0u; i < KEEL_PPM_CHANNELS; i++) {
-        all = all && ((i >= count) || ppm_in_range_here(s, channel[i]));
+        all = all && ((i >= count) || ppm_right_here(s, i, channel[i]));
     }
     return all;
 }
@@ -48,14 +50,15 @@ static bool ppm_valid_here(const keel_ppm_t *s)
 {
     return ppm_limits_here(&s->config) && (s->come <= 16u) && (s->channels <= 16u) &&
            (s->row <= s->config.frames_to_take) && (s->config.frames_to_take > 0u) &&
-           (s->begun || (s->row == 0u)) && (!s->begun || all_in_range_here(s, s->next, s->come));
+           (s->begun || (s->row == 0u)) && (!s->begun || all_right_here(s, s->next, s->come));
 }
 
 static bool ppm_config_same(const keel_ppm_config_t *a, const keel_ppm_config_t *b)
 {
     return (a->lost_us == b->lost_us) && (a->lowest_us == b->lowest_us) &&
            (a->highest_us == b->highest_us) && (a->sync_us == b->sync_us) &&
-           (a->least == b->least) && (a->frames_to_take == b->frames_to_take);
+           (a->judged == b->judged) && (a->least == b->least) &&
+           (a->frames_to_take == b->frames_to_take);
 }
 
 static bool ppm_count_same(const keel_ppm_count_t *a, const keel_ppm_count_t *b)

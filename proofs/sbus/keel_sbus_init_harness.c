@@ -8,7 +8,7 @@
 void keel_sbus_init_harness(void)
 {
     const uint32_t at = any_below(KEEL_SBUS_BYTES);
-    const keel_sbus_config_t config = any_sbus_config();
+    const keel_sbus_config_t config = nondet_sbus_config();
     keel_sbus_t sbus = any_sbus();
     keel_sbus_t model = sbus;
     const keel_sbus_t before = sbus;

@@ -2,7 +2,7 @@
 // cbmc: --unwind 26 --external-sat-solver cadical
 // sources: src/middleware/sbus.c specs/model/sbus.c
 // covers: keel_sbus_take keel_sbus_pass_time add_up_to_end count_to_end field_of is_footer
-// covers: are_plausible publish search_header take_frame
+// covers: is_judged are_plausible publish search_header take_frame
 //
 // The clauses, without the model: what is published was right as a whole, and nothing else is.
 #include "sbus_proof.h"

@@ -34,7 +34,7 @@ static bool sbus_config_valid(const keel_sbus_config_t *c)
 static bool sbus_config_same(const keel_sbus_config_t *a, const keel_sbus_config_t *b)
 {
     return (a->gap_us == b->gap_us) && (a->lowest == b->lowest) && (a->highest == b->highest) &&
-           (a->sbus2 == b->sbus2);
+           (a->judged == b->judged);
 }
 
 static bool sbus_frame_same(const keel_sbus_frame_t *a, const keel_sbus_frame_t *b)
@@ -64,20 +64,11 @@ static bool sbus_same(const keel_sbus_t *a, const keel_sbus_t *b, uint32_t i)
            (a->quiet_us == b->quiet_us) && (a->held == b->held) && (a->buffer[i] == b->buffer[i]);
 }
 
-static keel_sbus_config_t any_sbus_config(void)
-{
-    keel_sbus_config_t config = nondet_sbus_config();
-
-    config.sbus2 = nondet_bool();
-    return config;
-}
-
 /* Any bits, but that a bool is one. */
 static keel_sbus_t any_sbus(void)
 {
     keel_sbus_t sbus = nondet_sbus();
 
-    sbus.config = any_sbus_config();
     sbus.frame.digital_17 = nondet_bool();
     sbus.frame.digital_18 = nondet_bool();
     sbus.frame.lost = nondet_bool();

@@ -6,6 +6,7 @@
 /* CRF-001, CRF-002 */
 keel_status_t model_crsf_init(keel_crsf_t *crsf, const keel_crsf_config_t *config)
 {
+    const uint8_t headers[4] = {0xC8u, 0x00u, 0xECu, 0xEEu};
     keel_crsf_t fresh = {
         .config = *config, .channels_age_us = UINT32_MAX, .link_age_us = UINT32_MAX};
 
@@ -15,7 +16,7 @@ keel_status_t model_crsf_init(keel_crsf_t *crsf, const keel_crsf_config_t *confi
     if (config->channels_us == 0u) {
         return KEEL_ERR_AGE;
     }
-    model_framing_begin(&fresh.framing, config->gap_us, 0xC8u);
+    model_framing_begin(&fresh.framing, config->gap_us, headers);
     *crsf = fresh;
     return KEEL_OK;
 }
@@ -35,6 +36,24 @@ uint16_t model_crsf_channel(const uint8_t *frame, uint32_t index)
     return (uint16_t)value;
 }
 
+/* CRF-004: what CRSF calls the sync byte, of the devices between a pilot and the copter. */
+static bool begins(uint8_t byte)
+{
+    bool is = false;
+
+    switch (byte) {
+    case 0xC8:
+    case 0x00:
+    case 0xEC:
+    case 0xEE:
+        is = true;
+        break;
+    default:
+        break;
+    }
+    return is;
+}
+
 /* CRF-004 */
 static bool crc_right(const uint8_t *frame)
 {
@@ -46,7 +65,7 @@ static bool crc_right(const uint8_t *frame)
 /* CRF-004 */
 bool model_crsf_right(const uint8_t *frame)
 {
-    return (frame[0] == 0xC8u) && (frame[1] >= 2u) && (frame[1] <= 62u) && crc_right(frame);
+    return begins(frame[0]) && (frame[1] >= 2u) && (frame[1] <= 62u) && crc_right(frame);
 }
 
 /* CRF-009 */
@@ -86,18 +105,22 @@ static void link_said(keel_crsf_t *crsf, const uint8_t *frame)
     crsf->count.links = model_framing_sum(crsf->count.links, 1u);
 }
 
-/* CRF-004, CRF-008: by type and length. */
+/* CRF-004, CRF-008: by type, when it is long enough; what is behind the fields is not read. */
 static keel_crsf_taken_t said(keel_crsf_t *crsf)
 {
     const uint8_t *const frame = crsf->framing.byte;
 
-    if ((frame[1] == 24u) && (frame[2] == 0x16u)) {
+    if ((frame[1] >= 24u) && (frame[2] == 0x16u)) {
         channels_said(crsf, frame);
         return KEEL_CRSF_TOOK_CHANNELS;
     }
-    if ((frame[1] == 12u) && (frame[2] == 0x14u)) {
+    if ((frame[1] >= 12u) && (frame[2] == 0x14u)) {
         link_said(crsf, frame);
         return KEEL_CRSF_TOOK_LINK;
+    }
+    if ((frame[2] == 0x16u) || (frame[2] == 0x14u)) {
+        crsf->count.shorts = model_framing_sum(crsf->count.shorts, 1u);
+        return KEEL_CRSF_TOOK_SHORT;
     }
     crsf->count.others = model_framing_sum(crsf->count.others, 1u);
     return KEEL_CRSF_TOOK_OTHER;

@@ -10,11 +10,25 @@ uint32_t model_framing_sum(uint32_t a, uint32_t b)
 }
 
 /* FRG-002 */
-void model_framing_begin(keel_framing_t *framing, uint32_t gap_us, uint8_t header)
+void model_framing_begin(keel_framing_t *framing, uint32_t gap_us, const uint8_t *header)
 {
-    const keel_framing_t begun = {.gap_us = gap_us, .quiet_us = UINT32_MAX, .header = header};
+    keel_framing_t begun = {.gap_us = gap_us, .quiet_us = UINT32_MAX};
 
+    for (uint32_t i = 0u; i < 4u; i++) {
+        begun.header[i] = header[i];
+    }
     *framing = begun;
+}
+
+/* FRG-005 */
+bool model_framing_header(const keel_framing_t *framing, uint8_t byte)
+{
+    bool is = false;
+
+    for (uint32_t i = 0u; i < 4u; i++) {
+        is = is || (byte == framing->header[i]);
+    }
+    return is;
 }
 
 /* FRG-003 */
@@ -43,7 +57,7 @@ void model_framing_take(keel_framing_t *framing, uint8_t byte, uint32_t elapsed_
     framing->quiet_us = 0u; /* FRG-003 */
     if (framing->held != 0u) {
         hold(framing, byte);
-    } else if (byte == framing->header) {
+    } else if (model_framing_header(framing, byte)) {
         hold(framing, byte);
     } else {
         framing->strays = model_framing_sum(framing->strays, 1u);

@@ -9,7 +9,8 @@ void model_framing_drop(keel_framing_t *framing, uint32_t count)
     uint32_t first = old.held;
 
     for (uint32_t i = 64u; i > 0u; i--) {
-        if ((i - 1u >= count) && (i - 1u < old.held) && (old.byte[i - 1u] == old.header)) {
+        if ((i - 1u >= count) && (i - 1u < old.held) &&
+            model_framing_header(&old, old.byte[i - 1u])) {
             first = i - 1u;
         }
     }

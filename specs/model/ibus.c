@@ -6,6 +6,7 @@
 /* IBU-001, IBU-002 */
 keel_status_t model_ibus_init(keel_ibus_t *ibus, const keel_ibus_config_t *config)
 {
+    const uint8_t headers[4] = {0x20u, 0x20u, 0x20u, 0x20u};
     keel_ibus_t fresh = {.config = *config, .age_us = UINT32_MAX};
 
     if (config->highest > 4095u) {
@@ -17,7 +18,7 @@ keel_status_t model_ibus_init(keel_ibus_t *ibus, const keel_ibus_config_t *confi
     if (config->gap_us == 0u) {
         return KEEL_ERR_AGE;
     }
-    model_framing_begin(&fresh.framing, config->gap_us, 0x20u);
+    model_framing_begin(&fresh.framing, config->gap_us, headers);
     *ibus = fresh;
     return KEEL_OK;
 }
@@ -57,16 +58,19 @@ static bool sum_right(const uint8_t *frame)
     return (0xFFFFu - sum) == (frame[30] + (256u * frame[31]));
 }
 
-/* IBU-004 */
+/* IBU-004: of those that are there and judged. */
 static bool range_right(const uint8_t *frame, const keel_ibus_config_t *config)
 {
+    uint32_t judged = config->judged;
+
     for (uint32_t i = 0u; i < 18u; i++) {
         const uint16_t value = model_ibus_channel(frame, i, config->extended);
 
-        if (((i < 14u) || config->extended) &&
+        if (((judged % 2u) == 1u) && ((i < 14u) || config->extended) &&
             ((value < config->lowest) || (value > config->highest))) {
             return false;
         }
+        judged /= 2u;
     }
     return true;
 }

@@ -81,13 +81,24 @@ static bool ended(keel_ppm_t *ppm)
     return true;
 }
 
+/* PPM-004: whether the channel that comes next is judged. */
+static bool judged(const keel_ppm_t *ppm)
+{
+    uint32_t bits = ppm->config.judged;
+
+    for (uint32_t i = 0u; i < 16u; i++) {
+        bits /= (i < ppm->come) ? 2u : 1u;
+    }
+    return (bits % 2u) == 1u;
+}
+
 /* PPM-009 */
 static void went_on(keel_ppm_t *ppm, uint32_t width)
 {
     if (!ppm->begun) {
         return;
     }
-    if ((width < ppm->config.lowest_us) || (ppm->config.highest_us < width)) {
+    if (judged(ppm) && ((width < ppm->config.lowest_us) || (ppm->config.highest_us < width))) {
         refused(ppm, &ppm->count.pulses);
     } else if (ppm->come >= 16u) {
         refused(ppm, &ppm->count.numbers);

@@ -46,19 +46,17 @@ uint16_t model_sbus_channel(const uint8_t *frame, uint32_t index)
 }
 
 /* RAD-004: 0x00, and of SBUS2 four more. */
-static bool footer_right(uint8_t footer, bool sbus2)
+static bool footer_right(uint8_t footer)
 {
     bool right = false;
 
     switch (footer) {
     case 0x00:
-        right = true;
-        break;
     case 0x04:
     case 0x14:
     case 0x24:
     case 0x34:
-        right = sbus2;
+        right = true;
         break;
     default:
         break;
@@ -66,15 +64,18 @@ static bool footer_right(uint8_t footer, bool sbus2)
     return right;
 }
 
-/* RAD-004 */
+/* RAD-004: of those that are judged. */
 static bool channels_right(const uint8_t *frame, const keel_sbus_config_t *config)
 {
+    uint32_t judged = config->judged;
+
     for (uint32_t i = 0u; i < 16u; i++) {
         const uint16_t value = model_sbus_channel(frame, i);
 
-        if ((value < config->lowest) || (value > config->highest)) {
+        if (((judged % 2u) == 1u) && ((value < config->lowest) || (value > config->highest))) {
             return false;
         }
+        judged /= 2u;
     }
     return true;
 }
@@ -82,8 +83,8 @@ static bool channels_right(const uint8_t *frame, const keel_sbus_config_t *confi
 /* RAD-004 */
 bool model_sbus_right(const uint8_t *frame, const keel_sbus_config_t *config)
 {
-    return (frame[0] == 0x0Fu) && ((frame[23] & 0xF0u) == 0u) &&
-           footer_right(frame[24], config->sbus2) && channels_right(frame, config);
+    return (frame[0] == 0x0Fu) && ((frame[23] & 0xF0u) == 0u) && footer_right(frame[24]) &&
+           channels_right(frame, config);
 }
 
 /* RAD-005, RAD-007, RAD-010: the frame is handed out; nothing is left of it to be taken again. */
@@ -106,7 +107,7 @@ static void hand_out(keel_sbus_t *sbus)
 /* RAD-007: the first reason that applies. */
 static void refuse(keel_sbus_t *sbus)
 {
-    if (!footer_right(sbus->buffer[24], sbus->config.sbus2)) {
+    if (!footer_right(sbus->buffer[24])) {
         sbus->count.footers = sum_to_end(sbus->count.footers, 1u);
     } else if ((sbus->buffer[23] & 0xF0u) != 0u) {
         sbus->count.flags = sum_to_end(sbus->count.flags, 1u);

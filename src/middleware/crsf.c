@@ -88,8 +88,8 @@ static void take_link(keel_crsf_t *crsf)
   @     length + 2 <= crsf->framing.held <= KEEL_FRAMING_BYTES;
   @ assigns crsf->channel[0 .. KEEL_CRSF_CHANNELS - 1], crsf->link.rssi[0 .. 1],
   @     crsf->link.quality, crsf->link.snr, crsf->link.antenna, crsf->link.mode,
-  @     crsf->count.channels, crsf->count.links, crsf->count.others, crsf->channels_age_us,
-  @     crsf->link_age_us;
+  @     crsf->count.channels, crsf->count.links, crsf->count.shorts, crsf->count.others,
+  @     crsf->channels_age_us, crsf->link_age_us;
   @ ensures \result == crsf_kind(crsf->framing.byte[2], length);
   @ ensures \result == KEEL_CRSF_TOOK_CHANNELS ==> crsf_channels_say{Pre, Post}(crsf, 0);
   @ ensures \result == KEEL_CRSF_TOOK_LINK ==> crsf_link_says{Pre, Post}(crsf, 0);
@@ -103,6 +103,8 @@ static void take_link(keel_crsf_t *crsf)
   @     framing_sum(\old(crsf->count.channels), \result == KEEL_CRSF_TOOK_CHANNELS ? 1 : 0);
   @ ensures crsf->count.links ==
   @     framing_sum(\old(crsf->count.links), \result == KEEL_CRSF_TOOK_LINK ? 1 : 0);
+  @ ensures crsf->count.shorts ==
+  @     framing_sum(\old(crsf->count.shorts), \result == KEEL_CRSF_TOOK_SHORT ? 1 : 0);
   @ ensures crsf->count.others ==
   @     framing_sum(\old(crsf->count.others), \result == KEEL_CRSF_TOOK_OTHER ? 1 : 0);
   @*/
@@ -112,13 +114,17 @@ static keel_crsf_taken_t take_whole(keel_crsf_t *crsf, uint32_t length)
     keel_crsf_taken_t taken = KEEL_CRSF_TOOK_OTHER;
 
     if ((type == (uint8_t)KEEL_CRSF_TYPE_CHANNELS) &&
-        (length == (uint32_t)KEEL_CRSF_LENGTH_CHANNELS)) {
+        (length >= (uint32_t)KEEL_CRSF_LENGTH_CHANNELS)) {
         take_channels(crsf);
         taken = KEEL_CRSF_TOOK_CHANNELS;
     } else if ((type == (uint8_t)KEEL_CRSF_TYPE_LINK) &&
-               (length == (uint32_t)KEEL_CRSF_LENGTH_LINK)) {
+               (length >= (uint32_t)KEEL_CRSF_LENGTH_LINK)) {
         take_link(crsf);
         taken = KEEL_CRSF_TOOK_LINK;
+    } else if ((type == (uint8_t)KEEL_CRSF_TYPE_CHANNELS) ||
+               (type == (uint8_t)KEEL_CRSF_TYPE_LINK)) {
+        crsf->count.shorts = keel_framing_sum(crsf->count.shorts, 1u);
+        taken = KEEL_CRSF_TOOK_SHORT;
     } else {
         crsf->count.others = keel_framing_sum(crsf->count.others, 1u);
     }
@@ -129,12 +135,12 @@ static keel_crsf_taken_t take_whole(keel_crsf_t *crsf, uint32_t length)
  * its header is dropped, as one may begin behind that. */
 /*@ requires \valid(crsf) && KEEL_CRSF_LENGTH_MIN <= length <= KEEL_CRSF_LENGTH_MAX &&
   @     length + 2 <= crsf->framing.held <= KEEL_FRAMING_BYTES &&
-  @     crsf->framing.header == KEEL_CRSF_HEADER;
+  @     crsf_headers(crsf);
   @ assigns crsf->framing.byte[0 .. KEEL_FRAMING_BYTES - 1], crsf->framing.held,
   @     crsf->channel[0 .. KEEL_CRSF_CHANNELS - 1], crsf->link.rssi[0 .. 1],
   @     crsf->link.quality, crsf->link.snr, crsf->link.antenna, crsf->link.mode,
-  @     crsf->count.channels, crsf->count.links, crsf->count.others, crsf->count.crcs,
-  @     crsf->channels_age_us, crsf->link_age_us;
+  @     crsf->count.channels, crsf->count.links, crsf->count.shorts, crsf->count.others,
+  @     crsf->count.crcs, crsf->channels_age_us, crsf->link_age_us;
   @ ensures framing_valid(&crsf->framing);
   @ ensures \result == KEEL_CRSF_NOTHING ==> crsf_dropped{Pre, Post}(crsf);
   @ ensures \result != KEEL_CRSF_NOTHING ==>
@@ -151,6 +157,8 @@ static keel_crsf_taken_t take_whole(keel_crsf_t *crsf, uint32_t length)
   @     framing_sum(\old(crsf->count.channels), \result == KEEL_CRSF_TOOK_CHANNELS ? 1 : 0);
   @ ensures crsf->count.links ==
   @     framing_sum(\old(crsf->count.links), \result == KEEL_CRSF_TOOK_LINK ? 1 : 0);
+  @ ensures crsf->count.shorts ==
+  @     framing_sum(\old(crsf->count.shorts), \result == KEEL_CRSF_TOOK_SHORT ? 1 : 0);
   @ ensures crsf->count.others ==
   @     framing_sum(\old(crsf->count.others), \result == KEEL_CRSF_TOOK_OTHER ? 1 : 0);
   @*/
@@ -170,13 +178,13 @@ static keel_crsf_taken_t take_or_refuse(keel_crsf_t *crsf, uint32_t length)
 }
 
 /* What is held begins with a header and a length. */
-/*@ requires \valid(crsf) && crsf->framing.header == KEEL_CRSF_HEADER &&
+/*@ requires \valid(crsf) && crsf_headers(crsf) &&
   @     framing_begins(&crsf->framing) && crsf->framing.held >= 2;
   @ assigns crsf->framing.byte[0 .. KEEL_FRAMING_BYTES - 1], crsf->framing.held,
   @     crsf->channel[0 .. KEEL_CRSF_CHANNELS - 1], crsf->link.rssi[0 .. 1],
   @     crsf->link.quality, crsf->link.snr, crsf->link.antenna, crsf->link.mode,
-  @     crsf->count.channels, crsf->count.links, crsf->count.others, crsf->count.lengths,
-  @     crsf->count.crcs, crsf->channels_age_us, crsf->link_age_us;
+  @     crsf->count.channels, crsf->count.links, crsf->count.shorts, crsf->count.others,
+  @     crsf->count.lengths, crsf->count.crcs, crsf->channels_age_us, crsf->link_age_us;
   @ ensures framing_valid(&crsf->framing);
   @ ensures \result == KEEL_CRSF_NOTHING ==> crsf_dropped{Pre, Post}(crsf);
   @ ensures \result != KEEL_CRSF_NOTHING ==>
@@ -195,6 +203,8 @@ static keel_crsf_taken_t take_or_refuse(keel_crsf_t *crsf, uint32_t length)
   @     framing_sum(\old(crsf->count.channels), \result == KEEL_CRSF_TOOK_CHANNELS ? 1 : 0);
   @ ensures crsf->count.links ==
   @     framing_sum(\old(crsf->count.links), \result == KEEL_CRSF_TOOK_LINK ? 1 : 0);
+  @ ensures crsf->count.shorts ==
+  @     framing_sum(\old(crsf->count.shorts), \result == KEEL_CRSF_TOOK_SHORT ? 1 : 0);
   @ ensures crsf->count.others ==
   @     framing_sum(\old(crsf->count.others), \result == KEEL_CRSF_TOOK_OTHER ? 1 : 0);
   @*/
@@ -216,6 +226,8 @@ static keel_crsf_taken_t take_first(keel_crsf_t *crsf)
 
 keel_status_t keel_crsf_init(keel_crsf_t *crsf, const keel_crsf_config_t *config)
 {
+    const uint8_t headers[KEEL_FRAMING_HEADERS] = {
+        KEEL_CRSF_HEADER, KEEL_CRSF_HEADER_ALL, KEEL_CRSF_HEADER_RECEIVER, KEEL_CRSF_HEADER_MODULE};
     static const keel_crsf_count_t no_count = {0};
     static const keel_crsf_link_t no_link = {.quality = 0u};
 
@@ -223,7 +235,7 @@ keel_status_t keel_crsf_init(keel_crsf_t *crsf, const keel_crsf_config_t *config
         return KEEL_ERR_AGE;
     }
     crsf->config = *config;
-    keel_framing_begin(&crsf->framing, config->gap_us, (uint8_t)KEEL_CRSF_HEADER);
+    keel_framing_begin(&crsf->framing, config->gap_us, headers);
     crsf->count = no_count;
     crsf->channels_age_us = UINT32_MAX;
     crsf->link_age_us = UINT32_MAX;

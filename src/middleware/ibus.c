@@ -76,9 +76,18 @@ static bool adds_up(const keel_ibus_t *ibus)
     return (sum + word_of(ibus, SUM_WORD)) == SUM_TOTAL;
 }
 
+/*@ requires \valid_read(ibus) && index < KEEL_IBUS_CHANNELS;
+  @ assigns \nothing;
+  @ ensures \result <==> ((ibus->config.judged >> index) & 1) != 0;
+  @*/
+static bool judges(const keel_ibus_t *ibus, uint32_t index)
+{
+    return ((ibus->config.judged >> index) & 1u) != 0u;
+}
+
 /*@ requires \valid_read(ibus);
   @ assigns \nothing;
-  @ ensures \result <==> \forall integer i; ibus_has(ibus, i) ==>
+  @ ensures \result <==> \forall integer i; ibus_judged(ibus, i) ==>
   @     ibus_in_range(ibus, ibus_field(ibus, i));
   @*/
 static bool all_in_range(const keel_ibus_t *ibus)
@@ -88,7 +97,7 @@ static bool all_in_range(const keel_ibus_t *ibus)
     bool right = true;
 
     /*@ loop invariant 0 <= i <= channels;
-      @ loop invariant right <==> \forall integer j; 0 <= j < i ==>
+      @ loop invariant right <==> \forall integer j; 0 <= j < i && ibus_judged(ibus, j) ==>
       @     ibus_in_range(ibus, ibus_field(ibus, j));
       @ loop assigns i, right;
       @ loop variant channels - i;
@@ -96,7 +105,8 @@ static bool all_in_range(const keel_ibus_t *ibus)
     for (uint32_t i = 0u; i < channels; i++) {
         const uint32_t value = channel_us(ibus, i);
 
-        right = right && (ibus->config.lowest <= value) && (value <= ibus->config.highest);
+        right = right && (!judges(ibus, i) ||
+                          ((ibus->config.lowest <= value) && (value <= ibus->config.highest)));
     }
     return right;
 }
@@ -138,7 +148,7 @@ static bool take_words(keel_ibus_t *ibus)
 /* What is held begins with a header and the byte behind it. What can be no frame is dropped as far
  * as its header, as one may begin behind that. */
 /*@ requires \valid(ibus) && framing_begins(&ibus->framing) &&
-  @     ibus->framing.header == KEEL_IBUS_HEADER && 2 <= ibus->framing.held <= KEEL_IBUS_BYTES;
+  @     ibus_headers(ibus) && 2 <= ibus->framing.held <= KEEL_IBUS_BYTES;
   @ assigns ibus->framing.byte[0 .. KEEL_FRAMING_BYTES - 1], ibus->framing.held,
   @     ibus->count.frames, ibus->count.headers, ibus->count.sums, ibus->count.ranges,
   @     ibus->age_us, ibus->channel[0 .. KEEL_IBUS_CHANNELS - 1];
@@ -173,6 +183,8 @@ static bool take_held(keel_ibus_t *ibus)
 
 keel_status_t keel_ibus_init(keel_ibus_t *ibus, const keel_ibus_config_t *config)
 {
+    const uint8_t headers[KEEL_FRAMING_HEADERS] = {KEEL_IBUS_HEADER, KEEL_IBUS_HEADER,
+                                                   KEEL_IBUS_HEADER, KEEL_IBUS_HEADER};
     static const keel_ibus_count_t no_count = {0};
 
     if ((config->lowest > config->highest) || (config->highest > (uint16_t)KEEL_IBUS_CHANNEL_MAX)) {
@@ -182,7 +194,7 @@ keel_status_t keel_ibus_init(keel_ibus_t *ibus, const keel_ibus_config_t *config
         return KEEL_ERR_AGE;
     }
     ibus->config = *config;
-    keel_framing_begin(&ibus->framing, config->gap_us, (uint8_t)KEEL_IBUS_HEADER);
+    keel_framing_begin(&ibus->framing, config->gap_us, headers);
     ibus->count = no_count;
     ibus->age_us = UINT32_MAX;
     /*@ loop invariant 0 <= i <= KEEL_IBUS_CHANNELS;

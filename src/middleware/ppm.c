@@ -67,22 +67,33 @@ static bool close_frame(keel_ppm_t *ppm)
     return taken;
 }
 
+/*@ requires \valid_read(ppm) && index <= KEEL_PPM_CHANNELS;
+  @ assigns \nothing;
+  @ ensures \result <==> ppm_right(ppm, index, width);
+  @*/
+static bool is_right(const keel_ppm_t *ppm, uint32_t index, uint32_t width)
+{
+    const bool judged = (((uint32_t)ppm->config.judged >> index) & 1u) != 0u;
+
+    return !judged || ((ppm->config.lowest_us <= width) && (width <= ppm->config.highest_us));
+}
+
 /* One more channel of a frame that was right so far. */
-/*@ requires \valid(ppm) && ppm_valid(ppm) && ppm->begun != 0;
+/*@ requires \valid(ppm) && ppm_valid(ppm) && ppm->begun != 0 && width <= UINT16_MAX;
   @ assigns ppm->next[0 .. KEEL_PPM_CHANNELS - 1], ppm->come, ppm->count.pulses,
   @     ppm->count.numbers, ppm->row, ppm->begun;
   @ ensures ppm_valid(ppm);
-  @ ensures ppm_in_range(ppm, width) && \old(ppm->come) < KEEL_PPM_CHANNELS ==>
+  @ ensures ppm_right(ppm, \old(ppm->come), width) && \old(ppm->come) < KEEL_PPM_CHANNELS ==>
   @     ppm->row == \old(ppm->row) && ppm->come == \old(ppm->come) + 1 && ppm->begun != 0 &&
   @     ppm->next[ppm->come - 1] == width &&
   @     \forall integer i; 0 <= i < ppm->come - 1 ==>
   @         ppm->next[i] == \at(ppm->next[i], Pre);
-  @ ensures !(ppm_in_range(ppm, width) && \old(ppm->come) < KEEL_PPM_CHANNELS) ==>
+  @ ensures !(ppm_right(ppm, \old(ppm->come), width) && \old(ppm->come) < KEEL_PPM_CHANNELS) ==>
   @     ppm->row == 0 && ppm->begun == 0;
   @*/
 static void add_channel(keel_ppm_t *ppm, uint32_t width)
 {
-    if ((width < ppm->config.lowest_us) || (width > ppm->config.highest_us)) {
+    if (!is_right(ppm, ppm->come, width)) {
         ppm->count.pulses = keel_framing_sum(ppm->count.pulses, 1u);
         ppm->begun = false;
         ppm->row = 0u;

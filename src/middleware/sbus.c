@@ -11,9 +11,8 @@
 #define FLAG_FAILSAFE 0x08u
 #define FLAGS_LIMIT   0x10u
 
-#define FOOTER 0x00u
-
-/* SBUS2's: one for each quarter of its telemetry. */
+/* SBUS's, and SBUS2's: one for each quarter of its telemetry. */
+#define FOOTER     0x00u
 #define FOOTER_2_A 0x04u
 #define FOOTER_2_B 0x14u
 #define FOOTER_2_C 0x24u
@@ -60,12 +59,21 @@ static uint16_t field_of(const keel_sbus_t *sbus, uint32_t index)
 }
 
 /*@ assigns \nothing;
-  @ ensures \result <==> sbus_footer(byte, sbus2);
+  @ ensures \result <==> sbus_footer(byte);
   @*/
-static bool is_footer(uint8_t byte, bool sbus2)
+static bool is_footer(uint8_t byte)
 {
-    return (byte == FOOTER) || (sbus2 && ((byte == FOOTER_2_A) || (byte == FOOTER_2_B) ||
-                                          (byte == FOOTER_2_C) || (byte == FOOTER_2_D)));
+    return (byte == FOOTER) || (byte == FOOTER_2_A) || (byte == FOOTER_2_B) ||
+           (byte == FOOTER_2_C) || (byte == FOOTER_2_D);
+}
+
+/*@ requires \valid_read(sbus) && index < KEEL_SBUS_CHANNELS;
+  @ assigns \nothing;
+  @ ensures \result <==> sbus_judged(sbus, index);
+  @*/
+static bool is_judged(const keel_sbus_t *sbus, uint32_t index)
+{
+    return (((uint32_t)sbus->config.judged >> index) & 1u) != 0u;
 }
 
 /*@ requires \valid_read(sbus);
@@ -77,7 +85,7 @@ static bool are_plausible(const keel_sbus_t *sbus)
     bool plausible = true;
 
     /*@ loop invariant 0 <= i <= KEEL_SBUS_CHANNELS;
-      @ loop invariant plausible <==> \forall integer j; 0 <= j < i ==>
+      @ loop invariant plausible <==> \forall integer j; 0 <= j < i && sbus_judged(sbus, j) ==>
       @     sbus->config.lowest <= sbus_field(sbus, j) <= sbus->config.highest;
       @ loop assigns i, plausible;
       @ loop variant KEEL_SBUS_CHANNELS - i;
@@ -85,7 +93,8 @@ static bool are_plausible(const keel_sbus_t *sbus)
     for (uint32_t i = 0u; i < (uint32_t)KEEL_SBUS_CHANNELS; i++) {
         const uint16_t value = field_of(sbus, i);
 
-        plausible = plausible && (sbus->config.lowest <= value) && (value <= sbus->config.highest);
+        plausible = plausible && (!is_judged(sbus, i) || ((sbus->config.lowest <= value) &&
+                                                          (value <= sbus->config.highest)));
     }
     return plausible;
 }
@@ -159,7 +168,7 @@ static void search_header(keel_sbus_t *sbus)
   @ assigns sbus->frame.channel[0 .. KEEL_SBUS_CHANNELS - 1], sbus->frame.digital_17,
   @     sbus->frame.digital_18, sbus->frame.lost, sbus->frame.failsafe, sbus->count.frames,
   @     sbus->count.footers, sbus->count.flags, sbus->count.ranges;
-  @ ensures \result ==> sbus_footer(sbus->buffer[KEEL_SBUS_BYTES - 1], sbus->config.sbus2) &&
+  @ ensures \result ==> sbus_footer(sbus->buffer[KEEL_SBUS_BYTES - 1]) &&
   @     sbus->buffer[KEEL_SBUS_BYTES - 2] < 16;
   @ ensures \result ==> sbus_ranges(sbus);
   @ ensures \result ==> \forall integer i; 0 <= i < KEEL_SBUS_CHANNELS ==>
@@ -172,7 +181,7 @@ static bool take_frame(keel_sbus_t *sbus)
 {
     bool right = false;
 
-    if (!is_footer(sbus->buffer[FOOTER_AT], sbus->config.sbus2)) {
+    if (!is_footer(sbus->buffer[FOOTER_AT])) {
         count_to_end(&sbus->count.footers);
     } else if (sbus->buffer[FLAGS_AT] >= FLAGS_LIMIT) {
         count_to_end(&sbus->count.flags);

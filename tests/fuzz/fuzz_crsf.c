@@ -92,16 +92,36 @@ static void compare_frame(keel_crsf_taken_t taken, const uint16_t *channel, cons
     }
 }
 
-/* A frame behind a gap: taken for what crsf takes it for, and not else. Its type and its length
- * suit each other: with another length crsf reads behind the frame. */
+/* What crsf is shown of a frame: its first so many bytes, as a frame of its own whose CRC is right
+ * when the frame's is. With a longer one than its type needs, crsf reads behind the frame, where
+ * the standard asks for the part that is known; and it knows not all first bytes. */
+static void show_part(uint8_t *part, const uint8_t *frame, uint32_t length)
+{
+    const bool right = model_crsf_crc(&frame[2], frame[1] - 1u) == frame[frame[1] + 1u];
+
+    memcpy(part, frame, length + 1u);
+    part[0] = KEEL_CRSF_HEADER;
+    part[1] = (uint8_t)length;
+    part[length + 1u] = model_crsf_crc(&part[2], length - 1u) ^ (right ? 0u : 1u);
+}
+
+/* A frame behind a gap, with any first byte and of any length that its type may have: taken for
+ * what crsf takes it for, and not else. */
 static void judge_frame(const uint8_t *bytes)
 {
+    static const uint8_t first[4] = {KEEL_CRSF_HEADER, KEEL_CRSF_HEADER_ALL,
+                                     KEEL_CRSF_HEADER_RECEIVER, KEEL_CRSF_HEADER_MODULE};
     static const uint8_t head[4][2] = {{KEEL_CRSF_LENGTH_CHANNELS, KEEL_CRSF_TYPE_CHANNELS},
                                        {KEEL_CRSF_LENGTH_LINK, KEEL_CRSF_TYPE_LINK},
                                        {KEEL_CRSF_LENGTH_MIN, 0x02},
                                        {KEEL_CRSF_LENGTH_MAX, 0x29}};
-    uint8_t frame[KEEL_FRAMING_BYTES] = {KEEL_CRSF_HEADER, head[bytes[0] & 3u][0],
+    const uint32_t known = head[bytes[0] & 3u][0];
+    const uint32_t longer = ((bytes[0] & 2u) == 0u)
+                                ? (bytes[1] % (KEEL_CRSF_LENGTH_MAX + 1u - known))
+                                : 0u;
+    uint8_t frame[KEEL_FRAMING_BYTES] = {first[(bytes[0] >> 2) & 3u], (uint8_t)(known + longer),
                                          head[bytes[0] & 3u][1]};
+    uint8_t part[KEEL_FRAMING_BYTES];
     const uint32_t size = frame[1] + 2u;
     keel_crsf_taken_t taken = KEEL_CRSF_NOTHING;
     uint16_t channel[KEEL_CRSF_CHANNELS];
@@ -112,7 +132,8 @@ static void judge_frame(const uint8_t *bytes)
         frame[i] = (i < 3u) ? frame[i] : repaired(bytes[i]);
         taken = both_take(frame[i], (i == 0u) ? SILENT_US : BYTE_US);
     }
-    said = oracle_crsf(frame, size, channel, link);
+    show_part(part, frame, known);
+    said = oracle_crsf(part, known + 2u, channel, link);
     if ((said == 0) ? ((taken != KEEL_CRSF_NOTHING) && (taken != KEEL_CRSF_TOOK_OTHER))
                     : (taken != ((said == 1) ? KEEL_CRSF_TOOK_CHANNELS : KEEL_CRSF_TOOK_LINK))) {
         differs("what crsf takes a frame for");

@@ -84,8 +84,9 @@ static bool are_in_range(const uint16_t channel[KEEL_IBUS_CHANNELS])
     bool in_range = true;
 
     for (uint32_t i = 0u; i < (ibus.config.extended ? 18u : 14u); i++) {
-        in_range = in_range && (channel[i] >= ibus.config.lowest) &&
-                   (channel[i] <= ibus.config.highest);
+        in_range = in_range &&
+                   (((ibus.config.judged & ((uint32_t)1u << i)) == 0u) ||
+                    ((channel[i] >= ibus.config.lowest) && (channel[i] <= ibus.config.highest)));
     }
     return in_range;
 }
@@ -125,6 +126,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const uint8_t kind = (size > 0u) ? data[0] : 0u;
     const keel_ibus_config_t config = {
         .gap_us = ((kind & 1u) != 0u) ? 500u : (SILENT_US - 1u),
+        .judged = ((kind & 64u) != 0u) ? 0x0000Fu : 0x3FFFFu,
         .lowest = ((kind & 2u) != 0u) ? 0u : 900u,
         .highest = ((kind & 4u) != 0u) ? 4095u : 2100u,
         .extended = (kind & 8u) != 0u,

@@ -57,6 +57,7 @@ static void judge_frame(const uint8_t *bytes, size_t count, uint8_t least)
                                       .lowest_us = 800u,
                                       .highest_us = 2200u,
                                       .sync_us = 4000u,
+                                      .judged = 0xFFFFu,
                                       .least = least,
                                       .frames_to_take = 1u};
     uint32_t width[EDGES];
@@ -94,6 +95,7 @@ static void compare_with_model(const uint8_t *data, size_t size, uint8_t kind)
         .lowest_us = 800u,
         .highest_us = 2200u,
         .sync_us = ((kind & 2u) != 0u) ? 2201u : 2300u,
+        .judged = ((kind & 16u) != 0u) ? 0x000Fu : 0xFFFFu,
         .least = (uint8_t)(1u + ((kind >> 2) % 16u)),
         .frames_to_take = ((kind & 64u) != 0u) ? 255u : 3u,
     };

@@ -239,6 +239,9 @@ SOURCES: dict[str, float] = {
     "KEEL_CRC32_FIRST": 2**32 - 1,
     # CRSF: 16 channels of 11 bits, or ten bytes, with type and CRC; 64 bytes in all at most.
     "KEEL_CRSF_HEADER": 0xC8,
+    "KEEL_CRSF_HEADER_ALL": 0x00,
+    "KEEL_CRSF_HEADER_RECEIVER": 0xEC,
+    "KEEL_CRSF_HEADER_MODULE": 0xEE,
     "KEEL_CRSF_CHANNELS": 16,
     "KEEL_CRSF_TYPE_CHANNELS": 0x16,
     "KEEL_CRSF_LENGTH_CHANNELS": 1 + 16 * 11 // 8 + 1,

@@ -11,6 +11,7 @@ import struct
 import sys
 import tempfile
 import unittest
+from itertools import product
 from pathlib import Path
 from typing import ClassVar
 
@@ -21,14 +22,15 @@ from common.run import output_of  # noqa: E402
 
 BYTE_US, SILENT_US = 87, 4000
 LOWEST, HIGHEST = 900, 2100
+ALL, STICKS = 0x3FFFF, 0x0000F
 
 # A decoder behind functions of whole numbers alone, so that nothing here knows how it is laid out.
 SHIM = """\
 #include "keel/middleware/ibus.h"
 static keel_ibus_t ibus;
-int begin(int extended)
+int begin(int extended, unsigned judged)
 {
-    const keel_ibus_config_t config = {500u, 900u, 2100u, extended != 0};
+    const keel_ibus_config_t config = {500u, judged, 900u, 2100u, extended != 0};
     return (int)keel_ibus_init(&ibus, &config);
 }
 int take(int byte, unsigned us) { return keel_ibus_take(&ibus, (uint8_t)byte, us) ? 1 : 0; }
@@ -59,10 +61,11 @@ def decoded(frame: bytes, extended: bool) -> Channels:
     return (*(int(digit[1:], 16) for digit in digits), *extras)
 
 
-def is_right(frame: bytes, extended: bool) -> bool:
+def is_right(frame: bytes, extended: bool, judged: int = ALL) -> bool:
     channels = decoded(frame, extended)[: 18 if extended else 14]
     return (frame[:2] == b"\x20\x40" and summed(frame[:30]) == frame
-            and all(LOWEST <= value <= HIGHEST for value in channels))  # fmt: skip
+            and all(LOWEST <= value <= HIGHEST for index, value in enumerate(channels)
+                    if judged >> index & 1))  # fmt: skip
 
 
 @unittest.skipUnless(shutil.which("gcc"), "needs gcc")
@@ -86,8 +89,8 @@ class Frames(unittest.TestCase):
         self.random = random.Random(20261126)
         self.begin(extended=False)
 
-    def begin(self, *, extended: bool) -> None:
-        self.assertEqual(self.library.begin(int(extended)), 0)
+    def begin(self, *, extended: bool, judged: int = ALL) -> None:
+        self.assertEqual(self.library.begin(int(extended), judged), 0)
 
     def feed(self, data: bytes, first_us: int = BYTE_US) -> list[int]:
         """Behind which bytes a frame was taken."""
@@ -126,15 +129,15 @@ class Frames(unittest.TestCase):
                 self.assertEqual(self.feed(changed, SILENT_US), [31] if right else [])
 
     def test_any_frame_is_taken_when_it_is_right(self) -> None:
-        for extended in (False, True):
-            self.begin(extended=extended)
+        for extended, judged in product((False, True), (ALL, STICKS, 0x28421)):
+            self.begin(extended=extended, judged=judged)
             taken = 0
             for _ in range(4000):
                 content = bytearray(encoded(self.any_channels(18 if extended else 14))[:30])
                 if self.random.random() < 0.7:
                     content[self.random.randrange(30)] ^= 1 << self.random.randrange(8)
                 frame = summed(bytes(content))
-                before, right = self.says(), is_right(frame, extended)
+                before, right = self.says(), is_right(frame, extended, judged)
                 self.assertEqual(self.feed(frame, SILENT_US), [31] if right else [])
                 self.assertEqual(self.says(), decoded(frame, extended) if right else before)
                 taken += right

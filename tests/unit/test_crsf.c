@@ -181,7 +181,7 @@ static void CRF_006_each_ratio(void)
     }
 }
 
-/* Of each payload's length, and of each type: only two are understood, with their lengths alone. */
+/* Of several lengths, and of each type: only two are understood, when they are long enough. */
 static void CRF_004_each_type_and_length(void)
 {
     const uint32_t lengths[5] = {0u, 10u, 22u, 23u, 60u};
@@ -190,19 +190,19 @@ static void CRF_004_each_type_and_length(void)
         for (uint32_t k = 0u; k < 5u; k++) {
             uint8_t frame[64];
             const uint32_t others = crsf.count.others;
-            const bool channels = (type == 0x16u) && (k == 2u);
-            const bool link = (type == 0x14u) && (k == 1u);
-            keel_crsf_taken_t is = KEEL_CRSF_TOOK_OTHER;
+            const bool known = (type == 0x16u) || (type == 0x14u);
+            keel_crsf_taken_t is = known ? KEEL_CRSF_TOOK_SHORT : KEEL_CRSF_TOOK_OTHER;
 
-            is = channels ? KEEL_CRSF_TOOK_CHANNELS : is;
-            is = link ? KEEL_CRSF_TOOK_LINK : is;
+            is = ((type == 0x16u) && (k >= 2u)) ? KEEL_CRSF_TOOK_CHANNELS : is;
+            is = ((type == 0x14u) && (k >= 1u)) ? KEEL_CRSF_TOOK_LINK : is;
             memset(frame, 0xC8, sizeof frame);
             TEST_ASSERT_EQUAL(is, feed(frame, finish(frame, (uint8_t)type, lengths[k]), SILENT_US));
-            TEST_ASSERT_EQUAL_UINT32(others + ((channels || link) ? 0u : 1u), crsf.count.others);
+            TEST_ASSERT_EQUAL_UINT32(others + (known ? 0u : 1u), crsf.count.others);
         }
     }
-    TEST_ASSERT_EQUAL_UINT32(1u, crsf.count.channels);
-    TEST_ASSERT_EQUAL_UINT32(1u, crsf.count.links);
+    TEST_ASSERT_EQUAL_UINT32(3u, crsf.count.channels);
+    TEST_ASSERT_EQUAL_UINT32(4u, crsf.count.links);
+    TEST_ASSERT_EQUAL_UINT32(3u, crsf.count.shorts);
 }
 
 /* Every length from nothing to all that there can be. */
@@ -228,7 +228,8 @@ static void CRF_008_impossible_lengths(void)
         const uint8_t begin[2] = {0xC8, lengths[k]};
 
         TEST_ASSERT_EQUAL(KEEL_CRSF_NOTHING, feed(begin, 2u, SILENT_US));
-        TEST_ASSERT_EQUAL_UINT8(0u, crsf.framing.held);
+        /* A length of 0 may be a header itself: to all. */
+        TEST_ASSERT_EQUAL_UINT8((lengths[k] == 0u) ? 1u : 0u, crsf.framing.held);
         TEST_ASSERT_EQUAL_UINT32(k + 1u, crsf.count.lengths);
     }
     TEST_ASSERT_EQUAL(KEEL_CRSF_TOOK_CHANNELS, feed(ends, 26u, BYTE_US));
@@ -244,7 +245,7 @@ static void CRF_007_one_bit_changed(void)
         TEST_ASSERT_EQUAL(KEEL_OK, keel_crsf_init(&crsf, &usual));
         TEST_ASSERT_EQUAL(KEEL_CRSF_TOOK_CHANNELS, feed(ends, 26u, SILENT_US));
         before = crsf;
-        memset(frame, 0, sizeof frame);
+        memset(frame, 0xAA, sizeof frame); /* None of its bytes is a header, even if changed. */
         (void)finish(frame, 0x16u, 22u);
         frame[bit / 8u] ^= (uint8_t)(1u << (bit % 8u));
         for (uint32_t i = 0u; i < 26u; i++) {
@@ -256,6 +257,77 @@ static void CRF_007_one_bit_changed(void)
         TEST_ASSERT_EQUAL_MEMORY(&before.link, &crsf.link, sizeof crsf.link);
         TEST_ASSERT_EQUAL_UINT32(SILENT_US + (25u * BYTE_US), crsf.channels_age_us);
         TEST_ASSERT_EQUAL(KEEL_CRSF_TOOK_CHANNELS, feed(ends, 26u, SILENT_US));
+    }
+}
+
+/* A newer sender has more behind what is known: an EdgeTX of today a byte, the draft of 32 channels
+ * 23. All that is known is taken, and what is behind is not read. */
+static void CRF_004_longer_frames_are_taken(void)
+{
+    for (uint32_t payload = 22u; payload <= 60u; payload++) {
+        uint8_t frame[64];
+
+        memset(frame, 0xFF, sizeof frame);
+        memcpy(&frame[3], &ends[3], 22u);
+        TEST_ASSERT_EQUAL(KEEL_CRSF_TOOK_CHANNELS,
+                          feed(frame, finish(frame, 0x16u, payload), SILENT_US));
+        are_ends();
+    }
+    for (uint32_t payload = 10u; payload <= 60u; payload++) {
+        uint8_t frame[64];
+
+        memset(frame, 0xFF, sizeof frame);
+        (void)link_frame(frame, (uint8_t)payload, 0u);
+        TEST_ASSERT_EQUAL(KEEL_CRSF_TOOK_LINK,
+                          feed(frame, finish(frame, 0x14u, payload), SILENT_US));
+        TEST_ASSERT_EQUAL_UINT8(payload, crsf.link.quality);
+    }
+    TEST_ASSERT_EQUAL_UINT32(39u, crsf.count.channels);
+    TEST_ASSERT_EQUAL_UINT32(51u, crsf.count.links);
+}
+
+/* What is too short for its type says nothing, and is counted as that. */
+static void CRF_008_shorter_frames_are_counted(void)
+{
+    keel_crsf_t before;
+
+    TEST_ASSERT_EQUAL(KEEL_CRSF_TOOK_CHANNELS, feed(ends, 26u, SILENT_US));
+    before = crsf;
+    for (uint32_t payload = 0u; payload < 22u; payload++) {
+        uint8_t frame[64] = {0};
+
+        TEST_ASSERT_EQUAL(KEEL_CRSF_TOOK_SHORT,
+                          feed(frame, finish(frame, 0x16u, payload), SILENT_US));
+        if (payload < 10u) {
+            TEST_ASSERT_EQUAL(KEEL_CRSF_TOOK_SHORT,
+                              feed(frame, finish(frame, 0x14u, payload), SILENT_US));
+        }
+    }
+    are_ends();
+    TEST_ASSERT_EQUAL_MEMORY(&before.link, &crsf.link, sizeof crsf.link);
+    TEST_ASSERT_EQUAL_UINT32(32u, crsf.count.shorts);
+    TEST_ASSERT_EQUAL_UINT32(0u, crsf.count.others);
+}
+
+/* On a serial port, to all, a receiver, a transmitter's module; and no other byte. */
+static void CRF_004_each_first_byte(void)
+{
+    for (uint32_t byte = 0u; byte < 256u; byte++) {
+        const bool begins = (byte == 0xC8u) || (byte == 0x00u) || (byte == 0xECu) ||
+                            (byte == 0xEEu);
+        uint32_t taken = 0u;
+        uint8_t frame[26];
+
+        memcpy(frame, ends, sizeof frame);
+        frame[0] = (uint8_t)byte;
+        setUp();
+        for (uint32_t i = 0u; i < 26u; i++) {
+            taken += (keel_crsf_take(&crsf, frame[i], (i == 0u) ? SILENT_US : BYTE_US) ==
+                      KEEL_CRSF_TOOK_CHANNELS)
+                         ? 1u
+                         : 0u;
+        }
+        TEST_ASSERT_EQUAL_UINT32(begins ? 1u : 0u, taken);
     }
 }
 
@@ -446,6 +518,9 @@ int main(void)
     RUN_TEST(CRF_004_every_length);
     RUN_TEST(CRF_008_impossible_lengths);
     RUN_TEST(CRF_007_one_bit_changed);
+    RUN_TEST(CRF_004_longer_frames_are_taken);
+    RUN_TEST(CRF_008_shorter_frames_are_counted);
+    RUN_TEST(CRF_004_each_first_byte);
     RUN_TEST(CRF_008_a_wrong_crc_is_counted);
     RUN_TEST(CRF_010_any_part_before_a_gap);
     RUN_TEST(CRF_010_a_gap_within);

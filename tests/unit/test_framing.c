@@ -9,12 +9,14 @@
 #define GAP_US  300u
 #define BYTE_US 24u
 
+static const uint8_t one[KEEL_FRAMING_HEADERS] = {HEADER, HEADER, HEADER, HEADER};
+
 static keel_framing_t framing;
 
 void setUp(void)
 {
     memset(&framing, 0xA5, sizeof framing);
-    keel_framing_begin(&framing, GAP_US, HEADER);
+    keel_framing_begin(&framing, GAP_US, one);
 }
 
 void tearDown(void)
@@ -49,7 +51,7 @@ static void FRG_002_begins_with_nothing(void)
 {
     TEST_ASSERT_EQUAL_UINT8(0u, framing.held);
     TEST_ASSERT_EQUAL_UINT32(GAP_US, framing.gap_us);
-    TEST_ASSERT_EQUAL_UINT8(HEADER, framing.header);
+    TEST_ASSERT_EACH_EQUAL_UINT8(HEADER, framing.header, KEEL_FRAMING_HEADERS);
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, framing.quiet_us);
     TEST_ASSERT_EQUAL_UINT32(0u, framing.gaps);
     TEST_ASSERT_EQUAL_UINT32(0u, framing.strays);
@@ -116,7 +118,7 @@ static void FRG_006_drops_of_a_full_one(void)
         }
         bytes[0] = HEADER;
         bytes[count % KEEL_FRAMING_BYTES] = HEADER;
-        keel_framing_begin(&framing, GAP_US, HEADER);
+        keel_framing_begin(&framing, GAP_US, one);
         take_all(bytes, KEEL_FRAMING_BYTES);
         TEST_ASSERT_EQUAL_UINT8(KEEL_FRAMING_BYTES, framing.held);
         keel_framing_drop(&framing, count);

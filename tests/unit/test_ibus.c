@@ -17,9 +17,9 @@ static const uint8_t known[BYTES] = {
     0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0x47, 0xF3};
 
 static const keel_ibus_config_t usual = {
-    .gap_us = GAP_US, .lowest = 900u, .highest = 2100u, .extended = false};
+    .gap_us = GAP_US, .judged = 0x3FFFFu, .lowest = 900u, .highest = 2100u, .extended = false};
 static const keel_ibus_config_t widest = {
-    .gap_us = GAP_US, .lowest = 0u, .highest = 4095u, .extended = true};
+    .gap_us = GAP_US, .judged = 0x3FFFFu, .lowest = 0u, .highest = 4095u, .extended = true};
 
 static keel_ibus_t ibus;
 
@@ -173,6 +173,27 @@ static void IBU_004_each_channel_has_its_range(void)
     }
 }
 
+/* Each channel alone is judged: then it alone voids a frame. One that there is none of does not. */
+static void IBU_004_each_channel_may_be_judged(void)
+{
+    for (uint32_t judged = 0u; judged < 18u; judged++) {
+        keel_ibus_config_t config = usual;
+
+        config.judged = (uint32_t)1u << judged;
+        TEST_ASSERT_EQUAL(KEEL_OK, keel_ibus_init(&ibus, &config));
+        for (uint32_t i = 0u; i < 14u; i++) {
+            uint8_t frame[BYTES];
+
+            write_one(frame, 1500u, i, 0u);
+            TEST_ASSERT_EQUAL_UINT32((i == judged) ? 0u : 1u, feed(frame, BYTES, SILENT_US));
+        }
+        TEST_ASSERT_EQUAL_UINT32((judged < 14u) ? 1u : 0u, ibus.count.ranges);
+        config.extended = true; /* Channels 15 to 18 are 0 in such a frame. */
+        TEST_ASSERT_EQUAL(KEEL_OK, keel_ibus_init(&ibus, &config));
+        TEST_ASSERT_EQUAL_UINT32((judged < 14u) ? 1u : 0u, feed(known, BYTES, SILENT_US));
+    }
+}
+
 /* Without channels 15 to 18, a word with upper bits is no channel; with them, they have a range. */
 static void IBU_004_upper_bits(void)
 {
@@ -323,6 +344,7 @@ int main(void)
     RUN_TEST(IBU_005_takes_a_known_frame);
     RUN_TEST(IBU_005_each_bit_is_of_its_channel);
     RUN_TEST(IBU_004_each_channel_has_its_range);
+    RUN_TEST(IBU_004_each_channel_may_be_judged);
     RUN_TEST(IBU_004_upper_bits);
     RUN_TEST(IBU_006_one_bit_changed);
     RUN_TEST(IBU_007_one_reason_is_counted);

@@ -41,6 +41,7 @@ static void set_up(void)
     config.lowest = (uint16_t)(one_in(2u) ? 900u : (any() % 1100u));
     config.highest = (uint16_t)(one_in(2u) ? 2100u : (1000u + (any() % 3500u)));
     config.extended = one_in(2u);
+    config.judged = one_in(4u) ? 0x3FFFFu : ((uint32_t)1u << (any() % 18u));
     expected = model_ibus_init(&model, &config);
     TEST_ASSERT_EQUAL(expected, keel_ibus_init(&ibus, &config));
     if (one_in(8u) && (expected == KEEL_OK)) {

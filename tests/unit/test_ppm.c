@@ -13,6 +13,7 @@ static const keel_ppm_config_t usual = {.lost_us = LOST_US,
                                         .lowest_us = 800u,
                                         .highest_us = 2200u,
                                         .sync_us = 2300u,
+                                        .judged = 0xFFFFu,
                                         .least = 4u,
                                         .frames_to_take = 3u};
 
@@ -160,6 +161,31 @@ static void PPM_004_each_width(void)
     }
 }
 
+/* Each channel alone is judged: then it alone voids a frame, too short or too long. */
+static void PPM_004_each_channel_may_be_judged(void)
+{
+    const uint16_t odd[4] = {732u, 2268u, 1u, 2299u};
+
+    for (uint32_t judged = 0u; judged < 16u; judged++) {
+        keel_ppm_config_t config = usual;
+
+        config.judged = (uint16_t)(1u << judged);
+        for (uint32_t k = 0u; k < 64u; k++) {
+            uint16_t channel[16];
+
+            for (uint32_t i = 0u; i < 16u; i++) {
+                channel[i] = (i == (k / 4u)) ? odd[k % 4u] : 1000u;
+            }
+            TEST_ASSERT_EQUAL(KEEL_OK, keel_ppm_init(&ppm, &config));
+            synchronise();
+            for (uint32_t n = 0u; n < 3u; n++) {
+                TEST_ASSERT_EQUAL((n == 2u) && ((k / 4u) != judged), frame_of(channel, 16u));
+            }
+            TEST_ASSERT_EQUAL_UINT32(((k / 4u) == judged) ? 3u : 0u, ppm.count.pulses);
+        }
+    }
+}
+
 /* A frame of another number begins another row; so it does when it is one that there is none of. */
 static void PPM_009_another_number(void)
 {
@@ -290,6 +316,7 @@ int main(void)
     RUN_TEST(PPM_010_the_end_of_a_frame_is_none);
     RUN_TEST(PPM_010_the_longest_silence);
     RUN_TEST(PPM_004_each_width);
+    RUN_TEST(PPM_004_each_channel_may_be_judged);
     RUN_TEST(PPM_009_another_number);
     RUN_TEST(PPM_009_a_row_of_another);
     RUN_TEST(PPM_009_an_edge_too_few_or_too_many);

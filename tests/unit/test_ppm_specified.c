@@ -40,6 +40,7 @@ static void set_up(void)
     config.lowest_us = (uint16_t)(one_in(16u) ? (any() % 3000u) : 800u);
     config.highest_us = (uint16_t)(one_in(16u) ? (any() % 3000u) : 2200u);
     config.sync_us = (uint16_t)(one_in(16u) ? (any() % 6000u) : 2300u);
+    config.judged = (uint16_t)(one_in(4u) ? 0xFFFFu : any());
     config.least = (uint8_t)(any() % 18u);
     config.frames_to_take = (uint8_t)(any() % 5u);
     expected = model_ppm_init(&model, &config);

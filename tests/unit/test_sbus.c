@@ -39,9 +39,12 @@ static const uint8_t ends[BYTES] = {0x0F, 0xAC, 0x00, 0xDF, 0xC4, 0xC1, 0x07, 0x
                                     0x3E, 0xF0, 0x81, 0x0F, 0x7C, 0x0C, 0x00};
 
 static const keel_sbus_config_t usual = {
-    .gap_us = GAP_US, .lowest = 172u, .highest = 1811u, .sbus2 = false};
+    .gap_us = GAP_US, .lowest = 172u, .highest = 1811u, .judged = 0xFFFFu};
 static const keel_sbus_config_t widest = {
-    .gap_us = GAP_US, .lowest = 0u, .highest = 2047u, .sbus2 = true};
+    .gap_us = GAP_US, .lowest = 0u, .highest = 2047u, .judged = 0xFFFFu};
+/* As in the field: sticks alone, from 885 to 2115 us. */
+static const keel_sbus_config_t field = {
+    .gap_us = GAP_US, .lowest = 8u, .highest = 1976u, .judged = 0x000Fu};
 
 static keel_sbus_t sbus;
 
@@ -212,27 +215,21 @@ static void RAD_005_each_flag_is_told(void)
     }
 }
 
-/* Each value of the last byte, with and without SBUS2. */
+/* Each value of the last byte; SBUS2 has four. */
 static void RAD_004_each_last_byte(void)
 {
     uint8_t frame[BYTES];
 
     memcpy(frame, middle, sizeof frame);
-    for (uint32_t two = 0u; two < 2u; two++) {
-        keel_sbus_config_t config = usual;
+    for (uint32_t footer = 0u; footer < 256u; footer++) {
+        const bool of_two = (footer == 0x04u) || (footer == 0x14u) || (footer == 0x24u) ||
+                            (footer == 0x34u);
+        const uint32_t refused = sbus.count.footers;
+        const bool right = (footer == 0u) || of_two;
 
-        config.sbus2 = two == 1u;
-        TEST_ASSERT_EQUAL(KEEL_OK, keel_sbus_init(&sbus, &config));
-        for (uint32_t footer = 0u; footer < 256u; footer++) {
-            const bool of_two = (footer == 0x04u) || (footer == 0x14u) || (footer == 0x24u) ||
-                                (footer == 0x34u);
-            const uint32_t refused = sbus.count.footers;
-            const bool right = (footer == 0u) || (of_two && config.sbus2);
-
-            frame[24] = (uint8_t)footer;
-            TEST_ASSERT_EQUAL_UINT32(right ? 1u : 0u, feed(frame, BYTES, SILENT_US));
-            TEST_ASSERT_EQUAL_UINT32(refused + (right ? 0u : 1u), sbus.count.footers);
-        }
+        frame[24] = (uint8_t)footer;
+        TEST_ASSERT_EQUAL_UINT32(right ? 1u : 0u, feed(frame, BYTES, SILENT_US));
+        TEST_ASSERT_EQUAL_UINT32(refused + (right ? 0u : 1u), sbus.count.footers);
     }
 }
 
@@ -255,7 +252,8 @@ static void RAD_006_one_bit_changed(void)
                 }
                 right = right && (value >= 172u) && (value <= 1811u);
             }
-            right = right && (at != 0u) && (at != 24u) && (frame[23] < 16u);
+            /* One bit of the footer makes it one of SBUS2's. */
+            right = right && (at != 0u) && ((at != 24u) || (change == 4u)) && (frame[23] < 16u);
 
             TEST_ASSERT_EQUAL(KEEL_OK, keel_sbus_init(&sbus, &usual));
             is_taken(ends, SILENT_US);
@@ -292,6 +290,62 @@ static void RAD_004_each_channel_has_its_range(void)
             TEST_ASSERT_EQUAL_UINT32(refused + (right ? 0u : 1u), sbus.count.ranges);
         }
     }
+}
+
+/* Each channel alone is judged: then it alone voids a frame. */
+static void RAD_004_each_channel_may_be_judged(void)
+{
+    for (uint32_t judged = 0u; judged < 16u; judged++) {
+        keel_sbus_config_t config = field;
+
+        config.judged = (uint16_t)(1u << judged);
+        TEST_ASSERT_EQUAL(KEEL_OK, keel_sbus_init(&sbus, &config));
+        for (uint32_t i = 0u; i < 16u; i++) {
+            uint16_t channel[16];
+            uint8_t frame[BYTES];
+
+            for (uint32_t k = 0u; k < 16u; k++) {
+                channel[k] = 992u;
+            }
+            channel[i] = 7u;
+            write_frame(frame, channel, 0u);
+            TEST_ASSERT_EQUAL_UINT32((i == judged) ? 0u : 1u, feed(frame, BYTES, SILENT_US));
+        }
+        TEST_ASSERT_EQUAL_UINT32(1u, sbus.count.ranges);
+    }
+}
+
+/* Channels 5 to 16 say anything, all of them at once; sticks up to 115 %. */
+static void RAD_004_knobs_and_channels_that_are_none(void)
+{
+    const uint16_t others[5] = {0u, 7u, 1977u, 2047u, 110u};
+    const uint16_t sticks[2] = {8u, 1976u};
+
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_sbus_init(&sbus, &field));
+    for (uint32_t k = 0u; k < 10u; k++) {
+        uint16_t channel[16];
+        uint8_t frame[BYTES];
+
+        for (uint32_t i = 0u; i < 16u; i++) {
+            channel[i] = (i < 4u) ? sticks[k % 2u] : others[k / 2u];
+        }
+        write_frame(frame, channel, 0u);
+        is_taken(frame, SILENT_US);
+        TEST_ASSERT_EQUAL_UINT16_ARRAY(channel, sbus.frame.channel, 16u);
+    }
+    TEST_ASSERT_EQUAL_UINT32(0u, sbus.count.ranges);
+}
+
+/* A receiver without the radio that sends zeros says no stick. */
+static void RAD_004_no_pulses_are_refused(void)
+{
+    const uint8_t zeros[BYTES] = {0x0F};
+
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_sbus_init(&sbus, &field));
+    is_taken(middle, SILENT_US);
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(zeros, BYTES, SILENT_US));
+    all_are(992u);
+    TEST_ASSERT_EQUAL_UINT32(1u, sbus.count.ranges);
 }
 
 /* The first of footer, flags and range that applies is counted, once. */
@@ -537,6 +591,9 @@ int main(void)
     RUN_TEST(RAD_004_each_last_byte);
     RUN_TEST(RAD_006_one_bit_changed);
     RUN_TEST(RAD_004_each_channel_has_its_range);
+    RUN_TEST(RAD_004_each_channel_may_be_judged);
+    RUN_TEST(RAD_004_knobs_and_channels_that_are_none);
+    RUN_TEST(RAD_004_no_pulses_are_refused);
     RUN_TEST(RAD_007_one_reason_is_counted);
     RUN_TEST(RAD_010_waits_for_a_header);
     RUN_TEST(RAD_009_any_prefix_lost_before_a_gap);

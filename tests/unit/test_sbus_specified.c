@@ -38,7 +38,7 @@ static void set_up(void)
     config.gap_us = one_in(16u) ? any() % 3u : 1000u;
     config.lowest = (uint16_t)(one_in(2u) ? 172u : (any() % 600u));
     config.highest = (uint16_t)(one_in(2u) ? 1811u : (1500u + (any() % 600u)));
-    config.sbus2 = one_in(2u);
+    config.judged = (uint16_t)(one_in(4u) ? 0xFFFFu : (1u << (any() % 16u)));
     expected = model_sbus_init(&model, &config);
     TEST_ASSERT_EQUAL(expected, keel_sbus_init(&sbus, &config));
     if (one_in(8u) && (expected == KEEL_OK)) {

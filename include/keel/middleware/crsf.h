@@ -3,11 +3,14 @@
  * @file crsf.h
  * @brief The pilot's radio: a decoder of CRSF, byte by byte.
  *
- * A frame is the byte 0xC8; a length, of what comes behind it; a type; up to 60 bytes of payload;
- * and a CRC-8 over type and payload: at most 64 bytes. A receiver sends one with 16 channels of 11
- * bits, the lowest bit first, every 4 to 20 ms, and now and then one with statistics of the radio
- * link, at 416 666 baud (or 420 000) with one stop bit, not inverted. Setting up the port is its
- * driver's affair. Frames of other types are counted and skipped.
+ * A frame is a sync byte; a length, of what comes behind it; a type; up to 60 bytes of payload; and
+ * a CRC-8 over type and payload: at most 64 bytes. The sync byte is 0xC8, 0x00, or the address of a
+ * device: of these, those between a pilot and a flight controller are taken. A receiver sends a
+ * frame with 16 channels of 11 bits, the lowest bit first, every 4 to 20 ms, and now and then one
+ * with statistics of the radio link, at 416 666 baud (or 420 000) with one stop bit, not inverted.
+ * Setting up the port is its driver's affair. Of a frame that is longer than its type needs, as
+ * newer senders have, what is known is taken. Frames of other types, and those that are too short,
+ * are counted and skipped.
  *
  * Where a frame begins is told by gaps and headers. A byte that comes late begins a frame; and what
  * can be no frame, by its length or its CRC, is searched for the next byte that may be a header. So
@@ -40,18 +43,23 @@ KEEL_C_BEGIN
 /** Channels of 11 bits. */
 #define KEEL_CRSF_CHANNELS 16
 
-/** The first byte of a frame: the flight controller's address. */
-#define KEEL_CRSF_HEADER 0xC8
+/** The first byte of a frame: on a serial port, to all, and the addresses of a receiver and of a
+ *  transmitter's module. A pilot's radio sends the last to its module. Other devices' addresses are
+ *  no beginning, as each more of them makes more of a frame's bytes look like one. */
+#define KEEL_CRSF_HEADER          0xC8
+#define KEEL_CRSF_HEADER_ALL      0x00
+#define KEEL_CRSF_HEADER_RECEIVER 0xEC
+#define KEEL_CRSF_HEADER_MODULE   0xEE
 
 /** The shortest length, of a type and a CRC, and the longest. */
 #define KEEL_CRSF_LENGTH_MIN 2
 #define KEEL_CRSF_LENGTH_MAX 62
 
-/** A frame with channels: its type and its length. */
+/** A frame with channels: its type and its least length. */
 #define KEEL_CRSF_TYPE_CHANNELS   0x16
 #define KEEL_CRSF_LENGTH_CHANNELS 24
 
-/** A frame with statistics of the link: its type and its length. */
+/** A frame with statistics of the link: its type and its least length. */
 #define KEEL_CRSF_TYPE_LINK   0x14
 #define KEEL_CRSF_LENGTH_LINK 12
 
@@ -76,7 +84,8 @@ typedef struct keel_crsf_link {
 typedef struct keel_crsf_count {
     uint32_t channels; /**< Right frames with channels. */
     uint32_t links;    /**< Right frames with statistics. */
-    uint32_t others;   /**< Right frames of another type, or of these with another length. */
+    uint32_t shorts;   /**< Right frames of these types that are too short. */
+    uint32_t others;   /**< Right frames of another type. */
     uint32_t lengths;  /**< Headers with no possible length behind them. */
     uint32_t crcs;     /**< Frames refused for their CRC. */
 } keel_crsf_count_t;
@@ -86,7 +95,8 @@ typedef enum keel_crsf_taken {
     KEEL_CRSF_NOTHING = 0,   /**< No right frame. */
     KEEL_CRSF_TOOK_CHANNELS, /**< One with channels. */
     KEEL_CRSF_TOOK_LINK,     /**< One with statistics. */
-    KEEL_CRSF_TOOK_OTHER     /**< One that is skipped. */
+    KEEL_CRSF_TOOK_SHORT,    /**< One that is skipped: too short for its type. */
+    KEEL_CRSF_TOOK_OTHER     /**< One that is skipped: of another type. */
 } keel_crsf_taken_t;
 
 /** A decoder. Written by the functions below alone; all of it may be read. */
@@ -100,9 +110,24 @@ typedef struct keel_crsf {
     keel_crsf_link_t link;                /**< The last; all 0 before. */
 } keel_crsf_t;
 
-/*@ // Between any two calls: a partial frame begins with a header.
-  @ predicate crsf_valid(keel_crsf_t *s) =
-  @     framing_valid(&s->framing) && s->framing.header == KEEL_CRSF_HEADER;
+/*@ predicate crsf_header(integer byte) =
+  @     byte == KEEL_CRSF_HEADER || byte == KEEL_CRSF_HEADER_ALL ||
+  @     byte == KEEL_CRSF_HEADER_RECEIVER || byte == KEEL_CRSF_HEADER_MODULE;
+  @
+  @ // How many are held of a byte that comes first.
+  @ logic integer crsf_first(integer byte) =
+  @     byte == KEEL_CRSF_HEADER || byte == KEEL_CRSF_HEADER_ALL ||
+  @     byte == KEEL_CRSF_HEADER_RECEIVER || byte == KEEL_CRSF_HEADER_MODULE ? 1 : 0;
+  @
+  @ // What a frame begins with is as it was made.
+  @ predicate crsf_headers(keel_crsf_t *s) =
+  @     s->framing.header[0] == KEEL_CRSF_HEADER &&
+  @     s->framing.header[1] == KEEL_CRSF_HEADER_ALL &&
+  @     s->framing.header[2] == KEEL_CRSF_HEADER_RECEIVER &&
+  @     s->framing.header[3] == KEEL_CRSF_HEADER_MODULE;
+  @
+  @ // Between any two calls: a partial frame begins with a header.
+  @ predicate crsf_valid(keel_crsf_t *s) = framing_valid(&s->framing) && crsf_headers(s);
   @
   @ // The CRC of so many bytes, each taken into that of those before it.
   @ logic integer crsf_crc{L}(uint8_t *bytes, integer count) =
@@ -124,10 +149,13 @@ typedef struct keel_crsf {
   @
   @ // What a frame of this type and length is.
   @ logic integer crsf_kind(integer type, integer length) =
-  @     type == KEEL_CRSF_TYPE_CHANNELS && length == KEEL_CRSF_LENGTH_CHANNELS ?
-  @         (integer)KEEL_CRSF_TOOK_CHANNELS :
-  @     type == KEEL_CRSF_TYPE_LINK && length == KEEL_CRSF_LENGTH_LINK ?
-  @         (integer)KEEL_CRSF_TOOK_LINK : (integer)KEEL_CRSF_TOOK_OTHER;
+  @     type == KEEL_CRSF_TYPE_CHANNELS ?
+  @         (length >= KEEL_CRSF_LENGTH_CHANNELS ? (integer)KEEL_CRSF_TOOK_CHANNELS
+  @                                              : (integer)KEEL_CRSF_TOOK_SHORT) :
+  @     type == KEEL_CRSF_TYPE_LINK ?
+  @         (length >= KEEL_CRSF_LENGTH_LINK ? (integer)KEEL_CRSF_TOOK_LINK
+  @                                          : (integer)KEEL_CRSF_TOOK_SHORT) :
+  @         (integer)KEEL_CRSF_TOOK_OTHER;
   @
   @ predicate crsf_channels_say{L, M}(keel_crsf_t *s, integer byte) =
   @     \forall integer i; 0 <= i < KEEL_CRSF_CHANNELS ==>
@@ -147,7 +175,7 @@ typedef struct keel_crsf {
   @ predicate crsf_dropped{L, M}(keel_crsf_t *s) =
   @     \let n = \at(s->framing.held, L) - \at(s->framing.held, M);
   @         0 <= n &&
-  @         (\forall integer j; 1 <= j < n ==> \at(s->framing.byte[j], L) != KEEL_CRSF_HEADER) &&
+  @         (\forall integer j; 1 <= j < n ==> !crsf_header(\at(s->framing.byte[j], L))) &&
   @         (\forall integer j; 0 <= j < \at(s->framing.held, M) ==>
   @             \at(s->framing.byte[j], M) == \at(s->framing.byte[n + j], L));
   @
@@ -205,8 +233,8 @@ keel_status_t keel_crsf_init(keel_crsf_t *crsf, const keel_crsf_config_t *config
 /*@ requires \valid(crsf) && crsf_valid(crsf);
   @ assigns crsf->framing.quiet_us, crsf->framing.gaps, crsf->framing.strays,
   @     crsf->framing.byte[0 .. KEEL_FRAMING_BYTES - 1], crsf->framing.held,
-  @     crsf->count.channels, crsf->count.links, crsf->count.others, crsf->count.lengths,
-  @     crsf->count.crcs, crsf->channels_age_us, crsf->link_age_us,
+  @     crsf->count.channels, crsf->count.links, crsf->count.shorts, crsf->count.others,
+  @     crsf->count.lengths, crsf->count.crcs, crsf->channels_age_us, crsf->link_age_us,
   @     crsf->channel[0 .. KEEL_CRSF_CHANNELS - 1], crsf->link.rssi[0 .. 1], crsf->link.quality,
   @     crsf->link.snr, crsf->link.antenna, crsf->link.mode;
   @ ensures CRF_003_valid: crsf_valid(crsf);
@@ -227,6 +255,8 @@ keel_status_t keel_crsf_init(keel_crsf_t *crsf, const keel_crsf_config_t *config
   @     framing_sum(\old(crsf->count.channels), \result == KEEL_CRSF_TOOK_CHANNELS ? 1 : 0);
   @ ensures CRF_008_links: crsf->count.links ==
   @     framing_sum(\old(crsf->count.links), \result == KEEL_CRSF_TOOK_LINK ? 1 : 0);
+  @ ensures CRF_008_shorts: crsf->count.shorts ==
+  @     framing_sum(\old(crsf->count.shorts), \result == KEEL_CRSF_TOOK_SHORT ? 1 : 0);
   @ ensures CRF_008_others: crsf->count.others ==
   @     framing_sum(\old(crsf->count.others), \result == KEEL_CRSF_TOOK_OTHER ? 1 : 0);
   @ ensures CRF_009_channels: crsf->channels_age_us ==
@@ -236,11 +266,11 @@ keel_status_t keel_crsf_init(keel_crsf_t *crsf, const keel_crsf_config_t *config
   @     (\result == KEEL_CRSF_TOOK_LINK ? 0 : framing_sum(\old(crsf->link_age_us), elapsed_us));
   @ ensures CRF_010_gap: framing_late{Pre}(&crsf->framing, elapsed_us) ==>
   @     \result == KEEL_CRSF_NOTHING &&
-  @     crsf->framing.held == (byte == KEEL_CRSF_HEADER ? 1 : 0);
+  @     crsf->framing.held == crsf_first(byte);
   @ ensures CRF_011_first: \result == KEEL_CRSF_NOTHING && \old(crsf->framing.held) > 0 &&
   @     !framing_late{Pre}(&crsf->framing, elapsed_us) ==>
   @     \let n = \old(crsf->framing.held) + 1 - crsf->framing.held; 0 <= n &&
-  @         \forall integer j; 1 <= j < n ==> crsf_came{Pre}(crsf, byte, j) != KEEL_CRSF_HEADER;
+  @         \forall integer j; 1 <= j < n ==> !crsf_header(crsf_came{Pre}(crsf, byte, j));
   @ ensures CRF_011_shifted: \result == KEEL_CRSF_NOTHING && \old(crsf->framing.held) > 0 &&
   @     !framing_late{Pre}(&crsf->framing, elapsed_us) ==>
   @     \let n = \old(crsf->framing.held) + 1 - crsf->framing.held;

@@ -3,10 +3,11 @@
  * @file framing.h
  * @brief Where frames begin among the bytes of a port: what decoders of a radio's bytes share.
  *
- * A frame begins with a header byte. Bytes are held from a header on, up to KEEL_FRAMING_BYTES of
- * them; a byte that comes late drops those before it and begins anew. The decoder looks at what is
- * held after each byte: what is a frame, or cannot be one, it drops, and what is held then begins
- * at the next header behind it. So no byte is thrown away that may begin a frame.
+ * A frame begins with a header byte, one of up to KEEL_FRAMING_HEADERS. Bytes are held from a
+ * header on, up to KEEL_FRAMING_BYTES of them; a byte that comes late drops those before it and
+ * begins anew. The decoder looks at what is held after each byte: what is a frame, or cannot be
+ * one, it drops, and what is held then begins at the next header behind it. So no byte is thrown
+ * away that may begin a frame.
  *
  * All counts and times stay at UINT32_MAX.
  */
@@ -22,6 +23,9 @@ KEEL_C_BEGIN
 /** The most bytes that are held: those of the longest frame. */
 #define KEEL_FRAMING_BYTES 64
 
+/** How many bytes may be headers; where fewer are, one of them stands again. */
+#define KEEL_FRAMING_HEADERS 4
+
 /** The bytes of a port from a header on. Written by the functions below alone; all of it may be
  *  read. */
 typedef struct keel_framing {
@@ -30,13 +34,22 @@ typedef struct keel_framing {
     uint32_t gaps;                    /**< How often a gap dropped something. */
     uint32_t strays;                  /**< Bytes that were no header, with nothing held. */
     uint8_t byte[KEEL_FRAMING_BYTES]; /**< Those held, and behind them what was before. */
-    uint8_t header;                   /**< What a frame begins with. */
     uint8_t held;                     /**< How many are held. */
+    uint8_t header[KEEL_FRAMING_HEADERS]; /**< What a frame may begin with. */
 } keel_framing_t;
 
-/*@ // What is held begins with a header.
+/*@ predicate framing_header(keel_framing_t *f, integer byte) =
+  @     byte == f->header[0] || byte == f->header[1] || byte == f->header[2] ||
+  @     byte == f->header[3];
+  @
+  @ // How many are held of a byte that comes first.
+  @ logic integer framing_first(keel_framing_t *f, integer byte) =
+  @     byte == f->header[0] || byte == f->header[1] || byte == f->header[2] ||
+  @     byte == f->header[3] ? 1 : 0;
+  @
+  @ // What is held begins with a header.
   @ predicate framing_begins(keel_framing_t *f) =
-  @     f->held <= KEEL_FRAMING_BYTES && (f->held > 0 ==> f->byte[0] == f->header);
+  @     f->held <= KEEL_FRAMING_BYTES && (f->held > 0 ==> framing_header(f, f->byte[0]));
   @
   @ // There is room for a byte, too.
   @ predicate framing_valid(keel_framing_t *f) =
@@ -70,15 +83,19 @@ static inline uint32_t keel_framing_sum(uint32_t a, uint32_t b)
  *
  * @param framing what is begun
  * @param gap_us  silence that drops what is held when it is longer, in us
- * @param header  what a frame begins with
+ * @param header  what a frame may begin with, KEEL_FRAMING_HEADERS bytes; copied
  */
-/*@ requires \valid(framing);
+/*@ requires \valid(framing) && \valid_read(header + (0 .. KEEL_FRAMING_HEADERS - 1)) &&
+  @     \separated(framing, header + (0 .. KEEL_FRAMING_HEADERS - 1));
   @ assigns *framing;
   @ ensures FRG_002_begun: framing_valid(framing) && framing->held == 0 &&
-  @     framing->gap_us == gap_us && framing->header == header &&
-  @     framing->quiet_us == UINT32_MAX && framing->gaps == 0 && framing->strays == 0;
+  @     framing->gap_us == gap_us && framing->quiet_us == UINT32_MAX &&
+  @     framing->gaps == 0 && framing->strays == 0;
+  @ ensures FRG_002_headers: framing->header[0] == \old(header[0]) &&
+  @     framing->header[1] == \old(header[1]) && framing->header[2] == \old(header[2]) &&
+  @     framing->header[3] == \old(header[3]);
   @*/
-void keel_framing_begin(keel_framing_t *framing, uint32_t gap_us, uint8_t header);
+void keel_framing_begin(keel_framing_t *framing, uint32_t gap_us, const uint8_t *header);
 
 /**
  * Lets time pass in which no byte came (requirement FRG-003).
@@ -105,12 +122,12 @@ void keel_framing_pass_time(keel_framing_t *framing, uint32_t elapsed_us);
   @     framing->byte[0 .. KEEL_FRAMING_BYTES - 1], framing->held;
   @ ensures FRG_003_now: framing->quiet_us == 0;
   @ ensures FRG_004_late: framing_late{Pre}(framing, elapsed_us) ==>
-  @     framing->held == (byte == framing->header ? 1 : 0) &&
+  @     framing->held == framing_first(framing, byte) &&
   @     framing->gaps == framing_sum(\old(framing->gaps), \old(framing->held) > 0 ? 1 : 0);
   @ ensures FRG_005_begins: framing_begins(framing);
   @ ensures FRG_005_adds: !framing_late{Pre}(framing, elapsed_us) ==>
   @     framing->held == \old(framing->held) +
-  @         (\old(framing->held) == 0 && byte != framing->header ? 0 : 1) &&
+  @         (\old(framing->held) == 0 ? framing_first(framing, byte) : 1) &&
   @     framing->gaps == \old(framing->gaps);
   @ ensures FRG_005_byte: framing->held > 0 ==> framing->byte[framing->held - 1] == byte;
   @ ensures FRG_005_others: \forall integer j; 0 <= j < framing->held - 1 ==>
@@ -131,7 +148,8 @@ void keel_framing_take(keel_framing_t *framing, uint8_t byte, uint32_t elapsed_u
   @ assigns framing->byte[0 .. KEEL_FRAMING_BYTES - 1], framing->held;
   @ ensures FRG_006_valid: framing_valid(framing);
   @ ensures FRG_006_first: \let n = \old(framing->held) - framing->held; count <= n &&
-  @     \forall integer j; count <= j < n ==> \at(framing->byte[j], Pre) != framing->header;
+  @     \forall integer j; count <= j < n ==>
+  @         !framing_header(framing, \at(framing->byte[j], Pre));
   @ ensures FRG_006_shifted: \let n = \old(framing->held) - framing->held;
   @     \forall integer j; 0 <= j < framing->held ==>
   @         framing->byte[j] == \at(framing->byte[n + j], Pre);

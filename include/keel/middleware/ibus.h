@@ -14,8 +14,12 @@
  * IBUS has no flag for a lost radio: a receiver that loses it goes on with the last channels, or
  * with those that it was told to send then, or stops. Tell it to stop; or to send a throttle below
  * `lowest`, so that its frames are refused: then age_us tells in either case. Some set upper bits
- * of channels instead; when `extended` is not set, those frames are refused, too, as such channels
- * are beyond any range.
+ * of channels instead; when `extended` is not set, those frames are refused, too, when the channel
+ * is judged, as it is beyond any range. A frame of 18 channels is refused for the same bits: they
+ * are not masked without being asked for, as then a lost radio would look like a pilot.
+ *
+ * Judge the sticks alone: other channels may say anything, as a knob at 150 % does and a channel
+ * that the receiver does not have, and whoever uses one takes what is beyond its end as the end.
  *
  * Frames are found by their headers and by gaps: a byte that comes late begins a frame, and when
  * bytes are no right frame, the search goes on at the next of them that may be a header. So a right
@@ -56,8 +60,10 @@ KEEL_C_BEGIN
 typedef struct keel_ibus_config {
     uint32_t gap_us;  /**< Silence that ends a partial frame when it is longer, in us; more than 0.
                            Between a byte's time, 87, and the silence between frames, 4000. */
-    uint16_t lowest;  /**< The smallest value of a channel in a right frame, in us; 900 is usual. */
-    uint16_t highest; /**< The largest, lowest to KEEL_IBUS_CHANNEL_MAX; 2100 is usual. */
+    uint32_t judged;  /**< Which channels' range is judged: bit i for channel i + 1; 0x0000F is
+                           usual, the sticks. */
+    uint16_t lowest;  /**< The smallest value of a channel that is judged, in us; 885 is usual. */
+    uint16_t highest; /**< The largest, lowest to KEEL_IBUS_CHANNEL_MAX; 2115 is usual. */
     bool extended;    /**< Upper bits are channels 15 to 18. */
 } keel_ibus_config_t;
 
@@ -66,7 +72,7 @@ typedef struct keel_ibus_count {
     uint32_t frames;  /**< Right frames. */
     uint32_t headers; /**< First bytes of a frame without its second. */
     uint32_t sums;    /**< Frames refused for their sum. */
-    uint32_t ranges;  /**< Frames refused for a channel out of its range. */
+    uint32_t ranges;  /**< Frames refused for a channel that is judged and out of its range. */
 } keel_ibus_count_t;
 
 /** A decoder. Written by the functions below alone; all of it may be read. */
@@ -79,10 +85,13 @@ typedef struct keel_ibus {
                                                none. */
 } keel_ibus_t;
 
-/*@ // Between any two calls: fewer bytes than those of a frame are held, the first a header.
+/*@ predicate ibus_headers(keel_ibus_t *s) =
+  @     s->framing.header[0] == KEEL_IBUS_HEADER && s->framing.header[1] == KEEL_IBUS_HEADER &&
+  @     s->framing.header[2] == KEEL_IBUS_HEADER && s->framing.header[3] == KEEL_IBUS_HEADER;
+  @
+  @ // Between any two calls: fewer bytes than those of a frame are held, the first a header.
   @ predicate ibus_valid(keel_ibus_t *s) =
-  @     framing_valid(&s->framing) && s->framing.header == KEEL_IBUS_HEADER &&
-  @     s->framing.held < KEEL_IBUS_BYTES;
+  @     framing_valid(&s->framing) && ibus_headers(s) && s->framing.held < KEEL_IBUS_BYTES;
   @
   @ predicate ibus_config(keel_ibus_config_t *c) =
   @     c->lowest <= c->highest <= KEEL_IBUS_CHANNEL_MAX && c->gap_us > 0;
@@ -106,14 +115,15 @@ typedef struct keel_ibus {
   @ predicate ibus_in_range(keel_ibus_t *s, integer value) =
   @     s->config.lowest <= value <= s->config.highest;
   @
-  @ // What has no channel has no range.
-  @ predicate ibus_has(keel_ibus_t *s, integer i) =
-  @     0 <= i < (s->config.extended != 0 ? KEEL_IBUS_CHANNELS : KEEL_IBUS_WORDS);
+  @ // What has no channel is not judged.
+  @ predicate ibus_judged(keel_ibus_t *s, integer i) =
+  @     0 <= i < (s->config.extended != 0 ? KEEL_IBUS_CHANNELS : KEEL_IBUS_WORDS) &&
+  @     ((s->config.judged >> i) & 1) != 0;
   @
   @ // What is held is right, but for its first two bytes.
   @ predicate ibus_right(keel_ibus_t *s) =
   @     ibus_sum(&s->framing.byte[0], 30) + ibus_word(s, 14) == 65535 &&
-  @     \forall integer i; ibus_has(s, i) ==> ibus_in_range(s, ibus_field(s, i));
+  @     \forall integer i; ibus_judged(s, i) ==> ibus_in_range(s, ibus_field(s, i));
   @
   @ predicate ibus_says{L, M}(keel_ibus_t *s) =
   @     \forall integer i; 0 <= i < KEEL_IBUS_CHANNELS ==>
@@ -148,7 +158,7 @@ typedef struct keel_ibus {
   @       ibus->framing.gap_us == config->gap_us;
   @   ensures IBU_002_config: ibus->config.gap_us == config->gap_us &&
   @       ibus->config.lowest == config->lowest && ibus->config.highest == config->highest &&
-  @       ibus->config.extended == config->extended;
+  @       ibus->config.extended == config->extended && ibus->config.judged == config->judged;
   @   ensures IBU_002_none: ibus->age_us == UINT32_MAX && ibus->count.frames == 0;
   @ complete behaviors;
   @ disjoint behaviors;
@@ -176,7 +186,7 @@ keel_status_t keel_ibus_init(keel_ibus_t *ibus, const keel_ibus_config_t *config
   @ ensures IBU_004_sum: \result ==>
   @     \at(ibus_sum(&ibus->framing.byte[0], 30), Pre) + \old(ibus->framing.byte[30]) +
   @     256 * byte == 65535;
-  @ ensures IBU_004_range: \result ==> \forall integer i; ibus_has(ibus, i) ==>
+  @ ensures IBU_004_range: \result ==> \forall integer i; ibus_judged(ibus, i) ==>
   @     ibus_in_range(ibus, ibus->channel[i]);
   @ ensures IBU_005_fields: \result ==> \forall integer i; 0 <= i < KEEL_IBUS_CHANNELS ==>
   @     ibus->channel[i] == ibus_field{Pre}(ibus, i);

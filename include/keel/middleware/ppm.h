@@ -8,6 +8,9 @@
  * next begins, with a longer time, the sync gap; there is one every 20 to 22.5 ms. Capturing edges
  * is the timer driver's affair.
  *
+ * Judge the sticks alone: another channel may be of any length below the sync gap, as that of a
+ * knob at 150 % is, and whoever uses one takes what is beyond its end as the end.
+ *
  * PPM has no check at all. So channels are taken only when as many frames in a row as are
  * configured are right as a whole and have as many channels each: an edge too few or too many makes
  * another number of them, and a jump in time another frame. That number stays as it is until a row
@@ -37,9 +40,11 @@ KEEL_C_BEGIN
 typedef struct keel_ppm_config {
     uint32_t lost_us;    /**< Channels that are older mean a lost radio, and a longer silence is no
                               sync gap, in us; more than sync_us. 100000, five frames, is usual. */
-    uint16_t lowest_us;  /**< The shortest channel; 800 is usual. */
+    uint16_t lowest_us;  /**< The shortest channel that is judged; 800 is usual. */
     uint16_t highest_us; /**< The longest, not below the shortest; 2200 is usual. */
     uint16_t sync_us;    /**< The shortest sync gap, above the longest channel; 2300 is usual. */
+    uint16_t judged;     /**< Which channels are: bit i for channel i + 1; 0x000F is usual, the
+                              sticks. */
     uint8_t least;       /**< The fewest channels of a right frame, 1 to KEEL_PPM_CHANNELS. */
     uint8_t frames_to_take; /**< So many right frames in a row; more than 0. */
 } keel_ppm_config_t;
@@ -47,7 +52,7 @@ typedef struct keel_ppm_config {
 /** What was met since the start. */
 typedef struct keel_ppm_count {
     uint32_t frames;  /**< Frames whose channels were taken. */
-    uint32_t pulses;  /**< Frames refused for a channel out of its range. */
+    uint32_t pulses;  /**< Frames refused for a channel that is judged and out of its range. */
     uint32_t numbers; /**< Frames refused for too few or too many channels. */
     uint32_t gaps;    /**< Frames that were right so far, and silence ended. */
 } keel_ppm_count_t;
@@ -67,20 +72,21 @@ typedef struct keel_ppm {
     bool begun;                          /**< The frame that comes is right so far. */
 } keel_ppm_t;
 
-/*@ predicate ppm_in_range(keel_ppm_t *s, integer us) =
-  @     s->config.lowest_us <= us <= s->config.highest_us;
+/*@ // Channel i is right when it is so long.
+  @ predicate ppm_right(keel_ppm_t *s, integer i, integer us) =
+  @     ((s->config.judged >> i) & 1) == 0 || s->config.lowest_us <= us <= s->config.highest_us;
   @
   @ predicate ppm_limits(keel_ppm_config_t *c) =
   @     c->lowest_us <= c->highest_us < c->sync_us < c->lost_us;
   @
-  @ // Between any two calls: what came of a frame that is right so far is in range.
+  @ // Between any two calls: what came of a frame that is right so far is right.
   @ predicate ppm_valid(keel_ppm_t *s) =
   @     ppm_limits(&s->config) &&
   @     s->come <= KEEL_PPM_CHANNELS && s->channels <= KEEL_PPM_CHANNELS &&
   @     s->row <= s->config.frames_to_take && s->config.frames_to_take > 0 &&
   @     (s->begun == 0 ==> s->row == 0) &&
   @     (s->begun != 0 ==>
-  @         \forall integer i; 0 <= i < s->come ==> ppm_in_range(s, s->next[i]));
+  @         \forall integer i; 0 <= i < s->come ==> ppm_right(s, i, s->next[i]));
   @
   @ // How long it is since the last edge when the next one comes.
   @ logic integer ppm_width(keel_ppm_t *s, integer elapsed_us) =
@@ -94,7 +100,7 @@ typedef struct keel_ppm {
   @ // An edge behind one more channel of a frame that was right so far.
   @ predicate ppm_goes_on(keel_ppm_t *s, integer elapsed_us) =
   @     ppm_width(s, elapsed_us) < s->config.sync_us && s->begun != 0 &&
-  @     ppm_in_range(s, ppm_width(s, elapsed_us)) && s->come < KEEL_PPM_CHANNELS;
+  @     ppm_right(s, s->come, ppm_width(s, elapsed_us)) && s->come < KEEL_PPM_CHANNELS;
   @
   @ // How many frames of as many channels have come in a row, with one that ends.
   @ logic integer ppm_row(keel_ppm_t *s) =
@@ -135,7 +141,8 @@ typedef struct keel_ppm {
   @   ensures PPM_002_config: ppm->config.lost_us == config->lost_us &&
   @       ppm->config.lowest_us == config->lowest_us &&
   @       ppm->config.highest_us == config->highest_us &&
-  @       ppm->config.sync_us == config->sync_us && ppm->config.least == config->least &&
+  @       ppm->config.sync_us == config->sync_us && ppm->config.judged == config->judged &&
+  @       ppm->config.least == config->least &&
   @       ppm->config.frames_to_take == config->frames_to_take;
   @   ensures PPM_002_none: ppm->age_us == UINT32_MAX && ppm->channels == 0 &&
   @       ppm->count.frames == 0;
@@ -161,7 +168,7 @@ keel_status_t keel_ppm_init(keel_ppm_t *ppm, const keel_ppm_config_t *config);
   @ ensures PPM_003_valid: ppm_valid(ppm);
   @ ensures PPM_004_ends: \result ==> ppm_ends{Pre}(ppm, elapsed_us);
   @ ensures PPM_004_range: \result ==> ppm->config.least <= ppm->channels <= KEEL_PPM_CHANNELS &&
-  @     \forall integer i; 0 <= i < ppm->channels ==> ppm_in_range(ppm, ppm->channel[i]);
+  @     \forall integer i; 0 <= i < ppm->channels ==> ppm_right(ppm, i, ppm->channel[i]);
   @ ensures PPM_005_taken: \result ==> ppm->channels == \old(ppm->come) &&
   @     (\forall integer i; 0 <= i < ppm->channels ==>
   @         ppm->channel[i] == \at(ppm->next[i], Pre)) &&

@@ -4,21 +4,25 @@
  * @brief The pilot's radio: a decoder of SBUS, byte by byte.
  *
  * A frame is 25 bytes: the header 0x0F; 22 bytes with 16 channels of 11 bits, the lowest bit first;
- * a byte of flags; a footer, 0x00. A receiver sends one every 6 to 14 ms, in 3 ms, at 100 000 baud
- * with even parity and two stop bits, inverted. Setting up the port and dropping bytes whose parity
- * is wrong is its driver's affair.
+ * a byte of flags, whose upper half is 0; a footer, 0x00. SBUS2's footers, 0x04, 0x14, 0x24 and
+ * 0x34, say which quarter of its telemetry comes behind the frame. A receiver sends a frame every 6
+ * to 14 ms, in 3 ms, at 100 000 baud with even parity and two stop bits, inverted. Setting up the
+ * port and dropping bytes whose parity is wrong is its driver's affair.
  *
  * Frames are found by their headers: a byte that comes late begins a frame, and when 25 bytes are
  * no right frame, the search goes on at the next of them that may be a header. So a right frame is
  * taken by its last byte, whatever was before, unless some of its bytes and bytes before it were
  * taken as a frame already; after a gap it always is.
  *
- * SBUS has no checksum. A frame with a wrong bit in a channel is taken when all channels stay in
- * the configured range, and without gaps bytes of channels can look like a frame, over and over
- * while no channel moves. So a driver that hands bytes over in batches must tell the gaps, and
- * whoever acts on a channel (arms, kills) asks for several frames that say the same. The range is a
- * net with wide meshes: its lower end keeps out the zeros that some receivers send when they lose
- * the radio.
+ * SBUS has no checksum. A frame with a wrong bit in a channel is taken, and without gaps bytes of
+ * channels can look like a frame, over and over while no channel moves. So a driver that hands
+ * bytes over in batches must tell the gaps, and whoever acts on a channel (arms, kills) asks for
+ * several frames that say the same.
+ *
+ * A range is all that tells a stick without pulses: some receivers send zeros when they lose the
+ * radio. So a frame is refused when a channel that is judged is out of its range. Judge the sticks
+ * alone: other channels may say anything, as a knob at 110 % does and a channel that the receiver
+ * does not have, and whoever uses one takes what is beyond its end as the end.
  *
  * A receiver that loses the radio goes on sending frames, with the channels that it was told to
  * send then: frame.lost and frame.failsafe tell so, not age_us.
@@ -56,14 +60,15 @@ KEEL_C_BEGIN
 typedef struct keel_sbus_config {
     uint32_t gap_us;  /**< Silence that ends a partial frame when it is longer, in us; more than 0.
                            Between a byte's time, 120, and the silence between frames, 3000. */
-    uint16_t lowest;  /**< The smallest value of a channel in a right frame; 172 is usual. */
-    uint16_t highest; /**< The largest, lowest to KEEL_SBUS_CHANNEL_MAX; 1811 is usual. */
-    bool sbus2;       /**< SBUS2's footers are right, too: 0x04, 0x14, 0x24 and 0x34. */
+    uint16_t lowest;  /**< The smallest value of a channel that is judged; 8 is usual, 885 us. */
+    uint16_t highest; /**< The largest, lowest to KEEL_SBUS_CHANNEL_MAX; 1976 is usual, 2115 us. */
+    uint16_t judged;  /**< Which channels are: bit i for channel i + 1; 0x000F is usual, the
+                           sticks. */
 } keel_sbus_config_t;
 
 /** What a frame says. */
 typedef struct keel_sbus_frame {
-    uint16_t channel[KEEL_SBUS_CHANNELS]; /**< Raw, lowest to highest; keel_sbus_us scales it. */
+    uint16_t channel[KEEL_SBUS_CHANNELS]; /**< Raw; keel_sbus_us scales it. */
     bool digital_17;                      /**< Channel 17. */
     bool digital_18;                      /**< Channel 18. */
     bool lost;                            /**< The receiver missed a frame from the pilot. */
@@ -76,7 +81,7 @@ typedef struct keel_sbus_count {
     uint32_t headers; /**< Bytes that were no header where a frame should begin. */
     uint32_t footers; /**< Frames refused for their last byte. */
     uint32_t flags;   /**< Frames refused for a flag that there is none of. */
-    uint32_t ranges;  /**< Frames refused for a channel out of its range. */
+    uint32_t ranges;  /**< Frames refused for a channel that is judged and out of its range. */
     uint32_t gaps;    /**< Partial frames that a gap ended. */
 } keel_sbus_count_t;
 
@@ -109,12 +114,13 @@ typedef struct keel_sbus {
   @ logic integer sbus_field(keel_sbus_t *s, integer i) =
   @     (sbus_window(s, 1 + (11 * i) / 8) >> ((11 * i) % 8)) & 2047;
   @
-  @ predicate sbus_footer(integer byte, integer sbus2) =
-  @     byte == 0x00 ||
-  @     (sbus2 != 0 && (byte == 0x04 || byte == 0x14 || byte == 0x24 || byte == 0x34));
+  @ predicate sbus_footer(integer byte) =
+  @     byte == 0x00 || byte == 0x04 || byte == 0x14 || byte == 0x24 || byte == 0x34;
+  @
+  @ predicate sbus_judged(keel_sbus_t *s, integer i) = ((s->config.judged >> i) & 1) != 0;
   @
   @ predicate sbus_ranges(keel_sbus_t *s) =
-  @     \forall integer i; 0 <= i < KEEL_SBUS_CHANNELS ==>
+  @     \forall integer i; 0 <= i < KEEL_SBUS_CHANNELS && sbus_judged(s, i) ==>
   @         s->config.lowest <= sbus_field(s, i) <= s->config.highest;
   @
   @ predicate sbus_kept{L, M}(keel_sbus_t *s) =
@@ -149,7 +155,7 @@ typedef struct keel_sbus {
   @   ensures RAD_002_made: \result == KEEL_OK && sbus_valid(sbus) && sbus->held == 0;
   @   ensures RAD_002_config: sbus->config.gap_us == config->gap_us &&
   @       sbus->config.lowest == config->lowest && sbus->config.highest == config->highest &&
-  @       sbus->config.sbus2 == config->sbus2;
+  @       sbus->config.judged == config->judged;
   @   ensures RAD_002_none: sbus->age_us == UINT32_MAX && sbus->frame.failsafe != 0 &&
   @       sbus->count.frames == 0;
   @ complete behaviors;
@@ -173,12 +179,12 @@ keel_status_t keel_sbus_init(keel_sbus_t *sbus, const keel_sbus_config_t *config
   @     sbus->count.gaps, sbus->age_us, sbus->quiet_us,
   @     sbus->buffer[0 .. KEEL_SBUS_BYTES - 1], sbus->held;
   @ ensures RAD_003_valid: sbus_valid(sbus);
-  @ ensures RAD_004_footer: \result ==>
-  @     sbus_footer(sbus->buffer[KEEL_SBUS_BYTES - 1], sbus->config.sbus2);
+  @ ensures RAD_004_footer: \result ==> sbus_footer(sbus->buffer[KEEL_SBUS_BYTES - 1]);
   @ ensures RAD_004_last: \result ==> byte == sbus->buffer[KEEL_SBUS_BYTES - 1] &&
   @     sbus->buffer[0] == KEEL_SBUS_HEADER;
   @ ensures RAD_004_flags: \result ==> sbus->buffer[KEEL_SBUS_BYTES - 2] < 16;
-  @ ensures RAD_004_range: \result ==> \forall integer i; 0 <= i < KEEL_SBUS_CHANNELS ==>
+  @ ensures RAD_004_range: \result ==>
+  @     \forall integer i; 0 <= i < KEEL_SBUS_CHANNELS && sbus_judged(sbus, i) ==>
   @     sbus->config.lowest <= sbus->frame.channel[i] <= sbus->config.highest;
   @ ensures RAD_005_fields: \result ==> \forall integer i; 0 <= i < KEEL_SBUS_CHANNELS ==>
   @     sbus->frame.channel[i] == sbus_field(sbus, i);
