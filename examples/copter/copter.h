@@ -34,13 +34,13 @@
 #include "keel/flight/position.h"
 #include "keel/flight/reference.h"
 #include "keel/middleware/oversample.h"
-#include "keel/middleware/sbus.h"
 #include "keel/middleware/ubx.h"
 #include "keel/middleware/virtual_imu.h"
 #include "keel/rtos/load.h"
 #include "keel/rtos/scheduler.h"
 #include "log.h"
 #include "port.h"
+#include "radio.h"
 #include "request.h"
 #include "settings.h"
 #include "tuning.h"
@@ -136,12 +136,21 @@ typedef struct copter_satellites {
     bool is_accelerated;                 /**< Whether that is known. */
 } copter_satellites_t;
 
+/** What a second of the receiver is held beside. */
+typedef struct copter_pilot_ear {
+    uint32_t runs;                     /**< Of foreground radio, since. */
+    uint32_t received;                 /**< Frames that had come. */
+    uint32_t frames;                   /**< And the pilot's. */
+    uint32_t refused[COPTER_REFUSALS]; /**< And those refused. */
+    uint8_t heard;                     /**< What was heard in it: copter_heard_t. */
+} copter_pilot_ear_t;
+
 /** Written by background and foreground radio. */
 typedef struct copter_pilot {
-    keel_sbus_t radio;
-    uint32_t received; /**< How many frames came. */
-    uint32_t frames;   /**< How many of them the pilot sent, and are in what follows. */
-    uint32_t read;     /**< Of received, the last one looked at. */
+    copter_radio_t radio;
+    uint32_t frames;        /**< How many frames the pilot sent, and are in what follows. */
+    uint32_t read;          /**< Of radio.frames, the last one looked at. */
+    copter_pilot_ear_t ear; /**< What was there a second ago. */
     keel_reference_sticks_t sticks;
     keel_reference_t reference; /**< What the sticks ask for. */
     uint32_t facts;             /**< KEEL_MODE_IS_LINKED, ... of the pilot's last frame. */

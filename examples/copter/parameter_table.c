@@ -171,6 +171,11 @@ const keel_parameter_t copter_parameter[COPTER_PARAMETER_COUNT] = {
      .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
      .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
      .restarts = true},
+    {.name = "RC_PROTOCOL",
+     .initial = {.type = KEEL_PARAMETER_INT32, .whole = 0},
+     .lowest = {.type = KEEL_PARAMETER_INT32, .whole = 0},
+     .highest = {.type = KEEL_PARAMETER_INT32, .whole = 4},
+     .restarts = true},
     {.name = "FS_RETURN",
      .initial = {.type = KEEL_PARAMETER_BOOL, .whole = 1},
      .lowest = {.type = KEEL_PARAMETER_BOOL, .whole = 0},
@@ -310,23 +315,24 @@ void copter_apply_parameters(copter_settings_t *settings, const keel_parameter_e
     settings->battery.critical_voltage = entry[37].value.real;
     settings->battery.low_charge = entry[38].value.real;
     settings->battery.critical_charge = entry[39].value.real;
-    settings->mode.returns = entry[40].value.whole != 0;
-    settings->mode.loss_us = (uint32_t)entry[41].value.whole;
-    settings->mode.hold_us = (uint32_t)entry[42].value.whole;
-    settings->mode.kill_us = (uint32_t)entry[43].value.whole;
-    settings->mode.idle_us = (uint32_t)entry[44].value.whole;
-    settings->mode.return_us = (uint32_t)entry[45].value.whole;
-    settings->return_height = entry[46].value.real;
-    settings->cascade.reach[KEEL_CASCADE_NORTH] = entry[47].value.real;
-    settings->cascade.reach[KEEL_CASCADE_EAST] = entry[48].value.real;
-    settings->cascade.reach[KEEL_CASCADE_HEIGHT] = entry[49].value.real;
-    settings->fence_margin = entry[50].value.real;
-    settings->land_fast = entry[51].value.real;
-    settings->land_slow = entry[52].value.real;
-    settings->land_near = entry[53].value.real;
-    settings->attitude.north = entry[54].value.real;
-    settings->attitude.east = entry[55].value.real;
-    settings->position.accuracy = entry[56].value.real;
-    settings->system = (uint8_t)entry[57].value.whole;
+    settings->radio.protocol = (uint8_t)entry[40].value.whole;
+    settings->mode.returns = entry[41].value.whole != 0;
+    settings->mode.loss_us = (uint32_t)entry[42].value.whole;
+    settings->mode.hold_us = (uint32_t)entry[43].value.whole;
+    settings->mode.kill_us = (uint32_t)entry[44].value.whole;
+    settings->mode.idle_us = (uint32_t)entry[45].value.whole;
+    settings->mode.return_us = (uint32_t)entry[46].value.whole;
+    settings->return_height = entry[47].value.real;
+    settings->cascade.reach[KEEL_CASCADE_NORTH] = entry[48].value.real;
+    settings->cascade.reach[KEEL_CASCADE_EAST] = entry[49].value.real;
+    settings->cascade.reach[KEEL_CASCADE_HEIGHT] = entry[50].value.real;
+    settings->fence_margin = entry[51].value.real;
+    settings->land_fast = entry[52].value.real;
+    settings->land_slow = entry[53].value.real;
+    settings->land_near = entry[54].value.real;
+    settings->attitude.north = entry[55].value.real;
+    settings->attitude.east = entry[56].value.real;
+    settings->position.accuracy = entry[57].value.real;
+    settings->system = (uint8_t)entry[58].value.whole;
 }
 /* clang-format on */

@@ -11,7 +11,6 @@
 #define MODE      5u
 #define KILL      6u
 #define CALIBRATE 7u
-#define CHANNELS  8u
 
 /* What a channel says: its middle, and the way to either end. */
 #define MIDDLE 1500
@@ -22,13 +21,17 @@
 #define OFF 1300u
 #define ON  1700u
 
+/* Runs of foreground radio in a second, and frames in it that are no chance. */
+#define RUNS_OF_A_SECOND 50u
+#define NO_CHANCE        10u
+
 /* The mode switch has a position for each mode, in the order of their numbers. */
 #define MODE_FIRST 960u
 #define MODE_STEP  180u
 
 keel_status_t copter_pilot_init(copter_pilot_t *pilot)
 {
-    const keel_status_t status = keel_sbus_init(&pilot->radio, &copter_settings.radio);
+    const keel_status_t status = copter_radio_init(&pilot->radio, &copter_settings.radio);
 
     pilot->asked = KEEL_MODE_NONE;
     return (status == KEEL_OK) ? keel_reference_init(&pilot->reference, &copter_settings.reference)
@@ -43,16 +46,8 @@ void copter_background_radio(copter_t *copter)
 
     for (uint32_t i = 0u; (i < COPTER_BYTES) && port->read_byte(port->context, COPTER_RADIO, &byte);
          i++) {
-        if (keel_sbus_take(&self->radio, byte.value, byte.elapsed_us)) {
-            self->received++;
-        }
+        (void)copter_radio_take(&self->radio, &byte);
     }
-}
-
-/* Not one that the receiver repeats or makes up. */
-static bool is_the_pilots(const keel_sbus_frame_t *frame)
-{
-    return !frame->failsafe && !frame->lost;
 }
 
 /* A stick, from -1 to 1. */
@@ -66,11 +61,12 @@ static float stick_of(uint16_t channel)
     return (stick > 1.0f) ? 1.0f : stick;
 }
 
+/* What is beyond an end is the end. */
 static uint8_t mode_of(uint16_t channel)
 {
     const uint32_t position = (channel > MODE_FIRST) ? ((channel - MODE_FIRST) / MODE_STEP) : 0u;
 
-    return (position < KEEL_MODE_NONE) ? (uint8_t)position : (uint8_t)KEEL_MODE_NONE;
+    return (position < KEEL_MODE_NONE) ? (uint8_t)position : (uint8_t)(KEEL_MODE_NONE - 1);
 }
 
 static uint32_t facts_of(const uint16_t channel[])
@@ -84,18 +80,55 @@ static uint32_t facts_of(const uint16_t channel[])
     return facts;
 }
 
-void copter_foreground_radio(copter_t *copter)
+/* Without a frame of the pilot in a second: why, by what was refused in it. */
+static copter_heard_t silence_of(bool received, const uint32_t refused[COPTER_REFUSALS])
 {
-    copter_pilot_t *const self = &copter->pilot;
-    uint16_t channel[CHANNELS];
+    copter_heard_t heard = COPTER_HEARD_NOTHING;
 
-    if ((self->received == self->read) || !is_the_pilots(&self->radio.frame)) {
+    if (received) {
+        heard = COPTER_HEARD_LOST;
+    } else if (refused[COPTER_REFUSED_STICK] >= NO_CHANCE) {
+        heard = COPTER_HEARD_NO_STICK;
+    } else if (refused[COPTER_REFUSED_FLAGS] >= NO_CHANCE) {
+        heard = COPTER_HEARD_FLAGS;
+    } else if ((refused[COPTER_REFUSED_CHECK] + refused[COPTER_REFUSED_BYTES]) > 0u) {
+        heard = COPTER_HEARD_NOISE;
+    } else {
+        /* Nothing came. */
+    }
+    return heard;
+}
+
+/* What a second was like, at its end. */
+static void listen(copter_pilot_t *self)
+{
+    copter_pilot_ear_t *const ear = &self->ear;
+    uint32_t refused[COPTER_REFUSALS];
+    uint32_t all[COPTER_REFUSALS];
+
+    ear->runs++;
+    if (ear->runs < RUNS_OF_A_SECOND) {
         return;
     }
-    self->read = self->received;
-    for (uint32_t i = 0u; i < CHANNELS; i++) {
-        channel[i] = keel_sbus_us(self->radio.frame.channel[i]);
+    copter_radio_count(&self->radio, all);
+    for (uint32_t i = 0u; i < COPTER_REFUSALS; i++) {
+        refused[i] = all[i] - ear->refused[i];
+        ear->refused[i] = all[i];
     }
+    ear->heard = (uint8_t)((self->frames != ear->frames)
+                               ? COPTER_HEARD_PILOT
+                               : silence_of(self->radio.frames != ear->received, refused));
+    ear->runs = 0u;
+    ear->received = self->radio.frames;
+    ear->frames = self->frames;
+}
+
+/* A frame of the pilot. */
+static void obey(copter_pilot_t *self)
+{
+    const uint16_t *const channel = self->radio.channel;
+
+    self->read = self->radio.frames;
     self->sticks = (keel_reference_sticks_t){.roll = stick_of(channel[ROLL]),
                                              .pitch = stick_of(channel[PITCH]),
                                              .yaw = stick_of(channel[YAW]),
@@ -105,4 +138,14 @@ void copter_foreground_radio(copter_t *copter)
     self->asked = mode_of(channel[MODE]);
     self->calibrates = channel[CALIBRATE] > ON;
     self->frames++;
+}
+
+void copter_foreground_radio(copter_t *copter)
+{
+    copter_pilot_t *const self = &copter->pilot;
+
+    if ((self->radio.frames != self->read) && !self->radio.is_lost) {
+        obey(self);
+    }
+    listen(self);
 }

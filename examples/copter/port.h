@@ -24,7 +24,7 @@
 
 /** @name Receivers: devices that send bytes. */
 /** @{ */
-#define COPTER_RADIO     0u /**< The pilot's receiver: SBUS. */
+#define COPTER_RADIO     0u /**< The pilot's receiver: radio.h; of PPM, a byte is an edge. */
 #define COPTER_GPS       1u /**< The satellite receiver: UBX, NAV-PVT. */
 #define COPTER_RECEIVERS 2u
 /** @} */

@@ -479,12 +479,9 @@ static void servo_output_raw(const copter_t *copter, uint8_t *payload)
 static bool rc_channels(const copter_t *copter, uint8_t *payload)
 {
     const uint16_t none = (uint16_t)UNKNOWN_16;
-    uint16_t channel[KEEL_SBUS_CHANNELS];
+    const uint16_t *const channel = copter->pilot.radio.channel;
     message_rc_channels_t message;
 
-    for (uint32_t i = 0u; i < (uint32_t)KEEL_SBUS_CHANNELS; i++) {
-        channel[i] = keel_sbus_us(copter->pilot.radio.frame.channel[i]);
-    }
     message = (message_rc_channels_t){.time_boot_ms = now_ms(copter),
                                       .chan1_raw = channel[0],
                                       .chan2_raw = channel[1],
@@ -504,11 +501,11 @@ static bool rc_channels(const copter_t *copter, uint8_t *payload)
                                       .chan16_raw = channel[15],
                                       .chan17_raw = none,
                                       .chan18_raw = none,
-                                      .chancount = (uint8_t)KEEL_SBUS_CHANNELS,
+                                      .chancount = (uint8_t)COPTER_CHANNELS,
                                       .rssi = (uint8_t)UNKNOWN_8};
 
     message_rc_channels_pack(&message, payload);
-    return copter->pilot.received > 0u;
+    return copter->pilot.radio.frames > 0u;
 }
 
 static uint8_t charge_of(keel_battery_level_t level)

@@ -15,9 +15,9 @@
 #include "keel/flight/mode.h"
 #include "keel/flight/position.h"
 #include "keel/flight/reference.h"
-#include "keel/middleware/sbus.h"
 #include "keel/middleware/ubx.h"
 #include "keel/middleware/virtual_imu.h"
+#include "radio.h"
 
 #include <stdint.h>
 
@@ -32,7 +32,7 @@ typedef struct copter_settings {
     keel_attitude_config_t attitude;
     keel_axis_config_t altitude;
     keel_position_config_t position;
-    keel_sbus_config_t radio;
+    copter_radio_config_t radio;
     keel_ubx_config_t satellites;
     keel_reference_config_t reference;
     keel_battery_config_t battery;

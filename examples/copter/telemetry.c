@@ -147,6 +147,20 @@ static void tell_mode(copter_telemetry_t *self, uint8_t mode)
     self->mode = mode;
 }
 
+/* Says when the pilot is heard, or why not. */
+static void tell_radio(copter_telemetry_t *self, const copter_pilot_t *pilot)
+{
+    const copter_heard_t heard = (copter_heard_t)pilot->ear.heard;
+
+    if (pilot->ear.heard != self->heard) {
+        copter_text(self,
+                    (heard == COPTER_HEARD_PILOT) ? (uint8_t)MAV_SEVERITY_INFO
+                                                  : (uint8_t)MAV_SEVERITY_WARNING,
+                    "radio: ", copter_radio_words(heard, pilot->radio.protocol));
+        self->heard = pilot->ear.heard;
+    }
+}
+
 /* Whoever does not sign, where frames are signed, is not heard. */
 static void take(copter_t *copter, uint32_t number, const keel_mavlink_frame_t *frame)
 {
@@ -307,6 +321,7 @@ void copter_telemetry(copter_t *copter)
 
     tell_state(copter);
     tell_mode(self, copter_mode_told(copter));
+    tell_radio(self, &copter->pilot);
     copter_take_answers(copter);
     save_parameters(copter);
     copter_reboot_step(copter);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the receivers of the radio and of the satellites send: a frame of SBUS, a NAV-PVT of UBX.
+"""What receivers send: of the radio SBUS, CRSF or IBUS, of the satellites a NAV-PVT of UBX.
 
 Nothing but the standard library is in here, so that tests of other parts can use it.
 """
@@ -13,6 +13,8 @@ from datetime import UTC, datetime, timedelta
 SBUS_CHANNELS = 16
 SBUS_FAILSAFE = 0x08
 SBUS_LEAST_US, SBUS_STEP_US, SBUS_MIDDLE = 880.0, 0.625, 992
+CRSF_SYNC, CRSF_CHANNELS, CRSF_POLYNOMIAL = 0xC8, 0x16, 0xD5
+IBUS_CHANNELS, IBUS_MIDDLE_US = 14, 1500
 
 # Time of week; date and time, and what of them holds; their accuracy; kind of fix, flags,
 # satellites; longitude, latitude, two heights; accuracies; velocities, speed, course; accuracies
@@ -25,13 +27,34 @@ BEGUN = datetime(2026, 11, 24, 12, tzinfo=UTC)
 DATED = 0x07
 
 
-def sbus(pulses_us: Sequence[int], failsafe: bool = False) -> bytes:
-    """A frame whose first channels have these pulses; the others are in the middle."""
+def packed(pulses_us: Sequence[int]) -> bytes:
+    """16 channels of 11 bits; those that are not given are in the middle."""
     channels = [round((pulse - SBUS_LEAST_US) / SBUS_STEP_US) for pulse in pulses_us]
     channels += [SBUS_MIDDLE] * (SBUS_CHANNELS - len(channels))
     number = sum(value << (11 * index) for index, value in enumerate(channels))
+    return number.to_bytes(22, "little")
+
+
+def sbus(pulses_us: Sequence[int], failsafe: bool = False) -> bytes:
+    """A frame whose first channels have these pulses."""
     flags = SBUS_FAILSAFE if failsafe else 0
-    return bytes([0x0F]) + number.to_bytes(22, "little") + bytes([flags, 0])
+    return bytes([0x0F]) + packed(pulses_us) + bytes([flags, 0])
+
+
+def crsf(pulses_us: Sequence[int], failsafe: bool = False) -> bytes:
+    """The same of CRSF, with a status byte behind; nothing when the radio is lost."""
+    content = bytes([CRSF_CHANNELS]) + packed(pulses_us) + b"\x00"
+    rest = int.from_bytes(content + b"\x00", "big")
+    for bit in range(8 * len(content) - 1, -1, -1):
+        rest ^= ((1 << 8) | CRSF_POLYNOMIAL) << bit if rest >> (bit + 8) & 1 else 0
+    return b"" if failsafe else bytes([CRSF_SYNC, len(content) + 1]) + content + bytes([rest])
+
+
+def ibus(pulses_us: Sequence[int], failsafe: bool = False) -> bytes:
+    """The same of IBUS, of 14 channels; nothing when the radio is lost."""
+    channels = [*pulses_us, *[IBUS_MIDDLE_US] * (IBUS_CHANNELS - len(pulses_us))]
+    content = b"\x20\x40" + struct.pack(f"<{IBUS_CHANNELS}H", *channels)
+    return b"" if failsafe else content + struct.pack("<H", 0xFFFF - sum(content))
 
 
 def ubx(group: int, identity: int, payload: bytes) -> bytes:

@@ -24,11 +24,12 @@ from flight.library import Copter, Key, Link, checks_of, facts_of, modes, states
 from flight.pilot import Pilot, Sight
 from flight.plants import Airframe, Plant, Truth
 from flight.power import Battery
-from flight.receivers import RADIO, Receiver
+from flight.receivers import RADIO, RADIO_LINES, Receiver
 from flight.scenario import Scenario
 from flight.sensors import Broken, Inertial, Quality, Slow
 
 ROW_MS = 5  # A row of the trace.
+RADIO_FRAMES = {"sbus": frames.sbus, "crsf": frames.crsf, "ibus": frames.ibus}
 WIND_MS = round(1000 * wind.PERIOD_S)
 POWER_MS = 10
 ARMS_WITHIN_S = 30.0
@@ -98,7 +99,7 @@ class Flight:
         memory = copter.sensors
         self._inertial = Inertial(memory["imu"], rng[0], order.quality)
         self._slow = Slow(memory, seeds[1], order.quality)
-        self._radio = Receiver(memory, RADIO, rng[3])
+        self._radio = Receiver(memory, RADIO, rng[3], RADIO_LINES[scenario.radio])
         self._radio_ms = 1000 // scenario.radio_hz
         self._pilot = pilot(scenario, self._radio_ms / 1000.0)
         self._faults = Faults(scenario.fault, copter, self._battery)
@@ -193,7 +194,7 @@ class Flight:
                       bool(view["motors_on"]))  # fmt: skip
         channels = self._pilot.frame(sight)
         if not broken.radio_lost:
-            frame = frames.sbus(channels, broken.radio_failsafe)
+            frame = RADIO_FRAMES[self._scenario.radio](channels, broken.radio_failsafe)
             self._radio.send(1000 * now_ms, frame, broken.radio_noise)
 
     def _record(self, now_ms: int) -> None:

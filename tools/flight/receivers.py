@@ -24,15 +24,18 @@ class Line:
     has_parity: bool
 
 
-LINES = (Line(120, True), Line(87, False))  # 100000 baud 8E2; 115200 baud 8N1.
+# Of SBUS and UBX 100000 baud 8E2 and 115200 baud 8N1; of CRSF 416666 baud, of IBUS 115200.
+LINES = (Line(120, True), Line(87, False))
+RADIO_LINES = {"sbus": LINES[RADIO], "crsf": Line(24, False), "ibus": Line(87, False)}
 
 
 class Receiver:
     """What it sends stands in the simulated device, with the times at which it comes."""
 
-    def __init__(self, memory: Any, number: int, rng: np.random.Generator) -> None:
+    def __init__(self, memory: Any, number: int, rng: np.random.Generator,
+                 line: Line | None = None) -> None:  # fmt: skip
         self._memory = memory["receiver"][number]
-        self._line = LINES[number]
+        self._line = line or LINES[number]
         self._rng = rng
         self._free_us = 0
 

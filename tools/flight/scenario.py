@@ -177,6 +177,7 @@ class Scenario(Table):
     seed: Annotated[int, Field(ge=0)] = 1
     heading_deg: Angle = 30.0
     mode: Mode = "angle"
+    radio: Literal["sbus", "crsf", "ibus"] = "sbus"
     radio_hz: Literal[50, 111] = 50
     battery_left: Share = 0.95
     wind: Wind = Wind()

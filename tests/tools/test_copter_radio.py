@@ -1,0 +1,218 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The copter's radio: which protocol is found, what is told when nobody is heard, task by task."""
+
+from __future__ import annotations
+
+import ctypes
+import shutil
+import sys
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+from typing import ClassVar
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from common.run import output_of  # noqa: E402
+
+ANY, SBUS, CRSF, IBUS, PPM = range(5)
+BYTE_US = {SBUS: 120, CRSF: 24, IBUS: 87}
+EVERY_US = {SBUS: 9000, CRSF: 4000, IBUS: 7000}
+
+# The tasks behind functions of plain numbers, with a port that hands over what it is told to.
+SHIM = """\
+#include "copter.h"
+#include <string.h>
+static copter_t copter;
+static copter_port_t port;
+static const uint8_t *data;
+static const uint32_t *times;
+static uint32_t left;
+static bool read_byte(void *context, uint32_t receiver, copter_byte_t *byte)
+{
+    (void)context;
+    if ((left == 0u) || (receiver != COPTER_RADIO)) { return false; }
+    *byte = (copter_byte_t){.value = *data++, .elapsed_us = *times++};
+    left--;
+    return true;
+}
+int start(int protocol)
+{
+    memset(&copter, 0, sizeof copter);
+    port = (copter_port_t){.read_byte = read_byte};
+    copter.port = &port;
+    copter_settings = copter_defaults;
+    copter_settings.radio.protocol = (uint8_t)protocol;
+    return (int)copter_pilot_init(&copter.pilot);
+}
+void hand(const uint8_t *bytes, const uint32_t *us, uint32_t count)
+{
+    data = bytes;
+    times = us;
+    left = count;
+    while (left > 0u) { copter_background_radio(&copter); }
+    copter_foreground_radio(&copter);
+}
+int protocol(void) { return copter.pilot.radio.protocol; }
+int frames(void) { return (int)copter.pilot.frames; }
+int channel(int i) { return copter.pilot.radio.channel[i]; }
+double roll(void) { return copter.pilot.sticks.roll; }
+int asked(void) { return copter.pilot.asked; }
+int last_mode(void) { return KEEL_MODE_NONE - 1; }
+const char *words(void)
+{
+    return copter_radio_words((copter_heard_t)copter.pilot.ear.heard, copter.pilot.radio.protocol);
+}
+"""
+
+
+def corpus(name: str) -> bytes:
+    """The first frame of a stream of tests/corpus/radio.toml."""
+    streams = tomllib.loads((ROOT / "tests/corpus/radio.toml").read_text())["stream"]
+    part = next(stream for stream in streams if stream["name"] == name)["part"][0]
+    return bytes.fromhex(part["bytes"])
+
+
+class CopterRadio(unittest.TestCase):
+    """One receiver at a time."""
+
+    copter: ClassVar[ctypes.CDLL]
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        scratch = tempfile.mkdtemp()
+        cls.addClassCleanup(shutil.rmtree, scratch)
+        shim, library = Path(scratch, "shim.c"), Path(scratch, "copter.so")
+        shim.write_text(SHIM, encoding="utf-8")
+        folders = ("include", "bsp", "examples/urpilot", "examples/copter")
+        sources = [*sorted((ROOT / "examples/copter").glob("*.c")),
+                   ROOT / "examples/urpilot/urpilot_tasks.c",
+                   *(ROOT / f"bsp/common/{name}.c" for name in ("slots", "trace", "trace_log")),
+                   *sorted((ROOT / "src").rglob("*.c"))]  # fmt: skip
+        output_of(["gcc", "-std=c99", "-O1", "-Wall", "-Werror", "-shared", "-fPIC",
+                   *(f"-I{ROOT / folder}" for folder in folders), shim, *sources, "-lm",
+                   "-o", library])  # fmt: skip
+        cls.copter = ctypes.CDLL(str(library))
+        cls.copter.roll.restype = ctypes.c_double
+        cls.copter.words.restype = ctypes.c_char_p
+
+    def setUp(self) -> None:
+        self.start(ANY)
+
+    def start(self, protocol: int) -> None:
+        self.assertEqual(self.copter.start(protocol), 0)
+
+    def hand(self, data: bytes, times: list[int]) -> None:
+        """A run of both tasks with these bytes."""
+        count = len(data)
+        self.copter.hand((ctypes.c_uint8 * count)(*data), (ctypes.c_uint32 * count)(*times), count)
+
+    def frame(self, protocol: int, data: bytes) -> None:
+        silence = EVERY_US[protocol] - (len(data) - 1) * BYTE_US[protocol]
+        self.hand(data, [silence] + [BYTE_US[protocol]] * (len(data) - 1))
+
+    def edges(self, widths: list[int]) -> None:
+        """Of PPM: a byte is an edge."""
+        self.hand(bytes(len(widths)), widths)
+
+    def second(self) -> None:
+        """Nothing comes for so long."""
+        for _ in range(50):
+            self.hand(b"", [])
+
+    def words(self) -> str:
+        return str(self.copter.words().decode())
+
+    def found_after(self, protocol: int, data: bytes) -> int:
+        for count in range(1, 100):
+            self.frame(protocol, data)
+            if self.copter.protocol() != ANY:
+                return count
+        return 0
+
+    def test_each_protocol_is_found(self) -> None:
+        for protocol, name, enough in ((SBUS, "frsky_knob_110", 20), (CRSF, "edgetx_2_11", 5),
+                                       (IBUS, "fs_ia6b", 5)):  # fmt: skip
+            with self.subTest(name):
+                self.start(ANY)
+                self.assertEqual(self.found_after(protocol, corpus(name)), enough)
+                self.assertEqual(self.copter.protocol(), protocol)
+                self.assertEqual(self.copter.frames(), 1)
+                self.assertAlmostEqual(self.copter.roll(), 0.0)
+
+    def test_ppm_is_found(self) -> None:
+        for _ in range(3 + 5):
+            self.edges([1500, 1500, 1000, 1500, 1000, 1500, 2000, 1500, 8500])
+        self.assertEqual(self.copter.protocol(), PPM)
+        self.assertEqual([self.copter.channel(at) for at in range(9)],
+                         [1500, 1500, 1000, 1500, 1000, 1500, 2000, 1500, 0])  # fmt: skip
+
+    def test_a_frame_of_ibus_that_looks_like_sbus(self) -> None:
+        """Channel 1 is 1551 us, 0x060F, and channels from 9 on are none: what begins at 0x0F ends
+        with flags and footer of 0, in each frame before IBUS's own end."""
+        words = [1551, 1500, 1000, 1500, 1000, 1000, 1000, 1000] + [0] * 6
+        content = b"\x20\x40" + b"".join(word.to_bytes(2, "little") for word in words)
+        data = content + (0xFFFF - sum(content)).to_bytes(2, "little")
+        self.assertEqual((data[2], data[25] >> 4, data[26]), (0x0F, 0, 0))
+        self.found_after(IBUS, data)
+        self.assertEqual(self.copter.protocol(), IBUS)
+
+    def test_the_one_that_is_set_alone(self) -> None:
+        self.start(CRSF)
+        for _ in range(50):
+            self.frame(SBUS, corpus("frsky_100"))
+        self.assertEqual((self.copter.protocol(), self.copter.frames()), (CRSF, 0))
+        self.frame(CRSF, corpus("elrs_500_hz"))
+        self.assertEqual(self.copter.frames(), 1)
+
+    def test_the_first_frame_counts_when_it_is_set(self) -> None:
+        self.start(SBUS)
+        self.frame(SBUS, corpus("eight_channels"))
+        self.assertEqual(self.copter.frames(), 1)
+
+    def test_what_is_beyond_an_end_is_the_end(self) -> None:
+        """The mode switch's channel at 150 %, and roll at 115 %."""
+        self.start(IBUS)
+        words = [2115, 1500, 1000, 1500, 1000, 2250] + [1500] * 8
+        content = b"\x20\x40" + b"".join(word.to_bytes(2, "little") for word in words)
+        self.frame(IBUS, content + (0xFFFF - sum(content)).to_bytes(2, "little"))
+        self.assertEqual(self.copter.roll(), 1.0)
+        self.assertEqual(self.copter.asked(), self.copter.last_mode())
+
+    def test_why_nobody_is_heard(self) -> None:
+        zeros, lost = b"\x0f" + bytes(24), bytearray(corpus("frsky_100"))
+        lost[23] = 0x0C
+        flags = bytearray(corpus("frsky_100"))
+        flags[23] = 0x40
+        for data, words in ((zeros, "refused: a stick is beyond its range"),
+                            (bytes(lost), "the receiver has lost the transmitter"),
+                            (bytes(flags), "refused: flags that SBUS has none of"),
+                            (b"\x55" * 25, "no frames: protocol, baud or inversion?"),
+                            (corpus("frsky_100"), "heard by SBUS")):  # fmt: skip
+            with self.subTest(words):
+                self.start(SBUS)
+                self.assertEqual(self.words(), "listening")
+                for _ in range(50):
+                    self.frame(SBUS, data)
+                self.assertEqual(self.words(), words)
+                self.assertLessEqual(len(words), 43)
+        self.second()
+        self.assertEqual(self.words(), "nothing comes from the receiver")
+
+    def test_crossfire_that_holds_channels_is_lost(self) -> None:
+        """A quality of 0 says so."""
+        self.start(CRSF)
+        self.frame(CRSF, corpus("crossfire_nano"))
+        self.assertEqual(self.copter.frames(), 1)
+        streams = tomllib.loads((ROOT / "tests/corpus/radio.toml").read_text())["stream"]
+        parts = next(one for one in streams if one["name"] == "crossfire_lost")["part"]
+        for part in parts[1:]:
+            self.frame(CRSF, bytes.fromhex(part["bytes"]))
+        self.assertEqual(self.copter.frames(), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
