@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 4 --external-sat-solver cadical
-// cbmc: --unwindset tried_phase_us.0:5,falls_into.0:9,is_free.0:3,model_spread_divisor.0:5
+// cbmc: --unwindset tried_phase_us.0:6,falls_into.0:11,is_free.0:3,model_spread_divisor.0:6
 // sources: src/rtos/spread.c specs/model/spread.c
 // replaces: keel_spread_divisor
 // defines: -DKEEL_QUEUE_CAPACITY=3u -DKEEL_SPREAD_ROUNDS_MAX=3u
-// covers: keel_scheduler_spread place_all place first_phase_us one_round need_us
+// covers: keel_scheduler_spread place_all place first_phase_us one_round next_free need_us
 // covers: next_other begin_placing not_placed model_scheduler_spread
 //
-// A third task, which the others send to and fro. Chosen points: every period is 4 us, and budgets
+// A third task, which the others send to and fro. Chosen points: every period is 5 us, and budgets
 // are 1 or 2 us, of which some leave room for two.
 #include "spread_contracts.h"
 
@@ -26,7 +26,7 @@ void keel_scheduler_spread__three_harness(void)
     any_scheduler(&scheduler, CAPACITY);
     narrow_tasks(&scheduler.queue, 1u);
     for (uint32_t y = 0u; y < CAPACITY; y++) {
-        scheduler.queue.period_us[y] = 4u;
+        scheduler.queue.period_us[y] = 5u;
     }
     scheduler.config.guard_us = any_bits(1u);
     expected = scheduler;
