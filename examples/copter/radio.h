@@ -3,9 +3,9 @@
  * @file radio.h
  * @brief The pilot's receiver, whatever of four protocols it speaks.
  *
- * It is listened to with all decoders until one of them has taken enough frames; from then on,
- * until the next start, with that one alone. SBUS has no checksum, so it must be heard for longer, and a
- * right frame of a protocol that has one begins anew what was heard of the others.
+ * All decoders listen until one of them has taken enough frames; from then on, until the next
+ * start, that one alone does. SBUS has no checksum, so it must be heard for longer, and a right
+ * frame of a protocol that has one begins anew what was heard of the others.
  */
 #ifndef COPTER_RADIO_H
 #define COPTER_RADIO_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* By trying: every phase, against every release. No divisor there, no jump, and no end before the last
- * phase; so it is the code's where KEEL_SPREAD_ROUNDS_MAX rounds are enough. */
+/* By trying: every phase, against every release. No divisor there, no jump, and no end before the
+ * last phase; so it is the code's where KEEL_SPREAD_ROUNDS_MAX rounds are enough. */
 #include "spread.h"
 
 #include <stdbool.h>

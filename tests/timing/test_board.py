@@ -294,8 +294,8 @@ def test_the_least_deviation_by_hand(urpilot: TaskSet) -> None:
 
 
 def test_the_kernel_finds_phases_by_hand(program: Path) -> None:
-    """Budget and a tick keep 21 behind R, and 61 behind L, which comes at 21. At 82 the 31 of H would
-    reach into R at 100, so it comes behind that. Nobody waits."""
+    """Budget and a tick keep 21 behind R, and 61 behind L, which comes at 21. At 82 the 31 of H
+    would reach into R at 100, so it comes behind that. Nobody waits."""
     result = run(program, Experiment(SMALL, "spread", duration_us=4000, turn_ns=0))
     assert worst(result) == {"R": 20, "L": 60, "H": 30}
     last = {name: outcome.last for name, outcome in result.tasks.items()}
