@@ -5,7 +5,7 @@
 //
 // Any table, and any number of messages, those that are too large included.
 #include "../common/unchanged.h"
-#include "mavlink_proof.h"
+#include "mavlink_contracts.h"
 
 void keel_mavlink_init_harness(void)
 {

@@ -5,7 +5,7 @@
 //
 // Any valid decoder, any byte: the same as the model's in every field, and valid.
 #include "../common/unchanged.h"
-#include "mavlink_proof.h"
+#include "mavlink_contracts.h"
 
 void keel_mavlink_take_harness(void)
 {

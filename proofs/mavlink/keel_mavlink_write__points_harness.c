@@ -7,7 +7,7 @@
 // Chosen senders, messages and payloads, each in a case of its own, and the frames that are to be
 // written. All senders and messages are dealt with in the other harnesses; wrong bodies are refuted
 // at once here.
-#include "mavlink_proof.h"
+#include "mavlink_contracts.h"
 
 #define PAYLOAD 24u
 #define FRAME   64u

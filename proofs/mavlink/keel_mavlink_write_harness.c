@@ -9,7 +9,7 @@
 // What a byte makes of a checksum is unknown, the same for code and model.
 //
 // What a decoder takes from a frame is what was written, zeros for what was left out.
-#include "mavlink_proof.h"
+#include "mavlink_contracts.h"
 
 #define PAYLOAD 32u
 #define ASKED   (10u + PAYLOAD)

@@ -119,28 +119,6 @@ keel_status_t model_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte)
     return KEEL_OK;
 }
 
-/* MAV-014: what is left begins with the first 0xFD that is not among the first bytes; those between
- * are of no frame. */
-static void go_on(keel_mavlink_t *mavlink, uint32_t count)
-{
-    const keel_mavlink_t old = *mavlink;
-    uint32_t first = old.held;
-
-    for (uint32_t i = 280u; i > count; i--) {
-        if (((i - 1u) < old.held) && (old.bytes[i - 1u] == 0xFDu)) {
-            first = i - 1u;
-        }
-    }
-    for (uint32_t i = count; i < first; i++) {
-        tally(&mavlink->count.others);
-    }
-    for (uint32_t i = 0u; (first + i) < old.held; i++) {
-        mavlink->bytes[i] = old.bytes[first + i];
-    }
-    mavlink->held = (uint16_t)(old.held - first);
-    mavlink->awaited = 10u;
-}
-
 /* MAV-004: the place of the message with this id, or how many there are. */
 static uint32_t find(const keel_mavlink_t *mavlink, uint32_t id)
 {
@@ -198,28 +176,15 @@ keel_mavlink_look_t model_mavlink_look(keel_mavlink_t *mavlink)
         if (may_be(mavlink)) {
             mavlink->awaited = (uint16_t)model_mavlink_whole(mavlink->bytes);
         } else {
-            go_on(mavlink, 1u);
+            model_mavlink_drop(mavlink, 1u);
         }
         return KEEL_MAVLINK_AGAIN;
     }
     if (is_taken(mavlink)) {
-        go_on(mavlink, mavlink->awaited);
+        model_mavlink_drop(mavlink, mavlink->awaited);
         return KEEL_MAVLINK_FRAME;
     }
-    go_on(mavlink, 1u);
-    return KEEL_MAVLINK_AGAIN;
-}
-
-/* MAV-010 */
-keel_mavlink_look_t model_mavlink_gap(keel_mavlink_t *mavlink)
-{
-    const bool is_partial = (mavlink->held != 0u) && (mavlink->held < mavlink->awaited);
-
-    if (!is_partial) {
-        return model_mavlink_look(mavlink);
-    }
-    tally(&mavlink->count.gaps);
-    go_on(mavlink, 1u);
+    model_mavlink_drop(mavlink, 1u);
     return KEEL_MAVLINK_AGAIN;
 }
 

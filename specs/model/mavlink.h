@@ -11,6 +11,7 @@
 keel_status_t model_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_message_t *messages,
                                  uint32_t known);
 keel_status_t model_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte);
+void model_mavlink_drop(keel_mavlink_t *mavlink, uint32_t count);
 keel_mavlink_look_t model_mavlink_look(keel_mavlink_t *mavlink);
 keel_mavlink_look_t model_mavlink_gap(keel_mavlink_t *mavlink);
 uint16_t model_mavlink_write(keel_mavlink_sender_t *sender, const keel_mavlink_message_t *message,

@@ -130,15 +130,7 @@ static uint32_t place_of(const keel_mavlink_t *mavlink, uint32_t id)
     return place;
 }
 
-/* Drops bytes from the front, and those behind them up to the next beginning. */
-/*@ requires \valid(mavlink) && 1 <= count <= mavlink->held <= KEEL_MAVLINK_FRAME_MAX;
-  @ assigns mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1], mavlink->held, mavlink->awaited,
-  @     mavlink->count.others;
-  @ ensures mavlink_dropped{Pre, Post}(mavlink, count) && mavlink->held < \old(mavlink->held);
-  @ ensures mavlink->held > 0 ==> mavlink->bytes[0] == KEEL_MAVLINK_FIRST;
-  @ ensures mavlink->awaited == KEEL_MAVLINK_HEADER_BYTES;
-  @*/
-static void drop(keel_mavlink_t *mavlink, uint32_t count)
+void keel_mavlink_drop(keel_mavlink_t *mavlink, uint32_t count)
 {
     uint32_t from = 1u;
     uint32_t left;
@@ -146,6 +138,8 @@ static void drop(keel_mavlink_t *mavlink, uint32_t count)
     /*@ loop invariant 1 <= from <= mavlink->held;
       @ loop invariant \forall integer j; count <= j < from ==>
       @     mavlink->bytes[j] != KEEL_MAVLINK_FIRST;
+      @ loop invariant mavlink->count.others == \min(UINT32_MAX,
+      @     \at(mavlink->count.others, Pre) + \max(0, from - count));
       @ loop assigns from, mavlink->count.others;
       @ loop variant mavlink->held - from;
       @*/
@@ -207,7 +201,7 @@ static void read_header(keel_mavlink_t *mavlink)
         mavlink->message = place;
         mavlink->awaited = (uint16_t)whole_frame(mavlink->bytes);
     } else {
-        drop(mavlink, 1u);
+        keel_mavlink_drop(mavlink, 1u);
     }
 }
 
@@ -316,7 +310,7 @@ static bool end_frame(keel_mavlink_t *mavlink)
     } else {
         count_met(&mavlink->count.checksums);
     }
-    drop(mavlink, right ? mavlink->awaited : 1u);
+    keel_mavlink_drop(mavlink, right ? mavlink->awaited : 1u);
     return right;
 }
 
@@ -406,7 +400,7 @@ keel_mavlink_look_t keel_mavlink_gap(keel_mavlink_t *mavlink)
 
     if ((mavlink->held > 0u) && (mavlink->held < mavlink->awaited)) {
         count_met(&mavlink->count.gaps);
-        drop(mavlink, 1u);
+        keel_mavlink_drop(mavlink, 1u);
     } else {
         seen = keel_mavlink_look(mavlink);
     }

@@ -11,6 +11,8 @@
 /* The model is part of this test: the kernel that it is linked with has none. */
 #include "../../specs/model/crc.c"
 #include "../../specs/model/mavlink.c"
+#include "../../specs/model/mavlink_drop.c"
+#include "../../specs/model/mavlink_gap.c"
 
 #define FRAMES 6000u
 #define SEED   20261125u

@@ -11,6 +11,7 @@
 /* The models are part of this test: the kernel that it is linked with has none. */
 #include "../../specs/model/crc.c"
 #include "../../specs/model/mavlink.c"
+#include "../../specs/model/mavlink_drop.c"
 #include "../../specs/model/signing.c"
 
 #define CALLS 40000u

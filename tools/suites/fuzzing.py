@@ -29,7 +29,7 @@ TARGETS: dict[str, list[str]] = {
         for unit, parts in {
             "crsf": ("crsf_parts", "framing", "framing_parts", "crc"),
             "ibus": ("framing", "framing_parts"),
-            "mavlink": ("crc",),
+            "mavlink": ("mavlink_drop", "mavlink_gap", "crc"),
             "ppm": ("framing",),
             "sbus": (),
             "ubx": (),

@@ -324,6 +324,25 @@ keel_status_t keel_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_mess
 keel_status_t keel_mavlink_take(keel_mavlink_t *mavlink, uint8_t byte);
 
 /**
+ * Drops bytes from the front, and those behind them up to the next 0xFD, which are counted
+ * (requirement MAV-016). A part of keel_mavlink_look; whoever else calls it may lose frames.
+ *
+ * @param mavlink the decoder, with so many bytes
+ * @param count   how many, at least 1
+ */
+/*@ requires \valid(mavlink) && 1 <= count <= mavlink->held <= KEEL_MAVLINK_FRAME_MAX;
+  @ assigns mavlink->bytes[0 .. KEEL_MAVLINK_FRAME_MAX - 1], mavlink->held, mavlink->awaited,
+  @     mavlink->count.others;
+  @ ensures MAV_016_fewer: mavlink->held < \old(mavlink->held);
+  @ ensures MAV_016_dropped: mavlink_dropped{Pre, Post}(mavlink, count);
+  @ ensures MAV_016_begins: mavlink->held > 0 ==> mavlink->bytes[0] == KEEL_MAVLINK_FIRST;
+  @ ensures MAV_016_header: mavlink->awaited == KEEL_MAVLINK_HEADER_BYTES;
+  @ ensures MAV_016_counted: mavlink->count.others == \min(UINT32_MAX,
+  @     \old(mavlink->count.others) + \old(mavlink->held) - mavlink->held - count);
+  @*/
+void keel_mavlink_drop(keel_mavlink_t *mavlink, uint32_t count);
+
+/**
  * Looks whether a right frame begins with the first byte that is held (requirements MAV-003 to
  * MAV-009 and MAV-014). Call it again until it finds nothing, before the next byte is taken.
  *

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
- * @file mavlink_proof.h
+ * @file mavlink_contracts.h
  * @brief What the harnesses of MAVLink's frames share: arbitrary decoders, valid ones, and when two
  *        are the same.
  */
-#ifndef MAVLINK_PROOF_H
-#define MAVLINK_PROOF_H
+#ifndef MAVLINK_CONTRACTS_H
+#define MAVLINK_CONTRACTS_H
 
 #include "../../specs/model/mavlink.h"
 #include "../common/any_below.h"
@@ -51,13 +51,19 @@ static bool fits_here(const uint8_t *bytes, const keel_mavlink_message_t *messag
            (bytes[1] <= message->longest);
 }
 
+/* mavlink_whole */
+static uint32_t whole_here(const uint8_t *bytes)
+{
+    return 12u + bytes[1] + ((bytes[2] == 0u) ? 0u : 13u);
+}
+
 /* mavlink_valid */
 static bool mavlink_valid_here(const keel_mavlink_t *m)
 {
     const bool begins = (m->held <= 280u) && ((m->held == 0u) || (m->bytes[0] == 0xFDu));
 
     return begins && ((m->awaited == 10u) || ((m->held >= 10u) && (m->message < m->known) &&
-                                              (m->awaited == model_mavlink_whole(m->bytes)) &&
+                                              (m->awaited == whole_here(m->bytes)) &&
                                               fits_here(m->bytes, &table.messages[m->message])));
 }
 
@@ -96,6 +102,29 @@ static bool mavlink_same(const keel_mavlink_t *a, const keel_mavlink_t *b, uint3
            mavlink_frame_same(&a->frame, &b->frame, (i < 255u) ? i : 0u) &&
            mavlink_count_same(&a->count, &b->count) && (a->message == b->message) &&
            (a->held == b->held) && (a->awaited == b->awaited) && (a->bytes[i] == b->bytes[i]);
+}
+
+/* What keel_mavlink_drop asks for and does, as far as its callers need to know. */
+static bool keel_mavlink_drop_may(const keel_mavlink_t *m, uint32_t count)
+{
+    return (1u <= count) && (count <= m->held) && (m->held <= 280u);
+}
+
+static bool keel_mavlink_drop_does(const keel_mavlink_t *m, uint32_t held, uint32_t count)
+{
+    return ((m->held + count) <= held) && ((m->held == 0u) || (m->bytes[0] == 0xFDu)) &&
+           (m->awaited == 10u);
+}
+
+/* What keel_mavlink_look asks for and does, as far as its callers need to know. */
+static bool keel_mavlink_look_may(const keel_mavlink_t *m)
+{
+    return mavlink_valid_here(m);
+}
+
+static bool keel_mavlink_look_does(const keel_mavlink_t *m)
+{
+    return mavlink_valid_here(m);
 }
 
 static bool mavlink_packet_same(const keel_mavlink_packet_t *a, const keel_mavlink_packet_t *b,
