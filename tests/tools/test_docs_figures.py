@@ -211,9 +211,15 @@ def payloads() -> tuple[str, ...]:
     return (macro("proofs/mavlink/keel_mavlink_write_harness.c", "PAYLOAD"),)
 
 
-def held_bytes() -> tuple[str, ...]:
-    """The most bytes that a decoder of MAVLink holds."""
-    return (macro("proofs/mavlink/keel_mavlink_look_harness.c", "HELD"),)
+def looked_at() -> tuple[str, ...]:
+    """The most messages and the longest payload of which a look of MAVLink's decoder is known."""
+    harness = "proofs/mavlink/keel_mavlink_look_harness.c"
+    return (number_in(harness, r"known <= (\d+)u"), number_in(harness, r"bytes\[1\] <= (\d+)u"))
+
+
+def dropped_from() -> tuple[str, ...]:
+    """The most bytes of which some are dropped."""
+    return (number_in("proofs/mavlink/keel_mavlink_drop_harness.c", r"held <= (\d+)u"),)
 
 
 def ring_bytes() -> tuple[str, ...]:
@@ -279,13 +285,17 @@ FIGURES: tuple[Figure, ...] = (
     Figure("docs/proved.md",
            r"now for (\d+) of the (\d+) units\. Of their (\d+) mutants.*?refute (\d+)\. Of the "
            r"other (\d+), (\d+) compile to the same object code, and (\d+) mean", mutants),
-    Figure("docs/proved.md", r"up to (\d+) bytes that are held", held_bytes),
+    Figure("docs/proved.md", r"tables of up to (\d+) messages, payloads of up to (\d+) bytes",
+           looked_at),
+    Figure("docs/proved.md", r"of up to (\d+) bytes that are held", dropped_from),
     Figure("docs/proved.md", r"\| payloads of up to (\d+) bytes \|", payloads),
     Figure("docs/proved.md", r"CBMC for (\d+) bytes\)", ring_bytes),
     Figure("docs/proved.md", r"\((\d+\.\d)\s+minutes\)", half_turn),
     Figure(SOUNDNESS, r"queues of (\d+) tasks and up to (\d+) sensors", both),
     Figure(SOUNDNESS, r"CBMC, a ring of (\d+) bytes", ring_bytes),
-    Figure(SOUNDNESS, r"any table that holds up to (\d+) bytes", held_bytes),
+    Figure(SOUNDNESS, r"tables of up to (\d+) messages and frames with payloads of up to (\d+)",
+           looked_at),
+    Figure(SOUNDNESS, r"of up to (\d+) bytes that are held", dropped_from),
     Figure(SOUNDNESS, r"payloads of up to (\d+) bytes; the checksum is", payloads),
     Figure(SOUNDNESS, r"messages of up to (\d+) bytes, names of up to (\d+) characters, formats "
            r"of up to (\d+) fields", ulog_sizes),

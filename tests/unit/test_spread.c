@@ -163,6 +163,27 @@ static void SPR_003_refuses_null(void)
     unchanged();
 }
 
+/* Periods share 220 us, of which each task takes 1 + 5 + 1. They are added the longest first, and
+ * placed the shortest first, so a round moves a task on by one place: 31 find theirs, one behind
+ * the other, and the last, for which 3 us are left, goes on until no round is left. */
+static void SPR_002_rounds_have_an_end(void)
+{
+    static const uint32_t primes[] = {131u, 127u, 113u, 109u, 107u, 103u, 101u, 97u, 89u, 83u, 79u,
+                                      73u,  71u,  67u,  61u,  59u,  53u,  47u,  43u, 41u, 37u, 31u,
+                                      29u,  23u,  19u,  17u,  13u,  11u,  7u,   5u,  3u,  2u};
+    static actor_t many[32];
+
+    for (uint32_t i = 0u; i < 32u; i++) {
+        declare(&many[i], 'M', 1u, 220u * primes[i], 1u);
+        add(&many[i]);
+    }
+    spreads(1u);
+    TEST_ASSERT_EQUAL_UINT64(0u, phase(&many[0]));
+    for (uint32_t turn = 0u; turn < 31u; turn++) {
+        TEST_ASSERT_EQUAL_UINT64(7u * turn, phase(&many[31u - turn]));
+    }
+}
+
 static void SPR_003_refuses_after_the_start(void)
 {
     add(&a);
@@ -185,6 +206,7 @@ int main(void)
     RUN_TEST(SPR_002_a_crowded_task_keeps_its_phase);
     RUN_TEST(SPR_001_phases_are_kept_from_the_start_on);
     RUN_TEST(SPR_001_twice_is_once);
+    RUN_TEST(SPR_002_rounds_have_an_end);
     RUN_TEST(SPR_004_divides_both);
     RUN_TEST(SPR_003_refuses_null);
     RUN_TEST(SPR_003_refuses_after_the_start);
