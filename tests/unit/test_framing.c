@@ -107,6 +107,25 @@ static void FRG_006_drops_up_to_the_next_header(void)
     TEST_ASSERT_EQUAL_UINT8(0u, framing.held);
 }
 
+/* Each of four begins a frame, ends the search for the next one, and begins anew behind a gap. */
+static void FRG_006_any_of_four_headers(void)
+{
+    static const uint8_t four[KEEL_FRAMING_HEADERS] = {0x11u, 0x22u, 0x33u, 0x44u};
+
+    for (uint32_t i = 0u; i < (uint32_t)KEEL_FRAMING_HEADERS; i++) {
+        const uint8_t bytes[3] = {four[i], 0x55u, four[i]};
+
+        keel_framing_begin(&framing, GAP_US, four);
+        take_all(bytes, 3u);
+        holds(bytes, 3u);
+        keel_framing_drop(&framing, 1u);
+        holds(&four[i], 1u);
+        keel_framing_take(&framing, four[i], GAP_US + 1u);
+        holds(&four[i], 1u);
+        TEST_ASSERT_EQUAL_UINT32(1u, framing.gaps);
+    }
+}
+
 /* As many as there is room for, all headers, and any number of them dropped. */
 static void FRG_006_drops_of_a_full_one(void)
 {
@@ -154,6 +173,7 @@ int main(void)
     RUN_TEST(FRG_005_waits_for_a_header);
     RUN_TEST(FRG_004_a_gap_is_longer);
     RUN_TEST(FRG_006_drops_up_to_the_next_header);
+    RUN_TEST(FRG_006_any_of_four_headers);
     RUN_TEST(FRG_006_drops_of_a_full_one);
     RUN_TEST(FRG_001_counts_stay_at_their_end);
     RUN_TEST(FRG_003_silence_stays_at_its_end);

@@ -298,6 +298,14 @@ static void MAV_007_who_knows_no_message_takes_none(void)
     TEST_ASSERT_EQUAL_UINT32(1u, mavlink.count.unknown);
 }
 
+static void MAV_010_a_gap_behind_one_byte(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0u, feed(heartbeat, 1u));
+    TEST_ASSERT_EQUAL_UINT32(0u, gap());
+    TEST_ASSERT_EQUAL_UINT32(1u, mavlink.count.gaps);
+    TEST_ASSERT_EQUAL_UINT32(0u, mavlink.count.others);
+}
+
 /* A MAVLink 1 heartbeat: no byte of it begins a frame. */
 static void MAV_008_what_begins_otherwise_is_no_frame(void)
 {
@@ -568,6 +576,7 @@ int main(void)
     RUN_TEST(MAV_008_without_a_look_bytes_are_refused);
     RUN_TEST(MAV_009_a_look_changes_nothing_before_a_frame_is_whole);
     RUN_TEST(MAV_010_a_gap_ends_what_is_partial);
+    RUN_TEST(MAV_010_a_gap_behind_one_byte);
     RUN_TEST(MAV_010_a_gap_finds_what_a_wrong_beginning_holds);
     RUN_TEST(MAV_011_what_is_no_frame_is_not_written);
     RUN_TEST(MAV_012_frames_are_as_others_write_them);
