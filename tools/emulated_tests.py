@@ -33,6 +33,7 @@ import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from types import MappingProxyType
 
 from boards.elf import read_contents
 from common.arguments import Parser
@@ -125,8 +126,15 @@ COPTER_LINE = re.compile(
 IDLE_MILLIONTHS = 50_000  # What an armed motor gets at least: examples/copter/settings.c.
 
 
-def judge_tasks(periods: Mapping[str, int], output: str) -> list[str]:
-    """What is not as the periods ask."""
+# Until the copter's receiver is known, on the ground, four decoders listen, and a run of the radio
+# with a frame of SBUS is longer than the paper's budget: 20 frames make it known (radio.c).
+LISTENING = {"Background radio": 20}
+
+
+def judge_tasks(
+    periods: Mapping[str, int], output: str, longer: Mapping[str, int] = MappingProxyType({})
+) -> list[str]:
+    """What is not as the periods ask; so many runs of a task may be longer than its budget."""
     wrong = []
     lines = {match[1]: [int(word) for word in match.groups()[1:]] for match in
              DEMO_LINE.finditer(output)}  # fmt: skip
@@ -136,7 +144,7 @@ def judge_tasks(periods: Mapping[str, int], output: str) -> list[str]:
         wanted = DEMO_US // periods.get(name, DEMO_US)
         if (period, runs) != (periods.get(name), wanted):
             wrong.append(f"{name}: period {period}, {runs} runs, not {wanted}")
-        if skipped or overruns or promotions:
+        if skipped or overruns > longer.get(name, 0) or promotions:
             wrong.append(f"{name}: skipped {skipped}, overruns {overruns}, promoted {promotions}")
     if "\ndemo ended\n" not in output:
         wrong.append("it did not come to its end")
@@ -160,7 +168,7 @@ def judge_demo(periods: Mapping[str, int], output: str) -> list[str]:
 
 def judge_copter(periods: Mapping[str, int], output: str) -> list[str]:
     """What is not as it should be of the copter on its desk."""
-    wrong = judge_tasks(periods, output)
+    wrong = judge_tasks(periods, output, LISTENING)
     copter = COPTER_LINE.search(output)
     if not copter or min(map(int, copter.groups())) <= IDLE_MILLIONTHS:
         wrong.append(f"the copter: {told('copter', output)}")

@@ -4,8 +4,8 @@
 // sources: src/rtos/spread.c specs/model/spread.c
 // replaces: keel_spread_divisor
 // defines: -DKEEL_QUEUE_CAPACITY=3u -DKEEL_SPREAD_ROUNDS_MAX=3u
-// covers: place_all place first_phase_us one_round next_free need_us next_other begin_placing
-// covers: not_placed
+// covers: keel_scheduler_spread place_all place first_phase_us one_round next_free need_us
+// covers: next_other begin_placing not_placed model_scheduler_spread
 //
 // A third task, which the others send to and fro. Chosen points: every period is 5 us, budgets are
 // 1 or 2 us, of which some leave room for two, and there is no guard.
@@ -35,4 +35,8 @@ void keel_scheduler_spread__three_harness(void)
     __CPROVER_assert((status == modelled) && scheduler_same(&scheduler, &expected, x),
                      "SPR_002_model: as the model says of three tasks");
     __CPROVER_assert(crowded == counted, "SPR_002_model: as many of three are not placed");
+
+    modelled = model_scheduler_spread(NULL, &counted);
+    status = keel_scheduler_spread(NULL, &crowded);
+    __CPROVER_assert((status == modelled) && (crowded == counted), "SPR_003_model: nor of none");
 }
