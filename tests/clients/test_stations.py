@@ -130,18 +130,19 @@ def test_it_connects_by_a_modem(copter: Copter) -> None:
     assert took_ms < 20_000
 
 
-@pytest.mark.parametrize(("lost", "most_s", "missing"), [(0.05, 60, 0), (0.3, 120, 3)])
+@pytest.mark.parametrize(("lost", "most_s", "missing"), [(0.05, 60, 0), (0.3, 120, 12)])
 def test_it_connects_over_a_bad_link(
     copter: Copter, lost: float, most_s: int, missing: int
 ) -> None:
-    """It ends. Files may be given up, and so may a parameter that QGroundControl has asked for in
-    vain six times."""
+    """It ends. Files may be given up; where 30 % are lost, so may the modes, and a parameter that
+    QGroundControl has asked for in vain six times."""
     meeting = Meeting(Rig(copter, warm_ms=0), lost)
     met = meeting.station(0)
     meeting.until_done(1000 * most_s)
     assert met.late  # Something was lost.
     assert not [error for error in met.errors
-                if "mftp" not in error and (not missing or "missing" not in error)]  # fmt: skip
+                if "mftp" not in error
+                and not (missing and ("missing" in error or "modes" in error))]  # fmt: skip
     count = next(iter(met.parameters.values())).param_count
     assert len(met.parameters) >= count - missing
     assert met.plans == {"mission": 0, "fence": 0, "rally": 0}
@@ -256,6 +257,8 @@ def test_who_is_meant_answers_and_nobody_else(copter: Copter) -> None:
         for message in messages:
             answers = asked(rig, message, "MISSION_COUNT", "MISSION_ACK", "LOG_ENTRY", "LOG_DATA",
                             "STATUSTEXT", "FILE_TRANSFER_PROTOCOL")  # fmt: skip
+            # Nobody has asked whether the pilot's receiver is heard; that is told all the same.
+            answers = [one for one in answers if "radio" not in getattr(one, "text", "")]
             assert len(answers) == int(meant), (system, component, message)
 
 

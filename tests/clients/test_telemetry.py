@@ -113,8 +113,9 @@ class Rig:
         return int(self.copter.view["state"])
 
     def texts(self, link: int = 0) -> list[str]:
-        """What was said."""
-        return [message.text for message in self.seen[link] if message.get_type() == "STATUSTEXT"]
+        """What was said, but for what the copter tells of its receiver."""
+        texts = [message.text for message in self.seen[link] if message.get_type() == "STATUSTEXT"]
+        return [text for text in texts if not text.startswith("radio: ")]
 
     def named(self, link: int = 0) -> dict[str, int]:
         """The last value of each name."""
