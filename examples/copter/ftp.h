@@ -5,9 +5,9 @@
  *
  * Each station has one file open at most, whatever number it gives its session: some stations
  * choose one, some take the server's, some use 0 always. So its number is what it says. A request
- * that comes again, as its answer was lost, has the same answer. What is to be sent waits in a
- * queue; what it carries is put together when its turn comes. A burst stands in the queue with what
- * is left of it, behind whoever waits by then.
+ * that comes again, as its answer was lost, has the same answer. Answers wait in a queue; the data
+ * of one are put together when its turn comes. A burst that is not over goes back to the end of
+ * the queue.
  */
 #ifndef COPTER_FTP_H
 #define COPTER_FTP_H

@@ -9,12 +9,12 @@
  *     LOG_REQUEST_DATA              LOG_DATA of no bytes: the end of the log
  *     MISSION_SET_CURRENT, LOG_ERASE  a text, as MAVLink has no other answer
  *
- * What is refused changes nothing, so that a link that may not command is answered, too. */
+ * A refusal changes nothing, so a link that may not command is answered, too. */
 #include "telemetry.h"
 
-/* What a message about a mission says, whichever it is. */
+/* The content of a message about a mission, whichever it is. */
 typedef struct asked {
-    uint8_t system; /* Who is meant. */
+    uint8_t system; /* The addressee. */
     uint8_t component;
     uint8_t kind;
     uint8_t result; /* The answer, of a kind that there is. */
@@ -48,7 +48,7 @@ static asked_t asked_to_clear(const keel_mavlink_frame_t *frame)
                      (uint8_t)MAV_MISSION_ACCEPTED};
 }
 
-/* Who uploads no items clears. */
+/* An upload of no items clears. */
 static asked_t asked_to_load(const keel_mavlink_frame_t *frame)
 {
     message_mission_count_t message;

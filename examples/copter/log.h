@@ -6,8 +6,8 @@
  * At the end of a task's run the topics that are of that task are sampled, at their rates, into a
  * ring; nobody waits. A task of its own moves the ring's bytes to the port. Before that it hands
  * over what a log begins with: formats, parameters, subscriptions; later it writes those parameters
- * whose value in force changes. What is lost, because the port
- * is too slow for the ring, is in the log as a dropout.
+ * whose value in force changes. A record that is lost, because the port is too slow for the ring,
+ * is in the log as a dropout.
  */
 #ifndef COPTER_LOG_H
 #define COPTER_LOG_H

@@ -61,7 +61,7 @@ static float stick_of(uint16_t channel)
     return (stick > 1.0f) ? 1.0f : stick;
 }
 
-/* What is beyond an end is the end. */
+/* A position beyond an end counts as the end. */
 static uint8_t mode_of(uint16_t channel)
 {
     const uint32_t position = (channel > MODE_FIRST) ? ((channel - MODE_FIRST) / MODE_STEP) : 0u;
@@ -99,7 +99,7 @@ static copter_heard_t silence_of(bool received, const uint32_t refused[COPTER_RE
     return heard;
 }
 
-/* What a second was like, at its end. */
+/* At the end of a second: whether the pilot was heard in it, or why not. */
 static void listen(copter_pilot_t *self)
 {
     copter_pilot_ear_t *const ear = &self->ear;

@@ -46,7 +46,8 @@ static bool take_by(copter_radio_t *self, uint8_t protocol, const copter_byte_t 
     return taken;
 }
 
-/* One more frame of a protocol, while none is known. What has a checksum is no other by chance. */
+/* One more frame of a protocol, while none is known. A frame with a checksum is no other by
+ * chance. */
 static void hear(copter_radio_t *self, uint8_t protocol)
 {
     const uint8_t row = (uint8_t)(self->row[protocol] + 1u);

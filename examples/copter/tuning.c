@@ -86,8 +86,8 @@ bool copter_tuning_differs(const copter_tuning_t *tuning, uint16_t index)
            keel_parameter_bits(tuning->in_force[index].value);
 }
 
-/* Whether anything is changed by it. What waits for a restart is left as it is unless this is one:
- * those are all parameters of the units that have them, so that each unit's settings are either as
+/* Whether it changes anything. A parameter that waits for a restart stays as it is unless this is
+ * one. Those are all parameters of the units that have them, so each unit's settings are either as
  * they were, or as the check has seen them. */
 static bool put_in_force(copter_tuning_t *tuning, bool is_start)
 {

@@ -5,10 +5,8 @@
 from __future__ import annotations
 
 import ctypes
-import shutil
 import struct
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 from typing import ClassVar
@@ -16,7 +14,7 @@ from typing import ClassVar
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import output_of  # noqa: E402
+from copter_shim import copter_of  # noqa: E402
 
 # The tasks behind functions of plain numbers, with a port that says what it is told to.
 SHIM = """\
@@ -107,19 +105,7 @@ class CopterHealth(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        scratch = tempfile.mkdtemp()
-        cls.addClassCleanup(shutil.rmtree, scratch)
-        shim, library = Path(scratch, "shim.c"), Path(scratch, "copter.so")
-        shim.write_text(SHIM, encoding="utf-8")
-        folders = ("include", "bsp", "examples/urpilot", "examples/copter")
-        sources = [*sorted((ROOT / "examples/copter").glob("*.c")),
-                   ROOT / "examples/urpilot/urpilot_tasks.c",
-                   *(ROOT / f"bsp/common/{name}.c" for name in ("slots", "trace", "trace_log")),
-                   *sorted((ROOT / "src").rglob("*.c"))]  # fmt: skip
-        output_of(["gcc", "-std=c99", "-O1", "-Wall", "-Werror", "-shared", "-fPIC",
-                   *(f"-I{ROOT / folder}" for folder in folders), shim, *sources, "-lm",
-                   "-o", library])  # fmt: skip
-        cls.copter = ctypes.CDLL(str(library))
+        cls.copter = copter_of(cls, SHIM)
         cls.copter.air_pressure.restype = ctypes.c_double
 
     def setUp(self) -> None:

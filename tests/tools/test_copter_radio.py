@@ -5,9 +5,7 @@
 from __future__ import annotations
 
 import ctypes
-import shutil
 import sys
-import tempfile
 import tomllib
 import unittest
 from pathlib import Path
@@ -16,7 +14,7 @@ from typing import ClassVar
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import output_of  # noqa: E402
+from copter_shim import copter_of  # noqa: E402
 
 ANY, SBUS, CRSF, IBUS, PPM = range(5)
 BYTE_US = {SBUS: 120, CRSF: 24, IBUS: 87}
@@ -83,19 +81,7 @@ class CopterRadio(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        scratch = tempfile.mkdtemp()
-        cls.addClassCleanup(shutil.rmtree, scratch)
-        shim, library = Path(scratch, "shim.c"), Path(scratch, "copter.so")
-        shim.write_text(SHIM, encoding="utf-8")
-        folders = ("include", "bsp", "examples/urpilot", "examples/copter")
-        sources = [*sorted((ROOT / "examples/copter").glob("*.c")),
-                   ROOT / "examples/urpilot/urpilot_tasks.c",
-                   *(ROOT / f"bsp/common/{name}.c" for name in ("slots", "trace", "trace_log")),
-                   *sorted((ROOT / "src").rglob("*.c"))]  # fmt: skip
-        output_of(["gcc", "-std=c99", "-O1", "-Wall", "-Werror", "-shared", "-fPIC",
-                   *(f"-I{ROOT / folder}" for folder in folders), shim, *sources, "-lm",
-                   "-o", library])  # fmt: skip
-        cls.copter = ctypes.CDLL(str(library))
+        cls.copter = copter_of(cls, SHIM)
         cls.copter.roll.restype = ctypes.c_double
         cls.copter.words.restype = ctypes.c_char_p
 
