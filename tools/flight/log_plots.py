@@ -186,7 +186,9 @@ def units_of(log: Log) -> int:
 def turned(log: Log) -> tuple[float, float] | None:
     """From when until when motors turned."""
     found = joined(log, "state", "motors")
-    times = found[0][found[1][:, 0] > 0] if found else ()
+    if not found:
+        return None
+    times = found[0][found[1][:, 0] > 0]
     return (float(times[0]), float(times[-1])) if len(times) else None
 
 
@@ -244,7 +246,7 @@ def span_of(log: Log) -> tuple[float, float]:
 def plot_log(title: str, log: Log, path: Path) -> bool:
     """What the log has of all of it, one above the other; whether it has anything."""
     over_time = [(draw, found) for find, draw in OVER_TIME if (found := find(log))]
-    shakes = [(kind, found) for kind in KINDS if (found := spectra_of(log, kind[2]))]
+    shakes = [(kind, lines) for kind in KINDS if (lines := spectra_of(log, kind[2]))]
     if not over_time and not shakes:
         return False
     figure = new_figure(9.0, 1.0 + 2.0 * (len(over_time) + len(shakes)))

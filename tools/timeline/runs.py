@@ -108,7 +108,10 @@ def slack(runs: Any, tasks: list[Task], times: Any) -> Any:
 
 
 def schedule_of(log: ulog.Log) -> Schedule:
-    """What a log has of its schedule."""
+    """The schedule of a log. A damaged one lacks runs, and its statistics would be wrong."""
+    if log.damage:
+        first = log.damage[0]
+        raise ToolError(f"byte {first.at}: {first.reason}")
     if ("run", 0) not in log.data or not len(log.topic("run")):
         raise ToolError("the log has no runs of tasks; flights log them with ARGS=--trace")
     told, rows = log.topic("run"), log.topic("task")
