@@ -7,7 +7,7 @@
 // That no step meanwhile runs a task, and that the step behind the sleep comes no later than a
 // release, is WP's: proofs/scheduler/sleeping.c.
 #include "../../specs/model/pass.h"
-#include "../common/keel_scheduler_proof.h"
+#include "../common/any_time.h"
 
 void keel_pass_idle_us_harness(void)
 {
@@ -20,7 +20,7 @@ void keel_pass_idle_us_harness(void)
     uint32_t modelled;
     uint32_t idle_us;
 
-    any_scheduler(&scheduler, CAPACITY);
+    any_time(&scheduler);
     before = scheduler;
     modelled = model_pass_idle_us(&scheduler, raw_us, latency_us, longest_us);
 

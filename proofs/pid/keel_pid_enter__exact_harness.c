@@ -12,7 +12,7 @@
 
 static int any_small(void)
 {
-    return (int)(nondet_u8() & 7u) - 4;
+    return (int)(nondet_u8() & 3u) - 2;
 }
 
 static int any_gain(void)
@@ -33,18 +33,18 @@ void keel_pid_enter__exact_harness(void)
     const int kff = any_gain();
     const int r = any_small();
     const int y = any_small();
-    const int output = any_small() * 4;
+    const int output = any_small() * 8;
     const unsigned bad = nondet_u8() & 3u;
     const float setpoint = (bad == 1u) ? (2.0f * KEEL_PID_INPUT_LIMIT) : (float)r;
     const float measured = (bad == 2u) ? (2.0f * KEEL_PID_INPUT_LIMIT) : (float)y;
     const float wanted = (bad == 3u) ? (2.0f * KEEL_PID_OUTPUT_LIMIT) : (float)output;
-    const int begin = limited(output, -14, 9);
+    const int begin = limited(output, -14, 6);
     const int first = (kp * (r - y)) + (kff * r) + (ki * (r - y));
     const int integral = (ki > 0) ? limited(begin - first, -16, 15) : 0;
     keel_pid_t pid = {.config = {.gains = {(float)kp, 0.0f, (float)kd, (float)kff},
                                  .rate_hz = 2.0f,
                                  .output_min = -14.0f,
-                                 .output_max = 9.0f,
+                                 .output_max = 6.0f,
                                  .integral_min = -16.0f,
                                  .integral_max = 15.0f},
                       .filter = {.a = 1.0f, .energy_limit = KEEL_FILTER_LOW_ENERGY_LIMIT},

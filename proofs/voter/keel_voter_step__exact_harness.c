@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 5 --external-sat-solver cadical
+// cbmc: --unwind 5
 // sources: src/middleware/voter.c
 // defines: -DKEEL_VOTER_SENSORS=3u
 // replaces: keel_voter_mean

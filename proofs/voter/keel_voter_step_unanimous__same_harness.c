@@ -6,13 +6,14 @@
 // covers: keel_voter_plain_mean
 //
 // The shorter way and the whole vote, from the same state with the same samples, come to the same:
-// a = 1, two to four sensors, samples in halves from -2 to 1.5 of which those from -1.5 to 1 are
+// a = 1, two to four sensors, whole samples from -2 to 2 of which those from -1 to 1 are
 // plausible. What the mean is of is compared in place of the mean.
+#include "../common/any_below.h"
 #include "voter_stand_ins.h"
 
-static float any_half(void)
+static float any_small(void)
 {
-    return 0.5f * ((float)(nondet_u8() & 7u) - 4.0f);
+    return (float)any_below(5u) - 2.0f;
 }
 
 void keel_voter_step_unanimous__same_harness(void)
@@ -25,13 +26,13 @@ void keel_voter_step_unanimous__same_harness(void)
     float weights;
 
     any_voter(&voter, 1.0f, 3.0f);
-    voter.config.lowest = -1.5f;
+    voter.config.lowest = -1.0f;
     voter.config.highest = 1.0f;
     for (uint32_t i = 0u; i < SENSORS; i++) {
-        sample[i].value = any_half();
+        sample[i].value = any_small();
         sample[i].age_us = 0u;
         sample[i].present = true;
-        voter.sensor[i].last = any_half();
+        voter.sensor[i].last = any_small();
         moved = moved || ((i < voter.config.sensors) && (sample[i].value != voter.sensor[i].last));
     }
     __CPROVER_assume(voter_valid_here(&voter));

@@ -557,7 +557,7 @@ class Choices(unittest.TestCase):
         names = {name for name, unit in units.items() if prove.in_kernel(unit)}
         self.assertLessEqual({"clock", "queue", "pass", "scheduler", "range", "voter", "filter",
                               "pid"}, names)  # fmt: skip
-        self.assertTrue(names.isdisjoint({"mavlink", "attitude", "mixer", "virtual_imu"}))
+        self.assertTrue(names.isdisjoint({"mavlink", "attitude", "mixer", "spread"}))
 
     def test_sizes_are_numbers(self) -> None:
         self.assertEqual(prove.size("KEEL_QUEUE_CAPACITY=8"), "-DKEEL_QUEUE_CAPACITY=8u")
