@@ -75,7 +75,8 @@ typedef struct copter_port {
     bool (*read_imu)(void *context, uint32_t unit, copter_inertial_t *sample);
     bool (*read_magnetometer)(void *context, copter_field_t *sample);
     bool (*read_barometer)(void *context, copter_pressure_t *sample);
-    bool (*read_byte)(void *context, uint32_t receiver, copter_byte_t *byte); /**< The next. */
+    /** Hands over the next byte; a run may leave some for the one 10 ms later. */
+    bool (*read_byte)(void *context, uint32_t receiver, copter_byte_t *byte);
     bool (*read_power)(void *context, uint32_t module, copter_power_reading_t *reading);
     /** Writes what the chip measures of itself, and that it has it; null: it measures nothing. The
         task that asks has 18 us: of two conversions, one a call may be new. */
