@@ -200,12 +200,28 @@ typedef struct copter_control {
     uint8_t mode;                /**< The mode in the last run. */
 } copter_control_t;
 
+/** A side of the fence. */
+typedef enum copter_side {
+    COPTER_SIDE_NONE = 0, /**< It never went out. */
+    COPTER_SIDE_LOW,
+    COPTER_SIDE_HIGH,
+    COPTER_SIDE_AROUND
+} copter_side_t;
+
+/** The aircraft went out of the fence. */
+typedef struct copter_breach {
+    uint32_t count;   /**< How often. */
+    uint64_t last_us; /**< When it last did. */
+    uint8_t side;     /**< Where: copter_side_t. */
+} copter_breach_t;
+
 /** Written by the state machine. */
 typedef struct copter_state {
     keel_mode_t mode;
     uint32_t frames; /**< What was taken of pilot.frames. */
     uint32_t homes;  /**< Counts take-offs: home is where the last was. */
     uint64_t stepped_us;
+    copter_breach_t breach;
 } copter_state_t;
 
 /** Written by scheduler analysis, stack and ADC. */

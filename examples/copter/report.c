@@ -206,6 +206,23 @@ static void sys_status(const copter_t *copter, const copter_link_t *link, uint8_
     message_sys_status_pack(&message, payload);
 }
 
+/* Whether the aircraft is outside, and how it last went out. */
+static void fence_status(const copter_state_t *state, uint8_t *payload)
+{
+    static const uint8_t type[] = {[COPTER_SIDE_NONE] = FENCE_BREACH_NONE,
+                                   [COPTER_SIDE_LOW] = FENCE_BREACH_MINALT,
+                                   [COPTER_SIDE_HIGH] = FENCE_BREACH_MAXALT,
+                                   [COPTER_SIDE_AROUND] = FENCE_BREACH_BOUNDARY};
+    const bool is_outside = (state->mode.seen & KEEL_MODE_IS_OUTSIDE) != 0u;
+    const message_fence_status_t message = {
+        .breach_time = (uint32_t)(state->breach.last_us / US_PER_MS),
+        .breach_count = at_most(state->breach.count),
+        .breach_status = is_outside ? 1u : 0u,
+        .breach_type = type[state->breach.side]};
+
+    message_fence_status_pack(&message, payload);
+}
+
 /* What one unit measured, in thousandths of g and of rad/s; 0 stands for no temperature there, so a
  * hundredth of a degree for 0. The messages of all three units are alike. */
 static bool scaled_imu(const copter_t *copter, uint32_t unit, uint8_t *payload)
@@ -853,6 +870,9 @@ bool copter_report(const copter_t *copter, copter_link_t *link, uint32_t sent, u
         break;
     case SENT_SYS_STATUS:
         sys_status(copter, link, payload);
+        break;
+    case SENT_FENCE_STATUS:
+        fence_status(&copter->state, payload);
         break;
     case SENT_SERVO_OUTPUT_RAW:
         servo_output_raw(copter, payload);

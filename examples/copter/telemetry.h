@@ -131,6 +131,7 @@ typedef struct copter_telemetry {
     uint8_t state;       /**< The state machine's, in the last run. */
     uint8_t mode;        /**< The mode that was told in the last run. */
     uint8_t heard;       /**< What was heard of the pilot's receiver, as it was told. */
+    bool is_outside;     /**< Of the fence, in the last run. */
 } copter_telemetry_t;
 
 /**
