@@ -281,10 +281,10 @@ def header(all_of: list[Message], sent: list[Message], taken: list[Message],
     for message in all_of:
         lines += [f"#define MESSAGE_{message.name} {message.id}u",
                   f"#define MESSAGE_{message.name}_LENGTH {message.length}u"]  # fmt: skip
-    lines += ["/** @} */", "", "/** What is sent. */",
+    lines += ["/** @} */", "", "/** Messages that are sent. */",
               f"#define MESSAGES_SENT {len(sent)}u",
               "extern const keel_mavlink_message_t messages_sent[MESSAGES_SENT];", "",
-              "/** What is taken, of senders who know more fields too. */",
+              "/** Messages that are taken, from senders who know more fields too. */",
               f"#define MESSAGES_TAKEN {len(taken)}u",
               "extern const keel_mavlink_message_t messages_taken[MESSAGES_TAKEN];", "",
               "/** The places in messages_sent. */", "typedef enum message_sent {",

@@ -28,7 +28,7 @@ PAGE = Path("docs/status.md")
 INTRODUCTION = """\
 # Status
 
-What the last complete run of `make prove-all` proved. `make status` writes this page from the run's
+This is proved by the last complete run of `make prove-all`. `make status` writes the page from the run's
 report; nobody edits it.
 
 """

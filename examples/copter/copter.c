@@ -5,7 +5,7 @@
 #error "COPTER_LOG_TASKS: all tasks"
 #endif
 
-/* What each task of table 2 does. */
+/* The body of each task of table 2. */
 static void (*const bodies[URPILOT_TASK_COUNT])(copter_t *copter) = {
     [URPILOT_SCHEDULER_ANALYSIS] = copter_scheduler_analysis,
     [URPILOT_STACK] = copter_stack,

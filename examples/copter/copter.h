@@ -145,7 +145,7 @@ typedef struct copter_satellites {
     bool is_accelerated;                 /**< Whether that is known. */
 } copter_satellites_t;
 
-/** What a second of the receiver is held beside. */
+/** The counts a second ago, to which those of now are compared. */
 typedef struct copter_pilot_ear {
     uint32_t runs;                     /**< Of foreground radio, since. */
     uint32_t received;                 /**< Frames that had come. */
@@ -235,7 +235,7 @@ typedef struct copter_health {
     copter_chip_t chip;  /**< As the last run of ADC found it. */
 } copter_health_t;
 
-/** What a task's body is handed. */
+/** A task: its body is handed the copter. */
 typedef struct copter copter_t;
 typedef struct copter_task {
     copter_t *copter;
@@ -308,8 +308,8 @@ keel_status_t copter_add(copter_t *copter, const copter_own_task_t *own);
 keel_status_t copter_log_start(copter_t *copter);
 
 /**
- * Has each run of each task logged, too (bsp/common/trace_log.h). What the inertial units measured
- * is left out then: there is no room for both.
+ * Has each run of each task logged, too (bsp/common/trace_log.h). The inertial units' samples
+ * are left out then: there is no room for both.
  *
  * @param copter the copter, behind copter_log_start and before the first step
  */

@@ -239,11 +239,11 @@
 #define MESSAGE_CURRENT_MODE_LENGTH                 9u
 /** @} */
 
-/** What is sent. */
+/** Messages that are sent. */
 #define MESSAGES_SENT 38u
 extern const keel_mavlink_message_t messages_sent[MESSAGES_SENT];
 
-/** What is taken, of senders who know more fields too. */
+/** Messages that are taken, from senders who know more fields too. */
 #define MESSAGES_TAKEN 22u
 extern const keel_mavlink_message_t messages_taken[MESSAGES_TAKEN];
 

@@ -12,7 +12,7 @@
 #define KILL      6u
 #define CALIBRATE 7u
 
-/* What a channel says: its middle, and the way to either end. */
+/* A channel: its middle, and the way to either end. */
 #define MIDDLE 1500
 #define WAY    512.0f
 
@@ -39,7 +39,7 @@ keel_status_t copter_pilot_init(copter_pilot_t *pilot)
 }
 
 /* Whether a run that began then takes another byte. Noise can make one of CRSF cost as much as a
- * frame, so it is time that is counted. What is left waits in the port. */
+ * frame, so it is time that is counted. The rest waits in the port. */
 static bool has_time(const copter_port_t *port, uint32_t began_us)
 {
     return (port->read_clock(port->clock) - began_us) < COPTER_RADIO_READS_US;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What telemetry tells: each message of what the copter's structures have. */
+/* Telemetry's reports: each message is made from the copter's structures. */
 #include "keel/middleware/range.h"
 #include "keel/version.h"
 #include "modes.h"
@@ -223,7 +223,7 @@ static void fence_status(const copter_state_t *state, uint8_t *payload)
     message_fence_status_pack(&message, payload);
 }
 
-/* What one unit measured, in thousandths of g and of rad/s; 0 stands for no temperature there, so a
+/* The sample of one unit, in thousandths of g and of rad/s; 0 stands for no temperature there, so a
  * hundredth of a degree for 0. The messages of all three units are alike. */
 static bool scaled_imu(const copter_t *copter, uint32_t unit, uint8_t *payload)
 {
@@ -258,7 +258,7 @@ static bool scaled_pressure(const copter_t *copter, uint8_t *payload)
     return (air->samples > 0u) && (age_us <= FRESH_US);
 }
 
-/* What no message of MAVLink's is for. The chip's supply, of 3.3 V, is not the Vcc of POWER_STATUS:
+/* Values that no message of MAVLink's is for. The chip's supply, of 3.3 V, is not the Vcc of POWER_STATUS:
  * that is a rail of 5 V, and stations warn when it has less. */
 typedef struct named {
     const char *name; /* 10 characters at most. */
@@ -351,7 +351,7 @@ static bool attitude_quaternion(const copter_t *copter, uint8_t *payload)
     return from->phase == KEEL_ATTITUDE_RUNNING;
 }
 
-/* What instruments show. There is no speed through the air but that over the ground. */
+/* The values of instruments. There is no speed through the air but that over the ground. */
 static bool vfr_hud(const copter_t *copter, uint8_t *payload)
 {
     const keel_cascade_estimate_t *const here = &copter->estimate.here;
@@ -751,7 +751,7 @@ static bool file_transfer(copter_link_t *link, uint8_t *payload)
     return said;
 }
 
-/* What a station shows, and what it asks for as it connects. */
+/* Messages that a station shows, or asks for as it connects. */
 static bool stations(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
 {
     bool said = true;

@@ -232,7 +232,7 @@ static void receive(copter_t *copter, uint32_t number)
     }
 }
 
-/* What waits in queues is asked for. */
+/* Messages that wait in queues are asked for. */
 static void ask_for_queues(const copter_telemetry_t *self, copter_link_t *link)
 {
     bool wanted = false;
