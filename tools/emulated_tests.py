@@ -146,16 +146,17 @@ def judge_tasks(periods: Mapping[str, int], output: str) -> list[str]:
     return wrong
 
 
-# What tests/target/radio.c sends, by hand: the protocol that is heard at the end; the run, each 10 ms
-# later, in which it is known (SBUS's 20th frame begins at 19 times 6 ms; of 500 frames of CRSF a
-# second the fifth has come at 10 ms, but one run does not get to it; IBUS's fifth begins at 28 ms;
-# of PPM the eighth train ends at 160 ms); and how many frames come before that one.
+# Of the streams of tests/target/radio.c, by hand: the protocol that is heard at the end; the run,
+# each 10 ms later, in which it is known (SBUS's 20th frame begins at 19 times 6 ms; of 500 frames
+# of CRSF a second the fifth has come at 10 ms, but one run does not get to it; IBUS's fifth begins
+# at 28 ms; of PPM the eighth train ends at 160 ms); and how many frames come before that one.
 RADIOS = {
     "SBUS": (1, 12, 19), "CRSF": (2, 2, 4), "IBUS": (3, 4, 4), "PPM": (4, 16, 7),
     "noise": (0, 0, 0), "noise of CRSF": (2, 1, 0), "noise of SBUS": (1, 1, 0),
 }  # fmt: skip
 RADIO_LINE = re.compile(
-    r"^radio (.+): protocol (\d+) found (\d+) sent (\d+) frames (\d+) longest (\d+) behind (\d+)$",
+    r"^radio (.+): protocol (\d+) found (\d+) sent (\d+) frames (\d+) longest (\d+) "
+    r"behind (\d+)$",
     re.MULTILINE,
 )
 RADIO_BUDGET = re.compile(r"^#define COPTER_RADIO_WCET_US +(\d+)u", re.MULTILINE)

@@ -278,7 +278,7 @@ is meant. All clients agree on a float, so whole numbers are sent as one, and a 
   them.
 - In MAVSDK, `get_param_float` and `set_param_float` are for all parameters; `get_param_int` and
   `set_param_int` answer WRONG_TYPE.
-- A value of another type, one that is no number, or one with a fraction where none can be is refused: with
+- A value of another type, that is no number, or with a fraction where none can be is refused: with
   a text, PARAM_ERROR, and the value as it is.
 - A float has 24 bits: whole numbers above 16 777 216 are rounded, by at most 64.
 """

@@ -10,8 +10,8 @@
  * This unit knows nothing of the copter. It stands here as it is tested, not proved.
  *
  * Stored is each value that is not its default, with the parameter's name: so a set of another
- * firmware, older or newer, can be loaded. A name that this firmware does not know is counted. A value
- * that it does not take stays at its default, and the parameter tells why.
+ * firmware, older or newer, can be loaded. A name that this firmware does not know is counted.
+ * A value that it does not take stays at its default, and the parameter tells why.
  */
 #ifndef COPTER_PARAMETERS_H
 #define COPTER_PARAMETERS_H

@@ -258,8 +258,8 @@ static bool scaled_pressure(const copter_t *copter, uint8_t *payload)
     return (air->samples > 0u) && (age_us <= FRESH_US);
 }
 
-/* Values that no message of MAVLink's is for. The chip's supply, of 3.3 V, is not the Vcc of POWER_STATUS:
- * that is a rail of 5 V, and stations warn when it has less. */
+/* Values that no message of MAVLink's is for. The chip's supply, of 3.3 V, is not the Vcc of
+ * POWER_STATUS: that is a rail of 5 V, and stations warn when it has less. */
 typedef struct named {
     const char *name; /* 10 characters at most. */
     int32_t value;

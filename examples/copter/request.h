@@ -56,7 +56,7 @@ void copter_request_arm(copter_request_t *request, bool arms);
 /** Moves the mode switch. */
 void copter_request_mode(copter_request_t *request, uint8_t mode, uint8_t pilot_mode);
 
-/** Adds the request to the input of the state machine; frame: whether one came since the last step. */
+/** Adds the request to the state machine's input; frame: whether one came since the last step. */
 void copter_request_apply(copter_request_t *request, bool frame, keel_mode_input_t *input);
 
 /** Follows the state machine, and answers. */

@@ -9,8 +9,8 @@
  * looks at no more than COPTER_LINK_BYTES of it and COPTER_LINK_LOOKS beginnings of frames, acts on
  * at most one frame, and sends at most one: so its time is bounded, whatever comes.
  *
- * Requests of a ground station are in take.c, and those of parameters in take_parameters.c; commands
- * that move the aircraft go through request.h.
+ * Requests of a ground station are in take.c, and those of parameters in take_parameters.c.
+ * Commands that move the aircraft go through request.h.
  */
 #ifndef COPTER_TELEMETRY_H
 #define COPTER_TELEMETRY_H

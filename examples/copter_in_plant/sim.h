@@ -110,7 +110,7 @@ typedef struct sim_task {
     uint32_t longest_us;
 } sim_task_t;
 
-/** The actions and estimates of the copter. Angles are sines where said, distances in m from home. */
+/** The copter's actions and estimates. Angles are sines where said, distances in m from home. */
 typedef struct sim_view {
     float motor[SIM_MOTORS];  /**< 0 to 1: front right, aft right, aft left, front left. */
     uint32_t state;           /**< KEEL_MODE_DISARMED, ... */

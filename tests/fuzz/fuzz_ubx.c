@@ -63,7 +63,7 @@ static bool both_take(uint8_t byte, uint32_t elapsed_us)
 }
 
 /* A NAV-PVT behind a gap: taken when ublox takes it, with the same fields, and not else. Of 92 and
- * of 84 bytes, for which ublox has protocols; those of other lengths are compared with the model. */
+ * 84 bytes, for which ublox has protocols; those of other lengths are compared with the model. */
 static void judge_message(const uint8_t *payload, uint32_t length, uint8_t last)
 {
     const uint8_t head[HEAD] = {0xB5u, 0x62u, 0x01u, 0x07u, (uint8_t)length, 0x00u};

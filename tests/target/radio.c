@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file radio.c
- * @brief Background radio on a Cortex-M7: how long its runs take with each receiver, and with noise.
+ * @brief Background radio on a Cortex-M7: how long its runs take with each receiver, or with noise.
  *
- * What a receiver sends comes at its times, the runs are 10 ms apart, and each is measured with the
+ * Bytes of a receiver come at their times, the runs are 10 ms apart, and each is measured with the
  * board's clock. A line for each stream tells the longest, which tools/emulated_tests.py judges.
  */
 #include "board.h"
@@ -12,7 +12,7 @@
 
 #define RUNS      200u
 #define PERIOD_US 10000u
-#define SLOWEST   64u /* Bytes of a stream's pattern at most. */
+#define LONGEST   64u /* Bytes of a stream's pattern at most. */
 
 /* A pattern that comes over and over. */
 typedef struct stream {
@@ -22,22 +22,38 @@ typedef struct stream {
     uint32_t every_us;
     uint32_t byte_us; /* Between two bytes of it; 0: edges of PPM. */
     uint32_t size;
-    uint8_t byte[SLOWEST];
+    uint8_t byte[LONGEST];
 } stream_t;
 
-/* SBUS as fast as sbus.h has it, IBUS with all sticks in the middle, CRSF 500 times a second, PPM of
- * eight channels. The worst noise for CRSF has beginnings of its longest frame everywhere: each
- * second byte ends 64 whose CRC is wrong. That for SBUS has nothing but headers. */
+/* SBUS as fast as sbus.h has it, CRSF 500 times a second, IBUS, and PPM of eight channels. The
+ * worst noise for CRSF has beginnings of its longest frame everywhere: each second byte ends 64
+ * whose CRC is wrong. That for SBUS has nothing but headers. */
 static const stream_t stream[] = {
-    {"SBUS", COPTER_PROTOCOL_SBUS, COPTER_PROTOCOL_ANY, 6000u, 120u, 25u,
+    {"SBUS",
+     COPTER_PROTOCOL_SBUS,
+     COPTER_PROTOCOL_ANY,
+     6000u,
+     120u,
+     25u,
      {0x0F, 0xE0, 0x03, 0x1F, 0xF8, 0xC0, 0x07, 0x3E, 0xF0, 0x81, 0x0F, 0x7C, 0xE0,
       0x03, 0x1F, 0xF8, 0xC0, 0x07, 0x3E, 0xF0, 0x81, 0x0F, 0x7C, 0x00, 0x00}},
-    {"CRSF", COPTER_PROTOCOL_CRSF, COPTER_PROTOCOL_ANY, 2000u, 24u, 26u,
+    {"CRSF",
+     COPTER_PROTOCOL_CRSF,
+     COPTER_PROTOCOL_ANY,
+     2000u,
+     24u,
+     26u,
      {0xC8, 0x18, 0x16, 0xAC, 0x98, 0x38, 0xF8, 0xC0, 0x07, 0x3E, 0xF0, 0x81, 0x0F,
       0x7C, 0xE0, 0x03, 0x1F, 0xF8, 0xC0, 0x07, 0x3E, 0xF0, 0x81, 0x0F, 0x7C, 0x20}},
-    {"IBUS", COPTER_PROTOCOL_IBUS, COPTER_PROTOCOL_ANY, 7000u, 87u, 32u,
-     {0x20, 0x40, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05,
-      0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0x51, 0xF3}},
+    {"IBUS",
+     COPTER_PROTOCOL_IBUS,
+     COPTER_PROTOCOL_ANY,
+     7000u,
+     87u,
+     32u,
+     {0x20, 0x40, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC,
+      0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05,
+      0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0xDC, 0x05, 0x51, 0xF3}},
     {"PPM", COPTER_PROTOCOL_PPM, COPTER_PROTOCOL_ANY, 20000u, 0u, 9u, {0}},
     {"noise", COPTER_PROTOCOL_ANY, COPTER_PROTOCOL_ANY, 48u, 24u, 2u, {0x00, 0x3E}},
     {"noise of CRSF", COPTER_PROTOCOL_CRSF, COPTER_PROTOCOL_CRSF, 48u, 24u, 2u, {0x00, 0x3E}},
@@ -62,8 +78,8 @@ static uint32_t next_us(const line_t *from)
     const uint32_t begins_us = from->whole * what->every_us;
 
     if (what->byte_us == 0u) {
-        return begins_us + (((from->sent + 1u) == what->size) ? what->every_us
-                                                              : (1500u * (from->sent + 1u)));
+        return begins_us +
+               (((from->sent + 1u) == what->size) ? what->every_us : (1500u * (from->sent + 1u)));
     }
     return begins_us + (what->byte_us * (from->sent + 1u));
 }

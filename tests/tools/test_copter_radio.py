@@ -102,8 +102,9 @@ class Line:
 
     @classmethod
     def of_frames(cls, protocol: int, data: bytes, every_us: int, until_us: int) -> Line:
+        begins = range(0, until_us, every_us)
         return cls([(begin + BYTE_US[protocol] * (at + 1), byte)
-                    for begin in range(0, until_us, every_us) for at, byte in enumerate(data)])  # fmt: skip
+                    for begin in begins for at, byte in enumerate(data)])  # fmt: skip
 
     @classmethod
     def of_edges(cls, until_us: int) -> Line:
