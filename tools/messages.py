@@ -41,7 +41,7 @@ SENT = (
     "NAMED_VALUE_INT", "SCALED_PRESSURE", "PARAM_ERROR", "AVAILABLE_MODES", "CURRENT_MODE",
     "SYSTEM_TIME", "ATTITUDE_QUATERNION", "VFR_HUD", "ALTITUDE", "PROTOCOL_VERSION",
     "COMPONENT_METADATA", "MISSION_COUNT", "MISSION_ACK", "LOG_ENTRY", "LOG_DATA",
-    "FILE_TRANSFER_PROTOCOL",
+    "FILE_TRANSFER_PROTOCOL", "FENCE_STATUS",
 )  # fmt: skip
 TAKEN = (
     "PING", "SET_MODE", "PARAM_REQUEST_READ", "PARAM_REQUEST_LIST", "PARAM_SET", "COMMAND_INT",
@@ -94,6 +94,7 @@ CONSTANTS = (
     "MAV_FTP_ERR_NONE", "MAV_FTP_ERR_INVALIDDATASIZE", "MAV_FTP_ERR_INVALIDSESSION",
     "MAV_FTP_ERR_EOF", "MAV_FTP_ERR_UNKNOWNCOMMAND", "MAV_FTP_ERR_FILEPROTECTED",
     "MAV_FTP_ERR_FILENOTFOUND",
+    "FENCE_BREACH_NONE", "FENCE_BREACH_MINALT", "FENCE_BREACH_MAXALT", "FENCE_BREACH_BOUNDARY",
 )  # fmt: skip
 BYTES = {"char": 1, "int8_t": 1, "uint8_t": 1, "int16_t": 2, "uint16_t": 2, "int32_t": 4,
          "uint32_t": 4, "float": 4, "int64_t": 8, "uint64_t": 8, "double": 8}  # fmt: skip
@@ -280,10 +281,10 @@ def header(all_of: list[Message], sent: list[Message], taken: list[Message],
     for message in all_of:
         lines += [f"#define MESSAGE_{message.name} {message.id}u",
                   f"#define MESSAGE_{message.name}_LENGTH {message.length}u"]  # fmt: skip
-    lines += ["/** @} */", "", "/** What is sent. */",
+    lines += ["/** @} */", "", "/** Messages that are sent. */",
               f"#define MESSAGES_SENT {len(sent)}u",
               "extern const keel_mavlink_message_t messages_sent[MESSAGES_SENT];", "",
-              "/** What is taken, of senders who know more fields too. */",
+              "/** Messages that are taken, from senders who know more fields too. */",
               f"#define MESSAGES_TAKEN {len(taken)}u",
               "extern const keel_mavlink_message_t messages_taken[MESSAGES_TAKEN];", "",
               "/** The places in messages_sent. */", "typedef enum message_sent {",

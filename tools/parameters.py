@@ -278,7 +278,7 @@ is meant. All clients agree on a float, so whole numbers are sent as one, and a 
   them.
 - In MAVSDK, `get_param_float` and `set_param_float` are for all parameters; `get_param_int` and
   `set_param_int` answer WRONG_TYPE.
-- What is set as another type, is no number, or has a fraction where none can be is refused: with
+- A value of another type, that is no number, or with a fraction where none can be is refused: with
   a text, PARAM_ERROR, and the value as it is.
 - A float has 24 bits: whole numbers above 16 777 216 are rounded, by at most 64.
 """
@@ -288,7 +288,7 @@ def page(file: File, source: str) -> str:
     """The page of the documentation."""
     lines = [
         "# Parameters", "",
-        f"What can be set without compiling anew: {len(file.parameters)} parameters of",
+        f"These can be set without compiling anew: {len(file.parameters)} parameters of",
         f"`examples/{file.name}`. This page, the C table and the metadata for ground stations are",
         f"made from `{source}` by `make tables`.", "",
         *PAGE.splitlines(), "",

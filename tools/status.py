@@ -28,8 +28,8 @@ PAGE = Path("docs/status.md")
 INTRODUCTION = """\
 # Status
 
-What the last complete run of `make prove-all` proved. `make status` writes this page from the run's
-report; nobody edits it.
+This is proved by the last complete run of `make prove-all`. `make status` writes the page from the
+run's report; nobody edits it.
 
 """
 HEAD = """\

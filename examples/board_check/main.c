@@ -12,7 +12,7 @@
  * Before that, the memory that parameters are kept in is tried: it counts the starts.
  * Periods, budgets, phases and the guard are those that `make analyze` analyses. A line on the
  * console tells every second how it goes. The watchdog is fed only while every real-time task meets
- * its releases. What the kernel refuses ends as a fault does.
+ * its releases. A refusal of the kernel ends as a fault does.
  *
  * Keys: p lets pulses of 1000 us out, o switches the outputs off, t prints a table of the tasks, r
  * records each run of them until a ring is full and then sends it, for `make schedule`; and, to see
@@ -40,7 +40,7 @@
 #define FAULT_SETUP 0xDE300001u
 #define FAULT_STEP  0xDE300002u
 
-/* What the background task of the inertial unit saw. */
+/* The findings of the background task of the inertial unit. */
 typedef struct imu {
     bool there;
     uint32_t samples;
@@ -48,13 +48,13 @@ typedef struct imu {
     keel_invensense_sample_t last;
 } imu_t;
 
-/* What the ADC task measures, in this order; from the third on, the board's analogue pins. */
+/* The channels of the ADC task, in this order; from the third on, the board's analogue pins. */
 #define MEASURE_SUPPLY      0u
 #define MEASURE_TEMPERATURE 1u
 #define MEASURE_PINS        2u
 #define MEASURES            (MEASURE_PINS + KEEL_ANALOGUES)
 
-/* What it measured. What fails keeps its last value. */
+/* Its measurements. One that fails keeps its last value. */
 typedef struct analogue {
     keel_bsp_status_t start;
     keel_bsp_status_t status[MEASURES];
@@ -70,7 +70,7 @@ static keel_scheduler_t scheduler KEEL_REALTIME_ZERO;
  * the task. */
 static keel_task_config_t declaration[URPILOT_TASK_COUNT] KEEL_REALTIME_ZERO;
 
-/* What a task does, and how long: the context of its body. */
+/* The work of a task, and how long it takes: the context of its body. */
 typedef struct work {
     void (*body)(uint32_t length_us);
     uint32_t wcet_us;
@@ -294,7 +294,7 @@ static void print_analogue(void)
     }
 }
 
-/* What the scheduler knows of a task. */
+/* The scheduler's report of a task. */
 static keel_task_report_t report_of(uint32_t i)
 {
     keel_task_report_t report = {0};

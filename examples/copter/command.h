@@ -27,7 +27,7 @@ typedef struct copter_command {
     float param[COPTER_COMMAND_PARAMS]; /**< Param 1 first; a place left open is no number. */
 } copter_command_t;
 
-/** Who waits for its answer. */
+/** The sender, who waits for its answer. */
 copter_waiter_t copter_command_waiter(const copter_command_t *command);
 
 /** Whether it is who waits already: it asks again until it is answered. */

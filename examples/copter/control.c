@@ -119,7 +119,7 @@ static float slow_down(float asked, float place, float reach)
     return (asked < least) ? least : asked;
 }
 
-/* What the pilot's sticks ask for takes the place of what holds the place, which follows. */
+/* The pilot's sticks take over from position hold; the place to be held follows. */
 static void follow_sticks(copter_control_t *self, const copter_t *copter)
 {
     const keel_reference_setpoints_t *const pilot = &copter->pilot.reference.setpoints;

@@ -56,6 +56,15 @@
 /** So many bytes of a receiver a run takes at most: more than come in its period. */
 #define COPTER_BYTES 256u
 
+/** @name Where the copter departs from table 2, as four protocols of a radio cost more than one. */
+/** @{ */
+#define COPTER_RADIO_READS_US 170u  /**< A run of background radio begins no byte later. */
+#define COPTER_RADIO_WCET_US  200u  /**< And takes so long at most, not 21. */
+#define COPTER_RADIO_PHASE_US 2344u /**< Where there is room for that, in none's way. */
+#define COPTER_PILOT_PHASE_US 2568u /**< Foreground radio follows. */
+#define COPTER_STATE_PHASE_US 2645u /**< And the state machine. */
+/** @} */
+
 /** The mean specific force of a block of steps. */
 typedef struct copter_force {
     keel_attitude_vector_t mean; /**< Body, in m/s^2. */
@@ -136,7 +145,7 @@ typedef struct copter_satellites {
     bool is_accelerated;                 /**< Whether that is known. */
 } copter_satellites_t;
 
-/** What a second of the receiver is held beside. */
+/** The counts a second ago, to which those of now are compared. */
 typedef struct copter_pilot_ear {
     uint32_t runs;                     /**< Of foreground radio, since. */
     uint32_t received;                 /**< Frames that had come. */
@@ -191,12 +200,28 @@ typedef struct copter_control {
     uint8_t mode;                /**< The mode in the last run. */
 } copter_control_t;
 
+/** A side of the fence. */
+typedef enum copter_side {
+    COPTER_SIDE_NONE = 0, /**< It never went out. */
+    COPTER_SIDE_LOW,
+    COPTER_SIDE_HIGH,
+    COPTER_SIDE_AROUND
+} copter_side_t;
+
+/** The aircraft went out of the fence. */
+typedef struct copter_breach {
+    uint32_t count;   /**< How often. */
+    uint64_t last_us; /**< When it last did. */
+    uint8_t side;     /**< Where: copter_side_t. */
+} copter_breach_t;
+
 /** Written by the state machine. */
 typedef struct copter_state {
     keel_mode_t mode;
     uint32_t frames; /**< What was taken of pilot.frames. */
     uint32_t homes;  /**< Counts take-offs: home is where the last was. */
     uint64_t stepped_us;
+    copter_breach_t breach;
 } copter_state_t;
 
 /** Written by scheduler analysis, stack and ADC. */
@@ -210,7 +235,7 @@ typedef struct copter_health {
     copter_chip_t chip;  /**< As the last run of ADC found it. */
 } copter_health_t;
 
-/** What a task's body is handed. */
+/** A task: its body is handed the copter. */
 typedef struct copter copter_t;
 typedef struct copter_task {
     copter_t *copter;
@@ -283,8 +308,8 @@ keel_status_t copter_add(copter_t *copter, const copter_own_task_t *own);
 keel_status_t copter_log_start(copter_t *copter);
 
 /**
- * Has each run of each task logged, too (bsp/common/trace_log.h). What the inertial units measured
- * is left out then: there is no room for both.
+ * Has each run of each task logged, too (bsp/common/trace_log.h). The inertial units' samples
+ * are left out then: there is no room for both.
  *
  * @param copter the copter, behind copter_log_start and before the first step
  */

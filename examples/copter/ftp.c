@@ -176,7 +176,7 @@ static uint8_t error_of_others(uint8_t opcode)
     return (uint8_t)(writes ? MAV_FTP_ERR_FILEPROTECTED : MAV_FTP_ERR_UNKNOWNCOMMAND);
 }
 
-/* What stands in the way of a request; what it is about. */
+/* The error of a request, and the file that it is about. */
 static uint8_t judged(copter_ftp_t *ftp, copter_ftp_reply_t *reply, const uint8_t *payload)
 {
     uint8_t error = (uint8_t)MAV_FTP_ERR_NONE;
@@ -290,7 +290,7 @@ static uint32_t read_file(const copter_ftp_reply_t *reply, uint8_t data[COPTER_F
     return size;
 }
 
-/* What an answer carries; tells its bytes. */
+/* Writes the data of an answer; tells its bytes. */
 static uint32_t carried(const copter_ftp_reply_t *reply, uint8_t data[COPTER_FTP_DATA])
 {
     uint32_t size = 0u;

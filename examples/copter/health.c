@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-/* What became of all tasks since the start; the kernel's own counts stay at their ends. */
+/* The counts of all tasks since the start; the kernel's own counts stay at their ends. */
 static void count_faults(copter_t *copter)
 {
     copter_health_t *const self = &copter->health;

@@ -41,7 +41,7 @@ void copter_background_imu(copter_t *copter)
     }
 }
 
-/* What a unit has measured since the last vote; it is absent unless all its channels have. */
+/* A sample of a unit since the last vote; it is absent unless all its channels have. */
 static void take(copter_inertia_t *self, uint32_t unit, uint64_t now_us)
 {
     keel_virtual_imu_sample_t *const sample = &self->unit[unit];
@@ -69,7 +69,7 @@ static keel_virtual_imu_sample_t calibrated(const keel_virtual_imu_sample_t *raw
     return sample;
 }
 
-/* What an aircraft without a voter would fly with: the mean of what its units last said. */
+/* The sample of an aircraft without a voter: the mean of what its units last said. */
 static void take_mean(keel_attitude_sample_t *sample, const keel_virtual_imu_sample_t unit[])
 {
     float mean[KEEL_VIRTUAL_IMU_CHANNELS] = {0.0f};

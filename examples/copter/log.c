@@ -51,7 +51,7 @@ static void define_trace(copter_log_t *log, uint32_t number)
     }
 }
 
-/* What is in force. A bool is an int32 of 0 or 1. */
+/* The value in force. A bool is an int32 of 0 or 1. */
 static bool define_parameter(copter_t *copter, uint16_t index)
 {
     const keel_parameters_t *const table = &copter->tuning.table;

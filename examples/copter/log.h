@@ -35,7 +35,7 @@ typedef struct copter_log_field {
     uint32_t offset; /**< In copter_t, in bytes. */
 } copter_log_field_t;
 
-/** What is logged together. */
+/** Values that are logged together. */
 typedef struct copter_topic {
     keel_ulog_name_t name;
     uint8_t instance; /**< Which of several of this name, from 0 on, one behind the other. */

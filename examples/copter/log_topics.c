@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What is logged: topics, their tasks, and at which of their runs. */
+/* The log: topics, their tasks, and at which of their runs. */
 #include "copter.h"
 
 #include <stddef.h>

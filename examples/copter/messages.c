@@ -32,6 +32,7 @@ const keel_mavlink_message_t messages_sent[MESSAGES_SENT] = {
     {MESSAGE_ALTITUDE, 47u, 1u, MESSAGE_ALTITUDE_LENGTH},
     {MESSAGE_BATTERY_STATUS, 154u, 1u, MESSAGE_BATTERY_STATUS_LENGTH},
     {MESSAGE_AUTOPILOT_VERSION, 178u, 1u, MESSAGE_AUTOPILOT_VERSION_LENGTH},
+    {MESSAGE_FENCE_STATUS, 189u, 1u, MESSAGE_FENCE_STATUS_LENGTH},
     {MESSAGE_ESTIMATOR_STATUS, 163u, 1u, MESSAGE_ESTIMATOR_STATUS_LENGTH},
     {MESSAGE_HOME_POSITION, 104u, 1u, MESSAGE_HOME_POSITION_LENGTH},
     {MESSAGE_EXTENDED_SYS_STATE, 130u, 1u, MESSAGE_EXTENDED_SYS_STATE_LENGTH},
@@ -538,6 +539,16 @@ void message_autopilot_version_pack(const message_autopilot_version_t *from,
     for (uint32_t i = 0u; i < 18u; i++) {
         put_u8(&payload[60u + (1u * i)], from->uid2[i]);
     }
+}
+
+void message_fence_status_pack(const message_fence_status_t *from,
+                               uint8_t payload[MESSAGE_FENCE_STATUS_LENGTH])
+{
+    put_u32(&payload[0], from->breach_time);
+    put_u16(&payload[4], from->breach_count);
+    put_u8(&payload[6], from->breach_status);
+    put_u8(&payload[7], from->breach_type);
+    put_u8(&payload[8], from->breach_mitigation);
 }
 
 void message_estimator_status_pack(const message_estimator_status_t *from,

@@ -117,6 +117,10 @@
 #define MAV_FTP_ERR_UNKNOWNCOMMAND                    7u
 #define MAV_FTP_ERR_FILEPROTECTED                     9u
 #define MAV_FTP_ERR_FILENOTFOUND                      10u
+#define FENCE_BREACH_NONE                             0u
+#define FENCE_BREACH_MINALT                           1u
+#define FENCE_BREACH_MAXALT                           2u
+#define FENCE_BREACH_BOUNDARY                         3u
 /** @} */
 
 /** @name Messages: their numbers, and bytes of all fields. */
@@ -211,6 +215,8 @@
 #define MESSAGE_BATTERY_STATUS_LENGTH               54u
 #define MESSAGE_AUTOPILOT_VERSION                   148u
 #define MESSAGE_AUTOPILOT_VERSION_LENGTH            78u
+#define MESSAGE_FENCE_STATUS                        162u
+#define MESSAGE_FENCE_STATUS_LENGTH                 9u
 #define MESSAGE_ESTIMATOR_STATUS                    230u
 #define MESSAGE_ESTIMATOR_STATUS_LENGTH             42u
 #define MESSAGE_HOME_POSITION                       242u
@@ -233,11 +239,11 @@
 #define MESSAGE_CURRENT_MODE_LENGTH                 9u
 /** @} */
 
-/** What is sent. */
-#define MESSAGES_SENT 37u
+/** Messages that are sent. */
+#define MESSAGES_SENT 38u
 extern const keel_mavlink_message_t messages_sent[MESSAGES_SENT];
 
-/** What is taken, of senders who know more fields too. */
+/** Messages that are taken, from senders who know more fields too. */
 #define MESSAGES_TAKEN 22u
 extern const keel_mavlink_message_t messages_taken[MESSAGES_TAKEN];
 
@@ -270,6 +276,7 @@ typedef enum message_sent {
     SENT_ALTITUDE,
     SENT_BATTERY_STATUS,
     SENT_AUTOPILOT_VERSION,
+    SENT_FENCE_STATUS,
     SENT_ESTIMATOR_STATUS,
     SENT_HOME_POSITION,
     SENT_EXTENDED_SYS_STATE,
@@ -794,6 +801,15 @@ typedef struct message_autopilot_version {
     uint8_t uid2[18];
 } message_autopilot_version_t;
 
+/** FENCE_STATUS. */
+typedef struct message_fence_status {
+    uint32_t breach_time;
+    uint16_t breach_count;
+    uint8_t breach_status;
+    uint8_t breach_type;
+    uint8_t breach_mitigation;
+} message_fence_status_t;
+
 /** ESTIMATOR_STATUS. */
 typedef struct message_estimator_status {
     uint64_t time_usec;
@@ -940,6 +956,8 @@ void message_battery_status_pack(const message_battery_status_t *from,
                                  uint8_t payload[MESSAGE_BATTERY_STATUS_LENGTH]);
 void message_autopilot_version_pack(const message_autopilot_version_t *from,
                                     uint8_t payload[MESSAGE_AUTOPILOT_VERSION_LENGTH]);
+void message_fence_status_pack(const message_fence_status_t *from,
+                               uint8_t payload[MESSAGE_FENCE_STATUS_LENGTH]);
 void message_estimator_status_pack(const message_estimator_status_t *from,
                                    uint8_t payload[MESSAGE_ESTIMATOR_STATUS_LENGTH]);
 void message_home_position_pack(const message_home_position_t *from,

@@ -95,7 +95,7 @@ static uint32_t ask_for_number(copter_t *copter, const copter_command_t *command
                : ask_for(copter, command, mode);
 }
 
-/* By PX4's main mode and sub-mode. Who sends no sub-mode may mean ArduCopter's number. */
+/* By PX4's main mode and sub-mode. A sender without a sub-mode may mean ArduCopter's number. */
 static uint32_t ask_for_pair(copter_t *copter, const copter_command_t *command)
 {
     const uint32_t main_mode = whole_of(command->param[MAIN_MODE], BYTE_MOST);

@@ -25,7 +25,7 @@
 #define COPTER_MODE_AUTO 4u
 #define COPTER_MODE_HOLD 3u
 
-/** What is told of a mode: the one in force; without one, the one that the pilot asks for. */
+/** The mode that is told: the one in force; without one, the one that the pilot asks for. */
 uint8_t copter_mode_told(const copter_t *copter);
 
 /** A mode's number in custom_mode. */

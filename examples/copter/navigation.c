@@ -55,7 +55,7 @@ static void find_origin(copter_estimate_t *self, const copter_fix_t *fix)
     }
 }
 
-/* What a restart of an estimate by a contradicting fix moved it by; 0 without one. */
+/* The distance that a contradicting fix moved an estimate by at its restart; 0 without one. */
 static float reset_of(const keel_axis_t *axis, float before)
 {
     return ((axis->flags & KEEL_AXIS_BEGUN) != 0u) ? (axis->position - before) : 0.0f;
@@ -74,8 +74,8 @@ static void tell_reset(copter_estimate_t *self, const keel_cascade_vector_t *bef
     }
 }
 
-/* A step of both estimators, a block of the inertial unit's after the other. What was measured
- * besides is for the last of them. */
+/* A step of both estimators, a block of the inertial unit's after the other. Other samples
+ * are for the last of them. */
 static void step_estimators(copter_t *copter, const frame_t *frame, const copter_force_t *force,
                             bool last)
 {

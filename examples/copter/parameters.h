@@ -3,15 +3,15 @@
  * @file parameters.h
  * @brief Parameters: numbers with names, ranges and defaults, which are set, stored and loaded.
  *
- * A table in flash says what there is. What is set is checked twice: against the parameter's range,
+ * A table in flash says what there is. A new value is checked twice: against the parameter's range,
  * and by whoever uses the values, who is shown all of them as they would be. Only then is it taken;
  * a refusal changes nothing.
  *
  * This unit knows nothing of the copter. It stands here as it is tested, not proved.
  *
  * Stored is each value that is not its default, with the parameter's name: so a set of another
- * firmware, older or newer, can be loaded. What this firmware does not know is counted, what it
- * does not take stays at its default, and why is told at the parameter.
+ * firmware, older or newer, can be loaded. A name that this firmware does not know is counted.
+ * A value that it does not take stays at its default, and the parameter tells why.
  */
 #ifndef COPTER_PARAMETERS_H
 #define COPTER_PARAMETERS_H
@@ -30,7 +30,7 @@ KEEL_C_BEGIN
 /** Bytes of a stored value: its name, padded with zeros, its type, and its bits, lowest first. */
 #define KEEL_PARAMETER_RECORD_BYTES 21
 
-/** What a parameter is. These numbers are stored. */
+/** The type of a parameter. These numbers are stored. */
 typedef enum keel_parameter_type {
     KEEL_PARAMETER_FLOAT = 0,
     KEEL_PARAMETER_INT32 = 1,
@@ -53,7 +53,7 @@ typedef struct keel_parameter {
     bool restarts; /**< What is set is used from the next start on; this unit does not ask. */
 } keel_parameter_t;
 
-/** What is known of a parameter. */
+/** The state of a parameter. */
 typedef struct keel_parameter_entry {
     keel_parameter_value_t value;
     keel_status_t refused; /**< Why its value in the set that was loaded was not taken; OK when it
@@ -70,7 +70,7 @@ typedef struct keel_parameter_entry {
 typedef keel_status_t (*keel_parameters_check_fn_t)(void *context,
                                                     const keel_parameter_entry_t *entry);
 
-/** What parameters are made from. All of it is read as long as they are used. */
+/** A configuration of parameters. All of it is read as long as they are used. */
 typedef struct keel_parameters_config {
     const keel_parameter_t *table;
     keel_parameter_entry_t *entry; /**< As many; written by the functions below alone. */
@@ -84,7 +84,7 @@ typedef struct keel_parameters {
     keel_parameters_config_t config;
 } keel_parameters_t;
 
-/** What became of a stored set. */
+/** The outcome of loading a stored set. */
 typedef struct keel_parameters_loaded {
     uint32_t taken;   /**< Values. */
     uint32_t refused; /**< Values of known parameters; entry[].refused says why. */

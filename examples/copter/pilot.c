@@ -12,7 +12,7 @@
 #define KILL      6u
 #define CALIBRATE 7u
 
-/* What a channel says: its middle, and the way to either end. */
+/* A channel: its middle, and the way to either end. */
 #define MIDDLE 1500
 #define WAY    512.0f
 
@@ -38,13 +38,22 @@ keel_status_t copter_pilot_init(copter_pilot_t *pilot)
                                : status;
 }
 
+/* Whether a run that began then takes another byte. Noise can make one of CRSF cost as much as a
+ * frame, so it is time that is counted. The rest waits in the port. */
+static bool has_time(const copter_port_t *port, uint32_t began_us)
+{
+    return (port->read_clock(port->clock) - began_us) < COPTER_RADIO_READS_US;
+}
+
 void copter_background_radio(copter_t *copter)
 {
     copter_pilot_t *const self = &copter->pilot;
     const copter_port_t *const port = copter->port;
+    const uint32_t began_us = port->read_clock(port->clock);
     copter_byte_t byte;
 
-    for (uint32_t i = 0u; (i < COPTER_BYTES) && port->read_byte(port->context, COPTER_RADIO, &byte);
+    for (uint32_t i = 0u; (i < COPTER_BYTES) && has_time(port, began_us) &&
+                          port->read_byte(port->context, COPTER_RADIO, &byte);
          i++) {
         (void)copter_radio_take(&self->radio, &byte);
     }

@@ -29,37 +29,37 @@
 #define COPTER_RECEIVERS 2u
 /** @} */
 
-/** What an inertial measurement unit measured, body axes. */
+/** A sample of an inertial measurement unit, body axes. */
 typedef struct copter_inertial {
     float accelerometer[3]; /**< Specific force, in m/s^2. */
     float gyroscope[3];     /**< In rad/s. */
     int16_t temperature;    /**< Of the unit, in hundredths of a degree Celsius. */
 } copter_inertial_t;
 
-/** What a magnetometer measured, body axes. */
+/** A sample of a magnetometer, body axes. */
 typedef struct copter_field {
     float value[3]; /**< In microtesla. */
 } copter_field_t;
 
-/** What a barometer measured. */
+/** A sample of a barometer. */
 typedef struct copter_pressure {
     float pressure_pa;   /**< In Pa. */
     int16_t temperature; /**< Of the sensor, in hundredths of a degree Celsius. */
 } copter_pressure_t;
 
-/** What came from a receiver. */
+/** A byte from a receiver. */
 typedef struct copter_byte {
     uint32_t elapsed_us; /**< Since the byte before, or since the start, in us. */
     uint8_t value;       /**< Without those whose parity is wrong. */
 } copter_byte_t;
 
-/** What a power module measured. */
+/** A sample of a power module. */
 typedef struct copter_power_reading {
     float voltage; /**< In V. */
     float current; /**< In A. */
 } copter_power_reading_t;
 
-/** What the controller measured of itself. */
+/** The controller's measurements of itself. */
 typedef struct copter_chip {
     uint16_t supply_mv;   /**< In mV. */
     int16_t temperature;  /**< Of the chip, in hundredths of a degree Celsius. */
@@ -70,12 +70,13 @@ typedef struct copter_chip {
 /** The functions of a port. */
 typedef struct copter_port {
     keel_clock_fn_t read_clock;
-    void *clock;   /**< What read_clock is handed. */
-    void *context; /**< What all others are handed. */
+    void *clock;   /**< Handed to read_clock. */
+    void *context; /**< Handed to all others. */
     bool (*read_imu)(void *context, uint32_t unit, copter_inertial_t *sample);
     bool (*read_magnetometer)(void *context, copter_field_t *sample);
     bool (*read_barometer)(void *context, copter_pressure_t *sample);
-    bool (*read_byte)(void *context, uint32_t receiver, copter_byte_t *byte); /**< The next. */
+    /** Hands over the next byte; a run may leave some for the one 10 ms later. */
+    bool (*read_byte)(void *context, uint32_t receiver, copter_byte_t *byte);
     bool (*read_power)(void *context, uint32_t module, copter_power_reading_t *reading);
     /** Writes what the chip measures of itself, and that it has it; null: it measures nothing. The
         task that asks has 18 us: of two conversions, one a call may be new. */

@@ -116,20 +116,26 @@ void copter_radio_count(const copter_radio_t *self, uint32_t refused[COPTER_REFU
                                     ibus->framing.gaps + ppm->gaps;
 }
 
-bool copter_radio_take(copter_radio_t *self, const copter_byte_t *byte)
+/* All decoders take a byte, until one of them is known. */
+static bool listen(copter_radio_t *self, const copter_byte_t *byte)
 {
     bool taken = false;
 
-    for (uint8_t i = COPTER_PROTOCOL_SBUS; i < COPTER_PROTOCOLS; i++) {
-        const bool listens = self->protocol == COPTER_PROTOCOL_ANY;
-
-        if ((listens || (self->protocol == i)) && take_by(self, i, byte)) {
-            if (listens) {
-                hear(self, i);
-            }
+    for (uint8_t i = COPTER_PROTOCOL_SBUS; (i < COPTER_PROTOCOLS) && !taken; i++) {
+        if (take_by(self, i, byte)) {
+            hear(self, i);
             taken = self->protocol == i;
         }
     }
+    return taken;
+}
+
+bool copter_radio_take(copter_radio_t *self, const copter_byte_t *byte)
+{
+    const bool taken = (self->protocol == COPTER_PROTOCOL_ANY)
+                           ? listen(self, byte)
+                           : take_by(self, self->protocol, byte);
+
     if (taken) {
         publish(self);
     }

@@ -40,7 +40,7 @@
 #define COPTER_REFUSALS      4u
 /** @} */
 
-/** What was heard of the receiver in the last second. */
+/** The state of the receiver in the last second. */
 typedef enum copter_heard {
     COPTER_HEARD_YET = 0,  /**< The first second is not over. */
     COPTER_HEARD_PILOT,    /**< The pilot. */
@@ -51,7 +51,7 @@ typedef enum copter_heard {
     COPTER_HEARD_NOTHING   /**< Nothing. */
 } copter_heard_t;
 
-/** What a receiver is heard by. */
+/** The configurations of all decoders. */
 typedef struct copter_radio_config {
     uint8_t protocol; /**< COPTER_PROTOCOL_... */
     keel_sbus_config_t sbus;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What telemetry tells: each message of what the copter's structures have. */
+/* Telemetry's reports: each message is made from the copter's structures. */
 #include "keel/middleware/range.h"
 #include "keel/version.h"
 #include "modes.h"
@@ -206,7 +206,24 @@ static void sys_status(const copter_t *copter, const copter_link_t *link, uint8_
     message_sys_status_pack(&message, payload);
 }
 
-/* What one unit measured, in thousandths of g and of rad/s; 0 stands for no temperature there, so a
+/* Whether the aircraft is outside, and how it last went out. */
+static void fence_status(const copter_state_t *state, uint8_t *payload)
+{
+    static const uint8_t type[] = {[COPTER_SIDE_NONE] = FENCE_BREACH_NONE,
+                                   [COPTER_SIDE_LOW] = FENCE_BREACH_MINALT,
+                                   [COPTER_SIDE_HIGH] = FENCE_BREACH_MAXALT,
+                                   [COPTER_SIDE_AROUND] = FENCE_BREACH_BOUNDARY};
+    const bool is_outside = (state->mode.seen & KEEL_MODE_IS_OUTSIDE) != 0u;
+    const message_fence_status_t message = {
+        .breach_time = (uint32_t)(state->breach.last_us / US_PER_MS),
+        .breach_count = at_most(state->breach.count),
+        .breach_status = is_outside ? 1u : 0u,
+        .breach_type = type[state->breach.side]};
+
+    message_fence_status_pack(&message, payload);
+}
+
+/* The sample of one unit, in thousandths of g and of rad/s; 0 stands for no temperature there, so a
  * hundredth of a degree for 0. The messages of all three units are alike. */
 static bool scaled_imu(const copter_t *copter, uint32_t unit, uint8_t *payload)
 {
@@ -241,8 +258,8 @@ static bool scaled_pressure(const copter_t *copter, uint8_t *payload)
     return (air->samples > 0u) && (age_us <= FRESH_US);
 }
 
-/* What no message of MAVLink's is for. The chip's supply, of 3.3 V, is not the Vcc of POWER_STATUS:
- * that is a rail of 5 V, and stations warn when it has less. */
+/* Values that no message of MAVLink's is for. The chip's supply, of 3.3 V, is not the Vcc of
+ * POWER_STATUS: that is a rail of 5 V, and stations warn when it has less. */
 typedef struct named {
     const char *name; /* 10 characters at most. */
     int32_t value;
@@ -334,7 +351,7 @@ static bool attitude_quaternion(const copter_t *copter, uint8_t *payload)
     return from->phase == KEEL_ATTITUDE_RUNNING;
 }
 
-/* What instruments show. There is no speed through the air but that over the ground. */
+/* The values of instruments. There is no speed through the air but that over the ground. */
 static bool vfr_hud(const copter_t *copter, uint8_t *payload)
 {
     const keel_cascade_estimate_t *const here = &copter->estimate.here;
@@ -734,7 +751,7 @@ static bool file_transfer(copter_link_t *link, uint8_t *payload)
     return said;
 }
 
-/* What a station shows, and what it asks for as it connects. */
+/* Messages that a station shows, or asks for as it connects. */
 static bool stations(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
 {
     bool said = true;
@@ -853,6 +870,9 @@ bool copter_report(const copter_t *copter, copter_link_t *link, uint32_t sent, u
         break;
     case SENT_SYS_STATUS:
         sys_status(copter, link, payload);
+        break;
+    case SENT_FENCE_STATUS:
+        fence_status(&copter->state, payload);
         break;
     case SENT_SERVO_OUTPUT_RAW:
         servo_output_raw(copter, payload);

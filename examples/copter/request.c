@@ -54,7 +54,7 @@ void copter_request_apply(copter_request_t *request, bool frame, keel_mode_input
     }
 }
 
-/* What waits gets its answer; who refuses or is late asks no more. */
+/* A waiting request gets its answer; one that is refused or late is asked no more. */
 static void answer(copter_moved_t *moved, bool done, bool refused, uint32_t elapsed_us)
 {
     if (moved->answer != COPTER_ANSWER_WAITS) {

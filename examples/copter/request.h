@@ -24,7 +24,7 @@
 /** How long the state machine has to do what is asked, in us. */
 #define COPTER_REQUEST_TIME_US 1000000u
 
-/** What became of a request. */
+/** The outcome of a request. */
 typedef enum copter_answer {
     COPTER_ANSWER_NONE,   /**< There is none. */
     COPTER_ANSWER_WAITS,  /**< The state machine has not decided. */
@@ -40,7 +40,7 @@ typedef struct copter_moved {
     bool is_moved;
 } copter_moved_t;
 
-/** What is asked for. */
+/** A request. */
 typedef struct copter_request {
     copter_moved_t arm;
     copter_moved_t mode;
@@ -56,10 +56,10 @@ void copter_request_arm(copter_request_t *request, bool arms);
 /** Moves the mode switch. */
 void copter_request_mode(copter_request_t *request, uint8_t mode, uint8_t pilot_mode);
 
-/** What the state machine is told, with what is asked for: frame or not, since the last step. */
+/** Adds the request to the state machine's input; frame: whether one came since the last step. */
 void copter_request_apply(copter_request_t *request, bool frame, keel_mode_input_t *input);
 
-/** What the state machine made of it. */
+/** Follows the state machine, and answers. */
 void copter_request_follow(copter_request_t *request, const keel_mode_t *machine,
                            uint32_t elapsed_us);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* JSBSim's F450: 1.4 kg, arms of 0.23 m, 9.4 inch propellers; it hovers at 0.37 of its throttle on
- * a full battery. What the gains follow from: a unit of roll or pitch torque turns it with about
+ * a full battery. The gains follow from this: a unit of roll or pitch torque turns it with about
  * 490 rad/s^2, of yaw with about 44 rad/s^2, and a unit of thrust lifts it with about 40 m/s^2. */
 #include "settings.h"
 

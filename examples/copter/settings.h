@@ -63,8 +63,8 @@ typedef struct copter_settings {
 /** A quadcopter of 1.4 kg: the F450 that JSBSim comes with. */
 extern const copter_settings_t copter_defaults;
 
-/** What is in force: the defaults with the parameters. copter_tuning_start and copter_tuning_apply
- * alone write it. */
+/** The settings in force: the defaults with the parameters. copter_tuning_start and
+ * copter_tuning_apply alone write them. */
 extern copter_settings_t copter_settings;
 
 #endif

@@ -25,14 +25,22 @@ static bool is_beyond(float distance, float limit)
     return (distance > limit) || (distance < -limit);
 }
 
-static bool is_outside(const copter_t *copter)
+/* The side of the fence that the aircraft is beyond. */
+static copter_side_t side_of(const copter_t *copter)
 {
     const keel_cascade_vector_t place = copter->estimate.here.position;
     const float *const reach = copter_settings.cascade.reach;
+    copter_side_t side = COPTER_SIDE_NONE;
 
-    return is_beyond(place.north, reach[KEEL_CASCADE_NORTH]) ||
-           is_beyond(place.east, reach[KEEL_CASCADE_EAST]) ||
-           is_beyond(place.up, reach[KEEL_CASCADE_HEIGHT]);
+    if (is_beyond(place.north, reach[KEEL_CASCADE_NORTH]) ||
+        is_beyond(place.east, reach[KEEL_CASCADE_EAST])) {
+        side = COPTER_SIDE_AROUND;
+    } else if (is_beyond(place.up, reach[KEEL_CASCADE_HEIGHT])) {
+        side = (place.up > 0.0f) ? COPTER_SIDE_HIGH : COPTER_SIDE_LOW;
+    } else {
+        /* It is inside. */
+    }
+    return side;
 }
 
 static bool is_home(const copter_t *copter)
@@ -57,7 +65,7 @@ static uint32_t facts_of(const copter_t *copter)
            when(is_good(estimate->altitude.axis.quality, before, KEEL_MODE_HAS_HEIGHT),
                 KEEL_MODE_HAS_HEIGHT) |
            when(has_place, KEEL_MODE_HAS_PLACE) |
-           when(has_place && is_outside(copter), KEEL_MODE_IS_OUTSIDE) |
+           when(has_place && (side_of(copter) != COPTER_SIDE_NONE), KEEL_MODE_IS_OUTSIDE) |
            when(level >= KEEL_BATTERY_LOW, KEEL_MODE_IS_CRITICAL) |
            when(level >= KEEL_BATTERY_CRITICAL, KEEL_MODE_IS_EMPTY);
 }
@@ -100,6 +108,19 @@ static uint32_t checks_of(const copter_t *copter)
            when(may_be_of_ground(&copter->air), COPTER_CHECK_PRESSURE);
 }
 
+/* Counts when the aircraft goes out of the fence. */
+static void watch_fence(copter_t *copter, uint32_t facts)
+{
+    copter_state_t *const self = &copter->state;
+
+    if (((facts & KEEL_MODE_IS_OUTSIDE) != 0u) &&
+        ((self->mode.seen & KEEL_MODE_IS_OUTSIDE) == 0u)) {
+        self->breach.count++;
+        self->breach.last_us = copter->scheduler.clock.now_us;
+        self->breach.side = (uint8_t)side_of(copter);
+    }
+}
+
 void copter_state_machine(copter_t *copter)
 {
     copter_state_t *const self = &copter->state;
@@ -113,6 +134,7 @@ void copter_state_machine(copter_t *copter)
 
     self->frames = copter->pilot.frames;
     self->stepped_us = now_us;
+    watch_fence(copter, input.facts);
     copter_request_apply(&copter->request, frame, &input);
     keel_mode_step(&self->mode, &input);
     copter_request_follow(&copter->request, &self->mode, input.elapsed_us);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a ground station may ask:
+/* Requests of a ground station:
  *
  *     parameters                      list, read, set: see take_parameters.c
  *     COMMAND_LONG, COMMAND_INT       COMPONENT_ARM_DISARM, SET_MESSAGE_INTERVAL, REQUEST_MESSAGE,

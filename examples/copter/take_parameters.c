@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a ground station may ask of parameters: to list, read and set them.
+/* Requests of a ground station for parameters: to list, read and set them.
  *
  * On a link each parameter is a float. MAVLink has two ways to write an integer into the message's
  * float, its bits or its number; a client that expects the other way shows a wrong value and sets
@@ -43,7 +43,7 @@ static void say(copter_t *copter, uint32_t severity, uint16_t index, const char 
                 keel_parameters_name(&copter->tuning.table, index), what);
 }
 
-/* What was asked for cannot be: to be told to whoever asked. */
+/* The request is refused: the sender is to be told. */
 static void refuse(copter_link_t *link, const keel_mavlink_frame_t *from, const char *name,
                    int16_t index, uint32_t error)
 {
@@ -104,7 +104,7 @@ static const char *set(keel_parameters_t *table, uint16_t index, const message_p
     return (status == KEEL_OK) ? NULL : ": not set, contradicts another";
 }
 
-/* What is set, and not what flies. */
+/* The value is set, but another one flies. */
 static void tell_wait(copter_t *copter, uint16_t index)
 {
     if (!copter_tuning_differs(&copter->tuning, index)) {

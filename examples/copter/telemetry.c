@@ -31,6 +31,7 @@ static const uint32_t interval_us[MESSAGES_SENT] = {
     [SENT_RC_CHANNELS] = MILLION / 5u,
     [SENT_BATTERY_STATUS] = MILLION,
     [SENT_CURRENT_MODE] = 2u * MILLION,
+    [SENT_FENCE_STATUS] = 2u * MILLION,
     [SENT_ESTIMATOR_STATUS] = MILLION,
     [SENT_HOME_POSITION] = 5u * MILLION,
     [SENT_EXTENDED_SYS_STATE] = MILLION,
@@ -138,13 +139,30 @@ static void tell_state(copter_t *copter)
     }
 }
 
+/* A message is asked for once, on each link. */
+static void tell_at_once(copter_telemetry_t *self, uint32_t sent)
+{
+    for (uint32_t i = 0u; i < COPTER_LINKS; i++) {
+        copter_turns_ask(&self->link[i].turns, sent);
+    }
+}
+
 /* A mode that is another is told at once. */
 static void tell_mode(copter_telemetry_t *self, uint8_t mode)
 {
-    for (uint32_t i = 0u; (mode != self->mode) && (i < COPTER_LINKS); i++) {
-        copter_turns_ask(&self->link[i].turns, SENT_CURRENT_MODE);
+    if (mode != self->mode) {
+        tell_at_once(self, SENT_CURRENT_MODE);
     }
     self->mode = mode;
+}
+
+/* Going out of the fence and coming back. */
+static void tell_fence(copter_telemetry_t *self, bool is_outside)
+{
+    if (is_outside != self->is_outside) {
+        tell_at_once(self, SENT_FENCE_STATUS);
+    }
+    self->is_outside = is_outside;
 }
 
 /* Says when the pilot is heard, or why not. */
@@ -214,7 +232,7 @@ static void receive(copter_t *copter, uint32_t number)
     }
 }
 
-/* What waits in queues is asked for. */
+/* Messages that wait in queues are asked for. */
 static void ask_for_queues(const copter_telemetry_t *self, copter_link_t *link)
 {
     bool wanted = false;
@@ -321,6 +339,7 @@ void copter_telemetry(copter_t *copter)
 
     tell_state(copter);
     tell_mode(self, copter_mode_told(copter));
+    tell_fence(self, (copter->state.mode.seen & KEEL_MODE_IS_OUTSIDE) != 0u);
     tell_radio(self, &copter->pilot);
     copter_take_answers(copter);
     save_parameters(copter);

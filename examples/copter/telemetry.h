@@ -9,8 +9,8 @@
  * looks at no more than COPTER_LINK_BYTES of it and COPTER_LINK_LOOKS beginnings of frames, acts on
  * at most one frame, and sends at most one: so its time is bounded, whatever comes.
  *
- * What a ground station may ask is in take.c, and of parameters in take_parameters.c; what moves
- * the aircraft goes through request.h.
+ * Requests of a ground station are in take.c, and those of parameters in take_parameters.c.
+ * Commands that move the aircraft go through request.h.
  */
 #ifndef COPTER_TELEMETRY_H
 #define COPTER_TELEMETRY_H
@@ -51,7 +51,7 @@ typedef struct copter_lines {
     void (*write)(void *context, uint32_t link, const uint8_t *bytes, uint32_t size);
 } copter_lines_t;
 
-/** What a link may do. */
+/** The limits of a link. */
 typedef struct copter_link_config {
     uint32_t bytes_per_s; /**< That it carries; 0: there is no such link. */
     bool commands;        /**< What comes by it may arm, disarm, set modes and parameters. */
@@ -106,7 +106,7 @@ typedef struct copter_text {
     char text[COPTER_TEXT_LENGTH];
 } copter_text_t;
 
-/** Who waits for an answer of the state machine. */
+/** A sender that waits for an answer of the state machine. */
 typedef struct copter_waiter {
     uint32_t link;
     uint16_t command; /**< 0: nobody. */
@@ -131,6 +131,7 @@ typedef struct copter_telemetry {
     uint8_t state;       /**< The state machine's, in the last run. */
     uint8_t mode;        /**< The mode that was told in the last run. */
     uint8_t heard;       /**< What was heard of the pilot's receiver, as it was told. */
+    bool is_outside;     /**< Of the fence, in the last run. */
 } copter_telemetry_t;
 
 /**

@@ -53,7 +53,7 @@ void copter_turns_ask(copter_turns_t *turns, uint32_t source);
 /** Time passes. */
 void copter_turns_step(copter_turns_t *turns, uint32_t elapsed_us);
 
-/** Who is next, or COPTER_TURNS_NONE. */
+/** The source that is next, or COPTER_TURNS_NONE. */
 uint32_t copter_turns_next(const copter_turns_t *turns);
 
 /** Whether the link may carry so many bytes now. */

@@ -9,7 +9,7 @@
 #include "common/slots.h"
 
 /**
- * A file as a medium. What was never written reads as zeros.
+ * A file as a medium. Bytes that were never written read as zeros.
  *
  * @param path of the file, which need not be there yet; used as long as the medium is
  * @return the medium, which needs no erasing

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What the scheduler's own work costs, as the analysed task set has it (urpilot.toml), and a turn
+/* The cost of the scheduler's own work, as the analysed task set has it (urpilot.toml), and a turn
  * of the main loop. */
 #define TURN_NS     1000u
 #define PASS_NS     11000u
@@ -20,10 +20,10 @@
 /* Of two times that are counted modulo 2^32 the later one is ahead by less than this. */
 #define HALF_OF_TIME 0x80000000u
 
-/* What a line holds of either direction. */
+/* The room of a line in either direction. */
 #define LINE_BYTES 4096u
 
-/* What the copter took last of each device. */
+/* The counts of the samples that the copter took last. */
 typedef struct taken {
     uint32_t imu[SIM_IMUS];
     uint32_t magnetometer;
@@ -40,7 +40,7 @@ typedef struct delay {
     uint32_t extra_us;
 } delay_t;
 
-/* What waits on a line, the oldest first. */
+/* Bytes that wait on a line, the oldest first. */
 typedef struct line {
     uint8_t bytes[LINE_BYTES];
     uint32_t count;
@@ -285,7 +285,7 @@ static keel_status_t start_copter(void)
     return (status == KEEL_OK) ? start_telemetry() : status;
 }
 
-/* Devices, lines and time go on. A log is of one start: it ends here. What is signed from now on is
+/* Devices, lines and time go on. A log is of one start: it ends here. Frames signed from now on are
  * later than all that was signed. */
 static keel_status_t start_anew(void)
 {

@@ -67,14 +67,14 @@ typedef struct sim_power {
     uint32_t count;
 } sim_power_t;
 
-/** What the controller's chip measures of itself; what it measured once is told once. */
+/** The chip's measurements of itself; each is told once. */
 typedef struct sim_chip {
     uint16_t supply;     /**< In mV. */
     int16_t temperature; /**< In 0.01 degrees Celsius. */
     uint32_t count;
 } sim_chip_t;
 
-/** What all devices hold now. Values may be any bit pattern. */
+/** The samples of all devices now. Values may be any bit pattern. */
 typedef struct sim_sensors {
     sim_imu_t imu[SIM_IMUS];
     sim_magnetometer_t magnetometer;
@@ -102,7 +102,7 @@ typedef struct sim_options {
                                           written as long as the copter runs. */
 } sim_options_t;
 
-/** What became of a task. */
+/** The counts of a task. */
 typedef struct sim_task {
     uint32_t runs;
     uint32_t skipped;  /**< Periods without a run. */
@@ -110,7 +110,7 @@ typedef struct sim_task {
     uint32_t longest_us;
 } sim_task_t;
 
-/** What the copter does and believes. Angles are sines where said, distances in m from home. */
+/** The copter's actions and estimates. Angles are sines where said, distances in m from home. */
 typedef struct sim_view {
     float motor[SIM_MOTORS];  /**< 0 to 1: front right, aft right, aft left, front left. */
     uint32_t state;           /**< KEEL_MODE_DISARMED, ... */
@@ -152,17 +152,17 @@ int sim_start(const sim_options_t *options);
  * @return 0, or how often something could not be opened, written or closed since the last call */
 int sim_log(const char *path);
 
-/** What the devices hold: to be written. */
+/** The samples of the devices: to be written. */
 sim_sensors_t *sim_sensors(void);
 
 /** Runs the copter until the virtual clock reaches a time, in us since power-up.
  * @return 0, or the status with which the scheduler refused */
 int sim_run_until(uint64_t time_us);
 
-/** What the copter does; made anew by each call. */
+/** The view of the copter; made anew by each call. */
 const sim_view_t *sim_view(void);
 
-/** What became of each task, SIM_TASKS of them; made anew by each call. */
+/** The counts of each task, SIM_TASKS of them; made anew by each call. */
 const sim_task_t *sim_tasks(void);
 
 /** Makes the next runs of a task, from 0 in the order of table 2, longer by some time each. */

@@ -17,11 +17,11 @@
 #define RADIO_US        20000u
 #define POWER_US        20000u
 
-/* What the pilot does, in us since the start. */
+/* The pilot's actions, in us since the start. */
 #define ARMS_US  7000000u
 #define LIFTS_US 8000000u
 
-/* What a byte takes on its line: 100000 baud and 12 bits, 115200 and 10. */
+/* The time of a byte on its line: 100000 baud and 12 bits, 115200 and 10. */
 #define RADIO_BYTE_US 120u
 #define GPS_BYTE_US   87u
 

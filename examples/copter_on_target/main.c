@@ -5,7 +5,7 @@
  *
  * The tasks are those that fly (examples/copter), not one line of them is another; what they read
  * is a desk's (desk.h). At the end a table tells how often each task ran and how long its longest
- * run took, with the pass before it. What the kernel or a unit refuses ends as a fault does.
+ * run took, with the pass before it. A refusal of the kernel or of a unit ends as a fault does.
  */
 #include "board.h"
 #include "console.h"
@@ -59,7 +59,7 @@ static void print_tasks(void)
     }
 }
 
-/* What the copter has come to, which tools/emulated_tests.py reads. */
+/* The copter's state at the end, which tools/emulated_tests.py reads. */
 static void print_copter(void)
 {
     const keel_mode_t *const mode = &copter.state.mode;

@@ -69,7 +69,7 @@ static void require(keel_status_t status, uint32_t code)
     }
 }
 
-/* --- What is recorded. --- */
+/* --- The record. --- */
 
 /* The message goes into the ring; when there is room again, behind what tells how long there was
  * none. */
@@ -208,7 +208,7 @@ static void open_box(void)
     keel_console_text("\n");
 }
 
-/* What is in the ring goes into the file as well. Closing waits for the card, for longer than a
+/* The bytes in the ring go into the file as well. Closing waits for the card, for longer than a
  * watchdog would: this image starts none. */
 static void end(void)
 {

@@ -32,7 +32,7 @@
 #define EXIT_USAGE   2
 #define DECIMAL      10
 
-/* What the scheduler's own work costs, as the analysed task set has it (urpilot.toml). */
+/* The cost of the scheduler's own work, as the analysed task set has it (urpilot.toml). */
 #define TURN_NS     1000u
 #define PASS_NS     11000u
 #define DISPATCH_NS 1000u

@@ -34,12 +34,12 @@
 #define EXIT_USAGE      2
 #define PPM_PER_PERCENT 10000.0
 
-/* What the demo watches about a task: the context of its body. */
+/* The state of a task that the demo watches: the context of its body. */
 typedef struct demo_task {
     const keel_task_config_t *declaration;
     const keel_scheduler_t *scheduler;
     uint32_t *ticks;  /* The counter, which the body moves on. */
-    uint32_t wcet_us; /* What each run takes. */
+    uint32_t wcet_us; /* Of each run. */
     keel_deviation_t deviation;
     uint64_t latest_us; /* The longest time from a release to the start of its run. */
     uint32_t missed;    /* Runs that ended behind their deadline. */
@@ -62,7 +62,7 @@ static uint32_t demo_clock(void *context)
     return *(const uint32_t *)context;
 }
 
-/* What the scheduler knows of a task. */
+/* The scheduler's report of a task. */
 static keel_task_report_t demo_report(const demo_task_t *self)
 {
     keel_task_report_t report = {0};

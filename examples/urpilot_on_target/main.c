@@ -9,7 +9,7 @@
  * Two of the real-time tasks vote and control (flight.h); every body keeps the CPU busy for the
  * rest of the task's worst-case time of table 2. Its budget is a little more, because a run's
  * measured time includes the pass before it: the task set says how long that may take. At the end
- * a table on the console tells how often each task ran. What the kernel refuses ends as a fault
+ * a table on the console tells how often each task ran. A refusal of the kernel ends as a fault
  * does.
  */
 #include "board.h"
@@ -26,7 +26,7 @@
 #define FAULT_SETUP 0xDE300001u
 #define FAULT_STEP  0xDE300002u
 
-/* What a body needs to know. */
+/* The context of a body. */
 typedef struct demo_work {
     uint32_t wcet_us;
     void (*work)(void); /* Null for a task that only takes its time. */

@@ -6,7 +6,7 @@
 #define TYPE_AT    2u
 #define PAYLOAD_AT 3u
 
-/* What a frame has beside the bytes that its length counts. */
+/* Bytes of a frame beside those that its length counts. */
 #define BESIDE_LENGTH 2u
 
 /* Where what is in a frame with statistics. */
@@ -83,7 +83,7 @@ static void take_link(keel_crsf_t *crsf)
     crsf->link_age_us = 0u;
 }
 
-/* What is held begins with a right frame of this length. */
+/* The bytes held begin with a right frame of this length. */
 /*@ requires \valid(crsf) && KEEL_CRSF_LENGTH_MIN <= length <= KEEL_CRSF_LENGTH_MAX &&
   @     length + 2 <= crsf->framing.held <= KEEL_FRAMING_BYTES;
   @ assigns crsf->channel[0 .. KEEL_CRSF_CHANNELS - 1], crsf->link.rssi[0 .. 1],
@@ -131,7 +131,7 @@ static keel_crsf_taken_t take_whole(keel_crsf_t *crsf, uint32_t length)
     return taken;
 }
 
-/* What is held begins with a frame of this length: takes it, or refuses it for its CRC; then only
+/* The bytes held begin with a frame of this length: takes it, or refuses it for its CRC; then only
  * its header is dropped, as one may begin behind that. */
 /*@ requires \valid(crsf) && KEEL_CRSF_LENGTH_MIN <= length <= KEEL_CRSF_LENGTH_MAX &&
   @     length + 2 <= crsf->framing.held <= KEEL_FRAMING_BYTES &&
@@ -177,7 +177,7 @@ static keel_crsf_taken_t take_or_refuse(keel_crsf_t *crsf, uint32_t length)
     return taken;
 }
 
-/* What is held begins with a header and a length. */
+/* The bytes held begin with a header and a length. */
 /*@ requires \valid(crsf) && crsf_headers(crsf) &&
   @     framing_begins(&crsf->framing) && crsf->framing.held >= 2;
   @ assigns crsf->framing.byte[0 .. KEEL_FRAMING_BYTES - 1], crsf->framing.held,

@@ -145,8 +145,8 @@ static bool take_words(keel_ibus_t *ibus)
     return right;
 }
 
-/* What is held begins with a header and the byte behind it. What can be no frame is dropped as far
- * as its header, as one may begin behind that. */
+/* The bytes held begin with a header and the byte behind it. Of those that can be no frame the
+ * header is dropped, as one may begin behind it. */
 /*@ requires \valid(ibus) && framing_begins(&ibus->framing) &&
   @     ibus_headers(ibus) && 2 <= ibus->framing.held <= KEEL_IBUS_BYTES;
   @ assigns ibus->framing.byte[0 .. KEEL_FRAMING_BYTES - 1], ibus->framing.held,

@@ -24,7 +24,7 @@
 #define BYTE 0xFFu
 #define BITS 8u
 
-/* What a byte of a number counts, the lowest first. */
+/* The weights of a number's bytes, the lowest first. */
 #define SECOND 0x100u
 #define THIRD  0x10000u
 #define FOURTH 0x1000000u
@@ -84,7 +84,7 @@ static uint16_t checksum_in(const uint8_t *bytes)
     return (uint16_t)(bytes[end] + (256u * bytes[end + 1u]));
 }
 
-/* What the checksum is of such bytes of a frame, and of its message. */
+/* The checksum of such bytes of a frame, and of its message. */
 /*@ requires 1 <= end <= KEEL_MAVLINK_FRAME_MAX && \valid_read(bytes + (0 .. end - 1));
   @ assigns \nothing;
   @ ensures \result == mavlink_checksum(bytes, end, extra);
@@ -260,7 +260,7 @@ static void publish_signature(keel_mavlink_t *mavlink)
     }
 }
 
-/* What the frame says that begins with the first byte. */
+/* The contents of the frame that begins with the first byte. */
 /*@ requires \valid(mavlink);
   @ assigns mavlink->frame;
   @ ensures mavlink_header_of{Pre, Post}(mavlink);

@@ -124,7 +124,7 @@ static void add_to_sums(keel_ubx_t *ubx, uint8_t byte)
     ubx->sum_b = (uint8_t)(((uint32_t)ubx->sum_b + ubx->sum_a) % 256u);
 }
 
-/* A word of a NAV-PVT's payload ended with this byte of it. What says that the place is invalid
+/* A word of a NAV-PVT's payload ended with this byte of it. The flag of an invalid place
  * came with protocol 15: in a shorter payload those bits are reserved. */
 /*@ requires \valid(pending);
   @ assigns *pending;
@@ -196,7 +196,7 @@ static void take_data(keel_ubx_t *ubx, uint8_t byte)
     }
 }
 
-/* What came of a NAV-PVT is the fix. */
+/* The words of a NAV-PVT become the fix. */
 /*@ requires \valid(ubx);
   @ assigns ubx->fix;
   @ ensures ubx_published{Pre, Post}(ubx);

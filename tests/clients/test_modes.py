@@ -19,7 +19,7 @@ from flight import library
 from flight.library import Copter, Link
 from pymavlink import mavutil
 from pymavlink.dialects.v20 import development as mavlink
-from test_telemetry import FLYING, LOW, MODE_SWITCH, THROTTLE, Rig, in_flight
+from test_telemetry import ANGLE, FLYING, LOW, MODE_SWITCH, REAL32, THROTTLE, Rig, in_flight
 from toolchain import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -42,6 +42,7 @@ MODES = {
 }
 NUMBER = {name: row[0] for name, row in MODES.items()}
 NONE = 0xFF0000
+GEOFENCE = mavlink.MAV_SYS_STATUS_GEOFENCE
 
 
 @pytest.fixture(scope="module")
@@ -325,13 +326,43 @@ def test_flags_say_who_flies(copter: Copter) -> None:
 
 def test_the_fence_is_there_and_whole(copter: Copter) -> None:
     rig = Rig(copter)
-    fence = mavlink.MAV_SYS_STATUS_GEOFENCE
     statuses = [one for one in rig.seen[0] if one.get_type() == "SYS_STATUS"]
     assert len(statuses) > 5  # From the power-up on.
     for status in statuses:
-        assert status.onboard_control_sensors_present & fence
-        assert status.onboard_control_sensors_enabled & fence
-        assert status.onboard_control_sensors_health & fence
+        assert status.onboard_control_sensors_present & GEOFENCE
+        assert status.onboard_control_sensors_enabled & GEOFENCE
+        assert status.onboard_control_sensors_health & GEOFENCE
+
+
+def fence_of(one: Any) -> tuple[int, int, int]:
+    """Whether it is outside, how often it was, and where."""
+    return (one.breach_status, one.breach_count, one.breach_type)
+
+
+def test_going_out_of_the_fence_and_coming_back_is_told_at_once(copter: Copter) -> None:
+    """Upwards, by the pilot's throttle in angle mode, where the fence stops nobody."""
+    rig = Rig(copter)
+    assert fence_of(last(rig, "FENCE_STATUS")) == (0, 0, mavlink.FENCE_BREACH_NONE)
+    rig.send(mavlink.MAVLink_param_set_message(1, 1, b"FENCE_HEIGHT", 10.0, REAL32))
+    assert rig.ask(ARM, 1) == ACCEPTED
+    rig.channels[MODE_SWITCH] = copter.mode_channel(ANGLE)
+    rig.channels[THROTTLE] = 1600
+    for _ in range(1000):
+        rig.run(10)
+        told = last(rig, "FENCE_STATUS")
+        if told.breach_status:
+            break
+    rig.copter.look()
+    assert abs(rig.copter.view["position"][2] - 10.0) < 1.0
+    assert fence_of(told) == (1, 1, mavlink.FENCE_BREACH_MAXALT)
+    assert 0 <= rig.now_ms - told.breach_time < 100  # It would come anyway each 2 s.
+    rig.channels[THROTTLE] = 1500
+    rig.run(1000)
+    assert not last(rig, "SYS_STATUS").onboard_control_sensors_health & GEOFENCE
+    rig.run(40_000)  # It comes back by itself.
+    assert fence_of(last(rig, "FENCE_STATUS")) == (0, 1, mavlink.FENCE_BREACH_MAXALT)
+    assert last(rig, "FENCE_STATUS").breach_time == told.breach_time
+    assert last(rig, "SYS_STATUS").onboard_control_sensors_health & GEOFENCE
 
 
 def test_the_chips_number_is_told(copter: Copter) -> None:

@@ -41,7 +41,7 @@ SENT = {"HEARTBEAT", "SYS_STATUS", "GPS_RAW_INT", "ATTITUDE", "LOCAL_POSITION_NE
         "GLOBAL_POSITION_INT", "SERVO_OUTPUT_RAW", "RC_CHANNELS", "BATTERY_STATUS",
         "ESTIMATOR_STATUS", "HOME_POSITION", "EXTENDED_SYS_STATE", "SCALED_IMU", "SCALED_IMU2",
         "SCALED_IMU3", "NAMED_VALUE_INT", "SCALED_PRESSURE", "ATTITUDE_QUATERNION", "VFR_HUD",
-        "ALTITUDE", "SYSTEM_TIME", "CURRENT_MODE"}  # fmt: skip
+        "ALTITUDE", "SYSTEM_TIME", "CURRENT_MODE", "FENCE_STATUS"}  # fmt: skip
 
 
 class Hands(Pilot):
@@ -263,7 +263,7 @@ def test_rates_are_kept_and_frames_are_numbered(copter: Copter) -> None:
     came = rig.counts() - before
     expected = {"HEARTBEAT": 10, "ATTITUDE": 200, "LOCAL_POSITION_NED": 100, "RC_CHANNELS": 50,
                 "SCALED_PRESSURE": 5, "NAMED_VALUE_INT": 6, "ATTITUDE_QUATERNION": 100,
-                "VFR_HUD": 40, "ALTITUDE": 20, "SYSTEM_TIME": 10}  # fmt: skip
+                "VFR_HUD": 40, "ALTITUDE": 20, "SYSTEM_TIME": 10, "FENCE_STATUS": 5}  # fmt: skip
     for name, count in expected.items():
         assert 0.8 * count - 1 <= came[name] <= count + 1, (name, came[name])
     numbers = [message.get_seq() for message in rig.seen[0]]

@@ -19,6 +19,7 @@
 #define BYTE_US   87u
 #define SILENT_US 80000u
 #define HEAD      6u
+#define SUMS      2u
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -61,24 +62,26 @@ static bool both_take(uint8_t byte, uint32_t elapsed_us)
     return taken;
 }
 
-/* A NAV-PVT behind a gap: taken when ublox takes it, with the same fields, and not else. Of 92
- * bytes, which ublox was built to read; those of 84 and of more are compared with the model. */
-static void judge_message(const uint8_t *payload, uint8_t last)
+/* A NAV-PVT behind a gap: taken when ublox takes it, with the same fields, and not else. Of 92 and
+ * 84 bytes, for which ublox has protocols; those of other lengths are compared with the model. */
+static void judge_message(const uint8_t *payload, uint32_t length, uint8_t last)
 {
-    static const uint8_t head[HEAD] = {0xB5u, 0x62u, 0x01u, 0x07u, KEEL_UBX_PAYLOAD, 0x00u};
+    const uint8_t head[HEAD] = {0xB5u, 0x62u, 0x01u, 0x07u, (uint8_t)length, 0x00u};
+    const uint32_t size = HEAD + length + SUMS;
     uint8_t message[KEEL_UBX_BYTES];
     int64_t said[13];
     bool taken = false;
 
-    for (uint32_t i = 0u; i < KEEL_UBX_BYTES; i++) {
-        const uint8_t byte = (i < HEAD)                        ? head[i]
-                             : (i < (HEAD + KEEL_UBX_PAYLOAD)) ? payload[i - HEAD]
-                                                               : repaired(last);
+    for (uint32_t i = 0u; i < size; i++) {
+        const uint8_t byte = (i < HEAD)              ? head[i]
+                             : (i < (HEAD + length)) ? payload[i - HEAD]
+                                                     : repaired(last);
 
         message[i] = byte;
         taken = both_take(byte, (i == 0u) ? SILENT_US : BYTE_US);
     }
-    if (taken != oracle_ubx(message, sizeof message, said)) {
+    if (taken != ((length == KEEL_UBX_PAYLOAD) ? oracle_ubx(message, size, said)
+                                               : oracle_ubx_14(message, size, said))) {
         differs("whether ublox takes a message");
     }
     if (taken) {
@@ -96,9 +99,9 @@ static void judge_message(const uint8_t *payload, uint8_t last)
 }
 
 /* Whether a NAV-PVT's beginning is within its payload: then it is another one, for us. */
-static bool begins_within(const uint8_t *payload)
+static bool begins_within(const uint8_t *payload, uint32_t length)
 {
-    for (uint32_t i = 0u; (i + 1u) < KEEL_UBX_PAYLOAD; i++) {
+    for (uint32_t i = 0u; (i + 1u) < length; i++) {
         if ((payload[i] == 0xB5u) && (payload[i + 1u] == 0x62u)) {
             return true;
         }
@@ -113,6 +116,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                                       .max_age_us = 500000u,
                                       .accuracy_mm = 5000u,
                                       .speed_accuracy = 1000u};
+    const uint32_t length = ((kind & 0x80u) != 0u) ? KEEL_UBX_PAYLOAD_LEAST : KEEL_UBX_PAYLOAD;
     uint32_t elapsed_us = BYTE_US;
 
     memset(&ubx, 0, sizeof ubx);
@@ -123,9 +127,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         (void)both_take(repaired(data[i]), elapsed_us);
         elapsed_us = ((data[i] == 0x5Au) && (data[i - 1u] == 0xA5u)) ? SILENT_US : BYTE_US;
     }
-    if ((size > KEEL_UBX_PAYLOAD) && ((kind & 1u) != 0u) &&
-        !begins_within(&data[size - KEEL_UBX_PAYLOAD])) {
-        judge_message(&data[size - KEEL_UBX_PAYLOAD], kind >> 1);
+    if ((size > length) && ((kind & 1u) != 0u) && !begins_within(&data[size - length], length)) {
+        judge_message(&data[size - length], length, kind >> 1);
     }
     return 0;
 }

@@ -34,9 +34,13 @@ bool oracle_ibus(const uint8_t *frame, uint16_t channel[14]);
  *  0, and a sync gap from 4000 us on; there are 20 at most. */
 uint32_t oracle_ppm(const uint32_t *width, size_t count, uint8_t least, uint16_t channel[16]);
 
-/** ublox: whether these bytes are a NAV-PVT, and its fields: time of week, longitude, latitude,
- *  height, accuracy of place and height, velocity (3), its accuracy, type, satellites, is_ok. */
+/** ublox: whether these bytes are a NAV-PVT of protocol 23, of 92 bytes, and its fields: time of
+ *  week, longitude, latitude, height, accuracy of place and height, velocity (3), its accuracy,
+ *  type, satellites, is_ok. */
 bool oracle_ubx(const uint8_t *message, size_t size, int64_t fix[13]);
+
+/** The same of protocol 14, a u-blox 7's, of 84 bytes. */
+bool oracle_ubx_14(const uint8_t *message, size_t size, int64_t fix[13]);
 
 /** What MAVLink's own parser says of a frame. */
 typedef struct oracle_mavlink {

@@ -142,6 +142,35 @@ class Demo(unittest.TestCase):
             wrong = emulated_tests.judge_copter(periods, text)
             self.assertEqual([told[:10] for told in wrong], ["the copter"] * count, new)
 
+    def test_a_copters_task_over_its_budget(self) -> None:
+        lines = (LINE.format("IMU", 1000, 10000, 0, 1, 0), LINE.format("ADC", 1000000, 10, 0, 0, 0))
+        text = "".join([*lines, COPTER, "demo ended\n"])
+        wrong = emulated_tests.judge_copter({"IMU": 1000, "ADC": 1000000}, text)
+        self.assertEqual(wrong, ["IMU: skipped 0, overruns 1, promoted 0"])
+
+    def test_background_radio(self) -> None:
+        line = "radio {}: protocol {} found {} sent {} frames {} longest {} behind {}\n"
+        good = {name: [name, protocol, found, 100, 0 if "noise" in name else 100 - before, 200, 9]
+                for name, (protocol, found, before) in emulated_tests.RADIOS.items()}  # fmt: skip
+
+        def judge(rows: dict[str, list[object]]) -> list[str]:
+            text = "".join(line.format(*row) for row in rows.values())
+            return emulated_tests.judge_radio(200, text)
+
+        self.assertEqual(judge(good), [])
+        self.assertEqual(judge({}), ["not each stream was told of"])
+        for name, at, value, wrong in (
+            ("SBUS", 1, 3, "SBUS: protocol 3, known in run 12"),
+            ("SBUS", 2, 13, "SBUS: protocol 1, known in run 13"),
+            ("CRSF", 4, 95, "CRSF: 95 frames of 100, and 9 ms behind"),
+            ("PPM", 6, 10, "PPM: 93 frames of 100, and 10 ms behind"),
+            ("noise", 4, 1, "noise: 1 frames"),
+            ("noise of CRSF", 5, 201, "noise of CRSF: a run of 201 us, over 200"),
+        ):
+            row = list(good[name])
+            row[at] = value
+            self.assertEqual(judge({**good, name: row}), [wrong])
+
     def test_each_task_ran_once_per_period(self) -> None:
         lines = (LINE.format("IMU", 1000, 10000, 0, 0, 0), LINE.format("ADC", 1000000, 10, 0, 0, 0))
         self.assertEqual(self.judge(*lines), [])

@@ -21,7 +21,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import status  # noqa: E402
 
-HEADING = "# Status\n\nWhat the last complete run"
+HEADING = "# Status\n\nThis is proved by the last complete run"
 TABLE = """\
 | unit | functions determined | WP goals | CBMC harnesses | CBMC properties | Gappa goals | \
 mistakes refuted |

@@ -63,7 +63,7 @@ KEEL_C_BEGIN
 #define KEEL_CRSF_TYPE_LINK   0x14
 #define KEEL_CRSF_LENGTH_LINK 12
 
-/** What a decoder is made from. */
+/** A configuration of a decoder. */
 typedef struct keel_crsf_config {
     uint32_t gap_us;      /**< Silence that ends a partial frame when it is longer, in us; more than
                                0. Between a byte's time, 24, and the silence between frames. */
@@ -71,7 +71,7 @@ typedef struct keel_crsf_config {
     uint32_t link_us;     /**< So do statistics that are older; 0 when none are asked for. */
 } keel_crsf_config_t;
 
-/** What the last statistics say of the link from the pilot. */
+/** The last statistics of the link from the pilot. */
 typedef struct keel_crsf_link {
     uint8_t rssi[2]; /**< Strength of the signal at each antenna, in -dBm: 90 is -90 dBm. */
     uint8_t quality; /**< Of 100 packets, how many came; 0: none. */
@@ -80,7 +80,7 @@ typedef struct keel_crsf_link {
     uint8_t mode;    /**< Which mode of the radio, by its maker. */
 } keel_crsf_link_t;
 
-/** What was met since the start. */
+/** Counts since the start. */
 typedef struct keel_crsf_count {
     uint32_t channels; /**< Right frames with channels. */
     uint32_t links;    /**< Right frames with statistics. */
@@ -90,7 +90,7 @@ typedef struct keel_crsf_count {
     uint32_t crcs;     /**< Frames refused for their CRC. */
 } keel_crsf_count_t;
 
-/** What a byte ended. */
+/** The kind of frame that a byte ended. */
 typedef enum keel_crsf_taken {
     KEEL_CRSF_NOTHING = 0,   /**< No right frame. */
     KEEL_CRSF_TOOK_CHANNELS, /**< One with channels. */

@@ -56,7 +56,7 @@ KEEL_C_BEGIN
 /** The largest value of a channel that may be configured. */
 #define KEEL_IBUS_CHANNEL_MAX 4095
 
-/** What a decoder is made from. */
+/** A configuration of a decoder. */
 typedef struct keel_ibus_config {
     uint32_t gap_us;  /**< Silence that ends a partial frame when it is longer, in us; more than 0.
                            Between a byte's time, 87, and the silence between frames, 4000. */
@@ -67,7 +67,7 @@ typedef struct keel_ibus_config {
     bool extended;    /**< Upper bits are channels 15 to 18. */
 } keel_ibus_config_t;
 
-/** What was met since the start. */
+/** Counts since the start. */
 typedef struct keel_ibus_count {
     uint32_t frames;  /**< Right frames. */
     uint32_t headers; /**< First bytes of a frame without its second. */

@@ -43,7 +43,7 @@ KEEL_C_BEGIN
 #error "KEEL_LOG_RING_BYTES: 2 to 2^30"
 #endif
 
-/** What was lost since it was last told. */
+/** The loss since it was last told. */
 typedef struct keel_log_ring_loss {
     uint32_t records;  /**< How many records; stays at UINT32_MAX. */
     uint64_t since_us; /**< The time of the first of them; 0 when none is lost. */

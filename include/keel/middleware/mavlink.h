@@ -37,7 +37,7 @@
  *
  * Frames of MAVLink 1, which begin with 0xFE, are not taken: their bytes are counted as others.
  *
- * What is signed is taken here without a look at its signature; keel/middleware/signing.h
+ * A signed frame is taken here without a look at its signature; keel/middleware/signing.h
  * tells whether it is right.
  *
  * All is integer arithmetic. All counts stay at UINT32_MAX.
@@ -91,7 +91,7 @@ typedef struct keel_mavlink_message {
                             KEEL_MAVLINK_PAYLOAD_MAX for senders who know more fields than we. */
 } keel_mavlink_message_t;
 
-/** What a frame says. */
+/** The contents of a frame. */
 typedef struct keel_mavlink_frame {
     uint32_t id;        /**< Its message. */
     uint8_t sequence;   /**< Counts the sender's frames, modulo 256. */
@@ -107,7 +107,7 @@ typedef struct keel_mavlink_frame {
     uint8_t seal[KEEL_MAVLINK_SEAL_BYTES]; /**< The rest of it. */
 } keel_mavlink_frame_t;
 
-/** What was met since the start. */
+/** Counts since the start. */
 typedef struct keel_mavlink_count {
     uint32_t frames;    /**< Right frames. */
     uint32_t checksums; /**< Beginnings refused for the checksum, */
@@ -118,7 +118,7 @@ typedef struct keel_mavlink_count {
     uint32_t others;    /**< Bytes that are of no frame and no beginning. */
 } keel_mavlink_count_t;
 
-/** What a look at the bytes that are held found. */
+/** The finding of a look at the bytes that are held. */
 typedef enum keel_mavlink_look {
     KEEL_MAVLINK_NOTHING, /**< More bytes are needed. */
     KEEL_MAVLINK_AGAIN,   /**< No frame yet: look again. */
@@ -293,7 +293,7 @@ keel_status_t keel_mavlink_init(keel_mavlink_t *mavlink, const keel_mavlink_mess
                                 uint32_t known);
 
 /**
- * Takes a byte from the line (requirement MAV-008). What it ends, keel_mavlink_look finds.
+ * Takes a byte from the line (requirement MAV-008). keel_mavlink_look finds the frame that it ends.
  *
  * @param mavlink the decoder, initialised
  * @param byte    what came

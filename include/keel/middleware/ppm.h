@@ -36,7 +36,7 @@ KEEL_C_BEGIN
 /** The most channels of a frame. */
 #define KEEL_PPM_CHANNELS 16
 
-/** What a decoder is made from. */
+/** A configuration of a decoder. */
 typedef struct keel_ppm_config {
     uint32_t lost_us;    /**< Channels that are older mean a lost radio, and a longer silence is no
                               sync gap, in us; more than sync_us. 100000, five frames, is usual. */
@@ -49,7 +49,7 @@ typedef struct keel_ppm_config {
     uint8_t frames_to_take; /**< So many right frames in a row; more than 0. */
 } keel_ppm_config_t;
 
-/** What was met since the start. */
+/** Counts since the start. */
 typedef struct keel_ppm_count {
     uint32_t frames;  /**< Frames whose channels were taken. */
     uint32_t pulses;  /**< Frames refused for a channel that is judged and out of its range. */

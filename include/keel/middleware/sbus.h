@@ -56,7 +56,7 @@ KEEL_C_BEGIN
 #define KEEL_SBUS_US_MIN 880
 #define KEEL_SBUS_US_MAX 2159
 
-/** What a decoder is made from. */
+/** A configuration of a decoder. */
 typedef struct keel_sbus_config {
     uint32_t gap_us;  /**< Silence that ends a partial frame when it is longer, in us; more than 0.
                            Between a byte's time, 120, and the silence between frames, 3000. */
@@ -66,7 +66,7 @@ typedef struct keel_sbus_config {
                            sticks. */
 } keel_sbus_config_t;
 
-/** What a frame says. */
+/** The contents of a frame. */
 typedef struct keel_sbus_frame {
     uint16_t channel[KEEL_SBUS_CHANNELS]; /**< Raw; keel_sbus_us scales it. */
     bool digital_17;                      /**< Channel 17. */
@@ -75,7 +75,7 @@ typedef struct keel_sbus_frame {
     bool failsafe;                        /**< It has lost the pilot: channels are made up. */
 } keel_sbus_frame_t;
 
-/** What was met since the start. */
+/** Counts since the start. */
 typedef struct keel_sbus_count {
     uint32_t frames;  /**< Right frames. */
     uint32_t headers; /**< Bytes that were no header where a frame should begin. */

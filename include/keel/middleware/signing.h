@@ -3,7 +3,7 @@
  * @file signing.h
  * @brief Signatures of MAVLink 2: who may tell the vehicle what, and frames that were recorded.
  *
- * Who has the key can sign: a signature is a link, a time, and the first bytes of the hash of
+ * The key's owner can sign: a signature is a link, a time, and the first bytes of the hash of
  * key, frame, link and time. Once a key is set, frames without a right signature are refused, and
  * so are frames that are not newer than the last one of their stream (a system, a component and a
  * link), or of a new stream and more than a minute behind our time. Without a key all frames are
@@ -80,7 +80,7 @@ typedef struct keel_signing_stream {
     uint8_t link;       /**< and the number that it gave to the link. */
 } keel_signing_stream_t;
 
-/** What was met since the start. */
+/** Counts since the start. */
 typedef struct keel_signing_count {
     uint32_t accepted; /**< Frames with a right signature. */
     uint32_t missing;  /**< Frames refused as they had none. */

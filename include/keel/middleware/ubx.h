@@ -43,10 +43,10 @@ KEEL_C_BEGIN
 /** Bytes of its payload in protocol 14: the least that it has. */
 #define KEEL_UBX_PAYLOAD_LEAST 84
 
-/** What a NAV-PVT begins with, the first byte the lowest. */
+/** The beginning of a NAV-PVT, the first byte the lowest. */
 #define KEEL_UBX_HEADER 0x005C070162B5
 
-/** What one of protocol 14 begins with. */
+/** The beginning of one of protocol 14. */
 #define KEEL_UBX_HEADER_14 0x0054070162B5
 
 /** A fix in three dimensions, in keel_ubx_fix_t. */
@@ -71,7 +71,7 @@ KEEL_C_BEGIN
 #define KEEL_UBX_NAK   3 /**< ACK-NAK. */
 /** @} */
 
-/** What a decoder is made from. */
+/** A configuration of a decoder. */
 typedef struct keel_ubx_config {
     uint32_t gap_us; /**< Silence that ends a message when it is longer, in us; more than 0. Above a
                           byte's time and what a driver adds, below the silence between bursts:
@@ -81,7 +81,7 @@ typedef struct keel_ubx_config {
     uint32_t speed_accuracy; /**< The worst usable accuracy of the speed, in mm/s; more than 0. */
 } keel_ubx_config_t;
 
-/** What a NAV-PVT says; all 0 before the first. */
+/** The contents of a NAV-PVT; all 0 before the first. */
 typedef struct keel_ubx_fix {
     uint32_t tow_ms;          /**< Time of week (GPS), in ms. */
     int32_t longitude;        /**< In 1e-7 degrees, east is positive. */
@@ -100,7 +100,7 @@ typedef struct keel_ubx_fix {
                           fewer than 92 bytes, which have no such bit. */
 } keel_ubx_fix_t;
 
-/** What was met since the start. */
+/** Counts since the start. */
 typedef struct keel_ubx_count {
     uint32_t bytes;     /**< All that came. */
     uint32_t fixes;     /**< Right NAV-PVT of at least 84 bytes. */

@@ -5,7 +5,7 @@ use crsf::{Packet, PacketParser};
 use parse_rc_ibus::IbusPacket;
 use ppm_decode::PpmParser;
 use std::slice::from_raw_parts;
-use ublox::{PacketRef, Parser};
+use ublox::{proto14, proto14::Proto14, proto23, proto23::Proto23, Parser, UbxPacket};
 use uf_sbus::SbusParser;
 
 const SBUS_BYTES: usize = 25;
@@ -93,29 +93,51 @@ pub unsafe extern "C" fn oracle_ppm(width: *const u32, count: usize, least: u8, 
     taken
 }
 
+// The fields of a NAV-PVT: those of both protocols have the same names, but not the same type.
+macro_rules! fields {
+    ($pvt:expr) => {
+        [
+            i64::from($pvt.itow()),
+            i64::from($pvt.longitude_raw()),
+            i64::from($pvt.latitude_raw()),
+            i64::from($pvt.height_msl_raw()),
+            i64::from($pvt.horizontal_accuracy_raw()),
+            i64::from($pvt.vertical_accuracy_raw()),
+            i64::from($pvt.vel_north_raw()),
+            i64::from($pvt.vel_east_raw()),
+            i64::from($pvt.vel_down_raw()),
+            i64::from($pvt.speed_accuracy_raw()),
+            i64::from($pvt.fix_type_raw()),
+            i64::from($pvt.num_satellites()),
+            i64::from($pvt.flags_raw() & 1),
+        ]
+    };
+}
+
+/// # Safety
+/// `message` is `size` bytes.
+#[no_mangle]
+pub unsafe extern "C" fn oracle_ubx_14(message: *const u8, size: usize, fix: &mut [i64; 13]) -> bool {
+    let mut parser = Parser::<Vec<u8>, Proto14>::default();
+    let mut found = parser.consume_ubx(from_raw_parts(message, size));
+    while let Some(packet) = found.next() {
+        if let Ok(UbxPacket::Proto14(proto14::PacketRef::NavPvt(pvt))) = packet {
+            *fix = fields!(pvt);
+            return true;
+        }
+    }
+    false
+}
+
 /// # Safety
 /// `message` is `size` bytes.
 #[no_mangle]
 pub unsafe extern "C" fn oracle_ubx(message: *const u8, size: usize, fix: &mut [i64; 13]) -> bool {
-    let mut parser = Parser::default();
-    let mut found = parser.consume(from_raw_parts(message, size));
+    let mut parser = Parser::<Vec<u8>, Proto23>::default();
+    let mut found = parser.consume_ubx(from_raw_parts(message, size));
     while let Some(packet) = found.next() {
-        if let Ok(PacketRef::NavPvt(pvt)) = packet {
-            *fix = [
-                i64::from(pvt.itow()),
-                i64::from(pvt.lon_degrees_raw()),
-                i64::from(pvt.lat_degrees_raw()),
-                i64::from(pvt.height_msl_raw()),
-                i64::from(pvt.horiz_accuracy()),
-                i64::from(pvt.vert_accuracy()),
-                i64::from(pvt.vel_north_raw()),
-                i64::from(pvt.vel_east_raw()),
-                i64::from(pvt.vel_down_raw()),
-                i64::from(pvt.speed_accuracy_estimate_raw()),
-                i64::from(pvt.fix_type_raw()),
-                i64::from(pvt.num_satellites()),
-                i64::from(pvt.flags_raw() & 1),
-            ];
+        if let Ok(UbxPacket::Proto23(proto23::PacketRef::NavPvt(pvt))) = packet {
+            *fix = fields!(pvt);
             return true;
         }
     }
