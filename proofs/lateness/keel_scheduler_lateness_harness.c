@@ -3,14 +3,14 @@
 // sources: src/rtos/lateness.c src/rtos/admission.c src/rtos/queue.c
 // sources: specs/model/lateness.c specs/model/admission_queue.c specs/model/queue.c
 // replaces: keel_admission_admit
-// defines: -DKEEL_QUEUE_CAPACITY=4u
+// defines: -DKEEL_QUEUE_CAPACITY=3u
 // covers: keel_scheduler_lateness add_up bound_realtime bound_other may_promote
 // covers: model_scheduler_lateness
 //
-// Any arguments, at any stage. Bounded to a capacity of 4 tasks, with which the solver comes to an
-// end in seconds; the contract under WP has no bound and determines every field. Whether a task is
-// admitted is an unknown, the same for the code and for the model; the demand and the longest other
-// budget are what ADM-002 makes of them.
+// Any arguments; of the state nothing but the queue and the guard is looked at. Bounded to a
+// capacity of 3 tasks and to times up to 2^12 us; the contract under WP has no bound and determines
+// every field. Whether a task is admitted is an unknown, the same for the code and for the model;
+// the demand and the longest other budget are what ADM-002 makes of them.
 #include "../../specs/model/admission.h"
 #include "../../specs/model/lateness.h"
 #include "../common/admission_contracts.h"
@@ -93,7 +93,9 @@ void keel_scheduler_lateness_harness(void)
     keel_status_t modelled;
     keel_status_t status;
 
-    any_scheduler(&scheduler, any_below(CAPACITY + 1u));
+    any_queue(&scheduler.queue, any_below(CAPACITY + 1u));
+    narrow_tasks(&scheduler.queue, 12u);
+    scheduler.config.guard_us = any_bits(12u);
     any_verdicts();
     before = scheduler;
     modelled = model_scheduler_lateness(given ? &before : NULL, task, wanted ? &expected : NULL);

@@ -23,6 +23,8 @@ static bool may_promote(const keel_scheduler_t *scheduler)
   @ ensures totals: \result == KEEL_OK ==>
   @     totals->realtime_demand_us == realtime_demand(&scheduler->queue, scheduler->queue.count) &&
   @     totals->longest_other_us == longest_other(&scheduler->queue, scheduler->queue.count);
+  @ ensures admitted: \result == KEEL_OK ==>
+  @     demand_admitted(&scheduler->queue, scheduler->config.guard_us);
   @ ensures offender: \result != KEEL_OK ==> totals->tasks < scheduler->queue.count &&
   @     scheduler_holds_of(scheduler, totals->tasks) &&
   @     scheduler_refused(scheduler, totals->tasks + 1, \result);

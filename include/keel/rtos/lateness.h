@@ -113,6 +113,8 @@ typedef struct keel_lateness {
   @   assumes scheduler != \null && task != \null && lateness != \null;
   @   assumes is_realtime(scheduler, task) && scheduler_holds(scheduler);
   @   ensures ok: \result == KEEL_OK;
+  @   ensures LAT_001_admitted:
+  @       \old(demand_admitted(&scheduler->queue, scheduler->config.guard_us));
   @   ensures LAT_001_unpromoted: \forall integer i; \old(is_at(scheduler, i, task)) ==>
   @       lateness->unpromoted_us == \old(unpromoted_at(scheduler, i));
   @   ensures LAT_001_never: \old(never_promotes(scheduler)) ==>
