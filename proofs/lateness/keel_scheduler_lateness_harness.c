@@ -4,7 +4,7 @@
 // sources: specs/model/lateness.c specs/model/admission_queue.c specs/model/queue.c
 // replaces: keel_admission_admit
 // defines: -DKEEL_QUEUE_CAPACITY=3u
-// covers: keel_scheduler_lateness add_up bound_realtime bound_other may_promote
+// covers: keel_scheduler_lateness admitted_totals bound_realtime bound_other may_promote
 // covers: model_scheduler_lateness
 //
 // Any arguments; of the state nothing but the queue and the guard is looked at. Bounded to a

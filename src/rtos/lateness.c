@@ -29,7 +29,7 @@ static bool may_promote(const keel_scheduler_t *scheduler)
   @     scheduler_holds_of(scheduler, totals->tasks) &&
   @     scheduler_refused(scheduler, totals->tasks + 1, \result);
   @*/
-static keel_status_t add_up(const keel_scheduler_t *scheduler, keel_admission_t *totals)
+static keel_status_t admitted_totals(const keel_scheduler_t *scheduler, keel_admission_t *totals)
 {
     keel_status_t status;
 
@@ -141,7 +141,7 @@ keel_status_t keel_scheduler_lateness(const keel_scheduler_t *scheduler,
     /*@ assert realtime: position < scheduler->queue.realtime_count ==>
       @     is_realtime(scheduler, task);
       @*/
-    status = add_up(scheduler, &totals);
+    status = admitted_totals(scheduler, &totals);
     if (status != KEEL_OK) {
         return status;
     }
