@@ -21,6 +21,7 @@
  * Exit status: 0, or 1 for an order that is not understood.
  */
 #include "bsp/host/host_board.h"
+#include "keel/rtos/lateness.h"
 #include "keel/rtos/load.h"
 #include "keel/rtos/spread.h"
 #include "rivals.h"
@@ -58,6 +59,8 @@ typedef struct actor {
     uint64_t first_ns, last_ns; /* Starts. */
     uint64_t longest_gap_ns;    /* Between two starts. */
     uint64_t worst_ns;          /* Response. */
+    keel_lateness_t told;       /* By the kernel, before the start. */
+    bool admitted;              /* It told anything. */
     double squares;             /* Of the deviations of its first periods. */
     uint64_t deviations;        /* How many periods these are. */
 } actor_t;
@@ -256,7 +259,11 @@ static keel_status_t set_up(experiment_t *e)
         status = keel_scheduler_spread(e->scheduler, &crowded);
     }
     for (uint32_t i = 0u; (i < e->actors) && (status == KEEL_OK); i++) {
-        e->actor[i].due_us = report_of(&e->actor[i]).release_us;
+        actor_t *const actor = &e->actor[i];
+
+        actor->due_us = report_of(actor).release_us;
+        actor->admitted = keel_scheduler_lateness(e->scheduler, &actor->config, &actor->told) ==
+                          KEEL_OK;
     }
     return (status == KEEL_OK) ? keel_scheduler_start(e->scheduler) : status;
 }
@@ -308,13 +315,23 @@ static keel_status_t run(experiment_t *e)
 
 /* --- What happened --- */
 
+static void print_told(const actor_t *actor)
+{
+    (void)printf("\"admitted\": %s, \"told_us\": %" PRIu64 ", \"told_unpromoted_us\": %" PRIu64
+                 ", \"told_promotes\": %s, \"told_skips\": %s, ",
+                 actor->admitted ? "true" : "false", actor->told.late_us, actor->told.unpromoted_us,
+                 actor->told.promotes ? "true" : "false", actor->told.skips ? "true" : "false");
+}
+
 static void print_actor(const actor_t *actor)
 {
     const keel_task_report_t report = report_of(actor);
     const double count = (actor->deviations > 0u) ? (double)actor->deviations : 1.0;
     const uint64_t whole_ns = actor->last_ns - actor->first_ns;
 
-    (void)printf("{\"runs\": %" PRIu64 ", \"samples\": %" PRIu64 ", \"sigma\": %.6f, "
+    (void)fputs("{", stdout);
+    print_told(actor);
+    (void)printf("\"runs\": %" PRIu64 ", \"samples\": %" PRIu64 ", \"sigma\": %.6f, "
                  "\"mean\": %.6f, \"worst\": %" PRIu64 ", \"late\": %" PRIu64 ", ",
                  actor->runs, actor->deviations, sqrt(actor->squares / count),
                  (actor->runs > 1u) ? ((double)whole_ns / (double)(actor->runs - 1u)) : 0.0,

@@ -54,7 +54,7 @@ FLIES = (
     Box("Keel: middleware", "range   oversample   voter   virtual_imu   crc\n"
         "ms5611   power_module   framing   sbus   crsf   ibus   ppm   ubx   mavlink   log_ring\n"
         "signing   ulog", BLUE),
-    Box("Keel: rtos", "scheduler   pass   spread   admission   decision\n"
+    Box("Keel: rtos", "scheduler   pass   spread   lateness   admission   decision\n"
         "queue   task   stats   load   deviation   priority   clock", BLUE),
     Box("your board", "a microsecond counter; drivers for two boards are here", GREY),
 )  # fmt: skip

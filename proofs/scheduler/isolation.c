@@ -10,6 +10,9 @@
  *   - ISO-002: whatever is promoted, it starts at most C, 2 W and L after its release, if no other
  *     task runs longer than L and W. Where its period holds all of that, its own budget does not
  *     count, and none of its periods is skipped.
+ *   - ISO-003: before the start keel_scheduler_lateness is asked for each real-time task. No start
+ *     is later than what it tells, and no period is skipped where it tells so. Where it tells that
+ *     nothing is promoted, nothing is, and ISO-001 holds for ever.
  *
  * The function `isolation` is the life of a scheduler: it is started, and then begin, next and
  * finish are called for as long as one likes, each where the scheduler's stage asks for it, as
@@ -33,6 +36,7 @@
  * invariant of the loop in `isolation` (stage_kept); a function for each stage shows that one call
  * of the kernel keeps it.
  */
+#include "keel/rtos/lateness.h"
 #include "keel/rtos/scheduler.h"
 
 #include <stdbool.h>
@@ -57,6 +61,8 @@ typedef struct {
     int64_t own[KEEL_QUEUE_CAPACITY];      /**< By slot: what its own run may add to it. */
     int64_t all_us;                        /**< The sum of all real-time budgets. */
     int64_t other_us; /**< What another task's run may add to the lateness of any. */
+    int64_t bound_us[KEEL_QUEUE_CAPACITY]; /**< By slot: how late it starts at the latest. */
+    int64_t steady[KEEL_QUEUE_CAPACITY];   /**< By slot: 1 if none of its periods is skipped. */
 } account_t;
 
 /*@ // Who has missed no period goes on by one.
@@ -87,6 +93,19 @@ typedef struct {
   @
   @ predicate none_counted(keel_scheduler_t *s, account_t *a) =
   @     \forall integer j; 0 <= j < s->queue.realtime_count ==> a->own[s->queue.order[j]] == 0;
+  @
+  @ // The bounds, whoever told them.
+  @ predicate bounded(keel_scheduler_t *s, account_t *a) =
+  @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
+  @         a->bound_us[s->queue.order[j]] ==
+  @             turn(s, a) - s->queue.budget_us[s->queue.order[j]] + a->own[s->queue.order[j]];
+  @
+  @ predicate steadied(keel_scheduler_t *s, account_t *a) =
+  @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
+  @         a->steady[s->queue.order[j]] != 0 ==> a->own[s->queue.order[j]] == 0;
+  @
+  @ predicate still_never{L, M}(keel_scheduler_t *s) =
+  @     \at(never_promotes(s), L) ==> \at(never_promotes(s), M);
   @
   @ predicate all_counted(keel_scheduler_t *s, account_t *a) =
   @     a->sum[s->queue.realtime_count] <= a->all_us;
@@ -160,6 +179,8 @@ typedef struct {
     requires own : own_counted(s, a);                                                              \
     requires least : own_least(s, a);                                                              \
     requires all : all_counted(s, a);                                                              \
+    requires bounded : bounded(s, a);                                                              \
+    requires steady : steadied(s, a);                                                              \
     requires more : 0 <= (a)->other_us;
 
 /* ... and keeps. */
@@ -172,7 +193,10 @@ typedef struct {
     ensures summed : budgets_summed(s, a);                                                         \
     ensures own : own_counted(s, a);                                                               \
     ensures least : own_least(s, a);                                                               \
-    ensures all : all_counted(s, a);
+    ensures all : all_counted(s, a);                                                               \
+    ensures bounded : bounded(s, a);                                                               \
+    ensures steady : steadied(s, a);                                                               \
+    ensures never : still_never{Pre, Post}(s);
 /* clang-format on */
 
 /* Adds up the real-time budgets. */
@@ -244,6 +268,154 @@ static void count_own(const keel_scheduler_t *s, account_t *a)
     }
 }
 
+/* The longest budget of a task that is not real-time. */
+/*@ requires memory: \valid_read(s) && scheduler_valid(s);
+  @ assigns \nothing;
+  @ ensures longest: \result == longest_other(&s->queue, s->queue.count);
+  @*/
+static uint32_t longest_budget(const keel_scheduler_t *s)
+{
+    uint32_t longest_us = 0u;
+
+    /*@ loop invariant range: 0 <= i <= s->queue.count;
+      @ loop invariant longest: longest_us == longest_other(&s->queue, i);
+      @ loop assigns i, longest_us;
+      @ loop variant s->queue.count - i;
+      @*/
+    for (uint32_t i = 0u; i < s->queue.count; i++) {
+        const uint32_t slot = s->queue.order[i];
+
+        if ((i >= s->queue.realtime_count) && (longest_us < s->queue.budget_us[slot])) {
+            longest_us = s->queue.budget_us[slot];
+        }
+        //@ assert next: longest_other(&s->queue, i + 1) == longest_us;
+    }
+    return longest_us;
+}
+
+/* Whether any task may ever be promoted. */
+/*@ requires memory: \valid_read(s) && scheduler_valid(s);
+  @ assigns \nothing;
+  @ ensures promotes: \result == 0 <==> never_promotes(s);
+  @*/
+static bool may_promote(const keel_scheduler_t *s)
+{
+    return (!s->config.without_promotion) && (s->queue.realtime_count != s->queue.count);
+}
+
+/* clang-format off: the formatter does not know these clauses. */
+#define ASKED_ABOUT(s, a)                                                                          \
+    requires memory : \valid_read(s) && scheduler_valid(s);                                        \
+    requires room : \valid(a);                                                                     \
+    requires range : 0 <= (a)->all_us <= KEEL_QUEUE_CAPACITY *UINT32_MAX;                          \
+    requires demand : (a)->all_us == realtime_demand(&(s)->queue, (s)->queue.count);               \
+    requires own : own_counted(s, a);                                                              \
+    requires other : (a)->other_us == (promoting ? (s)->config.guard_us + longest_us : 0);
+/* clang-format on */
+
+/* How late the real-time task at a position starts at the latest. The kernel tells it: as long as
+ * nothing is promoted, in every case; else where tasks may be promoted, and L is the longest other
+ * budget. For other L it is calculated. */
+/*@ ASKED_ABOUT(s, a)
+  @ requires position: j < s->queue.realtime_count;
+  @ assigns a->bound_us[s->queue.order[j]], a->steady[s->queue.order[j]];
+  @ ensures bounded: \result == KEEL_OK ==> a->bound_us[s->queue.order[j]] ==
+  @     turn(s, a) - s->queue.budget_us[s->queue.order[j]] + a->own[s->queue.order[j]];
+  @ ensures steady: \result == KEEL_OK ==>
+  @     a->steady[s->queue.order[j]] != 0 ==> a->own[s->queue.order[j]] == 0;
+  @ ensures refused: \result != KEEL_OK ==> !scheduler_holds(s);
+  @*/
+static keel_status_t ask(const keel_scheduler_t *s, account_t *a, bool promoting,
+                         uint32_t longest_us, uint32_t j)
+{
+    const uint32_t slot = s->queue.order[j];
+    const int64_t own_us = a->own[slot];
+    const int64_t bound_us = (a->all_us + (int64_t)s->config.guard_us + a->other_us + own_us) -
+                             (int64_t)s->queue.budget_us[slot];
+    const bool told = promoting && may_promote(s) && (longest_us == longest_budget(s));
+    keel_lateness_t lateness;
+    keel_status_t status;
+
+    //@ assert at: is_at(s, j, s->queue.task[slot]);
+    //@ assert realtime: is_realtime(s, s->queue.task[slot]);
+    status = keel_scheduler_lateness(s, s->queue.task[slot], &lateness);
+    if (status != KEEL_OK) {
+        return status;
+    }
+    //@ assert ISO_003_promotes: lateness.promotes == 0 <==> never_promotes(s);
+    //@ assert ISO_003_same: lateness.promotes == 0 ==> lateness.late_us == lateness.unpromoted_us;
+    //@ assert ISO_003_unpromoted: !promoting ==> lateness.unpromoted_us == bound_us;
+    //@ assert ISO_003_late: told ==> lateness.late_us == bound_us;
+    //@ assert ISO_003_skips: told ==> lateness.skips == 0 ==> own_us == 0;
+    if (told) {
+        a->bound_us[slot] = (int64_t)lateness.late_us;
+        a->steady[slot] = lateness.skips ? 0 : 1;
+    } else {
+        a->bound_us[slot] = promoting ? bound_us : (int64_t)lateness.unpromoted_us;
+        a->steady[slot] = (own_us == 0) ? 1 : 0;
+    }
+    return KEEL_OK;
+}
+
+/* The same of each of them. */
+/*@ ASKED_ABOUT(s, a)
+  @ assigns a->bound_us[0 .. KEEL_QUEUE_CAPACITY - 1], a->steady[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ ensures own: \result == KEEL_OK ==> own_counted(s, a);
+  @ ensures bounded: \result == KEEL_OK ==> bounded(s, a);
+  @ ensures steady: \result == KEEL_OK ==> steadied(s, a);
+  @ ensures refused: \result != KEEL_OK ==> !scheduler_holds(s);
+  @*/
+static keel_status_t ask_all(const keel_scheduler_t *s, account_t *a, bool promoting,
+                             uint32_t longest_us)
+{
+    const uint32_t n = s->queue.realtime_count;
+
+    /*@ loop invariant range: 0 <= j <= n;
+      @ loop invariant own: own_counted(s, a);
+      @ loop invariant bounded: \forall integer i; 0 <= i < j ==>
+      @     a->bound_us[s->queue.order[i]] ==
+      @         turn(s, a) - s->queue.budget_us[s->queue.order[i]] + a->own[s->queue.order[i]];
+      @ loop invariant steady: \forall integer i; 0 <= i < j ==>
+      @     a->steady[s->queue.order[i]] != 0 ==> a->own[s->queue.order[i]] == 0;
+      @ loop assigns j, a->bound_us[0 .. KEEL_QUEUE_CAPACITY - 1],
+      @     a->steady[0 .. KEEL_QUEUE_CAPACITY - 1];
+      @ loop variant n - j;
+      @*/
+    for (uint32_t j = 0u; j < n; j++) {
+        const keel_status_t status = ask(s, a, promoting, longest_us, j);
+
+        if (status != KEEL_OK) {
+            return status;
+        }
+    }
+    return KEEL_OK;
+}
+
+/* All that the bounds are made of. */
+/*@ requires memory: \valid_read(s) && scheduler_valid(s);
+  @ requires room: \valid(a);
+  @ assigns *a;
+  @ ensures summed: budgets_summed(s, a);
+  @ ensures rise: a->sum[0] == 0 && sums_rise(a, s->queue.realtime_count);
+  @ ensures own: \result == KEEL_OK ==> own_counted(s, a);
+  @ ensures least: own_least(s, a);
+  @ ensures all: a->all_us == a->sum[s->queue.realtime_count];
+  @ ensures demand: a->all_us == realtime_demand(&s->queue, s->queue.count);
+  @ ensures other: a->other_us == (promoting ? s->config.guard_us + longest_us : 0);
+  @ ensures bounded: \result == KEEL_OK ==> bounded(s, a);
+  @ ensures steady: \result == KEEL_OK ==> steadied(s, a);
+  @ ensures refused: \result != KEEL_OK ==> !scheduler_holds(s);
+  @*/
+static keel_status_t prepare(const keel_scheduler_t *s, account_t *a, bool promoting,
+                             uint32_t longest_us)
+{
+    a->other_us = promoting ? ((int64_t)s->config.guard_us + (int64_t)longest_us) : 0;
+    add_up(s, a);
+    a->all_us = a->sum[s->queue.realtime_count];
+    count_own(s, a);
+    return ask_all(s, a, promoting, longest_us);
+}
+
 /* Starts the scheduler: from then on what is asked for below holds. */
 /*@ requires memory: \valid(s) && scheduler_valid(s) && setup_unmoved(s);
   @ requires clock: clock_modelled(s);
@@ -253,6 +425,8 @@ static void count_own(const keel_scheduler_t *s, account_t *a)
   @ requires own: own_counted(s, a);
   @ requires least: own_least(s, a);
   @ requires all: all_counted(s, a);
+  @ requires bounded: bounded(s, a);
+  @ requires steady: steadied(s, a);
   @ requires more: 0 <= a->other_us;
   @ requires demand: a->sum[s->queue.realtime_count] ==
   @     realtime_demand(&s->queue, s->queue.count);
@@ -262,6 +436,9 @@ static void count_own(const keel_scheduler_t *s, account_t *a)
   @ ensures busy: s->busy_us <= s->clock.now_us;
   @ ensures summed: budgets_summed(s, a);
   @ ensures own: own_counted(s, a);
+  @ ensures bounded: bounded(s, a);
+  @ ensures steady: steadied(s, a);
+  @ ensures never: still_never{Pre, Post}(s);
   @ ensures guard: s->config.guard_us == \old(s->config.guard_us);
   @ ensures hold: \result == KEEL_OK ==>
   @     \forall integer j; 0 <= j < s->queue.realtime_count ==>
@@ -672,6 +849,16 @@ static uint64_t serve(keel_scheduler_t *s, const account_t *a, bool promoting, u
       @     s->queue.skipped[s->queue.order[s->running]] ==
       @         \at(s->queue.skipped[s->queue.order[\at(s->running, Here)]], Pre);
       @*/
+    /*@ assert ISO_003: s->stage == KEEL_STAGE_REALTIME ==>
+      @     s->clock.now_us -
+      @         \at(s->queue.release_us[s->queue.order[\at(s->running, Here)]], Pre) <=
+      @     a->bound_us[s->queue.order[s->running]];
+      @*/
+    /*@ assert ISO_003_unskipped: s->stage == KEEL_STAGE_REALTIME ==>
+      @     a->steady[s->queue.order[s->running]] != 0 ==>
+      @     s->queue.skipped[s->queue.order[s->running]] ==
+      @         \at(s->queue.skipped[s->queue.order[\at(s->running, Here)]], Pre);
+      @*/
     if (s->stage != KEEL_STAGE_READY) {
         run_us = longest_run(s, promoting, longest_us);
     }
@@ -720,12 +907,14 @@ static uint64_t move_on(keel_scheduler_t *s, const account_t *a, bool promoting,
 void isolation(keel_scheduler_t *s, bool promoting, uint32_t longest_us, uint64_t moves)
 {
     account_t a;
+    bool promotes;
     uint64_t run_us = 0u;
 
-    a.other_us = promoting ? ((int64_t)s->config.guard_us + (int64_t)longest_us) : 0;
-    add_up(s, &a);
-    a.all_us = a.sum[s->queue.realtime_count];
-    count_own(s, &a);
+    if (prepare(s, &a, promoting, longest_us) != KEEL_OK) {
+        //@ assert refused: !scheduler_holds(s);
+        return;
+    }
+    promotes = may_promote(s);
     if (start(s, &a) != KEEL_OK) {
         return;
     }
@@ -739,6 +928,9 @@ void isolation(keel_scheduler_t *s, bool promoting, uint32_t longest_us, uint64_
       @ loop invariant least: own_least(s, &a);
       @ loop invariant all: all_counted(s, &a);
       @ loop invariant none: !promoting ==> none_counted(s, &a);
+      @ loop invariant bounded: bounded(s, &a);
+      @ loop invariant steady: steadied(s, &a);
+      @ loop invariant never: promotes == 0 ==> never_promotes(s);
       @ loop invariant sum: a.all_us == a.sum[s->queue.realtime_count];
       @ loop invariant more: a.other_us == (promoting ? s->config.guard_us + longest_us : 0);
       @ loop invariant kept: stage_kept(s, &a, run_us);
@@ -752,6 +944,7 @@ void isolation(keel_scheduler_t *s, bool promoting, uint32_t longest_us, uint64_
             return;
         }
         ends = !promoting && (s->stage == KEEL_STAGE_PASS) && is_promotion_due(s);
+        //@ assert ISO_003_never: promotes == 0 ==> !ends;
         run_us = move_on(s, &a, promoting, longest_us, run_us);
         if (ends && (s->stage == KEEL_STAGE_OTHER)) {
             return;

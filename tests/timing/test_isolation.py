@@ -140,6 +140,71 @@ def test_a_scheduler_without_promotion_keeps_the_stronger_bound() -> None:
     assert what_follows.endswith("they may miss deadlines")
 
 
+# --- What the kernel tells ----------------------------------------------------------------------
+
+
+def told(result: Result, name: str) -> tuple[int, int, bool, bool]:
+    """What the kernel told of a task before the start."""
+    task = result.tasks[name]
+    assert task.admitted
+    return task.told_us, task.told_unpromoted_us, task.told_promotes, task.told_skips
+
+
+def test_the_kernel_tells_the_same_of_two_tasks_beside_a_long_one(program: Path) -> None:
+    """By hand: 50 + 20, and 2 x 50 + 2 x 20 + 700 less the own 50."""
+    result = simulated(program, parse(BESIDE), 1000)
+    assert [told(result, name) for name in ("First", "Second")] == [(790, 70, True, False)] * 2
+    result = simulated(program, parse(UNPROMOTING), 1000)
+    assert [told(result, name) for name in ("First", "Second")] == [(70, 70, False, False)] * 2
+
+
+def agrees(tasks: TaskSet, result: Result) -> str:
+    """Compares what the kernel tells with the analyser's bounds. Returns the theorem that the
+    kernel's number is of. The analyser may know more: that all others respond in time."""
+    found = isolation_of(tasks)
+    promotes = bool(tasks.others) and not tasks.costs.without_promotion
+    for row in found.starts:
+        late, unpromoted, promoted, skips = told(result, row.name)
+        assert (unpromoted, promoted) == (row.unpromoted, promotes), (tasks, row)
+        assert late == (row.whatever if promotes else row.unpromoted), (tasks, row)
+        assert skips == (promotes and row.skipping), (tasks, row)
+        assert row.bound is None or row.bound <= late, (tasks, row)
+        assert row.bound == late or found.theorem != WHATEVER, (tasks, row)
+    return WHATEVER if promotes else UNPROMOTED
+
+
+def drawn(number: int) -> TaskSet:
+    """A crowded set, in every third case without promotion, in every third without other tasks."""
+    tasks = crowded(number)
+    if number % 3 == 0:
+        return replace(tasks, costs=tasks.costs.model_copy(update={"without_promotion": True}))
+    return tasks if number % 3 == 1 else replace(tasks, tasks=tuple(tasks.realtime))
+
+
+def test_the_kernel_tells_what_the_analyser_calculates_and_no_start_exceeds_it(
+    program: Path,
+) -> None:
+    """One us more, as the board's clock reads whole ones. Three sorts of sets, each of which comes
+    near its bound."""
+    sets = [drawn(number) for number in range(SETS)]
+    orders = [Experiment(tasks, duration_us=60_000, turn_ns=500) for tasks in sets]
+    tight = {UNPROMOTED: 0.0, WHATEVER: 0.0}
+    compared = 0
+    for tasks, result in zip(sets, board.run_batch(program, orders, 120.0), strict=True):
+        theorem = agrees(tasks, result)
+        for task in tasks.realtime:
+            late = latest_start(tasks, result, task.name)
+            bound, _, promotes, skips = told(result, task.name)
+            seen = result.tasks[task.name]
+            assert late <= bound + 1, (tasks, task)
+            assert skips or not seen.skipped, (tasks, task)
+            compared += 1
+            tight[theorem] = max(tight[theorem], late / bound)
+        assert promotes or not any(task.promotions for task in result.tasks.values())
+    print(f"{compared} compared, at most {tight} of the bound")
+    assert min(tight.values()) > 0.8
+
+
 # --- Which theorem, and how much ----------------------------------------------------------------
 
 

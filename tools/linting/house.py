@@ -93,7 +93,7 @@ def check_guard(text: Text) -> Iterator[Finding]:
 LAYERS = ("rtos", "middleware", "flight")
 RTOS_UNITS = (
     ("clock", "priority", "stats", "load", "deviation"), ("task",), ("queue",),
-    ("admission", "decision"), ("scheduler_state",), ("pass", "spread"), ("scheduler",)
+    ("admission", "decision"), ("scheduler_state",), ("pass", "spread", "lateness"), ("scheduler",)
 )  # fmt: skip
 RTOS_RANK = {name: rank for rank, names in enumerate(RTOS_UNITS) for name in names}
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')

@@ -73,8 +73,14 @@ class Experiment:
 
 @dataclass(frozen=True)
 class TaskOutcome:
-    """What a task did; times in us."""
+    """What a task did; times in us. What the kernel told of it before the start counts if the set
+    was admitted."""
 
+    admitted: bool
+    told_us: int
+    told_unpromoted_us: int
+    told_promotes: bool
+    told_skips: bool
     runs: int
     samples: int
     sigma: float

@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file lateness.h
+ * @brief How late a real-time task starts at the latest, by the isolation theorems.
+ *
+ * The lateness of a start is the time since the task's release. Its bound is also one of the
+ * release jitter that schedulability tests ask for.
+ *
+ *     keel_scheduler_add(&s, &gyro);                    for every task
+ *     keel_scheduler_lateness(&s, &gyro, &lateness);    before the start, or at any time
+ *
+ * The numbers are those of the theorems, with the budgets as they were declared: they hold while
+ * each budget is kept, the clock is read within the guard, and no task is added or removed
+ * (specs/soundness.md, Isolation).
+ */
+#ifndef KEEL_RTOS_LATENESS_H
+#define KEEL_RTOS_LATENESS_H
+
+#include "keel/c_declarations.h"
+#include "keel/rtos/admission.h"
+#include "keel/rtos/decision.h"
+#include "keel/rtos/scheduler_state.h"
+#include "keel/rtos/task.h"
+#include "keel/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+KEEL_C_BEGIN
+
+/**
+ * The bounds of a task's starts. KEEL_TIME_NEVER_US stands for no bound: only real-time tasks have
+ * one.
+ */
+typedef struct keel_lateness {
+    uint64_t late_us;       /**< It starts at most so long after its release, in us. */
+    uint64_t unpromoted_us; /**< The same, as long as no task is promoted, in us. */
+    bool promotes;          /**< Whether one may ever be; if not, both bounds are the same. */
+    bool skips;             /**< Whether whole periods of the task may be skipped. */
+} keel_lateness_t;
+
+/*@ // The bounds of the isolation theorems. ISO-001: all other real-time budgets and W.
+  @ logic integer late_unpromoted(integer all_us, integer own_us, integer guard_us) =
+  @     all_us - own_us + guard_us;
+  @
+  @ // All that can pass between two looks at a real-time task where tasks are promoted.
+  @ logic integer late_turn(integer all_us, integer guard_us, integer longest_us) =
+  @     all_us + 2 * guard_us + longest_us;
+  @
+  @ // ISO-002: all of that, less its own budget where its period holds it.
+  @ logic integer late_whatever(integer all_us, integer own_us, integer period_us,
+  @                             integer guard_us, integer longest_us) =
+  @     (late_turn(all_us, guard_us, longest_us) <= period_us)
+  @         ? late_turn(all_us, guard_us, longest_us) - own_us
+  @         : late_turn(all_us, guard_us, longest_us);
+  @
+  @ // Nothing is ever promoted: the scheduler is configured so, or there is nothing to promote.
+  @ predicate never_promotes(keel_scheduler_t *s) =
+  @     s->config.without_promotion != 0 || s->queue.realtime_count == s->queue.count;
+  @
+  @ // A task's position is that of a real-time one.
+  @ predicate is_realtime(keel_scheduler_t *s, keel_task_config_t *task) =
+  @     \exists integer i; 0 <= i < s->queue.realtime_count && is_at(s, i, task);
+  @
+  @ // Both bounds of the task at position i.
+  @ logic integer unpromoted_at(keel_scheduler_t *s, integer i) =
+  @     late_unpromoted(realtime_demand(&s->queue, s->queue.count),
+  @                     s->queue.budget_us[s->queue.order[i]], s->config.guard_us);
+  @
+  @ logic integer whatever_at(keel_scheduler_t *s, integer i) =
+  @     late_whatever(realtime_demand(&s->queue, s->queue.count),
+  @                   s->queue.budget_us[s->queue.order[i]],
+  @                   s->queue.period_us[s->queue.order[i]], s->config.guard_us,
+  @                   longest_other(&s->queue, s->queue.count));
+  @
+  @ // All that can pass between two looks at it exceeds its period.
+  @ predicate too_short_at(keel_scheduler_t *s, integer i) =
+  @     s->queue.period_us[s->queue.order[i]] <
+  @         late_turn(realtime_demand(&s->queue, s->queue.count), s->config.guard_us,
+  @                   longest_other(&s->queue, s->queue.count));
+  @*/
+
+/**
+ * Tells how late a task starts at the latest (requirements LAT-001 and LAT-002). May be called at
+ * any time; what is told is of the tasks that are queued then.
+ *
+ * @param scheduler the scheduler
+ * @param task      the task; it is compared, never read
+ * @param lateness  receives the bounds; a refusal leaves it as it is
+ * @return KEEL_OK; KEEL_ERR_NULL; KEEL_ERR_UNKNOWN_TASK: it is not in the queue; what
+ *         keel_scheduler_check says of tasks that cannot be scheduled; in this order
+ */
+/*@ requires scheduler == \null || (\valid_read(scheduler) && scheduler_valid(scheduler));
+  @ requires lateness == \null || \valid(lateness);
+  @ requires scheduler != \null && lateness != \null ==> \separated(scheduler, lateness);
+  @ assigns *lateness;
+  @ behavior null:
+  @   assumes scheduler == \null || task == \null || lateness == \null;
+  @   assigns \nothing;
+  @   ensures LAT_003_null: \result == KEEL_ERR_NULL;
+  @ behavior unknown:
+  @   assumes scheduler != \null && task != \null && lateness != \null;
+  @   assumes !queue_holds(&scheduler->queue, task);
+  @   assigns \nothing;
+  @   ensures LAT_003_unknown: \result == KEEL_ERR_UNKNOWN_TASK;
+  @ behavior refused:
+  @   assumes scheduler != \null && task != \null && lateness != \null;
+  @   assumes queue_holds(&scheduler->queue, task) && !scheduler_holds(scheduler);
+  @   assigns \nothing;
+  @   ensures LAT_003_offender: \exists integer n; 0 <= n < scheduler->queue.count &&
+  @       scheduler_holds_of(scheduler, n) && scheduler_refused(scheduler, n + 1, \result);
+  @ behavior realtime:
+  @   assumes scheduler != \null && task != \null && lateness != \null;
+  @   assumes is_realtime(scheduler, task) && scheduler_holds(scheduler);
+  @   ensures ok: \result == KEEL_OK;
+  @   ensures LAT_001_admitted:
+  @       \old(demand_admitted(&scheduler->queue, scheduler->config.guard_us));
+  @   ensures LAT_001_unpromoted: \forall integer i; \old(is_at(scheduler, i, task)) ==>
+  @       lateness->unpromoted_us == \old(unpromoted_at(scheduler, i));
+  @   ensures LAT_001_never: \old(never_promotes(scheduler)) ==>
+  @       lateness->late_us == lateness->unpromoted_us;
+  @   ensures LAT_001_late: \forall integer i; \old(is_at(scheduler, i, task)) ==>
+  @       \old(!never_promotes(scheduler)) ==>
+  @       lateness->late_us == \old(whatever_at(scheduler, i));
+  @   ensures LAT_001_promotes: lateness->promotes != 0 <==> \old(!never_promotes(scheduler));
+  @   ensures LAT_001_skips: \forall integer i; \old(is_at(scheduler, i, task)) ==>
+  @       (lateness->skips != 0 <==>
+  @        \old(!never_promotes(scheduler) && too_short_at(scheduler, i)));
+  @ behavior other:
+  @   assumes scheduler != \null && task != \null && lateness != \null;
+  @   assumes queue_holds(&scheduler->queue, task) && !is_realtime(scheduler, task);
+  @   assumes scheduler_holds(scheduler);
+  @   ensures ok: \result == KEEL_OK;
+  @   ensures LAT_002_late: lateness->late_us == KEEL_TIME_NEVER_US;
+  @   ensures LAT_002_unpromoted: lateness->unpromoted_us == KEEL_TIME_NEVER_US;
+  @   ensures LAT_002_skips: lateness->skips != 0;
+  @   ensures LAT_002_promotes: lateness->promotes != 0 <==> \old(!never_promotes(scheduler));
+  @ complete behaviors;
+  @ disjoint behaviors;
+  @*/
+keel_status_t keel_scheduler_lateness(const keel_scheduler_t *scheduler,
+                                      const keel_task_config_t *task, keel_lateness_t *lateness);
+
+KEEL_C_END
+
+#endif
