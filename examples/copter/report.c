@@ -734,6 +734,17 @@ static bool file_transfer(copter_link_t *link, uint8_t *payload)
     return said;
 }
 
+static bool serial_control(const copter_t *copter, copter_link_t *link, uint8_t *payload)
+{
+    message_serial_control_t message;
+    const bool said = copter_shell_report(copter, &link->shell, &message);
+
+    if (said) {
+        message_serial_control_pack(&message, payload);
+    }
+    return said;
+}
+
 /* What a station shows, and what it asks for as it connects. */
 static bool stations(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
 {
@@ -760,6 +771,9 @@ static bool stations(const copter_t *copter, copter_link_t *link, uint32_t sent,
         break;
     case SENT_FILE_TRANSFER_PROTOCOL:
         said = file_transfer(link, payload);
+        break;
+    case SENT_SERIAL_CONTROL:
+        said = serial_control(copter, link, payload);
         break;
     default:
         said = copter_report_lists(link, sent, payload);
