@@ -13,11 +13,13 @@
  * is taken off: what is printed is the kernel's own, with the compiler's library that it calls.
  */
 #include "board.h"
+#include "common/task_table.h"
 #include "common/trace.h"
 #include "console.h"
 #include "copter.h"
 #include "desk.h"
 #include "keel/rtos/scheduler.h"
+#include "keel/rtos/spread.h"
 #include "urpilot_tasks.h"
 #include "workload.h"
 
@@ -559,6 +561,69 @@ static void bench_trace(void)
     print(&steps);
 }
 
+/* What a run costs whose lateness is counted. */
+static void counted_run(keel_trace_t *trace, const keel_scheduler_t *of, keel_task_table_t *table)
+{
+    keel_trace_begin(trace, of);
+    keel_task_table_add(table, &trace->run);
+}
+
+static const keel_task_table_t *table_of; /* The table whose line is made. */
+
+static void table_line(const keel_scheduler_t *of, char *line)
+{
+    (void)keel_task_table_line(table_of, of, 2u, line);
+}
+
+/* A line of the table of tasks, and before it the run that it tells of. */
+static void bench_table(void)
+{
+    static keel_scheduler_t counted KEEL_REALTIME_ZERO;
+    static keel_trace_t trace KEEL_REALTIME_ZERO;
+    static keel_task_table_t table KEEL_REALTIME_ZERO;
+    const keel_task_config_t task = {.name = "Background IMU",
+                                     .run = bench_body,
+                                     .period_us = POLL_US,
+                                     .budget_us = 1u,
+                                     .priority = KEEL_PRIORITY_REALTIME};
+    char line[KEEL_TASK_TABLE_LINE];
+    kind_t runs = {"lateness", 0u, 0u, 0u};
+    kind_t lines = {"table_line", 0u, 0u, 0u};
+
+    keel_queue_init(&counted.queue);
+    keel_queue_add(&counted.queue, &task, 0u);
+    for (uint32_t n = 0u; n < STEPS; n++) {
+        keel_queue_advance(&counted.queue, 0u, counted.clock.now_us);
+        add(&runs,
+            measure((function_t)counted_run, &trace, (uint32_t)&counted, (uint32_t)&table, false));
+        keel_stats_record(&counted.queue.stats[0], n, POLL_US);
+        counted.clock.now_us += POLL_US;
+        table_of = &table;
+        add(&lines, measure((function_t)table_line, &counted, (uint32_t)line, 0u, false));
+        require(line[0] == 'B');
+    }
+    require(table.late[0][0] == STEPS);
+    print(&runs);
+    print(&lines);
+}
+
+/* The 21 tasks of table 2, all released together until then. */
+static void bench_spread(void)
+{
+    static keel_scheduler_t spread KEEL_REALTIME_ZERO;
+    const keel_scheduler_config_t settings = urpilot_scheduler_config(bench_clock, &virtual_clock);
+    uint32_t crowded = UINT32_MAX;
+    kind_t once = {"spread", 0u, 0u, 0u};
+
+    require(keel_scheduler_init(&spread, &settings) == KEEL_OK);
+    for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
+        require(keel_scheduler_add(&spread, &config[i]) == KEEL_OK);
+    }
+    add(&once, measure((function_t)keel_scheduler_spread, &spread, (uint32_t)&crowded, 0u, true));
+    require(crowded == 0u);
+    print(&once);
+}
+
 static uint32_t read_mavlink(keel_mavlink_t *mavlink, uint32_t byte)
 {
     (void)keel_mavlink_take(mavlink, (uint8_t)byte);
@@ -787,6 +852,8 @@ int main(void)
     bench_log_ring();
     bench_ulog();
     bench_trace();
+    bench_table();
+    bench_spread();
     bench_mavlink();
     bench_signing();
     bench_crsf();

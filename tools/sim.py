@@ -6,9 +6,10 @@
 
 It stands on the ground, its pilot's sticks low and his arm switch off. A ground station arms it;
 the pilot then climbs to 5 m and lets go of the sticks. With --scenario he arms and flies that
-instead. Each --address is a link of its own, at most three. The flight's log is build/sim/sim.ulg;
-with --trace it has each run of each task, and at the end stands beside its two files of
-`make schedule`.
+instead. Each --address is a link of its own, at most three. A line that is typed is a command for
+the copter's console: "tasks" shows how each task has run, "help" what else there is. The flight's
+log is build/sim/sim.ulg; with --trace it has each run of each task, and at the end stands beside
+its two files of `make schedule`.
 
 Exit status: 0 when it is interrupted, 1 when the aircraft crashes, 2 when it cannot be flown.
 """
@@ -108,7 +109,7 @@ def tell(addresses: Sequence[Address]) -> None:
         print(f"    mavproxy.py --master=udpin:{one}")
         print(f'    pymavlink   mavutil.mavlink_connection("udpin:{one}")')
         print(f'    mavsdk      "udpin://{one}"')
-    print("Ctrl-C ends it.", flush=True)
+    print('Type "tasks" to see how each task has run. Ctrl-C ends it.', flush=True)
 
 
 def show_trace(log: Path) -> None:

@@ -14,12 +14,14 @@
  * console tells every second how it goes. The watchdog is fed only while every real-time task meets
  * its releases. A refusal of the kernel ends as a fault does.
  *
- * Keys: p lets pulses of 1000 us out, o switches the outputs off, t prints a table of the tasks, r
+ * Keys: p lets pulses of 1000 us out, o switches the outputs off, t prints a table of the tasks (a
+ * line at a time, so that no release is late for it), r
  * records each run of them until a ring is full and then sends it, for `make schedule`; and, to see
  * what follows: u an undefined instruction, n a null pointer, s a stack that overflows, h a task
  * that hangs.
  */
 #include "board.h"
+#include "common/task_table.h"
 #include "common/trace.h"
 #include "common/trace_log.h"
 #include "console.h"
@@ -89,6 +91,16 @@ typedef struct tracing {
     bool sends;
     uint64_t next_us; /* When the next line may be sent. */
 } tracing_t;
+
+/* The table that is printed on request, and its next line. */
+typedef struct printing {
+    bool prints;
+    uint32_t line;
+    uint64_t next_us; /* When it may be printed. */
+} printing_t;
+
+static keel_task_table_t table KEEL_REALTIME_ZERO;
+static printing_t printing;
 
 static keel_trace_t trace KEEL_REALTIME_ZERO;
 static tracing_t tracing;
@@ -195,19 +207,18 @@ static void require(keel_status_t status, uint32_t code)
     }
 }
 
-/* The body of every task, so that each run can be recorded. */
+/* The body of every task, so that each run can be recorded, and its lateness is counted. */
 KEEL_REALTIME_CODE static void body(void *context)
 {
     const work_t *const own = context;
 
-    if (tracing.records) {
-        keel_trace_begin(&trace, &scheduler);
-    }
+    keel_trace_begin(&trace, &scheduler);
     own->body(own->wcet_us);
     if (tracing.records) {
         keel_trace_end(&trace, &scheduler);
         keel_trace_store(&trace, &trace_ring);
     }
+    keel_task_table_add(&table, &trace.run);
 }
 
 static void (*body_of(uint32_t i))(uint32_t length_us)
@@ -328,29 +339,31 @@ static void print_report(keel_load_t *window)
     keel_load_begin(window, scheduler.clock.now_us, scheduler.busy_us);
 }
 
-static void print_table(void)
+/* Between two steps: a line of the table, when those before it are out. */
+static void turn_table(void)
 {
-    for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
-        const keel_task_report_t report = report_of(i);
+    const uint64_t now_us = scheduler.clock.now_us;
+    char line[KEEL_TASK_TABLE_LINE];
+    uint32_t length;
 
-        keel_console_text("task ");
-        keel_console_text(declaration[i].name);
-        print_number(": period ", declaration[i].period_us);
-        print_number(" runs ", report.stats.runs);
-        print_number(" longest ", report.stats.longest_us);
-        print_number(" skipped ", report.skipped);
-        print_number(" overruns ", report.stats.overruns);
-        print_number(" promotions ", report.stats.promotions);
-        keel_console_text("\n");
+    if (!printing.prints || (now_us < printing.next_us)) {
+        return;
     }
-    print_number("stack used ", keel_stack_used_b());
-    keel_console_text(" bytes\n");
+    length = keel_task_table_line(&table, &scheduler, printing.line, line);
+    if (length > 0u) {
+        keel_console_text(line);
+        printing.line++;
+        printing.next_us = now_us + ((uint64_t)length * CHARACTER_US);
+    } else {
+        print_number("stack used ", keel_stack_used_b());
+        keel_console_text(" bytes\n");
+        printing.prints = false;
+    }
 }
 
 static void start_trace(void)
 {
     if (!tracing.records && !tracing.sends) {
-        keel_trace_start(&trace, &scheduler);
         keel_log_ring_init(&trace_ring);
         keel_trace_log_start(&trace_log, &scheduler, &trace_ring);
         tracing.records = true;
@@ -432,7 +445,7 @@ static void obey(char key)
         outputs(false);
         break;
     case 't':
-        print_table();
+        printing = (printing_t){.prints = true};
         break;
     case 'r':
         start_trace();
@@ -513,6 +526,7 @@ int main(void)
         if (keel_chip_get(&key)) {
             obey(key);
         }
+        turn_table();
         turn_trace();
         keel_board_sleep_us(keel_scheduler_idle_us(&scheduler, KEEL_BOARD_WAKE_US,
                                                    KEEL_BOARD_SLEEP_US));

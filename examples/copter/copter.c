@@ -44,9 +44,7 @@ static void copter_body(void *context)
     copter_t *const copter = task->copter;
     const copter_port_t *const port = copter->port;
 
-    if (copter->log.traces) {
-        keel_trace_begin(&copter->log.trace, &copter->scheduler);
-    }
+    keel_trace_begin(&copter->log.trace, &copter->scheduler);
     task->body(copter);
     copter_log_sample(copter, task->row);
     port->end_run(port->context, task->row, task->wcet_us);
@@ -54,6 +52,7 @@ static void copter_body(void *context)
         keel_trace_end(&copter->log.trace, &copter->scheduler);
         copter_log_run(copter);
     }
+    keel_task_table_add(&copter->table, &copter->log.trace.run);
 }
 
 /* The first that is not KEEL_OK. */

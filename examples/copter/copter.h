@@ -24,6 +24,7 @@
 #ifndef COPTER_H
 #define COPTER_H
 
+#include "common/task_table.h"
 #include "keel/flight/altitude.h"
 #include "keel/flight/attitude.h"
 #include "keel/flight/battery.h"
@@ -274,8 +275,9 @@ struct copter {
     struct copter_telemetry *telemetry; /**< Null without. */
     keel_scheduler_t scheduler;
     copter_task_t task[COPTER_TASKS];
-    uint32_t tasks;  /**< How many of them there are. */
-    bool plain_mean; /**< The units' plain mean flies in place of their vote. */
+    uint32_t tasks;          /**< How many of them there are. */
+    keel_task_table_t table; /**< How late their runs started. */
+    bool plain_mean;         /**< The units' plain mean flies in place of their vote. */
 };
 
 /**

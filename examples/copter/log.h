@@ -68,7 +68,7 @@ typedef struct copter_log {
     uint32_t longest_us[COPTER_LOG_TASKS];
     uint16_t skipped[COPTER_LOG_TASKS];
     bool traces;                    /**< Each run of a task is logged. */
-    keel_trace_t trace;             /**< What is remembered for that. */
+    keel_trace_t trace;             /**< Of the run that began last, whether it is or not. */
     bool told[KEEL_QUEUE_CAPACITY]; /**< By slot: whether what its task declares is in the log. */
 } copter_log_t;
 

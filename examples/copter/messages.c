@@ -28,6 +28,7 @@ const keel_mavlink_message_t messages_sent[MESSAGES_SENT] = {
     {MESSAGE_SCALED_IMU2, 76u, 1u, MESSAGE_SCALED_IMU2_LENGTH},
     {MESSAGE_LOG_ENTRY, 56u, 1u, MESSAGE_LOG_ENTRY_LENGTH},
     {MESSAGE_LOG_DATA, 134u, 1u, MESSAGE_LOG_DATA_LENGTH},
+    {MESSAGE_SERIAL_CONTROL, 220u, 1u, MESSAGE_SERIAL_CONTROL_LENGTH},
     {MESSAGE_SCALED_IMU3, 46u, 1u, MESSAGE_SCALED_IMU3_LENGTH},
     {MESSAGE_ALTITUDE, 47u, 1u, MESSAGE_ALTITUDE_LENGTH},
     {MESSAGE_BATTERY_STATUS, 154u, 1u, MESSAGE_BATTERY_STATUS_LENGTH},
@@ -68,6 +69,7 @@ const keel_mavlink_message_t messages_taken[MESSAGES_TAKEN] = {
     {MESSAGE_LOG_REQUEST_LIST, 128u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
     {MESSAGE_LOG_REQUEST_DATA, 116u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
     {MESSAGE_LOG_ERASE, 237u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
+    {MESSAGE_SERIAL_CONTROL, 220u, 1u, KEEL_MAVLINK_PAYLOAD_MAX},
 };
 
 /* Numbers, the lowest byte first. */
@@ -464,6 +466,21 @@ void message_log_data_pack(const message_log_data_t *from, uint8_t payload[MESSA
     for (uint32_t i = 0u; i < 90u; i++) {
         put_u8(&payload[7u + (1u * i)], from->data[i]);
     }
+}
+
+void message_serial_control_pack(const message_serial_control_t *from,
+                                 uint8_t payload[MESSAGE_SERIAL_CONTROL_LENGTH])
+{
+    put_u32(&payload[0], from->baudrate);
+    put_u16(&payload[4], from->timeout);
+    put_u8(&payload[6], from->device);
+    put_u8(&payload[7], from->flags);
+    put_u8(&payload[8], from->count);
+    for (uint32_t i = 0u; i < 70u; i++) {
+        put_u8(&payload[9u + (1u * i)], from->data[i]);
+    }
+    put_u8(&payload[79], from->target_system);
+    put_u8(&payload[80], from->target_component);
 }
 
 void message_scaled_imu3_pack(const message_scaled_imu3_t *from,
@@ -903,4 +920,19 @@ void message_log_erase_unpack(message_log_erase_t *to,
 {
     to->target_system = get_u8(&payload[0]);
     to->target_component = get_u8(&payload[1]);
+}
+
+void message_serial_control_unpack(message_serial_control_t *to,
+                                   const uint8_t payload[MESSAGE_SERIAL_CONTROL_LENGTH])
+{
+    to->baudrate = get_u32(&payload[0]);
+    to->timeout = get_u16(&payload[4]);
+    to->device = get_u8(&payload[6]);
+    to->flags = get_u8(&payload[7]);
+    to->count = get_u8(&payload[8]);
+    for (uint32_t i = 0u; i < 70u; i++) {
+        to->data[i] = get_u8(&payload[9u + (1u * i)]);
+    }
+    to->target_system = get_u8(&payload[79]);
+    to->target_component = get_u8(&payload[80]);
 }

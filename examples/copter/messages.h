@@ -121,6 +121,9 @@
 #define FENCE_BREACH_MINALT                           1u
 #define FENCE_BREACH_MAXALT                           2u
 #define FENCE_BREACH_BOUNDARY                         3u
+#define SERIAL_CONTROL_DEV_SHELL                      10u
+#define SERIAL_CONTROL_FLAG_REPLY                     1u
+#define SERIAL_CONTROL_FLAG_RESPOND                   2u
 /** @} */
 
 /** @name Messages: their numbers, and bytes of all fields. */
@@ -207,6 +210,8 @@
 #define MESSAGE_LOG_DATA_LENGTH                     97u
 #define MESSAGE_LOG_ERASE                           121u
 #define MESSAGE_LOG_ERASE_LENGTH                    2u
+#define MESSAGE_SERIAL_CONTROL                      126u
+#define MESSAGE_SERIAL_CONTROL_LENGTH               81u
 #define MESSAGE_SCALED_IMU3                         129u
 #define MESSAGE_SCALED_IMU3_LENGTH                  24u
 #define MESSAGE_ALTITUDE                            141u
@@ -240,11 +245,11 @@
 /** @} */
 
 /** Messages that are sent. */
-#define MESSAGES_SENT 38u
+#define MESSAGES_SENT 39u
 extern const keel_mavlink_message_t messages_sent[MESSAGES_SENT];
 
 /** Messages that are taken, from senders who know more fields too. */
-#define MESSAGES_TAKEN 22u
+#define MESSAGES_TAKEN 23u
 extern const keel_mavlink_message_t messages_taken[MESSAGES_TAKEN];
 
 /** The places in messages_sent. */
@@ -272,6 +277,7 @@ typedef enum message_sent {
     SENT_SCALED_IMU2,
     SENT_LOG_ENTRY,
     SENT_LOG_DATA,
+    SENT_SERIAL_CONTROL,
     SENT_SCALED_IMU3,
     SENT_ALTITUDE,
     SENT_BATTERY_STATUS,
@@ -741,6 +747,18 @@ typedef struct message_log_erase {
     uint8_t target_component;
 } message_log_erase_t;
 
+/** SERIAL_CONTROL. */
+typedef struct message_serial_control {
+    uint32_t baudrate;
+    uint16_t timeout;
+    uint8_t device;
+    uint8_t flags;
+    uint8_t count;
+    uint8_t data[70];
+    uint8_t target_system;
+    uint8_t target_component;
+} message_serial_control_t;
+
 /** SCALED_IMU3. */
 typedef struct message_scaled_imu3 {
     uint32_t time_boot_ms;
@@ -948,6 +966,8 @@ void message_log_entry_pack(const message_log_entry_t *from,
                             uint8_t payload[MESSAGE_LOG_ENTRY_LENGTH]);
 void message_log_data_pack(const message_log_data_t *from,
                            uint8_t payload[MESSAGE_LOG_DATA_LENGTH]);
+void message_serial_control_pack(const message_serial_control_t *from,
+                                 uint8_t payload[MESSAGE_SERIAL_CONTROL_LENGTH]);
 void message_scaled_imu3_pack(const message_scaled_imu3_t *from,
                               uint8_t payload[MESSAGE_SCALED_IMU3_LENGTH]);
 void message_altitude_pack(const message_altitude_t *from,
@@ -1024,6 +1044,8 @@ void message_log_request_data_unpack(message_log_request_data_t *to,
                                      const uint8_t payload[MESSAGE_LOG_REQUEST_DATA_LENGTH]);
 void message_log_erase_unpack(message_log_erase_t *to,
                               const uint8_t payload[MESSAGE_LOG_ERASE_LENGTH]);
+void message_serial_control_unpack(message_serial_control_t *to,
+                                   const uint8_t payload[MESSAGE_SERIAL_CONTROL_LENGTH]);
 /** @} */
 
 #endif

@@ -751,6 +751,17 @@ static bool file_transfer(copter_link_t *link, uint8_t *payload)
     return said;
 }
 
+static bool serial_control(const copter_t *copter, copter_link_t *link, uint8_t *payload)
+{
+    message_serial_control_t message;
+    const bool said = copter_shell_report(copter, &link->shell, &message);
+
+    if (said) {
+        message_serial_control_pack(&message, payload);
+    }
+    return said;
+}
+
 /* Messages that a station shows, or asks for as it connects. */
 static bool stations(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
 {
@@ -777,6 +788,9 @@ static bool stations(const copter_t *copter, copter_link_t *link, uint32_t sent,
         break;
     case SENT_FILE_TRANSFER_PROTOCOL:
         said = file_transfer(link, payload);
+        break;
+    case SENT_SERIAL_CONTROL:
+        said = serial_control(copter, link, payload);
         break;
     default:
         said = copter_report_lists(link, sent, payload);

@@ -8,6 +8,7 @@
  *     PING, TIMESYNC                  answered
  *     missions, logs                  as lists.h says
  *     FILE_TRANSFER_PROTOCOL          as ftp.h says
+ *     SERIAL_CONTROL                  as shell.h says
  *
  * Arming, disarming and modes are asked of the state machine, as request.h says. It answers, and
  * what it refuses is answered with TEMPORARILY_REJECTED and a text for each thing that stands in
@@ -196,7 +197,8 @@ static bool is_answer(uint32_t sent)
     return (sent == SENT_PING) || (sent == SENT_PARAM_VALUE) || (sent == SENT_PARAM_ERROR) ||
            (sent == SENT_COMMAND_ACK) || (sent == SENT_TIMESYNC) || (sent == SENT_STATUSTEXT) ||
            (sent == SENT_MISSION_COUNT) || (sent == SENT_MISSION_ACK) || (sent == SENT_LOG_ENTRY) ||
-           (sent == SENT_LOG_DATA) || (sent == SENT_FILE_TRANSFER_PROTOCOL);
+           (sent == SENT_LOG_DATA) || (sent == SENT_FILE_TRANSFER_PROTOCOL) ||
+           (sent == SENT_SERIAL_CONTROL);
 }
 
 static uint32_t set_interval(copter_t *copter, const copter_command_t *command)
@@ -433,6 +435,18 @@ static void take_ftp(copter_t *copter, const keel_mavlink_frame_t *frame, uint32
     }
 }
 
+static void take_shell(copter_t *copter, const keel_mavlink_frame_t *frame, uint32_t link)
+{
+    copter_link_t *const to = &copter->telemetry->link[link];
+    message_serial_control_t message;
+
+    message_serial_control_unpack(&message, frame->payload);
+    if (copter_is_meant(to, message.target_system, message.target_component) &&
+        !copter_shell_take(&to->shell, &message, frame->system, frame->component)) {
+        to->dropped++;
+    }
+}
+
 void copter_take(copter_t *copter, uint32_t link)
 {
     const keel_mavlink_frame_t *const frame = &copter->telemetry->link[link].decoder.frame;
@@ -464,6 +478,9 @@ void copter_take(copter_t *copter, uint32_t link)
         break;
     case MESSAGE_FILE_TRANSFER_PROTOCOL:
         take_ftp(copter, frame, link);
+        break;
+    case MESSAGE_SERIAL_CONTROL:
+        take_shell(copter, frame, link);
         break;
     default:
         copter_take_lists(copter, link);

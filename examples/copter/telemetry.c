@@ -261,6 +261,9 @@ static void ask_for_queues(const copter_telemetry_t *self, copter_link_t *link)
     if (link->ftp.count > 0u) {
         copter_turns_ask(&link->turns, SENT_FILE_TRANSFER_PROTOCOL);
     }
+    if (copter_shell_waits(&link->shell)) {
+        copter_turns_ask(&link->turns, SENT_SERIAL_CONTROL);
+    }
 }
 
 /* Sends who is next, if the link has room for it. */

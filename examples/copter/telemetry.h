@@ -21,6 +21,7 @@
 #include "keel/middleware/signing.h"
 #include "lists.h"
 #include "messages.h"
+#include "shell.h"
 #include "turns.h"
 
 #include <stdbool.h>
@@ -98,6 +99,7 @@ typedef struct copter_link {
     uint32_t modes;                /**< Modes to be sent as AVAILABLE_MODES, a bit each. */
     copter_replies_t replies;      /**< Of lists.h, to be sent. */
     copter_ftp_t ftp;
+    copter_shell_t shell;
 } copter_link_t;
 
 /** A text for all links. */

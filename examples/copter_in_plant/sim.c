@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "sim.h"
 
+#include "console.h"
 #include "copter.h"
 #include "file_medium.h"
 #include "host/host_board.h"
@@ -58,6 +59,7 @@ static sim_view_t view;
 static taken_t taken;
 static delay_t delay[COPTER_TASKS];
 static sim_task_t tasks[SIM_TASKS]; /* Those of table 2. */
+static char answer[SIM_ANSWER + 1];
 static float motors[COPTER_MOTORS];
 static FILE *log_file; /* Null: nobody wants the log. */
 static int log_errors;
@@ -454,6 +456,21 @@ const sim_task_t *sim_tasks(void)
                                 .longest_us = report.stats.longest_us};
     }
     return tasks;
+}
+
+const char *sim_console(const char *typed)
+{
+    copter_said_t asked;
+    uint32_t length = 0u;
+    uint32_t line;
+
+    copter_console_ask(&asked, typed, (uint32_t)strlen(typed));
+    do {
+        line = copter_console_line(&copter, &asked, &answer[length]);
+        length += line;
+    } while ((line > 0u) && ((length + COPTER_CONSOLE_LINE) <= sizeof answer));
+    answer[length] = '\0';
+    return answer;
 }
 
 void sim_overrun(uint32_t task, uint32_t runs, uint32_t extra_us)

@@ -24,6 +24,7 @@
 #define SIM_TASKS     21
 #define SIM_LINKS     3
 #define SIM_KEY       32
+#define SIM_ANSWER    8191
 
 /** An inertial measurement unit. */
 typedef struct sim_imu {
@@ -164,6 +165,10 @@ const sim_view_t *sim_view(void);
 
 /** The counts of each task, SIM_TASKS of them; made anew by each call. */
 const sim_task_t *sim_tasks(void);
+
+/** What the copter answers to a command that is typed (examples/copter/console.h), in SIM_ANSWER
+ * characters at most and a zero; there until the next call. */
+const char *sim_console(const char *typed);
 
 /** Makes the next runs of a task, from 0 in the order of table 2, longer by some time each. */
 void sim_overrun(uint32_t task, uint32_t runs, uint32_t extra_us);

@@ -117,19 +117,21 @@ class Station:
 
 
 @contextlib.contextmanager
-def powered_up(ports: list[int], folder: Path, *options: str) -> Iterator[None]:
+def powered_up(
+    ports: list[int], folder: Path, *options: str
+) -> Iterator[subprocess.Popen[bytes]]:
     """A copter with a link to each of these ports."""
     addresses = [part for port in ports for part in ("--address", f"127.0.0.1:{port}")]
     with (folder / "log").open("w") as out:
         sim = subprocess.Popen(
             [sys.executable, str(TOOLS / "sim.py"), "--cold", "--build", str(folder), *addresses,
              *options],
-            stdout=out, stderr=subprocess.STDOUT,
+            stdin=subprocess.PIPE, stdout=out, stderr=subprocess.STDOUT,
         )  # fmt: skip
         try:
             wait_for(lambda: "Ctrl-C" in (folder / "log").read_text() or sim.poll() is not None,
                      "the copter's start")  # fmt: skip
-            yield
+            yield sim
         finally:
             sim.send_signal(signal.SIGINT)
             try:
@@ -235,6 +237,57 @@ def test_pymavlink_is_refused_what_must_be(station: Station) -> None:
     assert station.ask(511, 77, 100000) == DENIED  # Intervals of answers.
     assert station.ask(22) == UNSUPPORTED
     assert not station.until("HEARTBEAT", lambda m: m.type == 2).base_mode & ARMED
+
+
+class Shell:
+    """A terminal as PX4's mavlink_shell.py makes one of pymavlink: what is typed goes out in
+    messages of up to 70 bytes, and what comes is looked for every 30 ms."""
+
+    def __init__(self, link: Any) -> None:
+        self._link = link
+        self.text = ""
+
+    def write(self, text: str) -> None:
+        """Type."""
+        mav = mavutil.mavlink
+        for start in range(0, len(text), 70):
+            part = [ord(one) for one in text[start : start + 70]]
+            self._link.mav.serial_control_send(
+                mav.SERIAL_CONTROL_DEV_SHELL,
+                mav.SERIAL_CONTROL_FLAG_EXCLUSIVE | mav.SERIAL_CONTROL_FLAG_RESPOND, 0, 0,
+                len(part), part + [0] * (70 - len(part)),
+            )  # fmt: skip
+
+    def until(self, text: str) -> None:
+        """Until it is there."""
+        def there() -> bool:
+            found = self._link.recv_match(condition="SERIAL_CONTROL.count!=0",
+                                          type="SERIAL_CONTROL", blocking=True,
+                                          timeout=0.03)  # fmt: skip
+            if found is not None:
+                self.text += "".join(chr(byte) for byte in found.data[: found.count])
+            return text in self.text
+
+        wait_for(there, f"{text!r} in {self.text!r}")
+
+    def close(self) -> None:
+        """Ctrl-C."""
+        self._link.mav.serial_control_send(mavutil.mavlink.SERIAL_CONTROL_DEV_SHELL, 0, 0, 0, 0,
+                                           [0] * 70)  # fmt: skip
+
+
+def test_pymavlink_has_a_shell(station: Station) -> None:
+    shell = Shell(station.link)
+    shell.write("\n")  # So that there is one.
+    shell.until("\nkeel> ")
+    shell.write("tasks\n")
+    shell.until("Telemetry ")
+    shell.until("\nkeel> ")
+    rows = [line.split() for line in shell.text.splitlines() if line.startswith("Background IMU")]
+    assert len(rows) == 1 and rows[0][2] == "1000" and int(rows[0][3]) > 1000
+    shell.write("reboot\n")
+    shell.until("reboot\nno such command: reboot; there are: help, tasks\nkeel> ")
+    shell.close()
 
 
 def test_pymavlink_flies(station: Station) -> None:
@@ -404,7 +457,7 @@ def test_mavproxy(station: Station, ports: list[int], tmp_path: Path) -> None:
     with log.open("w") as out:
         proxy = subprocess.Popen(
             [sys.executable, str(found), f"--master=udpin:127.0.0.1:{ports[2]}",
-             "--default-modules=param,arm,mode,ftp,wp,log", f"--state-basedir={tmp_path}"],
+             "--default-modules=param,arm,mode,ftp,wp,log,nsh", f"--state-basedir={tmp_path}"],
             stdin=subprocess.PIPE, stdout=out, stderr=subprocess.STDOUT, cwd=tmp_path, text=True,
             env={**os.environ, "HOME": str(tmp_path)},
         )  # fmt: skip
@@ -427,6 +480,10 @@ def test_mavproxy(station: Station, ports: list[int], tmp_path: Path) -> None:
             says("status ATTITUDE", "ATTITUDE {")
             says("ftp list /", "general.json", "parameters.json")
             says("wp list", "Requesting 0 waypoints")
+            says("nsh start")
+            says("tasks", "Background IMU              1000 ", "Telemetry                   4000 ")
+            says("reboot", "no such command: reboot; there are: help, tasks\nkeel> ")
+            says(".")
         finally:
             proxy.kill()  # It does not heed SIGTERM for long.
             proxy.wait(LONG_S)
@@ -440,6 +497,21 @@ def mavproxy_program() -> Path:
         if starter.is_file():
             return starter
     raise AssertionError("mavproxy.py: is not there")
+
+
+def test_what_is_typed_is_answered_in_the_terminal(tmp_path: Path) -> None:
+    """And a pipe that ends, ends nothing else."""
+    with powered_up(free_ports(1), tmp_path) as sim:
+        assert sim.stdin is not None
+        for typed, expected in (("tasks", "\nTelemetry                   4000 "),
+                                ("nothing", "\nno such command: nothing; there are: help, tasks\n"),
+                                ):  # fmt: skip
+            sim.stdin.write(f"{typed}\n".encode())
+            sim.stdin.flush()
+            wait_for(lambda: expected in (tmp_path / "log").read_text(), typed)  # noqa: B023
+        sim.stdin.close()
+        time.sleep(0.5)
+        assert sim.poll() is None
 
 
 def test_a_restart_with_signatures_and_parameters(tmp_path: Path) -> None:

@@ -55,6 +55,9 @@ bench signing passes 1000 instructions 3000000 longest 3000
 bench log_ring passes 1000 instructions 830000 longest 840
 bench ulog passes 1000 instructions 610000 longest 610
 bench trace passes 1000 instructions 280000 longest 290
+bench lateness passes 1000 instructions 90000 longest 95
+bench table_line passes 1000 instructions 1500000 longest 1600
+bench spread passes 1 instructions 70000 longest 70000
 bench crsf passes 1000 instructions 130000 longest 2900
 bench ibus passes 1000 instructions 120000 longest 2700
 bench ppm passes 1000 instructions 90000 longest 500
@@ -92,6 +95,9 @@ FIGURES = {
     "log_ring": Figure(1000, 830000, 840),
     "ulog": Figure(1000, 610000, 610),
     "trace": Figure(1000, 280000, 290),
+    "lateness": Figure(1000, 90000, 95),
+    "table_line": Figure(1000, 1500000, 1600),
+    "spread": Figure(1, 70000, 70000),
     "crsf": Figure(1000, 130000, 2900),
     "ibus": Figure(1000, 120000, 2700),
     "ppm": Figure(1000, 90000, 500),
@@ -128,6 +134,9 @@ signing = 3000.0
 log_ring = 830.0
 ulog = 610.0
 trace = 280.0
+lateness = 90.0
+table_line = 1500.0
+spread = 70000.0
 crsf = 130.0
 ibus = 120.0
 ppm = 90.0
@@ -237,6 +246,9 @@ class Budgets(unittest.TestCase):
                 "log_ring": 830.0,
                 "ulog": 610.0,
                 "trace": 280.0,
+                "lateness": 90.0,
+                "table_line": 1500.0,
+                "spread": 70000.0,
                 "crsf": 130.0,
                 "ibus": 120.0,
                 "ppm": 90.0,

@@ -67,6 +67,9 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "ulog": ("ULog, 36 bytes of data", ("ulog",), 1000, ("steps", "ulog")),
     # Begin, end and the record in the ring; the board's own clock is not in it.
     "trace": ("trace, a run of a task", ("trace",), None, ()),
+    "lateness": ("lateness, a run of a task", ("lateness",), None, ()),
+    "table_line": ("task table, a task's line", ("table_line",), None, ()),
+    "spread": ("spread, once, 21 tasks", ("spread",), None, ()),
     "crsf": ("CRSF, a byte of right frames", ("crsf",), 200, ("steps", "crsf")),
     "ibus": ("IBUS, a byte of right frames", ("ibus",), 200, ("steps", "ibus")),
     "ppm": ("PPM, an edge of right frames", ("ppm",), 200, ("steps", "ppm")),

@@ -29,7 +29,8 @@ SETTINGS = "examples/copter/settings.h"
 FLAGS = ("-std=c99", "-O2", "-fPIC", "-ffp-contract=off", "-Wall", "-Wextra", "-Iinclude", "-Ibsp",
          "-Iexamples/urpilot", "-Iexamples/copter", "-Iexamples/copter_in_plant")  # fmt: skip
 SOURCES = ("src", "examples/urpilot/urpilot_tasks.c", "bsp/common/slots.c",
-           "bsp/common/trace.c", "bsp/common/trace_log.c", "bsp/host/host_board.c")  # fmt: skip
+           "bsp/common/task_table.c", "bsp/common/trace.c", "bsp/common/trace_log.c",
+           "bsp/host/host_board.c")  # fmt: skip
 FOLDERS = ("examples/copter", "examples/copter_in_plant")  # Without what lies below them.
 LINE_BYTES = 4096  # At most so many wait in a link.
 KINDS = {"float": "<f4", "uint32_t": "<u4", "int32_t": "<i4", "int16_t": "<i2",
@@ -178,6 +179,11 @@ class Copter:
         """What became of each task until now."""
         self._library.sim_tasks()
         return self._done.copy()
+
+    def console(self, typed: str) -> str:
+        """What the copter answers to a command; what is no character of ASCII is none here."""
+        text = self._library.sim_console(typed.encode("ascii", "replace"))
+        return str(self._ffi.string(text).decode())
 
     def overrun(self, task: int, runs: int, extra_us: int) -> None:
         """Make a task's next runs longer."""

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from common.errors import ToolError
+from flight.keyboard import Keyboard
 from flight.library import Copter, Key, Link
 from flight.loop import Flight, Order
 from flight.pilot import Pilot
@@ -79,6 +80,7 @@ class Live(Flight):
                  key: Key | None, memory: Path) -> None:  # fmt: skip
         super().__init__(copter, order, pilot, links, key, memory)
         self._lines = lines
+        self._keyboard = Keyboard()
         self._now_ms = 0
 
     def _record(self, now_ms: int) -> None:
@@ -97,6 +99,11 @@ class Live(Flight):
             self._now_ms += 1
             self.step(self._now_ms)
 
+    def _answer(self) -> None:
+        """What is typed here, at once: the aircraft stands still meanwhile."""
+        for line in self._keyboard.lines():
+            print(self._copter.console(line), end="", flush=True)
+
     def run(self) -> NoReturn:
         """Until it is interrupted, or crashes."""
         due = time.monotonic()
@@ -104,6 +111,7 @@ class Live(Flight):
             self._go_on(TURN_MS)
             for link, line in enumerate(self._lines):
                 line.exchange(self._copter, link)
+            self._answer()
             due += TURN_MS / 1000.0
             late = time.monotonic() - due
             if late > LATE_S:
