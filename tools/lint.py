@@ -15,8 +15,9 @@ themselves. The texts of the guidelines cannot be distributed, so findings name 
 build/lint/results.sarif has all findings with file and line, build/lint/report.json these, what
 each deviation allows, and the rules that nothing looks for; an unfinished run leaves neither.
 
-The workflows of .github are held against the schema of GitHub's (check-jsonschema), and zizmor
-looks for what strangers may use in them; neither asks the network.
+The workflows of .github are held against the schema of GitHub's (check-jsonschema); actionlint
+looks for what they name and is not there, zizmor for what strangers may use in them. None asks the
+network.
 
 The rules of the house: see HOUSE_CHECKS in tools/linting/house.py.
 

