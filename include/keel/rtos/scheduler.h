@@ -10,6 +10,7 @@
  *
  *     keel_scheduler_init(&s, &config);
  *     keel_scheduler_add(&s, &gyro);        for every task
+ *     keel_scheduler_spread(&s, &crowded);  where tasks have no phases of their own: spread.h
  *     keel_scheduler_start(&s);             admission; from here on time counts
  *     for (;;) {
  *         keel_scheduler_step(&s);
