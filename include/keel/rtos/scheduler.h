@@ -139,7 +139,7 @@ keel_status_t keel_scheduler_check(const keel_scheduler_t *scheduler, uint32_t *
   @   ensures SCH_004_order: order_joined{Pre, Post}(&scheduler->queue, task->priority);
   @   ensures SCH_004_copied: slot_copied(&scheduler->queue,
   @       \old(scheduler->queue.order[scheduler->queue.count]), task);
-  @   ensures SCH_004_fresh: SLOT_FRESH(&scheduler->queue,
+  @   ensures SCH_004_fresh: \result == KEEL_OK ==> SLOT_FRESH(&scheduler->queue,
   @       \old(scheduler->queue.order[scheduler->queue.count]));
   @   ensures SCH_004_release:
   @       scheduler->queue.release_us[\old(scheduler->queue.order[scheduler->queue.count])] ==
@@ -376,7 +376,8 @@ const keel_task_config_t *keel_scheduler_task(const keel_scheduler_t *scheduler,
   @   assumes scheduler != \null && task != \null && report != \null;
   @   assumes queue_holds(&scheduler->queue, task);
   @   ensures ok: \result == KEEL_OK;
-  @   ensures SCH_025_report: \forall integer i; is_at(scheduler, i, task) ==>
+  @   ensures SCH_025_report: \result == KEEL_OK ==>
+  @       \forall integer i; is_at(scheduler, i, task) ==>
   @       report->release_us == scheduler->queue.release_us[scheduler->queue.order[i]] &&
   @       report->skipped == scheduler->queue.skipped[scheduler->queue.order[i]] &&
   @       report->stats == scheduler->queue.stats[scheduler->queue.order[i]];
