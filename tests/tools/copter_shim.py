@@ -12,6 +12,7 @@ from pathlib import Path
 from common.run import output_of
 
 ROOT = Path(__file__).resolve().parents[2]
+COMMON = ("slots", "task_table", "trace", "trace_log")
 
 
 def copter_of(case: type[unittest.TestCase], shim: str) -> ctypes.CDLL:
@@ -23,7 +24,7 @@ def copter_of(case: type[unittest.TestCase], shim: str) -> ctypes.CDLL:
     folders = ("include", "bsp", "examples/urpilot", "examples/copter")
     sources = [*sorted((ROOT / "examples/copter").glob("*.c")),
                ROOT / "examples/urpilot/urpilot_tasks.c",
-               *(ROOT / f"bsp/common/{name}.c" for name in ("slots", "trace", "trace_log")),
+               *(ROOT / f"bsp/common/{name}.c" for name in COMMON),
                *sorted((ROOT / "src").rglob("*.c"))]  # fmt: skip
     output_of(["gcc", "-std=c99", "-O1", "-Wall", "-Werror", "-shared", "-fPIC",
                *(f"-I{ROOT / folder}" for folder in folders), source, *sources, "-lm",
