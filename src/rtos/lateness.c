@@ -129,6 +129,7 @@ keel_status_t keel_scheduler_lateness(const keel_scheduler_t *scheduler,
     keel_status_t status;
     uint32_t position;
     uint32_t slot;
+    bool promotes;
 
     if ((scheduler == NULL) || (task == NULL) || (lateness == NULL)) {
         return KEEL_ERR_NULL;
@@ -146,12 +147,13 @@ keel_status_t keel_scheduler_lateness(const keel_scheduler_t *scheduler,
         return status;
     }
     slot = scheduler->queue.order[position];
+    promotes = may_promote(scheduler);
     if (position < scheduler->queue.realtime_count) {
         //@ ghost own_is_counted(&scheduler->queue, position);
         bound_realtime(&totals, scheduler->queue.budget_us[slot], scheduler->queue.period_us[slot],
-                       may_promote(scheduler), lateness);
+                       promotes, lateness);
         return KEEL_OK;
     }
-    bound_other(may_promote(scheduler), lateness);
+    bound_other(promotes, lateness);
     return KEEL_OK;
 }
