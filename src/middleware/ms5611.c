@@ -32,7 +32,7 @@
 #define TWO_23 8388608
 #define TWO_31 2147483648LL
 
-/* The pressure follows from this. */
+/* What the pressure follows from. */
 typedef struct line {
     int64_t offset;
     int64_t sensitivity;

@@ -45,7 +45,7 @@ typedef struct keel_ms5611 {
     uint16_t temperature_slope; /**< C6, hundredths of a degree a step of D2; 2^-23. */
 } keel_ms5611_t;
 
-/** A measurement. */
+/** What was measured. */
 typedef struct keel_ms5611_sample {
     int32_t pressure_pa;      /**< In Pa; KEEL_MS5611_PRESSURE_MIN to _MAX. */
     int32_t temperature_cdeg; /**< In hundredths of a degree Celsius; the limits alike. */
@@ -162,7 +162,7 @@ uint8_t keel_ms5611_crc(const uint16_t *word);
 keel_status_t keel_ms5611_init(keel_ms5611_t *ms5611, const uint16_t *word);
 
 /**
- * Pressure and temperature of two readings (requirements MSC-004 to MSC-008), for any coefficients.
+ * What two readings amount to (requirements MSC-004 to MSC-008), whatever the coefficients are.
  *
  * @param ms5611 the sensor's coefficients
  * @param d1     the raw pressure

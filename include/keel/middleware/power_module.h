@@ -38,7 +38,7 @@ KEEL_C_BEGIN
 #define KEEL_POWER_MODULE_TOP_CURRENT 0x4 /**< The current is this or more. */
 /** @} */
 
-/** A configuration of a module. In brackets: those of Pixhawk 4 and its like. */
+/** What a module is made from. In brackets: those of Pixhawk 4 and its like. */
 typedef struct keel_power_module_config {
     uint32_t reference_mv; /**< The ADC's, in mV; 1 to KEEL_POWER_MODULE_REFERENCE_MAX (3300). */
     uint32_t divider;      /**< Volts of the battery for a volt at the ADC, in millionths; 1 to
@@ -55,7 +55,7 @@ typedef struct keel_power_module {
     uint32_t open_mv; /**< As configured. */
 } keel_power_module_t;
 
-/** A reading of a module. */
+/** What a module says. */
 typedef struct keel_power_module_reading {
     uint32_t voltage_mv; /**< In mV. */
     uint32_t current_ma; /**< In mA. */
