@@ -363,7 +363,6 @@ MADE = {
     "docs/first_flight.md": {"10 min": "by design", "1 min": "by design", "72 min": "by design"},
     "docs/fuzzing.md": {
         "100 000 000 executions": "make fuzz ARGS=",
-        "46 218 701 executions": "--filter ppm",
         "3 minutes": "of a core",
     },
     # tests/tools/test_primer.py compares what these commands say.
