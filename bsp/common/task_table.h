@@ -3,8 +3,8 @@
  * @file task_table.h
  * @brief How each task has run since it was added, as lines of text: for a console or a link.
  *
- * What the scheduler counts is all there but for how late runs started; for that the body that all
- * tasks share hands over each run, by which the kernel knows nothing of it:
+ * The scheduler counts all of it but how late runs started. For that the body that all tasks share
+ * hands over each run; the kernel knows nothing of it:
  *
  *     static void body(void *context)
  *     {

@@ -6,8 +6,8 @@
  *     help    the commands
  *     tasks   how each task has run since the start (bsp/common/task_table.h)
  *
- * Asking changes nothing. Whoever has a line to type on, a ground station (shell.h) or the terminal
- * of a simulation, hands over what was typed.
+ * Asking changes nothing. A ground station (shell.h) and the terminal of a simulation hand over the
+ * lines that are typed there.
  */
 #ifndef COPTER_CONSOLE_H
 #define COPTER_CONSOLE_H

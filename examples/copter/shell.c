@@ -66,13 +66,14 @@ static bool type(copter_shell_station_t *station, const uint8_t *byte, uint32_t 
 bool copter_shell_take(copter_shell_t *shell, const message_serial_control_t *message,
                        uint8_t system, uint8_t component)
 {
-    const uint32_t place = place_of(shell, system, component);
+    uint32_t place;
     bool fits = true;
 
     if ((message->device != SERIAL_CONTROL_DEV_SHELL) || (message->count > DATA) ||
         ((message->flags & SERIAL_CONTROL_FLAG_REPLY) != 0u)) {
         /* It is nothing for the console. */
     } else if ((message->flags & SERIAL_CONTROL_FLAG_RESPOND) == 0u) {
+        place = place_of(shell, system, component);
         if (place < COPTER_SHELL_STATIONS) {
             shell->station[place].is_open = false;
         }
@@ -84,8 +85,8 @@ bool copter_shell_take(copter_shell_t *shell, const message_serial_control_t *me
     return fits;
 }
 
-/* Up to the first end of line, which counts; 0: there is none. What fills all the room is taken as
- * a line, which no command is as long as. */
+/* Up to the first end of line, which counts; 0: there is none. Characters that fill all the room
+ * are taken as a line: no command is so long. */
 static uint32_t typed_line(const copter_shell_station_t *station)
 {
     const char *const end = memchr(station->typed, '\n', station->count);

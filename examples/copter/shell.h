@@ -5,7 +5,7 @@
  *
  * mavlink_shell.py, QGroundControl's MAVLink console and MAVProxy's module nsh send what their
  * users type, a line at a time, and show what comes back: the line again, the answer and a prompt.
- * What the console has is all that can be reached.
+ * Nothing but the console can be reached.
  *
  * Each station has a place of its own, and the next message is for the next station of those that
  * wait. At most so many bytes go out at once as a message carries, and they are made then.

@@ -316,8 +316,8 @@ def full(text: str) -> bool:
 
 
 def test_two_stations_do_not_disturb_one_another(copter: Copter) -> None:
-    """By two links; and by one, as behind a router, where they take turns. What is sent
-    regularly goes on."""
+    """By two links; and by one, as behind a router, where they take turns. Regular messages
+    go on."""
     for links in ([Link(), Link()], [Link()]):
         rig = Rig(copter, links)
         other = mavlink.MAVLink(None, srcSystem=254, srcComponent=190)

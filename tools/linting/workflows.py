@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The workflows of CI: YAML of the form that the code host reads, in which strangers find no use.
 
-The form is check-jsonschema's, by the schema that it brings. What names and expressions mean is
-actionlint's, what strangers may use zizmor's. None asks the network.
+The form is check-jsonschema's, by the schema that it brings. actionlint looks at names
+and expressions, zizmor for openings to strangers. None asks the network.
 """
 
 from __future__ import annotations
