@@ -125,6 +125,19 @@ class Mutants(StrengthTest):
         self.assertEqual(self.part().summary["mutants killed"], "0 of 0")
         self.assertEqual(self.item("range/1").state, "open")
 
+    def test_other_words_of_a_comment_leave_a_result_current(self) -> None:
+        self.record()
+        header = "include/keel/middleware/range.h"
+        self.replace(header, "* @brief ", "* @brief In other words: ")
+        self.assertEqual(self.told()[1].split("; ")[1], "current\n")
+        self.replace(header, "* @brief ", "*\n * @brief ")
+        self.assertIn("STALE: source changed since", self.told()[1])
+
+    def test_code_in_what_looks_like_a_comment_is_stale(self) -> None:
+        self.record()
+        self.replace("include/keel/middleware/range.h", "#define", "//@ lemma more: 1 < 2;\n#define")
+        self.assertIn("STALE: source changed since", self.told()[1])
+
     def test_a_result_of_other_tools_is_stale_and_no_problem(self) -> None:
         self.record()
         self.report["tools"]["cbmc"]["version"] = "6.7.0"

@@ -13,6 +13,7 @@ tools here: a distribution makes them anew for each release, and no commit could
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -28,6 +29,8 @@ from .mutant_verdicts import STATUSES, Verdict
 from .project import Unit, closure, find_units
 
 FOLDER = "specs/mutation"
+# How a comment begins that a prover reads.
+CONTRACTS = ("/*@", "//@")
 # What no mutant is judged with; and where the provers lie, which is theirs.
 NO_JUDGES = ("gcc", "newlib", "ocamlfind", "why3-config")
 
@@ -57,8 +60,9 @@ def origin(
     """Digests of what a result on a unit depends on, and each tool's version; `judges` are the
     names of the harnesses that killed.
 
-    The sources count with their contracts, which are comments; harnesses and models without. Who
-    proved a goal last does not matter, nor do the wrong bodies.
+    The sources count with their contracts and the places of their lines, but not with the words of
+    other comments; harnesses and models without any comment. Who proved a goal last does not
+    matter, nor do the wrong bodies.
     """
     root = unit.root
     own = {path.resolve() for path in unit.own_files}
@@ -68,7 +72,7 @@ def origin(
     texts = {path: path.read_text(encoding="utf-8") for path in (*source, *apart)}
     equivalent = unit.folder / "equivalent.toml"
     return {
-        "source": digest({_shown(path, root): texts[path] for path in source}),
+        "source": digest({_shown(path, root): _without_prose(texts[path]) for path in source}),
         "proofs": digest({
             "texts": {_shown(path, root): csource.essence(texts[path]) for path in apart},
             "options": {one.name: [*one.defines, *one.replaces, *one.covers] for one, _ in linked},
@@ -77,6 +81,19 @@ def origin(
         }),
         **{name: version_of(tool) for name, tool in tools.items() if name not in NO_JUDGES},
     }  # fmt: skip
+
+
+def _without_prose(text: str) -> str:
+    """The text with nothing in its comments but contracts, and each line in its place."""
+
+    def replace(match: re.Match[str]) -> str:
+        comment = match.group("comment")
+        if comment is None or comment.startswith(CONTRACTS):
+            return match.group()
+        return " " + "\n" * comment.count("\n")
+
+    bare = csource.TOKEN.sub(replace, text)
+    return "\n".join(line.rstrip() for line in bare.splitlines())
 
 
 def version_of(tool: Found) -> str:
