@@ -2,7 +2,8 @@
 /* Background and foreground barometer. */
 #include "copter.h"
 
-#define OVERSAMPLING 2u /* Background runs in a foreground period. */
+#define OVERSAMPLING 2u  /* Background runs in a foreground period. */
+#define STUCK        25u /* So many equal pressures in a row, half a second of them. */
 
 keel_status_t copter_air_init(copter_air_t *air)
 {
@@ -21,11 +22,21 @@ void copter_background_barometer(copter_t *copter)
     }
 }
 
+/* Air is never so still that a sensor says the same for long, bit for bit: one that does is stuck.
+ * What it says then is no sample. */
 void copter_foreground_barometer(copter_t *copter)
 {
     copter_air_t *const self = &copter->air;
+    const float before = self->pressure_pa;
 
     if (keel_oversample_take(&self->pressure, &self->pressure_pa) == KEEL_OK) {
-        self->samples++;
+        const bool moved = (self->pressure_pa < before) || (self->pressure_pa > before);
+
+        self->repeats = moved ? 0u : (self->repeats + 1u);
+        if (self->repeats < STUCK) {
+            self->samples++;
+        } else {
+            self->repeats = STUCK;
+        }
     }
 }

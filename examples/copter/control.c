@@ -2,6 +2,17 @@
 /* Position control, angle control and angle rate control: the cascade of fig. 8 and the motors. */
 #include "copter.h"
 
+#include "keel/middleware/range.h"
+
+/* A landing without a height: thrust, in parts of what hovers, for a speed that is off by 1 m/s;
+ * what is added to it in a run of 10 ms; and the most of that. */
+#define SINK_GAIN     0.1f
+#define SINK_INTEGRAL 0.001f
+#define SINK_MOST     0.5f
+
+/* With a smaller cosine of the tilt, thrust does not grow any more: it would not carry. */
+#define TILT_LEAST 0.5f
+
 keel_status_t copter_control_init(copter_control_t *control)
 {
     keel_mixer_config_t mixer = copter_settings.mixer;
@@ -147,6 +158,25 @@ static void follow_sticks(copter_control_t *self, const copter_t *copter)
     }
 }
 
+/* Whether it has to come down without knowing its height. */
+static bool sinks_blindly(const copter_t *copter)
+{
+    return (copter->state.mode.mode == KEEL_MODE_LAND) && !copter->estimate.here.has_height;
+}
+
+/* What is known then is how the speed changed in the last seconds. The integral takes the thrust
+ * from an aircraft that does not sink: because it hovers, or because it stands. */
+static void sink(copter_control_t *self, const copter_estimate_t *estimate)
+{
+    const float hover = estimate->vertical.hover;
+    const float error = -copter_settings.land_slow - estimate->here.velocity.up;
+
+    self->sink_integral = keel_range_clamp(self->sink_integral + (SINK_INTEGRAL * error),
+                                           -SINK_MOST, SINK_MOST);
+    self->sink = keel_range_clamp(hover * (1.0f + (SINK_GAIN * error) + self->sink_integral), 0.0f,
+                                  1.0f);
+}
+
 void copter_position_control(copter_t *copter)
 {
     copter_control_t *const self = &copter->control;
@@ -159,12 +189,17 @@ void copter_position_control(copter_t *copter)
     self->asked = self->cascade.velocity;
     if (is_flown(copter)) {
         follow_sticks(self, copter);
-    } else if (self->state == KEEL_MODE_LANDING) {
+    } else if (self->mode == KEEL_MODE_LAND) {
         self->asked.up = descent_at(here->position.up);
     } else {
         /* It goes where the position stage says. */
     }
     keel_cascade_velocity_step(&self->cascade, self->asked, here);
+    if (sinks_blindly(copter)) {
+        sink(self, &copter->estimate);
+    } else {
+        self->sink_integral = 0.0f;
+    }
 }
 
 void copter_angle_control(copter_t *copter)
@@ -186,6 +221,25 @@ static float thrust_of(float stick)
     return (stick < 0.0f) ? (hover + (hover * stick)) : (hover + ((1.0f - hover) * stick));
 }
 
+/* What lifts as much as this does when the aircraft is level; beyond a right angle nothing does.
+ * Without an attitude it is taken to be level. */
+static float tilted(float thrust, const copter_inertia_t *inertia)
+{
+    const float down = inertia->down.z;
+    float lifts = thrust;
+
+    if (inertia->attitude.phase == KEEL_ATTITUDE_RUNNING) {
+        if (down <= 0.0f) {
+            lifts = 0.0f;
+        } else if (down < TILT_LEAST) {
+            lifts = thrust * (down / (TILT_LEAST * TILT_LEAST));
+        } else {
+            lifts = thrust / down;
+        }
+    }
+    return (lifts < 1.0f) ? lifts : 1.0f;
+}
+
 static keel_cascade_rates_t rates_of(const copter_t *copter)
 {
     const keel_cascade_t *const cascade = &copter->control.cascade;
@@ -203,10 +257,9 @@ static keel_cascade_rates_t rates_of(const copter_t *copter)
     }
     if (sticks_thrust(copter)) {
         asked.thrust = thrust_of(copter->pilot.sticks.climb);
-    } else if ((copter->state.mode.mode == KEEL_MODE_LAND) && !copter->estimate.here.has_height) {
-        asked.thrust = copter_settings.land_thrust;
     } else {
-        /* The velocity stage's. */
+        asked.thrust = tilted(sinks_blindly(copter) ? copter->control.sink : cascade->thrust,
+                              &copter->inertia);
     }
     return asked;
 }
@@ -217,6 +270,7 @@ void copter_angle_rate_control(copter_t *copter)
 
     keel_cascade_rate_step(&self->cascade, rates_of(copter), copter->inertia.attitude.rate,
                            self->mixer.limited);
-    keel_mixer_step(&self->mixer, &self->cascade.command, copter->state.mode.motors);
+    keel_mixer_step(&self->mixer, &self->cascade.command,
+                    copter->state.mode.motors && !copter->estimate.vertical.is_crashed);
     copter->port->write_motors(copter->port->context, self->mixer.output);
 }

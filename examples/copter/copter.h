@@ -112,19 +112,23 @@ typedef struct copter_air {
     float pressure_pa;
     int16_t temperature; /**< Of the last sample that counted, in 0.01 degrees Celsius. */
     uint32_t samples;    /**< How many there were. */
+    uint32_t repeats;    /**< How often the last pressure came again, until it counts as stuck. */
     uint64_t sampled_us; /**< When that sample came. */
 } copter_air_t;
 
 /** A fix, as navigation takes it. */
 typedef struct copter_fix {
-    uint32_t tow_ms;      /**< When it was so: the receiver's time of week. */
-    int32_t latitude;     /**< In 1e-7 degrees. */
-    int32_t longitude;    /**< In 1e-7 degrees. */
-    float north;          /**< Velocity, in m/s. */
-    float east;           /**< Velocity, in m/s. */
-    float accuracy;       /**< Of the position, in m. */
-    float speed_accuracy; /**< Of the velocity, in m/s. */
-    bool is_valid;        /**< Usable, by the receiver's limits. */
+    uint32_t tow_ms;       /**< When it was so: the receiver's time of week. */
+    int32_t latitude;      /**< In 1e-7 degrees. */
+    int32_t longitude;     /**< In 1e-7 degrees. */
+    float height;          /**< Above mean sea level, in m. */
+    float north;           /**< Velocity, in m/s. */
+    float east;            /**< Velocity, in m/s. */
+    float climb;           /**< Velocity upwards, in m/s. */
+    float accuracy;        /**< Of the position, in m. */
+    float height_accuracy; /**< Of the height, in m. */
+    float speed_accuracy;  /**< Of the velocity, in m/s. */
+    bool is_valid;         /**< Usable, by the receiver's limits. */
 } copter_fix_t;
 
 /** The date, as the satellite receiver told it last. */
@@ -172,12 +176,43 @@ typedef struct copter_pilot {
 typedef struct copter_energy {
     keel_battery_sample_t sample; /**< What came since the last step. */
     keel_battery_t battery;
+    bool is_known; /**< Its voltage at rest has said what it has. */
 } copter_energy_t;
+
+/** What tells the height. */
+typedef enum copter_height {
+    COPTER_HEIGHT_NONE = 0, /**< Nothing: the climb rate is the acceleration's, for a while. */
+    COPTER_HEIGHT_BAROMETER,
+    COPTER_HEIGHT_SATELLITES /**< The barometer is silent. */
+} copter_height_t;
+
+/** What the inertial units say of the way up, in a step. */
+typedef struct copter_vertical_force {
+    float acceleration; /**< Upwards, gravity taken off, in m/s^2. */
+    bool is_known;
+} copter_vertical_force_t;
+
+/** Height without the barometer, and what the aircraft's weight asks for. */
+typedef struct copter_vertical {
+    keel_axis_t satellites; /**< The receiver's height, above where it first could be used. */
+    float zero;             /**< That place, above mean sea level, in m. */
+    float offset;           /**< How much higher the receiver's height is than the barometer's. */
+    float speed;            /**< Upwards by acceleration alone, of the last seconds, in m/s. */
+    float hover;            /**< The thrust that hovers, as learnt in flight, 0 to 1. */
+    uint32_t lying;         /**< Steps in a row in which it lay on its side. */
+    keel_axis_quality_t quality; /**< Of the height that is told. */
+    uint8_t source;              /**< Of the height that is told: copter_height_t. */
+    bool has_zero;
+    bool has_offset;
+    bool is_up;      /**< It has moved up or down since it stood on the ground. */
+    bool is_crashed; /**< It lies on its side or its back: motors stand, until it is disarmed. */
+} copter_vertical_t;
 
 /** Written by navigation. */
 typedef struct copter_estimate {
     keel_altitude_t altitude;
     keel_position_t position;
+    copter_vertical_t vertical;
     keel_cascade_estimate_t here;   /**< For the cascade: from home. */
     float home_north;               /**< Of the position's origin, in m. */
     float home_east;                /**< Of the position's origin, in m. */
@@ -197,6 +232,8 @@ typedef struct copter_control {
     keel_cascade_vector_t place; /**< To be held or reached, in m from home. */
     keel_cascade_vector_t asked; /**< The velocity that is asked for, in m/s. */
     uint32_t resets;             /**< What was taken of estimate.resets. */
+    float sink;                  /**< Thrust in a landing without a height, 0 to 1. */
+    float sink_integral;         /**< The part of it that grew with time, of what hovers. */
     uint8_t state;               /**< Of the state machine, in the last run. */
     uint8_t mode;                /**< The mode in the last run. */
 } copter_control_t;
@@ -382,6 +419,15 @@ void copter_foreground_power_module(copter_t *copter);
 
 keel_status_t copter_estimate_init(copter_estimate_t *estimate);
 void copter_navigation(copter_t *copter);
+
+/** Knows neither a height nor another thrust that hovers than what is configured. */
+keel_status_t copter_vertical_init(copter_vertical_t *vertical);
+/** A step of navigation's, behind that of the barometer's estimator. */
+void copter_vertical_step(copter_t *copter, const copter_vertical_force_t *force, bool has_fix);
+/** Writes height and climb rate into estimate->here, and a reset where the source changes. */
+void copter_vertical_tell(copter_estimate_t *estimate);
+/** Whether it stands on the ground or lies there, and what hovers; behind copter_vertical_tell. */
+void copter_vertical_conclude(copter_t *copter);
 
 keel_status_t copter_state_init(copter_state_t *state);
 void copter_state_machine(copter_t *copter);

@@ -2,6 +2,8 @@
 /* Navigation: where the aircraft is and how it moves, from home. */
 #include "copter.h"
 
+#include "keel/middleware/range.h"
+
 /* The rows of the attitude's matrix: see attitude.h. */
 typedef struct frame {
     keel_attitude_vector_t north;
@@ -11,8 +13,11 @@ typedef struct frame {
 
 keel_status_t copter_estimate_init(copter_estimate_t *estimate)
 {
-    const keel_status_t status = keel_altitude_init(&estimate->altitude, &copter_settings.altitude);
+    keel_status_t status = keel_altitude_init(&estimate->altitude, &copter_settings.altitude);
 
+    if (status == KEEL_OK) {
+        status = copter_vertical_init(&estimate->vertical);
+    }
     return (status == KEEL_OK) ? keel_position_init(&estimate->position, &copter_settings.position)
                                : status;
 }
@@ -46,11 +51,25 @@ static keel_position_fix_t fix_of(const copter_fix_t *fix)
                                  .is_valid = fix->is_valid};
 }
 
-/* The first good fix is where positions are measured from. */
-static void find_origin(copter_estimate_t *self, const copter_fix_t *fix)
+/* Whether a fix is farther from the origin than the aircraft may fly from home. */
+static bool is_elsewhere(const keel_position_t *position, const copter_fix_t *fix)
 {
-    if (!self->position.has_origin && fix->is_valid &&
-        (fix->accuracy <= copter_settings.position.accuracy)) {
+    const float most = 2.0f * copter_settings.cascade.reach[KEEL_CASCADE_NORTH];
+    const float north = position->north_scale * ((float)fix->latitude - (float)position->latitude);
+    const float east = position->east_scale * ((float)fix->longitude - (float)position->longitude);
+
+    return !keel_range_contains(north, -most, most) || !keel_range_contains(east, -most, most);
+}
+
+/* The first good fix is where positions are measured from. On the ground a later one replaces it
+ * that is far from there: receivers are wrong in their first seconds, and aircraft are carried. */
+static void find_origin(copter_t *copter, const copter_fix_t *fix)
+{
+    copter_estimate_t *const self = &copter->estimate;
+
+    if (fix->is_valid && (fix->accuracy <= copter_settings.position.accuracy) &&
+        (!self->position.has_origin ||
+         (!copter->state.mode.motors && is_elsewhere(&self->position, fix)))) {
         (void)keel_position_set_origin(&self->position, fix->latitude, fix->longitude);
     }
 }
@@ -82,9 +101,12 @@ static void step_estimators(copter_t *copter, const frame_t *frame, const copter
     copter_estimate_t *const self = &copter->estimate;
     const bool has_force = force->is_known &&
                            (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING);
+    const copter_vertical_force_t lift = {.acceleration = -dot(force->mean, frame->down) -
+                                                          KEEL_CASCADE_GRAVITY,
+                                          .is_known = has_force};
     const keel_altitude_sample_t vertical = {
         .pressure = copter->air.pressure_pa,
-        .acceleration = -dot(force->mean, frame->down) - KEEL_CASCADE_GRAVITY,
+        .acceleration = lift.acceleration,
         .has_pressure = last && (copter->air.samples != self->pressures),
         .has_acceleration = has_force};
     const keel_position_sample_t horizontal = {
@@ -99,9 +121,10 @@ static void step_estimators(copter_t *copter, const frame_t *frame, const copter
         self->fixes = copter->satellites.fixes;
     }
     if (horizontal.has_fix) {
-        find_origin(self, &copter->satellites.fix);
+        find_origin(copter, &copter->satellites.fix);
     }
     keel_altitude_step(&self->altitude, &vertical);
+    copter_vertical_step(copter, &lift, horizontal.has_fix);
     keel_position_step(&self->position, &horizontal);
 }
 
@@ -138,35 +161,6 @@ static void find_home(copter_t *copter)
     }
 }
 
-static bool is_within(float value, float limit)
-{
-    return (value <= limit) && (value >= -limit);
-}
-
-/* Whether the aircraft neither turns, nor rises or sinks, nor slides to a stop. */
-static bool is_calm(const copter_t *copter)
-{
-    const copter_inertia_t *const inertia = &copter->inertia;
-    const keel_attitude_vector_t rate = inertia->attitude.rate;
-    const keel_attitude_vector_t force = inertia->force[(inertia->blocks - 1u) % COPTER_BLOCKS]
-                                             .mean;
-
-    return is_within(rate.x, copter_settings.landed_rate) &&
-           is_within(rate.y, copter_settings.landed_rate) &&
-           is_within(rate.z, copter_settings.landed_rate) &&
-           is_within(force.x, copter_settings.landed_force) &&
-           is_within(force.y, copter_settings.landed_force) &&
-           is_within(copter->estimate.altitude.axis.velocity, copter_settings.landed_speed);
-}
-
-/* On the ground it is calm though the motors push less than its weight. */
-static bool is_landed(const copter_t *copter)
-{
-    return !copter->state.mode.motors ||
-           (is_calm(copter) &&
-            (copter->control.cascade.command.thrust < copter_settings.landed_thrust));
-}
-
 void copter_navigation(copter_t *copter)
 {
     copter_estimate_t *const self = &copter->estimate;
@@ -176,12 +170,11 @@ void copter_navigation(copter_t *copter)
     find_home(copter);
     self->here = (keel_cascade_estimate_t){
         .position = {self->position.north.position - self->home_north,
-                     self->position.east.position - self->home_east, self->altitude.height},
-        .velocity = {self->position.north.velocity, self->position.east.velocity,
-                     self->altitude.axis.velocity},
+                     self->position.east.position - self->home_east, self->here.position.up},
+        .velocity = {self->position.north.velocity, self->position.east.velocity, 0.0f},
         .forward_north = frame.north.x,
         .forward_east = frame.east.x,
-        .has_place = self->position.quality != KEEL_AXIS_NONE,
-        .has_height = self->altitude.axis.quality != KEEL_AXIS_NONE};
-    self->is_landed = is_landed(copter);
+        .has_place = self->position.quality != KEEL_AXIS_NONE};
+    copter_vertical_tell(self);
+    copter_vertical_conclude(copter);
 }

@@ -192,7 +192,7 @@ const keel_parameter_t copter_parameter[COPTER_PARAMETER_COUNT] = {
      .highest = {.type = KEEL_PARAMETER_INT32, .whole = 60000000},
      .restarts = true},
     {.name = "KILL_TIME",
-     .initial = {.type = KEEL_PARAMETER_INT32, .whole = 1000000},
+     .initial = {.type = KEEL_PARAMETER_INT32, .whole = 300000},
      .lowest = {.type = KEEL_PARAMETER_INT32, .whole = 300000},
      .highest = {.type = KEEL_PARAMETER_INT32, .whole = 5000000},
      .restarts = true},
@@ -288,8 +288,6 @@ void copter_apply_parameters(copter_settings_t *settings, const keel_parameter_e
     settings->cascade.pid[KEEL_CASCADE_CLIMB].gains.ki = entry[18].value.real;
     settings->stop_s = entry[19].value.real;
     settings->cascade.hover = entry[20].value.real;
-    settings->landed_thrust = 0.75f * entry[20].value.real;
-    settings->land_thrust = 0.95f * entry[20].value.real;
     settings->mixer.idle = entry[21].value.real;
     settings->mixer.highest = entry[22].value.real;
     settings->reference.roll.dead_band = entry[23].value.real;

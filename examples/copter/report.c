@@ -369,32 +369,32 @@ static bool vfr_hud(const copter_t *copter, uint8_t *payload)
         const message_vfr_hud_t message = {
             .airspeed = speed,
             .groundspeed = speed,
-            .alt = sea_level_of_reference(altitude) + altitude->axis.position,
-            .climb = altitude->axis.velocity,
+            .alt = sea_level_of_reference(altitude) + altitude->zero + here->position.up,
+            .climb = here->velocity.up,
             .heading = small((heading < 0.0f) ? (heading + FULL_TURN) : heading),
             .throttle = (uint16_t)within(thrust * PERCENT, 0.0f, PERCENT)};
 
         message_vfr_hud_pack(&message, payload);
     }
-    return (altitude->axis.quality != KEEL_AXIS_NONE) &&
-           (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING);
+    return here->has_height && (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING);
 }
 
 /* Nothing looks down: terrain and clearance are what stands for unknown. */
 static bool altitude_of(const copter_t *copter, uint8_t *payload)
 {
     const keel_altitude_t *const altitude = &copter->estimate.altitude;
-    const float up = altitude->axis.position;
+    const keel_cascade_estimate_t *const here = &copter->estimate.here;
+    const float up = altitude->zero + here->position.up;
     const message_altitude_t message = {.time_usec = copter->scheduler.clock.now_us,
                                         .altitude_monotonic = up,
                                         .altitude_amsl = sea_level_of_reference(altitude) + up,
                                         .altitude_local = up,
-                                        .altitude_relative = altitude->height,
+                                        .altitude_relative = here->position.up,
                                         .altitude_terrain = NO_TERRAIN,
                                         .bottom_clearance = NO_CLEARANCE};
 
     message_altitude_pack(&message, payload);
-    return altitude->axis.quality != KEEL_AXIS_NONE;
+    return here->has_height;
 }
 
 /* The date is 0 where it is not known. */
@@ -449,14 +449,16 @@ static bool global_position_int(const copter_t *copter, uint8_t *payload)
 {
     const keel_position_t *const position = &copter->estimate.position;
     const keel_altitude_t *const altitude = &copter->estimate.altitude;
+    const keel_cascade_estimate_t *const here = &copter->estimate.here;
     const float sea_m = sea_level_of_reference(altitude);
-    message_global_position_int_t message = {.time_boot_ms = now_ms(copter),
-                                             .alt = millimetres(sea_m + altitude->axis.position),
-                                             .relative_alt = millimetres(altitude->height),
-                                             .vx = small(position->north.velocity * CENTI),
-                                             .vy = small(position->east.velocity * CENTI),
-                                             .vz = small(-altitude->axis.velocity * CENTI),
-                                             .hdg = (uint16_t)UNKNOWN_16};
+    message_global_position_int_t message = {
+        .time_boot_ms = now_ms(copter),
+        .alt = millimetres(sea_m + altitude->zero + here->position.up),
+        .relative_alt = millimetres(here->position.up),
+        .vx = small(position->north.velocity * CENTI),
+        .vy = small(position->east.velocity * CENTI),
+        .vz = small(-here->velocity.up * CENTI),
+        .hdg = (uint16_t)UNKNOWN_16};
     float angle[3];
 
     if (!position->has_origin) {
@@ -598,7 +600,7 @@ static void estimator_status(const copter_t *copter, uint8_t *payload)
 {
     const copter_estimate_t *const estimate = &copter->estimate;
     const bool has_place = estimate->position.quality != KEEL_AXIS_NONE;
-    const bool has_height = estimate->altitude.axis.quality != KEEL_AXIS_NONE;
+    const bool has_height = estimate->here.has_height;
     const message_estimator_status_t message = {
         .time_usec = copter->scheduler.clock.now_us,
         .pos_horiz_accuracy = copter->satellites.fix.accuracy,

@@ -21,9 +21,12 @@ static copter_fix_t fix_of(const keel_ubx_t *receiver)
     return (copter_fix_t){.tow_ms = fix->tow_ms,
                           .latitude = fix->latitude,
                           .longitude = fix->longitude,
+                          .height = MILLI * (float)fix->height_mm,
                           .north = MILLI * (float)fix->north,
                           .east = MILLI * (float)fix->east,
+                          .climb = -MILLI * (float)fix->down,
                           .accuracy = MILLI * (float)fix->accuracy_mm,
+                          .height_accuracy = MILLI * (float)fix->height_accuracy,
                           .speed_accuracy = MILLI * (float)fix->speed_accuracy,
                           .is_valid = keel_ubx_judge(receiver) == KEEL_UBX_USABLE};
 }

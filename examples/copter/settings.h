@@ -47,13 +47,12 @@ typedef struct copter_settings {
     float landed_rate;       /**< Less than this on the ground, in rad/s. */
     float landed_force;      /**< Less than this on the ground, forwards and sideways, in m/s^2. */
     float landed_speed;      /**< Less than this on the ground, up or down, in m/s. */
-    float landed_thrust;     /**< Less than this on the ground, 0 to 1. */
     float home_radius;       /**< Within this of home, to either side, it is there, in m. */
     float return_height;     /**< At least so high on the way home, in m. */
     float land_fast;         /**< Landing, from high above, in m/s. */
     float land_slow;         /**< Landing, near the ground, in m/s. */
     float land_near;         /**< Below this height the ground is near, in m. */
-    float land_thrust;       /**< Landing without an altitude: less than what hovers. */
+    float height_accuracy;   /**< Of a receiver's height, at worst, in m. */
     float stop_s;            /**< How far it goes on when the sticks are let go: in s. */
     float fence_margin;      /**< The pilot comes so near to the fence, in m. */
     float fence_rate;        /**< Of the way that is left, so much a second, in 1/s. */

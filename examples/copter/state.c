@@ -51,6 +51,12 @@ static bool is_home(const copter_t *copter)
            !is_beyond(place.east, copter_settings.home_radius);
 }
 
+/* Home is where it takes off: before, there is none to be away from. */
+static bool has_home(const copter_t *copter)
+{
+    return copter->state.mode.motors && (copter->estimate.homes == copter->state.homes);
+}
+
 static uint32_t facts_of(const copter_t *copter)
 {
     const copter_estimate_t *const estimate = &copter->estimate;
@@ -62,10 +68,11 @@ static uint32_t facts_of(const copter_t *copter)
     return when(estimate->is_landed, KEEL_MODE_IS_LANDED) |
            when(has_place && is_home(copter), KEEL_MODE_IS_HOME) |
            when(copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING, KEEL_MODE_HAS_ANGLE) |
-           when(is_good(estimate->altitude.axis.quality, before, KEEL_MODE_HAS_HEIGHT),
+           when(is_good(estimate->vertical.quality, before, KEEL_MODE_HAS_HEIGHT),
                 KEEL_MODE_HAS_HEIGHT) |
            when(has_place, KEEL_MODE_HAS_PLACE) |
-           when(has_place && (side_of(copter) != COPTER_SIDE_NONE), KEEL_MODE_IS_OUTSIDE) |
+           when(has_place && has_home(copter) && (side_of(copter) != COPTER_SIDE_NONE),
+                KEEL_MODE_IS_OUTSIDE) |
            when(level >= KEEL_BATTERY_LOW, KEEL_MODE_IS_CRITICAL) |
            when(level >= KEEL_BATTERY_CRITICAL, KEEL_MODE_IS_EMPTY);
 }

@@ -179,6 +179,30 @@ static void tell_radio(copter_telemetry_t *self, const copter_pilot_t *pilot)
     }
 }
 
+/* Says where the height comes from when that is another. */
+static void tell_height(copter_telemetry_t *self, const copter_vertical_t *vertical)
+{
+    static const char *const words[] = {
+        [COPTER_HEIGHT_NONE] = "not known",
+        [COPTER_HEIGHT_BAROMETER] = "by the barometer",
+        [COPTER_HEIGHT_SATELLITES] = "barometer fails, by satellites"};
+
+    if (vertical->source != self->height) {
+        copter_text(self,
+                    (vertical->source == COPTER_HEIGHT_BAROMETER) ? (uint8_t)MAV_SEVERITY_INFO
+                                                                  : (uint8_t)MAV_SEVERITY_WARNING,
+                    "height: ", words[vertical->source]);
+        self->height = vertical->source;
+    }
+    if (vertical->is_crashed != self->is_crashed) {
+        if (vertical->is_crashed) {
+            copter_text(self, (uint8_t)MAV_SEVERITY_CRITICAL,
+                        "crashed: ", "lies on its side, motors stopped");
+        }
+        self->is_crashed = vertical->is_crashed;
+    }
+}
+
 /* Whoever does not sign, where frames are signed, is not heard. */
 static void take(copter_t *copter, uint32_t number, const keel_mavlink_frame_t *frame)
 {
@@ -344,6 +368,7 @@ void copter_telemetry(copter_t *copter)
     tell_mode(self, copter_mode_told(copter));
     tell_fence(self, (copter->state.mode.seen & KEEL_MODE_IS_OUTSIDE) != 0u);
     tell_radio(self, &copter->pilot);
+    tell_height(self, &copter->estimate.vertical);
     copter_take_answers(copter);
     save_parameters(copter);
     copter_reboot_step(copter);

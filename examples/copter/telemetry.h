@@ -133,7 +133,9 @@ typedef struct copter_telemetry {
     uint8_t state;       /**< The state machine's, in the last run. */
     uint8_t mode;        /**< The mode that was told in the last run. */
     uint8_t heard;       /**< What was heard of the pilot's receiver, as it was told. */
+    uint8_t height;      /**< Where the height came from, as it was told: copter_height_t. */
     bool is_outside;     /**< Of the fence, in the last run. */
+    bool is_crashed;     /**< As it was told. */
 } copter_telemetry_t;
 
 /**

@@ -179,6 +179,30 @@ def test_disturbed_bytes() -> None:
     assert np.array_equal(sent_by(RADIO, 0.2)["byte"], sent_by(RADIO, 0.2)["byte"])
 
 
+def test_a_barometer_that_is_lost_gives_nothing() -> None:
+    assert slow(Broken(barometer_lost=True), 10_000)["barometer"]["count"] == 0
+
+
+def test_a_barometer_that_sticks_gives_samples_that_are_all_the_same() -> None:
+    there = memory()
+    devices = Slow(there, np.random.SeedSequence(3), Quality())
+    plant, battery, broken = Still(Truth()), Battery(voltage=16.0, current=10.0), Broken()
+    seen = []
+    for now in range(1, 4001):
+        broken.barometer_stuck = now > 2000
+        devices.step(now, plant, battery, broken)
+        seen.append((float(there["barometer"]["pressure"]), int(there["barometer"]["count"])))
+    assert len({pressure for pressure, _ in seen[1000:2000]}) == 50
+    assert len({pressure for pressure, _ in seen[2000:]}) == 1
+    assert seen[-1][1] == pytest.approx(200, abs=1)
+
+
+def test_a_first_fix_is_off_by_what_is_said() -> None:
+    right = last_fix(slow(Broken(), 1000))
+    wrong = last_fix(slow(Broken(first_fix=(150.0, 0.0)), 1000))
+    assert north_of(wrong) - north_of(right) == pytest.approx(150.0, abs=0.05)
+
+
 def test_rates() -> None:
     there = slow(Broken(), 10_000)
     assert there["magnetometer"]["count"] == 1000

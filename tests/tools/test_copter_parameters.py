@@ -80,7 +80,7 @@ int step(void) { copter_tuning_step(&all); return (int)all.saved; }
 int found(void) { return (int)all.found; }
 int taken(void) { return (int)all.loaded.taken; }
 double critical(void) { return copter_settings.battery.critical_voltage; }
-double thrust(void) { return copter_settings.landed_thrust; }
+double thrust(void) { return copter_settings.cascade.hover; }
 int cells(void) { return copter_settings.battery.cells; }
 int returns(void) { return copter_settings.mode.returns; }
 int refused_defaults(void)
@@ -158,7 +158,7 @@ class CopterParameters(unittest.TestCase):
         self.start()
         self.assertEqual(self.copter.taken(), 4)
         self.assertEqual(self.copter.critical(), 3.25)
-        self.assertEqual(self.copter.thrust(), 0.375)
+        self.assertEqual(self.copter.thrust(), 0.5)
         self.assertEqual((self.copter.cells(), self.copter.returns()), (3, 0))
 
     def test_PAR_010_a_value_that_a_unit_does_not_take_with_the_others(self) -> None:
@@ -185,7 +185,7 @@ class CopterParameters(unittest.TestCase):
         self.assertEqual(self.set("BAT_CELLS", INT32, 3), OK)
         self.assertEqual(self.set("THR_HOVER", FLOAT, 0.5), OK)
         self.assertTrue(self.copter.apply())
-        self.assertEqual((self.copter.cells(), self.copter.thrust()), (4, 0.375))
+        self.assertEqual((self.copter.cells(), self.copter.thrust()), (4, 0.5))
         self.assertTrue(self.copter.differs(b"BAT_CELLS"))
         self.save()
         self.start()

@@ -10,7 +10,7 @@ from common.errors import ToolError, unknown
 from flight.library import Copter
 from flight.plants import MOTORS, THRUST_POWER
 from flight.power import Battery
-from flight.scenario import Fault
+from flight.scenario import Fault, FirstFix
 from flight.sensors import Broken
 
 DRIFT_MOST = 3.0  # rad/s
@@ -23,6 +23,7 @@ class Faults:
     faults: Sequence[Fault]
     copter: Copter
     battery: Battery
+    first_fix: FirstFix | None = None
     broken: Broken = field(default_factory=Broken)
     shares: list[float] = field(default_factory=lambda: [1.0] * MOTORS)  # Of motors' commands.
     struck: set[int] = field(default_factory=set)
@@ -32,6 +33,13 @@ class Faults:
         for fault in self.faults:
             if fault.task is not None and fault.task not in self.copter.tasks:
                 raise ToolError(unknown("task", fault.task, self.copter.tasks))
+
+    def before_flight(self, since_power_up_s: float) -> None:
+        """What is so from power-up on, and ends at a time since then."""
+        first = self.first_fix
+        if first:
+            wrong = since_power_up_s < first.until_s
+            self.broken.first_fix = (first.north_m, first.east_m) if wrong else (0.0, 0.0)
 
     def step(self, time_s: float) -> None:
         """What begins or ends at this time of the flight."""
@@ -61,6 +69,10 @@ class Faults:
             broken.radio_failsafe = on
         elif fault.kind == "gps_loss":
             broken.gps_lost = on
+        elif fault.kind == "barometer_loss":
+            broken.barometer_lost = on
+        elif fault.kind == "barometer_stuck":
+            broken.barometer_stuck = on
         else:
             self._set_value(fault, on)
 

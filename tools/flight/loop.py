@@ -75,6 +75,12 @@ class Trace:
         return self.truth[:, TRUTH.index(name)]
 
 
+def airframe_of(order: Order) -> Airframe:
+    """Of the order, unless the scenario has its own."""
+    own = order.scenario.airframe
+    return order.airframe if own == type(own)() else Airframe(**own.model_dump())
+
+
 def without_faults(order: Order) -> Order:
     """The same flight, unbroken."""
     scenario = order.scenario.model_copy(update={"fault": []})
@@ -93,7 +99,7 @@ class Flight:
                      keep)  # fmt: skip
         seeds = np.random.SeedSequence(order.seed).spawn(4)
         rng = [np.random.Generator(np.random.PCG64(seed)) for seed in seeds]
-        self._plant: Plant = plants.make(order.plant, order.airframe, scenario.heading_deg)
+        self._plant: Plant = plants.make(order.plant, airframe_of(order), scenario.heading_deg)
         self._battery = Battery(left=scenario.battery_left)
         self._battery.step([0.0] * plants.MOTORS, 0.0)
         memory = copter.sensors
@@ -102,7 +108,7 @@ class Flight:
         self._radio = Receiver(memory, RADIO, rng[3], RADIO_LINES[scenario.radio])
         self._radio_ms = 1000 // scenario.radio_hz
         self._pilot = pilot(scenario, self._radio_ms / 1000.0)
-        self._faults = Faults(scenario.fault, copter, self._battery)
+        self._faults = Faults(scenario.fault, copter, self._battery, scenario.first_fix)
         air = scenario.wind
         self._wind = wind.drawn(
             rng[2], ARMS_WITHIN_S + scenario.duration_s, air.speed, air.from_deg, air.turbulence,
@@ -149,6 +155,7 @@ class Flight:
         time_s = self._time_s(now_ms)
         plant, copter = self._plant, self._copter
         plant.step(self._motors)
+        self._faults.before_flight(now_ms / 1000.0)
         if time_s >= 0.0:
             self._faults.step(time_s)
         broken = self._faults.broken

@@ -88,14 +88,15 @@ FAULTS: dict[str, tuple[str, ...]] = {
     "imu_drift": ("unit", "rate"),
     "radio_loss": (), "radio_failsafe": (), "radio_noise": ("share",),
     "gps_loss": (), "gps_jump": ("north_m", "east_m"), "gps_noise": ("share",),
-    "barometer_spike": ("pascal",), "magnetometer_current": ("microtesla_per_ampere",),
+    "barometer_spike": ("pascal",), "barometer_loss": (), "barometer_stuck": (),
+    "magnetometer_current": ("microtesla_per_ampere",),
     "motor_weak": ("motor", "share"), "battery_low": ("share",),
     "task_overrun": ("task", "runs", "extra_us"),
 }  # fmt: skip
 FaultKind = Literal[
     "imu_freeze", "imu_silent", "imu_shout", "imu_drift", "radio_loss", "radio_failsafe",
-    "radio_noise", "gps_loss", "gps_jump", "gps_noise", "barometer_spike", "magnetometer_current",
-    "motor_weak", "battery_low", "task_overrun",
+    "radio_noise", "gps_loss", "gps_jump", "gps_noise", "barometer_spike", "barometer_loss",
+    "barometer_stuck", "magnetometer_current", "motor_weak", "battery_low", "task_overrun",
 ]  # fmt: skip
 
 
@@ -123,6 +124,27 @@ class Options(Table):
 
     costs_percent: Annotated[int, Field(ge=1, le=1000)] = 100
     plain_mean: bool = False
+
+
+Factor = Annotated[float, Field(ge=0.25, le=4.0)]
+
+
+class Frame(Table):
+    """The aircraft: factors of what the F450's authors describe."""
+
+    mass: Factor = 1.0
+    inertia: Factor = 1.0
+    motor_speed: Factor = 1.0  # Turns per volt.
+    motor_lag: Factor = 1.0
+    drag: Factor = 1.0
+
+
+class FirstFix(Table):
+    """Until this time since power-up the satellite receiver is wrong by so much."""
+
+    until_s: Seconds
+    north_m: float = 0.0
+    east_m: float = 0.0
 
 
 class Reach(Table):
@@ -181,6 +203,8 @@ class Scenario(Table):
     radio_hz: Literal[50, 111] = 50
     battery_left: Share = 0.95
     wind: Wind = Wind()
+    airframe: Frame = Frame()
+    first_fix: FirstFix | None = None
     pilot: list[Hand] = []
     fault: list[Fault] = []
     options: Options = Options()

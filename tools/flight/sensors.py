@@ -62,8 +62,11 @@ class Broken:
     drift: dict[int, float] = field(default_factory=dict)  # By unit: rad/s.
     gps_lost: bool = False
     gps_jump: tuple[float, float] = (0.0, 0.0)
+    first_fix: tuple[float, float] = (0.0, 0.0)  # As it is wrong after power-up.
     gps_noise: float = 0.0  # Of its line: the share of its bytes.
     pascal: float = 0.0
+    barometer_lost: bool = False
+    barometer_stuck: bool = False  # Samples come, all of them the last good one.
     microtesla_per_ampere: float = 0.0
     radio_lost: bool = False
     radio_failsafe: bool = False
@@ -187,9 +190,7 @@ class Slow:
             self._barometer(now_ms, plant, broken)
         if self._pressures and self._pressures[0][0] <= now_ms:
             _, pressure, temperature = self._pressures.popleft()
-            self._memory["barometer"]["pressure"] = pressure
-            self._memory["barometer"]["temperature"] = temperature
-            self._memory["barometer"]["count"] += 1
+            self._tell_pressure(pressure, temperature, broken)
         if now_ms % 100 == 50:
             self._satellites(now_ms, plant, broken)
         if self._late and self._late[0][0] <= now_ms:
@@ -214,6 +215,14 @@ class Slow:
         warm = round(100.0 * standard_temperature(true)) + BAROMETER_WARMER
         self._pressures.append((now_ms + self._quality.baro_delay_ms, said, warm))
 
+    def _tell_pressure(self, pressure: float, temperature: int, broken: Broken) -> None:
+        if broken.barometer_lost:
+            return
+        device = self._memory["barometer"]
+        if not broken.barometer_stuck:
+            device["pressure"], device["temperature"] = pressure, temperature
+        device["count"] += 1
+
     def _satellites(self, now_ms: int, plant: Plant, broken: Broken) -> None:
         drawn = self._gps_rng.standard_normal(6)
         if broken.gps_lost:
@@ -223,7 +232,7 @@ class Slow:
         truth = plant.truth()
         quality = self._quality.gps_noise
         north, east = quality * PLACE_NOISE * drawn[:2] + self._place.step(drawn[2:4])
-        jump_north, jump_east = broken.gps_jump
+        jump_north, jump_east = np.add(broken.gps_jump, broken.first_fix)
         place = (truth.latitude + (north + jump_north) / NORTH_M,
                  truth.longitude + (east + jump_east) / EAST_M)  # fmt: skip
         speed = (truth.speed[0] + quality * SPEED_NOISE * drawn[4],
