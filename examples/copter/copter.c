@@ -103,8 +103,10 @@ static uint32_t declare(copter_t *copter, uint32_t row)
         wcet_us = COPTER_RADIO_WCET_US;
     } else if (row == (uint32_t)URPILOT_FOREGROUND_RADIO) {
         task->phase_us = COPTER_PILOT_PHASE_US;
+        task->priority = COPTER_PILOT_PRIORITY;
     } else if (row == (uint32_t)URPILOT_STATE_MACHINE) {
         task->phase_us = COPTER_STATE_PHASE_US;
+        task->priority = COPTER_STATE_PRIORITY;
     } else {
         /* It is as the paper has it. */
     }

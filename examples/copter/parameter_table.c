@@ -183,7 +183,7 @@ const keel_parameter_t copter_parameter[COPTER_PARAMETER_COUNT] = {
      .restarts = true},
     {.name = "FS_LOSS_TIME",
      .initial = {.type = KEEL_PARAMETER_INT32, .whole = 300000},
-     .lowest = {.type = KEEL_PARAMETER_INT32, .whole = 100000},
+     .lowest = {.type = KEEL_PARAMETER_INT32, .whole = 200000},
      .highest = {.type = KEEL_PARAMETER_INT32, .whole = 300000},
      .restarts = true},
     {.name = "FS_HOLD_TIME",

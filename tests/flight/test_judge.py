@@ -52,6 +52,18 @@ def test_attitude_errors() -> None:
     assert value("attitude_max_deg", trace, from_s=1.0) == pytest.approx(2.0)
 
 
+def test_states_that_it_may_be_in() -> None:
+    trace = flight()
+    trace.view["state"] = states().index("flying")
+    trace.view["state"][50:60] = states().index("holding")
+    named = ["flying", "armed"]
+    assert not told({"stays": named}, trace)[0].good
+    assert told({"stays": named}, trace)[0].value == "flying, holding, flying"
+    assert told({"stays": named, "from_s": 6.0}, trace)[0].good
+    assert told({"stays": [*named, "holding"]}, trace)[0].good
+    assert all(one.name != "stays" for one in told({}, trace))
+
+
 def test_belief_is_the_quaternion() -> None:
     trace = flight(roll=math.radians(20.0), yaw=math.radians(350.0))
     half = math.radians(10.0)

@@ -4,15 +4,21 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from timing.analysis import analyse
-from timing.taskset import TaskSet, read
+from timing.taskset import Task, TaskSet, read
 
 ROOT = Path(__file__).resolve().parents[2]
 DEFINED = re.compile(r"^#define COPTER_(\w+) +(\d+)u", re.MULTILINE)
+
+CLASSED = re.compile(r"^#define COPTER_(\w+) KEEL_PRIORITY_(\w+)", re.MULTILINE)
+# Tasks that what the pilot says goes through; a run that is far too long leaves any one of them to
+# promotion (priority.h: once its age is 15 periods over its priority), and the others to theirs.
+HEARD_BY = ("Background radio", "Foreground radio", "State machine")
 
 
 @pytest.fixture(scope="module")
@@ -20,12 +26,17 @@ def copter() -> TaskSet:
     """Table 2 with the copter's rows in place of the paper's."""
     text = (ROOT / "examples/copter/copter.h").read_text(encoding="utf-8")
     number = {name: int(value) for name, value in DEFINED.findall(text)}
+    named = {name: value.lower().replace("_", "-") for name, value in CLASSED.findall(text)}
     rows = {
         "Background radio": {
             "budget": number["RADIO_WCET_US"], "phase": number["RADIO_PHASE_US"],
         },
-        "Foreground radio": {"phase": number["PILOT_PHASE_US"]},
-        "State machine": {"phase": number["STATE_PHASE_US"]},
+        "Foreground radio": {
+            "phase": number["PILOT_PHASE_US"], "class_name": named["PILOT_PRIORITY"],
+        },
+        "State machine": {
+            "phase": number["STATE_PHASE_US"], "class_name": named["STATE_PRIORITY"],
+        },
     }  # fmt: skip
     paper = read(ROOT / "specs/tasksets/urpilot.toml")
     return replace(
@@ -54,3 +65,31 @@ def test_at_the_papers_phase_there_is_no_room(copter: TaskSet) -> None:
         for task in copter.tasks
     )
     assert analyse(replace(copter, tasks=tasks)).collisions
+
+
+def promoted_us(task: Task) -> float:
+    """How long a task may wait that no gap is long enough for: eq. 3."""
+    return 15 * task.period / task.priority
+
+
+def shortest_loss_us() -> int:
+    """The least time of silence after which a pilot may be taken for lost."""
+    table = tomllib.loads((ROOT / "specs/parameters/copter.toml").read_text(encoding="utf-8"))
+    every = [one for group in table["group"] for one in group["parameter"]]
+    return int(next(one["range"][0] for one in every if one["name"] == "FS_LOSS_TIME"))
+
+
+def test_the_pilot_is_not_lost_when_a_task_waits_for_its_promotion(copter: TaskSet) -> None:
+    """Whichever of them waits, the others' periods and a frame of 20 ms come on top."""
+    tasks = {task.name: task for task in copter.tasks}
+    periods = sum(tasks[name].period for name in HEARD_BY)
+    waits = {name: promoted_us(tasks[name]) + periods + 20_000 for name in HEARD_BY}
+    assert waits == {"Background radio": 145_000, "Foreground radio": 145_000,
+                     "State machine": 145_000}  # fmt: skip
+    assert max(waits.values()) < shortest_loss_us()
+
+
+def test_by_the_papers_priorities_the_pilot_would_be_lost() -> None:
+    paper = read(ROOT / "specs/tasksets/urpilot.toml")
+    [machine] = [task for task in paper.tasks if task.name == "State machine"]
+    assert promoted_us(machine) == 300_000 > shortest_loss_us()

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from flight.library import modes, states
-from flight.loop import Trace
+from flight.loop import Trace, runs_of
 from flight.scenario import Limits, Reach, Scenario
 
 GROUND_M = 0.25  # The centre of gravity above where it stood, and the slope of the ground.
@@ -178,7 +178,8 @@ def judged(scenario: Scenario, trace: Trace, unbroken: Trace | None) -> list[Fin
     if trace.crash:
         return [Finding("flown", trace.crash, "without a crash", False)]
     return [*numbers(scenario.limits, Judge(scenario, trace, unbroken)),
-            *reached(scenario.limits.reach, trace), *ended(scenario, trace)]  # fmt: skip
+            *stayed(scenario.limits, trace), *reached(scenario.limits.reach, trace),
+            *ended(scenario, trace)]  # fmt: skip
 
 
 def numbers(limits: Limits, judge: Judge) -> Iterator[Finding]:
@@ -188,6 +189,16 @@ def numbers(limits: Limits, judge: Judge) -> Iterator[Finding]:
         if limit is not None:
             value = float(getattr(judge, name)())
             yield Finding(name, f"{value:.3f}", f"{limit:g}", value <= limit, value)
+
+
+def stayed(limits: Limits, trace: Trace) -> Iterator[Finding]:
+    """The states that it was in, where the scenario says which may be."""
+    if limits.stays:
+        time = trace.column("time")
+        inside = (time >= limits.from_s) & (time <= limits.to_s)
+        seen = runs_of([states()[number] for number in trace.view["state"][inside]])
+        good = set(seen) <= set(limits.stays)
+        yield Finding("stays", ", ".join(seen), " or ".join(limits.stays), good)
 
 
 def measured(scenario: Scenario, trace: Trace, unbroken: Trace | None = None) -> dict[str, float]:

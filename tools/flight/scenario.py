@@ -185,6 +185,7 @@ class Limits(Table):
     sink_max: Positive | None = None  # When it touches the ground, in m/s.
     skipped_max: Annotated[int, Field(ge=0)] | None = None  # Runs of real-time tasks left out.
     without_fault_deg: Positive | None = None  # Of roll and pitch: from the same flight unbroken.
+    stays: list[State] = []  # In one of these, if any are named.
     reach: list[Reach] = []
     end: End = End()
 
