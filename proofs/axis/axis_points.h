@@ -8,7 +8,7 @@
 
 #include "axis_proof.h"
 
-#define POINTS 22u
+#define POINTS 25u
 
 /* An axis that is known well, of which every number is another. */
 static keel_axis_t known_axis(void)
@@ -33,6 +33,7 @@ static keel_axis_t known_axis(void)
         .bias = 0.5f,
         .age = 10u,
         .agreed = 5u,
+        .jump = 20.0f,
         .jumped = 1u,
         .flags = KEEL_AXIS_JUMPED,
         .quality = KEEL_AXIS_GOOD,
@@ -88,6 +89,13 @@ static void change_axis(unsigned point, keel_axis_t *axis)
     case 21u:
         axis->age = 200u;
         break;
+    case 22u:
+    case 23u:
+        axis->jumped = 2u;
+        break;
+    case 24u:
+        axis->jumped = 0u;
+        break;
     default:
         break;
     }
@@ -141,6 +149,15 @@ static void change_sample(unsigned point, keel_axis_sample_t *sample)
     case 21u:
         sample->has_fix = false;
         sample->is_usable = false;
+        break;
+    case 22u:
+        sample->position = 28.0f;
+        break;
+    case 23u:
+        sample->position = 28.015625f;
+        break;
+    case 24u:
+        sample->position = 20.0f;
         break;
     default:
         break;

@@ -35,8 +35,8 @@ static bool axis_same(const keel_axis_t *a, const keel_axis_t *b)
     return axis_config_same(&a->config, &b->config) && float_same(a->step, b->step) &&
            float_same(a->half_step, b->half_step) && float_same(a->position, b->position) &&
            float_same(a->velocity, b->velocity) && float_same(a->bias, b->bias) &&
-           (a->age == b->age) && (a->agreed == b->agreed) && (a->jumped == b->jumped) &&
-           (a->flags == b->flags) && (a->quality == b->quality);
+           float_same(a->jump, b->jump) && (a->age == b->age) && (a->agreed == b->agreed) &&
+           (a->jumped == b->jumped) && (a->flags == b->flags) && (a->quality == b->quality);
 }
 
 static bool axis_sample_same(const keel_axis_sample_t *a, const keel_axis_sample_t *b)
@@ -99,6 +99,7 @@ static bool axis_valid(const keel_axis_t *axis)
            within(axis->position, -KEEL_AXIS_POSITION_LIMIT, KEEL_AXIS_POSITION_LIMIT) &&
            within(axis->velocity, -KEEL_AXIS_VELOCITY_LIMIT, KEEL_AXIS_VELOCITY_LIMIT) &&
            within(axis->bias, -axis->config.bias_limit, axis->config.bias_limit) &&
+           within(axis->jump, -KEEL_AXIS_POSITION_LIMIT, KEEL_AXIS_POSITION_LIMIT) &&
            (axis->age <= axis->config.lost_steps) && (axis->agreed <= axis->config.settle_fixes) &&
            (axis->jumped < axis->config.jump_fixes) && (axis->quality <= KEEL_AXIS_GOOD);
 }

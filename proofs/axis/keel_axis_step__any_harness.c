@@ -24,6 +24,7 @@ void keel_axis_step__any_harness(void)
     bool fixed;
     bool begun;
     bool jumped;
+    bool again;
 
     __CPROVER_assume(keel_axis_step_may(&axis));
 
@@ -31,6 +32,7 @@ void keel_axis_step__any_harness(void)
     fixed = is_told(&axis, KEEL_AXIS_FIXED);
     begun = is_told(&axis, KEEL_AXIS_BEGUN);
     jumped = is_told(&axis, KEEL_AXIS_JUMPED);
+    again = is_told(&axis, KEEL_AXIS_AGAIN);
 
     __CPROVER_assert(keel_axis_step_does(&axis, &sample), "AXI_006_does: what callers know");
     __CPROVER_assert(sample.has_fix || float_same(axis.bias, before.bias),
@@ -63,12 +65,18 @@ void keel_axis_step__any_harness(void)
     __CPROVER_assert(!counts(&sample) || ((before.age + 1u) < config->lost_steps) || begun,
                      "AXI_009_lost: when nothing is known, a fix is believed");
     __CPROVER_assert(!begun || ((before.age + 1u) >= config->lost_steps) ||
-                         ((before.jumped + 1u) >= config->jump_fixes),
+                         (config->jump_fixes <= 1u) ||
+                         (again && ((before.jumped + 1u) >= config->jump_fixes)),
                      "AXI_009_only: or after as many jumps, else not");
-    __CPROVER_assert(axis.jumped == (fixed    ? 0u
-                                     : jumped ? (before.jumped + 1u)
-                                              : before.jumped),
-                     "AXI_009_jumped: jumps are counted");
+    __CPROVER_assert(axis.jumped == (fixed     ? 0u
+                                     : !jumped ? before.jumped
+                                     : again   ? (before.jumped + 1u)
+                                               : 1u),
+                     "AXI_009_jumped: jumps that agree are counted");
+    __CPROVER_assert(!again || ((before.jumped > 0u) && (jumped || begun)),
+                     "AXI_013_again: only behind a jump");
+    __CPROVER_assert(float_same(axis.jump, jumped ? sample.position : before.jump),
+                     "AXI_013_jump: where the last one was");
     __CPROVER_assert(!jumped || (axis.jumped < config->jump_fixes),
                      "AXI_009_believed: and no more than are believed");
     __CPROVER_assert(axis.age == (fixed ? 0u : counted_to(before.age, config->lost_steps)),

@@ -54,6 +54,7 @@ void model_axis_restart(keel_axis_t *axis)
     axis->position = 0.0f;
     axis->velocity = 0.0f;
     axis->bias = 0.0f;
+    axis->jump = 0.0f;
     axis->age = axis->config.lost_steps;
     axis->agreed = 0u;
     axis->jumped = 0u;
@@ -115,6 +116,27 @@ static void make_up(keel_axis_t *axis, float way, float rate)
     axis->flags |= KEEL_AXIS_FIXED;
 }
 
+/* AXI-009, AXI-013: jumps count while each is near the one before; the count begins at 1. */
+static void meet_jump(keel_axis_t *axis, const keel_axis_sample_t *sample)
+{
+    const keel_axis_config_t *const c = &axis->config;
+    const float hop = sample->position - axis->jump;
+    uint32_t row = 1u;
+
+    if ((axis->jumped != 0u) && lies_in(hop, -c->position_gate, c->position_gate)) {
+        axis->flags |= KEEL_AXIS_AGAIN;
+        row += axis->jumped;
+    }
+    if (row >= c->jump_fixes) {
+        begin_at(axis, sample);
+    } else {
+        axis->jump = sample->position;
+        axis->jumped = (uint16_t)row;
+        axis->agreed = 0u;
+        axis->flags |= KEEL_AXIS_JUMPED;
+    }
+}
+
 /* AXI-008: how far a fix is off decides. */
 static void meet_fix(keel_axis_t *axis, const keel_axis_sample_t *sample)
 {
@@ -128,12 +150,8 @@ static void meet_fix(keel_axis_t *axis, const keel_axis_sample_t *sample)
         begin_at(axis, sample);
     } else if (near) {
         make_up(axis, way, rate);
-    } else if ((axis->jumped + 1u) >= c->jump_fixes) {
-        begin_at(axis, sample);
     } else {
-        axis->agreed = 0u;
-        axis->jumped = (uint16_t)(axis->jumped + 1u);
-        axis->flags |= KEEL_AXIS_JUMPED;
+        meet_jump(axis, sample);
     }
 }
 

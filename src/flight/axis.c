@@ -51,6 +51,7 @@ void keel_axis_restart(keel_axis_t *axis)
     axis->position = 0.0f;
     axis->velocity = 0.0f;
     axis->bias = 0.0f;
+    axis->jump = 0.0f;
     axis->age = axis->config.lost_steps;
     axis->agreed = 0u;
     axis->jumped = 0u;
@@ -138,11 +139,36 @@ static void correct(keel_axis_t *axis, float way, float rate)
     axis->flags |= KEEL_AXIS_FIXED;
 }
 
+/* A fix beyond the gates: believed when it agrees with enough jumps before it, or one more jump. */
+/*@ requires \valid(axis) && \valid_read(sample) && \separated(axis, sample);
+  @ requires axis_limited(axis);
+  @ assigns axis->position, axis->velocity, axis->jump, axis->age, axis->agreed, axis->jumped,
+  @     axis->flags;
+  @*/
+static void judge_jump(keel_axis_t *axis, const keel_axis_sample_t *sample)
+{
+    const keel_axis_config_t *const config = &axis->config;
+    const bool again = (axis->jumped > 0u) &&
+                       keel_range_contains(sample->position - axis->jump, -config->position_gate,
+                                           config->position_gate);
+    const uint16_t before = again ? axis->jumped : 0u;
+
+    axis->flags |= again ? KEEL_AXIS_AGAIN : 0u;
+    if ((before + 1u) >= config->jump_fixes) {
+        set_to_fix(axis, sample);
+    } else {
+        axis->agreed = 0u;
+        axis->jumped = (uint16_t)(before + 1u);
+        axis->jump = sample->position;
+        axis->flags |= KEEL_AXIS_JUMPED;
+    }
+}
+
 /* A fix that counts: believed, taken for a jump, or made use of. */
 /*@ requires \valid(axis) && \valid_read(sample) && \separated(axis, sample);
   @ requires axis_limited(axis);
-  @ assigns axis->position, axis->velocity, axis->bias, axis->age, axis->agreed, axis->jumped,
-  @     axis->flags;
+  @ assigns axis->position, axis->velocity, axis->bias, axis->jump, axis->age, axis->agreed,
+  @     axis->jumped, axis->flags;
   @*/
 static void judge_fix(keel_axis_t *axis, const keel_axis_sample_t *sample)
 {
@@ -156,12 +182,8 @@ static void judge_fix(keel_axis_t *axis, const keel_axis_sample_t *sample)
         set_to_fix(axis, sample);
     } else if (near) {
         correct(axis, way, rate);
-    } else if ((axis->jumped + 1u) >= config->jump_fixes) {
-        set_to_fix(axis, sample);
     } else {
-        axis->agreed = 0u;
-        axis->jumped = (uint16_t)(axis->jumped + 1u);
-        axis->flags |= KEEL_AXIS_JUMPED;
+        judge_jump(axis, sample);
     }
 }
 

@@ -453,12 +453,12 @@ static void AXI_009_the_last_of_some_jumps_is_believed(void)
 {
     settle();
     fix(100.0f, 0.0f);
-    fix(200.0f, 1.0f);
-    TEST_ASSERT_EQUAL_HEX32(KEEL_AXIS_JUMPED, axis.flags);
+    fix(108.0f, 1.0f);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_AXIS_JUMPED | KEEL_AXIS_AGAIN, axis.flags);
     TEST_ASSERT_EQUAL_UINT16(2u, axis.jumped);
-    fix(300.0f, 2.0f);
-    TEST_ASSERT_EQUAL_HEX32(KEEL_AXIS_FIXED | KEEL_AXIS_BEGUN, axis.flags);
-    TEST_ASSERT_EQUAL_FLOAT(300.0f, axis.position);
+    fix(116.0f, 2.0f);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_AXIS_FIXED | KEEL_AXIS_BEGUN | KEEL_AXIS_AGAIN, axis.flags);
+    TEST_ASSERT_EQUAL_FLOAT(116.0f, axis.position);
     TEST_ASSERT_EQUAL_FLOAT(2.0f, axis.velocity);
     TEST_ASSERT_EQUAL_UINT16(0u, axis.jumped);
     TEST_ASSERT_EQUAL(KEEL_AXIS_POOR, axis.quality);
@@ -489,6 +489,32 @@ static void AXI_009_jumps_count_in_a_row(void)
     fix(100.0f, 0.0f);
     fix(100.0f, 0.0f);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, axis.position);
+}
+
+/* A gate is 8 m wide to either side; each of these is farther from the one before. */
+static void AXI_009_jumps_here_and_there_are_never_believed(void)
+{
+    settle();
+    for (unsigned i = 0u; i < 30u; i++) {
+        fix(((i % 2u) == 0u) ? 100.0f : 108.5f, 0.0f);
+        TEST_ASSERT_EQUAL_HEX32(KEEL_AXIS_JUMPED, axis.flags & ~KEEL_AXIS_BLIND);
+        TEST_ASSERT_EQUAL_UINT16(1u, axis.jumped);
+        axis.age = 1u; /* It is not lost meanwhile. */
+    }
+    TEST_ASSERT_FLOAT_WITHIN(1.0f, 0.0f, axis.position);
+}
+
+static void AXI_013_the_last_jump_is_kept(void)
+{
+    settle();
+    fix(100.0f, 0.0f);
+    TEST_ASSERT_EQUAL_FLOAT(100.0f, axis.jump);
+    fix(0.0f, 0.0f);
+    TEST_ASSERT_EQUAL_FLOAT(100.0f, axis.jump);
+    fix(101.0f, 0.0f);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_AXIS_JUMPED, axis.flags);
+    TEST_ASSERT_EQUAL_UINT16(1u, axis.jumped);
+    TEST_ASSERT_EQUAL_FLOAT(101.0f, axis.jump);
 }
 
 static void AXI_009_what_is_unusable_is_no_jump(void)
@@ -586,7 +612,9 @@ int main(void)
     RUN_TEST(AXI_009_the_last_of_some_jumps_is_believed);
     RUN_TEST(AXI_009_a_jump_without_velocity_is_believed_at_rest);
     RUN_TEST(AXI_009_jumps_count_in_a_row);
+    RUN_TEST(AXI_009_jumps_here_and_there_are_never_believed);
     RUN_TEST(AXI_009_what_is_unusable_is_no_jump);
+    RUN_TEST(AXI_013_the_last_jump_is_kept);
     RUN_TEST(AXI_010_the_age_counts_steps);
     RUN_TEST(AXI_011_a_jump_lowers_the_quality_until_fixes_agree_again);
     RUN_TEST(AXI_012_late_is_poor_and_lost_is_none);

@@ -83,6 +83,8 @@ class Faults:
             broken.gps_jump = (factor * (fault.north_m or 0.0), factor * (fault.east_m or 0.0))
         elif fault.kind == "gps_noise":
             broken.gps_noise = factor * (fault.share or 0.0)
+        elif fault.kind == "gps_wild":
+            broken.gps_wild = factor * (fault.metres or 0.0)
         elif fault.kind == "radio_noise":
             broken.radio_noise = factor * (fault.share or 0.0)
         elif fault.kind == "barometer_spike":

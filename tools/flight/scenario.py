@@ -88,6 +88,7 @@ FAULTS: dict[str, tuple[str, ...]] = {
     "imu_drift": ("unit", "rate"),
     "radio_loss": (), "radio_failsafe": (), "radio_noise": ("share",),
     "gps_loss": (), "gps_jump": ("north_m", "east_m"), "gps_noise": ("share",),
+    "gps_wild": ("metres",),
     "barometer_spike": ("pascal",), "barometer_loss": (), "barometer_stuck": (),
     "magnetometer_current": ("microtesla_per_ampere",),
     "motor_weak": ("motor", "share"), "battery_low": ("share",),
@@ -95,7 +96,7 @@ FAULTS: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 FaultKind = Literal[
     "imu_freeze", "imu_silent", "imu_shout", "imu_drift", "radio_loss", "radio_failsafe",
-    "radio_noise", "gps_loss", "gps_jump", "gps_noise", "barometer_spike", "barometer_loss",
+    "radio_noise", "gps_loss", "gps_jump", "gps_noise", "gps_wild", "barometer_spike", "barometer_loss",
     "barometer_stuck", "magnetometer_current", "motor_weak", "battery_low", "task_overrun",
 ]  # fmt: skip
 
@@ -110,6 +111,7 @@ class Fault(Table):
     rate: Positive | None = None  # Of a drift, in rad/s each second.
     north_m: float | None = None
     east_m: float | None = None
+    metres: Positive | None = None  # Each fix is off by up to so much, each by another way.
     pascal: float | None = None
     microtesla_per_ampere: float | None = None
     motor: Annotated[int, Field(ge=1, le=4)] | None = None

@@ -39,6 +39,7 @@ class Quality:
     imu_delay_ms: int = 1
     baro_delay_ms: int = 10
     gps_noise: float = 1.0
+    gps_wander: float = 1.0  # Of what the place does in minutes.
 
 
 # Standard deviations of a sample, unit by unit: three parts of three makes.
@@ -63,6 +64,7 @@ class Broken:
     gps_lost: bool = False
     gps_jump: tuple[float, float] = (0.0, 0.0)
     first_fix: tuple[float, float] = (0.0, 0.0)  # As it is wrong after power-up.
+    gps_wild: float = 0.0  # Each fix is off by up to so much, in m, north and east.
     gps_noise: float = 0.0  # Of its line: the share of its bytes.
     pascal: float = 0.0
     barometer_lost: bool = False
@@ -168,8 +170,9 @@ class Slow:
     """Magnetometer, barometer, satellites, power modules and the chip, each at its own pace."""
 
     def __init__(self, memory: Any, seed: np.random.SeedSequence, quality: Quality) -> None:
-        own = [np.random.Generator(np.random.PCG64(part)) for part in seed.spawn(5)]
-        self._field_rng, self._air_rng, self._gps_rng, self._power_rng, line_rng = own
+        own = [np.random.Generator(np.random.PCG64(part)) for part in seed.spawn(6)]
+        self._field_rng, self._air_rng, self._gps_rng, self._power_rng, line_rng = own[:5]
+        self._wild_rng = own[5]
         self._receiver = Receiver(memory, SATELLITES, line_rng)
         self._memory, self._quality = memory, quality
         self._field_turn = turned(self._field_rng, quality.bias * math.radians(0.3))
@@ -177,7 +180,7 @@ class Slow:
         per_ampere = self._field_rng.uniform(-1.0, 1.0, 3)
         self._per_ampere = per_ampere / np.linalg.norm(per_ampere)
         self._air = Wander(self._air_rng, quality.noise * PRESSURE_WANDER, PRESSURE_S, 0.02, 1)
-        self._place = Wander(self._gps_rng, quality.gps_noise * PLACE_WANDER, PLACE_S, 0.1, 2)
+        self._place = Wander(self._gps_rng, quality.gps_noise * quality.gps_wander * PLACE_WANDER, PLACE_S, 0.1, 2)
         self._start = [float(value) for value in self._place.step(np.zeros(2))]
         self._late: deque[tuple[int, bytes]] = deque()
         self._pressures: deque[tuple[int, float, int]] = deque()
@@ -232,7 +235,10 @@ class Slow:
         truth = plant.truth()
         quality = self._quality.gps_noise
         north, east = quality * PLACE_NOISE * drawn[:2] + self._place.step(drawn[2:4])
-        jump_north, jump_east = np.add(broken.gps_jump, broken.first_fix)
+        jump_north, jump_east = (
+            np.add(broken.gps_jump, broken.first_fix)
+            + broken.gps_wild * self._wild_rng.uniform(-1.0, 1.0, 2)
+        )
         place = (truth.latitude + (north + jump_north) / NORTH_M,
                  truth.longitude + (east + jump_east) / EAST_M)  # fmt: skip
         speed = (truth.speed[0] + quality * SPEED_NOISE * drawn[4],

@@ -63,13 +63,14 @@ def order_of(seed: int) -> Order:
     draw = Draw(seed)
     plant = draw.one_of(plants.NAMES)
     airframe = Airframe(
-        mass=draw.between(0.85, 1.2), inertia=draw.between(0.8, 1.25),
+        mass=draw.between(0.6, 1.5), inertia=draw.between(0.7, 1.5),
         motor_speed=draw.between(0.93, 1.07), motor_lag=draw.factor(1.5), drag=draw.factor(2.0),
     )  # fmt: skip
     quality = Quality(
         noise=draw.factor(2.0), bias=draw.between(0.3, 1.5), vibration=draw.between(0.0, 2.0),
         gps_delay_ms=int(draw.between(80, 200)), imu_delay_ms=draw.one_of((1, 2)),
         baro_delay_ms=int(draw.between(5, 30)), gps_noise=draw.factor(2.0),
+        gps_wander=draw.between(1.0, 12.0),
     )  # fmt: skip
     return Order(scenario_of(draw), plant, seed, airframe, quality)
 
@@ -97,12 +98,21 @@ def scenario_of(draw: Draw) -> Scenario:
     return Scenario.model_validate({
         "description": told, "duration_s": DURATION_S, "mode": mode,
         "heading_deg": draw.between(0.0, 360.0), "radio_hz": draw.one_of((50, 111)),
-        "battery_left": draw.between(0.6, 1.0), "wind": wind, "pilot": hands,
+        "battery_left": draw.between(0.4, 1.0), "wind": wind, "pilot": hands,
+        "first_fix": first_fix_of(draw),
         "fault": [fault] if fault else [],
         "limits": {"from_s": 1.0, "to_s": DURATION_S, "attitude_rms_deg": 2.5,
                    "attitude_max_deg": 8.0, "tilt_max_deg": 45.0, "sink_max": 1.5,
                    "end": {"state": "disarmed"}},
     })  # fmt: skip
+
+
+def first_fix_of(draw: Draw) -> dict[str, float] | None:
+    """Every third receiver is wrong in its first seconds."""
+    if draw.one_of((True, False, False)):
+        return {"until_s": draw.between(2.0, 6.0), "north_m": draw.between(-300.0, 300.0),
+                "east_m": draw.between(-300.0, 300.0)}  # fmt: skip
+    return None
 
 
 def fault_of(draw: Draw) -> dict[str, Any] | None:
@@ -116,13 +126,16 @@ def fault_of(draw: Draw) -> dict[str, Any] | None:
                      "until_s": at_s + draw.between(0.5, 2.5)},
         "barometer_spike": {"pascal": draw.between(-300, 300),
                             "until_s": at_s + draw.between(0.05, 0.6)},
+        "barometer_loss": {}, "barometer_stuck": {},
+        "gps_wild": {"metres": draw.between(20.0, 300.0), "until_s": at_s + draw.between(1.0, 4.0)},
         "magnetometer_current": {"microtesla_per_ampere": draw.between(0.05, 0.4)},
         "motor_weak": {"motor": draw.one_of((1, 2, 3, 4)), "share": draw.between(0.7, 0.95)},
         "battery_low": {"share": draw.between(0.03, 0.06)},
         "radio_noise": {"share": draw.between(0.002, 0.03)},
         "gps_noise": {"share": draw.between(0.001, 0.01)},
         "task_overrun": {"task": draw.one_of(("Navigation", "GPS", "Position control",
-                                              "Foreground IMU")), "runs": 3, "extra_us": 300},
+                                              "Foreground IMU", "State machine")),
+                         "runs": 3, "extra_us": draw.one_of((300, 1000))},
     }  # fmt: skip
     kind = draw.one_of((HEALTHY, HEALTHY, HEALTHY, *most))
     return None if kind == HEALTHY else {"kind": kind, "at_s": at_s, **most[kind]}

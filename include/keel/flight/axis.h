@@ -17,9 +17,10 @@
  * (requirement AXI-006).
  *
  * A fix counts when its source calls it usable and its numbers are in range. One that is further
- * off than the gates is a jump, and is not taken; after jump_fixes of them in a row the last one is
- * believed, and position and velocity are set to it. So they are by the first fix, and by the first
- * after lost_steps without one.
+ * off than the gates is a jump, and is not taken. Jumps are believed that agree with one another:
+ * after jump_fixes of them in a row, each within position_gate of the one before, position and
+ * velocity are set to the last. So they are by the first fix, and by the first after lost_steps
+ * without one. Jumps here and there are never believed, however many come.
  *
  * How good the result is, is told at each step:
  *
@@ -69,6 +70,7 @@ KEEL_C_BEGIN
 #define KEEL_AXIS_JUMPED   0x04u /**< A fix was further off than the gates, and not taken. */
 #define KEEL_AXIS_UNUSABLE 0x08u /**< A fix came that does not count. */
 #define KEEL_AXIS_BLIND    0x10u /**< No acceleration came, or none that can be: 0 was taken. */
+#define KEEL_AXIS_AGAIN    0x20u /**< A fix beyond the gates is near the jump before it. */
 
 /* How good position and velocity are, from worst to best: keel_axis_quality_t. */
 #define KEEL_AXIS_NONE 0u /**< Not known. */
@@ -88,7 +90,7 @@ typedef struct keel_axis_config {
     uint16_t late_steps;   /**< Steps without a fix that lower the quality; 1 to lost_steps. */
     uint16_t lost_steps;   /**< Steps without a fix after which there is none; at least 1. */
     uint16_t settle_fixes; /**< Fixes in a row that make the quality good; at least 1. */
-    uint16_t jump_fixes;   /**< Jumps in a row of which the last is believed; at least 1. */
+    uint16_t jump_fixes;   /**< Jumps that agree, of which the last is believed; at least 1. */
 } keel_axis_config_t;
 
 /** What was measured. Numbers may be any bit pattern. */
@@ -114,9 +116,10 @@ typedef struct keel_axis {
     float position;              /**< p, in m. */
     float velocity;              /**< v, in m/s. */
     float bias;                  /**< Of the acceleration, in m/s^2. */
+    float jump;                  /**< Where the last jump was, in m; 0 before. */
     uint16_t age;                /**< Steps since a fix was taken, to lost_steps. */
     uint16_t agreed;             /**< Fixes that agreed since one did not, to settle_fixes. */
-    uint16_t jumped;             /**< Jumps since a fix was taken. */
+    uint16_t jumped;             /**< Jumps that agree, since a fix was taken. */
     uint32_t flags;              /**< KEEL_AXIS_FIXED, ...: what the last step did. */
     keel_axis_quality_t quality; /**< How good all this is: KEEL_AXIS_NONE, _POOR or _GOOD. */
 } keel_axis_t;
@@ -180,9 +183,10 @@ keel_status_t keel_axis_init(keel_axis_t *axis, const keel_axis_config_t *config
  * @param axis the axis, initialised
  */
 /*@ requires \valid(axis);
-  @ assigns axis->position, axis->velocity, axis->bias, axis->age, axis->agreed, axis->jumped,
-  @     axis->flags, axis->quality;
-  @ ensures AXI_003_zero: axis->position == 0 && axis->velocity == 0 && axis->bias == 0;
+  @ assigns axis->position, axis->velocity, axis->bias, axis->jump, axis->age, axis->agreed,
+  @     axis->jumped, axis->flags, axis->quality;
+  @ ensures AXI_003_zero: axis->position == 0 && axis->velocity == 0 && axis->bias == 0 &&
+  @     axis->jump == 0;
   @ ensures AXI_003_age: axis->age == axis->config.lost_steps;
   @ ensures AXI_003_forgotten: axis->agreed == 0 && axis->jumped == 0 && axis->flags == 0 &&
   @     axis->quality == KEEL_AXIS_NONE;
@@ -190,7 +194,7 @@ keel_status_t keel_axis_init(keel_axis_t *axis, const keel_axis_config_t *config
 void keel_axis_restart(keel_axis_t *axis);
 
 /**
- * One step (requirements AXI-004 to AXI-012). Call it at the configured rate, whether something was
+ * One step (requirements AXI-004 to AXI-013). Call it at the configured rate, whether something was
  * measured or not.
  *
  * @param axis   the axis, initialised
@@ -198,8 +202,8 @@ void keel_axis_restart(keel_axis_t *axis);
  */
 /*@ requires \valid(axis) && \valid_read(sample) && \separated(axis, sample);
   @ requires axis_limits: axis_limited(axis);
-  @ assigns axis->position, axis->velocity, axis->bias, axis->age, axis->agreed, axis->jumped,
-  @     axis->flags, axis->quality;
+  @ assigns axis->position, axis->velocity, axis->bias, axis->jump, axis->age, axis->agreed,
+  @     axis->jumped, axis->flags, axis->quality;
   @ ensures AXI_004_bias: !sample->has_fix && \is_finite(\old(axis->bias)) ==>
   @     axis->bias == \old(axis->bias);
   @ ensures AXI_004_velocity: !sample->has_fix && axis_told(axis, KEEL_AXIS_BLIND) &&
@@ -228,10 +232,17 @@ void keel_axis_restart(keel_axis_t *axis);
   @ ensures AXI_009_lost: axis_counts(sample) &&
   @     \old(axis->age) + 1 >= axis->config.lost_steps ==> axis_told(axis, KEEL_AXIS_BEGUN);
   @ ensures AXI_009_only: axis_told(axis, KEEL_AXIS_BEGUN) ==>
-  @     \old(axis->age) + 1 >= axis->config.lost_steps ||
-  @     \old(axis->jumped) + 1 >= axis->config.jump_fixes;
+  @     \old(axis->age) + 1 >= axis->config.lost_steps || axis->config.jump_fixes <= 1 ||
+  @     (axis_told(axis, KEEL_AXIS_AGAIN) &&
+  @         \old(axis->jumped) + 1 >= axis->config.jump_fixes);
   @ ensures AXI_009_jumped: axis->jumped == ((axis->flags & KEEL_AXIS_FIXED) != 0 ? 0 :
-  @     (axis->flags & KEEL_AXIS_JUMPED) != 0 ? \old(axis->jumped) + 1 : \old(axis->jumped));
+  @     (axis->flags & KEEL_AXIS_JUMPED) == 0 ? \old(axis->jumped) :
+  @     (axis->flags & KEEL_AXIS_AGAIN) != 0 ? \old(axis->jumped) + 1 : 1);
+  @ ensures AXI_013_again: axis_told(axis, KEEL_AXIS_AGAIN) ==> \old(axis->jumped) > 0 &&
+  @     (axis_told(axis, KEEL_AXIS_JUMPED) || axis_told(axis, KEEL_AXIS_BEGUN));
+  @ ensures AXI_013_jump: axis_told(axis, KEEL_AXIS_JUMPED) ==> axis->jump == sample->position;
+  @ ensures AXI_013_kept: !axis_told(axis, KEEL_AXIS_JUMPED) && \is_finite(\old(axis->jump)) ==>
+  @     axis->jump == \old(axis->jump);
   @ ensures AXI_009_believed: axis_told(axis, KEEL_AXIS_JUMPED) ==>
   @     axis->jumped < axis->config.jump_fixes;
   @ ensures AXI_010_age: axis->age == ((axis->flags & KEEL_AXIS_FIXED) != 0 ? 0 :

@@ -139,10 +139,10 @@ keel_status_t keel_position_init(keel_position_t *position, const keel_position_
  */
 /*@ requires \valid(position);
   @ assigns position->north.position, position->north.velocity, position->north.bias,
-  @     position->north.age, position->north.agreed, position->north.jumped,
+  @     position->north.jump, position->north.age, position->north.agreed, position->north.jumped,
   @     position->north.flags, position->north.quality, position->east.position,
-  @     position->east.velocity, position->east.bias, position->east.age, position->east.agreed,
-  @     position->east.jumped, position->east.flags, position->east.quality, position->latitude,
+  @     position->east.velocity, position->east.bias, position->east.jump, position->east.age,
+  @     position->east.agreed, position->east.jumped, position->east.flags, position->east.quality, position->latitude,
   @     position->longitude, position->north_scale, position->east_scale, position->has_origin,
   @     position->quality;
   @ behavior refused:
@@ -172,10 +172,10 @@ keel_status_t keel_position_set_origin(keel_position_t *position, int32_t latitu
 /*@ requires \valid(position) && \valid_read(sample) && \separated(position, sample);
   @ requires position_limited(position);
   @ assigns position->north.position, position->north.velocity, position->north.bias,
-  @     position->north.age, position->north.agreed, position->north.jumped,
+  @     position->north.jump, position->north.age, position->north.agreed, position->north.jumped,
   @     position->north.flags, position->north.quality, position->east.position,
-  @     position->east.velocity, position->east.bias, position->east.age, position->east.agreed,
-  @     position->east.jumped, position->east.flags, position->east.quality, position->quality;
+  @     position->east.velocity, position->east.bias, position->east.jump, position->east.age,
+  @     position->east.agreed, position->east.jumped, position->east.flags, position->east.quality, position->quality;
   @ ensures POS_005_unusable: sample->has_fix && !(sample->fix.is_valid && position->has_origin &&
   @     axis_number(sample->fix.accuracy, 0, position->config.accuracy)) ==>
   @     axis_told(&position->north, KEEL_AXIS_UNUSABLE) &&
