@@ -96,9 +96,10 @@ analyze: python ## does a task set hold? (TASKSET=file.toml, ARGS=--phases, ARGS
 timing: python ## the paper's evaluation on the virtual board: tables, JSON and plots in build/timing
 	@$(TIMING) experiments specs/tasksets/urpilot.toml
 
-tables: python ## regenerate the C task table, and all that is made of the table of parameters
+tables: python ## regenerate the C tables of tasks, parameters and the Earth's magnetic field
 	@$(TIMING) table specs/tasksets/urpilot.toml examples/urpilot
 	@python3 tools/parameters.py
+	@python3 tools/with_packages.py world tools/world.py
 
 .PHONY: messages
 messages: python ## regenerate the C tables of MAVLink's messages from its definitions

@@ -4,6 +4,12 @@
  * for it, by turning the aircraft about all axes. */
 #include "copter.h"
 
+#include <math.h>
+
+/* Of twice the field's strength, as it is seen in a full turn about all axes. */
+#define SPAN_LEAST 0.72f
+#define SPAN_MOST  1.45f
+
 keel_status_t copter_calibration_init(copter_calibration_t *calibration)
 {
     keel_status_t status = keel_calibration_field_init(&calibration->field, &copter_settings.field);
@@ -66,10 +72,31 @@ static void calibrate_field(copter_t *copter)
     keel_calibration_field_step(field, sample);
 }
 
+/* An aircraft that turns about all axes sees a field of twice the strength of the place's. What was
+ * calibrated stays. */
+static void heed_place(copter_calibration_t *self, const copter_estimate_t *estimate)
+{
+    const copter_world_field_t field = estimate->field;
+    const float span = 2.0f * sqrtf((field.north * field.north) + (field.east * field.east) +
+                                    (field.down * field.down));
+    keel_calibration_field_config_t config = self->field.config;
+
+    if ((self->fields == estimate->fields) || (self->field.state == KEEL_CALIBRATION_COLLECTING)) {
+        return;
+    }
+    self->fields = estimate->fields;
+    if (self->field.state != KEEL_CALIBRATION_DONE) {
+        config.span_min = SPAN_LEAST * span;
+        config.span_max = SPAN_MOST * span;
+        (void)keel_calibration_field_init(&self->field, &config);
+    }
+}
+
 void copter_calibration_magnetometer(copter_t *copter)
 {
     copter_calibration_t *const self = &copter->calibration;
 
+    heed_place(self, &copter->estimate);
     if (!copter->state.mode.motors && copter->pilot.calibrates) {
         calibrate_field(copter);
     } else {

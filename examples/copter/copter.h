@@ -46,6 +46,7 @@
 #include "settings.h"
 #include "tuning.h"
 #include "urpilot_tasks.h"
+#include "world.h"
 
 /** Tasks beside table 2's, and all together. */
 #define COPTER_OWN_TASKS 4u
@@ -86,6 +87,7 @@ typedef struct copter_inertia {
     keel_virtual_imu_t imu;
     keel_attitude_t attitude;
     uint32_t calibrations;               /**< What was taken of calibration.done. */
+    uint32_t fields;                     /**< What was taken of estimate.fields. */
     uint32_t field_taken;                /**< What was taken of compass.samples. */
     keel_attitude_vector_t down;         /**< As the body sees it. */
     keel_attitude_vector_t force_sum;    /**< Of the steps of this block. */
@@ -100,6 +102,7 @@ typedef struct copter_calibration {
     keel_calibration_rest_t gyroscope[COPTER_IMUS];
     keel_calibration_field_t field;
     uint32_t done;   /**< How often all gyroscopes were calibrated. */
+    uint32_t fields; /**< What was taken of estimate.fields. */
     uint32_t checks; /**< KEEL_MODE_CHECK_CALIBRATION and _MAGNETOMETER, as far as they hold. */
 } copter_calibration_t;
 
@@ -227,6 +230,8 @@ typedef struct copter_estimate {
     uint32_t homes;                 /**< What was taken of state.homes. */
     uint32_t resets;                /**< How often the place jumped, as fixes contradicted it. */
     keel_cascade_vector_t reset_by; /**< How far it jumped the last time, in m. */
+    copter_world_field_t field;     /**< The Earth's magnetic field at the origin. */
+    uint32_t fields;                /**< How often an origin was set. */
     bool is_landed;                 /**< Nothing moves, and the motors hardly push. */
 } copter_estimate_t;
 

@@ -6,6 +6,7 @@
 #define VOTE_PERIOD_US 2000u /* Table 2: foreground IMU. */
 #define BLOCK          10u   /* Votes in a period of navigation. */
 #define ACCELEROMETER  KEEL_VIRTUAL_IMU_ACCELEROMETER
+#define FIELD_APART    0.5f /* In microtesla: a degree or so of the heading. */
 
 keel_status_t copter_inertia_init(copter_inertia_t *inertia)
 {
@@ -122,6 +123,29 @@ static void heed_calibration(copter_inertia_t *self, const copter_calibration_t 
     }
 }
 
+static bool is_apart(float one, float other)
+{
+    return ((one - other) > FIELD_APART) || ((other - one) > FIELD_APART);
+}
+
+/* Where the field's direction is another than was taken, heading is found anew; on the ground. */
+static void heed_field(copter_inertia_t *self, const copter_estimate_t *estimate)
+{
+    keel_attitude_config_t config = self->attitude.config;
+
+    if (self->fields == estimate->fields) {
+        return;
+    }
+    self->fields = estimate->fields;
+    if (is_apart(config.north, estimate->field.north) ||
+        is_apart(config.east, estimate->field.east)) {
+        config.north = estimate->field.north;
+        config.east = estimate->field.east;
+        /* Too near to a magnetic pole it is refused, and there is no heading. */
+        (void)keel_attitude_init(&self->attitude, &config);
+    }
+}
+
 void copter_foreground_imu(copter_t *copter)
 {
     copter_inertia_t *const self = &copter->inertia;
@@ -130,6 +154,7 @@ void copter_foreground_imu(copter_t *copter)
     keel_attitude_sample_t sample = {.has_magnetometer = false};
 
     heed_calibration(self, &copter->calibration);
+    heed_field(self, &copter->estimate);
     for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
         take(self, i, copter->scheduler.clock.now_us);
         unit[i] = calibrated(&self->unit[i], &copter->calibration.gyroscope[i]);

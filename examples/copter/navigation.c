@@ -69,8 +69,10 @@ static void find_origin(copter_t *copter, const copter_fix_t *fix)
 
     if (fix->is_valid && (fix->accuracy <= copter_settings.position.accuracy) &&
         (!self->position.has_origin ||
-         (!copter->state.mode.motors && is_elsewhere(&self->position, fix)))) {
-        (void)keel_position_set_origin(&self->position, fix->latitude, fix->longitude);
+         (!copter->state.mode.motors && is_elsewhere(&self->position, fix))) &&
+        (keel_position_set_origin(&self->position, fix->latitude, fix->longitude) == KEEL_OK)) {
+        self->field = copter_world_field(fix->latitude, fix->longitude);
+        self->fields++;
     }
 }
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,6 +13,7 @@ from flight import frames, sensors, wind
 from flight.plants import HOME_LATITUDE, HOME_LONGITUDE, NORTH_M, Truth
 from flight.power import Battery
 from flight.receivers import RADIO, SATELLITES, Receiver
+from flight.scenario import Place
 from flight.sensors import Broken, Inertial, Quality, Slow
 
 REST = [0.0, 0.0, -9.81, 0.0, 0.0, 0.0]
@@ -201,6 +203,20 @@ def test_a_first_fix_is_off_by_what_is_said() -> None:
     right = last_fix(slow(Broken(), 1000))
     wrong = last_fix(slow(Broken(first_fix=(150.0, 0.0)), 1000))
     assert north_of(wrong) - north_of(right) == pytest.approx(150.0, abs=0.05)
+
+
+def test_another_place_has_its_own_field_and_degrees() -> None:
+    place = Place(latitude=0.0, longitude=103.0, north=40.0, east=0.5, down=-9.0)
+    there = memory()
+    devices = Slow(there, np.random.SeedSequence(3), Quality(noise=0.0, bias=0.0), place)
+    # Nose east, right wing down by 90 degrees: forward is east, right is down, down is north.
+    truth = Truth(place=(100.0, 0.0, 0.0), angles=(math.pi / 2.0, 0.0, math.pi / 2.0))
+    plant, battery = Still(truth), Battery(voltage=16.0, current=0.0)
+    for now in range(1, 1001):
+        devices.step(now, plant, battery, Broken())
+    assert there["magnetometer"]["field"].tolist() == pytest.approx([0.5, -9.0, 40.0], abs=1e-4)
+    # A degree of latitude is 110.574 km long at the equator (WGS 84).
+    assert last_fix(there)[15] * 1e-7 * 110_574.0 == pytest.approx(100.0, abs=1.0)
 
 
 def test_rates() -> None:

@@ -104,7 +104,7 @@ class Flight:
         self._battery.step([0.0] * plants.MOTORS, 0.0)
         memory = copter.sensors
         self._inertial = Inertial(memory["imu"], rng[0], order.quality)
-        self._slow = Slow(memory, seeds[1], order.quality)
+        self._slow = Slow(memory, seeds[1], order.quality, scenario.place)
         self._radio = Receiver(memory, RADIO, rng[3], RADIO_LINES[scenario.radio])
         self._radio_ms = 1000 // scenario.radio_hz
         self._pilot = pilot(scenario, self._radio_ms / 1000.0)

@@ -141,6 +141,16 @@ class Frame(Table):
     drag: Factor = 1.0
 
 
+class Place(Table):
+    """Where on Earth it is flown, in degrees, and the magnetic field there, in microtesla."""
+
+    latitude: Annotated[float, Field(ge=-79.0, le=79.0)]
+    longitude: Annotated[float, Field(ge=-180.0, le=180.0)]
+    north: Annotated[float, Field(ge=-70.0, le=70.0)]
+    east: Annotated[float, Field(ge=-70.0, le=70.0)]
+    down: Annotated[float, Field(ge=-70.0, le=70.0)]
+
+
 class FirstFix(Table):
     """Until this time since power-up the satellite receiver is wrong by so much."""
 
@@ -207,6 +217,7 @@ class Scenario(Table):
     battery_left: Share = 0.95
     wind: Wind = Wind()
     airframe: Frame = Frame()
+    place: Place | None = None
     first_fix: FirstFix | None = None
     pilot: list[Hand] = []
     fault: list[Fault] = []

@@ -16,9 +16,18 @@ from typing import Any
 import numpy as np
 
 from flight import frames
-from flight.plants import EAST_M, HOME_ALTITUDE_M, NORTH_M, Plant, standard_temperature
+from flight.plants import (
+    EAST_M,
+    HOME_ALTITUDE_M,
+    NORTH_M,
+    Plant,
+    Truth,
+    metres_per_degree,
+    standard_temperature,
+)
 from flight.power import Battery
 from flight.receivers import SATELLITES, Receiver
+from flight.scenario import Place
 
 BLOCK = 1000
 UNITS = 3
@@ -101,6 +110,17 @@ class Wander:
         return self._state
 
 
+def body_to_earth(roll: float, pitch: float, yaw: float) -> Any:
+    """The matrix that turns a vector of the body (forward, right, down) to north, east, down."""
+    cr, sr, cp, sp = math.cos(roll), math.sin(roll), math.cos(pitch), math.sin(pitch)
+    cy, sy = math.cos(yaw), math.sin(yaw)
+    return np.array([
+        [cp * cy, sr * sp * cy - cr * sy, cr * sp * cy + sr * sy],
+        [cp * sy, sr * sp * sy + cr * cy, cr * sp * sy - sr * cy],
+        [-sp, sr * cp, cr * cp],
+    ])  # fmt: skip
+
+
 class Inertial:
     """Three units; each sample is what was so some milliseconds ago."""
 
@@ -169,7 +189,11 @@ class Inertial:
 class Slow:
     """Magnetometer, barometer, satellites, power modules and the chip, each at its own pace."""
 
-    def __init__(self, memory: Any, seed: np.random.SeedSequence, quality: Quality) -> None:
+    def __init__(
+        self, memory: Any, seed: np.random.SeedSequence, quality: Quality,
+        place: Place | None = None,
+    ) -> None:  # fmt: skip
+        self._home = place
         own = [np.random.Generator(np.random.PCG64(part)) for part in seed.spawn(6)]
         self._field_rng, self._air_rng, self._gps_rng, self._power_rng, line_rng = own[:5]
         self._wild_rng = own[5]
@@ -207,8 +231,23 @@ class Slow:
         noise = self._quality.noise * FIELD_NOISE * self._field_rng.standard_normal(3)
         per_ampere = FIELD_PER_AMPERE + broken.microtesla_per_ampere
         bias = self._field_bias + battery.current * per_ampere * self._per_ampere
-        self._memory["magnetometer"]["field"] = self._field_turn @ plant.field() + bias + noise
+        self._memory["magnetometer"]["field"] = self._field_turn @ self._field(plant) + bias + noise
         self._memory["magnetometer"]["count"] += 1
+
+    def _field(self, plant: Plant) -> Any:
+        """The plant's, or that of the place where it is flown, turned as the aircraft is."""
+        if self._home is None:
+            return plant.field()
+        return np.transpose(body_to_earth(*plant.truth().angles)) @ np.array(
+            [self._home.north, self._home.east, self._home.down])  # fmt: skip
+
+    def _place_of(self, truth: Truth, north_m: float, east_m: float) -> tuple[float, float]:
+        """Latitude and longitude of an aircraft that is taken to be so far off."""
+        if self._home is None:
+            return truth.latitude + north_m / NORTH_M, truth.longitude + east_m / EAST_M
+        north, east = metres_per_degree(self._home.latitude)
+        return (self._home.latitude + (truth.place[0] + north_m) / north,
+                self._home.longitude + (truth.place[1] + east_m) / east)  # fmt: skip
 
     def _barometer(self, now_ms: int, plant: Plant, broken: Broken) -> None:
         white, walk = self._air_rng.standard_normal(2)
@@ -239,8 +278,7 @@ class Slow:
             np.add(broken.gps_jump, broken.first_fix)
             + broken.gps_wild * self._wild_rng.uniform(-1.0, 1.0, 2)
         )
-        place = (truth.latitude + (north + jump_north) / NORTH_M,
-                 truth.longitude + (east + jump_east) / EAST_M)  # fmt: skip
+        place = self._place_of(truth, north + jump_north, east + jump_east)
         speed = (truth.speed[0] + quality * SPEED_NOISE * drawn[4],
                  truth.speed[1] + quality * SPEED_NOISE * drawn[5], -truth.speed[2])  # fmt: skip
         fix = frames.nav_pvt(now_ms, place, HOME_ALTITUDE_M + truth.place[2], speed,
