@@ -328,6 +328,15 @@ def test_a_frozen_unit_is_told(tool: Tool, motion: Motion, tmp_path: Path,
     assert keel_of(report)["inclination_deg"]["moving"]["rms"] < 1.0
 
 
+def test_beside_two_units_the_third_is_silent(
+    tool: Tool, motion: Motion, tmp_path: Path
+) -> None:  # fmt: skip
+    _, report = tool(written(tmp_path, motion, units=2), "--no-pictures")
+    votes = report["recordings"][0]["votes"]
+    assert votes["counted"][2] == [0.0, 0.0] and votes["states"]["gyroscope"]["mean"] > 0.99
+    assert keel_of(report)["inclination_deg"]["moving"]["rms"] < 1.0
+
+
 def test_the_distance_to_the_mean_of_all_is_as_computed(
     tool: Tool, motion: Motion, tmp_path: Path
 ) -> None:  # fmt: skip

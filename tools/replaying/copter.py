@@ -113,15 +113,19 @@ def texts(data: bytes) -> list[str]:
 
 
 class Replay:
-    """One run of the copter. Three units are its; one recorded unit stands for all of them."""
+    """One run of the copter. Three units are its: one recorded unit stands for all of them, beside
+    two the third is silent."""
 
     def __init__(self, copter: Copter, recording: Recording, units: list[Series]) -> None:
         self._copter, self._recording = copter, recording
         begin = min(float(unit.time[0]) for unit in units)
         count = int(np.ceil((max(float(unit.time[-1]) for unit in units) - begin) / TICK_S)) + 1
         self.ticks = begin + TICK_S * np.arange(1, count + 1)
-        chosen = [at_ticks(units[number % len(units)], self.ticks) for number in range(3)] \
-            if len(units) > 1 else [at_ticks(units[0], self.ticks)] * 3  # fmt: skip
+        chosen = [at_ticks(unit, self.ticks) for unit in units[:3]]
+        if len(chosen) == 1:
+            chosen *= 3
+        elif len(chosen) == 2:  # Nobody else may outvote either.
+            chosen.append((np.zeros_like(chosen[0][0]), np.zeros(count, bool)))
         value = np.stack([one[0] for one in chosen], 1).astype(np.float32)
         self._force, self._rate = value[:, :, :3].copy(), value[:, :, 3:].copy()
         self._spoke = np.stack([one[1] for one in chosen], 1).astype(np.uint32)
