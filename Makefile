@@ -31,7 +31,7 @@ RESEARCH := timing campaign pictures
 ALL_TOOLS := prove test lint coverage bench fuzz oracles firmware stack target registers model \
              flash-openocd flash-pyocd flash-st-flash flash-px4 timing tools-tests timing-tests \
              consumer packaging opinion evidence browser attestation contracts-run trace c-syntax dask ci \
-             fly flights fly-tests messages sim clients fatfs card schedule
+             fly flights replay fly-tests messages sim clients fatfs card schedule
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
 TIMING := python3 tools/with_packages.py timing -m timing
@@ -124,6 +124,10 @@ flights: python ## N flights with everything varied (N=1000; JOBS=4; DASK=tcp://
 .PHONY: log
 log: python ## plot a flight's log (FILE=build/fly/hover-jsbsim.ulg): attitude, motors, votes, load, vibration
 	@python3 tools/with_packages.py fly tools/log.py "$(FILE)" $(ARGS)
+
+.PHONY: replay
+replay: python ## your recorded sensors through Keel's estimators (FILE=flight.ulg, a folder; ARGS=--compare)
+	@python3 tools/with_packages.py replay tools/replay.py "$(FILE)" $(ARGS)
 
 .PHONY: schedule
 schedule: python ## see each run of each task: for Perfetto, and as a page (FILE=flight.ulg: of a log)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One look for every picture: colours, axes, and SVG without a date or a random name."""
+"""One look for every picture: colours, axes, and SVG without a date or a random name; and PNG."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from common.files import write_text
+from common.files import write_bytes, write_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -66,3 +66,10 @@ def write_svg(path: Path, figure: Figure) -> None:
     figure.savefig(stream, format="svg", metadata={"Date": None})
     lines = [line.rstrip() for line in stream.getvalue().decode().splitlines()]
     write_text(path, "\n".join([*lines, ""]))
+
+
+def write_png(path: Path, figure: Figure) -> None:
+    """A figure as PNG, which does not say by what it was drawn."""
+    stream = BytesIO()
+    figure.savefig(stream, format="png", dpi=110, metadata={"Software": None})
+    write_bytes(path, stream.getvalue())

@@ -404,6 +404,7 @@ static void show_inertia(void)
     show_vector(view.rate, attitude->rate);
     for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
         view.vote[k] = inertia->imu.channel[k].vote.output;
+        view.vote_state[k] = inertia->imu.channel[k].vote.state;
     }
     for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
         view.used[unit] = inertia->imu.used[unit];

@@ -127,6 +127,7 @@ typedef struct sim_view {
     float bias[3];           /**< Of the gyroscopes, in rad/s. */
     float rate[3];           /**< In rad/s. */
     float vote[6];           /**< Accelerometer, gyroscope. */
+    uint32_t vote_state[6];  /**< How each came about: KEEL_VOTER_MEAN, ... */
     uint32_t used[SIM_IMUS]; /**< Per unit: its channels that contributed, a bit each. */
     uint32_t latched[SIM_IMUS];
     float position[3];      /**< North, east, up, in m from home. */
