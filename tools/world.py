@@ -3,7 +3,7 @@
 """Writes the Earth's magnetic field by place as a table in C, from the World Magnetic Model.
 
     python3 tools/with_packages.py world tools/world.py          # writes what has changed
-    python3 tools/with_packages.py world tools/world.py --check  # only sees whether it is up to date
+    python3 tools/with_packages.py world tools/world.py --check  # only sees whether that is so
 
 The model is WMM2025 of NOAA's National Centers for Environmental Information and the British
 Geological Survey, which is in the public domain and valid from 2025 to 2030; pygeomag computes it.
@@ -34,9 +34,9 @@ Vector = tuple[float, float, float]
 
 HEAD = """\
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Made by tools/world.py. The Earth's field at sea level in the middle of {year:.0f}, by WMM2025 (NOAA,
- * BGS): rows are latitudes from -80 degrees, columns longitudes from -180 degrees, {step} apart; north,
- * east and down in {unit} nT. */
+/* Made by tools/world.py. The Earth's field at sea level in the middle of {year:.0f}, by WMM2025
+ * (NOAA, BGS): rows are latitudes from -80 degrees, columns longitudes from -180 degrees, {step}
+ * apart; north, east and down in {unit} nT. */
 #include "world.h"
 
 const int16_t copter_world_table[COPTER_WORLD_ROWS][COPTER_WORLD_COLUMNS][3] = {{
@@ -73,7 +73,8 @@ def rows(model: Model) -> list[list[tuple[int, ...]]]:
 
 def text_of(table: Sequence[Sequence[Sequence[int]]]) -> str:
     """The file in C, as the formatter leaves it."""
-    lines = [HEAD.format(year=math.floor(YEAR), step=STEP_DEG, unit=UNIT_NT) + "    /* clang-format off */"]
+    head = HEAD.format(year=math.floor(YEAR), step=STEP_DEG, unit=UNIT_NT)
+    lines = [f"{head}    /* clang-format off */"]
     for row in table:
         cells = ["{" + ", ".join(map(str, cell)) + "}" for cell in row]
         body = ",\n     ".join(

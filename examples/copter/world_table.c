@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Made by tools/world.py. The Earth's field at sea level in the middle of 2027, by WMM2025 (NOAA,
- * BGS): rows are latitudes from -80 degrees, columns longitudes from -180 degrees, 10 apart; north,
- * east and down in 3 nT. */
+/* Made by tools/world.py. The Earth's field at sea level in the middle of 2027, by WMM2025
+ * (NOAA, BGS): rows are latitudes from -80 degrees, columns longitudes from -180 degrees, 10
+ * apart; north, east and down in 3 nT. */
 #include "world.h"
 
 const int16_t copter_world_table[COPTER_WORLD_ROWS][COPTER_WORLD_COLUMNS][3] = {

@@ -135,7 +135,8 @@ class Mutants(StrengthTest):
 
     def test_code_in_what_looks_like_a_comment_is_stale(self) -> None:
         self.record()
-        self.replace("include/keel/middleware/range.h", "#define", "//@ lemma more: 1 < 2;\n#define")
+        lemma = "//@ lemma more: 1 < 2;\n#define"
+        self.replace("include/keel/middleware/range.h", "#define", lemma)
         self.assertIn("STALE: source changed since", self.told()[1])
 
     def test_a_result_of_other_tools_is_stale_and_no_problem(self) -> None:

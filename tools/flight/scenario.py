@@ -96,8 +96,9 @@ FAULTS: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 FaultKind = Literal[
     "imu_freeze", "imu_silent", "imu_shout", "imu_drift", "radio_loss", "radio_failsafe",
-    "radio_noise", "gps_loss", "gps_jump", "gps_noise", "gps_wild", "barometer_spike", "barometer_loss",
-    "barometer_stuck", "magnetometer_current", "motor_weak", "battery_low", "task_overrun",
+    "radio_noise", "gps_loss", "gps_jump", "gps_noise", "gps_wild", "barometer_spike",
+    "barometer_loss", "barometer_stuck", "magnetometer_current", "motor_weak", "battery_low",
+    "task_overrun",
 ]  # fmt: skip
 
 

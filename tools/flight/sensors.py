@@ -204,7 +204,8 @@ class Slow:
         per_ampere = self._field_rng.uniform(-1.0, 1.0, 3)
         self._per_ampere = per_ampere / np.linalg.norm(per_ampere)
         self._air = Wander(self._air_rng, quality.noise * PRESSURE_WANDER, PRESSURE_S, 0.02, 1)
-        self._place = Wander(self._gps_rng, quality.gps_noise * quality.gps_wander * PLACE_WANDER, PLACE_S, 0.1, 2)
+        wander = quality.gps_noise * quality.gps_wander * PLACE_WANDER
+        self._place = Wander(self._gps_rng, wander, PLACE_S, 0.1, 2)
         self._start = [float(value) for value in self._place.step(np.zeros(2))]
         self._late: deque[tuple[int, bytes]] = deque()
         self._pressures: deque[tuple[int, float, int]] = deque()

@@ -114,8 +114,9 @@ void keel_altitude_zero(keel_altitude_t *altitude);
 /*@ requires \valid(altitude) && \valid_read(sample) && \separated(altitude, sample);
   @ requires axis_limited(&altitude->axis) && altitude_referenced(altitude);
   @ assigns altitude->axis.position, altitude->axis.velocity, altitude->axis.bias,
-  @     altitude->axis.jump, altitude->axis.age, altitude->axis.agreed, altitude->axis.jumped, altitude->axis.flags,
-  @     altitude->axis.quality, altitude->reference, altitude->height, altitude->has_reference;
+  @     altitude->axis.jump, altitude->axis.age, altitude->axis.agreed, altitude->axis.jumped,
+  @     altitude->axis.flags, altitude->axis.quality, altitude->reference,
+  @     altitude->height, altitude->has_reference;
   @ ensures ALT_004_first: !\old(altitude->has_reference) && altitude_pressure(sample) ==>
   @     altitude->has_reference && altitude->reference == sample->pressure;
   @ ensures ALT_004_kept: \old(altitude->has_reference) || !altitude_pressure(sample) ==>

@@ -142,9 +142,9 @@ keel_status_t keel_position_init(keel_position_t *position, const keel_position_
   @     position->north.jump, position->north.age, position->north.agreed, position->north.jumped,
   @     position->north.flags, position->north.quality, position->east.position,
   @     position->east.velocity, position->east.bias, position->east.jump, position->east.age,
-  @     position->east.agreed, position->east.jumped, position->east.flags, position->east.quality, position->latitude,
-  @     position->longitude, position->north_scale, position->east_scale, position->has_origin,
-  @     position->quality;
+  @     position->east.agreed, position->east.jumped, position->east.flags, position->east.quality,
+  @     position->latitude, position->longitude, position->north_scale, position->east_scale,
+  @     position->has_origin, position->quality;
   @ behavior refused:
   @   assumes !position_origin(latitude, longitude);
   @   assigns \nothing;
@@ -175,7 +175,8 @@ keel_status_t keel_position_set_origin(keel_position_t *position, int32_t latitu
   @     position->north.jump, position->north.age, position->north.agreed, position->north.jumped,
   @     position->north.flags, position->north.quality, position->east.position,
   @     position->east.velocity, position->east.bias, position->east.jump, position->east.age,
-  @     position->east.agreed, position->east.jumped, position->east.flags, position->east.quality, position->quality;
+  @     position->east.agreed, position->east.jumped, position->east.flags, position->east.quality,
+  @     position->quality;
   @ ensures POS_005_unusable: sample->has_fix && !(sample->fix.is_valid && position->has_origin &&
   @     axis_number(sample->fix.accuracy, 0, position->config.accuracy)) ==>
   @     axis_told(&position->north, KEEL_AXIS_UNUSABLE) &&
