@@ -72,7 +72,7 @@ STEPS: dict[str, tuple[str, str, int]] = {
     "mixer_worst": ("mixer, 4 motors, all gives way", "keel_mixer_step", 200),
     "mode": ("mode, in flight", "keel_mode_step", 250),
     "mode_worst": ("mode, all facts waiting", "keel_mode_step", 250),
-    "attitude": ("attitude, all sensors in each", "keel_attitude_step", 400),
+    "attitude": ("attitude, all sensors in each", "keel_attitude_step", 600),
     "altitude": ("altitude, a pressure in each", "keel_altitude_step", 250),
     "position": ("position, a fix in each", "keel_position_step", 500),
     "cascade": ("cascade, all four stages", "keel_cascade_rate_step", 3000),

@@ -39,8 +39,8 @@ static bool attitude_config_same(const keel_attitude_config_t *a, const keel_att
            float_same(a->heading_gain, b->heading_gain) &&
            float_same(a->align_gain, b->align_gain) && float_same(a->bias_gain, b->bias_gain) &&
            float_same(a->bias_limit, b->bias_limit) && float_same(a->quiet_rate, b->quiet_rate) &&
-           float_same(a->gate_rate, b->gate_rate) && float_same(a->clip_rate, b->clip_rate) &&
-           float_same(a->still_rate, b->still_rate) &&
+           float_same(a->force_gain, b->force_gain) && float_same(a->field_share, b->field_share) &&
+           float_same(a->clip_rate, b->clip_rate) && float_same(a->still_rate, b->still_rate) &&
            float_same(a->still_acceleration, b->still_acceleration) &&
            float_same(a->tolerance, b->tolerance) && float_same(a->north, b->north) &&
            float_same(a->east, b->east) && (a->still_steps == b->still_steps) &&
@@ -50,8 +50,8 @@ static bool attitude_config_same(const keel_attitude_config_t *a, const keel_att
 
 static bool attitude_scale_same(const keel_attitude_scale_t *a, const keel_attitude_scale_t *b)
 {
-    return float_same(a->half_step, b->half_step) && float_same(a->bias_step, b->bias_step) &&
-           float_same(a->gate, b->gate) && float_same(a->quiet, b->quiet) &&
+    return float_same(a->step, b->step) && float_same(a->half_step, b->half_step) &&
+           float_same(a->bias_step, b->bias_step) && float_same(a->quiet, b->quiet) &&
            float_same(a->tolerance, b->tolerance) && float_same(a->north, b->north) &&
            float_same(a->east, b->east) && float_same(a->still, b->still);
 }
@@ -72,6 +72,7 @@ static bool attitude_same(const keel_attitude_t *a, const keel_attitude_t *b)
            vector_same(&a->rate, &b->rate) && vector_same(&a->gyroscope, &b->gyroscope) &&
            vector_same(&a->first_rate, &b->first_rate) &&
            vector_same(&a->first_force, &b->first_force) && vector_same(&a->sum, &b->sum) &&
+           vector_same(&a->down, &b->down) && vector_same(&a->field, &b->field) &&
            float_same(a->heading_error, b->heading_error) && attitude_counts_same(a, b);
 }
 
@@ -119,9 +120,11 @@ static bool attitude_config_valid(const keel_attitude_config_t *c)
            within(c->heading_gain, 0.0f, KEEL_ATTITUDE_GAIN_LIMIT) &&
            within(c->align_gain, 0.0f, KEEL_ATTITUDE_GAIN_LIMIT) &&
            within(c->bias_gain, 0.0f, KEEL_ATTITUDE_GAIN_LIMIT) &&
+           within(c->force_gain, 0.0f, KEEL_ATTITUDE_GAIN_LIMIT) &&
+           within(c->field_share, 0.0f, 1.0f) &&
            within(c->bias_limit, 0.0f, KEEL_ATTITUDE_BIAS_LIMIT) &&
            within(c->clip_rate, 0.0f, KEEL_ATTITUDE_RATE_LIMIT) &&
-           within(c->gate_rate, 0.0f, c->clip_rate) && within(c->quiet_rate, 0.0f, c->gate_rate) &&
+           within(c->quiet_rate, 0.0f, c->clip_rate) &&
            within(c->still_rate, 0.0f, KEEL_ATTITUDE_STILL_RATE_LIMIT) &&
            within(c->still_acceleration, 0.0f, KEEL_ATTITUDE_STILL_ACCELERATION_LIMIT) &&
            within(c->tolerance, 0.0f, 1.0f) && (c->still_steps > 0u) && (c->settle_steps > 0u) &&
@@ -145,8 +148,8 @@ static bool attitude_counts_valid(const keel_attitude_t *a)
 /* What init computes. A part of the expected field over its square is at most 1000 / 0.0625^2. */
 static bool attitude_scale_valid(const keel_attitude_scale_t *s)
 {
-    return within(s->half_step, 0.0f, 0.001f) && within(s->bias_step, 0.0f, 0.016f) &&
-           within(s->gate, 0.0f, 1600.0f) && within(s->quiet, 0.0f, 1600.0f) &&
+    return within(s->step, 0.0f, 0.002f) && within(s->half_step, 0.0f, 0.001f) &&
+           within(s->bias_step, 0.0f, 0.016f) && within(s->quiet, 0.0f, 1600.0f) &&
            within(s->tolerance, 0.0f, 1.0f) && within(s->north, -256000.0f, 256000.0f) &&
            within(s->east, -256000.0f, 256000.0f) && within(s->still, 0.0f, 1.0f);
 }
@@ -157,13 +160,21 @@ static bool attitude_still_valid(const keel_attitude_t *a)
            vector_within(a->first_force, KEEL_ATTITUDE_FORCE_LIMIT);
 }
 
+/* What was low-passed. */
+static bool attitude_passed_valid(const keel_attitude_t *a)
+{
+    return vector_within(a->down, KEEL_ATTITUDE_DOWN_REACH) &&
+           vector_within(a->field, KEEL_ATTITUDE_FIELD_REACH);
+}
+
 /* What init establishes and every step keeps, but for the quaternion. The heading's error is a sine
  * times the root of KEEL_ATTITUDE_FIELD_RATIO_MAX at most. */
 static bool attitude_rest_valid(const keel_attitude_t *a)
 {
     return attitude_config_valid(&a->config) && vector_within(a->bias, a->config.bias_limit) &&
            vector_within(a->gyroscope, KEEL_ATTITUDE_RATE_LIMIT) && attitude_still_valid(a) &&
-           within(a->heading_error, -1.25f, 1.25f) && attitude_counts_valid(a);
+           attitude_passed_valid(a) && within(a->heading_error, -1.25f, 1.25f) &&
+           attitude_counts_valid(a);
 }
 
 /* What a step leaves: the level quaternion, or the last one that was taken for a unit. */

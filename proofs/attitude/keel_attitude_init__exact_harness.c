@@ -24,8 +24,9 @@ void keel_attitude_init__exact_harness(void)
                                            .align_gain = 4.0f,
                                            .bias_gain = 0.5f,
                                            .bias_limit = 0.25f,
+                                           .force_gain = 2.0f,
+                                           .field_share = 0.25f,
                                            .quiet_rate = 0.5f,
-                                           .gate_rate = 4.0f,
                                            .clip_rate = 32.0f,
                                            .still_rate = 0.25f,
                                            .still_acceleration = 0.5f,
@@ -46,9 +47,10 @@ void keel_attitude_init__exact_harness(void)
                                                                       : KEEL_OK),
                      "ATT_001_exact: no number of steps may be 0, nor another be out of range");
     if (status == KEEL_OK) {
-        __CPROVER_assert((attitude.scale.half_step == 0x1p-10f) &&
+        __CPROVER_assert((attitude.scale.step == 0x1p-9f) &&
+                             (attitude.scale.half_step == 0x1p-10f) &&
                              (attitude.scale.bias_step == 0x1p-10f) &&
-                             (attitude.scale.gate == 16.0f) && (attitude.scale.quiet == 0.25f) &&
+                             (attitude.scale.quiet == 0.25f) &&
                              (attitude.scale.tolerance == 0.0625f) &&
                              (attitude.scale.north == 0.125f) && (attitude.scale.east == -0.125f) &&
                              (attitude.scale.still == 0.5f),

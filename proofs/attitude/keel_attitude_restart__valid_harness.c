@@ -17,6 +17,8 @@ void keel_attitude_restart__valid_harness(void)
 
     __CPROVER_assert(is_level(attitude.quaternion), "ATT_003_level: the quaternion is level");
     __CPROVER_assert(vector_within(attitude.bias, 0.0f), "ATT_003_unbiased: there is no bias");
+    __CPROVER_assert(vector_within(attitude.down, 0.0f) && vector_within(attitude.field, 0.0f),
+                     "ATT_003_forgets: nothing was low-passed");
     __CPROVER_assert((attitude.phase == KEEL_ATTITUDE_STILL) && !attitude.heading_valid,
                      "ATT_003_still: it waits for rest, and nothing is valid");
     __CPROVER_assert(attitude_rest_valid(&attitude), "ATT_011_begins: all else is in bounds");

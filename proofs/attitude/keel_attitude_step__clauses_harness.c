@@ -30,14 +30,18 @@ void keel_attitude_step__clauses_harness(void)
 
     __CPROVER_assert(sample.has_gyroscope || is_told(&attitude, KEEL_ATTITUDE_LOST),
                      "ATT_005_lost: a rate that does not come is told");
-    __CPROVER_assert(!is_told(&attitude, KEEL_ATTITUDE_DOWN) || sample.has_accelerometer,
+    __CPROVER_assert(!is_told(&attitude, KEEL_ATTITUDE_DOWN) ||
+                         (sample.has_accelerometer &&
+                          vector_within(sample.accelerometer, KEEL_ATTITUDE_FORCE_LIMIT)),
                      "ATT_006_down: gravity is measured");
     __CPROVER_assert(!is_told(&attitude, KEEL_ATTITUDE_COMPENSATED) ||
                          (sample.has_acceleration &&
                           vector_within(sample.acceleration, KEEL_ATTITUDE_FORCE_LIMIT)),
                      "ATT_007_compensated: what is taken off was given, and is in range");
     __CPROVER_assert(!is_told(&attitude, KEEL_ATTITUDE_FIELD) ||
-                         (sample.has_magnetometer && (attitude.field_age == 0u)),
+                         (sample.has_magnetometer &&
+                          vector_within(sample.magnetometer, KEEL_ATTITUDE_FIELD_REACH) &&
+                          (attitude.field_age == 0u)),
                      "ATT_008_field: the field that counts is a new one");
     __CPROVER_assert(float_same(attitude.rate.x, attitude.gyroscope.x - before.bias.x) &&
                          float_same(attitude.rate.y, attitude.gyroscope.y - before.bias.y) &&
@@ -66,6 +70,8 @@ void keel_attitude_step__clauses_harness(void)
                           (attitude.heading_settled == attitude.config.settle_steps)),
                      "ATT_015_begins: a heading is valid once it has settled");
     __CPROVER_assert(!is_told(&attitude, KEEL_ATTITUDE_CORRUPTED) ||
-                         (is_level(attitude.quaternion) && !runs(&attitude)),
-                     "ATT_016_told: what was corrupted is level, and not valid");
+                         (is_level(attitude.quaternion) && !runs(&attitude) &&
+                          vector_within(attitude.down, 0.0f) &&
+                          vector_within(attitude.field, 0.0f)),
+                     "ATT_016_told: what was corrupted is level, and nothing is known");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 42 --external-sat-solver cadical
+// cbmc: --unwind 47 --external-sat-solver cadical
 // checks: assertions
 // sources: src/flight/attitude.c specs/model/attitude.c
 // covers: keel_attitude_step model_attitude_step

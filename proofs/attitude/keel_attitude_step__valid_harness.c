@@ -33,6 +33,8 @@ void keel_attitude_step__valid_harness(void)
     __CPROVER_assert(vector_within(attitude.first_rate, KEEL_ATTITUDE_RATE_LIMIT) &&
                          vector_within(attitude.first_force, KEEL_ATTITUDE_FORCE_LIMIT),
                      "ATT_011_still: so is the first of the still samples");
+    __CPROVER_assert(attitude_passed_valid(&attitude),
+                     "ATT_020_bounded: so is what was low-passed");
     __CPROVER_assert(vector_within(attitude.gyroscope, KEEL_ATTITUDE_RATE_LIMIT) &&
                          vector_within(attitude.rate, KEEL_ATTITUDE_RATE_LIMIT + 0.5f),
                      "ATT_011_rate: so are the rates");

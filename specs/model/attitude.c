@@ -96,15 +96,15 @@ static bool gains_valid(const keel_attitude_config_t *c)
     const float most = KEEL_ATTITUDE_GAIN_LIMIT;
 
     return from_to(c->tilt_gain, 0.0f, most) && from_to(c->heading_gain, 0.0f, most) &&
-           from_to(c->align_gain, 0.0f, most) && from_to(c->bias_gain, 0.0f, most);
+           from_to(c->align_gain, 0.0f, most) && from_to(c->bias_gain, 0.0f, most) &&
+           from_to(c->force_gain, 0.0f, most) && from_to(c->field_share, 0.0f, 1.0f);
 }
 
 static bool limits_valid(const keel_attitude_config_t *c)
 {
     return from_to(c->bias_limit, 0.0f, KEEL_ATTITUDE_BIAS_LIMIT) &&
            from_to(c->clip_rate, 0.0f, KEEL_ATTITUDE_RATE_LIMIT) &&
-           from_to(c->gate_rate, 0.0f, c->clip_rate) &&
-           from_to(c->quiet_rate, 0.0f, c->gate_rate) &&
+           from_to(c->quiet_rate, 0.0f, c->clip_rate) &&
            from_to(c->still_rate, 0.0f, KEEL_ATTITUDE_STILL_RATE_LIMIT) &&
            from_to(c->still_acceleration, 0.0f, KEEL_ATTITUDE_STILL_ACCELERATION_LIMIT) &&
            from_to(c->tolerance, 0.0f, 1.0f) && (c->still_steps > 0u) && (c->settle_steps > 0u) &&
@@ -141,9 +141,9 @@ keel_status_t model_attitude_init(keel_attitude_t *attitude, const keel_attitude
     }
     /* ATT-002 */
     attitude->config = *config;
+    attitude->scale.step = 1.0f / config->rate_hz;
     attitude->scale.half_step = 0.5f / config->rate_hz;
     attitude->scale.bias_step = config->bias_gain / config->rate_hz;
-    attitude->scale.gate = config->gate_rate * config->gate_rate;
     attitude->scale.quiet = config->quiet_rate * config->quiet_rate;
     attitude->scale.tolerance = config->tolerance * config->tolerance;
     attitude->scale.north = (square == 0.0f) ? 0.0f : (config->north / square);
@@ -166,6 +166,8 @@ void model_attitude_restart(keel_attitude_t *attitude)
     attitude->first_rate = zero;
     attitude->first_force = zero;
     attitude->sum = zero;
+    attitude->down = zero;
+    attitude->field = zero;
     attitude->heading_error = 0.0f;
     attitude->still = 0u;
     attitude->settled = 0u;
@@ -248,27 +250,59 @@ static void heading_validity(keel_attitude_t *attitude, bool ahead)
     }
 }
 
-/* ATT-008: no sample; the last one is too old after a while. */
+/* ATT-008: nothing is known of the field; after a while not even what was known. */
 static void field_missing(keel_attitude_t *attitude)
 {
-    attitude->field_age = next_count(attitude->field_age, true, attitude->config.field_steps);
-    if (attitude->field_age >= attitude->config.field_steps) {
-        attitude->heading_error = 0.0f;
-        attitude->heading_settled = 0u;
-        attitude->heading_valid = false;
+    const vector_t zero = {0.0f, 0.0f, 0.0f};
+
+    if (attitude->field_age < attitude->config.field_steps) {
+        attitude->field_age++;
+        if (attitude->field_age >= attitude->config.field_steps) {
+            attitude->field = zero;
+            attitude->heading_error = 0.0f;
+            attitude->heading_settled = 0u;
+            attitude->heading_valid = false;
+        }
     }
 }
 
-/* ATT-008: H, and what becomes of it. */
+/* R v. */
+static vector_t of_earth(quaternion_t q, vector_t v)
+{
+    const vector_t turned = {product_of(north_of(q), v), product_of(east_of(q), v),
+                             product_of(down_of(q), v)};
+
+    return turned;
+}
+
+/* R^-1 v. */
+static vector_t of_body(quaternion_t q, vector_t v)
+{
+    const vector_t n = north_of(q);
+    const vector_t part = {v.x * n.x, v.x * n.y, v.x * n.z};
+
+    return sum_of(sum_of(part, v.y, east_of(q)), v.z, down_of(q));
+}
+
+/* A share of the way from one vector to another. */
+static vector_t towards(vector_t from, vector_t to, float share)
+{
+    return sum_of(from, share, apart(to, from));
+}
+
+/* ATT-008: F, H, and what becomes of it. */
 static void field_step(keel_attitude_t *attitude, const keel_attitude_sample_t *sample)
 {
-    const vector_t b = sample->magnetometer;
-    const float north = product_of(north_of(attitude->quaternion), b);
-    const float east = product_of(east_of(attitude->quaternion), b);
-    const float sine = (north * attitude->scale.east) - (east * attitude->scale.north);
-    const float cosine = (north * attitude->scale.north) + (east * attitude->scale.east);
+    const bool came = sample->has_magnetometer &&
+                      vector_to(sample->magnetometer, KEEL_ATTITUDE_FIELD_REACH);
 
-    if (sample->has_magnetometer) {
+    if (came) {
+        const vector_t b = of_earth(attitude->quaternion, sample->magnetometer);
+        const vector_t f = towards(attitude->field, b, attitude->config.field_share);
+        const float sine = (f.x * attitude->scale.east) - (f.y * attitude->scale.north);
+        const float cosine = (f.x * attitude->scale.north) + (f.y * attitude->scale.east);
+
+        attitude->field = f;
         if (from_to((sine * sine) + (cosine * cosine), KEEL_ATTITUDE_FIELD_RATIO_MIN,
                     KEEL_ATTITUDE_FIELD_RATIO_MAX)) {
             attitude->heading_error = (cosine > 0.0f) ? sine : ((sine < 0.0f) ? -1.0f : 1.0f);
@@ -283,31 +317,32 @@ static void field_step(keel_attitude_t *attitude, const keel_attitude_sample_t *
     }
 }
 
-/* ATT-006 and ATT-007: m, told by a flag when it is taken for down. */
-static vector_t down_measured(keel_attitude_t *attitude, const keel_attitude_sample_t *sample)
+static bool force_came(const keel_attitude_sample_t *sample)
 {
-    const quaternion_t q = attitude->quaternion;
-    const float per_gravity = 0.101971618831157684326171875f; /* 1 / g */
-    const vector_t f = sample->accelerometer;
-    const vector_t a = sample->acceleration;
-    vector_t pull = {-1.0f * f.x, -1.0f * f.y, -1.0f * f.z};
-    vector_t m;
+    return sample->has_accelerometer && vector_to(sample->accelerometer, KEEL_ATTITUDE_FORCE_LIMIT);
+}
 
-    if (sample->has_acceleration && vector_to(a, KEEL_ATTITUDE_FORCE_LIMIT)) {
-        pull = sum_of(pull, a.x, north_of(q));
-        pull = sum_of(pull, a.y, east_of(q));
-        pull = sum_of(pull, a.z, down_of(q));
-        attitude->flags |= KEEL_ATTITUDE_COMPENSATED;
+/* ATT-006 and ATT-007: D, told by a flag when it is taken for down. */
+static void down_step(keel_attitude_t *attitude, const keel_attitude_sample_t *sample, bool came)
+{
+    const float per_gravity = 0.101971618831157684326171875f; /* 1 / g */
+    const vector_t f = of_earth(attitude->quaternion, sample->accelerometer);
+    const vector_t a = sample->acceleration;
+    vector_t m = {-per_gravity * f.x, -per_gravity * f.y, -per_gravity * f.z};
+    const float gain = (attitude->phase == KEEL_ATTITUDE_RUNNING) ? attitude->config.force_gain
+                                                                  : attitude->config.align_gain;
+
+    if (came) {
+        if (sample->has_acceleration && vector_to(a, KEEL_ATTITUDE_FORCE_LIMIT)) {
+            m = sum_of(m, per_gravity, a);
+            attitude->flags |= KEEL_ATTITUDE_COMPENSATED;
+        }
+        attitude->down = towards(attitude->down, m, attitude->scale.step * gain);
+        if (from_to(product_of(attitude->down, attitude->down), KEEL_ATTITUDE_DOWN_MIN,
+                    KEEL_ATTITUDE_DOWN_MAX)) {
+            attitude->flags |= KEEL_ATTITUDE_DOWN;
+        }
     }
-    m.x = per_gravity * pull.x;
-    m.y = per_gravity * pull.y;
-    m.z = per_gravity * pull.z;
-    if (sample->has_accelerometer &&
-        from_to(product_of(m, m), KEEL_ATTITUDE_DOWN_MIN, KEEL_ATTITUDE_DOWN_MAX) &&
-        (product_of(attitude->rate, attitude->rate) <= attitude->scale.gate)) {
-        attitude->flags |= KEEL_ATTITUDE_DOWN;
-    }
-    return m;
 }
 
 /* ATT-014 */
@@ -335,44 +370,53 @@ static void tilt_validity(keel_attitude_t *attitude, vector_t error, float cosin
 }
 
 /* ATT-012: B. */
-static void bias_step(keel_attitude_t *attitude, vector_t error, vector_t v, float cosine)
+static void bias_step(keel_attitude_t *attitude, vector_t error)
 {
     const float heading = attitude->heading_valid ? attitude->heading_error : 0.0f;
-    const vector_t whole = sum_of(error, heading, v);
+    const vector_t whole = {error.x, error.y, heading};
+    const vector_t part = nearest_vector(whole, attitude->config.tolerance);
 
     if ((attitude->phase == KEEL_ATTITUDE_RUNNING) && (attitude->lost == 0u) &&
-        (cosine >= KEEL_ATTITUDE_AGREEMENT) &&
+        (attitude->down.z >= KEEL_ATTITUDE_AGREEMENT) &&
         (product_of(attitude->rate, attitude->rate) <= attitude->scale.quiet)) {
-        attitude->bias = nearest_vector(sum_of(attitude->bias, -attitude->scale.bias_step, whole),
+        attitude->bias = nearest_vector(sum_of(attitude->bias, -attitude->scale.bias_step,
+                                               of_body(attitude->quaternion, part)),
                                         attitude->config.bias_limit);
     }
 }
 
-/* ATT-009: the rate to turn with. */
-static vector_t rate_to_turn(keel_attitude_t *attitude, const keel_attitude_sample_t *sample)
+/* ATT-009: u. */
+static vector_t rate_of_correction(keel_attitude_t *attitude)
 {
-    const vector_t v = down_of(attitude->quaternion);
-    const vector_t m = down_measured(attitude, sample);
-    vector_t rate = attitude->rate;
+    vector_t u = {0.0f, 0.0f, 0.0f};
     float gain;
 
     if ((attitude->flags & KEEL_ATTITUDE_DOWN) != 0u) {
-        const float cosine = product_of(m, v);
         const vector_t nudge = {KEEL_ATTITUDE_NUDGE_X, KEEL_ATTITUDE_NUDGE_Y, 0.0f};
-        vector_t error = {(m.y * v.z) - (m.z * v.y), (m.z * v.x) - (m.x * v.z),
-                          (m.x * v.y) - (m.y * v.x)};
+        vector_t error = {attitude->down.y, -attitude->down.x, 0.0f};
 
-        tilt_validity(attitude, error, cosine);
-        bias_step(attitude, error, v, cosine);
-        if (cosine < 0.0f) {
+        tilt_validity(attitude, error, attitude->down.z);
+        bias_step(attitude, error);
+        if (attitude->down.z < 0.0f) {
             error = sum_of(error, 1.0f, nudge);
         }
         gain = (attitude->phase == KEEL_ATTITUDE_RUNNING) ? attitude->config.tilt_gain
                                                           : attitude->config.align_gain;
-        rate = sum_of(rate, gain, error);
+        u.x = gain * error.x;
+        u.y = gain * error.y;
     }
     gain = attitude->heading_valid ? attitude->config.heading_gain : attitude->config.align_gain;
-    return sum_of(rate, attitude->heading_error * gain, v);
+    u.z = attitude->heading_error * gain;
+    return u;
+}
+
+/* v + w x v: turned by small angles w. */
+static vector_t turned_by(vector_t v, vector_t w, float most)
+{
+    const vector_t product = {(w.y * v.z) - (w.z * v.y), (w.z * v.x) - (w.x * v.z),
+                              (w.x * v.y) - (w.y * v.x)};
+
+    return nearest_vector(sum_of(v, 1.0f, product), most);
 }
 
 /* ATT-016 */
@@ -386,6 +430,7 @@ bool model_attitude_is_unit(keel_attitude_quaternion_t q)
 static void turn_step(keel_attitude_t *attitude, vector_t rate)
 {
     const quaternion_t level = {1.0f, 0.0f, 0.0f, 0.0f};
+    const vector_t zero = {0.0f, 0.0f, 0.0f};
     const float k = attitude->scale.half_step;
     const vector_t angles = {k * rate.x, k * rate.y, k * rate.z};
     const vector_t h = nearest_vector(angles, KEEL_ATTITUDE_HALF_ANGLE_LIMIT);
@@ -403,6 +448,8 @@ static void turn_step(keel_attitude_t *attitude, vector_t rate)
         attitude->quaternion = next;
     } else {
         attitude->quaternion = level;
+        attitude->down = zero;
+        attitude->field = zero;
         attitude->flags |= KEEL_ATTITUDE_CORRUPTED;
         if (attitude->phase == KEEL_ATTITUDE_RUNNING) {
             align_again(attitude);
@@ -424,21 +471,15 @@ static void mean_of_still(keel_attitude_t *attitude)
     }
 }
 
-static bool force_came(const keel_attitude_sample_t *sample)
-{
-    return sample->has_accelerometer && vector_to(sample->accelerometer, KEEL_ATTITUDE_FORCE_LIMIT);
-}
-
 /* ATT-013: is this sample near the first of those that were still? */
-static void still_step(keel_attitude_t *attitude, const keel_attitude_sample_t *sample)
+static void still_step(keel_attitude_t *attitude, const keel_attitude_sample_t *sample, bool came)
 {
     const vector_t zero = {0.0f, 0.0f, 0.0f};
     const vector_t w = attitude->gyroscope;
     const vector_t f = sample->accelerometer;
     const vector_t moved = apart(w, attitude->first_rate);
 
-    if (((attitude->flags & (KEEL_ATTITUDE_LOST | KEEL_ATTITUDE_CLIPPED)) != 0u) ||
-        !force_came(sample)) {
+    if (((attitude->flags & (KEEL_ATTITUDE_LOST | KEEL_ATTITUDE_CLIPPED)) != 0u) || !came) {
         attitude->still = 0u;
     } else {
         if ((attitude->still > 0u) && vector_to(moved, attitude->config.still_rate) &&
@@ -459,11 +500,23 @@ static void still_step(keel_attitude_t *attitude, const keel_attitude_sample_t *
 
 void model_attitude_step(keel_attitude_t *attitude, const keel_attitude_sample_t *sample)
 {
+    const quaternion_t q = attitude->quaternion;
+    const bool came = force_came(sample);
+    vector_t u;
+    vector_t angle;
+
     rate_step(attitude, sample);
     field_step(attitude, sample);
-    turn_step(attitude, rate_to_turn(attitude, sample));
+    down_step(attitude, sample, came);
+    u = rate_of_correction(attitude);
+    angle.x = attitude->scale.step * u.x;
+    angle.y = attitude->scale.step * u.y;
+    angle.z = attitude->scale.step * u.z;
+    attitude->down = turned_by(attitude->down, angle, KEEL_ATTITUDE_DOWN_REACH);
+    attitude->field = turned_by(attitude->field, angle, KEEL_ATTITUDE_FIELD_REACH);
+    turn_step(attitude, sum_of(attitude->rate, 1.0f, of_body(q, u)));
     if (attitude->phase == KEEL_ATTITUDE_STILL) {
-        still_step(attitude, sample);
+        still_step(attitude, sample, came);
     }
 }
 

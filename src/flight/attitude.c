@@ -98,6 +98,35 @@ static axes_t axes_of(keel_attitude_quaternion_t q)
     return axes;
 }
 
+/* A vector of the body's in the Earth's frame. */
+/*@ requires \valid_read(axes);
+  @ assigns \nothing;
+  @*/
+static keel_attitude_vector_t to_earth(const axes_t *axes, keel_attitude_vector_t v)
+{
+    const keel_attitude_vector_t seen = {dot(axes->north, v), dot(axes->east, v),
+                                         dot(axes->down, v)};
+
+    return seen;
+}
+
+/* And back. */
+/*@ requires \valid_read(axes);
+  @ assigns \nothing;
+  @*/
+static keel_attitude_vector_t to_body(const axes_t *axes, keel_attitude_vector_t v)
+{
+    return add(add(scaled(v.x, axes->north), v.y, axes->east), v.z, axes->down);
+}
+
+/* A first-order low pass. */
+/*@ assigns \nothing; */
+static keel_attitude_vector_t low_passed(keel_attitude_vector_t a, float share,
+                                         keel_attitude_vector_t sample)
+{
+    return add(a, share, difference(sample, a));
+}
+
 /* q turned by the half angles h, and led back to length 1. What rounding does to its length is
  * bounded in proofs/attitude/norm.g, from this text. */
 /*@ assigns \nothing; */
@@ -139,7 +168,9 @@ static bool attitude_gains_fit(const keel_attitude_config_t *config)
     return keel_range_contains(config->tilt_gain, 0.0f, most) &&
            keel_range_contains(config->heading_gain, 0.0f, most) &&
            keel_range_contains(config->align_gain, 0.0f, most) &&
-           keel_range_contains(config->bias_gain, 0.0f, most);
+           keel_range_contains(config->bias_gain, 0.0f, most) &&
+           keel_range_contains(config->force_gain, 0.0f, most) &&
+           keel_range_contains(config->field_share, 0.0f, 1.0f);
 }
 
 /*@ requires \valid_read(config);
@@ -150,8 +181,7 @@ static bool attitude_limits_fit(const keel_attitude_config_t *config)
 {
     return keel_range_contains(config->bias_limit, 0.0f, KEEL_ATTITUDE_BIAS_LIMIT) &&
            keel_range_contains(config->clip_rate, 0.0f, KEEL_ATTITUDE_RATE_LIMIT) &&
-           keel_range_contains(config->gate_rate, 0.0f, config->clip_rate) &&
-           keel_range_contains(config->quiet_rate, 0.0f, config->gate_rate) &&
+           keel_range_contains(config->quiet_rate, 0.0f, config->clip_rate) &&
            keel_range_contains(config->still_rate, 0.0f, KEEL_ATTITUDE_STILL_RATE_LIMIT) &&
            keel_range_contains(config->still_acceleration, 0.0f,
                                KEEL_ATTITUDE_STILL_ACCELERATION_LIMIT) &&
@@ -182,9 +212,9 @@ static void set_scale(keel_attitude_scale_t *scale, const keel_attitude_config_t
     const float square = (config->north * config->north) + (config->east * config->east);
     const bool none = square == 0.0f;
 
+    scale->step = 1.0f / config->rate_hz;
     scale->half_step = 0.5f / config->rate_hz;
     scale->bias_step = config->bias_gain / config->rate_hz;
-    scale->gate = config->gate_rate * config->gate_rate;
     scale->quiet = config->quiet_rate * config->quiet_rate;
     scale->tolerance = config->tolerance * config->tolerance;
     scale->north = none ? 0.0f : (config->north / square);
@@ -225,6 +255,8 @@ void keel_attitude_restart(keel_attitude_t *attitude)
     attitude->first_rate = zero;
     attitude->first_force = zero;
     attitude->sum = zero;
+    attitude->down = zero;
+    attitude->field = zero;
     attitude->heading_error = 0.0f;
     attitude->still = 0u;
     attitude->settled = 0u;
@@ -327,35 +359,40 @@ static void judge_heading(keel_attitude_t *attitude, bool ahead)
     }
 }
 
-/* One step without a sample of the field. */
+/* One step without a sample of the field. When none has come for long, the low-passed one tells of
+ * an attitude of that time. */
 /*@ requires \valid(attitude);
-  @ assigns attitude->heading_error, attitude->heading_settled, attitude->heading_valid,
-  @     attitude->field_age;
+  @ assigns attitude->field, attitude->heading_error, attitude->heading_settled,
+  @     attitude->heading_valid, attitude->field_age;
   @*/
 static void miss_field(keel_attitude_t *attitude)
 {
-    attitude->field_age = counted(attitude->field_age, true, attitude->config.field_steps);
-    if (attitude->field_age >= attitude->config.field_steps) {
-        attitude->heading_error = 0.0f;
-        attitude->heading_settled = 0u;
-        attitude->heading_valid = false;
+    const keel_attitude_vector_t zero = {0.0f, 0.0f, 0.0f};
+
+    if (attitude->field_age < attitude->config.field_steps) {
+        attitude->field_age++;
+        if (attitude->field_age >= attitude->config.field_steps) {
+            attitude->field = zero;
+            attitude->heading_error = 0.0f;
+            attitude->heading_settled = 0u;
+            attitude->heading_valid = false;
+        }
     }
 }
 
-/* The heading's error by the field, where that is within the bounds: what is no number is not. The
- * sine falls when the error grows beyond a right angle; there the whole error stands in its place.
- * Without an expected field both are 0, and out of range. */
-/*@ requires \valid(attitude) && \valid_read(axes);
-  @ assigns attitude->heading_error, attitude->heading_settled, attitude->heading_valid,
-  @     attitude->field_age, attitude->flags;
+/* The heading's error by the low-passed field, where that is within the bounds. The sine falls when
+ * the error grows beyond a right angle; there the whole error stands in its place. Without an
+ * expected field both are 0, and out of range. */
+/*@ requires \valid(attitude);
+  @ assigns attitude->field, attitude->heading_error, attitude->heading_settled,
+  @     attitude->heading_valid, attitude->field_age, attitude->flags;
   @*/
-static void judge_field(keel_attitude_t *attitude, keel_attitude_vector_t field, const axes_t *axes)
+static void judge_field(keel_attitude_t *attitude)
 {
     const keel_attitude_scale_t *const scale = &attitude->scale;
-    const float north = dot(axes->north, field);
-    const float east = dot(axes->east, field);
-    const float sine = (north * scale->east) - (east * scale->north);
-    const float cosine = (north * scale->north) + (east * scale->east);
+    const keel_attitude_vector_t field = attitude->field;
+    const float sine = (field.x * scale->east) - (field.y * scale->north);
+    const float cosine = (field.x * scale->north) + (field.y * scale->east);
     const float whole = (sine < 0.0f) ? -1.0f : 1.0f;
 
     if (keel_range_contains((sine * sine) + (cosine * cosine), KEEL_ATTITUDE_FIELD_RATIO_MIN,
@@ -370,44 +407,63 @@ static void judge_field(keel_attitude_t *attitude, keel_attitude_vector_t field,
 }
 
 /*@ requires \valid(attitude) && \valid_read(sample) && \valid_read(axes);
-  @ assigns attitude->heading_error, attitude->heading_settled, attitude->heading_valid,
-  @     attitude->field_age, attitude->flags;
+  @ requires \separated(attitude, sample) && \separated(attitude, axes);
+  @ assigns attitude->field, attitude->heading_error, attitude->heading_settled,
+  @     attitude->heading_valid, attitude->field_age, attitude->flags;
   @*/
 static void take_field(keel_attitude_t *attitude, const keel_attitude_sample_t *sample,
                        const axes_t *axes)
 {
-    if (sample->has_magnetometer) {
-        judge_field(attitude, sample->magnetometer, axes);
+    if (sample->has_magnetometer && is_within(sample->magnetometer, KEEL_ATTITUDE_FIELD_REACH)) {
+        attitude->field = low_passed(attitude->field, attitude->config.field_share,
+                                     to_earth(axes, sample->magnetometer));
+        judge_field(attitude);
     } else {
         miss_field(attitude);
     }
 }
 
-/* Down by the accelerometer, which is taken for it when the flag says so: what is no number, or far
- * from 1 g, is not within the bounds. */
-/*@ requires \valid(attitude) && \valid_read(sample) && \valid_read(axes);
-  @ assigns attitude->flags;
+/*@ requires \valid_read(sample);
+  @ assigns \nothing;
   @*/
-static keel_attitude_vector_t measured_down(keel_attitude_t *attitude,
-                                            const keel_attitude_sample_t *sample,
-                                            const axes_t *axes)
+static bool has_force(const keel_attitude_sample_t *sample)
 {
-    keel_attitude_vector_t force = scaled(-1.0f, sample->accelerometer);
-    keel_attitude_vector_t down;
+    return sample->has_accelerometer && is_within(sample->accelerometer, KEEL_ATTITUDE_FORCE_LIMIT);
+}
 
-    if (sample->has_acceleration && is_within(sample->acceleration, KEEL_ATTITUDE_FORCE_LIMIT)) {
-        force = add(force, sample->acceleration.x, axes->north);
-        force = add(force, sample->acceleration.y, axes->east);
-        force = add(force, sample->acceleration.z, axes->down);
-        attitude->flags |= KEEL_ATTITUDE_COMPENSATED;
+/* A gain while tilt is valid; before, that of alignment. */
+/*@ requires \valid_read(attitude);
+  @ assigns \nothing;
+  @*/
+static float gain_of(const keel_attitude_t *attitude, float running)
+{
+    return (attitude->phase == KEEL_ATTITUDE_RUNNING) ? running : attitude->config.align_gain;
+}
+
+/* Down by the accelerometer, low-passed in the Earth's frame, in which it stands still while the
+ * body turns. It is taken for down when the flag says so. */
+/*@ requires \valid(attitude) && \valid_read(sample) && \valid_read(axes);
+  @ requires \separated(attitude, sample) && \separated(attitude, axes);
+  @ assigns attitude->down, attitude->flags;
+  @*/
+static void take_force(keel_attitude_t *attitude, const keel_attitude_sample_t *sample,
+                       const axes_t *axes, bool forced)
+{
+    if (forced) {
+        const float share = attitude->scale.step * gain_of(attitude, attitude->config.force_gain);
+        keel_attitude_vector_t down = scaled(-PER_GRAVITY, to_earth(axes, sample->accelerometer));
+
+        if (sample->has_acceleration &&
+            is_within(sample->acceleration, KEEL_ATTITUDE_FORCE_LIMIT)) {
+            down = add(down, PER_GRAVITY, sample->acceleration);
+            attitude->flags |= KEEL_ATTITUDE_COMPENSATED;
+        }
+        attitude->down = low_passed(attitude->down, share, down);
+        if (keel_range_contains(dot(attitude->down, attitude->down), KEEL_ATTITUDE_DOWN_MIN,
+                                KEEL_ATTITUDE_DOWN_MAX)) {
+            attitude->flags |= KEEL_ATTITUDE_DOWN;
+        }
     }
-    down = scaled(PER_GRAVITY, force);
-    if (sample->has_accelerometer &&
-        keel_range_contains(dot(down, down), KEEL_ATTITUDE_DOWN_MIN, KEEL_ATTITUDE_DOWN_MAX) &&
-        (dot(attitude->rate, attitude->rate) <= attitude->scale.gate)) {
-        attitude->flags |= KEEL_ATTITUDE_DOWN;
-    }
-    return down;
 }
 
 /* Whether tilt is valid, by one more measurement of down: the sine and the cosine of its error. */
@@ -440,57 +496,64 @@ static void judge_tilt(keel_attitude_t *attitude, keel_attitude_vector_t error, 
 }
 
 /* The bias follows slowly, and only when little turns and the directions do not contradict. */
-/*@ requires \valid(attitude);
+/*@ requires \valid(attitude) && \valid_read(axes) && \separated(attitude, axes);
   @ requires attitude_number(attitude->config.bias_limit, 0, KEEL_ATTITUDE_BIAS_LIMIT);
   @ assigns attitude->bias;
   @*/
-static void follow_bias(keel_attitude_t *attitude, keel_attitude_vector_t error,
-                        keel_attitude_vector_t down, float cosine)
+static void follow_bias(keel_attitude_t *attitude, const axes_t *axes, keel_attitude_vector_t error)
 {
     if ((attitude->phase == KEEL_ATTITUDE_RUNNING) && (attitude->lost == 0u) &&
-        (cosine >= KEEL_ATTITUDE_AGREEMENT) &&
+        (attitude->down.z >= KEEL_ATTITUDE_AGREEMENT) &&
         (dot(attitude->rate, attitude->rate) <= attitude->scale.quiet)) {
         const float heading = attitude->heading_valid ? attitude->heading_error : 0.0f;
-        const keel_attitude_vector_t whole = add(error, heading, down);
+        const keel_attitude_vector_t whole = {error.x, error.y, heading};
+        const keel_attitude_vector_t part = clamped(whole, attitude->config.tolerance);
 
-        attitude->bias = clamped(add(attitude->bias, -attitude->scale.bias_step, whole),
+        attitude->bias = clamped(add(attitude->bias, -attitude->scale.bias_step,
+                                     to_body(axes, part)),
                                  attitude->config.bias_limit);
     }
 }
 
-/* Twice the rate of the half angle: what is measured, and what leads towards the directions. */
-/*@ requires \valid(attitude) && \valid_read(sample) && \valid_read(axes);
+/* The rate, in the Earth's frame, that leads towards the directions that were measured. */
+/*@ requires \valid(attitude) && \valid_read(axes) && \separated(attitude, axes);
   @ requires attitude_number(attitude->config.bias_limit, 0, KEEL_ATTITUDE_BIAS_LIMIT);
-  @ assigns attitude->flags, attitude->bias, attitude->settled, attitude->heading_settled,
+  @ assigns attitude->bias, attitude->settled, attitude->heading_settled,
   @     attitude->heading_valid, attitude->phase;
   @*/
-static keel_attitude_vector_t corrected_rate(keel_attitude_t *attitude,
-                                             const keel_attitude_sample_t *sample,
-                                             const axes_t *axes)
+static keel_attitude_vector_t correction(keel_attitude_t *attitude, const axes_t *axes)
 {
-    const keel_attitude_config_t *const config = &attitude->config;
-    const keel_attitude_vector_t measured = measured_down(attitude, sample, axes);
-    keel_attitude_vector_t rate = attitude->rate;
+    keel_attitude_vector_t rate = {0.0f, 0.0f, 0.0f};
 
     if ((attitude->flags & KEEL_ATTITUDE_DOWN) != 0u) {
-        const float cosine = dot(measured, axes->down);
         const keel_attitude_vector_t nudge = {KEEL_ATTITUDE_NUDGE_X, KEEL_ATTITUDE_NUDGE_Y, 0.0f};
-        keel_attitude_vector_t error = cross(measured, axes->down);
+        keel_attitude_vector_t error = {attitude->down.y, -attitude->down.x, 0.0f};
 
-        judge_tilt(attitude, error, cosine);
-        follow_bias(attitude, error, axes->down, cosine);
-        if (cosine < 0.0f) {
+        judge_tilt(attitude, error, attitude->down.z);
+        follow_bias(attitude, axes, error);
+        if (attitude->down.z < 0.0f) {
             error = add(error, 1.0f, nudge);
         }
-        rate = add(rate,
-                   (attitude->phase == KEEL_ATTITUDE_RUNNING) ? config->tilt_gain
-                                                              : config->align_gain,
-                   error);
+        rate = scaled(gain_of(attitude, attitude->config.tilt_gain), error);
     }
-    return add(rate,
-               attitude->heading_error *
-                   (attitude->heading_valid ? config->heading_gain : config->align_gain),
-               axes->down);
+    rate.z = attitude->heading_error * (attitude->heading_valid ? attitude->config.heading_gain
+                                                                : attitude->config.align_gain);
+    return rate;
+}
+
+/* What was low-passed is turned along with the estimate of the Earth's frame: what is corrected has
+ * not to be measured anew. This comes last in a step, and bounds what is kept. */
+/*@ requires \valid(attitude);
+  @ assigns attitude->down, attitude->field;
+  @*/
+static void turn_along(keel_attitude_t *attitude, keel_attitude_vector_t rate)
+{
+    const keel_attitude_vector_t angle = scaled(attitude->scale.step, rate);
+
+    attitude->down = clamped(add(attitude->down, 1.0f, cross(angle, attitude->down)),
+                             KEEL_ATTITUDE_DOWN_REACH);
+    attitude->field = clamped(add(attitude->field, 1.0f, cross(angle, attitude->field)),
+                              KEEL_ATTITUDE_FIELD_REACH);
 }
 
 bool keel_attitude_is_unit(keel_attitude_quaternion_t q)
@@ -501,12 +564,13 @@ bool keel_attitude_is_unit(keel_attitude_quaternion_t q)
 }
 
 /*@ requires \valid(attitude);
-  @ assigns attitude->quaternion, attitude->flags, attitude->settled, attitude->heading_settled,
-  @     attitude->heading_valid, attitude->phase;
+  @ assigns attitude->quaternion, attitude->down, attitude->field, attitude->flags,
+  @     attitude->settled, attitude->heading_settled, attitude->heading_valid, attitude->phase;
   @*/
 static void rotate(keel_attitude_t *attitude, keel_attitude_vector_t rate)
 {
     const keel_attitude_quaternion_t level = {1.0f, 0.0f, 0.0f, 0.0f};
+    const keel_attitude_vector_t zero = {0.0f, 0.0f, 0.0f};
     const keel_attitude_vector_t half = clamped(scaled(attitude->scale.half_step, rate),
                                                 KEEL_ATTITUDE_HALF_ANGLE_LIMIT);
     const keel_attitude_quaternion_t next = turned(attitude->quaternion, half);
@@ -515,6 +579,8 @@ static void rotate(keel_attitude_t *attitude, keel_attitude_vector_t rate)
         attitude->quaternion = next;
     } else {
         attitude->quaternion = level;
+        attitude->down = zero;
+        attitude->field = zero;
         attitude->flags |= KEEL_ATTITUDE_CORRUPTED;
         if (attitude->phase == KEEL_ATTITUDE_RUNNING) {
             lose(attitude);
@@ -540,14 +606,6 @@ static void conclude_still(keel_attitude_t *attitude)
     }
 }
 
-/*@ requires \valid_read(sample);
-  @ assigns \nothing;
-  @*/
-static bool has_force(const keel_attitude_sample_t *sample)
-{
-    return sample->has_accelerometer && is_within(sample->accelerometer, KEEL_ATTITUDE_FORCE_LIMIT);
-}
-
 /* Counts samples near the first of them, which is this one when it is not. */
 /*@ requires \valid(attitude) && \valid_read(sample) && \separated(attitude, sample);
   @ requires \is_finite(attitude->config.bias_limit) &&
@@ -556,13 +614,13 @@ static bool has_force(const keel_attitude_sample_t *sample)
   @ assigns attitude->first_rate, attitude->first_force, attitude->sum, attitude->still,
   @     attitude->bias, attitude->flags, attitude->phase;
   @*/
-static void await_still(keel_attitude_t *attitude, const keel_attitude_sample_t *sample)
+static void await_still(keel_attitude_t *attitude, const keel_attitude_sample_t *sample,
+                        bool forced)
 {
     const keel_attitude_vector_t zero = {0.0f, 0.0f, 0.0f};
     const keel_attitude_vector_t moved = difference(attitude->gyroscope, attitude->first_rate);
 
-    if (((attitude->flags & (KEEL_ATTITUDE_LOST | KEEL_ATTITUDE_CLIPPED)) != 0u) ||
-        !has_force(sample)) {
+    if (((attitude->flags & (KEEL_ATTITUDE_LOST | KEEL_ATTITUDE_CLIPPED)) != 0u) || !forced) {
         attitude->still = 0u;
     } else {
         if ((attitude->still > 0u) && is_within(moved, attitude->config.still_rate) &&
@@ -585,12 +643,17 @@ static void await_still(keel_attitude_t *attitude, const keel_attitude_sample_t 
 void keel_attitude_step(keel_attitude_t *attitude, const keel_attitude_sample_t *sample)
 {
     const axes_t axes = axes_of(attitude->quaternion);
+    const bool forced = has_force(sample);
+    keel_attitude_vector_t rate;
 
     take_rate(attitude, sample);
     take_field(attitude, sample, &axes);
-    rotate(attitude, corrected_rate(attitude, sample, &axes));
+    take_force(attitude, sample, &axes, forced);
+    rate = correction(attitude, &axes);
+    turn_along(attitude, rate);
+    rotate(attitude, add(attitude->rate, 1.0f, to_body(&axes, rate)));
     if (attitude->phase == KEEL_ATTITUDE_STILL) {
-        await_still(attitude, sample);
+        await_still(attitude, sample, forced);
     }
 }
 

@@ -15,9 +15,10 @@ static const keel_attitude_config_t usual = {.rate_hz = 1000.0f,
                                              .heading_gain = 0.25f,
                                              .align_gain = 8.0f,
                                              .bias_gain = 1.0f,
+                                             .force_gain = 8.0f,
+                                             .field_share = 1.0f,
                                              .bias_limit = 0.25f,
                                              .quiet_rate = 0.5f,
-                                             .gate_rate = 2.0f,
                                              .clip_rate = 32.0f,
                                              .still_rate = 0.25f,
                                              .still_acceleration = 0.5f,
@@ -39,9 +40,16 @@ static keel_attitude_config_t config;
 static keel_attitude_sample_t sample;
 static keel_attitude_t attitude;
 
+/* All of a low pass: a share of 1, as no configuration has it. What is measured counts at once. */
+static void pass_all(void)
+{
+    attitude.scale.step = 0.125f;
+}
+
 static void make(void)
 {
     TEST_ASSERT_EQUAL(KEEL_OK, keel_attitude_init(&attitude, &config));
+    pass_all();
 }
 
 void setUp(void)
@@ -166,14 +174,15 @@ static void ATT_001_bad_gains_are_refused(void)
     bounded_by(&config.heading_gain, 0.0f, 8.0f, KEEL_ERR_GAIN);
     bounded_by(&config.align_gain, 0.0f, 8.0f, KEEL_ERR_GAIN);
     bounded_by(&config.bias_gain, 0.0f, 8.0f, KEEL_ERR_GAIN);
+    bounded_by(&config.force_gain, 0.0f, 8.0f, KEEL_ERR_GAIN);
+    bounded_by(&config.field_share, 0.0f, 1.0f, KEEL_ERR_GAIN);
 }
 
 static void ATT_001_bad_limits_are_refused(void)
 {
     bounded_by(&config.bias_limit, 0.0f, 0.5f, KEEL_ERR_LIMITS);
-    bounded_by(&config.clip_rate, 2.0f, 40.0f, KEEL_ERR_LIMITS); /* Not below gate_rate. */
-    bounded_by(&config.gate_rate, 0.5f, 32.0f, KEEL_ERR_LIMITS); /* Not below quiet_rate. */
-    bounded_by(&config.quiet_rate, 0.0f, 2.0f, KEEL_ERR_LIMITS);
+    bounded_by(&config.clip_rate, 0.5f, 40.0f, KEEL_ERR_LIMITS); /* Not below quiet_rate. */
+    bounded_by(&config.quiet_rate, 0.0f, 32.0f, KEEL_ERR_LIMITS);
     bounded_by(&config.still_rate, 0.0f, 1.0f, KEEL_ERR_LIMITS);
     bounded_by(&config.still_acceleration, 0.0f, 10.0f, KEEL_ERR_LIMITS);
     bounded_by(&config.tolerance, 0.0f, 1.0f, KEEL_ERR_LIMITS);
@@ -227,11 +236,11 @@ static void ATT_002_what_follows_from_a_configuration(void)
 {
     config.north = 3.0f;
     config.east = -4.0f;
-    make();
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_attitude_init(&attitude, &config));
     TEST_ASSERT_EQUAL_MEMORY(&config, &attitude.config, sizeof config);
+    TEST_ASSERT_EQUAL_FLOAT(0.001f, attitude.scale.step);
     TEST_ASSERT_EQUAL_FLOAT(0.0005f, attitude.scale.half_step);
     TEST_ASSERT_EQUAL_FLOAT(0.001f, attitude.scale.bias_step);
-    TEST_ASSERT_EQUAL_FLOAT(4.0f, attitude.scale.gate);
     TEST_ASSERT_EQUAL_FLOAT(0.25f, attitude.scale.quiet);
     TEST_ASSERT_EQUAL_FLOAT(0.015625f, attitude.scale.tolerance);
     TEST_ASSERT_EQUAL_FLOAT(0.12f, attitude.scale.north);
@@ -251,6 +260,8 @@ static void is_new(void)
     vector_is(0.0f, 0.0f, 0.0f, attitude.bias);
     vector_is(0.0f, 0.0f, 0.0f, attitude.rate);
     vector_is(0.0f, 0.0f, 0.0f, attitude.gyroscope);
+    vector_is(0.0f, 0.0f, 0.0f, attitude.down);
+    vector_is(0.0f, 0.0f, 0.0f, attitude.field);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, attitude.heading_error);
     TEST_ASSERT_EQUAL(KEEL_ATTITUDE_STILL, attitude.phase);
     TEST_ASSERT_FALSE(attitude.heading_valid);
@@ -402,7 +413,7 @@ static void ATT_005_a_clipped_rate_about_any_axis(void)
         setUp();
         *axis_of(&sample.gyroscope, axis_at(n)) = sign_at(n) * 33.0f;
         step();
-        flags_are(KEEL_ATTITUDE_CLIPPED);
+        flags_are(KEEL_ATTITUDE_CLIPPED | KEEL_ATTITUDE_DOWN);
         TEST_ASSERT_EQUAL_FLOAT(sign_at(n) * 33.0f, *axis_of(&attitude.rate, axis_at(n)));
     }
 }
@@ -473,15 +484,24 @@ static void ATT_006_only_about_1_g_is_gravity(void)
     down_is_taken(false);
 }
 
-static void ATT_006_no_gravity_is_measured_in_fast_turns(void)
+static void ATT_006_gravity_is_measured_in_fast_turns(void)
 {
-    sample.gyroscope.x = 2.0f;
+    sample.gyroscope.x = 20.0f;
+    sample.gyroscope.z = -30.0f;
     down_is_taken(true);
-    sample.gyroscope.x = 2.001f;
-    down_is_taken(false);
-    sample.gyroscope.x = 1.5f;
-    sample.gyroscope.z = 1.5f;
-    down_is_taken(false);
+}
+
+static void ATT_006_a_force_beyond_the_limit_on_any_axis(void)
+{
+    run();
+    for (uint32_t n = 0u; n < WAYS; n++) {
+        const keel_attitude_vector_t before = attitude.down;
+
+        sample = rest;
+        *axis_of(&sample.accelerometer, axis_at(n)) = sign_at(n) * 320.5f;
+        down_is_taken(false);
+        TEST_ASSERT_EQUAL_MEMORY(&before, &attitude.down, sizeof before);
+    }
 }
 
 /* While aligning, and while running, where it contradicts: the nudge comes on top, too. */
@@ -677,6 +697,7 @@ static void ATT_009_turns_as_the_product_says(void)
     attitude.quaternion.x = 0.5f;
     attitude.quaternion.y = 0.5f;
     attitude.quaternion.z = 0.5f;
+    sample.has_accelerometer = false;
     sample.gyroscope.x = 4.0f;
     sample.gyroscope.y = 8.0f;
     sample.gyroscope.z = -12.0f;
@@ -980,7 +1001,6 @@ static void ATT_014_not_valid_upside_down_or_after_a_lost_rate(void)
 /* With down at 90 degrees from the estimated one, two samples more than those that agree. */
 static void ATT_014_contradiction_ends_it(void)
 {
-    config.align_gain = 0.0f;
     config.tilt_gain = 0.0f;
     make();
     run_with_heading();
@@ -1060,8 +1080,12 @@ static void corrupted(float w, float x)
 {
     attitude.quaternion.w = w;
     attitude.quaternion.x = x;
+    attitude.down.y = 1.0f;
+    attitude.field.y = 1.0f;
     sample.has_accelerometer = false;
     step();
+    vector_is(0.0f, 0.0f, 0.0f, attitude.down);
+    vector_is(0.0f, 0.0f, 0.0f, attitude.field);
     TEST_ASSERT_EQUAL_HEX32(KEEL_ATTITUDE_CORRUPTED, attitude.flags & KEEL_ATTITUDE_CORRUPTED);
     TEST_ASSERT_EQUAL_FLOAT(1.0f, attitude.quaternion.w);
     turned_by(0.0f, 0.0f, 0.0f);
@@ -1113,6 +1137,128 @@ static void ATT_019_down_as_the_body_sees_it(void)
     vector_is(-0.6f, 0.0f, 0.8f, keel_attitude_down(&attitude));
 }
 
+/* As configured: 1000 steps a second. */
+static void as_configured(void)
+{
+    attitude.scale.step = 0.001f;
+}
+
+/* Nose east: 3 m/s^2 to the east are 3 forward to the body, and in the Earth's frame (0, -3, g) / g;
+ * 8/s in 1 ms are a share of 0.008. */
+static void ATT_020_force_is_low_passed_in_the_earths_frame(void)
+{
+    as_configured();
+    attitude.quaternion.w = 0.70710678f;
+    attitude.quaternion.z = 0.70710678f;
+    sample.accelerometer.x = 3.0f;
+    step();
+    flags_are(0u); /* Not enough of it to be gravity. */
+    vector_is(0.0f, -0.00244732f, 0.008f, attitude.down);
+    step();
+    vector_is(0.0f, -0.00487506f, 0.015936f, attitude.down);
+}
+
+/* 0.5/s in 1 ms, while running. A single sample, whatever it is, neither closes the gate nor counts
+ * against the tilt, and turns by next to nothing: 0.0005 x 3 down's, 0.5/s of it in 1 ms, halved. */
+static void ATT_020_a_single_force_says_little(void)
+{
+    config.force_gain = 0.5f;
+    make();
+    run();
+    as_configured();
+    attitude.down = (keel_attitude_vector_t){0.0f, 0.0f, 1.0f};
+    sample.accelerometer.y = -3.0f * G;
+    sample.accelerometer.z = 3.0f * G;
+    step();
+    flags_are(KEEL_ATTITUDE_DOWN);
+    TEST_ASSERT_EQUAL_UINT16(2u, attitude.settled);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.0015f, attitude.down.y);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.998f, attitude.down.z);
+    TEST_ASSERT_FLOAT_WITHIN(1e-9f, 0.000000375f, attitude.quaternion.x);
+}
+
+/* (0.6, 0, 0.8) is corrected by 0.5/s x 0.6 about -y: 0.0003 in 1 ms, a turn of which adds
+ * (-0.8, 0, 0.6) x 0.0003; and to the field north and down (-1, 0, 1) x 0.0003. */
+static void ATT_020_what_is_low_passed_turns_along(void)
+{
+    run();
+    as_configured();
+    attitude.config.force_gain = 0.0f;
+    attitude.down = (keel_attitude_vector_t){0.6f, 0.0f, 0.8f};
+    attitude.field = (keel_attitude_vector_t){1.0f, 0.0f, 1.0f};
+    step();
+    vector_is(0.59976f, 0.0f, 0.80018f, attitude.down);
+    vector_is(0.9997f, 0.0f, 1.0003f, attitude.field);
+    turned_by(0.0f, -0.00015f, 0.0f);
+}
+
+/* A heading's error of 0.6, corrected by 0.25/s: 0.00015 in 1 ms, about down. */
+static void ATT_020_the_field_turns_along_with_the_heading(void)
+{
+    run_with_heading();
+    as_configured();
+    attitude.config.field_share = 0.0f;
+    attitude.down = (keel_attitude_vector_t){0.0f, 0.0f, 1.0f};
+    attitude.field = (keel_attitude_vector_t){0.8f, -0.6f, 2.0f};
+    step();
+    TEST_ASSERT_EQUAL_FLOAT(0.6f, attitude.heading_error);
+    vector_is(0.8f + (0.6f * 0.00015f), -0.6f + (0.8f * 0.00015f), 2.0f, attitude.field);
+    turned_by(0.0f, 0.0f, 0.000075f);
+}
+
+/* Rolled right by half a turn: (1, 0, -2) to the body is (1, 0, 2) to the Earth. */
+static void ATT_020_field_is_low_passed_in_the_earths_frame(void)
+{
+    config.field_share = 0.25f;
+    make();
+    as_configured();
+    attitude.quaternion.w = 0.0f;
+    attitude.quaternion.x = 1.0f;
+    sample.has_magnetometer = true;
+    sample.magnetometer.z = -2.0f;
+    step();
+    vector_is(0.25f, 0.0f, 0.5f, attitude.field);
+    flags_are(0u); /* Not enough of it. */
+    step();
+    vector_is(0.4375f, 0.0f, 0.875f, attitude.field);
+    steps(2u); /* 1 - 0.75^4 = 0.684, whose square is below 0.5. */
+    flags_are(0u);
+    step(); /* 0.763 */
+    flags_are(KEEL_ATTITUDE_FIELD);
+}
+
+static void ATT_020_a_field_beyond_its_reach_is_none(void)
+{
+    for (uint32_t n = 0u; n < WAYS; n++) {
+        setUp();
+        run_with_heading();
+        *axis_of(&sample.magnetometer, axis_at(n)) = sign_at(n) * 4097.0f;
+        step();
+        flags_are(KEEL_ATTITUDE_DOWN);
+        vector_is(1.0f, 0.0f, 2.0f, attitude.field);
+    }
+}
+
+/* What was low-passed five steps ago is of another attitude. */
+static void ATT_020_an_old_field_is_forgotten(void)
+{
+    run_with_heading();
+    sample.has_magnetometer = false;
+    steps(4u);
+    vector_is(1.0f, 0.0f, 2.0f, attitude.field);
+    step();
+    vector_is(0.0f, 0.0f, 0.0f, attitude.field);
+}
+
+/* The bias follows no more of an error than the tolerance, 0.125: 0.001/s x 0.125. */
+static void ATT_012_a_large_error_moves_the_bias_no_more(void)
+{
+    run();
+    rolled();
+    step();
+    vector_is(-0.000125f, 0.0f, 0.0f, attitude.bias);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -1136,7 +1282,8 @@ int main(void)
     RUN_TEST(ATT_006_pitches_towards_down);
     RUN_TEST(ATT_006_upside_down_is_no_rest);
     RUN_TEST(ATT_006_only_about_1_g_is_gravity);
-    RUN_TEST(ATT_006_no_gravity_is_measured_in_fast_turns);
+    RUN_TEST(ATT_006_gravity_is_measured_in_fast_turns);
+    RUN_TEST(ATT_006_a_force_beyond_the_limit_on_any_axis);
     RUN_TEST(ATT_006_upside_down_is_no_rest_later);
     RUN_TEST(ATT_007_acceleration_is_taken_off);
     RUN_TEST(ATT_007_acceleration_is_the_earths);
@@ -1153,6 +1300,7 @@ int main(void)
     RUN_TEST(ATT_012_bias_moves_against_the_error);
     RUN_TEST(ATT_012_bias_about_down_is_the_headings);
     RUN_TEST(ATT_012_a_heading_not_valid_moves_no_bias);
+    RUN_TEST(ATT_012_a_large_error_moves_the_bias_no_more);
     RUN_TEST(ATT_012_when_the_bias_rests);
     RUN_TEST(ATT_012_bias_stays_within_its_limit);
     RUN_TEST(ATT_012_bias_stays_within_its_limit_about_any_axis);
@@ -1173,5 +1321,12 @@ int main(void)
     RUN_TEST(ATT_016_a_quaternion_that_is_none_is_replaced);
     RUN_TEST(ATT_016_a_unit_quaternion_is_one_of_length_1);
     RUN_TEST(ATT_019_down_as_the_body_sees_it);
+    RUN_TEST(ATT_020_force_is_low_passed_in_the_earths_frame);
+    RUN_TEST(ATT_020_a_single_force_says_little);
+    RUN_TEST(ATT_020_what_is_low_passed_turns_along);
+    RUN_TEST(ATT_020_the_field_turns_along_with_the_heading);
+    RUN_TEST(ATT_020_field_is_low_passed_in_the_earths_frame);
+    RUN_TEST(ATT_020_a_field_beyond_its_reach_is_none);
+    RUN_TEST(ATT_020_an_old_field_is_forgotten);
     return UNITY_END();
 }

@@ -62,9 +62,10 @@ static void set_up(void)
                                            .heading_gain = between(0.0f, 8.0f),
                                            .align_gain = usually(8.0f),
                                            .bias_gain = between(0.0f, 8.0f),
+                                           .force_gain = between(0.0f, 8.0f),
+                                           .field_share = usually(between(0.0f, 1.0f)),
                                            .bias_limit = usually(between(0.0f, 0.5f)),
                                            .quiet_rate = 0.5f,
-                                           .gate_rate = 2.0f,
                                            .clip_rate = usually(32.0f),
                                            .still_rate = 0.25f,
                                            .still_acceleration = 1.0f,
@@ -114,6 +115,8 @@ static void is_bounded(bool corrupted)
     TEST_ASSERT_TRUE(square <= (corrupted ? (1.0 + 2.45e-4) : (1.0 + 7.7e-6)));
     TEST_ASSERT_TRUE(is_near(attitude.bias, attitude.config.bias_limit));
     TEST_ASSERT_TRUE(is_near(attitude.rate, 40.5f));
+    TEST_ASSERT_TRUE(is_near(attitude.down, 16.0f));
+    TEST_ASSERT_TRUE(is_near(attitude.field, 4096.0f));
     TEST_ASSERT_TRUE(is_near(attitude.sum, 65535.0f));
     TEST_ASSERT_TRUE(fabsf(attitude.heading_error) <= 1.25f);
 }

@@ -3,10 +3,13 @@
  * @file attitude.h
  * @brief Attitude estimator: a quaternion from voted inertial samples and a magnetometer.
  *
- * The complementary filter on the rotation group of R. Mahony, T. Hamel and J.-M. Pflimlin
- * ("Nonlinear complementary filters on the special orthogonal group", IEEE Transactions on
- * Automatic Control 53(5), 2008, section IV-B), with gravity and the horizontal part of the
- * Earth's field as its two directions.
+ * A complementary filter whose corrections go by directions that are low-passed in the Earth's
+ * frame, where gravity and field stand still however the body turns and vibrates: D. Laidig and
+ * T. Seel ("VQF: Highly accurate IMU orientation estimation with bias estimation and magnetic
+ * disturbance rejection", Information Fusion 91, 2023) low-pass the specific force so. How rates,
+ * errors and bias make the quaternion is the passive filter of R. Mahony, T. Hamel and
+ * J.-M. Pflimlin ("Nonlinear complementary filters on the special orthogonal group", IEEE
+ * Transactions on Automatic Control 53(5), 2008, section IV-B).
  *
  * Frames: the Earth's is north, east, down; the body's is forward, right, down. The quaternion
  * q = (w, x, y, z) turns body to Earth: v_E = q v_B q*. Its matrix has the rows n, e and v, which
@@ -17,38 +20,50 @@
  *     v = (2 (xz - wy), 2 (yz + wx), 1 - 2 (x^2 + y^2))
  *
  * A step, T = 1 / rate_hz, from the angular rate W, the specific force f, the field b and, where it
- * is known, the acceleration a of the vehicle in the Earth's frame:
+ * is known, the acceleration a of the vehicle in the Earth's frame; R has the rows n, e and v:
  *
- *     m = (a_N n + a_E e + a_D v - f) / g             down, as measured
- *     E = m x v        while |m|^2 is 0.719 to 1.32 and |W - B| at most gate_rate, else 0
- *     H = (b.n, b.e) x (north, east) / |(north, east)|^2   the sine of the heading's error; it is
- *                      taken from samples whose cosine C has H^2 + C^2 from 0.5 to 1.5, as +-1 when
- *                      C is not above 0, and kept until the next sample for field_steps at most
- *     B <- clamp(B - bias_gain T (E + H v))           the bias, while |W - B| is at most quiet_rate
- *     h = clamp(T/2 (W - B + tilt_gain E + heading_gain H v), 2^-4)    half of the angle to turn
+ *     D <- D + force_gain T ((a - R f) / g - D)       down, low-passed; Earth's frame
+ *     F <- F + field_share (R b - F)                  the field, low-passed, at each sample of it
+ *     E = (D_y, -D_x, 0)       while |D|^2 is 0.719 to 1.32, else 0
+ *     H = (F_N, F_E) x (north, east) / |(north, east)|^2   the sine of the heading's error; it is
+ *                      taken at samples at which its cosine C has H^2 + C^2 from 0.5 to 1.5, as +-1
+ *                      when C is not above 0, and kept until the next one for field_steps at most
+ *     B <- clamp(B - bias_gain T R^-1 clamp((E_x, E_y, H), tolerance), bias_limit)
+ *                                                     the bias, while |W - B| is at most quiet_rate
+ *     u = (tilt_gain E_x, tilt_gain E_y, heading_gain H)   what is corrected, a rate
+ *     D <- D + T u x D,  F <- F + T u x F             turned along with the frame they are in
+ *     h = clamp(T/2 (W - B + R^-1 u), 2^-4)           half of the angle to turn
  *     p = q + q (0, h),  q <- p (3/2 - |p|^2 / 2)
  *
- * Where m.v < 0, at which m x v gets smaller while the error grows, KEEL_ATTITUDE_NUDGE is added to
- * E: upside down by exactly half a turn is no point of rest.
+ * As D and F turn along, an error that is corrected is not in them any more: low pass and
+ * correction are two first-order filters one behind the other, with the time constants
+ * 1 / force_gain and 1 / tilt_gain, and no loop with a lag. Nothing is judged by a single sample of
+ * force or field: a vibration leaves little in D, and accelerations that end add up to little.
+ *
+ * Where D_z < 0, at which E gets smaller while the error grows, KEEL_ATTITUDE_NUDGE is added to E:
+ * upside down by exactly half a turn is no point of rest. D and F begin with 0, and do again when a
+ * quaternion is replaced, F also when no sample of the field was good for field_steps: what was
+ * low-passed in another frame says nothing.
  *
  * No division, square root or trigonometry in a step: the last line is Newton's iteration for
  * 1 / |p|. As q (0, h) is orthogonal to q, |p|^2 = |q|^2 (1 + |h|^2) in exact arithmetic, from
  * which one iteration leads back to 1 - 3/4 (|p|^2 - 1)^2 nearly. In single precision |q|^2
  * therefore stays between 1 - 1.30e-4 and 1 + 7.7e-6 for ever (requirement ATT-010).
  *
- * In lasting accelerated flight an accelerometer measures thrust, not gravity, at about the right
- * magnitude: no gate sees that, and the estimate creeps towards thrust. The remedy is a, from GPS
- * or from what is commanded.
+ * In lasting accelerated flight, for longer than the time constants, an accelerometer measures
+ * thrust, not gravity, and the estimate creeps towards thrust until |D|^2 is beyond its bounds. The
+ * remedy is a, from GPS or from what is commanded.
  *
- * From the start, or a restart, an estimator goes through three phases:
+ * From the start, or a restart, an estimator goes through three phases; in all but the last
+ * align_gain stands for force_gain and tilt_gain:
  *
  * - KEEL_ATTITUDE_STILL: until gyroscope and accelerometer have been within still_rate and
  *   still_acceleration of where they began for still_steps samples in a row. The mean rate is then
  *   the bias. Meanwhile the attitude is turned to the accelerometer, with align_gain.
  * - KEEL_ATTITUDE_ALIGNING: until E has been within tolerance for settle_steps samples in a row.
  * - KEEL_ATTITUDE_RUNNING: tilt is valid. Back to aligning when a count up per lost or clipped
- *   sample, down per good one, comes to lost_steps; or when one down per measured direction that is
- *   more than 60 degrees from the estimated, up per other one, comes from settle_steps to 0.
+ *   sample, down per good one, comes to lost_steps; or when one down per step at which D_z is below
+ *   1/2, which is some 60 degrees, up per other one, comes from settle_steps to 0.
  *
  * The heading has a validity of its own, heading_valid, which begins and ends in the same way while
  * running, with the field's samples; it ends when none has come for field_steps. Without a
@@ -85,8 +100,8 @@ KEEL_C_BEGIN
 /** The greatest rate that is taken from a gyroscope, in rad/s: 2292 degrees per second. */
 #define KEEL_ATTITUDE_RATE_LIMIT 40.0f
 
-/** The greatest acceleration of the vehicle that is taken, and the greatest specific force that
- * counts as a still sample, in m/s^2. */
+/** The greatest acceleration of the vehicle that is taken, and the greatest specific force, in
+ * m/s^2. */
 #define KEEL_ATTITUDE_FORCE_LIMIT 320.0f
 
 /** The greatest component of the expected field, and its least horizontal part, in the
@@ -98,7 +113,12 @@ KEEL_C_BEGIN
 #define KEEL_ATTITUDE_STILL_RATE_LIMIT         1.0f
 #define KEEL_ATTITUDE_STILL_ACCELERATION_LIMIT 10.0f
 
-/** |m|^2 within these is taken for gravity: a specific force of 0.848 g to 1.149 g. */
+/** What a component of the low-passed vectors is kept within: of down, in g; and of the field, of
+ * which a sample beyond is not taken, in the magnetometer's unit. */
+#define KEEL_ATTITUDE_DOWN_REACH  16.0f
+#define KEEL_ATTITUDE_FIELD_REACH 4096.0f
+
+/** |D|^2 within these is taken for gravity: a specific force of 0.848 g to 1.149 g. */
 #define KEEL_ATTITUDE_DOWN_MIN 0.71875f
 #define KEEL_ATTITUDE_DOWN_MAX 1.3203125f
 
@@ -109,11 +129,11 @@ KEEL_C_BEGIN
 /** Half of the greatest angle turned in a step, per axis, in rad. */
 #define KEEL_ATTITUDE_HALF_ANGLE_LIMIT 0.0625f
 
-/** What is added to E about the body's x and y axes where m.v < 0. */
+/** What is added to E about the Earth's axes where D_z < 0. */
 #define KEEL_ATTITUDE_NUDGE_X 0.25f
 #define KEEL_ATTITUDE_NUDGE_Y 0.125f
 
-/** The cosine of the angle between measured and estimated down below which they contradict. */
+/** D_z below which measured and estimated down contradict: the cosine of the angle between. */
 #define KEEL_ATTITUDE_AGREEMENT 0.5f
 
 /** What |q|^2 is kept within, as computed: a quaternion beyond was not left by a step. */
@@ -124,8 +144,8 @@ KEEL_C_BEGIN
 #define KEEL_ATTITUDE_LOST        0x01u /**< No rate came, or none that can be: the last is held. */
 #define KEEL_ATTITUDE_CLIPPED     0x02u /**< A rate is beyond clip_rate: it may have been more. */
 #define KEEL_ATTITUDE_COMPENSATED 0x04u /**< The vehicle's acceleration was taken off. */
-#define KEEL_ATTITUDE_DOWN        0x08u /**< The accelerometer was taken for gravity. */
-#define KEEL_ATTITUDE_FIELD       0x10u /**< The magnetometer's sample was taken. */
+#define KEEL_ATTITUDE_DOWN        0x08u /**< D was taken for down, with a new sample. */
+#define KEEL_ATTITUDE_FIELD       0x10u /**< F was taken for the field, likewise. */
 #define KEEL_ATTITUDE_BIASED      0x20u /**< Still, but the mean rate is beyond bias_limit. */
 #define KEEL_ATTITUDE_CORRUPTED   0x40u /**< No unit quaternion was found: begun anew. */
 
@@ -154,15 +174,17 @@ typedef struct keel_attitude_config {
     float rate_hz;            /**< Steps per second, RATE_MIN_HZ to RATE_MAX_HZ. */
     float tilt_gain;          /**< Of E while running, 0 to GAIN_LIMIT, in 1/s. */
     float heading_gain;       /**< Of H while the heading is valid, 0 to GAIN_LIMIT, in 1/s. */
-    float align_gain;         /**< Of both before, 0 to GAIN_LIMIT, in 1/s. */
+    float align_gain;         /**< Of both before, and of the force's low pass; likewise. */
     float bias_gain;          /**< Of both in the bias, 0 to GAIN_LIMIT, in 1/s^2. */
+    float force_gain;         /**< Of the force's low pass while running; likewise, in 1/s. */
+    float field_share;        /**< Of a field's sample in the low-passed one, 0 to 1. */
     float bias_limit;         /**< |B| per axis, 0 to BIAS_LIMIT, in rad/s. */
-    float quiet_rate;         /**< The bias moves up to this rate, 0 to gate_rate, in rad/s. */
-    float gate_rate;          /**< Gravity is measured up to this rate, to clip_rate, in rad/s. */
+    float quiet_rate;         /**< The bias moves up to this rate, 0 to clip_rate, in rad/s. */
     float clip_rate;          /**< A rate beyond, per axis, is clipped; to RATE_LIMIT, in rad/s. */
     float still_rate;         /**< Spread of the rates, 0 to STILL_RATE_LIMIT, in rad/s. */
     float still_acceleration; /**< Of the forces, 0 to STILL_ACCELERATION_LIMIT, in m/s^2. */
-    float tolerance;          /**< Sine of the error that counts as converged, 0 to 1. */
+    float tolerance;          /**< Sine of the error that counts as converged, 0 to 1; the bias
+                                   follows no more of it. */
     float north;              /**< The expected field's horizontal part; both 0: */
     float east;               /**< no magnetometer. In the magnetometer's unit. */
     uint16_t still_steps;     /**< Still samples in a row that make a bias; at least 1. */
@@ -190,9 +212,9 @@ typedef uint8_t keel_attitude_phase_t;
 
 /** What init computes from a configuration. */
 typedef struct keel_attitude_scale {
+    float step;      /**< T, in s. */
     float half_step; /**< T / 2, in s. */
     float bias_step; /**< bias_gain T, in 1/s. */
-    float gate;      /**< gate_rate^2. */
     float quiet;     /**< quiet_rate^2. */
     float tolerance; /**< tolerance^2. */
     float north;     /**< north / (north^2 + east^2). */
@@ -211,6 +233,8 @@ typedef struct keel_attitude {
     keel_attitude_vector_t first_rate;     /**< The first of the still samples. */
     keel_attitude_vector_t first_force;    /**< The first of the still samples. */
     keel_attitude_vector_t sum;            /**< Of the still rates less the first. */
+    keel_attitude_vector_t down;           /**< D: down as measured, low-passed; Earth, in g. */
+    keel_attitude_vector_t field;          /**< F: the field, low-passed; Earth. */
     float heading_error;                   /**< H; 0 when no sample is recent enough. */
     uint16_t still;                        /**< Still samples in a row. */
     uint16_t settled;                      /**< Samples that agree in tilt, to settle_steps. */
@@ -232,16 +256,19 @@ typedef struct keel_attitude {
   @     attitude_number(c.tilt_gain, 0, KEEL_ATTITUDE_GAIN_LIMIT) &&
   @     attitude_number(c.heading_gain, 0, KEEL_ATTITUDE_GAIN_LIMIT) &&
   @     attitude_number(c.align_gain, 0, KEEL_ATTITUDE_GAIN_LIMIT) &&
-  @     attitude_number(c.bias_gain, 0, KEEL_ATTITUDE_GAIN_LIMIT);
+  @     attitude_number(c.bias_gain, 0, KEEL_ATTITUDE_GAIN_LIMIT) &&
+  @     attitude_number(c.force_gain, 0, KEEL_ATTITUDE_GAIN_LIMIT) &&
+  @     attitude_number(c.field_share, 0, 1);
   @
   @ predicate attitude_limits(keel_attitude_config_t c) =
   @     attitude_number(c.bias_limit, 0, KEEL_ATTITUDE_BIAS_LIMIT) &&
   @     attitude_number(c.clip_rate, 0, KEEL_ATTITUDE_RATE_LIMIT) &&
-  @     attitude_number(c.gate_rate, 0, c.clip_rate) &&
-  @     attitude_number(c.quiet_rate, 0, c.gate_rate) &&
+  @     attitude_number(c.quiet_rate, 0, c.clip_rate) &&
   @     attitude_number(c.still_rate, 0, KEEL_ATTITUDE_STILL_RATE_LIMIT) &&
   @     attitude_number(c.still_acceleration, 0, KEEL_ATTITUDE_STILL_ACCELERATION_LIMIT) &&
   @     attitude_number(c.tolerance, 0, 1);
+  @
+  @ predicate attitude_is_zero(keel_attitude_vector_t v) = v.x == 0 && v.y == 0 && v.z == 0;
   @
   @ predicate attitude_within(keel_attitude_vector_t v, real most) =
   @     attitude_number(v.x, -most, most) && attitude_number(v.y, -most, most) &&
@@ -289,13 +316,15 @@ keel_status_t keel_attitude_init(keel_attitude_t *attitude, const keel_attitude_
  */
 /*@ requires \valid(attitude);
   @ assigns attitude->quaternion, attitude->bias, attitude->rate, attitude->gyroscope,
-  @     attitude->first_rate, attitude->first_force, attitude->sum, attitude->heading_error,
-  @     attitude->still, attitude->settled, attitude->heading_settled, attitude->lost,
-  @     attitude->field_age, attitude->flags, attitude->heading_valid, attitude->phase;
+  @     attitude->first_rate, attitude->first_force, attitude->sum, attitude->down,
+  @     attitude->field, attitude->heading_error, attitude->still, attitude->settled,
+  @     attitude->heading_settled, attitude->lost, attitude->field_age, attitude->flags,
+  @     attitude->heading_valid, attitude->phase;
   @ ensures ATT_003_level: attitude->quaternion.w == 1 && attitude->quaternion.x == 0 &&
   @     attitude->quaternion.y == 0 && attitude->quaternion.z == 0;
   @ ensures ATT_003_unbiased: attitude->bias.x == 0 && attitude->bias.y == 0 &&
   @     attitude->bias.z == 0;
+  @ ensures ATT_003_forgets: attitude_is_zero(attitude->down) && attitude_is_zero(attitude->field);
   @ ensures ATT_003_still: attitude->phase == KEEL_ATTITUDE_STILL && !attitude->heading_valid;
   @*/
 void keel_attitude_restart(keel_attitude_t *attitude);
@@ -318,8 +347,8 @@ void keel_attitude_restart(keel_attitude_t *attitude);
 void keel_attitude_take(keel_attitude_sample_t *sample, const keel_virtual_imu_t *imu);
 
 /**
- * One step of the estimator (requirements ATT-005 to ATT-018). Call it at the configured rate,
- * whether there are samples or not; what it could do is told in attitude->flags.
+ * One step of the estimator (requirements ATT-005 to ATT-018, ATT-020). Call it at the configured
+ * rate, whether there are samples or not; what it could do is told in attitude->flags.
  *
  * @param attitude the estimator, initialised
  * @param sample   what was measured since the last step
@@ -330,16 +359,21 @@ void keel_attitude_take(keel_attitude_sample_t *sample, const keel_virtual_imu_t
   @     \is_finite(attitude->config.still_rate) &&
   @     \is_finite(attitude->config.still_acceleration);
   @ assigns attitude->quaternion, attitude->bias, attitude->rate, attitude->gyroscope,
-  @     attitude->first_rate, attitude->first_force, attitude->sum, attitude->heading_error,
-  @     attitude->still, attitude->settled, attitude->heading_settled, attitude->lost,
-  @     attitude->field_age, attitude->flags, attitude->heading_valid, attitude->phase;
+  @     attitude->first_rate, attitude->first_force, attitude->sum, attitude->down,
+  @     attitude->field, attitude->heading_error, attitude->still, attitude->settled,
+  @     attitude->heading_settled, attitude->lost, attitude->field_age, attitude->flags,
+  @     attitude->heading_valid, attitude->phase;
   @ ensures ATT_005_lost: !sample->has_gyroscope ==> (attitude->flags & KEEL_ATTITUDE_LOST) != 0;
-  @ ensures ATT_006_down: (attitude->flags & KEEL_ATTITUDE_DOWN) != 0 ==> sample->has_accelerometer;
+  @ ensures ATT_006_down: (attitude->flags & KEEL_ATTITUDE_DOWN) != 0 ==>
+  @     sample->has_accelerometer &&
+  @     attitude_within(sample->accelerometer, KEEL_ATTITUDE_FORCE_LIMIT);
   @ ensures ATT_007_compensated: (attitude->flags & KEEL_ATTITUDE_COMPENSATED) != 0 ==>
   @     sample->has_acceleration &&
   @     attitude_within(sample->acceleration, KEEL_ATTITUDE_FORCE_LIMIT);
   @ ensures ATT_008_field: (attitude->flags & KEEL_ATTITUDE_FIELD) != 0 ==>
-  @     sample->has_magnetometer && attitude->field_age == 0;
+  @     sample->has_magnetometer &&
+  @     attitude_within(sample->magnetometer, KEEL_ATTITUDE_FIELD_REACH) &&
+  @     attitude->field_age == 0;
   @ ensures ATT_009_rate: attitude_within(\old(attitude->bias), KEEL_ATTITUDE_BIAS_LIMIT) &&
   @     attitude_within(attitude->gyroscope, KEEL_ATTITUDE_RATE_LIMIT) ==>
   @     attitude->rate.x == (float)(attitude->gyroscope.x - \old(attitude->bias.x)) &&
@@ -373,7 +407,10 @@ void keel_attitude_take(keel_attitude_sample_t *sample, const keel_virtual_imu_t
   @ ensures ATT_016_told: (attitude->flags & KEEL_ATTITUDE_CORRUPTED) != 0 ==>
   @     attitude->quaternion.w == 1 && attitude->quaternion.x == 0 &&
   @     attitude->quaternion.y == 0 && attitude->quaternion.z == 0 &&
-  @     attitude->phase != KEEL_ATTITUDE_RUNNING;
+  @     attitude->phase != KEEL_ATTITUDE_RUNNING && attitude_is_zero(attitude->down) &&
+  @     attitude_is_zero(attitude->field);
+  @ ensures ATT_020_bounded: attitude_within(attitude->down, KEEL_ATTITUDE_DOWN_REACH) &&
+  @     attitude_within(attitude->field, KEEL_ATTITUDE_FIELD_REACH);
   @*/
 void keel_attitude_step(keel_attitude_t *attitude, const keel_attitude_sample_t *sample);
 
