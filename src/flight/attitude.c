@@ -498,6 +498,7 @@ static void judge_tilt(keel_attitude_t *attitude, keel_attitude_vector_t error, 
 /* The bias follows slowly, and only when little turns and the directions do not contradict. */
 /*@ requires \valid(attitude) && \valid_read(axes) && \separated(attitude, axes);
   @ requires attitude_number(attitude->config.bias_limit, 0, KEEL_ATTITUDE_BIAS_LIMIT);
+  @ requires attitude_number(attitude->config.tolerance, 0, 1);
   @ assigns attitude->bias;
   @*/
 static void follow_bias(keel_attitude_t *attitude, const axes_t *axes, keel_attitude_vector_t error)
@@ -518,6 +519,7 @@ static void follow_bias(keel_attitude_t *attitude, const axes_t *axes, keel_atti
 /* The rate, in the Earth's frame, that leads towards the directions that were measured. */
 /*@ requires \valid(attitude) && \valid_read(axes) && \separated(attitude, axes);
   @ requires attitude_number(attitude->config.bias_limit, 0, KEEL_ATTITUDE_BIAS_LIMIT);
+  @ requires attitude_number(attitude->config.tolerance, 0, 1);
   @ assigns attitude->bias, attitude->settled, attitude->heading_settled,
   @     attitude->heading_valid, attitude->phase;
   @*/

@@ -355,6 +355,7 @@ void keel_attitude_take(keel_attitude_sample_t *sample, const keel_virtual_imu_t
  */
 /*@ requires \valid(attitude) && \valid_read(sample) && \separated(attitude, sample);
   @ requires attitude_number(attitude->config.bias_limit, 0, KEEL_ATTITUDE_BIAS_LIMIT);
+  @ requires attitude_number(attitude->config.tolerance, 0, 1);
   @ requires \is_finite(attitude->config.clip_rate) &&
   @     \is_finite(attitude->config.still_rate) &&
   @     \is_finite(attitude->config.still_acceleration);
