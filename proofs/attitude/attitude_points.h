@@ -62,7 +62,7 @@ static const keel_attitude_sample_t measured = {.gyroscope = {0.11f, 0.12f, 0.07
                                                 .has_magnetometer = true,
                                                 .has_acceleration = true};
 
-/* Level, northward, and nothing passes the low passes: what is compared is equal to its bound, or 0.
+/* Level, northward, and nothing passes the low passes: what is compared equals its bound, or 0.
  */
 static void make_limit(unsigned point, keel_attitude_t *attitude)
 {

@@ -1143,7 +1143,7 @@ static void as_configured(void)
     attitude.scale.step = 0.001f;
 }
 
-/* Nose east: 3 m/s^2 to the east are 3 forward to the body, and in the Earth's frame (0, -3, g) / g;
+/* Nose east: 3 m/s^2 to the east are 3 forward to the body, in the Earth's frame (0, -3, g) / g;
  * 8/s in 1 ms are a share of 0.008. */
 static void ATT_020_force_is_low_passed_in_the_earths_frame(void)
 {
@@ -1159,7 +1159,7 @@ static void ATT_020_force_is_low_passed_in_the_earths_frame(void)
 }
 
 /* 0.5/s in 1 ms, while running. A single sample, whatever it is, neither closes the gate nor counts
- * against the tilt, and turns by next to nothing: 0.0005 x 3 down's, 0.5/s of it in 1 ms, halved. */
+ * against the tilt; it turns by next to nothing: 0.0005 x 3 down's, 0.5/s of it in 1 ms, halved. */
 static void ATT_020_a_single_force_says_little(void)
 {
     config.force_gain = 0.5f;

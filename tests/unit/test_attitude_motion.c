@@ -414,8 +414,8 @@ static void ATT_007_acceleration_that_is_told_is_none(void)
     TEST_ASSERT_TRUE(whole_error() < 0.1);
 }
 
-/* The estimator in a plane, without bias, in double precision: the angle by which it is off, and down
- * as low-passed. An independent oracle of low pass, gate and turning along. */
+/* The estimator in a plane, without bias, in double precision: the angle by which it is off, and
+ * down as low-passed. An independent oracle of low pass, gate and turning along. */
 typedef struct plane {
     double angle;
     double across; /* Of down as low-passed. */
@@ -464,8 +464,8 @@ static void ATT_006_hard_acceleration_leads_only_so_far(void)
 }
 
 /* To and fro at 1 Hz with 3 m/s^2, as no gate of single samples bears: two low passes of 0.5/s one
- * behind the other leave 3 / g x 0.25 / ((2 pi)^2 + 0.25) = 0.00193 of it, 0.110 degrees, and a bias
- * that follows a little more. */
+ * behind the other leave 3 / g x 0.25 / ((2 pi)^2 + 0.25) = 0.00193 of it, 0.110 degrees, and a
+ * bias that follows a little more. */
 static void ATT_018_accelerations_that_end_leave_little(void)
 {
     double worst = 0.0;
@@ -498,8 +498,8 @@ static void ATT_018_vibration_is_borne(void)
     TEST_ASSERT_TRUE(worst < 0.3);
 }
 
-/* The gyroscope warms up by 0.02 rad/s in 80 s. While the bias follows, it lags by a constant error of
- * down's, E = ramp / bias_gain = 0.005, and the attitude by 1 + tilt_gain / force_gain = 2 of that,
+/* The gyroscope warms up by 0.02 rad/s in 80 s. While the bias follows, it lags by a constant error
+ * of down's, E = ramp / bias_gain = 0.005, and the attitude by 1 + tilt_gain / force_gain = 2 of that,
  * 0.573 degrees; the bias itself by tilt_gain E = 0.0025. */
 static void ATT_012_a_bias_is_learnt_in_flight(void)
 {
