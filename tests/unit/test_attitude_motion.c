@@ -499,8 +499,8 @@ static void ATT_018_vibration_is_borne(void)
 }
 
 /* The gyroscope warms up by 0.02 rad/s in 80 s. While the bias follows, it lags by a constant error
- * of down's, E = ramp / bias_gain = 0.005, and the attitude by 1 + tilt_gain / force_gain = 2 of that,
- * 0.573 degrees; the bias itself by tilt_gain E = 0.0025. */
+ * of down's, E = ramp / bias_gain = 0.005, and the attitude by 1 + tilt_gain / force_gain = 2 of
+ * that, 0.573 degrees; the bias itself by tilt_gain E = 0.0025. */
 static void ATT_012_a_bias_is_learnt_in_flight(void)
 {
     double worst = 0.0;
