@@ -179,7 +179,7 @@ static void tell_radio(copter_telemetry_t *self, const copter_pilot_t *pilot)
     }
 }
 
-/* Says where the height comes from when that is another. */
+/* Says where the height comes from when that is another. That there is one at first is no news. */
 static void tell_height(copter_telemetry_t *self, const copter_vertical_t *vertical)
 {
     static const char *const words[] = {
@@ -188,19 +188,26 @@ static void tell_height(copter_telemetry_t *self, const copter_vertical_t *verti
         [COPTER_HEIGHT_SATELLITES] = "barometer fails, by satellites"};
 
     if (vertical->source != self->height) {
-        copter_text(self,
-                    (vertical->source == COPTER_HEIGHT_BAROMETER) ? (uint8_t)MAV_SEVERITY_INFO
-                                                                  : (uint8_t)MAV_SEVERITY_WARNING,
-                    "height: ", words[vertical->source]);
+        if (self->had_height) {
+            copter_text(self,
+                        (vertical->source == COPTER_HEIGHT_BAROMETER)
+                            ? (uint8_t)MAV_SEVERITY_INFO
+                            : (uint8_t)MAV_SEVERITY_WARNING,
+                        "height: ", words[vertical->source]);
+        }
+        self->had_height = true;
         self->height = vertical->source;
     }
-    if (vertical->is_crashed != self->is_crashed) {
-        if (vertical->is_crashed) {
-            copter_text(self, (uint8_t)MAV_SEVERITY_CRITICAL,
-                        "crashed: ", "lies on its side, motors stopped");
-        }
-        self->is_crashed = vertical->is_crashed;
+}
+
+/* Says when motors were stopped because it lies on its side. */
+static void tell_crash(copter_telemetry_t *self, bool is_crashed)
+{
+    if (is_crashed && !self->is_crashed) {
+        copter_text(self, (uint8_t)MAV_SEVERITY_CRITICAL,
+                    "crashed: ", "lies on its side, motors stopped");
     }
+    self->is_crashed = is_crashed;
 }
 
 /* Whoever does not sign, where frames are signed, is not heard. */
@@ -369,6 +376,7 @@ void copter_telemetry(copter_t *copter)
     tell_fence(self, (copter->state.mode.seen & KEEL_MODE_IS_OUTSIDE) != 0u);
     tell_radio(self, &copter->pilot);
     tell_height(self, &copter->estimate.vertical);
+    tell_crash(self, copter->estimate.vertical.is_crashed);
     copter_take_answers(copter);
     save_parameters(copter);
     copter_reboot_step(copter);

@@ -134,6 +134,7 @@ typedef struct copter_telemetry {
     uint8_t mode;        /**< The mode that was told in the last run. */
     uint8_t heard;       /**< What was heard of the pilot's receiver, as it was told. */
     uint8_t height;      /**< Where the height came from, as it was told: copter_height_t. */
+    bool had_height;     /**< It was known once. */
     bool is_outside;     /**< Of the fence, in the last run. */
     bool is_crashed;     /**< As it was told. */
 } copter_telemetry_t;

@@ -446,11 +446,22 @@ def test_what_is_set_on_the_ground_is_in_force_at_once(copter: Copter, tmp_path:
     assert len(log.parameters) == len(others())
 
 
+def test_a_barometer_that_falls_silent_is_told_and_so_is_its_return(copter: Copter) -> None:
+    rig = Rig(copter)
+    rig.run(8000)
+    assert not [text for text in rig.texts() if text.startswith("height: ")]
+    with mock.patch.object(rig.flight._slow, "_tell_pressure"):
+        rig.run(4000)
+    rig.run(1000)
+    told = [text for text in rig.texts() if text.startswith("height: ")]
+    assert told == ["height: barometer fails, by satellites", "height: by the barometer"]
+
+
 def test_what_waits_for_a_restart_is_told(copter: Copter, tmp_path: Path) -> None:
     rig = Rig(copter, memory=tmp_path / "memory")
     waits = "KILL_TIME: in force after a restart"
     assert set_to(rig, "KILL_TIME", 900_000.0) == [waits]
-    assert set_to(rig, "KILL_TIME", 1_000_000.0) == []  # As it is in force.
+    assert set_to(rig, "KILL_TIME", 300_000.0) == []  # As it is in force.
     assert set_to(rig, "KILL_TIME", 900_000.0) == [waits]
     begun = len(rig.texts())
     armed(rig)
