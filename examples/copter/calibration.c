@@ -77,15 +77,16 @@ static void calibrate_field(copter_t *copter)
 static void heed_place(copter_calibration_t *self, const copter_estimate_t *estimate)
 {
     const copter_world_field_t field = estimate->field;
-    const float span = 2.0f * sqrtf((field.north * field.north) + (field.east * field.east) +
-                                    (field.down * field.down));
-    keel_calibration_field_config_t config = self->field.config;
 
     if ((self->fields == estimate->fields) || (self->field.state == KEEL_CALIBRATION_COLLECTING)) {
         return;
     }
     self->fields = estimate->fields;
     if (self->field.state != KEEL_CALIBRATION_DONE) {
+        const float span = 2.0f * sqrtf((field.north * field.north) + (field.east * field.east) +
+                                        (field.down * field.down));
+        keel_calibration_field_config_t config = self->field.config;
+
         config.span_min = SPAN_LEAST * span;
         config.span_max = SPAN_MOST * span;
         (void)keel_calibration_field_init(&self->field, &config);

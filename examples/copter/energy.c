@@ -40,16 +40,15 @@ static float charge_at(float cell_voltage)
  * rest says what it has. What is configured stands where that is less. */
 static void look_at_rest(copter_energy_t *self)
 {
-    keel_battery_config_t config = self->battery.config;
-    const float part = charge_at(self->battery.cell_voltage);
+    if (!self->is_known && !self->sample.running && (self->battery.level != KEEL_BATTERY_UNKNOWN)) {
+        keel_battery_config_t config = self->battery.config;
+        const float part = charge_at(self->battery.cell_voltage);
 
-    if (self->is_known || self->sample.running || (self->battery.level == KEEL_BATTERY_UNKNOWN)) {
-        return;
-    }
-    self->is_known = true;
-    if (part < config.initial) {
-        config.initial = part;
-        (void)keel_battery_init(&self->battery, &config);
+        self->is_known = true;
+        if (part < config.initial) {
+            config.initial = part;
+            (void)keel_battery_init(&self->battery, &config);
+        }
     }
 }
 

@@ -50,7 +50,7 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
                     ("steps", "mixer_worst")),
     "mode": ("mode, in flight", ("mode",), 250, ("steps", "mode")),
     "mode_worst": ("mode, all facts waiting", ("mode_worst",), 250, ("steps", "mode_worst")),
-    "attitude": ("attitude, all sensors in each", ("attitude",), 400, ("steps", "attitude")),
+    "attitude": ("attitude, all sensors in each", ("attitude",), 600, ("steps", "attitude")),
     "altitude": ("altitude, a pressure in each", ("altitude",), 250, ("steps", "altitude")),
     "position": ("position, a fix in each", ("position",), 500, ("steps", "position")),
     "cascade": ("cascade, all four stages", ("cascade",), 3000, ("steps", "cascade")),
