@@ -1143,6 +1143,63 @@ static void as_configured(void)
     attitude.scale.step = 0.001f;
 }
 
+/* A field that is behind while no force comes: heading is not judged right by it, and the tilt stays
+ * what it was. */
+static void ATT_017_a_field_that_is_behind_without_a_force(void)
+{
+    run();
+    sample.has_magnetometer = true;
+    sample.magnetometer = (keel_attitude_vector_t){-1.0f, 0.0f, 2.0f};
+    sample.has_accelerometer = false;
+    step();
+    flags_are(KEEL_ATTITUDE_FIELD);
+    TEST_ASSERT_FALSE(attitude.heading_valid);
+    TEST_ASSERT_EQUAL_UINT16(0u, attitude.heading_settled);
+    TEST_ASSERT_EQUAL(KEEL_ATTITUDE_RUNNING, attitude.phase);
+}
+
+/* One step that is off by 0.4 about x and y and by 0.5 in heading, all one way: bias_gain of 1 in
+ * 1 ms, of no more than the tolerance, 0.125. */
+static void follows(float way, float before, float after)
+{
+    setUp();
+    run();
+    attitude.bias = (keel_attitude_vector_t){before, before, before};
+    sample.gyroscope = attitude.bias;
+    sample.accelerometer = (keel_attitude_vector_t){way * 0.4f * G, way * -0.4f * G, -0.8f * G};
+    attitude.heading_valid = true;
+    attitude.heading_error = way * 0.5f;
+    attitude.field_age = 0u;
+    step();
+    vector_is(after, after, after, attitude.bias);
+}
+
+static void ATT_012_the_bias_follows_no_more_than_the_tolerance(void)
+{
+    follows(1.0f, 0.0f, -0.000125f);
+    follows(-1.0f, 0.0f, 0.000125f);
+    follows(1.0f, 0.1f, 0.099875f);
+}
+
+static void ATT_012_the_bias_stays_within_its_limit(void)
+{
+    follows(1.0f, -0.25f, -0.25f);
+    follows(-1.0f, 0.25f, 0.25f);
+}
+
+static void ATT_020_what_is_kept_stays_within_reach(void)
+{
+    const float most = KEEL_ATTITUDE_FIELD_REACH;
+
+    run();
+    attitude.field = (keel_attitude_vector_t){2.0f * most, 2.0f * most, 2.0f * most};
+    step();
+    vector_is(most, most, most, attitude.field);
+    attitude.field = (keel_attitude_vector_t){-2.0f * most, -2.0f * most, -2.0f * most};
+    step();
+    vector_is(-most, -most, -most, attitude.field);
+}
+
 /* Nose east: 3 m/s^2 to the east are 3 forward to the body, in the Earth's frame (0, -3, g) / g;
  * 8/s in 1 ms are a share of 0.008. */
 static void ATT_020_force_is_low_passed_in_the_earths_frame(void)
@@ -1321,6 +1378,10 @@ int main(void)
     RUN_TEST(ATT_016_a_quaternion_that_is_none_is_replaced);
     RUN_TEST(ATT_016_a_unit_quaternion_is_one_of_length_1);
     RUN_TEST(ATT_019_down_as_the_body_sees_it);
+    RUN_TEST(ATT_017_a_field_that_is_behind_without_a_force);
+    RUN_TEST(ATT_012_the_bias_follows_no_more_than_the_tolerance);
+    RUN_TEST(ATT_012_the_bias_stays_within_its_limit);
+    RUN_TEST(ATT_020_what_is_kept_stays_within_reach);
     RUN_TEST(ATT_020_force_is_low_passed_in_the_earths_frame);
     RUN_TEST(ATT_020_a_single_force_says_little);
     RUN_TEST(ATT_020_what_is_low_passed_turns_along);
