@@ -1143,7 +1143,7 @@ static void as_configured(void)
     attitude.scale.step = 0.001f;
 }
 
-/* A field that is behind while no force comes: heading is not judged right by it, and the tilt stays
+/* A field that is behind while no force comes: heading is not judged right by it, and tilt stays
  * what it was. */
 static void ATT_017_a_field_that_is_behind_without_a_force(void)
 {
