@@ -63,7 +63,7 @@ def order_of(seed: int) -> Order:
     draw = Draw(seed)
     plant = draw.one_of(plants.NAMES)
     airframe = Airframe(
-        mass=draw.between(0.6, 1.35), inertia=draw.between(0.7, 1.4),
+        mass=draw.between(0.6, 1.2), inertia=draw.between(0.7, 1.25),
         motor_speed=draw.between(0.93, 1.07), motor_lag=draw.factor(1.5), drag=draw.factor(2.0),
     )  # fmt: skip
     quality = Quality(
