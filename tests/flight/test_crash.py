@@ -9,11 +9,10 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from flight import library, loop, plants, scenario
+from flight import loop, plants, scenario
 from flight.library import Copter
 from flight.loop import Order
 from flight.plants import Plant, Truth
-from toolchain import Toolchain
 
 HOVERS = """description = "hovers"
 duration_s = 14.0
@@ -34,7 +33,7 @@ TURN_S, RATE = 1.0, math.radians(100.0)  # It rolls to 100 degrees, and lies the
 class Tipped:
     """A plant that hits something at a time, rolls over, and lies still from then on.
 
-    What is told of the truth stays as it was, so that the flight is not broken off.
+    The truth that is told stays as it was, so that the flight is not broken off.
     """
 
     def __init__(self, plant: Plant, at_ms: int) -> None:
@@ -86,12 +85,6 @@ class Tipped:
         """Nothing moves it any more."""
         if self.since_s < 0.0:
             self.plant.blow(north, east, down)
-
-
-@pytest.fixture(scope="module")
-def copter(tmp_path_factory: pytest.TempPathFactory) -> Copter:
-    """The library."""
-    return Copter(library.build(Toolchain(), tmp_path_factory.mktemp("copter")))
 
 
 def flown(copter: Copter, folder: Path, monkeypatch: pytest.MonkeyPatch,

@@ -38,12 +38,6 @@ end = { on_ground = false, motors_on = true }
 """
 
 
-@pytest.fixture(scope="module")
-def copter(tmp_path_factory: pytest.TempPathFactory) -> Copter:
-    """The library."""
-    return Copter(library.build(Toolchain(), tmp_path_factory.mktemp("copter")))
-
-
 def short(folder: Path) -> scenario.Scenario:
     """A flight that takes little time."""
     (folder / "short.toml").write_text(SHORT)

@@ -50,12 +50,6 @@ GRAVITY = 9.80665
 SHAKES = {41.0: 2.0, 87.0: 1.0, 163.0: 1.5}
 
 
-@pytest.fixture(scope="module")
-def copter(tmp_path_factory: pytest.TempPathFactory) -> Copter:
-    """The library."""
-    return Copter(library.build(Toolchain(), tmp_path_factory.mktemp("copter")))
-
-
 def order(folder: Path) -> Order:
     """A flight that takes little time."""
     (folder / "short.toml").write_text(SHORT)
