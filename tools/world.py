@@ -8,7 +8,7 @@
 The model is WMM2025 of NOAA's National Centers for Environmental Information and the British
 Geological Survey, which is in the public domain and valid from 2025 to 2030; pygeomag computes it.
 
-Exit status: 0 when all is well, 1 when the table is stale, 2 when it cannot be made.
+Exit status: 0 when all is well, 1 when the table is stale.
 """
 
 from __future__ import annotations
@@ -17,13 +17,14 @@ import argparse
 import math
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Protocol
 
-ROOT = Path(__file__).resolve().parents[1]
+from common.errors import ROOT
+from common.files import write_text
+
 TABLE = ROOT / "examples/copter/world_table.c"
 
-# The middle of the model's years: a declination drifts by 0.2 degrees a year where it does most.
+# The middle of the model's years.
 YEAR = 2027.5
 STEP_DEG = 10
 LATITUDES = range(-80, 81, STEP_DEG)
@@ -97,7 +98,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.check:
         print(f"world: {shown} is stale: run make tables", file=sys.stderr)
         return 1
-    TABLE.write_text(text, encoding="utf-8")
+    write_text(TABLE, text)
     print(f"world: {shown} written")
     return 0
 

@@ -7,8 +7,8 @@
  * its neighbours along either way. Between 65 degrees south and north, where the field's horizontal
  * part is 8 uT at least, the direction of north is off by 1.2 degrees at most from the model's in
  * the middle of 2027, by 0.25 in the mean square; the inclination by 1.6 degrees, the strength by
- * 2.2 % (tests/tools/test_world.py). The model drifts by up to 0.2 degrees a year there, is said to
- * be off itself by half a degree, and ends with 2029.
+ * 2.2 %. There the model's north drifts by up to 0.4 degrees a year, by 0.1 at half of the places
+ * (tests/tools/test_world.py). It ends with 2029, and has errors of its own.
  */
 #ifndef COPTER_WORLD_H
 #define COPTER_WORLD_H

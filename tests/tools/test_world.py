@@ -11,9 +11,7 @@ import ctypes
 import json
 import math
 import random
-import shutil
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 from typing import ClassVar
@@ -22,6 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 from common.run import output_of  # noqa: E402
+from copter_shim import copter_of  # noqa: E402
 
 SHIM = """\
 #include "world.h"
@@ -33,11 +32,10 @@ void field(int latitude, int longitude, double *out)
 """
 MODEL = """\
 import json, sys
-from pathlib import Path
 from pygeomag import GeoMag
 model = GeoMag(coefficients_file="wmm/WMM_2025.COF")
-places = json.loads(Path(sys.argv[1]).read_text())
-found = [model.calculate(glat=a, glon=b, alt=0, time=2027.5) for a, b in places]
+year, places = float(sys.argv[1]), json.loads(sys.argv[2])
+found = [model.calculate(glat=a, glon=b, alt=0, time=year) for a, b in places]
 print(json.dumps([(one.x / 1e3, one.y / 1e3, one.z / 1e3) for one in found]))
 """
 # Declination in degrees, inclination in degrees and strength in uT of some towns in the middle of
@@ -75,19 +73,11 @@ def apart(one: float, other: float) -> float:
 class World(unittest.TestCase):
     """The table and what lies between its places."""
 
-    scratch: ClassVar[str]
     library: ClassVar[ctypes.CDLL]
 
     @classmethod
     def setUpClass(cls) -> None:
-        cls.scratch = tempfile.mkdtemp()
-        cls.addClassCleanup(shutil.rmtree, cls.scratch)
-        shim, library = Path(cls.scratch, "shim.c"), Path(cls.scratch, "world.so")
-        shim.write_text(SHIM, encoding="utf-8")
-        copter = ROOT / "examples/copter"
-        output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC", f"-I{copter}", shim,
-                   copter / "world.c", copter / "world_table.c", "-o", library])  # fmt: skip
-        cls.library = ctypes.CDLL(str(library))
+        cls.library = copter_of(cls, SHIM)
 
     def field(self, latitude: float, longitude: float) -> Vector:
         """Of the code, in uT."""
@@ -95,19 +85,25 @@ class World(unittest.TestCase):
         self.library.field(round(latitude * 1e7), round(longitude * 1e7), out)
         return out[0], out[1], out[2]
 
-    def model(self, places: list[tuple[float, float]]) -> list[Vector]:
+    @staticmethod
+    def model(places: list[tuple[float, float]], year: float = 2027.5) -> list[Vector]:
         """Of the model, in uT."""
-        asked = Path(self.scratch, "places.json")
-        asked.write_text(json.dumps(places), encoding="utf-8")
-        command = [sys.executable, ROOT / "tools/with_packages.py", "world", "-c", MODEL, asked]
+        asked = json.dumps(places)
+        command = [sys.executable, ROOT / "tools/with_packages.py", "world", "-c", MODEL,
+                   str(year), asked]  # fmt: skip
         said = output_of(command)
         return [(one[0], one[1], one[2]) for one in json.loads(said.splitlines()[-1])]
 
-    def test_between_the_places_of_the_table(self) -> None:
+    @staticmethod
+    def places() -> list[tuple[float, float]]:
+        """Drawn evenly between 65 degrees south and north."""
         drawn = random.Random(1)
         most = math.sin(math.radians(65.0))
-        places = [(math.degrees(math.asin(drawn.uniform(-most, most))), drawn.uniform(-180, 180))
-                  for _ in range(3000)]  # fmt: skip
+        return [(round(math.degrees(math.asin(drawn.uniform(-most, most))), 4),
+                 round(drawn.uniform(-180, 180), 4)) for _ in range(3000)]  # fmt: skip
+
+    def test_between_the_places_of_the_table(self) -> None:
+        places = self.places()
         errors, dips, strengths = [], [], []
         for place, true in zip(places, self.model(places), strict=True):
             found = self.field(*place)
@@ -120,6 +116,16 @@ class World(unittest.TestCase):
         self.assertLess(math.sqrt(sum(one * one for one in errors) / len(errors)), 0.25)
         self.assertLess(max(dips), 1.6)
         self.assertLess(max(strengths), 0.022)
+
+    def test_north_drifts_by_as_much_as_the_header_says(self) -> None:
+        places = self.places()
+        pairs = zip(self.model(places, 2025.0), self.model(places, 2029.5), strict=True)
+        drifts = sorted(
+            apart(declination(now), declination(then)) / 4.5 for now, then in pairs
+            if min(math.hypot(now[0], now[1]), math.hypot(then[0], then[1])) >= 8.0
+        )  # fmt: skip
+        self.assertLess(drifts[-1], 0.4)
+        self.assertLess(drifts[len(drifts) // 2], 0.1)
 
     def test_at_the_places_of_the_table_it_is_the_model(self) -> None:
         places = [(float(a), float(b)) for a in range(-80, 81, 20) for b in range(-180, 180, 30)]
