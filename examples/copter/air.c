@@ -23,20 +23,20 @@ void copter_background_barometer(copter_t *copter)
 }
 
 /* Air is never so still that a sensor says the same for long, bit for bit: one that does is stuck.
- * What it says then is no sample. */
+ * Its pressures are no samples then. */
 void copter_foreground_barometer(copter_t *copter)
 {
     copter_air_t *const self = &copter->air;
     const float before = self->pressure_pa;
 
     if (keel_oversample_take(&self->pressure, &self->pressure_pa) == KEEL_OK) {
-        const bool moved = (self->pressure_pa < before) || (self->pressure_pa > before);
-
-        self->repeats = moved ? 0u : (self->repeats + 1u);
-        if (self->repeats < STUCK) {
-            self->samples++;
+        if ((self->pressure_pa < before) || (self->pressure_pa > before)) {
+            self->repeats = 0u;
+        } else if (self->repeats < STUCK) {
+            self->repeats++;
         } else {
-            self->repeats = STUCK;
+            /* It is stuck already. */
         }
+        self->samples += (self->repeats < STUCK) ? 1u : 0u;
     }
 }

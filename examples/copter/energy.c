@@ -37,7 +37,7 @@ static float charge_at(float cell_voltage)
 }
 
 /* A pack that was not charged is not counted as full: once, before motors ever turn, its voltage at
- * rest says what it has. What is configured stands where that is less. */
+ * rest says what it has. The configured charge stands where that is less. */
 static void look_at_rest(copter_energy_t *self)
 {
     if (!self->is_known && !self->sample.running && (self->battery.level != KEEL_BATTERY_UNKNOWN)) {

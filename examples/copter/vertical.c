@@ -27,11 +27,6 @@ keel_status_t copter_vertical_init(copter_vertical_t *vertical)
     return keel_axis_init(&vertical->satellites, &copter_settings.position.axis);
 }
 
-static float limited(float value, float least, float most)
-{
-    return keel_range_clamp(value, least, most);
-}
-
 /* Where the receiver's height counts from: where it was when it first could be used. */
 static void find_zero(copter_vertical_t *self, const copter_fix_t *fix, bool usable)
 {
@@ -95,7 +90,8 @@ void copter_vertical_step(copter_t *copter, const copter_vertical_force_t *force
     step_satellites(self, &copter->satellites.fix, has_fix, force);
     compare(self, altitude);
     self->speed += PERIOD_S * ((known - altitude->axis.bias) - (self->speed / SPEED_S));
-    self->speed = limited(self->speed, -KEEL_AXIS_VELOCITY_LIMIT, KEEL_AXIS_VELOCITY_LIMIT);
+    self->speed = keel_range_clamp(self->speed, -KEEL_AXIS_VELOCITY_LIMIT,
+                                   KEEL_AXIS_VELOCITY_LIMIT);
 }
 
 void copter_vertical_tell(copter_estimate_t *estimate)
@@ -127,7 +123,7 @@ void copter_vertical_tell(copter_estimate_t *estimate)
 
 static bool is_within(float value, float limit)
 {
-    return (value <= limit) && (value >= -limit);
+    return keel_range_contains(value, -limit, limit);
 }
 
 static bool turns_little(const copter_t *copter)
@@ -218,8 +214,8 @@ static void learn_hover(copter_t *copter)
         (copter->inertia.down.z > UPRIGHT)) {
         const float hovers = (thrust * KEEL_CASCADE_GRAVITY) / lift;
 
-        self->hover = limited(self->hover + (HOVER_PART * (hovers - self->hover)),
-                              HOVER_LEAST * configured, HOVER_MOST * configured);
+        self->hover = keel_range_clamp(self->hover + (HOVER_PART * (hovers - self->hover)),
+                                       HOVER_LEAST * configured, HOVER_MOST * configured);
     }
 }
 

@@ -40,7 +40,7 @@ static keel_attitude_config_t config;
 static keel_attitude_sample_t sample;
 static keel_attitude_t attitude;
 
-/* All of a low pass: a share of 1, as no configuration has it. What is measured counts at once. */
+/* All of a low pass: a share of 1, as no configuration has it. A measurement counts at once. */
 static void pass_all(void)
 {
     attitude.scale.step = 0.125f;

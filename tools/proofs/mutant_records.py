@@ -61,8 +61,8 @@ def origin(
     names of the harnesses that killed.
 
     The sources count with their contracts and the places of their lines, but not with the words of
-    other comments; harnesses and models without any comment. Who proved a goal last does not
-    matter, nor do the wrong bodies.
+    other comments; harnesses and models without any comment. Neither the prover that proved a goal
+    last nor the wrong bodies matter.
     """
     root = unit.root
     own = {path.resolve() for path in unit.own_files}
