@@ -476,11 +476,14 @@ static uint32_t ppm_edge_at(uint32_t n)
 
 static const keel_voter_config_t voter_workload = {.agree = 0.25f,
                                                    .cutoff = 3.0f,
+                                                   .slope = 0.01f,
                                                    .lowest = -160.0f,
                                                    .highest = 160.0f,
                                                    .max_age_us = 10000u,
                                                    .latch_count = UINT16_MAX,
                                                    .stale_count = 50u,
+                                                   .frozen_count = 100u,
+                                                   .readmit_count = 100u,
                                                    .sensors = UNITS};
 
 /* Samples that keep moving: with no offset all units' within the distance of full agreement; the
@@ -493,6 +496,7 @@ static void samples_at(keel_virtual_imu_sample_t sample[UNITS], uint32_t n, floa
         for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
             sample[i].value[k] = (0.2f * signal_at((3u * n) + (7u * i) + k)) +
                                  ((i == (UNITS - 1u)) ? offset : 0.0f);
+            sample[i].raw[k] = sample[i].value[k];
         }
     }
 }

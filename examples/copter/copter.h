@@ -78,13 +78,25 @@ typedef struct copter_force {
     bool is_known;               /**< Whether any of the steps had one. */
 } copter_force_t;
 
+/** The worst of the last votes of one kind, so that what comes and goes is told once. */
+typedef struct copter_doubt {
+    uint16_t votes; /**< For so many more it stands, unless a worse one comes. */
+    uint8_t state;  /**< KEEL_VOTER_MEAN, ... */
+} copter_doubt_t;
+
 /** Written by background and foreground IMU. */
 typedef struct copter_inertia {
     keel_oversample_t channel[COPTER_IMUS][KEEL_VIRTUAL_IMU_CHANNELS];
     uint64_t sampled_us[COPTER_IMUS];            /**< When each unit last gave a sample. */
     int16_t temperature[COPTER_IMUS];            /**< Of it, in 0.01 degrees Celsius. */
     keel_virtual_imu_sample_t unit[COPTER_IMUS]; /**< As measured, without calibration. */
+    keel_filter_t filter[COPTER_IMUS][KEEL_VIRTUAL_IMU_CHANNELS]; /**< Of what is voted on. */
     keel_virtual_imu_t imu;
+    keel_virtual_imu_sample_t slow_unit[COPTER_IMUS]; /**< What drifts in them. */
+    keel_virtual_imu_t slow;
+    uint32_t votes;               /**< How many there were. */
+    copter_doubt_t accelerometer; /**< What is to be said of the votes. */
+    copter_doubt_t gyroscope;
     keel_attitude_t attitude;
     uint32_t calibrations;               /**< What was taken of calibration.done. */
     uint32_t fields;                     /**< What was taken of estimate.fields. */

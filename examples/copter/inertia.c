@@ -6,19 +6,31 @@
 #define VOTE_PERIOD_US 2000u /* Table 2: foreground IMU. */
 #define BLOCK          10u   /* Votes in a period of navigation. */
 #define ACCELEROMETER  KEEL_VIRTUAL_IMU_ACCELEROMETER
-#define FIELD_APART    0.5f /* In microtesla: a degree or so of the heading. */
+#define FIELD_APART    0.5f  /* In microtesla: a degree or so of the heading. */
+#define SLOW           10u   /* Votes to one of what drifts. */
+#define DOUBT_VOTES    1000u /* What was so within 2 s is told as it is. */
 
 keel_status_t copter_inertia_init(copter_inertia_t *inertia)
 {
     keel_status_t status = keel_virtual_imu_init(&inertia->imu, &copter_settings.imu);
 
     if (status == KEEL_OK) {
+        status = keel_virtual_imu_init(&inertia->slow, &copter_settings.slow);
+    }
+    if (status == KEEL_OK) {
         status = keel_attitude_init(&inertia->attitude, &copter_settings.attitude);
     }
     for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
         for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
+            const float cutoff_hz = (k < ACCELEROMETER) ? copter_settings.accelerometer_hz
+                                                        : copter_settings.gyroscope_hz;
+
             (void)keel_oversample_init(&inertia->channel[unit][k], OVERSAMPLING);
+            if (status == KEEL_OK) {
+                status = keel_filter_init(&inertia->filter[unit][k], COPTER_VOTE_HZ, cutoff_hz);
+            }
         }
+        inertia->unit[unit].present = false; /* So that its filters begin with what it says. */
     }
     return status;
 }
@@ -53,12 +65,16 @@ static void take(copter_inertia_t *self, uint32_t unit, uint64_t now_us)
         if (keel_oversample_take(&self->channel[unit][k], &sample->value[k]) != KEEL_OK) {
             sample->present = false;
         }
+        sample->raw[k] = sample->value[k];
     }
 }
 
-/* The same with the gyroscope's offset taken off. */
-static keel_virtual_imu_sample_t calibrated(const keel_virtual_imu_sample_t *raw,
-                                            const keel_calibration_rest_t *gyroscope)
+/* The same with the gyroscope's offset taken off, filtered: vibration differs from unit to unit, and
+ * is not what they vote on. Filters start anew behind a gap. What one refuses, the voter sees by the
+ * raw value. */
+static keel_virtual_imu_sample_t prepared(const keel_virtual_imu_sample_t *raw,
+                                          const keel_calibration_rest_t *gyroscope,
+                                          keel_filter_t filter[], bool goes_on)
 {
     keel_virtual_imu_sample_t sample = *raw;
     keel_calibration_vector_t rate;
@@ -67,7 +83,57 @@ static keel_virtual_imu_sample_t calibrated(const keel_virtual_imu_sample_t *raw
     for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
         sample.value[ACCELEROMETER + k] = rate.axis[k];
     }
+    for (uint32_t k = 0u; (k < KEEL_VIRTUAL_IMU_CHANNELS) && raw->present; k++) {
+        if (goes_on) {
+            (void)keel_filter_step(&filter[k], sample.value[k]);
+        } else {
+            (void)keel_filter_reset(&filter[k], sample.value[k]);
+        }
+        sample.value[k] = filter[k].output;
+    }
     return sample;
+}
+
+/* A drift within the vote's thresholds, which are as wide as units differ while they move and shake,
+ * would carry the mean away for long. It shows where motion and vibration are averaged out: there
+ * thresholds are narrow, and what is voted out is not heard in the vote that flies. */
+static void vote_on_drift(copter_inertia_t *self, keel_virtual_imu_sample_t unit[])
+{
+    for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
+        keel_virtual_imu_sample_t *const slow = &self->slow_unit[i];
+
+        for (uint32_t k = 0u; (k < KEEL_VIRTUAL_IMU_CHANNELS) && unit[i].present; k++) {
+            slow->value[k] += copter_settings.slow_gain * (unit[i].value[k] - slow->value[k]);
+            slow->raw[k] = unit[i].raw[k];
+        }
+        slow->present = unit[i].present;
+        slow->age_us = unit[i].age_us;
+    }
+    if ((self->votes % SLOW) == 0u) {
+        keel_virtual_imu_step(&self->slow, self->slow_unit, SLOW * VOTE_PERIOD_US);
+    }
+    self->votes++;
+    for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
+        unit[i].present = unit[i].present && (self->slow.latched[i] == 0u);
+    }
+}
+
+/* The worst state of three channels' votes, for as long as it is to be told. */
+static void doubt(copter_doubt_t *self, const keel_voter_t channel[])
+{
+    uint8_t worst = KEEL_VOTER_MEAN;
+
+    for (uint32_t k = 0u; k < ACCELEROMETER; k++) {
+        const uint8_t state = channel[k].vote.state;
+
+        worst = (state > worst) ? state : worst;
+    }
+    if ((worst >= self->state) || (self->votes == 0u)) {
+        self->state = worst;
+        self->votes = DOUBT_VOTES;
+    } else {
+        self->votes--;
+    }
 }
 
 /* The sample of an aircraft without a voter: the mean of what its units last said. */
@@ -156,10 +222,16 @@ void copter_foreground_imu(copter_t *copter)
     heed_calibration(self, &copter->calibration);
     heed_field(self, &copter->estimate);
     for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
+        const bool goes_on = self->unit[i].present;
+
         take(self, i, copter->scheduler.clock.now_us);
-        unit[i] = calibrated(&self->unit[i], &copter->calibration.gyroscope[i]);
+        unit[i] = prepared(&self->unit[i], &copter->calibration.gyroscope[i], self->filter[i],
+                           goes_on);
     }
+    vote_on_drift(self, unit);
     keel_virtual_imu_step(&self->imu, unit, VOTE_PERIOD_US);
+    doubt(&self->accelerometer, &self->imu.channel[0]);
+    doubt(&self->gyroscope, &self->imu.channel[ACCELEROMETER]);
     keel_attitude_take(&sample, &self->imu);
     if (copter->plain_mean) {
         take_mean(&sample, unit);

@@ -24,9 +24,16 @@
 /** A check before arming beside KEEL_MODE_CHECK_: the pressure may be that of the ground. */
 #define COPTER_CHECK_PRESSURE 0x1000u
 
+/** How often units vote, in Hz: table 2, foreground IMU. */
+#define COPTER_VOTE_HZ 500.0f
+
 /** All that a unit is made from, and what the tasks decide by. */
 typedef struct copter_settings {
     keel_virtual_imu_config_t imu;
+    keel_virtual_imu_config_t slow; /**< Of the vote on what is left of units without motion. */
+    float slow_gain;                /**< Of what they say, so much a vote: 2 pi f / 500 Hz. */
+    float accelerometer_hz;         /**< The cut-off of what is voted on, in Hz. */
+    float gyroscope_hz;             /**< The same. */
     keel_calibration_rest_config_t gyroscope; /**< Of each unit. */
     keel_calibration_field_config_t field;    /**< Of the magnetometer. */
     keel_attitude_config_t attitude;

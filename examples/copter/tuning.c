@@ -13,6 +13,9 @@ copter_settings_t copter_settings;
 /* One of each unit, to see whether it takes its settings. */
 typedef struct units {
     keel_virtual_imu_t imu;
+    keel_virtual_imu_t slow;
+    keel_filter_t force;
+    keel_filter_t rate;
     keel_calibration_rest_t gyroscope;
     keel_calibration_field_t field;
     keel_attitude_t attitude;
@@ -37,17 +40,21 @@ static keel_status_t try_units(const copter_settings_t *tried)
     static units_t unit;
     const keel_mixer_config_t mixer = {
         .geometry = keel_mixer_quad_x, .idle = tried->mixer.idle, .highest = tried->mixer.highest};
-    const keel_status_t status[] = {keel_virtual_imu_init(&unit.imu, &tried->imu),
-                                    keel_calibration_rest_init(&unit.gyroscope, &tried->gyroscope),
-                                    keel_calibration_field_init(&unit.field, &tried->field),
-                                    keel_attitude_init(&unit.attitude, &tried->attitude),
-                                    keel_altitude_init(&unit.altitude, &tried->altitude),
-                                    keel_position_init(&unit.position, &tried->position),
-                                    keel_reference_init(&unit.reference, &tried->reference),
-                                    keel_battery_init(&unit.battery, &tried->battery),
-                                    keel_mode_init(&unit.mode, &tried->mode),
-                                    keel_cascade_init(&unit.cascade, &tried->cascade),
-                                    keel_mixer_init(&unit.mixer, &mixer)};
+    const keel_status_t status[] = {
+        keel_virtual_imu_init(&unit.imu, &tried->imu),
+        keel_virtual_imu_init(&unit.slow, &tried->slow),
+        keel_filter_init(&unit.force, COPTER_VOTE_HZ, tried->accelerometer_hz),
+        keel_filter_init(&unit.rate, COPTER_VOTE_HZ, tried->gyroscope_hz),
+        keel_calibration_rest_init(&unit.gyroscope, &tried->gyroscope),
+        keel_calibration_field_init(&unit.field, &tried->field),
+        keel_attitude_init(&unit.attitude, &tried->attitude),
+        keel_altitude_init(&unit.altitude, &tried->altitude),
+        keel_position_init(&unit.position, &tried->position),
+        keel_reference_init(&unit.reference, &tried->reference),
+        keel_battery_init(&unit.battery, &tried->battery),
+        keel_mode_init(&unit.mode, &tried->mode),
+        keel_cascade_init(&unit.cascade, &tried->cascade),
+        keel_mixer_init(&unit.mixer, &mixer)};
     keel_status_t first = KEEL_OK;
 
     for (uint32_t i = 0u; (i < (sizeof status / sizeof status[0])) && (first == KEEL_OK); i++) {

@@ -156,12 +156,19 @@ static bool voter_valid_here(const keel_voter_t *v)
     return (2u <= v->config.sensors) && (v->config.sensors <= SENSORS) && (!v->unanimous || clean);
 }
 #else
+/* voter_thresholds */
+static bool thresholds_valid_here(const keel_voter_t *v)
+{
+    return (KEEL_VOTER_AGREE_MIN <= v->agree) && (v->agree <= KEEL_VOTER_AGREE_MAX) &&
+           disagree_valid_here(v->agree, v->disagree);
+}
+
 /* voter_valid, but for the cut-off and the initial output: nothing but init reads these two. */
 static bool voter_valid_here(const keel_voter_t *v)
 {
     bool valid = (2u <= v->config.sensors) && (v->config.sensors <= SENSORS) &&
                  agreement_valid_here(&v->config) && limits_valid_here(&v->config) &&
-                 disagree_valid_here(v->config.agree, v->disagree) && (v->config.max_age_us > 0u) &&
+                 thresholds_valid_here(v) && (v->config.max_age_us > 0u) &&
                  (v->config.latch_count > 0u) && (v->config.lowest <= v->vote.output) &&
                  (v->vote.output <= v->config.highest) && (!v->unanimous || unanimous_here(v));
 
@@ -172,6 +179,16 @@ static bool voter_valid_here(const keel_voter_t *v)
     return valid;
 }
 #endif
+
+static bool keel_voter_scale_may(const keel_voter_t *voter)
+{
+    return voter_valid_here(voter);
+}
+
+static bool keel_voter_scale_does(const keel_voter_t *voter)
+{
+    return voter_valid_here(voter);
+}
 
 static bool keel_voter_step_may(const keel_voter_t *voter)
 {
@@ -191,6 +208,16 @@ static bool used_is_healthy_here(const keel_voter_t *v)
 }
 
 static bool keel_voter_step_does(const keel_voter_t *voter)
+{
+    return voter_valid_here(voter) && used_is_healthy_here(voter);
+}
+
+static bool keel_voter_reconsider_may(const keel_voter_t *voter)
+{
+    return voter_valid_here(voter);
+}
+
+static bool keel_voter_reconsider_does(const keel_voter_t *voter)
 {
     return voter_valid_here(voter) && used_is_healthy_here(voter);
 }

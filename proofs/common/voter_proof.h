@@ -28,7 +28,7 @@ static bool finite_here(float x)
 static bool agreement_valid_here(const keel_voter_config_t *c)
 {
     return finite_here(c->agree) && (KEEL_VOTER_AGREE_MIN <= c->agree) &&
-           (c->agree <= KEEL_VOTER_AGREE_MAX);
+           (c->agree <= KEEL_VOTER_AGREE_MAX) && (0.0f <= c->slope) && (c->slope <= 1.0f);
 }
 
 static bool limits_valid_here(const keel_voter_config_t *c)
@@ -70,12 +70,14 @@ static keel_voter_config_t any_voter_config(void)
 
     c.agree = nondet_float();
     c.cutoff = nondet_float();
+    c.slope = nondet_float();
     c.lowest = nondet_float();
     c.highest = nondet_float();
     c.initial = nondet_float();
     c.max_age_us = nondet_u32();
     c.latch_count = nondet_u16();
     c.stale_count = nondet_u16();
+    c.readmit_count = nondet_u16();
     c.density_limit = nondet_u16();
     c.sensors = nondet_u8();
     return c;
@@ -89,6 +91,7 @@ static keel_voter_sensor_t any_sensor(void)
     s.unchanged_votes = nondet_u16();
     s.condemned_votes = nondet_u16();
     s.density = nondet_u16();
+    s.probation = nondet_u16();
     s.latched = nondet_bool();
     return s;
 }
@@ -96,17 +99,18 @@ static keel_voter_sensor_t any_sensor(void)
 static bool voter_config_same(const keel_voter_config_t *a, const keel_voter_config_t *b)
 {
     return float_same(a->agree, b->agree) && float_same(a->cutoff, b->cutoff) &&
-           float_same(a->lowest, b->lowest) && float_same(a->highest, b->highest) &&
-           float_same(a->initial, b->initial) && (a->max_age_us == b->max_age_us) &&
-           (a->latch_count == b->latch_count) && (a->stale_count == b->stale_count) &&
+           float_same(a->slope, b->slope) && float_same(a->lowest, b->lowest) &&
+           float_same(a->highest, b->highest) && float_same(a->initial, b->initial) &&
+           (a->max_age_us == b->max_age_us) && (a->latch_count == b->latch_count) &&
+           (a->stale_count == b->stale_count) && (a->readmit_count == b->readmit_count) &&
            (a->density_limit == b->density_limit) && (a->sensors == b->sensors);
 }
 
 static bool voter_sensor_same(const keel_voter_sensor_t *a, const keel_voter_sensor_t *b)
 {
     return float_same(a->last, b->last) && (a->unchanged_votes == b->unchanged_votes) &&
-           (a->condemned_votes == b->condemned_votes) && (a->density == b->density) &&
-           (a->latched == b->latched);
+           (a->probation == b->probation) && (a->condemned_votes == b->condemned_votes) &&
+           (a->density == b->density) && (a->latched == b->latched);
 }
 
 static bool vote_same(const keel_vote_t *a, const keel_vote_t *b, uint32_t i)
@@ -118,9 +122,9 @@ static bool vote_same(const keel_vote_t *a, const keel_vote_t *b, uint32_t i)
 
 static bool voter_same(const keel_voter_t *a, const keel_voter_t *b, uint32_t i)
 {
-    return voter_config_same(&a->config, &b->config) && float_same(a->disagree, b->disagree) &&
-           vote_same(&a->vote, &b->vote, i) && (a->unanimous == b->unanimous) &&
-           voter_sensor_same(&a->sensor[i], &b->sensor[i]);
+    return voter_config_same(&a->config, &b->config) && float_same(a->agree, b->agree) &&
+           float_same(a->disagree, b->disagree) && vote_same(&a->vote, &b->vote, i) &&
+           (a->unanimous == b->unanimous) && voter_sensor_same(&a->sensor[i], &b->sensor[i]);
 }
 
 static bool voter_sample_same(const keel_voter_sample_t *a, const keel_voter_sample_t *b)
@@ -132,8 +136,6 @@ static bool voter_sample_same(const keel_voter_sample_t *a, const keel_voter_sam
 static bool unanimous_here(const keel_voter_t *v)
 {
     bool clean = true;
-    bool above = false;
-    bool below = false;
 
     for (uint32_t i = 0u; i < SENSORS; i++) {
         if (i < v->config.sensors) {
@@ -141,13 +143,10 @@ static bool unanimous_here(const keel_voter_t *v)
 
             clean = clean && !s->latched && (s->unchanged_votes == 0u) &&
                     (s->condemned_votes == 0u) && (s->density == 0u) &&
-                    (v->vote.weight[i] == 1.0f) && (v->vote.reason[i] == KEEL_VOTER_USED) &&
-                    (v->config.lowest <= s->last) && (s->last <= v->config.highest);
-            above = above || (s->last <= v->vote.output);
-            below = below || (v->vote.output <= s->last);
+                    (v->vote.weight[i] == 1.0f) && (v->vote.reason[i] == KEEL_VOTER_USED);
         }
     }
-    return clean && above && below && (v->vote.state == KEEL_VOTER_MEAN) &&
+    return clean && (v->vote.state == KEEL_VOTER_MEAN) &&
            (v->vote.contributing == v->config.sensors) && (v->vote.held == 0u) &&
            (v->vote.held_us == 0u);
 }
@@ -156,7 +155,7 @@ static bool unanimous_here(const keel_voter_t *v)
 static void any_voter(keel_voter_t *voter, float agree, float disagree)
 {
     voter->config = any_voter_config();
-    voter->config.agree = agree;
+    voter->agree = agree;
     voter->disagree = disagree;
     voter->vote.output = nondet_float();
     voter->vote.held = nondet_u32();

@@ -16,10 +16,10 @@
 /* A channel of unit 1 that is latched; all others were unanimous. */
 #define LATCHED 2u
 
-static const keel_voter_config_t accelerometer = {1.0f,  3.0f, -100.0f, 100.0f, 1.5f,
-                                                  1000u, 2u,   0u,      0u,     UNITS};
-static const keel_voter_config_t gyroscope = {2.0f,  2.0f, -50.0f, 60.0f, -0.5f,
-                                              2000u, 1u,   3u,     9u,    UNITS};
+static const keel_voter_config_t accelerometer = {1.0f,  3.0f, 0.0f, -100.0f, 100.0f, 1.5f,
+                                                  1000u, 2u,   0u,   0u,      0u,     UNITS};
+static const keel_voter_config_t gyroscope = {2.0f,  2.0f, 0.125f, -50.0f, 60.0f, -0.5f,
+                                              2000u, 1u,   3u,     2u,     9u,    UNITS};
 
 /* What a unit measured on a channel in the vote of that number. */
 static float value_of(uint32_t unit, uint32_t channel, uint32_t number)
@@ -35,6 +35,7 @@ static keel_voter_t channel_after_a_vote(uint32_t channel)
     if (channel >= KEEL_VIRTUAL_IMU_ACCELEROMETER) {
         voter.config = gyroscope;
     }
+    voter.agree = voter.config.agree;
     voter.disagree = voter.config.cutoff * voter.config.agree;
     voter.unanimous = !latched;
     for (uint32_t i = 0u; i < UNITS; i++) {

@@ -2,7 +2,7 @@
 // cbmc: --unwind 7 --no-array-field-sensitivity
 // sources: src/middleware/virtual_imu.c src/middleware/voter.c
 // defines: -DKEEL_VOTER_SENSORS=2u
-// replaces: keel_voter_step keel_voter_step_unanimous
+// replaces: keel_voter_scale keel_voter_step keel_voter_reconsider keel_voter_step_unanimous
 // covers: keel_virtual_imu_step note channel_bit
 //
 // Every valid virtual unit of two units and every sample; a channel's vote leaves any valid
@@ -32,6 +32,14 @@ static void any_vote(keel_voter_t *voter)
     }
 }
 
+void keel_voter_scale_stand_in(keel_voter_t *voter)
+{
+    __CPROVER_assert(keel_voter_scale_may(voter), "precondition: keel_voter_scale");
+    voter->agree = nondet_float();
+    voter->disagree = nondet_float();
+    __CPROVER_assume(keel_voter_scale_does(voter));
+}
+
 void keel_voter_step_stand_in(keel_voter_t *voter, const keel_voter_sample_t sample[],
                               uint32_t elapsed_us)
 {
@@ -40,6 +48,16 @@ void keel_voter_step_stand_in(keel_voter_t *voter, const keel_voter_sample_t sam
     __CPROVER_assert(keel_voter_step_may(voter), "precondition: keel_voter_step");
     any_vote(voter);
     __CPROVER_assume(keel_voter_step_does(voter));
+}
+
+void keel_voter_reconsider_stand_in(keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    (void)sample;
+    __CPROVER_assert(keel_voter_reconsider_may(voter), "precondition: keel_voter_reconsider");
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        voter->sensor[i] = any_sensor();
+    }
+    __CPROVER_assume(keel_voter_reconsider_does(voter));
 }
 
 bool keel_voter_step_unanimous_stand_in(keel_voter_t *voter, const keel_voter_sample_t sample[],

@@ -2,7 +2,7 @@
 // cbmc: --unwind 7 --no-array-field-sensitivity --external-sat-solver cadical
 // sources: src/middleware/virtual_imu.c src/middleware/voter.c specs/model/virtual_imu.c
 // defines: -DVOTER_FLOATS_OPEN
-// replaces: keel_voter_step keel_voter_step_unanimous
+// replaces: keel_voter_scale keel_voter_step keel_voter_reconsider keel_voter_step_unanimous
 // covers: keel_virtual_imu_step note channel_bit model_virtual_imu_step
 //
 // Every virtual unit of 2 to 4 units, every bit pattern of the samples. What a vote comes to is
@@ -16,11 +16,15 @@
 // is taken is unknown, but only of a channel whose last vote was unanimous, and it stays so.
 #include "virtual_imu_proof.h"
 
-/* A vote on a channel: what was asked, and what came of it. */
+/* A vote on a channel: what was asked, and what came of it; its thresholds, and of which state. */
 typedef struct ballot {
+    keel_voter_t unscaled;
+    float agree;
+    float disagree;
     keel_voter_t before;
     keel_voter_t after;
     keel_voter_sample_t sample[SENSORS];
+    keel_voter_sensor_t reconsidered[SENSORS];
     uint32_t elapsed_us;
 } ballot_t;
 
@@ -38,6 +42,32 @@ static uint32_t channel_of(const keel_virtual_imu_t *unit, const keel_voter_t *v
     return channel;
 }
 
+void model_voter_scale(keel_voter_t *voter)
+{
+    ballot_t *const vote = &ballot[channel_of(&model, voter)];
+
+    vote->unscaled = *voter;
+    vote->agree = nondet_float();
+    vote->disagree = nondet_float();
+    voter->agree = vote->agree;
+    voter->disagree = vote->disagree;
+}
+
+/* Asks for the thresholds that the model asked for, in the same state. */
+void keel_voter_scale_stand_in(keel_voter_t *voter)
+{
+    const ballot_t *const vote = &ballot[channel_of(&imu, voter)];
+
+    __CPROVER_assert(keel_voter_scale_may(voter), "precondition: keel_voter_scale");
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        __CPROVER_assert(voter_same(voter, &vote->unscaled, i),
+                         "IMU_005_state: thresholds after the channel's last output");
+    }
+    voter->agree = vote->agree;
+    voter->disagree = vote->disagree;
+    __CPROVER_assume(keel_voter_scale_does(voter));
+}
+
 void model_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us)
 {
     ballot_t *const vote = &ballot[channel_of(&model, voter)];
@@ -49,9 +79,38 @@ void model_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], u
     }
     any_voter(&vote->after, nondet_float(), nondet_float());
     vote->after.config = voter->config;
+    vote->after.agree = voter->agree;
     vote->after.disagree = voter->disagree;
     __CPROVER_assume(keel_voter_step_does(&vote->after));
     *voter = vote->after;
+}
+
+/* What probation comes to is unknown, but for sensors that are not latched: they stay as they are. */
+void model_voter_reconsider(keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    ballot_t *const vote = &ballot[channel_of(&model, voter)];
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        __CPROVER_assert((i >= voter->config.sensors) ||
+                             voter_sample_same(&sample[i], &vote->sample[i]),
+                         "IMU_006_model: with the samples of the vote");
+        if (voter->sensor[i].latched) {
+            voter->sensor[i] = any_sensor();
+        }
+        vote->reconsidered[i] = voter->sensor[i];
+    }
+    __CPROVER_assume(keel_voter_reconsider_does(voter));
+}
+
+static void same_samples(const keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    const ballot_t *const vote = &ballot[channel_of(&imu, voter)];
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        __CPROVER_assert((i >= voter->config.sensors) ||
+                             voter_sample_same(&sample[i], &vote->sample[i]),
+                         "IMU_002_sample: with the same sample of each unit");
+    }
 }
 
 /* Asks for the vote that the model asked for, but for the time elapsed. */
@@ -62,12 +121,24 @@ static void vote_as_the_model(keel_voter_t *voter, const keel_voter_sample_t sam
     for (uint32_t i = 0u; i < SENSORS; i++) {
         __CPROVER_assert(voter_same(voter, &vote->before, i), "IMU_002_state: in the same state");
     }
-    for (uint32_t i = 0u; i < SENSORS; i++) {
-        __CPROVER_assert((i >= voter->config.sensors) ||
-                             voter_sample_same(&sample[i], &vote->sample[i]),
-                         "IMU_002_sample: with the same sample of each unit");
-    }
+    same_samples(voter, sample);
     *voter = vote->after;
+}
+
+/* Asks for the probation that the model asked for: in the same state, with the same samples. */
+void keel_voter_reconsider_stand_in(keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    const ballot_t *const vote = &ballot[channel_of(&imu, voter)];
+
+    __CPROVER_assert(keel_voter_reconsider_may(voter), "precondition: keel_voter_reconsider");
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        __CPROVER_assert(voter_same(voter, &vote->after, i), "IMU_006_state: after the vote");
+    }
+    same_samples(voter, sample);
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        voter->sensor[i] = vote->reconsidered[i];
+    }
+    __CPROVER_assume(keel_voter_reconsider_does(voter));
 }
 
 void keel_voter_step_stand_in(keel_voter_t *voter, const keel_voter_sample_t sample[],

@@ -3,7 +3,7 @@
 // sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
 // replaces: keel_voter_plain_mean keel_voter_within
 // defines: -DKEEL_VOTER_SENSORS=2u
-// covers: keel_voter_step_unanimous is_at_rest model_voter_step_unanimous
+// covers: keel_voter_step_unanimous model_voter_step_unanimous
 //
 // Two sensors: what keel_voter_step_unanimous_harness.c proves for two to four, once more for
 // these, in a few seconds. Most faults show here.

@@ -2,7 +2,7 @@
 // cbmc: --unwind 5 --external-sat-solver cadical
 // sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
 // replaces: keel_voter_plain_mean keel_voter_within
-// covers: keel_voter_step_unanimous is_at_rest
+// covers: keel_voter_step_unanimous
 //
 // A vote that was taken and the whole vote from the same state, with the same samples, come to the
 // same in every field but the output: every valid channel of two to four sensors, every bit pattern
@@ -17,8 +17,8 @@ static void all_agree(const keel_voter_t *voter, const keel_voter_sample_t sampl
     for (uint32_t j = 1u; j < SENSORS; j++) {
         for (uint32_t i = 0u; i < j; i++) {
             __CPROVER_assume((j >= voter->config.sensors) ||
-                             (model_voter_agreement(sample[i].value, sample[j].value,
-                                                    voter->config.agree, voter->disagree) == 1.0f));
+                             (model_voter_agreement(sample[i].value, sample[j].value, voter->agree,
+                                                    voter->disagree) == 1.0f));
         }
     }
     for (uint32_t others = 1u; others < SENSORS; others++) {

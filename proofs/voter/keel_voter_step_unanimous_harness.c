@@ -2,7 +2,7 @@
 // cbmc: --unwind 5 --no-array-field-sensitivity --refine
 // sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
 // replaces: keel_voter_plain_mean keel_voter_within
-// covers: keel_voter_step_unanimous is_at_rest model_voter_step_unanimous
+// covers: keel_voter_step_unanimous model_voter_step_unanimous
 //
 // Every valid channel of 2 to 4 sensors, every bit pattern of the samples' values and of their
 // oldest age. The mean, and what is within a, are any functions of their arguments with their

@@ -33,7 +33,8 @@ keel_status_t model_virtual_imu_init(keel_virtual_imu_t *imu,
 }
 
 /* A whole vote of one channel: of each unit its value of that channel, with the unit's age and
- * presence. IMU-002 */
+ * presence, by thresholds after the channel's last output; then the probation of what is latched.
+ * IMU-002, IMU-005, IMU-006 */
 static void vote(keel_virtual_imu_t *imu, uint32_t channel,
                  const keel_virtual_imu_sample_t sample[], uint32_t elapsed_us)
 {
@@ -46,7 +47,9 @@ static void vote(keel_virtual_imu_t *imu, uint32_t channel,
             one[i].present = sample[i].present;
         }
     }
+    model_voter_scale(&imu->channel[channel]);
     model_voter_step(&imu->channel[channel], one, elapsed_us);
+    model_voter_reconsider(&imu->channel[channel], one);
 }
 
 /* A unit's channels, as bits, that contributed to the last vote. IMU-003 */

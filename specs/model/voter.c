@@ -16,7 +16,8 @@ keel_status_t model_voter_check(const keel_voter_config_t *config)
     if ((config->sensors < 2u) || (KEEL_VOTER_SENSORS < config->sensors)) {
         return KEEL_ERR_SENSORS;
     }
-    if (!model_range_contains(config->agree, KEEL_VOTER_AGREE_MIN, KEEL_VOTER_AGREE_MAX)) {
+    if (!model_range_contains(config->agree, KEEL_VOTER_AGREE_MIN, KEEL_VOTER_AGREE_MAX) ||
+        !model_range_contains(config->slope, 0.0f, 1.0f)) {
         return KEEL_ERR_AGREEMENT;
     }
     if (!cutoff_is_valid(config)) {
@@ -47,6 +48,7 @@ keel_status_t model_voter_init(keel_voter_t *voter, const keel_voter_config_t *c
         return status;
     }
     voter->config = *config;
+    voter->agree = config->agree;
     voter->disagree = config->cutoff * config->agree;
     voter->vote.output = config->initial;
     voter->vote.held = 0u;
@@ -59,6 +61,7 @@ keel_status_t model_voter_init(keel_voter_t *voter, const keel_voter_config_t *c
         voter->sensor[i].unchanged_votes = 0u;
         voter->sensor[i].condemned_votes = 0u;
         voter->sensor[i].density = 0u;
+        voter->sensor[i].probation = 0u;
         voter->sensor[i].latched = false;
         voter->vote.weight[i] = 0.0f;
         voter->vote.reason[i] = KEEL_VOTER_USED;
@@ -66,18 +69,29 @@ keel_status_t model_voter_init(keel_voter_t *voter, const keel_voter_config_t *c
     return KEEL_OK;
 }
 
+/* VOT-019: a of the next vote, and n a; those of the configuration where n a is too much. */
+void model_voter_scale(keel_voter_t *voter)
+{
+    const keel_voter_config_t config = voter->config;
+    const float magnitude = (voter->vote.output < 0.0f) ? -voter->vote.output : voter->vote.output;
+    const float wished = config.agree + (config.slope * magnitude);
+    const float agree = (wished < KEEL_VOTER_AGREE_MAX) ? wished : KEEL_VOTER_AGREE_MAX;
+    const float disagree = config.cutoff * agree;
+    const bool is_valid = (disagree > agree) && (disagree <= KEEL_VOTER_RANGE);
+
+    voter->agree = is_valid ? agree : config.agree;
+    voter->disagree = is_valid ? disagree : (config.cutoff * config.agree);
+}
+
 static uint16_t one_more(uint16_t count)
 {
     return (count < UINT16_MAX) ? (uint16_t)(count + 1u) : UINT16_MAX;
 }
 
-/* Why a sample is of no use, the first reason that applies; staleness comes later. VOT-007 */
-static uint8_t first_reason(const keel_voter_config_t *config, const keel_voter_sensor_t *sensor,
-                            const keel_voter_sample_t *sample)
+/* Why a sample is of no use, the first reason that applies, be its sensor latched or not; staleness
+ * comes later. VOT-007 */
+static uint8_t first_reason(const keel_voter_config_t *config, const keel_voter_sample_t *sample)
 {
-    if (sensor->latched) {
-        return KEEL_VOTER_LATCHED;
-    }
     if (!sample->present) {
         return KEEL_VOTER_MISSING;
     }
@@ -100,34 +114,30 @@ static bool is_readable(uint8_t reason)
            (reason == KEEL_VOTER_LATE);
 }
 
-/* Reasons of all samples. What has changed is kept, and where just one of the readable samples has
- * not changed, that is counted: VOT-013. 0 and -0 are no change. */
+/* Reasons of all samples. What has changed is kept, and votes without a change are counted: VOT-013.
+ * 0 and -0 are no change. */
 static void look(keel_voter_t *voter, const keel_voter_sample_t sample[])
 {
-    bool readable[KEEL_VOTER_SENSORS] = {false};
-    bool changed[KEEL_VOTER_SENSORS] = {false};
-    uint32_t readables = 0u;
-    uint32_t changes = 0u;
-
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         if (i < voter->config.sensors) {
-            voter->vote.reason[i] = first_reason(&voter->config, &voter->sensor[i], &sample[i]);
-            readable[i] = is_readable(voter->vote.reason[i]);
-            changed[i] = readable[i] && (sample[i].value != voter->sensor[i].last);
-            readables += readable[i] ? 1u : 0u;
-            changes += changed[i] ? 1u : 0u;
+            const uint8_t reason = first_reason(&voter->config, &sample[i]);
+            const bool changed = sample[i].value != voter->sensor[i].last;
+
+            if (is_readable(reason)) {
+                voter->sensor[i].unchanged_votes = changed
+                                                       ? 0u
+                                                       : one_more(voter->sensor[i].unchanged_votes);
+                voter->sensor[i].last = changed ? sample[i].value : voter->sensor[i].last;
+            }
+            voter->vote.reason[i] = voter->sensor[i].latched ? KEEL_VOTER_LATCHED : reason;
         }
     }
-    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
-        if (changed[i]) {
-            voter->sensor[i].last = sample[i].value;
-            voter->sensor[i].unchanged_votes = 0u;
-        } else if (readable[i] && (changes > 0u) && ((changes + 1u) == readables)) {
-            voter->sensor[i].unchanged_votes = one_more(voter->sensor[i].unchanged_votes);
-        } else {
-            /* Not readable, or not the only one at rest: the count stays. */
-        }
-    }
+}
+
+/* Whether a sensor has repeated itself for too long: VOT-013 */
+static bool is_stale(const keel_voter_config_t *config, const keel_voter_sensor_t *sensor)
+{
+    return (config->stale_count != 0u) && (config->stale_count <= sensor->unchanged_votes);
 }
 
 /* Of the usable samples, those whose sensor has not changed for too long: VOT-013 */
@@ -135,8 +145,7 @@ static void exclude_stale(keel_voter_t *voter)
 {
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         if ((i < voter->config.sensors) && (voter->vote.reason[i] == KEEL_VOTER_USED) &&
-            (voter->config.stale_count > 0u) &&
-            (voter->sensor[i].unchanged_votes >= voter->config.stale_count)) {
+            is_stale(&voter->config, &voter->sensor[i])) {
             voter->vote.reason[i] = KEEL_VOTER_STALE;
         }
     }
@@ -169,7 +178,7 @@ static agreements_t compare(const keel_voter_t *voter, const keel_voter_sample_t
             if ((j < voter->config.sensors) && (voter->vote.reason[i] == KEEL_VOTER_USED) &&
                 (voter->vote.reason[j] == KEEL_VOTER_USED)) {
                 agreements.of[i][j] = model_voter_agreement(sample[i].value, sample[j].value,
-                                                            voter->config.agree, voter->disagree);
+                                                            voter->agree, voter->disagree);
                 agreements.of[j][i] = agreements.of[i][j];
             }
         }
@@ -208,6 +217,43 @@ static void weigh(keel_voter_t *voter, const keel_voter_sample_t sample[], uint3
     }
 }
 
+/* Whether any sample has a weight. */
+static bool has_weight(const keel_voter_t *voter)
+{
+    bool has = false;
+
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        has = has || ((i < voter->config.sensors) && (voter->vote.weight[i] > 0.0f));
+    }
+    return has;
+}
+
+/* Whether one usable sample lies below a value, and one above it. */
+static bool lies_between(const keel_voter_t *voter, const keel_voter_sample_t sample[], float value)
+{
+    bool below = false;
+    bool above = false;
+
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        if ((i < voter->config.sensors) && (voter->vote.reason[i] == KEEL_VOTER_USED)) {
+            below = below || (sample[i].value < value);
+            above = above || (value < sample[i].value);
+        }
+    }
+    return below && above;
+}
+
+/* The usable samples in the middle of three or four have the weight 1: VOT-020 */
+static void weigh_middle(keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        if ((i < voter->config.sensors) && (voter->vote.reason[i] == KEEL_VOTER_USED) &&
+            lies_between(voter, sample, sample[i].value)) {
+            voter->vote.weight[i] = 1.0f;
+        }
+    }
+}
+
 /* What is usable and has no weight was outvoted: VOT-006 */
 static void outvote(keel_voter_t *voter)
 {
@@ -219,25 +265,27 @@ static void outvote(keel_voter_t *voter)
     }
 }
 
-/* Whether a vote condemns a sensor: VOT-010. With fewer than two others nobody knows which is
- * wrong. */
-static bool is_condemned(uint8_t reason, uint32_t usable)
+/* Whether a vote condemns a sensor: VOT-010. Where nothing is usable, or nobody agrees, nobody knows
+ * which is wrong. */
+static bool is_condemned(uint8_t reason, uint32_t usable, bool agreed)
 {
-    return (reason == KEEL_VOTER_MISSING) || (reason == KEEL_VOTER_NOT_FINITE) ||
-           (reason == KEEL_VOTER_OUT_OF_RANGE) || (reason == KEEL_VOTER_LATE) ||
-           (reason == KEEL_VOTER_STALE) || ((reason == KEEL_VOTER_OUTVOTED) && (usable > 2u));
+    const bool unusable = (reason == KEEL_VOTER_MISSING) || (reason == KEEL_VOTER_NOT_FINITE) ||
+                          (reason == KEEL_VOTER_OUT_OF_RANGE) || (reason == KEEL_VOTER_LATE) ||
+                          (reason == KEEL_VOTER_STALE);
+
+    return (unusable && (usable > 0u)) || ((reason == KEEL_VOTER_OUTVOTED) && agreed);
 }
 
 /* What the vote means for a sensor: VOT-010 (condemned_votes), VOT-011 (latched), VOT-012
  * (density) */
 static void count(const keel_voter_config_t *config, keel_voter_sensor_t *sensor, uint8_t reason,
-                  uint32_t usable)
+                  uint32_t usable, bool agreed)
 {
     if (reason == KEEL_VOTER_USED) {
         sensor->condemned_votes = 0u;
         sensor->density = (sensor->density > 0u) ? (uint16_t)(sensor->density - 1u) : 0u;
     }
-    if (is_condemned(reason, usable)) {
+    if (is_condemned(reason, usable, agreed)) {
         sensor->condemned_votes = one_more(sensor->condemned_votes);
         sensor->density = one_more(sensor->density);
         sensor->latched = (sensor->condemned_votes >= config->latch_count) ||
@@ -246,14 +294,15 @@ static void count(const keel_voter_config_t *config, keel_voter_sensor_t *sensor
     }
 }
 
-/* The output of a vote to which some contributed (VOT-005, VOT-009), else none (VOT-008). */
+/* The output of a vote to which some contributed (VOT-005, VOT-009, VOT-020), else none (VOT-008). */
 static void conclude(keel_vote_t *vote, const keel_voter_sample_t sample[], uint32_t sensors,
-                     uint32_t usable, uint32_t elapsed_us)
+                     uint32_t usable, bool agreed, uint32_t elapsed_us)
 {
     const uint64_t held_us = (uint64_t)vote->held_us + elapsed_us;
 
     if (vote->contributing > 0u) {
-        vote->state = (usable == 1u) ? KEEL_VOTER_SINGLE : KEEL_VOTER_MEAN;
+        vote->state = (usable == 1u) ? KEEL_VOTER_SINGLE
+                                     : (agreed ? KEEL_VOTER_MEAN : KEEL_VOTER_MEDIAN);
         vote->output = model_voter_combine(sample, vote->weight, sensors);
         vote->held = 0u;
         vote->held_us = 0u;
@@ -282,25 +331,29 @@ static bool is_unanimous(const keel_voter_t *voter)
 void model_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us)
 {
     uint32_t usable;
+    bool agreed;
 
     look(voter, sample);
     exclude_stale(voter);
     usable = used(voter);
     weigh(voter, sample, usable);
+    agreed = has_weight(voter);
+    if (!agreed && (usable >= 3u)) {
+        weigh_middle(voter, sample);
+    }
     outvote(voter);
     voter->vote.contributing = (uint8_t)used(voter);
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         if (i < voter->config.sensors) {
-            count(&voter->config, &voter->sensor[i], voter->vote.reason[i], usable);
+            count(&voter->config, &voter->sensor[i], voter->vote.reason[i], usable, agreed);
         }
     }
-    conclude(&voter->vote, sample, voter->config.sensors, usable, elapsed_us);
+    conclude(&voter->vote, sample, voter->config.sensors, usable, agreed, elapsed_us);
     voter->unanimous = is_unanimous(voter);
 }
 
 /* VOT-018: the vote is taken when the last was unanimous, none of the samples is late, all are
- * plausible and within a of each other, and all or none have changed. If none has, the last output
- * was their mean already. */
+ * plausible and within a of each other, and all have changed. */
 bool model_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sample[],
                                 uint32_t oldest_us)
 {
@@ -321,9 +374,8 @@ bool model_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t s
         }
     }
     taken = voter->unanimous && (oldest_us <= voter->config.max_age_us) && (plausible == sensors) &&
-            ((changed == 0u) || (changed == sensors)) &&
-            model_voter_within(least, most, voter->config.agree);
-    if (taken && (changed > 0u)) {
+            (changed == sensors) && model_voter_within(least, most, voter->agree);
+    if (taken) {
         for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
             if (i < sensors) {
                 voter->sensor[i].last = sample[i].value;
@@ -347,5 +399,38 @@ keel_status_t model_voter_readmit(keel_voter_t *voter, uint32_t sensor)
     voter->sensor[sensor].condemned_votes = 0u;
     voter->sensor[sensor].density = 0u;
     voter->sensor[sensor].unchanged_votes = 0u;
+    voter->sensor[sensor].probation = 0u;
     return KEEL_OK;
+}
+
+/* A vote after which a latched sensor's count of good ones in a row rises; any other ends the row.
+ * VOT-021 */
+static bool is_good(const keel_voter_t *voter, uint32_t i, const keel_voter_sample_t *sample)
+{
+    const float output = voter->vote.output;
+    const bool usable = (first_reason(&voter->config, sample) == KEEL_VOTER_USED) &&
+                        !is_stale(&voter->config, &voter->sensor[i]);
+    bool agrees = true;
+
+    if (usable && (voter->vote.contributing > 0u)) {
+        agrees = (sample->value < output) ? model_voter_within(sample->value, output, voter->agree)
+                                          : model_voter_within(output, sample->value, voter->agree);
+    }
+    return usable && agrees;
+}
+
+/* Probation of latched sensors: VOT-021 */
+void model_voter_reconsider(keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
+        if ((i < voter->config.sensors) && voter->sensor[i].latched) {
+            const uint16_t row = one_more(voter->sensor[i].probation);
+
+            voter->sensor[i].probation = is_good(voter, i, &sample[i]) ? row : 0u;
+            if ((voter->config.readmit_count != 0u) &&
+                (voter->config.readmit_count <= voter->sensor[i].probation)) {
+                (void)model_voter_readmit(voter, i);
+            }
+        }
+    }
 }

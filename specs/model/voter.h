@@ -10,6 +10,7 @@
 
 keel_status_t model_voter_check(const keel_voter_config_t *config);
 keel_status_t model_voter_init(keel_voter_t *voter, const keel_voter_config_t *config);
+void model_voter_scale(keel_voter_t *voter);
 float model_voter_agreement(float x, float y, float agree, float disagree);
 float model_voter_weight(const float agreement[], uint32_t others);
 float model_voter_mean(float sum, float weights, float least, float most);
@@ -22,5 +23,6 @@ void model_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], u
 bool model_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sample[],
                                 uint32_t oldest_us);
 keel_status_t model_voter_readmit(keel_voter_t *voter, uint32_t sensor);
+void model_voter_reconsider(keel_voter_t *voter, const keel_voter_sample_t sample[]);
 
 #endif

@@ -117,8 +117,10 @@ void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_virtual_imu_sampl
         for (uint32_t i = 0u; i < units; i++) {
             one[i].value = sample[i].value[k];
         }
+        keel_voter_scale(&imu->channel[k]);
         if (!complete || !keel_voter_step_unanimous(&imu->channel[k], one, oldest_us)) {
             keel_voter_step(&imu->channel[k], one, elapsed_us);
+            keel_voter_reconsider(&imu->channel[k], one);
             note(imu, k);
         }
     }

@@ -24,7 +24,8 @@ keel_status_t keel_voter_check(const keel_voter_config_t *config)
     if ((config->sensors < 2u) || (config->sensors > KEEL_VOTER_SENSORS)) {
         return KEEL_ERR_SENSORS;
     }
-    if (!keel_range_contains(config->agree, KEEL_VOTER_AGREE_MIN, KEEL_VOTER_AGREE_MAX)) {
+    if (!keel_range_contains(config->agree, KEEL_VOTER_AGREE_MIN, KEEL_VOTER_AGREE_MAX) ||
+        !keel_range_contains(config->slope, 0.0f, 1.0f)) {
         return KEEL_ERR_AGREEMENT;
     }
     if (!is_cutoff_valid(config)) {
@@ -51,6 +52,7 @@ keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *co
         return status;
     }
     voter->config = *config;
+    voter->agree = config->agree;
     voter->disagree = config->cutoff * config->agree;
     voter->unanimous = false;
     voter->vote.output = config->initial;
@@ -69,11 +71,30 @@ keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *co
         voter->sensor[i].unchanged_votes = 0u;
         voter->sensor[i].condemned_votes = 0u;
         voter->sensor[i].density = 0u;
+        voter->sensor[i].probation = 0u;
         voter->sensor[i].latched = false;
         voter->vote.weight[i] = 0.0f;
         voter->vote.reason[i] = KEEL_VOTER_USED;
     }
     return KEEL_OK;
+}
+
+void keel_voter_scale(keel_voter_t *voter)
+{
+    const keel_voter_config_t *const config = &voter->config;
+    const float output = voter->vote.output;
+    const float magnitude = (output < 0.0f) ? -output : output;
+    const float wished = config->agree + (config->slope * magnitude);
+    const float agree = (wished < KEEL_VOTER_AGREE_MAX) ? wished : KEEL_VOTER_AGREE_MAX;
+    const float disagree = config->cutoff * agree;
+
+    if (is_above(disagree, agree)) {
+        voter->agree = agree;
+        voter->disagree = disagree;
+    } else {
+        voter->agree = config->agree;
+        voter->disagree = config->cutoff * config->agree;
+    }
 }
 
 float keel_voter_agreement(float x, float y, float agree, float disagree)
@@ -157,17 +178,13 @@ static uint16_t one_more(uint16_t value)
     return (value < UINT16_MAX) ? (uint16_t)(value + 1u) : value;
 }
 
-/* Why a sample cannot be used, staleness aside, or KEEL_VOTER_USED (VOT-007). */
-/*@ requires \valid_read(config) && \valid_read(sensor) && \valid_read(sample);
+/* Why a sample cannot be used, latch and staleness aside, or KEEL_VOTER_USED (VOT-007). */
+/*@ requires \valid_read(config) && \valid_read(sample);
   @ requires \is_finite(config->lowest) && \is_finite(config->highest);
   @ assigns \nothing;
   @*/
-static uint8_t inspect(const keel_voter_config_t *config, const keel_voter_sensor_t *sensor,
-                       const keel_voter_sample_t *sample)
+static uint8_t inspect(const keel_voter_config_t *config, const keel_voter_sample_t *sample)
 {
-    if (sensor->latched) {
-        return KEEL_VOTER_LATCHED;
-    }
     if (!sample->present) {
         return KEEL_VOTER_MISSING;
     }
@@ -179,34 +196,31 @@ static uint8_t inspect(const keel_voter_config_t *config, const keel_voter_senso
     return (sample->age_us > config->max_age_us) ? KEEL_VOTER_LATE : KEEL_VOTER_USED;
 }
 
-/* Excludes what has not changed for too long; how many are still usable then (VOT-013). */
-/*@ requires \valid(voter) && voter->config.sensors <= KEEL_VOTER_SENSORS;
-  @ assigns voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1];
+/* Whether a sensor has repeated itself for too long (VOT-013). */
+/*@ requires \valid_read(config) && \valid_read(sensor);
+  @ assigns \nothing;
+  @ ensures stale: \result <==> 0 < config->stale_count <= sensor->unchanged_votes;
   @*/
-static uint32_t exclude_stale(keel_voter_t *voter)
+static bool is_stale(const keel_voter_config_t *config, const keel_voter_sensor_t *sensor)
 {
-    uint32_t usable = 0u;
-
-    /*@ loop invariant 0 <= i <= voter->config.sensors && usable <= i;
-      @ loop assigns i, usable, voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1];
-      @ loop variant voter->config.sensors - i;
-      @*/
-    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
-        if (voter->vote.reason[i] == KEEL_VOTER_USED) {
-            if ((voter->config.stale_count > 0u) &&
-                (voter->sensor[i].unchanged_votes >= voter->config.stale_count)) {
-                voter->vote.reason[i] = KEEL_VOTER_STALE;
-            } else {
-                usable++;
-            }
-        }
-    }
-    return usable;
+    return (config->stale_count > 0u) && (sensor->unchanged_votes >= config->stale_count);
 }
 
-/* Looks at every sample: whether it is usable, and whether it has changed; how many are usable. The
- * votes in which a sensor alone did not change are counted (VOT-013). That all others changed is
- * asked for, so that one sensor gone wild does not make the others, at rest, look stale. */
+/* Keeps a sample that has changed, and counts the votes without a change (VOT-013). */
+/*@ requires \valid(sensor);
+  @ assigns sensor->last, sensor->unchanged_votes;
+  @*/
+static void compare_with_last(keel_voter_sensor_t *sensor, float value)
+{
+    if (value != sensor->last) {
+        sensor->last = value;
+        sensor->unchanged_votes = 0u;
+    } else {
+        sensor->unchanged_votes = one_more(sensor->unchanged_votes);
+    }
+}
+
+/* Looks at every sample, those of latched sensors too; how many are usable (VOT-007, VOT-013). */
 /*@ requires \valid(voter) && voter->config.sensors <= KEEL_VOTER_SENSORS;
   @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
   @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
@@ -217,44 +231,27 @@ static uint32_t exclude_stale(keel_voter_t *voter)
   @*/
 static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sample[])
 {
-    const keel_voter_config_t config = voter->config;
+    const keel_voter_config_t *const config = &voter->config;
     uint32_t usable = 0u;
-    uint32_t moved = 0u;
-    uint32_t resting = 0u;
-    uint32_t last_resting = 0u;
 
-    /*@ loop invariant 0 <= i <= config.sensors;
-      @ loop invariant usable <= i && moved + resting <= i && (resting > 0 ==> last_resting < i);
-      @ loop assigns i, usable, moved, resting, last_resting,
-      @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last,
+    /*@ loop invariant 0 <= i <= voter->config.sensors && usable <= i;
+      @ loop assigns i, usable, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last,
       @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].unchanged_votes,
       @     voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1];
-      @ loop variant config.sensors - i;
+      @ loop variant voter->config.sensors - i;
       @*/
-    for (uint32_t i = 0u; i < config.sensors; i++) {
+    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
         keel_voter_sensor_t *const sensor = &voter->sensor[i];
-        const uint8_t reason = inspect(&config, sensor, &sample[i]);
+        uint8_t reason = inspect(config, &sample[i]);
 
-        voter->vote.reason[i] = reason;
-        usable += (reason == KEEL_VOTER_USED) ? 1u : 0u;
         if ((reason == KEEL_VOTER_USED) || (reason >= KEEL_VOTER_OUT_OF_RANGE)) {
-            if (sample[i].value != sensor->last) {
-                sensor->last = sample[i].value;
-                sensor->unchanged_votes = 0u;
-                moved++;
-            } else {
-                resting++;
-                last_resting = i;
-            }
+            compare_with_last(sensor, sample[i].value);
         }
-    }
-    if (resting > 0u) {
-        if ((resting == 1u) && (moved > 0u)) {
-            keel_voter_sensor_t *const sensor = &voter->sensor[last_resting];
-
-            sensor->unchanged_votes = one_more(sensor->unchanged_votes);
+        if ((reason == KEEL_VOTER_USED) && is_stale(config, sensor)) {
+            reason = KEEL_VOTER_STALE;
         }
-        usable = exclude_stale(voter);
+        voter->vote.reason[i] = sensor->latched ? KEEL_VOTER_LATCHED : reason;
+        usable += (voter->vote.reason[i] == KEEL_VOTER_USED) ? 1u : 0u;
     }
     return usable;
 }
@@ -268,8 +265,8 @@ typedef struct agreements {
 /*@ requires \valid_read(voter) && voter->config.sensors <= KEEL_VOTER_SENSORS;
   @ requires \valid_read(sample + (0 .. voter->config.sensors - 1)) && \valid(agreement);
   @ requires \separated(agreement, voter, sample + (0 .. voter->config.sensors - 1));
-  @ requires \is_finite(voter->config.agree) &&
-  @     KEEL_VOTER_AGREE_MIN <= voter->config.agree <= KEEL_VOTER_AGREE_MAX;
+  @ requires \is_finite(voter->agree) &&
+  @     KEEL_VOTER_AGREE_MIN <= voter->agree <= KEEL_VOTER_AGREE_MAX;
   @ assigns agreement->of[0 .. KEEL_VOTER_SENSORS - 1][0 .. KEEL_VOTER_SENSORS - 2];
   @*/
 static void compare_all(const keel_voter_t *voter, const keel_voter_sample_t sample[],
@@ -277,7 +274,7 @@ static void compare_all(const keel_voter_t *voter, const keel_voter_sample_t sam
 {
     const uint8_t *const reason = voter->vote.reason;
     const uint32_t sensors = voter->config.sensors;
-    const float agree = voter->config.agree;
+    const float agree = voter->agree;
     const float disagree = voter->disagree;
 
     /*@ loop invariant 1 <= j && (sensors >= 1 ==> j <= sensors);
@@ -317,12 +314,16 @@ static uint32_t add_saturated(uint32_t a, uint32_t b)
   @ assigns voter->vote.state, voter->vote.output, voter->vote.held, voter->vote.held_us;
   @*/
 static void conclude(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t usable,
-                     uint32_t elapsed_us)
+                     bool agreed, uint32_t elapsed_us)
 {
     keel_vote_t *const vote = &voter->vote;
 
     if (vote->contributing > 0u) {
-        vote->state = (usable == 1u) ? KEEL_VOTER_SINGLE : KEEL_VOTER_MEAN;
+        if (agreed) {
+            vote->state = (usable == 1u) ? KEEL_VOTER_SINGLE : KEEL_VOTER_MEAN;
+        } else {
+            vote->state = KEEL_VOTER_MEDIAN;
+        }
         vote->output = keel_voter_combine(sample, vote->weight, voter->config.sensors);
         vote->held = 0u;
         vote->held_us = 0u;
@@ -364,17 +365,77 @@ static void condemn(const keel_voter_config_t *config, keel_voter_sensor_t *sens
                       ((config->density_limit > 0u) && (sensor->density >= config->density_limit));
 }
 
-/* Weighs each usable sample, and tells what the vote means for each sensor. A sample that is alone
- * has nobody to agree with; one without weight was outvoted. */
+/* Those between the least and the most of the usable samples: the median of three, the two in the
+ * middle of four (VOT-020). */
+/*@ requires \valid(voter) && 2 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
+  @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
+  @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
+  @ assigns voter->vote.weight[0 .. KEEL_VOTER_SENSORS - 1];
+  @*/
+static void take_middle(keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    const uint32_t sensors = voter->config.sensors;
+    float least = KEEL_VOTER_RANGE;
+    float most = -KEEL_VOTER_RANGE;
+
+    /*@ loop invariant 0 <= i <= sensors;
+      @ loop assigns i, least, most;
+      @ loop variant sensors - i;
+      @*/
+    for (uint32_t i = 0u; i < sensors; i++) {
+        if (voter->vote.reason[i] == KEEL_VOTER_USED) {
+            least = (sample[i].value < least) ? sample[i].value : least;
+            most = (sample[i].value > most) ? sample[i].value : most;
+        }
+    }
+    /*@ loop invariant 0 <= i <= sensors;
+      @ loop assigns i, voter->vote.weight[0 .. KEEL_VOTER_SENSORS - 1];
+      @ loop variant sensors - i;
+      @*/
+    for (uint32_t i = 0u; i < sensors; i++) {
+        if ((voter->vote.reason[i] == KEEL_VOTER_USED) && (least < sample[i].value) &&
+            (sample[i].value < most)) {
+            voter->vote.weight[i] = 1.0f;
+        }
+    }
+}
+
+/* Weighs each usable sample; whether any has a weight. One that is alone has nobody to agree
+ * with. */
 /*@ requires \valid(voter) && 2 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
   @ requires \valid_read(agreement) && \separated(voter, agreement);
+  @ assigns voter->vote.weight[0 .. KEEL_VOTER_SENSORS - 1];
+  @*/
+static bool weigh(keel_voter_t *voter, const agreements_t *agreement, uint32_t usable)
+{
+    const uint32_t sensors = voter->config.sensors;
+    bool agreed = false;
+
+    /*@ loop invariant 0 <= i <= sensors;
+      @ loop assigns i, agreed, voter->vote.weight[0 .. KEEL_VOTER_SENSORS - 1];
+      @ loop variant sensors - i;
+      @*/
+    for (uint32_t i = 0u; i < sensors; i++) {
+        float weight = 0.0f;
+
+        if (voter->vote.reason[i] == KEEL_VOTER_USED) {
+            weight = (usable == 1u) ? 1.0f : keel_voter_weight(agreement->of[i], sensors - 1u);
+        }
+        voter->vote.weight[i] = weight;
+        agreed = agreed || (weight > 0.0f);
+    }
+    return agreed;
+}
+
+/* Tells what the vote means for each sensor. A usable sample without weight was outvoted. Where
+ * nobody agrees, or nothing is usable, nobody knows which is wrong. */
+/*@ requires \valid(voter) && 2 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
   @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].condemned_votes,
   @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].density,
   @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].latched,
-  @     voter->vote.weight[0 .. KEEL_VOTER_SENSORS - 1],
   @     voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1], voter->vote.contributing;
   @*/
-static void judge(keel_voter_t *voter, const agreements_t *agreement, uint32_t usable)
+static void judge(keel_voter_t *voter, uint32_t usable, bool agreed)
 {
     keel_vote_t *const vote = &voter->vote;
     const uint32_t sensors = voter->config.sensors;
@@ -384,28 +445,21 @@ static void judge(keel_voter_t *voter, const agreements_t *agreement, uint32_t u
       @ loop assigns i, contributing, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].condemned_votes,
       @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].density,
       @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].latched,
-      @     voter->vote.weight[0 .. KEEL_VOTER_SENSORS - 1],
       @     voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1];
       @ loop variant sensors - i;
       @*/
     for (uint32_t i = 0u; i < sensors; i++) {
-        float weight = 0.0f;
-
-        if (vote->reason[i] == KEEL_VOTER_USED) {
-            weight = (usable == 1u) ? 1.0f : keel_voter_weight(agreement->of[i], sensors - 1u);
-            if (weight <= 0.0f) {
-                vote->reason[i] = KEEL_VOTER_OUTVOTED;
-            }
+        if ((vote->reason[i] == KEEL_VOTER_USED) && (vote->weight[i] <= 0.0f)) {
+            vote->reason[i] = KEEL_VOTER_OUTVOTED;
         }
-        vote->weight[i] = weight;
         if (vote->reason[i] == KEEL_VOTER_USED) {
             contributing++;
             clear(&voter->sensor[i]);
-        } else if ((vote->reason[i] >= KEEL_VOTER_MISSING) ||
-                   ((vote->reason[i] == KEEL_VOTER_OUTVOTED) && (usable > 2u))) {
+        } else if (((vote->reason[i] >= KEEL_VOTER_MISSING) && (usable > 0u)) ||
+                   ((vote->reason[i] == KEEL_VOTER_OUTVOTED) && agreed)) {
             condemn(&voter->config, &voter->sensor[i]);
         } else {
-            /* Latched already, or one of two that disagree: nobody knows which is wrong. */
+            /* Latched already, or nobody knows. */
         }
     }
     vote->contributing = contributing;
@@ -437,40 +491,16 @@ void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], ui
 {
     const uint32_t usable = inspect_all(voter, sample);
     agreements_t agreement;
+    bool agreed;
 
     compare_all(voter, sample, &agreement);
-    judge(voter, &agreement, usable);
-    conclude(voter, sample, usable, elapsed_us);
-    voter->unanimous = is_unanimous(voter);
-}
-
-/* Whether the others have not changed either, as the first has not, and all agree: the samples are
- * those of the last vote. */
-/*@ requires \valid_read(voter) && 1 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
-  @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
-  @ requires \is_finite(voter->config.agree) &&
-  @     KEEL_VOTER_AGREE_MIN <= voter->config.agree <= KEEL_VOTER_AGREE_MAX;
-  @ assigns \nothing;
-  @*/
-static bool is_at_rest(const keel_voter_t *voter, const keel_voter_sample_t sample[])
-{
-    float least = sample[0].value;
-    float most = least;
-
-    /*@ loop invariant 1 <= i <= voter->config.sensors;
-      @ loop assigns i, least, most;
-      @ loop variant voter->config.sensors - i;
-      @*/
-    for (uint32_t i = 1u; i < voter->config.sensors; i++) {
-        const float value = sample[i].value;
-
-        if (value != voter->sensor[i].last) {
-            return false;
-        }
-        least = (least > value) ? value : least;
-        most = (value > most) ? value : most;
+    agreed = weigh(voter, &agreement, usable);
+    if (!agreed && (usable > 2u)) {
+        take_middle(voter, sample);
     }
-    return keel_voter_within(least, most, voter->config.agree);
+    judge(voter, usable, agreed);
+    conclude(voter, sample, usable, agreed, elapsed_us);
+    voter->unanimous = is_unanimous(voter);
 }
 
 bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sample[],
@@ -482,13 +512,8 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
     float least = first;
     float most = first;
 
-    if (!voter->unanimous || (oldest_us > voter->config.max_age_us)) {
-        return false;
-    }
-    if (first == voter->sensor[0].last) {
-        return is_at_rest(voter, sample);
-    }
-    if (!(first >= lowest)) {
+    if (!voter->unanimous || (oldest_us > voter->config.max_age_us) || !(first >= lowest) ||
+        (first == voter->sensor[0].last)) {
         return false;
     }
     /*@ loop invariant 1 <= i <= sensors;
@@ -504,7 +529,7 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
         least = (least > value) ? value : least;
         most = (value > most) ? value : most;
     }
-    if ((most > voter->config.highest) || !keel_voter_within(least, most, voter->config.agree)) {
+    if ((most > voter->config.highest) || !keel_voter_within(least, most, voter->agree)) {
         return false;
     }
     voter->sensor[0].last = first;
@@ -531,5 +556,49 @@ keel_status_t keel_voter_readmit(keel_voter_t *voter, uint32_t sensor)
     voter->sensor[sensor].condemned_votes = 0u;
     voter->sensor[sensor].density = 0u;
     voter->sensor[sensor].unchanged_votes = 0u;
+    voter->sensor[sensor].probation = 0u;
     return KEEL_OK;
+}
+
+/* Whether a vote speaks for a latched sensor: its sample is usable and lies within a of the output,
+ * if there is one (VOT-021). */
+/*@ requires \valid_read(voter) && \valid_read(sensor) && \valid_read(sample);
+  @ requires voter_valid(voter);
+  @ assigns \nothing;
+  @*/
+static bool speaks_for(const keel_voter_t *voter, const keel_voter_sensor_t *sensor,
+                       const keel_voter_sample_t *sample)
+{
+    const float output = voter->vote.output;
+    const float value = sample->value;
+
+    if ((inspect(&voter->config, sample) != KEEL_VOTER_USED) || is_stale(&voter->config, sensor)) {
+        return false;
+    }
+    if (voter->vote.contributing == 0u) {
+        return true;
+    }
+    return (value < output) ? keel_voter_within(value, output, voter->agree)
+                            : keel_voter_within(output, value, voter->agree);
+}
+
+void keel_voter_reconsider(keel_voter_t *voter, const keel_voter_sample_t sample[])
+{
+    const uint16_t enough = voter->config.readmit_count;
+
+    /*@ loop invariant 0 <= i <= voter->config.sensors;
+      @ loop assigns i, voter->sensor[0 .. KEEL_VOTER_SENSORS - 1];
+      @ loop variant voter->config.sensors - i;
+      @*/
+    for (uint32_t i = 0u; i < voter->config.sensors; i++) {
+        keel_voter_sensor_t *const sensor = &voter->sensor[i];
+
+        if (sensor->latched) {
+            sensor->probation = speaks_for(voter, sensor, &sample[i]) ? one_more(sensor->probation)
+                                                                      : 0u;
+            if ((enough > 0u) && (sensor->probation >= enough)) {
+                (void)keel_voter_readmit(voter, i); /* It is latched: not refused. */
+            }
+        }
+    }
 }

@@ -226,12 +226,15 @@ static void setup_voter(stream_t *s)
     const float limit = mostly_between(s, 900.0f, 1000.0f);
     keel_voter_config_t config = {.agree = mostly_between(s, 0.001f, 4.0f),
                                   .cutoff = mostly_between(s, 1.01f, 6.0f),
+                                  .slope = mostly_between(s, -0.01f, 0.2f),
                                   .lowest = -limit,
                                   .highest = limit,
                                   .initial = mostly_between(s, -2.0f, 2.0f),
                                   .max_age_us = rarely_zero(s, 5000u),
                                   .latch_count = (uint16_t)rarely_zero(s, 100u),
                                   .stale_count = (uint16_t)below(s, 20u),
+                                  .frozen_count = (uint16_t)below(s, 20u),
+                                  .readmit_count = (uint16_t)below(s, 20u),
                                   .density_limit = (uint16_t)below(s, 200u),
                                   .sensors = (uint8_t)rarely_zero(s, KEEL_VOTER_SENSORS)};
     const keel_status_t status = keel_voter_init(&voter, &config);
@@ -253,6 +256,8 @@ static void digest_vote(stream_t *s)
         digest(s, voter.sensor[i].condemned_votes);
         digest(s, voter.sensor[i].unchanged_votes);
         digest(s, voter.sensor[i].density);
+        digest(s, voter.sensor[i].repeats);
+        digest(s, voter.sensor[i].probation);
         digest(s, voter.sensor[i].latched ? 1u : 0u);
     }
 }
@@ -269,12 +274,14 @@ static void vector_voter(stream_t *s)
     }
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         sample[i].value = (i == frozen) ? 1.5f : mostly_between(s, truth - 2.0f, truth + 2.0f);
+        sample[i].raw = (below(s, 16u) == 0u) ? voter.sensor[i].last : sample[i].value;
         sample[i].age_us = below(s, 1500u);
         sample[i].present = below(s, 32u) != 0u;
         oldest_us = (sample[i].age_us > oldest_us) ? sample[i].age_us : oldest_us;
         complete = complete && sample[i].present;
     }
     if (voter_made) {
+        keel_voter_scale(&voter);
         if (!complete || !keel_voter_step_unanimous(&voter, sample, oldest_us)) {
             keel_voter_step(&voter, sample, any32(s));
         }

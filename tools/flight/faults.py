@@ -61,6 +61,10 @@ class Faults:
                 "imu_shout": broken.shouting}  # fmt: skip
         if fault.kind in sets:
             (sets[fault.kind].add if on else sets[fault.kind].discard)(unit)
+        elif fault.kind == "imu_vibration":
+            broken.tones = (fault.acceleration or 0.0, fault.rate or 0.0) if on else None
+        elif fault.kind == "imu_scale":
+            broken.scale[unit] = 1.0 + float(on) * (fault.share or 0.0)
         elif fault.kind == "imu_drift" and not on:
             broken.drift.pop(unit, None)
         elif fault.kind == "radio_loss":

@@ -85,7 +85,8 @@ class Hand(Table):
 # What each fault needs beside its time, and what it may have.
 FAULTS: dict[str, tuple[str, ...]] = {
     "imu_freeze": ("unit",), "imu_silent": ("unit",), "imu_shout": ("unit",),
-    "imu_drift": ("unit", "rate"),
+    "imu_drift": ("unit", "rate"), "imu_scale": ("unit", "share"),
+    "imu_vibration": ("acceleration", "rate"),
     "radio_loss": (), "radio_failsafe": (), "radio_noise": ("share",),
     "gps_loss": (), "gps_jump": ("north_m", "east_m"), "gps_noise": ("share",),
     "gps_wild": ("metres",),
@@ -95,9 +96,9 @@ FAULTS: dict[str, tuple[str, ...]] = {
     "task_overrun": ("task", "runs", "extra_us"),
 }  # fmt: skip
 FaultKind = Literal[
-    "imu_freeze", "imu_silent", "imu_shout", "imu_drift", "radio_loss", "radio_failsafe",
-    "radio_noise", "gps_loss", "gps_jump", "gps_noise", "gps_wild", "barometer_spike",
-    "barometer_loss", "barometer_stuck", "magnetometer_current", "motor_weak", "battery_low",
+    "imu_freeze", "imu_silent", "imu_shout", "imu_drift", "imu_scale", "imu_vibration",
+    "radio_loss", "radio_failsafe", "radio_noise", "gps_loss", "gps_jump", "gps_noise", "gps_wild",
+    "barometer_spike", "barometer_loss", "barometer_stuck", "magnetometer_current", "motor_weak", "battery_low",
     "task_overrun",
 ]  # fmt: skip
 
@@ -109,7 +110,8 @@ class Fault(Table):
     at_s: Seconds
     until_s: Seconds | None = None
     unit: Annotated[int, Field(ge=1, le=3)] | None = None
-    rate: Positive | None = None  # Of a drift, in rad/s each second.
+    rate: Positive | None = None  # Of a drift, in rad/s each second; of vibration, in rad/s.
+    acceleration: Positive | None = None  # Of vibration: of each of two tones, in m/s^2.
     north_m: float | None = None
     east_m: float | None = None
     metres: Positive | None = None  # Each fix is off by up to so much, each by another way.

@@ -57,6 +57,7 @@ GYROSCOPE_NOISE = (0.002, 0.003, 0.0025)  # In rad/s.
 ACCELEROMETER_BIAS, GYROSCOPE_BIAS = 0.04, 0.01
 MISALIGNMENT = math.radians(0.15)
 VIBRATION = (0.6, 0.02)  # With all motors at full: in m/s^2, in rad/s.
+TONES_HZ = (83.0, 141.0)  # Of vibration that is asked for.
 FIELD_NOISE, FIELD_BIAS, FIELD_PER_AMPERE = 0.3, 0.3, 0.01  # In microtesla.
 PRESSURE_NOISE, PRESSURE_WANDER, PRESSURE_S = 1.5, 2.0, 100.0  # In Pa.
 PLACE_NOISE, PLACE_WANDER, PLACE_S, SPEED_NOISE = 0.03, 0.15, 120.0, 0.04  # In m, in m/s.
@@ -70,6 +71,8 @@ class Broken:
     silent: set[int] = field(default_factory=set)
     shouting: set[int] = field(default_factory=set)
     drift: dict[int, float] = field(default_factory=dict)  # By unit: rad/s.
+    scale: dict[int, float] = field(default_factory=dict)  # By unit: a factor of its rates.
+    tones: tuple[float, float] | None = None  # Of two tones of vibration: m/s^2, rad/s.
     gps_lost: bool = False
     gps_jump: tuple[float, float] = (0.0, 0.0)
     first_fix: tuple[float, float] = (0.0, 0.0)  # As it is wrong after power-up.
@@ -86,7 +89,7 @@ class Broken:
     @property
     def imu(self) -> bool:
         """Whether an inertial unit is broken."""
-        return bool(self.frozen or self.silent or self.shouting or self.drift)
+        return bool(self.frozen or self.silent or self.shouting or self.drift or self.scale)
 
 
 def turned(rng: np.random.Generator, most: float) -> Any:
@@ -142,6 +145,8 @@ class Inertial:
         ).reshape(-1)  # fmt: skip
         shake = np.array([VIBRATION[0]] * 3 + [VIBRATION[1]] * 3)
         self._shake = quality.vibration * np.tile(shake, UNITS)
+        self._phase = np.random.default_rng(7).uniform(0.0, 2.0 * math.pi, (2, UNITS, 6))
+        self._steps = 0
         self._late: deque[Sequence[float]] = deque(maxlen=quality.imu_delay_ms + 1)
         limits = np.array([ACCELERATION_LIMIT] * 3 + [RATE_LIMIT] * 3)
         self._limits = np.tile(limits, UNITS)
@@ -161,6 +166,9 @@ class Inertial:
         self._late.append(true)
         noise = (self._noise + thrust * self._shake) * drawn
         said = self._turn @ self._late[0] + self._bias + noise
+        self._steps += 1
+        if broken.tones is not None:
+            said += self._tones(*broken.tones)
         np.clip(said, -self._limits, self._limits, out=said)
         units = said.reshape(UNITS, 6)
         if broken.imu:
@@ -169,6 +177,12 @@ class Inertial:
         self._force[:] = units[:, :3]
         self._rate[:] = units[:, 3:]
         self._count += 1
+
+    def _tones(self, acceleration: float, rate: float) -> Any:
+        """Two tones on every axis, each with a phase of its own; a step is a millisecond."""
+        turns = (2e-3 * math.pi * self._steps * np.array(TONES_HZ)).reshape(2, 1, 1)
+        heights = np.array([acceleration] * 3 + [rate] * 3)
+        return (heights * np.sin(turns + self._phase).sum(axis=0)).reshape(-1)
 
     def _break(self, units: Any, drawn: Any, broken: Broken) -> None:
         """The same with units that fail. Those that freeze repeat their last sample."""
@@ -180,6 +194,7 @@ class Inertial:
                 continue
             if unit in broken.shouting:
                 units[unit] = self._limits[:6] * np.sign(drawn[6 * unit : 6 * unit + 6])
+            units[unit, 3:] *= broken.scale.get(unit, 1.0)
             units[unit, 3:] += broken.drift.get(unit, 0.0)
             units[unit, :3] += 5.0 * broken.drift.get(unit, 0.0)
             self._force[unit] = units[unit, :3]

@@ -4,8 +4,9 @@
  * @brief A virtual inertial measurement unit: a voter per channel over 2 to 4 redundant units.
  *
  * The six channels, three of the accelerometer and three of the gyroscope, vote each on its own
- * (voter.h). Per unit it is kept which of its channels contributed to the last vote and which are
- * latched as faulty.
+ * (voter.h), with thresholds that grow with its last output. Per unit it is kept which of its
+ * channels contributed to the last vote and which are latched as faulty. What vibrates is filtered
+ * before: the voter compares units, and vibration differs from one to the next.
  */
 #ifndef KEEL_MIDDLEWARE_VIRTUAL_IMU_H
 #define KEEL_MIDDLEWARE_VIRTUAL_IMU_H
@@ -107,8 +108,10 @@ keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu,
                                     const keel_virtual_imu_config_t *config);
 
 /**
- * Takes a vote on each channel (requirements IMU-002 and IMU-003): on channel k, each unit's
- * value[k] with the unit's age and presence, as keel_voter_step takes it.
+ * Takes a vote on each channel (requirements IMU-002, IMU-003, IMU-005 and IMU-006): on channel k,
+ * each unit's value[k] with the unit's age and presence, as keel_voter_step takes it once
+ * keel_voter_scale has set the channel's thresholds by its last output. keel_voter_reconsider then
+ * readmits what is latched and has agreed for long enough.
  *
  * @param imu        the virtual unit, initialised
  * @param sample     a sample per unit, N of them, in the order of the units
@@ -121,6 +124,17 @@ keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu,
   @ ensures IMU_002_valid: virtual_imu_valid(imu);
   @ ensures IMU_002_config: \forall integer k; 0 <= k < KEEL_VIRTUAL_IMU_CHANNELS ==>
   @     imu->channel[k].config == \old(imu->channel[k].config);
+  @ ensures IMU_005_thresholds: \forall integer k; 0 <= k < KEEL_VIRTUAL_IMU_CHANNELS ==>
+  @     imu->channel[k].config.agree <= imu->channel[k].agree &&
+  @     (imu->channel[k].config.slope == 0 ==>
+  @         imu->channel[k].agree == imu->channel[k].config.agree);
+  @ ensures IMU_006_back: \forall integer k, i; 0 <= k < KEEL_VIRTUAL_IMU_CHANNELS &&
+  @     0 <= i < imu->channel[k].config.sensors &&
+  @     \old(imu->channel[k].sensor[i].latched) && !imu->channel[k].sensor[i].latched ==>
+  @         0 < imu->channel[k].config.readmit_count <=
+  @             \old(imu->channel[k].sensor[i].probation) + 1 &&
+  @         sample[i].present && imu->channel[k].config.lowest <= sample[i].value[k] <=
+  @             imu->channel[k].config.highest;
   @ ensures IMU_003_used: \forall integer k, i; 0 <= k < KEEL_VIRTUAL_IMU_CHANNELS &&
   @     0 <= i < imu->channel[k].config.sensors ==>
   @         (virtual_imu_bit(imu->used[i], k) <==>

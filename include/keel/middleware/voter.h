@@ -12,20 +12,29 @@
  *
  *   - A sample that is missing, not finite, implausible, late or stale has weight 0, and the vote
  *     says why. So has one that agrees with no other.
- *   - Samples that all disagree (two or more are usable, all weights are 0), or none that is
- *     usable: the last output is held; the vote says for how many samples and how long.
+ *   - Three or four usable samples that all disagree (all weights are 0): their median is the
+ *     output, marked as such. It lies among the healthy ones whatever one faulty sensor gives.
+ *   - Two usable samples that disagree, or none that is usable: the last output is held; the vote
+ *     says for how many samples and how long.
  *   - Only one usable sample: it is the output, marked as confirmed by nobody.
  *   - A sensor is latched as faulty, and takes part no more from the next vote on, when it was
  *     condemned in latch_count consecutive votes. A vote condemns a sensor whose own sample is
- *     unusable, and one that at least two others could have agreed with and none did. With fewer
- *     than two others nobody knows who is wrong: such a vote neither counts nor clears.
- *   - Three sensors that all disagree are all condemned, as the paper has it. When all are latched
- *     the output is held until one is readmitted.
- *   - Two equal faulty sensors outvote a healthy third. No voter over three can tell.
+ *     unusable while another's is usable, and one that agrees with none while others agree. Where
+ *     nobody agrees, or nothing is usable, nobody knows who is wrong: such a vote condemns none.
+ *     So one sensor at least is never latched.
+ *   - A latched sensor is on probation where keel_voter_reconsider is called after each vote: it is
+ *     readmitted after readmit_count such votes in a row for which its sample was usable and within
+ *     a of the output, or in which there was no output.
+ *   - A sensor that repeats its sample bit for bit in stale_count votes is stale, whatever the
+ *     others do: two that freeze together do not outvote the one that lives.
+ *   - Two equal faulty sensors that are not frozen outvote a healthy third. No voter over three can
+ *     tell.
  *   - A bias that keeps some agreement is neither removed nor latched. While the other two of three
  *     are within a of each other, its influence on the output is bounded (VOT-015); farther apart
  *     they agree less, and it moves the output farther.
- *   - A latched sensor is readmitted on request only.
+ *
+ * Sensors differ by a part of what they measure, too. keel_voter_scale, asked before a vote, lets a
+ * grow with the last output: a = agree + slope |output|. What is said of a holds with that a.
  *
  * keel_voter_step takes any vote. keel_voter_step_unanimous, tried first, takes the usual one for
  * less: the virtual unit (virtual_imu.h) does so.
@@ -59,24 +68,27 @@ KEEL_C_BEGIN
 #define KEEL_VOTER_NOT_FINITE   4u /**< It is NaN or infinite. */
 #define KEEL_VOTER_OUT_OF_RANGE 5u /**< It lies outside the plausibility limits. */
 #define KEEL_VOTER_LATE         6u /**< It is older than max_age_us. */
-#define KEEL_VOTER_STALE        7u /**< It has not changed while all others have. */
+#define KEEL_VOTER_STALE        7u /**< The sensor repeats itself: it is frozen. */
 
 /* How the output of a vote came about: keel_vote_t, state. */
 #define KEEL_VOTER_MEAN     0u /**< The weighted mean of two samples or more. */
 #define KEEL_VOTER_SINGLE   1u /**< The only usable sample, confirmed by none. */
-#define KEEL_VOTER_DISAGREE 2u /**< Held: the usable samples all disagree. */
-#define KEEL_VOTER_NONE     3u /**< Held: no sample is usable. */
+#define KEEL_VOTER_MEDIAN   2u /**< The median of three or four samples that all disagree. */
+#define KEEL_VOTER_DISAGREE 3u /**< Held: the two usable samples disagree. */
+#define KEEL_VOTER_NONE     4u /**< Held: no sample is usable. */
 
 /** How a channel votes. All lengths in the channel's own unit, say rad/s. */
 typedef struct keel_voter_config {
     float agree;   /**< a of eq. 16: full agreement up to this distance; AGREE_MIN to AGREE_MAX. */
     float cutoff;  /**< n of eq. 16: no agreement from n a on; above 1, n a at most RANGE. */
+    float slope;   /**< What a grows by with the output's magnitude; 0 to 1. */
     float lowest;  /**< The smallest plausible sample, at least -RANGE. */
     float highest; /**< The largest plausible sample, at least the smallest, at most RANGE. */
     float initial; /**< The output before the first vote that has one; plausible. */
     uint32_t max_age_us;    /**< An older sample is late; at least 1. */
     uint16_t latch_count;   /**< Condemned in so many consecutive votes: latched; at least 1. */
-    uint16_t stale_count;   /**< Unchanged in so many votes while all others move; 0: never. */
+    uint16_t stale_count;   /**< Unchanged in so many consecutive votes: stale; 0: never. */
+    uint16_t readmit_count; /**< Votes of probation; 0: a latched sensor stays so. */
     uint16_t density_limit; /**< The leaky count that latches; 0: never (as the paper). */
     uint8_t sensors;        /**< N: how many sensors vote, 2 to KEEL_VOTER_SENSORS. */
 } keel_voter_config_t;
@@ -102,15 +114,17 @@ typedef struct keel_vote {
 /** What the voter remembers of a sensor. */
 typedef struct keel_voter_sensor {
     float last;               /**< Its last finite sample; at first the initial output. */
-    uint16_t unchanged_votes; /**< Votes in which it alone did not change; saturates. */
+    uint16_t unchanged_votes; /**< Votes in a row whose finite samples did not change; saturates. */
     uint16_t condemned_votes; /**< Consecutive votes that condemned it; saturates. */
     uint16_t density;         /**< One up per vote that condemned it, one down per agreement. */
+    uint16_t probation;       /**< Consecutive votes that speak for it while it is latched. */
     bool latched;             /**< Whether it is latched as faulty. */
 } keel_voter_sensor_t;
 
 /** A channel. Written by the functions below alone; all of it may be read. */
 typedef struct keel_voter {
     keel_voter_config_t config;
+    float agree;    /**< a of the next vote: config.agree, until keel_voter_scale is called. */
     float disagree; /**< n a: samples this far apart, or farther, do not agree at all. */
     keel_voter_sensor_t sensor[KEEL_VOTER_SENSORS];
     keel_vote_t vote; /**< The last one. */
@@ -118,7 +132,8 @@ typedef struct keel_voter {
 } keel_voter_t;
 
 /*@ predicate agreement_valid(keel_voter_config_t c) =
-  @     \is_finite(c.agree) && KEEL_VOTER_AGREE_MIN <= c.agree <= KEEL_VOTER_AGREE_MAX;
+  @     \is_finite(c.agree) && KEEL_VOTER_AGREE_MIN <= c.agree <= KEEL_VOTER_AGREE_MAX &&
+  @     \is_finite(c.slope) && 0 <= c.slope <= 1;
   @ predicate cutoff_valid(keel_voter_config_t c) =
   @     \is_finite(c.cutoff) && 1 < c.cutoff <= KEEL_VOTER_RANGE / KEEL_VOTER_AGREE_MIN &&
   @     c.agree < (float)(c.cutoff * c.agree) <= KEEL_VOTER_RANGE;
@@ -142,19 +157,20 @@ typedef struct keel_voter {
   @     (\forall integer i; 0 <= i < v->config.sensors ==> !v->sensor[i].latched &&
   @         v->sensor[i].unchanged_votes == 0 && v->sensor[i].condemned_votes == 0 &&
   @         v->sensor[i].density == 0 && v->vote.weight[i] == 1 &&
-  @         v->vote.reason[i] == KEEL_VOTER_USED &&
-  @         v->config.lowest <= v->sensor[i].last <= v->config.highest) &&
-  @     (\exists integer i; 0 <= i < v->config.sensors && v->sensor[i].last <= v->vote.output) &&
-  @     (\exists integer i; 0 <= i < v->config.sensors && v->vote.output <= v->sensor[i].last);
+  @         v->vote.reason[i] == KEEL_VOTER_USED);
   @
   @ // How many of the first n sensors contributed.
   @ logic integer voter_used(keel_vote_t *vote, integer n) = (n <= 0) ? 0 :
   @     voter_used(vote, n - 1) + ((vote->reason[n - 1] == KEEL_VOTER_USED) ? 1 : 0);
   @
+  @ // The thresholds of the next vote.
+  @ predicate voter_thresholds(keel_voter_t *v) =
+  @     \is_finite(v->agree) && KEEL_VOTER_AGREE_MIN <= v->agree <= KEEL_VOTER_AGREE_MAX &&
+  @     \is_finite(v->disagree) && v->agree < v->disagree <= KEEL_VOTER_RANGE;
+  @
   @ // What holds of a channel between any two calls.
   @ predicate voter_valid(keel_voter_t *v) =
-  @     voter_config_valid(v->config) &&
-  @     v->disagree == (float)(v->config.cutoff * v->config.agree) &&
+  @     voter_config_valid(v->config) && voter_thresholds(v) &&
   @     \is_finite(v->vote.output) && v->config.lowest <= v->vote.output <= v->config.highest &&
   @     (v->unanimous ==> voter_unanimous(v)) &&
   @     \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==> \is_finite(v->sensor[i].last) &&
@@ -166,7 +182,7 @@ typedef struct keel_voter {
  * gives the status.
  *
  * @param config the configuration; any bit pattern
- * @return KEEL_OK; KEEL_ERR_SENSORS, KEEL_ERR_AGREEMENT (agree), KEEL_ERR_CUTOFF (cutoff),
+ * @return KEEL_OK; KEEL_ERR_SENSORS, KEEL_ERR_AGREEMENT (agree, slope), KEEL_ERR_CUTOFF (cutoff),
  *         KEEL_ERR_LIMITS (lowest, highest), KEEL_ERR_INITIAL, KEEL_ERR_AGE (max_age_us) or
  *         KEEL_ERR_LATCH (latch_count): the field that is wrong
  */
@@ -204,11 +220,27 @@ keel_status_t keel_voter_check(const keel_voter_config_t *config);
   @   ensures VOT_002_output: voter->vote.output == config->initial;
   @   ensures VOT_002_fresh: \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==>
   @       !voter->sensor[i].latched && voter->sensor[i].condemned_votes == 0 &&
-  @       voter->sensor[i].density == 0 && voter->sensor[i].unchanged_votes == 0;
+  @       voter->sensor[i].density == 0 && voter->sensor[i].unchanged_votes == 0 &&
+  @       voter->sensor[i].probation == 0;
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
 keel_status_t keel_voter_init(keel_voter_t *voter, const keel_voter_config_t *config);
+
+/**
+ * Sets a for the next vote by the last output (requirement VOT-019): a = agree + slope |output|, at
+ * most KEEL_VOTER_AGREE_MAX, and n a with it. Where n a would exceed KEEL_VOTER_RANGE, both are
+ * those of the configuration.
+ *
+ * @param voter the channel, initialised
+ */
+/*@ requires \valid(voter) && 2 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
+  @ requires scale_valid: voter_valid(voter);
+  @ assigns voter->agree, voter->disagree;
+  @ ensures VOT_019_thresholds: voter_thresholds(voter) && voter->config.agree <= voter->agree;
+  @ ensures VOT_019_constant: voter->config.slope == 0 ==> voter->agree == voter->config.agree;
+  @*/
+void keel_voter_scale(keel_voter_t *voter);
 
 /**
  * The agreement of two samples at the distance d (eq. 16, requirements VOT-003 and VOT-004): 1 up
@@ -341,7 +373,8 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
                          uint32_t sensors);
 
 /**
- * Takes one vote (requirements VOT-005 to VOT-013). Its result is in voter->vote.
+ * Takes one vote (requirements VOT-005 to VOT-013, VOT-020 to VOT-022). Its result is in
+ * voter->vote.
  *
  * @param voter      the channel, initialised
  * @param sample     a sample per sensor, N of them, in the order of the sensors; any bit pattern
@@ -353,7 +386,7 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
   @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
   @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1], voter->vote, voter->unanimous;
   @ ensures VOT_005_valid: voter_valid(voter);
-  @ ensures VOT_005_hull: voter->vote.state == KEEL_VOTER_MEAN ==>
+  @ ensures VOT_005_hull: voter->vote.state < KEEL_VOTER_DISAGREE ==>
   @     (\exists integer i; 0 <= i < voter->config.sensors &&
   @         voter->vote.reason[i] == KEEL_VOTER_USED && sample[i].value <= voter->vote.output) &&
   @     (\exists integer i; 0 <= i < voter->config.sensors &&
@@ -393,9 +426,12 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
   @      voter->sensor[i].condemned_votes == \old(voter->sensor[i].condemned_votes) ||
   @      voter->sensor[i].condemned_votes == \old(voter->sensor[i].condemned_votes) + 1);
   @ ensures VOT_010_condemned: \forall integer i; 0 <= i < voter->config.sensors ==>
-  @     voter->vote.reason[i] >= KEEL_VOTER_MISSING ==> voter->sensor[i].condemned_votes ==
-  @         ((\old(voter->sensor[i].condemned_votes) < UINT16_MAX)
+  @     voter->vote.reason[i] >= KEEL_VOTER_MISSING && voter->vote.state != KEEL_VOTER_NONE ==>
+  @         voter->sensor[i].condemned_votes == ((\old(voter->sensor[i].condemned_votes) < UINT16_MAX)
   @              ? \old(voter->sensor[i].condemned_votes) + 1 : UINT16_MAX);
+  @ ensures VOT_010_nobody: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     !\old(voter->sensor[i].latched) && voter->vote.state == KEEL_VOTER_NONE ==>
+  @         voter->sensor[i].condemned_votes == \old(voter->sensor[i].condemned_votes);
   @ ensures VOT_010_clear: \forall integer i; 0 <= i < voter->config.sensors ==>
   @     voter->vote.reason[i] == KEEL_VOTER_USED ==> voter->sensor[i].condemned_votes == 0;
   @ ensures VOT_011_latch: \forall integer i; 0 <= i < voter->config.sensors ==>
@@ -412,13 +448,39 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
   @ ensures VOT_013_stale: \forall integer i; 0 <= i < voter->config.sensors ==>
   @     voter->vote.reason[i] == KEEL_VOTER_STALE ==>
   @         (0 < voter->config.stale_count <= voter->sensor[i].unchanged_votes);
+  @ ensures VOT_013_by_itself: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     voter->vote.reason[i] == KEEL_VOTER_USED ==>
+  @         (voter->config.stale_count == 0 ||
+  @          voter->sensor[i].unchanged_votes < voter->config.stale_count);
+  @ ensures VOT_013_count: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     voter->vote.reason[i] == KEEL_VOTER_USED ==>
+  @         voter->sensor[i].last == sample[i].value &&
+  @         voter->sensor[i].unchanged_votes == ((sample[i].value != \old(voter->sensor[i].last))
+  @             ? 0 : \min(\old(voter->sensor[i].unchanged_votes) + 1, UINT16_MAX));
+  @ ensures VOT_020_middle: voter->vote.state == KEEL_VOTER_MEDIAN ==>
+  @     1 <= voter->vote.contributing <= 2 &&
+  @     \forall integer i; 0 <= i < voter->config.sensors &&
+  @         voter->vote.reason[i] == KEEL_VOTER_USED ==>
+  @             (\exists integer j; 0 <= j < voter->config.sensors &&
+  @                 voter->vote.reason[j] == KEEL_VOTER_OUTVOTED &&
+  @                 sample[j].value < sample[i].value) &&
+  @             (\exists integer j; 0 <= j < voter->config.sensors &&
+  @                 voter->vote.reason[j] == KEEL_VOTER_OUTVOTED &&
+  @                 sample[i].value < sample[j].value);
+  @ ensures VOT_020_nobody: voter->vote.state == KEEL_VOTER_MEDIAN ==>
+  @     \forall integer i; 0 <= i < voter->config.sensors &&
+  @         voter->vote.reason[i] == KEEL_VOTER_OUTVOTED ==>
+  @             voter->sensor[i].condemned_votes == \old(voter->sensor[i].condemned_votes);
+  @ ensures VOT_022_one_stays:
+  @     (\exists integer i; 0 <= i < voter->config.sensors && !\old(voter->sensor[i].latched)) ==>
+  @     (\exists integer i; 0 <= i < voter->config.sensors && !voter->sensor[i].latched);
   @*/
 void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us);
 
 /**
  * Takes a vote if it is as unanimous as the last one (requirement VOT-018), at about a third of
  * what keel_voter_step costs: when all samples are plausible and none is late, all lie within a of
- * each other, and all have changed or none. With all weights 1 the mean of eq. 18 is the plain one.
+ * each other, and all have changed. With all weights 1 the mean of eq. 18 is the plain one.
  * Else nothing changes, and the vote is left to keel_voter_step.
  *
  * @param voter     the channel, initialised
@@ -437,14 +499,10 @@ void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], ui
   @ ensures VOT_018_taken: \result <==>
   @     (\old(voter->unanimous) && oldest_us <= voter->config.max_age_us &&
   @      (\forall integer i; 0 <= i < voter->config.sensors ==> \is_finite(sample[i].value) &&
-  @          voter->config.lowest <= sample[i].value <= voter->config.highest) &&
-  @      ((\forall integer i; 0 <= i < voter->config.sensors ==>
-  @           sample[i].value == \old(voter->sensor[i].last)) ||
-  @       (\forall integer i; 0 <= i < voter->config.sensors ==>
-  @           sample[i].value != \old(voter->sensor[i].last))) &&
+  @          voter->config.lowest <= sample[i].value <= voter->config.highest &&
+  @          sample[i].value != \old(voter->sensor[i].last)) &&
   @      (\forall integer i, j; 0 <= i < j < voter->config.sensors ==>
-  @          -voter->config.agree <= (float)(sample[i].value - sample[j].value) <=
-  @              voter->config.agree));
+  @          -voter->agree <= (float)(sample[i].value - sample[j].value) <= voter->agree));
   @ ensures VOT_018_last: \result ==> \forall integer i; 0 <= i < voter->config.sensors ==>
   @     voter->sensor[i].last == sample[i].value;
   @ ensures VOT_018_hull: \result ==>
@@ -485,12 +543,44 @@ bool keel_voter_step_unanimous(keel_voter_t *voter, const keel_voter_sample_t sa
   @   assigns voter->sensor[sensor];
   @   ensures VOT_014_readmitted: \result == KEEL_OK && !voter->sensor[sensor].latched &&
   @       voter->sensor[sensor].condemned_votes == 0 && voter->sensor[sensor].density == 0 &&
-  @       voter->sensor[sensor].unchanged_votes == 0;
+  @       voter->sensor[sensor].unchanged_votes == 0 && voter->sensor[sensor].probation == 0;
   @   ensures VOT_014_last: voter->sensor[sensor].last == \old(voter->sensor[sensor].last);
   @ complete behaviors;
   @ disjoint behaviors;
   @*/
 keel_status_t keel_voter_readmit(keel_voter_t *voter, uint32_t sensor);
+
+/**
+ * Puts latched sensors on probation (requirement VOT-021), after a vote, with its samples: a sensor
+ * is readmitted as by keel_voter_readmit after readmit_count calls in a row for which its sample was
+ * usable, was not stale, and lay within a of the output of the vote, or the vote had none.
+ *
+ * @param voter  the channel, after a vote
+ * @param sample the samples of that vote
+ */
+/*@ requires \valid(voter) && 2 <= voter->config.sensors <= KEEL_VOTER_SENSORS;
+  @ requires probation_valid: voter_valid(voter);
+  @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
+  @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
+  @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1];
+  @ ensures VOT_021_valid: voter_valid(voter);
+  @ ensures VOT_021_healthy: \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==>
+  @     !\old(voter->sensor[i].latched) ==> !voter->sensor[i].latched &&
+  @         voter->sensor[i].condemned_votes == \old(voter->sensor[i].condemned_votes);
+  @ ensures VOT_021_readmitted: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     \old(voter->sensor[i].latched) && !voter->sensor[i].latched ==>
+  @         0 < voter->config.readmit_count <= \old(voter->sensor[i].probation) + 1 &&
+  @         sample[i].present && \is_finite(sample[i].value) &&
+  @         voter->config.lowest <= sample[i].value <= voter->config.highest &&
+  @         sample[i].age_us <= voter->config.max_age_us &&
+  @         voter->sensor[i].condemned_votes == 0 && voter->sensor[i].density == 0 &&
+  @         voter->sensor[i].probation == 0;
+  @ ensures VOT_021_agrees: \forall integer i; 0 <= i < voter->config.sensors ==>
+  @     \old(voter->sensor[i].latched) && !voter->sensor[i].latched &&
+  @         voter->vote.contributing > 0 ==>
+  @             -voter->agree <= (float)(sample[i].value - voter->vote.output) <= voter->agree;
+  @*/
+void keel_voter_reconsider(keel_voter_t *voter, const keel_voter_sample_t sample[]);
 
 KEEL_C_END
 
