@@ -563,7 +563,9 @@ keel_status_t keel_voter_readmit(keel_voter_t *voter, uint32_t sensor)
 /* Whether a vote speaks for a latched sensor: its sample is usable and lies within a of the output,
  * if there is one (VOT-021). */
 /*@ requires \valid_read(voter) && \valid_read(sensor) && \valid_read(sample);
-  @ requires voter_valid(voter);
+  @ requires \is_finite(voter->config.lowest) && \is_finite(voter->config.highest);
+  @ requires \is_finite(voter->agree) &&
+  @     KEEL_VOTER_AGREE_MIN <= voter->agree <= KEEL_VOTER_AGREE_MAX;
   @ assigns \nothing;
   @*/
 static bool speaks_for(const keel_voter_t *voter, const keel_voter_sensor_t *sensor,
