@@ -180,9 +180,6 @@ Flight fly(const std::string &fault, int unit, double start_s, std::uint16_t den
                 }
             }
         }
-        for (int j = 0; j < units; j++) {
-            std::copy(sample[j].value, sample[j].value + 6, sample[j].raw);
-        }
         keel_virtual_imu_step(&imu, sample.data(), 1000000u / rate_hz);
         for (int k = 0; k < 6; k++) {
             voted[k] = static_cast<double>(imu.channel[k].vote.output);

@@ -109,7 +109,7 @@ static bool influence_is_bounded(bool wild)
         const float y = x + uniform(-1.0f, 1.0f) * 0.99f * a;
         const float z = wild ? any_bits() : (x + uniform(-1.1f, 1.1f) * n * a);
         const int at = static_cast<int>(generator() % 3u);
-        keel_voter_sample_t sample[3] = {{x, x, 0u, true}, {y, y, 0u, true}, {z, z, 0u, true}};
+        keel_voter_sample_t sample[3] = {{x, 0u, true}, {y, 0u, true}, {z, 0u, true}};
         const keel_voter_config_t config = usual(a, n);
         keel_voter_t voter;
 
@@ -188,9 +188,8 @@ static bool unanimous_is_the_whole_vote()
             keel_voter_t whole = voter;
 
             for (std::uint32_t k = 0; k < config.sensors; k++) {
-                const float value = truth + uniform(-0.52f, 0.52f) * a;
-
-                sample[k] = {value, rests ? voter.sensor[k].last : value, 0u, true};
+                sample[k] = {truth + uniform(-0.52f, 0.52f) * a, 0u, true};
+                sample[k].value = rests ? voter.sensor[k].last : sample[k].value;
             }
             keel_voter_step(&whole, sample, 10u);
             asked++;

@@ -233,7 +233,6 @@ static void setup_voter(stream_t *s)
                                   .max_age_us = rarely_zero(s, 5000u),
                                   .latch_count = (uint16_t)rarely_zero(s, 100u),
                                   .stale_count = (uint16_t)below(s, 20u),
-                                  .frozen_count = (uint16_t)below(s, 20u),
                                   .readmit_count = (uint16_t)below(s, 20u),
                                   .density_limit = (uint16_t)below(s, 200u),
                                   .sensors = (uint8_t)rarely_zero(s, KEEL_VOTER_SENSORS)};
@@ -256,7 +255,6 @@ static void digest_vote(stream_t *s)
         digest(s, voter.sensor[i].condemned_votes);
         digest(s, voter.sensor[i].unchanged_votes);
         digest(s, voter.sensor[i].density);
-        digest(s, voter.sensor[i].repeats);
         digest(s, voter.sensor[i].probation);
         digest(s, voter.sensor[i].latched ? 1u : 0u);
     }
@@ -274,7 +272,7 @@ static void vector_voter(stream_t *s)
     }
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         sample[i].value = (i == frozen) ? 1.5f : mostly_between(s, truth - 2.0f, truth + 2.0f);
-        sample[i].raw = (below(s, 16u) == 0u) ? voter.sensor[i].last : sample[i].value;
+        sample[i].value = (below(s, 16u) == 0u) ? voter.sensor[i].last : sample[i].value;
         sample[i].age_us = below(s, 1500u);
         sample[i].present = below(s, 32u) != 0u;
         oldest_us = (sample[i].age_us > oldest_us) ? sample[i].age_us : oldest_us;
@@ -284,6 +282,7 @@ static void vector_voter(stream_t *s)
         keel_voter_scale(&voter);
         if (!complete || !keel_voter_step_unanimous(&voter, sample, oldest_us)) {
             keel_voter_step(&voter, sample, any32(s));
+            keel_voter_reconsider(&voter, sample);
         }
         if (below(s, 32u) == 0u) {
             digest(s, (uint64_t)keel_voter_readmit(&voter, below(s, KEEL_VOTER_SENSORS + 1u)));

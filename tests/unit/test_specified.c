@@ -76,7 +76,6 @@ static void set_up_voter(void)
                                         .max_age_us = one_in(64u) ? 0u : 100u,
                                         .latch_count = (uint16_t)below(64u),
                                         .stale_count = (uint16_t)below(16u),
-                                        .frozen_count = (uint16_t)below(16u),
                                         .readmit_count = (uint16_t)below(8u),
                                         .density_limit = (uint16_t)below(128u),
                                         .sensors = (uint8_t)(one_in(64u) ? any() : 2u + below(3u))};
@@ -108,7 +107,6 @@ static bool any_samples(keel_voter_sample_t sample[KEEL_VOTER_SENSORS])
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
         sample[i].value = any_value(truth, &voter.sensor[i], rests);
         sample[i].value = zeros ? (one_in(4u) ? 0.0f : -0.0f) : sample[i].value;
-        sample[i].raw = one_in(4u) ? any_value(truth, &voter.sensor[i], rests) : sample[i].value;
         sample[i].age_us = one_in(64u) ? any() : below(101u);
         sample[i].present = !one_in(128u);
         complete = complete && sample[i].present;

@@ -25,8 +25,7 @@ static float voted(float one, float other, float faulty)
                                         .max_age_us = 1000u,
                                         .latch_count = 3u,
                                         .sensors = 3u};
-    const keel_voter_sample_t sample[3] = {
-        {one, one, 0u, true}, {other, other, 0u, true}, {faulty, faulty, 0u, true}};
+    const keel_voter_sample_t sample[3] = {{one, 0u, true}, {other, 0u, true}, {faulty, 0u, true}};
 
     TEST_ASSERT_EQUAL(KEEL_OK, keel_voter_init(&voter, &config));
     keel_voter_step(&voter, sample, 10u);
