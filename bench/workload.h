@@ -482,7 +482,6 @@ static const keel_voter_config_t voter_workload = {.agree = 0.25f,
                                                    .max_age_us = 10000u,
                                                    .latch_count = UINT16_MAX,
                                                    .stale_count = 50u,
-                                                   .frozen_count = 100u,
                                                    .readmit_count = 100u,
                                                    .sensors = UNITS};
 
@@ -496,7 +495,6 @@ static void samples_at(keel_virtual_imu_sample_t sample[UNITS], uint32_t n, floa
         for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
             sample[i].value[k] = (0.2f * signal_at((3u * n) + (7u * i) + k)) +
                                  ((i == (UNITS - 1u)) ? offset : 0.0f);
-            sample[i].raw[k] = sample[i].value[k];
         }
     }
 }

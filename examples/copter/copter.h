@@ -90,6 +90,7 @@ typedef struct copter_inertia {
     uint64_t sampled_us[COPTER_IMUS];            /**< When each unit last gave a sample. */
     int16_t temperature[COPTER_IMUS];            /**< Of it, in 0.01 degrees Celsius. */
     keel_virtual_imu_sample_t unit[COPTER_IMUS]; /**< As measured, without calibration. */
+    bool rests[COPTER_IMUS];                     /**< Whether a unit said the same as before. */
     keel_filter_t filter[COPTER_IMUS][KEEL_VIRTUAL_IMU_CHANNELS]; /**< Of what is voted on. */
     keel_virtual_imu_t imu;
     keel_virtual_imu_sample_t slow_unit[COPTER_IMUS]; /**< What drifts in them. */

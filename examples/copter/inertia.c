@@ -54,44 +54,53 @@ void copter_background_imu(copter_t *copter)
     }
 }
 
-/* A sample of a unit since the last vote; it is absent unless all its channels have. */
+/* A sample of a unit since the last vote; it is absent unless all its channels have, and rests if all
+ * say what they said before. */
 static void take(copter_inertia_t *self, uint32_t unit, uint64_t now_us)
 {
     keel_virtual_imu_sample_t *const sample = &self->unit[unit];
+    bool rests = sample->present;
 
     sample->age_us = (uint32_t)(now_us - self->sampled_us[unit]);
     sample->present = true;
     for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
+        const float before = sample->value[k];
+
         if (keel_oversample_take(&self->channel[unit][k], &sample->value[k]) != KEEL_OK) {
             sample->present = false;
         }
-        sample->raw[k] = sample->value[k];
+        rests = rests && (sample->value[k] == before);
     }
+    self->rests[unit] = rests && sample->present;
 }
 
-/* The same with the gyroscope's offset taken off, filtered: vibration differs from unit to unit, and
- * is not what they vote on. Filters start anew behind a gap. What one refuses, the voter sees by the
- * raw value. */
-static keel_virtual_imu_sample_t prepared(const keel_virtual_imu_sample_t *raw,
-                                          const keel_calibration_rest_t *gyroscope,
-                                          keel_filter_t filter[], bool goes_on)
+/* The filter's output after a value; a value that it refuses, as it is: the voter sees to it. */
+static float filtered(keel_filter_t *filter, float value, bool goes_on)
 {
-    keel_virtual_imu_sample_t sample = *raw;
+    const keel_status_t status = goes_on ? keel_filter_step(filter, value)
+                                         : keel_filter_reset(filter, value);
+
+    return (status == KEEL_OK) ? filter->output : value;
+}
+
+/* What a unit votes with: its sample with the gyroscope's offset taken off, filtered, as vibration
+ * differs from unit to unit. Filters start anew behind a gap. They rest while the unit does: a unit
+ * that repeats itself gave no sample, and the voter is to see it. */
+static void prepare(copter_inertia_t *self, uint32_t unit, const keel_calibration_rest_t *gyroscope,
+                    bool goes_on, keel_virtual_imu_sample_t *sample)
+{
+    keel_filter_t *const filter = self->filter[unit];
     keel_calibration_vector_t rate;
 
-    keel_calibration_apply(gyroscope->offset, &raw->value[ACCELEROMETER], &rate);
+    *sample = self->unit[unit];
+    keel_calibration_apply(gyroscope->offset, &sample->value[ACCELEROMETER], &rate);
     for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        sample.value[ACCELEROMETER + k] = rate.axis[k];
+        sample->value[ACCELEROMETER + k] = rate.axis[k];
     }
-    for (uint32_t k = 0u; (k < KEEL_VIRTUAL_IMU_CHANNELS) && raw->present; k++) {
-        if (goes_on) {
-            (void)keel_filter_step(&filter[k], sample.value[k]);
-        } else {
-            (void)keel_filter_reset(&filter[k], sample.value[k]);
-        }
-        sample.value[k] = filter[k].output;
+    for (uint32_t k = 0u; (k < KEEL_VIRTUAL_IMU_CHANNELS) && sample->present; k++) {
+        sample->value[k] = self->rests[unit] ? filter[k].output
+                                             : filtered(&filter[k], sample->value[k], goes_on);
     }
-    return sample;
 }
 
 /* A drift within the vote's thresholds, which are as wide as units differ while they move and shake,
@@ -102,9 +111,9 @@ static void vote_on_drift(copter_inertia_t *self, keel_virtual_imu_sample_t unit
     for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
         keel_virtual_imu_sample_t *const slow = &self->slow_unit[i];
 
-        for (uint32_t k = 0u; (k < KEEL_VIRTUAL_IMU_CHANNELS) && unit[i].present; k++) {
+        for (uint32_t k = 0u; (k < KEEL_VIRTUAL_IMU_CHANNELS) && unit[i].present && !self->rests[i];
+             k++) {
             slow->value[k] += copter_settings.slow_gain * (unit[i].value[k] - slow->value[k]);
-            slow->raw[k] = unit[i].raw[k];
         }
         slow->present = unit[i].present;
         slow->age_us = unit[i].age_us;
@@ -225,8 +234,7 @@ void copter_foreground_imu(copter_t *copter)
         const bool goes_on = self->unit[i].present;
 
         take(self, i, copter->scheduler.clock.now_us);
-        unit[i] = prepared(&self->unit[i], &copter->calibration.gyroscope[i], self->filter[i],
-                           goes_on);
+        prepare(self, i, &copter->calibration.gyroscope[i], goes_on, &unit[i]);
     }
     vote_on_drift(self, unit);
     keel_virtual_imu_step(&self->imu, unit, VOTE_PERIOD_US);

@@ -238,6 +238,16 @@ const keel_parameter_t copter_parameter[COPTER_PARAMETER_COUNT] = {
      .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 5.0f},
      .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
      .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 20.0f}},
+    {.name = "IMU_ACCEL_CUTOFF",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 20.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 5.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 240.0f},
+     .restarts = true},
+    {.name = "IMU_GYRO_CUTOFF",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 100.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 20.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 240.0f},
+     .restarts = true},
     {.name = "MAG_NORTH",
      .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 21.6f},
      .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -80.0f},
@@ -328,9 +338,11 @@ void copter_apply_parameters(copter_settings_t *settings, const keel_parameter_e
     settings->land_fast = entry[52].value.real;
     settings->land_slow = entry[53].value.real;
     settings->land_near = entry[54].value.real;
-    settings->attitude.north = entry[55].value.real;
-    settings->attitude.east = entry[56].value.real;
-    settings->position.accuracy = entry[57].value.real;
-    settings->system = (uint8_t)entry[58].value.whole;
+    settings->accelerometer_hz = entry[55].value.real;
+    settings->gyroscope_hz = entry[56].value.real;
+    settings->attitude.north = entry[57].value.real;
+    settings->attitude.east = entry[58].value.real;
+    settings->position.accuracy = entry[59].value.real;
+    settings->system = (uint8_t)entry[60].value.whole;
 }
 /* clang-format on */

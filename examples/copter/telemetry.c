@@ -210,6 +210,62 @@ static void tell_crash(copter_telemetry_t *self, bool is_crashed)
     self->is_crashed = is_crashed;
 }
 
+/* What the pilot hears of votes. */
+static const char *vote_words(uint8_t state)
+{
+    static const char *const words[] = {
+        [KEEL_VOTER_MEAN] = "agree",
+        [KEEL_VOTER_SINGLE] = "one is left",
+        [KEEL_VOTER_MEDIAN] = "do not agree, median flies: vibration?",
+        [KEEL_VOTER_DISAGREE] = "two are left and disagree",
+        [KEEL_VOTER_NONE] = "none gives a sample"};
+
+    return (state < (sizeof words / sizeof words[0])) ? words[state] : "";
+}
+
+/* Says when votes come about in another way: see inertia.c for how long one stands. */
+static void tell_votes(copter_telemetry_t *self, uint8_t *told, const char *which, uint8_t state)
+{
+    if (state != *told) {
+        uint8_t severity = (uint8_t)MAV_SEVERITY_INFO;
+
+        if (state >= KEEL_VOTER_DISAGREE) {
+            severity = (uint8_t)MAV_SEVERITY_CRITICAL;
+        } else if (state != KEEL_VOTER_MEAN) {
+            severity = (uint8_t)MAV_SEVERITY_WARNING;
+        } else {
+            /* All is well again. */
+        }
+        copter_text(self, severity, which, vote_words(state));
+        *told = state;
+    }
+}
+
+/* Says when a unit is voted out, in one channel or more, and when it is back in all. */
+static void tell_units(copter_telemetry_t *self, const keel_virtual_imu_t *imu)
+{
+    static const char *const unit[COPTER_IMUS] = {
+        "inertial unit 1: ", "inertial unit 2: ", "inertial unit 3: "};
+
+    for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
+        if ((imu->latched[i] != 0u) && (self->latched[i] == 0u)) {
+            copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, unit[i], "voted out");
+        } else if ((imu->latched[i] == 0u) && (self->latched[i] != 0u)) {
+            copter_text(self, (uint8_t)MAV_SEVERITY_INFO, unit[i], "votes again");
+        } else {
+            /* As it was, or in more channels or fewer. */
+        }
+        self->latched[i] = imu->latched[i];
+    }
+}
+
+static void tell_inertia(copter_telemetry_t *self, const copter_inertia_t *inertia)
+{
+    tell_votes(self, &self->accelerometers, "accelerometers: ", inertia->accelerometer.state);
+    tell_votes(self, &self->gyroscopes, "gyroscopes: ", inertia->gyroscope.state);
+    tell_units(self, &inertia->imu);
+}
+
 /* Whoever does not sign, where frames are signed, is not heard. */
 static void take(copter_t *copter, uint32_t number, const keel_mavlink_frame_t *frame)
 {
@@ -377,6 +433,7 @@ void copter_telemetry(copter_t *copter)
     tell_radio(self, &copter->pilot);
     tell_height(self, &copter->estimate.vertical);
     tell_crash(self, copter->estimate.vertical.is_crashed);
+    tell_inertia(self, &copter->inertia);
     copter_take_answers(copter);
     save_parameters(copter);
     copter_reboot_step(copter);

@@ -125,18 +125,21 @@ typedef struct copter_telemetry {
     uint32_t texts;                   /**< How many there were. */
     copter_waiter_t arm_waiter;
     copter_waiter_t mode_waiter;
-    uint64_t reboots_us; /**< When it starts anew, as a station asked; 0: nobody has. */
-    uint32_t turn;       /**< The link that had the last run. */
-    bool saves;          /**< Parameters were set, and are to be saved on the ground. */
-    bool applies;        /**< The same, and are to be put in force there. */
-    uint8_t system;      /**< The copter's number among vehicles. */
-    uint8_t state;       /**< The state machine's, in the last run. */
-    uint8_t mode;        /**< The mode that was told in the last run. */
-    uint8_t heard;       /**< What was heard of the pilot's receiver, as it was told. */
-    uint8_t height;      /**< Where the height came from, as it was told: copter_height_t. */
-    bool had_height;     /**< It was known once. */
-    bool is_outside;     /**< Of the fence, in the last run. */
-    bool is_crashed;     /**< As it was told. */
+    uint64_t reboots_us;    /**< When it starts anew, as a station asked; 0: nobody has. */
+    uint32_t turn;          /**< The link that had the last run. */
+    bool saves;             /**< Parameters were set, and are to be saved on the ground. */
+    bool applies;           /**< The same, and are to be put in force there. */
+    uint8_t system;         /**< The copter's number among vehicles. */
+    uint8_t state;          /**< The state machine's, in the last run. */
+    uint8_t mode;           /**< The mode that was told in the last run. */
+    uint8_t heard;          /**< What was heard of the pilot's receiver, as it was told. */
+    uint8_t height;         /**< Where the height came from, as it was told: copter_height_t. */
+    bool had_height;        /**< It was known once. */
+    bool is_outside;        /**< Of the fence, in the last run. */
+    bool is_crashed;        /**< As it was told. */
+    uint8_t accelerometers; /**< The state of their votes, as it was told. */
+    uint8_t gyroscopes;     /**< The same. */
+    uint8_t latched[COPTER_IMUS]; /**< Of each unit, the channels that were in the last run. */
 } copter_telemetry_t;
 
 /**

@@ -70,7 +70,6 @@ KEEL_REALTIME_CODE static void measure(void)
 
         for (uint32_t k = 0u; (k < KEEL_VIRTUAL_IMU_CHANNELS) && !frozen; k++) {
             sample[unit].value[k] = truth_of(k) + (OFFSET * (float)unit);
-            sample[unit].raw[k] = sample[unit].value[k];
         }
         sample[unit].present = true;
     }

@@ -219,7 +219,7 @@ static bool keel_voter_reconsider_may(const keel_voter_t *voter)
 
 static bool keel_voter_reconsider_does(const keel_voter_t *voter)
 {
-    return voter_valid_here(voter) && used_is_healthy_here(voter);
+    return voter_valid_here(voter);
 }
 
 static bool keel_voter_step_unanimous_may(const keel_voter_t *voter,

@@ -94,7 +94,7 @@ void model_voter_reconsider(keel_voter_t *voter, const keel_voter_sample_t sampl
         __CPROVER_assert((i >= voter->config.sensors) ||
                              voter_sample_same(&sample[i], &vote->sample[i]),
                          "IMU_006_model: with the samples of the vote");
-        if (voter->sensor[i].latched) {
+        if ((i < voter->config.sensors) && voter->sensor[i].latched) {
             voter->sensor[i] = any_sensor();
         }
         vote->reconsidered[i] = voter->sensor[i];

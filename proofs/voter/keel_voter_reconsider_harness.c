@@ -31,5 +31,5 @@ void keel_voter_reconsider_harness(void)
         __CPROVER_assert(voter_sample_same(&sample[i], &before[i]),
                          "VOT_021_read: the samples are only read");
     }
-    __CPROVER_assert(voter_valid_here(&voter), "VOT_021_valid: the channel stays valid");
+    __CPROVER_assert(keel_voter_reconsider_does(&voter), "VOT_021_valid: the channel stays valid");
 }

@@ -11,7 +11,7 @@ from flight.library import Copter
 from flight.plants import MOTORS, THRUST_POWER
 from flight.power import Battery
 from flight.scenario import Fault, FirstFix
-from flight.sensors import Broken
+from flight.sensors import Broken, Shaking
 
 DRIFT_MOST = 3.0  # rad/s
 
@@ -62,7 +62,8 @@ class Faults:
         if fault.kind in sets:
             (sets[fault.kind].add if on else sets[fault.kind].discard)(unit)
         elif fault.kind == "imu_vibration":
-            broken.tones = (fault.acceleration or 0.0, fault.rate or 0.0) if on else None
+            shaking = Shaking(fault.acceleration or 0.0, fault.rate or 0.0, bool(fault.alike))
+            broken.shaking = shaking if on else None
         elif fault.kind == "imu_scale":
             broken.scale[unit] = 1.0 + float(on) * (fault.share or 0.0)
         elif fault.kind == "imu_drift" and not on:

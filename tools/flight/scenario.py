@@ -95,11 +95,13 @@ FAULTS: dict[str, tuple[str, ...]] = {
     "motor_weak": ("motor", "share"), "battery_low": ("share",),
     "task_overrun": ("task", "runs", "extra_us"),
 }  # fmt: skip
+# What it may have.
+OPTIONAL: dict[str, tuple[str, ...]] = {"imu_vibration": ("alike",)}
 FaultKind = Literal[
     "imu_freeze", "imu_silent", "imu_shout", "imu_drift", "imu_scale", "imu_vibration",
     "radio_loss", "radio_failsafe", "radio_noise", "gps_loss", "gps_jump", "gps_noise", "gps_wild",
-    "barometer_spike", "barometer_loss", "barometer_stuck", "magnetometer_current", "motor_weak", "battery_low",
-    "task_overrun",
+    "barometer_spike", "barometer_loss", "barometer_stuck", "magnetometer_current", "motor_weak",
+    "battery_low", "task_overrun",
 ]  # fmt: skip
 
 
@@ -112,6 +114,7 @@ class Fault(Table):
     unit: Annotated[int, Field(ge=1, le=3)] | None = None
     rate: Positive | None = None  # Of a drift, in rad/s each second; of vibration, in rad/s.
     acceleration: Positive | None = None  # Of vibration: of each of two tones, in m/s^2.
+    alike: bool | None = None  # Vibration is the same on all units.
     north_m: float | None = None
     east_m: float | None = None
     metres: Positive | None = None  # Each fix is off by up to so much, each by another way.
@@ -252,7 +255,7 @@ def fault_mistakes(number: int, fault: Fault) -> Iterator[Mistake]:
         if key not in given:
             yield ("fault", number, key), f"is missing: {fault.kind} needs {', '.join(needed)}"
     for key in given:
-        if key not in ("kind", "at_s", "until_s", *needed):
+        if key not in ("kind", "at_s", "until_s", *needed, *OPTIONAL.get(fault.kind, ())):
             yield ("fault", number, key), f"is nothing that {fault.kind} has"
     if fault.until_s is not None and fault.until_s <= fault.at_s:
         yield ("fault", number, "until_s"), "is not after at_s"

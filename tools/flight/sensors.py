@@ -38,6 +38,15 @@ ACCELERATION_LIMIT, RATE_LIMIT = 156.9, 34.9  # Full scale: 16 g, 2000 degrees p
 
 
 @dataclass(frozen=True)
+class Shaking:
+    """Vibration: two tones on every axis, by the motors' speed."""
+
+    acceleration: float = 0.0  # Of each tone, in m/s^2.
+    rate: float = 0.0  # In rad/s.
+    alike: bool = False  # All units feel the same; else each at a phase of its own.
+
+
+@dataclass(frozen=True)
 class Quality:
     """How good the devices are: factors of what is usual, and delays."""
 
@@ -49,6 +58,11 @@ class Quality:
     baro_delay_ms: int = 10
     gps_noise: float = 1.0
     gps_wander: float = 1.0  # Of what the place does in minutes.
+    scale: float = 0.0  # Of each unit's axes, off by up to this share.
+    warmth: float = 0.0  # What gyroscopes' bias changes by as they get warm, in rad/s.
+    shaking: Shaking = Shaking()  # As long as motors turn.
+    field_noise: float = 1.0
+    field_per_ampere: float = 1.0
 
 
 # Standard deviations of a sample, unit by unit: three parts of three makes.
@@ -57,7 +71,9 @@ GYROSCOPE_NOISE = (0.002, 0.003, 0.0025)  # In rad/s.
 ACCELEROMETER_BIAS, GYROSCOPE_BIAS = 0.04, 0.01
 MISALIGNMENT = math.radians(0.15)
 VIBRATION = (0.6, 0.02)  # With all motors at full: in m/s^2, in rad/s.
-TONES_HZ = (83.0, 141.0)  # Of vibration that is asked for.
+TONES_HZ = (140.0, 238.0)  # Of vibration with all motors at full: blades pass, and a harmonic.
+SHAKEN_FROM = 0.05  # Of full thrust: below it motors hardly turn.
+WARM_S = 40.0  # In which two thirds of the change by warmth has come about.
 FIELD_NOISE, FIELD_BIAS, FIELD_PER_AMPERE = 0.3, 0.3, 0.01  # In microtesla.
 PRESSURE_NOISE, PRESSURE_WANDER, PRESSURE_S = 1.5, 2.0, 100.0  # In Pa.
 PLACE_NOISE, PLACE_WANDER, PLACE_S, SPEED_NOISE = 0.03, 0.15, 120.0, 0.04  # In m, in m/s.
@@ -72,7 +88,7 @@ class Broken:
     shouting: set[int] = field(default_factory=set)
     drift: dict[int, float] = field(default_factory=dict)  # By unit: rad/s.
     scale: dict[int, float] = field(default_factory=dict)  # By unit: a factor of its rates.
-    tones: tuple[float, float] | None = None  # Of two tones of vibration: m/s^2, rad/s.
+    shaking: Shaking | None = None
     gps_lost: bool = False
     gps_jump: tuple[float, float] = (0.0, 0.0)
     first_fix: tuple[float, float] = (0.0, 0.0)  # As it is wrong after power-up.
@@ -145,12 +161,21 @@ class Inertial:
         ).reshape(-1)  # fmt: skip
         shake = np.array([VIBRATION[0]] * 3 + [VIBRATION[1]] * 3)
         self._shake = quality.vibration * np.tile(shake, UNITS)
-        self._phase = np.random.default_rng(7).uniform(0.0, 2.0 * math.pi, (2, UNITS, 6))
-        self._steps = 0
+        self._own(rng.spawn(1)[0], quality)
         self._late: deque[Sequence[float]] = deque(maxlen=quality.imu_delay_ms + 1)
         limits = np.array([ACCELERATION_LIMIT] * 3 + [RATE_LIMIT] * 3)
         self._limits = np.tile(limits, UNITS)
         self._draw()
+
+    def _own(self, rng: np.random.Generator, quality: Quality) -> None:
+        """What each unit has of its own: scale, phases of vibration, what warmth does."""
+        self._scale = 1.0 + quality.scale * rng.uniform(-1.0, 1.0, 6 * UNITS)
+        self._phase = rng.uniform(0.0, 2.0 * math.pi, (2, UNITS, 6))
+        warmth = rng.uniform(-1.0, 1.0, (UNITS, 6)) * np.array([0.0] * 3 + [quality.warmth] * 3)
+        self._warmth = warmth.reshape(-1)
+        self._shaking = quality.shaking
+        self._turned = np.zeros((2, 1, 1))  # What tones have turned, in radians.
+        self._steps = 0
 
     def _draw(self) -> None:
         """A second's noise at once."""
@@ -165,10 +190,11 @@ class Inertial:
         self._next += 1
         self._late.append(true)
         noise = (self._noise + thrust * self._shake) * drawn
-        said = self._turn @ self._late[0] + self._bias + noise
         self._steps += 1
-        if broken.tones is not None:
-            said += self._tones(*broken.tones)
+        bias = self._bias + self._warmth * (1.0 - math.exp(-1e-3 * self._steps / WARM_S))
+        said = self._scale * (self._turn @ self._late[0]) + bias + noise
+        if thrust > SHAKEN_FROM:
+            said += self._tones(broken.shaking or self._shaking, thrust)
         np.clip(said, -self._limits, self._limits, out=said)
         units = said.reshape(UNITS, 6)
         if broken.imu:
@@ -178,11 +204,16 @@ class Inertial:
         self._rate[:] = units[:, 3:]
         self._count += 1
 
-    def _tones(self, acceleration: float, rate: float) -> Any:
-        """Two tones on every axis, each with a phase of its own; a step is a millisecond."""
-        turns = (2e-3 * math.pi * self._steps * np.array(TONES_HZ)).reshape(2, 1, 1)
-        heights = np.array([acceleration] * 3 + [rate] * 3)
-        return (heights * np.sin(turns + self._phase).sum(axis=0)).reshape(-1)
+    def _tones(self, shaking: Shaking, thrust: float) -> Any:
+        """Two tones on every axis; a step is a millisecond, thrust is as the speed's square."""
+        if not shaking.acceleration and not shaking.rate:
+            return 0.0
+        hertz = math.sqrt(thrust) * np.array(TONES_HZ).reshape(2, 1, 1)
+        self._turned += 2e-3 * math.pi * hertz
+        heights = np.array([shaking.acceleration] * 3 + [shaking.rate] * 3)
+        phases = self._phase[:, :1] if shaking.alike else self._phase
+        tones = (heights * np.sin(self._turned + phases)).sum(axis=0)
+        return np.broadcast_to(tones, (UNITS, 6)).reshape(-1)
 
     def _break(self, units: Any, drawn: Any, broken: Broken) -> None:
         """The same with units that fail. Those that freeze repeat their last sample."""
@@ -244,8 +275,9 @@ class Slow:
             self._chip()
 
     def _magnetometer(self, plant: Plant, battery: Battery, broken: Broken) -> None:
-        noise = self._quality.noise * FIELD_NOISE * self._field_rng.standard_normal(3)
-        per_ampere = FIELD_PER_AMPERE + broken.microtesla_per_ampere
+        quality = self._quality
+        noise = quality.field_noise * FIELD_NOISE * self._field_rng.standard_normal(3)
+        per_ampere = quality.field_per_ampere * FIELD_PER_AMPERE + broken.microtesla_per_ampere
         bias = self._field_bias + battery.current * per_ampere * self._per_ampere
         self._memory["magnetometer"]["field"] = self._field_turn @ self._field(plant) + bias + noise
         self._memory["magnetometer"]["count"] += 1

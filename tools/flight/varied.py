@@ -15,7 +15,7 @@ from flight import library, plants
 from flight.loop import Order
 from flight.plants import Airframe
 from flight.scenario import Scenario
-from flight.sensors import Quality
+from flight.sensors import Quality, Shaking
 
 TAG = 0x6B65656C  # Sets these draws apart from those of the noise, which has the same seed.
 DURATION_S = 80.0
@@ -70,9 +70,17 @@ def order_of(seed: int) -> Order:
         noise=draw.factor(2.0), bias=draw.between(0.3, 1.5), vibration=draw.between(0.0, 2.0),
         gps_delay_ms=int(draw.between(80, 200)), imu_delay_ms=draw.one_of((1, 2)),
         baro_delay_ms=int(draw.between(5, 30)), gps_noise=draw.factor(2.0),
-        gps_wander=draw.between(1.0, 12.0),
+        gps_wander=draw.between(1.0, 12.0), scale=draw.between(0.0, 0.03),
+        warmth=draw.between(0.0, 0.02), shaking=shaking_of(draw),
+        field_noise=draw.between(1.0, 7.0), field_per_ampere=draw.between(1.0, 10.0),
     )  # fmt: skip
     return Order(scenario_of(draw), plant, seed, airframe, quality)
+
+
+def shaking_of(draw: Draw) -> Shaking:
+    """Vibration up to what is called too strong by half: normal is below 15 m/s^2 rms."""
+    acceleration = draw.between(0.0, 15.0)
+    return Shaking(acceleration, 0.01 * acceleration, draw.one_of((True, False)))
 
 
 def scenario_of(draw: Draw) -> Scenario:
@@ -121,6 +129,7 @@ def fault_of(draw: Draw) -> dict[str, Any] | None:
     most = {
         "imu_freeze": {"unit": unit}, "imu_silent": {"unit": unit}, "imu_shout": {"unit": unit},
         "imu_drift": {"unit": unit, "rate": draw.between(0.03, 0.5)},
+        "imu_scale": {"unit": unit, "share": draw.between(0.0, 0.06)},
         "radio_loss": {}, "radio_failsafe": {}, "gps_loss": {},
         "gps_jump": {"north_m": draw.between(-50, 50), "east_m": draw.between(-50, 50),
                      "until_s": at_s + draw.between(0.5, 2.5)},
