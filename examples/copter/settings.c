@@ -70,8 +70,8 @@ const copter_settings_t copter_defaults =
                             .density_limit = 0u,
                             .sensors = 3u}},
      .slow_gain = 0.01257f, /* 1 Hz */
-     .accelerometer_hz = 240.0f,
-     .gyroscope_hz = 240.0f,
+     .accelerometer_hz = 50.0f,
+     .gyroscope_hz = 150.0f,
      .gyroscope = {.expected = {0.0f, 0.0f, 0.0f}, .spread = 0.03f, .limit = 0.1f, .samples = 50u},
      .field = {.lowest = -400.0f,
                .highest = 400.0f,

@@ -72,7 +72,7 @@ ACCELEROMETER_BIAS, GYROSCOPE_BIAS = 0.04, 0.01
 MISALIGNMENT = math.radians(0.15)
 VIBRATION = (0.6, 0.02)  # With all motors at full: in m/s^2, in rad/s.
 TONES_HZ = (140.0, 238.0)  # Of vibration with all motors at full: blades pass, and a harmonic.
-SHAKEN_FROM = 0.05  # Of full thrust: below it motors hardly turn.
+SHAKEN_FROM = 0.3  # Of full thrust: what is less shakes less, as thrust does.
 WARM_S = 40.0  # In which two thirds of the change by warmth has come about.
 FIELD_NOISE, FIELD_BIAS, FIELD_PER_AMPERE = 0.3, 0.3, 0.01  # In microtesla.
 PRESSURE_NOISE, PRESSURE_WANDER, PRESSURE_S = 1.5, 2.0, 100.0  # In Pa.
@@ -193,8 +193,7 @@ class Inertial:
         self._steps += 1
         bias = self._bias + self._warmth * (1.0 - math.exp(-1e-3 * self._steps / WARM_S))
         said = self._scale * (self._turn @ self._late[0]) + bias + noise
-        if thrust > SHAKEN_FROM:
-            said += self._tones(broken.shaking or self._shaking, thrust)
+        said += self._tones(broken.shaking or self._shaking, thrust)
         np.clip(said, -self._limits, self._limits, out=said)
         units = said.reshape(UNITS, 6)
         if broken.imu:
@@ -211,6 +210,7 @@ class Inertial:
         hertz = math.sqrt(thrust) * np.array(TONES_HZ).reshape(2, 1, 1)
         self._turned += 2e-3 * math.pi * hertz
         heights = np.array([shaking.acceleration] * 3 + [shaking.rate] * 3)
+        heights *= min(1.0, thrust / SHAKEN_FROM)
         phases = self._phase[:, :1] if shaking.alike else self._phase
         tones = (heights * np.sin(self._turned + phases)).sum(axis=0)
         return np.broadcast_to(tones, (UNITS, 6)).reshape(-1)
