@@ -54,8 +54,8 @@ void copter_background_imu(copter_t *copter)
     }
 }
 
-/* A sample of a unit since the last vote; it is absent unless all its channels have, and rests if all
- * say what they said before. */
+/* A sample of a unit since the last vote; it is absent unless all its channels have, and rests if
+ * all say what they said before. */
 static void take(copter_inertia_t *self, uint32_t unit, uint64_t now_us)
 {
     keel_virtual_imu_sample_t *const sample = &self->unit[unit];
@@ -103,9 +103,9 @@ static void prepare(copter_inertia_t *self, uint32_t unit, const keel_calibratio
     }
 }
 
-/* A drift within the vote's thresholds, which are as wide as units differ while they move and shake,
- * would carry the mean away for long. It shows where motion and vibration are averaged out: there
- * thresholds are narrow, and what is voted out is not heard in the vote that flies. */
+/* A drift within the vote's thresholds, which are as wide as units differ while they move and
+ * shake, would carry the mean away for long. It shows where motion and vibration are averaged out:
+ * there thresholds are narrow, and what is voted out is not heard in the vote that flies. */
 static void vote_on_drift(copter_inertia_t *self, keel_virtual_imu_sample_t unit[])
 {
     for (uint32_t i = 0u; i < COPTER_IMUS; i++) {

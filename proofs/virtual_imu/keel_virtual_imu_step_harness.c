@@ -85,7 +85,7 @@ void model_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], u
     *voter = vote->after;
 }
 
-/* What probation comes to is unknown, but for sensors that are not latched: they stay as they are. */
+/* Probation may come to anything, but sensors that are not latched stay as they are. */
 void model_voter_reconsider(keel_voter_t *voter, const keel_voter_sample_t sample[])
 {
     ballot_t *const vote = &ballot[channel_of(&model, voter)];

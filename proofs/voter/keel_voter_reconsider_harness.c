@@ -5,8 +5,8 @@
 // covers: keel_voter_reconsider speaks_for inspect is_stale one_more
 // covers: model_voter_reconsider
 //
-// Every valid channel of 2 to 4 sensors after a vote, every bit pattern of the samples. "Within a" is
-// any function of its arguments with its contract, the same for the model (voter_parts.h).
+// Every valid channel of 2 to 4 sensors after a vote, every bit pattern of the samples. "Within a"
+// is any function of its arguments with its contract, the same for the model (voter_parts.h).
 #include "voter_parts.h"
 
 void keel_voter_reconsider_harness(void)

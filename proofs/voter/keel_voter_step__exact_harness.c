@@ -3,7 +3,7 @@
 // sources: src/middleware/voter.c
 // defines: -DKEEL_VOTER_SENSORS=3u
 // replaces: keel_voter_mean
-// covers: keel_voter_step compare_all weigh judge conclude keel_voter_agreement keel_voter_weight
+// covers: keel_voter_step compare_all weigh_all judge conclude keel_voter_agreement keel_voter_weight
 // covers: keel_voter_combine
 //
 // Eq. 16 to 18 in numbers: a = 1, n = 3, two or three sensors of which each may be absent, samples

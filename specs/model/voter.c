@@ -114,8 +114,8 @@ static bool is_readable(uint8_t reason)
            (reason == KEEL_VOTER_LATE);
 }
 
-/* Reasons of all samples. What has changed is kept, and votes without a change are counted: VOT-013.
- * 0 and -0 are no change. */
+/* Reasons of all samples. A change is kept, and votes without one are counted: VOT-013. 0 and -0
+ * are no change. */
 static void look(keel_voter_t *voter, const keel_voter_sample_t sample[])
 {
     for (uint32_t i = 0u; i < KEEL_VOTER_SENSORS; i++) {
@@ -265,8 +265,8 @@ static void outvote(keel_voter_t *voter)
     }
 }
 
-/* Whether a vote condemns a sensor: VOT-010. Where nothing is usable, or nobody agrees, nobody knows
- * which is wrong. */
+/* Whether a vote condemns a sensor: VOT-010. Where nothing is usable, or nobody agrees, nobody
+ * knows which is wrong. */
 static bool is_condemned(uint8_t reason, uint32_t usable, bool agreed)
 {
     const bool unusable = (reason == KEEL_VOTER_MISSING) || (reason == KEEL_VOTER_NOT_FINITE) ||
@@ -294,7 +294,8 @@ static void count(const keel_voter_config_t *config, keel_voter_sensor_t *sensor
     }
 }
 
-/* The output of a vote to which some contributed (VOT-005, VOT-009, VOT-020), else none (VOT-008). */
+/* The output of a vote to which some contributed (VOT-005, VOT-009, VOT-020), else none
+ * (VOT-008). */
 static void conclude(keel_vote_t *vote, const keel_voter_sample_t sample[], uint32_t sensors,
                      uint32_t usable, bool agreed, uint32_t elapsed_us)
 {

@@ -406,7 +406,7 @@ static void take_middle(keel_voter_t *voter, const keel_voter_sample_t sample[])
   @ requires \valid_read(agreement) && \separated(voter, agreement);
   @ assigns voter->vote.weight[0 .. KEEL_VOTER_SENSORS - 1];
   @*/
-static bool weigh(keel_voter_t *voter, const agreements_t *agreement, uint32_t usable)
+static bool weigh_all(keel_voter_t *voter, const agreements_t *agreement, uint32_t usable)
 {
     const uint32_t sensors = voter->config.sensors;
     bool agreed = false;
@@ -494,7 +494,7 @@ void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], ui
     bool agreed;
 
     compare_all(voter, sample, &agreement);
-    agreed = weigh(voter, &agreement, usable);
+    agreed = weigh_all(voter, &agreement, usable);
     if (!agreed && (usable > 2u)) {
         take_middle(voter, sample);
     }

@@ -484,7 +484,7 @@ static void VOT_013_never_without_a_count(void)
         vote(0.0f, 0.0f, 0.0f);
     }
     expect_reasons(KEEL_VOTER_USED, KEEL_VOTER_USED, KEEL_VOTER_USED);
-    TEST_ASSERT_EQUAL_UINT16(8u, voter.sensor[2].unchanged_votes); /* The first was a change: from 7. */
+    TEST_ASSERT_EQUAL_UINT16(8u, voter.sensor[2].unchanged_votes); /* The first changed, from 7. */
 }
 
 static void VOT_001_slope(void)
@@ -555,7 +555,7 @@ static void VOT_020_median_of_three(void)
     TEST_ASSERT_FALSE(voter.unanimous);
 }
 
-/* Of four: the mean of the middle two; of four of which one is unusable: the median of the others. */
+/* Of four: the mean of the middle two; of four of which one is unusable: the others' median. */
 static void VOT_020_median_of_four(void)
 {
     config.sensors = 4u;

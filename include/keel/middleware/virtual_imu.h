@@ -33,7 +33,7 @@ typedef struct keel_virtual_imu_config {
     keel_voter_config_t gyroscope;     /**< Of channels 3 to 5, in rad/s; as many sensors. */
 } keel_virtual_imu_config_t;
 
-/** What one unit measured. Values may be any bit pattern. */
+/** A unit's measurement. Values may be any bit pattern. */
 typedef struct keel_virtual_imu_sample {
     float value[KEEL_VIRTUAL_IMU_CHANNELS]; /**< In m/s^2 and rad/s. */
     uint32_t age_us;                        /**< How long ago, in us. */
@@ -62,7 +62,7 @@ typedef struct keel_virtual_imu {
   @             voter_contributed(&imu->channel[k].vote, i)) &&
   @         (virtual_imu_bit(imu->latched[i], k) <==> imu->channel[k].sensor[i].latched);
   @
-  @ // What holds of a virtual unit between any two calls.
+  @ // This holds of a virtual unit between any two calls.
   @ predicate virtual_imu_valid(keel_virtual_imu_t *imu) =
   @     virtual_imu_noted(imu) &&
   @     \forall integer k; 0 <= k < KEEL_VIRTUAL_IMU_CHANNELS ==>

@@ -8,7 +8,7 @@
  * the output the weighted mean. Whatever the samples are, NaN and infinities included, the output
  * is finite and lies between the smallest and the largest sample that contributed to it.
  *
- * What the voter does where the formulas are silent:
+ * Where the formulas are silent, the voter does this:
  *
  *   - A sample that is missing, not finite, implausible, late or stale has weight 0, and the vote
  *     says why. So has one that agrees with no other.
@@ -34,7 +34,7 @@
  *     they agree less, and it moves the output farther.
  *
  * Sensors differ by a part of what they measure, too. keel_voter_scale, asked before a vote, lets a
- * grow with the last output: a = agree + slope |output|. What is said of a holds with that a.
+ * grow with the last output: a = agree + slope |output|. All that is said of a holds with that a.
  *
  * keel_voter_step takes any vote. keel_voter_step_unanimous, tried first, takes the usual one for
  * less: the virtual unit (virtual_imu.h) does so.
@@ -60,7 +60,7 @@ KEEL_C_BEGIN
 /** The largest magnitude of a plausible sample and of n a, in the channel's unit. */
 #define KEEL_VOTER_RANGE 1.0e6f
 
-/* What became of a sensor's sample in a vote: keel_vote_t, reason. */
+/* How a vote took a sensor's sample: keel_vote_t, reason. */
 #define KEEL_VOTER_USED         0u /**< It contributed. */
 #define KEEL_VOTER_OUTVOTED     1u /**< Usable, but it agrees with no other usable sample. */
 #define KEEL_VOTER_LATCHED      2u /**< The sensor is latched as faulty. */
@@ -81,7 +81,7 @@ KEEL_C_BEGIN
 typedef struct keel_voter_config {
     float agree;   /**< a of eq. 16: full agreement up to this distance; AGREE_MIN to AGREE_MAX. */
     float cutoff;  /**< n of eq. 16: no agreement from n a on; above 1, n a at most RANGE. */
-    float slope;   /**< What a grows by with the output's magnitude; 0 to 1. */
+    float slope;   /**< a grows by so much with the output's magnitude; 0 to 1. */
     float lowest;  /**< The smallest plausible sample, at least -RANGE. */
     float highest; /**< The largest plausible sample, at least the smallest, at most RANGE. */
     float initial; /**< The output before the first vote that has one; plausible. */
@@ -111,7 +111,7 @@ typedef struct keel_vote {
     uint8_t contributing;               /**< How many sensors contributed. */
 } keel_vote_t;
 
-/** What the voter remembers of a sensor. */
+/** A sensor as the voter remembers it. */
 typedef struct keel_voter_sensor {
     float last;               /**< Its last finite sample; at first the initial output. */
     uint16_t unchanged_votes; /**< Votes in a row whose finite samples did not change; saturates. */
@@ -168,7 +168,7 @@ typedef struct keel_voter {
   @     \is_finite(v->agree) && KEEL_VOTER_AGREE_MIN <= v->agree <= KEEL_VOTER_AGREE_MAX &&
   @     \is_finite(v->disagree) && v->agree < v->disagree <= KEEL_VOTER_RANGE;
   @
-  @ // What holds of a channel between any two calls.
+  @ // This holds of a channel between any two calls.
   @ predicate voter_valid(keel_voter_t *v) =
   @     voter_config_valid(v->config) && voter_thresholds(v) &&
   @     \is_finite(v->vote.output) && v->config.lowest <= v->vote.output <= v->config.highest &&
@@ -427,8 +427,8 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
   @      voter->sensor[i].condemned_votes == \old(voter->sensor[i].condemned_votes) + 1);
   @ ensures VOT_010_condemned: \forall integer i; 0 <= i < voter->config.sensors ==>
   @     voter->vote.reason[i] >= KEEL_VOTER_MISSING && voter->vote.state != KEEL_VOTER_NONE ==>
-  @         voter->sensor[i].condemned_votes == ((\old(voter->sensor[i].condemned_votes) < UINT16_MAX)
-  @              ? \old(voter->sensor[i].condemned_votes) + 1 : UINT16_MAX);
+  @         voter->sensor[i].condemned_votes ==
+  @             \min(\old(voter->sensor[i].condemned_votes) + 1, UINT16_MAX);
   @ ensures VOT_010_nobody: \forall integer i; 0 <= i < voter->config.sensors ==>
   @     !\old(voter->sensor[i].latched) && voter->vote.state == KEEL_VOTER_NONE ==>
   @         voter->sensor[i].condemned_votes == \old(voter->sensor[i].condemned_votes);
@@ -552,8 +552,8 @@ keel_status_t keel_voter_readmit(keel_voter_t *voter, uint32_t sensor);
 
 /**
  * Puts latched sensors on probation (requirement VOT-021), after a vote, with its samples: a sensor
- * is readmitted as by keel_voter_readmit after readmit_count calls in a row for which its sample was
- * usable, was not stale, and lay within a of the output of the vote, or the vote had none.
+ * is readmitted, as by keel_voter_readmit, after readmit_count calls in a row for which its sample
+ * was usable, was not stale, and lay within a of the output of the vote, or the vote had none.
  *
  * @param voter  the channel, after a vote
  * @param sample the samples of that vote
