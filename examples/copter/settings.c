@@ -21,8 +21,8 @@
      .integral_max = (integral)}
 
 const copter_settings_t copter_defaults =
-    {.imu = {.accelerometer = {.agree = 4.0f,
-                               .cutoff = 3.0f,
+    {.imu = {.accelerometer = {.agree = 6.0f,
+                               .cutoff = 2.5f,
                                .slope = 0.1f,
                                .lowest = -160.0f,
                                .highest = 160.0f,
@@ -79,11 +79,11 @@ const copter_settings_t copter_defaults =
                .span_max = 140.0f,
                .limit = 100.0f},
      .attitude = {.rate_hz = CONTROL_HZ,
-                  .tilt_gain = 0.15f,
+                  .tilt_gain = 0.3f,
                   .heading_gain = 0.25f,
                   .align_gain = 4.0f,
-                  .bias_gain = 0.015f,
-                  .force_gain = 0.25f,
+                  .bias_gain = 0.03f,
+                  .force_gain = 0.4f,
                   .field_share = 0.015625f, /* At 100 Hz, a time constant of 0.64 s. */
                   .bias_limit = 0.2f,
                   .quiet_rate = 0.7f,
@@ -101,7 +101,7 @@ const copter_settings_t copter_defaults =
                   .position_gain = 0.06f,
                   .velocity_gain = 0.06f,
                   .rate_gain = 0.0f,
-                  .bias_gain = 0.02f,
+                  .bias_gain = 0.03f,
                   .bias_limit = 1.0f,
                   .position_gate = 5.0f,
                   .velocity_gate = 50.0f,
@@ -113,7 +113,7 @@ const copter_settings_t copter_defaults =
                            .position_gain = 0.2f,
                            .velocity_gain = 0.15f,
                            .rate_gain = 0.15f,
-                           .bias_gain = 0.04f,
+                           .bias_gain = 0.03f,
                            .bias_limit = 1.0f,
                            .position_gate = 5.0f,
                            .velocity_gate = 5.0f,
