@@ -154,14 +154,14 @@ class Flight:
         """A millisecond, which ends now."""
         time_s = self._time_s(now_ms)
         plant, copter = self._plant, self._copter
-        plant.step(self._motors)
         self._faults.before_flight(now_ms / 1000.0)
         if time_s >= 0.0:
             self._faults.step(time_s)
         broken = self._faults.broken
         thrust = sum(self._motors) / plants.MOTORS
-        self._inertial.step(plant.inertial(), thrust, broken)
-        self._slow.step(now_ms, plant, self._battery, broken)
+        self._slow.step(now_ms, plant, self._battery, broken)  # As it was when this began.
+        plant.step(self._motors)
+        self._inertial.step(plant.inertial(), thrust, broken)  # It is given what was before.
         if now_ms % POWER_MS == 0:
             self._breathe(now_ms)
         if now_ms % self._radio_ms == 0:
