@@ -58,7 +58,7 @@ static uint8_t mode_of_axes(const copter_t *copter)
         mode = KEEL_MODE_POSITION;
     }
     if (((mode == KEEL_MODE_POSITION) || (mode == KEEL_MODE_RETURN)) &&
-        copter->estimate.is_landed) {
+        (copter->estimate.is_landed || copter->estimate.touches)) {
         mode = KEEL_MODE_LAND;
     }
     return mode;

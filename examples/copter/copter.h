@@ -221,6 +221,7 @@ typedef struct copter_vertical {
     float speed;            /**< Upwards by acceleration alone, of the last seconds, in m/s. */
     float hover;            /**< The thrust that hovers, as learnt in flight, 0 to 1. */
     uint32_t lying;         /**< Steps in a row in which it lay on its side. */
+    uint32_t touching;      /**< Steps in a row in which it did not sink, but was to. */
     keel_axis_quality_t quality; /**< Of the height that is told. */
     uint8_t source;              /**< Of the height that is told: copter_height_t. */
     bool has_zero;
@@ -246,6 +247,7 @@ typedef struct copter_estimate {
     copter_world_field_t field;     /**< The Earth's magnetic field at the origin. */
     uint32_t fields;                /**< How often an origin was set. */
     bool is_landed;                 /**< Nothing moves, and the motors hardly push. */
+    bool touches;                   /**< It is to sink and does not: it may have landed. */
 } copter_estimate_t;
 
 /** Written by position control, angle control and angle rate control. */

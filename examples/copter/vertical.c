@@ -20,6 +20,7 @@
 #define SUPPORT_LEAST 8.0f /* What carries an aircraft that lies still, in m/s^2: g, within 18 %. */
 #define SUPPORT_MOST  11.6f
 #define CRASH_STEPS   100u /* Of navigation: 2 s. */
+#define TOUCH_STEPS   25u  /* Of navigation: 0.5 s. */
 
 keel_status_t copter_vertical_init(copter_vertical_t *vertical)
 {
@@ -173,6 +174,23 @@ static bool is_landed(const copter_t *copter)
             (estimate->is_landed || is_let_down(copter)));
 }
 
+/* A descent is asked for, and not half of it happens: it may stand on the ground. A place that is
+ * held there would only tilt it. */
+static void heed_touch(copter_t *copter)
+{
+    copter_estimate_t *const estimate = &copter->estimate;
+    copter_vertical_t *const self = &estimate->vertical;
+    const float asked = copter->control.asked.up;
+
+    if (copter->state.mode.motors && (asked <= SINKS) &&
+        (estimate->here.velocity.up > (0.5f * asked))) {
+        self->touching += (self->touching < TOUCH_STEPS) ? 1u : 0u;
+    } else {
+        self->touching = 0u;
+    }
+    estimate->touches = self->touching == TOUCH_STEPS;
+}
+
 /* Something carries it, and that is not the motors: it lies still, and on its side or its back. */
 static bool lies(const copter_t *copter)
 {
@@ -225,6 +243,7 @@ void copter_vertical_conclude(copter_t *copter)
     copter_vertical_t *const self = &estimate->vertical;
 
     heed_crash(copter);
+    heed_touch(copter);
     estimate->is_landed = is_landed(copter);
     if (estimate->is_landed) {
         self->is_up = false;

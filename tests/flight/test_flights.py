@@ -13,6 +13,7 @@ from typing import Any
 
 import fly
 import pytest
+from common.errors import ROOT
 from flight import library, loop, montecarlo, plants, scenario, varied
 from flight.library import Copter
 from flight.loop import Order
@@ -148,6 +149,13 @@ def test_a_report_of_seeds_does_not_depend_on_their_order() -> None:
     report = montecarlo.report_of(flights, "d")
     assert report["good"] == 3 and report["not_good"] == []
     assert report["percentiles"] == {"sink_max": {"p50": 0.5, "p90": 0.5, "p99": 0.5, "p100": 0.5}}
+
+
+@pytest.mark.parametrize("group", ["fly", "flights", "sim"])
+def test_a_flight_alone_has_its_packages(group: str) -> None:
+    """`make flights SEED=7` flies as `make fly` does."""
+    words = [sys.executable, "tools/with_packages.py", group, "-c", "import fly"]
+    subprocess.run(words, cwd=ROOT, check=True)
 
 
 def test_numbers_that_are_refused(capsys: pytest.CaptureFixture[str]) -> None:

@@ -26,7 +26,7 @@ from flight.plants import Airframe, Plant, Truth
 from flight.power import Battery
 from flight.receivers import RADIO, RADIO_LINES, Receiver
 from flight.scenario import Scenario
-from flight.sensors import Broken, Inertial, Quality, Slow
+from flight.sensors import Broken, Inertial, Quality, Shaking, Slow
 
 ROW_MS = 5  # A row of the trace.
 RADIO_FRAMES = {"sbus": frames.sbus, "crsf": frames.crsf, "ibus": frames.ibus}
@@ -81,6 +81,15 @@ def airframe_of(order: Order) -> Airframe:
     return order.airframe if own == type(own)() else Airframe(**own.model_dump())
 
 
+def quality_of(order: Order) -> Quality:
+    """Of the order, unless the scenario has its own."""
+    own = order.scenario.devices
+    if own is None:
+        return order.quality
+    values = own.model_dump()
+    return Quality(**{**values, "shaking": Shaking(**values["shaking"])})
+
+
 def without_faults(order: Order) -> Order:
     """The same flight, unbroken."""
     scenario = order.scenario.model_copy(update={"fault": []})
@@ -103,8 +112,9 @@ class Flight:
         self._battery = Battery(left=scenario.battery_left)
         self._battery.step([0.0] * plants.MOTORS, 0.0)
         memory = copter.sensors
-        self._inertial = Inertial(memory["imu"], rng[0], order.quality)
-        self._slow = Slow(memory, seeds[1], order.quality, scenario.place)
+        quality = quality_of(order)
+        self._inertial = Inertial(memory["imu"], rng[0], quality)
+        self._slow = Slow(memory, seeds[1], quality, scenario.place)
         self._radio = Receiver(memory, RADIO, rng[3], RADIO_LINES[scenario.radio])
         self._radio_ms = 1000 // scenario.radio_hz
         self._pilot = pilot(scenario, self._radio_ms / 1000.0)

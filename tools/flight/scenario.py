@@ -33,6 +33,8 @@ Share = Annotated[float, Field(ge=0.0, le=1.0)]
 Angle = Annotated[float, Field(ge=-360.0, le=360.0)]
 Turn = Annotated[float, Field(ge=-1.0, le=1.0)]
 Positive = Annotated[float, Field(gt=0.0, le=1e6)]
+Measure = Annotated[float, Field(ge=0.0, le=1e3)]
+Milliseconds = Annotated[int, Field(ge=1, le=1000)]
 Mode = Literal["acro", "land", "angle", "altitude", "position", "return"]
 State = Literal["disarmed", "armed", "flying", "holding", "returning", "landing", "terminated"]
 PlantName = Literal["jsbsim", "mujoco"]
@@ -137,6 +139,32 @@ class Options(Table):
 Factor = Annotated[float, Field(ge=0.25, le=4.0)]
 
 
+class Shaking(Table):
+    """Vibration while motors turn: two tones on every axis, by the motors' speed."""
+
+    acceleration: Measure = 0.0  # Of each tone, in m/s^2.
+    rate: Measure = 0.0  # In rad/s.
+    alike: bool = False  # All units feel the same; else each at a phase of its own.
+
+
+class Devices(Table):
+    """How good the devices are: factors of what is usual, unless a unit is said."""
+
+    noise: Measure = 1.0
+    bias: Measure = 1.0
+    vibration: Measure = 1.0  # White, beside what shakes.
+    gps_noise: Measure = 1.0
+    gps_wander: Measure = 1.0  # Of what the place does in minutes.
+    field_noise: Measure = 1.0
+    field_per_ampere: Measure = 1.0
+    scale: Share = 0.0  # Of each inertial unit's axes, off by up to this share.
+    warmth: Measure = 0.0  # What gyroscopes' bias changes by as they get warm, in rad/s.
+    gps_delay_ms: Milliseconds = 120
+    imu_delay_ms: Milliseconds = 1
+    baro_delay_ms: Milliseconds = 10
+    shaking: Shaking = Shaking()
+
+
 class Frame(Table):
     """The aircraft: factors of what the F450's authors describe."""
 
@@ -223,6 +251,7 @@ class Scenario(Table):
     battery_left: Share = 0.95
     wind: Wind = Wind()
     airframe: Frame = Frame()
+    devices: Devices | None = None  # Those of the flight, else.
     place: Place | None = None
     first_fix: FirstFix | None = None
     pilot: list[Hand] = []
