@@ -208,7 +208,8 @@ def test_a_first_fix_is_off_by_what_is_said() -> None:
 def test_another_place_has_its_own_field_and_degrees() -> None:
     place = Place(latitude=0.0, longitude=103.0, north=40.0, east=0.5, down=-9.0)
     there = memory()
-    devices = Slow(there, np.random.SeedSequence(3), Quality(noise=0.0, bias=0.0), place)
+    quiet = Quality(noise=0.0, bias=0.0, field_noise=0.0)
+    devices = Slow(there, np.random.SeedSequence(3), quiet, place)
     # Nose east, right wing down by 90 degrees: forward is east, right is down, down is north.
     truth = Truth(place=(100.0, 0.0, 0.0), angles=(math.pi / 2.0, 0.0, math.pi / 2.0))
     plant, battery = Still(truth), Battery(voltage=16.0, current=0.0)
