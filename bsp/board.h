@@ -56,6 +56,11 @@ void keel_board_put(char c);
 /** Puts all outputs into their safe state; may be called with anything broken. */
 void keel_board_outputs_off(void);
 
+/** Holds them there for as long as what they drive needs to notice it: a reset lets pins float, and
+ *  what floats may be read as a pulse. Called before every reset; may be called with anything
+ *  broken. */
+void keel_board_outputs_hold(void);
+
 /* For the start-up code, in the order in which it needs them. */
 
 /** Its first steps. ITCM is filled, no other memory is; keeps to its stack. */

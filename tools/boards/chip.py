@@ -3,24 +3,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from common.errors import ToolError
 
 from boards.card import CardError, CardHost, SdCard
 from boards.fram import Fram
+from boards.pulses import Outputs, PulseError, State, timers
 
 # Bases of the peripherals (RM0410, table 1).
 TIM5, IWDG, USART3, PWR, UART7 = 0x4000_0C00, 0x4000_3000, 0x4000_4800, 0x4000_7000, 0x4000_7800
 TIM1, SPI1, GPIOA, RCC, FLASHR = 0x4001_0000, 0x4001_3000, 0x4002_0000, 0x4002_3800, 0x4002_3C00
-SPI2 = 0x4000_3800
+SPI2, TIM4, TIM12 = 0x4000_3800, 0x4000_0800, 0x4000_1800
 SYSTICK, NVIC, SCB, DBGMCU = 0xE000_E010, 0xE000_E100, 0xE000_ED00, 0xE004_2000
 ADC1, ADC_COMMON, SDMMC1 = 0x4001_2000, 0x4001_2300, 0x4001_2C00
 BLOCKS = {
     TIM5: 0x54, IWDG: 0x14, USART3: 0x2C, PWR: 0x10, UART7: 0x2C, TIM1: 0x68, SPI1: 0x24,
     SPI2: 0x24, RCC: 0x98, FLASHR: 0x1C, SCB: 0x2A4, DBGMCU: 0x10, SYSTICK: 0x10,
-    NVIC: 0x200, ADC1: 0x50, ADC_COMMON: 0xC, SDMMC1: 0x84,
+    TIM4: 0x54, TIM12: 0x54, NVIC: 0x200, ADC1: 0x50, ADC_COMMON: 0xC, SDMMC1: 0x84,
     **{GPIOA + 0x400 * port: 0x2C for port in range(11)},
 }  # fmt: skip
 RESETS = {
@@ -33,6 +34,8 @@ RESETS = {
     SCB + 0x90: 0x800,
 }  # fmt: skip
 
+# Peripherals that the model knows to need their clocks: the register, and the bit.
+CLOCKED = {timer.base: timer.enable for timer in timers().values()}
 OPTION_KEYS = [0x0819_2A3B, 0x4C5D_6E7F]
 FLASH_KEYS, FLASH_LOCK = [0x4567_0123, 0xCDEF_89AB], 1 << 31
 OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
@@ -124,7 +127,9 @@ class Converter:
 class Chip:
     """The chip around the processor."""
 
-    def __init__(self, console: int, select: tuple[int, int], broken: str = "") -> None:
+    def __init__(
+        self, console: int, select: tuple[int, int], broken: str = "", outputs: Sequence[str] = ()
+    ) -> None:
         self.console = console
         self.select = select  # Port and pin of the sensor's chip select.
         self.broken = broken
@@ -138,6 +143,7 @@ class Chip:
         self.reset_wanted = False
         self.starved = False
         self.armed_us: list[tuple[int, bool]] = []
+        self.outputs = Outputs(outputs)
         self.converted: list[int] = []  # Channels of the converter, in their order.
         self.exception = 0
         self.fram = Fram(there=broken != "memory")
@@ -168,6 +174,7 @@ class Chip:
         self.flash_is_open = False
         self.unlocking_flash = []
         self.high: set[tuple[int, int]] = set()  # Pins that were set.
+        self.outputs.reset(self.time_us)
 
     def tick(self, us: int) -> None:
         """Time passes."""
@@ -175,6 +182,14 @@ class Chip:
         if self.watchdog_us and self.time_us - self.fed_us > self.watchdog_us:
             self.starved = True
             self.reset_wanted = True
+        if self.outputs.due_us is not None and self.time_us >= self.outputs.due_us:
+            self.outputs.advance(self.time_us, self.words)
+            self.outputs.note(self.time_us, self.words, self.high, at_period=True)
+
+    def level(self, pin: tuple[int, int]) -> State:
+        """What a pin does that no timer has."""
+        mode = self.words.get(GPIOA + 0x400 * pin[0], 0) >> 2 * pin[1] & 3
+        return ("high" if pin in self.high else "low") if mode == 1 else "floats"
 
     # Registers.
 
@@ -210,6 +225,8 @@ class Chip:
     def write(self, address: int, value: int) -> None:
         """What writing a register does."""
         base = self.block(address)
+        if base in CLOCKED and not self.words.get(CLOCKED[base][0], 0) >> CLOCKED[base][1] & 1:
+            return  # Without its clock a peripheral takes nothing.
         self.words[address] = value
         handler: Callable[[int, int], None] | None = {
             RCC: self._rcc, PWR: self._pwr, IWDG: self._iwdg, SPI1: self._spi, SPI2: self._spi2,
@@ -221,6 +238,16 @@ class Chip:
             handler(address - base, value)
         elif GPIOA <= base < GPIOA + 11 * 0x400:
             self._gpio((base - GPIOA) // 0x400, address - base, value)
+        if base in CLOCKED or (GPIOA <= base < GPIOA + 11 * 0x400 and address - base < 0x28):
+            self._outputs(base, address - base)
+
+    def _outputs(self, base: int, offset: int) -> None:
+        """A timer of the outputs, or a port, has changed."""
+        try:
+            begins = base in CLOCKED and self.outputs.write(base, offset, self.time_us, self.words)
+            self.outputs.note(self.time_us, self.words, self.high, begins)
+        except PulseError as error:
+            raise ModelError(str(error)) from error
 
     def _systick(self, offset: int, value: int) -> None:
         """Whoever starts it sleeps until its end, which is at once: the time has gone by."""

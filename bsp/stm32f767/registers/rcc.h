@@ -68,7 +68,9 @@ typedef struct keel_rcc {
 #define RCC_AHB1ENR_GPIOIEN    BITS(8u, 1u)
 #define RCC_AHB1ENR_BKPSRAMEN  BITS(18u, 1u)
 #define RCC_APB1ENR_RESET      0x00000000u
+#define RCC_APB1ENR_TIM4EN     BITS(2u, 1u)
 #define RCC_APB1ENR_TIM5EN     BITS(3u, 1u)
+#define RCC_APB1ENR_TIM12EN    BITS(6u, 1u)
 #define RCC_APB1ENR_SPI2EN     BITS(14u, 1u)
 #define RCC_APB1ENR_USART3EN   BITS(18u, 1u)
 #define RCC_APB1ENR_PWREN      BITS(28u, 1u)
