@@ -18,9 +18,13 @@
 #include <stdint.h>
 
 /* Where code and data of real-time tasks lie: memories that the core reaches without waiting. */
-#define KEEL_REALTIME_CODE __attribute__((section(".itcm")))
+#define KEEL_REALTIME_CODE KEEL_REALTIME_LINE(__LINE__)
 #define KEEL_REALTIME_DATA __attribute__((section(".dtcm_data")))
 #define KEEL_REALTIME_ZERO __attribute__((section(".dtcm_bss"))) /* For objects without a value. */
+
+/* A section for each function, of which the linker drops those that nobody calls. */
+#define KEEL_REALTIME_LINE(line)    KEEL_REALTIME_SECTION(line)
+#define KEEL_REALTIME_SECTION(line) __attribute__((section(".itcm." #line)))
 
 /* For applications. */
 

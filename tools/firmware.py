@@ -17,9 +17,9 @@ A board is a folder bsp/<board> with a file board.toml:
     load_address  the address of the binary file's first byte: the load address of the image
     [[region]]    name, origin, size: the memories that an image may use; none else is used
     [[place]]     region, and one of sections, symbols (names, with * and ?) or code_of (source
-                  files or folders: each function of theirs); load, optional: the region that
-                  holds the copy from which the startup code fills it. A name that matches nothing
-                  is an error, unless optional = true.
+                  files or folders: each function of theirs, but for names of the list but); load,
+                  optional: the region that holds the copy from which the startup code fills it. A
+                  name that matches nothing is an error, unless optional = true.
     base          optional: a file with what boards share. The board's lists come behind those of
                   the base, and its regions replace those of the same name.
 

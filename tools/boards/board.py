@@ -35,6 +35,7 @@ class Place(Table):
     sections: list[Text] = []
     symbols: list[Text] = []
     code_of: list[Text] = []
+    but: list[Text] = []
     optional: bool = False
 
     @model_validator(mode="after")
