@@ -18,10 +18,10 @@ Functions of the compiler's library have no such data; their frames are read fro
 instructions. An error is: an indirect call without an entry, a function without data, a frame
 without a bound, recursion, and a function of the image that nothing reaches, since then a call is
 missing here. An error is also a function in ITCM that nobody calls while tasks run: what is for the
-start alone does not belong there. To the deepest path comes what the core stacks for an exception, with the registers of
-the FPU: no interrupt is enabled, so there is at most one, a fault, whose handler has a stack of its
-own. Where the application ran on the emulated board (make test-target) since the image was built,
-its painted stack must not have been deeper than the bound.
+start alone does not belong there. To the deepest path comes what the core stacks for an exception,
+with the registers of the FPU: no interrupt is enabled, so there is at most one, a fault, whose
+handler has a stack of its own. Where the application ran on the emulated board (make test-target)
+since the image was built, its painted stack must not have been deeper than the bound.
 
 build/stack/<board>.json has the bound of each task and the deepest path of each stack. Exit
 status: 0 when every bound holds, 1 when not or when there is none, 2 when none could be sought.

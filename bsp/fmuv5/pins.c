@@ -47,11 +47,18 @@ static const keel_board_card_t slot = {
              KEEL_ALTERNATE(C, 10u, 12u, SDMMC1, D2), KEEL_ALTERNATE(C, 11u, 12u, SDMMC1, D3)},
 };
 
-static const keel_board_memory_t fram = {
+static const keel_board_device_t fram = {
     .sck = KEEL_ALTERNATE(I, 1u, 5u, SPI2, SCK),
     .miso = KEEL_ALTERNATE(I, 2u, 5u, SPI2, MISO),
     .mosi = KEEL_ALTERNATE(I, 3u, 5u, SPI2, MOSI),
     .select = KEEL_PIN(F, 5u),
+};
+
+static const keel_board_device_t barometer = {
+    .sck = KEEL_ALTERNATE(E, 2u, 5u, SPI4, SCK),
+    .miso = KEEL_ALTERNATE(E, 13u, 5u, SPI4, MISO),
+    .mosi = KEEL_ALTERNATE(E, 6u, 5u, SPI4, MOSI),
+    .select = KEEL_PIN(F, 10u),
 };
 
 const keel_board_pins_t keel_board_pins = {
@@ -77,5 +84,7 @@ const keel_board_pins_t keel_board_pins = {
     .analogue_count = KEEL_ANALOGUES,
     .card = &slot,
     .memory = &fram,
+    .barometer = &barometer,
+    .mounting = KEEL_MOUNTING(2, 1, -3),
     .kept_sector = 0u,
 };

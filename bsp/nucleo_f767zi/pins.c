@@ -36,5 +36,7 @@ const keel_board_pins_t keel_board_pins = {
     .analogue = NULL,
     .analogue_count = 0u,
     .card = NULL,
-    .kept_sector = 10u, /* The last two; board.toml keeps images out of them. */
+    .barometer = NULL,
+    .mounting = KEEL_MOUNTING(1, -2, -3), /* The sensor's x forward and its z upwards. */
+    .kept_sector = 10u,                   /* The last two; board.toml keeps images out of them. */
 };

@@ -31,6 +31,7 @@ from boards.board import read_board  # noqa: E402
 from boards.card import SdCard  # noqa: E402
 from boards.chip import PWR, RCC, Chip, ModelError  # noqa: E402
 from boards.fram import Fram  # noqa: E402
+from boards.ms5611 import check_of  # noqa: E402
 from boards.processor import Processor  # noqa: E402
 from boards.pulses import Pulse, State  # noqa: E402
 from boards.rebuilt import SOURCES  # noqa: E402
@@ -635,6 +636,60 @@ class BoardTest(unittest.TestCase):
             self.board.write(address, value)
             with self.assertRaisesRegex(ModelError, reason):
                 self.board.write(chip.SPI2 + 0xC, 0)
+
+    def barometer(self) -> None:
+        """SPI 4 and its pins as they should be, and the barometer selected."""
+        port = chip.GPIOA + 4 * 0x400
+        self.board.write(RCC + 0x44, 1 << 13)
+        self.board.write(port, 2 << 4 | 2 << 12 | 2 << 26)
+        self.board.write(port + 0x20, 5 << 8 | 5 << 24)
+        self.board.write(port + 0x24, 5 << 20)
+        self.board.write(chip.SPI4 + 4, 0x700)
+        self.board.write(chip.SPI4, 0x357)
+        for high in (False, True, False):  # Deselected in between.
+            self.board.write(chip.GPIOA + 5 * 0x400 + 0x18, 1 << (10 if high else 26))
+
+    def ask(self, command: int, count: int) -> int:
+        """What the barometer answers."""
+        self.barometer()
+        self.board.write(chip.SPI4 + 0xC, command)
+        value = 0
+        for _ in range(count):
+            self.board.write(chip.SPI4 + 0xC, 0)
+            value = value << 8 | self.board.read(chip.SPI4 + 0xC)
+        return value
+
+    def test_a_barometer(self) -> None:
+        self.ask(0x1E, 0)
+        self.board.tick(2800)
+        words = [self.ask(0xA0 + 2 * i, 2) for i in range(8)]
+        self.assertEqual(words[1:7], [40127, 36924, 23317, 23282, 33464, 28312])
+        self.ask(0x48, 0)
+        self.board.tick(9039)
+        self.assertEqual(self.ask(0, 3), 0)  # Too early, and lost.
+        self.board.tick(1)
+        self.ask(0x48, 0)
+        self.ask(0x48, 0)  # Not while it converts.
+        self.board.tick(9040)
+        self.assertIn(self.ask(0, 3), range(9085466, 9085474))
+        self.assertEqual(self.ask(0, 3), 0)  # Once.
+
+    def test_the_check_of_a_barometers_prom(self) -> None:
+        """The example of AN520, whose check is 0xB."""
+        words = [0x3132, 0x3334, 0x3536, 0x3738, 0x3940, 0x4142, 0x4344, 0x450B]
+        self.assertEqual(check_of(words), 0xB)
+
+    def test_bytes_to_the_barometer_that_must_not_be(self) -> None:
+        port = chip.GPIOA + 4 * 0x400
+        for address, value, reason in (
+            (RCC + 0x44, 0, "no clock"), (port, 2 << 4 | 2 << 12, "pin is not its own"),
+            (port + 0x24, 6 << 20, "pin is not its own"), (chip.SPI4, 0x355, "mode 0 or 3"),
+            (chip.SPI4, 0x34F, "at 27 MHz"), (chip.SPI4, 0x317, "is off"),
+        ):  # fmt: skip
+            self.barometer()
+            self.board.write(address, value)
+            with self.assertRaisesRegex(ModelError, reason):
+                self.board.write(chip.SPI4 + 0xC, 0)
 
     def converter(self) -> None:
         """ADC1 as it should be: an eighth of 16 MHz, 144 cycles for all channels, pins analogue."""

@@ -119,6 +119,10 @@ class RegistersTest(unittest.TestCase):
         self.change("bsp/fmuv5/pins.c", "KEEL_LEVEL(G, 4u, false)", "KEEL_LEVEL(G, 4u, true)")
         self.finds("bsp/fmuv5/pins.c", "PG4 high", "PG4 low")
 
+    def test_a_sensor_that_is_mounted_otherwise_is_found(self) -> None:
+        self.change("bsp/fmuv5/pins.c", "KEEL_MOUNTING(2, 1, -3)", "KEEL_MOUNTING(1, -2, -3)")
+        self.finds("bsp/fmuv5/pins.c", "mounting [[1, -2, -3]]", "has [2, 1, -3]")
+
     def test_a_board_whose_sockets_nobody_told_is_found(self) -> None:
         path = self.root / SOCKETS
         path.write_text(path.read_text().replace('"nucleo_f767zi"', '"other"'))

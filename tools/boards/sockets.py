@@ -13,6 +13,7 @@ from common.files import read_text
 SOCKETS = "specs/outputs.toml"
 PINS = "bsp/*/pins.c"
 OUTPUT_LINE = re.compile(r"KEEL_OUTPUT\((\w), (\d+)u, \d+u, (\w+), (\w+)\)")
+MOUNTING_LINE = re.compile(r"KEEL_MOUNTING\((-?\d), (-?\d), (-?\d)\)")
 LEVEL_LINE = re.compile(r"KEEL_LEVEL\((\w), (\d+)u, (true|false)\)")
 
 
@@ -21,6 +22,7 @@ class Sockets(Table):
 
     name: Text
     source: Text
+    mounting: list[int]
     outputs: list[Text]
     levels: list[Text]
 
@@ -60,14 +62,18 @@ def socket_differences(root: Path) -> Iterator[tuple[str, int, list[str]]]:
         if board is None:
             yield where, 0, [f"{where}: {SOCKETS} does not have this board"]
             continue
-        outputs, levels = stated(read_text(path))
+        text = read_text(path)
+        outputs, levels = stated(text)
         wrong = []
+        mounted = [[int(axis) for axis in found] for found in MOUNTING_LINE.findall(text)]
+        if mounted != [board.mounting]:
+            wrong.append(f"{where}: mounting {mounted}; {SOCKETS} has {board.mounting}")
         if outputs != board.outputs:
             wrong.append(f"{where}: outputs {', '.join(outputs)}; {SOCKETS} has "
                          f"{', '.join(board.outputs)}")  # fmt: skip
         if sorted(levels) != sorted(board.levels):
             wrong.append(f"{where}: levels {', '.join(sorted(levels))}; {SOCKETS} has "
                          f"{', '.join(sorted(board.levels))}")  # fmt: skip
-        yield where, len(outputs) + len(levels), wrong
+        yield where, len(outputs) + len(levels) + len(mounted), wrong
     for name in known:
         yield SOCKETS, 0, [f"{SOCKETS}: {name}: there is no bsp/{name}/pins.c"]

@@ -80,6 +80,7 @@ typedef struct keel_rcc {
 #define RCC_APB2ENR_ADC1EN     BITS(8u, 1u)
 #define RCC_APB2ENR_SDMMC1EN   BITS(11u, 1u)
 #define RCC_APB2ENR_SPI1EN     BITS(12u, 1u)
+#define RCC_APB2ENR_SPI4EN     BITS(13u, 1u)
 #define RCC_CSR_RESET          0x0E000000u
 #define RCC_CSR_RMVF           BITS(24u, 1u)
 #define RCC_CSR_IWDGRSTF       BITS(29u, 1u)

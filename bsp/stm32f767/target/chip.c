@@ -9,6 +9,7 @@
 #include "cortex_m7/reset.h"
 #include "cortex_m7/sleep.h"
 #include "devices/fm25v02.h"
+#include "devices/ms5611.h"
 #include "stm32f767/flash_medium.h"
 #include "stm32f767/power.h"
 #include "stm32f767/pwm.h"
@@ -28,6 +29,7 @@
 #define TIM5            ((keel_tim_t *)TIM5_BASE)
 #define SPI1            ((keel_spi_t *)SPI1_BASE)
 #define SPI2            ((keel_spi_t *)SPI2_BASE)
+#define SPI4            ((keel_spi_t *)SPI4_BASE)
 #define SDMMC1          ((keel_sdmmc_t *)SDMMC1_BASE)
 #define IWDG            ((keel_iwdg_t *)IWDG_BASE)
 #define DBGMCU          ((keel_dbgmcu_t *)DBGMCU_BASE)
@@ -47,8 +49,10 @@
 #define LOG2_STACK_GUARD 10u
 #define LOG2_HALF_GIB    29u
 #define CARD_CLOCK_HZ    48000000u
-#define CARD_LIMIT_HZ    16000000u  /* The processor moves the data: 512 bytes in 64 us. */
-#define DELAY_LOOKS      100000000u /* Far more than a delay takes, but not for ever. */
+#define CARD_LIMIT_HZ    16000000u /* The processor moves the data: 512 bytes in 64 us. */
+#define FORCE_UNIT       (9.80665f / 2048.0f)   /* In m/s^2. */
+#define RATE_UNIT        (0.017453293f / 16.4f) /* In rad/s. */
+#define DELAY_LOOKS      100000000u             /* Far more than a delay takes, but not for ever. */
 
 #define GPIO_CLOCKS                                                                                \
     (RCC_AHB1ENR_GPIOAEN | RCC_AHB1ENR_GPIOBEN | RCC_AHB1ENR_GPIOCEN | RCC_AHB1ENR_GPIODEN |       \
@@ -336,6 +340,45 @@ keel_bsp_status_t keel_chip_sensor_start(void)
     return keel_invensense_start(keel_chip_sensor());
 }
 
+/* What is along an axis of the body, of what is along the sensor's. */
+KEEL_REALTIME_CODE static float along(const int16_t value[], int8_t axis)
+{
+    const int16_t sensor = value[((axis < 0) ? -axis : axis) - 1];
+
+    return (axis < 0) ? -(float)sensor : (float)sensor;
+}
+
+KEEL_REALTIME_CODE keel_bsp_status_t keel_chip_motion(keel_chip_motion_t *motion)
+{
+    keel_invensense_sample_t sample;
+    const keel_bsp_status_t status = keel_invensense_read(keel_chip_sensor(), &sample);
+
+    if (status == KEEL_BSP_OK) {
+        for (uint32_t i = 0u; i < 3u; i++) {
+            motion->force[i] = FORCE_UNIT * along(sample.acceleration, PINS->mounting.axis[i]);
+            motion->rate[i] = RATE_UNIT * along(sample.rate, PINS->mounting.axis[i]);
+        }
+        motion->temperature_cdeg = sample.temperature_cdeg;
+    }
+    return status;
+}
+
+bool keel_chip_barometer(keel_bus_t *bus)
+{
+    static keel_spi_device_t device;
+    const keel_board_device_t *const barometer = PINS->barometer;
+
+    if (barometer == NULL) {
+        return false;
+    }
+    device = (keel_spi_device_t){SPI4, barometer->select, &byte_patience};
+    give_spi(barometer->select, barometer->sck, barometer->miso, barometer->mosi);
+    keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_SPI4EN);
+    require(keel_spi_start(SPI4, KEEL_APB2_LIMIT_HZ, KEEL_MS5611_BUS_LIMIT_HZ));
+    *bus = (keel_bus_t){keel_spi_bus_exchange, &device};
+    return true;
+}
+
 bool keel_chip_card(keel_disk_t *disk)
 {
     /* A look takes 50 ns at least: 1 ms and 0.5 s. One at the card's status, 6 us. */
@@ -414,7 +457,7 @@ static keel_bsp_status_t start_sectors(keel_medium_t *medium)
     return keel_flash_medium(&sectors, medium);
 }
 
-static keel_bsp_status_t start_memory(const keel_board_memory_t *memory, keel_medium_t *medium)
+static keel_bsp_status_t start_memory(const keel_board_device_t *memory, keel_medium_t *medium)
 {
     static keel_spi_device_t device;
     static keel_bus_t bus = {keel_spi_bus_exchange, &device};

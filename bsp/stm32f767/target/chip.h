@@ -123,13 +123,38 @@ typedef struct keel_board_card {
     keel_alternate_t data[KEEL_CARD_LINES];
 } keel_board_card_t;
 
-/** A ferroelectric memory FM25V02, alone at SPI 2. */
-typedef struct keel_board_memory {
+/** A device that has an SPI for itself. */
+typedef struct keel_board_device {
     keel_alternate_t sck;
     keel_alternate_t miso;
     keel_alternate_t mosi;
     keel_pin_t select;
-} keel_board_memory_t;
+} keel_board_device_t;
+
+/** Which way a sensor lies on its board: for each axis of the body (forward, right, down) the axis
+ * of the sensor that is along it, from 1 on, negative where it points the other way. */
+typedef struct keel_mounting {
+    int8_t axis[3];
+} keel_mounting_t;
+
+/* 12 for a rotation and for nothing else: three axes in the order of a right hand. The differences
+ * of a permutation of 1, 2 and 3 multiply to 2 or, when it is odd, to -2. */
+#define KEEL_SIZE(axis) (((axis) < 0) ? -(axis) : (axis))
+#define KEEL_HANDED(x, y, z)                                                                       \
+    ((x) * (y) * (z) * (KEEL_SIZE(x) - KEEL_SIZE(y)) * (KEEL_SIZE(y) - KEEL_SIZE(z)) *             \
+     (KEEL_SIZE(z) - KEEL_SIZE(x)))
+
+/**
+ * A mounting. One that is no rotation does not compile: the array would have a negative size.
+ * tools/registers.py holds it against specs/outputs.toml.
+ */
+#define KEEL_MOUNTING(x, y, z)                                                                     \
+    {                                                                                              \
+        {                                                                                          \
+            (int8_t)((x) + (0 * (int)sizeof(char[(KEEL_HANDED(x, y, z) == 12) ? 1 : -1]))), (y),   \
+                (z)                                                                                \
+        }                                                                                          \
+    }
 
 /** What a board says about itself. */
 typedef struct keel_board_pins {
@@ -149,10 +174,12 @@ typedef struct keel_board_pins {
     keel_pin_t sensor_select;
     const keel_pin_t *deselect; /**< Other devices on the bus, which must stay silent. */
     uint32_t deselect_count;
-    const keel_analogue_t *analogue;   /**< By keel_analogue_name_t; null: none. */
-    uint32_t analogue_count;           /**< KEEL_ANALOGUES, or 0. */
-    const keel_board_card_t *card;     /**< Null: no slot. */
-    const keel_board_memory_t *memory; /**< Null: none. */
+    const keel_analogue_t *analogue;      /**< By keel_analogue_name_t; null: none. */
+    uint32_t analogue_count;              /**< KEEL_ANALOGUES, or 0. */
+    keel_mounting_t mounting;             /**< Of the sensor. */
+    const keel_board_card_t *card;        /**< Null: no slot. */
+    const keel_board_device_t *memory;    /**< FM25V02 at SPI 2; null: none. */
+    const keel_board_device_t *barometer; /**< MS5611 at SPI 4; null: none. */
     uint32_t kept_sector; /**< The first of two flash sectors that images leave free, where there is
                                no memory; 0: none. */
 } keel_board_pins_t;
@@ -177,6 +204,29 @@ keel_bsp_status_t keel_chip_sensor_start(void);
 
 /** The inertial sensor, an ICM-20689, after keel_chip_sensor_start. */
 keel_invensense_t *keel_chip_sensor(void);
+
+/** A sample of the sensor in body axes (forward, right, down). */
+typedef struct keel_chip_motion {
+    float force[3];           /**< Specific force, in m/s^2. */
+    float rate[3];            /**< In rad/s. */
+    int16_t temperature_cdeg; /**< Of the sensor, in hundredths of a degree Celsius. */
+} keel_chip_motion_t;
+
+/**
+ * Reads the sensor and turns the sample as the board has mounted it.
+ *
+ * @param motion the sample; as it was unless KEEL_BSP_OK
+ * @return as keel_invensense_read
+ */
+keel_bsp_status_t keel_chip_motion(keel_chip_motion_t *motion);
+
+/**
+ * Starts the bus of the board's barometer, an MS5611. To be called once, 20 ms after the start.
+ *
+ * @param bus the bus; as it was when there is no barometer
+ * @return whether the board has one
+ */
+bool keel_chip_barometer(keel_bus_t *bus);
 
 /**
  * The slot for an SD card, supplied and ready for the disk's start, which is the card's, by
