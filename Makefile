@@ -13,9 +13,10 @@ SECONDS := 60
 TASKSET ?= specs/tasksets/urpilot.toml
 ARGS ?=
 BOARD ?=
+APP ?=
 
 # The variables that a command line may set. Another one is a slip, and must not pass unnoticed.
-VARIABLES := UNIT CAPACITY SENSORS SECONDS TASKSET ARGS BOARD DASK CFLAGS KEEL_CACHE KEEL_NO_INSTALL KEEL_FRESH \
+VARIABLES := UNIT CAPACITY SENSORS SECONDS TASKSET ARGS BOARD APP DASK CFLAGS KEEL_CACHE KEEL_NO_INSTALL KEEL_FRESH \
              KEEL_DEBIAN_MIRROR VERIFY SCENARIO SEED N JOBS ADDRESS FILE
 GIVEN := $(foreach name,$(.VARIABLES),$(if $(findstring command line,$(origin $(name))),$(name)))
 STRANGE := $(filter-out $(VARIABLES),$(GIVEN))
@@ -192,9 +193,9 @@ status: python ## write what the last run of 'make prove' proved into docs/statu
 test-target: python ## the unit tests, faults, demo and model's results on an emulated Cortex-M7
 	@python3 tools/emulated_tests.py $(ARGS)
 
-firmware: python ## build a board's image (BOARD=mps2_an500; ARGS='--app FOLDER': another main)
+firmware: python ## build a board's image (BOARD=fmuv5; APP=copter: the copter; ARGS='--app FOLDER': another main)
 	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/urpilot
-	@python3 tools/firmware.py "$(BOARD)" $(ARGS)
+	@python3 tools/firmware.py "$(BOARD)" $(if $(APP),--named "$(APP)") $(ARGS)
 
 model: python ## run a board's image on a model of its chip (BOARD=nucleo_f767zi; ARGS='--keys 1.5:t')
 	@python3 tools/chip_model.py "$(BOARD)" $(ARGS)

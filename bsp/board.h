@@ -18,9 +18,13 @@
 #include <stdint.h>
 
 /* Where code and data of real-time tasks lie: memories that the core reaches without waiting. */
-#define KEEL_REALTIME_CODE __attribute__((section(".itcm")))
+#define KEEL_REALTIME_CODE KEEL_REALTIME_LINE(__LINE__)
 #define KEEL_REALTIME_DATA __attribute__((section(".dtcm_data")))
 #define KEEL_REALTIME_ZERO __attribute__((section(".dtcm_bss"))) /* For objects without a value. */
+
+/* A section for each function, of which the linker drops those that nobody calls. */
+#define KEEL_REALTIME_LINE(line)    KEEL_REALTIME_SECTION(line)
+#define KEEL_REALTIME_SECTION(line) __attribute__((section(".itcm." #line)))
 
 /* For applications. */
 
@@ -55,6 +59,11 @@ void keel_board_put(char c);
 
 /** Puts all outputs into their safe state; may be called with anything broken. */
 void keel_board_outputs_off(void);
+
+/** Holds them there for as long as what they drive needs to notice it: a reset lets pins float, and
+ *  what floats may be read as a pulse. Called before every reset; may be called with anything
+ *  broken. */
+void keel_board_outputs_hold(void);
 
 /* For the start-up code, in the order in which it needs them. */
 

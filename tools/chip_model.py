@@ -9,11 +9,11 @@
 
 An emulator of the processor's instructions (Unicorn) runs the very image that is flashed. Modelled
 around it, register by register, is what the image uses: clocks with over-drive and flash latency,
-timers, the console, the watchdog, the pulse outputs, an SPI with an ICM-20689, the converter, a
-slot with an SD card (an image of it, into which the run's writes go), the memory protection's
-guards, faults and resets, and the memories, of which the backup memory keeps its content. The model
-checks as well: that the core changes to the PLL only when that is allowed, and that nothing writes
-to what is not there.
+timers, the console, the watchdog, the pulse outputs pin by pin, an SPI with an ICM-20689, the
+converter, a slot with an SD card (an image of it, into which the run's writes go), the memory
+protection's guards, faults and resets, and the memories, of which the backup memory keeps its
+content. The model checks as well: that the core changes to the PLL only when that is allowed, and
+that nothing writes to what is not there.
 
 What it cannot tell: anything about time. Its clock moves on by a microsecond with each reading of
 the time base, so code between two readings takes none. Caches and wait states have no effect.
@@ -34,6 +34,7 @@ from boards.card import SdCard
 from boards.chip import BROKEN, OPTIONS, UART7, USART3, Chip
 from boards.fram import Fram
 from boards.processor import Processor
+from boards.sockets import read_sockets
 from common.arguments import Parser
 from common.errors import ROOT, ToolError, program, unknown
 from common.files import write_bytes, write_json
@@ -53,7 +54,8 @@ def simulate(
     if name not in CONSOLES:
         raise ToolError(unknown("model", name, CONSOLES))
     image = read_built(root, name)
-    chip = Chip(*CONSOLES[name], broken)
+    # The sockets' order is told by others than the board's table, and does not come with its image.
+    chip = Chip(*CONSOLES[name], broken, read_sockets(ROOT)[name].outputs)
     chip.keys = sorted(keys)
     chip.step_us = step_us
     chip.options = options
@@ -90,6 +92,7 @@ def conclude(board: str, seconds: float, chip: Chip, root: Path) -> int:
     print(chip.text.replace("\r", ""), end="")
     content = {"board": board, "seconds": seconds, "resets": chip.resets,
                "sensor_samples": chip.sensor.samples, "armed_us": chip.armed_us,
+               "outputs": chip.outputs.log,
                "console": chip.text}  # fmt: skip
     write_json(root / REPORT / f"{board}.json", content)
     good = f"Keel on {board}" in chip.text or "safe state" in chip.text

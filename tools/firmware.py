@@ -5,6 +5,7 @@
     python3 tools/firmware.py mps2_an500                     # the board's application
     python3 tools/firmware.py nucleo_f767zi --app my/folder  # another application
     python3 tools/firmware.py fmuv5 --app examples/recorder --with fatfs
+    python3 tools/firmware.py fmuv5 --named copter
 
 A board is a folder bsp/<board> with a file board.toml:
 
@@ -14,12 +15,13 @@ A board is a folder bsp/<board> with a file board.toml:
     include       folders with headers, besides include and bsp
     defines       macros, as NAME or NAME=VALUE
     application   the files or folders with main(); --app takes others
+    [[named]]     name, application, libraries: other applications, for --named
     load_address  the address of the binary file's first byte: the load address of the image
     [[region]]    name, origin, size: the memories that an image may use; none else is used
     [[place]]     region, and one of sections, symbols (names, with * and ?) or code_of (source
-                  files or folders: each function of theirs); load, optional: the region that
-                  holds the copy from which the startup code fills it. A name that matches nothing
-                  is an error, unless optional = true.
+                  files or folders: each function of theirs, but for names of the list but); load,
+                  optional: the region that holds the copy from which the startup code fills it. A
+                  name that matches nothing is an error, unless optional = true.
     base          optional: a file with what boards share. The board's lists come behind those of
                   the base, and its regions replace those of the same name.
 
@@ -40,7 +42,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from boards.board import BOARD_FILE, Board, read_board
+from boards.board import BOARD_FILE, Board, application_of, read_board
 from boards.built import FIRMWARE
 from boards.elf import Contents, read_contents
 from boards.placement import Check, check_image, usage
@@ -219,16 +221,20 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         "--with", dest="libraries", action="append", default=[], choices=("fatfs",),
         help="a library that the application uses",
     )  # fmt: skip
+    parser.add_argument(
+        "--named", metavar="NAME", help="an application that the board's file names, instead"
+    )
     options = parser.parse_args(arguments)
 
     def work() -> int:
-        read_board(root, options.board)
+        board = read_board(root, options.board)
+        named = application_of(board, options.named) if options.named else None
         tools = Toolchain()
-        fatfs = "fatfs" in options.libraries
+        fatfs = "fatfs" in (named.libraries if named else options.libraries)
         tools.ensure("firmware")
         if fatfs:
             tools.ensure("fatfs")
-        build(tools, options.board, options.app, root, fatfs)
+        build(tools, options.board, named.application if named else options.app, root, fatfs)
         return 0
 
     return program("firmware", work)

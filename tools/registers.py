@@ -16,7 +16,9 @@ fetched with their checksums and read as data:
 A fact without a counterpart is a difference, unless specs/registers.toml says with a reason why it
 has none, or what the database calls it. An entry there that nothing needs is a difference too.
 The signals of the boards' pins (bsp/*/pins.c) and what the boards' files say of memories and
-interrupts (bsp/*/board.toml, and their base) are compared as well.
+interrupts (bsp/*/board.toml, and their base) are compared as well. Which pin comes out at which
+socket, and which supply a pin switches, no database of a chip can know: that is compared with
+specs/outputs.toml, which has it from others' firmware.
 
 build/registers/report.json has every fact. Exit status: 0 without differences, 1 with, 2 when
 nothing could be compared.
@@ -33,13 +35,13 @@ from pathlib import Path
 from boards.board import BOARD_FILE, Board, read_board
 from boards.register_databases import Databases, Metapac
 from boards.register_headers import Fact, instances_of, read_facts, read_headers
+from boards.sockets import PINS, socket_differences
 from common.arguments import Parser
 from common.config import Table, Text, read_toml
 from common.errors import ROOT, program
 from common.files import read_text, write_json
 from toolchain import Toolchain
 
-PINS = "bsp/*/pins.c"
 EXCEPTIONS = "specs/registers.toml"
 REPORT = Path("build/registers/report.json")
 
@@ -137,7 +139,7 @@ class Comparison:
             self.differences.append(f"{fact.where}: {fact.name} ({fact.block}): no counterpart")
 
 
-PIN_LINE = re.compile(r"KEEL_ALTERNATE\((\w), (\d+)u, (\d+)u, (\w+), (\w+)\)")
+PIN_LINE = re.compile(r"KEEL_(?:ALTERNATE|OUTPUT)\((\w), (\d+)u, (\d+)u, (\w+), (\w+)\)")
 ANALOGUE_LINE = re.compile(r"KEEL_ANALOGUE\((\w), (\d+)u, (\d+)u\)")
 
 
@@ -165,6 +167,13 @@ def compare_pins(root: Path, databases: Databases, result: Comparison) -> None:
             result.facts.append({"fact": name, "of": where, "kind": "pin"})
             if (peripheral, pin, signal, int(function)) not in package.signals:
                 result.differences.append(f"{where}: {name}: stm32-metapac has no such function")
+
+
+def compare_sockets(root: Path, result: Comparison) -> None:
+    """The order of outputs, and the levels, in the boards' pin tables."""
+    for _, count, wrong in socket_differences(root):
+        result.compared["socket"] = result.compared.get("socket", 0) + count
+        result.differences += wrong
 
 
 VECTORS = re.compile(r"KEEL_BOARD_INTERRUPTS=(\d+)u?")
@@ -207,6 +216,7 @@ def compare(tools: Toolchain, root: Path, databases: Databases) -> Comparison:
         result.check(fact, found, not found and exceptions.excuses(fact.name))
     compare_pins(root, databases, result)
     compare_boards(root, databases, result)
+    compare_sockets(root, result)
     for name in exceptions.unused():
         result.differences.append(f"{EXCEPTIONS}: {name}: nothing needs this entry")
     return result

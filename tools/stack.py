@@ -8,6 +8,7 @@ The compiler writes for each function how much stack its frame takes and whom it
 the objects). What it cannot know stands in specs/stack.toml:
 
     tasks         the bodies of tasks, which the scheduler calls
+    running       what the main loop calls while tasks run
     [[indirect]]  a function that calls through a pointer, and all that it may call, or nothing if
                   the pointer is null; "tasks" stands for the bodies
     [[entry]]     a function that hardware or assembly enters, and with how many bytes on its stack
@@ -16,10 +17,11 @@ the objects). What it cannot know stands in specs/stack.toml:
 Functions of the compiler's library have no such data; their frames are read from the image's
 instructions. An error is: an indirect call without an entry, a function without data, a frame
 without a bound, recursion, and a function of the image that nothing reaches, since then a call is
-missing here. To the deepest path comes what the core stacks for an exception, with the registers of
-the FPU: no interrupt is enabled, so there is at most one, a fault, whose handler has a stack of its
-own. Where the application ran on the emulated board (make test-target) since the image was built,
-its painted stack must not have been deeper than the bound.
+missing here. An error is also a function in ITCM that nobody calls while tasks run: what is for the
+start alone does not belong there. To the deepest path comes what the core stacks for an exception,
+with the registers of the FPU: no interrupt is enabled, so there is at most one, a fault, whose
+handler has a stack of its own. Where the application ran on the emulated board (make test-target)
+since the image was built, its painted stack must not have been deeper than the bound.
 
 build/stack/<board>.json has the bound of each task and the deepest path of each stack. Exit
 status: 0 when every bound holds, 1 when not or when there is none, 2 when none could be sought.
@@ -32,11 +34,18 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from boards.board import board_folder
+from boards.board import board_folder, read_board
 from boards.built import read_built
-from boards.call_graph import Disassembler, read_graph
+from boards.call_graph import Disassembler, StackError, read_graph
 from boards.elf import Contents, read_contents
-from boards.stack_bounds import EXCEPTION_FRAME_B, TABLE, StackTable, analyse, mistakes
+from boards.stack_bounds import (
+    EXCEPTION_FRAME_B,
+    TABLE,
+    StackTable,
+    analyse,
+    idle_code,
+    mistakes,
+)
 from common.arguments import Parser
 from common.config import read_toml
 from common.errors import ROOT, program
@@ -77,9 +86,15 @@ def measure(tools: Toolchain, root: Path, board: str) -> dict[str, object]:
     """Analyse a board's image; the report."""
     image = read_built(root, board)
     contents = read_contents(tools, image.elf)
+    fast = read_board(root, board).memory("ITCM")
     code = Disassembler(tools, contents).functions()
     table = read_toml(root / TABLE, StackTable, mistakes)
-    stacks, tasks, library = analyse(read_graph(image), code, table, stack_sizes(contents))
+    graph = read_graph(image)
+    stacks, tasks, library = analyse(graph, code, table, stack_sizes(contents))
+    names = [item.name for item in contents.functions if fast.holds(item.address, item.size)]
+    idle = idle_code(graph, code, table.running, names)
+    if idle:
+        raise StackError(f"in ITCM, but nobody calls them while tasks run: {', '.join(idle)}")
     return {
         "board": board,
         "exception_frame_bytes": EXCEPTION_FRAME_B,

@@ -6,7 +6,7 @@
 #ifndef KEEL_BSP_CORTEX_M7_RESET_H
 #define KEEL_BSP_CORTEX_M7_RESET_H
 
-/** Resets, once all that was written has arrived. */
+/** Resets, once outputs have been off long enough and all that was written has arrived. */
 void keel_core_reset(void) __attribute__((noreturn));
 
 #endif

@@ -10,7 +10,24 @@ const char keel_board_name[] = "fmuv5";
 static const keel_pin_t others[] = {KEEL_PIN(F, 3u), KEEL_PIN(F, 4u), KEEL_PIN(G, 10u),
                                     KEEL_PIN(H, 5u)};
 
-static const keel_pin_t sensor_power = KEEL_PIN(E, 3u);
+/* FMU_CH1 to FMU_CH8; with an IO processor on the board these are its auxiliary outputs. */
+static const keel_pwm_output_t outputs[] = {
+    KEEL_OUTPUT(E, 14u, 1u, TIM1, CH4), KEEL_OUTPUT(A, 10u, 1u, TIM1, CH3),
+    KEEL_OUTPUT(E, 11u, 1u, TIM1, CH2), KEEL_OUTPUT(E, 9u, 1u, TIM1, CH1),
+    KEEL_OUTPUT(D, 13u, 2u, TIM4, CH2), KEEL_OUTPUT(D, 14u, 2u, TIM4, CH3),
+    KEEL_OUTPUT(H, 6u, 9u, TIM12, CH1), KEEL_OUTPUT(H, 9u, 9u, TIM12, CH2),
+};
+
+static const keel_level_t levels[] = {
+    KEEL_LEVEL(E, 3u, true),   /* 3.3 V of the sensors. */
+    KEEL_LEVEL(G, 4u, false),  /* 5 V of the sockets, active low. */
+    KEEL_LEVEL(F, 12u, false), /* 5 V of the sockets with more power, active low. */
+    KEEL_LEVEL(G, 5u, true),   /* 5 V of the receiver. */
+    KEEL_LEVEL(G, 7u, true),   /* 3.3 V of the card. */
+    KEEL_LEVEL(H, 2u, false),  /* The silence pins of the CAN transceivers, low as with PX4. */
+    KEEL_LEVEL(H, 3u, false),  /* CAN has no driver, so nothing is sent there. */
+    KEEL_LEVEL(H, 4u, false),
+};
 
 /* The power modules' connectors, whose modules divide the battery's voltage by 18.1 and give a volt
  * for 36.4 A (PX4's board configuration of px4/fmu-v5); and the board's own supplies. */
@@ -28,14 +45,20 @@ static const keel_board_card_t slot = {
     .command = KEEL_ALTERNATE(D, 2u, 12u, SDMMC1, CMD),
     .data = {KEEL_ALTERNATE(C, 8u, 12u, SDMMC1, D0), KEEL_ALTERNATE(C, 9u, 12u, SDMMC1, D1),
              KEEL_ALTERNATE(C, 10u, 12u, SDMMC1, D2), KEEL_ALTERNATE(C, 11u, 12u, SDMMC1, D3)},
-    .power = KEEL_PIN(G, 7u),
 };
 
-static const keel_board_memory_t fram = {
+static const keel_board_device_t fram = {
     .sck = KEEL_ALTERNATE(I, 1u, 5u, SPI2, SCK),
     .miso = KEEL_ALTERNATE(I, 2u, 5u, SPI2, MISO),
     .mosi = KEEL_ALTERNATE(I, 3u, 5u, SPI2, MOSI),
     .select = KEEL_PIN(F, 5u),
+};
+
+static const keel_board_device_t barometer = {
+    .sck = KEEL_ALTERNATE(E, 2u, 5u, SPI4, SCK),
+    .miso = KEEL_ALTERNATE(E, 13u, 5u, SPI4, MISO),
+    .mosi = KEEL_ALTERNATE(E, 6u, 5u, SPI4, MOSI),
+    .select = KEEL_PIN(F, 10u),
 };
 
 const keel_board_pins_t keel_board_pins = {
@@ -47,18 +70,21 @@ const keel_board_pins_t keel_board_pins = {
     .led = {[KEEL_LED_RED] = {KEEL_PIN(B, 1u), true},
             [KEEL_LED_GREEN] = {KEEL_PIN(C, 6u), true},
             [KEEL_LED_BLUE] = {KEEL_PIN(C, 7u), true}},
-    .pwm = {KEEL_ALTERNATE(E, 9u, 1u, TIM1, CH1), KEEL_ALTERNATE(E, 11u, 1u, TIM1, CH2),
-            KEEL_ALTERNATE(A, 10u, 1u, TIM1, CH3), KEEL_ALTERNATE(E, 14u, 1u, TIM1, CH4)},
+    .outputs = outputs,
+    .output_count = 8u,
+    .levels = levels,
+    .level_count = 8u,
     .sck = KEEL_ALTERNATE(G, 11u, 5u, SPI1, SCK),
     .miso = KEEL_ALTERNATE(A, 6u, 5u, SPI1, MISO),
     .mosi = KEEL_ALTERNATE(D, 7u, 5u, SPI1, MOSI),
     .sensor_select = KEEL_PIN(F, 2u),
     .deselect = others,
     .deselect_count = 4u,
-    .power = &sensor_power,
     .analogue = analogue,
     .analogue_count = KEEL_ANALOGUES,
     .card = &slot,
     .memory = &fram,
+    .barometer = &barometer,
+    .mounting = KEEL_MOUNTING(2, 1, -3),
     .kept_sector = 0u,
 };

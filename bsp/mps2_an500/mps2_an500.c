@@ -88,6 +88,11 @@ void keel_board_outputs_off(void)
     FPGAIO->LED = 0u; /* All outputs that this board has. */
 }
 
+/* They drive nothing that would have to notice. */
+void keel_board_outputs_hold(void)
+{
+}
+
 void keel_board_halt(int status)
 {
     keel_emulator_exit(status);

@@ -7,6 +7,13 @@
 
 const char keel_board_name[] = "nucleo_f767zi";
 
+static const keel_pwm_output_t outputs[] = {
+    KEEL_OUTPUT(E, 9u, 1u, TIM1, CH1),  /* D6. */
+    KEEL_OUTPUT(E, 11u, 1u, TIM1, CH2), /* D5. */
+    KEEL_OUTPUT(E, 13u, 1u, TIM1, CH3), /* D3. */
+    KEEL_OUTPUT(E, 14u, 1u, TIM1, CH4), /* D38, CN10. */
+};
+
 const keel_board_pins_t keel_board_pins = {
     .oscillator = {8000000u, true}, /* From the ST-LINK. */
     .console = (keel_uart_t *)USART3_BASE,
@@ -16,19 +23,20 @@ const keel_board_pins_t keel_board_pins = {
     .led = {[KEEL_LED_RED] = {KEEL_PIN(B, 14u), false},  /* LD3. */
             [KEEL_LED_GREEN] = {KEEL_PIN(B, 0u), false}, /* LD1. */
             [KEEL_LED_BLUE] = {KEEL_PIN(B, 7u), false}}, /* LD2. */
-    .pwm = {KEEL_ALTERNATE(E, 9u, 1u, TIM1, CH1),        /* D6. */
-            KEEL_ALTERNATE(E, 11u, 1u, TIM1, CH2),       /* D5. */
-            KEEL_ALTERNATE(E, 13u, 1u, TIM1, CH3),       /* D3. */
-            KEEL_ALTERNATE(E, 14u, 1u, TIM1, CH4)},      /* D38, CN10. */
-    .sck = KEEL_ALTERNATE(A, 5u, 5u, SPI1, SCK),         /* D13. */
-    .miso = KEEL_ALTERNATE(A, 6u, 5u, SPI1, MISO),       /* D12. */
-    .mosi = KEEL_ALTERNATE(A, 7u, 5u, SPI1, MOSI),       /* D11; JP6 off, it is Ethernet's too. */
-    .sensor_select = KEEL_PIN(D, 14u),                   /* D10. */
+    .outputs = outputs,
+    .output_count = 4u,
+    .levels = NULL,
+    .level_count = 0u,
+    .sck = KEEL_ALTERNATE(A, 5u, 5u, SPI1, SCK),   /* D13. */
+    .miso = KEEL_ALTERNATE(A, 6u, 5u, SPI1, MISO), /* D12. */
+    .mosi = KEEL_ALTERNATE(A, 7u, 5u, SPI1, MOSI), /* D11; JP6 off, it is Ethernet's too. */
+    .sensor_select = KEEL_PIN(D, 14u),             /* D10. */
     .deselect = NULL,
     .deselect_count = 0u,
-    .power = NULL,
     .analogue = NULL,
     .analogue_count = 0u,
     .card = NULL,
-    .kept_sector = 10u, /* The last two; board.toml keeps images out of them. */
+    .barometer = NULL,
+    .mounting = KEEL_MOUNTING(1, -2, -3), /* The sensor's x forward and its z upwards. */
+    .kept_sector = 10u,                   /* The last two; board.toml keeps images out of them. */
 };

@@ -5,6 +5,7 @@
 #define MODE_OUTPUT    1u
 #define MODE_ALTERNATE 2u
 #define MODE_ANALOGUE  3u
+#define MODE_MASK      3u
 #define SPEED_HIGH     2u
 #define RESET_HALF     16u /* BSRR: the upper half clears. */
 #define PINS_PER_AFR   8u
@@ -50,6 +51,11 @@ void keel_pin_alternate(keel_pin_t pin, uint32_t function, keel_pull_t pull)
     put_two_bits(&pin.port->OSPEEDR, pin.number, SPEED_HIGH);
     put_two_bits(&pin.port->PUPDR, pin.number, (uint32_t)pull);
     put_two_bits(&pin.port->MODER, pin.number, MODE_ALTERNATE);
+}
+
+bool keel_pin_is_alternate(keel_pin_t pin)
+{
+    return ((pin.port->MODER >> (2u * pin.number)) & MODE_MASK) == MODE_ALTERNATE;
 }
 
 void keel_pin_analogue(keel_pin_t pin)

@@ -72,6 +72,13 @@ void keel_pin_input(keel_pin_t pin, keel_pull_t pull);
 void keel_pin_alternate(keel_pin_t pin, uint32_t function, keel_pull_t pull);
 
 /**
+ * Whether a pin is given to a peripheral (requirement PIN-007).
+ *
+ * @param pin the pin
+ */
+bool keel_pin_is_alternate(keel_pin_t pin);
+
+/**
  * Leaves a pin to the analogue-to-digital converter, with nothing that holds it (requirement
  * PIN-006).
  *

@@ -406,7 +406,7 @@ static void turn_trace(void)
 
 static void outputs(bool on)
 {
-    for (uint32_t channel = 0u; channel < KEEL_PWM_OUTPUTS; channel++) {
+    for (uint32_t channel = 0u; channel < keel_chip_output_count(); channel++) {
         (void)keel_chip_pulse(channel, on ? PULSE_US : 0u);
     }
     if (on) {

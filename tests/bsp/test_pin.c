@@ -107,6 +107,18 @@ static void PIN_006_an_analogue_pin(void)
     TEST_ASSERT_EQUAL_HEX32(0x55551554u, port.PUPDR);
 }
 
+static void PIN_007_whose_pin(void)
+{
+    port.MODER = 0x8000C001u; /* Pin 15 is given, 7 analogue, 0 an output, 8 an input. */
+    TEST_ASSERT_TRUE(keel_pin_is_alternate(pin15));
+    TEST_ASSERT_FALSE(keel_pin_is_alternate(pin7));
+    TEST_ASSERT_FALSE(keel_pin_is_alternate(pin0));
+    TEST_ASSERT_FALSE(keel_pin_is_alternate(pin8));
+    port.MODER = 0x7FFD3FFEu; /* Each the other way round. */
+    TEST_ASSERT_FALSE(keel_pin_is_alternate(pin15));
+    TEST_ASSERT_TRUE(keel_pin_is_alternate(pin0));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -118,5 +130,6 @@ int main(void)
     RUN_TEST(PIN_005_alternate_functions_of_both_halves);
     RUN_TEST(PIN_005_an_alternate_function_is_no_open_drain);
     RUN_TEST(PIN_006_an_analogue_pin);
+    RUN_TEST(PIN_007_whose_pin);
     return UNITY_END();
 }

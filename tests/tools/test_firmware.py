@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import firmware  # noqa: E402
-from boards.board import Board, Place, Region, read_board  # noqa: E402
+from boards.board import Board, Place, Region, application_of, read_board  # noqa: E402
 from boards.elf import Contents, Section, Symbol  # noqa: E402
 from boards.placement import check_image, usage  # noqa: E402
 from common.build import source_files  # noqa: E402
@@ -220,6 +220,13 @@ class Bases(Reading):
         self.assertEqual(board.region, [own, RAM])
         self.assertEqual([place.region for place in board.place], ["RAM", "FLASH"])
 
+    def test_named_applications(self) -> None:
+        self.shared(BASE + '[[named]]\nname = "other"\napplication = ["a", "b"]\n')
+        board = self.read(OWN)
+        self.assertEqual(application_of(board, "other").application, ["a", "b"])
+        with self.assertRaisesRegex(ToolError, "there is no application othr; did you mean other"):
+            application_of(board, "othr")
+
     def test_a_missing_base(self) -> None:
         self.refused(OWN, "1: base: there is no bsp/chip/chip.toml")
 
@@ -322,6 +329,20 @@ class Checks(unittest.TestCase):
             ["load of section .data: lies elsewhere"],
         )
 
+    def test_code_that_may_lie_elsewhere(self) -> None:
+        """All functions of a file but some, by a pattern."""
+        (source,) = source_files(["bsp/console.c"], ROOT)
+        inits = Symbol("x_init", 0x8040, 8, True, ".text", "")
+        step = Symbol("x_step", 0x2000_0000, 8, True, ".fast", "")
+        fast = Section(".fast", 0x2000_0000, 8, None)
+        whole = image(TEXT, fast, symbols=(inits, step))
+        for but, found in (([], ["x_init: lies elsewhere"]), (["*_init"], [])):
+            place = Place(region="RAM", code_of=[source], but=but)
+            checks = check_image(toy(place), whole, {source: image(TEXT, symbols=(inits, step))})
+            bad = [f"{check.what.rpartition(': ')[2]}: {check.wrong}" for check in checks
+                   if check.wrong and "x_" in check.what]  # fmt: skip
+            self.assertEqual(bad, found)
+
     def test_usage_counts_what_is_copied_twice(self) -> None:
         self.assertEqual(usage(toy(), image(TEXT, DATA)), {"FLASH": 0x90, "RAM": 0x10})
 
@@ -354,7 +375,14 @@ class Images(Folder):
                 r'^make firmware BOARD=(\w+) ARGS="(--app [^"]*)"', path.read_text(), re.MULTILINE
             )
         ]
-        self.assertGreaterEqual(len(found), 2)
+        found += [
+            [board, "--named", name]
+            for path in sorted((ROOT / "docs").glob("*.md"))
+            for board, name in re.findall(
+                r"^make firmware BOARD=(\w+) APP=(\w+)$", path.read_text(), re.MULTILINE
+            )
+        ]
+        self.assertGreaterEqual(len(found), 4)
         for words in found:
             said = io.StringIO()
             with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):

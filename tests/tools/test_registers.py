@@ -22,6 +22,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 import registers  # noqa: E402
 from boards.register_databases import Databases  # noqa: E402
 from boards.register_headers import RegistersError  # noqa: E402
+from boards.sockets import SOCKETS  # noqa: E402
 from registers import Comparison  # noqa: E402
 from toolchain import Toolchain  # noqa: E402
 
@@ -45,7 +46,8 @@ class RegistersTest(unittest.TestCase):
         shutil.copytree(ROOT / "bsp", self.root / "bsp")
         shutil.copytree(ROOT / "examples", self.root / "examples")  # Named by the boards' files.
         (self.root / "specs").mkdir()
-        shutil.copy(ROOT / registers.EXCEPTIONS, self.root / registers.EXCEPTIONS)
+        for path in (registers.EXCEPTIONS, SOCKETS):
+            shutil.copy(ROOT / path, self.root / path)
 
     def compare(self) -> Comparison:
         return registers.compare(self.tools, self.root, self.databases)
@@ -95,6 +97,37 @@ class RegistersTest(unittest.TestCase):
             "bsp/nucleo_f767zi/pins.c", "(D, 8u, 7u, USART3, TX)", "(D, 8u, 8u, USART3, TX)"
         )
         self.finds("PD8 AF8 USART3_TX", "no such function")
+
+    def test_outputs_in_another_order_are_found(self) -> None:
+        """As the table was before: the same four pins and channels, from the other end."""
+        path = self.root / "bsp/fmuv5/pins.c"
+        text = path.read_text()
+        lines = {name: f"KEEL_OUTPUT({name})" for name in (
+            "E, 14u, 1u, TIM1, CH4", "A, 10u, 1u, TIM1, CH3", "E, 11u, 1u, TIM1, CH2",
+            "E, 9u, 1u, TIM1, CH1")}  # fmt: skip
+        for name, other in zip(lines, reversed(lines), strict=True):
+            self.assertEqual(text.count(lines[name]), 1)
+            text = text.replace(lines[name], f"@{other}@")
+        path.write_text(re.sub("@(.*?)@", r"KEEL_OUTPUT(\1)", text))
+        self.finds("bsp/fmuv5/pins.c", "outputs PE9 TIM1_CH1, PE11", "has PE14 TIM1_CH4, PA10")
+
+    def test_an_output_at_a_wrong_timer_is_found(self) -> None:
+        self.change("bsp/fmuv5/pins.c", "(H, 6u, 9u, TIM12, CH1)", "(H, 6u, 9u, TIM12, CH2)")
+        self.finds("PH6 AF9 TIM12_CH2", "no such function")
+
+    def test_a_supply_that_is_not_switched_on_is_found(self) -> None:
+        self.change("bsp/fmuv5/pins.c", "KEEL_LEVEL(G, 4u, false)", "KEEL_LEVEL(G, 4u, true)")
+        self.finds("bsp/fmuv5/pins.c", "PG4 high", "PG4 low")
+
+    def test_a_sensor_that_is_mounted_otherwise_is_found(self) -> None:
+        self.change("bsp/fmuv5/pins.c", "KEEL_MOUNTING(2, 1, -3)", "KEEL_MOUNTING(1, -2, -3)")
+        self.finds("bsp/fmuv5/pins.c", "mounting [[1, -2, -3]]", "has [2, 1, -3]")
+
+    def test_a_board_whose_sockets_nobody_told_is_found(self) -> None:
+        path = self.root / SOCKETS
+        path.write_text(path.read_text().replace('"nucleo_f767zi"', '"other"'))
+        self.finds("bsp/nucleo_f767zi/pins.c", "does not have this board")
+        self.finds(SOCKETS, "there is no bsp/other/pins.c")
 
     def test_a_wrong_analogue_channel_is_found(self) -> None:
         self.change("bsp/fmuv5/pins.c", "(C, 0u, 10u)", "(C, 0u, 8u)")

@@ -38,6 +38,7 @@ from boards.stack_bounds import (  # noqa: E402
     Indirect,
     StackTable,
     analyse,
+    idle_code,
     mistakes,
 )
 from common.config import read_toml  # noqa: E402
@@ -304,6 +305,31 @@ class AnalysisTest(unittest.TestCase):
     def test_a_stack_without_an_entry_is_an_error(self) -> None:
         with self.assertRaisesRegex(StackError, "no entry of this image on the stack main"):
             self.analyse(table=table_of(entries=(Entry(function="other"),)))
+
+
+class IdleTest(unittest.TestCase):
+    """Code in ITCM that nobody calls while tasks run."""
+
+    def idle(self, *names: str) -> list[str]:
+        graph: dict[str, Function] = {}
+        text = "\n".join([
+            *(node(name, "8 bytes (static)") for name in ("start", "step", "task", "a.c:twice")),
+            edge("start", "step"), edge("step", "task"), edge("task", "a.c:twice"),
+            edge("a.c:twice", "step"),
+        ])  # fmt: skip
+        parse(text, graph)
+        code = {name: Code() for name in ("start", "step", "task", "twice", "alone")}
+        code["also_task"] = code["task"]  # Another name of it.
+        return idle_code(graph, code, ["step"], names)
+
+    def test_what_runs_calls_is_not_idle(self) -> None:
+        self.assertEqual(self.idle("step", "task", "twice", "also_task"), [])
+
+    def test_what_the_start_alone_calls_is_idle(self) -> None:
+        self.assertEqual(self.idle("task", "start", "alone"), ["alone", "start"])
+
+    def test_what_is_not_in_the_image_does_not_count(self) -> None:
+        self.assertEqual(self.idle("absent"), [])
 
 
 class FilesTest(unittest.TestCase):

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
 
 from common.config import Field, Mistake, Table, Text, model_validator, read_toml
 from common.errors import ToolError, unknown
@@ -35,6 +35,7 @@ class Place(Table):
     sections: list[Text] = []
     symbols: list[Text] = []
     code_of: list[Text] = []
+    but: list[Text] = []
     optional: bool = False
 
     @model_validator(mode="after")
@@ -44,11 +45,20 @@ class Place(Table):
         return self
 
 
+class Named(Table):
+    """An application besides the board's own, by a name."""
+
+    name: Text
+    application: Annotated[list[Text], Field(min_length=1)]
+    libraries: list[Literal["fatfs"]] = []
+
+
 class Shared(Table):
     """What boards of one chip may share; all of it may be empty here."""
 
     sources: list[Text] = []
     application: list[Text] = []
+    named: list[Named] = []
     region: list[Region] = []
     place: list[Place] = []
     include: list[Text] = []
@@ -74,6 +84,14 @@ class Board(Shared):
 
     def memory(self, name: str) -> Region:
         return next(region for region in self.region if region.name == name)
+
+
+def application_of(board: Board, name: str) -> Named:
+    """An application by its name; the error tells which there are."""
+    known = {found.name: found for found in board.named}
+    if name not in known:
+        raise ToolError(unknown("application", name, known))
+    return known[name]
 
 
 def board_names(root: Path, file: str = BOARD_FILE) -> list[str]:

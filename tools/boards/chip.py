@@ -3,45 +3,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from common.errors import ToolError
 
 from boards.card import CardError, CardHost, SdCard
 from boards.fram import Fram
+from boards.ms5611 import Ms5611
+from boards.pulses import Outputs, PulseError, State, timers
 
 # Bases of the peripherals (RM0410, table 1).
 TIM5, IWDG, USART3, PWR, UART7 = 0x4000_0C00, 0x4000_3000, 0x4000_4800, 0x4000_7000, 0x4000_7800
 TIM1, SPI1, GPIOA, RCC, FLASHR = 0x4001_0000, 0x4001_3000, 0x4002_0000, 0x4002_3800, 0x4002_3C00
-SPI2 = 0x4000_3800
+SPI2, SPI4, TIM4, TIM12 = 0x4000_3800, 0x4001_3400, 0x4000_0800, 0x4000_1800
 SYSTICK, NVIC, SCB, DBGMCU = 0xE000_E010, 0xE000_E100, 0xE000_ED00, 0xE004_2000
 ADC1, ADC_COMMON, SDMMC1 = 0x4001_2000, 0x4001_2300, 0x4001_2C00
 BLOCKS = {
     TIM5: 0x54, IWDG: 0x14, USART3: 0x2C, PWR: 0x10, UART7: 0x2C, TIM1: 0x68, SPI1: 0x24,
-    SPI2: 0x24, RCC: 0x98, FLASHR: 0x1C, SCB: 0x2A4, DBGMCU: 0x10, SYSTICK: 0x10,
-    NVIC: 0x200, ADC1: 0x50, ADC_COMMON: 0xC, SDMMC1: 0x84,
+    SPI2: 0x24, SPI4: 0x24, RCC: 0x98, FLASHR: 0x1C, SCB: 0x2A4, DBGMCU: 0x10, SYSTICK: 0x10,
+    TIM4: 0x54, TIM12: 0x54, NVIC: 0x200, ADC1: 0x50, ADC_COMMON: 0xC, SDMMC1: 0x84,
     **{GPIOA + 0x400 * port: 0x2C for port in range(11)},
 }  # fmt: skip
 RESETS = {
     FLASHR + 0x10: 1 << 31,
     RCC: 0x83, RCC + 4: 0x2400_3010, RCC + 0x30: 0x0010_0000, RCC + 0x74: 0x0E00_0000,
     PWR: 0xC000, USART3 + 0x1C: 0xC0, UART7 + 0x1C: 0xC0, SPI1 + 4: 0x700, SPI1 + 8: 2,
-    SPI2 + 4: 0x700, SPI2 + 8: 2,
+    SPI2 + 4: 0x700, SPI2 + 8: 2, SPI4 + 4: 0x700, SPI4 + 8: 2,
     IWDG + 8: 0xFFF, FLASHR + 0x14: 0xFFFF_AAF1, GPIOA: 0xA800_0000, GPIOA + 0x400: 0x280,
     SCB + 0x80: 0x0FE0_0019 | 127 << 13,  # 128 sets of 4 ways of 32 bytes.
     SCB + 0x90: 0x800,
 }  # fmt: skip
 
+# Peripherals that the model knows to need their clocks: the register, and the bit.
+CLOCKED = {timer.base: timer.enable for timer in timers().values()}
 OPTION_KEYS = [0x0819_2A3B, 0x4C5D_6E7F]
 FLASH_KEYS, FLASH_LOCK = [0x4567_0123, 0xCDEF_89AB], 1 << 31
 OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
 CORE_MHZ = 216
-BROKEN = ("hse", "pll", "overdrive", "sensor", "other-sensor", "adc", "memory")
+BROKEN = ("hse", "pll", "overdrive", "sensor", "other-sensor", "adc", "memory", "barometer")
 
 
 # Its memory at SPI 2: clock and data, and the select.
 FRAM_PINS, FRAM_SELECT = ((8, 1), (8, 2), (8, 3)), (5, 5)
+# Its barometer at SPI 4: the same.
+BAROMETER_PINS, BAROMETER_SELECT = ((4, 2), (4, 13), (4, 6)), (5, 10)
 # And its card's slot: clock, command and data, by port and pin, and what switches its supply.
 CARD_PINS, CARD_POWER = ((2, 12), (3, 2), (2, 8), (2, 9), (2, 10), (2, 11)), (6, 7)
 
@@ -124,7 +130,9 @@ class Converter:
 class Chip:
     """The chip around the processor."""
 
-    def __init__(self, console: int, select: tuple[int, int], broken: str = "") -> None:
+    def __init__(
+        self, console: int, select: tuple[int, int], broken: str = "", outputs: Sequence[str] = ()
+    ) -> None:
         self.console = console
         self.select = select  # Port and pin of the sensor's chip select.
         self.broken = broken
@@ -138,9 +146,11 @@ class Chip:
         self.reset_wanted = False
         self.starved = False
         self.armed_us: list[tuple[int, bool]] = []
+        self.outputs = Outputs(outputs)
         self.converted: list[int] = []  # Channels of the converter, in their order.
         self.exception = 0
         self.fram = Fram(there=broken != "memory")
+        self.barometer = Ms5611(there=broken != "barometer")
         self.card: SdCard | None = None  # In the slot.
         self.slot = CardHost()
         self.words: dict[int, int] = {}
@@ -163,11 +173,13 @@ class Chip:
         self.counter_from_us = 0
         self.sensor.select(False)
         self.fram.select(False)
+        self.barometer.select(False)
         self.adc = Converter()
         self.slot = CardHost(self.card)
         self.flash_is_open = False
         self.unlocking_flash = []
         self.high: set[tuple[int, int]] = set()  # Pins that were set.
+        self.outputs.reset(self.time_us)
 
     def tick(self, us: int) -> None:
         """Time passes."""
@@ -175,6 +187,14 @@ class Chip:
         if self.watchdog_us and self.time_us - self.fed_us > self.watchdog_us:
             self.starved = True
             self.reset_wanted = True
+        if self.outputs.due_us is not None and self.time_us >= self.outputs.due_us:
+            self.outputs.advance(self.time_us, self.words)
+            self.outputs.note(self.time_us, self.words, self.high, at_period=True)
+
+    def level(self, pin: tuple[int, int]) -> State:
+        """What a pin does that no timer has."""
+        mode = self.words.get(GPIOA + 0x400 * pin[0], 0) >> 2 * pin[1] & 3
+        return ("high" if pin in self.high else "low") if mode == 1 else "floats"
 
     # Registers.
 
@@ -196,7 +216,7 @@ class Chip:
             return self.words[address] | (0x20 if due else 0)
         if address == self.console + 0x24 and self.keys:
             return ord(self.keys.pop(0)[1])
-        if address in (SPI1 + 0xC, SPI2 + 0xC):
+        if address in (SPI1 + 0xC, SPI2 + 0xC, SPI4 + 0xC):
             self.words[address - 4] &= ~1
         if address in (ADC1, ADC1 + 0x4C):
             return self._adc_read(address - ADC1)
@@ -210,9 +230,12 @@ class Chip:
     def write(self, address: int, value: int) -> None:
         """What writing a register does."""
         base = self.block(address)
+        if base in CLOCKED and not self.words.get(CLOCKED[base][0], 0) >> CLOCKED[base][1] & 1:
+            return  # Without its clock a peripheral takes nothing.
         self.words[address] = value
         handler: Callable[[int, int], None] | None = {
             RCC: self._rcc, PWR: self._pwr, IWDG: self._iwdg, SPI1: self._spi, SPI2: self._spi2,
+            SPI4: self._spi4,
             TIM1: self._tim1, TIM5: self._tim5, self.console: self._uart, SCB: self._scb,
             FLASHR: self._flash, ADC1: self._adc, ADC_COMMON: self._adc_common,
             SDMMC1: self._sdmmc, SYSTICK: self._systick,
@@ -221,6 +244,16 @@ class Chip:
             handler(address - base, value)
         elif GPIOA <= base < GPIOA + 11 * 0x400:
             self._gpio((base - GPIOA) // 0x400, address - base, value)
+        if base in CLOCKED or (GPIOA <= base < GPIOA + 11 * 0x400 and address - base < 0x28):
+            self._outputs(base, address - base)
+
+    def _outputs(self, base: int, offset: int) -> None:
+        """A timer of the outputs, or a port, has changed."""
+        try:
+            begins = base in CLOCKED and self.outputs.write(base, offset, self.time_us, self.words)
+            self.outputs.note(self.time_us, self.words, self.high, begins)
+        except PulseError as error:
+            raise ModelError(str(error)) from error
 
     def _systick(self, offset: int, value: int) -> None:
         """Whoever starts it sleeps until its end, which is at once: the time has gone by."""
@@ -328,33 +361,47 @@ class Chip:
 
     def _spi(self, offset: int, value: int) -> None:
         if offset == 0xC:
-            self._exchange(SPI1, self.sensor, value)
+            self._exchange(SPI1, self.sensor.exchange, value)
 
     def _spi2(self, offset: int, value: int) -> None:
+        """The memory, of 40 MHz at most."""
         if offset == 0xC:
-            self._check_memory()
-            self._exchange(SPI2, self.fram, value)
+            clock = bool(self.words.get(RCC + 0x40, 0) & 1 << 14)
+            self._check_bus("memory", SPI2, FRAM_PINS, clock, 54, 40)
+            self._exchange(SPI2, lambda byte: self.fram.exchange(byte), value)
 
-    def _exchange(self, spi: int, device: Sensor | Fram, value: int) -> None:
+    def _spi4(self, offset: int, value: int) -> None:
+        """The barometer, of 20 MHz at most."""
+        if offset == 0xC:
+            clock = bool(self.words.get(RCC + 0x44, 0) & 1 << 13)
+            self._check_bus("barometer", SPI4, BAROMETER_PINS, clock, 108, 20)
+            self._exchange(
+                SPI4, lambda byte: self.barometer.exchange(byte, self.time_us), value
+            )
+
+    def _exchange(self, spi: int, exchange: Callable[[int], int], value: int) -> None:
         if not self.words.get(spi, 0) & 0x40:
             raise ModelError("a byte is sent while the SPI is off")
-        self.words[spi + 0xC] = device.exchange(value & 0xFF)
+        self.words[spi + 0xC] = exchange(value & 0xFF)
         self.words[spi + 8] |= 1
 
-    def _check_memory(self) -> None:
-        """What must hold around SPI 2 when a byte goes to its memory, of 40 MHz at most."""
-        control = self.words.get(SPI2, 0)
-        rate_mhz = 54 / (2 << (control >> 3 & 7))
+    def _check_bus(
+        self, device: str, spi: int, pins: Sequence[tuple[int, int]], clock: bool, bus_mhz: int,
+        limit_mhz: int,
+    ) -> None:  # fmt: skip
+        """What must hold around an SPI when a byte goes to its only device."""
+        control = self.words.get(spi, 0)
+        rate_mhz = bus_mhz / (2 << (control >> 3 & 7))
         rules = {
-            "its bus has no clock": self.words.get(RCC + 0x40, 0) & 1 << 14,
-            "a pin is not its own": all(self._function_of(pin) == 5 for pin in FRAM_PINS),
-            f"at {rate_mhz:g} MHz": rate_mhz <= 40,
+            "its bus has no clock": clock,
+            "a pin is not its own": all(self._function_of(pin) == 5 for pin in pins),
+            f"at {rate_mhz:g} MHz": rate_mhz <= limit_mhz,
             "not in mode 0 or 3": control & 3 in (0, 3),
-            "not of eight bits": self.words.get(SPI2 + 4, 0) >> 8 & 0xF == 7,
+            "not of eight bits": self.words.get(spi + 4, 0) >> 8 & 0xF == 7,
         }
         for reason, held in rules.items():
             if not held:
-                raise ModelError(f"a byte goes to the memory, but {reason}")
+                raise ModelError(f"a byte goes to the {device}, but {reason}")
 
     def _function_of(self, pin: tuple[int, int]) -> int | None:
         """Which alternate function a pin has; None when it has none."""
@@ -386,7 +433,9 @@ class Chip:
             return
         self.high -= {(port, bit) for bit in range(16) if value >> 16 >> bit & 1}
         self.high |= {(port, bit) for bit in range(16) if value >> bit & 1}
-        for device, (number, pin) in ((self.sensor, self.select), (self.fram, FRAM_SELECT)):
+        for device, (number, pin) in (
+            (self.sensor, self.select), (self.fram, FRAM_SELECT), (self.barometer, BAROMETER_SELECT)
+        ):  # fmt: skip
             if port == number and value >> pin & 0x1_0001:
                 device.select(bool(value >> 16 >> pin & 1))
 

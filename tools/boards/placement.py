@@ -49,14 +49,15 @@ def check_overlap(contents: Contents) -> Iterator[Check]:
 def functions_of(
     place: Place, contents: Contents, own: Mapping[str, Contents], root: Path
 ) -> list[Symbol]:
-    """The functions in the image that come from the source files of a place."""
+    """The functions in the image that come from the source files of a place, but for some."""
     wanted = set(source_files(place.code_of, root))
     names = {
         (item.name, item.file)
         for source, made in own.items() if source in wanted
         for item in made.functions
     }  # fmt: skip
-    return [item for item in contents.functions if (item.name, item.file) in names]
+    return [item for item in contents.functions if (item.name, item.file) in names
+            and not any(fnmatchcase(item.name, pattern) for pattern in place.but)]  # fmt: skip
 
 
 def placed(

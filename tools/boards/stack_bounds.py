@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -43,6 +43,7 @@ class StackTable(Table):
     """What the compiler cannot know."""
 
     tasks: list[Text] = []
+    running: list[Text] = []
     indirect: list[Indirect] = []
     entry: Annotated[list[Entry], Field(min_length=1)]
 
@@ -127,6 +128,20 @@ def check_reached(graph: Graph, reached: set[str], code: Mapping[str, Code]) -> 
     if missing:
         raise StackError(f"in the image, but nobody calls them: {', '.join(missing)}; a call "
                          f"through a pointer or an entry is missing in {TABLE}")  # fmt: skip
+
+
+def idle_code(
+    graph: Graph, code: Mapping[str, Code], running: Iterable[str], names: Iterable[str]
+) -> list[str]:
+    """Of these functions, the ones that nobody calls while tasks run: on no path from what runs."""
+    open_titles = [title for title, item in graph.items() if item.name in set(running)]
+    seen = set(open_titles)
+    while open_titles:
+        new = graph[open_titles.pop()].calls - seen
+        seen |= new
+        open_titles += new
+    called = {id(code[graph[title].name]) for title in seen if graph[title].name in code}
+    return sorted(name for name in names if name in code and id(code[name]) not in called)
 
 
 @dataclass(frozen=True)

@@ -68,7 +68,9 @@ typedef struct keel_rcc {
 #define RCC_AHB1ENR_GPIOIEN    BITS(8u, 1u)
 #define RCC_AHB1ENR_BKPSRAMEN  BITS(18u, 1u)
 #define RCC_APB1ENR_RESET      0x00000000u
+#define RCC_APB1ENR_TIM4EN     BITS(2u, 1u)
 #define RCC_APB1ENR_TIM5EN     BITS(3u, 1u)
+#define RCC_APB1ENR_TIM12EN    BITS(6u, 1u)
 #define RCC_APB1ENR_SPI2EN     BITS(14u, 1u)
 #define RCC_APB1ENR_USART3EN   BITS(18u, 1u)
 #define RCC_APB1ENR_PWREN      BITS(28u, 1u)
@@ -78,6 +80,7 @@ typedef struct keel_rcc {
 #define RCC_APB2ENR_ADC1EN     BITS(8u, 1u)
 #define RCC_APB2ENR_SDMMC1EN   BITS(11u, 1u)
 #define RCC_APB2ENR_SPI1EN     BITS(12u, 1u)
+#define RCC_APB2ENR_SPI4EN     BITS(13u, 1u)
 #define RCC_CSR_RESET          0x0E000000u
 #define RCC_CSR_RMVF           BITS(24u, 1u)
 #define RCC_CSR_IWDGRSTF       BITS(29u, 1u)

@@ -17,6 +17,7 @@ typedef struct keel_spi {
 
 #define SPI1_BASE     0x40013000u
 #define SPI2_BASE     0x40003800u
+#define SPI4_BASE     0x40013400u
 #define SPI_CR1_RESET 0x00000000u
 #define SPI_CR1_CPHA  BITS(0u, 1u)
 #define SPI_CR1_CPOL  BITS(1u, 1u)

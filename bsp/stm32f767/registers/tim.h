@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file tim.h
- * @brief Timers 1 (advanced, RM0410 chapter 25) and 5 (32 bits, chapter 26).
+ * @brief Timers 1 (advanced, RM0410 chapter 25), 4 and 5 (chapter 26, 5 of 32 bits), and 12 (two
+ *        channels, chapter 27).
  *
- * Timer 5 has neither RCR nor BDTR.
+ * Timers 4 and 5 have neither RCR nor BDTR; timer 12 has neither these nor CR2, CCMR2, CCR3 and
+ * CCR4.
  */
 #ifndef KEEL_BSP_STM32F767_TIM_H
 #define KEEL_BSP_STM32F767_TIM_H
@@ -32,7 +34,9 @@ typedef struct keel_tim {
 } keel_tim_t;
 
 #define TIM1_BASE       0x40010000u
+#define TIM4_BASE       0x40000800u
 #define TIM5_BASE       0x40000C00u
+#define TIM12_BASE      0x40001800u
 #define TIM_CR1_RESET   0x00000000u
 #define TIM_CR1_CEN     BITS(0u, 1u)
 #define TIM_CR1_ARPE    BITS(7u, 1u)

@@ -9,6 +9,7 @@
 #include "cortex_m7/reset.h"
 #include "cortex_m7/sleep.h"
 #include "devices/fm25v02.h"
+#include "devices/ms5611.h"
 #include "stm32f767/flash_medium.h"
 #include "stm32f767/power.h"
 #include "stm32f767/pwm.h"
@@ -25,10 +26,10 @@
 #define RCC             ((keel_rcc_t *)RCC_BASE)
 #define PWR             ((keel_pwr_t *)PWR_BASE)
 #define FLASH           ((keel_flash_t *)FLASH_BASE)
-#define TIM1            ((keel_tim_t *)TIM1_BASE)
 #define TIM5            ((keel_tim_t *)TIM5_BASE)
 #define SPI1            ((keel_spi_t *)SPI1_BASE)
 #define SPI2            ((keel_spi_t *)SPI2_BASE)
+#define SPI4            ((keel_spi_t *)SPI4_BASE)
 #define SDMMC1          ((keel_sdmmc_t *)SDMMC1_BASE)
 #define IWDG            ((keel_iwdg_t *)IWDG_BASE)
 #define DBGMCU          ((keel_dbgmcu_t *)DBGMCU_BASE)
@@ -43,12 +44,15 @@
 #define FEED_EVERY_US    5000u
 #define POWER_ON_US      20000u /* The sensor is up 11 ms after its supply. */
 #define BLINK_US         100000u
+#define HOLD_TURNS       1296000u /* 6 ms of cycles at 216 MHz. */
 #define LOG2_NULL_GUARD  8u
 #define LOG2_STACK_GUARD 10u
 #define LOG2_HALF_GIB    29u
 #define CARD_CLOCK_HZ    48000000u
-#define CARD_LIMIT_HZ    16000000u  /* The processor moves the data: 512 bytes in 64 us. */
-#define DELAY_LOOKS      100000000u /* Far more than a delay takes, but not for ever. */
+#define CARD_LIMIT_HZ    16000000u /* The processor moves the data: 512 bytes in 64 us. */
+#define FORCE_UNIT       (9.80665f / 2048.0f)   /* In m/s^2. */
+#define RATE_UNIT        (0.017453293f / 16.4f) /* In rad/s. */
+#define DELAY_LOOKS      100000000u             /* Far more than a delay takes, but not for ever. */
 
 #define GPIO_CLOCKS                                                                                \
     (RCC_AHB1ENR_GPIOAEN | RCC_AHB1ENR_GPIOBEN | RCC_AHB1ENR_GPIOCEN | RCC_AHB1ENR_GPIODEN |       \
@@ -90,8 +94,8 @@ static keel_spi_device_t sensor_device;
 void keel_board_early(void)
 {
     keel_bits_enable(&RCC->AHB1ENR, GPIO_CLOCKS);
-    for (uint32_t i = 0u; i < KEEL_PWM_OUTPUTS; i++) {
-        keel_pin_output(PINS->pwm[i].pin, KEEL_DRIVE_PUSH_PULL, false);
+    for (uint32_t i = 0u; i < PINS->output_count; i++) {
+        keel_pin_output(PINS->outputs[i].pin, KEEL_DRIVE_PUSH_PULL, false);
     }
     (void)keel_backup_open(RCC, PWR, &patience);
 }
@@ -136,13 +140,49 @@ static void start_console(uint32_t clock_hz)
     require(keel_serial_start(&serial, PINS->console, clock_hz, BAUD));
 }
 
-/* The timer first, with its outputs low, then the pins. */
-static void start_outputs(uint32_t timer_hz)
+/* Supplies, and pins that must not float. */
+static void start_levels(void)
 {
-    keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_TIM1EN);
-    require(keel_pwm_start(TIM1, timer_hz, PWM_RATE_HZ));
-    for (uint32_t i = 0u; i < KEEL_PWM_OUTPUTS; i++) {
-        give(PINS->pwm[i], KEEL_PULL_DOWN);
+    for (uint32_t i = 0u; i < PINS->level_count; i++) {
+        keel_pin_output(PINS->levels[i].pin, KEEL_DRIVE_PUSH_PULL, PINS->levels[i].high);
+    }
+}
+
+const keel_pwm_timer_t keel_chip_timers[KEEL_CHIP_TIMERS] = {
+    [KEEL_TIMER_TIM1] = {(keel_tim_t *)TIM1_BASE, 4u, true},
+    [KEEL_TIMER_TIM4] = {(keel_tim_t *)TIM4_BASE, 4u, false},
+    [KEEL_TIMER_TIM12] = {(keel_tim_t *)TIM12_BASE, 2u, false},
+};
+
+static bool is_used(const keel_pwm_timer_t *timer)
+{
+    bool used = false;
+
+    for (uint32_t i = 0u; i < PINS->output_count; i++) {
+        used = used || (PINS->outputs[i].timer == timer);
+    }
+    return used;
+}
+
+/* The pins stay outputs, and low, until they are armed. */
+static void start_outputs(uint32_t apb1_timer_hz, uint32_t apb2_timer_hz)
+{
+    static const struct {
+        volatile uint32_t *enable;
+        uint32_t bit;
+        bool on_apb2;
+    } clocks[KEEL_CHIP_TIMERS] = {
+        [KEEL_TIMER_TIM1] = {&RCC->APB2ENR, RCC_APB2ENR_TIM1EN, true},
+        [KEEL_TIMER_TIM4] = {&RCC->APB1ENR, RCC_APB1ENR_TIM4EN, false},
+        [KEEL_TIMER_TIM12] = {&RCC->APB1ENR, RCC_APB1ENR_TIM12EN, false},
+    };
+
+    for (uint32_t i = 0u; i < KEEL_CHIP_TIMERS; i++) {
+        if (is_used(&keel_chip_timers[i])) {
+            keel_bits_enable(clocks[i].enable, clocks[i].bit);
+            require(keel_pwm_start(&keel_chip_timers[i],
+                                   clocks[i].on_apb2 ? apb2_timer_hz : apb1_timer_hz, PWM_RATE_HZ));
+        }
     }
 }
 
@@ -158,7 +198,8 @@ static bool watchdog_reset(void)
 /* A debugger that halts the core halts the watchdog, the time and the outputs as well. */
 static void freeze_with_the_core(void)
 {
-    DBGMCU->APB1_FZ |= DBGMCU_APB1_FZ_DBG_IWDG_STOP | DBGMCU_APB1_FZ_DBG_TIM5_STOP;
+    DBGMCU->APB1_FZ |= DBGMCU_APB1_FZ_DBG_IWDG_STOP | DBGMCU_APB1_FZ_DBG_TIM4_STOP |
+                       DBGMCU_APB1_FZ_DBG_TIM5_STOP | DBGMCU_APB1_FZ_DBG_TIM12_STOP;
     DBGMCU->APB2_FZ |= DBGMCU_APB2_FZ_DBG_TIM1_STOP;
 }
 
@@ -183,13 +224,14 @@ void keel_board_start(void)
     if (!good) { /* The buses as the reset left them. */
         keel_bits_put(&RCC->CFGR, RCC_CFGR_HPRE | RCC_CFGR_PPRE1 | RCC_CFGR_PPRE2, 0u);
     }
+    start_levels();
     keel_cache_start();
     freeze_with_the_core();
     keel_bits_enable(&RCC->APB1ENR, RCC_APB1ENR_TIM5EN);
     require(keel_time_base_start(TIM5, keel_timer_hz(core_hz, apb1)));
     start_leds();
     start_console(core_hz / apb1);
-    start_outputs(keel_timer_hz(core_hz, apb2));
+    start_outputs(keel_timer_hz(core_hz, apb1), keel_timer_hz(core_hz, apb2));
     if (!good && !told) {
         keel_fault_stop(KEEL_FAULT_CLOCK | (uint32_t)fault);
     }
@@ -219,11 +261,21 @@ void keel_board_put(char c)
     keel_serial_put(&serial, c);
 }
 
-/* May be called with anything broken: stores alone. Without its clock the timer takes none, but
- * then its pins are not its own yet. */
+/* May be called with anything broken: constants, loads and stores alone. Without its clock a timer
+ * takes none, but then its pins are not its own yet. */
 void keel_board_outputs_off(void)
 {
-    keel_pwm_off(TIM1);
+    keel_pwm_off(PINS->outputs, PINS->output_count);
+}
+
+/* By counting, for any clock may be broken. A turn takes a cycle at least, and the core runs at 216
+ * MHz at most: at least 6 ms. With turns of three cycles it is 18 ms; 243 ms on the internal
+ * oscillator, where the watchdog may bite earlier, with the pins as low. */
+void keel_board_outputs_hold(void)
+{
+    for (uint32_t i = 0u; i < HOLD_TURNS; i++) {
+        __asm volatile("nop");
+    }
 }
 
 /* Shines slowly for an end, quickly for the safe state. */
@@ -277,9 +329,6 @@ KEEL_REALTIME_CODE keel_invensense_t *keel_chip_sensor(void)
 
 keel_bsp_status_t keel_chip_sensor_start(void)
 {
-    if (PINS->power != NULL) {
-        keel_pin_output(*PINS->power, KEEL_DRIVE_PUSH_PULL, true);
-    }
     for (uint32_t i = 0u; i < PINS->deselect_count; i++) {
         keel_pin_output(PINS->deselect[i], KEEL_DRIVE_PUSH_PULL, true);
     }
@@ -289,6 +338,45 @@ keel_bsp_status_t keel_chip_sensor_start(void)
     require(keel_spi_start(SPI1, KEEL_APB2_LIMIT_HZ, keel_icm20689.bus_limit_hz));
     (void)delay(NULL, POWER_ON_US);
     return keel_invensense_start(keel_chip_sensor());
+}
+
+/* What is along an axis of the body, of what is along the sensor's. */
+KEEL_REALTIME_CODE static float along(const int16_t value[], int8_t axis)
+{
+    const int16_t sensor = value[((axis < 0) ? -axis : axis) - 1];
+
+    return (axis < 0) ? -(float)sensor : (float)sensor;
+}
+
+KEEL_REALTIME_CODE keel_bsp_status_t keel_chip_motion(keel_chip_motion_t *motion)
+{
+    keel_invensense_sample_t sample;
+    const keel_bsp_status_t status = keel_invensense_read(keel_chip_sensor(), &sample);
+
+    if (status == KEEL_BSP_OK) {
+        for (uint32_t i = 0u; i < 3u; i++) {
+            motion->force[i] = FORCE_UNIT * along(sample.acceleration, PINS->mounting.axis[i]);
+            motion->rate[i] = RATE_UNIT * along(sample.rate, PINS->mounting.axis[i]);
+        }
+        motion->temperature_cdeg = sample.temperature_cdeg;
+    }
+    return status;
+}
+
+bool keel_chip_barometer(keel_bus_t *bus)
+{
+    static keel_spi_device_t device;
+    const keel_board_device_t *const barometer = PINS->barometer;
+
+    if (barometer == NULL) {
+        return false;
+    }
+    device = (keel_spi_device_t){SPI4, barometer->select, &byte_patience};
+    give_spi(barometer->select, barometer->sck, barometer->miso, barometer->mosi);
+    keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_SPI4EN);
+    require(keel_spi_start(SPI4, KEEL_APB2_LIMIT_HZ, KEEL_MS5611_BUS_LIMIT_HZ));
+    *bus = (keel_bus_t){keel_spi_bus_exchange, &device};
+    return true;
 }
 
 bool keel_chip_card(keel_disk_t *disk)
@@ -304,7 +392,6 @@ bool keel_chip_card(keel_disk_t *disk)
     if (slot == NULL) {
         return false;
     }
-    keel_pin_output(slot->power, KEEL_DRIVE_PUSH_PULL, true);
     give(slot->clock, KEEL_PULL_NONE);
     give(slot->command, KEEL_PULL_UP);
     for (uint32_t i = 0u; i < KEEL_CARD_LINES; i++) {
@@ -370,7 +457,7 @@ static keel_bsp_status_t start_sectors(keel_medium_t *medium)
     return keel_flash_medium(&sectors, medium);
 }
 
-static keel_bsp_status_t start_memory(const keel_board_memory_t *memory, keel_medium_t *medium)
+static keel_bsp_status_t start_memory(const keel_board_device_t *memory, keel_medium_t *medium)
 {
     static keel_spi_device_t device;
     static keel_bus_t bus = {keel_spi_bus_exchange, &device};
@@ -439,14 +526,20 @@ bool keel_chip_get(char *character)
     return keel_serial_get(&serial, character);
 }
 
-keel_bsp_status_t keel_chip_pulse(uint32_t channel, uint32_t pulse_us)
+uint32_t keel_chip_output_count(void)
 {
-    return keel_pwm_set(TIM1, channel, pulse_us);
+    return PINS->output_count;
+}
+
+keel_bsp_status_t keel_chip_pulse(uint32_t output, uint32_t pulse_us)
+{
+    return (output < PINS->output_count) ? keel_pwm_set(&PINS->outputs[output], pulse_us)
+                                         : KEEL_BSP_ARGUMENT;
 }
 
 void keel_chip_arm(void)
 {
-    keel_pwm_arm(TIM1);
+    require(keel_pwm_arm(PINS->outputs, PINS->output_count));
 }
 
 /* A conversion takes 11.6 us. At some 50 ns a look this gives up after 25 us, within the budget of
@@ -501,7 +594,6 @@ void keel_chip_uid(uint8_t uid[KEEL_CHIP_UID_BYTES])
 
 void keel_chip_reset(void)
 {
-    keel_board_outputs_off();
     keel_core_reset();
 }
 

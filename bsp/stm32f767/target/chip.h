@@ -14,14 +14,14 @@
 #include "stm32f767/adc.h"
 #include "stm32f767/clock_tree.h"
 #include "stm32f767/pin.h"
+#include "stm32f767/pwm.h"
 #include "stm32f767/registers/uart.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#define KEEL_LEDS        3u
-#define KEEL_PWM_OUTPUTS 4u
-#define KEEL_CARD_LINES  4u
+#define KEEL_LEDS       3u
+#define KEEL_CARD_LINES 4u
 
 /* What keel_fault_stop records. */
 #define KEEL_FAULT_CLOCK    0xB0A20100u /**< Plus a keel_clock_fault_t. */
@@ -46,6 +46,40 @@ typedef struct keel_alternate {
     keel_pin_t pin;
     uint32_t function; /**< Number of the alternate function. */
 } keel_alternate_t;
+
+/** The timers that make pulses on some board. */
+typedef enum keel_chip_timer {
+    KEEL_TIMER_TIM1 = 0,
+    KEEL_TIMER_TIM4 = 1,
+    KEEL_TIMER_TIM12 = 2
+} keel_chip_timer_t;
+
+#define KEEL_CHIP_TIMERS 3u
+
+/** By keel_chip_timer_t. */
+extern const keel_pwm_timer_t keel_chip_timers[KEEL_CHIP_TIMERS];
+
+#define KEEL_CHANNEL_CH1 1u
+#define KEEL_CHANNEL_CH2 2u
+#define KEEL_CHANNEL_CH3 3u
+#define KEEL_CHANNEL_CH4 4u
+
+/**
+ * An output for pulses: its pin, with its alternate function, timer and channel.
+ * tools/registers.py holds each against a database, and their order against specs/outputs.toml.
+ */
+#define KEEL_OUTPUT(letter, number, function, timer, channel)                                      \
+    {KEEL_PIN(letter, number), (function), &keel_chip_timers[KEEL_TIMER_##timer],                  \
+     KEEL_CHANNEL_##channel}
+
+/** A pin that has one level for good; tools/registers.py holds both against specs/outputs.toml. */
+#define KEEL_LEVEL(letter, number, high) {KEEL_PIN(letter, number), (high)}
+
+/** A pin that switches a supply, say, and its level while the board runs. */
+typedef struct keel_level {
+    keel_pin_t pin;
+    bool high;
+} keel_level_t;
 
 /** A light. */
 typedef struct keel_led {
@@ -87,16 +121,40 @@ typedef struct keel_board_card {
     keel_alternate_t clock;
     keel_alternate_t command;
     keel_alternate_t data[KEEL_CARD_LINES];
-    keel_pin_t power; /**< High switches the card's supply on. */
 } keel_board_card_t;
 
-/** A ferroelectric memory FM25V02, alone at SPI 2. */
-typedef struct keel_board_memory {
+/** A device that has an SPI for itself. */
+typedef struct keel_board_device {
     keel_alternate_t sck;
     keel_alternate_t miso;
     keel_alternate_t mosi;
     keel_pin_t select;
-} keel_board_memory_t;
+} keel_board_device_t;
+
+/** Which way a sensor lies on its board: for each axis of the body (forward, right, down) the axis
+ * of the sensor that is along it, from 1 on, negative where it points the other way. */
+typedef struct keel_mounting {
+    int8_t axis[3];
+} keel_mounting_t;
+
+/* 12 for a rotation and for nothing else: three axes in the order of a right hand. The differences
+ * of a permutation of 1, 2 and 3 multiply to 2 or, when it is odd, to -2. */
+#define KEEL_SIZE(axis) (((axis) < 0) ? -(axis) : (axis))
+#define KEEL_HANDED(x, y, z)                                                                       \
+    ((x) * (y) * (z) * (KEEL_SIZE(x) - KEEL_SIZE(y)) * (KEEL_SIZE(y) - KEEL_SIZE(z)) *             \
+     (KEEL_SIZE(z) - KEEL_SIZE(x)))
+
+/**
+ * A mounting. One that is no rotation does not compile: the array would have a negative size.
+ * tools/registers.py holds it against specs/outputs.toml.
+ */
+#define KEEL_MOUNTING(x, y, z)                                                                     \
+    {                                                                                              \
+        {                                                                                          \
+            (int8_t)((x) + (0 * (int)sizeof(char[(KEEL_HANDED(x, y, z) == 12) ? 1 : -1]))), (y),   \
+                (z)                                                                                \
+        }                                                                                          \
+    }
 
 /** What a board says about itself. */
 typedef struct keel_board_pins {
@@ -105,19 +163,23 @@ typedef struct keel_board_pins {
     uint32_t console_clock; /**< The console's bit in APB1ENR. */
     keel_alternate_t console_tx;
     keel_alternate_t console_rx;
-    keel_led_t led[KEEL_LEDS];              /**< By keel_led_name_t. */
-    keel_alternate_t pwm[KEEL_PWM_OUTPUTS]; /**< Channels 1 to 4 of timer 1. */
-    keel_alternate_t sck;                   /**< SPI 1, with the sensor. */
+    keel_led_t led[KEEL_LEDS];        /**< By keel_led_name_t. */
+    const keel_pwm_output_t *outputs; /**< In the order of their sockets. */
+    uint32_t output_count;            /**< 1 to KEEL_PWM_OUTPUTS_MAX. */
+    const keel_level_t *levels;       /**< Supplies and what else has one level; null: none. */
+    uint32_t level_count;
+    keel_alternate_t sck; /**< SPI 1, with the sensor. */
     keel_alternate_t miso;
     keel_alternate_t mosi;
     keel_pin_t sensor_select;
     const keel_pin_t *deselect; /**< Other devices on the bus, which must stay silent. */
     uint32_t deselect_count;
-    const keel_pin_t *power;           /**< High switches the sensors' supply on; null: none. */
-    const keel_analogue_t *analogue;   /**< By keel_analogue_name_t; null: none. */
-    uint32_t analogue_count;           /**< KEEL_ANALOGUES, or 0. */
-    const keel_board_card_t *card;     /**< Null: no slot. */
-    const keel_board_memory_t *memory; /**< Null: none. */
+    const keel_analogue_t *analogue;      /**< By keel_analogue_name_t; null: none. */
+    uint32_t analogue_count;              /**< KEEL_ANALOGUES, or 0. */
+    keel_mounting_t mounting;             /**< Of the sensor. */
+    const keel_board_card_t *card;        /**< Null: no slot. */
+    const keel_board_device_t *memory;    /**< FM25V02 at SPI 2; null: none. */
+    const keel_board_device_t *barometer; /**< MS5611 at SPI 4; null: none. */
     uint32_t kept_sector; /**< The first of two flash sectors that images leave free, where there is
                                no memory; 0: none. */
 } keel_board_pins_t;
@@ -142,6 +204,29 @@ keel_bsp_status_t keel_chip_sensor_start(void);
 
 /** The inertial sensor, an ICM-20689, after keel_chip_sensor_start. */
 keel_invensense_t *keel_chip_sensor(void);
+
+/** A sample of the sensor in body axes (forward, right, down). */
+typedef struct keel_chip_motion {
+    float force[3];           /**< Specific force, in m/s^2. */
+    float rate[3];            /**< In rad/s. */
+    int16_t temperature_cdeg; /**< Of the sensor, in hundredths of a degree Celsius. */
+} keel_chip_motion_t;
+
+/**
+ * Reads the sensor and turns the sample as the board has mounted it.
+ *
+ * @param motion the sample; as it was unless KEEL_BSP_OK
+ * @return as keel_invensense_read
+ */
+keel_bsp_status_t keel_chip_motion(keel_chip_motion_t *motion);
+
+/**
+ * Starts the bus of the board's barometer, an MS5611. To be called once, 20 ms after the start.
+ *
+ * @param bus the bus; as it was when there is no barometer
+ * @return whether the board has one
+ */
+bool keel_chip_barometer(keel_bus_t *bus);
 
 /**
  * The slot for an SD card, supplied and ready for the disk's start, which is the card's, by
@@ -217,16 +302,20 @@ void keel_chip_turn(void);
  */
 bool keel_chip_get(char *character);
 
+/** How many outputs for pulses the board has, 1 to KEEL_PWM_OUTPUTS_MAX. */
+uint32_t keel_chip_output_count(void);
+
 /**
  * Sets the pulse of an output; it comes out once the outputs are armed.
  *
- * @param channel  0 to 3
+ * @param output   0 to keel_chip_output_count() - 1, in the order of the board's sockets
  * @param pulse_us 0, or 900 to 2100 us
  * @return KEEL_BSP_OK, or KEEL_BSP_ARGUMENT
  */
-keel_bsp_status_t keel_chip_pulse(uint32_t channel, uint32_t pulse_us);
+keel_bsp_status_t keel_chip_pulse(uint32_t output, uint32_t pulse_us);
 
-/** Lets the pulses out; keel_board_outputs_off ends them. */
+/** Lets the pulses out that were set since the outputs were off; keel_board_outputs_off ends and
+ *  forgets them. */
 void keel_chip_arm(void);
 
 /**

@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "board_port.h"
+
+#include "board.h"
+#include "common/wait.h"
+#include "console.h"
+#include "cortex_m7/memory.h"
+#include "cortex_m7/startup.h"
+
+#include <stddef.h>
+
+#define MIB        0x100000u
+#define ALLOCATION (128u * MIB) /* 24 minutes, at the 92 kB/s of the copter's log. */
+#define PULSE_US   1000.0f      /* No throttle, and so much more for all. */
+#define HALF       0.5f
+#define MILLI      0.001f
+#define CHANNELS   2u /* Of a power module. */
+
+/* Steps of the barometer's start: its reset, and its PROM. */
+#define BAROMETER_STEPS   2u
+#define BAROMETER_STEP_US 10000u
+#define LOOKS             1000000u /* Far more than such a delay takes, but not for ever. */
+
+/* --- Sensors. --- */
+
+/* One unit has a driver: the vote gets no sample of the others, and calibration does not end. */
+static bool read_imu(void *context, uint32_t unit, copter_inertial_t *sample)
+{
+    board_port_t *const board = context;
+    keel_chip_motion_t motion;
+
+    if ((unit != 0u) || (board->imu != KEEL_BSP_OK)) {
+        return false;
+    }
+    if (keel_chip_motion(&motion) != KEEL_BSP_OK) {
+        board->failures++;
+        return false;
+    }
+    for (uint32_t i = 0u; i < 3u; i++) {
+        sample->accelerometer[i] = motion.force[i];
+        sample->gyroscope[i] = motion.rate[i];
+    }
+    sample->temperature = motion.temperature_cdeg;
+    board->samples++;
+    return true;
+}
+
+/* Its bus has no driver yet. */
+static bool read_magnetometer(void *context, copter_field_t *sample)
+{
+    (void)context;
+    (void)sample;
+    return false;
+}
+
+static bool read_barometer(void *context, copter_pressure_t *sample)
+{
+    board_port_t *const board = context;
+    const uint32_t now_us = keel_board_clock_us(NULL);
+    const uint32_t elapsed_us = now_us - board->stepped_us;
+
+    if (!board->has_barometer) {
+        return false;
+    }
+    board->stepped_us = now_us;
+    if (keel_ms5611_step(&board->barometer, elapsed_us) != KEEL_BSP_OK) {
+        return false;
+    }
+    sample->pressure_pa = (float)board->barometer.sample.pressure_pa;
+    sample->temperature = (int16_t)board->barometer.sample.temperature_cdeg;
+    board->pressures++;
+    return true;
+}
+
+/* Receivers send faster than a loop without DMA can read them, which has no driver yet. */
+static bool read_byte(void *context, uint32_t receiver, copter_byte_t *byte)
+{
+    (void)context;
+    (void)receiver;
+    (void)byte;
+    return false;
+}
+
+/* --- What the converter measures. --- */
+
+/* The next channel of the modules in turn. A conversion takes 12 us. */
+static void measure(board_port_t *board)
+{
+    const uint32_t channel = board->measured % (CHANNELS * COPTER_MODULES);
+    board_module_t *const module = &board->module[channel / CHANNELS];
+    const bool is_current = (channel % CHANNELS) != 0u;
+    uint16_t count;
+
+    /* By keel_analogue_name_t, voltage and current of the first, then those of the second. */
+    if (keel_chip_analogue(channel, &count) == KEEL_BSP_OK) {
+        if (is_current) {
+            module->current = count;
+            module->is_new = true;
+        } else {
+            module->voltage = count;
+        }
+    }
+    board->measured++;
+}
+
+static bool read_power(void *context, uint32_t module, copter_power_reading_t *reading)
+{
+    board_port_t *const board = context;
+    board_module_t *const own = &board->module[module];
+    keel_power_module_reading_t read;
+
+    if ((board->adc != KEEL_BSP_OK) || (keel_chip_analogue_count() == 0u)) {
+        return false;
+    }
+    if (module == 0u) {
+        measure(board);
+    }
+    if (!own->is_new) {
+        return false;
+    }
+    own->is_new = false;
+    keel_power_module_read(&board->scale, own->voltage, own->current, &read);
+    if ((read.told & (uint32_t)KEEL_POWER_MODULE_OPEN) != 0u) {
+        return false;
+    }
+    reading->voltage = (float)read.voltage_mv * MILLI;
+    reading->current = (float)read.current_ma * MILLI;
+    return true;
+}
+
+/* Two conversions do not fit into a run: one a call. */
+static void read_chip(void *context, copter_chip_t *chip)
+{
+    board_port_t *const board = context;
+    int32_t cdeg;
+
+    if (board->adc != KEEL_BSP_OK) {
+        return;
+    }
+    if (board->wants_temperature && (board->supply_mv != 0u)) {
+        if (keel_chip_temperature(board->supply_mv, &cdeg) == KEEL_BSP_OK) {
+            chip->temperature = (int16_t)cdeg;
+            chip->has_temperature = true;
+        }
+    } else if (keel_chip_supply(&board->supply_mv) == KEEL_BSP_OK) {
+        chip->supply_mv = (uint16_t)board->supply_mv;
+        chip->has_supply = true;
+    } else {
+        /* The values are as they were. */
+    }
+    board->wants_temperature = !board->wants_temperature;
+}
+
+static uint32_t stack_free(void *context)
+{
+    (void)context;
+    return ((uint32_t)keel_stack_top - (uint32_t)keel_stack_bottom) - keel_stack_used_b();
+}
+
+/* --- Motors, log. --- */
+
+/* Without motors the outputs are off and low: a speed controller's first pulse comes with them. */
+static void write_motors(void *context, const float output[COPTER_MOTORS])
+{
+    board_port_t *const board = context;
+    bool turns = false;
+
+    for (uint32_t i = 0u; i < COPTER_MOTORS; i++) {
+        turns = turns || (output[i] > 0.0f);
+    }
+    if (turns) {
+        for (uint32_t i = 0u; i < COPTER_MOTORS; i++) {
+            (void)keel_chip_pulse(i, (uint32_t)(PULSE_US + (PULSE_US * output[i]) + HALF));
+        }
+        keel_chip_arm();
+    } else if (board->turning) {
+        keel_board_outputs_off();
+    } else {
+        /* They are off. */
+    }
+    board->turning = turns;
+}
+
+static uint32_t log_room(void *context)
+{
+    const board_port_t *const board = context;
+
+    return keel_black_box_room(&board->box);
+}
+
+static void write_log(void *context, const uint8_t *bytes, uint32_t length)
+{
+    board_port_t *const board = context;
+
+    (void)keel_black_box_write(&board->box, bytes, length);
+}
+
+static void end_run(void *context, uint32_t row, uint32_t wcet_us)
+{
+    (void)context;
+    (void)row;
+    (void)wcet_us;
+}
+
+/* --- The start. --- */
+
+static void say(const char *device, uint64_t status, const char *missing)
+{
+    keel_console_text(device);
+    if (missing != NULL) {
+        keel_console_text(" missing: ");
+        keel_console_text(missing);
+    } else {
+        keel_console_text(" status ");
+        keel_console_number(status);
+    }
+    keel_console_text("\n");
+}
+
+/* Its reset, and the reading of its PROM: what is wrong with it shows there. */
+static keel_bsp_status_t start_barometer(board_port_t *board)
+{
+    keel_bsp_status_t worst = KEEL_BSP_OK;
+
+    for (uint32_t i = 0u; (i < BAROMETER_STEPS) && board->has_barometer; i++) {
+        const keel_bsp_status_t status = keel_ms5611_step(&board->barometer, BAROMETER_STEP_US);
+
+        if ((status != KEEL_BSP_OK) && (status != KEEL_BSP_WAIT) && (worst == KEEL_BSP_OK)) {
+            worst = status;
+        }
+        (void)keel_wait_us(keel_board_clock_us, NULL, BAROMETER_STEP_US, LOOKS);
+    }
+    board->stepped_us = keel_board_clock_us(NULL);
+    return worst;
+}
+
+static void start_sensors(board_port_t *board)
+{
+    keel_bus_t bus;
+
+    board->imu = keel_chip_sensor_start();
+    say("imu 1", (uint64_t)board->imu, NULL);
+    say("imu 2", 0u, "no driver");
+    say("imu 3", 0u, "no driver");
+    board->has_barometer = keel_chip_barometer(&bus);
+    if (board->has_barometer) {
+        keel_ms5611_begin(&board->barometer, bus);
+    }
+    say("barometer", (uint64_t)start_barometer(board),
+        board->has_barometer ? NULL : "the board has none");
+    say("magnetometer", 0u, "no driver");
+    say("receiver of the pilot", 0u, "no driver");
+    say("receiver of satellites", 0u, "no driver");
+}
+
+static void start_converter(board_port_t *board)
+{
+    /* Of Pixhawk 4's power modules. */
+    static const keel_power_module_config_t config = {3300u, 18100000u, 36367515u, 5600u};
+
+    (void)keel_power_module_init(&board->scale, &config);
+    board->adc = keel_chip_adc_start();
+    say("adc", (uint64_t)board->adc, NULL);
+    say("power modules", 0u, (keel_chip_analogue_count() == 0u) ? "the board has none" : NULL);
+}
+
+/* Flash would stop the processor for seconds, in flight as well: parameters are kept in a memory
+ * that needs no erasing, or not at all. */
+static void start_memory(board_port_t *board)
+{
+    uint32_t slot_bytes = 0u;
+
+    board->memory = keel_chip_memory(&board->medium, &slot_bytes);
+    board->keeps = (board->memory == KEEL_BSP_OK) && (board->medium.erase == NULL);
+    say("parameters", (uint64_t)board->memory,
+        (board->medium.erase != NULL) ? "not kept in flash" : NULL);
+}
+
+static void start_log(board_port_t *board)
+{
+    const keel_black_box_config_t config = {&board->disk, ALLOCATION, 1u};
+
+    board->has_slot = keel_chip_card(&board->disk);
+    if (board->has_slot && (keel_black_box_init(&board->box, &config) == KEEL_OK)) {
+        board->card = keel_black_box_open(&board->box, keel_board_clock_us(NULL));
+    }
+    say("card", (uint64_t)board->card, board->has_slot ? NULL : "the board has no slot");
+}
+
+copter_port_t board_port_start(board_port_t *board)
+{
+    *board = (board_port_t){.turning = false};
+    start_sensors(board);
+    start_converter(board);
+    start_memory(board);
+    start_log(board);
+    keel_chip_uid(board->uid);
+    return (copter_port_t){.read_clock = keel_board_clock_us,
+                           .context = board,
+                           .read_imu = read_imu,
+                           .read_magnetometer = read_magnetometer,
+                           .read_barometer = read_barometer,
+                           .read_byte = read_byte,
+                           .read_power = read_power,
+                           .read_chip = read_chip,
+                           .stack_free = stack_free,
+                           .write_motors = write_motors,
+                           .log_room = log_room,
+                           .write_log = write_log,
+                           .end_run = end_run,
+                           .memory = board->keeps ? &board->medium : NULL,
+                           .uid = board->uid};
+}

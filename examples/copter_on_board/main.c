@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file main.c
+ * @brief The copter on a real board: the tasks that fly on the host, with the board's own devices.
+ *
+ * It does not fly yet: what has no driver is named on the console, and the copter refuses to arm
+ * without it. What it does is run: sensors that are there, parameters, the log on a card, the
+ * watchdog, which is fed only while every real-time task meets its releases.
+ *
+ * A line on the console tells every second how it goes. A refusal of the kernel ends as a fault
+ * does, with the outputs off.
+ */
+#include "board.h"
+#include "board_port.h"
+#include "console.h"
+#include "copter.h"
+#include "cortex_m7/fault.h"
+
+#define REPORT_EVERY_US 1000000u
+
+/* What a step of the log takes at most: a sector of the card, as examples/recorder has it. */
+#define CARD_US 212u
+
+/* What keel_fault_stop records. */
+#define FAULT_SETUP 0xC0980001u
+#define FAULT_STEP  0xC0980002u
+
+static copter_t copter KEEL_REALTIME_ZERO;
+static copter_port_t port KEEL_REALTIME_ZERO;
+static board_port_t board;
+
+static void require(keel_status_t status, uint32_t code)
+{
+    if (status != KEEL_OK) {
+        keel_fault_stop(code);
+    }
+}
+
+static void print_number(const char *label, uint64_t value)
+{
+    keel_console_text(label);
+    keel_console_number(value);
+}
+
+/* The real-time tasks' part of all that went wrong. */
+static void print_tasks(void)
+{
+    uint64_t skipped = 0u;
+    uint64_t overruns = 0u;
+
+    for (uint32_t i = 0u; i < copter.tasks; i++) {
+        keel_task_report_t report = {0};
+
+        (void)keel_scheduler_report(&copter.scheduler, copter_declaration(i), &report);
+        skipped += report.skipped;
+        overruns += report.stats.overruns;
+    }
+    print_number(" skipped ", skipped);
+    print_number(" overruns ", overruns);
+}
+
+static void print_report(void)
+{
+    print_number("t ", copter.scheduler.clock.now_us / REPORT_EVERY_US);
+    print_number(" s state ", copter.state.mode.state);
+    print_number(" load ", copter.health.load_ppm);
+    print_tasks();
+    print_number(" imu ", board.samples);
+    print_number(" failed ", board.failures);
+    print_number(" barometer ", board.pressures);
+    print_number(" pa ", (uint64_t)copter.air.pressure_pa);
+    print_number(" battery ", copter.energy.battery.level);
+    print_number(" kept ", board.box.kept);
+    keel_console_text("\n");
+}
+
+/* Time that no release wants is the card's, where it is long enough for a sector. */
+static void use_idle_time(void)
+{
+    const uint32_t idle_us = keel_scheduler_idle_us(&copter.scheduler, KEEL_BOARD_WAKE_US, CARD_US);
+
+    if (idle_us == CARD_US) {
+        (void)keel_black_box_step(&board.box, keel_board_clock_us(NULL));
+    } else {
+        keel_board_sleep_us((idle_us < KEEL_BOARD_SLEEP_US) ? idle_us : KEEL_BOARD_SLEEP_US);
+    }
+}
+
+int main(void)
+{
+    uint64_t reported_us = 0u;
+
+    keel_console_text("Keel on ");
+    keel_console_text(keel_board_name);
+    keel_console_text(": copter\n");
+    port = board_port_start(&board);
+    keel_fault_watch(&copter.scheduler);
+    require(copter_start(&copter, &port, false), FAULT_SETUP);
+    if (board.box.state == KEEL_BLACK_BOX_OPEN) {
+        require(copter_log_start(&copter), FAULT_SETUP);
+    }
+    keel_chip_watchdog_start(&copter.scheduler);
+    for (;;) {
+        require(keel_scheduler_step(&copter.scheduler), FAULT_STEP);
+        keel_chip_turn();
+        if ((copter.scheduler.clock.now_us - reported_us) >= REPORT_EVERY_US) {
+            reported_us = copter.scheduler.clock.now_us;
+            print_report();
+        }
+        use_idle_time();
+    }
+}

@@ -1,0 +1,325 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The copter's image of the real boards, on the model of their chip: what it says is there and what
+not, its samples in body axes, its log on a card, and pulses for motors that it is told to turn."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import re
+import shutil
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import chip_model
+import firmware
+import pytest
+import stack
+from boards.board import application_of, read_board
+from boards.card import SdCard
+from boards.chip import Chip
+from boards.processor import Processor
+from boards.pulses import LOW, Pulse, State
+from boards.rebuilt import SOURCES
+from boards.sockets import read_sockets
+from pyulog import ULog
+from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
+from toolchain import Toolchain
+
+from common.errors import ROOT
+
+__all__ = ["pyfatfs"]  # A fixture.
+BOARDS = ("fmuv5", "nucleo_f767zi")
+STEP_US = 4
+
+# Says how the board has turned a sample, and turns motors by the port.
+TURNER = """\
+#include "board.h"
+#include "../copter_on_board/board_port.h"
+#include "console.h"
+
+static board_port_t board;
+static uint32_t turns KEEL_REALTIME_ZERO;
+
+static void wait(uint32_t us)
+{
+    const uint32_t start_us = keel_board_clock_us(NULL);
+
+    while ((keel_board_clock_us(NULL) - start_us) < us) {
+        turns++;
+    }
+}
+
+static void print_signed(float value)
+{
+    keel_console_text((value < 0.0f) ? " -" : " ");
+    keel_console_number((uint64_t)((((value < 0.0f) ? -value : value) * 1000.0f) + 0.5f));
+}
+
+int main(void)
+{
+    static const float output[4][COPTER_MOTORS] = {
+        {0.0f, 0.0f, 0.0f, 0.0f}, {0.05f, 0.25f, 0.5f, 1.0f}, {0.05f, 0.05f, 0.05f, 0.05f},
+        {0.0f, 0.0f, 0.0f, 0.0f},
+    };
+    const copter_port_t port = board_port_start(&board);
+    copter_inertial_t sample;
+
+    (void)port.read_imu(&board, 0u, &sample);
+    keel_console_text("body");
+    for (uint32_t i = 0u; i < 3u; i++) {
+        print_signed(sample.accelerometer[i]);
+    }
+    for (uint32_t i = 0u; i < 3u; i++) {
+        print_signed(sample.gyroscope[i]);
+    }
+    keel_console_text(port.read_imu(&board, 1u, &sample) ? " another\\n" : " alone\\n");
+    for (uint32_t i = 0u; i < 4u; i++) {
+        port.write_motors(&board, output[i]);
+        wait(6000u);
+    }
+    keel_board_halt(0);
+}
+"""
+
+
+@pytest.fixture(scope="module")
+def sources() -> Iterator[Path]:
+    with tempfile.TemporaryDirectory(prefix="keel-test-") as name:
+        root = Path(name, "one")
+        for part in (*SOURCES, "specs"):
+            shutil.copytree(ROOT / part, root / part)
+        (root / "examples/turner").mkdir()
+        (root / "examples/turner/main.c").write_text(TURNER)
+        yield root
+
+
+@pytest.fixture(scope="module")
+def tools() -> Toolchain:
+    tools = Toolchain()
+    tools.ensure("firmware", "fatfs", "model", "stack")
+    return tools
+
+
+@pytest.fixture(scope="module")
+def images(tools: Toolchain, sources: Path) -> Path:
+    """The images of both boards, in a copy: they do not replace the user's."""
+    for board in BOARDS:
+        with contextlib.redirect_stdout(io.StringIO()):
+            assert firmware.main([board, "--named", "copter"], sources) == 0
+    return sources
+
+
+def run(
+    tools: Toolchain, root: Path, board: str, seconds: float, broken: str = "",
+    card: SdCard | None = None,
+) -> Chip:  # fmt: skip
+    chip = chip_model.simulate(tools, root, board, seconds, [], broken, STEP_US, card=card)
+    assert chip.resets == 0, chip.text
+    return chip
+
+
+def reports(chip: Chip) -> list[dict[str, int]]:
+    """The lines of each second."""
+    lines = re.findall(r"^t (\d+) s (.*)\r$", chip.text, re.MULTILINE)
+    return [{key: int(value) for key, value in re.findall(r"(\w+) (\d+)", text)}
+            for _, text in lines]  # fmt: skip
+
+
+@pytest.mark.parametrize("board", BOARDS)
+def test_two_folders_give_the_same_bits(tools: Toolchain, images: Path, board: str) -> None:
+    again = images.parent / "another/and/deeper"
+    for part in (*SOURCES, "specs"):
+        shutil.copytree(images / part, again / part, dirs_exist_ok=True)
+    with contextlib.redirect_stdout(io.StringIO()):
+        assert firmware.main([board, "--named", "copter"], again) == 0
+    for file in ("keel.elf", "keel.bin", "report.json"):
+        place = f"build/firmware/{board}/{file}"
+        assert (images / place).read_bytes() == (again / place).read_bytes(), file
+
+
+@pytest.mark.parametrize("board", BOARDS)
+def test_every_stack_has_room_and_itcm_no_dead_code(
+    tools: Toolchain, images: Path, board: str
+) -> None:
+    """What calls nobody, or what nobody calls, is an error of stack.measure."""
+    stacks = stack.measure(tools, images, board)["stacks"]
+    assert isinstance(stacks, dict)
+    assert all(one["bound"] <= one["size"] for one in stacks.values())
+    report = json.loads((images / f"build/firmware/{board}/report.json").read_text())
+    assert report["regions"]["ITCM"]["used"] <= 16384 - 256
+    placed = {check["what"].rpartition(": ")[2]: check["region"] for check in report["checks"]
+              if not check["what"].startswith("load of")}  # fmt: skip
+    for name in ("keel_scheduler_step", "keel_voter_step", "keel_attitude_step", "keel_mixer_step",
+                 "keel_pid_step"):  # fmt: skip
+        assert placed[name] == "ITCM"
+    places = [check for check in report["checks"] if "keel_invensense_read" in check["what"]]
+    assert places
+    assert places[0]["region"] == "ITCM"
+
+
+def test_what_is_there_runs_and_what_is_missing_is_named(tools: Toolchain, images: Path) -> None:
+    chip = run(tools, images, "fmuv5", 2.6)
+    for line in ("Keel on fmuv5: copter", "imu 1 status 0", "imu 2 missing: no driver",
+                 "barometer status 0", "magnetometer missing: no driver",
+                 "receiver of the pilot missing: no driver", "parameters status 0",
+                 "card status 1"):  # fmt: skip
+        assert f"{line}\r\n" in chip.text
+    first, second = reports(chip)
+    # A thousand samples a second, and fifty pressures: those of the data sheet's example.
+    assert second["imu"] - first["imu"] == 1000
+    assert second["barometer"] - first["barometer"] == 50
+    assert abs(second["pa"] - 100009) <= 1
+    for key in ("state", "skipped", "overruns", "failed"):
+        assert second[key] == 0, key
+    assert [state for log in chip.outputs.log for _, state in log] == ["floats", "low"] * 8
+
+
+@pytest.mark.parametrize(
+    ("broken", "line"),
+    [("sensor", "imu 1 status 5"), ("other-sensor", "imu 1 status 6"),
+     ("barometer", "barometer status 5"), ("memory", "parameters status 5")],
+)  # fmt: skip
+def test_what_is_broken_is_named_and_the_rest_runs(
+    tools: Toolchain, images: Path, broken: str, line: str
+) -> None:
+    chip = run(tools, images, "fmuv5", 1.4, broken)
+    assert f"{line}\r\n" in chip.text
+    (report,) = reports(chip)
+    assert (report["skipped"], report["overruns"], report["state"]) == (0, 0, 0)
+    assert (report["imu"] == 0) == ("sensor" in broken)
+    assert (report["barometer"] == 0) == (broken == "barometer")
+
+
+def test_a_board_with_less_says_so(tools: Toolchain, images: Path) -> None:
+    chip = run(tools, images, "nucleo_f767zi", 1.4)
+    for line in ("barometer missing: the board has none", "parameters missing: not kept in flash",
+                 "card missing: the board has no slot"):  # fmt: skip
+        assert f"{line}\r\n" in chip.text
+    (report,) = reports(chip)
+    assert report["imu"] >= 1000
+
+
+def test_the_log_is_on_the_card(
+    tools: Toolchain, images: Path, pyfatfs: tuple[Any, Any]
+) -> None:
+    """By another's file system and another's reader, though the power goes without a word."""
+    card = SdCard(bytearray(new_card(pyfatfs, "FAT32", 150 * MIB)))
+    chip = run(tools, images, "fmuv5", 4.0, card=card)
+    assert "card status 0\r\n" in chip.text
+    assert all(report["skipped"] == 0 for report in reports(chip))
+    files = files_of(pyfatfs, bytes(card.image))
+    assert {name: files[name] for name in OTHERS} == OTHERS
+    (name,) = set(files) - set(OTHERS)
+    log = ULog(io.BytesIO(files[name]))
+    assert not log.file_corruption
+    assert log.msg_info_dict["sys_name"] == "Keel"
+    topics = {topic.name: topic.data for topic in log.data_list}
+    assert {"air", "attitude", "energy"} <= set(topics)
+    last_us = max(int(data["timestamp"][-1]) for data in topics.values())
+    assert last_us > 2_000_000
+
+
+# --- Pulses and axes by the port. ---
+
+
+def turner(
+    tools: Toolchain, root: Path, name: str, builder: firmware.Builder | None = None
+) -> Chip:
+    board = read_board(root, name)
+    made = builder or firmware.Builder(tools, board, root / "build/turner" / name, root)
+    parts = ["examples/turner", "examples/copter_on_board/board_port.c"]
+    image = made.link("keel", [*made.objects(parts), *made.fatfs()])
+    sockets = read_sockets(ROOT)[name].outputs
+    chip = Chip(*chip_model.CONSOLES[name], "", sockets)
+    chip.step_us = 2
+    Processor(tools, image.binary.read_bytes(), board.load_address, chip).run(300_000)
+    return chip
+
+
+def check_turner(chip: Chip) -> None:
+    """The sensor says 1 g along its third axis, 1 count of rate there, and some about its first:
+    both boards have it upside down, so that a board at rest feels -9.807 m/s^2 downwards, and a
+    count of 1 / 16.4 degrees a second is 1.064 mrad/s."""
+    found = re.search(r"^body (.*)\r$", chip.text, re.MULTILINE)
+    assert found is not None, chip.text
+    words = found[1].split()
+    assert words[:3] == ["0", "0", "-9807"]
+    assert words[5] == "-1"
+    about = 4 if len(chip.outputs.log) == 8 else 3  # An FMUv5 has its x to the right.
+    assert chip.sensor.samples == 1  # So often, it counts about its x.
+    assert (words[about], words[7 - about]) == ("1", "0")
+    assert words[6] == "alone"
+    for number, log in enumerate(chip.outputs.log):
+        pulses: list[State] = [Pulse(1000 + 50 * (0, 1, 5, 10, 20)[number + 1], 2500),
+                               Pulse(1050, 2500), LOW] if number < 4 else []  # fmt: skip
+        if number == 0:
+            del pulses[1]  # The same pulse goes on.
+        assert [state for _, state in log] == ["floats", LOW, *pulses], number
+
+
+@pytest.mark.parametrize("board", BOARDS)
+def test_motors_turn_at_their_sockets_and_samples_are_of_the_body(
+    tools: Toolchain, sources: Path, board: str
+) -> None:
+    check_turner(turner(tools, sources, board))
+
+
+MISTAKES = (
+    ("examples/copter_on_board/board_port.c", "(PULSE_US * output[i])", "(PULSE_US * output[0])"),
+    ("examples/copter_on_board/board_port.c", "keel_chip_pulse(i,", "keel_chip_pulse(3u - i,"),
+    ("examples/copter_on_board/board_port.c", "keel_chip_arm();", ""),
+    ("examples/copter_on_board/board_port.c", "else if (board->turning) {", "else if (false) {"),
+    ("examples/copter_on_board/board_port.c", "(unit != 0u)", "(unit > 1u)"),
+    ("bsp/fmuv5/pins.c", "KEEL_MOUNTING(2, 1, -3)", "KEEL_MOUNTING(1, 2, 3)"),
+    ("bsp/fmuv5/pins.c", "KEEL_MOUNTING(2, 1, -3)", "KEEL_MOUNTING(1, -2, -3)"),
+    ("bsp/stm32f767/target/chip.c", "return (axis < 0) ? -(float)sensor",
+     "return (axis < 0) ? (float)sensor"),
+    ("bsp/stm32f767/target/chip.c", "(9.80665f / 2048.0f)", "(9.80665f / 4096.0f)"),
+)  # fmt: skip
+
+
+def test_mistakes_in_the_port_are_noticed(tools: Toolchain, sources: Path) -> None:
+    board = read_board(sources, "fmuv5")
+    builder = firmware.Builder(tools, board, sources / "build/wrong", sources)
+    check_turner(turner(tools, sources, "fmuv5", builder))
+    for path, old, new in MISTAKES:
+        file = sources / path
+        text = file.read_text()
+        plain = re.sub(r" +", " ", text)
+        assert plain.count(old) == 1, old
+        file.write_text(plain.replace(old, new))
+        try:
+            builder.build.made.pop((path,), None)
+            builder.object(path)
+            with pytest.raises(AssertionError):
+                check_turner(turner(tools, sources, "fmuv5", builder))
+        finally:
+            file.write_text(text)
+            builder.build.made.pop((path,), None)
+
+
+@pytest.mark.parametrize("mounting", ["(2, 1, 3)", "(1, 1, 3)", "(1, 2, 4)", "(0, 2, 3)"])
+def test_a_mounting_that_is_no_rotation_does_not_compile(
+    tools: Toolchain, sources: Path, mounting: str
+) -> None:
+    file = sources / "bsp/fmuv5/pins.c"
+    text = file.read_text()
+    board = read_board(sources, "fmuv5")
+    builder = firmware.Builder(tools, board, sources / "build/bent", sources)
+    builder.object("bsp/fmuv5/pins.c")
+    builder.build.made.clear()
+    file.write_text(text.replace("KEEL_MOUNTING(2, 1, -3)", f"KEEL_MOUNTING{mounting}"))
+    try:
+        with pytest.raises(firmware.ToolError, match="negative"):
+            builder.object("bsp/fmuv5/pins.c")
+    finally:
+        file.write_text(text)
+
+
+def test_an_unknown_name() -> None:
+    with pytest.raises(firmware.ToolError, match="there is no application kopter"):
+        application_of(read_board(ROOT, "fmuv5"), "kopter")
