@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Calibration IMU and calibration magnetometer: while the aircraft is disarmed. The gyroscopes are
- * calibrated once after the start, as soon as it lies still; the magnetometer when the pilot asks
- * for it, by turning the aircraft about all axes. */
+ * calibrated once after the start, as soon as it lies still and does not turn; the magnetometer
+ * when the pilot asks for it, by turning the aircraft about all axes. */
 #include "copter.h"
 
 #include <math.h>
@@ -10,6 +10,14 @@
 #define SPAN_LEAST 0.72f
 #define SPAN_MOST  1.45f
 
+static void begin_rest(copter_calibration_t *self)
+{
+    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+        keel_calibration_rest_begin(&self->gyroscope[unit]);
+    }
+    keel_calibration_rest_begin(&self->rest);
+}
+
 keel_status_t copter_calibration_init(copter_calibration_t *calibration)
 {
     keel_status_t status = keel_calibration_field_init(&calibration->field, &copter_settings.field);
@@ -17,8 +25,11 @@ keel_status_t copter_calibration_init(copter_calibration_t *calibration)
     for (uint32_t unit = 0u; (unit < COPTER_IMUS) && (status == KEEL_OK); unit++) {
         status = keel_calibration_rest_init(&calibration->gyroscope[unit],
                                             &copter_settings.gyroscope);
-        keel_calibration_rest_begin(&calibration->gyroscope[unit]);
     }
+    status = (status == KEEL_OK)
+                 ? keel_calibration_rest_init(&calibration->rest, &copter_settings.rest)
+                 : status;
+    begin_rest(calibration);
     return status;
 }
 
@@ -27,37 +38,88 @@ static void set_check(copter_calibration_t *self, uint32_t check, bool holds)
     self->checks = holds ? (self->checks | check) : (self->checks & ~check);
 }
 
-static bool are_calibrated(const copter_calibration_t *self)
+static bool are_taken(const copter_calibration_t *self)
 {
-    bool calibrated = true;
+    bool taken = true;
 
     for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
-        calibrated = calibrated && (self->gyroscope[unit].state == KEEL_CALIBRATION_DONE);
+        taken = taken && (self->gyroscope[unit].state == KEEL_CALIBRATION_DONE);
     }
-    return calibrated;
+    return taken;
+}
+
+/* Where there is a magnetometer, its field has rested, too, from before the gyroscopes' first
+ * sample until after their last one. */
+static bool are_calibrated(const copter_t *copter)
+{
+    const copter_calibration_t *const self = &copter->calibration;
+
+    return are_taken(self) &&
+           ((copter->compass.samples == 0u) || (self->rest.state == KEEL_CALIBRATION_DONE));
+}
+
+static bool has_moved(const keel_calibration_rest_t *rest)
+{
+    return (rest->restarts > 0u) || (rest->state == KEEL_CALIBRATION_REFUSED);
+}
+
+static void step_gyroscopes(copter_t *copter)
+{
+    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+        const keel_virtual_imu_sample_t *const sample = &copter->inertia.unit[unit];
+
+        if (sample->present) {
+            keel_calibration_rest_step(&copter->calibration.gyroscope[unit],
+                                       &sample->value[KEEL_VIRTUAL_IMU_ACCELEROMETER]);
+        }
+    }
+}
+
+static void step_rest(copter_calibration_t *self, const copter_compass_t *compass)
+{
+    const float calm[KEEL_CALIBRATION_AXES] = {compass->calm[0].output, compass->calm[1].output,
+                                               compass->calm[2].output};
+
+    if (self->rest_taken != compass->samples) {
+        self->rest_taken = compass->samples;
+        keel_calibration_rest_step(&self->rest, calm);
+    }
+}
+
+/* All rest together or begin again together: a gyroscope takes an even turn for rest, the field
+ * does not. */
+static void seek_rest(copter_t *copter)
+{
+    copter_calibration_t *const self = &copter->calibration;
+    bool moves = false;
+
+    step_gyroscopes(copter);
+    step_rest(self, &copter->compass);
+    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+        moves = moves || has_moved(&self->gyroscope[unit]);
+    }
+    if (!moves && has_moved(&self->rest)) {
+        self->turns++;
+        moves = true;
+    }
+    if (moves) {
+        begin_rest(self);
+    }
 }
 
 void copter_calibration_imu(copter_t *copter)
 {
     copter_calibration_t *const self = &copter->calibration;
-    const bool before = are_calibrated(self);
+    const bool before = are_taken(self);
 
-    for (uint32_t unit = 0u; (unit < COPTER_IMUS) && !copter->state.mode.motors; unit++) {
-        keel_calibration_rest_t *const gyroscope = &self->gyroscope[unit];
-        const keel_virtual_imu_sample_t *const sample = &copter->inertia.unit[unit];
-
-        if (gyroscope->state == KEEL_CALIBRATION_REFUSED) {
-            keel_calibration_rest_begin(gyroscope);
-        }
-        if (sample->present) {
-            keel_calibration_rest_step(gyroscope, &sample->value[KEEL_VIRTUAL_IMU_ACCELEROMETER]);
-        }
+    if (!copter->state.mode.motors && !are_calibrated(copter)) {
+        seek_rest(copter);
     }
-    if (!before && are_calibrated(self)) {
+    if (!before && are_taken(self)) {
         self->done++;
     }
     set_check(self, KEEL_MODE_CHECK_CALIBRATION,
-              are_calibrated(self) && (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING));
+              are_calibrated(copter) && (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING));
 }
 
 static void calibrate_field(copter_t *copter)

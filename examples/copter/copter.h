@@ -30,6 +30,7 @@
 #include "keel/flight/battery.h"
 #include "keel/flight/calibration.h"
 #include "keel/flight/cascade.h"
+#include "keel/flight/filter.h"
 #include "keel/flight/mixer.h"
 #include "keel/flight/mode.h"
 #include "keel/flight/position.h"
@@ -100,8 +101,11 @@ typedef struct copter_inertia {
 /** Written by calibration IMU and calibration magnetometer. */
 typedef struct copter_calibration {
     keel_calibration_rest_t gyroscope[COPTER_IMUS];
+    keel_calibration_rest_t rest; /**< Of the field: while it turns, nothing rests. */
+    uint32_t rest_taken;          /**< What was taken of compass.samples. */
     keel_calibration_field_t field;
     uint32_t done;   /**< How often all gyroscopes were calibrated. */
+    uint32_t turns;  /**< How often the field turned while gyroscopes saw nothing move. */
     uint32_t fields; /**< What was taken of estimate.fields. */
     uint32_t checks; /**< KEEL_MODE_CHECK_CALIBRATION and _MAGNETOMETER, as far as they hold. */
 } copter_calibration_t;
@@ -109,6 +113,7 @@ typedef struct copter_calibration {
 /** Written by background and foreground magnetometer. */
 typedef struct copter_compass {
     keel_oversample_t axis[3];
+    keel_filter_t calm[3];        /**< Of raw, what is slower than a second or so. */
     keel_attitude_vector_t raw;   /**< Body, in microtesla, as measured. */
     keel_attitude_vector_t field; /**< The same less what the aircraft adds. */
     uint32_t samples;             /**< How many there were. */

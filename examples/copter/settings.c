@@ -42,6 +42,10 @@ const copter_settings_t copter_defaults =
                            .density_limit = 0u,
                            .sensors = 3u}},
      .gyroscope = {.expected = {0.0f, 0.0f, 0.0f}, .spread = 0.03f, .limit = 0.1f, .samples = 50u},
+     .rest = {.expected = {0.0f, 0.0f, 0.0f},
+              .spread = 1.5f,
+              .limit = KEEL_CALIBRATION_LIMIT, /* Any field, if only it rests. */
+              .samples = 120u},
      .field = {.lowest = -400.0f,
                .highest = 400.0f,
                .span_min = 70.0f,

@@ -137,6 +137,8 @@ typedef struct copter_telemetry {
     bool had_height;     /**< It was known once. */
     bool is_outside;     /**< Of the fence, in the last run. */
     bool is_crashed;     /**< As it was told. */
+    uint32_t turns;      /**< What was taken of calibration.turns. */
+    uint64_t turned_us;  /**< When it was told that it turns. */
 } copter_telemetry_t;
 
 /**
