@@ -30,7 +30,15 @@ keel_status_t copter_calibration_init(copter_calibration_t *calibration)
                  ? keel_calibration_rest_init(&calibration->rest, &copter_settings.rest)
                  : status;
     begin_rest(calibration);
+    copter_calibration_set(calibration);
     return status;
+}
+
+void copter_calibration_set(copter_calibration_t *calibration)
+{
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        calibration->field_offset[k] = copter_settings.compass_offset[k];
+    }
 }
 
 static void set_check(copter_calibration_t *self, uint32_t check, bool holds)
@@ -122,16 +130,40 @@ void copter_calibration_imu(copter_t *copter)
               are_calibrated(copter) && (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING));
 }
 
-static void calibrate_field(copter_t *copter)
+/* An axis that was turned too little can be turned on. All else begins anew. */
+static void ask_for_field(copter_calibration_t *self)
 {
-    keel_calibration_field_t *const field = &copter->calibration.field;
-    const keel_attitude_vector_t raw = copter->compass.raw;
-    const float sample[KEEL_CALIBRATION_AXES] = {raw.x, raw.y, raw.z};
+    const bool goes_on = (self->field.state == KEEL_CALIBRATION_COLLECTING) &&
+                         (self->field_end == (uint8_t)KEEL_CALIBRATION_NARROW);
 
-    if (field->state != KEEL_CALIBRATION_COLLECTING) {
-        keel_calibration_field_begin(field);
+    if (!self->field_asked && !goes_on) {
+        keel_calibration_field_begin(&self->field);
     }
-    keel_calibration_field_step(field, sample);
+    self->field_asked = true;
+}
+
+/* The first axis that does not fit says why. */
+static keel_calibration_verdict_t verdict_of(const keel_calibration_field_t *field)
+{
+    keel_calibration_verdict_t verdict = KEEL_CALIBRATION_FIT;
+
+    for (uint32_t k = 0u; (k < KEEL_CALIBRATION_AXES) && (verdict == KEEL_CALIBRATION_FIT); k++) {
+        verdict = keel_calibration_field_axis(field, k);
+    }
+    return verdict;
+}
+
+/* Whatever was seen: if that is not enough, nothing changes. */
+static void end_field(copter_calibration_t *self)
+{
+    self->field_asked = false;
+    self->field_end = (uint8_t)verdict_of(&self->field);
+    if (keel_calibration_field_finish(&self->field) == KEEL_OK) {
+        for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+            self->field_offset[k] = self->field.offset[k];
+        }
+    }
+    self->field_ends++;
 }
 
 /* An aircraft that turns about all axes sees a field of twice the strength of the place's. What was
@@ -158,13 +190,17 @@ static void heed_place(copter_calibration_t *self, const copter_estimate_t *esti
 void copter_calibration_magnetometer(copter_t *copter)
 {
     copter_calibration_t *const self = &copter->calibration;
+    const keel_attitude_vector_t raw = copter->compass.raw;
+    const float sample[KEEL_CALIBRATION_AXES] = {raw.x, raw.y, raw.z};
 
     heed_place(self, &copter->estimate);
     if (!copter->state.mode.motors && copter->pilot.calibrates) {
-        calibrate_field(copter);
+        ask_for_field(self);
+        keel_calibration_field_step(&self->field, sample);
+    } else if (self->field_asked) {
+        end_field(self);
     } else {
-        /* Whatever was seen: if that is not enough, nothing changes. */
-        (void)keel_calibration_field_finish(&self->field);
+        /* Nobody asks. */
     }
     /* The field is what the settings expect when the heading follows it. */
     set_check(self, KEEL_MODE_CHECK_MAGNETOMETER, copter->inertia.attitude.heading_valid);

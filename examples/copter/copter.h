@@ -104,7 +104,11 @@ typedef struct copter_calibration {
     keel_calibration_rest_t rest; /**< Of the field: while it turns, nothing rests. */
     uint32_t rest_taken;          /**< What was taken of compass.samples. */
     keel_calibration_field_t field;
-    uint32_t done;   /**< How often all gyroscopes were calibrated. */
+    float field_offset[KEEL_CALIBRATION_AXES]; /**< In force, in microtesla. */
+    uint32_t field_ends;                       /**< How often the pilot ended it. */
+    uint8_t field_end;                         /**< With what: keel_calibration_verdict_t. */
+    bool field_asked;                          /**< He asked for it in the last run. */
+    uint32_t done;                             /**< How often all gyroscopes were calibrated. */
     uint32_t turns;  /**< How often the field turned while gyroscopes saw nothing move. */
     uint32_t fields; /**< What was taken of estimate.fields. */
     uint32_t checks; /**< KEEL_MODE_CHECK_CALIBRATION and _MAGNETOMETER, as far as they hold. */
@@ -457,6 +461,8 @@ void copter_stack(copter_t *copter);
 void copter_adc(copter_t *copter);
 
 keel_status_t copter_calibration_init(copter_calibration_t *calibration);
+/** Takes offsets from the settings. */
+void copter_calibration_set(copter_calibration_t *calibration);
 void copter_calibration_imu(copter_t *copter);
 void copter_calibration_magnetometer(copter_t *copter);
 /** @} */

@@ -253,6 +253,18 @@ const keel_parameter_t copter_parameter[COPTER_PARAMETER_COUNT] = {
      .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
      .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 50.0f},
      .restarts = true},
+    {.name = "MAG_OFF_X",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -150.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 150.0f}},
+    {.name = "MAG_OFF_Y",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -150.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 150.0f}},
+    {.name = "MAG_OFF_Z",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -150.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 150.0f}},
     {.name = "MAV_SYS_ID",
      .initial = {.type = KEEL_PARAMETER_INT32, .whole = 1},
      .lowest = {.type = KEEL_PARAMETER_INT32, .whole = 1},
@@ -331,6 +343,9 @@ void copter_apply_parameters(copter_settings_t *settings, const keel_parameter_e
     settings->attitude.north = entry[55].value.real;
     settings->attitude.east = entry[56].value.real;
     settings->position.accuracy = entry[57].value.real;
-    settings->system = (uint8_t)entry[58].value.whole;
+    settings->compass_offset[0] = entry[58].value.real;
+    settings->compass_offset[1] = entry[59].value.real;
+    settings->compass_offset[2] = entry[60].value.real;
+    settings->system = (uint8_t)entry[61].value.whole;
 }
 /* clang-format on */

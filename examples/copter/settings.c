@@ -50,7 +50,8 @@ const copter_settings_t copter_defaults =
                .highest = 400.0f,
                .span_min = 70.0f,
                .span_max = 140.0f,
-               .limit = 100.0f},
+               .limit = 150.0f}, /* MAG_OFF_X and so on take as much. */
+     .compass_offset = {0.0f, 0.0f, 0.0f},
      .attitude = {.rate_hz = CONTROL_HZ,
                   .tilt_gain = 0.15f,
                   .heading_gain = 0.25f,

@@ -27,9 +27,10 @@
 /** All that a unit is made from, and what the tasks decide by. */
 typedef struct copter_settings {
     keel_virtual_imu_config_t imu;
-    keel_calibration_rest_config_t gyroscope; /**< Of each unit. */
-    keel_calibration_rest_config_t rest;      /**< Of the field, while those are calibrated. */
-    keel_calibration_field_config_t field;    /**< Of the magnetometer. */
+    keel_calibration_rest_config_t gyroscope;    /**< Of each unit. */
+    keel_calibration_rest_config_t rest;         /**< Of the field, while those are calibrated. */
+    keel_calibration_field_config_t field;       /**< Of the magnetometer. */
+    float compass_offset[KEEL_CALIBRATION_AXES]; /**< Of the magnetometer, in microtesla. */
     keel_attitude_config_t attitude;
     keel_axis_config_t altitude;
     keel_position_config_t position;

@@ -13,7 +13,6 @@
 #define BUDGET_US 262u
 #define PHASE_US  1900u
 #define EVERYBODY 0u
-#define TURNS_US  (6u * MILLION)
 
 /* Bytes of a frame around its payload. */
 #define AROUND                                                                                     \
@@ -211,17 +210,6 @@ static void tell_crash(copter_telemetry_t *self, bool is_crashed)
     self->is_crashed = is_crashed;
 }
 
-/* Says why gyroscopes are not calibrated; not for each turn. */
-static void tell_turn(copter_telemetry_t *self, uint32_t turns, uint64_t now_us)
-{
-    if ((turns != self->turns) && ((now_us - self->turned_us) >= TURNS_US)) {
-        copter_text(self, (uint8_t)MAV_SEVERITY_WARNING,
-                    "not calibrated: ", "it turns, or iron moves nearby");
-        self->turned_us = now_us;
-        self->turns = turns;
-    }
-}
-
 /* Whoever does not sign, where frames are signed, is not heard. */
 static void take(copter_t *copter, uint32_t number, const keel_mavlink_frame_t *frame)
 {
@@ -389,7 +377,7 @@ void copter_telemetry(copter_t *copter)
     tell_radio(self, &copter->pilot);
     tell_height(self, &copter->estimate.vertical);
     tell_crash(self, copter->estimate.vertical.is_crashed);
-    tell_turn(self, copter->calibration.turns, copter->scheduler.clock.now_us);
+    copter_keep_calibration(copter);
     copter_take_answers(copter);
     save_parameters(copter);
     copter_reboot_step(copter);

@@ -139,6 +139,8 @@ typedef struct copter_telemetry {
     bool is_crashed;     /**< As it was told. */
     uint32_t turns;      /**< What was taken of calibration.turns. */
     uint64_t turned_us;  /**< When it was told that it turns. */
+    uint32_t field_ends; /**< What was taken of calibration.field_ends. */
+    uint32_t keeps;      /**< Parameters that a calibration has yet to set. */
 } copter_telemetry_t;
 
 /**
@@ -182,6 +184,10 @@ void copter_tell_parameters(copter_t *copter);
 void copter_take_lists(copter_t *copter, uint32_t link);
 /** Fills the payload of an answer to those, if it is the next one of a link. */
 bool copter_report_lists(copter_link_t *link, uint32_t sent, uint8_t *payload);
+/** Tells of calibrations, and sets and saves the parameters of those that ended. */
+void copter_keep_calibration(copter_t *copter);
+/** Tells that a parameter is set, as by copter_take_set: to all, saved, in force on the ground. */
+void copter_parameter_is_set(copter_t *copter, uint16_t index);
 /** Answers those whose requests the state machine decided. */
 void copter_take_answers(copter_t *copter);
 /** Fills the payload of one of messages_sent; returns whether there is anything to say. */
