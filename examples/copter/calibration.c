@@ -29,6 +29,8 @@ keel_status_t copter_calibration_init(copter_calibration_t *calibration)
     status = (status == KEEL_OK)
                  ? keel_calibration_rest_init(&calibration->rest, &copter_settings.rest)
                  : status;
+    status = (status == KEEL_OK) ? copter_accelerometers_init(&calibration->accelerometers)
+                                 : status;
     begin_rest(calibration);
     copter_calibration_set(calibration);
     return status;
@@ -36,8 +38,30 @@ keel_status_t copter_calibration_init(copter_calibration_t *calibration)
 
 void copter_calibration_set(copter_calibration_t *calibration)
 {
+    calibration->compass = copter_settings.compass;
+    copter_accelerometers_set(&calibration->accelerometers);
+}
+
+void copter_calibration_correct(const copter_calibration_t *calibration, uint32_t unit,
+                                float value[KEEL_VIRTUAL_IMU_CHANNELS])
+{
+    const copter_accelerometers_t *const accelerometers = &calibration->accelerometers;
+    keel_calibration_vector_t force;
+    keel_calibration_vector_t rate;
+
+    keel_calibration_correct(&accelerometers->correction[unit], value, &force);
+    keel_calibration_apply(calibration->gyroscope[unit].offset,
+                           &value[KEEL_VIRTUAL_IMU_ACCELEROMETER], &rate);
+    if (accelerometers->is_turned) {
+        const keel_calibration_vector_t own_force = force;
+        const keel_calibration_vector_t own_rate = rate;
+
+        keel_calibration_turn(&accelerometers->turn, own_force.axis, &force);
+        keel_calibration_turn(&accelerometers->turn, own_rate.axis, &rate);
+    }
     for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        calibration->field_offset[k] = copter_settings.compass_offset[k];
+        value[k] = force.axis[k];
+        value[KEEL_VIRTUAL_IMU_ACCELEROMETER + k] = rate.axis[k];
     }
 }
 
@@ -126,8 +150,11 @@ void copter_calibration_imu(copter_t *copter)
     if (!before && are_taken(self)) {
         self->done++;
     }
+    copter_accelerometers_step(copter);
     set_check(self, KEEL_MODE_CHECK_CALIBRATION,
-              are_calibrated(copter) && (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING));
+              are_calibrated(copter) &&
+                  (self->accelerometers.levelling == (uint8_t)COPTER_LEVELLING_NONE) &&
+                  (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING));
 }
 
 /* An axis that was turned too little can be turned on. All else begins anew. */
@@ -160,7 +187,7 @@ static void end_field(copter_calibration_t *self)
     self->field_end = (uint8_t)verdict_of(&self->field);
     if (keel_calibration_field_finish(&self->field) == KEEL_OK) {
         for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-            self->field_offset[k] = self->field.offset[k];
+            self->compass.offset[k] = self->field.offset[k];
         }
     }
     self->field_ends++;

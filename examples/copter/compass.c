@@ -51,7 +51,7 @@ void copter_foreground_magnetometer(copter_t *copter)
     if (whole) {
         keel_calibration_vector_t out;
 
-        keel_calibration_apply(copter->calibration.field_offset, field, &out);
+        keel_calibration_correct(&copter->calibration.compass, field, &out);
         calm_down(self, field);
         self->raw = (keel_attitude_vector_t){field[0], field[1], field[2]};
         self->field = (keel_attitude_vector_t){out.axis[0], out.axis[1], out.axis[2]};

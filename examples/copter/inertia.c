@@ -56,17 +56,13 @@ static void take(copter_inertia_t *self, uint32_t unit, uint64_t now_us)
     }
 }
 
-/* The same with the gyroscope's offset taken off. */
-static keel_virtual_imu_sample_t calibrated(const keel_virtual_imu_sample_t *raw,
-                                            const keel_calibration_rest_t *gyroscope)
+/* The same as calibrations correct it. */
+static keel_virtual_imu_sample_t calibrated(const copter_calibration_t *calibration, uint32_t unit,
+                                            const keel_virtual_imu_sample_t *raw)
 {
     keel_virtual_imu_sample_t sample = *raw;
-    keel_calibration_vector_t rate;
 
-    keel_calibration_apply(gyroscope->offset, &raw->value[ACCELEROMETER], &rate);
-    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        sample.value[ACCELEROMETER + k] = rate.axis[k];
-    }
+    copter_calibration_correct(calibration, unit, sample.value);
     return sample;
 }
 
@@ -157,7 +153,7 @@ void copter_foreground_imu(copter_t *copter)
     heed_field(self, &copter->estimate);
     for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
         take(self, i, copter->scheduler.clock.now_us);
-        unit[i] = calibrated(&self->unit[i], &copter->calibration.gyroscope[i]);
+        unit[i] = calibrated(&copter->calibration, i, &self->unit[i]);
     }
     keel_virtual_imu_step(&self->imu, unit, VOTE_PERIOD_US);
     keel_attitude_take(&sample, &self->imu);

@@ -140,7 +140,11 @@ typedef struct copter_telemetry {
     uint32_t turns;      /**< What was taken of calibration.turns. */
     uint64_t turned_us;  /**< When it was told that it turns. */
     uint32_t field_ends; /**< What was taken of calibration.field_ends. */
-    uint32_t keeps;      /**< Parameters that a calibration has yet to set. */
+    uint32_t keeps;      /**< The next parameter that a calibration has to set, */
+    uint32_t keeps_end;  /**< and the one behind the last. */
+    uint32_t sides;      /**< Of calibration.accelerometers, the sides that were told. */
+    uint8_t side;        /**< And where it rested, */
+    uint8_t levelling;   /**< and what went on. */
 } copter_telemetry_t;
 
 /**
