@@ -53,6 +53,12 @@ uint32_t copter_command_hold(copter_t *copter, const copter_command_t *command);
 uint32_t copter_command_take_off(copter_t *copter, const copter_command_t *command);
 /** @} */
 
+/** @name Calibration: calibration_kept.c. */
+/** @{ */
+/** PREFLIGHT_CALIBRATION: accelerometers on six sides, how they are mounted; nothing: ends it. */
+uint32_t copter_command_calibrate(copter_t *copter, const copter_command_t *command);
+/** @} */
+
 /** @name Starting anew: reboot.c. */
 /** @{ */
 /** PREFLIGHT_REBOOT_SHUTDOWN: on the ground, with its motors off. */

@@ -30,6 +30,7 @@
 #include "keel/flight/battery.h"
 #include "keel/flight/calibration.h"
 #include "keel/flight/cascade.h"
+#include "keel/flight/filter.h"
 #include "keel/flight/mixer.h"
 #include "keel/flight/mode.h"
 #include "keel/flight/position.h"
@@ -110,11 +111,53 @@ typedef struct copter_inertia {
     uint32_t blocks;                     /**< How many there were. */
 } copter_inertia_t;
 
+/** A calibration of accelerometers that a ground station asked for. */
+typedef enum copter_levelling {
+    COPTER_LEVELLING_NONE = 0, /**< None, or it has ended. */
+    COPTER_LEVELLING_SIDES,    /**< On six sides. */
+    COPTER_LEVELLING_LEVEL     /**< Standing level: how the sensors are mounted. */
+} copter_levelling_t;
+
+/** How a calibration of accelerometers ended. */
+typedef enum copter_levelled {
+    COPTER_LEVELLED_NOT = 0, /**< It goes on. */
+    COPTER_LEVELLED_DONE,
+    COPTER_LEVELLED_BEYOND, /**< What was found cannot be believed. */
+    COPTER_LEVELLED_LATE,   /**< It did not rest on another side for long. */
+    COPTER_LEVELLED_CANCELLED
+} copter_levelled_t;
+
+/** Written by calibration IMU; asked for by telemetry. */
+typedef struct copter_accelerometers {
+    keel_calibration_rest_t rest[COPTER_IMUS];
+    keel_calibration_sides_t sides[COPTER_IMUS];
+    keel_calibration_correction_t correction[COPTER_IMUS]; /**< In force. */
+    keel_calibration_turn_t board;                         /**< As settings.board says. */
+    keel_calibration_turn_t turn;                          /**< The same, and trimmed: in force. */
+    keel_calibration_correction_t found[COPTER_IMUS];      /**< By the last one on six sides. */
+    float trim[2];     /**< The roll and pitch that the last one found. */
+    bool is_turned;    /**< Anything but not at all. */
+    uint32_t seen;     /**< The sides that are done, a bit each. */
+    uint32_t waited;   /**< Runs since the last one was. */
+    uint8_t side;      /**< On which they rest now; KEEL_CALIBRATION_SIDES: on none. */
+    uint8_t shown;     /**< The vehicle's side then, if it is one of them. */
+    uint8_t levelling; /**< What goes on: copter_levelling_t. */
+    uint8_t end;       /**< How the last one ended: copter_levelled_t. */
+} copter_accelerometers_t;
+
 /** Written by calibration IMU and calibration magnetometer. */
 typedef struct copter_calibration {
+    copter_accelerometers_t accelerometers;
     keel_calibration_rest_t gyroscope[COPTER_IMUS];
+    keel_calibration_rest_t rest; /**< Of the field: while it turns, nothing rests. */
+    uint32_t rest_taken;          /**< What was taken of compass.samples. */
     keel_calibration_field_t field;
-    uint32_t done;   /**< How often all gyroscopes were calibrated. */
+    keel_calibration_correction_t compass; /**< In force, in microtesla. */
+    uint32_t field_ends;                   /**< How often the pilot ended it. */
+    uint8_t field_end;                     /**< With what: keel_calibration_verdict_t. */
+    bool field_asked;                      /**< He asked for it in the last run. */
+    uint32_t done;                         /**< How often all gyroscopes were calibrated. */
+    uint32_t turns;  /**< How often the field turned while gyroscopes saw nothing move. */
     uint32_t fields; /**< What was taken of estimate.fields. */
     uint32_t checks; /**< KEEL_MODE_CHECK_CALIBRATION and _MAGNETOMETER, as far as they hold. */
 } copter_calibration_t;
@@ -122,6 +165,7 @@ typedef struct copter_calibration {
 /** Written by background and foreground magnetometer. */
 typedef struct copter_compass {
     keel_oversample_t axis[3];
+    keel_filter_t calm[3];        /**< Of raw, what is slower than a second or so. */
     keel_attitude_vector_t raw;   /**< Body, in microtesla, as measured. */
     keel_attitude_vector_t field; /**< The same less what the aircraft adds. */
     uint32_t samples;             /**< How many there were. */
@@ -467,6 +511,18 @@ void copter_stack(copter_t *copter);
 void copter_adc(copter_t *copter);
 
 keel_status_t copter_calibration_init(copter_calibration_t *calibration);
+/** Takes corrections from the settings. */
+void copter_calibration_set(copter_calibration_t *calibration);
+/** Corrects what a unit says, its specific force first, and turns it into the vehicle's axes. */
+void copter_calibration_correct(const copter_calibration_t *calibration, uint32_t unit,
+                                float value[KEEL_VIRTUAL_IMU_CHANNELS]);
+keel_status_t copter_accelerometers_init(copter_accelerometers_t *self);
+/** Takes corrections and turn from the settings. */
+void copter_accelerometers_set(copter_accelerometers_t *self);
+/** Begins to calibrate them, or ends that. */
+void copter_accelerometers_ask(copter_accelerometers_t *self, uint8_t levelling);
+/** A run of calibration IMU, behind what it does for gyroscopes. */
+void copter_accelerometers_step(copter_t *copter);
 void copter_calibration_imu(copter_t *copter);
 void copter_calibration_magnetometer(copter_t *copter);
 /** @} */

@@ -83,20 +83,16 @@ static float filtered(keel_filter_t *filter, float value, bool goes_on)
     return (status == KEEL_OK) ? filter->output : value;
 }
 
-/* What a unit votes with: its sample with the gyroscope's offset taken off, filtered, as vibration
- * differs from unit to unit. Filters start anew behind a gap. They rest while the unit does: a unit
+/* What a unit votes with: its sample as calibrations correct it, filtered, as vibration differs from
+ * unit to unit. Filters start anew behind a gap. They rest while the unit does: a unit
  * that repeats itself gave no sample, and the voter is to see it. */
-static void prepare(copter_inertia_t *self, uint32_t unit, const keel_calibration_rest_t *gyroscope,
+static void prepare(copter_inertia_t *self, uint32_t unit, const copter_calibration_t *calibration,
                     bool goes_on, keel_virtual_imu_sample_t *sample)
 {
     keel_filter_t *const filter = self->filter[unit];
-    keel_calibration_vector_t rate;
 
     *sample = self->unit[unit];
-    keel_calibration_apply(gyroscope->offset, &sample->value[ACCELEROMETER], &rate);
-    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        sample->value[ACCELEROMETER + k] = rate.axis[k];
-    }
+    copter_calibration_correct(calibration, unit, sample->value);
     for (uint32_t k = 0u; (k < KEEL_VIRTUAL_IMU_CHANNELS) && sample->present; k++) {
         sample->value[k] = self->rests[unit] ? filter[k].output
                                              : filtered(&filter[k], sample->value[k], goes_on);
@@ -234,7 +230,7 @@ void copter_foreground_imu(copter_t *copter)
         const bool goes_on = self->unit[i].present;
 
         take(self, i, copter->scheduler.clock.now_us);
-        prepare(self, i, &copter->calibration.gyroscope[i], goes_on, &unit[i]);
+        prepare(self, i, &copter->calibration, goes_on, &unit[i]);
     }
     vote_on_drift(self, unit);
     keel_virtual_imu_step(&self->imu, unit, VOTE_PERIOD_US);

@@ -56,6 +56,7 @@
 #define MAV_CMD_NAV_LAND                              21u
 #define MAV_CMD_NAV_TAKEOFF                           22u
 #define MAV_CMD_DO_SET_STANDARD_MODE                  262u
+#define MAV_CMD_PREFLIGHT_CALIBRATION                 241u
 #define MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN             246u
 #define MAV_STANDARD_MODE_NON_STANDARD                0u
 #define MAV_STANDARD_MODE_POSITION_HOLD               1u

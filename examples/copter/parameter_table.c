@@ -263,6 +263,122 @@ const keel_parameter_t copter_parameter[COPTER_PARAMETER_COUNT] = {
      .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
      .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 50.0f},
      .restarts = true},
+    {.name = "MAG_OFF_X",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -150.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 150.0f}},
+    {.name = "MAG_OFF_Y",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -150.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 150.0f}},
+    {.name = "MAG_OFF_Z",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -150.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 150.0f}},
+    {.name = "MAG_SCALE_X",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.875f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.125f}},
+    {.name = "MAG_SCALE_Y",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.875f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.125f}},
+    {.name = "MAG_SCALE_Z",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.875f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.125f}},
+    {.name = "ACC1_OFF_X",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -2.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 2.0f}},
+    {.name = "ACC1_OFF_Y",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -2.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 2.0f}},
+    {.name = "ACC1_OFF_Z",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -2.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 2.0f}},
+    {.name = "ACC1_SCALE_X",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.875f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.125f}},
+    {.name = "ACC1_SCALE_Y",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.875f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.125f}},
+    {.name = "ACC1_SCALE_Z",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.875f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.125f}},
+    {.name = "ACC2_OFF_X",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -2.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 2.0f}},
+    {.name = "ACC2_OFF_Y",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -2.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 2.0f}},
+    {.name = "ACC2_OFF_Z",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -2.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 2.0f}},
+    {.name = "ACC2_SCALE_X",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.875f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.125f}},
+    {.name = "ACC2_SCALE_Y",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.875f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.125f}},
+    {.name = "ACC2_SCALE_Z",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.875f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.125f}},
+    {.name = "ACC3_OFF_X",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -2.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 2.0f}},
+    {.name = "ACC3_OFF_Y",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -2.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 2.0f}},
+    {.name = "ACC3_OFF_Z",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -2.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 2.0f}},
+    {.name = "ACC3_SCALE_X",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.875f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.125f}},
+    {.name = "ACC3_SCALE_Y",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.875f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.125f}},
+    {.name = "ACC3_SCALE_Z",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.875f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.125f}},
+    {.name = "TRIM_ROLL",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -0.2f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.2f}},
+    {.name = "TRIM_PITCH",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -0.2f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.2f}},
+    {.name = "BOARD_ROLL",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -3.2f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 3.2f}},
+    {.name = "BOARD_PITCH",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -3.2f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 3.2f}},
+    {.name = "BOARD_YAW",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -3.2f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 3.2f}},
     {.name = "MAV_SYS_ID",
      .initial = {.type = KEEL_PARAMETER_INT32, .whole = 1},
      .lowest = {.type = KEEL_PARAMETER_INT32, .whole = 1},
@@ -343,6 +459,35 @@ void copter_apply_parameters(copter_settings_t *settings, const keel_parameter_e
     settings->attitude.north = entry[57].value.real;
     settings->attitude.east = entry[58].value.real;
     settings->position.accuracy = entry[59].value.real;
-    settings->system = (uint8_t)entry[60].value.whole;
+    settings->compass.offset[0] = entry[60].value.real;
+    settings->compass.offset[1] = entry[61].value.real;
+    settings->compass.offset[2] = entry[62].value.real;
+    settings->compass.scale[0] = entry[63].value.real;
+    settings->compass.scale[1] = entry[64].value.real;
+    settings->compass.scale[2] = entry[65].value.real;
+    settings->correction[0].offset[0] = entry[66].value.real;
+    settings->correction[0].offset[1] = entry[67].value.real;
+    settings->correction[0].offset[2] = entry[68].value.real;
+    settings->correction[0].scale[0] = entry[69].value.real;
+    settings->correction[0].scale[1] = entry[70].value.real;
+    settings->correction[0].scale[2] = entry[71].value.real;
+    settings->correction[1].offset[0] = entry[72].value.real;
+    settings->correction[1].offset[1] = entry[73].value.real;
+    settings->correction[1].offset[2] = entry[74].value.real;
+    settings->correction[1].scale[0] = entry[75].value.real;
+    settings->correction[1].scale[1] = entry[76].value.real;
+    settings->correction[1].scale[2] = entry[77].value.real;
+    settings->correction[2].offset[0] = entry[78].value.real;
+    settings->correction[2].offset[1] = entry[79].value.real;
+    settings->correction[2].offset[2] = entry[80].value.real;
+    settings->correction[2].scale[0] = entry[81].value.real;
+    settings->correction[2].scale[1] = entry[82].value.real;
+    settings->correction[2].scale[2] = entry[83].value.real;
+    settings->trim[0] = entry[84].value.real;
+    settings->trim[1] = entry[85].value.real;
+    settings->board[0] = entry[86].value.real;
+    settings->board[1] = entry[87].value.real;
+    settings->board[2] = entry[88].value.real;
+    settings->system = (uint8_t)entry[89].value.whole;
 }
 /* clang-format on */

@@ -34,8 +34,14 @@ typedef struct copter_settings {
     float slow_gain;                /**< Of what they say, so much a vote: 2 pi f / 500 Hz. */
     float accelerometer_hz;         /**< The cut-off of what is voted on, in Hz. */
     float gyroscope_hz;             /**< The same. */
-    keel_calibration_rest_config_t gyroscope; /**< Of each unit. */
-    keel_calibration_field_config_t field;    /**< Of the magnetometer. */
+    keel_calibration_rest_config_t gyroscope;    /**< Of each unit. */
+    keel_calibration_rest_config_t rest;         /**< Of the field, while those are calibrated. */
+    keel_calibration_field_config_t field;       /**< Of the magnetometer. */
+    keel_calibration_rest_config_t side;         /**< Of an accelerometer that lies on a side. */
+    keel_calibration_correction_t correction[3]; /**< Of each accelerometer. */
+    float trim[2];                               /**< Roll and pitch that are mounted, in rad. */
+    float board[3];                              /**< The board's roll, pitch, yaw, in rad. */
+    keel_calibration_correction_t compass;       /**< Of the magnetometer, in microtesla. */
     keel_attitude_config_t attitude;
     keel_axis_config_t altitude;
     keel_position_config_t position;

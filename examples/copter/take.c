@@ -259,6 +259,7 @@ static const order_t orders[] = {
     {MAV_CMD_NAV_RETURN_TO_LAUNCH, copter_command_return},
     {MAV_CMD_NAV_LOITER_UNLIM, copter_command_hold},
     {MAV_CMD_NAV_TAKEOFF, copter_command_take_off},
+    {MAV_CMD_PREFLIGHT_CALIBRATION, copter_command_calibrate},
     {MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, copter_command_reboot},
 };
 

@@ -166,6 +166,13 @@ void copter_take_list(copter_t *copter, uint32_t link)
     copter_tell_parameters(copter);
 }
 
+void copter_parameter_is_set(copter_t *copter, uint16_t index)
+{
+    copter->telemetry->saves = true;
+    copter->telemetry->applies = true;
+    want_on_all(copter->telemetry, index);
+}
+
 void copter_take_set(copter_t *copter, uint32_t link, const keel_mavlink_frame_t *from,
                      const message_param_set_t *message, bool may)
 {
@@ -187,12 +194,11 @@ void copter_take_set(copter_t *copter, uint32_t link, const keel_mavlink_frame_t
     }
     reason = set(table, index, message);
     if (reason == NULL) {
-        self->saves = true;
-        self->applies = true;
+        copter_parameter_is_set(copter, index);
         tell_wait(copter, index);
     } else {
         say(copter, MAV_SEVERITY_WARNING, index, reason);
         refuse(to, from, message->param_id, NO_INDEX, MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE);
+        want_on_all(self, index);
     }
-    want_on_all(self, index);
 }

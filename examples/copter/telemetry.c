@@ -434,6 +434,7 @@ void copter_telemetry(copter_t *copter)
     tell_height(self, &copter->estimate.vertical);
     tell_crash(self, copter->estimate.vertical.is_crashed);
     tell_inertia(self, &copter->inertia);
+    copter_keep_calibration(copter);
     copter_take_answers(copter);
     save_parameters(copter);
     copter_reboot_step(copter);

@@ -137,6 +137,14 @@ typedef struct copter_telemetry {
     bool had_height;        /**< It was known once. */
     bool is_outside;        /**< Of the fence, in the last run. */
     bool is_crashed;        /**< As it was told. */
+    uint32_t turns;         /**< What was taken of calibration.turns. */
+    uint64_t turned_us;     /**< When it was told that it turns. */
+    uint32_t field_ends;    /**< What was taken of calibration.field_ends. */
+    uint32_t keeps;         /**< The next parameter that a calibration has to set, */
+    uint32_t keeps_end;     /**< and the one behind the last. */
+    uint32_t sides;         /**< Of calibration.accelerometers, the sides that were told. */
+    uint8_t side;           /**< And where it rested, */
+    uint8_t levelling;      /**< and what went on. */
     uint8_t accelerometers; /**< The state of their votes, as it was told. */
     uint8_t gyroscopes;     /**< The same. */
     uint8_t latched[COPTER_IMUS]; /**< Of each unit, the channels that were in the last run. */
@@ -183,6 +191,10 @@ void copter_tell_parameters(copter_t *copter);
 void copter_take_lists(copter_t *copter, uint32_t link);
 /** Fills the payload of an answer to those, if it is the next one of a link. */
 bool copter_report_lists(copter_link_t *link, uint32_t sent, uint8_t *payload);
+/** Tells of calibrations, and sets and saves the parameters of those that ended. */
+void copter_keep_calibration(copter_t *copter);
+/** Tells that a parameter is set, as by copter_take_set: to all, saved, in force on the ground. */
+void copter_parameter_is_set(copter_t *copter, uint16_t index);
 /** Answers those whose requests the state machine decided. */
 void copter_take_answers(copter_t *copter);
 /** Fills the payload of one of messages_sent; returns whether there is anything to say. */

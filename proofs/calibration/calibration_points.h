@@ -10,6 +10,8 @@
 
 #define REST_POINTS  14u
 #define FIELD_POINTS 10u
+#define SIDES_POINTS 12u
+#define MEAN_POINTS  14u
 
 /* A run of which three samples came; one is missing. */
 static keel_calibration_rest_t known_rest(void)
@@ -141,6 +143,68 @@ static void make_field_point(unsigned point, keel_calibration_field_t *field)
     default:
         break;
     }
+}
+
+/* An accelerometer that is off and out of scale, on each axis by another number. */
+static keel_calibration_sides_t sides_point(unsigned point)
+{
+    keel_calibration_sides_t sides = {
+        .up = {8.5f, 8.0f, 7.5f}, .down = {-8.0f, -8.25f, -7.25f}, .gravity = 8.0f, .limit = 0.25f};
+
+    switch (point) {
+    case 1u:
+        sides.gravity = 0.0f;
+        break;
+    case 2u:
+        sides.limit = -1.0f;
+        break;
+    case 3u:
+        sides.up[0] = 9.0f; /* Too far off. */
+        break;
+    case 4u:
+        sides.down[1] = -7.0f;
+        break;
+    case 5u:
+        sides.up[2] = 8.5f;
+        break;
+    case 6u:
+        sides.up[0] = 6.0f; /* Out of scale, but even. */
+        sides.down[0] = -6.0f;
+        break;
+    case 7u:
+        sides.up[1] = 12.0f;
+        sides.down[1] = -12.0f;
+        break;
+    case 8u:
+        sides.up[2] = 0.125f; /* The same on both sides. */
+        sides.down[2] = 0.125f;
+        break;
+    case 9u:
+        sides.up[2] = 2.0f * LIMIT;
+        break;
+    case 10u:
+        sides.down[1] = -2.0f * LIMIT;
+        break;
+    case 11u:
+        sides.gravity = 2.0f * LIMIT;
+        break;
+    default:
+        break;
+    }
+    return sides;
+}
+
+/* For 6 at least and 1 at most: each side, at those ends, and what is just beyond. */
+static keel_calibration_vector_t mean_point(unsigned point)
+{
+    static const keel_calibration_vector_t means[MEAN_POINTS] = {
+        {{6.0f, 1.0f, -1.0f}},    {{-6.0f, -1.0f, 1.0f}},   {{1.0f, 9.0f, -1.0f}},
+        {{-1.0f, -9.0f, 1.0f}},   {{1.0f, -1.0f, 8.0f}},    {{-1.0f, 1.0f, -8.0f}},
+        {{5.5f, 0.0f, 0.0f}},     {{-5.5f, 0.0f, 0.0f}},    {{8.0f, 1.5f, 0.0f}},
+        {{8.0f, 0.0f, -1.5f}},    {{1.5f, 8.0f, 0.0f}},     {{0.0f, 1.5f, -8.0f}},
+        {{0.0f, 0.0f, 65536.0f}}, {{0.0f, -65536.0f, 0.0f}}};
+
+    return means[point];
 }
 
 #endif

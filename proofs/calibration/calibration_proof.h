@@ -24,6 +24,10 @@ keel_calibration_field_config_t nondet_field_config(void);
 uint32_t nondet_uint32(void);
 
 keel_calibration_vector_t nondet_vector(void);
+keel_calibration_correction_t nondet_correction(void);
+keel_calibration_sides_t nondet_sides(void);
+keel_calibration_turn_t nondet_turn(void);
+float nondet_float(void);
 
 static bool vector_same(const keel_calibration_vector_t *a, const keel_calibration_vector_t *b)
 {
@@ -34,6 +38,14 @@ static bool vector_same(const keel_calibration_vector_t *a, const keel_calibrati
 static bool three_same(const float *a, const float *b)
 {
     return float_same(a[0], b[0]) && float_same(a[1], b[1]) && float_same(a[2], b[2]);
+}
+
+static bool correction_same(const keel_calibration_correction_t *a,
+                            const keel_calibration_correction_t *b)
+{
+    return float_same(a->offset[0u], b->offset[0u]) && float_same(a->offset[1u], b->offset[1u]) &&
+           float_same(a->offset[2u], b->offset[2u]) && float_same(a->scale[0u], b->scale[0u]) &&
+           float_same(a->scale[1u], b->scale[1u]) && float_same(a->scale[2u], b->scale[2u]);
 }
 
 static bool rest_config_same(const keel_calibration_rest_config_t *a,
@@ -88,6 +100,23 @@ static bool three_within(const float *value, float least, float most)
 static bool is_finite(float value)
 {
     return within(value, -FLT_MAX, FLT_MAX);
+}
+
+/* What the contracts of corrections ask for, or promise. */
+static bool correction_valid(const keel_calibration_correction_t *c)
+{
+    return three_within(c->offset, -LIMIT, LIMIT) &&
+           three_within(c->scale, KEEL_CALIBRATION_SCALE_MIN, KEEL_CALIBRATION_SCALE_MAX);
+}
+
+static bool side_limits(float least, float most)
+{
+    return within(least, 0.0f, LIMIT) && within(most, 0.0f, LIMIT) && (most < least);
+}
+
+static bool sides_fit_here(const keel_calibration_sides_t *s)
+{
+    return within(s->gravity, 0.0f, LIMIT) && (s->gravity > 0.0f) && within(s->limit, 0.0f, LIMIT);
 }
 
 static uint32_t any_axis(void)

@@ -227,3 +227,87 @@ void model_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
         out->axis[k] = raw[k] - offset[k];
     }
 }
+
+/* CAL-015 */
+void model_calibration_correct(const keel_calibration_correction_t *correction,
+                               const float raw[KEEL_CALIBRATION_AXES],
+                               keel_calibration_vector_t *out)
+{
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        const float less = raw[k] - correction->offset[k];
+
+        out->axis[k] = less * correction->scale[k];
+    }
+}
+
+/* CAL-016: the side, of six, on which it has enough along one axis and little beside it. */
+uint32_t model_calibration_side(const float mean[KEEL_CALIBRATION_AXES], float least, float most)
+{
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        const bool alone = lies_in(mean[(k + 1u) % 3u], -most, most) &&
+                           lies_in(mean[(k + 2u) % 3u], -most, most);
+
+        if (alone && lies_in(mean[k], least, KEEL_CALIBRATION_LIMIT)) {
+            return 2u * k;
+        }
+        if (alone && lies_in(mean[k], -KEEL_CALIBRATION_LIMIT, -least)) {
+            return (2u * k) + 1u;
+        }
+    }
+    return KEEL_CALIBRATION_SIDES;
+}
+
+/* CAL-017: the scale of an axis; none when both sides say about the same. */
+static float scale_on(const keel_calibration_sides_t *sides, uint32_t k)
+{
+    const float span = sides->up[k] - sides->down[k];
+
+    if (span > sides->gravity) {
+        return (2.0f * sides->gravity) / span;
+    }
+    return 0.0f;
+}
+
+/* CAL-017: all three are believed, or none is taken. */
+keel_status_t model_calibration_six(const keel_calibration_sides_t *sides,
+                                    keel_calibration_correction_t *correction)
+{
+    keel_calibration_correction_t found;
+
+    if (!((sides->gravity > 0.0f) && (sides->gravity <= KEEL_CALIBRATION_LIMIT) &&
+          lies_in(sides->limit, 0.0f, KEEL_CALIBRATION_LIMIT))) {
+        return KEEL_ERR_VALUE;
+    }
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        found.offset[k] = 0.5f * (sides->up[k] + sides->down[k]);
+        found.scale[k] = scale_on(sides, k);
+    }
+    if (!(all_lie_in(sides->up, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
+          all_lie_in(sides->down, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
+          all_lie_in(found.offset, -sides->limit, sides->limit) &&
+          all_lie_in(found.scale, KEEL_CALIBRATION_SCALE_MIN, KEEL_CALIBRATION_SCALE_MAX))) {
+        return KEEL_ERR_LIMITS;
+    }
+    *correction = found;
+    return KEEL_OK;
+}
+
+/* CAL-018: products are added from the left. */
+static float sum_of_products(const float a[KEEL_CALIBRATION_AXES],
+                             const float b[KEEL_CALIBRATION_AXES])
+{
+    float sum = a[0] * b[0];
+
+    for (uint32_t i = 1u; i < KEEL_CALIBRATION_AXES; i++) {
+        sum = sum + (a[i] * b[i]);
+    }
+    return sum;
+}
+
+void model_calibration_turn(const keel_calibration_turn_t *turn,
+                            const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out)
+{
+    out->axis[0] = sum_of_products(turn->x, raw);
+    out->axis[1] = sum_of_products(turn->y, raw);
+    out->axis[2] = sum_of_products(turn->z, raw);
+}

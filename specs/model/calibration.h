@@ -33,4 +33,16 @@ void model_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
                              const float raw[KEEL_CALIBRATION_AXES],
                              keel_calibration_vector_t *out);
 
+void model_calibration_correct(const keel_calibration_correction_t *correction,
+                               const float raw[KEEL_CALIBRATION_AXES],
+                               keel_calibration_vector_t *out);
+
+uint32_t model_calibration_side(const float mean[KEEL_CALIBRATION_AXES], float least, float most);
+
+keel_status_t model_calibration_six(const keel_calibration_sides_t *sides,
+                                    keel_calibration_correction_t *correction);
+
+void model_calibration_turn(const keel_calibration_turn_t *turn,
+                            const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out);
+
 #endif

@@ -5,6 +5,11 @@
 
 #include <stdbool.h>
 
+/* How an axis lies. */
+#define LEANS     0u
+#define UPWARDS   1u
+#define DOWNWARDS 2u
+
 /* A count that stays at its end. */
 /*@ assigns \nothing;
   @ ensures \result == calibration_up(count);
@@ -306,4 +311,120 @@ void keel_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
     out->axis[0] = raw[0] - offset[0];
     out->axis[1] = raw[1] - offset[1];
     out->axis[2] = raw[2] - offset[2];
+}
+
+void keel_calibration_correct(const keel_calibration_correction_t *correction,
+                              const float raw[KEEL_CALIBRATION_AXES],
+                              keel_calibration_vector_t *out)
+{
+    out->axis[0] = (raw[0] - correction->offset[0]) * correction->scale[0];
+    out->axis[1] = (raw[1] - correction->offset[1]) * correction->scale[1];
+    out->axis[2] = (raw[2] - correction->offset[2]) * correction->scale[2];
+}
+
+/* How an axis lies, by what it says and whether the others say little. */
+/*@ requires \is_finite(least);
+  @ assigns \nothing;
+  @ ensures \result <= DOWNWARDS;
+  @*/
+static uint32_t way_of(float says, bool is_alone, float least)
+{
+    uint32_t way = LEANS;
+
+    if (is_alone && keel_range_contains(says, least, KEEL_CALIBRATION_LIMIT)) {
+        way = UPWARDS;
+    } else if (is_alone && keel_range_contains(says, -KEEL_CALIBRATION_LIMIT, -least)) {
+        way = DOWNWARDS;
+    } else {
+        /* It leans, or says too much. */
+    }
+    return way;
+}
+
+uint32_t keel_calibration_side(const float mean[KEEL_CALIBRATION_AXES], float least, float most)
+{
+    const bool x_is_little = keel_range_contains(mean[0], -most, most);
+    const bool y_is_little = keel_range_contains(mean[1], -most, most);
+    const bool z_is_little = keel_range_contains(mean[2], -most, most);
+    const uint32_t x = way_of(mean[0], y_is_little && z_is_little, least);
+    const uint32_t y = way_of(mean[1], z_is_little && x_is_little, least);
+    const uint32_t z = way_of(mean[2], x_is_little && y_is_little, least);
+    uint32_t side = KEEL_CALIBRATION_SIDES;
+
+    if (x != LEANS) {
+        side = x - UPWARDS;
+    } else if (y != LEANS) {
+        side = (y - UPWARDS) + 2u;
+    } else if (z != LEANS) {
+        side = (z - UPWARDS) + 4u;
+    } else {
+        /* It leans. */
+    }
+    return side;
+}
+
+/* 0, which nobody believes, where both sides say about the same. */
+/*@ requires \is_finite(up) && \is_finite(down) && \is_finite(gravity) && gravity > 0;
+  @ assigns \nothing;
+  @*/
+static float scale_of(float up, float down, float gravity)
+{
+    const float span = up - down;
+
+    return (span > gravity) ? ((2.0f * gravity) / span) : 0.0f;
+}
+
+/*@ requires \valid_read(sides);
+  @ assigns \nothing;
+  @ ensures \result <==> calibration_sides(*sides);
+  @*/
+static bool sides_fit(const keel_calibration_sides_t *sides)
+{
+    return keel_range_contains(sides->gravity, 0.0f, KEEL_CALIBRATION_LIMIT) &&
+           (sides->gravity > 0.0f) &&
+           keel_range_contains(sides->limit, 0.0f, KEEL_CALIBRATION_LIMIT);
+}
+
+keel_status_t keel_calibration_six(const keel_calibration_sides_t *sides,
+                                   keel_calibration_correction_t *correction)
+{
+    const float *const up = sides->up;
+    const float *const down = sides->down;
+    keel_calibration_correction_t found;
+
+    if (!sides_fit(sides)) {
+        return KEEL_ERR_VALUE;
+    }
+    if (!are_within(up, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) ||
+        !are_within(down, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT)) {
+        return KEEL_ERR_LIMITS;
+    }
+    found.offset[0] = 0.5f * (up[0] + down[0]);
+    found.offset[1] = 0.5f * (up[1] + down[1]);
+    found.offset[2] = 0.5f * (up[2] + down[2]);
+    found.scale[0] = scale_of(up[0], down[0], sides->gravity);
+    found.scale[1] = scale_of(up[1], down[1], sides->gravity);
+    found.scale[2] = scale_of(up[2], down[2], sides->gravity);
+    if (!are_within(found.offset, -sides->limit, sides->limit) ||
+        !are_within(found.scale, KEEL_CALIBRATION_SCALE_MIN, KEEL_CALIBRATION_SCALE_MAX)) {
+        return KEEL_ERR_LIMITS;
+    }
+    *correction = found;
+    return KEEL_OK;
+}
+
+/*@ requires \valid_read(row + (0 .. 2)) && \valid_read(raw + (0 .. 2));
+  @ assigns \nothing;
+  @*/
+static float along(const float row[KEEL_CALIBRATION_AXES], const float raw[KEEL_CALIBRATION_AXES])
+{
+    return ((row[0] * raw[0]) + (row[1] * raw[1])) + (row[2] * raw[2]);
+}
+
+void keel_calibration_turn(const keel_calibration_turn_t *turn,
+                           const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out)
+{
+    out->axis[0] = along(turn->x, raw);
+    out->axis[1] = along(turn->y, raw);
+    out->axis[2] = along(turn->z, raw);
 }

@@ -326,7 +326,7 @@ def test_a_link_that_is_flooded_is_its_own_trouble(copter: Copter) -> None:
 def test_parameters_are_listed_under_pressure(copter: Copter) -> None:
     rig = Rig(copter, [Link(1500)])
     rig.send(mavlink.MAVLink_param_request_list_message(1, 1))
-    rig.run(15_000)
+    rig.run(25_000)
     values = [message for message in rig.seen[0] if message.get_type() == "PARAM_VALUE"]
     assert [value.param_index for value in values] == list(range(values[0].param_count))
     assert rig.counts()["HEARTBEAT"] > 5
@@ -363,7 +363,7 @@ def test_each_parameter_is_set_told_and_kept(copter: Copter, tmp_path: Path) -> 
         assert value_in(rig, name) != value
         assert not [text for text in set_to(rig, name, value) if "not set" in text]
         assert value_in(rig, name) == value
-    rig.run(10_000)  # The last two saves.
+    rig.run(16_000)  # The last two saves.
     again = Rig(copter, warm_ms=500, memory=tmp_path / "memory")
     assert {name: value_in(again, name) for name in asked} == asked
     assert not errors_in(rig) and not errors_in(again)

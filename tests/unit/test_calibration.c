@@ -433,6 +433,138 @@ static void CAL_014_the_offset_is_taken_off(void)
     TEST_ASSERT_TRUE(isnan(sample.axis[1]));
 }
 
+static void CAL_015_a_sample_is_corrected_in_its_own_place_too(void)
+{
+    const keel_calibration_correction_t correction = {.offset = {1.0f, -2.0f, 0.5f},
+                                                      .scale = {1.0f, 1.125f, 0.875f}};
+    const float raw[KEEL_CALIBRATION_AXES] = {3.0f, 6.0f, 2.5f};
+    keel_calibration_vector_t out = {{3.0f, 6.0f, NAN}};
+
+    keel_calibration_correct(&correction, out.axis, &out);
+    TEST_ASSERT_EQUAL_FLOAT(2.0f, out.axis[0]);
+    TEST_ASSERT_EQUAL_FLOAT(9.0f, out.axis[1]);
+    TEST_ASSERT_TRUE(isnan(out.axis[2]));
+    keel_calibration_correct(&correction, raw, &out);
+    are(out.axis, 2.0f, 9.0f, 1.75f);
+}
+
+static uint32_t side(float x, float y, float z)
+{
+    const float mean[KEEL_CALIBRATION_AXES] = {x, y, z};
+
+    /* Three quarters of gravity, and an eighth. */
+    return keel_calibration_side(mean, 7.355f, 1.2258f);
+}
+
+static void CAL_016_each_side_is_told(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0u, side(9.8f, 0.0f, 0.0f)); /* Its nose points up. */
+    TEST_ASSERT_EQUAL_UINT32(1u, side(-9.8f, 0.0f, 0.0f));
+    TEST_ASSERT_EQUAL_UINT32(2u, side(0.0f, 9.8f, 0.0f));
+    TEST_ASSERT_EQUAL_UINT32(3u, side(0.0f, -9.8f, 0.0f));
+    TEST_ASSERT_EQUAL_UINT32(4u, side(0.0f, 0.0f, 9.8f));
+    TEST_ASSERT_EQUAL_UINT32(5u, side(0.0f, 0.0f, -9.8f)); /* It stands. */
+}
+
+static void CAL_016_what_leans_has_no_side(void)
+{
+    /* The sine of 7 degrees is 0.1219, of 8 degrees 0.1392; an eighth is 0.125. */
+    TEST_ASSERT_EQUAL_UINT32(5u, side(1.195f, -1.195f, -9.7f));
+    TEST_ASSERT_EQUAL_UINT32(6u, side(1.365f, 0.0f, -9.7f));
+    TEST_ASSERT_EQUAL_UINT32(6u, side(0.0f, -1.365f, -9.7f));
+    TEST_ASSERT_EQUAL_UINT32(6u, side(0.0f, 0.0f, -7.35f)); /* Three quarters are 7.355. */
+    TEST_ASSERT_EQUAL_UINT32(6u, side(0.0f, 7.35f, 0.0f));
+    TEST_ASSERT_EQUAL_UINT32(6u, side(0.0f, 0.0f, 0.0f));
+    TEST_ASSERT_EQUAL_UINT32(6u, side(NAN, 0.0f, -9.8f));
+    TEST_ASSERT_EQUAL_UINT32(6u, side(0.0f, 0.0f, NAN));
+    TEST_ASSERT_EQUAL_UINT32(6u, side(-INFINITY, 0.0f, 0.0f));
+}
+
+/* The offsets are 0.25, -0.5, 0.5; the spans 19, 20, 18. */
+static keel_calibration_sides_t six_sides(void)
+{
+    const keel_calibration_sides_t sides = {
+        .up = {9.75f, 9.5f, 9.5f}, .down = {-9.25f, -10.5f, -8.5f}, .gravity = 9.5f, .limit = 0.5f};
+
+    return sides;
+}
+
+static void six_refuses(const keel_calibration_sides_t *sides, keel_status_t status)
+{
+    keel_calibration_correction_t correction;
+    keel_calibration_correction_t before;
+
+    memset(&correction, 0x55, sizeof correction);
+    memcpy(&before, &correction, sizeof before);
+    TEST_ASSERT_EQUAL(status, keel_calibration_six(sides, &correction));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &correction, sizeof correction);
+}
+
+static void CAL_017_six_sides_are_offset_and_scale(void)
+{
+    const keel_calibration_sides_t sides = six_sides();
+    keel_calibration_correction_t correction;
+    keel_calibration_vector_t out;
+
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_calibration_six(&sides, &correction));
+    are(correction.offset, 0.25f, -0.5f, 0.5f);
+    are(correction.scale, 1.0f, 0.95f, 19.0f / 18.0f);
+    keel_calibration_correct(&correction, sides.up, &out);
+    for (size_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        TEST_ASSERT_FLOAT_WITHIN(2e-6f, 9.5f, out.axis[k]);
+    }
+}
+
+static void CAL_017_a_bad_gravity_or_limit_is_refused(void)
+{
+    const float bad[] = {-1.0f, NAN, INFINITY, nextafterf(LIMIT, INFINITY)};
+    keel_calibration_sides_t sides = six_sides();
+
+    for (size_t i = 0u; i < (sizeof bad / sizeof bad[0]); i++) {
+        sides.gravity = bad[i];
+        six_refuses(&sides, KEEL_ERR_VALUE);
+        sides = six_sides();
+        sides.limit = bad[i];
+        six_refuses(&sides, KEEL_ERR_VALUE);
+        sides = six_sides();
+    }
+    sides.gravity = 0.0f;
+    six_refuses(&sides, KEEL_ERR_VALUE);
+}
+
+/* All three axes or none: each is spoilt in turn. */
+static void CAL_017_what_cannot_be_believed_is_refused(void)
+{
+    const float up[] = {10.5f, NAN, INFINITY, 2.0f * LIMIT, -9.0f, 8.4f, 10.9f};
+    const float down[] = {-8.5f - 1e-3f, -9.5f, -9.5f, -2.0f * LIMIT, -9.0f, -8.4f, -10.9f};
+
+    for (size_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        for (size_t i = 0u; i < (sizeof up / sizeof up[0]); i++) {
+            keel_calibration_sides_t sides = six_sides();
+
+            sides.up[k] = up[i];
+            sides.down[k] = down[i];
+            six_refuses(&sides, KEEL_ERR_LIMITS);
+        }
+    }
+}
+
+/* A sensor that is mounted turned by 90 degrees to the right: its x is the vehicle's y. */
+static void CAL_018_a_sample_is_turned(void)
+{
+    const keel_calibration_turn_t right = {
+        .x = {0.0f, -1.0f, 0.0f}, .y = {1.0f, 0.0f, 0.0f}, .z = {0.0f, 0.0f, 1.0f}};
+    const keel_calibration_turn_t any = {
+        .x = {1.0f, 2.0f, 3.0f}, .y = {-4.0f, 5.0f, -6.0f}, .z = {7.0f, -8.0f, 9.0f}};
+    const float raw[KEEL_CALIBRATION_AXES] = {1.0f, 2.0f, 4.0f};
+    keel_calibration_vector_t out;
+
+    keel_calibration_turn(&right, raw, &out);
+    are(out.axis, -2.0f, 1.0f, 4.0f);
+    keel_calibration_turn(&any, raw, &out);
+    are(out.axis, 17.0f, -18.0f, 27.0f);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -460,5 +592,12 @@ int main(void)
     RUN_TEST(CAL_011_nothing_seen_is_not_enough);
     RUN_TEST(CAL_012_a_refusal_changes_nothing);
     RUN_TEST(CAL_014_the_offset_is_taken_off);
+    RUN_TEST(CAL_015_a_sample_is_corrected_in_its_own_place_too);
+    RUN_TEST(CAL_016_each_side_is_told);
+    RUN_TEST(CAL_016_what_leans_has_no_side);
+    RUN_TEST(CAL_017_six_sides_are_offset_and_scale);
+    RUN_TEST(CAL_017_a_bad_gravity_or_limit_is_refused);
+    RUN_TEST(CAL_017_what_cannot_be_believed_is_refused);
+    RUN_TEST(CAL_018_a_sample_is_turned);
     return UNITY_END();
 }

@@ -163,11 +163,85 @@ static void CAL_014_every_sample_is_the_specified_one(void)
     }
 }
 
+static void any_three(float *three, float middle, float wide)
+{
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        three[k] = usually(middle + between(-wide, wide));
+    }
+}
+
+static void CAL_015_every_correction_and_turn_is_the_specified_one(void)
+{
+    for (uint32_t i = 0u; i < STEPS; i++) {
+        keel_calibration_correction_t correction;
+        keel_calibration_turn_t turn;
+        keel_calibration_vector_t raw;
+        keel_calibration_vector_t out;
+        keel_calibration_vector_t model;
+
+        any_three(correction.offset, 0.0f, 1.0f);
+        any_three(correction.scale, 1.0f, 0.1f);
+        any_three(raw.axis, 0.0f, 20.0f);
+        any_three(turn.x, 0.0f, 1.0f);
+        any_three(turn.y, 0.0f, 1.0f);
+        any_three(turn.z, 0.0f, 1.0f);
+        keel_calibration_turn(&turn, raw.axis, &out);
+        model_calibration_turn(&turn, raw.axis, &model);
+        for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+            TEST_ASSERT_TRUE((isnan(model.axis[k]) && isnan(out.axis[k])) ||
+                             (memcmp(&model.axis[k], &out.axis[k], sizeof(float)) == 0));
+        }
+        model_calibration_correct(&correction, raw.axis, &model);
+        keel_calibration_correct(&correction, raw.axis, &raw);
+        for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+            TEST_ASSERT_TRUE((isnan(model.axis[k]) && isnan(raw.axis[k])) ||
+                             (memcmp(&model.axis[k], &raw.axis[k], sizeof(float)) == 0));
+        }
+    }
+}
+
+static void CAL_017_every_six_sides_are_the_specified_ones(void)
+{
+    uint32_t told[KEEL_CALIBRATION_SIDES + 1u] = {0u};
+    uint32_t taken = 0u;
+
+    for (uint32_t i = 0u; i < STEPS; i++) {
+        keel_calibration_vector_t mean;
+        keel_calibration_sides_t sides = {.gravity = usually(9.8f), .limit = usually(1.0f)};
+        keel_calibration_correction_t correction;
+        keel_calibration_correction_t model;
+        keel_status_t status;
+        uint32_t side;
+
+        any_three(mean.axis, 0.0f, 1.5f);
+        mean.axis[any() % 3u] = usually(between(6.0f, 11.0f) * (one_in(2u) ? 1.0f : -1.0f));
+        side = keel_calibration_side(mean.axis, 7.35f, 1.225f);
+        TEST_ASSERT_EQUAL_UINT32(model_calibration_side(mean.axis, 7.35f, 1.225f), side);
+        told[side]++;
+        any_three(sides.up, 9.8f, 1.2f);
+        any_three(sides.down, -9.8f, 1.2f);
+        any_three(correction.offset, 0.0f, 1.0f);
+        any_three(correction.scale, 0.0f, 1.0f);
+        model = correction;
+        status = keel_calibration_six(&sides, &correction);
+        TEST_ASSERT_EQUAL(model_calibration_six(&sides, &model), status);
+        TEST_ASSERT_EQUAL_MEMORY(&model, &correction, sizeof correction);
+        taken += (status == KEEL_OK) ? 1u : 0u;
+    }
+    for (uint32_t i = 0u; i <= KEEL_CALIBRATION_SIDES; i++) {
+        TEST_ASSERT_GREATER_THAN_UINT32(STEPS / 100u, told[i]);
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(STEPS / 100u, taken);
+    TEST_ASSERT_LESS_THAN_UINT32(STEPS - (STEPS / 100u), taken);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(CAL_004_every_step_at_rest_is_the_specified_one);
     RUN_TEST(CAL_010_every_step_of_a_turn_is_the_specified_one);
     RUN_TEST(CAL_014_every_sample_is_the_specified_one);
+    RUN_TEST(CAL_015_every_correction_and_turn_is_the_specified_one);
+    RUN_TEST(CAL_017_every_six_sides_are_the_specified_ones);
     return UNITY_END();
 }

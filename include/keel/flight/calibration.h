@@ -25,12 +25,18 @@
  *
  *     offset = (lowest + highest) / 2
  *
- * Soft iron and scale are left as they are. An axis fits once it has spanned span_min, no more than
+ * Soft iron and scale are not found. An axis fits once it has spanned span_min, no more than
  * span_max, as it would beside a magnet, and its offset is believed.
  *
  * Both take an offset only when it is within `limit` on each axis, and all three or none: until
  * then, and whenever a calibration is refused, the offset before stays in force. Whatever sensors
  * say, every number is finite and within its bound (requirement CAL-013).
+ *
+ * On its six sides (keel_calibration_sides_t) an accelerometer says what gravity is on each axis,
+ * once up and once down. Its mean on a side is that of a calibration at rest that expects 0; which
+ * side it is, keel_calibration_side tells. From them
+ *
+ *     offset = (up + down) / 2,  scale = 2 gravity / (up - down)
  *
  * Single precision. No division and no library call in a step. Sources must be compiled without
  * contraction of products and sums, as all builds of Keel do.
@@ -52,6 +58,13 @@ KEEL_C_BEGIN
  * sensors of 16 bits can say in counts. */
 #define KEEL_CALIBRATION_LIMIT 32768.0f
 
+/** The sides that keel_calibration_side tells apart. 2 k: axis k points up; 2 k + 1: down. */
+#define KEEL_CALIBRATION_SIDES 6u
+
+/** The scales that are believed. */
+#define KEEL_CALIBRATION_SCALE_MIN 0.875f
+#define KEEL_CALIBRATION_SCALE_MAX 1.125f
+
 /** The most samples of a mean. */
 #define KEEL_CALIBRATION_SAMPLES_MAX 65536u
 
@@ -65,6 +78,27 @@ KEEL_C_BEGIN
 typedef struct keel_calibration_vector {
     float axis[KEEL_CALIBRATION_AXES]; /**< In the unit of the sample. */
 } keel_calibration_vector_t;
+
+/** A correction: what is right is (raw - offset) * scale, on each axis. */
+typedef struct keel_calibration_correction {
+    float offset[KEEL_CALIBRATION_AXES]; /**< In the unit of the sample. */
+    float scale[KEEL_CALIBRATION_AXES];  /**< 1: as it is. */
+} keel_calibration_correction_t;
+
+/** What an accelerometer says at rest on its six sides. */
+typedef struct keel_calibration_sides {
+    float up[KEEL_CALIBRATION_AXES];   /**< On an axis that points up: gravity, were it right. */
+    float down[KEEL_CALIBRATION_AXES]; /**< On one that points down: -gravity. */
+    float gravity;                     /**< In the unit of the sample, above 0, to LIMIT. */
+    float limit;                       /**< The greatest offset that is believed, 0 to LIMIT. */
+} keel_calibration_sides_t;
+
+/** A turn of a sensor's axes into those of the vehicle. */
+typedef struct keel_calibration_turn {
+    float x[KEEL_CALIBRATION_AXES]; /**< The vehicle's x axis, as the sensor sees it. */
+    float y[KEEL_CALIBRATION_AXES]; /**< Its y axis. */
+    float z[KEEL_CALIBRATION_AXES]; /**< Its z axis. */
+} keel_calibration_turn_t;
 
 /** How far a calibration is: KEEL_CALIBRATION_IDLE, ... A plain number, as structures hold it: an
  * enumeration's size differs between compilers. */
@@ -190,6 +224,19 @@ typedef struct keel_calibration_field {
   @ predicate calibration_heeds(keel_calibration_field_t *f, float *s) =
   @     f->state == KEEL_CALIBRATION_COLLECTING &&
   @     calibration_three(s, f->config.lowest, f->config.highest);
+  @
+  @ predicate calibration_correction(keel_calibration_correction_t *c) =
+  @     calibration_three(&c->offset[0], -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
+  @     calibration_three(&c->scale[0], KEEL_CALIBRATION_SCALE_MIN, KEEL_CALIBRATION_SCALE_MAX);
+  @
+  @ predicate calibration_turn(keel_calibration_turn_t *t) =
+  @     calibration_three(&t->x[0], -1, 1) && calibration_three(&t->y[0], -1, 1) &&
+  @     calibration_three(&t->z[0], -1, 1);
+  @
+  @ // Gravity and limit of a calibration on six sides.
+  @ predicate calibration_sides(keel_calibration_sides_t s) =
+  @     calibration_number(s.gravity, 0, KEEL_CALIBRATION_LIMIT) && s.gravity > 0 &&
+  @     calibration_number(s.limit, 0, KEEL_CALIBRATION_LIMIT);
   @
   @ logic integer calibration_up(integer count) = count < 65535 ? count + 1 : 65535;
   @*/
@@ -422,6 +469,82 @@ keel_status_t keel_calibration_field_finish(keel_calibration_field_t *field);
   @*/
 void keel_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
                             const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out);
+
+/**
+ * Takes an offset off a sample and scales it (requirement CAL-015).
+ *
+ * @param correction the correction
+ * @param raw        what was measured; any bit pattern. What is no number stays none
+ * @param out        (raw - offset) * scale, of each axis; raw may be its own axes
+ */
+/*@ requires \valid_read(correction) && \valid_read(raw + (0 .. 2)) && \valid(out) &&
+  @     \separated(correction, out) && (raw == &out->axis[0] || \separated(raw + (0 .. 2), out));
+  @ assigns *out;
+  @ ensures CAL_015_finite: calibration_correction(correction) &&
+  @     \old(calibration_three(raw, -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT)) ==>
+  @     calibration_three(&out->axis[0], -4 * KEEL_CALIBRATION_LIMIT, 4 * KEEL_CALIBRATION_LIMIT);
+  @*/
+void keel_calibration_correct(const keel_calibration_correction_t *correction,
+                              const float raw[KEEL_CALIBRATION_AXES],
+                              keel_calibration_vector_t *out);
+
+/**
+ * Which side points up, by what an accelerometer says at rest: one axis has at least so much of
+ * gravity, the others at most so much (requirement CAL-016).
+ *
+ * @param mean  what it says; any bit pattern
+ * @param least what an axis says at least that points up or down, to KEEL_CALIBRATION_LIMIT
+ * @param most  what the others say at most, to either side, 0 to below least
+ * @return 2 k: axis k points up; 2 k + 1: down; KEEL_CALIBRATION_SIDES: none does
+ */
+/*@ requires \valid_read(mean + (0 .. 2));
+  @ requires side_limits: calibration_number(least, 0, KEEL_CALIBRATION_LIMIT) &&
+  @     calibration_number(most, 0, KEEL_CALIBRATION_LIMIT) && most < least;
+  @ assigns \nothing;
+  @ ensures CAL_016_side: \result <= KEEL_CALIBRATION_SIDES;
+  @ ensures CAL_016_none: !calibration_three(mean, -KEEL_CALIBRATION_LIMIT,
+  @     KEEL_CALIBRATION_LIMIT) ==> \result == KEEL_CALIBRATION_SIDES;
+  @ ensures CAL_016_up: \forall integer k; 0 <= k < 3 && \result == 2 * k ==> mean[k] >= least;
+  @ ensures CAL_016_down: \forall integer k; 0 <= k < 3 && \result == 2 * k + 1 ==>
+  @     mean[k] <= -least;
+  @*/
+uint32_t keel_calibration_side(const float mean[KEEL_CALIBRATION_AXES], float least, float most);
+
+/**
+ * Makes a correction of what an accelerometer said on its six sides (requirement CAL-017).
+ *
+ * @param sides      what it said; any bit pattern
+ * @param correction the correction
+ * @return KEEL_OK; KEEL_ERR_VALUE (gravity, limit) or KEEL_ERR_LIMITS (on any axis what was said
+ *         is no number within KEEL_CALIBRATION_LIMIT, or offset or scale cannot be believed), the
+ *         first that applies: then nothing is changed
+ */
+/*@ requires \valid_read(sides) && \valid(correction) && \separated(sides, correction);
+  @ assigns *correction;
+  @ ensures CAL_017_value: !calibration_sides(*sides) <==> \result == KEEL_ERR_VALUE;
+  @ ensures CAL_017_kept: \result != KEEL_OK ==> *correction == \old(*correction);
+  @ ensures CAL_017_taken: \result == KEEL_OK ==> calibration_correction(correction) &&
+  @     calibration_three(&correction->offset[0], -sides->limit, sides->limit);
+  @*/
+keel_status_t keel_calibration_six(const keel_calibration_sides_t *sides,
+                                   keel_calibration_correction_t *correction);
+
+/**
+ * Turns a sample into the vehicle's axes (requirement CAL-018).
+ *
+ * @param turn the turn
+ * @param raw  what was measured; any bit pattern. What is no number stays none
+ * @param out  x times raw, y times raw, z times raw; apart from raw
+ */
+/*@ requires \valid_read(turn) && \valid_read(raw + (0 .. 2)) && \valid(out) &&
+  @     \separated(turn, out) && \separated(raw + (0 .. 2), out);
+  @ assigns *out;
+  @ ensures CAL_018_finite: calibration_turn(turn) && calibration_three(raw,
+  @     -4 * KEEL_CALIBRATION_LIMIT, 4 * KEEL_CALIBRATION_LIMIT) ==>
+  @     calibration_three(&out->axis[0], -16 * KEEL_CALIBRATION_LIMIT, 16 * KEEL_CALIBRATION_LIMIT);
+  @*/
+void keel_calibration_turn(const keel_calibration_turn_t *turn,
+                           const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out);
 
 KEEL_C_END
 
