@@ -83,9 +83,9 @@ static float filtered(keel_filter_t *filter, float value, bool goes_on)
     return (status == KEEL_OK) ? filter->output : value;
 }
 
-/* What a unit votes with: its sample as calibrations correct it, filtered, as vibration differs from
- * unit to unit. Filters start anew behind a gap. They rest while the unit does: a unit
- * that repeats itself gave no sample, and the voter is to see it. */
+/* A unit votes with its sample as calibrations correct it, filtered, as vibration differs from unit
+ * to unit. Filters start anew behind a gap. They rest while the unit does: a unit that repeats
+ * itself gave no sample, and the voter is to see it. */
 static void prepare(copter_inertia_t *self, uint32_t unit, const copter_calibration_t *calibration,
                     bool goes_on, keel_virtual_imu_sample_t *sample)
 {
