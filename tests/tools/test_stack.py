@@ -287,6 +287,12 @@ class AnalysisTest(unittest.TestCase):
         with self.assertRaisesRegex(StackError, "nobody calls them: forgotten"):
             self.analyse(node("forgotten", "4 bytes (static)"))
 
+    def test_what_comes_with_a_librarys_object_is_not_called(self) -> None:
+        graph = graph_of(*DIAMOND, DEEP)
+        code = {name: Code() for name in ("reset", "main", "left", "right", "deep", "neighbour")}
+        stacks, _, _ = analyse(graph, code, table_of(), SIZES)
+        self.assertEqual(stacks[0].bytes, 96 + 108)
+
     def test_what_the_linker_left_out_does_not_count(self) -> None:
         graph = graph_of(*DIAMOND, DEEP, node("out", "900 bytes (static)"), edge("main", "out"))
         code = {name: Code() for name in ("reset", "main", "left", "right", "deep")}

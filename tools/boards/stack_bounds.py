@@ -120,11 +120,17 @@ class Bounds:
         return set(self._known)
 
 
-def check_reached(graph: Graph, reached: set[str], code: Mapping[str, Code]) -> None:
-    """Every function of the image must be on some path; else a call is missing in the graph."""
+def check_reached(
+    graph: Graph, reached: set[str], code: Mapping[str, Code], compiled: set[str]
+) -> None:
+    """Every function that was compiled must be on some path; else a call is missing in the graph.
+
+    Of a library the linker takes whole objects: what nobody calls came with what is called.
+    """
     names = {graph[title].name for title in reached}
     seen = {id(item) for name, item in code.items() if name in names}
-    missing = sorted(name for name, item in code.items() if id(item) not in seen)
+    missing = sorted(name for name, item in code.items()
+                     if id(item) not in seen and name in compiled)  # fmt: skip
     if missing:
         raise StackError(f"in the image, but nobody calls them: {', '.join(missing)}; a call "
                          f"through a pointer or an entry is missing in {TABLE}")  # fmt: skip
@@ -163,6 +169,7 @@ def analyse(
         del graph[title]
     for function in graph.values():
         function.calls &= graph.keys()
+    compiled = {function.name for function in graph.values() if function.frame is not None}
     library = complete(graph, code)
     tasks = resolve(graph, table)
     bounds = Bounds(graph)
@@ -177,5 +184,5 @@ def analyse(
         if not found:
             raise StackError(f"{TABLE} names no entry of this image on the stack {name}")
         stacks.append(max(found, key=lambda stack: stack.bytes))
-    check_reached(graph, bounds.reached, code)
+    check_reached(graph, bounds.reached, code, compiled)
     return stacks, {graph[title].name: bounds.of(title) for title in tasks}, library
