@@ -122,6 +122,10 @@ flights: python ## N flights with everything varied (N=1000; JOBS=4; DASK=tcp://
 	    --flights "$(if $(N),$(N),100)" $(if $(SEED),--seed "$(SEED)") \
 	    $(if $(JOBS),--jobs "$(JOBS)") $(ARGS)
 
+.PHONY: margins
+margins: python ## gain, phase and delay margin of each of the copter's loops
+	@python3 tools/with_packages.py fly -m flight.margins
+
 .PHONY: log
 log: python ## plot a flight's log (FILE=build/fly/hover-jsbsim.ulg): attitude, motors, votes, load, vibration
 	@python3 tools/with_packages.py fly tools/log.py "$(FILE)" $(ARGS)
