@@ -4,8 +4,8 @@
     make margins
 
 A linear model at the hover: the gains are the parameters' defaults, the aircraft is the F450 as
-MuJoCo's plant has it. Each loop is opened at its controller, with the loops inside it closed; "at the
-motors" opens rate and angle at once, as a late sample is late for both. How far the copter is
+MuJoCo's plant has it. Each loop is opened at its controller, with the loops inside it closed; "at
+the motors" opens rate and angle at once, as a late sample is late for both. How far the copter is
 from the model shows in tests/flight/test_margins.py, which flies with delays below and above the
 margin.
 """
@@ -82,8 +82,11 @@ def controller(kp: float, ki: float, kd: float, period: float) -> Response:
 def authority() -> dict[str, float]:
     """The acceleration by a unit of roll, yaw and thrust at the hover, in rad/s^2 and m/s^2."""
     slope = MOTORS * plant.THRUST_N * THRUST_POWER * HOVER ** (THRUST_POWER - 1.0)
-    return {"roll": plant.ARM_M * slope / plant.INERTIA[0],
-            "yaw": plant.TORQUE_M * slope / plant.INERTIA[2], "thrust": slope / plant.MASS_KG}  # fmt: skip
+    return {
+        "roll": plant.ARM_M * slope / plant.INERTIA[0],
+        "yaw": plant.TORQUE_M * slope / plant.INERTIA[2],
+        "thrust": slope / plant.MASS_KG,
+    }
 
 
 def loops(gains: Mapping[str, float]) -> dict[str, Response]:
