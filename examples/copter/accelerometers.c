@@ -36,7 +36,7 @@ keel_status_t copter_accelerometers_init(copter_accelerometers_t *self)
 }
 
 /* Turned to the right by yaw, then nose up by pitch, then rolled to the right. */
-static keel_calibration_turn_t mounted(float roll, float pitch, float yaw)
+static keel_calibration_rotation_t mounted(float roll, float pitch, float yaw)
 {
     const float cr = cosf(roll);
     const float sr = sinf(roll);
@@ -45,17 +45,17 @@ static keel_calibration_turn_t mounted(float roll, float pitch, float yaw)
     const float cy = cosf(yaw);
     const float sy = sinf(yaw);
 
-    return (keel_calibration_turn_t){
+    return (keel_calibration_rotation_t){
         .x = {cp * cy, (sr * sp * cy) - (cr * sy), (cr * sp * cy) + (sr * sy)},
         .y = {cp * sy, (sr * sp * sy) + (cr * cy), (cr * sp * sy) - (sr * cy)},
         .z = {-sp, sr * cp, cr * cp}};
 }
 
 /* First by one, then by the other. */
-static keel_calibration_turn_t then(const keel_calibration_turn_t *first,
-                                    const keel_calibration_turn_t *other)
+static keel_calibration_rotation_t then(const keel_calibration_rotation_t *first,
+                                        const keel_calibration_rotation_t *other)
 {
-    keel_calibration_turn_t both;
+    keel_calibration_rotation_t both;
 
     for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
         const float column[KEEL_CALIBRATION_AXES] = {first->x[k], first->y[k], first->z[k]};
@@ -78,7 +78,7 @@ void copter_accelerometers_set(copter_accelerometers_t *self)
 {
     const float *const board = copter_settings.board;
     const float *const trim = copter_settings.trim;
-    const keel_calibration_turn_t trimmed = mounted(trim[0], trim[1], 0.0f);
+    const keel_calibration_rotation_t trimmed = mounted(trim[0], trim[1], 0.0f);
 
     self->board = mounted(board[0], board[1], board[2]);
     self->turn = then(&self->board, &trimmed);

@@ -132,8 +132,8 @@ typedef struct copter_accelerometers {
     keel_calibration_rest_t rest[COPTER_IMUS];
     keel_calibration_sides_t sides[COPTER_IMUS];
     keel_calibration_correction_t correction[COPTER_IMUS]; /**< In force. */
-    keel_calibration_turn_t board;                         /**< As settings.board says. */
-    keel_calibration_turn_t turn;                          /**< The same, and trimmed: in force. */
+    keel_calibration_rotation_t board;                     /**< As settings.board says. */
+    keel_calibration_rotation_t turn;                      /**< The same, and trimmed: in force. */
     keel_calibration_correction_t found[COPTER_IMUS];      /**< By the last one on six sides. */
     float trim[2];     /**< The roll and pitch that the last one found. */
     bool is_turned;    /**< Anything but not at all. */

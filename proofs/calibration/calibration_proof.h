@@ -26,7 +26,7 @@ uint32_t nondet_uint32(void);
 keel_calibration_vector_t nondet_vector(void);
 keel_calibration_correction_t nondet_correction(void);
 keel_calibration_sides_t nondet_sides(void);
-keel_calibration_turn_t nondet_turn(void);
+keel_calibration_rotation_t nondet_turn(void);
 float nondet_float(void);
 
 static bool vector_same(const keel_calibration_vector_t *a, const keel_calibration_vector_t *b)

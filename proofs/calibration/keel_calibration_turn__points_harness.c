@@ -9,7 +9,7 @@
 
 void keel_calibration_turn__points_harness(void)
 {
-    const keel_calibration_turn_t turn = {
+    const keel_calibration_rotation_t turn = {
         .x = {0.5f, 2.0f, -1.0f}, .y = {4.0f, -0.25f, 8.0f}, .z = {-16.0f, 3.0f, 0.125f}};
     const keel_calibration_vector_t raw = {{1.0f, 3.0f, 5.0f}};
     keel_calibration_vector_t out = nondet_vector();

@@ -9,7 +9,7 @@
 
 void keel_calibration_turn__valid_harness(void)
 {
-    const keel_calibration_turn_t turn = nondet_turn();
+    const keel_calibration_rotation_t turn = nondet_turn();
     const keel_calibration_vector_t raw = nondet_vector();
     keel_calibration_vector_t out = nondet_vector();
 

@@ -10,9 +10,9 @@
 
 void keel_calibration_turn_harness(void)
 {
-    keel_calibration_turn_t turn = nondet_turn();
+    keel_calibration_rotation_t turn = nondet_turn();
     keel_calibration_vector_t raw = nondet_vector();
-    const keel_calibration_turn_t turn_before = turn;
+    const keel_calibration_rotation_t turn_before = turn;
     const keel_calibration_vector_t raw_before = raw;
     keel_calibration_vector_t out = nondet_vector();
     keel_calibration_vector_t model = out;

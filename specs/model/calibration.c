@@ -304,7 +304,7 @@ static float sum_of_products(const float a[KEEL_CALIBRATION_AXES],
     return sum;
 }
 
-void model_calibration_turn(const keel_calibration_turn_t *turn,
+void model_calibration_turn(const keel_calibration_rotation_t *turn,
                             const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out)
 {
     out->axis[0] = sum_of_products(turn->x, raw);

@@ -42,7 +42,7 @@ uint32_t model_calibration_side(const float mean[KEEL_CALIBRATION_AXES], float l
 keel_status_t model_calibration_six(const keel_calibration_sides_t *sides,
                                     keel_calibration_correction_t *correction);
 
-void model_calibration_turn(const keel_calibration_turn_t *turn,
+void model_calibration_turn(const keel_calibration_rotation_t *turn,
                             const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out);
 
 #endif

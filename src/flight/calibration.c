@@ -421,7 +421,7 @@ static float along(const float row[KEEL_CALIBRATION_AXES], const float raw[KEEL_
     return ((row[0] * raw[0]) + (row[1] * raw[1])) + (row[2] * raw[2]);
 }
 
-void keel_calibration_turn(const keel_calibration_turn_t *turn,
+void keel_calibration_turn(const keel_calibration_rotation_t *turn,
                            const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out)
 {
     out->axis[0] = along(turn->x, raw);

@@ -552,9 +552,9 @@ static void CAL_017_what_cannot_be_believed_is_refused(void)
 /* A sensor that is mounted turned by 90 degrees to the right: its x is the vehicle's y. */
 static void CAL_018_a_sample_is_turned(void)
 {
-    const keel_calibration_turn_t right = {
+    const keel_calibration_rotation_t right = {
         .x = {0.0f, -1.0f, 0.0f}, .y = {1.0f, 0.0f, 0.0f}, .z = {0.0f, 0.0f, 1.0f}};
-    const keel_calibration_turn_t any = {
+    const keel_calibration_rotation_t any = {
         .x = {1.0f, 2.0f, 3.0f}, .y = {-4.0f, 5.0f, -6.0f}, .z = {7.0f, -8.0f, 9.0f}};
     const float raw[KEEL_CALIBRATION_AXES] = {1.0f, 2.0f, 4.0f};
     keel_calibration_vector_t out;

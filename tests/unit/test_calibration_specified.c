@@ -174,7 +174,7 @@ static void CAL_015_every_correction_and_turn_is_the_specified_one(void)
 {
     for (uint32_t i = 0u; i < STEPS; i++) {
         keel_calibration_correction_t correction;
-        keel_calibration_turn_t turn;
+        keel_calibration_rotation_t turn;
         keel_calibration_vector_t raw;
         keel_calibration_vector_t out;
         keel_calibration_vector_t model;

@@ -171,7 +171,7 @@ static void VOT_018_every_vote_is_the_specified_one(void)
             model_voter_reconsider(&voter_model, sample);
             keel_voter_reconsider(&voter, sample);
         }
-        if (voter_made && one_in(64u)) {
+        if (voter_made && one_in(32u)) {
             const uint32_t sensor = below(KEEL_VOTER_SENSORS + 1u);
             const keel_status_t expected = model_voter_readmit(&voter_model, sensor);
 

@@ -94,11 +94,11 @@ typedef struct keel_calibration_sides {
 } keel_calibration_sides_t;
 
 /** A turn of a sensor's axes into those of the vehicle. */
-typedef struct keel_calibration_turn {
+typedef struct keel_calibration_rotation {
     float x[KEEL_CALIBRATION_AXES]; /**< The vehicle's x axis, as the sensor sees it. */
     float y[KEEL_CALIBRATION_AXES]; /**< Its y axis. */
     float z[KEEL_CALIBRATION_AXES]; /**< Its z axis. */
-} keel_calibration_turn_t;
+} keel_calibration_rotation_t;
 
 /** How far a calibration is: KEEL_CALIBRATION_IDLE, ... A plain number, as structures hold it: an
  * enumeration's size differs between compilers. */
@@ -229,7 +229,7 @@ typedef struct keel_calibration_field {
   @     calibration_three(&c->offset[0], -KEEL_CALIBRATION_LIMIT, KEEL_CALIBRATION_LIMIT) &&
   @     calibration_three(&c->scale[0], KEEL_CALIBRATION_SCALE_MIN, KEEL_CALIBRATION_SCALE_MAX);
   @
-  @ predicate calibration_turn(keel_calibration_turn_t *t) =
+  @ predicate calibration_turn(keel_calibration_rotation_t *t) =
   @     calibration_three(&t->x[0], -1, 1) && calibration_three(&t->y[0], -1, 1) &&
   @     calibration_three(&t->z[0], -1, 1);
   @
@@ -543,7 +543,7 @@ keel_status_t keel_calibration_six(const keel_calibration_sides_t *sides,
   @     -4 * KEEL_CALIBRATION_LIMIT, 4 * KEEL_CALIBRATION_LIMIT) ==>
   @     calibration_three(&out->axis[0], -16 * KEEL_CALIBRATION_LIMIT, 16 * KEEL_CALIBRATION_LIMIT);
   @*/
-void keel_calibration_turn(const keel_calibration_turn_t *turn,
+void keel_calibration_turn(const keel_calibration_rotation_t *turn,
                            const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out);
 
 KEEL_C_END
