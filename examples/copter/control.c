@@ -108,10 +108,13 @@ static void follow_reset(copter_control_t *self, const copter_estimate_t *estima
     self->resets = estimate->resets;
 }
 
-static float descent_at(float height)
+/* Slow near the ground; fast again where it touches, so that the motors let go of it at once. */
+static float descent_of(const copter_estimate_t *estimate)
 {
-    return (height > copter_settings.land_near) ? -copter_settings.land_fast
-                                                : -copter_settings.land_slow;
+    const bool is_slow = (estimate->here.position.up <= copter_settings.land_near) &&
+                         !estimate->touches;
+
+    return is_slow ? -copter_settings.land_slow : -copter_settings.land_fast;
 }
 
 /* Towards the fence the pilot comes to a stop by himself: slower the nearer it is. Without that the
@@ -190,7 +193,7 @@ void copter_position_control(copter_t *copter)
     if (is_flown(copter)) {
         follow_sticks(self, copter);
     } else if (self->mode == KEEL_MODE_LAND) {
-        self->asked.up = descent_at(here->position.up);
+        self->asked.up = descent_of(&copter->estimate);
     } else {
         /* It goes where the position stage says. */
     }

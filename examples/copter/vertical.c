@@ -174,8 +174,8 @@ static bool is_landed(const copter_t *copter)
             (estimate->is_landed || is_let_down(copter)));
 }
 
-/* A descent is asked for, and not half of it happens: it may stand on the ground. A place that is
- * held there would only tilt it. */
+/* A descent is asked for, and not a quarter of it happens: it may stand on the ground. A place that
+ * is held there would only tilt it. */
 static void heed_touch(copter_t *copter)
 {
     copter_estimate_t *const estimate = &copter->estimate;
@@ -183,7 +183,7 @@ static void heed_touch(copter_t *copter)
     const float asked = copter->control.asked.up;
 
     if (copter->state.mode.motors && (asked <= SINKS) &&
-        (estimate->here.velocity.up > (0.5f * asked))) {
+        (estimate->here.velocity.up > (0.25f * asked))) {
         self->touching += (self->touching < TOUCH_STEPS) ? 1u : 0u;
     } else {
         self->touching = 0u;
