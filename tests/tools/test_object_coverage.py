@@ -153,6 +153,12 @@ class Evaluation(unittest.TestCase):
 class Sources(unittest.TestCase):
     """Instructions and their lines."""
 
+    def test_a_function_that_begins_where_an_earlier_one_of_its_unit_ends(self) -> None:
+        """The linker put the second of a unit before its first, whose rows come first."""
+        lines = Lines([Place(8, "a.c", "a.c", 1), Place(0x10), Place(4, "a.c", "a.c", 7), Place(8)])
+        self.assertEqual(lines.at(8), Place(8, "a.c", "a.c", 1))
+        self.assertEqual(lines.at(0x10), Place(0x10))
+
     def test_the_last_place_before_an_address(self) -> None:
         lines = Lines([Place(8, "b.c", "b.c", 1), Place(0x10), Place(4, "a.c", "a.h", 7)])
         self.assertEqual(lines.at(2).file, "")

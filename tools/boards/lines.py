@@ -28,8 +28,9 @@ class Lines:
     """The places of an image."""
 
     def __init__(self, places: Sequence[Place]) -> None:
-        # Of several at one address the last counts; the sort keeps their order.
-        self.places = sorted(places, key=lambda place: place.address)
+        # Of several at one address the last counts; the sort keeps their order. Where a function
+        # ends another one may begin, which the linker was free to put there.
+        self.places = sorted(places, key=lambda place: (place.address, bool(place.unit)))
         self.addresses = [place.address for place in self.places]
 
     def at(self, address: int) -> Place:
