@@ -5,6 +5,7 @@
 #include "unity.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #define LIMIT 32768.0f
@@ -480,6 +481,41 @@ static void CAL_016_what_leans_has_no_side(void)
     TEST_ASSERT_EQUAL_UINT32(6u, side(-INFINITY, 0.0f, 0.0f));
 }
 
+/* Each axis with each of these, and the others with each of those: a side only where one axis alone
+ * has most of gravity. */
+static void CAL_016_every_combination(void)
+{
+    const float own[] = {7.36f, 9.8f, LIMIT, 7.35f, 0.0f, 2.0f * LIMIT, INFINITY, NAN};
+    const float other[] = {0.0f, 1.2f, -1.2f, 1.3f, -1.3f, 9.8f, -9.8f, INFINITY, NAN};
+    const size_t fits = 3u;   /* Of own. */
+    const size_t little = 3u; /* Of other. */
+
+    for (size_t i = 0u; i < (2u * (sizeof own / sizeof own[0])); i++) {
+        for (size_t j = 0u; j < (sizeof other / sizeof other[0]); j++) {
+            for (size_t m = 0u; m < (sizeof other / sizeof other[0]); m++) {
+                for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+                    const bool is_down = (i % 2u) != 0u;
+                    const bool is_side = ((i / 2u) < fits) && (j < little) && (m < little);
+                    float mean[KEEL_CALIBRATION_AXES];
+
+                    mean[k] = is_down ? -own[i / 2u] : own[i / 2u];
+                    mean[(k + 1u) % 3u] = other[j];
+                    mean[(k + 2u) % 3u] = other[m];
+                    if (is_side) {
+                        TEST_ASSERT_EQUAL_UINT32((2u * k) + (is_down ? 1u : 0u),
+                                                 keel_calibration_side(mean, 7.355f, 1.2258f));
+                    } else if ((j < 5u) && (m < 5u)) {
+                        TEST_ASSERT_EQUAL_UINT32(6u, keel_calibration_side(mean, 7.355f, 1.2258f));
+                    } else {
+                        /* Another axis may be the one; it has its own turn. */
+                        (void)keel_calibration_side(mean, 7.355f, 1.2258f);
+                    }
+                }
+            }
+        }
+    }
+}
+
 /* The offsets are 0.25, -0.5, 0.5; the spans 19, 20, 18. */
 static keel_calibration_sides_t six_sides(void)
 {
@@ -535,8 +571,10 @@ static void CAL_017_a_bad_gravity_or_limit_is_refused(void)
 /* All three axes or none: each is spoilt in turn. */
 static void CAL_017_what_cannot_be_believed_is_refused(void)
 {
-    const float up[] = {10.5f, NAN, INFINITY, 2.0f * LIMIT, -9.0f, 8.4f, 10.9f};
-    const float down[] = {-8.5f - 1e-3f, -9.5f, -9.5f, -2.0f * LIMIT, -9.0f, -8.4f, -10.9f};
+    const float up[] = {10.5f, NAN,  INFINITY, 2.0f * LIMIT, -9.0f, 8.4f,
+                        10.9f, 9.5f, 9.5f,     9.5f,         0.1f};
+    const float down[] = {-8.5f - 1e-3f, -9.5f,         -9.5f,        -2.0f * LIMIT, -9.0f, -8.4f,
+                          -10.9f,        -2.0f * LIMIT, 2.0f * LIMIT, NAN,           -0.1f};
 
     for (size_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
         for (size_t i = 0u; i < (sizeof up / sizeof up[0]); i++) {
@@ -595,6 +633,7 @@ int main(void)
     RUN_TEST(CAL_015_a_sample_is_corrected_in_its_own_place_too);
     RUN_TEST(CAL_016_each_side_is_told);
     RUN_TEST(CAL_016_what_leans_has_no_side);
+    RUN_TEST(CAL_016_every_combination);
     RUN_TEST(CAL_017_six_sides_are_offset_and_scale);
     RUN_TEST(CAL_017_a_bad_gravity_or_limit_is_refused);
     RUN_TEST(CAL_017_what_cannot_be_believed_is_refused);

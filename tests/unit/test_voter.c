@@ -626,6 +626,58 @@ static void VOT_021_a_latched_sensor_that_is_frozen_stays_out(void)
     TEST_ASSERT_EQUAL_UINT16(8u, voter.sensor[2].unchanged_votes);
 }
 
+/* A latched sensor's sample, with an output of 0. */
+static void reconsider(float value, uint32_t age_us, bool present)
+{
+    const keel_voter_sample_t sample[3] = {
+        {0.0f, 0u, true}, {0.0f, 0u, true}, {value, age_us, present}};
+
+    keel_voter_reconsider(&voter, sample);
+}
+
+/* Each reason against it ends its row. */
+static void VOT_021_what_speaks_against_it(void)
+{
+    const struct {
+        float value;
+        uint32_t age_us;
+        bool present;
+        uint16_t probation;
+    } row[] = {{1.0f, 1000u, true, 8u}, {-1.0f, 0u, true, 8u},   {1.001f, 0u, true, 0u},
+               {-1.001f, 0u, true, 0u}, {0.5f, 1001u, true, 0u}, {0.5f, 0u, false, 0u},
+               {NAN, 0u, true, 0u},     {100.5f, 0u, true, 0u},  {-100.5f, 0u, true, 0u},
+               {INFINITY, 0u, true, 0u}};
+
+    for (uint32_t count = 0u; count < 10u; count += 9u) {
+        config.stale_count = 4u;
+        config.readmit_count = (uint16_t)count;
+        restart();
+        voter.vote.output = 0.0f;
+        voter.vote.contributing = 2u;
+        voter.sensor[2].latched = true;
+        for (uint32_t i = 0u; i < (sizeof row / sizeof row[0]); i++) {
+            voter.sensor[2].probation = 7u;
+            reconsider(row[i].value, row[i].age_us, row[i].present);
+            TEST_ASSERT_EQUAL_UINT16(row[i].probation, voter.sensor[2].probation);
+            TEST_ASSERT_TRUE(voter.sensor[2].latched);
+        }
+        voter.sensor[2].unchanged_votes = 4u;
+        reconsider(0.5f, 0u, true);
+        TEST_ASSERT_EQUAL_UINT16(0u, voter.sensor[2].probation);
+        voter.sensor[2].unchanged_votes = 3u;
+        voter.vote.contributing = 0u;
+        reconsider(50.0f, 0u, true);
+        TEST_ASSERT_EQUAL_UINT16(1u, voter.sensor[2].probation);
+    }
+    voter.config.readmit_count = 0u;
+    voter.sensor[2].probation = UINT16_MAX;
+    reconsider(50.0f, 0u, true);
+    TEST_ASSERT_EQUAL_UINT16(UINT16_MAX, voter.sensor[2].probation);
+    voter.config.readmit_count = UINT16_MAX;
+    reconsider(50.0f, 0u, true);
+    TEST_ASSERT_FALSE(voter.sensor[2].latched);
+}
+
 /* The other two fall silent: there is no output that could speak against it. */
 static void VOT_021_without_an_output_what_is_usable_comes_back(void)
 {
@@ -818,6 +870,7 @@ int main(void)
     RUN_TEST(VOT_020_median_of_three);
     RUN_TEST(VOT_020_median_of_four);
     RUN_TEST(VOT_021_probation);
+    RUN_TEST(VOT_021_what_speaks_against_it);
     RUN_TEST(VOT_021_a_latched_sensor_that_is_frozen_stays_out);
     RUN_TEST(VOT_021_without_an_output_what_is_usable_comes_back);
     RUN_TEST(VOT_021_without_a_count_a_latch_stays);

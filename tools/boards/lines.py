@@ -55,15 +55,18 @@ def read_lines(tools: Toolchain, path: Path, folders: Sequence[str]) -> Lines:
 def places_of(unit: str, program: Any) -> Iterator[Place]:
     """The places of one unit, but for functions that the linker left out: those begin at 0."""
     files = file_names(program.header)
-    start: int | None = None
+    rows: list[Any] = []
     for state in (entry.state for entry in program.get_entries() if entry.state):
-        start = state.address if start is None else start
-        if start and state.end_sequence:
+        rows.append(state)
+        if not state.end_sequence:
+            continue
+        if rows[0].address:
+            # A row where the sequence ends has no instruction; another function may begin there.
+            for row in rows:
+                if row.line and row.address < state.address:
+                    yield Place(row.address, unit, files[row.file], row.line)
             yield Place(state.address)
-        elif start and state.line:
-            yield Place(state.address, unit, files[state.file], state.line)
-        if state.end_sequence:
-            start = None
+        rows = []
 
 
 def file_names(header: Any) -> dict[int, str]:
