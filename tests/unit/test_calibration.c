@@ -516,6 +516,35 @@ static void CAL_016_every_combination(void)
     }
 }
 
+/* The first axis of which the others have at most 9, and itself at least 1. */
+static uint32_t first_side(const float mean[KEEL_CALIBRATION_AXES])
+{
+    for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+        const float a = fabsf(mean[(k + 1u) % 3u]);
+        const float b = fabsf(mean[(k + 2u) % 3u]);
+
+        if ((a <= 9.0f) && (b <= 9.0f) && (fabsf(mean[k]) >= 1.0f) && (fabsf(mean[k]) <= LIMIT)) {
+            return (2u * k) + ((mean[k] < 0.0f) ? 1u : 0u);
+        }
+    }
+    return 6u;
+}
+
+/* With thresholds that more than one axis can meet the first of them is told. */
+static void CAL_016_the_first_of_several(void)
+{
+    const float says[] = {5.0f,   -5.0f,        0.5f,          -0.5f, 20.0f,
+                          -20.0f, 2.0f * LIMIT, -2.0f * LIMIT, NAN};
+    const size_t count = sizeof says / sizeof says[0];
+
+    for (size_t i = 0u; i < (count * count * count); i++) {
+        const float mean[KEEL_CALIBRATION_AXES] = {says[i % count], says[(i / count) % count],
+                                                   says[i / (count * count)]};
+
+        TEST_ASSERT_EQUAL_UINT32(first_side(mean), keel_calibration_side(mean, 1.0f, 9.0f));
+    }
+}
+
 /* The offsets are 0.25, -0.5, 0.5; the spans 19, 20, 18. */
 static keel_calibration_sides_t six_sides(void)
 {
@@ -587,6 +616,22 @@ static void CAL_017_what_cannot_be_believed_is_refused(void)
     }
 }
 
+/* Sides that say about the same, on one axis or more. */
+static void CAL_017_sides_that_are_alike_are_refused(void)
+{
+    for (uint32_t axes = 1u; axes < 8u; axes++) {
+        keel_calibration_sides_t sides = six_sides();
+
+        for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
+            if (((axes >> k) & 1u) != 0u) {
+                sides.up[k] = 0.1f;
+                sides.down[k] = -0.1f;
+            }
+        }
+        six_refuses(&sides, KEEL_ERR_LIMITS);
+    }
+}
+
 /* A sensor that is mounted turned by 90 degrees to the right: its x is the vehicle's y. */
 static void CAL_018_a_sample_is_turned(void)
 {
@@ -634,6 +679,8 @@ int main(void)
     RUN_TEST(CAL_016_each_side_is_told);
     RUN_TEST(CAL_016_what_leans_has_no_side);
     RUN_TEST(CAL_016_every_combination);
+    RUN_TEST(CAL_016_the_first_of_several);
+    RUN_TEST(CAL_017_sides_that_are_alike_are_refused);
     RUN_TEST(CAL_017_six_sides_are_offset_and_scale);
     RUN_TEST(CAL_017_a_bad_gravity_or_limit_is_refused);
     RUN_TEST(CAL_017_what_cannot_be_believed_is_refused);

@@ -427,6 +427,9 @@ static void VOT_013_count_saturates(void)
     voter.sensor[0].unchanged_votes = UINT16_MAX;
     vote(0.5f, 0.1f, 0.2f);
     TEST_ASSERT_EQUAL_UINT16(UINT16_MAX, voter.sensor[0].unchanged_votes);
+    voter.config.stale_count = UINT16_MAX;
+    vote(0.5f, 0.2f, 0.3f);
+    expect_reasons(KEEL_VOTER_STALE, KEEL_VOTER_USED, KEEL_VOTER_USED);
 }
 
 /* Two of three repeat themselves: each by its own count, at its third repetition. */
@@ -673,8 +676,12 @@ static void VOT_021_what_speaks_against_it(void)
     voter.sensor[2].probation = UINT16_MAX;
     reconsider(50.0f, 0u, true);
     TEST_ASSERT_EQUAL_UINT16(UINT16_MAX, voter.sensor[2].probation);
+    voter.vote.contributing = 2u;
+    reconsider(0.5f, 0u, true);
+    reconsider(-0.5f, 0u, true);
+    TEST_ASSERT_EQUAL_UINT16(UINT16_MAX, voter.sensor[2].probation);
     voter.config.readmit_count = UINT16_MAX;
-    reconsider(50.0f, 0u, true);
+    reconsider(0.5f, 0u, true);
     TEST_ASSERT_FALSE(voter.sensor[2].latched);
 }
 
@@ -808,6 +815,10 @@ static void VOT_018_not_after_a_doubt(void)
     vote(0.5f, 1.0f, 9.0f);
     vote(0.0f, 0.5f, 1.0f); /* The leaky count is 1. */
     is_refused(1.0f, 1.5f, 2.0f, 0u);
+    restart();
+    voter.sensor[0].density = 3u; /* Of the first sensor. */
+    vote(1.0f, 1.5f, 2.0f);
+    is_refused(1.25f, 1.75f, 2.25f, 0u);
     restart();
     vote(1.0f, 1.5f, 2.0f);
     vote(1.25f, 1.5f, 2.25f); /* The second rests alone. */
