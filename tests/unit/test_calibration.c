@@ -516,15 +516,19 @@ static void CAL_016_every_combination(void)
     }
 }
 
-/* The first axis of which the others have at most 9, and itself at least 1. */
-static uint32_t first_side(const float mean[KEEL_CALIBRATION_AXES])
+/* The first axis of which the others have at most so much, and itself at least so much. */
+static uint32_t first_side(const float mean[KEEL_CALIBRATION_AXES], float least, float most)
 {
     for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-        const float a = fabsf(mean[(k + 1u) % 3u]);
-        const float b = fabsf(mean[(k + 2u) % 3u]);
+        const float says = mean[k];
 
-        if ((a <= 9.0f) && (b <= 9.0f) && (fabsf(mean[k]) >= 1.0f) && (fabsf(mean[k]) <= LIMIT)) {
-            return (2u * k) + ((mean[k] < 0.0f) ? 1u : 0u);
+        if ((fabsf(mean[(k + 1u) % 3u]) <= most) && (fabsf(mean[(k + 2u) % 3u]) <= most)) {
+            if ((says >= least) && (says <= LIMIT)) {
+                return 2u * k;
+            }
+            if ((says <= -least) && (says >= -LIMIT)) {
+                return (2u * k) + 1u;
+            }
         }
     }
     return 6u;
@@ -533,15 +537,19 @@ static uint32_t first_side(const float mean[KEEL_CALIBRATION_AXES])
 /* With thresholds that more than one axis can meet the first of them is told. */
 static void CAL_016_the_first_of_several(void)
 {
-    const float says[] = {5.0f,   -5.0f,        0.5f,          -0.5f, 20.0f,
-                          -20.0f, 2.0f * LIMIT, -2.0f * LIMIT, NAN};
+    const float says[] = {5.0f,         -5.0f,         0.5f,         -0.5f,         20.0f, -20.0f,
+                          2.0f * LIMIT, -2.0f * LIMIT, 8.0f * LIMIT, -8.0f * LIMIT, NAN};
+    const float threshold[][2] = {{1.0f, 9.0f}, {1.0f, 4.0f * LIMIT}, {-1.0f, 9.0f}, {9.0f, 1.0f}};
     const size_t count = sizeof says / sizeof says[0];
 
-    for (size_t i = 0u; i < (count * count * count); i++) {
-        const float mean[KEEL_CALIBRATION_AXES] = {says[i % count], says[(i / count) % count],
-                                                   says[i / (count * count)]};
+    for (size_t t = 0u; t < (sizeof threshold / sizeof threshold[0]); t++) {
+        for (size_t i = 0u; i < (count * count * count); i++) {
+            const float mean[KEEL_CALIBRATION_AXES] = {says[i % count], says[(i / count) % count],
+                                                       says[i / (count * count)]};
 
-        TEST_ASSERT_EQUAL_UINT32(first_side(mean), keel_calibration_side(mean, 1.0f, 9.0f));
+            TEST_ASSERT_EQUAL_UINT32(first_side(mean, threshold[t][0], threshold[t][1]),
+                                     keel_calibration_side(mean, threshold[t][0], threshold[t][1]));
+        }
     }
 }
 
