@@ -539,7 +539,8 @@ static void CAL_016_the_first_of_several(void)
 {
     const float says[] = {5.0f,         -5.0f,         0.5f,         -0.5f,         20.0f, -20.0f,
                           2.0f * LIMIT, -2.0f * LIMIT, 8.0f * LIMIT, -8.0f * LIMIT, NAN};
-    const float threshold[][2] = {{1.0f, 9.0f}, {1.0f, 4.0f * LIMIT}, {-1.0f, 9.0f}, {9.0f, 1.0f}};
+    const float threshold[][2] = {
+        {1.0f, 9.0f}, {1.0f, 4.0f * LIMIT}, {-1.0f, 9.0f}, {9.0f, 1.0f}, {-16.0f * LIMIT, 9.0f}};
     const size_t count = sizeof says / sizeof says[0];
 
     for (size_t t = 0u; t < (sizeof threshold / sizeof threshold[0]); t++) {
