@@ -128,8 +128,7 @@ static bool have_rested(copter_accelerometers_t *self, uint32_t count)
 
     for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
         rest = rest && (self->rest[unit].count >= count);
-        moves = moves || (self->rest[unit].restarts > 0u) ||
-                (self->rest[unit].state == KEEL_CALIBRATION_REFUSED);
+        moves = moves || copter_has_moved(&self->rest[unit]);
     }
     if (moves) {
         begin(self);

@@ -90,7 +90,7 @@ static bool are_calibrated(const copter_t *copter)
            ((copter->compass.samples == 0u) || (self->rest.state == KEEL_CALIBRATION_DONE));
 }
 
-static bool has_moved(const keel_calibration_rest_t *rest)
+bool copter_has_moved(const keel_calibration_rest_t *rest)
 {
     return (rest->restarts > 0u) || (rest->state == KEEL_CALIBRATION_REFUSED);
 }
@@ -128,9 +128,9 @@ static void seek_rest(copter_t *copter)
     step_gyroscopes(copter);
     step_rest(self, &copter->compass);
     for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
-        moves = moves || has_moved(&self->gyroscope[unit]);
+        moves = moves || copter_has_moved(&self->gyroscope[unit]);
     }
-    if (!moves && has_moved(&self->rest)) {
+    if (!moves && copter_has_moved(&self->rest)) {
         self->turns++;
         moves = true;
     }

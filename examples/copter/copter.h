@@ -511,6 +511,8 @@ void copter_stack(copter_t *copter);
 void copter_adc(copter_t *copter);
 
 keel_status_t copter_calibration_init(copter_calibration_t *calibration);
+/** Whether something has moved since its calibration at rest began. */
+bool copter_has_moved(const keel_calibration_rest_t *rest);
 /** Takes corrections from the settings. */
 void copter_calibration_set(copter_calibration_t *calibration);
 /** Corrects what a unit says, its specific force first, and turns it into the vehicle's axes. */

@@ -20,55 +20,26 @@
      .integral_min = -(integral),                                                                  \
      .integral_max = (integral)}
 
+/* How a channel of three units votes; plausible up to a limit that is even to both sides. */
+#define VOTER(a, n, grows, most, latch, stale, readmit)                                            \
+    {.agree = (a),                                                                                 \
+     .cutoff = (n),                                                                                \
+     .slope = (grows),                                                                             \
+     .lowest = -(most),                                                                            \
+     .highest = (most),                                                                            \
+     .initial = 0.0f,                                                                              \
+     .max_age_us = 4000u,                                                                          \
+     .latch_count = (latch),                                                                       \
+     .stale_count = (stale),                                                                       \
+     .readmit_count = (readmit),                                                                   \
+     .density_limit = 0u,                                                                          \
+     .sensors = COPTER_IMUS}
+
 const copter_settings_t copter_defaults =
-    {.imu = {.accelerometer = {.agree = 6.0f,
-                               .cutoff = 2.5f,
-                               .slope = 0.1f,
-                               .lowest = -160.0f,
-                               .highest = 160.0f,
-                               .initial = 0.0f,
-                               .max_age_us = 4000u,
-                               .latch_count = 100u,
-                               .stale_count = 40u,
-                               .readmit_count = 1000u,
-                               .density_limit = 0u,
-                               .sensors = 3u},
-             .gyroscope = {.agree = 0.3f,
-                           .cutoff = 3.0f,
-                           .slope = 0.3f,
-                           .lowest = -35.0f,
-                           .highest = 35.0f,
-                           .initial = 0.0f,
-                           .max_age_us = 4000u,
-                           .latch_count = 100u,
-                           .stale_count = 40u,
-                           .readmit_count = 1000u,
-                           .density_limit = 0u,
-                           .sensors = 3u}},
-     .slow = {.accelerometer = {.agree = 1.0f,
-                                .cutoff = 3.0f,
-                                .slope = 0.1f,
-                                .lowest = -160.0f,
-                                .highest = 160.0f,
-                                .initial = 0.0f,
-                                .max_age_us = 4000u,
-                                .latch_count = 25u,
-                                .stale_count = 8u,
-                                .readmit_count = 100u,
-                                .density_limit = 0u,
-                                .sensors = 3u},
-              .gyroscope = {.agree = 0.01f,
-                            .cutoff = 2.0f,
-                            .slope = 0.1f,
-                            .lowest = -35.0f,
-                            .highest = 35.0f,
-                            .initial = 0.0f,
-                            .max_age_us = 4000u,
-                            .latch_count = 25u,
-                            .stale_count = 8u,
-                            .readmit_count = 100u,
-                            .density_limit = 0u,
-                            .sensors = 3u}},
+    {.imu = {.accelerometer = VOTER(6.0f, 2.5f, 0.1f, 160.0f, 100u, 40u, 1000u),
+             .gyroscope = VOTER(0.3f, 3.0f, 0.3f, 35.0f, 100u, 40u, 1000u)},
+     .slow = {.accelerometer = VOTER(1.0f, 3.0f, 0.1f, 160.0f, 25u, 8u, 100u),
+              .gyroscope = VOTER(0.01f, 2.0f, 0.1f, 35.0f, 25u, 8u, 100u)},
      .slow_gain = 0.01257f, /* 1 Hz */
      .accelerometer_hz = 50.0f,
      .gyroscope_hz = 150.0f,

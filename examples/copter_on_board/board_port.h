@@ -3,8 +3,8 @@
  * @file board_port.h
  * @brief What the copter needs of a board, as far as the board has it and a driver is there.
  *
- * What is missing gives no sample, as a device that is broken does: the copter names the check that
- * fails, and does not arm. docs/boards.md has which parts are there.
+ * A device that is missing gives no sample, as one that is broken does: the copter names the check
+ * that fails, and does not arm. docs/boards.md has which parts are there.
  */
 #ifndef COPTER_BOARD_PORT_H
 #define COPTER_BOARD_PORT_H

@@ -3,8 +3,8 @@
  * @file main.c
  * @brief The copter on a real board: the tasks that fly on the host, with the board's own devices.
  *
- * It does not fly yet: what has no driver is named on the console, and the copter refuses to arm
- * without it. What it does is run: sensors that are there, parameters, the log on a card, the
+ * It does not fly yet: each device without a driver is named on the console, and the copter refuses
+ * to arm without it. It runs the sensors that are there, the parameters, the log on a card, and the
  * watchdog, which is fed only while every real-time task meets its releases.
  *
  * A line on the console tells every second how it goes. A refusal of the kernel ends as a fault

@@ -319,7 +319,7 @@ def test_six_sides_are_offset_and_scale(copter: Copter, tmp_path: Path) -> None:
                      f"[cal] progress <{round(100 * number / 6)}>"]  # fmt: skip
     assert cal_texts(rig, begun) == [*expected, "[cal] calibration done: accel"]
     offset, scale = corrections(rig)
-    # What was said is scale * true + offset; noise of a mean of 40 is 0.006 m/s^2 at most.
+    # A unit says scale * true + offset; noise of a mean of 40 is 0.006 m/s^2 at most.
     assert np.abs(offset - OFFSET).max() < 0.02
     assert np.abs(scale - 1.0 / SCALE).max() < 0.002
     held.up = SIDES["down"]

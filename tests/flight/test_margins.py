@@ -11,7 +11,7 @@ from common.errors import ROOT
 from flight import margins, scenario
 from flight.library import Copter
 from flight.loop import Flight, Order
-from flight.sensors import Quality
+from flight.scenario import Quality
 
 CALM_DEG, SWINGS_DEG = 2.0, 8.0
 

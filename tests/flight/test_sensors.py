@@ -13,8 +13,8 @@ from flight import frames, sensors, wind
 from flight.plants import HOME_LATITUDE, HOME_LONGITUDE, NORTH_M, Truth
 from flight.power import Battery
 from flight.receivers import RADIO, SATELLITES, Receiver
-from flight.scenario import Place
-from flight.sensors import Broken, Inertial, Quality, Slow
+from flight.scenario import Place, Quality
+from flight.sensors import Broken, Inertial, Slow
 
 REST = [0.0, 0.0, -9.81, 0.0, 0.0, 0.0]
 IMU = [("accelerometer", "<f4", (3,)), ("gyroscope", "<f4", (3,)), ("temperature", "<i2"),

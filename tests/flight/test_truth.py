@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import pytest
 from flight import loop, plants, scenario
 from flight.library import Copter
 from flight.loop import Flight, Order
-from flight.sensors import Quality
+from flight.scenario import Quality
 
 HOVER = scenario.read("hover")
 LENGTH_S = 6.0
@@ -94,7 +93,7 @@ def test_no_sample_is_of_the_future(copter: Copter, plant: str,
 
     real = plants.make
     monkeypatch.setattr(loop.plants, "make", counted)
-    quiet = replace(Quality(), noise=0.0, bias=0.0, vibration=0.0)
+    quiet = Quality(noise=0.0, bias=0.0, vibration=0.0)
     flight = Flight(copter, hover(plant, quiet))
     for now_ms in range(1, 500):
         flight.step(now_ms)

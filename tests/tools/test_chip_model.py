@@ -285,11 +285,13 @@ int main(void)
 """
 
 
-class KeptTest(unittest.TestCase):
-    """What is kept in the chip's flash, or the board's memory, is there after a reset."""
+class SmallApplication(unittest.TestCase):
+    """A copy of the sources, with an application for one thing."""
 
     tools: Toolchain
     root: Path
+    NAME: str  # Of its folder in examples.
+    MAIN: str
 
     @classmethod
     def setUpClass(cls) -> None:
@@ -298,8 +300,18 @@ class KeptTest(unittest.TestCase):
         cls.root = Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
         for part in SOURCES:
             shutil.copytree(ROOT / part, cls.root / part)
-        (cls.root / "examples/keeper").mkdir()
-        (cls.root / "examples/keeper/main.c").write_text(KEEPER)
+        (cls.root / "examples" / cls.NAME).mkdir()
+        (cls.root / "examples" / cls.NAME / "main.c").write_text(cls.MAIN)
+
+
+class KeptTest(SmallApplication):
+    """What is kept in the chip's flash, or the board's memory, is there after a reset."""
+
+    NAME, MAIN = "keeper", KEEPER
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        super().setUpClass()
         for board in chip_model.CONSOLES:
             with contextlib.redirect_stdout(io.StringIO()):
                 firmware.build(cls.tools, board, ["examples/keeper"], cls.root)
@@ -367,21 +379,10 @@ int main(void)
 """
 
 
-class PulsesTest(unittest.TestCase):
+class PulsesTest(SmallApplication):
     """What comes out of which socket; and mistakes in the boards' code, each noticed."""
 
-    tools: Toolchain
-    root: Path
-
-    @classmethod
-    def setUpClass(cls) -> None:
-        cls.tools = Toolchain()
-        cls.tools.ensure("firmware", "model")
-        cls.root = Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
-        for part in SOURCES:
-            shutil.copytree(ROOT / part, cls.root / part)
-        (cls.root / "examples/pulser").mkdir()
-        (cls.root / "examples/pulser/main.c").write_text(PULSER)
+    NAME, MAIN = "pulser", PULSER
 
     def builder(self, name: str) -> firmware.Builder:
         return firmware.Builder(self.tools, read_board(self.root, name),

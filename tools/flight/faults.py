@@ -10,10 +10,16 @@ from common.errors import ToolError, unknown
 from flight.library import Copter
 from flight.plants import MOTORS, THRUST_POWER
 from flight.power import Battery
-from flight.scenario import Fault, FirstFix
-from flight.sensors import Broken, Shaking
+from flight.scenario import Fault, FirstFix, Shaking
+from flight.sensors import Broken
 
 DRIFT_MOST = 3.0  # rad/s
+
+
+def shaking_of(fault: Fault) -> Shaking:
+    """The vibration of a fault."""
+    return Shaking(acceleration=fault.acceleration or 0.0, rate=fault.rate or 0.0,
+                   alike=bool(fault.alike))  # fmt: skip
 
 
 @dataclass
@@ -62,8 +68,7 @@ class Faults:
         if fault.kind in sets:
             (sets[fault.kind].add if on else sets[fault.kind].discard)(unit)
         elif fault.kind == "imu_vibration":
-            shaking = Shaking(fault.acceleration or 0.0, fault.rate or 0.0, bool(fault.alike))
-            broken.shaking = shaking if on else None
+            broken.shaking = shaking_of(fault) if on else None
         elif fault.kind == "imu_scale":
             broken.scale[unit] = 1.0 + float(on) * (fault.share or 0.0)
         elif fault.kind == "imu_drift" and not on:

@@ -25,8 +25,8 @@ from flight.pilot import Pilot, Sight
 from flight.plants import Airframe, Plant, Truth
 from flight.power import Battery
 from flight.receivers import RADIO, RADIO_LINES, Receiver
-from flight.scenario import Scenario
-from flight.sensors import Broken, Inertial, Quality, Shaking, Slow
+from flight.scenario import Quality, Scenario
+from flight.sensors import Broken, Inertial, Slow
 
 ROW_MS = 5  # A row of the trace.
 RADIO_FRAMES = {"sbus": frames.sbus, "crsf": frames.crsf, "ibus": frames.ibus}
@@ -81,15 +81,6 @@ def airframe_of(order: Order) -> Airframe:
     return order.airframe if own == type(own)() else Airframe(**own.model_dump())
 
 
-def quality_of(order: Order) -> Quality:
-    """Of the order, unless the scenario has its own."""
-    own = order.scenario.devices
-    if own is None:
-        return order.quality
-    values = own.model_dump()
-    return Quality(**{**values, "shaking": Shaking(**values["shaking"])})
-
-
 def without_faults(order: Order) -> Order:
     """The same flight, unbroken."""
     scenario = order.scenario.model_copy(update={"fault": []})
@@ -112,7 +103,7 @@ class Flight:
         self._battery = Battery(left=scenario.battery_left)
         self._battery.step([0.0] * plants.MOTORS, 0.0)
         memory = copter.sensors
-        quality = quality_of(order)
+        quality = scenario.devices or order.quality
         self._inertial = Inertial(memory["imu"], rng[0], quality)
         self._slow = Slow(memory, seeds[1], quality, scenario.place)
         self._radio = Receiver(memory, RADIO, rng[3], RADIO_LINES[scenario.radio])

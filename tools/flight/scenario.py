@@ -147,7 +147,7 @@ class Shaking(Table):
     alike: bool = False  # All units feel the same; else each at a phase of its own.
 
 
-class Devices(Table):
+class Quality(Table):
     """How good the devices are: factors of what is usual, unless a unit is said."""
 
     noise: Measure = 1.0
@@ -251,7 +251,7 @@ class Scenario(Table):
     battery_left: Share = 0.95
     wind: Wind = Wind()
     airframe: Frame = Frame()
-    devices: Devices | None = None  # Those of the flight, else.
+    devices: Quality | None = None  # Those of the flight, else.
     place: Place | None = None
     first_fix: FirstFix | None = None
     pilot: list[Hand] = []

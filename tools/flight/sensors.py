@@ -27,7 +27,7 @@ from flight.plants import (
 )
 from flight.power import Battery
 from flight.receivers import SATELLITES, Receiver
-from flight.scenario import Place
+from flight.scenario import Place, Quality, Shaking
 
 BLOCK = 1000
 UNITS = 3
@@ -35,35 +35,6 @@ TEMPERATURES = (4150, 4420, 4280)  # Of the units, in hundredths of a degree Cel
 BAROMETER_WARMER = 740  # Than the air, by what is around it; in the same unit.
 CHIP_TEMPERATURE, SUPPLY_MV = 5130, 3287
 ACCELERATION_LIMIT, RATE_LIMIT = 156.9, 34.9  # Full scale: 16 g, 2000 degrees per second.
-
-
-@dataclass(frozen=True)
-class Shaking:
-    """Vibration: two tones on every axis, by the motors' speed."""
-
-    acceleration: float = 0.0  # Of each tone, in m/s^2.
-    rate: float = 0.0  # In rad/s.
-    alike: bool = False  # All units feel the same; else each at a phase of its own.
-
-
-@dataclass(frozen=True)
-class Quality:
-    """How good the devices are: factors of what is usual, and delays."""
-
-    noise: float = 1.0
-    bias: float = 1.0
-    vibration: float = 1.0
-    gps_delay_ms: int = 120
-    imu_delay_ms: int = 1
-    baro_delay_ms: int = 10
-    gps_noise: float = 1.0
-    gps_wander: float = 1.0  # Of what the place does in minutes.
-    scale: float = 0.0  # Of each unit's axes, off by up to this share.
-    warmth: float = 0.0  # What gyroscopes' bias changes by as they get warm, in rad/s.
-    shaking: Shaking = Shaking()  # As long as motors turn.
-    field_noise: float = 1.0
-    field_per_ampere: float = 1.0
-
 
 # Standard deviations of a sample, unit by unit: three parts of three makes.
 ACCELEROMETER_NOISE = (0.03, 0.05, 0.04)  # In m/s^2.

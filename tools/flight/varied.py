@@ -14,8 +14,7 @@ from common.files import sha256_of
 from flight import library, plants
 from flight.loop import Order
 from flight.plants import Airframe
-from flight.scenario import Scenario
-from flight.sensors import Quality, Shaking
+from flight.scenario import Quality, Scenario, Shaking
 
 TAG = 0x6B65656C  # Sets these draws apart from those of the noise, which has the same seed.
 DURATION_S = 80.0
@@ -80,7 +79,8 @@ def order_of(seed: int) -> Order:
 def shaking_of(draw: Draw) -> Shaking:
     """Vibration up to what is called too strong by half: normal is below 15 m/s^2 rms."""
     acceleration = draw.between(0.0, 15.0)
-    return Shaking(acceleration, 0.01 * acceleration, draw.one_of((True, False)))
+    return Shaking(acceleration=acceleration, rate=0.01 * acceleration,
+                   alike=draw.one_of((True, False)))  # fmt: skip
 
 
 def scenario_of(draw: Draw) -> Scenario:
