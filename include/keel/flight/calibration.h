@@ -454,8 +454,7 @@ keel_status_t keel_calibration_field_finish(keel_calibration_field_t *field);
  * Takes an offset off a sample (requirement CAL-014).
  *
  * @param offset the offset, finite
- * @param raw    what was measured; any bit pattern. What is no number stays none: whoever uses the
- *               result looks for that
+ * @param raw    the measurement; any bit pattern. A NaN stays one: its user has to look for it
  * @param out    raw - offset, of each axis; raw may be its own axes
  */
 /*@ requires \valid_read(offset + (0 .. 2)) && \valid_read(raw + (0 .. 2)) &&
@@ -474,7 +473,7 @@ void keel_calibration_apply(const float offset[KEEL_CALIBRATION_AXES],
  * Takes an offset off a sample and scales it (requirement CAL-015).
  *
  * @param correction the correction
- * @param raw        what was measured; any bit pattern. What is no number stays none
+ * @param raw        the measurement; any bit pattern. A NaN stays one
  * @param out        (raw - offset) * scale, of each axis; raw may be its own axes
  */
 /*@ requires \valid_read(correction) && \valid_read(raw + (0 .. 2)) && \valid(out) &&
@@ -533,7 +532,7 @@ keel_status_t keel_calibration_six(const keel_calibration_sides_t *sides,
  * Turns a sample into the vehicle's axes (requirement CAL-018).
  *
  * @param turn the turn
- * @param raw  what was measured; any bit pattern. What is no number stays none
+ * @param raw  the measurement; any bit pattern. A NaN stays one
  * @param out  x times raw, y times raw, z times raw; apart from raw
  */
 /*@ requires \valid_read(turn) && \valid_read(raw + (0 .. 2)) && \valid(out) &&

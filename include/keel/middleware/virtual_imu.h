@@ -5,8 +5,8 @@
  *
  * The six channels, three of the accelerometer and three of the gyroscope, vote each on its own
  * (voter.h), with thresholds that grow with its last output. Per unit it is kept which of its
- * channels contributed to the last vote and which are latched as faulty. What vibrates is filtered
- * before: the voter compares units, and vibration differs from one to the next.
+ * channels contributed to the last vote and which are latched as faulty. The caller takes vibration
+ * out of the samples before: the voter compares units, and vibration differs from one to the next.
  */
 #ifndef KEEL_MIDDLEWARE_VIRTUAL_IMU_H
 #define KEEL_MIDDLEWARE_VIRTUAL_IMU_H

@@ -566,7 +566,11 @@ keel_status_t keel_voter_readmit(keel_voter_t *voter, uint32_t sensor);
   @ ensures VOT_021_valid: voter_valid(voter);
   @ ensures VOT_021_healthy: \forall integer i; 0 <= i < KEEL_VOTER_SENSORS ==>
   @     !\old(voter->sensor[i].latched) ==> !voter->sensor[i].latched &&
-  @         voter->sensor[i].condemned_votes == \old(voter->sensor[i].condemned_votes);
+  @         voter->sensor[i].last == \old(voter->sensor[i].last) &&
+  @         voter->sensor[i].unchanged_votes == \old(voter->sensor[i].unchanged_votes) &&
+  @         voter->sensor[i].condemned_votes == \old(voter->sensor[i].condemned_votes) &&
+  @         voter->sensor[i].density == \old(voter->sensor[i].density) &&
+  @         voter->sensor[i].probation == \old(voter->sensor[i].probation);
   @ ensures VOT_021_readmitted: \forall integer i; 0 <= i < voter->config.sensors ==>
   @     \old(voter->sensor[i].latched) && !voter->sensor[i].latched ==>
   @         0 < voter->config.readmit_count <= \old(voter->sensor[i].probation) + 1 &&
