@@ -10,6 +10,17 @@
 // (voter_parts.h).
 #include "voter_parts.h"
 
+/* Whether a sensor of the channel is not latched. */
+static bool some_is_not_latched(const keel_voter_t *voter)
+{
+    bool found = false;
+
+    for (uint32_t i = 0u; i < SENSORS; i++) {
+        found = found || ((i < voter->config.sensors) && !voter->sensor[i].latched);
+    }
+    return found;
+}
+
 void keel_voter_step_harness(void)
 {
     const uint32_t elapsed_us = nondet_u32();
@@ -21,6 +32,7 @@ void keel_voter_step_harness(void)
     any_voter(&voter, nondet_float(), nondet_float());
     __CPROVER_assume(keel_voter_step_may(&voter));
     any_samples(sample, before);
+    const bool one_stood = some_is_not_latched(&voter);
     model = voter;
     model_voter_step(&model, before, elapsed_us);
 
@@ -34,4 +46,6 @@ void keel_voter_step_harness(void)
                          "VOT_005_read: the samples are only read");
     }
     __CPROVER_assert(keel_voter_step_does(&voter), "VOT_005_valid: the channel stays valid");
+    __CPROVER_assert(!one_stood || some_is_not_latched(&voter),
+                     "VOT_022_one_stays: of those not latched");
 }

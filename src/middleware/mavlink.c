@@ -25,10 +25,10 @@
 #define BITS 8u
 
 /* The weights of a number's bytes, the lowest first. */
-#define SECOND 0x100u
-#define THIRD  0x10000u
-#define FOURTH 0x1000000u
-#define FIFTH  0x100000000u
+#define WEIGHT_1 0x100u
+#define WEIGHT_2 0x10000u
+#define WEIGHT_3 0x1000000u
+#define WEIGHT_4 0x100000000u
 
 /*@ requires \valid(count);
   @ assigns *count;
@@ -211,11 +211,11 @@ static void read_header(keel_mavlink_t *mavlink)
   @*/
 static uint64_t timestamp_in(const uint8_t *byte)
 {
-    const uint32_t low = (uint32_t)byte[0] + ((uint32_t)byte[1] * SECOND) +
-                         ((uint32_t)byte[2] * THIRD) + ((uint32_t)byte[3] * FOURTH);
-    const uint32_t high = (uint32_t)byte[4] + ((uint32_t)byte[5] * SECOND);
+    const uint32_t low = (uint32_t)byte[0] + ((uint32_t)byte[1] * WEIGHT_1) +
+                         ((uint32_t)byte[2] * WEIGHT_2) + ((uint32_t)byte[3] * WEIGHT_3);
+    const uint32_t high = (uint32_t)byte[4] + ((uint32_t)byte[5] * WEIGHT_1);
 
-    return ((uint64_t)high * FIFTH) + low;
+    return ((uint64_t)high * WEIGHT_4) + low;
 }
 
 /*@ requires \valid(mavlink);

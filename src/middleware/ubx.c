@@ -19,10 +19,10 @@
 #define TWO    0x10000u
 
 /* In those four: their places. Divisions by them are shifts; provers know more of the former. */
-#define SECOND 0x100u
-#define THIRD  0x10000u
-#define FOURTH 0x1000000u
-#define BYTE   0x100u
+#define WEIGHT_1 0x100u
+#define WEIGHT_2 0x10000u
+#define WEIGHT_3 0x1000000u
+#define BYTE     0x100u
 
 /* Of a byte of flags, the lowest: the fix is vouched for, the place is invalid. */
 #define FLAG 2u
@@ -137,8 +137,8 @@ static void gather(keel_ubx_fix_t *pending, uint32_t length, uint32_t at, uint32
         break;
     case TYPE_END:
         pending->type = (uint8_t)(word % BYTE);
-        pending->is_ok = ((word / SECOND) % FLAG) != 0u;
-        pending->satellites = (uint8_t)(word / FOURTH);
+        pending->is_ok = ((word / WEIGHT_1) % FLAG) != 0u;
+        pending->satellites = (uint8_t)(word / WEIGHT_3);
         break;
     case LONGITUDE_END:
         pending->longitude = signed_of(word);
@@ -169,7 +169,7 @@ static void gather(keel_ubx_fix_t *pending, uint32_t length, uint32_t at, uint32
         break;
     case INVALID_END:
         pending->is_invalid = (length >= (uint32_t)KEEL_UBX_PAYLOAD) &&
-                              (((word / THIRD) % FLAG) != 0u);
+                              (((word / WEIGHT_2) % FLAG) != 0u);
         break;
     default:
         /* Nothing that is handed out ends here. */
@@ -312,7 +312,8 @@ static uint8_t kind_of(uint32_t message)
 {
     uint32_t kind = KEEL_UBX_OTHER;
 
-    if (((message % PVT_LIMIT) == PVT) && ((message / THIRD) >= (uint32_t)KEEL_UBX_PAYLOAD_LEAST)) {
+    if (((message % PVT_LIMIT) == PVT) &&
+        ((message / WEIGHT_2) >= (uint32_t)KEEL_UBX_PAYLOAD_LEAST)) {
         kind = KEEL_UBX_PVT;
     } else if (message == MESSAGE_ACK) {
         kind = KEEL_UBX_ACK;
@@ -342,9 +343,9 @@ static void begin_message(keel_ubx_t *ubx)
 {
     const uint32_t message = (uint32_t)(ubx->window / TWO);
     const uint32_t group = message % BYTE;
-    const uint32_t id = (message / SECOND) % BYTE;
-    const uint32_t low = (message / THIRD) % BYTE;
-    const uint32_t high = message / FOURTH;
+    const uint32_t id = (message / WEIGHT_1) % BYTE;
+    const uint32_t low = (message / WEIGHT_2) % BYTE;
+    const uint32_t high = message / WEIGHT_3;
 
     //@ assert fix: ubx->window == KEEL_UBX_HEADER ==> message == 0x005C0701;
     //@ assert fix_14: ubx->window == KEEL_UBX_HEADER_14 ==> message == 0x00540701;
@@ -352,7 +353,7 @@ static void begin_message(keel_ubx_t *ubx)
         count_event(&ubx->count.cut);
     }
     ubx->kind = kind_of(message);
-    ubx->length = (uint16_t)(message / THIRD);
+    ubx->length = (uint16_t)(message / WEIGHT_2);
     ubx->left = ubx->length;
     ubx->step = (uint8_t)((ubx->left > 0u) ? KEEL_UBX_DATA : KEEL_UBX_SUM_A);
     ubx->sum_a = (uint8_t)((group + id + low + high) % 256u);
