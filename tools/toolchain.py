@@ -7,7 +7,7 @@
 
 import sys
 
-from toolchain.command_line import main  # The package of the same name, not this file.
+from keel.install.command import main
 
 if __name__ == "__main__":
     sys.exit(main())

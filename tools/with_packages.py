@@ -17,7 +17,7 @@ from pathlib import Path
 TOOLS_DIR = Path(__file__).resolve().parent
 sys.path.insert(0, str(TOOLS_DIR))
 
-from toolchain import Toolchain, ToolchainError  # noqa: E402
+from keel.install import Toolchain, ToolchainError
 
 
 def main(arguments: Sequence[str]) -> int:

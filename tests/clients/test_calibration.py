@@ -14,13 +14,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from flight import library
-from flight.sensors import body_to_earth
-from flight.library import Copter, checks_of
-from flight.plants import Plant, Truth
+from keel.flight import library
+from keel.flight.sensors import body_to_earth
+from keel.flight.library import Copter, checks_of
+from keel.flight.plants import Plant, Truth
 from pymavlink.dialects.v20 import common as mavlink
 from test_telemetry import Rig, armed, value_in
-from toolchain import Toolchain
+from keel.install import Toolchain
 
 ACCEPTED, REJECTED, UNSUPPORTED = 0, 1, 3
 PREFLIGHT_CALIBRATION, ARM = 241, 400

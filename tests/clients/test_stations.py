@@ -18,12 +18,12 @@ from typing import Any
 from unittest import mock
 
 import pytest
-from flight import frames, library, ulog
-from flight.library import Copter, Link
+from keel.flight import device_frames as frames, library, ulog
+from keel.flight.library import Copter, Link
 from pymavlink.dialects.v20 import common as mavlink
 from qgroundcontrol import Driver, Met, QGroundControl, Reply, kind_of, payload_of
 from test_telemetry import Rig
-from toolchain import Toolchain
+from keel.install import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]
 ACCEPTED, UNSUPPORTED, INVALID_SEQUENCE, DENIED = 0, 3, 13, 2

@@ -16,14 +16,14 @@ from typing import Any
 from unittest import mock
 
 import pytest
-from flight import judge, library, mujoco_plant, scenario, sensors, ulog
-from flight.library import Copter, Key, Link
-from flight.loop import Flight, Order, fly
-from flight.pilot import Bystander, Pilot, Sight
-from flight.sensors import TEMPERATURES
+from keel.flight import judge, library, mujoco_plant, scenario, sensors, ulog
+from keel.flight.library import Copter, Key, Link
+from keel.flight.loop import Flight, Order, fly
+from keel.flight.pilot import Bystander, Pilot, Sight
+from keel.flight.sensors import TEMPERATURES
 from other_values import others
 from pymavlink.dialects.v20 import development as mavlink
-from toolchain import Toolchain
+from keel.install import Toolchain
 
 ACCEPTED, REJECTED, DENIED, UNSUPPORTED = 0, 1, 2, 3
 DISARMED, ARMED, FLYING, HOLDING = 0, 1, 2, 3
@@ -815,21 +815,21 @@ def test_the_bystander_flies_when_others_arm(copter: Copter) -> None:
 def test_what_cannot_be_flown_is_said(
     options: list[str], reason: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    import sim
+    from keel.flight import sim
 
     assert sim.main(options) == 2
     assert reason in capsys.readouterr().err
 
 
 def test_the_messages_are_up_to_date() -> None:
-    import messages
+    from keel.copter import messages
 
     assert messages.main(["--check"]) == 0
 
 
 def test_definitions_that_are_none_are_refused(tmp_path: Path) -> None:
-    import messages
-    from common.errors import ToolError
+    from keel.copter import messages
+    from keel.base.errors import ToolError
 
     with pytest.raises(ToolError, match=r"minimal\.xml"):
         messages.read(tmp_path)

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import pytest
-from flight import library
-from flight.library import Copter
-from toolchain import Toolchain
+from keel.flight import library
+from keel.flight.library import Copter
+from keel.install import Toolchain
 
 
 @pytest.fixture(scope="module")

@@ -14,22 +14,22 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import chip_model
-import firmware
+from keel.boards import chip_model
+from keel.boards import firmware
 import pytest
-import stack
-from boards.board import application_of, read_board
-from boards.card import SdCard
-from boards.chip import Chip
-from boards.processor import Processor
-from boards.pulses import LOW, Pulse, State
-from boards.rebuilt import SOURCES
-from boards.sockets import read_sockets
+from keel.boards import stack
+from keel.boards.board import application_of, read_board
+from keel.boards.card import SdCard
+from keel.boards.chip import Chip
+from keel.boards.processor import Processor
+from keel.boards.pulses import LOW, Pulse, State
+from keel.boards.rebuilt import SOURCES
+from keel.boards.sockets import read_sockets
 from pyulog import ULog
 from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
-from toolchain import Toolchain
+from keel.install import Toolchain
 
-from common.errors import ROOT
+from keel.base.errors import ROOT
 
 __all__ = ["pyfatfs"]  # A fixture.
 BOARDS = ("fmuv5", "nucleo_f767zi")

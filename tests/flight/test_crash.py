@@ -9,10 +9,10 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from flight import loop, plants, scenario
-from flight.library import Copter
-from flight.loop import Order
-from flight.plants import Plant, Truth
+from keel.flight import loop, plants, scenario
+from keel.flight.library import Copter
+from keel.flight.loop import Order
+from keel.flight.plants import Plant, Truth
 
 HOVERS = """description = "hovers"
 duration_s = 14.0

@@ -11,13 +11,13 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import fly
+from keel.flight import command as fly
 import pytest
-from common.errors import ROOT
-from flight import library, loop, montecarlo, plants, scenario, varied
-from flight.library import Copter
-from flight.loop import Order
-from toolchain import Toolchain
+from keel.base.errors import ROOT
+from keel.flight import library, loop, montecarlo, plants, scenario, varied
+from keel.flight.library import Copter
+from keel.flight.loop import Order
+from keel.install import Toolchain
 
 SHORT = """description = "up and down"
 duration_s = 8.0

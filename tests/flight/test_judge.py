@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from flight import judge
-from flight.library import modes, states
-from flight.loop import TRUTH, Trace
-from flight.montecarlo import by_fault, ranks
-from flight.scenario import Limits, Scenario
+from keel.flight import judge
+from keel.flight.library import modes, states
+from keel.flight.loop import TRUTH, Trace
+from keel.flight.montecarlo import by_fault, ranks
+from keel.flight.scenario import Limits, Scenario
 
 VIEW = [("quaternion", "<f4", (4,)), ("asked_tilt", "<f4", (2,)), ("position", "<f4", (3,)),
         ("state", "<u4"), ("mode", "<u4"), ("motors_on", "<u4")]  # fmt: skip

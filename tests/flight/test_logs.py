@@ -12,19 +12,19 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-import log as log_tool
+from keel.flight import log as log_tool
 import numpy as np
 import pytest
-from flight import library, log_plots, loop, scenario, ulog
-from flight.library import Copter, Link
-from flight.loop import Order, Trace
-from flight.sensors import TEMPERATURES
-from flight.spectrum import spectrum
+from keel.flight import library, log_plots, loop, scenario, ulog
+from keel.flight.library import Copter, Link
+from keel.flight.loop import Order, Trace
+from keel.flight.sensors import TEMPERATURES
+from keel.flight.spectrum import spectrum
 from pyulog import ULog
-from timeline import runs
-from toolchain import Toolchain
+from keel.timeline import runs
+from keel.install import Toolchain
 
-from common.errors import ROOT, ToolError
+from keel.base.errors import ROOT, ToolError
 
 SHORT = """description = "up and down"
 duration_s = 8.0

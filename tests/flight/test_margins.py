@@ -7,11 +7,11 @@ import re
 
 import numpy as np
 import pytest
-from common.errors import ROOT
-from flight import margins, scenario
-from flight.library import Copter
-from flight.loop import Flight, Order
-from flight.scenario import Quality
+from keel.base.errors import ROOT
+from keel.flight import margins, scenario
+from keel.flight.library import Copter
+from keel.flight.loop import Flight, Order
+from keel.flight.scenario import Quality
 
 CALM_DEG, SWINGS_DEG = 2.0, 8.0
 

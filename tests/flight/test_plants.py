@@ -7,8 +7,8 @@ import math
 from collections.abc import Sequence
 
 import pytest
-from flight import plants
-from flight.plants import Airframe, Plant, Truth
+from keel.flight import plants
+from keel.flight.plants import Airframe, Plant, Truth
 
 HOVER = 0.41
 BOTH = pytest.mark.parametrize("name", plants.NAMES)

@@ -13,19 +13,19 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import chip_model
-import firmware
+from keel.boards import chip_model
+from keel.boards import firmware
 import numpy as np
 import pytest
-import stack
-from boards.card import SdCard
-from boards.chip import Chip
-from boards.rebuilt import SOURCES
+from keel.boards import stack
+from keel.boards.card import SdCard
+from keel.boards.chip import Chip
+from keel.boards.rebuilt import SOURCES
 from pyulog import ULog
 from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
-from toolchain import Toolchain
+from keel.install import Toolchain
 
-from common.errors import ROOT
+from keel.base.errors import ROOT
 
 __all__ = ["pyfatfs"]  # A fixture.
 APPLICATION = ["examples/recorder"]

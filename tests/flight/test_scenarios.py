@@ -6,11 +6,11 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-import fly
+from keel.flight import command as fly
 import pytest
-from common.config import ConfigError
-from common.errors import ToolError
-from flight import scenario
+from keel.base.config import ConfigError
+from keel.base.errors import ToolError
+from keel.flight import scenario
 
 GOOD = """description = "x"
 duration_s = 20.0

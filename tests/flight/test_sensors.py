@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from flight import frames, sensors, wind
-from flight.plants import HOME_LATITUDE, HOME_LONGITUDE, NORTH_M, Truth
-from flight.power import Battery
-from flight.receivers import RADIO, SATELLITES, Receiver
-from flight.scenario import Place, Quality
-from flight.sensors import Broken, Inertial, Slow
+from keel.flight import device_frames as frames, sensors, wind
+from keel.flight.plants import HOME_LATITUDE, HOME_LONGITUDE, NORTH_M, Truth
+from keel.flight.power import Battery
+from keel.flight.receivers import RADIO, Receiver, SATELLITES
+from keel.flight.scenario import Place, Quality
+from keel.flight.sensors import Broken, Inertial, Slow
 
 REST = [0.0, 0.0, -9.81, 0.0, 0.0, 0.0]
 IMU = [("accelerometer", "<f4", (3,)), ("gyroscope", "<f4", (3,)), ("temperature", "<i2"),

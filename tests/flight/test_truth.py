@@ -6,10 +6,10 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from flight import loop, plants, scenario
-from flight.library import Copter
-from flight.loop import Flight, Order
-from flight.scenario import Quality
+from keel.flight import loop, plants, scenario
+from keel.flight.library import Copter
+from keel.flight.loop import Flight, Order
+from keel.flight.scenario import Quality
 
 HOVER = scenario.read("hover")
 LENGTH_S = 6.0

@@ -10,13 +10,13 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-import log as log_tool
+from keel.flight import log as log_tool
 import numpy as np
 import pytest
-from flight import log_plots, ulog
+from keel.flight import log_plots, ulog
 from pyulog import ULog
 
-from common.errors import ToolError
+from keel.base.errors import ToolError
 
 FLIPS = 1500
 SYNC = bytes.fromhex("2f731320250cbb12")

@@ -29,11 +29,11 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from check_machdep import compiler_values, frama_c_values, output_of, words_of  # noqa: E402
-from proofs.csource import read  # noqa: E402
-from proofs.declarations import Structures, structures  # noqa: E402
-from proofs.project import ProjectError, include_options  # noqa: E402
-from proofs.syntax import Node, found, parse, written  # noqa: E402
-from toolchain import MACHDEP_FILE, Toolchain, ToolchainError  # noqa: E402
+from keel.c.source import read
+from keel.c.declarations import Structures, structures
+from keel.c.project import ProjectError, include_options
+from keel.c.syntax import Node, found, parse, written
+from keel.install import MACHDEP_FILE, Toolchain, ToolchainError
 
 # Types of one size and one alignment on target and host, in a structure as well as alone.
 ALIKE = frozenset(

@@ -27,7 +27,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from toolchain import MACHDEP_FILE, TARGET_FLAGS, Toolchain, ToolchainError  # noqa: E402
+from keel.install import MACHDEP_FILE, TARGET_FLAGS, Toolchain, ToolchainError
 
 # What the facts are about. Every type gets its size, its alignment alone and inside a struct;
 # every arithmetic type its sign; every name of a type the base type it stands for.

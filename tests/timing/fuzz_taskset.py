@@ -17,9 +17,9 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from common.config import ConfigError
-from common.files import write_json
-from timing.taskset import TaskSet, parse
+from keel.base.config import ConfigError
+from keel.base.files import write_json
+from keel.timing.taskset import TaskSet, parse
 
 ROOT = Path(__file__).resolve().parents[2]
 SEED_FILE = ROOT / "specs/tasksets/urpilot.toml"

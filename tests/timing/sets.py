@@ -6,7 +6,7 @@ from __future__ import annotations
 import random
 from dataclasses import replace
 
-from timing.taskset import CLASSES, Chain, Costs, Task, TaskSet
+from keel.timing.taskset import CLASSES, Chain, Costs, Task, TaskSet
 
 PERIODS = (50, 60, 80, 100, 120, 150, 200, 240, 300, 400, 500, 600, 1000)
 

@@ -11,26 +11,26 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 from sets import random_set
-from timing import board
-from timing.board import BoardError, Experiment, Result
-from timing.deviation import Together, drift, excuse, turn_ceiling
-from timing.experiments import (
-    SECOND,
-    SIGMA_GOALS,
+from keel.timing import board
+from keel.timing.board import BoardError, Experiment, Result
+from keel.timing.deviation import Together, drift, excuse, turn_ceiling
+from keel.timing.experiments import (
     Findings,
     Runner,
+    SECOND,
+    SIGMA_GOALS,
     at_goal_cost,
     class_sigma,
     paper_class_sigma,
-)  # fmt: skip
-from timing.least_deviation import least, least_of_class
-from timing.observed import Seen, judge_paths
-from timing.overload import counted, overload_bound, overload_plans, overloaded, silent
-from timing.phases import spread, without_phases
-from timing.scheduler_bounds import TICK, realtime_bound
-from timing.taskset import Chain, Costs, Task, TaskSet, read
-from timing.textbook_tests import fixed_priority
-from toolchain import Toolchain
+)
+from keel.timing.least_deviation import least, least_of_class
+from keel.timing.observed import Seen, judge_paths
+from keel.timing.overload import counted, overload_bound, overload_plans, overloaded, silent
+from keel.timing.phases import spread, without_phases
+from keel.timing.scheduler_bounds import TICK, realtime_bound
+from keel.timing.taskset import Chain, Costs, Task, TaskSet, read
+from keel.timing.textbook_tests import fixed_priority
+from keel.install import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]
 FREE = Costs(guard_us=0, pass_us=0, dispatch_us=0)

@@ -8,12 +8,12 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from timing.analysis import Gaps, analyse, gaps_of
-from timing.phases import without_phases
-from timing.report import verdict
-from timing.scheduler_bounds import bounds_of, followed, path_bound
-from timing.taskset import Costs, Task, TaskSet, read
-from timing.textbook_tests import (
+from keel.timing.analysis import Gaps, analyse, gaps_of
+from keel.timing.phases import without_phases
+from keel.timing.report import verdict
+from keel.timing.scheduler_bounds import bounds_of, followed, path_bound
+from keel.timing.taskset import Costs, Task, TaskSet, read
+from keel.timing.textbook_tests import (
     conventional,
     fixed_priority,
     freshness,
@@ -24,7 +24,7 @@ from timing.textbook_tests import (
     reaction,
     response,
     utilisation,
-)  # fmt: skip
+)
 
 ROOT = Path(__file__).resolve().parents[2]
 

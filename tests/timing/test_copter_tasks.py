@@ -9,8 +9,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from timing.analysis import analyse
-from timing.taskset import Task, TaskSet, read
+from keel.timing.analysis import analyse
+from keel.timing.taskset import Task, TaskSet, read
 
 ROOT = Path(__file__).resolve().parents[2]
 DEFINED = re.compile(r"^#define COPTER_(\w+) +(\d+)u", re.MULTILINE)

@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
-from timing.analysis import Analysis, analyse
-from timing.phases import without_phases
-from timing.taskset import read
+from keel.timing.analysis import Analysis, analyse
+from keel.timing.phases import without_phases
+from keel.timing.taskset import read
 
 ROOT = Path(__file__).resolve().parents[2]
 JUDGED = ("IMU, rate", "IMU, angle", "Magnetometer", "Radio")

@@ -13,19 +13,19 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from common.errors import ROOT, ToolError
-from common.packages import provide
+from keel.base.errors import ROOT, ToolError
+from keel.base.packages import provide
 from logged import FORMATS, LOOP, LOW, SAMPLE, message, run, task, written
-from toolchain import Toolchain
+from keel.install import Toolchain
 
 provide("schedule")
-import schedule  # noqa: E402
+from keel.timeline import command as schedule
 from perfetto.protos.perfetto.trace.perfetto_trace_pb2 import (  # noqa: E402
     Trace,
     TrackDescriptor,
     TrackEvent,
 )
-from timeline import picture, runs, table  # noqa: E402
+from keel.timeline import picture, runs, table
 
 SECONDS = 3
 COUNTED = re.compile(

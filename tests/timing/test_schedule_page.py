@@ -9,14 +9,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from common.errors import ROOT
-from common.packages import provide
+from keel.base.errors import ROOT
+from keel.base.packages import provide
 from logged import LOOP, SAMPLE, run, task, written
 
 provide("schedule")
 sys.path.append(str(ROOT / "tests/tools"))
 from browser import Browser  # noqa: E402
-from timeline import page, runs  # noqa: E402
+from keel.timeline import page, runs
 
 FAULTS = (ROOT / "tests/tools/page_faults.js").read_text(encoding="utf-8")
 SHOTS = ROOT / "build/test/schedule-page"

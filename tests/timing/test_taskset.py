@@ -7,11 +7,11 @@ import os
 from pathlib import Path
 
 import pytest
-from common.config import ConfigError
-from common.errors import ToolError
-from common.toml_lines import line_index
+from keel.base.config import ConfigError
+from keel.base.errors import ToolError
+from keel.base.toml_lines import line_index
 from fuzz_taskset import fuzz
-from timing.taskset import parse, read
+from keel.timing.taskset import parse, read
 
 ROOT = Path(__file__).resolve().parents[2]
 URPILOT = ROOT / "specs/tasksets/urpilot.toml"

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
 
-from toolchain.lock import Lock
+from keel.install.lock import Lock
 
 # What these ask for, others have told them.
 TOLD = ("common/packages.py", "suites/running.py", "toolchain/command_line.py", "with_packages.py")

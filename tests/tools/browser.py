@@ -17,7 +17,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from toolchain import Toolchain  # noqa: E402
+from keel.install import Toolchain
 
 FLAGS = ("--remote-debugging-pipe", "--disable-gpu", "--no-first-run", "--mute-audio",
          "--disable-background-networking", "--disable-dev-shm-usage")  # fmt: skip

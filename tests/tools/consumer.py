@@ -16,7 +16,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from toolchain import Toolchain  # noqa: E402
+from keel.install import Toolchain
 
 TIMEOUT_S = 300
 CORTEX_M7 = (

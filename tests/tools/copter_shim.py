@@ -9,7 +9,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from common.run import output_of
+from keel.base.run import output_of
 
 ROOT = Path(__file__).resolve().parents[2]
 COMMON = ("slots", "task_table", "trace", "trace_log")

@@ -21,7 +21,7 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from common.packages import provide  # noqa: E402
+from keel.base.packages import provide
 
 provide("common")
 provide("evidence")
@@ -30,15 +30,15 @@ import test_requirements_trace as small  # noqa: E402
 from evidence_proofs import report_of  # noqa: E402
 from evidence_sample import the_program  # noqa: E402
 
-from boards.semantics import COMPILED_AS_PROVED  # noqa: E402
-from common.files import write_json, write_text  # noqa: E402
-from common.junit import JUnitSuite, write_junit  # noqa: E402
-from common.source import STAMP, VERDICT, stamp_of  # noqa: E402
-from evidence.assemble import assemble  # noqa: E402
-from evidence.part import Context  # noqa: E402
-from evidence.parts import tools as part_tools  # noqa: E402
-from toolchain import Found, Toolchain  # noqa: E402
-from toolchain.lock import Spec  # noqa: E402
+from keel.boards.semantics import COMPILED_AS_PROVED
+from keel.base.files import write_json, write_text
+from keel.base.junit import JUnitSuite, write_junit
+from keel.base.source import STAMP, VERDICT, stamp_of
+from keel.evidence.assemble import assemble
+from keel.evidence.part import Context
+from keel.evidence.parts import tools as part_tools
+from keel.install import Found, Toolchain
+from keel.install.lock import Spec
 
 # Those that faults of a project or of a run show in; the others speak of Keel's documents.
 PARTS = ("requirements", "trace", "formal", "strength", "tests", "object", "tools",

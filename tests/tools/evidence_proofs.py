@@ -11,16 +11,16 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from common.packages import provide
+from keel.base.packages import provide
 
 provide()
 
 from copied_tree import CopiedTree  # noqa: E402
 
-from common.source import STAMP  # noqa: E402
-from evidence.part import Context, Part  # noqa: E402
-from proofs.goals import read_goals  # noqa: E402
-from proofs.project import Unit, find_units  # noqa: E402
+from keel.base.source import STAMP
+from keel.evidence.part import Context, Part
+from keel.judge.goals import read_goals
+from keel.c.project import Unit, find_units
 
 ROOT = Path(__file__).resolve().parents[2]
 NOW = {"commit": "c", "tree": "t", "product": "p"}

@@ -16,15 +16,15 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.packages import provide  # noqa: E402
+from keel.base.packages import provide
 
 provide("common")
 provide("evidence")
 
-from common.source import STAMP as MADE_FROM  # noqa: E402
-from evidence.assemble import Assembled, assemble  # noqa: E402
-from evidence.package import Source  # noqa: E402
-from evidence.part import Context, Item, Part, Table  # noqa: E402
+from keel.base.source import STAMP as MADE_FROM
+from keel.evidence.assemble import Assembled, assemble
+from keel.evidence.package import Source
+from keel.evidence.part import Context, Item, Part, Table
 
 STAMP = {"commit": "c" * 40, "tree": "d" * 64, "product": "e" * 64}
 SOURCE = Source(STAMP, 1_750_000_000)

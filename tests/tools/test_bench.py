@@ -26,13 +26,13 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import bench  # noqa: E402
-from bench import Host  # noqa: E402
-from benchmark import assembly, callgrind, emulated, tables  # noqa: E402
-from benchmark.callgrind import Dump, Kind  # noqa: E402
-from benchmark.tables import Goal, Target  # noqa: E402
-from common.errors import ToolError  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.bench import command as bench
+from keel.bench.command import Host
+from keel.bench import assembly, callgrind, emulated, tables
+from keel.bench.callgrind import Dump, Kind
+from keel.bench.tables import Goal, Target
+from keel.base.errors import ToolError
+from keel.install import Toolchain
 
 # Three dumps as callgrind writes them. In the first, keel_step's own 40 + 30 instructions stand
 # around a call whose cost (7) is the clock's; the last has no label, so it is not ours.

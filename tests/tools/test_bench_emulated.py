@@ -20,10 +20,10 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from benchmark import emulated  # noqa: E402
-from benchmark.emulated import Budget, Figure  # noqa: E402
-from common.errors import ToolError  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.bench import emulated
+from keel.bench.emulated import Budget, Figure
+from keel.base.errors import ToolError
+from keel.install import Toolchain
 
 OUTPUT = """\
 bench known passes 3 instructions 16 longest 10

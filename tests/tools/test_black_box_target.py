@@ -12,9 +12,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import output_of  # noqa: E402
-from firmware import FLAGS, WARNINGS  # noqa: E402
-from toolchain import TARGET_FLAGS, Toolchain  # noqa: E402
+from keel.base.run import output_of
+from keel.boards.firmware import FLAGS, WARNINGS
+from keel.install import TARGET_FLAGS, Toolchain
 
 PROGRAM = """\
 #include "fatfs/black_box.h"

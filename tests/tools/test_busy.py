@@ -18,12 +18,13 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 from endless import CORES, busy  # noqa: E402
-from proofs import cbmc, targets, wp  # noqa: E402
-from proofs.goals import read_goals  # noqa: E402
-from proofs.harness import read_harness  # noqa: E402
-from proofs.jobs import Runner  # noqa: E402
-from proofs.project import find_units  # noqa: E402
-from toolchain import Toolchain, ToolchainError, small_environment  # noqa: E402
+from keel.engines import cbmc, wp
+from keel.judge import wp_targets as targets
+from keel.judge.goals import read_goals
+from keel.judge.harness import read_harness
+from keel.base.jobs import Runner
+from keel.c.project import find_units
+from keel.install import Toolchain, ToolchainError, small_environment
 
 # A goal that CVC4 and Alt-Ergo once gave up, by the clock, on a machine with other work; and a
 # harness that keeps z3 busy.

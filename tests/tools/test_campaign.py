@@ -9,7 +9,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
 
-import campaign  # noqa: E402
+from keel.timing import campaign
 
 
 def flight(fault: str, latched_s: float, worst: float) -> campaign.Flight:

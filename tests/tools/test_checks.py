@@ -20,8 +20,8 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from proofs.jobs import Finished, Runner  # noqa: E402
-from proofs.project import ProjectError, find_units  # noqa: E402
+from keel.base.jobs import Finished, Runner
+from keel.c.project import ProjectError, find_units
 from test_prove import (  # noqa: E402
     ASSERTED,
     HARNESS,
@@ -30,9 +30,12 @@ from test_prove import (  # noqa: E402
     cbmc_output,
     item,
 )
-from toolchain import Toolchain, ToolchainError  # noqa: E402
+from keel.install import Toolchain, ToolchainError
 
-from proofs import cbmc, cbmc_answers, engines, harness, rules  # noqa: E402
+from keel.engines import cbmc
+from keel.judge import cbmc_answers, harness
+from keel.prove import job_list as engines
+from keel.audit import completeness as rules
 
 ALONE = "// checks: assertions\n" + HARNESS
 CASE = HARNESS.replace("keel_box_put_harness", "keel_box_put__all_harness")

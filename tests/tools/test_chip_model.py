@@ -23,21 +23,21 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import chip_model  # noqa: E402
-import firmware  # noqa: E402
-import stack  # noqa: E402
-from boards import chip  # noqa: E402
-from boards.board import read_board  # noqa: E402
-from boards.card import SdCard  # noqa: E402
-from boards.chip import PWR, RCC, Chip, ModelError  # noqa: E402
-from boards.fram import Fram  # noqa: E402
-from boards.ms5611 import check_of  # noqa: E402
-from boards.processor import Processor  # noqa: E402
-from boards.pulses import Pulse, State  # noqa: E402
-from boards.rebuilt import SOURCES  # noqa: E402
-from boards.sockets import pin_of, read_sockets  # noqa: E402
-from boards.stack_bounds import EXCEPTION_FRAME_B  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.boards import chip_model
+from keel.boards import firmware
+from keel.boards import stack
+from keel.boards import chip
+from keel.boards.board import read_board
+from keel.boards.card import SdCard
+from keel.boards.chip import Chip, ModelError, PWR, RCC
+from keel.boards.fram import Fram
+from keel.boards.ms5611 import check_of
+from keel.boards.processor import Processor
+from keel.boards.pulses import Pulse, State
+from keel.boards.rebuilt import SOURCES
+from keel.boards.sockets import pin_of, read_sockets
+from keel.boards.stack_bounds import EXCEPTION_FRAME_B
+from keel.install import Toolchain
 
 
 IMU_SLOT = 10  # Of the background task of the inertial unit, in the order of table 2.

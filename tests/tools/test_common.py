@@ -27,23 +27,15 @@ from xml.etree import ElementTree
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.arguments import Parser  # noqa: E402
-from common.build import Build, BuildError, source_files  # noqa: E402
-from common.config import (  # noqa: E402
-    ConfigError,
-    Field,
-    Mistake,
-    Table,
-    Text,
-    read_json,
-    read_toml,
-)
-from common.errors import ToolError, nearest, program, unknown  # noqa: E402
-from common.files import write_json, write_text  # noqa: E402
-from common.git import commit_of, git  # noqa: E402
-from common.junit import JUnitSuite, write_junit  # noqa: E402
-from common.run import output_of, run  # noqa: E402
-from common.source import stamp_of  # noqa: E402
+from keel.base.arguments import Parser
+from keel.base.build import Build, BuildError, source_files
+from keel.base.config import ConfigError, Field, Mistake, Table, Text, read_json, read_toml
+from keel.base.errors import ToolError, nearest, program, unknown
+from keel.base.files import write_json, write_text
+from keel.base.git import commit_of, git
+from keel.base.junit import JUnitSuite, write_junit
+from keel.base.run import output_of, run
+from keel.base.source import stamp_of
 
 
 class FolderTest(unittest.TestCase):

@@ -26,9 +26,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from proofs.csource import read  # noqa: E402
-from proofs.declarations import macros  # noqa: E402
-from proofs.syntax import found, parse, written  # noqa: E402
+from keel.c.source import read
+from keel.c.declarations import macros
+from keel.c.syntax import found, parse, written
 
 HEADERS = sorted((ROOT / "include").glob("keel/*/*.h"))
 # Names of bits that are told in a word of their own.

@@ -22,14 +22,14 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import contracts_run  # noqa: E402
-from common.config import parse_toml, read_toml  # noqa: E402
-from common.errors import ToolError  # noqa: E402
-from common.run import Ended  # noqa: E402
-from common.source import VERDICT  # noqa: E402
-from contracts_run import CHOICE, GROUPS, Choice, Run, Runner, ignored_in, mistakes  # noqa: E402
-from contracts_run import violation as violated  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.test import contracts_run
+from keel.base.config import parse_toml, read_toml
+from keel.base.errors import ToolError
+from keel.base.run import Ended
+from keel.base.source import VERDICT
+from keel.test.contracts_run import CHOICE, Choice, GROUPS, Run, Runner, ignored_in, mistakes
+from keel.test.contracts_run import violation as violated
+from keel.install import Toolchain
 
 OWN = ROOT / "build/test/contracts_run"
 SAID = """\

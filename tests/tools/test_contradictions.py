@@ -19,8 +19,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from qualification.trials import said_by_frama_c  # noqa: E402
-from toolchain import Toolchain, ToolchainError  # noqa: E402
+from keel.qualify.trials import said_by_frama_c
+from keel.install import Toolchain, ToolchainError
 
 SCRIPT = ROOT / "tools/proofs/find_contradictions.ml"
 ASKED = re.compile(r"^\[wp\] \[(?:Passed|Failed)\] Smoke-test typed_(\w+)", re.MULTILINE)

@@ -16,7 +16,7 @@ from typing import ClassVar
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import output_of  # noqa: E402
+from keel.base.run import output_of
 
 # A copter's parameters behind functions of plain numbers.
 SHIM = """\

@@ -20,10 +20,10 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import coverage  # noqa: E402
-from common.errors import ToolError  # noqa: E402
-from common.source import STAMP, VERDICT, stamp_of  # noqa: E402
-from coverage import (  # noqa: E402
+from keel.test import coverage
+from keel.base.errors import ToolError
+from keel.base.source import STAMP, VERDICT, stamp_of
+from keel.test.coverage import (
     Exclusion,
     FileCoverage,
     Gap,

@@ -26,17 +26,17 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-import mutate  # noqa: E402
-from common.cluster import archive  # noqa: E402
-from proofs.mutant_crew import PROGRAM, SENT, Dask, Threads, answer_order, orders  # noqa: E402
-from proofs.mutant_execution import Sample  # noqa: E402
-from proofs.mutant_verdicts import Verdict  # noqa: E402
-from proofs.mutants import Mutant, mutants  # noqa: E402
-from proofs.project import ProjectError  # noqa: E402
+from keel.mutate import command as mutate
+from keel.base.cluster import archive
+from keel.mutate.crew import Dask, PROGRAM, SENT, Threads, answer_order, orders
+from keel.mutate.execution import Sample
+from keel.mutate.verdicts import Verdict
+from keel.mutate.operators import Mutant, mutants
+from keel.c.project import ProjectError
 from test_prove import SOURCE, TreeTest  # noqa: E402
-from toolchain import Toolchain, ToolchainError  # noqa: E402
+from keel.install import Toolchain, ToolchainError
 
-from common import cluster_worker  # noqa: E402
+from keel.base import cluster_worker
 
 
 class FakeTrial:

@@ -22,8 +22,8 @@ from typing import Any, ClassVar
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import output_of  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.base.run import output_of
+from keel.install import Toolchain
 
 BYTE_US, SILENT_US = 24, 3000
 NOTHING, CHANNELS, LINK, _SHORT, OTHER = range(5)

@@ -17,11 +17,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from common.files import write_text  # noqa: E402
-from proofs.project import ProjectError  # noqa: E402
+from keel.base.files import write_text
+from keel.c.project import ProjectError
 from test_prove import WholeRunCase  # noqa: E402
 
-from proofs import clauses, declarations, determined  # noqa: E402
+from keel.audit import clauses, determined
+from keel.c import declarations
 
 HEADER = """\
 #define BOX_SIDES 4u

@@ -15,10 +15,10 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.files import write_text  # noqa: E402
-from proofs import disguises  # noqa: E402
-from proofs.syntax import SyntaxProblem  # noqa: E402
-from qualification.deceptions import BUILT, HIDDEN  # noqa: E402
+from keel.base.files import write_text
+from keel.audit import disguises
+from keel.c.syntax import SyntaxProblem
+from keel.qualify.deceptions import BUILT, HIDDEN
 
 HARNESS = """\
 // SPDX-License-Identifier: Apache-2.0

@@ -25,7 +25,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from consumer import ROOT, ConsumerTest, version  # noqa: E402
 
-import dist  # noqa: E402
+from keel.release import dist
 
 NAME = "keel-" + ".".join(map(str, version()))
 VALIDATE = """\

@@ -17,12 +17,12 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import emulated_tests  # noqa: E402
-from common.run import Ended  # noqa: E402
-from suites.emulated import EmulatedBoard  # noqa: E402
-from suites.faults import FAULTS, judge_fault, read_record  # noqa: E402
-from suites.outcomes import unity_outcome  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.test import emulated_tests
+from keel.base.run import Ended
+from keel.test.emulated import EmulatedBoard
+from keel.test.faults import FAULTS, judge_fault, read_record
+from keel.test.outcomes import unity_outcome
+from keel.install import Toolchain
 
 OWN = Path("build/test/emulated_tests")
 DIVISION = """\

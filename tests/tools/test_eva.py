@@ -17,12 +17,12 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import eva  # noqa: E402
-from common.errors import ToolError  # noqa: E402
-from interpretation import analysis  # noqa: E402
-from interpretation.analysis import ANY_CONTEXT, Analysis, Eva, read_log  # noqa: E402
-from interpretation.reduced import public_functions, reduced, widened, write_tree  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.analyse import eva
+from keel.base.errors import ToolError
+from keel.analyse import analysis
+from keel.analyse.analysis import ANY_CONTEXT, Analysis, Eva, read_log
+from keel.analyse.reduced import public_functions, reduced, widened, write_tree
+from keel.install import Toolchain
 
 CONTRACT = """\
 /*@ requires \\valid(a);

@@ -35,16 +35,16 @@ from evidence_sample import (  # noqa: E402
     the_program,
 )
 
-from common.errors import ToolError  # noqa: E402
-from common.files import write_json  # noqa: E402
-from common.junit import JUnitSuite, write_junit  # noqa: E402
-from common.packages import provide  # noqa: E402
-from common.source import STAMP as MADE_FROM  # noqa: E402
-from common.source import stamp_of  # noqa: E402
-from evidence.assemble import PARTS, maker_of  # noqa: E402
-from evidence.attestation import PREDICATE  # noqa: E402
-from evidence.measured import copied  # noqa: E402
-from evidence.package import (  # noqa: E402
+from keel.base.errors import ToolError
+from keel.base.files import write_json
+from keel.base.junit import JUnitSuite, write_junit
+from keel.base.packages import provide
+from keel.base.source import STAMP as MADE_FROM
+from keel.base.source import stamp_of
+from keel.evidence.assemble import PARTS, maker_of
+from keel.evidence.attestation import PREDICATE
+from keel.evidence.measured import copied
+from keel.evidence.package import (
     ATTESTATION,
     MANIFEST,
     SUMS,
@@ -53,9 +53,9 @@ from evidence.package import (  # noqa: E402
     source_of,
     write_package,
 )
-from evidence.part import Context, Item, Part, Table  # noqa: E402
-from evidence.verify import reproduced, verify  # noqa: E402
-from toolchain import ToolchainError  # noqa: E402
+from keel.evidence.part import Context, Item, Part, Table
+from keel.evidence.verify import reproduced, verify
+from keel.install import ToolchainError
 
 
 def write_sample(folder: Path) -> Path:

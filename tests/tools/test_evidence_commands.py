@@ -25,10 +25,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from evidence_sample import STAMP, context_in  # noqa: E402
 
-from common.run import Ended  # noqa: E402
-from common.source import STAMP as MADE_FROM  # noqa: E402
-from common.source import VERDICT, stamp_of, write_report  # noqa: E402
-from evidence.commands import (  # noqa: E402
+from keel.base.run import Ended
+from keel.base.source import STAMP as MADE_FROM
+from keel.base.source import VERDICT, stamp_of, write_report
+from keel.evidence.commands import (
     Command,
     batches,
     commands_of,
@@ -36,7 +36,7 @@ from evidence.commands import (  # noqa: E402
     not_good,
     run_commands,
 )
-from toolchain.lock import Lock  # noqa: E402
+from keel.install.lock import Lock
 
 
 class InFolder(unittest.TestCase):

@@ -17,9 +17,9 @@ from unittest import mock
 
 from evidence_project import HARNESS, HEADER, WholeProject
 
-from common.files import write_json
-from common.source import STAMP, VERDICT
-from evidence.package import SUMS, digests
+from keel.base.files import write_json
+from keel.base.source import STAMP, VERDICT
+from keel.evidence.package import SUMS, digests
 
 GOAL = "keel_widget_turn_ensures_WID_001_turns"
 ELSEWHERE = "speaks of another source than the one that is here"

@@ -20,14 +20,14 @@ sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/tools")]
 
 from evidence_proofs import NOW, EvidenceTest  # noqa: E402
 
-import review  # noqa: E402
-import third_opinion  # noqa: E402
-from common.source import STAMP  # noqa: E402
-from evidence.formal import bounds, esbmc, ledger, opinion, reviews  # noqa: E402
-from evidence.part import Item, Part  # noqa: E402
-from evidence.parts import formal  # noqa: E402
-from proofs.cache import Cache  # noqa: E402
-from proofs.project import find_units  # noqa: E402
+from keel.evidence import review
+from keel.analyse import third_opinion
+from keel.base.source import STAMP
+from keel.evidence.formal import bounds, esbmc, ledger, opinion, reviews
+from keel.evidence.part import Item, Part
+from keel.evidence.parts import formal
+from keel.base.verdict_cache import Cache
+from keel.c.project import find_units
 
 QUEUE_GOAL = "keel_queue_add_ensures_QUE_003_order"
 

@@ -21,13 +21,13 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 from evidence_sample import STAMP, PartTest  # noqa: E402
 
-import firmware  # noqa: E402
-from boards.board import board_names  # noqa: E402
-from boards.rebuilt import SOURCES, differences  # noqa: E402
-from boards.semantics import COMPILED_AS_PROVED, flag_problems  # noqa: E402
-from common.source import STAMP as MADE_FROM  # noqa: E402
-from evidence.parts import object as part_object  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.boards import firmware
+from keel.boards.board import board_names
+from keel.boards.rebuilt import SOURCES, differences
+from keel.boards.semantics import COMPILED_AS_PROVED, flag_problems
+from keel.base.source import STAMP as MADE_FROM
+from keel.evidence.parts import object as part_object
+from keel.install import Toolchain
 
 IMAGE = b"image"
 FLAGS = [*COMPILED_AS_PROVED, "-O2"]

@@ -20,10 +20,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from evidence_sample import STAMP, context_in  # noqa: E402
 
-from common.errors import ToolError  # noqa: E402
-from common.files import sha256_of, write_text  # noqa: E402
-from evidence.part import Context  # noqa: E402
-from evidence.parts import configuration, contracts, objectives, plans, safety  # noqa: E402
+from keel.base.errors import ToolError
+from keel.base.files import sha256_of, write_text
+from keel.evidence.part import Context
+from keel.evidence.parts import configuration, contracts, objectives, plans, safety
 
 STANDARD = """\
 id = "S-1"

@@ -12,7 +12,7 @@ import unittest
 import test_requirements_trace as small
 from traced_project import STAMP, TracedProject
 
-from evidence.parts.requirements import make
+from keel.evidence.parts.requirements import make
 
 LOW = "specs/requirements/widget.sdoc"
 

@@ -24,7 +24,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from browser import Browser  # noqa: E402
 from evidence_sample import LONG, SOURCE, assembled  # noqa: E402
 
-from evidence.package import write_package  # noqa: E402
+from keel.evidence.package import write_package
 
 FAULTS = (Path(__file__).parent / "page_faults.js").read_text(encoding="utf-8")
 LINKS = "[...document.querySelectorAll('a[href]')].map(a => a.href.baseVal === undefined ?" \

@@ -15,9 +15,9 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 from evidence_sample import STAMP, PartTest  # noqa: E402
 
-from boards.board import board_names  # noqa: E402
-from common.source import STAMP as MADE_FROM  # noqa: E402
-from evidence.parts import static  # noqa: E402
+from keel.boards.board import board_names
+from keel.base.source import STAMP as MADE_FROM
+from keel.evidence.parts import static
 
 FINDING = {"rule": "misra-c2012-15.5", "file": "src/x.c", "line": 7, "reason": "15.5: is not met"}
 

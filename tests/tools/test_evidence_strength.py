@@ -23,15 +23,15 @@ sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/tools")]
 
 from evidence_proofs import EvidenceTest  # noqa: E402
 
-import mutate  # noqa: E402
-from common.source import STAMP  # noqa: E402
-from evidence.part import Item, Part  # noqa: E402
-from evidence.parts import strength  # noqa: E402
-from evidence.strength import mutants as recorded  # noqa: E402
-from proofs import mutant_records  # noqa: E402
-from proofs.mutant_verdicts import Verdict  # noqa: E402
-from proofs.mutants import mutants  # noqa: E402
-from proofs.project import Unit, find_units  # noqa: E402
+from keel.mutate import command as mutate
+from keel.base.source import STAMP
+from keel.evidence.part import Item, Part
+from keel.evidence.parts import strength
+from keel.evidence.strength import mutants as recorded
+from keel.mutate import records as mutant_records
+from keel.mutate.verdicts import Verdict
+from keel.mutate.operators import mutants
+from keel.c.project import Unit, find_units
 
 RECORD = "specs/mutation/range.json"
 KILLED = {"cbmc": "killed: keel_range_clamp_harness: RNG_002_model"}

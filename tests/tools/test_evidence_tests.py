@@ -13,9 +13,9 @@ from typing import Any
 
 from evidence_sample import STAMP, PartTest
 
-from common.junit import JUnitSuite, write_junit
-from common.source import STAMP as MADE_FROM
-from evidence.parts import tests
+from keel.base.junit import JUnitSuite, write_junit
+from keel.base.source import STAMP as MADE_FROM
+from keel.evidence.parts import tests
 
 QUEUE, TEST = "unit/queue", "QUE_003_order"
 GAP = {"file": "src/x.c", "line": 3, "text": "return 1;", "what": "line not executed"}

@@ -20,16 +20,16 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 from evidence_sample import STAMP, PartTest  # noqa: E402
 
-import qualify  # noqa: E402
-from common.errors import ToolError  # noqa: E402
-from common.source import PRODUCT  # noqa: E402
-from common.source import STAMP as MADE_FROM  # noqa: E402
-from evidence.part import Context  # noqa: E402
-from evidence.parts import tools as part_tools  # noqa: E402
-from evidence.parts.tools import SETTINGS, Settings  # noqa: E402
-from qualification.seeds import SEEDS  # noqa: E402
-from toolchain import Found, Toolchain  # noqa: E402
-from toolchain.lock import Spec  # noqa: E402
+from keel.qualify import command as qualify
+from keel.base.errors import ToolError
+from keel.base.source import PRODUCT
+from keel.base.source import STAMP as MADE_FROM
+from keel.evidence.part import Context
+from keel.evidence.parts import tools as part_tools
+from keel.evidence.parts.tools import SETTINGS, Settings
+from keel.qualify.seeds import SEEDS
+from keel.install import Found, Toolchain
+from keel.install.lock import Spec
 
 RUN = {"tool": "cbmc", "fault": "an overflow", "how": "cbmc", "version": "6.6.0", "wrong": ""}
 PINNED = Spec("cbmc", "deb", at_least="6.6", below="6.7", sha256="aa")

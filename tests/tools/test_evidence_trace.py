@@ -12,7 +12,7 @@ import unittest
 import test_requirements_trace as small
 from traced_project import TracedProject
 
-from evidence.parts.trace import make
+from keel.evidence.parts.trace import make
 
 LOW = "specs/requirements/widget.sdoc"
 SOURCE = "src/rtos/widget.c"

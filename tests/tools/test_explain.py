@@ -19,14 +19,14 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from proofs.counterexample import changes, lines, read_trace  # noqa: E402
-from proofs.explain import UnknownName, named, subjects  # noqa: E402
-from proofs.located import line_of, locate  # noqa: E402
-from proofs.project import find_units  # noqa: E402
-from proofs.sequents import of_goal, read_sequents, relevant  # noqa: E402
-from proofs.session import Choice, Session  # noqa: E402
-from proofs.targets import Result  # noqa: E402
-from proofs.verdict import clause_at  # noqa: E402
+from keel.prove.counterexample import changes, lines, read_trace
+from keel.prove.explain import UnknownName, named, subjects
+from keel.prove.located import line_of, locate
+from keel.c.project import find_units
+from keel.prove.sequents import of_goal, read_sequents, relevant
+from keel.prove.proof_run import Choice, Session
+from keel.judge.wp_targets import Result
+from keel.judge.wp_verdict import clause_at
 from test_prove import ASSERTED, GOALS, WRONG, WholeRunCase, cbmc_output, item  # noqa: E402
 
 

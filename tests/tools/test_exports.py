@@ -17,7 +17,7 @@ from xml.etree import ElementTree
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from common.sarif import SarifResult, document, split_place  # noqa: E402
+from keel.base.sarif import SarifResult, document, split_place
 from test_prove import ASSERTED, GOALS, WholeRunCase, cbmc_output, item  # noqa: E402
 
 LEVELS = ("none", "note", "warning", "error")

@@ -23,12 +23,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import firmware  # noqa: E402
-from boards.board import Board, Place, Region, application_of, read_board  # noqa: E402
-from boards.elf import Contents, Section, Symbol  # noqa: E402
-from boards.placement import check_image, usage  # noqa: E402
-from common.build import source_files  # noqa: E402
-from common.errors import ToolError  # noqa: E402
+from keel.boards import firmware
+from keel.boards.board import Board, Place, Region, application_of, read_board
+from keel.boards.elf import Contents, Section, Symbol
+from keel.boards.placement import check_image, usage
+from keel.base.build import source_files
+from keel.base.errors import ToolError
 
 GOOD = """\
 description = "a board"

@@ -24,11 +24,11 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import flash  # noqa: E402
-import px4  # noqa: E402
-from boards.built import FIRMWARE  # noqa: E402
-from common.errors import ToolError  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.boards import flash
+from keel.boards import px4
+from keel.boards.built import FIRMWARE
+from keel.base.errors import ToolError
+from keel.install import Toolchain
 
 
 class Tools:

@@ -19,11 +19,12 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import refusals  # noqa: E402
-from proofs.project import Unit, find_units  # noqa: E402
-from proofs.settings import Exceptions  # noqa: E402
+from keel.lint import refusals
+from keel.c.project import Unit, find_units
+from keel.judge.settings import Exceptions
 
-from proofs import assertions, frames, targets, unused  # noqa: E402
+from keel.audit import assertions, unused
+from keel.judge import wp_frames as frames, wp_targets as targets
 
 HEADER = """\
 #ifndef BOX_H

@@ -12,10 +12,10 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.build import BuildError  # noqa: E402
-from common.run import Ended  # noqa: E402
-from suites import fuzzing, oracles  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.base.build import BuildError
+from keel.base.run import Ended
+from keel.test import fuzzing, oracles
+from keel.install import Toolchain
 
 PINNED = (ROOT / "tests/oracles/Cargo.lock.in").read_text()
 

@@ -18,10 +18,10 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from proofs.jobs import Runner  # noqa: E402
-from proofs.project import ProjectError  # noqa: E402
+from keel.base.jobs import Runner
+from keel.c.project import ProjectError
 
-from proofs import gappa  # noqa: E402
+from keel.engines import gappa
 
 FUNCTION = """\
 static float mean(float w0, float x0, float w1, float x1)

@@ -15,12 +15,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from common.files import write_text  # noqa: E402
-from proofs.inputs import taken  # noqa: E402
-from proofs.project import find_units  # noqa: E402
-from proofs.syntax import SyntaxProblem  # noqa: E402
+from keel.base.files import write_text
+from keel.audit.harness_inputs import taken
+from keel.c.project import find_units
+from keel.c.syntax import SyntaxProblem
 
-from proofs import harness_rules  # noqa: E402
+from keel.audit import harness_rules
 
 FILES = {
     "include/keel/rtos/box.h": "#define BOX_SIDES 4u\nint keel_box_put(int *box, int value);\n",

@@ -18,7 +18,7 @@ from typing import ClassVar
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import output_of  # noqa: E402
+from keel.base.run import output_of
 
 BYTE_US, SILENT_US = 87, 4000
 LOWEST, HIGHEST = 900, 2100

@@ -17,8 +17,8 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests" / "machdep")]
 
 from check_layouts import Types, compared  # noqa: E402
-from proofs.project import ProjectError  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.c.project import ProjectError
+from keel.install import Toolchain
 
 INCLUDED = "#include <stdbool.h>\n#include <stddef.h>\n#include <stdint.h>\n"
 SMALL = "typedef enum colour { RED, GREEN } colour_t;\n"

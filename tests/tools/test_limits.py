@@ -19,12 +19,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common import run  # noqa: E402
+from keel.base import run
 from endless import CORES, busy  # noqa: E402
 from endless import PROGRAM as ENDLESS  # noqa: E402
-from proofs.jobs import Runner  # noqa: E402
-from toolchain import Toolchain, ToolchainError, small_environment  # noqa: E402
-from toolchain.provers import CLOCK_PER_PROCESSOR, by_processor_time  # noqa: E402
+from keel.base.jobs import Runner
+from keel.install import Toolchain, ToolchainError, small_environment
+from keel.install.provers import CLOCK_PER_PROCESSOR, by_processor_time
 
 # As much processor time as is told, and then a word.
 BURN = """\

@@ -18,7 +18,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from proofs.linear import is_nonlinear, linear_part  # noqa: E402
+from keel.engines.linear_filter import is_nonlinear, linear_part
 
 FILTER = ROOT / "tools/proofs/linear.py"
 GOAL = "goal wp_goal : (forall x:int. ((0 <= x) -> ((x + 1) <= (256 * (x + 1)))))\n"

@@ -24,13 +24,13 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import lint  # noqa: E402
-from common.errors import ToolError  # noqa: E402
-from common.source import STAMP, files_below, stamp_of  # noqa: E402
-from linting import house, misra, models, record  # noqa: E402
-from linting.misra import Deviation, Violation  # noqa: E402
-from linting.texts import Finding, Text  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.lint import command as lint
+from keel.base.errors import ToolError
+from keel.base.source import STAMP, files_below, stamp_of
+from keel.lint import house, misra, models, record
+from keel.lint.misra import Deviation, Violation
+from keel.lint.texts import Finding, Text
+from keel.install import Toolchain
 
 
 def text(path: str, *lines: str) -> Text:

@@ -13,7 +13,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import run  # noqa: E402
+from keel.base.run import run
 
 ACQUIRE = "-DKEEL_LOG_RING_LOAD(index)=__atomic_load_n((index),__ATOMIC_ACQUIRE)"
 RELEASE = "-DKEEL_LOG_RING_STORE(index,value)=__atomic_store_n((index),(value),__ATOMIC_RELEASE)"

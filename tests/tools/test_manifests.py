@@ -21,7 +21,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from consumer import CORTEX_M7, MAIN, ROOT, STRICT, ConsumerTest, answer, version  # noqa: E402
-from toolchain import TARGET_FLAGS  # noqa: E402
+from keel.install import TARGET_FLAGS
 
 VERSION = ".".join(map(str, version()))
 RECKLESS = ("-O2", "-ffast-math", "-ffp-contract=fast")

@@ -20,8 +20,8 @@ from typing import Any, ClassVar
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import output_of  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.base.run import output_of
+from keel.install import Toolchain
 
 KEY, OTHER_KEY, TIME = bytes(range(32)), bytes(range(1, 33)), 2**41
 SOURCES = ["src/middleware/signing.c", "src/middleware/mavlink.c", "src/middleware/crc.c"]

@@ -17,7 +17,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from consumer import ROOT, ConsumerTest  # noqa: E402
-from toolchain import TARGET_FLAGS  # noqa: E402
+from keel.install import TARGET_FLAGS
 
 
 class ExampleTest(ConsumerTest):

@@ -17,7 +17,7 @@ from typing import ClassVar, NamedTuple
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import output_of  # noqa: E402
+from keel.base.run import output_of
 
 # A sensor behind functions of whole numbers alone, so that nothing here knows how it is laid out.
 SHIM = """\

@@ -22,21 +22,21 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from proofs.cache import Cache  # noqa: E402
-from proofs.cbmc_answers import Answer  # noqa: E402
-from proofs.harness import read_harness  # noqa: E402
-from proofs.jobs import Runner  # noqa: E402
-from proofs.mutant_execution import Executions, Kill, Sample, numbers_in  # noqa: E402
-from proofs.mutant_harnesses import survey  # noqa: E402
-from proofs.mutant_trees import Trees  # noqa: E402
-from proofs.mutant_verdicts import EXECUTED, Verdict, table  # noqa: E402
-from proofs.mutants import Mutant  # noqa: E402
-from proofs.mutation import BY_CBMC, BY_WP, Tools, Trial  # noqa: E402
-from proofs.settings import Exceptions  # noqa: E402
-from proofs.times import Times  # noqa: E402
+from keel.base.verdict_cache import Cache
+from keel.judge.cbmc_answers import Answer
+from keel.judge.harness import read_harness
+from keel.base.jobs import Runner
+from keel.mutate.execution import Executions, Kill, Sample, numbers_in
+from keel.mutate.harnesses import survey
+from keel.mutate.trees import Trees
+from keel.mutate.verdicts import EXECUTED, Verdict, table
+from keel.mutate.operators import Mutant
+from keel.mutate.mutation import BY_CBMC, BY_WP, Tools, Trial
+from keel.judge.settings import Exceptions
+from keel.prove.times import Times
 from test_prove import SOURCE, TreeTest  # noqa: E402
 
-from proofs import mutant_execution  # noqa: E402
+from keel.mutate import execution as mutant_execution
 
 BODY = "*box = value;"
 HARNESS = """\

@@ -24,17 +24,19 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import mutate  # noqa: E402
-from proofs.cache import Cache  # noqa: E402
-from proofs.mutant_trees import Trees  # noqa: E402
-from proofs.mutant_verdicts import Verdict  # noqa: E402
-from proofs.mutants import Mutant, mutants  # noqa: E402
-from proofs.mutation import Tools, Trial  # noqa: E402
-from proofs.project import ProjectError, Unit  # noqa: E402
-from proofs.settings import Exceptions  # noqa: E402
-from proofs.times import Times  # noqa: E402
+from keel.mutate import command as mutate
+from keel.base.verdict_cache import Cache
+from keel.mutate.trees import Trees
+from keel.mutate.verdicts import Verdict
+from keel.mutate.operators import Mutant, mutants
+from keel.mutate.mutation import Tools, Trial
+from keel.c.project import ProjectError, Unit
+from keel.judge.settings import Exceptions
+from keel.prove.times import Times
 
-from proofs import mutant_verdicts, mutation, targets, wp  # noqa: E402
+from keel.mutate import mutation, verdicts as mutant_verdicts
+from keel.judge import wp_targets as targets
+from keel.engines import wp
 
 HEADER = """\
 #include <stdbool.h>

@@ -22,32 +22,26 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import object_coverage  # noqa: E402
-from boards.conditions import (  # noqa: E402
+from keel.test import object_coverage
+from keel.boards.conditions import (
     BLOCK,
     BRANCH,
-    SELECTION,
-    Conditional,
     ConditionError,
+    Conditional,
     Conditions,
+    SELECTION,
     flags_say,
 )
-from boards.elf import Contents, Symbol, read_contents  # noqa: E402
-from boards.lines import Lines, Place, read_lines  # noqa: E402
-from common.run import Ended  # noqa: E402
-from common.errors import ToolError  # noqa: E402
-from common.source import STAMP, VERDICT, stamp_of  # noqa: E402
-from object_coverage import (  # noqa: E402
-    Condition,
-    Measurement,
-    Reason,
-    UncoveredError,
-    read_reasons,
-)
-from suites import trace  # noqa: E402
-from suites.emulated import EmulatedBoard  # noqa: E402
-from suites.trace import one_by_one, outcomes_of, traced  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.boards.elf import Contents, Symbol, read_contents
+from keel.boards.lines import Lines, Place, read_lines
+from keel.base.run import Ended
+from keel.base.errors import ToolError
+from keel.base.source import STAMP, VERDICT, stamp_of
+from keel.test.object_coverage import Condition, Measurement, Reason, UncoveredError, read_reasons
+from keel.test import trace
+from keel.test.emulated import EmulatedBoard
+from keel.test.trace import one_by_one, outcomes_of, traced
+from keel.install import Toolchain
 
 OWN = Path("build/test/object_coverage")
 N, Z, C, V = 1 << 31, 1 << 30, 1 << 29, 1 << 28

@@ -20,7 +20,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from toolchain.cache import default_cache  # noqa: E402
+from keel.install.cache import default_cache
 
 
 class OwnUnit(unittest.TestCase):

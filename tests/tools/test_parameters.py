@@ -15,8 +15,8 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import parameters  # noqa: E402
-from common.config import ConfigError  # noqa: E402
+from keel.copter import parameters
+from keel.base.config import ConfigError
 
 GOOD = """\
 name = "copter"

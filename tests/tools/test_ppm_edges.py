@@ -17,7 +17,7 @@ from typing import ClassVar
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import output_of  # noqa: E402
+from keel.base.run import output_of
 
 LOWEST, HIGHEST, SYNC, LOST = 800, 2200, 2300, 100_000
 LEAST, IN_A_ROW = 4, 3

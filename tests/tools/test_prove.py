@@ -29,34 +29,31 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-import prove  # noqa: E402
-from common.files import write_text  # noqa: E402
-from proofs.cache import Cache  # noqa: E402
-from proofs.cbmc_answers import read_answer, refutation_problems  # noqa: E402
-from proofs.jobs import Finished, Runner, in_pool  # noqa: E402
-from proofs.project import ProjectError, Unit, closure, find_units  # noqa: E402
-from proofs.session import Choice, Session  # noqa: E402
-from proofs.syntax import SyntaxProblem  # noqa: E402
-from proofs.times import Times  # noqa: E402
-from toolchain import Toolchain, ToolchainError  # noqa: E402
+from keel.prove import command as prove
+from keel.base.files import write_text
+from keel.base.verdict_cache import Cache
+from keel.judge.cbmc_answers import read_answer, refutation_problems
+from keel.base.jobs import Finished, Runner, in_pool
+from keel.c.project import ProjectError, Unit, closure, find_units
+from keel.prove.proof_run import Choice, Session
+from keel.c.syntax import SyntaxProblem
+from keel.prove.times import Times
+from keel.install import Toolchain, ToolchainError
 from waiting import WAIT_S, wait_for  # noqa: E402
 
-from proofs import (  # noqa: E402
-    cbmc,
+from keel.engines import cbmc, wp
+from keel.judge import (
     cbmc_answers,
-    csource,
-    driver,
-    engines,
     harness,
-    rules,
     settings,
-    targets,
-    theorems,
-    verdict,
-    wp,
-    wplog,
-    wrong,
+    wp_log as wplog,
+    wp_targets as targets,
+    wp_verdict as verdict,
+    wrong_bodies as wrong,
 )
+from keel.c import source as csource
+from keel.prove import driver, job_list as engines
+from keel.audit import completeness as rules, theorems
 
 HEADER = """\
 #ifndef KEEL_RTOS_BOX_H

@@ -28,9 +28,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import px4  # noqa: E402
-from px4 import Container, Px4Error  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.boards import px4
+from keel.boards.px4 import Container, Px4Error
+from keel.install import Toolchain
 
 IMAGE = bytes(range(256)) * 5 + b"\x01\x02\x03"  # Several commands, and not whole words.
 

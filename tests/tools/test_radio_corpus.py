@@ -19,7 +19,7 @@ from typing import Any, ClassVar
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import output_of  # noqa: E402
+from keel.base.run import output_of
 
 CORPUS = ROOT / "tests/corpus/radio.toml"
 BYTE_US = {"sbus": 120, "crsf": 24, "ibus": 87}

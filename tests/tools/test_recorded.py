@@ -19,11 +19,12 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from proofs.jobs import Finished, Runner  # noqa: E402
-from proofs.project import ProjectError  # noqa: E402
+from keel.base.jobs import Finished, Runner
+from keel.c.project import ProjectError
 from test_prove import GOALS, GOOD, TreeTest, WholeRunCase, wp_log, wp_report  # noqa: E402
 
-from proofs import goals, targets, verdict, wp  # noqa: E402
+from keel.judge import goals, wp_targets as targets, wp_verdict as verdict
+from keel.engines import wp
 
 PUT = "keel_box_put"
 

@@ -19,12 +19,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import registers  # noqa: E402
-from boards.register_databases import Databases  # noqa: E402
-from boards.register_headers import RegistersError  # noqa: E402
-from boards.sockets import SOCKETS  # noqa: E402
-from registers import Comparison  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.boards import registers
+from keel.boards.register_databases import Databases
+from keel.boards.register_headers import RegistersError
+from keel.boards.sockets import SOCKETS
+from keel.boards.registers import Comparison
+from keel.install import Toolchain
 
 RCC = "bsp/stm32f767/registers/rcc.h"
 UART = "bsp/stm32f767/registers/uart.h"

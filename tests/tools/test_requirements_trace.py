@@ -18,8 +18,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import requirements_trace  # noqa: E402
-from common.files import write_text  # noqa: E402
+from keel.trace import command as requirements_trace
+from keel.base.files import write_text
 
 SDOC = """\
 [DOCUMENT]

@@ -21,21 +21,21 @@ from xml.etree import ElementTree
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import run_tests  # noqa: E402
-from common.build import BuildError  # noqa: E402
-from common.run import Ended, run  # noqa: E402
-from common.source import STAMP, VERDICT, stamp_of  # noqa: E402
-from run_tests import BUILD, HostBuilds  # noqa: E402
-from suites import running  # noqa: E402
-from suites.outcomes import (  # noqa: E402
+from keel.test import command as run_tests
+from keel.base.build import BuildError
+from keel.base.run import Ended, run
+from keel.base.source import STAMP, VERDICT, stamp_of
+from keel.test.command import BUILD, HostBuilds
+from keel.test import suites as running
+from keel.test.outcomes import (
     Outcome,
     program_outcome,
     pytest_outcome,
     reference_outcome,
     unity_outcome,
 )
-from suites.running import Suite  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.test.suites import Suite
+from keel.install import Toolchain
 
 PASSED = "t.c:1:QUE_001_a:PASS\n"
 FAILED = "t.c:9:QUE_002_b:FAIL: Expected 1 Was 2\n"

@@ -16,8 +16,8 @@ from typing import ClassVar
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import output_of  # noqa: E402
-from flight import frames  # noqa: E402
+from keel.base.run import output_of
+from keel.flight import device_frames as frames
 
 GAP_US, BYTE_US, SILENT_US = 1000, 120, 4000
 LOWEST, HIGHEST = 172, 1811

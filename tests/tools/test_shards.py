@@ -18,10 +18,10 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-import prove  # noqa: E402
-from proofs.driver import Job  # noqa: E402
-from proofs.project import ProjectError  # noqa: E402
-from proofs.shards import Shard, part, read_shard  # noqa: E402
+from keel.prove import command as prove
+from keel.prove.driver import Job
+from keel.c.project import ProjectError
+from keel.prove.shards import Shard, part, read_shard
 from test_prove import GOALS, SOURCE, WholeRunCase  # noqa: E402
 
 

@@ -15,8 +15,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from proofs.mutant_slips import numbers_beyond, surroundings  # noqa: E402
-from proofs.mutants import Generated, generate  # noqa: E402
+from keel.mutate.slips import numbers_beyond, surroundings
+from keel.mutate.operators import Generated, generate
 
 HEADER = """\
 typedef struct box {

@@ -19,9 +19,9 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from proofs.cbmc_answers import Answer  # noqa: E402
-from proofs.harness import Harness, read_harness  # noqa: E402
-from proofs.mutant_small import Small, small  # noqa: E402
+from keel.judge.cbmc_answers import Answer
+from keel.judge.harness import Harness, read_harness
+from keel.mutate.small_harnesses import Small, small
 from test_prove import HARNESS, TreeTest  # noqa: E402
 
 

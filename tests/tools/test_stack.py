@@ -20,32 +20,25 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import stack  # noqa: E402
-from boards.built import read_built  # noqa: E402
-from boards.call_graph import (  # noqa: E402
-    Code,
-    Disassembler,
-    Function,
-    StackError,
-    complete,
-    parse,
-)
-from boards.elf import Contents, Symbol, read_contents  # noqa: E402
-from boards.stack_bounds import (  # noqa: E402
-    TABLE,
+from keel.boards import stack
+from keel.boards.built import read_built
+from keel.boards.call_graph import Code, Disassembler, Function, StackError, complete, parse
+from keel.boards.elf import Contents, Symbol, read_contents
+from keel.boards.stack_bounds import (
     Bounds,
     Entry,
     Indirect,
     StackTable,
+    TABLE,
     analyse,
     idle_code,
     mistakes,
 )
-from common.config import read_toml  # noqa: E402
-from common.errors import ToolError  # noqa: E402
-from common.run import output_of  # noqa: E402
-from common.source import PRODUCT, STAMP, stamp_of  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.base.config import read_toml
+from keel.base.errors import ToolError
+from keel.base.run import output_of
+from keel.base.source import PRODUCT, STAMP, stamp_of
+from keel.install import Toolchain
 
 
 def node(title: str, frame: str = "") -> str:

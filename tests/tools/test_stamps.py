@@ -19,9 +19,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from proofs import stamps  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
-from toolchain.lock import Lock  # noqa: E402
+from keel.prove import verdict_keys as stamps
+from keel.install import Toolchain
+from keel.install.lock import Lock
 
 ENGINES = ("wp", "cbmc", "gappa")
 

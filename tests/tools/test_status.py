@@ -19,7 +19,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import status  # noqa: E402
+from keel.release import status
 
 HEADING = "# Status\n\nThis is proved by the last complete run"
 TABLE = """\

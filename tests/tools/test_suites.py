@@ -25,17 +25,17 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-import run_tests  # noqa: E402
+from keel.test import command as run_tests
 from asked_groups import asked, closure  # noqa: E402
-from common.arguments import Parser  # noqa: E402
-from common.config import ConfigError, parse_toml  # noqa: E402
-from common.errors import ToolError  # noqa: E402
-from suites import running  # noqa: E402
-from suites.needs import Needs, mistakes, read_needs  # noqa: E402
-from suites.outcomes import Outcome  # noqa: E402
-from suites.running import Suite  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
-from toolchain.lock import Lock  # noqa: E402
+from keel.base.arguments import Parser
+from keel.base.config import ConfigError, parse_toml
+from keel.base.errors import ToolError
+from keel.test import suites as running
+from keel.test.needs import Needs, mistakes, read_needs
+from keel.test.outcomes import Outcome
+from keel.test.suites import Suite
+from keel.install import Toolchain
+from keel.install.lock import Lock
 from waiting import WAIT_S, wait_for  # noqa: E402
 
 

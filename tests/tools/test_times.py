@@ -18,18 +18,10 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from proofs.driver import Job  # noqa: E402
-from proofs.report import HELP  # noqa: E402
-from proofs.running import Running  # noqa: E402
-from proofs.times import (  # noqa: E402
-    PRIOR,
-    UNKNOWN,
-    Forecast,
-    Times,
-    estimates,
-    read_times,
-    recorded_anew,
-)
+from keel.prove.driver import Job
+from keel.prove.report import HELP
+from keel.prove.progress import Running
+from keel.prove.times import Forecast, PRIOR, Times, UNKNOWN, estimates, read_times, recorded_anew
 from test_prove import WholeRunCase  # noqa: E402
 
 

@@ -27,15 +27,15 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import toolchain  # noqa: E402
-from common.files import sha256_of  # noqa: E402
-from toolchain import Toolchain, ToolchainError, command_line, python_packages  # noqa: E402
-from toolchain.apt import Log, Suite  # noqa: E402
-from toolchain.cache import Cache  # noqa: E402
-from toolchain.found import Finder, answer  # noqa: E402
-from toolchain.lock import LOCK_FILE, Lock, Spec  # noqa: E402
-from toolchain.mirror import debian_mirror  # noqa: E402
-from toolchain.unpack import Tree, write_starter  # noqa: E402
+from keel import install as toolchain
+from keel.base.files import sha256_of
+from keel.install import Toolchain, ToolchainError, command as command_line, python_packages
+from keel.install.apt import Log, Suite
+from keel.install.cache import Cache
+from keel.install.found import Finder, answer
+from keel.install.lock import LOCK_FILE, Lock, Spec
+from keel.install.mirror import debian_mirror
+from keel.install.unpack import Tree, write_starter
 
 
 def quiet(line: str) -> None:

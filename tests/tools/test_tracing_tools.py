@@ -12,13 +12,13 @@ import unittest
 from pathlib import Path
 
 import test_requirements_trace as small
-from common.errors import ToolError
+from keel.base.errors import ToolError
 from traced_project import ROOT, TracedProject
-from tracing import lobster, strictdoc
-from tracing.packages import packages
-from tracing.requirements import FOLDER
+from keel.trace import lobster, strictdoc
+from keel.trace.packages import packages
+from keel.trace.requirements import FOLDER
 
-from evidence.traced import read
+from keel.evidence.traced import read
 
 LOW = "specs/requirements/widget.sdoc"
 

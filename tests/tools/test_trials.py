@@ -23,17 +23,21 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from proofs.cache import Cache  # noqa: E402
-from proofs.mutant_trees import Trees  # noqa: E402
-from proofs.mutant_verdicts import Identity, Verdict, report, standing, table  # noqa: E402
-from proofs.mutants import Mutant  # noqa: E402
-from proofs.mutation import BY_CBMC, BY_WP, NO_ANSWER, Tools, Trial  # noqa: E402
-from proofs.project import find_units  # noqa: E402
-from proofs.settings import Exceptions  # noqa: E402
-from proofs.times import Times  # noqa: E402
+from keel.base.verdict_cache import Cache
+from keel.mutate.trees import Trees
+from keel.mutate.verdicts import Identity, Verdict, report, standing, table
+from keel.mutate.operators import Mutant
+from keel.mutate.mutation import BY_CBMC, BY_WP, NO_ANSWER, Tools, Trial
+from keel.c.project import find_units
+from keel.judge.settings import Exceptions
+from keel.prove.times import Times
 from test_prove import HARNESS, SOURCE, TreeTest  # noqa: E402
 
-from proofs import cbmc, cbmc_answers, engines, harness, jobs, mutant_small  # noqa: E402
+from keel.engines import cbmc
+from keel.judge import cbmc_answers, harness
+from keel.prove import job_list as engines
+from keel.base import jobs
+from keel.mutate import small_harnesses as mutant_small
 
 
 def harness_text(name: str, covers: str, more: str = "") -> str:

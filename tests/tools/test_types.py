@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 TOOLS = ROOT / "tools"
 sys.path.insert(0, str(TOOLS))
 
-from toolchain import Toolchain  # noqa: E402
+from keel.install import Toolchain
 
 
 class TypesTest(unittest.TestCase):

@@ -18,9 +18,9 @@ from typing import Any, ClassVar
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import output_of  # noqa: E402
-from flight import frames  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.base.run import output_of
+from keel.flight import device_frames as frames
+from keel.install import Toolchain
 
 GAP_US, BYTE_US, SILENT_US = 20000, 87, 80000
 FIELDS = ("tow_ms", "longitude", "latitude", "height_mm", "accuracy_mm", "height_accuracy", "north",

@@ -20,7 +20,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from proofs.cache import Cache  # noqa: E402
+from keel.base.verdict_cache import Cache
 from test_prove import WRONG, WholeRunCase, cbmc_output  # noqa: E402
 
 PROVED: dict[str, Any] = {"problems": [], "seconds": 1.0}

@@ -25,15 +25,15 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.packages import provide  # noqa: E402
+from keel.base.packages import provide
 
 provide("common")
 provide("ci")
 import yaml  # noqa: E402
-from common.git import is_clone  # noqa: E402
-from evidence.commands import commands_of  # noqa: E402
-from linting.workflows import schema_errors  # noqa: E402
-from toolchain import Toolchain  # noqa: E402
+from keel.base.git import is_clone
+from keel.evidence.commands import commands_of
+from keel.lint.workflows import schema_errors
+from keel.install import Toolchain
 
 WORKFLOWS = sorted((ROOT / ".github/workflows").glob("*.yml"))
 SETTING = r"-f +\S+|[A-Z_]+=(?:\"[^\"]*\"|'[^']*'|[^\s`]+)"

@@ -19,7 +19,7 @@ from typing import ClassVar
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.run import output_of  # noqa: E402
+from keel.base.run import output_of
 from copter_shim import copter_of  # noqa: E402
 
 SHIM = """\

@@ -15,13 +15,13 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from common.packages import provide  # noqa: E402
+from keel.base.packages import provide
 
 provide("common")
 
 import test_requirements_trace as small  # noqa: E402
-from common.files import write_json, write_text  # noqa: E402
-from evidence.part import Context, Part  # noqa: E402
+from keel.base.files import write_json, write_text
+from keel.evidence.part import Context, Part
 
 STAMP = {"commit": "c", "tree": "t", "product": "p"}
 GOAL = {"name": "keel_widget_turn_ensures_WID_001_turns", "status": "Valid", "prover": "Qed",

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What must hold of the proofs besides that they succeed: nothing left out, nothing assumed."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+from keel.c import source as csource
+from keel.judge import wp_frames as frames
+from keel.audit.clauses import CLAUSE
+from keel.judge.harness import read_harness
+from keel.c.project import Unit
+
+
+def assumptions_in(files: Iterable[Path], root: Path) -> list[str]:
+    """Annotations that take something for granted, and code that tells provers apart."""
+    problems = []
+    for path in dict.fromkeys(files):
+        text = csource.read(path)
+        for line, word in csource.forbidden(text):
+            place = f"{path.relative_to(root)}:{line}"
+            problems.append(
+                f"{place}: `{word}` is assumed, not proved; state a lemma or a contract"
+            )
+        for line, word in csource.prover_code(text):
+            problems.append(
+                f"{path.relative_to(root)}:{line}: `{word}`: what is proved must be what is built"
+            )
+    return problems
+
+
+def endless(files: Iterable[Path]) -> list[str]:
+    """Functions, ghosts too, that lead back to themselves: each would rest on its own contract."""
+    bodies: dict[str, str] = {}
+    for path in dict.fromkeys(files):
+        text = csource.with_ghosts(csource.read(path))
+        bodies |= {one.name: csource.body_of(text, one.name) for one in csource.defined(text)}
+    called = {name: {call.name for call in csource.calls(body, r"\w+")} & bodies.keys()
+              for name, body in bodies.items()}  # fmt: skip
+    problems = []
+    for name in called:
+        reached: set[str] = set()
+        waiting = [*called[name]]
+        while waiting:
+            other = waiting.pop()
+            if other not in reached:
+                reached.add(other)
+                waiting += called[other]
+        if name in reached:
+            problems.append(f"the function {name} calls itself: what ends its argument?")
+    return problems
+
+
+def strays(root: Path, units: Iterable[Unit]) -> list[str]:
+    """Code that belongs to no unit, and so is proved nowhere."""
+    own = {path for unit in units for path in unit.own_files}
+    return [
+        f"{path.relative_to(root)}: it belongs to no unit, so nobody proves it"
+        for path in sorted((root / "src").rglob("*.[ch]"))
+        if path not in own
+    ]
+
+
+def switched_off_checks(files: Iterable[Path], root: Path) -> list[str]:
+    """Places where a harness tells CBMC not to look."""
+    problems = []
+    for path in dict.fromkeys(files):
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            if "CPROVER" in line and "pragma" in line:
+                problems.append(f"{path.relative_to(root)}:{number}: switches a check off")
+    return problems
+
+
+def without_contract(unit: Unit, root: Path) -> list[str]:
+    """Functions of a unit's header whose contract nobody has written: nothing can be proved."""
+    text = csource.read(unit.header)
+    lines = {function.name: function.line for function in csource.functions(text)}
+    return [
+        f"{unit.header.relative_to(root)}:{lines[name]}: {name} has no contract: write /*@ requires"
+        " ...; assigns ...; ensures ...; */ before it"
+        for name, annotations in frames.contracts(text)
+        if name in lines and not CLAUSE.search(annotations)
+    ]
+
+
+def undefined_functions(unit: Unit, excepted: Mapping[str, str], root: Path) -> list[str]:
+    """Functions whose contract is stated but whose body nobody proves."""
+    own = [(path, csource.read(path)) for path in unit.own_files]
+    bodies = {function.name for _, text in own for function in csource.defined(text)}
+    problems = []
+    for path, text in own:
+        for function in csource.functions(text):
+            if function.name not in bodies and function.name not in excepted:
+                place = f"{path.relative_to(root)}:{function.line}"
+                problems.append(
+                    f"{place}: {function.name} has a contract and no body to prove it by"
+                )
+    return problems + _stale(unit, "no_body", excepted, bodies)
+
+
+def missing_harnesses(unit: Unit, excepted: Mapping[str, str], root: Path) -> list[str]:
+    """Functions of a unit's header that no harness proves."""
+    proved = {read_harness(unit, path).function for path in unit.harnesses}
+    problems = []
+    names = set()
+    for function in csource.functions(csource.read(unit.header)):
+        names.add(function.name)
+        if function.name not in proved and function.name not in excepted:
+            wanted = unit.folder / f"{function.name}_harness.c"
+            problems.append(f"{function.name} has no harness: write {wanted.relative_to(root)}")
+    for name in sorted(proved - names):
+        problems.append(
+            f"{unit.folder.relative_to(root)}: {name}, which a harness proves, is not in the header"
+        )
+    return problems + _stale(unit, "no_harness", excepted, proved)
+
+
+def left_by_wp(unit: Unit, excepted: Mapping[str, str], root: Path) -> list[str]:
+    """Functions that WP leaves to CBMC, and that no harness reaches."""
+    names = {
+        function.name
+        for path in (*unit.own_files, *unit.theorems)
+        for function in csource.defined(csource.read(path))
+    }
+    covered = {name for path in unit.harnesses for name in read_harness(unit, path).covers}
+    problems = []
+    for name in excepted:
+        if name not in names:
+            problems.append(f"units.toml: [{unit.name}] not_by_wp: there is no function {name}")
+        elif name not in covered:
+            place = unit.folder.relative_to(root)
+            problems.append(f"{name} is proved by neither engine: no harness in {place} covers it")
+    return problems
+
+
+def _stale(unit: Unit, kind: str, excepted: Mapping[str, str], settled: set[str]) -> list[str]:
+    return [
+        f"units.toml: [{unit.name}] {kind}: {name} is no exception any more, remove it"
+        for name in excepted
+        if name in settled
+    ]
+
+
+def compare_goals(listed: Sequence[str], seen: Sequence[str], where: str) -> list[str]:
+    """How the goals that WP made differ from the fixed list."""
+    problems = []
+    if list(listed) != sorted(set(listed)):
+        problems.append(f"{where}: not sorted, or a goal twice; run --update-goals")
+    for name in sorted(set(listed) - set(seen)):
+        problems.append(
+            f"{where}: {name} is listed, but WP has no such goal any more: if its clause was"
+            " removed on purpose, review and run --update-goals"
+        )
+    for name in sorted(set(seen) - set(listed)):
+        problems.append(f"{where}: {name} is a new goal: review and run --update-goals")
+    for name, times in Counter(seen).items():
+        if times > 1:
+            problems.append(f"{where}: {times} goals are called {name}")
+    return problems

@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Refuses texts of C that readers, provers and the build's compiler may take for different things.
+
+In all that is proved, and in the proofs: line splices outside of directives, trigraphs, digraphs,
+control characters, pragmas, #line, and headers that only the preprocessor could name. In what is
+built, besides: conditionals but for those below, and names that a compiler may have defined by
+itself. In harnesses: every conditional, as what stands in one may not be there.
+
+Of what is built a conditional may
+
+    guard a header:                         #ifndef KEEL_RTOS_QUEUE_H
+    give a number that a build may choose:  #ifndef KEEL_QUEUE_CAPACITY, with nothing but #define
+    refuse a number:                        #if KEEL_QUEUE_CAPACITY > 255u, with nothing but #error
+
+and what proofs/units.toml lists under `conditionals`, with a reason.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable, Collection, Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from keel.c import source as csource
+
+Finding = tuple[int, str]  # The line, and what is wrong there.
+Rule = Callable[[str, Path], Iterable[Finding]]
+
+WHITE = "\n\t"
+TRIGRAPH = re.compile(r"\?\?[=/'()!<>-]")
+DIGRAPH = re.compile(r"<:|:>|<%|%>|%:")
+SPLICE = re.compile(r"\\[ \t]*$")
+DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(\w*)[ \t]*(.*)$")
+PLAIN = frozenset("include define error if ifdef ifndef else elif endif".split())
+RESERVED = re.compile(r"\b(?:__\w+|_[A-Z]\w*|linux|unix|i386|asm)\b")
+NUMBERS_ALONE = re.compile(
+    r"(?:KEEL_\w+|[A-Z]+_[A-Z_]+|0[xX][0-9a-fA-F]+u?|\d+u?|[\s()<>=!&|+*-])*"
+)
+# A header for C++, of which neither the provers nor a compiler of C see anything else than nothing.
+FOR_CPP = "c_declarations.h"
+
+
+@dataclass
+class Conditional:
+    """A conditional of the preprocessor and what stands in it."""
+
+    line: int
+    kind: str
+    condition: str
+    # The directives, each with its words, and whether there is anything else.
+    directives: list[tuple[str, str]] = field(default_factory=list)
+    code: bool = False
+
+
+def everywhere(text: str) -> Iterator[Finding]:
+    """What no text may have."""
+    inside = False  # A directive that goes on.
+    for number, line in enumerate(text.replace("\r\n", "\n").split("\n"), 1):
+        if hidden := [one for one in line if one not in WHITE and _is_control(one)]:
+            yield number, f"the control character U+{ord(hidden[0]):04X}"
+        if TRIGRAPH.search(line):
+            yield number, "a trigraph"
+        directive = DIRECTIVE.match(line)
+        starts = directive is not None and not inside
+        if SPLICE.search(line) and not (starts or inside):
+            yield number, "a line that goes on outside of a directive"
+        if directive and starts and directive[1] not in PLAIN:
+            yield number, f"#{directive[1]}"
+        inside = (starts or inside) and SPLICE.search(line) is not None
+    bare = csource.without_comments(text)
+    for number, line in enumerate(bare.split("\n"), 1):
+        if DIGRAPH.search(line):
+            yield number, "a digraph"
+        if "##" in line:
+            yield number, "##: what it pastes together is in no text"
+        if "_Pragma" in line:
+            yield number, "_Pragma"
+
+
+def _is_control(one: str) -> bool:
+    return unicodedata.category(one) in ("Cc", "Cf")
+
+
+def conditionals(text: str) -> list[Conditional]:
+    """The conditionals of a text, outer ones first; one that has branches has them all in it."""
+    open_: list[Conditional] = []
+    every: list[Conditional] = []
+    number = 1
+    for line in re.split(r"(?<!\\)\n", csource.without_comments(text)):
+        start, number = number, number + line.count("\n") + 1
+        line = line.replace("\\\n", " ")
+        directive = DIRECTIVE.match(line)
+        kind, words = (directive[1], " ".join(directive[2].split())) if directive else ("", "")
+        if kind in ("if", "ifdef", "ifndef"):
+            for one in open_:
+                one.directives.append((kind, words))
+            open_.append(Conditional(start, kind, words))
+            every.append(open_[-1])
+        elif kind == "endif" and open_:
+            open_.pop()
+        elif open_ and (kind or line.strip()):
+            for one in open_:
+                one.code = one.code or not kind
+                if kind:
+                    one.directives.append((kind, words))
+    return every
+
+
+def is_guard(one: Conditional, text: str) -> bool:
+    """Whether a conditional is around the whole of a header, and names it."""
+    code = csource.without_comments(text).strip()
+    name = one.condition
+    return (
+        one.kind == "ifndef"
+        and re.fullmatch(r"[A-Z][A-Z0-9_]*_H", name) is not None
+        and re.match(rf"#ifndef {name}\s+#define {name}\s", code) is not None
+        and code.endswith("#endif")
+        and not any(kind in ("else", "elif") for kind, _ in one.directives)
+    )
+
+
+def chooses_no_code(one: Conditional) -> bool:
+    """Whether a conditional gives a number that a build may choose, or refuses one."""
+    kinds = {kind for kind, _ in one.directives}
+    if one.code:
+        return False
+    if one.kind == "ifndef":
+        names = {words.partition(" ")[0].partition("(")[0] for _, words in one.directives}
+        return kinds == {"define"} and names == {one.condition}
+    return one.kind == "if" and kinds == {"error"} and bool(NUMBERS_ALONE.fullmatch(one.condition))
+
+
+def in_what_is_built(text: str, name: str, allowed: Collection[str]) -> Iterator[Finding]:
+    """What must not be in a source or a header besides, as a compiler may see something else."""
+    if name == FOR_CPP:
+        return
+    for one in conditionals(text):
+        said = f"#{one.kind} {one.condition}"
+        if not (is_guard(one, text) or chooses_no_code(one) or said in allowed):
+            yield one.line, f"`{said}`: provers and compilers may see different code"
+    for number, line in enumerate(csource.without_comments(text).split("\n"), 1):
+        if match := RESERVED.search(line):
+            yield number, f"`{match.group()}`, which a compiler may define by itself"
+        if "assert.h" in line and "include" in line:
+            yield number, "<assert.h>, which a build may turn into nothing"
+
+
+def in_harness(text: str) -> Iterator[Finding]:
+    """What must not be in a harness besides: what stands in a conditional may not be there."""
+    yield from ((one.line, f"`#{one.kind} {one.condition}`") for one in conditionals(text))
+
+
+def problems(root: Path, allowed: Collection[str]) -> list[str]:
+    """The disguises in a project; `allowed` are conditionals that a person has accepted."""
+    found = [
+        *_of(root, ("include/**/*.h", "src/**/*.[ch]"),
+             lambda text, path: in_what_is_built(text, path.name, allowed)),
+        *_of(root, ("specs/model/*.[ch]", "proofs/**/*.[ch]"),
+             lambda text, path: in_harness(text) if path.name.endswith("_harness.c") else ()),
+    ]  # fmt: skip
+    built = (*root.glob("include/**/*.h"), *root.glob("src/**/*.[ch]")) if allowed else ()
+    used = {f"#{one.kind} {one.condition}" for path in built
+            for one in conditionals(csource.read(path))}  # fmt: skip
+    stale = (f"units.toml: conditionals: `{text}` stands nowhere any more, remove it"
+             for text in allowed if text not in used)  # fmt: skip
+    return [*found, *stale]
+
+
+def _of(root: Path, patterns: Iterable[str], more: Rule) -> Iterator[str]:
+    for pattern in patterns:
+        for path in sorted(root.glob(pattern)):
+            text = csource.read(path)
+            for line, what in (*everywhere(text), *more(text, path)):
+                yield f"{path.relative_to(root)}:{line}: {what}"

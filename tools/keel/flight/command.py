@@ -1,0 +1,151 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Fly examples/copter in models of an aircraft that others wrote, and judge the flights.
+
+    python3 tools/with_packages.py fly tools/fly.py [--scenario NAME] [--plant jsbsim]
+
+build/fly gets fly.json (every flight, its errors, limits and the SHA-256 of its trace) and a
+picture of each flight. With --scenario the report is named after it. --seed flies a flight of
+`make flights` again and draws it. With either, or with --logs, there is the flight's log, too, for
+`make log`; with --trace it has each run of each task, and stands beside its two files of
+`make schedule`.
+
+Exit status: 0 when every flight keeps its limits (or breaks them, where that is expected), 1 when
+not, 2 when it could not be flown.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from keel.base.arguments import Parser
+from keel.base.errors import ROOT, ToolError, program
+from keel.base.files import write_json
+from keel.flight import library, plants, scenario, tables
+from keel.flight.crew import Job, Outcome, all_flown
+from keel.flight.loop import Order
+from keel.flight.varied import order_of
+from keel.install import Toolchain
+
+from keel.timeline import command as schedule
+
+BUILD = ROOT / "build/fly"
+SCHEMA = 1
+
+
+def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
+    """The command line."""
+    parser = Parser("Fly the copter in plants that others wrote, and judge the flights.", "fly")
+    parser.add_argument("--scenario", metavar="NAME", help="one of examples/copter/scenarios")
+    parser.add_argument("--scenarios", type=Path, default=scenario.FOLDER, metavar="FOLDER",
+                        help="where scenarios lie")  # fmt: skip
+    parser.add_argument("--seed", type=int, metavar="N", help="a flight of make flights, again")
+    parser.add_argument("--plant", choices=plants.NAMES, help="in this one only")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N",
+                        help="flights at a time")  # fmt: skip
+    parser.add_argument("--build", type=Path, default=BUILD, metavar="FOLDER",
+                        help="where the report and the pictures go")  # fmt: skip
+    parser.add_argument("--no-pictures", action="store_true")
+    parser.add_argument("--logs", action="store_true", help="keep the log of every flight")
+    parser.add_argument("--trace", action="store_true",
+                        help="with the log, each run of each task, for Perfetto and as a page")
+    found = parser.parse_args(arguments)
+    if found.seed is not None and (found.scenario or found.plant):
+        raise ToolError("--seed: says scenario and plant by itself")
+    if found.jobs < 1:
+        raise ToolError(f"--jobs: expected 1 or more, found {found.jobs}")
+    return found
+
+
+def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
+    """Every flight. All scenarios are read before the first one is flown."""
+    if options.seed is not None:
+        name = report_name(options)
+        picture = None if options.no_pictures else options.build / f"{name}.svg"
+        log = options.build / f"{name}.ulg"
+        return [Job(name, order_of(options.seed), copter, picture, log, options.trace)]
+    known = scenario.names(options.scenarios)
+    names = [options.scenario] if options.scenario else known
+    if not names:
+        raise ToolError(f"{options.scenarios}: there is no scenario")
+    jobs = []
+    for name in names:
+        found = scenario.read(name, options.scenarios)
+        for plant in found.plants:
+            if options.plant in (None, plant):
+                picture = None if options.no_pictures else options.build / f"{name}-{plant}.svg"
+                wanted = options.logs or options.scenario or options.trace
+                log = options.build / f"{name}-{plant}.ulg" if wanted else None
+                jobs.append(Job(name, Order(found, plant, found.seed), copter, picture, log,
+                                options.trace))  # fmt: skip
+    if not jobs:
+        raise ToolError(f"{options.scenario or 'no scenario'}: is not flown in {options.plant}")
+    return jobs
+
+
+def report_name(options: argparse.Namespace) -> str:
+    """What the report is called."""
+    if options.seed is not None:
+        return f"seed-{options.seed}"
+    return str(options.scenario or "fly")
+
+
+def all_outcomes(jobs: Sequence[Job], width: int) -> list[Outcome]:
+    """Fly them, with a line for each that ends."""
+    outcomes: dict[int, Outcome] = {}
+    for place, outcome in all_flown(jobs, min(width, len(jobs))):
+        outcomes[place] = outcome
+        word = "good" if outcome.good else "NOT GOOD"
+        print(f"[{len(outcomes)}/{len(jobs)}] {outcome.name} in {outcome.plant}: {word}")
+    return [outcomes[place] for place in range(len(jobs))]
+
+
+def tell(outcomes: Sequence[Outcome], report: Path, one: bool) -> None:
+    """Print the tables, what is not good, and what happened, in this order."""
+    console = tables.console()
+    if one:
+        for outcome in outcomes:
+            console.print(tables.one_flight(outcome))
+    else:
+        console.print(tables.all_flights(outcomes))
+    bad = tables.failures(outcomes)
+    for line in bad:
+        print(line)
+    where = report.relative_to(ROOT) if report.is_relative_to(ROOT) else report
+    print(f"fly: {len(outcomes)} flights, {len(outcomes) - len(bad)} good, {len(bad)} not; "
+          f"{where} has them")  # fmt: skip
+
+
+def fly(arguments: Sequence[str] | None) -> int:
+    """Build, fly, write, tell."""
+    options = parsed(arguments)
+    jobs = jobs_of(options, options.build / "libcopter.so")
+    report: Path = options.build / f"{report_name(options)}.json"
+    report.unlink(missing_ok=True)  # What an older run found is not what this one finds.
+    library.build(Toolchain(), options.build)
+    outcomes = all_outcomes(jobs, options.jobs)
+    write_json(report, {
+        "schema": SCHEMA, "sources_sha256": library.digest_of(),
+        "good": all(outcome.good for outcome in outcomes),
+        "flights": [outcome.as_json() for outcome in outcomes],
+    })  # fmt: skip
+    tell(outcomes, report, report_name(options) != "fly")
+    for job in jobs:
+        if job.trace and job.log:
+            schedule.tell(job.log)
+    return 0 if all(outcome.good for outcome in outcomes) else 1
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Entry point."""
+    return program("fly", lambda: fly(arguments))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The flight of a seed: aircraft, devices, wind, mission and fault, all drawn from it."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from keel.base.errors import ROOT
+from keel.base.files import sha256_of
+from keel.flight import library, plants
+from keel.flight.loop import Order
+from keel.flight.plants import Airframe
+from keel.flight.scenario import Quality, Scenario, Shaking
+
+TAG = 0x6B65656C  # Sets these draws apart from those of the noise, which has the same seed.
+DURATION_S = 80.0
+HEALTHY = "no fault"
+TOOLS = ("tools/flight", "tools/plotting.py")
+PINS = ("tools/fly.requirements.txt", "tools/timing/requirements.txt")
+
+
+def digest_of(root: Path = ROOT) -> str:
+    """SHA-256 of all that a flight of a seed depends on, beside the seed."""
+    total = hashlib.sha256(library.digest_of(root).encode())
+    files = [path for name in TOOLS for path in below(root / name)] + [root / pin for pin in PINS]
+    for path in files:
+        total.update(path.relative_to(root).as_posix().encode())
+        total.update(sha256_of(path).encode())
+    return total.hexdigest()
+
+
+def below(path: Path) -> list[Path]:
+    """A file, or the Python files of a folder."""
+    return [path] if path.is_file() else sorted(path.glob("*.py"))
+
+
+class Draw:
+    """Draws from a seed."""
+
+    def __init__(self, seed: int) -> None:
+        self._rng = np.random.Generator(np.random.PCG64(np.random.SeedSequence([TAG, seed])))
+
+    def between(self, least: float, most: float) -> float:
+        """Any number between."""
+        return round(float(self._rng.uniform(least, most)), 4)
+
+    def factor(self, most: float) -> float:
+        """Between 1 / most and most, as often below 1 as above."""
+        return round(float(most ** self._rng.uniform(-1.0, 1.0)), 4)
+
+    def one_of(self, items: Any) -> Any:
+        """Any of them."""
+        return items[int(self._rng.integers(len(items)))]
+
+
+def order_of(seed: int) -> Order:
+    """The flight of a seed."""
+    draw = Draw(seed)
+    plant = draw.one_of(plants.NAMES)
+    airframe = Airframe(
+        mass=draw.between(0.6, 1.2), inertia=draw.between(0.7, 1.25),
+        motor_speed=draw.between(0.93, 1.07), motor_lag=draw.factor(1.5), drag=draw.factor(2.0),
+    )  # fmt: skip
+    quality = Quality(
+        noise=draw.factor(2.0), bias=draw.between(0.3, 1.5), vibration=draw.between(0.0, 2.0),
+        gps_delay_ms=int(draw.between(80, 200)), imu_delay_ms=draw.one_of((1, 2)),
+        baro_delay_ms=int(draw.between(5, 30)), gps_noise=draw.factor(2.0),
+        gps_wander=draw.between(1.0, 12.0), scale=draw.between(0.0, 0.03),
+        warmth=draw.between(0.0, 0.02), shaking=shaking_of(draw),
+        field_noise=draw.between(1.0, 7.0), field_per_ampere=draw.between(1.0, 10.0),
+    )  # fmt: skip
+    return Order(scenario_of(draw), plant, seed, airframe, quality)
+
+
+def shaking_of(draw: Draw) -> Shaking:
+    """Vibration up to what is called too strong by half: normal is below 15 m/s^2 rms."""
+    acceleration = draw.between(0.0, 15.0)
+    return Shaking(acceleration=acceleration, rate=0.01 * acceleration,
+                   alike=draw.one_of((True, False)))  # fmt: skip
+
+
+def scenario_of(draw: Draw) -> Scenario:
+    """A mission in position or altitude mode, most with a fault in its middle."""
+    mode = draw.one_of(("position", "position", "altitude"))
+    ends = draw.one_of(("land", "land", "return"))
+    height = draw.between(3.0, 8.0)
+    pitch, roll = draw.between(-0.4, 0.4), draw.between(-0.4, 0.4)
+    if mode == "altitude":
+        pitch, roll = pitch / 4.0, roll / 4.0
+    fault = fault_of(draw)
+    if fault and fault["kind"] == "gps_loss":
+        ends = "land"  # Nothing returns without a position.
+    hands = [
+        {"at_s": 1.0, "height_m": height},
+        {"at_s": 9.0, "pitch": pitch, "roll": roll, "yaw": draw.between(-0.3, 0.3)},
+        {"at_s": 12.0, "pitch": 0.0, "roll": 0.0, "yaw": 0.0},
+        {"at_s": 26.0, "mode": ends},
+    ]  # fmt: skip
+    wind = {"speed": draw.between(0.0, 6.0), "from_deg": draw.between(0.0, 360.0),
+            "turbulence": draw.between(0.0, 0.2)}  # fmt: skip
+    told = fault["kind"] if fault else HEALTHY
+    return Scenario.model_validate({
+        "description": told, "duration_s": DURATION_S, "mode": mode,
+        "heading_deg": draw.between(0.0, 360.0), "radio_hz": draw.one_of((50, 111)),
+        "battery_left": draw.between(0.4, 1.0), "wind": wind, "pilot": hands,
+        "first_fix": first_fix_of(draw),
+        "fault": [fault] if fault else [],
+        "limits": {"from_s": 1.0, "to_s": DURATION_S, "attitude_rms_deg": 2.5,
+                   "attitude_max_deg": 8.0, "tilt_max_deg": 45.0, "sink_max": 1.5,
+                   "end": {"state": "disarmed"}},
+    })  # fmt: skip
+
+
+def first_fix_of(draw: Draw) -> dict[str, float] | None:
+    """Every third receiver is wrong in its first seconds."""
+    if draw.one_of((True, False, False)):
+        return {"until_s": draw.between(2.0, 6.0), "north_m": draw.between(-300.0, 300.0),
+                "east_m": draw.between(-300.0, 300.0)}  # fmt: skip
+    return None
+
+
+def fault_of(draw: Draw) -> dict[str, Any] | None:
+    """Any fault, or none, between 12 and 20 s."""
+    at_s, unit = draw.between(12.0, 20.0), draw.one_of((1, 2, 3))
+    most = {
+        "imu_freeze": {"unit": unit}, "imu_silent": {"unit": unit}, "imu_shout": {"unit": unit},
+        "imu_drift": {"unit": unit, "rate": draw.between(0.03, 0.5)},
+        "imu_scale": {"unit": unit, "share": draw.between(0.0, 0.06)},
+        "radio_loss": {}, "radio_failsafe": {}, "gps_loss": {},
+        "gps_jump": {"north_m": draw.between(-50, 50), "east_m": draw.between(-50, 50),
+                     "until_s": at_s + draw.between(0.5, 2.5)},
+        "barometer_spike": {"pascal": draw.between(-300, 300),
+                            "until_s": at_s + draw.between(0.05, 0.6)},
+        "barometer_loss": {}, "barometer_stuck": {},
+        "gps_wild": {"metres": draw.between(20.0, 300.0), "until_s": at_s + draw.between(1.0, 4.0)},
+        "magnetometer_current": {"microtesla_per_ampere": draw.between(0.05, 0.4)},
+        "motor_weak": {"motor": draw.one_of((1, 2, 3, 4)), "share": draw.between(0.7, 0.95)},
+        "battery_low": {"share": draw.between(0.03, 0.06)},
+        "radio_noise": {"share": draw.between(0.002, 0.03)},
+        "gps_noise": {"share": draw.between(0.001, 0.01)},
+        "task_overrun": {"task": draw.one_of(("Navigation", "GPS", "Position control",
+                                              "Foreground IMU", "State machine")),
+                         "runs": 3, "extra_us": draw.one_of((300, 1000))},
+    }  # fmt: skip
+    kind = draw.one_of((HEALTHY, HEALTHY, HEALTHY, *most))
+    return None if kind == HEALTHY else {"kind": kind, "at_s": at_s, **most[kind]}

@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The rules of the house, each with a text that breaks it in tests/tools/test_lint.py."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import PurePosixPath
+
+from keel.lint.models import check_models
+from keel.lint.texts import Finding, Text
+
+LINE_LIMIT = 100
+# In two parts, so that this file does not break the rules that it checks.
+UNFINISHED = re.compile(r"\b(TO" + r"DO|FIX" + r"ME|XX" + r"X)\b")
+MACHINE_PATH = re.compile(r"(?<![\w.}])/(root|work|home/\w+|Users/\w+)/")
+REGISTRY = re.compile(
+    r"\b(pypi|pythonhosted|crates|npmjs|rubygems|docker|ghcr|quay|debian|ubuntu|golang|maven|conda)"
+    r"\.(org|io|com|net)\b",
+    re.IGNORECASE,
+)
+PROVER = re.compile(r"\b(__FRAMAC__|__CPROVER\w*|__KLEE\w*)\b")
+
+
+def check_lines(text: Text, pattern: re.Pattern[str], reason: str) -> Iterator[Finding]:
+    for number, line in enumerate(text.lines, 1):
+        if match := pattern.search(line):
+            yield Finding(text.path, number, reason.format(match[0]))
+
+
+def check_words(text: Text) -> Iterator[Finding]:
+    """Nothing unfinished, nothing of one machine, no name of a registry's host."""
+    yield from check_lines(text, UNFINISHED, "unfinished: {}")
+    yield from check_lines(text, MACHINE_PATH, "a path of one machine: {}")
+    yield from check_lines(text, REGISTRY, "the name of a registry's host: {}")
+
+
+def check_length(text: Text) -> Iterator[Finding]:
+    """At most 100 columns; clang-format leaves comments alone. Directives are one line each."""
+    if text.path.endswith((".c", ".h", ".cpp", ".hpp", ".py")):
+        for number, line in enumerate(text.lines, 1):
+            if len(line) > LINE_LIMIT and not DIRECTIVE.match(line):
+                yield Finding(text.path, number, f"{len(line)} columns, {LINE_LIMIT} at most")
+
+
+DIRECTIVE = re.compile(r"// [a-z-]+: ")
+UNPROVED = re.compile(r"\b(admit|axiom)\b")
+ANNOTATION = re.compile(r"/\*@.*?\*/|//@[^\n]*", re.DOTALL)
+ANNOTATION_COMMENT = re.compile(r"//[^\n]*")
+PROVER_INPUT = re.compile(r"^proofs/.*\.(why|mlw|driver|ml|v|smt2)$")
+
+
+def statements(text: Text) -> Iterator[tuple[int, str]]:
+    """What a prover reads in a file, each piece with its line; comments are blank."""
+    whole = "\n".join(text.lines)
+    if PROVER_INPUT.match(text.path):
+        yield 1, whole
+    if text.is_kernel or (text.is_c and text.path.startswith("proofs/")):
+        for match in ANNOTATION.finditer(whole):
+            body = match[0][:3] + ANNOTATION_COMMENT.sub("", match[0][3:])
+            yield whole.count("\n", 0, match.start()) + 1, body
+
+
+def check_unproved(text: Text) -> Iterator[Finding]:
+    """Nothing is taken for true: no admit, no axiom. Their names in prose are no matter."""
+    for first, statement in statements(text):
+        for match in UNPROVED.finditer(statement):
+            line = first + statement.count("\n", 0, match.start())
+            yield Finding(text.path, line, f"taken for true without a proof: {match[0]}")
+
+
+def check_prover(text: Text) -> Iterator[Finding]:
+    """What is proved is what is built: the kernel does not know that it is being proved."""
+    if text.is_kernel:
+        yield from check_lines(text, PROVER, "the kernel knows a prover: {}")
+
+
+def check_guard(text: Text) -> Iterator[Finding]:
+    """A header's guard is named after its path."""
+    if not text.path.endswith(".h") or not text.path.startswith("include/"):
+        return
+    place = text.path.removeprefix("include/")
+    guard = re.sub(r"\W", "_", place).upper()
+    directives = [(n, line) for n, line in enumerate(text.lines, 1) if line.startswith("#")]
+    wanted = [f"#ifndef {guard}", f"#define {guard}"]
+    if [line for _, line in directives[:2]] != wanted or directives[-1][1] != "#endif":
+        line = directives[0][0] if directives else 1
+        yield Finding(text.path, line, f"the include guard is not {guard}")
+
+
+# The layers, and within the RTOS layer its units, from the bottom to the top. A unit includes
+# units below it only; units of one rank do not know each other.
+LAYERS = ("rtos", "middleware", "flight")
+RTOS_UNITS = (
+    ("clock", "priority", "stats", "load", "deviation"), ("task",), ("queue",),
+    ("admission", "decision"), ("scheduler_state",), ("pass", "spread", "lateness"), ("scheduler",)
+)  # fmt: skip
+RTOS_RANK = {name: rank for rank, names in enumerate(RTOS_UNITS) for name in names}
+INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
+COMMON_HEADERS = frozenset({"keel/c_declarations.h", "keel/status.h"})
+# For users alone: if the kernel included it, a new version would ask for new proofs.
+VERSION_HEADER = "include/keel/version.h"
+SYSTEM_HEADERS = frozenset({"float.h", "limits.h", "math.h", "stdbool.h", "stddef.h", "stdint.h"})
+
+
+def unit_of(path: str) -> tuple[str, str]:
+    """Layer and unit of a header or source, from its path."""
+    parts = PurePosixPath(path).parts
+    return (parts[-2] if len(parts) > 1 else ""), PurePosixPath(path).stem
+
+
+def include_reason(path: str, quoted: bool, header: str) -> str:
+    """Why a file of the kernel must not include a header; empty when it may."""
+    if not quoted:
+        return "" if header in SYSTEM_HEADERS else f"<{header}> is not freestanding"
+    if header in COMMON_HEADERS:
+        return ""
+    layer, unit = unit_of(path)
+    other_layer, other_unit = unit_of(header)
+    if not header.startswith("keel/") or layer not in LAYERS or other_layer not in LAYERS:
+        return f"{header} belongs to no layer"
+    if LAYERS.index(other_layer) > LAYERS.index(layer):
+        return f"{layer} includes {other_layer}, which stands above it"
+    if layer != "rtos" or (unit == other_unit and path.endswith(".c")):
+        return ""
+    if unit not in RTOS_RANK or other_unit not in RTOS_RANK:
+        return f"{unit} or {other_unit} has no place in the order of units (tools/linting/house.py)"
+    if RTOS_RANK[other_unit] >= RTOS_RANK[unit]:
+        return f"{unit} includes {other_unit}, which does not stand below it"
+    return ""
+
+
+def check_includes(text: Text) -> Iterator[Finding]:
+    """Arrows point down only."""
+    if text.is_kernel:
+        for number, line in enumerate(text.lines, 1):
+            match = INCLUDE.match(line)
+            reason = include_reason(text.path, match[1] == '"', match[2]) if match else ""
+            if reason:
+                yield Finding(text.path, number, reason)
+
+
+DECLARATION = re.compile(r"\bkeel_task_config_t\b(?!\s*\*)")
+APART = re.compile(
+    r"^static (const )?keel_task_config_t \w+[\[ ;]"  # An object of its own, or a table.
+    r"|^(static )?keel_task_config_t \w+\("  # A function that gives one.
+    r"|\(keel_task_config_t\)\{"  # A value, which is copied into one.
+)
+
+
+def check_declarations(text: Text) -> Iterator[Finding]:
+    """Examples show what the kernel asks for: a declaration outlives its task's stay, and lies
+    outside of the scheduler. As an object of a file it does; in a structure it may not."""
+    if text.path.startswith("examples/") and text.is_c:
+        for number, line in enumerate(text.lines, 1):
+            if DECLARATION.search(line) and not APART.search(line):
+                yield Finding(text.path, number, "the declaration of a task is no static object")
+
+
+HOUSE_CHECKS: tuple[Callable[[Text], Iterator[Finding]], ...] = (
+    check_words, check_length, check_unproved, check_prover, check_guard, check_includes,
+    check_declarations,
+)  # fmt: skip
+
+
+def check_reached(texts: Sequence[Text]) -> Iterator[Finding]:
+    """Every header is included by a source, directly or not: else Cppcheck does not see it."""
+    kernel = {text.path: text for text in texts if text.is_kernel}
+    todo = [path for path in kernel if path.endswith(".c")]
+    seen = set(todo)
+    while todo:
+        matches = map(INCLUDE.match, kernel[todo.pop()].lines)
+        headers = {f"include/{match[2]}" for match in matches if match}
+        new = (headers & kernel.keys()) - seen
+        seen |= new
+        todo.extend(new)
+    for path in sorted(kernel.keys() - seen - {VERSION_HEADER}):
+        yield Finding(path, 1, "no source includes this header, so nothing checks it")
+
+
+def check_house(texts: Sequence[Text]) -> Iterator[Finding]:
+    for text in texts:
+        for check in HOUSE_CHECKS:
+            yield from check(text)
+    yield from check_reached(texts)
+    yield from check_models(texts, LAYERS)

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Results of mutation that are kept in the repository, as having them takes hours.
+
+`make mutate ARGS=--record` writes specs/mutation/UNIT.json: every mutant with its line, change,
+verdict and who killed it, digests of the sources and the proofs that the result was had from, and
+the versions of the tools. Where one of these has changed, the result is stale: it says nothing
+about what is there. Of the proofs, the harnesses count that killed a mutant: whatever becomes of
+others, these kill the same, and what nobody killed has its reason. How they search does not count:
+an execution that fails is one however it was found. Other builds of the same versions are the same
+tools here: a distribution makes them anew for each release, and no commit could follow.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from keel.base.files import write_text
+from keel.install import Found
+
+from keel.c import source as csource
+from keel.base.verdict_cache import digest
+from keel.judge.goals import read_goals
+from keel.judge.harness import Harness, MODELS, read_harness
+from keel.mutate.verdicts import STATUSES, Verdict
+from keel.c.project import Unit, closure, find_units
+
+FOLDER = "specs/mutation"
+# How a comment begins that a prover reads.
+CONTRACTS = ("/*@", "//@")
+# What no mutant is judged with; and where the provers lie, which is theirs.
+NO_JUDGES = ("gcc", "newlib", "ocamlfind", "why3-config")
+
+
+def record_of(unit: Unit) -> Path:
+    """Where the result on a unit is kept."""
+    return unit.root / FOLDER / f"{unit.name}.json"
+
+
+def all_harnesses(root: Path) -> list[tuple[Harness, frozenset[Path]]]:
+    """The harnesses of all units, each with the files that it is made of."""
+    read = [read_harness(unit, path)
+            for unit in find_units(root).values() for path in unit.harnesses]  # fmt: skip
+    return [(one, frozenset(closure(root, [one.path, *one.sources]))) for one in read]
+
+
+def killers(answers: Iterable[Mapping[str, str]]) -> frozenset[str]:
+    """The harnesses that killed a mutant; `answers` is what each engine said, mutant by mutant."""
+    said = (engines.get("cbmc", "").partition("killed: ") for engines in answers)
+    return frozenset(how.partition(":")[0] for before, kills, how in said if kills and not before)
+
+
+def origin(
+    unit: Unit, harnesses: Sequence[tuple[Harness, frozenset[Path]]], tools: Mapping[str, Found],
+    judges: Collection[str],
+) -> dict[str, str]:  # fmt: skip
+    """Digests of what a result on a unit depends on, and each tool's version; `judges` are the
+    names of the harnesses that killed.
+
+    The sources count with their contracts and the places of their lines, but not with the words of
+    other comments; harnesses and models without any comment. Neither the prover that proved a goal
+    last nor the wrong bodies matter.
+    """
+    root = unit.root
+    own = {path.resolve() for path in unit.own_files}
+    linked = [(one, files) for one, files in harnesses if own & files and one.name in judges]
+    source = set(closure(root, unit.own_files))
+    apart = set().union(*(files for _, files in linked)) - source
+    texts = {path: path.read_text(encoding="utf-8") for path in (*source, *apart)}
+    equivalent = unit.folder / "equivalent.toml"
+    return {
+        "source": digest({_shown(path, root): _without_prose(texts[path]) for path in source}),
+        "proofs": digest({
+            "texts": {_shown(path, root): csource.essence(texts[path]) for path in apart},
+            "options": {one.name: [*one.defines, *one.replaces, *one.covers] for one, _ in linked},
+            "goals": read_goals(unit.goal_list, unit.goal_list.name).names,
+            "equivalent": equivalent.read_text(encoding="utf-8") if equivalent.is_file() else "",
+        }),
+        **{name: version_of(tool) for name, tool in tools.items() if name not in NO_JUDGES},
+    }  # fmt: skip
+
+
+def _without_prose(text: str) -> str:
+    """The text with nothing in its comments but contracts, and each line in its place."""
+
+    def replace(match: re.Match[str]) -> str:
+        comment = match.group("comment")
+        if comment is None or comment.startswith(CONTRACTS):
+            return match.group()
+        return " " + "\n" * comment.count("\n")
+
+    bare = csource.TOKEN.sub(replace, text)
+    return "\n".join(line.rstrip() for line in bare.splitlines())
+
+
+def version_of(tool: Found) -> str:
+    """A tool's version, with those of the packages that it is of."""
+    packages = [f"{part.get('name')} {part.get('version')}" for part in tool.parts]
+    return "; ".join([tool.version, *packages])
+
+
+def _shown(path: Path, root: Path) -> str:
+    return path.relative_to(root.resolve()).as_posix()
+
+
+def whole(verdicts: Sequence[Verdict]) -> bool:
+    """Whether every mutant was tried."""
+    return bool(verdicts) and not any(one.status == "skipped" for one in verdicts)
+
+
+def write(
+    unit: Unit, verdicts: Sequence[Verdict], problems: Sequence[str], made_of: Mapping[str, str]
+) -> str:
+    """Keep a result, a line for each mutant; what was done, in words."""
+    shown = record_of(unit).relative_to(unit.root).as_posix()
+    if not whole(verdicts):
+        return f"{unit.name}: {shown} left alone: not every mutant was tried"
+    head = {
+        "unit": unit.name, "made_of": dict(made_of), "problems": list(problems),
+        "summary": {name: sum(one.status == name for one in verdicts) for name in STATUSES},
+    }  # fmt: skip
+    lines = ",\n".join(json.dumps(_line(one), ensure_ascii=False) for one in verdicts)
+    text = json.dumps(head, indent=1)[:-2] + f',\n "mutants": [\n{lines}\n ]\n}}\n'
+    write_text(record_of(unit), text)
+    return f"{unit.name}: {shown} written"
+
+
+def _line(verdict: Verdict) -> dict[str, Any]:
+    """A mutant; only a survivor has a reason."""
+    entry = verdict.as_dict()
+    return {name: value for name, value in entry.items() if value or name != "reason"}
