@@ -21,7 +21,7 @@ VARIABLES := UNIT CAPACITY SENSORS SECONDS TASKSET ARGS BOARD APP DASK CFLAGS KE
 GIVEN := $(foreach name,$(.VARIABLES),$(if $(findstring command line,$(origin $(name))),$(name)))
 STRANGE := $(filter-out $(VARIABLES),$(GIVEN))
 ifneq ($(STRANGE),)
-$(error $(shell python3 tools/make_names.py variable $(STRANGE) -- $(VARIABLES)))
+$(error $(shell python3 tools/keel names variable $(STRANGE) -- $(VARIABLES)))
 endif
 
 # The targets of `make help` by their use; those that are not named here are for every day.
@@ -35,7 +35,7 @@ ALL_TOOLS := prove test lint coverage bench fuzz oracles firmware stack target r
              fly flights replay fly-tests messages sim clients fatfs card schedule
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
-TIMING := python3 tools/with_packages.py timing -m timing
+TIMING := python3 tools/keel timing
 
 .PHONY: analyze tables fuzztasks timing
 .PHONY: help prove test demo bench lint campaign coverage mutate fuzz soak trace registers status firmware model stack flash dist tools doctor clean python
@@ -57,39 +57,39 @@ SIZES = $(if $(CAPACITY),--size KEEL_QUEUE_CAPACITY=$(CAPACITY)) \
         $(if $(SENSORS),--size KEEL_VOTER_SENSORS=$(SENSORS))
 
 prove: python ## prove scheduler, voter, filter, PID (UNIT=queue: one unit; CAPACITY=8 SENSORS=3: your sizes)
-	@python3 tools/prove.py $(if $(UNIT),--unit $(UNIT),--kernel) $(SIZES) $(ARGS)
+	@python3 tools/keel prove $(if $(UNIT),--unit $(UNIT),--kernel) $(SIZES) $(ARGS)
 
 .PHONY: prove-all
 prove-all: python ## prove every contract and harness of all units (ARGS='--shard 2/4': a quarter)
-	@python3 tools/prove.py $(if $(UNIT),--unit $(UNIT)) $(SIZES) $(ARGS)
+	@python3 tools/keel prove $(if $(UNIT),--unit $(UNIT)) $(SIZES) $(ARGS)
 
 test: python ## build and run tests, long ones aside (ARGS='--filter unit/': some of them; ARGS='--jobs 1')
-	@python3 tools/run_tests.py $(ARGS)
+	@python3 tools/keel test $(ARGS)
 
 .PHONY: test-all
 test-all: python ## run all tests, the long ones too: flights, models of chips, tests of tools
-	@python3 tools/run_tests.py --all $(ARGS)
+	@python3 tools/keel test --all $(ARGS)
 
 demo: python ## the paper's 21 tasks, one simulated minute on this host
-	@python3 tools/toolchain.py ensure test
+	@python3 tools/keel tools ensure test
 	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/urpilot
 	@mkdir -p build
 	gcc $(CFLAGS) -Iinclude -Iexamples/urpilot $(DEMO) -lm -o build/demo
 	@build/demo
 
 bench: python ## instructions per pass and per step, code size and RAM; over the Cortex-M7's budget it fails
-	@python3 tools/bench.py $(ARGS)
+	@python3 tools/keel bench $(ARGS)
 
 lint: python ## layout, MISRA C:2012, the rules of the house, workflows of CI (ARGS=--fix: lay out first)
-	@python3 tools/lint.py $(ARGS)
+	@python3 tools/keel lint $(ARGS)
 
 .PHONY: eva
 eva: python ## abstract interpretation: undefined behaviour, writes that no contract names
-	@python3 tools/eva.py $(ARGS)
+	@python3 tools/keel eva $(ARGS)
 
 .PHONY: qualify
 qualify: python ## seeded faults: does each tool still detect what it is trusted to detect?
-	@python3 tools/qualify.py $(ARGS)
+	@python3 tools/keel qualify $(ARGS)
 
 analyze: python ## does a task set hold? (TASKSET=file.toml, ARGS=--phases, ARGS=--synthesize)
 	@$(TIMING) analyze "$(TASKSET)" $(ARGS)
@@ -99,129 +99,129 @@ timing: python ## the paper's evaluation on the virtual board: tables, JSON and 
 
 tables: python ## regenerate the C tables of tasks, parameters and the Earth's magnetic field
 	@$(TIMING) table specs/tasksets/urpilot.toml examples/urpilot
-	@python3 tools/parameters.py
-	@python3 tools/with_packages.py world tools/world.py
+	@python3 tools/keel parameters
+	@python3 tools/keel world
 
 .PHONY: messages
 messages: python ## regenerate the C tables of MAVLink's messages from its definitions
-	@python3 tools/with_packages.py messages tools/messages.py $(ARGS)
+	@python3 tools/keel messages $(ARGS)
 
 fuzztasks: python ## 100 000 broken task-set files, each of which must be read or refused in words
-	@python3 tools/with_packages.py timing tests/timing/fuzz_taskset.py 100000
+	@python3 tools/keel with timing tests/timing/fuzz_taskset.py 100000
 
 campaign: python ## the voter's fault campaign and fig. 14: tables, JSON and plots in build/campaign
-	@python3 tools/with_packages.py timing tools/campaign.py
+	@python3 tools/keel campaign
 
 .PHONY: fly flights
 fly: python ## fly the copter in plants that others wrote (SCENARIO=hover: one; SEED=7: one of make flights)
-	@python3 tools/with_packages.py fly tools/fly.py $(if $(SCENARIO),--scenario "$(SCENARIO)") \
+	@python3 tools/keel fly $(if $(SCENARIO),--scenario "$(SCENARIO)") \
 	    $(if $(SEED),--seed "$(SEED)") $(if $(JOBS),--jobs "$(JOBS)") $(ARGS)
 
 flights: python ## N flights with everything varied (N=1000; JOBS=4; DASK=tcp://host:8786; SEED=7: one again)
-	@DASK="$(DASK)" python3 tools/with_packages.py flights -m flight.montecarlo \
+	@DASK="$(DASK)" python3 tools/keel flights \
 	    --flights "$(if $(N),$(N),100)" $(if $(SEED),--seed "$(SEED)") \
 	    $(if $(JOBS),--jobs "$(JOBS)") $(ARGS)
 
 .PHONY: margins
 margins: python ## gain, phase and delay margin of each of the copter's loops
-	@python3 tools/with_packages.py fly -m flight.margins
+	@python3 tools/keel margins
 
 .PHONY: log
 log: python ## plot a flight's log (FILE=build/fly/hover-jsbsim.ulg): attitude, motors, votes, load, vibration
-	@python3 tools/with_packages.py fly tools/log.py "$(FILE)" $(ARGS)
+	@python3 tools/keel log "$(FILE)" $(ARGS)
 
 .PHONY: replay
 replay: python ## your recorded sensors through Keel's estimators (FILE=flight.ulg, a folder; ARGS=--compare)
-	@python3 tools/with_packages.py replay tools/replay.py "$(FILE)" $(ARGS)
+	@python3 tools/keel replay "$(FILE)" $(ARGS)
 
 .PHONY: schedule
 schedule: python ## see each run of each task: for Perfetto, and as a page (FILE=flight.ulg: of a log)
-	@python3 tools/with_packages.py schedule tools/schedule.py $(if $(FILE),"$(FILE)") $(ARGS)
+	@python3 tools/keel schedule $(if $(FILE),"$(FILE)") $(ARGS)
 
 .PHONY: sim
 sim: python ## fly the copter in real time with MAVLink at UDP 14550 (ADDRESS=127.0.0.1:14550; SCENARIO=wind)
-	@python3 tools/with_packages.py sim tools/sim.py $(foreach one,$(ADDRESS),--address "$(one)") \
+	@python3 tools/keel sim $(foreach one,$(ADDRESS),--address "$(one)") \
 	    $(if $(SCENARIO),--scenario "$(SCENARIO)") $(ARGS)
 
 .PHONY: flight-picture
 flight-picture: python
-	@python3 tools/with_packages.py fly -m flight.figure
+	@python3 tools/keel flight-picture
 
 .PHONY: schedule-picture
 schedule-picture: python
-	@python3 tools/with_packages.py schedule tools/schedule.py --picture
+	@python3 tools/keel schedule --picture
 
 .PHONY: pictures
 pictures: campaign timing flight-picture schedule-picture ## the pictures of the documents, in docs/pictures
-	@python3 tools/with_packages.py timing tools/pictures.py
+	@python3 tools/keel pictures
 
 coverage: python ## lines, branches and MC/DC that the unit tests reach
-	@python3 tools/coverage.py $(ARGS)
+	@python3 tools/keel coverage $(ARGS)
 
 .PHONY: coverage-target
 coverage-target: python ## object-code branches that the unit tests take on an emulated Cortex-M7
-	@python3 tools/object_coverage.py $(ARGS)
+	@python3 tools/keel coverage-target $(ARGS)
 
 .PHONY: contracts-run
 contracts-run: python ## the unit tests, calling through contracts that E-ACSL made executable
-	@python3 tools/contracts_run.py $(ARGS)
+	@python3 tools/keel contracts-run $(ARGS)
 
 mutate: python ## break the code and see whether proofs notice (UNIT=queue; ARGS=--status; DASK=tcp://host:8786)
-	@$(if $(DASK),DASK=$(DASK) python3 tools/with_packages.py dask,python3) tools/mutate.py \
+	@$(if $(DASK),DASK=$(DASK) python3 tools/keel with dask,python3) tools/keel mutate \
 	    $(if $(UNIT),--unit $(UNIT)) $(ARGS)
 
 .PHONY: opinion
 opinion: python ## ask ESBMC, a third engine, about some of the harnesses (ARGS=--fresh)
-	@python3 tools/third_opinion.py $(ARGS)
+	@python3 tools/keel opinion $(ARGS)
 
 .PHONY: review
 review: python ## who has reviewed the proofs (UNIT=queue: what to look at; ARGS='--sign NAME --remarks TEXT')
-	@python3 tools/review.py $(if $(UNIT),--unit $(UNIT)) $(ARGS)
+	@python3 tools/keel review $(if $(UNIT),--unit $(UNIT)) $(ARGS)
 
 fuzz: python ## fuzz the scheduler and the decoders beside models and others' decoders (SECONDS=60)
-	@python3 tools/fuzz.py --seconds $(SECONDS) $(ARGS)
+	@python3 tools/keel fuzz --seconds $(SECONDS) $(ARGS)
 
 soak: python ## 10^9 random calls of each stateful unit beside the specification (an hour)
-	@python3 tools/soak.py $(ARGS)
+	@python3 tools/keel soak $(ARGS)
 
 trace: python ## requirement, function, clause, harness, test: fail when one stands alone
-	@python3 tools/requirements_trace.py $(ARGS)
+	@python3 tools/keel trace $(ARGS)
 
 registers: python ## hold the register headers against two independent register databases
-	@python3 tools/registers.py
+	@python3 tools/keel registers
 
 status: python ## write what the last run of 'make prove' proved into docs/status.md
-	@python3 tools/status.py
+	@python3 tools/keel status
 
 .PHONY: test-target
 test-target: python ## the unit tests, faults, demo and model's results on an emulated Cortex-M7
-	@python3 tools/emulated_tests.py $(ARGS)
+	@python3 tools/keel test-target $(ARGS)
 
 firmware: python ## build a board's image (BOARD=fmuv5; APP=copter: the copter; ARGS='--app FOLDER': another main)
 	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/urpilot
-	@python3 tools/firmware.py "$(BOARD)" $(if $(APP),--named "$(APP)") $(ARGS)
+	@python3 tools/keel firmware "$(BOARD)" $(if $(APP),--named "$(APP)") $(ARGS)
 
 model: python ## run a board's image on a model of its chip (BOARD=nucleo_f767zi; ARGS='--keys 1.5:t')
-	@python3 tools/chip_model.py "$(BOARD)" $(ARGS)
+	@python3 tools/keel model "$(BOARD)" $(ARGS)
 
 stack: python ## bound the stack of every task and of main in a board's image (BOARD=nucleo_f767zi)
-	@python3 tools/stack.py "$(BOARD)" $(ARGS)
+	@python3 tools/keel stack "$(BOARD)" $(ARGS)
 
 flash: python ## write a board's image to the board (BOARD=nucleo_f767zi; ARGS='--tool st-flash')
-	@python3 tools/flash.py "$(BOARD)" $(ARGS)
+	@python3 tools/keel flash "$(BOARD)" $(ARGS)
 
 .PHONY: evidence
 evidence: python ## the evidence package in build/evidence; VERIFY=folder looks whether one is as it was made
-	@python3 tools/evidence.py $(if $(VERIFY),--verify "$(VERIFY)") $(ARGS)
+	@python3 tools/keel evidence $(if $(VERIFY),--verify "$(VERIFY)") $(ARGS)
 
 dist: python ## a release of this commit: archive, bill of materials, checksums (in build/dist)
-	@python3 tools/dist.py $(ARGS)
+	@python3 tools/keel dist $(ARGS)
 
 tools: python ## install all tools now, rather than when they are needed
-	@python3 tools/toolchain.py ensure $(ALL_TOOLS)
+	@python3 tools/keel tools ensure $(ALL_TOOLS)
 
 doctor: python ## which tools were found, with versions; exit status 1 when one is missing
-	@python3 tools/toolchain.py versions
+	@python3 tools/keel tools versions
 
 clean: ## remove build/; what was downloaded stays in the cache
 	rm -rf build
@@ -242,4 +242,4 @@ python:
 # What is no target is a slip, too.
 TARGETS = $(shell sed -nE 's/^([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 .DEFAULT:
-	$(error $(shell python3 tools/make_names.py target $@ -- $(TARGETS)))
+	$(error $(shell python3 tools/keel names target $@ -- $(TARGETS)))

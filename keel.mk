@@ -42,17 +42,17 @@ keel-help: ## this list
 	    | $(KEEL_SHOWN) | expand -t 24
 
 keel-new: ## begin a unit (KEEL_UNIT=limiter; KEEL_ARGS='--layer app'), or harnesses from its header's prototypes
-	@python3 "$(KEEL_FOLDER)/tools/new_unit.py" $(KEEL_AT) --unit "$(KEEL_UNIT)" $(KEEL_ARGS)
+	@python3 "$(KEEL_FOLDER)/tools/keel" new $(KEEL_AT) --unit "$(KEEL_UNIT)" $(KEEL_ARGS)
 
 keel-prove: ## prove the project (KEEL_UNIT=monitor; KEEL_ARGS=--update-goals; KEEL_ARGS='--explain NAME')
-	@KEEL_CALL="$(KEEL_CALL)" python3 "$(KEEL_FOLDER)/tools/prove.py" $(KEEL_AT) \
+	@KEEL_CALL="$(KEEL_CALL)" python3 "$(KEEL_FOLDER)/tools/keel" prove $(KEEL_AT) \
 	    $(if $(KEEL_UNIT),--unit $(KEEL_UNIT)) $(KEEL_ARGS)
 
 keel-test: ## build and run tests/unit/test_*.c, with the project's sources and Keel's
-	@python3 "$(KEEL_FOLDER)/tools/own_tests.py" $(KEEL_AT)
+	@python3 "$(KEEL_FOLDER)/tools/keel" test-project $(KEEL_AT)
 
 keel-evidence: ## the project's evidence package in build/evidence (KEEL_VERIFY=folder: look at one)
-	@python3 "$(KEEL_FOLDER)/tools/evidence.py" $(KEEL_AT) \
+	@python3 "$(KEEL_FOLDER)/tools/keel" evidence $(KEEL_AT) \
 	    $(if $(KEEL_VERIFY),--verify "$(KEEL_VERIFY)") $(KEEL_ARGS)
 
 ifneq ($(KEEL_MK),$(firstword $(MAKEFILE_LIST)))

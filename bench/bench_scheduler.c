@@ -2,7 +2,7 @@
 /**
  * @file bench_scheduler.c
  * @brief Runs the scheduler on a virtual clock so that callgrind can count the instructions of
- *        each pass. Started by tools/bench.py; counts nothing outside valgrind.
+ *        each pass. Started by tools/keel bench; counts nothing outside valgrind.
  *
  *     bench_scheduler TASKS
  *

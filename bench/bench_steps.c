@@ -2,7 +2,7 @@
 /**
  * @file bench_steps.c
  * @brief Runs the steps of the layers above the RTOS so that callgrind can count their
- *        instructions. Started by tools/bench.py; counts nothing outside valgrind.
+ *        instructions. Started by tools/keel bench; counts nothing outside valgrind.
  *
  * Each step is taken many times; what is dumped is labelled with its name and the number of steps.
  */

@@ -2,7 +2,7 @@
 /**
  * @file bench_target.c
  * @brief Counts the instructions of passes and steps on the emulated Cortex-M7. Started by
- *        tools/benchmark/emulated.py, which has the emulator take 1024 ns for each instruction.
+ *        tools/keel/bench/emulated.py, which has the emulator take 1024 ns for each instruction.
  *
  * The board's counter then moves by 25.6 ticks of 25 MHz for each, so a difference of two readings,
  * rounded, is exactly the number of instructions between them. What the reading and the call take

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file sizes.c
- * @brief Objects as large as the kernel's own: tools/bench.py reads their sizes from the symbols,
+ * @brief Objects as large as the kernel's own: tools/keel bench reads their sizes from the symbols,
  *        so that the target's compiler answers without the target.
  */
 #include "keel/rtos/scheduler.h"

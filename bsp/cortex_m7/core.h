@@ -4,7 +4,7 @@
  * @brief Registers of the Cortex-M7 that Keel uses (ARMv7-M Architecture Reference Manual, B3).
  *
  * Each name, offset, field and reset value is held against an independent register database by
- * tools/registers.py, which reads the names below: keel_<block>, <BLOCK>_BASE,
+ * tools/keel registers, which reads the names below: keel_<block>, <BLOCK>_BASE,
  * <BLOCK>_<REGISTER>_<FIELD> and <BLOCK>_<REGISTER>_RESET.
  */
 #ifndef KEEL_BSP_CORTEX_M7_CORE_H

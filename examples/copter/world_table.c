@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Made by tools/world.py. The Earth's field at sea level in the middle of 2027, by WMM2025
+/* Made by tools/keel world. The Earth's field at sea level in the middle of 2027, by WMM2025
  * (NOAA, BGS): rows are latitudes from -80 degrees, columns longitudes from -180 degrees, 10
  * apart; north, east and down in 3 nT. */
 #include "world.h"

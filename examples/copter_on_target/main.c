@@ -39,7 +39,7 @@ static void print_number(const char *label, uint64_t value)
     keel_console_number(value);
 }
 
-/* One line for each task, which tools/emulated_tests.py reads. */
+/* One line for each task, which tools/keel test-target reads. */
 static void print_tasks(void)
 {
     for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {
@@ -59,7 +59,7 @@ static void print_tasks(void)
     }
 }
 
-/* The copter's state at the end, which tools/emulated_tests.py reads. */
+/* The copter's state at the end, which tools/keel test-target reads. */
 static void print_copter(void)
 {
     const keel_mode_t *const mode = &copter.state.mode;

@@ -80,7 +80,7 @@ static void print_number(const char *label, uint64_t value)
     keel_console_number(value);
 }
 
-/* One line for each task, which tools/emulated_tests.py reads. */
+/* One line for each task, which tools/keel test-target reads. */
 static void demo_print(void)
 {
     for (uint32_t i = 0u; i < URPILOT_TASK_COUNT; i++) {

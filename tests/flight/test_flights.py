@@ -154,7 +154,7 @@ def test_a_report_of_seeds_does_not_depend_on_their_order() -> None:
 @pytest.mark.parametrize("group", ["fly", "flights", "sim"])
 def test_a_flight_alone_has_its_packages(group: str) -> None:
     """`make flights SEED=7` flies as `make fly` does."""
-    words = [sys.executable, "tools/with_packages.py", group, "-c", "import fly"]
+    words = [sys.executable, "tools/keel", "with", group, "-c", "import fly"]
     subprocess.run(words, cwd=ROOT, check=True)
 
 
@@ -169,7 +169,7 @@ def heed_ctrl_c() -> None:
 
 
 def test_an_interruption_ends_it_and_leaves_no_report(tmp_path: Path) -> None:
-    words = [sys.executable, "tools/fly.py", "--build", str(tmp_path), "--no-pictures"]
+    words = [sys.executable, "tools/keel", "fly", "--build", str(tmp_path), "--no-pictures"]
     with subprocess.Popen(words, cwd=library.ROOT, stdout=subprocess.PIPE, text=True,
                           stderr=subprocess.STDOUT, start_new_session=True,
                           preexec_fn=heed_ctrl_c) as child:  # fmt: skip

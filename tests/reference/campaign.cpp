@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The fault campaign and fig. 14: three inertial units on a moving trajectory, one of them (or two)
- * faulty. Writes JSON to the standard output; tools/campaign.py prints tables and plots of it. */
+ * faulty. Writes JSON to the standard output; tools/keel campaign prints tables and plots of it. */
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>

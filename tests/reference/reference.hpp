@@ -8,7 +8,7 @@
  * not found by trying.
  *
  * A program prints `PASS test` or `FAIL test: why` for each test and `N passed, N failed` at the
- * end, and exits with 0 exactly if none failed (tools/run_tests.py reads this). A test has a name
+ * end, and exits with 0 exactly if none failed (tools/keel test reads this). A test has a name
  * without blanks and of its own, which begins with its requirement: FLT_007_decade_above.
  */
 #ifndef KEEL_TESTS_REFERENCE_HPP

@@ -2,7 +2,7 @@
 /**
  * @file differential.c
  * @brief Random vectors through the kernel's units, printed as digests, on the target; and on the
- *        host, through their executable specification. tools/emulated_tests.py compares the two.
+ *        host, through their executable specification. tools/keel test-target compares the two.
  *
  * Every vector's results, floats by their bits, go into its unit's digest; each block of vectors
  * prints the digest so far. With DETAIL_UNIT and DETAIL_BLOCK defined, each vector of that block

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file faults.c
- * @brief Breaks one thing from within a real-time task, FAULT saying which. tools/emulated_tests.py
+ * @brief Breaks one thing from within a real-time task, FAULT saying which. tools/keel test-target
  *        builds it once for each and reads from the console what was recorded and that the board
  *        came back in its safe state.
  *

@@ -4,7 +4,7 @@
  * @brief Background radio on a Cortex-M7: how long its runs take with each receiver, or with noise.
  *
  * Bytes of a receiver come at their times, the runs are 10 ms apart, and each is measured with the
- * board's clock. A line for each stream tells the longest, which tools/emulated_tests.py judges.
+ * board's clock. A line for each stream tells the longest, which tools/keel test-target judges.
  */
 #include "board.h"
 #include "console.h"

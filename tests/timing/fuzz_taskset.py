@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Mutates task-set files: most come out broken in one way or another, many still parse.
 
-    python3 tools/with_packages.py timing tests/timing/fuzz_taskset.py 100000
+    python3 tools/keel with timing tests/timing/fuzz_taskset.py 100000
 
 Every file must end in a task set, which the analyser then takes, or in problems that name file,
 line, key and reason: never in a traceback. The seed of each file is its number.

@@ -20,7 +20,7 @@ from keel.install import Toolchain
 
 provide("schedule")
 from keel.timeline import command as schedule
-from perfetto.protos.perfetto.trace.perfetto_trace_pb2 import (  # noqa: E402
+from perfetto.protos.perfetto.trace.perfetto_trace_pb2 import (
     Trace,
     TrackDescriptor,
     TrackEvent,

@@ -15,7 +15,7 @@ from logged import LOOP, SAMPLE, run, task, written
 
 provide("schedule")
 sys.path.append(str(ROOT / "tests/tools"))
-from browser import Browser  # noqa: E402
+from browser import Browser
 from keel.timeline import page, runs
 
 FAULTS = (ROOT / "tests/tools/page_faults.js").read_text(encoding="utf-8")

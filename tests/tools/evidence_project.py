@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A small project with good reports of all that the evidence is made from, and tools/evidence.py
+"""A small project with good reports of all that the evidence is made from, and tools/keel evidence
 run on it as one runs it: with its own parts, in a folder of its own.
 
 It has one unit, one board and one tool. Stood in for are the programs that would be started:
@@ -26,9 +26,9 @@ from keel.base.packages import provide
 provide("common")
 provide("evidence")
 
-import test_requirements_trace as small  # noqa: E402
-from evidence_proofs import report_of  # noqa: E402
-from evidence_sample import the_program  # noqa: E402
+import test_requirements_trace as small
+from evidence_proofs import report_of
+from evidence_sample import the_program
 
 from keel.boards.semantics import COMPILED_AS_PROVED
 from keel.base.files import write_json, write_text

@@ -15,7 +15,7 @@ from keel.base.packages import provide
 
 provide()
 
-from copied_tree import CopiedTree  # noqa: E402
+from copied_tree import CopiedTree
 
 from keel.base.source import STAMP
 from keel.evidence.part import Context, Part

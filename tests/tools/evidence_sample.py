@@ -103,8 +103,8 @@ def assembled(folder: Path, **parts: Callable[[Context], Part]) -> Assembled:
 
 
 def the_program() -> ModuleType:
-    """tools/evidence.py, whose name its package has as well."""
-    spec = importlib.util.spec_from_file_location("evidence_program", ROOT / "tools/evidence.py")
+    """tools/keel evidence, whose name its package has as well."""
+    spec = importlib.util.spec_from_file_location("evidence_program", ROOT / "tools/keel", "evidence")
     assert spec and spec.loader
     module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

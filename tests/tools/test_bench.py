@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/bench.py: what it reads from callgrind, what it counts, and when it fails.
+"""Tests of tools/keel bench: what it reads from callgrind, what it counts, and when it fails.
 
     python3 tests/tools/test_bench.py
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/benchmark/emulated.py: what it reads, and when a budget is exceeded. That an
+"""Tests of tools/keel/bench/emulated.py: what it reads, and when a budget is exceeded. That an
 instruction is counted as one is checked by the image itself, against assembly of known length.
 
     python3 tests/tools/test_bench_emulated.py

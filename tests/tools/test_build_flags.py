@@ -17,7 +17,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from consumer import AS_FOLDER, CORTEX_M7, ROOT, ConsumerTest, answer  # noqa: E402
+from consumer import AS_FOLDER, CORTEX_M7, ROOT, ConsumerTest, answer
 from keel.install import TARGET_FLAGS
 
 RECKLESS = "-Ofast -ffast-math -ffp-contract=fast -fassociative-math -freciprocal-math"

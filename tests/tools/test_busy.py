@@ -17,7 +17,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from endless import CORES, busy  # noqa: E402
+from endless import CORES, busy
 from keel.engines import cbmc, wp
 from keel.judge import wp_targets as targets
 from keel.judge.goals import read_goals

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/campaign.py: what it makes of flights."""
+"""Tests of tools/keel campaign: what it makes of flights."""
 
 from __future__ import annotations
 

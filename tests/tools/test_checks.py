@@ -22,7 +22,7 @@ sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.base.jobs import Finished, Runner
 from keel.c.project import ProjectError, find_units
-from test_prove import (  # noqa: E402
+from test_prove import (
     ASSERTED,
     HARNESS,
     TreeTest,

@@ -14,7 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from consumer import AS_FOLDER, ConsumerTest, answer, keel_archive  # noqa: E402
+from consumer import AS_FOLDER, ConsumerTest, answer, keel_archive
 
 
 class FolderTest(ConsumerTest):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/contracts_run.py: a body that breaks its contract is seen, and what does not
+"""Tests of tools/keel contracts-run: a body that breaks its contract is seen, and what does not
 run is told with a reason.
 
 python3 tests/tools/test_contracts_run.py

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of which smoke tests tools/proofs/find_contradictions.ml asks: no fewer than say all.
+"""Tests of which smoke tests tools/keel/engines/find_contradictions.ml asks: no fewer than say all.
 
     python3 tests/tools/test_contradictions.py
 
@@ -22,7 +22,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 from keel.qualify.trials import said_by_frama_c
 from keel.install import Toolchain, ToolchainError
 
-SCRIPT = ROOT / "tools/proofs/find_contradictions.ml"
+SCRIPT = ROOT / "tools/keel/engines/find_contradictions.ml"
 ASKED = re.compile(r"^\[wp\] \[(?:Passed|Failed)\] Smoke-test typed_(\w+)", re.MULTILINE)
 STEP = """\
 /*@ assigns \\nothing; ensures 0 <= \\result <= v; */

@@ -14,7 +14,7 @@ from typing import ClassVar
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from copter_shim import copter_of  # noqa: E402
+from copter_shim import copter_of
 
 # The tasks behind functions of plain numbers, with a port that says what it is told to.
 SHIM = """\

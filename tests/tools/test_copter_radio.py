@@ -17,7 +17,7 @@ from typing import ClassVar
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from copter_shim import copter_of  # noqa: E402
+from copter_shim import copter_of
 
 ANY, SBUS, CRSF, IBUS, PPM = range(5)
 BYTE_US = {SBUS: 120, CRSF: 24, IBUS: 87}

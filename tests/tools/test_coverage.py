@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/coverage.py: reading exports, finding gaps, excluding them. Nothing is built.
+"""Tests of tools/keel coverage: reading exports, finding gaps, excluding them. Nothing is built.
 
 python3 tests/tools/test_coverage.py
 """

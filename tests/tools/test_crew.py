@@ -5,7 +5,7 @@
     python3 tests/tools/test_crew.py
 
 No prover is run. The cluster is one of threads, and is skipped unless the packages of tools/
-dask.requirements.txt are there (python3 tools/toolchain.py ensure dask).
+dask.requirements.txt are there (python3 tools/keel tools ensure dask).
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from keel.mutate.execution import Sample
 from keel.mutate.verdicts import Verdict
 from keel.mutate.operators import Mutant, mutants
 from keel.c.project import ProjectError
-from test_prove import SOURCE, TreeTest  # noqa: E402
+from test_prove import SOURCE, TreeTest
 from keel.install import Toolchain, ToolchainError
 
 from keel.base import cluster_worker
@@ -107,7 +107,7 @@ class Resumption(TreeTest):
         self.assertEqual((options.unit, options.jobs), (["box", "sail"], os.cpu_count()))
 
 
-# What stands for tools/mutate.py in the archive that is sent to a worker.
+# What stands for tools/keel mutate in the archive that is sent to a worker.
 FAKE = """\
 import json, sys
 order = json.load(sys.stdin)
@@ -131,7 +131,7 @@ def dask_packages() -> str:
 class Sent(TreeTest):
     def setUp(self) -> None:
         super().setUp()
-        program = self.root / "tools/mutate.py"
+        program = self.root / "tools/keel mutate"
         program.parent.mkdir()
         program.write_text(FAKE, encoding="utf-8")
         self.found = mutants(self.unit.source)

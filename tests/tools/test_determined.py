@@ -19,7 +19,7 @@ sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.base.files import write_text
 from keel.c.project import ProjectError
-from test_prove import WholeRunCase  # noqa: E402
+from test_prove import WholeRunCase
 
 from keel.audit import clauses, determined
 from keel.c import declarations

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/dist.py: the same bytes twice, an archive that builds and proves, and refusals.
+"""Tests of tools/keel dist: the same bytes twice, an archive that builds and proves, and refusals.
 
     python3 tests/tools/test_dist.py
 """
@@ -23,7 +23,7 @@ from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from consumer import ROOT, ConsumerTest, version  # noqa: E402
+from consumer import ROOT, ConsumerTest, version
 
 from keel.release import dist
 
@@ -148,7 +148,7 @@ class ReleaseTest(ConsumerTest):
 
     def release(self, name: str) -> Path:
         out = self.folder / name
-        self.good([sys.executable, ROOT / "tools/dist.py", "--dirty", "--out", out])
+        self.good([sys.executable, ROOT / "tools/keel", "dist", "--dirty", "--out", out])
         return out
 
     def test_twice_the_same_bytes(self) -> None:

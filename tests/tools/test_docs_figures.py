@@ -187,7 +187,7 @@ def bodies() -> tuple[str, ...]:
 
 
 def faults() -> tuple[str, ...]:
-    body = re.search(r"^FAULTS = \{\n(.*?)^\}", text_of("tools/suites/faults.py"), re.M | re.S)
+    body = re.search(r"^FAULTS = \{\n(.*?)^\}", text_of("tools/keel/test/faults.py"), re.M | re.S)
     assert body is not None
     return (str(len(re.findall(r'^    "\w+": Fault\(', body[1], re.MULTILINE))),)
 
@@ -232,11 +232,11 @@ def random_sets() -> tuple[str, ...]:
 
 
 def vectors() -> tuple[str, ...]:
-    return (spaced(int(number_in("tools/emulated_tests.py", r"^VECTORS = ([\d_]+)"))),)
+    return (spaced(int(number_in("tools/keel test-target", r"^VECTORS = ([\d_]+)"))),)
 
 
 def confirmed() -> tuple[str, ...]:
-    return (number_in("tools/proofs/mutation.py", r"^CONFIRM = (\d+)"),)
+    return (number_in("tools/keel/mutate/mutation.py", r"^CONFIRM = (\d+)"),)
 
 
 def half_turn() -> tuple[str, ...]:

@@ -169,14 +169,14 @@ class FalseRows(unittest.TestCase):
                          self.told("`make prove` (`tools/proofs/gone.py`)"))  # fmt: skip
 
     def test_what_does_not_run(self) -> None:
-        self.assertEqual(["7: make trace does not run tools/fuzz.py"],
-                         self.told("`make trace` (`tools/fuzz.py`)"))  # fmt: skip
-        self.assertEqual(["7: tools/fuzz.py is neither a command's nor a suite of make test"],
-                         self.told("`make trace`, `tools/fuzz.py`"))  # fmt: skip
+        self.assertEqual(["7: make trace does not run tools/keel fuzz"],
+                         self.told("`make trace` (`tools/keel fuzz`)"))  # fmt: skip
+        self.assertEqual(["7: tools/keel fuzz is neither a command's nor a suite of make test"],
+                         self.told("`make trace`, `tools/keel fuzz`"))  # fmt: skip
         self.assertEqual(["7: names no check"], self.told("somebody looks"))
 
     def test_what_is_right(self) -> None:
-        self.assertEqual([], self.told("`make prove ARGS=--fresh` (`tools/proofs/cbmc.py`)"))
+        self.assertEqual([], self.told("`make prove ARGS=--fresh` (`tools/keel/engines/cbmc.py`)"))
         self.assertEqual([], self.told("`tests/tools/test_docs.py`"))
 
 

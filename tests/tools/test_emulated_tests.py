@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/emulated_tests.py: how it judges what an emulated board printed, and that a
+"""Tests of tools/keel test-target: how it judges what an emulated board printed, and that a
 program which hangs or computes something else is a failure.
 
     python3 tests/tools/test_emulated_tests.py

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/eva.py: what is left of a contract, what is judged, and that Frama-C finds what is
+"""Tests of tools/keel eva: what is left of a contract, what is judged, and that Frama-C finds what is
 put into small programs.
 
 python3 tests/tools/test_eva.py

@@ -26,7 +26,7 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from evidence_sample import (  # noqa: E402
+from evidence_sample import (
     SOURCE,
     STAMP,
     assembled,
@@ -113,7 +113,7 @@ class Parts(InFolder):
 
     def test_a_missing_tool(self) -> None:
         def without(_: Context) -> Part:
-            raise ToolchainError("frama-c is missing; run: tools/toolchain.py ensure prove")
+            raise ToolchainError("frama-c is missing; run: tools/keel tools ensure prove")
 
         told = self.problems(formal=without)
         self.assertTrue(any("formal: frama-c is missing" in line for line in told), told)
@@ -350,7 +350,7 @@ class Measured(InFolder):
 
 
 class Program(InFolder):
-    """tools/evidence.py with the sample's parts."""
+    """tools/keel evidence with the sample's parts."""
 
     def setUp(self) -> None:
         super().setUp()

@@ -23,7 +23,7 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from evidence_sample import STAMP, context_in  # noqa: E402
+from evidence_sample import STAMP, context_in
 
 from keel.base.run import Ended
 from keel.base.source import STAMP as MADE_FROM

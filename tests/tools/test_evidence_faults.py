@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/evidence.py as a whole: one fault at a time in a small project or its reports, and
+"""Tests of tools/keel evidence as a whole: one fault at a time in a small project or its reports, and
 no package is made, the cause is named, and the package that was there stays.
 
     python3 tests/tools/test_evidence_faults.py

@@ -18,7 +18,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/tools")]
 
-from evidence_proofs import NOW, EvidenceTest  # noqa: E402
+from evidence_proofs import NOW, EvidenceTest
 
 from keel.evidence import review
 from keel.analyse import third_opinion

@@ -19,7 +19,7 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-from evidence_sample import STAMP, PartTest  # noqa: E402
+from evidence_sample import STAMP, PartTest
 
 from keel.boards import firmware
 from keel.boards.board import board_names

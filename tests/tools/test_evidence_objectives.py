@@ -18,7 +18,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from evidence_sample import STAMP, context_in  # noqa: E402
+from evidence_sample import STAMP, context_in
 
 from keel.base.errors import ToolError
 from keel.base.files import sha256_of, write_text

@@ -21,8 +21,8 @@ from urllib.parse import unquote, urldefrag, urlsplit
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from browser import Browser  # noqa: E402
-from evidence_sample import LONG, SOURCE, assembled  # noqa: E402
+from browser import Browser
+from evidence_sample import LONG, SOURCE, assembled
 
 from keel.evidence.package import write_package
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-from evidence_sample import STAMP, PartTest  # noqa: E402
+from evidence_sample import STAMP, PartTest
 
 from keel.boards.board import board_names
 from keel.base.source import STAMP as MADE_FROM

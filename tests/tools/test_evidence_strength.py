@@ -21,7 +21,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/tools")]
 
-from evidence_proofs import EvidenceTest  # noqa: E402
+from evidence_proofs import EvidenceTest
 
 from keel.mutate import command as mutate
 from keel.base.source import STAMP

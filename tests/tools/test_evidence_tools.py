@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the part `tools` of the evidence package, and of tools/qualify.py: wrong versions, other
+"""Tests of the part `tools` of the evidence package, and of tools/keel qualify: wrong versions, other
 files, entries that are missing, and tools that no longer detect a fault.
 
 python3 tests/tools/test_evidence_tools.py
@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-from evidence_sample import STAMP, PartTest  # noqa: E402
+from evidence_sample import STAMP, PartTest
 
 from keel.qualify import command as qualify
 from keel.base.errors import ToolError

@@ -74,7 +74,7 @@ class TraceTest(TracedProject):
     def test_a_dropped_label(self) -> None:
         self.change("include/keel/widget.h", "WID_001_turns", "turns")
         self.assertIn(
-            "WID-001: CLAUSES is not what the headers say (tools/requirements_trace.py --update)",
+            "WID-001: CLAUSES is not what the headers say (tools/keel trace --update)",
             self.problems(make))  # fmt: skip
 
     def test_a_clause_that_no_goal_bears(self) -> None:

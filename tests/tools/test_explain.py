@@ -27,7 +27,7 @@ from keel.prove.sequents import of_goal, read_sequents, relevant
 from keel.prove.proof_run import Choice, Session
 from keel.judge.wp_targets import Result
 from keel.judge.wp_verdict import clause_at
-from test_prove import ASSERTED, GOALS, WRONG, WholeRunCase, cbmc_output, item  # noqa: E402
+from test_prove import ASSERTED, GOALS, WRONG, WholeRunCase, cbmc_output, item
 
 
 def number(value: int) -> dict[str, Any]:

@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.base.sarif import SarifResult, document, split_place
-from test_prove import ASSERTED, GOALS, WholeRunCase, cbmc_output, item  # noqa: E402
+from test_prove import ASSERTED, GOALS, WholeRunCase, cbmc_output, item
 
 LEVELS = ("none", "note", "warning", "error")
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/firmware.py: what it reads of a board, what it checks in an image, and that an
+"""Tests of tools/keel firmware: what it reads of a board, what it checks in an image, and that an
 image does not depend on the folder it was built in.
 
     python3 tests/tools/test_firmware.py
@@ -425,7 +425,7 @@ class CommandLine(unittest.TestCase):
     """The program as make calls it."""
 
     def test_a_missing_board(self) -> None:
-        command = [sys.executable, str(ROOT / "tools/firmware.py"), ""]
+        command = [sys.executable, str(ROOT / "tools/keel"), "firmware", ""]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 2)
         self.assertIn("(boards: ", done.stderr)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/flash.py: it says that an image was written only when a tool has verified it.
+"""Tests of tools/keel flash: it says that an image was written only when a tool has verified it.
 
     python3 tests/tools/test_flash.py
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/proofs/gappa.py: a bound counts when Gappa's own enclosure lies within it.
+"""Tests of tools/keel/engines/gappa.py: a bound counts when Gappa's own enclosure lies within it.
 
     python3 tests/tools/test_gappa.py
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from consumer import AS_FOLDER, CORTEX_M7, ROOT, ConsumerTest, answer, version  # noqa: E402
+from consumer import AS_FOLDER, CORTEX_M7, ROOT, ConsumerTest, answer, version
 from keel.install import TARGET_FLAGS
 
 FIND = "find_package(Keel {version} REQUIRED COMPONENTS {components})"

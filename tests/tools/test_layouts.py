@@ -16,7 +16,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests" / "machdep")]
 
-from check_layouts import Types, compared  # noqa: E402
+from check_layouts import Types, compared
 from keel.c.project import ProjectError
 from keel.install import Toolchain
 

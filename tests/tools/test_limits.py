@@ -20,8 +20,8 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base import run
-from endless import CORES, busy  # noqa: E402
-from endless import PROGRAM as ENDLESS  # noqa: E402
+from endless import CORES, busy
+from endless import PROGRAM as ENDLESS
 from keel.base.jobs import Runner
 from keel.install import Toolchain, ToolchainError, small_environment
 from keel.install.provers import CLOCK_PER_PROCESSOR, by_processor_time

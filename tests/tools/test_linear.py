@@ -20,7 +20,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.engines.linear_filter import is_nonlinear, linear_part
 
-FILTER = ROOT / "tools/proofs/linear.py"
+FILTER = ROOT / "tools/keel/engines/linear_filter.py"
 GOAL = "goal wp_goal : (forall x:int. ((0 <= x) -> ((x + 1) <= (256 * (x + 1)))))\n"
 DIVISION = """\
 axiom Div_mod :

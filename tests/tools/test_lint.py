@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/lint.py: each rule with a text that breaks it and one that does not.
+"""Tests of tools/keel lint: each rule with a text that breaks it and one that does not.
 
     python3 tests/tools/test_lint.py
 
@@ -128,7 +128,7 @@ class HouseTest(unittest.TestCase):
         self.assertEqual(self.lines_of(house.check_words, item), [1, 3])
 
     def test_the_linter_does_not_find_itself(self) -> None:
-        for name in ("tools/linting/house.py", "tests/tools/test_lint.py"):
+        for name in ("tools/keel/lint/house.py", "tests/tools/test_lint.py"):
             lines = (ROOT / name).read_text().splitlines()
             self.assertEqual(list(house.check_words(Text(name, lines))), [])
 

@@ -20,7 +20,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from consumer import CORTEX_M7, MAIN, ROOT, STRICT, ConsumerTest, answer, version  # noqa: E402
+from consumer import CORTEX_M7, MAIN, ROOT, STRICT, ConsumerTest, answer, version
 from keel.install import TARGET_FLAGS
 
 VERSION = ".".join(map(str, version()))

@@ -16,7 +16,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from consumer import ROOT, ConsumerTest  # noqa: E402
+from consumer import ROOT, ConsumerTest
 from keel.install import TARGET_FLAGS
 
 

@@ -34,7 +34,7 @@ from keel.mutate.operators import Mutant
 from keel.mutate.mutation import BY_CBMC, BY_WP, Tools, Trial
 from keel.judge.settings import Exceptions
 from keel.prove.times import Times
-from test_prove import SOURCE, TreeTest  # noqa: E402
+from test_prove import SOURCE, TreeTest
 
 from keel.mutate import execution as mutant_execution
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/mutate.py: the mutants, their names, and what becomes of survivors.
+"""Tests of tools/keel mutate: the mutants, their names, and what becomes of survivors.
 
     python3 tests/tools/test_mutate.py
 

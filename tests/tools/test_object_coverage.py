@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/object_coverage.py: conditions are evaluated as the processor's manual says, seen
+"""Tests of tools/keel coverage-target: conditions are evaluated as the processor's manual says, seen
 in a real run, and what is not seen fails without a reason that fits.
 
 python3 tests/tools/test_object_coverage.py

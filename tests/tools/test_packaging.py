@@ -21,7 +21,7 @@ from xml.etree import ElementTree
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from consumer import ROOT, ConsumerTest, answer, version  # noqa: E402
+from consumer import ROOT, ConsumerTest, answer, version
 
 VERSION = ".".join(map(str, version()))
 SOURCES = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "src").rglob("*.c"))

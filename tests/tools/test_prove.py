@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/prove.py: what must make a proof fail does, and only success is remembered.
+"""Tests of tools/keel prove: what must make a proof fail does, and only success is remembered.
 
     python3 tests/tools/test_prove.py
 
@@ -39,7 +39,7 @@ from keel.prove.proof_run import Choice, Session
 from keel.c.syntax import SyntaxProblem
 from keel.prove.times import Times
 from keel.install import Toolchain, ToolchainError
-from waiting import WAIT_S, wait_for  # noqa: E402
+from waiting import WAIT_S, wait_for
 
 from keel.engines import cbmc, wp
 from keel.judge import (
@@ -1471,7 +1471,7 @@ class CommandLine(unittest.TestCase):
 
     def refused(self, *words: str, **variables: str) -> str:
         """What the program says, as a user starts it, of something that could not be tried."""
-        ended = subprocess.run([sys.executable, str(ROOT / "tools/prove.py"), *words],
+        ended = subprocess.run([sys.executable, str(ROOT / "tools/keel"), "prove", *words],
                                env={**os.environ, **variables}, capture_output=True, text=True,
                                check=False, timeout=300)  # fmt: skip
         self.assertEqual(ended.returncode, 2, ended.stdout + ended.stderr)

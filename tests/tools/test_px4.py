@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/px4.py: the container, and uploads to a simulated boot loader at a terminal.
+"""Tests of tools/keel px4: the container, and uploads to a simulated boot loader at a terminal.
 
     python3 tests/tools/test_px4.py
 

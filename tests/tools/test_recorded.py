@@ -21,7 +21,7 @@ sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.base.jobs import Finished, Runner
 from keel.c.project import ProjectError
-from test_prove import GOALS, GOOD, TreeTest, WholeRunCase, wp_log, wp_report  # noqa: E402
+from test_prove import GOALS, GOOD, TreeTest, WholeRunCase, wp_log, wp_report
 
 from keel.judge import goals, wp_targets as targets, wp_verdict as verdict
 from keel.engines import wp

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/requirements_trace.py: each kind of orphan is found in a small project that has
+"""Tests of tools/keel trace: each kind of orphan is found in a small project that has
 just this one.
 
 python3 tests/tools/test_requirements_trace.py
@@ -189,7 +189,7 @@ class TraceTest(unittest.TestCase):
         self.write("include/keel/widget.h", "/** Turns. */\n")
         self.write("src/rtos/widget.c", "")
         self.assertEqual(self.orphans(), [
-            "WID-001: CLAUSES is not what the headers say (tools/requirements_trace.py --update)",
+            "WID-001: CLAUSES is not what the headers say (tools/keel trace --update)",
             "WID-001: no clause states it"])  # fmt: skip
 
     def test_clause_that_nobody_checks(self) -> None:
@@ -263,7 +263,7 @@ class TraceTest(unittest.TestCase):
         self.change("specs/requirements/widget.sdoc", "WID_001_range, WID_001_turns", "WID_001")
         self.assertEqual(
             self.orphans(),
-            ["WID-001: CLAUSES is not what the headers say (tools/requirements_trace.py --update)"],
+            ["WID-001: CLAUSES is not what the headers say (tools/keel trace --update)"],
         )
         self.assertEqual(self.run_trace("--update")[0], 0)
         text = (self.root / "specs/requirements/widget.sdoc").read_text(encoding="utf-8")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/run_tests.py: failures, crashes, hangs and empty suites are told as such.
+"""Tests of tools/keel test: failures, crashes, hangs and empty suites are told as such.
 
 python3 tests/tools/test_run_tests.py
 """

@@ -104,7 +104,7 @@ class Frames(unittest.TestCase):
         self.assertEqual(self.says(), (channels, 12))
 
     def test_the_simulated_receiver(self) -> None:
-        """tools/flight/frames.py, which sends the frames in simulated flights."""
+        """tools/keel/flight/device_frames.py, which sends the frames in simulated flights."""
         for failsafe in (False, True):
             pulses = [988, 1500, 2012, 1000, 2000, 1050, 1501, 1499]
             frame = frames.sbus(pulses, failsafe)

@@ -22,7 +22,7 @@ from keel.prove import command as prove
 from keel.prove.driver import Job
 from keel.c.project import ProjectError
 from keel.prove.shards import Shard, part, read_shard
-from test_prove import GOALS, SOURCE, WholeRunCase  # noqa: E402
+from test_prove import GOALS, SOURCE, WholeRunCase
 
 
 def job(name: str) -> Job:

@@ -22,7 +22,7 @@ sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 from keel.judge.cbmc_answers import Answer
 from keel.judge.harness import Harness, read_harness
 from keel.mutate.small_harnesses import Small, small
-from test_prove import HARNESS, TreeTest  # noqa: E402
+from test_prove import HARNESS, TreeTest
 
 
 class SmallHarness(TreeTest):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/soak.py: what it refuses, and that a difference is not lost."""
+"""Tests of tools/keel soak: what it refuses, and that a difference is not lost."""
 
 from __future__ import annotations
 

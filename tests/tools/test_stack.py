@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/stack.py on small call graphs whose deepest paths are known.
+"""Tests of tools/keel stack on small call graphs whose deepest paths are known.
 
 python3 tests/tools/test_stack.py
 """

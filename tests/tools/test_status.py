@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/status.py, which writes docs/status.md.
+"""Tests of tools/keel status, which writes docs/status.md.
 
     python3 tests/tools/test_status.py
 """

@@ -26,7 +26,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.test import command as run_tests
-from asked_groups import asked, closure  # noqa: E402
+from asked_groups import asked, closure
 from keel.base.arguments import Parser
 from keel.base.config import ConfigError, parse_toml
 from keel.base.errors import ToolError
@@ -36,7 +36,7 @@ from keel.test.outcomes import Outcome
 from keel.test.suites import Suite
 from keel.install import Toolchain
 from keel.install.lock import Lock
-from waiting import WAIT_S, wait_for  # noqa: E402
+from waiting import WAIT_S, wait_for
 
 
 def passed() -> Outcome:

@@ -22,7 +22,7 @@ from keel.prove.driver import Job
 from keel.prove.report import HELP
 from keel.prove.progress import Running
 from keel.prove.times import Forecast, PRIOR, Times, UNKNOWN, estimates, read_times, recorded_anew
-from test_prove import WholeRunCase  # noqa: E402
+from test_prove import WholeRunCase
 
 
 class Estimates(unittest.TestCase):

@@ -31,7 +31,7 @@ from keel.mutate.mutation import BY_CBMC, BY_WP, NO_ANSWER, Tools, Trial
 from keel.c.project import find_units
 from keel.judge.settings import Exceptions
 from keel.prove.times import Times
-from test_prove import HARNESS, SOURCE, TreeTest  # noqa: E402
+from test_prove import HARNESS, SOURCE, TreeTest
 
 from keel.engines import cbmc
 from keel.judge import cbmc_answers, harness

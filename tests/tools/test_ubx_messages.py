@@ -222,7 +222,7 @@ class Messages(unittest.TestCase):
         return b"\xb5\x62\x0a\x04\xff\xff" + piece[:at]
 
     def test_the_simulated_receiver_encodes_as_pyubx2(self) -> None:
-        """tools/flight/frames.py, which sends the fixes in simulated flights."""
+        """tools/keel/flight/device_frames.py, which sends the fixes in simulated flights."""
         for _ in range(300):
             draw = self.random.uniform
             place, speed = (draw(-90, 90), draw(-180, 180)), (draw(-9, 9), draw(-9, 9), draw(-9, 9))

@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.base.verdict_cache import Cache
-from test_prove import WRONG, WholeRunCase, cbmc_output  # noqa: E402
+from test_prove import WRONG, WholeRunCase, cbmc_output
 
 PROVED: dict[str, Any] = {"problems": [], "seconds": 1.0}
 

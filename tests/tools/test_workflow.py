@@ -29,7 +29,7 @@ from keel.base.packages import provide
 
 provide("common")
 provide("ci")
-import yaml  # noqa: E402
+import yaml
 from keel.base.git import is_clone
 from keel.evidence.commands import commands_of
 from keel.lint.workflows import schema_errors
@@ -103,7 +103,7 @@ class Workflows(unittest.TestCase):
                 self.assertIn(target, targets(ROOT / file), command)
 
     def test_every_option_of_prove_exists(self) -> None:
-        helped = subprocess.run([sys.executable, str(ROOT / "tools/prove.py"), "--help"],
+        helped = subprocess.run([sys.executable, str(ROOT / "tools/keel"), "prove", "--help"],
                                 capture_output=True, text=True, check=True).stdout  # fmt: skip
         known = set(OPTION.findall(helped))
         asked = {option for command in proofs() for option in OPTION.findall(command)}
@@ -133,7 +133,7 @@ class Workflows(unittest.TestCase):
         self.assertIn("build/evidence", kept)
         text = " ".join(str(step.get("run", "")) for step in job["steps"])
         self.assertIn("build/evidence-work/summary.md", text)
-        program = (ROOT / "tools/evidence.py").read_text("utf-8")
+        program = (ROOT / "tools/keel", "evidence").read_text("utf-8")
         self.assertIn('context.work / "summary.md"', program)
 
     def test_the_evidence_takes_the_proofs_and_all_reports(self) -> None:
@@ -218,7 +218,7 @@ for word; do printf ' %s' "$word" >> "$NOTED"; done
 echo >> "$NOTED"
 """
 PYTHON = """\
-case $1 in tools/prove.py) exit ${PROVED:-0};; esac
+case $1 in tools/keel prove) exit ${PROVED:-0};; esac
 exec "$PYTHON" "$@"
 """
 
@@ -294,7 +294,7 @@ class Steps(unittest.TestCase):
     def test_what_each_step_asks_for(self) -> None:
         self.clone.mkdir()
         for job, part, asked in (
-            ("prove", "--shard", ["python3 tools/prove.py --shard 2/4"]),
+            ("prove", "--shard", ["python3 tools/keel prove --shard 2/4"]),
             ("evidence", "make evidence", ["make evidence"]),
             ("documents", "make lint", ["make lint"]),
             ("documents", "make test", ["make test ARGS=--filter tools/docs",
@@ -308,7 +308,7 @@ class Steps(unittest.TestCase):
         self.clone.mkdir()
         script, _ = self.step_of("prove", "--shard")
         self.run_in(script, SHARD="3", FRESH="1")
-        self.assertEqual(self.notes(), ["python3 tools/prove.py --shard 3/4 --fresh"])
+        self.assertEqual(self.notes(), ["python3 tools/keel prove --shard 3/4 --fresh"])
 
     def test_the_join_takes_the_reports_of_all_shards(self) -> None:
         shards = self.clone / "build/shards"
@@ -317,7 +317,7 @@ class Steps(unittest.TestCase):
             (shards / f"shard-{number}-of-2.json").touch()
         script, _ = self.step_of("verdict", "--join")
         self.run_in(script)
-        self.assertEqual(self.notes(), ["python3 tools/prove.py --join build/shards/"
+        self.assertEqual(self.notes(), ["python3 tools/keel prove --join build/shards/"
                                         "shard-1-of-2.json build/shards/shard-2-of-2.json"])
 
     def test_the_summaries_are_shown(self) -> None:
@@ -344,20 +344,20 @@ class Steps(unittest.TestCase):
         self.assertEqual(script, "bash .ci/run")
         asked, _ = self.checked(**variables)
         words = [note.split()[1] for note in asked]
-        self.assertTrue({"tools/prove.py", "prove", "prove-all", "evidence"}.isdisjoint(words))
+        self.assertTrue({"tools/keel prove", "prove", "prove-all", "evidence"}.isdisjoint(words))
         self.assertLessEqual({"test-all", "lint", "firmware", "test-target", "coverage"}, {*words})
 
     def test_on_one_machine_all_is_proved_and_the_evidence_made_at_last(self) -> None:
         asked, said = self.checked(KEEL_FRESH="1")
-        self.assertEqual(asked[:3], ["make python", "python3 tools/prove.py --kernel --fresh",
-                                     "python3 tools/prove.py --fresh"])  # fmt: skip
+        self.assertEqual(asked[:3], ["make python", "python3 tools/keel prove --kernel --fresh",
+                                     "python3 tools/keel prove --fresh"])  # fmt: skip
         self.assertEqual(asked[-1], "make evidence")
-        self.assertIn("--- tools/prove.py --fresh: passed\n", said)
+        self.assertIn("--- tools/keel prove --fresh: passed\n", said)
 
     def test_what_is_not_proved_is_told_apart_from_what_could_not_be_tried(self) -> None:
         for status, word in ((1, "not proved"), (2, "could not be tried (exit status 2)")):
             _, said = self.checked(PROVED=str(status))
-            self.assertIn(f"--- tools/prove.py --kernel: FAILED, {word}\n", said)
+            self.assertIn(f"--- tools/keel prove --kernel: FAILED, {word}\n", said)
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.run import output_of
-from copter_shim import copter_of  # noqa: E402
+from copter_shim import copter_of
 
 SHIM = """\
 #include "world.h"
@@ -89,7 +89,7 @@ class World(unittest.TestCase):
     def model(places: list[tuple[float, float]], year: float = 2027.5) -> list[Vector]:
         """Of the model, in uT."""
         asked = json.dumps(places)
-        command = [sys.executable, ROOT / "tools/with_packages.py", "world", "-c", MODEL,
+        command = [sys.executable, ROOT / "tools/keel", "with", "world", "-c", MODEL,
                    str(year), asked]  # fmt: skip
         said = output_of(command)
         return [(one[0], one[1], one[2]) for one in json.loads(said.splitlines()[-1])]
@@ -153,8 +153,8 @@ class World(unittest.TestCase):
             self.assertLess(abs(math.hypot(*found) / strength - 1.0), 0.025, name)
 
     def test_the_table_is_what_the_tool_makes(self) -> None:
-        command = [sys.executable, ROOT / "tools/with_packages.py", "world",
-                   ROOT / "tools/world.py", "--check"]  # fmt: skip
+        command = [sys.executable, ROOT / "tools/keel", "with", "world",
+                   ROOT / "tools/keel", "world", "--check"]  # fmt: skip
         self.assertIn("is up to date", output_of(command))
 
 

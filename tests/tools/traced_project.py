@@ -19,7 +19,7 @@ from keel.base.packages import provide
 
 provide("common")
 
-import test_requirements_trace as small  # noqa: E402
+import test_requirements_trace as small
 from keel.base.files import write_json, write_text
 from keel.evidence.part import Context, Part
 

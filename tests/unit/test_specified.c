@@ -21,7 +21,7 @@
 #include "../../specs/model/voter.c"
 #include "../../specs/model/voter_parts.c"
 
-/* tools/soak.py asks for more of them, from elsewhere. */
+/* tools/keel soak asks for more of them, from elsewhere. */
 #ifndef STEPS
 #define STEPS 1000000u
 #endif

@@ -36,7 +36,7 @@
 
 /**
  * A pin with its alternate function. Peripheral and signal are for the reader, and for
- * tools/registers.py, which holds them against a database.
+ * tools/keel registers, which holds them against a database.
  */
 #define KEEL_ALTERNATE(letter, number, function, peripheral, signal)                               \
     {KEEL_PIN(letter, number), (function)}
@@ -66,13 +66,13 @@ extern const keel_pwm_timer_t keel_chip_timers[KEEL_CHIP_TIMERS];
 
 /**
  * An output for pulses: its pin, with its alternate function, timer and channel.
- * tools/registers.py holds each against a database, and their order against specs/outputs.toml.
+ * tools/keel registers holds each against a database, and their order against specs/outputs.toml.
  */
 #define KEEL_OUTPUT(letter, number, function, timer, channel)                                      \
     {KEEL_PIN(letter, number), (function), &keel_chip_timers[KEEL_TIMER_##timer],                  \
      KEEL_CHANNEL_##channel}
 
-/** A pin that has one level for good; tools/registers.py holds both against specs/outputs.toml. */
+/** A pin that has one level for good; tools/keel registers holds both against specs/outputs.toml. */
 #define KEEL_LEVEL(letter, number, high) {KEEL_PIN(letter, number), (high)}
 
 /** A pin that switches a supply, say, and its level while the board runs. */
@@ -94,7 +94,7 @@ typedef enum keel_led_name {
     KEEL_LED_BLUE = 2
 } keel_led_name_t;
 
-/** A pin of ADC1, with its channel's number; tools/registers.py holds both against a database. */
+/** A pin of ADC1, with its channel's number; tools/keel registers holds both against a database. */
 #define KEEL_ANALOGUE(letter, number, channel) {KEEL_PIN(letter, number), (channel)}
 
 /** A pin that the analogue-to-digital converter reads. */
@@ -146,7 +146,7 @@ typedef struct keel_mounting {
 
 /**
  * A mounting. One that is no rotation does not compile: the array would have a negative size.
- * tools/registers.py holds it against specs/outputs.toml.
+ * tools/keel registers holds it against specs/outputs.toml.
  */
 #define KEEL_MOUNTING(x, y, z)                                                                     \
     {                                                                                              \

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Abstract interpretation with Frama-C's Eva and From (tools/eva.py).
+"""Abstract interpretation with Frama-C's Eva and From (tools/keel eva).
 
 demo_entry.c  how the demo is started
 reduced       the source as Eva reads it

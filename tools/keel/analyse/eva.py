@@ -1,9 +1,8 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Look for undefined behaviour in the demo, and for writes that contracts do not name.
 
-    python3 tools/eva.py            # what has not changed since it was good is known
-    python3 tools/eva.py --fresh    # nothing is
+    python3 tools/keel eva            # what has not changed since it was good is known
+    python3 tools/keel eva --fresh    # nothing is
 
 Frama-C's abstract interpretation is another method than that of the proofs: it needs no contracts,
 and follows the demo of examples/urpilot from its start, with the data model of the target. Two
@@ -49,7 +48,7 @@ KNOWN = "interpreted"  # In the user's cache, for all clones.
 SETTINGS = "specs/eva.toml"
 DEMO = "examples/urpilot"
 ENTRY = "keel_eva_entry"
-ENTRY_FILE = "tools/interpretation/demo_entry.c"
+ENTRY_FILE = "tools/keel/analyse/demo_entry.c"
 JUDGES = ("frama-c", "arm-none-eabi-gcc", "machdep")
 ALONE, IN_DEMO = "alone", "in the demo"
 EXACT, ARRAY, UNKNOWN = "within", "within, as far as arrays", "not known to be within"
@@ -225,7 +224,3 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         return conclude(root, tools, found)
 
     return program("eva", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,9 +1,8 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Ask ESBMC, a third engine, about some of the harnesses, and of each about a wrong body.
 
-    python3 tools/third_opinion.py             # specs/third_opinion.toml says which
-    python3 tools/third_opinion.py --fresh     # believe no answer that is kept
+    python3 tools/keel opinion             # specs/third_opinion.toml says which
+    python3 tools/keel opinion --fresh     # believe no answer that is kept
 
 Answers are kept under a digest of all that they depend on; build/opinion/report.json has them.
 
@@ -20,8 +19,6 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from keel.base.errors import ROOT, program
 from keel.base.source import write_report

@@ -31,7 +31,7 @@ from keel.base.toml_lines import KeyPath, line_index, line_of
 
 provide()
 
-from pydantic import (  # noqa: E402
+from pydantic import (
     BaseModel,
     ConfigDict,
     Field,

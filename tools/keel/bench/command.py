@@ -1,10 +1,9 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Measure what Keel costs: instructions per pass and per step, code size, RAM.
 
-    python3 tools/bench.py            # measure, print tables, write build/bench/report.json
-    python3 tools/bench.py --check    # the same; exit status 1 when a goal is missed
-    python3 tools/bench.py --accept   # the same; what the Cortex-M7 takes becomes its budget
+    python3 tools/keel bench            # measure, print tables, write build/bench/report.json
+    python3 tools/keel bench --check    # the same; exit status 1 when a goal is missed
+    python3 tools/keel bench --accept   # the same; what the Cortex-M7 takes becomes its budget
 
 Instructions are counted by valgrind's callgrind in a host build (gcc -O2), which repeats to the
 instruction: everything is measured twice, and two results that differ are an error. A pass is one
@@ -23,7 +22,7 @@ Cortex-M7 objects no function that a step reaches may have an instruction in dou
 call anything but the kernel: that is an error, not a missed goal.
 
 What the same passes and steps take on the Cortex-M7 is counted on an emulated one, and held against
-a budget (tools/benchmark/emulated.py).
+a budget (tools/keel/bench/emulated.py).
 
 Exit status: 0 when everything was measured, 1 when something is above its budget (or, with --check,
 a goal is missed), 2 when something could not be measured.
@@ -308,7 +307,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1 if options.check and not all(goal.met for goal in goals) else 0
 
     return program("bench", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

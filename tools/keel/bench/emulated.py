@@ -180,7 +180,7 @@ def exceeded(figures: Mapping[str, Figure], budget: Budget) -> list[str]:
 
 
 def host_mean(report: Mapping[str, object], path: Sequence[str]) -> float | None:
-    """The host's figure in the report of tools/bench.py."""
+    """The host's figure in the report of tools/keel bench."""
     item: object = report
     for key in path:
         item = item.get(key) if isinstance(item, Mapping) else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Boards: what bsp/<board>/board.toml says (tools/firmware.py tells what each key means)."""
+"""Boards: what bsp/<board>/board.toml says (tools/keel firmware tells what each key means)."""
 
 from __future__ import annotations
 

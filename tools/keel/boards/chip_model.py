@@ -1,11 +1,10 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Run the image of a real board on a model of the STM32F767.
 
-    python3 tools/chip_model.py nucleo_f767zi                   # two seconds of the board's time
-    python3 tools/chip_model.py fmuv5 --seconds 5 --keys 1.5:t  # and a key on the console at 1.5 s
-    python3 tools/chip_model.py nucleo_f767zi --broken hse      # a clock that never becomes ready
-    python3 tools/chip_model.py fmuv5 --card card.img           # with an SD card in its slot
+    python3 tools/keel model nucleo_f767zi                   # two seconds of the board's time
+    python3 tools/keel model fmuv5 --seconds 5 --keys 1.5:t  # and a key on the console at 1.5 s
+    python3 tools/keel model nucleo_f767zi --broken hse      # a clock that never becomes ready
+    python3 tools/keel model fmuv5 --card card.img           # with an SD card in its slot
 
 An emulator of the processor's instructions (Unicorn) runs the very image that is flashed. Modelled
 around it, register by register, is what the image uses: clocks with over-drive and flash latency,
@@ -123,7 +122,3 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         return conclude(options.board, options.seconds, chip, root)
 
     return program("model", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,11 +1,10 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Build the firmware of a board, and check from the ELF that everything lies where it must.
 
-    python3 tools/firmware.py mps2_an500                     # the board's application
-    python3 tools/firmware.py nucleo_f767zi --app my/folder  # another application
-    python3 tools/firmware.py fmuv5 --app examples/recorder --with fatfs
-    python3 tools/firmware.py fmuv5 --named copter
+    python3 tools/keel firmware mps2_an500                     # the board's application
+    python3 tools/keel firmware nucleo_f767zi --app my/folder  # another application
+    python3 tools/keel firmware fmuv5 --app examples/recorder --with fatfs
+    python3 tools/keel firmware fmuv5 --named copter
 
 A board is a folder bsp/<board> with a file board.toml:
 
@@ -238,7 +237,3 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         return 0
 
     return program("firmware", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,10 +1,9 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Write the image of a board to the board.
 
-    python3 tools/flash.py nucleo_f767zi                      # what 'make firmware' built
-    python3 tools/flash.py nucleo_f767zi --tool st-flash      # with another tool
-    python3 tools/flash.py fmuv5 --port /dev/ttyACM0          # through its boot loader
+    python3 tools/keel flash nucleo_f767zi                      # what 'make firmware' built
+    python3 tools/keel flash nucleo_f767zi --tool st-flash      # with another tool
+    python3 tools/keel flash fmuv5 --port /dev/ttyACM0          # through its boot loader
 
 bsp/<board>/flash.toml says what the board can be written with, the first being the default:
 
@@ -198,7 +197,3 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         return 0
 
     return program("flash: NOT written", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,9 +1,8 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The .px4 container, and the upload of one through the PX4 boot loader's serial protocol.
 
-    python3 tools/px4.py pack IMAGE.bin OUT.px4 --board-id 50     # make a container
-    python3 tools/px4.py upload FILE.px4 --port /dev/ttyACM0      # write it to a board
+    python3 tools/keel px4 pack IMAGE.bin OUT.px4 --board-id 50     # make a container
+    python3 tools/keel px4 upload FILE.px4 --port /dev/ttyACM0      # write it to a board
 
 A container is JSON: what the image is for, and the image itself, compressed with zlib and in
 base64. It holds no time, so that the same image makes the same container.
@@ -306,7 +305,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
 
     return program("px4", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

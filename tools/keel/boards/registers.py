@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Hold the project's register headers against two independent register databases.
 
-    python3 tools/registers.py      # every difference, one a line
+    python3 tools/keel registers      # every difference, one a line
 
 The headers (bsp/cortex_m7/core.h, bsp/stm32f767/registers/*.h) state facts: the base address of a
 peripheral, the offset of a register, the position and width of a field, a reset value, an interrupt
@@ -248,7 +247,3 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         return conclude(root, compare(tools, root, Databases(*places)))
 
     return program("registers", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Bound the stack of every task and of main(), from the compiler's call graph.
 
-    python3 tools/stack.py nucleo_f767zi     # of the image that 'make firmware' built
+    python3 tools/keel stack nucleo_f767zi     # of the image that 'make firmware' built
 
 The compiler writes for each function how much stack its frame takes and whom it calls (*.ci beside
 the objects). What it cannot know stands in specs/stack.toml:
@@ -151,7 +150,3 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         return conclude(measure(tools, root, board), root)
 
     return program("stack", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -16,8 +16,8 @@ from keel.base.packages import provide
 
 provide("c-syntax")
 
-import tree_sitter_c  # noqa: E402
-from tree_sitter import Language, Node, Parser, Query, QueryCursor  # noqa: E402
+import tree_sitter_c
+from tree_sitter import Language, Node, Parser, Query, QueryCursor
 
 __all__ = ["Node", "SyntaxProblem", "expression", "found", "parse", "span", "within", "written"]
 

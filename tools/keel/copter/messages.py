@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Write the MAVLink messages that the copter sends and takes, as C, from MAVLink's definitions.
 
-    python3 tools/with_packages.py messages tools/messages.py [--check]
+    python3 tools/keel messages [--check]
 
 The definitions are those that the pinned pymavlink carries, and examples/copter/messages.xml has
 those of MAVLink's messages that it leaves out. Only facts are taken of them: names, numbers, types,
@@ -21,8 +20,6 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
@@ -455,7 +452,3 @@ def write(arguments: Sequence[str] | None) -> int:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
     return program("messages", lambda: write(arguments))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,11 +1,10 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The table of parameters, from one file: in C, as a page, and as MAVLink's metadata.
 
 The metadata is in C, too, for ground stations that load it from the vehicle.
 
-    python3 tools/parameters.py          # writes what has changed
-    python3 tools/parameters.py --check  # only sees whether all are up to date
+    python3 tools/keel parameters          # writes what has changed
+    python3 tools/keel parameters --check  # only sees whether all are up to date
 
 Exit status: 0 when all is well, 1 when a file is stale, 2 when the file cannot be read.
 """

@@ -1,9 +1,8 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Writes the Earth's magnetic field by place as a table in C, from the World Magnetic Model.
 
-    python3 tools/with_packages.py world tools/world.py          # writes what has changed
-    python3 tools/with_packages.py world tools/world.py --check  # only sees whether that is so
+    python3 tools/keel world          # writes what has changed
+    python3 tools/keel world --check  # only sees whether that is so
 
 The model is WMM2025 of NOAA's National Centers for Environmental Information and the British
 Geological Survey, which is in the public domain and valid from 2025 to 2030; pygeomag computes it.
@@ -35,7 +34,7 @@ Vector = tuple[float, float, float]
 
 HEAD = """\
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Made by tools/world.py. The Earth's field at sea level in the middle of {year:.0f}, by WMM2025
+/* Made by tools/keel world. The Earth's field at sea level in the middle of {year:.0f}, by WMM2025
  * (NOAA, BGS): rows are latitudes from -80 degrees, columns longitudes from -180 degrees, {step}
  * apart; north, east and down in {unit} nT. */
 #include "world.h"
@@ -101,7 +100,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
     write_text(TABLE, text)
     print(f"world: {shown} written")
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,17 +1,16 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Make the evidence package of the present commit, or verify one: docs/evidence.md.
 
-    python3 tools/evidence.py                     # run what has to be run, write build/evidence
-    python3 tools/evidence.py --as-is             # run nothing: the reports as they are
-    python3 tools/evidence.py --draft FOLDER      # the same, problems included, and unsealed
-    python3 tools/evidence.py --verify FOLDER     # is a package as it was made?
-    python3 tools/evidence.py --same ONE OTHER    # do two differ in measured seconds alone?
-    python3 tools/evidence.py --project FOLDER    # the package of a project that uses Keel
+    python3 tools/keel evidence                     # run what has to be run, write build/evidence
+    python3 tools/keel evidence --as-is             # run nothing: the reports as they are
+    python3 tools/keel evidence --draft FOLDER      # the same, problems included, and unsealed
+    python3 tools/keel evidence --verify FOLDER     # is a package as it was made?
+    python3 tools/keel evidence --same ONE OTHER    # do two differ in measured seconds alone?
+    python3 tools/keel evidence --project FOLDER    # the package of a project that uses Keel
 
 A package is written as a whole, and only when nothing is wrong; else the one that was there stays,
 and each problem is told in a line. With KEEL_PROVED=1 in the environment nothing is proved: the
-report of the proofs is the one that --join of tools/prove.py has written, of the same commit, files
+report of the proofs is the one that --join of tools/keel prove has written, of the same commit, files
 and tools; another one is refused. build/evidence-work has the logs of the commands that were run,
 and summary.md, a short table for CI.
 
@@ -180,7 +179,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return make_draft(choice, options.draft) if options.draft else make(choice)
 
     return program("evidence", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

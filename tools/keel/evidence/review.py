@@ -1,10 +1,9 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Sign that you have reviewed a unit's proofs, or see who has.
 
-    python3 tools/review.py                    # who has reviewed which unit
-    python3 tools/review.py --unit queue       # the files to look at, and their digest
-    python3 tools/review.py --unit queue --sign "A. Reviewer" --remarks "no findings"
+    python3 tools/keel review                    # who has reviewed which unit
+    python3 tools/keel review --unit queue       # the files to look at, and their digest
+    python3 tools/keel review --unit queue --sign "A. Reviewer" --remarks "no findings"
 
 CONTRIBUTING.md, "Reviewing a proof", has the questions. A signature goes into
 specs/reviews/UNIT.toml, with the digest of what it is of: it is stale as soon as that changes.
@@ -20,8 +19,6 @@ import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import read_text, write_text

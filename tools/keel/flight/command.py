@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Fly examples/copter in models of an aircraft that others wrote, and judge the flights.
 
-    python3 tools/with_packages.py fly tools/fly.py [--scenario NAME] [--plant jsbsim]
+    python3 tools/keel fly [--scenario NAME] [--plant jsbsim]
 
 build/fly gets fly.json (every flight, its errors, limits and the SHA-256 of its trace) and a
 picture of each flight. With --scenario the report is named after it. --seed flies a flight of
@@ -21,8 +20,6 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
@@ -145,7 +142,3 @@ def fly(arguments: Sequence[str] | None) -> int:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
     return program("fly", lambda: fly(arguments))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

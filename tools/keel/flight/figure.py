@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The picture of the project's first page: a flight in which an inertial unit freezes.
 
-    python3 tools/with_packages.py fly -m flight.figure
+    python3 tools/keel flight-picture
 
 Flies imu_freeze in JSBSim's F450 three times (with the vote, with a plain mean in its place, and
 with nothing broken) and draws build/fly/flight.svg.
@@ -73,7 +73,3 @@ def main() -> int:
         return 0
 
     return program("flight", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

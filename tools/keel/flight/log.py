@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Show a flight's log: a picture beside it, and tables.
 
-    python3 tools/with_packages.py fly tools/log.py build/fly/hover-jsbsim.ulg
+    python3 tools/keel log build/fly/hover-jsbsim.ulg
 
 The picture has attitude, place, motors, votes, the processor's load, and the spectrum of each
 inertial unit while the motors turned (the paper's fig. 13); the tables have the topics, the tasks'
@@ -18,8 +17,6 @@ import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
@@ -73,7 +70,3 @@ def show(arguments: Sequence[str] | None) -> int:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
     return program("log", lambda: show(arguments))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

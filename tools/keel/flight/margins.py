@@ -155,7 +155,3 @@ def main() -> int:
     print(f"margins: {len(found)} loops; {least.loop} stands the least delay, "
           f"{least.delay_ms:.0f} ms; {REPORT} has them")  # fmt: skip
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

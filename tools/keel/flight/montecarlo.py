@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Flies many seeds on a Dask cluster and tells how errors are distributed.
 
-    python3 tools/with_packages.py flights -m flight.montecarlo --flights 1000
+    python3 tools/keel flights --flights 1000
 
 build/flights gets a file for each seed, written when it is flown: what was interrupted goes on
 where it was, and a seed is flown anew only when something that it depends on has changed.
@@ -37,7 +37,7 @@ from keel.flight.tables import console
 from keel.flight.varied import HEALTHY, digest_of
 
 SENT = ("include", "src", "bsp", "examples", "tools")
-PROGRAM = ["tools/with_packages.py", "fly", "-m", "flight.orders"]
+PROGRAM = ["tools/keel", "with", "fly", "-m", "flight.orders"]
 ORDER = 5  # Flights in an order.
 RANKS = (50.0, 90.0, 99.0, 100.0)
 TOLD = {
@@ -236,7 +236,3 @@ def run(arguments: Sequence[str] | None) -> int:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
     return program("flights", lambda: run(arguments))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Flies the seeds that stand on stdin, and answers on stdout: a worker's program.
 
-    echo '[1, 2, 3]' | python3 tools/with_packages.py fly -m flight.orders
+    echo '[1, 2, 3]' | python3 tools/keel with fly -m keel.flight.orders
 
 An answer has the digest of all that the flights depend on, so that whoever asked sees whether the
 same was flown.

@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Fly examples/copter in JSBSim in real time, with MAVLink over UDP, until it is interrupted.
 
-    python3 tools/with_packages.py sim tools/sim.py [--address 127.0.0.1:14550] [--scenario NAME]
+    python3 tools/keel sim [--address 127.0.0.1:14550] [--scenario NAME]
 
 It stands on the ground, its pilot's sticks low and his arm switch off. A ground station arms it;
 the pilot then climbs to 5 m and lets go of the sticks. With --scenario he arms and flies that
@@ -23,8 +22,6 @@ import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
@@ -156,7 +153,3 @@ def fly(arguments: Sequence[str] | None) -> int:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
     return program("sim", lambda: fly(arguments))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -19,8 +19,8 @@ from keel.flight.scenario import Quality, Scenario, Shaking
 TAG = 0x6B65656C  # Sets these draws apart from those of the noise, which has the same seed.
 DURATION_S = 80.0
 HEALTHY = "no fault"
-TOOLS = ("tools/flight", "tools/plotting.py")
-PINS = ("tools/fly.requirements.txt", "tools/timing/requirements.txt")
+TOOLS = ("tools/flight", "tools/keel/base/plotting.py")
+PINS = ("tools/requirements/fly.txt", "tools/requirements/timing.txt")
 
 
 def digest_of(root: Path = ROOT) -> str:

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The command line of the toolchain.
 
-    python3 tools/toolchain.py ensure prove test     # make the tools available
-    python3 tools/toolchain.py path cbmc             # where one of them is
-    python3 tools/toolchain.py versions prove --json # what was found, with SHA-256
-    python3 tools/toolchain.py env                   # variables to export in a shell
+    python3 tools/keel tools ensure prove test     # make the tools available
+    python3 tools/keel tools path cbmc             # where one of them is
+    python3 tools/keel tools versions prove --json # what was found, with SHA-256
+    python3 tools/keel tools env                   # variables to export in a shell
 
 Exit status: 0 when every tool of the groups is there; 1 when `versions` misses one; 2 when one
 could not be had (the reason, tool by tool, on stderr), or for a wrong command line.

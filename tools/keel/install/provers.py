@@ -2,7 +2,7 @@
 """How the provers are started: for which target, with which flags and which configuration.
 
 Verdicts depend on this file beside the tools' versions: a change of it makes them void
-(tools/proofs/stamps.py), while a change of how tools are found and installed does not.
+(tools/keel/prove/verdict_keys.py), while a change of how tools are found and installed does not.
 """
 
 from __future__ import annotations

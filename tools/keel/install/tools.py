@@ -91,7 +91,7 @@ class Toolchain:
         if not finding:
             groups = [name for name, tools in self.lock.groups.items() if spec.name in tools]
             raise ToolchainError(
-                f"{spec.name} is missing; run: tools/toolchain.py ensure {groups[0]}\n"
+                f"{spec.name} is missing; run: tools/keel tools ensure {groups[0]}\n"
                 f"{missing_line(spec, finder)}"
             )
         return finding

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What tools/lint.py checks.
+"""What tools/keel lint checks.
 
 texts  the project's files, and what a finding is
 misra  MISRA C:2012 with Cppcheck, and the deviations from it

@@ -1,10 +1,9 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Check the text of the project: layout of C and C++, MISRA C:2012, the rules of the house, and
 the workflows of CI.
 
-    python3 tools/lint.py           # every finding as file:line: reason
-    python3 tools/lint.py --fix     # lay out the code first
+    python3 tools/keel lint           # every finding as file:line: reason
+    python3 tools/keel lint --fix     # lay out the code first
 
 Layout is clang-format's, with .clang-format, for all C and C++. MISRA C:2012 is checked by Cppcheck
 and its addon over src/, the drivers of bsp/ and the headers they include, beside Cppcheck's own
@@ -19,7 +18,7 @@ The workflows of .github are held against the schema of GitHub's (check-jsonsche
 looks for what they name and is not there, zizmor for what strangers may use in them. None asks the
 network.
 
-The rules of the house: see HOUSE_CHECKS in tools/linting/house.py.
+The rules of the house: see HOUSE_CHECKS in tools/keel/lint/house.py.
 
 Exit status: 0 without findings, 1 with, 2 when something could not be checked.
 """
@@ -127,7 +126,3 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         return 1 if findings else 0
 
     return program("lint", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

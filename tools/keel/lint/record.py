@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a run of tools/lint.py leaves: a report for the evidence, and SARIF for code hosts."""
+"""What a run of tools/keel lint leaves: a report for the evidence, and SARIF for code hosts."""
 
 from __future__ import annotations
 

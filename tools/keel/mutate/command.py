@@ -1,24 +1,23 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Measure how strong the proofs of a unit are: break its code in small ways, see who notices.
 
-    python3 tools/mutate.py                              # all units, on all cores
-    python3 tools/mutate.py --unit queue                 # CBMC first, WP if CBMC does not notice
-    python3 tools/mutate.py --unit queue --engine both   # each engine by itself
-    python3 tools/mutate.py --unit queue --list          # the mutants, without trying them
-    python3 tools/mutate.py --status                     # results kept and had, and which are stale
-    python3 tools/mutate.py --record                     # keep the results in specs/mutation
-    python3 tools/mutate.py --unit sbus --confirm 1      # CBMC confirms all executions that kill
-    DASK=tcp://host:8786 python3 tools/mutate.py         # on a Dask cluster (make mutate)
+    python3 tools/keel mutate                              # all units, on all cores
+    python3 tools/keel mutate --unit queue                 # CBMC first, WP if CBMC does not notice
+    python3 tools/keel mutate --unit queue --engine both   # each engine by itself
+    python3 tools/keel mutate --unit queue --list          # the mutants, without trying them
+    python3 tools/keel mutate --status                     # results kept and had, and which are stale
+    python3 tools/keel mutate --record                     # keep the results in specs/mutation
+    python3 tools/keel mutate --unit sbus --confirm 1      # CBMC confirms all executions that kill
+    DASK=tcp://host:8786 python3 tools/keel mutate         # on a Dask cluster (make mutate)
 
 Mutants are slips of the pen (another operator, a number beside the right one, a statement left out)
 and of thought (order, a stale value, the neighbour's field or index, a check that comes too late, a
-clause forgotten; tools/proofs/mutant_slips.py). One is killed by a counterexample to a harness of
+clause forgotten; tools/keel/mutate/slips.py). One is killed by a counterexample to a harness of
 CBMC, or by a goal that WP leaves open within its full limits. A counterexample is an execution:
 first the harnesses are executed on this machine, on inputs that were found on the unchanged code
-(tools/proofs/mutant_execution.py; CBMC is asked to confirm one of 50, see --confirm, and the run
+(tools/keel/mutate/execution.py; CBMC is asked to confirm one of 50, see --confirm, and the run
 fails where it does not), then CBMC looks for one, at small capacities first
-(tools/proofs/mutant_small.py). A mutant that nobody notices shows a contract that
+(tools/keel/mutate/small_harnesses.py). A mutant that nobody notices shows a contract that
 is too weak, or a change that makes no difference; the latter is accepted with its reason in
 proofs/UNIT/equivalent.toml. What does not compile, or compiles to the same code, does not count.
 
@@ -41,8 +40,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from keel.base.files import write_text
 from keel.base.verdict_cache import Cache, digest
@@ -397,7 +394,3 @@ def _ordered(
 ) -> dict[str, Any]:  # fmt: skip
     toolchain.ensure("prove", "fuzz")
     return carry_out(order, units, toolchain)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -25,7 +25,7 @@ from keel.mutate.operators import Mutant
 from keel.c.project import ProjectError
 
 SENT = ("include", "src", "proofs", MODELS, "tools")
-PROGRAM = ["tools/mutate.py", "--order"]
+PROGRAM = ["tools/keel", "mutate", "--order"]
 ORDER = 6  # mutants in an order
 
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The proof driver behind tools/prove.py, one module per reason to change."""
+"""The proof driver behind tools/keel prove, one module per reason to change."""

@@ -1,15 +1,14 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Prove Keel: every contract with Frama-C/WP, every harness with CBMC, rounding with Gappa.
 
-    python3 tools/prove.py                    # everything
-    python3 tools/prove.py --unit queue       # one unit
-    python3 tools/prove.py --kernel           # scheduler, voter, filter and PID
-    python3 tools/prove.py --update-goals     # accept the goals as they are now, after review
-    python3 tools/prove.py --shard 2/4        # a quarter of it: build/prove/shard-2-of-4.json
-    python3 tools/prove.py --join FILE...     # the verdict on the whole, from all four reports
-    python3 tools/prove.py --project FOLDER   # a project of your own: docs/own_unit.md
-    python3 tools/prove.py --explain NAME     # why a goal, harness or assertion fails; how a wrong
+    python3 tools/keel prove                    # everything
+    python3 tools/keel prove --unit queue       # one unit
+    python3 tools/keel prove --kernel           # scheduler, voter, filter and PID
+    python3 tools/keel prove --update-goals     # accept the goals as they are now, after review
+    python3 tools/keel prove --shard 2/4        # a quarter of it: build/prove/shard-2-of-4.json
+    python3 tools/keel prove --join FILE...     # the verdict on the whole, from all four reports
+    python3 tools/keel prove --project FOLDER   # a project of your own: docs/own_unit.md
+    python3 tools/keel prove --explain NAME     # why a goal, harness or assertion fails; how a wrong
                                               # body is refuted
 
 Exit status: 0 when all is proved and the goals are those of proofs/UNIT/goals.txt, 1 when not, 2
@@ -28,8 +27,6 @@ import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from keel.base.errors import program
 from keel.base.jobs import end_as_by_ctrl_c
@@ -145,7 +142,3 @@ def prove(arguments: Sequence[str] | None) -> int:
     )  # fmt: skip
     session = Session(root, tools, choice)
     return session.explain(options.explain) if options.explain else session.run()
-
-
-if __name__ == "__main__":
-    sys.exit(main())

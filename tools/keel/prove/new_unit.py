@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Begin a unit in a project that uses Keel: docs/own_unit.md.
 
-    python3 tools/new_unit.py --project FOLDER --unit limiter [--layer app] [--id LIM]
+    python3 tools/keel new --project FOLDER --unit limiter [--layer app] [--id LIM]
 
 Where the project has no such header, the files are those of examples/new_unit under the new names:
 they are proved and tested as they stand, to be changed step by step. Where include/LAYER/NAME.h is
@@ -18,8 +17,6 @@ import re
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
@@ -134,7 +131,3 @@ def write(root: Path, made: Mapping[str, str], shared: Mapping[str, str]) -> Non
     for path, text in sorted({**made, **shared}.items()):
         print(f"{'changed' if (root / path).exists() else 'written'} {path}")
         write_text(root / path, text)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -17,7 +17,7 @@ from keel.install import Found
 OWN = Path(__file__).resolve().parent
 # What reads C, its parser being pinned, and how provers are started: for which target, under which
 # environment, with which limits.
-READERS = ("csource.py", "syntax.py", "requirements.txt", "../toolchain/provers.py")
+READERS = ("csource.py", "syntax.py", "requirements.txt", "../install/provers.py")
 # What asks one engine, and reads its answers.
 SERVANTS = {
     "wp": (
@@ -41,7 +41,7 @@ NOT_STARTED = {
 # it finds, and a report its list of mutants.
 JUDGES = {
     "cbmc": ("mutation.py", "mutant_small.py", "cbmc.py", "cbmc_answers.py", "cbmc_build.py"),
-    "wp": (*SERVANTS["wp"], "../toolchain/provers.py"),
+    "wp": (*SERVANTS["wp"], "../install/provers.py"),
 }
 
 

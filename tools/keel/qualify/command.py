@@ -1,11 +1,10 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Show that each tool still detects what it is trusted to detect: runs with seeded faults.
 
-    python3 tools/qualify.py            # what this very tool has shown before is known
-    python3 tools/qualify.py --fresh    # nothing is
+    python3 tools/keel qualify            # what this very tool has shown before is known
+    python3 tools/keel qualify --fresh    # nothing is
 
-Each fault stands beside the same text without it (tools/qualification/seeds.py). A tool passes when
+Each fault stands beside the same text without it (tools/keel/qualify/seeds.py). A tool passes when
 it complains of the fault, by the name under which the fault is known, and does not so without it.
 A new version of a tool, another file of it, or another way to ask is asked anew; what is known lies
 in the user's cache, for all clones. build/qualify/report.json has what became of each fault. What
@@ -40,7 +39,7 @@ HOW = (
     "bsp", "tools/boards", "tools/common", "tools/interpretation", "tools/machdep", "tools/proofs",
     "tools/qualification", "tools/suites",
 )  # fmt: skip
-STARTS = ROOT / "tools/toolchain/provers.py"
+STARTS = ROOT / "tools/keel/install/provers.py"
 
 
 def verdict_of(tools: Toolchain, seed: Seed, folder: Path) -> str:
@@ -115,7 +114,3 @@ def main(
         return 1 if problems else 0
 
     return program("qualify", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

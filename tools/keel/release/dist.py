@@ -1,9 +1,8 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Make a release: an archive of the commit, its bill of materials, and the checksums of both.
 
-    python3 tools/dist.py              # build/dist/keel-<version>.tar.gz, .cdx.json, SHA256SUMS
-    python3 tools/dist.py --dirty      # also of files that differ from the commit
+    python3 tools/keel dist              # build/dist/keel-<version>.tar.gz, .cdx.json, SHA256SUMS
+    python3 tools/keel dist --dirty      # also of files that differ from the commit
 
 The same commit gives the same bytes: names are sorted, owners are nobody, all times are the
 commit's. The archive holds what git tracks; nothing in it asks for git. The bill of materials
@@ -183,7 +182,3 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     for path in written:
         print(path)
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Write what the last run of tools/prove.py proved into docs/status.md.
+"""Write what the last run of tools/keel prove proved into docs/status.md.
 
-    python3 tools/status.py
+    python3 tools/keel status
 
 The page holds what build/prove/report.json says, and nothing that changes from run to run. A report
 of some units or of one engine only is refused, as its table would pass for the whole.
@@ -17,8 +16,6 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
@@ -134,7 +131,3 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     """Entry point."""
     Parser(f"Write {PAGE}, what the proofs proved.", "status").parse_args(arguments)
     return program("status", lambda: write(root))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

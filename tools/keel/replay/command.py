@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Run recorded sensors through the copter's vote, estimators and detectors, and measure them.
 
-    python3 tools/with_packages.py replay tools/replay.py flight.ulg [--compare]
+    python3 tools/keel replay flight.ulg [--compare]
 
 FILE is a log in ULog, of PX4 or of Keel, a CSV or an npz as docs/replay.md has them, or a folder of
 such. build/replay gets a picture of each, and report.json with all figures.
@@ -22,8 +21,6 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
@@ -194,7 +191,3 @@ def replay(arguments: Sequence[str] | None) -> int:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
     return program("replay", lambda: replay(arguments))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

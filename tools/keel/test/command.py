@@ -1,11 +1,10 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Build and run Keel's tests on this host.
 
-    python3 tools/run_tests.py                    # what a newcomer wants to see: a few minutes
-    python3 tools/run_tests.py --all              # everything
-    python3 tools/run_tests.py --filter unit/     # the suites whose name contains this
-    python3 tools/run_tests.py --jobs 1           # one after another
+    python3 tools/keel test                    # what a newcomer wants to see: a few minutes
+    python3 tools/keel test --all              # everything
+    python3 tools/keel test --filter unit/     # the suites whose name contains this
+    python3 tools/keel test --jobs 1           # one after another
 
 Suites: unit/<unit> (Unity), bsp/<driver> (Unity, on simulated hardware), property/<size> (the
 scheduler against its reference model), reference/<unit> (C++, an independent computation with
@@ -188,7 +187,7 @@ def python_suite(name: str, source: Path, group: str, may_skip: bool) -> Outcome
     report = ROOT / BUILD / f"{name.replace('/', '-')}.xml"
     report.unlink(missing_ok=True)
     options = ["-q", "-p", "no:cacheprovider", "--tb=short", f"--junitxml={report}"]
-    program = ["tools/with_packages.py", group, "-m", "pytest", *options, str(source)]
+    program = ["tools/keel", "with", group, "-m", "pytest", *options, str(source)]
     ended = run([sys.executable, *program], PYTEST_TIMEOUT_S)
     return pytest_outcome(name, report, ended, may_skip)
 
@@ -265,7 +264,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return running.end(ROOT / BUILD, "Keel", outcomes, facts)
 
     return program("test", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Run unit tests with contracts executable: Frama-C's E-ACSL makes C of the ACSL.
 
-    python3 tools/contracts_run.py
+    python3 tools/keel contracts-run
 
 A contract that is proved may still say something else than its author thinks. Here each clause that
 E-ACSL can translate is evaluated on what the unit tests do: the tests call the function through its
@@ -268,7 +267,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return judge(runs, choice, {name: found[name].version for name in ("frama-c", "gcc")})
 
     return program("contracts-run", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Measure what the unit tests cover: statements (lines), branches and MC/DC.
 
-    python3 tools/coverage.py
+    python3 tools/keel coverage
 
 The unit tests are built with clang's source-based coverage and run; counted are src/ and the
 inline functions of include/. Each must be covered in full: every line executed, every branch
@@ -348,7 +347,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return judge(measure(), exclusions)
 
     return program("coverage", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,10 +1,9 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Run Keel's tests on a Cortex-M7 that QEMU emulates.
 
-    python3 tools/emulated_tests.py                   # everything
-    python3 tools/emulated_tests.py --filter fault/   # the suites whose name contains this
-    python3 tools/emulated_tests.py --jobs 1          # one after another, not one on each core
+    python3 tools/keel test-target                   # everything
+    python3 tools/keel test-target --filter fault/   # the suites whose name contains this
+    python3 tools/keel test-target --jobs 1          # one after another, not one on each core
 
 Suites, each one image or more of the board mps2_an500, built as its firmware is:
 
@@ -408,7 +407,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
 
     return program("test-target", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,10 +1,9 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Fuzz the scheduler and the decoders beside their models, and decoders beside those of others.
 
-    python3 tools/fuzz.py --seconds 60            # each target, with the sanitizers
-    python3 tools/fuzz.py --runs 100000000        # frames to ours and others' decoders, so many
-    python3 tools/fuzz.py --filter crsf
+    python3 tools/keel fuzz --seconds 60            # each target, with the sanitizers
+    python3 tools/keel fuzz --runs 100000000        # frames to ours and others' decoders, so many
+    python3 tools/keel fuzz --filter crsf
 
 Corpora stay in build/fuzz, and help the next run; build/fuzz/report.json has the verdicts.
 
@@ -48,7 +47,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return running.end(ROOT / BUILD, "Keel, fuzzed", outcomes, facts)
 
     return program("fuzz", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Measure which conditions of the kernel's object code the unit tests show both ways.
 
-    python3 tools/object_coverage.py
+    python3 tools/keel coverage-target
 
 The unit tests are built as firmware is (the board mps2_an500) and run on the Cortex-M7 that QEMU
 emulates, one instruction at a time. Counted are the conditional instructions in the object code of
@@ -365,7 +364,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return judge(conditions, reasons, facts)
 
     return program("coverage-target", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -62,7 +62,7 @@ def mavlink(folder: Path) -> Path:
     """The folder of MAVLink's own C."""
     made = folder / "mavlink-c"
     if not (made / "common/mavlink.h").is_file():
-        program = ["tools/with_packages.py", "mavlink", "-c", GENERATE, str(made)]
+        program = ["tools/keel", "with", "mavlink", "-c", GENERATE, str(made)]
         output_of([sys.executable, *program])
     return made
 

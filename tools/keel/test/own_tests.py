@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Build and run the unit tests of a project that uses Keel: its tests/unit/test_*.c, with Unity.
 
-    python3 tools/own_tests.py --project FOLDER
+    python3 tools/keel test-project --project FOLDER
 
 Each file is a program, linked with all of the project's src/ and of Keel's. build/test/junit.xml in
 the project has the results, report.json beside it the same with the source that they are of.
@@ -16,8 +15,6 @@ import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from keel.base.arguments import Parser
 from keel.base.build import Build, source_files
@@ -88,7 +85,3 @@ def conclude(suites: dict[str, JUnitSuite]) -> int:
     total = sum(len(suite.tests) for suite in suites.values())
     print(f"{total - len(failures)} of {total} tests passed")
     return 1 if failures or not total else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,10 +1,9 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Run the code beside its executable specification for a very long time: 10^9 random calls each of
 the scheduler (at its capacity, and at one that is often full), the voter, the filter and the PID.
 
-    python3 tools/soak.py                    # an hour on one core
-    python3 tools/soak.py --steps 10000000   # fewer
+    python3 tools/keel soak                    # an hour on one core
+    python3 tools/keel soak --steps 10000000   # fewer
 
 `make test` runs the same programs for 10^6 calls each, with sanitizers; here they are optimised,
 and begin with another seed. Results and objects are compared after each call, bit for bit. Writes
@@ -101,7 +100,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return work(options.steps)
 
     return program("soak", checked)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Show a schedule as it ran: each run of each task, its release, its deadline, and the slack.
 
-    python3 tools/with_packages.py schedule tools/schedule.py [build/fly/hover-jsbsim.ulg]
+    python3 tools/keel schedule [build/fly/hover-jsbsim.ulg]
 
 Without a log it runs the paper's 21 tasks for some seconds on the virtual board (examples/traced)
 and leaves build/schedule/demo.ulg. Of what a board's console said (.txt or .log), it first makes a
@@ -20,13 +19,11 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
 from keel.base.arguments import Parser
 from keel.base.build import Build
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.run import output_of
-from rich.console import Console  # noqa: E402
+from rich.console import Console
 from keel.timeline import console, page, pftrace, picture, runs, table
 from keel.install import Toolchain
 
@@ -99,7 +96,3 @@ def show(arguments: Sequence[str] | None) -> int:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
     return program("schedule", lambda: show(arguments))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timeline of a page that tools/timeline/page.py makes; DATA is what it found in a log.
+// The timeline of a page that tools/keel/timeline/page.py makes; DATA is what it found in a log.
 "use strict";
 
 const KINDS = { task: Uint16Array, start: Float64Array, length: Uint32Array, late: Float64Array,

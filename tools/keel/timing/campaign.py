@@ -1,8 +1,7 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The voter's fault campaign, and the paper's fig. 14: build, run, print tables, plot.
 
-    python3 tools/with_packages.py timing tools/campaign.py
+    python3 tools/keel campaign
 
 build/campaign gets campaign.json (every flight), figure14.svg (errors of roll and pitch with the
 voter and with a plain mean) and faults.svg (of each fault the worst error of the output beside the
@@ -20,8 +19,6 @@ from collections.abc import Sequence
 from math import degrees
 from pathlib import Path
 from typing import Any
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from keel.timing.campaign_plots import Flight, plot_faults, plot_figure14
 from keel.base.arguments import Parser
@@ -155,7 +152,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments
     )
     return program("campaign", fly)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

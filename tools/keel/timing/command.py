@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The timing tools.
 
-    python3 tools/with_packages.py timing -m timing analyze specs/tasksets/urpilot.toml
+    python3 tools/keel timing analyze specs/tasksets/urpilot.toml
 
 Exit status: 0 when all is well, 1 when a set is not shown to be schedulable (the last line tells
 whether it cannot be, is not admitted, or has no bound), a table is stale or a goal of an experiment
@@ -165,7 +165,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return status
 
     return program(options.command, work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Make the pictures of the documents: docs/pictures.
 
@@ -124,7 +123,3 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     """Entry point."""
     Parser("Make the pictures of the documents.", "pictures").parse_args(arguments)
     return program("pictures", lambda: write(root))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

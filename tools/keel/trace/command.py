@@ -1,9 +1,8 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Trace every requirement to its clauses, harnesses and tests, and find what stands alone.
 
-    python3 tools/requirements_trace.py             # every orphan, one a line
-    python3 tools/requirements_trace.py --update    # first bring specs/requirements up to date
+    python3 tools/keel trace             # every orphan, one a line
+    python3 tools/keel trace --update    # first bring specs/requirements up to date
 
 A high-level requirement is an entry of specs/requirements/high_level.sdoc, say HLR-003: what Keel
 takes from the paper, or adds. A low-level requirement is an entry of another document there, say
@@ -177,7 +176,7 @@ def lacks(entry: Requirement, tests: set[str], theorems: Sequence[str]) -> Itera
     if entry.clauses and "theorem" not in entry.verification and not (entry.harnesses or tested):
         yield "neither a harness nor a test names it"
     if entry.listed_clauses != list(dict.fromkeys(entry.clauses)):
-        yield "CLAUSES is not what the headers say (tools/requirements_trace.py --update)"
+        yield "CLAUSES is not what the headers say (tools/keel trace --update)"
 
 
 def update(root: Path) -> None:
@@ -214,7 +213,3 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         return 1 if trace.orphans or not trace.requirements else 0
 
     return program("trace", work)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

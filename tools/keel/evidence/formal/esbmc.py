@@ -133,4 +133,3 @@ def headers_of(gcc: Sequence[str], runner: Runner) -> Path:
     if done.status != 0 or not (path / "stdint-gcc.h").is_file():
         raise ToolError(f"{' '.join(gcc)} does not say where its headers are")
     return path
-

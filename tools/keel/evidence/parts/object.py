@@ -129,7 +129,7 @@ def flag_table(reports: Mapping[str, Report]) -> Table:
                                   if flag in report["flags"]))
             for flag, why in COMPILED_AS_PROVED.items()
         ),
-        note="The flags that may not occur, each with its reason: tools/boards/semantics.py.",
+        note="The flags that may not occur, each with its reason: tools/keel/boards/semantics.py.",
     )  # fmt: skip
 
 

@@ -18,7 +18,7 @@ let keel_cortex_m7 : Cil_types.mach =
     version = "arm-none-eabi-gcc 12.2, Cortex-M7, hard float, AAPCS";
     compiler = "gcc";
     (* The flags of the firmware build. Frama-C passes them to a preprocessor it
-       knows; tools/toolchain.py gives them to the cross compiler itself. *)
+       knows; tools/keel tools gives them to the cross compiler itself. *)
     cpp_arch_flags =
       [ "-mcpu=cortex-m7"; "-mthumb"; "-mfpu=fpv5-d16"; "-mfloat-abi=hard" ];
     sizeof_short = 2;

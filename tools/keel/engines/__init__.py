@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Asks the provers: Frama-C/WP, CBMC and Gappa."""
