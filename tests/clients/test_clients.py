@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from keel.flight import ulog
+from keel.timeline import ulog
 from other_values import defaults, others
 from pymavlink import mavparm, mavutil
 from qgroundcontrol import Driver, QGroundControl

@@ -18,7 +18,8 @@ from typing import Any
 from unittest import mock
 
 import pytest
-from keel.flight import device_frames as frames, library, ulog
+from keel.flight import device_frames as frames, library
+from keel.timeline import ulog
 from keel.flight.library import Copter, Link
 from pymavlink.dialects.v20 import common as mavlink
 from qgroundcontrol import Driver, Met, QGroundControl, Reply, kind_of, payload_of

@@ -16,7 +16,8 @@ from typing import Any
 from unittest import mock
 
 import pytest
-from keel.flight import judge, library, mujoco_plant, scenario, sensors, ulog
+from keel.flight import judge, library, mujoco_plant, scenario, sensors
+from keel.timeline import ulog
 from keel.flight.library import Copter, Key, Link
 from keel.flight.loop import Flight, Order, fly
 from keel.flight.pilot import Bystander, Pilot, Sight

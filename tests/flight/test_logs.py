@@ -15,7 +15,8 @@ from typing import Any
 from keel.flight import log as log_tool
 import numpy as np
 import pytest
-from keel.flight import library, log_plots, loop, scenario, ulog
+from keel.flight import library, log_plots, loop, scenario
+from keel.timeline import ulog
 from keel.flight.library import Copter, Link
 from keel.flight.loop import Order, Trace
 from keel.flight.sensors import TEMPERATURES

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from keel.flight import command as fly
 import pytest
-from keel.base.config import ConfigError
+from keel.config import ConfigError
 from keel.base.errors import ToolError
 from keel.flight import scenario
 

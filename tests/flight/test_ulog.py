@@ -13,7 +13,8 @@ from typing import Any
 from keel.flight import log as log_tool
 import numpy as np
 import pytest
-from keel.flight import log_plots, ulog
+from keel.flight import log_plots
+from keel.timeline import ulog
 from pyulog import ULog
 
 from keel.base.errors import ToolError

@@ -17,7 +17,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from keel.base.config import ConfigError
+from keel.config import ConfigError
 from keel.base.files import write_json
 from keel.timing.taskset import TaskSet, parse
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 from keel.base.errors import ROOT, ToolError
-from keel.base.packages import provide
+from keel.install.packages import provide
 from logged import FORMATS, LOOP, LOW, SAMPLE, message, run, task, written
 from keel.install import Toolchain
 

@@ -10,11 +10,10 @@ from pathlib import Path
 
 import pytest
 from keel.base.errors import ROOT
-from keel.base.packages import provide
+from keel.install.packages import provide
 from logged import LOOP, SAMPLE, run, task, written
 
 provide("schedule")
-sys.path.append(str(ROOT / "tests/tools"))
 from browser import Browser
 from keel.timeline import page, runs
 

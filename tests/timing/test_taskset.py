@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 import pytest
-from keel.base.config import ConfigError
+from keel.config import ConfigError
 from keel.base.errors import ToolError
 from keel.base.toml_lines import line_index
 from fuzz_taskset import fuzz

@@ -13,7 +13,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from keel.base.config import ConfigError
+from keel.config import ConfigError
 from fuzz_taskset import fuzz
 from keel.timing import ctable, taskset
 from keel.timing.command import main

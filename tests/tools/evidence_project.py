@@ -19,9 +19,8 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-from keel.base.packages import provide
+from keel.install.packages import provide
 
 provide("common")
 provide("evidence")

@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from keel.base.packages import provide
+from keel.install.packages import provide
 
 provide()
 

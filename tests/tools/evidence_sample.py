@@ -14,9 +14,8 @@ from types import ModuleType
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
-from keel.base.packages import provide
+from keel.install.packages import provide
 
 provide("common")
 provide("evidence")

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Is the step that Gappa bounds the one of the code? proofs/attitude/norm.g, against the C text."""
 
@@ -89,7 +88,3 @@ class AttitudeNorm(unittest.TestCase):
                       "KEEL_ATTITUDE_HALF_ANGLE_LIMIT);", body)  # fmt: skip
         self.assertIn("next = turned(attitude->quaternion, half); if (keel_attitude_is_unit(next))",
                       body)  # fmt: skip
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel bench: what it reads from callgrind, what it counts, and when it fails.
-
-    python3 tests/tools/test_bench.py
 
 One class measures a function whose instructions are known: it is written in assembly. The last
 runs the demo (examples/urpilot), which shares its table of tasks with the benchmark, and holds it
@@ -24,7 +21,6 @@ from pathlib import Path
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.bench import command as bench
 from keel.bench.command import Host
@@ -374,7 +370,3 @@ class DemoTest(unittest.TestCase):
     def test_a_wrong_command_line_is_refused(self) -> None:
         for arguments in (["x"], ["0"], ["5", "5"], ["-1"]):
             self.assertEqual(self.demo(*arguments)[0], 2, arguments)
-
-
-if __name__ == "__main__":
-    unittest.main()

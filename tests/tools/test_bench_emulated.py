@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel/bench/emulated.py: what it reads, and when a budget is exceeded. That an
 instruction is counted as one is checked by the image itself, against assembly of known length.
-
-    python3 tests/tools/test_bench_emulated.py
 """
 
 from __future__ import annotations
@@ -18,7 +15,6 @@ from pathlib import Path
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.bench import emulated
 from keel.bench.emulated import Budget, Figure
@@ -296,7 +292,3 @@ class Report(Budgets):
         with self.assertRaisesRegex(ToolError, "broken"):
             self.add(ToolError("broken"))
         self.assertFalse(self.report.exists())
-
-
-if __name__ == "__main__":
-    unittest.main()

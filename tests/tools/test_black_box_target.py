@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The black box with FatFs builds for the target, as an image's own sources do, without a heap."""
 
@@ -10,7 +9,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.run import output_of
 from keel.boards.firmware import FLAGS, WARNINGS
@@ -60,7 +58,3 @@ class Target(unittest.TestCase):
             text, _, zeros = output_of(["arm-none-eabi-size", image]).splitlines()[1].split()[:3]
         self.assertLess(int(text), 10_000)
         self.assertLess(int(zeros), 9_500)
-
-
-if __name__ == "__main__":
-    unittest.main()

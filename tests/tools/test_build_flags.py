@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the flags that CMake builds Keel with: those of the proofs, whatever the project around
 it asks for, and none that reaches the project's own code.
-
-    python3 tests/tools/test_build_flags.py
 """
 
 from __future__ import annotations
@@ -15,7 +12,6 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from consumer import AS_FOLDER, CORTEX_M7, ROOT, ConsumerTest, answer
 from keel.install import TARGET_FLAGS
@@ -147,7 +143,3 @@ class FloatsTest(ConsumerTest):
         self.assertIn("Say them with -DKEEL_FLOAT_FLAGS=", said)
         program = self.build("-DCMAKE_C_COMPILER=tcc", "-DKEEL_FLOAT_FLAGS=", flags="", into="tcc")
         self.assertEqual(self.attempt([program]).returncode, answer())
-
-
-if __name__ == "__main__":
-    unittest.main()

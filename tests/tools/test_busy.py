@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Some of the dearest goals are proved while each core runs an endless program, too.
-
-    python3 tests/tools/test_busy.py
 
 They run Frama-C and CBMC, believe no verdict that is known, and are skipped without the provers.
 """
@@ -15,7 +12,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from endless import CORES, busy
 from keel.engines import cbmc, wp
@@ -71,7 +67,3 @@ class Dearest(unittest.TestCase):
                             self.scratch)  # fmt: skip
         result = checker.prove(read_harness(unit, path))
         self.assertEqual(result.problems, [])
-
-
-if __name__ == "__main__":
-    unittest.main()

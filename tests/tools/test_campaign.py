@@ -7,7 +7,6 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
 
 from keel.timing import campaign
 
@@ -45,7 +44,3 @@ class Table(unittest.TestCase):
     def test_two_faulty_units_have_no_bound(self) -> None:
         lines = campaign.table(campaign.by_fault([flight("two equal", -1.0, 10.0)]), 0.5)
         self.assertTrue(lines[1].endswith("outvotes the healthy one"))
-
-
-if __name__ == "__main__":
-    unittest.main()

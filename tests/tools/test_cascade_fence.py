@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Is the fence's test that Gappa bounds the code's? proofs/cascade/fence.g, against the C text."""
 
@@ -90,7 +89,3 @@ class CascadeFence(unittest.TestCase):
                           ("DISTANCE_MAX", "ACCELERATION_MAX", "REACTION_MAX_S")])  # fmt: skip
         self.assertEqual(bounds["x"], bounds["L"])
         self.assertGreaterEqual(bounds["v"], constant("SPEED_MAX"))
-
-
-if __name__ == "__main__":
-    unittest.main()

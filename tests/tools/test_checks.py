@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of harnesses that check assertions alone, and of what a failing solver makes of a proof.
-
-    python3 tests/tools/test_checks.py
 
 The last class runs CBMC with a solver that a test plays, and is skipped without CBMC.
 """
@@ -18,7 +15,6 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.base.jobs import Finished, Runner
 from keel.c.project import ProjectError, find_units
@@ -251,7 +247,3 @@ class PlayedSolver(TreeTest):
 
     def test_no_answer_in_time_is_a_failure(self) -> None:
         self.assertIn("CBMC did not finish", self.prove("sleep 20", 2))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The images of the real boards on the model of their chip, and what the model itself refuses.
-
-    python3 tests/tools/test_chip_model.py
 
 The images are built first; each run is some tenths of a second of the board's time.
 """
@@ -21,7 +18,6 @@ from itertools import pairwise
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.boards import chip_model
 from keel.boards import firmware
@@ -891,7 +887,3 @@ class BoardTest(unittest.TestCase):
         with contextlib.redirect_stderr(io.StringIO()) as err:
             self.assertEqual(chip_model.main(["mps2_an500"]), 2)
         self.assertIn("there is no model mps2_an500", err.getvalue())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of CMakeLists.txt: clean projects that contain Keel, on the host and for a Cortex-M7.
-
-    python3 tests/tools/test_cmake.py
-"""
+"""Tests of CMakeLists.txt: clean projects that contain Keel, on the host and for a Cortex-M7."""
 
 from __future__ import annotations
 
@@ -12,7 +8,6 @@ import unittest
 from hashlib import sha256
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from consumer import AS_FOLDER, ConsumerTest, answer, keel_archive
 
@@ -77,7 +72,3 @@ class FolderTest(ConsumerTest):
             self.assertNotEqual(done.returncode, 0, number)
             wanted = f"KEEL_QUEUE_CAPACITY is '{number}', not a number from 1 to 255"
             self.assertIn(wanted, " ".join(done.stderr.split()))
-
-
-if __name__ == "__main__":
-    unittest.main()

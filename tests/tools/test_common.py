@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/common: programs, files, checked TOML and JSON, builds, reports.
-
-python3 tests/tools/test_common.py
-"""
+"""Tests of tools/common: programs, files, checked TOML and JSON, builds, reports."""
 
 from __future__ import annotations
 
@@ -25,11 +21,10 @@ from unittest import mock
 from xml.etree import ElementTree
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.arguments import Parser
 from keel.base.build import Build, BuildError, source_files
-from keel.base.config import ConfigError, Field, Mistake, Table, Text, read_json, read_toml
+from keel.config import ConfigError, Field, Mistake, Table, Text, read_json, read_toml
 from keel.base.errors import ToolError, nearest, program, unknown
 from keel.base.files import write_json, write_text
 from keel.base.git import commit_of, git
@@ -400,7 +395,3 @@ class Reports(FolderTest):
         self.assertEqual(failure.text, "x.c:3: bad\n?[0m<&>")
         self.assertEqual([case.get("name") for case in whole.iter("testcase")],
                          ["good", "bad", "z"])  # fmt: skip
-
-
-if __name__ == "__main__":
-    unittest.main()

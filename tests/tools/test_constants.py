@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Are the numbers of the public headers what they should be? Bits, names of cases, and standards'.
 
@@ -8,8 +7,6 @@ bits: then all of them are, and no two of a header are equal, unless WORDS says 
 of another word. Of three or more whole numbers that stand line by line no two are equal, either;
 where the first is 0, they count up.
 Numbers of physics and protocols are worked out here from what their standards say.
-
-    python3 tests/tools/test_constants.py
 """
 
 from __future__ import annotations
@@ -24,7 +21,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.c.source import read
 from keel.c.declarations import macros
@@ -381,7 +377,3 @@ class RulesTest(unittest.TestCase):
     def test_what_is_combined(self) -> None:
         text = "void f(unsigned *x) { *x |= A; if ((*x & B) != 0u) { *x = 1u + C; } }"
         self.assertEqual(combined(text), {"A", "B"})
-
-
-if __name__ == "__main__":
-    unittest.main()

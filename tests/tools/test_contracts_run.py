@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel contracts-run: a body that breaks its contract is seen, and what does not
 run is told with a reason.
-
-python3 tests/tools/test_contracts_run.py
 """
 
 from __future__ import annotations
@@ -20,10 +17,9 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.test import contracts_run
-from keel.base.config import parse_toml, read_toml
+from keel.config import parse_toml, read_toml
 from keel.base.errors import ToolError
 from keel.base.run import Ended
 from keel.base.source import VERDICT
@@ -150,7 +146,3 @@ class Verdict(unittest.TestCase):
     def test_a_violation_and_an_empty_run_fail(self) -> None:
         self.assertEqual(self.judge({"src/x.c": Run(["keel_x"], failures=["broken"])})[0], 1)
         self.assertEqual(self.judge({})[0], 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of which smoke tests tools/keel/engines/find_contradictions.ml asks: no fewer than say all.
-
-    python3 tests/tools/test_contradictions.py
 
 They run Frama-C, and are skipped without it. What the tests find is seeded by `make qualify`.
 """
@@ -17,7 +14,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.qualify.trials import said_by_frama_c
 from keel.install import Toolchain, ToolchainError
@@ -88,7 +84,3 @@ class Places(unittest.TestCase):
 
     def test_a_loop_is_asked_inside_and_behind(self) -> None:
         self.assertEqual(self.asked(LOOP).count("f_wp_smoke_dead_code"), 2)
-
-
-if __name__ == "__main__":
-    unittest.main()

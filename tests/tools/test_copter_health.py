@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """What the copter keeps and tells of its barometer and of its chip, task by task, by hand."""
 
@@ -12,7 +11,6 @@ from pathlib import Path
 from typing import ClassVar
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from copter_shim import copter_of
 
@@ -267,7 +265,3 @@ class CopterHealth(unittest.TestCase):
 
     def test_HEA_005_nothing_is_said_before_the_first_pressure(self) -> None:
         self.assertFalse(self.copter.blocks_by_pressure())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The copter's settings through its parameters: defaults, what is set, put in force, saved and
 loaded again, also when the power fails meanwhile."""
@@ -14,7 +13,6 @@ from pathlib import Path
 from typing import ClassVar
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.run import output_of
 
@@ -246,7 +244,3 @@ class CopterParameters(unittest.TestCase):
         self.start()
         self.assertEqual(self.copter.save(), OK)
         self.assertEqual(self.copter.save(), UNDER_WAY)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The copter's radio: which protocol is found, what is told when nobody is heard, task by task."""
 
@@ -15,7 +14,6 @@ from pathlib import Path
 from typing import ClassVar
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from copter_shim import copter_of
 
@@ -308,7 +306,3 @@ class CopterRadio(unittest.TestCase):
         for part in parts[1:]:
             self.frame(CRSF, bytes.fromhex(part["bytes"]))
         self.assertEqual(self.copter.frames(), 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

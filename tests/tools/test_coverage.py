@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/keel coverage: reading exports, finding gaps, excluding them. Nothing is built.
-
-python3 tests/tools/test_coverage.py
-"""
+"""Tests of tools/keel coverage: reading exports, finding gaps, excluding them. Nothing is built."""
 
 from __future__ import annotations
 
@@ -18,7 +14,6 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.test import coverage
 from keel.base.errors import ToolError
@@ -220,7 +215,3 @@ class Verdict(unittest.TestCase):
             self.assertEqual(coverage.main([]), 2)
         self.assertIn("no compiler", output.getvalue())
         self.assertFalse(report.exists(), "an old report must not stand for a new one")
-
-
-if __name__ == "__main__":
-    unittest.main()

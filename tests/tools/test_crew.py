@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of how mutants are tried: by whom, and how who was interrupted goes on.
-
-    python3 tests/tools/test_crew.py
 
 No prover is run. The cluster is one of threads, and is skipped unless the packages of tools/
 dask.requirements.txt are there (python3 tools/keel tools ensure dask).
@@ -24,7 +21,6 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.mutate import command as mutate
 from keel.base.cluster import archive
@@ -207,7 +203,3 @@ class Sent(TreeTest):
             with self.assertRaisesRegex(ProjectError, "a worker has other tools"):
                 dict(other.run(self.jobs))
             other.stop()
-
-
-if __name__ == "__main__":
-    unittest.main()

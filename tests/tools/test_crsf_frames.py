@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The CRSF decoder, handed frames that crsf-parser encodes, and what came between.
 
@@ -20,7 +19,6 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.run import output_of
 from keel.install import Toolchain
@@ -206,7 +204,3 @@ class Frames(unittest.TestCase):
                     # crsf-parser knows one first byte, and one length.
                     known = self.framed(stream[first + 2 : first + 25])
                     self.assertEqual(self.parsed(known), [(CHANNELS, said)])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the check that every function's outcome is determined: each gap in it is found.
-
-    python3 tests/tools/test_determined.py
 
 A small project in which all is determined is changed in one place.
 """
@@ -15,7 +12,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.base.files import write_text
 from keel.c.project import ProjectError
@@ -781,7 +777,3 @@ class Report(WholeRunCase):
             "- keel_box_put: no harness",
             (self.root / "build/prove/determined.md").read_text(encoding="utf-8"),
         )
-
-
-if __name__ == "__main__":
-    unittest.main()

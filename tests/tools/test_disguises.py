@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of which texts `make prove` refuses as they may look different to provers and compilers.
-
-    python3 tests/tools/test_disguises.py
-"""
+"""Tests of which texts `make prove` refuses as they may look different to provers and compilers."""
 
 from __future__ import annotations
 
@@ -13,7 +9,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.files import write_text
 from keel.audit import disguises
@@ -76,7 +71,3 @@ class Projects(unittest.TestCase):
         self.write("include/keel/rtos/box.h", text.replace("    return", "    _Bad();\n    return"))
         [problem] = self.problems()
         self.assertIn("box.h:15: `_Bad`", problem)
-
-
-if __name__ == "__main__":
-    unittest.main()

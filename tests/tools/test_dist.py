@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/keel dist: the same bytes twice, an archive that builds and proves, and refusals.
-
-    python3 tests/tools/test_dist.py
-"""
+"""Tests of tools/keel dist: the same bytes twice, an archive that builds and proves, and refusals."""
 
 from __future__ import annotations
 
@@ -21,7 +17,6 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from consumer import ROOT, ConsumerTest, version
 
@@ -194,7 +189,3 @@ class ReleaseTest(ConsumerTest):
         path = os.pathsep.join([str(forbidden), self.environment()["PATH"]])
         told = self.good(["make", "-C", keel, "prove", "UNIT=clock"], PATH=path)
         self.assertRegex(told, r"proved (\d+) of \1 goals")
-
-
-if __name__ == "__main__":
-    unittest.main()

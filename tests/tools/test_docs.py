@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the documents: what they name exists, what they link to is there, and all can be found.
-
-    python3 tests/tools/test_docs.py
-"""
+"""Tests of the documents: what they name exists, what they link to is there, and all can be found."""
 
 from __future__ import annotations
 
@@ -207,7 +203,3 @@ class DocumentsTest(unittest.TestCase):
             capture_output=True, timeout=60, check=False,
         )  # fmt: skip
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-
-
-if __name__ == "__main__":
-    unittest.main()

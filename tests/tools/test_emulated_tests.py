@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel test-target: how it judges what an emulated board printed, and that a
 program which hangs or computes something else is a failure.
-
-    python3 tests/tools/test_emulated_tests.py
 """
 
 from __future__ import annotations
@@ -15,7 +12,6 @@ from pathlib import Path
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.test import emulated_tests
 from keel.base.run import Ended
@@ -314,7 +310,3 @@ class Emulated(unittest.TestCase):
         changed = text.replace(old, "    digest(s, promotion_us + (s->vector == 1234u));\n")
         (ROOT / place).write_text(changed)
         return place.as_posix()
-
-
-if __name__ == "__main__":
-    unittest.main()

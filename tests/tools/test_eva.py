@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel eva: what is left of a contract, what is judged, and that Frama-C finds what is
 put into small programs.
-
-python3 tests/tools/test_eva.py
 """
 
 from __future__ import annotations
@@ -15,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.analyse import eva
 from keel.base.errors import ToolError
@@ -178,7 +174,3 @@ class Frama(unittest.TestCase):
     def test_a_program_that_does_not_parse(self) -> None:
         with self.assertRaisesRegex(ToolError, "frama-c: "):
             self.analyse(4, ["nothing"])
-
-
-if __name__ == "__main__":
-    unittest.main()

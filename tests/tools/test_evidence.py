@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the evidence package's frame: what is wrong is named, and nothing wrong is packed.
-
-    python3 tests/tools/test_evidence.py
 
 The parts are a small sample's; each part's own faults are in test_evidence_<part>.py.
 """
@@ -24,7 +21,6 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from evidence_sample import (
     SOURCE,
@@ -38,7 +34,7 @@ from evidence_sample import (
 from keel.base.errors import ToolError
 from keel.base.files import write_json
 from keel.base.junit import JUnitSuite, write_junit
-from keel.base.packages import provide
+from keel.install.packages import provide
 from keel.base.source import STAMP as MADE_FROM
 from keel.base.source import stamp_of
 from keel.evidence.assemble import PARTS, maker_of
@@ -103,7 +99,7 @@ class Parts(InFolder):
                          ["tests: test_x fails"])  # fmt: skip
 
     def test_an_absent_part(self) -> None:
-        with self.assertRaisesRegex(ToolError, r"no tools/evidence/parts/nonesuch\.py"):
+        with self.assertRaisesRegex(ToolError, r"no tools/keel/evidence/parts/nonesuch\.py"):
             maker_of("nonesuch")
 
         def absent(_: Context) -> Part:
@@ -171,7 +167,7 @@ class Parts(InFolder):
         self.assertIn("harness:queue/keel_queue_init_harness", entry.back)
 
     def test_every_part_of_the_package_has_a_module(self) -> None:
-        there = {path.stem for path in (ROOT / "tools/evidence/parts").glob("[a-z]*.py")}
+        there = {path.stem for path in (ROOT / "tools/keel/evidence/parts").glob("[a-z]*.py")}
         self.assertLessEqual(there, set(PARTS))
 
 
@@ -457,7 +453,3 @@ class Sources(InFolder):
         (self.folder / "a").write_text("a", encoding="utf-8")
         stamp = stamp_of(self.folder)
         self.assertEqual((stamp["commit"], source_of(self.folder, stamp).seconds), ("", 0))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of what the evidence package is made from: which reports serve, which commands are run.
-
-    python3 tests/tools/test_evidence_commands.py
 
 The make that is started only notes what it was asked.
 """
@@ -21,7 +18,6 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from evidence_sample import STAMP, context_in
 
@@ -246,7 +242,3 @@ class Reports(InFolder):
 
     def test_good(self) -> None:
         self.assertEqual(self.told(json.dumps({MADE_FROM: STAMP})), [])
-
-
-if __name__ == "__main__":
-    unittest.main()

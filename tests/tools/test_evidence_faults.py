@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel evidence as a whole: one fault at a time in a small project or its reports, and
 no package is made, the cause is named, and the package that was there stays.
-
-    python3 tests/tools/test_evidence_faults.py
 
 That each part sees each fault of its own is tested in test_evidence_<part>.py.
 """
@@ -214,7 +211,3 @@ class Faults(WholeProject):
         self.write_report("opinion/report.json", read)
         self.refused("tests: build/coverage/report.json: is missing",
                      "build/opinion/report.json: has no verdict: make opinion")  # fmt: skip
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the evidence part `formal`: what is wrong with proofs must be a problem, named.
-
-    python3 tests/tools/test_evidence_formal.py
-"""
+"""Tests of the evidence part `formal`: what is wrong with proofs must be a problem, named."""
 
 from __future__ import annotations
 
@@ -16,12 +12,11 @@ import unittest.mock
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/tools")]
 
 from evidence_proofs import NOW, EvidenceTest
 
 from keel.evidence import review
-from keel.analyse import third_opinion
+from keel.evidence import third_opinion
 from keel.base.source import STAMP
 from keel.evidence.formal import bounds, esbmc, ledger, opinion, reviews
 from keel.evidence.part import Item, Part
@@ -355,7 +350,3 @@ class Reviews(FormalTest):
             self.assertEqual(review.run(review.parse([]), self.root), 1)
         self.assertIn("queue        signed  A. Reader 2026-11-30", said.getvalue())
         self.assertIn("FAILED specs/reviews/queue.toml", said.getvalue())
-
-
-if __name__ == "__main__":
-    unittest.main()

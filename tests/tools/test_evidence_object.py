@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the part `object` of the evidence package: each fault is put into a report or an image,
 and must show as a problem that names it.
-
-python3 tests/tools/test_evidence_object.py
 """
 
 from __future__ import annotations
@@ -159,7 +156,3 @@ class Rebuilt(unittest.TestCase):
         (folder / "keel.bin").write_bytes(data)
         (difference,) = found()
         self.assertIn("mps2_an500/keel.bin: another folder gives other bits", difference)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the parts that read what people wrote: objectives, plans, safety manual, contracts,
 configuration. Each fault shows in the problems of its part, or refuses the file in one line.
-
-    python3 tests/tools/test_evidence_objectives.py
 """
 
 from __future__ import annotations
@@ -16,7 +13,6 @@ from dataclasses import replace
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from evidence_sample import STAMP, context_in
 
@@ -258,7 +254,3 @@ class Configuration(Parts):
         self.write("tools/toolchain.lock.json", '{"tools": {}}')
         with self.assertRaisesRegex(ToolError, r"version\.h"):
             configuration.make(self.context)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the part `requirements`: each fault that is put in shows, with its cause.
-
-python3 tests/tools/test_evidence_requirements.py
-"""
+"""Tests of the part `requirements`: each fault that is put in shows, with its cause."""
 
 from __future__ import annotations
 
@@ -121,7 +117,3 @@ class RequirementsTest(TracedProject):
             "fault/undefined": {"tests": {"fault/undefined": "failed"}}}  # fmt: skip
         self.assertEqual(self.problems(make), [
             "WID-002: test fault/undefined/fault/undefined: failed"])  # fmt: skip
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the evidence package's site in a real browser, from the file system.
-
-    python3 tests/tools/test_evidence_site.py
 
 Headless Chromium opens every page of a small package. Its screenshots stay in
 build/test/evidence-site, for people.
@@ -19,7 +16,6 @@ from pathlib import Path
 from urllib.parse import unquote, urldefrag, urlsplit
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from browser import Browser
 from evidence_sample import LONG, SOURCE, assembled
@@ -193,7 +189,3 @@ class Looks(Site):
         for fault in ("is cut: much", "contrast of 2.3: faint", "outside of the window: far",
                       "wider than its box: wide", "the page is too wide"):  # fmt: skip
             self.assertIn(fault, told)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the part `static` of the evidence package: each fault is put into a report, and must
 show as a problem that names it.
-
-python3 tests/tools/test_evidence_static.py
 """
 
 from __future__ import annotations
@@ -127,7 +124,3 @@ class Static(PartTest):
         shown = [problem.partition(": ")[0] for problem in self.make().problems]
         names = ("lint/report", "eva/report", "stack/fmuv5", "bench/report")
         self.assertEqual(shown, [f"build/{name}.json" for name in names])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the evidence part `strength`: what weakens the trust in the proofs must be a problem.
-
-    python3 tests/tools/test_evidence_strength.py
-"""
+"""Tests of the evidence part `strength`: what weakens the trust in the proofs must be a problem."""
 
 from __future__ import annotations
 
@@ -19,7 +15,6 @@ from types import SimpleNamespace
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/tools")]
 
 from evidence_proofs import EvidenceTest
 
@@ -299,7 +294,3 @@ class Blocks(StrengthTest):
     def test_an_entry_that_is_of_nothing(self) -> None:
         self.replace("specs/unreached.toml", "keel_pass_turn__once_harness", "keel_gone_harness")
         self.assert_problem(self.part(), "there is no harness pass/keel_gone_harness")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the part `tests` of the evidence package: each fault is put into a report, and must show
 as a problem that names it.
-
-python3 tests/tools/test_evidence_tests.py
 """
 
 from __future__ import annotations
@@ -195,7 +192,3 @@ class Tests(PartTest):
         self.assertEqual(
             self.problem(), "contracts-run: keel_x: x.h:3: Error: Postcondition failed:"
         )
-
-
-if __name__ == "__main__":
-    unittest.main()

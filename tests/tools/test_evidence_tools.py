@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the part `tools` of the evidence package, and of tools/keel qualify: wrong versions, other
 files, entries that are missing, and tools that no longer detect a fault.
-
-python3 tests/tools/test_evidence_tools.py
 """
 
 from __future__ import annotations
@@ -228,7 +225,3 @@ class Qualify(unittest.TestCase):
         self.assertEqual(len({seed.name for seed in SEEDS}), len(SEEDS))
         for seed in SEEDS:
             self.assertNotEqual(seed.faulty, seed.text)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the part `trace`: whatever stands alone shows, with its cause.
-
-python3 tests/tools/test_evidence_trace.py
-"""
+"""Tests of the part `trace`: whatever stands alone shows, with its cause."""
 
 from __future__ import annotations
 
@@ -115,7 +111,3 @@ class TraceTest(TracedProject):
         problem, *more = self.problems(make)
         self.assertTrue(problem.startswith("build/prove/report.json: is not whole"), problem)
         self.assertEqual(more, [])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of `make prove ARGS='--explain NAME'`: what it says of goals, harnesses and wrong bodies.
-
-python3 tests/tools/test_explain.py
-"""
+"""Tests of `make prove ARGS='--explain NAME'`: what it says of goals, harnesses and wrong bodies."""
 
 from __future__ import annotations
 
@@ -17,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.prove.counterexample import changes, lines, read_trace
 from keel.prove.explain import UnknownName, named, subjects
@@ -286,7 +281,3 @@ class Explained(WholeRunCase):
         self.assertIn("make prove UNIT=box ARGS='--explain keel_box_put_ensures_BOX_001'", output)
         self.assertEqual(output.count("FAILED keel_box_put_ensures_BOX_001"), 1)
         self.assertIn("all that failed, together: build/prove/summary.md", output)
-
-
-if __name__ == "__main__":
-    unittest.main()

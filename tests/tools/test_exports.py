@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the results for other programs: build/prove/junit.xml and build/prove/results.sarif.
-
-python3 tests/tools/test_exports.py
-"""
+"""Tests of the results for other programs: build/prove/junit.xml and build/prove/results.sarif."""
 
 from __future__ import annotations
 
@@ -15,7 +11,6 @@ from typing import Any
 from xml.etree import ElementTree
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.base.sarif import SarifResult, document, split_place
 from test_prove import ASSERTED, GOALS, WholeRunCase, cbmc_output, item
@@ -110,7 +105,3 @@ class Exports(WholeRunCase):
             self.prove()
         self.assertEqual([path.name for path in self.report_file.parent.glob("*.xml")], [])
         self.assertFalse((self.report_file.parent / "results.sarif").exists())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel firmware: what it reads of a board, what it checks in an image, and that an
 image does not depend on the folder it was built in.
-
-    python3 tests/tools/test_firmware.py
 """
 
 from __future__ import annotations
@@ -21,7 +18,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.boards import firmware
 from keel.boards.board import Board, Place, Region, application_of, read_board
@@ -429,7 +425,3 @@ class CommandLine(unittest.TestCase):
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 2)
         self.assertIn("(boards: ", done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

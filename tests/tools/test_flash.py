@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel flash: it says that an image was written only when a tool has verified it.
-
-    python3 tests/tools/test_flash.py
 
 Debug probes and their tools are small scripts that say what the real ones say.
 """
@@ -22,7 +19,6 @@ from typing import cast
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.boards import flash
 from keel.boards import px4
@@ -183,7 +179,3 @@ class FlashTest(unittest.TestCase):
             shutil.rmtree(self.root / FIRMWARE)
             self.assertEqual(flash.main(["nucleo_f767zi"], self.root), 2)
         self.assertIn("flash: NOT written: there is no whole image", err.getvalue())
-
-
-if __name__ == "__main__":
-    unittest.main()

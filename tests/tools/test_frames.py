@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of what keeps a gap between two engines from going unnoticed.
-
-    python3 tests/tools/test_frames.py
 
 What WP leaves to CBMC is named and asserted; assertions are fixed; nothing defined stands unused;
 what changes in a refusal is listed. No prover is run.
@@ -17,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.lint import refusals
 from keel.c.project import Unit, find_units
@@ -282,7 +278,3 @@ class Refusals(Tree):
         self.state("- BOX_001 keel_box_fill, any: it counts")
         self.assertIn("STA-001: there is no keel_box_fill that returns a status",
                       refusals.problems(self.root))  # fmt: skip
-
-
-if __name__ == "__main__":
-    unittest.main()

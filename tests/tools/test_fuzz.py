@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """What fuzzing is made of: the pinned crates, the targets, and what is told of a finding."""
 
@@ -10,7 +9,6 @@ from pathlib import Path
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.build import BuildError
 from keel.base.run import Ended
@@ -65,7 +63,3 @@ class Targets(unittest.TestCase):
         self.assertIn("DIFFER: a field", outcome.failures[0])
         self.assertIn("build/fuzz/ibus/crash-1", outcome.failures[0])
         self.assertIn("to see it again: build/fuzz/built/ibus FILE", outcome.failures[0])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel/engines/gappa.py: a bound counts when Gappa's own enclosure lies within it.
-
-    python3 tests/tools/test_gappa.py
 
 Gappa is played by a script that prints what the real one prints.
 """
@@ -16,7 +13,6 @@ from fractions import Fraction
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.jobs import Runner
 from keel.c.project import ProjectError
@@ -139,7 +135,3 @@ class GappaTest(unittest.TestCase):
     def test_exact_numbers(self) -> None:
         answer = "Results:\n  |x| in [0, 33554433b-48 {1.19209e-07, 2^(-23)}]\n"
         self.assertEqual(gappa.enclosures(answer), {"x": Fraction(33554433, 2**48)})
-
-
-if __name__ == "__main__":
-    unittest.main()

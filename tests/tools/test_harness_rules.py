@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the rules for the text of proofs: what would make a harness say less is refused.
-
-    python3 tests/tools/test_harness_rules.py
-"""
+"""Tests of the rules for the text of proofs: what would make a harness say less is refused."""
 
 from __future__ import annotations
 
@@ -13,7 +9,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.base.files import write_text
 from keel.audit.harness_inputs import taken
@@ -148,7 +143,3 @@ class Conditions(unittest.TestCase):
         left = taken(text, ["CRC_AS_IT_IS"])
         self.assertEqual(left.split("\n")[1::2], ["        ", "int two;", "int three;"])
         self.assertEqual(len(left), len(text))
-
-
-if __name__ == "__main__":
-    unittest.main()

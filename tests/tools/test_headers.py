@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the public headers: each alone, in C and in C++, for the host and the Cortex-M7.
-
-    python3 tests/tools/test_headers.py
-"""
+"""Tests of the public headers: each alone, in C and in C++, for the host and the Cortex-M7."""
 
 from __future__ import annotations
 
@@ -12,7 +8,6 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from consumer import ROOT, ConsumerTest
 from keel.install import TARGET_FLAGS
@@ -57,7 +52,3 @@ class HeaderTest(ConsumerTest):
             self.assertEqual(sorted(asked.split()), names, header)
             number += len(names)
         self.assertGreater(number, 40)
-
-
-if __name__ == "__main__":
-    unittest.main()

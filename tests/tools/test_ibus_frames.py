@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The IBUS decoder, handed frames that Python encodes, and what came between."""
 
@@ -16,7 +15,6 @@ from pathlib import Path
 from typing import ClassVar
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.run import output_of
 
@@ -159,7 +157,3 @@ class Frames(unittest.TestCase):
                 at += 32 if right else 1
             self.begin(extended=False)
             self.assertEqual(self.feed(stream), expected)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of what `cmake --install` leaves: clean projects that find Keel by CMake or by pkg-config.
-
-    python3 tests/tools/test_installed.py
-"""
+"""Tests of what `cmake --install` leaves: clean projects that find Keel by CMake or by pkg-config."""
 
 from __future__ import annotations
 
@@ -12,7 +8,6 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from consumer import AS_FOLDER, CORTEX_M7, ROOT, ConsumerTest, answer, version
 from keel.install import TARGET_FLAGS
@@ -99,7 +94,3 @@ class PackageTest(ConsumerTest):
         self.installed(*CORTEX_M7)
         compiler = ["arm-none-eabi-gcc", *TARGET_FLAGS, "--specs=nosys.specs"]
         self.assertEqual(self.pkg_config(compiler).read_bytes()[18], 40, "not a program for ARM")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""How structures lie in memory: alike for provers, target and host, and what is not is seen.
-
-    python3 tests/tools/test_layouts.py
-"""
+"""How structures lie in memory: alike for provers, target and host, and what is not is seen."""
 
 from __future__ import annotations
 
@@ -14,7 +10,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests" / "machdep")]
 
 from check_layouts import Types, compared
 from keel.c.project import ProjectError
@@ -116,7 +111,3 @@ class LayoutsTest(unittest.TestCase):
 
     def test_what_holds_a_pointer_is_not_asked_on_the_host(self) -> None:
         self.assertEqual(self.seeded(POINTERS), (0, ()))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the limits of programs: of their processor time, whatever else the machine does.
-
-    python3 tests/tools/test_limits.py
-"""
+"""Tests of the limits of programs: of their processor time, whatever else the machine does."""
 
 from __future__ import annotations
 
@@ -17,7 +13,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base import run
 from endless import CORES, busy
@@ -118,7 +113,3 @@ class Provers(unittest.TestCase):
         used = os.times().children_user - before.children_user
         self.assertEqual(said.stdout, "unknown\n")
         self.assertGreater(used, 0.8, "it was ended by the clock")
-
-
-if __name__ == "__main__":
-    unittest.main()

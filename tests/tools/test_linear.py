@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the filter before Alt-Ergo: what it shows of a goal, and what it does not ask.
-
-    python3 tests/tools/test_linear.py
 
 `make qualify` asks Alt-Ergo itself, behind the filter, about what it proved though it is false.
 """
@@ -16,7 +13,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.engines.linear_filter import is_nonlinear, linear_part
 
@@ -136,7 +132,3 @@ class Started(unittest.TestCase):
 
     def test_without_a_file_nothing_is_read(self) -> None:
         self.assertEqual(self.ask("-version").stdout, "-version\n")
-
-
-if __name__ == "__main__":
-    unittest.main()

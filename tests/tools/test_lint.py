@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel lint: each rule with a text that breaks it and one that does not.
-
-    python3 tests/tools/test_lint.py
 
 The last class runs clang-format and Cppcheck on small projects of its own.
 """
@@ -22,7 +19,6 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.lint import command as lint
 from keel.base.errors import ToolError

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The log's ring in the memory model of C11: a small ring, every execution of a few calls.
 
@@ -175,7 +174,3 @@ class Order(unittest.TestCase):
         ):  # fmt: skip
             with self.subTest(rule), self.assertRaisesRegex(Wrong, complaint):
                 explore(Rules(**{rule: False}))
-
-
-if __name__ == "__main__":
-    unittest.main()

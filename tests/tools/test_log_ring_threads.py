@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The log's ring between two threads that run at the same time, under the thread sanitizer."""
 
@@ -11,7 +10,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.run import run
 
@@ -115,7 +113,3 @@ class Threads(unittest.TestCase):
             done = run([self.build(Path(name), "-fsanitize=thread")])
             self.assertFalse(done.good)
             self.assertIn("data race", done.output)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the Makefile: its help, and that a wrong name or value is told in one line.
-
-python3 tests/tools/test_makefile.py
-"""
+"""Tests of the Makefile: its help, and that a wrong name or value is told in one line."""
 
 from __future__ import annotations
 
@@ -104,7 +100,3 @@ class Refusals(unittest.TestCase):
         told = [line for line in lines if "KEEL_NO_INSTALL=1 forbids to install" in line]
         self.assertEqual(len(told), 1, lines)
         self.assertIn("common-packages: missing", told[0])
-
-
-if __name__ == "__main__":
-    unittest.main()

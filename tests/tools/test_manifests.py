@@ -1,12 +1,9 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of what package managers read of Keel: PlatformIO's manifest, Zephyr's module, and that all
 of them name the same version and numbers.
 
 PlatformIO's platforms and Zephyr's tree are in no registry that the tests ask. The manifest is
 judged, and packed, by PlatformIO itself; Zephyr's CMake functions have stand-ins of a line each.
-
-    python3 tests/tools/test_manifests.py
 """
 
 from __future__ import annotations
@@ -18,7 +15,6 @@ import tarfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from consumer import CORTEX_M7, MAIN, ROOT, STRICT, ConsumerTest, answer, version
 from keel.install import TARGET_FLAGS
@@ -178,7 +174,3 @@ class ZephyrTest(ConsumerTest):
         self.project(ZEPHYR.format(root=ROOT, chosen="n"), "m", MAIN)
         self.assertNotEqual(self.attempt(["cmake", "-B", "off"]).returncode, 1)
         self.assertNotIn("keel", self.good(["cmake", "--build", "off", "--target", "help"]))
-
-
-if __name__ == "__main__":
-    unittest.main()

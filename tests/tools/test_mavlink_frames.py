@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """MAVLink's frames beside pymavlink: what one writes, the other reads, and both refuse the same;
 and among any bytes each frame that pymavlink takes where it begins is found.
@@ -20,7 +19,6 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.run import output_of
 from keel.install import Toolchain
@@ -327,7 +325,3 @@ class Frames(unittest.TestCase):
         stream = b"".join(self.packed(385, payload, self.sender()) for _ in range(30))
         ends = self.feed(stream[50:])
         self.assertEqual(len(ends) + self.gap(), 29)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of what a newcomer copies: examples/minimal, and the README's files and commands.
-
-    python3 tests/tools/test_minimal.py
-"""
+"""Tests of what a newcomer copies: examples/minimal, and the README's files and commands."""
 
 from __future__ import annotations
 
@@ -14,7 +10,6 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from consumer import ROOT, ConsumerTest
 from keel.install import TARGET_FLAGS
@@ -84,7 +79,3 @@ class ExampleTest(ConsumerTest):
         left = set(re.findall(r" U (\w+)", told)) - defined
         of_compiler = {"memcpy", "memmove", "memset", "__aeabi_ldivmod", "__aeabi_uldivmod"}
         self.assertLessEqual(left, of_compiler)
-
-
-if __name__ == "__main__":
-    unittest.main()

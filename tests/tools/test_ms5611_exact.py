@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The MS5611's formulas beside exact fractions, and its check beside division of polynomials."""
 
@@ -15,7 +14,6 @@ from pathlib import Path
 from typing import ClassVar, NamedTuple
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.run import output_of
 
@@ -149,7 +147,3 @@ class Exact(unittest.TestCase):
         self.assertEqual(self.begin(self.words(TYPICAL)), OK)
         self.assertEqual(self.library.measure(0, 8569150), NOT_READY)
         self.assertEqual(self.library.measure(9085466, 0), NOT_READY)
-
-
-if __name__ == "__main__":
-    unittest.main()

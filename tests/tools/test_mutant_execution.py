@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of harnesses that are executed on mutants, and of what CBMC is asked about it.
-
-    python3 tests/tools/test_mutant_execution.py
 
 The harnesses are compiled and executed, for which clang 19 is needed; CBMC is not run.
 """
@@ -20,7 +17,6 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.base.verdict_cache import Cache
 from keel.judge.cbmc_answers import Answer
@@ -304,7 +300,3 @@ class Numbers(unittest.TestCase):
     def test_numbers_of_code_are_found_and_no_others(self) -> None:
         text = "#define A 32u\nfloat b1 = 1.5e-3f; /* 99 */ int c = 0x10 + x2 + 7; // 3\n"
         self.assertEqual(numbers_in([text]), ["0.0015", "7.0", "16.0", "32.0"])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel mutate: the mutants, their names, and what becomes of survivors.
-
-    python3 tests/tools/test_mutate.py
 
 No prover is run; the last class needs a host compiler and is skipped without one.
 """
@@ -22,7 +19,6 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.mutate import command as mutate
 from keel.base.verdict_cache import Cache
@@ -320,7 +316,3 @@ class CommandLine(unittest.TestCase):
         ):
             self.assertEqual(mutate.main([]), 2)
         self.assertEqual(error.getvalue(), "mutate: units.toml: no\n")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of keel.mk's `new`: a unit proved as it stands, and harnesses of a header's prototypes.
-
-    python3 tests/tools/test_new_unit.py
 
 The provers are the real ones; what they prove is kept in the user's cache.
 """
@@ -164,7 +161,3 @@ class New(unittest.TestCase):
     def test_a_header_without_a_prototype_is_told(self) -> None:
         self.put("include/motor/valve.h", "#define VALVE 1\n")
         self.assertIn("include/motor/valve.h: there is no prototype", self.refused("UNIT=valve"))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel coverage-target: conditions are evaluated as the processor's manual says, seen
 in a real run, and what is not seen fails without a reason that fits.
-
-python3 tests/tools/test_object_coverage.py
 """
 
 from __future__ import annotations
@@ -20,7 +17,6 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.test import object_coverage
 from keel.boards.conditions import (
@@ -321,7 +317,3 @@ class Verdict(unittest.TestCase):
             self.assertEqual(object_coverage.main([]), 2)
         self.assertIn("no emulator", output.getvalue())
         self.assertFalse(report.exists())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of keel.mk and examples/own_unit, as a new user tries them: in a folder of their own.
-
-    python3 tests/tools/test_own_unit.py
 
 The provers are the real ones; what they prove of the example is kept in the user's cache.
 """
@@ -18,7 +15,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.install.cache import default_cache
 
@@ -180,7 +176,3 @@ class OwnUnit(unittest.TestCase):
         shutil.rmtree(self.project / "include")
         output = self.make("prove")[1]
         self.assertIn(f"prove: {self.project}: there is no unit, include/LAYER/NAME.h", output)
-
-
-if __name__ == "__main__":
-    unittest.main()

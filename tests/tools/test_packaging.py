@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of packaging/: what package managers make of Keel, by their own programs where these can be
 had (Conan, ESP-IDF's component manager), with stand-ins for the functions of vcpkg and of ESP-IDF.
-
-    python3 tests/tools/test_packaging.py
 """
 
 from __future__ import annotations
@@ -19,7 +16,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from consumer import ROOT, ConsumerTest, answer, version
 
@@ -195,7 +191,3 @@ class CmsisTest(ConsumerTest):
         paths = [f"keel/{one}" for one in sources]
         self.good(["gcc", "-std=c99", "-Ikeel/include", "main.c", *paths, "-o", "aircraft"])
         self.assertEqual(self.attempt([self.folder / "aircraft"]).returncode, answer())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The table of parameters: is all that is made of it up to date, and are wrong files refused?"""
 
@@ -13,10 +12,9 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.copter import parameters
-from keel.base.config import ConfigError
+from keel.config import ConfigError
 
 GOOD = """\
 name = "copter"
@@ -211,7 +209,3 @@ class Metadata(unittest.TestCase):
         self.assertEqual(given["THR_HOVER"], float(hover[1]) if hover else None)
         self.assertIn(f".stop_s = {given['STOP_TIME']}f,", text)
         self.assertIn(f".cells = {given['BAT_CELLS']}u,", text)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The PPM decoder, handed edges, beside a search that looks at all times between them at once."""
 
@@ -15,7 +14,6 @@ from pathlib import Path
 from typing import ClassVar
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.run import output_of
 
@@ -165,7 +163,3 @@ class Edges(unittest.TestCase):
         self.assertEqual(self.says(), tuple(frame[1:]))
         self.assertEqual(list(self.feed([*frame * 4, 8000])), [36])
         self.assertEqual(self.library.lost(), 0)
-
-
-if __name__ == "__main__":
-    unittest.main()

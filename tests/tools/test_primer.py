@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Follows docs/primer.md to the letter, from an empty folder to a unit that is proved and tested.
-
-    python3 tests/tools/test_primer.py
 
 A block that names a file is that file, or with `diff` a change of it. The commands of a block are
 run in the project; each line of the block of text behind it must be in what they say. The provers
@@ -71,7 +68,3 @@ class Primer(unittest.TestCase):
         text = path.read_text(encoding="utf-8")
         self.assertEqual(text.count(before), 1, f"{before} in {path.name}")
         path.write_text(text.replace(before, after), encoding="utf-8")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel prove: what must make a proof fail does, and only success is remembered.
-
-    python3 tests/tools/test_prove.py
 
 No prover is run: the engines are played by small scripts that print what the real ones print.
 """
@@ -27,7 +24,6 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.prove import command as prove
 from keel.base.files import write_text
@@ -1512,7 +1508,3 @@ class Logs(unittest.TestCase):
     def test_a_failed_goal_tells_the_attempts(self) -> None:
         text = "[wp] [Failed] Goal typed_f_ensures\n  CVC4 1.8: Unknown (Qed:7ms)\n"
         self.assertEqual(wplog.read_log(text).goals["f_ensures"].attempts, ["CVC4 1.8: Unknown"])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel px4: the container, and uploads to a simulated boot loader at a terminal.
-
-    python3 tests/tools/test_px4.py
 
 The simulation is written from the description of the protocol, not from the uploader; its checksum
 goes bit by bit.
@@ -26,7 +23,6 @@ import zlib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.boards import px4
 from keel.boards.px4 import Container, Px4Error
@@ -292,7 +288,3 @@ class UploadTest(unittest.TestCase):
         with contextlib.redirect_stderr(io.StringIO()) as err:
             self.assertEqual(px4.main(["upload", str(self.folder / "none")]), 2)
         self.assertIn("px4:", err.getvalue())
-
-
-if __name__ == "__main__":
-    unittest.main()

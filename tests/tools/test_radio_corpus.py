@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """What receivers in the field send (tests/corpus/radio.toml), handed to the decoders.
 
@@ -17,7 +16,6 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.run import output_of
 
@@ -171,7 +169,3 @@ class Corpus(unittest.TestCase):
             for part in stream["part"]:
                 if "refused" in part:
                     self.assertIn((stream["protocol"], part["refused"]), COUNTS)
-
-
-if __name__ == "__main__":
-    unittest.main()

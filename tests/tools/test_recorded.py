@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of recorded provers: asked first and alone, never believed, and easy to record anew.
-
-    python3 tests/tools/test_recorded.py
 
 Frama-C is played by a small script.
 """
@@ -17,7 +14,6 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.base.jobs import Finished, Runner
 from keel.c.project import ProjectError
@@ -251,7 +247,3 @@ class Recording(WholeRunCase):
         self.assertIn(f"note   {told}", output)
         self.assertEqual(report["units"]["box"]["wp"]["stale_provers"], [told])
         self.assertEqual(self.prove()[2]["units"]["box"]["wp"]["stale_provers"], [told])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The register headers against the register databases, and that a slip in a header is noticed.
-
-    python3 tests/tools/test_registers.py
 
 Needs the group "registers" of the toolchain: two crates, fetched once with their checksums.
 """
@@ -17,7 +14,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.boards import registers
 from keel.boards.register_databases import Databases
@@ -172,7 +168,3 @@ class RegistersTest(unittest.TestCase):
         self.change(RCC, "RCC_CR_PLLON BITS(24u, 1u)", "RCC_CR_PLLON (5u << 24u)")
         with self.assertRaisesRegex(RegistersError, "RCC_CR_PLLON: not one run"):
             self.compare()
-
-
-if __name__ == "__main__":
-    unittest.main()

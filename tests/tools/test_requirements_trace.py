@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/keel trace: each kind of orphan is found in a small project that has
 just this one.
-
-python3 tests/tools/test_requirements_trace.py
 """
 
 from __future__ import annotations
@@ -16,7 +13,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.trace import command as requirements_trace
 from keel.base.files import write_text
@@ -344,7 +340,3 @@ class TraceTest(unittest.TestCase):
     def test_no_requirement_at_all(self) -> None:
         with tempfile.TemporaryDirectory() as empty, contextlib.redirect_stdout(io.StringIO()):
             self.assertEqual(requirements_trace.main([], Path(empty)), 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/keel test: failures, crashes, hangs and empty suites are told as such.
-
-python3 tests/tools/test_run_tests.py
-"""
+"""Tests of tools/keel test: failures, crashes, hangs and empty suites are told as such."""
 
 from __future__ import annotations
 
@@ -19,7 +15,6 @@ from unittest import mock
 from xml.etree import ElementTree
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.test import command as run_tests
 from keel.base.build import BuildError
@@ -310,7 +305,3 @@ class Everything(unittest.TestCase):
         )
         self.assertEqual(status, 0)
         self.assertNotIn("tools/b", output)
-
-
-if __name__ == "__main__":
-    unittest.main()

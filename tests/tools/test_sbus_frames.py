@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The SBUS decoder, handed frames that Python's whole numbers encode, and what came between."""
 
@@ -14,7 +13,6 @@ from pathlib import Path
 from typing import ClassVar
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.run import output_of
 from keel.flight import device_frames as frames
@@ -163,7 +161,3 @@ class Frames(unittest.TestCase):
                 at += 25 if right else 1
             self.begin(ALL)
             self.assertEqual(self.feed(stream), expected)
-
-
-if __name__ == "__main__":
-    unittest.main()

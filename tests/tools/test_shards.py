@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of shards: the parts are the same everywhere, and joined only when nothing is amiss.
-
-    python3 tests/tools/test_shards.py
-"""
+"""Tests of shards: the parts are the same everywhere, and joined only when nothing is amiss."""
 
 from __future__ import annotations
 
@@ -16,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.prove import command as prove
 from keel.prove.driver import Job
@@ -172,7 +167,3 @@ class Joining(WholeRunCase):
         status, output, _ = self.prove(join=files)
         self.assertEqual(status, 1)
         self.assertIn("zebra is listed, but", output)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the slips of thought that mutants are made of: each operator makes what it is to make.
-
-python3 tests/tools/test_slips.py
-"""
+"""Tests of the slips of thought that mutants are made of: each operator makes what it is to make."""
 
 from __future__ import annotations
 
@@ -13,7 +9,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.mutate.slips import numbers_beyond, surroundings
 from keel.mutate.operators import Generated, generate
@@ -232,7 +227,3 @@ class Slips(unittest.TestCase):
         self.assertGreaterEqual(found.dropped, 1)
         texts = [mutant.apply(Path(__file__).read_text()) for mutant in found.mutants]
         self.assertEqual(len(texts), len(set(texts)))
-
-
-if __name__ == "__main__":
-    unittest.main()

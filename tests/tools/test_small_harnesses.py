@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the small harnesses that mutants are tried by first.
-
-    python3 tests/tools/test_small_harnesses.py
 
 No prover is run.
 """
@@ -17,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.judge.cbmc_answers import Answer
 from keel.judge.harness import Harness, read_harness
@@ -125,7 +121,3 @@ class Kills(TreeTest):
         made.kills(harness, "keel_box_put", checker, self.root)
         self.assertEqual(made.ranked("keel_box_put", [other, harness]), [harness, other])
         self.assertEqual(made.ranked("elsewhere", [other, harness]), [other, harness])
-
-
-if __name__ == "__main__":
-    unittest.main()

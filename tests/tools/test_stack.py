@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/keel stack on small call graphs whose deepest paths are known.
-
-python3 tests/tools/test_stack.py
-"""
+"""Tests of tools/keel stack on small call graphs whose deepest paths are known."""
 
 from __future__ import annotations
 
@@ -18,7 +14,6 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.boards import stack
 from keel.boards.built import read_built
@@ -34,7 +29,7 @@ from keel.boards.stack_bounds import (
     idle_code,
     mistakes,
 )
-from keel.base.config import read_toml
+from keel.config import read_toml
 from keel.base.errors import ToolError
 from keel.base.run import output_of
 from keel.base.source import PRODUCT, STAMP, stamp_of
@@ -423,7 +418,3 @@ class FilesTest(unittest.TestCase):
         self.assertEqual(stack.stack_sizes(contents), {"main": 0x4000, "fault": 0x400})
         with self.assertRaisesRegex(ToolError, "no symbol keel_stack_top"):
             stack.stack_sizes(Contents(0))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/keel status, which writes docs/status.md.
-
-    python3 tests/tools/test_status.py
-"""
+"""Tests of tools/keel status, which writes docs/status.md."""
 
 from __future__ import annotations
 
@@ -17,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.release import status
 
@@ -150,7 +145,3 @@ class StatusTest(unittest.TestCase):
 
     def test_missing_report_is_refused(self) -> None:
         self.refused(None, "there is no report")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The sections of include/keel/status.h: which layer may return what.
-
-    python3 tests/tools/test_status_codes.py
-"""
+"""The sections of include/keel/status.h: which layer may return what."""
 
 from __future__ import annotations
 
@@ -50,7 +46,3 @@ class Sections(unittest.TestCase):
     def test_every_code_is_used(self) -> None:
         used = set[str]().union(*used_in("src").values())
         self.assertEqual(set[str]().union(*sections().values()), used)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/suites: suites run side by side and end together, and `make test` installs every
 tool that they need.
-
-python3 tests/tools/test_suites.py
 """
 
 from __future__ import annotations
@@ -23,12 +20,11 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.test import command as run_tests
 from asked_groups import asked, closure
 from keel.base.arguments import Parser
-from keel.base.config import ConfigError, parse_toml
+from keel.config import ConfigError, parse_toml
 from keel.base.errors import ToolError
 from keel.test import suites as running
 from keel.test.needs import Needs, mistakes, read_needs
@@ -363,7 +359,3 @@ def with_excused(needs: Needs, groups: list[str]) -> Needs:
     """The file with these groups in its first excuse."""
     first = needs.absent[0].model_copy(update={"groups": groups})
     return needs.model_copy(update={"absent": [first, *needs.absent[1:]]})
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of times: what is recorded, which job goes first, and what a run will still take.
-
-    python3 tests/tools/test_times.py
-"""
+"""Tests of times: what is recorded, which job goes first, and what a run will still take."""
 
 from __future__ import annotations
 
@@ -16,7 +12,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.prove.driver import Job
 from keel.prove.report import HELP
@@ -158,7 +153,3 @@ class Run(WholeRunCase):
         self.assertIn("3 jobs left", self.prove()[1])
         self.fresh = True
         self.assertIn("less than 1 min left", self.prove()[1])
-
-
-if __name__ == "__main__":
-    unittest.main()

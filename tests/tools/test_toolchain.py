@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/toolchain. No network, no package manager, nothing installed.
-
-    python3 tests/tools/test_toolchain.py
 
 Tools, apt-get and apt-cache are small scripts in a folder that is the whole PATH; each writes a
 line when it runs, so that a test can also state what must not run.
@@ -25,7 +22,6 @@ from pathlib import Path
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel import install as toolchain
 from keel.base.files import sha256_of
@@ -620,7 +616,3 @@ class TheLockFile(Sandbox):
         for path in (LOCK_FILE, *Path(toolchain.__file__).parent.glob("*.py")):
             hosts = re.findall(r"\b[a-z0-9-]+\.(?:org|com|net|io)\b|https?:", path.read_text())
             self.assertEqual(hosts, [], path.name)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of what StrictDoc and LOBSTER make of the requirements, with the tools themselves.
-
-python3 tests/tools/test_tracing_tools.py
-"""
+"""Tests of what StrictDoc and LOBSTER make of the requirements, with the tools themselves."""
 
 from __future__ import annotations
 
@@ -111,7 +107,3 @@ class StrictDocTest(TracedProject):
         path.write_text(text, encoding="utf-8")
         with self.assertRaisesRegex(ToolError, "StrictDoc does not read "):
             self.export()
-
-
-if __name__ == "__main__":
-    unittest.main()

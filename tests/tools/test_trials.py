@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of how a mutant is tried: in which order of harnesses and engines, and what is kept.
-
-    python3 tests/tools/test_trials.py
 
 No prover is run.
 """
@@ -21,7 +18,6 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.base.verdict_cache import Cache
 from keel.mutate.trees import Trees
@@ -289,7 +285,3 @@ class Kept(TrialCase):
             Verdict(self.mutant(), status) for status in ("killed", "survived", "stillborn")
         ]
         self.assertIn("x          killed    1 of    2", table(verdicts, ()))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The types of the tools, by mypy with tools/mypy.ini, beside the libraries that they use.
-
-    python3 tests/tools/test_types.py
-"""
+"""The types of the tools, by mypy with tools/mypy.ini, beside the libraries that they use."""
 
 from __future__ import annotations
 
@@ -16,7 +12,6 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 TOOLS = ROOT / "tools"
-sys.path.insert(0, str(TOOLS))
 
 from keel.install import Toolchain
 
@@ -62,7 +57,3 @@ class TypesTest(unittest.TestCase):
             wrong = Path(folder) / "wrong.py"
             wrong.write_text("def half(number: int) -> int:\n    return number / 2\n")
             self.assertIn("wrong.py:2: error: Incompatible return value", self.mypy(str(wrong)))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The UBX decoder and what sets a receiver up, beside pyubx2, which encodes and parses the same."""
 
@@ -16,7 +15,6 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.run import output_of
 from keel.flight import device_frames as frames
@@ -288,7 +286,3 @@ class Messages(unittest.TestCase):
         self.assertEqual((parsed.inUBX, parsed.inNMEA, parsed.outUBX, parsed.outNMEA),
                          (1, 0, 1, 0))  # fmt: skip
         self.assertEqual(len(self.written()), len(expected.serialize()))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the verdicts that are kept: shared by all clones, only success, and nothing broken.
-
-    python3 tests/tools/test_verdicts.py
-"""
+"""Tests of the verdicts that are kept: shared by all clones, only success, and nothing broken."""
 
 from __future__ import annotations
 
@@ -18,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from keel.base.verdict_cache import Cache
 from test_prove import WRONG, WholeRunCase, cbmc_output
@@ -129,7 +124,3 @@ class Clones(WholeRunCase):
         self.verdicts()
         self.fresh = True
         self.assertEqual(self.verdicts(), {"known": 0, "fresh": 5})
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,6 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of .github/workflows, .ci/run and of what docs/ci.md shows: what they call exists, and the
 steps run, in a clone of another user as a container has it.
-
-    python3 tests/tools/test_workflow.py
 
 What is dear is not run but noted: provers, and the targets of make.
 """
@@ -23,9 +20,8 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
-from keel.base.packages import provide
+from keel.install.packages import provide
 
 provide("common")
 provide("ci")
@@ -358,7 +354,3 @@ class Steps(unittest.TestCase):
         for status, word in ((1, "not proved"), (2, "could not be tried (exit status 2)")):
             _, said = self.checked(PROVED=str(status))
             self.assertIn(f"--- tools/keel prove --kernel: FAILED, {word}\n", said)
-
-
-if __name__ == "__main__":
-    unittest.main()

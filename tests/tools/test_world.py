@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The Earth's field by place, held against the World Magnetic Model and against what is published.
-
-    python3 tests/tools/test_world.py
-"""
+"""The Earth's field by place, held against the World Magnetic Model and against what is published."""
 
 from __future__ import annotations
 
@@ -17,7 +13,6 @@ from pathlib import Path
 from typing import ClassVar
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
 from keel.base.run import output_of
 from copter_shim import copter_of
@@ -156,7 +151,3 @@ class World(unittest.TestCase):
         command = [sys.executable, ROOT / "tools/keel", "with", "world",
                    ROOT / "tools/keel", "world", "--check"]  # fmt: skip
         self.assertIn("is up to date", output_of(command))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Is each bound that Gappa must refuse a wrong one? proofs/*/wrong/*.g, in exact rationals.
 
@@ -116,7 +115,3 @@ class WrongBoundTest(unittest.TestCase):
         self.assertEqual(number("0x5.8p-24"), Fraction(11, 2**25))
         values = {"a": Fraction(2), "b": Fraction(3)}
         self.assertEqual(evaluate("a - (b - 0x1p-1) / 4 * -b", values, exactly), Fraction(31, 8))
-
-
-if __name__ == "__main__":
-    unittest.main()

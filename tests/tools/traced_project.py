@@ -13,9 +13,8 @@ from typing import Any
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
 
-from keel.base.packages import provide
+from keel.install.packages import provide
 
 provide("common")
 

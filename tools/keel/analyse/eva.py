@@ -34,7 +34,7 @@ from pathlib import Path
 from typing import Any
 
 from keel.base.arguments import Parser
-from keel.base.config import Table, Text, read_toml
+from keel.config import Table, Text, read_toml
 from keel.base.errors import ROOT, program
 from keel.base.files import sha256_of
 from keel.base.source import digest_of_tree, write_report
@@ -171,11 +171,11 @@ def judge(found: Mapping[str, Any], settings: Settings) -> Iterator[str]:
 def key_of(tools: Toolchain, root: Path) -> str:
     """All that the findings depend on."""
     found = tools.versions("prove")
-    own = Path(__file__).resolve().parent
+    own = Path(__file__).resolve().parents[1]
     return digest({
         "tools": {name: [found[name].version, found[name].sha256] for name in JUDGES},
-        "driver": digest_of_tree(own, ("common", "interpretation", "machdep")),
-        "own": [sha256_of(own / "eva.py"), sha256_of(own / "toolchain/provers.py")],
+        "driver": digest_of_tree(own, ("base", "analyse", "install/machdep")),
+        "own": [sha256_of(own / "config.py"), sha256_of(own / "install/provers.py")],
         "source": digest_of_tree(root, ("include", "src", DEMO)),
         "precision": PRECISION,
     })  # fmt: skip

@@ -9,7 +9,7 @@ import traceback
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 CANNOT = 2  # Exit status: what was to be checked could not be. 1 says that it was, and is not good.
 INTERRUPTED = 130

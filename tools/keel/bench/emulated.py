@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from keel.base.config import Field, Mistake, Table, read_toml
+from keel.config import Field, Mistake, Table, read_toml
 from keel.base.errors import ROOT, ToolError
 from keel.base.files import read_text, write_json, write_text
 from keel.base.source import VERDICT, verdict_of

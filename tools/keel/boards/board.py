@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-from keel.base.config import Field, Mistake, Table, Text, model_validator, read_toml
+from keel.config import Field, Mistake, Table, Text, model_validator, read_toml
 from keel.base.errors import ToolError, unknown
 
 BOARD_FILE = "board.toml"

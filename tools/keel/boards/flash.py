@@ -32,7 +32,7 @@ from keel.boards import px4
 from keel.boards.board import board_folder
 from keel.boards.built import BuiltImage, read_built
 from keel.base.arguments import Parser
-from keel.base.config import Field, Mistake, Table, Text, read_toml
+from keel.config import Field, Mistake, Table, Text, read_toml
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import sha256_of, write_json
 from keel.base.run import run

@@ -36,7 +36,7 @@ from keel.boards.register_databases import Databases, Metapac
 from keel.boards.register_headers import Fact, instances_of, read_facts, read_headers
 from keel.boards.sockets import PINS, socket_differences
 from keel.base.arguments import Parser
-from keel.base.config import Table, Text, read_toml
+from keel.config import Table, Text, read_toml
 from keel.base.errors import ROOT, program
 from keel.base.files import read_text, write_json
 from keel.install import Toolchain

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from keel.base.config import Table, Text, read_toml
+from keel.config import Table, Text, read_toml
 from keel.base.files import read_text
 
 SOCKETS = "specs/outputs.toml"

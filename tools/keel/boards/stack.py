@@ -46,7 +46,7 @@ from keel.boards.stack_bounds import (
     mistakes,
 )
 from keel.base.arguments import Parser
-from keel.base.config import read_toml
+from keel.config import read_toml
 from keel.base.errors import ROOT, program
 from keel.base.files import sha256_of
 from keel.base.source import write_report

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
-from keel.base.config import Field, Mistake, Table, Text
+from keel.config import Field, Mistake, Table, Text
 
 from keel.boards.call_graph import Code, Graph, StackError, complete
 

@@ -16,7 +16,7 @@ from keel.base.errors import ToolError
 
 from keel.c import source as csource
 
-KEEL = Path(__file__).resolve().parents[2]
+KEEL = Path(__file__).resolve().parents[3]
 STATE = "_state.h"
 # How long each job took where it was recorded, in seconds.
 RECORDED_TIMES = "proofs/times.json"

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from functools import cache, lru_cache
 
 from keel.base.errors import ToolError
-from keel.base.packages import provide
+from keel.install.packages import provide
 
 provide("c-syntax")
 

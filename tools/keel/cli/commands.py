@@ -55,7 +55,7 @@ COMMANDS = {
     "mutate": Command("keel.mutate.command"),
     "names": Command("keel.cli.names"),
     "new": Command("keel.prove.new_unit"),
-    "opinion": Command("keel.analyse.third_opinion"),
+    "opinion": Command("keel.evidence.third_opinion"),
     "parameters": Command("keel.copter.parameters"),
     "pictures": Command("keel.timing.pictures", "timing"),
     "prove": Command("keel.prove.command"),
@@ -83,7 +83,7 @@ def start_with(group: str, program: Sequence[str]) -> int:
     """Start Python anew with the packages of a group; returns only when they cannot be had."""
     try:
         tools = Toolchain()
-        tools.ensure(group, say=lambda line: print(line, file=sys.stderr))
+        tools.ensure(group)
         groups = [name for name in tools.lock.groups[group] if name.endswith("-packages")]
         packages = [tools.command(name)[0] for name in groups]
     except ToolchainError as error:

@@ -21,7 +21,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-from keel.base.config import ConfigError, Field, Mistake, Table, model_validator, parse_toml
+from keel.config import ConfigError, Field, Mistake, Table, model_validator, parse_toml
 from keel.base.errors import ROOT, ToolError
 from keel.base.files import read_text, write_text
 
@@ -436,6 +436,3 @@ def main(arguments: list[str] | None = None) -> int:
     print(f"parameters: {', '.join(stale) or 'nothing'} changed")
     return 0
 
-
-if __name__ == "__main__":
-    raise SystemExit(main())

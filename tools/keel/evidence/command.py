@@ -29,7 +29,7 @@ from pathlib import Path
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import write_text
-from keel.base.packages import provide
+from keel.install.packages import provide
 from keel.base.source import stamp_of
 from keel.install import Toolchain
 

@@ -78,5 +78,6 @@ def run(options: argparse.Namespace, root: Path = ROOT) -> int:
     return 0
 
 
-if __name__ == "__main__":
-    sys.exit(program("review", lambda: run(parse(None))))
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Entry point."""
+    return program("review", lambda: run(parse(arguments)))

@@ -12,6 +12,7 @@ Exit status: 0 when it was drawn, 2 when it could not be flown.
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -64,7 +65,7 @@ def draw(copter: Copter, path: Path) -> None:
     write_svg(path, figure)
 
 
-def main() -> int:
+def main(_arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
     def work() -> int:
         built = library.build(Toolchain(), BUILD)

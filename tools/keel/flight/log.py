@@ -21,7 +21,8 @@ from pathlib import Path
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import read_text
-from keel.flight import log_plots, tables, ulog
+from keel.flight import log_plots, tables
+from keel.timeline import ulog
 
 TOLD = 20  # Places of damage, one by one.
 TASKS = ROOT / "examples/urpilot/urpilot_tasks.c"

@@ -15,6 +15,7 @@ from __future__ import annotations
 import sys
 import tomllib
 from collections.abc import Callable, Mapping
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -146,7 +147,7 @@ def shown(found: list[Margins], make: Callable[..., Table] = Table) -> Table:
     return table
 
 
-def main() -> int:
+def main(_arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
     found = all_margins()
     Console().print(shown(found))

@@ -37,7 +37,7 @@ from keel.flight.tables import console
 from keel.flight.varied import HEALTHY, digest_of
 
 SENT = ("include", "src", "bsp", "examples", "tools")
-PROGRAM = ["tools/keel", "with", "fly", "-m", "flight.orders"]
+PROGRAM = ["tools/keel", "with", "fly", "-m", "keel.flight.orders"]
 ORDER = 5  # Flights in an order.
 RANKS = (50.0, 90.0, 99.0, 100.0)
 TOLD = {

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from keel.base.config import (
+from keel.config import (
     ConfigError,
     Field,
     Mistake,

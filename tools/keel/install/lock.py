@@ -12,7 +12,7 @@ from pathlib import Path
 
 from keel.base.errors import ToolError, unknown
 
-TOOLS_DIR = Path(__file__).resolve().parents[1]
+TOOLS_DIR = Path(__file__).resolve().parents[2]
 LOCK_FILE = TOOLS_DIR / "toolchain.lock.json"
 
 

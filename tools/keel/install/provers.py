@@ -13,7 +13,7 @@ import shlex
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-MACHDEP_FILE = Path(__file__).resolve().parents[1] / "machdep" / "keel_cortex_m7.ml"
+MACHDEP_FILE = Path(__file__).resolve().with_name("machdep") / "keel_cortex_m7.ml"
 MACHDEP = "keel_cortex_m7"
 
 # The target, as the firmware is built for it. Proof, firmware and the check of the machdep must

@@ -33,7 +33,7 @@ from pathlib import Path
 
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
-from keel.base.packages import provide
+from keel.install.packages import provide
 from keel.base.run import run
 from keel.lint import record
 from keel.lint.house import check_house

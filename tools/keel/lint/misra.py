@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Annotated, Literal, NamedTuple
 
-from keel.base.config import Field, Mistake, Table, read_toml
+from keel.config import Field, Mistake, Table, read_toml
 from keel.base.errors import ToolError
 from keel.base.files import read_text
 from keel.base.run import output_of, run

@@ -52,7 +52,7 @@ from keel.mutate.operators import Mutant, generate
 from keel.mutate.mutation import BY_CBMC, BY_WP, CONFIRM, DRIVER, Tools, Trial
 from keel.c.project import ProjectError, RECORDED_TIMES, Unit, find_units
 from keel.judge.settings import read_exceptions
-from keel.prove.verdict_keys import judges_digest, own_digest, prover_answers, tool_stamp
+from keel.prove.verdict_keys import mutants_digest, own_digest, prover_answers, tool_stamp
 from keel.prove.times import Times
 from keel.install import TARGET_FLAGS, Toolchain, ToolchainError, small_environment
 
@@ -138,8 +138,8 @@ def tools_for(toolchain: Toolchain, root: Path, scratch: Path, trying: bool) -> 
 def stamp_of(toolchain: Toolchain) -> dict[str, str]:
     """What identifies the tools of a verdict."""
     tools = tool_stamp(toolchain.versions("prove"))
-    by_cbmc = digest([judges_digest("cbmc"), mutant_execution.judge()])
-    judges = {BY_CBMC: by_cbmc, BY_WP: judges_digest("wp")}
+    by_cbmc = digest([mutants_digest("cbmc"), mutant_execution.judge()])
+    judges = {BY_CBMC: by_cbmc, BY_WP: mutants_digest("wp")}
     return {**tools, **judges, DRIVER: own_digest("cbmc")}
 
 

@@ -14,18 +14,21 @@ from pathlib import Path
 
 from keel.install import Found
 
-OWN = Path(__file__).resolve().parent
-# What reads C, its parser being pinned, and how provers are started: for which target, under which
-# environment, with which limits.
-READERS = ("csource.py", "syntax.py", "requirements.txt", "../install/provers.py")
-# What asks one engine, and reads its answers.
-SERVANTS = {
+PACKAGE = Path(__file__).resolve().parents[1]
+# What every verdict rests on: what reads C, its parser being pinned, and how provers are started:
+# for which target, under which environment, with which limits.
+READERS = ("c/source.py", "c/syntax.py", "../requirements/c-syntax.txt", "install/provers.py")
+# And the room of what judges, whole.
+JUDGE = "judge"
+# What asks one engine.
+ASKERS = {
     "wp": (
-        "wp.py", "wplog.py", "verdict.py", "targets.py", "frama_modules.py", "ask_recorded.ml",
-        "find_contradictions.ml", "find_assumptions.ml", "linear.py", "../toolchain/limits.py",
+        "engines/wp.py", "engines/frama_modules.py", "engines/ask_recorded.ml",
+        "engines/find_contradictions.ml", "engines/find_assumptions.ml",
+        "engines/linear_filter.py", "install/prover_limits.py",
     ),
-    "cbmc": ("cbmc.py", "cbmc_answers.py", "cbmc_build.py", "harness.py", "wrong.py"),
-    "gappa": ("gappa.py",),
+    "cbmc": ("engines/cbmc.py", "engines/cbmc_build.py"),
+    "gappa": ("engines/gappa.py",),
 }
 # The tools that an engine never starts. The compiler preprocesses for all of them; Z3 solves for
 # CBMC, too.
@@ -39,9 +42,14 @@ NOT_STARTED = {
 # What judges a mutant: how each engine is asked, how its answers are read, what follows. What finds
 # functions and harnesses, makes mutants or prints is none of these: the key of a verdict has what
 # it finds, and a report its list of mutants.
-JUDGES = {
-    "cbmc": ("mutation.py", "mutant_small.py", "cbmc.py", "cbmc_answers.py", "cbmc_build.py"),
-    "wp": (*SERVANTS["wp"], "../install/provers.py"),
+MUTANT_JUDGES = {
+    "cbmc": (
+        "mutate/mutation.py", "mutate/small_harnesses.py", "judge/cbmc_answers.py", *ASKERS["cbmc"]
+    ),
+    "wp": (
+        "judge/wp_log.py", "judge/wp_targets.py", "judge/wp_verdict.py", "install/provers.py",
+        *ASKERS["wp"],
+    ),
 }
 
 
@@ -79,14 +87,20 @@ def headers_digest(folders: Iterable[Path]) -> str:
     return state.hexdigest()
 
 
-def own_digest(engine: str, folder: Path = OWN) -> str:
-    """SHA-256 over the judges of an engine's verdicts."""
-    return _digest_of(folder / name for name in (*READERS, *SERVANTS[engine]))
+def judges(engine: str, package: Path = PACKAGE) -> list[Path]:
+    """The files of these tools that a kept verdict of an engine rests on."""
+    room = sorted((package / JUDGE).glob("*.py"))
+    return [*(package / name for name in (*READERS, *ASKERS[engine])), *room]
 
 
-def judges_digest(engine: str, folder: Path = OWN) -> str:
+def own_digest(engine: str, package: Path = PACKAGE) -> str:
+    """SHA-256 over what judges an engine's verdicts."""
+    return _digest_of(judges(engine, package))
+
+
+def mutants_digest(engine: str, package: Path = PACKAGE) -> str:
     """SHA-256 over what judges mutants by an engine."""
-    return _digest_of(folder / name for name in JUDGES[engine])
+    return _digest_of(package / name for name in MUTANT_JUDGES[engine])
 
 
 def prover_answers(root: Path, stamp: Mapping[str, str]) -> Path:

@@ -36,8 +36,11 @@ KNOWN = "qualified"  # In the user's cache.
 GROUPS = ("prove", "lint", "test", "coverage", "stack", "target")
 # What asks the tools, and the board that is run on the emulator.
 HOW = (
-    "bsp", "tools/boards", "tools/common", "tools/interpretation", "tools/machdep", "tools/proofs",
-    "tools/qualification", "tools/suites",
+    "bsp",
+    *(f"tools/keel/{room}" for room in (
+        "analyse", "audit", "base", "boards", "c", "engines", "install/machdep", "judge", "prove",
+        "qualify", "test",
+    )),
 )  # fmt: skip
 STARTS = ROOT / "tools/keel/install/provers.py"
 

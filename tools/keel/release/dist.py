@@ -32,7 +32,7 @@ from typing import Any
 from keel.base.errors import ToolError
 from keel.base.git import commit_of, git
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[3]
 LOCK = "tools/toolchain.lock.json"
 VERSION = "include/keel/version.h"
 PINNED = re.compile(r"^([\w.-]+)==(\S+?)(?: |$)", re.MULTILINE)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from keel.base.errors import ToolError
-from keel.flight import ulog
+from keel.timeline import ulog
 from keel.replay.recording import Recording, Series, checked, unit_quaternions
 
 INVALID = np.iinfo(np.int32).max  # What PX4 has for a time that is none.

@@ -31,7 +31,7 @@ from typing import Annotated
 
 from keel.base.arguments import Parser
 from keel.base.build import Build, source_files
-from keel.base.config import Field, Mistake, Table, Text, read_toml
+from keel.config import Field, Mistake, Table, Text, read_toml
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import read_text
 from keel.base.run import Ended, output_of, run

@@ -24,7 +24,7 @@ from typing import Any
 
 from keel.base.arguments import Parser
 from keel.base.build import Build, source_files
-from keel.base.config import Table, Text, read_toml
+from keel.config import Table, Text, read_toml
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.run import output_of
 from keel.base.source import write_report

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
 
-from keel.base.config import Field, Mistake, Table, Text, read_toml
+from keel.config import Field, Mistake, Table, Text, read_toml
 from keel.base.errors import ROOT
 from keel.install.lock import Lock
 

@@ -40,7 +40,7 @@ from keel.boards.conditions import BLOCK, BRANCH, Conditional, Conditions, SELEC
 from keel.boards.elf import Symbol, read_contents
 from keel.boards.lines import read_lines
 from keel.base.arguments import Parser
-from keel.base.config import Field, Table, Text, read_toml
+from keel.config import Field, Table, Text, read_toml
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import read_text
 from keel.base.run import Ended

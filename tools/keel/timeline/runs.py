@@ -14,7 +14,7 @@ import numpy as np
 
 from keel.base.errors import ROOT, ToolError
 from keel.base.files import read_text
-from keel.flight import ulog
+from keel.timeline import ulog
 
 PRIORITIES = "include/keel/rtos/priority.h"
 FIRST, PROMOTED = 1, 2  # Of a run's flags, as trace.h has them.

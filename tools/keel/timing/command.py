@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from keel.base.arguments import Parser
-from keel.base.config import ConfigError
+from keel.config import ConfigError
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import write_json
 from keel.install import Toolchain

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-from keel.base.config import ConfigError, Field, Mistake, Table, model_validator, parse_toml
+from keel.config import ConfigError, Field, Mistake, Table, model_validator, parse_toml
 from keel.base.files import read_text
 
 # The kernel's own limits: priority.h (KEEL_PERIOD_LIMIT_US, KEEL_PRIORITY_*), queue.h

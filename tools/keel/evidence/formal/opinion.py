@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
-from keel.base.config import Field, Table, Text, read_toml
+from keel.config import Field, Table, Text, read_toml
 from keel.base.errors import ToolError
 from keel.c import source as csource
 from keel.judge.harness import Harness

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from keel.base.config import Field, Table, Text, read_toml
+from keel.config import Field, Table, Text, read_toml
 from keel.base.verdict_cache import digest, digest_of_files
 from keel.judge.goals import read_goals
 from keel.judge.harness import MODELS

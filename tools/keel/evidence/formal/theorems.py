@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from keel.base.config import Table, Text, read_toml
+from keel.config import Table, Text, read_toml
 
 from keel.evidence.formal.goals import requirements_in
 from keel.evidence.part import Item

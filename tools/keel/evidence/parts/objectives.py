@@ -13,8 +13,8 @@ from datetime import date
 from pathlib import Path
 from typing import Literal
 
-from keel.base import config
-from keel.base.config import ConfigError, Text, place_of, read_toml
+from keel import config
+from keel.config import ConfigError, Text, place_of, read_toml
 
 from keel.evidence.assemble import KINDS, PARTS
 from keel.evidence.part import Context, Item, Part, State, Table

@@ -11,7 +11,7 @@ from datetime import date
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
-from keel.base.config import Field, Mistake, Table, Text, read_toml
+from keel.config import Field, Mistake, Table, Text, read_toml
 from keel.install import Found, Toolchain
 from keel.install.lock import Lock, Spec
 

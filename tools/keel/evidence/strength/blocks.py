@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from keel.base.config import Table, Text, model_validator, read_toml
+from keel.config import Table, Text, model_validator, read_toml
 from keel.base.files import read_text
 from keel.c import source as csource
 from keel.judge.cbmc_answers import POINTER_CALL

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from keel.base import config
-from keel.base.config import Field, Text, read_toml
+from keel import config
+from keel.config import Field, Text, read_toml
 from keel.base.errors import ROOT
 from keel.base.files import read_text
 

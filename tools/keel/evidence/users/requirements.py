@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated
 
-from keel.base import config
-from keel.base.config import Field, Text, read_toml
+from keel import config
+from keel.config import Field, Text, read_toml
 
 from keel.evidence.users.labels import requirements_of
 from keel.evidence.part import Context, Item, Part, State

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from keel.base.files import write_json
-from keel.base.packages import provide
+from keel.install.packages import provide
 
 from keel.evidence.part import Context, Part, Table
 

@@ -74,6 +74,12 @@ def ask_all(root: Path, tools: Toolchain, fresh: bool) -> dict[str, dict[str, An
     return answers
 
 
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Entry point."""
+    end_as_by_ctrl_c()
+    return program("opinion", lambda: run(arguments))
+
+
 def run(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     """Ask, and report; the exit status."""
     parser = argparse.ArgumentParser(prog="third_opinion", description="Ask ESBMC.")
@@ -92,7 +98,3 @@ def run(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     print(f"ESBMC agrees on {agreed} of {len(answers)} harnesses")
     return 0 if good else 1
 
-
-if __name__ == "__main__":
-    end_as_by_ctrl_c()
-    sys.exit(program("opinion", run))

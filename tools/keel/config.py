@@ -26,7 +26,7 @@ from typing import Annotated, Any, TypeVar
 
 from keel.base.errors import ROOT, ToolError, nearest
 from keel.base.files import read_text
-from keel.base.packages import provide
+from keel.install.packages import provide
 from keel.base.toml_lines import KeyPath, line_index, line_of
 
 provide()
