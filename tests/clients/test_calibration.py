@@ -14,12 +14,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from keel.flight import library
-from keel.flight.sensors import body_to_earth
-from keel.flight.library import Copter, checks_of
-from keel.flight.plants import Plant, Truth
 from pymavlink.dialects.v20 import common as mavlink
 from test_telemetry import Rig, armed, value_in
+
+from keel.flight import library
+from keel.flight.library import Copter, checks_of
+from keel.flight.plants import Plant, Truth
+from keel.flight.sensors import body_to_earth
 from keel.install import Toolchain
 
 ACCEPTED, REJECTED, UNSUPPORTED = 0, 1, 3

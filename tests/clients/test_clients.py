@@ -19,10 +19,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from keel.timeline import ulog
 from other_values import defaults, others
 from pymavlink import mavparm, mavutil
 from qgroundcontrol import Driver, QGroundControl
+
+from keel.timeline import ulog
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 PARAMETERS = json.loads((TOOLS.parent / "examples/copter/parameters.json").read_text("utf-8"))
@@ -508,7 +509,7 @@ def test_what_is_typed_is_answered_in_the_terminal(tmp_path: Path) -> None:
                                 ):  # fmt: skip
             sim.stdin.write(f"{typed}\n".encode())
             sim.stdin.flush()
-            wait_for(lambda: expected in (tmp_path / "log").read_text(), typed)  # noqa: B023
+            wait_for(lambda: expected in (tmp_path / "log").read_text(), typed)
         sim.stdin.close()
         time.sleep(0.5)
         assert sim.poll() is None

@@ -15,11 +15,12 @@ from typing import Any
 from unittest import mock
 
 import pytest
-from keel.flight import library
-from keel.flight.library import Copter, Link
 from pymavlink import mavutil
 from pymavlink.dialects.v20 import development as mavlink
 from test_telemetry import ANGLE, FLYING, LOW, MODE_SWITCH, REAL32, THROTTLE, Rig, in_flight
+
+from keel.flight import library
+from keel.flight.library import Copter, Link
 from keel.install import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -18,13 +18,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from pymavlink.dialects.v20 import common as mavlink
+from test_telemetry import Rig
+
 from keel.flight import library
 from keel.flight.keyboard import Keyboard
 from keel.flight.library import Copter, Key, Link
-from pymavlink.dialects.v20 import common as mavlink
-from test_telemetry import Rig
-from keel.timeline import runs
 from keel.install import Toolchain
+from keel.timeline import runs
 
 SHELL, OTHER_DEVICE = 10, 0
 REPLY, RESPOND, EXCLUSIVE, MULTI = 1, 2, 4, 16

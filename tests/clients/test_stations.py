@@ -18,13 +18,15 @@ from typing import Any
 from unittest import mock
 
 import pytest
-from keel.flight import device_frames as frames, library
-from keel.timeline import ulog
-from keel.flight.library import Copter, Link
 from pymavlink.dialects.v20 import common as mavlink
 from qgroundcontrol import Driver, Met, QGroundControl, Reply, kind_of, payload_of
 from test_telemetry import Rig
+
+from keel.flight import device_frames as frames
+from keel.flight import library
+from keel.flight.library import Copter, Link
 from keel.install import Toolchain
+from keel.timeline import ulog
 
 ROOT = Path(__file__).resolve().parents[2]
 ACCEPTED, UNSUPPORTED, INVALID_SEQUENCE, DENIED = 0, 3, 13, 2

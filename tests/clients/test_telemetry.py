@@ -16,15 +16,16 @@ from typing import Any
 from unittest import mock
 
 import pytest
+from other_values import others
+from pymavlink.dialects.v20 import development as mavlink
+
 from keel.flight import judge, library, mujoco_plant, scenario, sensors
-from keel.timeline import ulog
 from keel.flight.library import Copter, Key, Link
 from keel.flight.loop import Flight, Order, fly
 from keel.flight.pilot import Bystander, Pilot, Sight
 from keel.flight.sensors import TEMPERATURES
-from other_values import others
-from pymavlink.dialects.v20 import development as mavlink
 from keel.install import Toolchain
+from keel.timeline import ulog
 
 ACCEPTED, REJECTED, DENIED, UNSUPPORTED = 0, 1, 2, 3
 DISARMED, ARMED, FLYING, HOLDING = 0, 1, 2, 3
@@ -829,8 +830,8 @@ def test_the_messages_are_up_to_date() -> None:
 
 
 def test_definitions_that_are_none_are_refused(tmp_path: Path) -> None:
-    from keel.copter import messages
     from keel.base.errors import ToolError
+    from keel.copter import messages
 
     with pytest.raises(ToolError, match=r"minimal\.xml"):
         messages.read(tmp_path)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import pytest
+
 from keel.flight import library
 from keel.flight.library import Copter
 from keel.install import Toolchain

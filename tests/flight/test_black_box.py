@@ -18,14 +18,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from keel.flight import library, loop, scenario
-from keel.flight.library import Copter
-from keel.flight.loop import Order
 from pyulog import ULog
-from keel.install import Toolchain
 
 from keel.base.errors import ROOT
 from keel.base.run import output_of
+from keel.flight import library, loop, scenario
+from keel.flight.library import Copter
+from keel.flight.loop import Order
+from keel.install import Toolchain
 
 SECTOR, STEP_US, SYNC_US, SECOND_US = 512, 10_000, 500_000, 1_000_000
 CHUNK = 1536  # What the log's task hands over in a run.

@@ -14,10 +14,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from keel.boards import chip_model
-from keel.boards import firmware
 import pytest
-from keel.boards import stack
+from pyulog import ULog
+from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
+
+from keel.base.errors import ROOT
+from keel.boards import chip_model, firmware, stack
 from keel.boards.board import application_of, read_board
 from keel.boards.card import SdCard
 from keel.boards.chip import Chip
@@ -25,11 +27,7 @@ from keel.boards.processor import Processor
 from keel.boards.pulses import LOW, Pulse, State
 from keel.boards.rebuilt import SOURCES
 from keel.boards.sockets import read_sockets
-from pyulog import ULog
-from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
 from keel.install import Toolchain
-
-from keel.base.errors import ROOT
 
 __all__ = ["pyfatfs"]  # A fixture.
 BOARDS = ("fmuv5", "nucleo_f767zi")

@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+
 from keel.flight import loop, plants, scenario
 from keel.flight.library import Copter
 from keel.flight.loop import Order

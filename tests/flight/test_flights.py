@@ -11,9 +11,10 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from keel.flight import command as fly
 import pytest
+
 from keel.base.errors import ROOT
+from keel.flight import command as fly
 from keel.flight import library, loop, montecarlo, plants, scenario, varied
 from keel.flight.library import Copter
 from keel.flight.loop import Order

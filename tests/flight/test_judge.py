@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from keel.flight import judge
 from keel.flight.library import modes, states
 from keel.flight.loop import TRUTH, Trace

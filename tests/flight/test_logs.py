@@ -12,20 +12,19 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from keel.flight import log as log_tool
 import numpy as np
 import pytest
+from pyulog import ULog
+
+from keel.base.errors import ROOT, ToolError
 from keel.flight import library, log_plots, loop, scenario
-from keel.timeline import ulog
+from keel.flight import log as log_tool
 from keel.flight.library import Copter, Link
 from keel.flight.loop import Order, Trace
 from keel.flight.sensors import TEMPERATURES
 from keel.flight.spectrum import spectrum
-from pyulog import ULog
-from keel.timeline import runs
 from keel.install import Toolchain
-
-from keel.base.errors import ROOT, ToolError
+from keel.timeline import runs, ulog
 
 SHORT = """description = "up and down"
 duration_s = 8.0

@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 import pytest
+
 from keel.base.errors import ROOT
 from keel.flight import margins, scenario
 from keel.flight.library import Copter

@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 
 import pytest
+
 from keel.flight import plants
 from keel.flight.plants import Airframe, Plant, Truth
 

@@ -13,19 +13,17 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from keel.boards import chip_model
-from keel.boards import firmware
 import numpy as np
 import pytest
-from keel.boards import stack
+from pyulog import ULog
+from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
+
+from keel.base.errors import ROOT
+from keel.boards import chip_model, firmware, stack
 from keel.boards.card import SdCard
 from keel.boards.chip import Chip
 from keel.boards.rebuilt import SOURCES
-from pyulog import ULog
-from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
 from keel.install import Toolchain
-
-from keel.base.errors import ROOT
 
 __all__ = ["pyfatfs"]  # A fixture.
 APPLICATION = ["examples/recorder"]

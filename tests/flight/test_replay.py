@@ -14,15 +14,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from keel.replay import command as replay
+
+from keel.base.errors import ToolError
 from keel.flight import library, loop, scenario
 from keel.flight.library import Copter
 from keel.flight.loop import Order
+from keel.install import Toolchain
+from keel.replay import command as replay
 from keel.replay import copter as run
 from keel.replay import figures, readers, recording, turns
-from keel.install import Toolchain
-
-from keel.base.errors import ToolError
 
 GRAVITY = 9.80665
 FIELD = (20.0, -3.0, -40.0)  # In uT: x, y, z up, so Keel's north is 20 and its east 3.

@@ -6,10 +6,11 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from keel.flight import command as fly
 import pytest
-from keel.config import ConfigError
+
 from keel.base.errors import ToolError
+from keel.config import ConfigError
+from keel.flight import command as fly
 from keel.flight import scenario
 
 GOOD = """description = "x"

@@ -9,10 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from keel.flight import device_frames as frames, sensors, wind
+
+from keel.flight import device_frames as frames
+from keel.flight import sensors, wind
 from keel.flight.plants import HOME_LATITUDE, HOME_LONGITUDE, NORTH_M, Truth
 from keel.flight.power import Battery
-from keel.flight.receivers import RADIO, Receiver, SATELLITES
+from keel.flight.receivers import RADIO, SATELLITES, Receiver
 from keel.flight.scenario import Place, Quality
 from keel.flight.sensors import Broken, Inertial, Slow
 
@@ -59,7 +61,7 @@ def memory() -> Any:
     return np.zeros(1, dtype=MEMORY)[0]
 
 
-def inertial(quality: Quality = Quality(), seed: int = 5) -> tuple[Any, Inertial]:  # noqa: B008
+def inertial(quality: Quality = Quality(), seed: int = 5) -> tuple[Any, Inertial]:
     """Three units."""
     there = memory()
     return there, Inertial(there["imu"], np.random.Generator(np.random.PCG64(seed)), quality)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+
 from keel.flight import loop, plants, scenario
 from keel.flight.library import Copter
 from keel.flight.loop import Flight, Order

@@ -10,14 +10,14 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from keel.flight import log as log_tool
 import numpy as np
 import pytest
-from keel.flight import log_plots
-from keel.timeline import ulog
 from pyulog import ULog
 
 from keel.base.errors import ToolError
+from keel.flight import log as log_tool
+from keel.flight import log_plots
+from keel.timeline import ulog
 
 FLIPS = 1500
 SYNC = bytes.fromhex("2f731320250cbb12")

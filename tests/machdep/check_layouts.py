@@ -29,9 +29,10 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
 from check_machdep import compiler_values, frama_c_values, output_of, words_of
-from keel.c.source import read
+
 from keel.c.declarations import Structures, structures
 from keel.c.project import ProjectError, include_options
+from keel.c.source import read
 from keel.c.syntax import Node, found, parse, written
 from keel.install import MACHDEP_FILE, Toolchain, ToolchainError
 

@@ -17,8 +17,8 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from keel.config import ConfigError
 from keel.base.files import write_json
+from keel.config import ConfigError
 from keel.timing.taskset import TaskSet, parse
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -11,14 +11,16 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 from sets import random_set
+
+from keel.install import Toolchain
 from keel.timing import board
 from keel.timing.board import BoardError, Experiment, Result
 from keel.timing.deviation import Together, drift, excuse, turn_ceiling
 from keel.timing.experiments import (
-    Findings,
-    Runner,
     SECOND,
     SIGMA_GOALS,
+    Findings,
+    Runner,
     at_goal_cost,
     class_sigma,
     paper_class_sigma,
@@ -30,7 +32,6 @@ from keel.timing.phases import spread, without_phases
 from keel.timing.scheduler_bounds import TICK, realtime_bound
 from keel.timing.taskset import Chain, Costs, Task, TaskSet, read
 from keel.timing.textbook_tests import fixed_priority
-from keel.install import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]
 FREE = Costs(guard_us=0, pass_us=0, dispatch_us=0)

@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+
 from keel.timing.analysis import Gaps, analyse, gaps_of
 from keel.timing.phases import without_phases
 from keel.timing.report import verdict

@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+
 from keel.timing.analysis import analyse
 from keel.timing.taskset import Task, TaskSet, read
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
+
 from keel.timing.analysis import Analysis, analyse
 from keel.timing.phases import without_phases
 from keel.timing.taskset import read

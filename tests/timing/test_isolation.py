@@ -13,14 +13,15 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+
+from keel.install import Toolchain
 from keel.timing import board, ctable
-from keel.timing.command import main
 from keel.timing.analysis import admission_reasons, analyse
 from keel.timing.board import Experiment, Result
-from keel.timing.isolation import Isolation, Start, UNPROMOTED, WHATEVER
+from keel.timing.command import main
+from keel.timing.isolation import UNPROMOTED, WHATEVER, Isolation, Start
 from keel.timing.report import isolation_verdict
 from keel.timing.taskset import Costs, Task, TaskSet, parse
-from keel.install import Toolchain
 
 SETS = int(os.environ.get("KEEL_RANDOM_SETS", "10000")) // 10
 FREE = Costs(guard_us=20, pass_us=0, dispatch_us=0)

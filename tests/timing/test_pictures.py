@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from keel.timing import campaign
-from keel.timing import pictures
 import pytest
-from keel.timing.campaign_plots import Flight, plot_faults, plot_figure14
+
 from keel.base.errors import ToolError
+from keel.timing import campaign, pictures
+from keel.timing.campaign_plots import Flight, plot_faults, plot_figure14
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -13,18 +13,20 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from keel.base.errors import ROOT, ToolError
-from keel.install.packages import provide
 from logged import FORMATS, LOOP, LOW, SAMPLE, message, run, task, written
+
+from keel.base.errors import ROOT, ToolError
 from keel.install import Toolchain
+from keel.install.packages import provide
 
 provide("schedule")
-from keel.timeline import command as schedule
 from perfetto.protos.perfetto.trace.perfetto_trace_pb2 import (
     Trace,
     TrackDescriptor,
     TrackEvent,
 )
+
+from keel.timeline import command as schedule
 from keel.timeline import picture, runs, table
 
 SECONDS = 3

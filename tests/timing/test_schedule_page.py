@@ -4,17 +4,18 @@ zoomed by mouse, wheel and keys, and told in words."""
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from logged import LOOP, SAMPLE, run, task, written
+
 from keel.base.errors import ROOT
 from keel.install.packages import provide
-from logged import LOOP, SAMPLE, run, task, written
 
 provide("schedule")
 from browser import Browser
+
 from keel.timeline import page, runs
 
 FAULTS = (ROOT / "tests/tools/page_faults.js").read_text(encoding="utf-8")

@@ -16,6 +16,8 @@ from pathlib import Path
 
 import pytest
 from sets import random_set, with_chains
+
+from keel.install import Toolchain
 from keel.timing import board
 from keel.timing.analysis import admission_reasons, analyse
 from keel.timing.board import Experiment, Result
@@ -23,7 +25,6 @@ from keel.timing.phases import spread
 from keel.timing.scheduler_bounds import Bounds, bounds_of, collisions, declared, needs, path_bound
 from keel.timing.taskset import Task, TaskSet
 from keel.timing.textbook_tests import fixed_priority, freshness, hyperperiod, jeffay, reaction
-from keel.install import Toolchain
 
 SETS = int(os.environ.get("KEEL_RANDOM_SETS", "10000"))
 LOADS = (0.15, 0.3, 0.45, 0.6, 0.75, 0.9)

@@ -7,10 +7,11 @@ import os
 from pathlib import Path
 
 import pytest
-from keel.config import ConfigError
+from fuzz_taskset import fuzz
+
 from keel.base.errors import ToolError
 from keel.base.toml_lines import line_index
-from fuzz_taskset import fuzz
+from keel.config import ConfigError
 from keel.timing.taskset import parse, read
 
 ROOT = Path(__file__).resolve().parents[2]

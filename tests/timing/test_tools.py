@@ -13,19 +13,20 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from keel.config import ConfigError
 from fuzz_taskset import fuzz
+
+from keel.config import ConfigError
+from keel.install import Toolchain
 from keel.timing import ctable, taskset
-from keel.timing.command import main
 from keel.timing.analysis import NOT_SHOWN, analyse
 from keel.timing.board import for_capacity
+from keel.timing.command import main
 from keel.timing.phases import spread, without_phases
 from keel.timing.report import plot_responses, plot_utilisation, verdict
 from keel.timing.scheduler_bounds import collisions, declared, needs, promotion_wait
 from keel.timing.synthesis import LADDER, SynthesisError, keeps_limits, synthesize, with_periods
 from keel.timing.taskset import Costs, Task, TaskSet, parse, read
 from keel.timing.textbook_tests import hyperperiod
-from keel.install import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]
 URPILOT = ROOT / "specs/tasksets/urpilot.toml"

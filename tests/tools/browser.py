@@ -14,9 +14,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 FLAGS = ("--remote-debugging-pipe", "--disable-gpu", "--no-first-run", "--mute-audio",
          "--disable-background-networking", "--disable-dev-shm-usage")  # fmt: skip

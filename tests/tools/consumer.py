@@ -13,9 +13,9 @@ import unittest
 from collections.abc import Sequence
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 TIMEOUT_S = 300
 CORTEX_M7 = (

@@ -11,14 +11,11 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import io
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
 from unittest import mock
-
-ROOT = Path(__file__).resolve().parents[2]
 
 from keel.install.packages import provide
 
@@ -29,15 +26,17 @@ import test_requirements_trace as small
 from evidence_proofs import report_of
 from evidence_sample import the_program
 
-from keel.boards.semantics import COMPILED_AS_PROVED
 from keel.base.files import write_json, write_text
 from keel.base.junit import JUnitSuite, write_junit
 from keel.base.source import STAMP, VERDICT, stamp_of
+from keel.boards.semantics import COMPILED_AS_PROVED
 from keel.evidence.assemble import assemble
 from keel.evidence.part import Context
 from keel.evidence.parts import tools as part_tools
 from keel.install import Found, Toolchain
 from keel.install.lock import Spec
+
+ROOT = Path(__file__).resolve().parents[2]
 
 # Those that faults of a project or of a run show in; the others speak of Keel's documents.
 PARTS = ("requirements", "trace", "formal", "strength", "tests", "object", "tools",

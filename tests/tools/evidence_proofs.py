@@ -18,9 +18,9 @@ provide()
 from copied_tree import CopiedTree
 
 from keel.base.source import STAMP
+from keel.c.project import Unit, find_units
 from keel.evidence.part import Context, Part
 from keel.judge.goals import read_goals
-from keel.c.project import Unit, find_units
 
 ROOT = Path(__file__).resolve().parents[2]
 NOW = {"commit": "c", "tree": "t", "product": "p"}

@@ -13,8 +13,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.install.packages import provide
 
 provide("common")
@@ -24,6 +22,8 @@ from keel.base.source import STAMP as MADE_FROM
 from keel.evidence.assemble import Assembled, assemble
 from keel.evidence.package import Source
 from keel.evidence.part import Context, Item, Part, Table
+
+ROOT = Path(__file__).resolve().parents[2]
 
 STAMP = {"commit": "c" * 40, "tree": "d" * 64, "product": "e" * 64}
 SOURCE = Source(STAMP, 1_750_000_000)

@@ -13,22 +13,21 @@ import io
 import platform
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
 from collections import Counter
 from pathlib import Path
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.bench import command as bench
-from keel.bench.command import Host
-from keel.bench import assembly, callgrind, emulated, tables
-from keel.bench.callgrind import Dump, Kind
-from keel.bench.tables import Goal, Target
 from keel.base.errors import ToolError
+from keel.bench import assembly, callgrind, emulated, tables
+from keel.bench import command as bench
+from keel.bench.callgrind import Dump, Kind
+from keel.bench.command import Host
+from keel.bench.tables import Goal, Target
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 # Three dumps as callgrind writes them. In the first, keel_step's own 40 + 30 instructions stand
 # around a call whose cost (7) is the clock's; the last has no label, so it is not ours.

@@ -8,18 +8,17 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
+from keel.base.errors import ToolError
 from keel.bench import emulated
 from keel.bench.emulated import Budget, Figure
-from keel.base.errors import ToolError
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 OUTPUT = """\
 bench known passes 3 instructions 16 longest 10

@@ -3,16 +3,15 @@
 
 from __future__ import annotations
 
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.run import output_of
 from keel.boards.firmware import FLAGS, WARNINGS
 from keel.install import TARGET_FLAGS, Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 PROGRAM = """\
 #include "fatfs/black_box.h"

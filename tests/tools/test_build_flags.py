@@ -8,12 +8,10 @@ from __future__ import annotations
 import json
 import re
 import shutil
-import sys
-import unittest
 from pathlib import Path
 
-
 from consumer import AS_FOLDER, CORTEX_M7, ROOT, ConsumerTest, answer
+
 from keel.install import TARGET_FLAGS
 
 RECKLESS = "-Ofast -ffast-math -ffp-contract=fast -fassociative-math -freciprocal-math"

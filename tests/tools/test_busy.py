@@ -6,21 +6,21 @@ They run Frama-C and CBMC, believe no verdict that is known, and are skipped wit
 
 from __future__ import annotations
 
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from endless import CORES, busy
+
+from keel.base.jobs import Runner
+from keel.c.project import find_units
 from keel.engines import cbmc, wp
+from keel.install import Toolchain, ToolchainError, small_environment
 from keel.judge import wp_targets as targets
 from keel.judge.goals import read_goals
 from keel.judge.harness import read_harness
-from keel.base.jobs import Runner
-from keel.c.project import find_units
-from keel.install import Toolchain, ToolchainError, small_environment
+
+ROOT = Path(__file__).resolve().parents[2]
 
 # A goal that CVC4 and Alt-Ergo once gave up, by the clock, on a machine with other work; and a
 # harness that keeps z3 busy.

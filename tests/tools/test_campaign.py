@@ -3,10 +3,7 @@
 
 from __future__ import annotations
 
-import sys
 import unittest
-from pathlib import Path
-
 
 from keel.timing import campaign
 

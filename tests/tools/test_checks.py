@@ -8,16 +8,11 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 import unittest
 from pathlib import Path
 from typing import Any
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.base.jobs import Finished, Runner
-from keel.c.project import ProjectError, find_units
 from test_prove import (
     ASSERTED,
     HARNESS,
@@ -26,12 +21,16 @@ from test_prove import (
     cbmc_output,
     item,
 )
-from keel.install import Toolchain, ToolchainError
 
+from keel.audit import completeness as rules
+from keel.base.jobs import Finished, Runner
+from keel.c.project import ProjectError, find_units
 from keel.engines import cbmc
+from keel.install import Toolchain, ToolchainError
 from keel.judge import cbmc_answers, harness
 from keel.prove import job_list as engines
-from keel.audit import completeness as rules
+
+ROOT = Path(__file__).resolve().parents[2]
 
 ALONE = "// checks: assertions\n" + HARNESS
 CASE = HARNESS.replace("keel_box_put_harness", "keel_box_put__all_harness")

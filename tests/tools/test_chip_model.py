@@ -11,21 +11,15 @@ import io
 import re
 import shutil
 import struct
-import sys
 import tempfile
 import unittest
 from itertools import pairwise
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.boards import chip_model
-from keel.boards import firmware
-from keel.boards import stack
-from keel.boards import chip
+from keel.boards import chip, chip_model, firmware, stack
 from keel.boards.board import read_board
 from keel.boards.card import SdCard
-from keel.boards.chip import Chip, ModelError, PWR, RCC
+from keel.boards.chip import PWR, RCC, Chip, ModelError
 from keel.boards.fram import Fram
 from keel.boards.ms5611 import check_of
 from keel.boards.processor import Processor
@@ -35,6 +29,7 @@ from keel.boards.sockets import pin_of, read_sockets
 from keel.boards.stack_bounds import EXCEPTION_FRAME_B
 from keel.install import Toolchain
 
+ROOT = Path(__file__).resolve().parents[2]
 
 IMU_SLOT = 10  # Of the background task of the inertial unit, in the order of table 2.
 

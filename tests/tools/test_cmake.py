@@ -3,11 +3,7 @@
 
 from __future__ import annotations
 
-import sys
-import unittest
 from hashlib import sha256
-from pathlib import Path
-
 
 from consumer import AS_FOLDER, ConsumerTest, answer, keel_archive
 

@@ -20,17 +20,17 @@ from typing import Annotated, ClassVar, NoReturn
 from unittest import mock
 from xml.etree import ElementTree
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.arguments import Parser
 from keel.base.build import Build, BuildError, source_files
-from keel.config import ConfigError, Field, Mistake, Table, Text, read_json, read_toml
 from keel.base.errors import ToolError, nearest, program, unknown
 from keel.base.files import write_json, write_text
 from keel.base.git import commit_of, git
 from keel.base.junit import JUnitSuite, write_junit
 from keel.base.run import output_of, run
 from keel.base.source import stamp_of
+from keel.config import ConfigError, Field, Mistake, Table, Text, read_json, read_toml
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class FolderTest(unittest.TestCase):

@@ -14,17 +14,16 @@ from __future__ import annotations
 import math
 import re
 import struct
-import sys
 import unittest
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.c.source import read
 from keel.c.declarations import macros
+from keel.c.source import read
 from keel.c.syntax import found, parse, written
+
+ROOT = Path(__file__).resolve().parents[2]
 
 HEADERS = sorted((ROOT / "include").glob("keel/*/*.h"))
 # Names of bits that are told in a word of their own.

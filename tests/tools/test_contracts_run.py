@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import sys
 import tempfile
 import unittest
 from collections import Counter
@@ -16,16 +15,16 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.test import contracts_run
-from keel.config import parse_toml, read_toml
 from keel.base.errors import ToolError
 from keel.base.run import Ended
 from keel.base.source import VERDICT
-from keel.test.contracts_run import CHOICE, Choice, GROUPS, Run, Runner, ignored_in, mistakes
-from keel.test.contracts_run import violation as violated
+from keel.config import parse_toml, read_toml
 from keel.install import Toolchain
+from keel.test import contracts_run
+from keel.test.contracts_run import CHOICE, GROUPS, Choice, Run, Runner, ignored_in, mistakes
+from keel.test.contracts_run import violation as violated
+
+ROOT = Path(__file__).resolve().parents[2]
 
 OWN = ROOT / "build/test/contracts_run"
 SAID = """\

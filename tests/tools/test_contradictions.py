@@ -8,15 +8,14 @@ from __future__ import annotations
 
 import re
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.qualify.trials import said_by_frama_c
 from keel.install import Toolchain, ToolchainError
+from keel.qualify.trials import said_by_frama_c
+
+ROOT = Path(__file__).resolve().parents[2]
 
 SCRIPT = ROOT / "tools/keel/engines/find_contradictions.ml"
 ASKED = re.compile(r"^\[wp\] \[(?:Passed|Failed)\] Smoke-test typed_(\w+)", re.MULTILINE)

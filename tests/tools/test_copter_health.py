@@ -5,14 +5,13 @@ from __future__ import annotations
 
 import ctypes
 import struct
-import sys
 import unittest
 from pathlib import Path
 from typing import ClassVar
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from copter_shim import copter_of
+
+ROOT = Path(__file__).resolve().parents[2]
 
 # The tasks behind functions of plain numbers, with a port that says what it is told to.
 SHIM = """\

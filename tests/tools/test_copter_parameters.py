@@ -6,15 +6,14 @@ from __future__ import annotations
 
 import ctypes
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from typing import ClassVar
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.run import output_of
+
+ROOT = Path(__file__).resolve().parents[2]
 
 # A copter's parameters behind functions of plain numbers.
 SHIM = """\

@@ -6,16 +6,15 @@ from __future__ import annotations
 import bisect
 import ctypes
 import itertools
-import sys
 import tomllib
 import unittest
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from copter_shim import copter_of
+
+ROOT = Path(__file__).resolve().parents[2]
 
 ANY, SBUS, CRSF, IBUS, PPM = range(5)
 BYTE_US = {SBUS: 120, CRSF: 24, IBUS: 87}

@@ -6,18 +6,15 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.test import coverage
 from keel.base.errors import ToolError
 from keel.base.source import STAMP, VERDICT, stamp_of
+from keel.test import coverage
 from keel.test.coverage import (
     Exclusion,
     FileCoverage,
@@ -32,6 +29,8 @@ from keel.test.coverage import (
     spans_of,
     within,
 )
+
+ROOT = Path(__file__).resolve().parents[2]
 
 TEXT = "#define LIMIT 3\nif (a && b) {\n    return 1;\n}\nreturn 0;\n"
 

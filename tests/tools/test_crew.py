@@ -20,19 +20,19 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.mutate import command as mutate
-from keel.base.cluster import archive
-from keel.mutate.crew import Dask, PROGRAM, SENT, Threads, answer_order, orders
-from keel.mutate.execution import Sample
-from keel.mutate.verdicts import Verdict
-from keel.mutate.operators import Mutant, mutants
-from keel.c.project import ProjectError
 from test_prove import SOURCE, TreeTest
-from keel.install import Toolchain, ToolchainError
 
 from keel.base import cluster_worker
+from keel.base.cluster import archive
+from keel.c.project import ProjectError
+from keel.install import Toolchain, ToolchainError
+from keel.mutate import command as mutate
+from keel.mutate.crew import PROGRAM, SENT, Dask, Threads, answer_order, orders
+from keel.mutate.execution import Sample
+from keel.mutate.operators import Mutant, mutants
+from keel.mutate.verdicts import Verdict
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class FakeTrial:

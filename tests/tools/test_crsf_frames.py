@@ -18,10 +18,10 @@ import unittest
 from pathlib import Path
 from typing import Any, ClassVar
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.run import output_of
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 BYTE_US, SILENT_US = 24, 3000
 NOTHING, CHANNELS, LINK, _SHORT, OTHER = range(5)

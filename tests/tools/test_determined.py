@@ -6,19 +6,18 @@ A small project in which all is determined is changed in one place.
 
 from __future__ import annotations
 
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.base.files import write_text
-from keel.c.project import ProjectError
 from test_prove import WholeRunCase
 
 from keel.audit import clauses, determined
+from keel.base.files import write_text
 from keel.c import declarations
+from keel.c.project import ProjectError
+
+ROOT = Path(__file__).resolve().parents[2]
 
 HEADER = """\
 #define BOX_SIDES 4u

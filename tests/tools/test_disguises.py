@@ -3,17 +3,16 @@
 
 from __future__ import annotations
 
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.base.files import write_text
 from keel.audit import disguises
+from keel.base.files import write_text
 from keel.c.syntax import SyntaxProblem
 from keel.qualify.deceptions import BUILT, HIDDEN
+
+ROOT = Path(__file__).resolve().parents[2]
 
 HARNESS = """\
 // SPDX-License-Identifier: Apache-2.0

@@ -17,7 +17,6 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-
 from consumer import ROOT, ConsumerTest, version
 
 from keel.release import dist

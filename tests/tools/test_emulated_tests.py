@@ -6,19 +6,18 @@ program which hangs or computes something else is a failure.
 from __future__ import annotations
 
 import shutil
-import sys
 import unittest
 from pathlib import Path
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.test import emulated_tests
 from keel.base.run import Ended
+from keel.install import Toolchain
+from keel.test import emulated_tests
 from keel.test.emulated import EmulatedBoard
 from keel.test.faults import FAULTS, judge_fault, read_record
 from keel.test.outcomes import unity_outcome
-from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 OWN = Path("build/test/emulated_tests")
 DIVISION = """\

@@ -5,20 +5,18 @@ put into small programs.
 
 from __future__ import annotations
 
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.analyse import eva
-from keel.base.errors import ToolError
-from keel.analyse import analysis
+from keel.analyse import analysis, eva
 from keel.analyse.analysis import ANY_CONTEXT, Analysis, Eva, read_log
 from keel.analyse.reduced import public_functions, reduced, widened, write_tree
+from keel.base.errors import ToolError
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 CONTRACT = """\
 /*@ requires \\valid(a);

@@ -11,7 +11,6 @@ import io
 import json
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 from collections.abc import Callable
@@ -19,8 +18,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 from unittest import mock
-
-ROOT = Path(__file__).resolve().parents[2]
 
 from evidence_sample import (
     SOURCE,
@@ -34,7 +31,6 @@ from evidence_sample import (
 from keel.base.errors import ToolError
 from keel.base.files import write_json
 from keel.base.junit import JUnitSuite, write_junit
-from keel.install.packages import provide
 from keel.base.source import STAMP as MADE_FROM
 from keel.base.source import stamp_of
 from keel.evidence.assemble import PARTS, maker_of
@@ -52,6 +48,9 @@ from keel.evidence.package import (
 from keel.evidence.part import Context, Item, Part, Table
 from keel.evidence.verify import reproduced, verify
 from keel.install import ToolchainError
+from keel.install.packages import provide
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def write_sample(folder: Path) -> Path:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 import tempfile
 import threading
 import unittest
@@ -16,8 +15,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 from unittest import mock
-
-ROOT = Path(__file__).resolve().parents[2]
 
 from evidence_sample import STAMP, context_in
 
@@ -33,6 +30,8 @@ from keel.evidence.commands import (
     run_commands,
 )
 from keel.install.lock import Lock
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class InFolder(unittest.TestCase):

@@ -8,7 +8,6 @@ That each part sees each fault of its own is tested in test_evidence_<part>.py.
 from __future__ import annotations
 
 import json
-import unittest
 from typing import Any
 from unittest import mock
 

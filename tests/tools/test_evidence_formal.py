@@ -6,23 +6,21 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import sys
 import unittest
 import unittest.mock
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from evidence_proofs import NOW, EvidenceTest
 
-from keel.evidence import review
-from keel.evidence import third_opinion
 from keel.base.source import STAMP
+from keel.base.verdict_cache import Cache
+from keel.c.project import find_units
+from keel.evidence import review, third_opinion
 from keel.evidence.formal import bounds, esbmc, ledger, opinion, reviews
 from keel.evidence.part import Item, Part
 from keel.evidence.parts import formal
-from keel.base.verdict_cache import Cache
-from keel.c.project import find_units
+
+ROOT = Path(__file__).resolve().parents[2]
 
 QUEUE_GOAL = "keel_queue_add_ensures_QUE_003_order"
 

@@ -15,16 +15,17 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
 from evidence_sample import STAMP, PartTest
 
+from keel.base.source import STAMP as MADE_FROM
 from keel.boards import firmware
 from keel.boards.board import board_names
 from keel.boards.rebuilt import SOURCES, differences
 from keel.boards.semantics import COMPILED_AS_PROVED, flag_problems
-from keel.base.source import STAMP as MADE_FROM
 from keel.evidence.parts import object as part_object
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 IMAGE = b"image"
 FLAGS = [*COMPILED_AS_PROVED, "-O2"]

@@ -6,13 +6,10 @@ configuration. Each fault shows in the problems of its part, or refuses the file
 from __future__ import annotations
 
 import subprocess
-import sys
 import tempfile
 import unittest
 from dataclasses import replace
 from pathlib import Path
-
-ROOT = Path(__file__).resolve().parents[2]
 
 from evidence_sample import STAMP, context_in
 
@@ -20,6 +17,8 @@ from keel.base.errors import ToolError
 from keel.base.files import sha256_of, write_text
 from keel.evidence.part import Context
 from keel.evidence.parts import configuration, contracts, objectives, plans, safety
+
+ROOT = Path(__file__).resolve().parents[2]
 
 STANDARD = """\
 id = "S-1"

@@ -8,19 +8,18 @@ build/test/evidence-site, for people.
 from __future__ import annotations
 
 import shutil
-import sys
 import tempfile
 import unittest
 from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import unquote, urldefrag, urlsplit
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from browser import Browser
 from evidence_sample import LONG, SOURCE, assembled
 
 from keel.evidence.package import write_package
+
+ROOT = Path(__file__).resolve().parents[2]
 
 FAULTS = (Path(__file__).parent / "page_faults.js").read_text(encoding="utf-8")
 LINKS = "[...document.querySelectorAll('a[href]')].map(a => a.href.baseVal === undefined ?" \

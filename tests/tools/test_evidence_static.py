@@ -5,16 +5,16 @@ show as a problem that names it.
 
 from __future__ import annotations
 
-import unittest
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
 from evidence_sample import STAMP, PartTest
 
-from keel.boards.board import board_names
 from keel.base.source import STAMP as MADE_FROM
+from keel.boards.board import board_names
 from keel.evidence.parts import static
+
+ROOT = Path(__file__).resolve().parents[2]
 
 FINDING = {"rule": "misra-c2012-15.5", "file": "src/x.c", "line": 7, "reason": "15.5: is not met"}
 

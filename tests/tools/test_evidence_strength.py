@@ -7,26 +7,24 @@ import contextlib
 import io
 import json
 import shutil
-import sys
-import unittest
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from evidence_proofs import EvidenceTest
 
-from keel.mutate import command as mutate
 from keel.base.source import STAMP
+from keel.c.project import Unit, find_units
 from keel.evidence.part import Item, Part
 from keel.evidence.parts import strength
 from keel.evidence.strength import mutants as recorded
+from keel.mutate import command as mutate
 from keel.mutate import records as mutant_records
-from keel.mutate.verdicts import Verdict
 from keel.mutate.operators import mutants
-from keel.c.project import Unit, find_units
+from keel.mutate.verdicts import Verdict
+
+ROOT = Path(__file__).resolve().parents[2]
 
 RECORD = "specs/mutation/range.json"
 KILLED = {"cbmc": "killed: keel_range_clamp_harness: RNG_002_model"}

@@ -5,7 +5,6 @@ as a problem that names it.
 
 from __future__ import annotations
 
-import unittest
 from typing import Any
 
 from evidence_sample import STAMP, PartTest

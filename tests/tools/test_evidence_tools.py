@@ -14,19 +14,20 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
 from evidence_sample import STAMP, PartTest
 
-from keel.qualify import command as qualify
 from keel.base.errors import ToolError
 from keel.base.source import PRODUCT
 from keel.base.source import STAMP as MADE_FROM
 from keel.evidence.part import Context
 from keel.evidence.parts import tools as part_tools
 from keel.evidence.parts.tools import SETTINGS, Settings
-from keel.qualify.seeds import SEEDS
 from keel.install import Found, Toolchain
 from keel.install.lock import Spec
+from keel.qualify import command as qualify
+from keel.qualify.seeds import SEEDS
+
+ROOT = Path(__file__).resolve().parents[2]
 
 RUN = {"tool": "cbmc", "fault": "an overflow", "how": "cbmc", "version": "6.6.0", "wrong": ""}
 PINNED = Spec("cbmc", "deb", at_least="6.6", below="6.7", sha256="aa")

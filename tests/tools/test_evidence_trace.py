@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-import unittest
-
 import test_requirements_trace as small
 from traced_project import TracedProject
 

@@ -6,23 +6,23 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import sys
 import unittest
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
+from test_prove import ASSERTED, GOALS, WRONG, WholeRunCase, cbmc_output, item
 
+from keel.c.project import find_units
+from keel.judge.wp_targets import Result
+from keel.judge.wp_verdict import clause_at
 from keel.prove.counterexample import changes, lines, read_trace
 from keel.prove.explain import UnknownName, named, subjects
 from keel.prove.located import line_of, locate
-from keel.c.project import find_units
-from keel.prove.sequents import of_goal, read_sequents, relevant
 from keel.prove.proof_run import Choice, Session
-from keel.judge.wp_targets import Result
-from keel.judge.wp_verdict import clause_at
-from test_prove import ASSERTED, GOALS, WRONG, WholeRunCase, cbmc_output, item
+from keel.prove.sequents import of_goal, read_sequents, relevant
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def number(value: int) -> dict[str, Any]:

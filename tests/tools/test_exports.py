@@ -4,16 +4,16 @@
 from __future__ import annotations
 
 import json
-import sys
 import unittest
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-ROOT = Path(__file__).resolve().parents[2]
+from test_prove import ASSERTED, GOALS, WholeRunCase, cbmc_output, item
 
 from keel.base.sarif import SarifResult, document, split_place
-from test_prove import ASSERTED, GOALS, WholeRunCase, cbmc_output, item
+
+ROOT = Path(__file__).resolve().parents[2]
 
 LEVELS = ("none", "note", "warning", "error")
 

@@ -17,14 +17,14 @@ import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
+from keel.base.build import source_files
+from keel.base.errors import ToolError
 from keel.boards import firmware
 from keel.boards.board import Board, Place, Region, application_of, read_board
 from keel.boards.elf import Contents, Section, Symbol
 from keel.boards.placement import check_image, usage
-from keel.base.build import source_files
-from keel.base.errors import ToolError
+
+ROOT = Path(__file__).resolve().parents[2]
 
 GOOD = """\
 description = "a board"

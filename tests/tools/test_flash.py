@@ -11,20 +11,18 @@ import hashlib
 import io
 import json
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from typing import cast
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.boards import flash
-from keel.boards import px4
-from keel.boards.built import FIRMWARE
 from keel.base.errors import ToolError
+from keel.boards import flash, px4
+from keel.boards.built import FIRMWARE
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class Tools:

@@ -7,20 +7,19 @@ what changes in a refusal is listed. No prover is run.
 
 from __future__ import annotations
 
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.lint import refusals
-from keel.c.project import Unit, find_units
-from keel.judge.settings import Exceptions
-
 from keel.audit import assertions, unused
-from keel.judge import wp_frames as frames, wp_targets as targets
+from keel.c.project import Unit, find_units
+from keel.judge import wp_frames as frames
+from keel.judge import wp_targets as targets
+from keel.judge.settings import Exceptions
+from keel.lint import refusals
+
+ROOT = Path(__file__).resolve().parents[2]
 
 HEADER = """\
 #ifndef BOX_H

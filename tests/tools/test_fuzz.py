@@ -3,17 +3,16 @@
 
 from __future__ import annotations
 
-import sys
 import unittest
 from pathlib import Path
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.build import BuildError
 from keel.base.run import Ended
-from keel.test import fuzzing, oracles
 from keel.install import Toolchain
+from keel.test import fuzzing, oracles
+
+ROOT = Path(__file__).resolve().parents[2]
 
 PINNED = (ROOT / "tests/oracles/Cargo.lock.in").read_text()
 

@@ -12,12 +12,11 @@ import unittest
 from fractions import Fraction
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.jobs import Runner
 from keel.c.project import ProjectError
-
 from keel.engines import gappa
+
+ROOT = Path(__file__).resolve().parents[2]
 
 FUNCTION = """\
 static float mean(float w0, float x0, float w1, float x1)

@@ -3,19 +3,17 @@
 
 from __future__ import annotations
 
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.base.files import write_text
+from keel.audit import harness_rules
 from keel.audit.harness_inputs import taken
+from keel.base.files import write_text
 from keel.c.project import find_units
 from keel.c.syntax import SyntaxProblem
 
-from keel.audit import harness_rules
+ROOT = Path(__file__).resolve().parents[2]
 
 FILES = {
     "include/keel/rtos/box.h": "#define BOX_SIDES 4u\nint keel_box_put(int *box, int value);\n",

@@ -4,12 +4,9 @@
 from __future__ import annotations
 
 import re
-import sys
-import unittest
-from pathlib import Path
-
 
 from consumer import ROOT, ConsumerTest
+
 from keel.install import TARGET_FLAGS
 
 HEADERS = sorted(path.relative_to(ROOT / "include") for path in (ROOT / "include").rglob("*.h"))

@@ -7,16 +7,15 @@ import ctypes
 import random
 import shutil
 import struct
-import sys
 import tempfile
 import unittest
 from itertools import product
 from pathlib import Path
 from typing import ClassVar
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.run import output_of
+
+ROOT = Path(__file__).resolve().parents[2]
 
 BYTE_US, SILENT_US = 87, 4000
 LOWEST, HIGHEST = 900, 2100

@@ -4,12 +4,10 @@
 from __future__ import annotations
 
 import shutil
-import sys
-import unittest
 from pathlib import Path
 
-
 from consumer import AS_FOLDER, CORTEX_M7, ROOT, ConsumerTest, answer, version
+
 from keel.install import TARGET_FLAGS
 
 FIND = "find_package(Keel {version} REQUIRED COMPONENTS {components})"

@@ -4,16 +4,16 @@
 from __future__ import annotations
 
 import re
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from check_layouts import Types, compared
+
 from keel.c.project import ProjectError
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 INCLUDED = "#include <stdbool.h>\n#include <stddef.h>\n#include <stdint.h>\n"
 SMALL = "typedef enum colour { RED, GREEN } colour_t;\n"

@@ -12,14 +12,15 @@ import time
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.base import run
 from endless import CORES, busy
 from endless import PROGRAM as ENDLESS
+
+from keel.base import run
 from keel.base.jobs import Runner
 from keel.install import Toolchain, ToolchainError, small_environment
 from keel.install.provers import CLOCK_PER_PROCESSOR, by_processor_time
+
+ROOT = Path(__file__).resolve().parents[2]
 
 # As much processor time as is told, and then a word.
 BURN = """\

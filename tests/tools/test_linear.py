@@ -12,9 +12,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.engines.linear_filter import is_nonlinear, linear_part
+
+ROOT = Path(__file__).resolve().parents[2]
 
 FILTER = ROOT / "tools/keel/engines/linear_filter.py"
 GOAL = "goal wp_goal : (forall x:int. ((0 <= x) -> ((x + 1) <= (256 * (x + 1)))))\n"

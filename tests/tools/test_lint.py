@@ -10,7 +10,6 @@ import contextlib
 import io
 import json
 import os
-import sys
 import tempfile
 import threading
 import unittest
@@ -18,15 +17,15 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.lint import command as lint
 from keel.base.errors import ToolError
 from keel.base.source import STAMP, files_below, stamp_of
+from keel.install import Toolchain
+from keel.lint import command as lint
 from keel.lint import house, misra, models, record
 from keel.lint.misra import Deviation, Violation
 from keel.lint.texts import Finding, Text
-from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def text(path: str, *lines: str) -> Text:

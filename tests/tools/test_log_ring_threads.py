@@ -4,14 +4,13 @@
 from __future__ import annotations
 
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.run import run
+
+ROOT = Path(__file__).resolve().parents[2]
 
 ACQUIRE = "-DKEEL_LOG_RING_LOAD(index)=__atomic_load_n((index),__ATOMIC_ACQUIRE)"
 RELEASE = "-DKEEL_LOG_RING_STORE(index,value)=__atomic_store_n((index),(value),__ATOMIC_RELEASE)"

@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import json
 import re
-import sys
 import tarfile
 import unittest
 from pathlib import Path
 
-
 from consumer import CORTEX_M7, MAIN, ROOT, STRICT, ConsumerTest, answer, version
+
 from keel.install import TARGET_FLAGS
 
 VERSION = ".".join(map(str, version()))

@@ -18,10 +18,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, ClassVar
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.run import output_of
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 FIRST, SIGNED, PAYLOAD_MAX = 0xFD, 1, 255
 

@@ -16,10 +16,10 @@ import unittest
 from pathlib import Path
 from typing import Any, ClassVar
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.run import output_of
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 KEY, OTHER_KEY, TIME = bytes(range(32)), bytes(range(1, 33)), 2**41
 SOURCES = ["src/middleware/signing.c", "src/middleware/mavlink.c", "src/middleware/crc.c"]

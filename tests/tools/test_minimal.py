@@ -6,12 +6,9 @@ from __future__ import annotations
 import re
 import resource
 import shutil
-import sys
-import unittest
-from pathlib import Path
-
 
 from consumer import ROOT, ConsumerTest
+
 from keel.install import TARGET_FLAGS
 
 

@@ -6,16 +6,15 @@ from __future__ import annotations
 import ctypes
 import random
 import shutil
-import sys
 import tempfile
 import unittest
 from fractions import Fraction
 from pathlib import Path
 from typing import ClassVar, NamedTuple
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.run import output_of
+
+ROOT = Path(__file__).resolve().parents[2]
 
 # A sensor behind functions of whole numbers alone, so that nothing here knows how it is laid out.
 SHIM = """\

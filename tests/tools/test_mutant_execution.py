@@ -9,30 +9,29 @@ from __future__ import annotations
 import dataclasses
 import os
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
+from test_prove import SOURCE, TreeTest
 
+from keel.base.jobs import Runner
 from keel.base.verdict_cache import Cache
 from keel.judge.cbmc_answers import Answer
 from keel.judge.harness import read_harness
-from keel.base.jobs import Runner
+from keel.judge.settings import Exceptions
+from keel.mutate import execution as mutant_execution
 from keel.mutate.execution import Executions, Kill, Sample, numbers_in
 from keel.mutate.harnesses import survey
+from keel.mutate.mutation import BY_CBMC, BY_WP, Tools, Trial
+from keel.mutate.operators import Mutant
 from keel.mutate.trees import Trees
 from keel.mutate.verdicts import EXECUTED, Verdict, table
-from keel.mutate.operators import Mutant
-from keel.mutate.mutation import BY_CBMC, BY_WP, Tools, Trial
-from keel.judge.settings import Exceptions
 from keel.prove.times import Times
-from test_prove import SOURCE, TreeTest
 
-from keel.mutate import execution as mutant_execution
+ROOT = Path(__file__).resolve().parents[2]
 
 BODY = "*box = value;"
 HARNESS = """\

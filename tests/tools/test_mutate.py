@@ -11,28 +11,27 @@ import io
 import json
 import os
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.mutate import command as mutate
 from keel.base.verdict_cache import Cache
+from keel.c.project import ProjectError, Unit
+from keel.engines import wp
+from keel.judge import wp_targets as targets
+from keel.judge.settings import Exceptions
+from keel.mutate import command as mutate
+from keel.mutate import mutation
+from keel.mutate import verdicts as mutant_verdicts
+from keel.mutate.mutation import Tools, Trial
+from keel.mutate.operators import Mutant, mutants
 from keel.mutate.trees import Trees
 from keel.mutate.verdicts import Verdict
-from keel.mutate.operators import Mutant, mutants
-from keel.mutate.mutation import Tools, Trial
-from keel.c.project import ProjectError, Unit
-from keel.judge.settings import Exceptions
 from keel.prove.times import Times
 
-from keel.mutate import mutation, verdicts as mutant_verdicts
-from keel.judge import wp_targets as targets
-from keel.engines import wp
+ROOT = Path(__file__).resolve().parents[2]
 
 HEADER = """\
 #include <stdbool.h>

@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import sys
 import tempfile
 import unittest
 from dataclasses import replace
@@ -16,28 +15,27 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.test import object_coverage
+from keel.base.errors import ToolError
+from keel.base.run import Ended
+from keel.base.source import STAMP, VERDICT, stamp_of
 from keel.boards.conditions import (
     BLOCK,
     BRANCH,
-    ConditionError,
-    Conditional,
-    Conditions,
     SELECTION,
+    Conditional,
+    ConditionError,
+    Conditions,
     flags_say,
 )
 from keel.boards.elf import Contents, Symbol, read_contents
 from keel.boards.lines import Lines, Place, read_lines
-from keel.base.run import Ended
-from keel.base.errors import ToolError
-from keel.base.source import STAMP, VERDICT, stamp_of
-from keel.test.object_coverage import Condition, Measurement, Reason, UncoveredError, read_reasons
-from keel.test import trace
-from keel.test.emulated import EmulatedBoard
-from keel.test.trace import one_by_one, outcomes_of, traced
 from keel.install import Toolchain
+from keel.test import object_coverage, trace
+from keel.test.emulated import EmulatedBoard
+from keel.test.object_coverage import Condition, Measurement, Reason, UncoveredError, read_reasons
+from keel.test.trace import one_by_one, outcomes_of, traced
+
+ROOT = Path(__file__).resolve().parents[2]
 
 OWN = Path("build/test/object_coverage")
 N, Z, C, V = 1 << 31, 1 << 30, 1 << 29, 1 << 28

@@ -14,9 +14,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.install.cache import default_cache
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class OwnUnit(unittest.TestCase):

@@ -10,12 +10,10 @@ import re
 import shutil
 import subprocess
 import sys
-import unittest
 import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree
-
 
 from consumer import ROOT, ConsumerTest, answer, version
 

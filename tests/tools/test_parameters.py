@@ -6,15 +6,14 @@ from __future__ import annotations
 import json
 import re
 import struct
-import sys
 import unittest
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.copter import parameters
 from keel.config import ConfigError
+from keel.copter import parameters
+
+ROOT = Path(__file__).resolve().parents[2]
 
 GOOD = """\
 name = "copter"

@@ -6,16 +6,15 @@ from __future__ import annotations
 import ctypes
 import random
 import shutil
-import sys
 import tempfile
 import unittest
 from itertools import groupby
 from pathlib import Path
 from typing import ClassVar
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.run import output_of
+
+ROOT = Path(__file__).resolve().parents[2]
 
 LOWEST, HIGHEST, SYNC, LOST = 800, 2200, 2300, 100_000
 LEAST, IN_A_ROW = 4, 3

@@ -23,33 +23,43 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.prove import command as prove
-from keel.base.files import write_text
-from keel.base.verdict_cache import Cache
-from keel.judge.cbmc_answers import read_answer, refutation_problems
-from keel.base.jobs import Finished, Runner, in_pool
-from keel.c.project import ProjectError, Unit, closure, find_units
-from keel.prove.proof_run import Choice, Session
-from keel.c.syntax import SyntaxProblem
-from keel.prove.times import Times
-from keel.install import Toolchain, ToolchainError
 from waiting import WAIT_S, wait_for
 
+from keel.audit import completeness as rules
+from keel.audit import theorems
+from keel.base.files import write_text
+from keel.base.jobs import Finished, Runner, in_pool
+from keel.base.verdict_cache import Cache
+from keel.c import source as csource
+from keel.c.project import ProjectError, Unit, closure, find_units
+from keel.c.syntax import SyntaxProblem
 from keel.engines import cbmc, wp
+from keel.install import Toolchain, ToolchainError
 from keel.judge import (
     cbmc_answers,
     harness,
     settings,
+)
+from keel.judge import (
     wp_log as wplog,
+)
+from keel.judge import (
     wp_targets as targets,
+)
+from keel.judge import (
     wp_verdict as verdict,
+)
+from keel.judge import (
     wrong_bodies as wrong,
 )
-from keel.c import source as csource
-from keel.prove import driver, job_list as engines
-from keel.audit import completeness as rules, theorems
+from keel.judge.cbmc_answers import read_answer, refutation_problems
+from keel.prove import command as prove
+from keel.prove import driver
+from keel.prove import job_list as engines
+from keel.prove.proof_run import Choice, Session
+from keel.prove.times import Times
+
+ROOT = Path(__file__).resolve().parents[2]
 
 HEADER = """\
 #ifndef KEEL_RTOS_BOX_H
@@ -1077,7 +1087,7 @@ class WrongBodies(TreeTest):
     def test_a_whole_copy_is_refused(self) -> None:
         (self.unit.folder / "wrong" / "copy.c").write_text(SOURCE, encoding="utf-8")
         with self.assertRaisesRegex(ProjectError, "wrong/copy.c: a wrong body is a .toml file"):
-            find_units(self.root)["box"].wrong_bodies  # noqa: B018
+            find_units(self.root)["box"].wrong_bodies
 
     def built(self, text: str) -> list[str]:
         """The words of the compiler's commands for a wrong body."""

@@ -14,7 +14,6 @@ import json
 import os
 import pty
 import select
-import sys
 import tempfile
 import threading
 import tty
@@ -22,11 +21,11 @@ import unittest
 import zlib
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.boards import px4
 from keel.boards.px4 import Container, Px4Error
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 IMAGE = bytes(range(256)) * 5 + b"\x01\x02\x03"  # Several commands, and not whole words.
 

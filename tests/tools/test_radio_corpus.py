@@ -8,16 +8,15 @@ from __future__ import annotations
 
 import ctypes
 import shutil
-import sys
 import tempfile
 import tomllib
 import unittest
 from pathlib import Path
 from typing import Any, ClassVar
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.run import output_of
+
+ROOT = Path(__file__).resolve().parents[2]
 
 CORPUS = ROOT / "tests/corpus/radio.toml"
 BYTE_US = {"sbus": 120, "crsf": 24, "ibus": 87}

@@ -8,19 +8,20 @@ from __future__ import annotations
 
 import dataclasses
 import sys
-import unittest
 from pathlib import Path
 from typing import Any
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
+from test_prove import GOALS, GOOD, TreeTest, WholeRunCase, wp_log, wp_report
 
 from keel.base.jobs import Finished, Runner
 from keel.c.project import ProjectError
-from test_prove import GOALS, GOOD, TreeTest, WholeRunCase, wp_log, wp_report
-
-from keel.judge import goals, wp_targets as targets, wp_verdict as verdict
 from keel.engines import wp
+from keel.judge import goals
+from keel.judge import wp_targets as targets
+from keel.judge import wp_verdict as verdict
+
+ROOT = Path(__file__).resolve().parents[2]
 
 PUT = "keel_box_put"
 

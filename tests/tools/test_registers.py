@@ -8,19 +8,18 @@ from __future__ import annotations
 
 import re
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.boards import registers
 from keel.boards.register_databases import Databases
 from keel.boards.register_headers import RegistersError
-from keel.boards.sockets import SOCKETS
 from keel.boards.registers import Comparison
+from keel.boards.sockets import SOCKETS
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 RCC = "bsp/stm32f767/registers/rcc.h"
 UART = "bsp/stm32f767/registers/uart.h"

@@ -7,15 +7,14 @@ from __future__ import annotations
 
 import contextlib
 import io
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.trace import command as requirements_trace
 from keel.base.files import write_text
+from keel.trace import command as requirements_trace
+
+ROOT = Path(__file__).resolve().parents[2]
 
 SDOC = """\
 [DOCUMENT]

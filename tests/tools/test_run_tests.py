@@ -14,14 +14,13 @@ from pathlib import Path
 from unittest import mock
 from xml.etree import ElementTree
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.test import command as run_tests
 from keel.base.build import BuildError
 from keel.base.run import Ended, run
 from keel.base.source import STAMP, VERDICT, stamp_of
-from keel.test.command import BUILD, HostBuilds
+from keel.install import Toolchain
+from keel.test import command as run_tests
 from keel.test import suites as running
+from keel.test.command import BUILD, HostBuilds
 from keel.test.outcomes import (
     Outcome,
     program_outcome,
@@ -30,7 +29,8 @@ from keel.test.outcomes import (
     unity_outcome,
 )
 from keel.test.suites import Suite
-from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 PASSED = "t.c:1:QUE_001_a:PASS\n"
 FAILED = "t.c:9:QUE_002_b:FAIL: Expected 1 Was 2\n"

@@ -6,16 +6,15 @@ from __future__ import annotations
 import ctypes
 import random
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from typing import ClassVar
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.run import output_of
 from keel.flight import device_frames as frames
+
+ROOT = Path(__file__).resolve().parents[2]
 
 GAP_US, BYTE_US, SILENT_US = 1000, 120, 4000
 LOWEST, HIGHEST = 172, 1811

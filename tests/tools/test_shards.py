@@ -6,18 +6,18 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import sys
 import unittest
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
+from test_prove import GOALS, SOURCE, WholeRunCase
 
+from keel.c.project import ProjectError
 from keel.prove import command as prove
 from keel.prove.driver import Job
-from keel.c.project import ProjectError
 from keel.prove.shards import Shard, part, read_shard
-from test_prove import GOALS, SOURCE, WholeRunCase
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def job(name: str) -> Job:

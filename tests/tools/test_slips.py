@@ -3,15 +3,14 @@
 
 from __future__ import annotations
 
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.mutate.slips import numbers_beyond, surroundings
 from keel.mutate.operators import Generated, generate
+from keel.mutate.slips import numbers_beyond, surroundings
+
+ROOT = Path(__file__).resolve().parents[2]
 
 HEADER = """\
 typedef struct box {

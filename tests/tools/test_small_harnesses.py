@@ -6,19 +6,17 @@ No prover is run.
 
 from __future__ import annotations
 
-import sys
-import tempfile
-import unittest
-from unittest import mock
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
+from test_prove import HARNESS, TreeTest
 
 from keel.judge.cbmc_answers import Answer
 from keel.judge.harness import Harness, read_harness
 from keel.mutate.small_harnesses import Small, small
-from test_prove import HARNESS, TreeTest
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class SmallHarness(TreeTest):

@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 
 import pytest
+
 from keel.test import soak
 
 FEW = 1_000_000

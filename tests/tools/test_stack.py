@@ -8,32 +8,31 @@ import hashlib
 import io
 import json
 import os
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
+from keel.base.errors import ToolError
+from keel.base.run import output_of
+from keel.base.source import PRODUCT, STAMP, stamp_of
 from keel.boards import stack
 from keel.boards.built import read_built
 from keel.boards.call_graph import Code, Disassembler, Function, StackError, complete, parse
 from keel.boards.elf import Contents, Symbol, read_contents
 from keel.boards.stack_bounds import (
+    TABLE,
     Bounds,
     Entry,
     Indirect,
     StackTable,
-    TABLE,
     analyse,
     idle_code,
     mistakes,
 )
 from keel.config import read_toml
-from keel.base.errors import ToolError
-from keel.base.run import output_of
-from keel.base.source import PRODUCT, STAMP, stamp_of
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def node(title: str, frame: str = "") -> str:

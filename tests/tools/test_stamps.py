@@ -7,17 +7,16 @@ Each changes a file of a copy of the tools, and says which verdicts must not be 
 from __future__ import annotations
 
 import shutil
-import sys
 import tempfile
 import unittest
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.prove import verdict_keys as stamps
 from keel.install import Toolchain
 from keel.install.lock import Lock
+from keel.prove import verdict_keys as stamps
+
+ROOT = Path(__file__).resolve().parents[2]
 
 ENGINES = ("wp", "cbmc", "gappa")
 

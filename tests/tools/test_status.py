@@ -6,15 +6,14 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.release import status
+
+ROOT = Path(__file__).resolve().parents[2]
 
 HEADING = "# Status\n\nThis is proved by the last complete run"
 TABLE = """\

@@ -19,20 +19,21 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.test import command as run_tests
 from asked_groups import asked, closure
+from waiting import WAIT_S, wait_for
+
 from keel.base.arguments import Parser
-from keel.config import ConfigError, parse_toml
 from keel.base.errors import ToolError
+from keel.config import ConfigError, parse_toml
+from keel.install import Toolchain
+from keel.install.lock import Lock
+from keel.test import command as run_tests
 from keel.test import suites as running
 from keel.test.needs import Needs, mistakes, read_needs
 from keel.test.outcomes import Outcome
 from keel.test.suites import Suite
-from keel.install import Toolchain
-from keel.install.lock import Lock
-from waiting import WAIT_S, wait_for
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def passed() -> Outcome:

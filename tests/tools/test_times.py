@@ -5,19 +5,19 @@ from __future__ import annotations
 
 import json
 import re
-import sys
 import tempfile
 import unittest
 from collections.abc import Sequence
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from test_prove import WholeRunCase
 
 from keel.prove.driver import Job
-from keel.prove.report import HELP
 from keel.prove.progress import Running
-from keel.prove.times import Forecast, PRIOR, Times, UNKNOWN, estimates, read_times, recorded_anew
-from test_prove import WholeRunCase
+from keel.prove.report import HELP
+from keel.prove.times import PRIOR, UNKNOWN, Forecast, Times, estimates, read_times, recorded_anew
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class Estimates(unittest.TestCase):
@@ -126,9 +126,9 @@ class Late(unittest.TestCase):
         running = Running(lambda _job, seconds: heard.append(seconds), lambda _: expected,
                           lambda: now)  # fmt: skip
         with running.now(job):
-            for now in during:  # noqa: B007  the clock reads it
+            for now in during:
                 running.look()
-        for now in after:  # noqa: B007
+        for now in after:
             running.look()
         return heard
 

@@ -21,17 +21,18 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel import install as toolchain
 from keel.base.files import sha256_of
-from keel.install import Toolchain, ToolchainError, command as command_line, python_packages
+from keel.install import Toolchain, ToolchainError, python_packages
+from keel.install import command as command_line
 from keel.install.apt import Log, Suite
 from keel.install.cache import Cache
 from keel.install.found import Finder, answer
 from keel.install.lock import LOCK_FILE, Lock, Spec
 from keel.install.mirror import debian_mirror
 from keel.install.unpack import Tree, write_starter
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def quiet(line: str) -> None:

@@ -4,17 +4,16 @@
 from __future__ import annotations
 
 import shutil
-import unittest
 from pathlib import Path
 
 import test_requirements_trace as small
-from keel.base.errors import ToolError
 from traced_project import ROOT, TracedProject
+
+from keel.base.errors import ToolError
+from keel.evidence.traced import read
 from keel.trace import lobster, strictdoc
 from keel.trace.packages import packages
 from keel.trace.requirements import FOLDER
-
-from keel.evidence.traced import read
 
 LOW = "specs/requirements/widget.sdoc"
 

@@ -9,31 +9,29 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
-import sys
 import tempfile
-import unittest
 from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
-from keel.base.verdict_cache import Cache
-from keel.mutate.trees import Trees
-from keel.mutate.verdicts import Identity, Verdict, report, standing, table
-from keel.mutate.operators import Mutant
-from keel.mutate.mutation import BY_CBMC, BY_WP, NO_ANSWER, Tools, Trial
-from keel.c.project import find_units
-from keel.judge.settings import Exceptions
-from keel.prove.times import Times
 from test_prove import HARNESS, SOURCE, TreeTest
 
+from keel.base import jobs
+from keel.base.verdict_cache import Cache
+from keel.c.project import find_units
 from keel.engines import cbmc
 from keel.judge import cbmc_answers, harness
-from keel.prove import job_list as engines
-from keel.base import jobs
+from keel.judge.settings import Exceptions
 from keel.mutate import small_harnesses as mutant_small
+from keel.mutate.mutation import BY_CBMC, BY_WP, NO_ANSWER, Tools, Trial
+from keel.mutate.operators import Mutant
+from keel.mutate.trees import Trees
+from keel.mutate.verdicts import Identity, Verdict, report, standing, table
+from keel.prove import job_list as engines
+from keel.prove.times import Times
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def harness_text(name: str, covers: str, more: str = "") -> str:

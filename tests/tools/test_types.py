@@ -10,10 +10,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from keel.install import Toolchain
+
 ROOT = Path(__file__).resolve().parents[2]
 TOOLS = ROOT / "tools"
-
-from keel.install import Toolchain
 
 
 class TypesTest(unittest.TestCase):

@@ -14,11 +14,11 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any, ClassVar
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.base.run import output_of
 from keel.flight import device_frames as frames
 from keel.install import Toolchain
+
+ROOT = Path(__file__).resolve().parents[2]
 
 GAP_US, BYTE_US, SILENT_US = 20000, 87, 80000
 FIELDS = ("tow_ms", "longitude", "latitude", "height_mm", "accuracy_mm", "height_accuracy", "north",

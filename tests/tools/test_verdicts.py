@@ -6,17 +6,17 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import sys
 import tempfile
 import time
 import unittest
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
+from test_prove import WRONG, WholeRunCase, cbmc_output
 
 from keel.base.verdict_cache import Cache
-from test_prove import WRONG, WholeRunCase, cbmc_output
+
+ROOT = Path(__file__).resolve().parents[2]
 
 PROVED: dict[str, Any] = {"problems": [], "seconds": 1.0}
 

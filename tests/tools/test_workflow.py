@@ -19,17 +19,18 @@ from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.install.packages import provide
 
 provide("common")
 provide("ci")
 import yaml
+
 from keel.base.git import is_clone
 from keel.evidence.commands import commands_of
-from keel.lint.workflows import schema_errors
 from keel.install import Toolchain
+from keel.lint.workflows import schema_errors
+
+ROOT = Path(__file__).resolve().parents[2]
 
 WORKFLOWS = sorted((ROOT / ".github/workflows").glob("*.yml"))
 SETTING = r"-f +\S+|[A-Z_]+=(?:\"[^\"]*\"|'[^']*'|[^\s`]+)"

@@ -12,10 +12,11 @@ import unittest
 from pathlib import Path
 from typing import ClassVar
 
-ROOT = Path(__file__).resolve().parents[2]
+from copter_shim import copter_of
 
 from keel.base.run import output_of
-from copter_shim import copter_of
+
+ROOT = Path(__file__).resolve().parents[2]
 
 SHIM = """\
 #include "world.h"

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import copy
-import sys
 import tempfile
 import unittest
 from collections.abc import Callable
@@ -12,15 +11,16 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-
 from keel.install.packages import provide
 
 provide("common")
 
 import test_requirements_trace as small
+
 from keel.base.files import write_json, write_text
 from keel.evidence.part import Context, Part
+
+ROOT = Path(__file__).resolve().parents[2]
 
 STAMP = {"commit": "c", "tree": "t", "product": "p"}
 GOAL = {"name": "keel_widget_turn_ensures_WID_001_turns", "status": "Valid", "prover": "Qed",

@@ -8,7 +8,7 @@ from pathlib import Path
 # library's modules.
 sys.path[0] = str(Path(__file__).resolve().parents[1])
 
-from keel.cli.commands import main  # noqa: E402
+from keel.cli.commands import main
 
 if __name__ == "__main__":
     sys.exit(main(sys.argv[1:]))

@@ -26,8 +26,8 @@ from typing import Annotated, Any, TypeVar
 
 from keel.base.errors import ROOT, ToolError, nearest
 from keel.base.files import read_text
-from keel.install.packages import provide
 from keel.base.toml_lines import KeyPath, line_index, line_of
+from keel.install.packages import provide
 
 provide()
 

@@ -25,7 +25,6 @@ Exit status: 0 when nothing is left to explain, 1 when something is, 2 when noth
 from __future__ import annotations
 
 import shutil
-import sys
 import tempfile
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -33,14 +32,14 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from keel.analyse.analysis import ANY_CONTEXT, PRECISION, Analysis, Eva
+from keel.analyse.reduced import public_functions, write_tree
 from keel.base.arguments import Parser
-from keel.config import Table, Text, read_toml
 from keel.base.errors import ROOT, program
 from keel.base.files import sha256_of
 from keel.base.source import digest_of_tree, write_report
-from keel.analyse.analysis import ANY_CONTEXT, Analysis, Eva, PRECISION
-from keel.analyse.reduced import public_functions, write_tree
 from keel.base.verdict_cache import Cache, digest
+from keel.config import Table, Text, read_toml
 from keel.install import Toolchain
 
 REPORT = "build/eva/report.json"

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 from keel.base.files import write_text
-
 from keel.c.project import Unit
 
 

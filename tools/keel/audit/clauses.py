@@ -13,11 +13,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from keel.audit.unused import DEFINITION
 from keel.c import source as csource
-from keel.judge import wp_frames as frames
 from keel.c.declarations import Signature, Structures, closing, macros, read, split
 from keel.c.project import Unit, closure, include_folders
-from keel.audit.unused import DEFINITION
+from keel.judge import wp_frames as frames
 
 CLAUSE = re.compile(r"\b(requires|assumes|assigns|ensures|behavior|complete|disjoint)\b")
 LABEL = re.compile(r"\s*([A-Z]{3,4}_\d{3}\w*)\s*:")

@@ -7,11 +7,11 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-from keel.c import source as csource
-from keel.judge import wp_frames as frames
 from keel.audit.clauses import CLAUSE
-from keel.judge.harness import read_harness
+from keel.c import source as csource
 from keel.c.project import Unit
+from keel.judge import wp_frames as frames
+from keel.judge.harness import read_harness
 
 
 def assumptions_in(files: Iterable[Path], root: Path) -> list[str]:

@@ -21,15 +21,15 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+from keel.audit import clauses, similarity
+from keel.audit import harness_inputs as inputs
+from keel.audit.harness_equality import Reader, Reading, loops
+from keel.audit.harness_inputs import BOUND, CHOSEN, EVERY, Inputs
 from keel.base.files import write_text
-
-from keel.audit import clauses, harness_inputs as inputs, similarity
 from keel.c import source as csource
 from keel.c.declarations import Signature, Structures, macros, signatures, structures
-from keel.audit.harness_equality import Reader, Reading, loops
-from keel.judge.harness import Harness, MODELS, harnesses_of, read_harness
-from keel.audit.harness_inputs import BOUND, CHOSEN, EVERY, Inputs
 from keel.c.project import Unit, find_units
+from keel.judge.harness import MODELS, Harness, harnesses_of, read_harness
 from keel.judge.settings import Exceptions, read_exceptions
 
 EQUALITY, WP, NOTHING, OPEN, UNDETERMINED = "equality", "wp", "nothing", "open", "undetermined"

@@ -13,13 +13,14 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from keel.c import source as csource, syntax
-from keel.c.source import Call
+from keel.audit.comparers import FLOATS, Comparers, Same
+from keel.c import source as csource
+from keel.c import syntax
 from keel.c.declarations import Parameter, Signature, Structures, read, signatures
-from keel.judge.harness import Harness
 from keel.c.project import closure
-from keel.audit.comparers import Comparers, FLOATS, Same
+from keel.c.source import Call
 from keel.c.syntax import Node, written
+from keel.judge.harness import Harness
 
 # The head of a loop over a whole array.
 WHOLE = re.compile(

@@ -19,11 +19,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from keel.c import source as csource, syntax
+from keel.c import source as csource
+from keel.c import syntax
 from keel.c.declarations import Macros, Parameter, Signature, macros, number, signatures
-from keel.judge.harness import Harness
 from keel.c.project import ProjectError, closure
 from keel.c.syntax import Node, written
+from keel.judge.harness import Harness
 
 EVERY, BOUND, CHOSEN = "every valid state", "within a bound", "chosen points"
 TABLE = "proofs/preconditions.toml"

@@ -19,11 +19,12 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
 
-from keel.c import source as csource, syntax
-from keel.judge.harness import read_harness
 from keel.audit.harness_inputs import CONDITIONS, ENDINGS, taken
+from keel.c import source as csource
+from keel.c import syntax
 from keel.c.project import Unit, closure, include_folders, shown
 from keel.c.syntax import Node, written
+from keel.judge.harness import read_harness
 
 CAPITALS = re.compile(r"[A-Z][A-Z0-9_]*")
 NONDET = re.compile(r"nondet_\w+")

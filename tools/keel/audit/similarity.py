@@ -13,8 +13,8 @@ from collections import Counter
 from pathlib import Path
 
 from keel.c import source as csource
-from keel.judge.harness import MODELS
 from keel.c.project import ProjectError, Unit
+from keel.judge.harness import MODELS
 
 TABLE = "proofs/same_term.toml"
 # From here on a model is taken for the code under other names.

@@ -6,7 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from keel.base.errors import ToolError
-from keel.base.run import Ended, NOT_STARTED, run
+from keel.base.run import NOT_STARTED, Ended, run
 
 
 def is_clone(root: Path) -> bool:

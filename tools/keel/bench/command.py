@@ -31,20 +31,19 @@ a goal is missed), 2 when something could not be measured.
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from keel.bench import emulated, tables
-from keel.bench.assembly import read_code, refuse_slow_code
-from keel.bench.callgrind import KINDS, Kind, NO_TASK, ONE_TASK, merged, read_dumps, sum_dumps
-from keel.bench.tables import FOR_SCALE, Goal, Target, verdict
 from keel.base.arguments import Parser
 from keel.base.build import Build
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.run import output_of
 from keel.base.source import write_report
+from keel.bench import emulated, tables
+from keel.bench.assembly import read_code, refuse_slow_code
+from keel.bench.callgrind import KINDS, NO_TASK, ONE_TASK, Kind, merged, read_dumps, sum_dumps
+from keel.bench.tables import FOR_SCALE, Goal, Target, verdict
 from keel.install import TARGET_FLAGS, Toolchain
 
 BUILD = ROOT / "build" / "bench"

@@ -15,12 +15,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from keel.config import Field, Mistake, Table, read_toml
 from keel.base.errors import ROOT, ToolError
 from keel.base.files import read_text, write_json, write_text
 from keel.base.source import VERDICT, verdict_of
-from keel.test.emulated import EmulatedBoard
+from keel.config import Field, Mistake, Table, read_toml
 from keel.install import Toolchain
+from keel.test.emulated import EmulatedBoard
 
 BUDGET = ROOT / "bench/budget.toml"
 SOURCES = ("bench/bench_target.c", "examples/urpilot/urpilot_tasks.c", "examples/copter",

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from keel.bench.callgrind import Kind, NO_TASK, ONE_TASK, merged
+from keel.bench.callgrind import NO_TASK, ONE_TASK, Kind, merged
 
 # The same set and the same method with the schedulers that flight firmware flies: instructions
 # of a pass that runs no task, and of one that runs one.

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-from keel.config import Field, Mistake, Table, Text, model_validator, read_toml
 from keel.base.errors import ToolError, unknown
+from keel.config import Field, Mistake, Table, Text, model_validator, read_toml
 
 BOARD_FILE = "board.toml"
 

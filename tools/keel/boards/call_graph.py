@@ -11,11 +11,10 @@ from typing import Any
 
 from keel.base.errors import ToolError
 from keel.base.files import read_text
-from keel.install import Toolchain
-
 from keel.boards.built import BuiltImage
 from keel.boards.elf import Contents, Symbol
 from keel.boards.packages import load
+from keel.install import Toolchain
 
 INDIRECT = "__indirect_call"
 

@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from keel.base.errors import ToolError
-
 from keel.boards.card import CardError, CardHost, SdCard
 from keel.boards.fram import Fram
 from keel.boards.ms5611 import Ms5611

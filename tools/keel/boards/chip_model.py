@@ -24,19 +24,18 @@ board printed what it is, 1 when not, 2 when there is no image or no model of th
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from keel.boards.built import read_built
-from keel.boards.card import SdCard
-from keel.boards.chip import BROKEN, Chip, OPTIONS, UART7, USART3
-from keel.boards.fram import Fram
-from keel.boards.processor import Processor
-from keel.boards.sockets import read_sockets
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program, unknown
 from keel.base.files import write_bytes, write_json
+from keel.boards.built import read_built
+from keel.boards.card import SdCard
+from keel.boards.chip import BROKEN, OPTIONS, UART7, USART3, Chip
+from keel.boards.fram import Fram
+from keel.boards.processor import Processor
+from keel.boards.sockets import read_sockets
 from keel.install import Toolchain
 
 REPORT = "build/model"

@@ -13,10 +13,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from keel.base.errors import ToolError
-from keel.install import Toolchain
-
 from keel.boards.elf import Contents, Symbol
 from keel.boards.packages import load
+from keel.install import Toolchain
 
 BRANCH, BLOCK, SELECTION = "branch", "IT block", "selection"
 ZERO = {"cbz": True, "cbnz": False}

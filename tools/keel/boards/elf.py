@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from keel.base.errors import ToolError
-from keel.install import Toolchain
-
 from keel.boards.packages import load
+from keel.install import Toolchain
 
 SHF_ALLOC, SHF_EXECINSTR = 2, 4
 

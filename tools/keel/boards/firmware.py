@@ -36,21 +36,20 @@ not be built.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from keel.boards.board import BOARD_FILE, Board, application_of, read_board
-from keel.boards.built import FIRMWARE
-from keel.boards.elf import Contents, read_contents
-from keel.boards.placement import Check, check_image, usage
 from keel.base.arguments import Parser
 from keel.base.build import Build
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import sha256_of
 from keel.base.run import output_of
 from keel.base.source import write_report
+from keel.boards.board import BOARD_FILE, Board, application_of, read_board
+from keel.boards.built import FIRMWARE
+from keel.boards.elf import Contents, read_contents
+from keel.boards.placement import Check, check_image, usage
 from keel.install import TARGET_FLAGS, Toolchain
 
 WARNINGS = ("-Wall", "-Wextra", "-Werror", "-Wconversion", "-Wdouble-promotion", "-Wundef")

@@ -22,20 +22,19 @@ run leaves none. Exit status: 0 when the image was written and verified, 2 when 
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from keel.boards import px4
-from keel.boards.board import board_folder
-from keel.boards.built import BuiltImage, read_built
 from keel.base.arguments import Parser
-from keel.config import Field, Mistake, Table, Text, read_toml
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import sha256_of, write_json
 from keel.base.run import run
+from keel.boards import px4
+from keel.boards.board import board_folder
+from keel.boards.built import BuiltImage, read_built
+from keel.config import Field, Mistake, Table, Text, read_toml
 from keel.install import Toolchain
 
 REPORT = "build/flash/report.json"

@@ -9,9 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from keel.install import Toolchain
-
 from keel.boards.packages import load
+from keel.install import Toolchain
 
 
 @dataclass(frozen=True, order=True)

@@ -10,7 +10,6 @@ from pathlib import Path
 
 from keel.base.build import source_files
 from keel.base.errors import ROOT
-
 from keel.boards.board import Board, Place
 from keel.boards.elf import Contents, Section, Symbol
 

@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
-from keel.install import Toolchain
-
-from keel.boards.chip import CALIBRATION, Chip, ModelError, SCB, SYSTEM, UID, UID_PLACE
+from keel.boards.chip import CALIBRATION, SCB, SYSTEM, UID, UID_PLACE, Chip, ModelError
 from keel.boards.packages import load
+from keel.install import Toolchain
 
 ITCM, FLASH, DTCM, SRAM, BACKUP = 0x0, 0x0800_0000, 0x2000_0000, 0x2002_0000, 0x4002_4000
 FACTORY = SYSTEM & ~0xFFF  # The page of the system memory that has the calibration.

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from keel.base.errors import ToolError
-
 from keel.boards.sockets import pin_of
 
 GPIOA, RCC = 0x4002_0000, 0x4002_3800

@@ -23,7 +23,6 @@ import binascii
 import glob
 import json
 import struct
-import sys
 import time
 import zlib
 from collections.abc import Callable, Sequence
@@ -31,10 +30,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from keel.boards.packages import load
 from keel.base.arguments import Parser
 from keel.base.errors import ToolError, program
 from keel.base.files import write_text
+from keel.boards.packages import load
 from keel.install import Toolchain
 
 MAGIC = "PX4FWv1"

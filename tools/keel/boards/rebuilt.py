@@ -7,10 +7,9 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
+from keel.boards.board import read_board
 from keel.boards.firmware import Builder
 from keel.install import Toolchain
-
-from keel.boards.board import read_board
 
 SOURCES = ("bsp", "examples", "include", "src")
 COMPARED = ("keel.elf", "keel.bin")

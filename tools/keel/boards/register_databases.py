@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from keel.base.files import read_text
-
 from keel.boards.register_headers import Fact, RegistersError
 
 Answers = Iterator[tuple[str, tuple[int, ...]]]  # The database, and its numbers.

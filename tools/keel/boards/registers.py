@@ -26,19 +26,18 @@ nothing could be compared.
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from keel.base.arguments import Parser
+from keel.base.errors import ROOT, program
+from keel.base.files import read_text, write_json
 from keel.boards.board import BOARD_FILE, Board, read_board
 from keel.boards.register_databases import Databases, Metapac
 from keel.boards.register_headers import Fact, instances_of, read_facts, read_headers
 from keel.boards.sockets import PINS, socket_differences
-from keel.base.arguments import Parser
 from keel.config import Table, Text, read_toml
-from keel.base.errors import ROOT, program
-from keel.base.files import read_text, write_json
 from keel.install import Toolchain
 
 EXCEPTIONS = "specs/registers.toml"

@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from keel.config import Table, Text, read_toml
 from keel.base.files import read_text
+from keel.config import Table, Text, read_toml
 
 SOCKETS = "specs/outputs.toml"
 PINS = "bsp/*/pins.c"

@@ -29,27 +29,26 @@ status: 0 when every bound holds, 1 when not or when there is none, 2 when none 
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from keel.base.arguments import Parser
+from keel.base.errors import ROOT, program
+from keel.base.files import sha256_of
+from keel.base.source import write_report
 from keel.boards.board import board_folder, read_board
 from keel.boards.built import read_built
 from keel.boards.call_graph import Disassembler, StackError, read_graph
 from keel.boards.elf import Contents, read_contents
 from keel.boards.stack_bounds import (
     EXCEPTION_FRAME_B,
-    StackTable,
     TABLE,
+    StackTable,
     analyse,
     idle_code,
     mistakes,
 )
-from keel.base.arguments import Parser
 from keel.config import read_toml
-from keel.base.errors import ROOT, program
-from keel.base.files import sha256_of
-from keel.base.source import write_report
 from keel.install import Toolchain
 
 REPORT = "build/stack"

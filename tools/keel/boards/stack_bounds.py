@@ -7,9 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
-from keel.config import Field, Mistake, Table, Text
-
 from keel.boards.call_graph import Code, Graph, StackError, complete
+from keel.config import Field, Mistake, Table, Text
 
 TABLE = "specs/stack.toml"
 TASKS = "tasks"

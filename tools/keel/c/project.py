@@ -13,7 +13,6 @@ from functools import cached_property
 from pathlib import Path
 
 from keel.base.errors import ToolError
-
 from keel.c import source as csource
 
 KEEL = Path(__file__).resolve().parents[3]

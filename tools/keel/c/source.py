@@ -10,7 +10,6 @@ from functools import lru_cache
 from pathlib import Path
 
 from keel.base.files import read_text
-
 from keel.c.syntax import Node, SyntaxProblem, found, parse, span, written
 
 TOKEN = re.compile(

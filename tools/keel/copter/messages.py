@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import importlib.util
 import subprocess
-import sys
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field

@@ -21,9 +21,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-from keel.config import ConfigError, Field, Mistake, Table, model_validator, parse_toml
 from keel.base.errors import ROOT, ToolError
 from keel.base.files import read_text, write_text
+from keel.config import ConfigError, Field, Mistake, Table, model_validator, parse_toml
 
 SOURCE = "specs/parameters/copter.toml"
 # examples/copter/parameters.h: KEEL_PARAMETER_NAME_LENGTH, and how many an index can tell apart.

@@ -10,6 +10,10 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from keel.base.jobs import Finished, Runner
+from keel.base.shared_results import Once
+from keel.c.project import closure
+from keel.engines.cbmc_build import Builder
 from keel.judge import harness as harnesses
 from keel.judge.cbmc_answers import (
     ASSERTION,
@@ -20,11 +24,7 @@ from keel.judge.cbmc_answers import (
     read_answer,
     refutation_problems,
 )
-from keel.engines.cbmc_build import Builder
 from keel.judge.harness import Harness
-from keel.base.jobs import Finished, Runner
-from keel.base.shared_results import Once
-from keel.c.project import closure
 from keel.judge.wrong_bodies import WrongBody
 
 CHECKS = (

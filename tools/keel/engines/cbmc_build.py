@@ -10,12 +10,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from keel.base.files import write_text
-
-from keel.judge.harness import Harness
 from keel.base.jobs import Runner
 from keel.base.shared_results import Once
 from keel.c.project import closure, include_options
+from keel.judge.harness import Harness
 from keel.judge.wrong_bodies import WrongBody
+
 
 class Builder:
     """The compiler for CBMC. Harnesses share what is compiled of the same text in the same way."""

@@ -27,8 +27,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from keel.c import source as csource
 from keel.base.jobs import Runner
+from keel.c import source as csource
 from keel.c.project import ProjectError
 
 KEYS = frozenset("goals rounds expect".split())

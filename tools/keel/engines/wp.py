@@ -17,14 +17,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from keel.install.prover_limits import SMOKE_SECONDS
-from keel.install.provers import CLOCK_PER_PROCESSOR
-
-from keel.judge import wp_frames as frames, wp_log as wplog
-from keel.engines.frama_modules import Modules
-from keel.judge.goals import PRUNED, QED
 from keel.base.jobs import Runner
 from keel.c.project import include_options
+from keel.engines.frama_modules import Modules
+from keel.install.prover_limits import SMOKE_SECONDS
+from keel.install.provers import CLOCK_PER_PROCESSOR
+from keel.judge import wp_frames as frames
+from keel.judge import wp_log as wplog
+from keel.judge.goals import PRUNED, QED
 from keel.judge.wp_targets import Result, Target, dependencies
 from keel.judge.wp_verdict import judge, loop_problems, message_problems
 

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 from typing import get_args
 
 from keel.base.errors import ToolError
-
 from keel.evidence.part import Context, Item, Kind, Part, State
 
 # In the order of the package: from what was wanted to what was found, and what it rests on.

@@ -20,7 +20,6 @@ it could not be tried.
 
 from __future__ import annotations
 
-import sys
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -29,14 +28,14 @@ from pathlib import Path
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import write_text
-from keel.install.packages import provide
 from keel.base.source import stamp_of
 from keel.install import Toolchain
+from keel.install.packages import provide
 
 provide("common")
 provide("evidence")
 
-from keel.evidence.assemble import Assembled, OWN_PARTS, assemble, own_maker_of
+from keel.evidence.assemble import OWN_PARTS, Assembled, assemble, own_maker_of
 from keel.evidence.commands import (
     Command,
     commands_of,

@@ -12,15 +12,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from keel.boards.board import board_names
 from keel.base.errors import ROOT
 from keel.base.files import write_text
 from keel.base.run import Ended, run, stop_all
 from keel.base.source import GOOD, VERDICT
-from keel.install import Toolchain
-
+from keel.boards.board import board_names
 from keel.evidence.part import Context
 from keel.evidence.parts.tools import report_problems
+from keel.install import Toolchain
 
 PROOFS = "prove/report.json"
 ELSEWHERE = "KEEL_PROVED"

@@ -14,7 +14,6 @@ from typing import Any
 from keel.base.errors import ToolError
 from keel.base.files import sha256_of, write_bytes, write_json, write_text
 from keel.base.git import git
-
 from keel.evidence import attestation, measured
 from keel.evidence.assemble import Assembled
 from keel.evidence.part import Part

@@ -15,10 +15,9 @@ from fpdf.enums import XPos, YPos
 from fpdf.fonts import FontFace
 
 from keel.base.files import write_bytes
-from keel.install import Toolchain
-
-from keel.evidence.assemble import Assembled, REFERENCE
+from keel.evidence.assemble import REFERENCE, Assembled
 from keel.evidence.part import Part, Table
+from keel.install import Toolchain
 
 NARROW, WIDE = 10, 50  # Characters of a column.
 ROWS = 40  # Of a table; the site and the JSON have all.

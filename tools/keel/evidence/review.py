@@ -16,14 +16,13 @@ from __future__ import annotations
 import argparse
 import datetime
 import json
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import read_text, write_text
-from keel.evidence.formal import reviews
 from keel.c.project import Unit, find_units
+from keel.evidence.formal import reviews
 
 
 def parse(arguments: Sequence[str] | None) -> argparse.Namespace:

@@ -13,7 +13,6 @@ could not be asked.
 from __future__ import annotations
 
 import argparse
-import sys
 import tempfile
 import time
 from collections.abc import Sequence
@@ -21,10 +20,10 @@ from pathlib import Path
 from typing import Any
 
 from keel.base.errors import ROOT, program
-from keel.base.source import write_report
-from keel.evidence.formal import bounds, esbmc, opinion
-from keel.base.verdict_cache import Cache, digest
 from keel.base.jobs import Runner, end_as_by_ctrl_c
+from keel.base.source import write_report
+from keel.base.verdict_cache import Cache, digest
+from keel.evidence.formal import bounds, esbmc, opinion
 from keel.install import Toolchain, small_environment
 
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from keel.evidence.part import Context
 from keel.trace.command import Trace, join
 from keel.trace.requirements import Requirement, children
 from keel.trace.verdicts import Verdicts, of_proofs, of_tests, states
-
-from keel.evidence.part import Context
 
 REPORTS = ("prove/report.json", "test/report.json", "test-target/report.json")
 

@@ -10,7 +10,6 @@ from pathlib import Path
 
 from keel.base.errors import ToolError
 from keel.base.source import STAMP
-
 from keel.evidence import attestation, measured
 from keel.evidence.package import ATTESTATION, SUMS, digests, read_manifest
 

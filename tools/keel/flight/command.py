@@ -17,7 +17,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -29,7 +28,6 @@ from keel.flight.crew import Job, Outcome, all_flown
 from keel.flight.loop import Order
 from keel.flight.varied import order_of
 from keel.install import Toolchain
-
 from keel.timeline import command as schedule
 
 BUILD = ROOT / "build/fly"

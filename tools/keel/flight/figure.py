@@ -11,14 +11,13 @@ Exit status: 0 when it was drawn, 2 when it could not be flown.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from keel.base.plotting import BLUE, GREY, ORANGE, RED, new_figure, write_svg
 
 from keel.base.errors import ROOT, program
+from keel.base.plotting import BLUE, GREY, ORANGE, RED, new_figure, write_svg
 from keel.flight import library, scenario
 from keel.flight.library import Copter
 from keel.flight.loop import Order, Trace, fly, without_faults

@@ -18,13 +18,13 @@ import jsbsim
 
 from keel.base.errors import ToolError
 from keel.flight.plants import (
-    Airframe,
     EAST_M,
     HOME_ALTITUDE_M,
     HOME_LATITUDE,
     HOME_LONGITUDE,
     NORTH_M,
     STEP_S,
+    Airframe,
     Truth,
 )
 
@@ -125,7 +125,7 @@ def loaded(airframe: Airframe) -> Any:
     return fdm
 
 
-class quiet:  # noqa: N801 - a context, named as a word
+class quiet:
     """Nothing that a library in C++ writes reaches stdout, not even later, from its buffer."""
 
     def __enter__(self) -> None:

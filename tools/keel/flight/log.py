@@ -14,7 +14,6 @@ Exit status: 0, or 2 when the log cannot be read.
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from rich.table import Table
 
+from keel.base.plotting import BLUE, COLOURS, GREEN, GREY, ORANGE, RED, new_figure, write_svg
 from keel.flight.library import states
 from keel.flight.spectrum import Spectrum, rate_of, spectrum
 from keel.timeline.ulog import Log
-from keel.base.plotting import BLUE, COLOURS, GREEN, GREY, ORANGE, RED, new_figure, write_svg
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -18,7 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from keel.flight import device_frames as frames, plants, wind
+from keel.flight import device_frames as frames
+from keel.flight import plants, wind
 from keel.flight.faults import Faults
 from keel.flight.library import Copter, Key, Link, checks_of, facts_of, modes, states
 from keel.flight.pilot import Pilot, Sight

@@ -12,20 +12,18 @@ margin.
 
 from __future__ import annotations
 
-import sys
 import tomllib
-from collections.abc import Callable, Mapping
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from keel.base.errors import ROOT
-from keel.base.files import write_json
 from rich.console import Console
 from rich.table import Table
 
+from keel.base.errors import ROOT
+from keel.base.files import write_json
 from keel.flight import mujoco_plant as plant
 from keel.flight.plants import THRUST_POWER
 

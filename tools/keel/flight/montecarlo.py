@@ -17,7 +17,6 @@ import argparse
 import importlib
 import json
 import os
-import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path

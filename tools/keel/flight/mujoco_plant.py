@@ -13,7 +13,6 @@ from collections.abc import Sequence
 import mujoco
 
 from keel.flight.plants import (
-    Airframe,
     EAST_M,
     HOME_ALTITUDE_M,
     HOME_LATITUDE,
@@ -21,6 +20,7 @@ from keel.flight.plants import (
     NORTH_M,
     STEP_S,
     THRUST_POWER,
+    Airframe,
     Truth,
     standard_pressure,
 )

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from keel.base.plotting import BLUE, COLOURS, GREEN, GREY, ORANGE, RED, new_figure, write_svg
 from keel.flight.judge import asked, believed
 from keel.flight.library import states
 from keel.flight.loop import Trace
 from keel.flight.scenario import Scenario
-from keel.base.plotting import BLUE, COLOURS, GREEN, GREY, ORANGE, RED, new_figure, write_svg
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

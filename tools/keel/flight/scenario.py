@@ -12,6 +12,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+from keel.base.errors import ROOT, ToolError, unknown
+from keel.base.files import read_text
 from keel.config import (
     ConfigError,
     Field,
@@ -23,8 +25,6 @@ from keel.config import (
     place_of,
     refusal,
 )
-from keel.base.errors import ROOT, ToolError, unknown
-from keel.base.files import read_text
 
 FOLDER = ROOT / "examples/copter/scenarios"
 

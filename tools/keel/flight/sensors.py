@@ -26,7 +26,7 @@ from keel.flight.plants import (
     standard_temperature,
 )
 from keel.flight.power import Battery
-from keel.flight.receivers import Receiver, SATELLITES
+from keel.flight.receivers import SATELLITES, Receiver
 from keel.flight.scenario import Place, Quality, Shaking
 
 BLOCK = 1000

@@ -18,7 +18,6 @@ from __future__ import annotations
 import argparse
 import re
 import signal
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path

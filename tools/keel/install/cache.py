@@ -14,7 +14,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from keel.base.files import sha256_of
-
 from keel.install.apt import Log
 from keel.install.found import Finder, Found
 from keel.install.lock import Spec, ToolchainError

@@ -26,7 +26,6 @@ from dataclasses import asdict
 
 from keel.base.arguments import Parser
 from keel.base.errors import program
-
 from keel.install.tools import Toolchain
 
 

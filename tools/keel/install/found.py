@@ -13,7 +13,6 @@ from typing import TypedDict
 
 from keel.base.files import sha256_of
 from keel.base.run import run
-
 from keel.install.lock import Spec
 
 PROBE_TIMEOUT_S = 120

@@ -15,8 +15,8 @@ from keel.install.apt import HostApt, Suite
 from keel.install.cache import Cache, Say, default_cache
 from keel.install.findings import Findings
 from keel.install.found import Finder, Found, answer, found
-from keel.install.prover_limits import within_limits
 from keel.install.lock import Lock, Spec, ToolchainError
+from keel.install.prover_limits import within_limits
 from keel.install.unpack import Tree, unpack_crate, unpack_deb, unpack_source
 
 

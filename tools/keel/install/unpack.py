@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from keel.base.files import sha256_of
-
 from keel.install.apt import Log, Suite
 from keel.install.lock import LOCK_FILE, Spec, ToolchainError
 

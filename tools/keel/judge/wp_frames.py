@@ -16,8 +16,8 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from keel.c import source as csource
-from keel.judge.harness import Harness, read_harness
 from keel.c.project import Unit
+from keel.judge.harness import Harness, read_harness
 from keel.judge.settings import Exceptions
 
 if TYPE_CHECKING:

@@ -9,10 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from keel.base.files import write_text
-
 from keel.c import source as csource
-from keel.judge import wp_frames as frames
 from keel.c.project import Unit, closure, shown
+from keel.judge import wp_frames as frames
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,9 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from keel.c import source as csource
-from keel.judge import goals, wp_log as wplog
 from keel.c.project import shown
+from keel.judge import goals
+from keel.judge import wp_log as wplog
 from keel.judge.wp_targets import Result, Target
 
 VARIANT = re.compile(r"(.*_loop_variant(?:_\d+)?_decrease)(?:_part\d+)?$")

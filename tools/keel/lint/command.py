@@ -27,19 +27,18 @@ from __future__ import annotations
 
 import difflib
 import re
-import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
-from keel.install.packages import provide
 from keel.base.run import run
+from keel.install import Toolchain
+from keel.install.packages import provide
 from keel.lint import record
 from keel.lint.house import check_house
 from keel.lint.misra import find_violations, judge, read_deviations
 from keel.lint.texts import Finding, Text, read_texts
-from keel.install import Toolchain
 
 provide("ci")
 

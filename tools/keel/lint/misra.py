@@ -12,13 +12,13 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Annotated, Literal, NamedTuple
 
-from keel.config import Field, Mistake, Table, read_toml
 from keel.base.errors import ToolError
 from keel.base.files import read_text
 from keel.base.run import output_of, run
 from keel.base.toml_lines import line_index
-from keel.lint.texts import Finding, Text
+from keel.config import Field, Mistake, Table, read_toml
 from keel.install import Toolchain
+from keel.lint.texts import Finding, Text
 
 DEVIATIONS = "specs/misra_deviations.toml"
 SARIF = "build/lint/cppcheck.sarif"

@@ -7,10 +7,10 @@ import re
 from collections.abc import Iterator, Sequence
 from pathlib import PurePosixPath
 
-from keel.c import source as csource, syntax
+from keel.c import source as csource
+from keel.c import syntax
 from keel.c.declarations import signatures
 from keel.c.syntax import Node, written
-
 from keel.lint.texts import Finding, Text
 
 FOLDER = "specs/model/"

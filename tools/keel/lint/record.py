@@ -13,7 +13,6 @@ from typing import Any
 from keel.base.sarif import SarifResult, write_sarif
 from keel.base.source import write_report
 from keel.install import Toolchain
-
 from keel.lint.misra import (
     Deviation,
     Violation,

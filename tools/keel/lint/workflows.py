@@ -15,10 +15,10 @@ from pathlib import Path
 from typing import Any
 
 import yaml
+
 from keel.base.errors import ToolError
 from keel.base.run import run
 from keel.install import Toolchain
-
 from keel.lint.texts import Finding, Text
 
 PLACE = re.compile(r"^\.github/workflows/[^/]+\.ya?ml$")

@@ -41,29 +41,36 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from keel.base.files import write_text
-from keel.base.verdict_cache import Cache, digest
-from keel.base.jobs import end_as_by_ctrl_c
-from keel.mutate.crew import Dask, Job, Threads, answer_order
-from keel.mutate.harnesses import survey
-from keel.mutate.trees import Trees
-from keel.mutate.verdicts import Verdict
-from keel.mutate.operators import Mutant, generate
-from keel.mutate.mutation import BY_CBMC, BY_WP, CONFIRM, DRIVER, Tools, Trial
-from keel.c.project import ProjectError, RECORDED_TIMES, Unit, find_units
-from keel.judge.settings import read_exceptions
-from keel.prove.verdict_keys import mutants_digest, own_digest, prover_answers, tool_stamp
-from keel.prove.times import Times
-from keel.install import TARGET_FLAGS, Toolchain, ToolchainError, small_environment
-
 from keel.audit import clauses, determined
+from keel.base.files import write_text
+from keel.base.jobs import end_as_by_ctrl_c
+from keel.base.verdict_cache import Cache, digest
+from keel.c.project import RECORDED_TIMES, ProjectError, Unit, find_units
+from keel.install import TARGET_FLAGS, Toolchain, ToolchainError, small_environment
+from keel.judge.settings import read_exceptions
 from keel.mutate import (
     execution as mutant_execution,
+)
+from keel.mutate import (
     records as mutant_records,
+)
+from keel.mutate import (
     slips as mutant_slips,
+)
+from keel.mutate import (
     standing as mutant_standing,
+)
+from keel.mutate import (
     verdicts as mutant_verdicts,
 )
+from keel.mutate.crew import Dask, Job, Threads, answer_order
+from keel.mutate.harnesses import survey
+from keel.mutate.mutation import BY_CBMC, BY_WP, CONFIRM, DRIVER, Tools, Trial
+from keel.mutate.operators import Mutant, generate
+from keel.mutate.trees import Trees
+from keel.mutate.verdicts import Verdict
+from keel.prove.times import Times
+from keel.prove.verdict_keys import mutants_digest, own_digest, prover_answers, tool_stamp
 
 CLANG = "clang-19"
 ENGINES = {"wp": ("wp",), "cbmc": ("cbmc",), "both": ("cbmc", "wp"), None: ("cbmc", "wp")}

@@ -17,12 +17,11 @@ from typing import Any, Protocol
 
 from keel.base import cluster_worker
 from keel.base.cluster import archive
-
-from keel.judge.harness import MODELS
 from keel.base.jobs import Stoppable, in_pool
-from keel.mutate.verdicts import Verdict
-from keel.mutate.operators import Mutant
 from keel.c.project import ProjectError
+from keel.judge.harness import MODELS
+from keel.mutate.operators import Mutant
+from keel.mutate.verdicts import Verdict
 
 SENT = ("include", "src", "proofs", MODELS, "tools")
 PROGRAM = ["tools/keel", "mutate", "--order"]

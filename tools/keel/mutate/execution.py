@@ -36,15 +36,16 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from keel.c import declarations, source as csource
+from keel.base.jobs import Finished, Runner
 from keel.base.verdict_cache import Cache, digest
+from keel.c import declarations
+from keel.c import source as csource
+from keel.c.project import ProjectError, Unit, closure, include_options
 from keel.engines.cbmc import Cbmc
 from keel.judge.harness import Harness, without_solver
-from keel.base.jobs import Finished, Runner
 from keel.mutate.harnesses import Seen, in_tree
-from keel.mutate.verdicts import EXECUTED
 from keel.mutate.operators import Mutant
-from keel.c.project import ProjectError, Unit, closure, include_options
+from keel.mutate.verdicts import EXECUTED
 
 OWN = Path(__file__).resolve().parent
 RUNTIME = (OWN / "mutant_run.c", OWN / "mutant_run.h")

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from keel.c import source as csource
-from keel.judge.harness import Harness, read_harness
 from keel.c.project import Unit, closure, find_units
+from keel.judge.harness import Harness, read_harness
 
 
 @dataclass(frozen=True)

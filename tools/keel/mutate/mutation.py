@@ -11,23 +11,24 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
-from keel.engines import cbmc, wp
-from keel.c import source as csource
-from keel.prove import job_list as engines
-from keel.judge import wp_frames as frames, wp_targets as targets
-from keel.base.verdict_cache import Cache, digest
-from keel.judge.harness import Harness
 from keel.base.jobs import Runner
+from keel.base.verdict_cache import Cache, digest
+from keel.c import source as csource
+from keel.c.project import ProjectError, Unit, closure
+from keel.engines import cbmc, wp
+from keel.judge import wp_frames as frames
+from keel.judge import wp_targets as targets
+from keel.judge.harness import Harness
+from keel.judge.settings import Exceptions
 from keel.mutate.execution import CONFIRMING, Executions, Sample
 from keel.mutate.harnesses import Seen, in_tree, survey
-from keel.mutate.small_harnesses import Small, TIME, WALL
+from keel.mutate.operators import Mutant
+from keel.mutate.small_harnesses import TIME, WALL, Small
 from keel.mutate.trees import Trees
 from keel.mutate.verdicts import Identity, Verdict
-from keel.mutate.operators import Mutant
-from keel.c.project import ProjectError, Unit, closure
-from keel.judge.settings import Exceptions
-from keel.prove.verdict_keys import started
+from keel.prove import job_list as engines
 from keel.prove.times import Times
+from keel.prove.verdict_keys import started
 
 # What is not true is given up soon; how soon depends on how long what is true takes.
 PROVERS = {"Alt-Ergo": "alt-ergo", "CVC4": "cvc4", "Z3": "z3"}

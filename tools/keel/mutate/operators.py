@@ -17,10 +17,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from keel.c import declarations, source as csource
+from keel.c import declarations
+from keel.c import source as csource
+from keel.c.syntax import Node, found, span, within, written
 from keel.mutate import slips as mutant_slips
 from keel.mutate.slips import Change, Surroundings
-from keel.c.syntax import Node, found, span, within, written
 
 Others = dict[str, tuple[str, ...]]
 

@@ -19,14 +19,13 @@ from pathlib import Path
 from typing import Any
 
 from keel.base.files import write_text
-from keel.install import Found
-
-from keel.c import source as csource
 from keel.base.verdict_cache import digest
-from keel.judge.goals import read_goals
-from keel.judge.harness import Harness, MODELS, read_harness
-from keel.mutate.verdicts import STATUSES, Verdict
+from keel.c import source as csource
 from keel.c.project import Unit, closure, find_units
+from keel.install import Found
+from keel.judge.goals import read_goals
+from keel.judge.harness import Harness, read_harness
+from keel.mutate.verdicts import STATUSES, Verdict
 
 FOLDER = "specs/mutation"
 # How a comment begins that a prover reads.

@@ -11,11 +11,10 @@ from typing import Any
 
 from keel.base.errors import ToolError
 from keel.base.files import read_text
+from keel.c.project import Unit
 from keel.install import Found
-
 from keel.mutate import records as mutant_records
 from keel.mutate.verdicts import score
-from keel.c.project import Unit
 
 Record = Mapping[str, Any]
 

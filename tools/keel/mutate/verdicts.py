@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from keel.mutate.operators import Mutant
 from keel.c.project import ProjectError
+from keel.mutate.operators import Mutant
 
 Identity = tuple[str, str, str, int]
 # What a verdict says of a harness that was executed, before the number of the input.

@@ -24,16 +24,15 @@ from __future__ import annotations
 import argparse
 import os
 import re
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 from keel.base.errors import program
 from keel.base.jobs import end_as_by_ctrl_c
 from keel.c.project import KEEL, ProjectError, Unit, find_units
+from keel.install import Toolchain
 from keel.prove.proof_run import Choice, Session
 from keel.prove.shards import Shard, read_shard
-from keel.install import Toolchain
 
 ENGINES = ("wp", "cbmc", "gappa")
 # The paper's subject: the scheduler, and the units of these names. Spreading first releases is not

@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from keel.base.verdict_cache import Cache
 from keel.base.jobs import Runner, in_pool
+from keel.base.verdict_cache import Cache
 from keel.c.project import ProjectError
 from keel.prove.progress import Running
 from keel.prove.times import Times

@@ -14,21 +14,21 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from keel.audit import assertions
-from keel.judge import wp_frames as frames
-from keel.prove import sequents
-from keel.engines.cbmc import Cbmc
-from keel.judge.cbmc_answers import Answer
-from keel.prove.counterexample import changes, lines, read_trace
 from keel.c.declarations import structures
+from keel.c.project import Unit
+from keel.engines.cbmc import Cbmc
+from keel.engines.wp import Wp
+from keel.judge import wp_frames as frames
+from keel.judge.cbmc_answers import Answer
 from keel.judge.goals import read_goals
 from keel.judge.harness import Harness, read_harness
-from keel.prove.located import in_words
-from keel.c.project import Unit
 from keel.judge.settings import Exceptions
 from keel.judge.wp_targets import Target, targets
 from keel.judge.wp_verdict import clause_at, place_of
-from keel.engines.wp import Wp
 from keel.judge.wrong_bodies import WrongBody, read_wrong_body
+from keel.prove import sequents
+from keel.prove.counterexample import changes, lines, read_trace
+from keel.prove.located import in_words
 
 GOAL, HARNESS, ASSERTION, WRONG = "goal", "harness", "assertion", "wrong body"
 NEAREST = 3

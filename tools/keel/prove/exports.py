@@ -11,7 +11,6 @@ from pathlib import Path
 from keel.base.files import write_text
 from keel.base.junit import JUnitSuite, write_junit
 from keel.base.sarif import SarifResult, split_place, write_sarif
-
 from keel.prove.driver import Outcome
 from keel.prove.report import Gathered, UnitResult
 

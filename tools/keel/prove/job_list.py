@@ -8,17 +8,19 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from keel.engines import cbmc, gappa, wp
-from keel.c import source as csource
-from keel.judge import wp_frames as frames, wp_targets as targets, wp_verdict as verdict
-from keel.prove import located
 from keel.base.verdict_cache import digest
-from keel.prove.driver import Job
+from keel.c import source as csource
+from keel.c.project import KEEL, ProjectError, Unit, closure, shown
+from keel.engines import cbmc, gappa, wp
+from keel.judge import wp_frames as frames
+from keel.judge import wp_targets as targets
+from keel.judge import wp_verdict as verdict
 from keel.judge.goals import read_goals
 from keel.judge.harness import Harness, harnesses_of, read_harness
-from keel.c.project import KEEL, ProjectError, Unit, closure, shown
 from keel.judge.settings import Exceptions
 from keel.judge.wrong_bodies import WrongBody, read_wrong_body
+from keel.prove import located
+from keel.prove.driver import Job
 
 
 def wp_jobs(

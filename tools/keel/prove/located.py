@@ -12,9 +12,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from keel.base.jobs import Runner
-from keel.prove.sequents import Sequent, bearing, read_sequents
-from keel.judge.wp_targets import Result, Target
 from keel.engines.wp import Stage, Wp
+from keel.judge.wp_targets import Result, Target
+from keel.prove.sequents import Sequent, bearing, read_sequents
 
 NUMBER = re.compile(r"_(\d+)$")
 ANSWER = re.compile(r"(?<=: )(?:Unknown|Timeout|Stepout|Failed)\b")

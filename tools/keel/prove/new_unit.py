@@ -14,16 +14,15 @@ nothing is written.
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from keel.audit import determined
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import read_text, write_text
-from keel.audit import determined
-from keel.prove import skeleton
 from keel.c.project import find_units
+from keel.prove import skeleton
 
 TEMPLATE = ROOT / "examples" / "new_unit"
 # What the example is called, and its layer.

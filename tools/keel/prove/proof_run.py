@@ -12,32 +12,34 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from keel.base.files import write_text
-from keel.install import Toolchain, small_environment
-
 from keel.audit import (
     assertions,
     clauses,
-    completeness as rules,
     determined,
     disguises,
     harness_rules,
     theorems,
     unused,
 )
-from keel.engines import cbmc, gappa, wp
-from keel.c import source as csource
-from keel.prove import driver, explain, exports, job_list as engines, located, report, shards
-from keel.judge import wp_frames as frames
+from keel.audit import (
+    completeness as rules,
+)
+from keel.base.files import write_text
+from keel.base.jobs import Runner
 from keel.base.verdict_cache import Cache
+from keel.c import source as csource
+from keel.c.project import KEEL, RECORDED_TIMES, ProjectError, Unit, closure, find_units
+from keel.engines import cbmc, gappa, wp
+from keel.install import Toolchain, small_environment
+from keel.judge import wp_frames as frames
 from keel.judge.goals import PRUNED, as_text, read_goals, short_name
 from keel.judge.harness import read_harness, unchecked
-from keel.base.jobs import Runner
-from keel.c.project import KEEL, ProjectError, RECORDED_TIMES, Unit, closure, find_units
 from keel.judge.settings import Exceptions, read_exceptions
-from keel.prove.verdict_keys import headers_digest, prover_answers, tool_stamp, verdict_stamp
+from keel.prove import driver, explain, exports, located, report, shards
+from keel.prove import job_list as engines
 from keel.prove.times import Times, read_times, recorded_anew
 from keel.prove.times import as_text as times_text
+from keel.prove.verdict_keys import headers_digest, prover_answers, tool_stamp, verdict_stamp
 
 
 @dataclass(frozen=True)

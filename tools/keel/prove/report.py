@@ -10,15 +10,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from keel.base.source import STAMP, stamp_of
-from keel.install import Found
-
-from keel.judge import cbmc_answers
 from keel.audit import determined
-from keel.prove.driver import Job, Outcome
-from keel.c.project import KEEL, Unit
-from keel.judge.settings import Exceptions
 from keel.audit.theorems import labels
+from keel.base.source import STAMP, stamp_of
+from keel.c.project import KEEL, Unit
+from keel.install import Found
+from keel.judge import cbmc_answers
+from keel.judge.settings import Exceptions
+from keel.prove.driver import Job, Outcome
 from keel.prove.times import Forecast, Times, estimates
 
 # Where it stands what helps a proof that takes too long.

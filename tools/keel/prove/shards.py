@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from keel.base.verdict_cache import digest
-from keel.prove.driver import Job, Outcome
 from keel.c.project import ProjectError
+from keel.prove.driver import Job, Outcome
 from keel.prove.times import estimates
 
 

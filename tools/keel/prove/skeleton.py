@@ -8,12 +8,11 @@ are left to be written: they do nothing, or fail.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
+from keel.audit.clauses import header_texts
 from keel.c import source as csource
-from keel.judge import wp_frames as frames
-from keel.audit.clauses import LABEL, header_texts
 from keel.c.declarations import (
     Field,
     Macros,
@@ -26,6 +25,7 @@ from keel.c.declarations import (
     structures,
 )
 from keel.c.project import ProjectError, Unit
+from keel.judge import wp_frames as frames
 
 # REUSE-IgnoreStart
 HEAD = "/* SPDX-License-Identifier: Apache-2.0 */\n"

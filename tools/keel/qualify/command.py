@@ -15,7 +15,6 @@ Exit status: 0 when each fault is detected, 1 when one is not, 2 when none could
 
 from __future__ import annotations
 
-import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
@@ -26,10 +25,10 @@ from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import sha256_of
 from keel.base.source import digest_of_tree, write_report
 from keel.base.verdict_cache import Cache, digest
+from keel.install import Found, Toolchain
 from keel.qualify.deceptions import SEEDS as DECEPTIONS
 from keel.qualify.seeds import SEEDS, Seed
 from keel.qualify.trials import ask
-from keel.install import Found, Toolchain
 
 REPORT = "build/qualify/report.json"
 KNOWN = "qualified"  # In the user's cache.

@@ -14,24 +14,24 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from unittest import mock
 
-from keel.boards.call_graph import Graph, StackError, parse
-from keel.boards.stack_bounds import Bounds
+from keel.analyse.analysis import Eva
+from keel.audit import disguises
 from keel.base.build import BuildError
 from keel.base.errors import ToolError
 from keel.base.files import read_text, write_text
-from keel.base.run import output_of, run
-from keel.analyse.analysis import Eva
-from keel.c import source as csource
-from keel.audit import disguises
-from keel.judge import wp_targets as targets
-from keel.engines.cbmc import CHECKS as CBMC_CHECKS
 from keel.base.jobs import Runner
+from keel.base.run import output_of, run
+from keel.boards.call_graph import Graph, StackError, parse
+from keel.boards.stack_bounds import Bounds
+from keel.c import source as csource
 from keel.c.project import Unit, find_units
+from keel.engines.cbmc import CHECKS as CBMC_CHECKS
 from keel.engines.wp import OWN, SMOKE, SMOKE_OF_FLOATS
-from keel.judge.wp_log import read_log
-from keel.test.emulated import EmulatedBoard
 from keel.install import MACHDEP_FILE, TARGET_FLAGS, Toolchain, small_environment
 from keel.install.provers import CLOCK_PER_PROCESSOR
+from keel.judge import wp_targets as targets
+from keel.judge.wp_log import read_log
+from keel.test.emulated import EmulatedBoard
 
 Trial = Callable[[Toolchain, Path, str], list[str]]  # The tools, the text's file, the option.
 

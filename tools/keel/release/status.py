@@ -12,7 +12,6 @@ Exit status: 0 when the page was written, 2 when not; the reason is told.
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any

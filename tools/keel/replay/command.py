@@ -27,10 +27,10 @@ from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import write_json
 from keel.flight import library, tables
 from keel.flight.crew import copter_of, leave_ctrl_c
+from keel.install import Toolchain
 from keel.replay import figures, others, picture, readers, recording, tell
 from keel.replay.copter import Track, replayed
 from keel.replay.recording import Recording, Series
-from keel.install import Toolchain
 
 BUILD = ROOT / "build/replay"
 SCHEMA = 1

@@ -17,7 +17,7 @@ import numpy as np
 from keel.base.errors import ToolError
 from keel.flight import device_frames as frames
 from keel.flight.library import Copter, Link
-from keel.flight.receivers import Receiver, SATELLITES
+from keel.flight.receivers import SATELLITES, Receiver
 from keel.replay.recording import Recording, Series
 
 TICK_S = 0.001  # Background IMU's period.

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from keel.base.errors import ToolError
-from keel.timeline import ulog
 from keel.replay.recording import Recording, Series, checked, unit_quaternions
+from keel.timeline import ulog
 
 INVALID = np.iinfo(np.int32).max  # What PX4 has for a time that is none.
 LEAST_HZ = 50.0  # A unit that was logged more seldom is no recording of it.

@@ -38,8 +38,9 @@ from pathlib import Path
 from keel.base.arguments import Parser
 from keel.base.build import Build
 from keel.base.errors import ROOT, program
-from keel.base.run import run
 from keel.base.jobs import end_as_by_ctrl_c
+from keel.base.run import run
+from keel.install import Toolchain
 from keel.test import suites as running
 from keel.test.needs import Needs, read_needs
 from keel.test.outcomes import (
@@ -50,9 +51,8 @@ from keel.test.outcomes import (
     reference_outcome,
     unity_outcome,
 )
-from keel.test.suites import Suite
 from keel.test.sources import KERNEL, MODEL_SOURCES, SMALL
-from keel.install import Toolchain
+from keel.test.suites import Suite
 
 BUILD = Path("build/test")
 SUITE_TIMEOUT_S = 120

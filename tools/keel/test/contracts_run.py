@@ -21,7 +21,6 @@ from __future__ import annotations
 
 import os
 import re
-import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -31,13 +30,13 @@ from typing import Annotated
 
 from keel.base.arguments import Parser
 from keel.base.build import Build, source_files
-from keel.config import Field, Mistake, Table, Text, read_toml
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import read_text
 from keel.base.run import Ended, output_of, run
 from keel.base.source import write_report
-from keel.test.outcomes import unity_outcome
+from keel.config import Field, Mistake, Table, Text, read_toml
 from keel.install import Toolchain
+from keel.test.outcomes import unity_outcome
 
 BUILD = ROOT / "build/contracts-run"
 REPORT = BUILD / "report.json"

@@ -16,7 +16,6 @@ Exit status: 0 when all is covered or excluded, 1 when not, 2 when it could not 
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -24,10 +23,10 @@ from typing import Any
 
 from keel.base.arguments import Parser
 from keel.base.build import Build, source_files
-from keel.config import Table, Text, read_toml
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.run import output_of
 from keel.base.source import write_report
+from keel.config import Table, Text, read_toml
 from keel.install import Toolchain
 
 BUILD = ROOT / "build/coverage"

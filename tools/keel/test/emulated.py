@@ -7,12 +7,12 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from keel.boards.board import Board, read_board
 from keel.base.errors import ROOT
 from keel.base.run import Ended, run
+from keel.boards.board import Board, read_board
 from keel.boards.firmware import Builder, Image
-from keel.test.outcomes import EXACT_FLOATS
 from keel.install import Toolchain
+from keel.test.outcomes import EXACT_FLOATS
 
 BOARD = "mps2_an500"
 BUILD = Path("build/test-target")

@@ -30,26 +30,25 @@ Exit status: 0 when at least one test ran and none failed, 1 otherwise, 2 for a 
 from __future__ import annotations
 
 import re
-import sys
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-from keel.boards.elf import read_contents
 from keel.base.arguments import Parser
 from keel.base.build import Build
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import read_text, sha256_of
-from keel.base.run import Ended, run
-from keel.boards.firmware import Image, examine
 from keel.base.jobs import end_as_by_ctrl_c
+from keel.base.run import Ended, run
+from keel.boards.elf import read_contents
+from keel.boards.firmware import Image, examine
+from keel.install import Toolchain
 from keel.test import suites as running
-from keel.test.emulated import BOARD, BUILD, EmulatedBoard, SHIFT
+from keel.test.emulated import BOARD, BUILD, SHIFT, EmulatedBoard
 from keel.test.faults import FAULTS, SAFE_STATUS, judge_fault, read_record
 from keel.test.outcomes import Outcome, unity_outcome
 from keel.test.suites import Suite
-from keel.install import Toolchain
 
 LONG_TIMEOUT_S = 900.0
 

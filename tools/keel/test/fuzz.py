@@ -12,15 +12,14 @@ Exit status: 0 when nothing differs, 1 when something does or hangs, 2 when noth
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, program
 from keel.base.jobs import end_as_by_ctrl_c
+from keel.install import Toolchain
 from keel.test import suites as running
 from keel.test.fuzzing import BUILD, Fuzzing, fuzz_suites
-from keel.install import Toolchain
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

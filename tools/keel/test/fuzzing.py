@@ -13,11 +13,10 @@ from keel.base.build import Build
 from keel.base.errors import ROOT
 from keel.base.run import run
 from keel.install import Toolchain
-
 from keel.test import oracles
 from keel.test.outcomes import Outcome, program_outcome
-from keel.test.suites import Suite
 from keel.test.sources import KERNEL, MODEL_SOURCES, SMALL
+from keel.test.suites import Suite
 
 BUILD = Path("build/fuzz")
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
 
-from keel.config import Field, Mistake, Table, Text, read_toml
 from keel.base.errors import ROOT
+from keel.config import Field, Mistake, Table, Text, read_toml
 from keel.install.lock import Lock
 
 NEEDS = ROOT / "tests/suites.toml"

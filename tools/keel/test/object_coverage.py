@@ -28,7 +28,6 @@ Exit status: 0 when all is seen or has a reason, 1 when not, 2 when it could not
 from __future__ import annotations
 
 import os
-import sys
 from collections import Counter, deque
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -36,21 +35,21 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Annotated, Literal
 
-from keel.boards.conditions import BLOCK, BRANCH, Conditional, Conditions, SELECTION
-from keel.boards.elf import Symbol, read_contents
-from keel.boards.lines import read_lines
 from keel.base.arguments import Parser
-from keel.config import Field, Table, Text, read_toml
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import read_text
 from keel.base.run import Ended
 from keel.base.source import write_report
-from keel.test.emulated_tests import unit_image
+from keel.boards.conditions import BLOCK, BRANCH, SELECTION, Conditional, Conditions
+from keel.boards.elf import Symbol, read_contents
 from keel.boards.firmware import Image
+from keel.boards.lines import read_lines
+from keel.config import Field, Table, Text, read_toml
+from keel.install import Toolchain
 from keel.test.emulated import EmulatedBoard
+from keel.test.emulated_tests import unit_image
 from keel.test.outcomes import unity_outcome
 from keel.test.trace import Outcomes, traced
-from keel.install import Toolchain
 
 REPORT = ROOT / "build/coverage-target/report.json"
 REASONS = ROOT / "specs/object_coverage.toml"

@@ -12,12 +12,11 @@ Exit status: 0 when all tests pass, 1 when one fails, 2 when they cannot be buil
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 from keel.base.arguments import Parser
-from keel.base.build import Build, source_files
+from keel.base.build import Build
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.junit import JUnitSuite, write_junit
 from keel.base.run import run

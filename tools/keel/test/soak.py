@@ -14,7 +14,6 @@ Exit status: 0 when nothing differs, 1 when something does, 2 when the programs 
 
 from __future__ import annotations
 
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -24,10 +23,9 @@ from keel.base.build import Build
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.run import Ended, run
 from keel.base.source import write_report
-from keel.test.command import BUILD as TESTS
+from keel.install import Toolchain
 from keel.test.command import CAPACITIES
 from keel.test.sources import KERNEL, MODEL_SOURCES
-from keel.install import Toolchain
 
 BUILD = Path("build/soak")
 STEPS = 10**9

@@ -18,8 +18,8 @@ from keel.base.errors import ToolError, nearest
 from keel.base.junit import JUnitSuite, write_junit
 from keel.base.run import stop_all
 from keel.base.source import write_report
-from keel.test.outcomes import Outcome
 from keel.install import Toolchain
+from keel.test.outcomes import Outcome
 
 REPORT = "report.json"
 JUNIT = "junit.xml"

@@ -13,11 +13,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import BinaryIO
 
+from keel.base.run import Ended, run
 from keel.boards.board import Board
 from keel.boards.conditions import Conditional
-from keel.base.run import Ended, run
 from keel.install import Toolchain
-
 from keel.test.emulated import emulator
 
 TIMEOUT_S = 300.0

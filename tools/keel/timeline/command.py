@@ -15,17 +15,17 @@ Exit status: 0, or 2 when the log cannot be read or made.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
+
+from rich.console import Console
 
 from keel.base.arguments import Parser
 from keel.base.build import Build
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.run import output_of
-from rich.console import Console
-from keel.timeline import console, page, pftrace, picture, runs, table
 from keel.install import Toolchain
+from keel.timeline import console, page, pftrace, picture, runs, table
 
 BUILD = ROOT / "build/schedule"
 FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-Iinclude", "-Ibsp",

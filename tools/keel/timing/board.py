@@ -13,7 +13,6 @@ from typing import Any
 from keel.base.build import Build
 from keel.base.errors import ROOT, ToolError
 from keel.install import Toolchain
-
 from keel.timing.scheduler_bounds import declared
 from keel.timing.taskset import QUEUE_CAPACITY, Task, TaskSet
 

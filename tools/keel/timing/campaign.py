@@ -14,19 +14,18 @@ one, 1 when not, 2 when it could not be flown.
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Sequence
 from math import degrees
 from pathlib import Path
 from typing import Any
 
-from keel.timing.campaign_plots import Flight, plot_faults, plot_figure14
 from keel.base.arguments import Parser
 from keel.base.build import Build
 from keel.base.errors import ROOT, program
 from keel.base.files import write_text
 from keel.base.run import output_of
 from keel.install import Toolchain
+from keel.timing.campaign_plots import Flight, plot_faults, plot_figure14
 
 BUILD = Path("build/campaign")
 SOURCES = ("src/middleware/voter.c", "src/middleware/virtual_imu.c")

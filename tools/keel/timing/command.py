@@ -18,11 +18,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from keel.base.arguments import Parser
-from keel.config import ConfigError
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import write_json
+from keel.config import ConfigError
 from keel.install import Toolchain
-
 from keel.timing import ctable
 from keel.timing.analysis import analyse
 from keel.timing.board import build, for_capacity

@@ -6,7 +6,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from keel.base.files import write_text
-
 from keel.timing.scheduler_bounds import declared
 from keel.timing.taskset import Task, TaskSet, symbol_of
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from keel.timing.board import Experiment, Result, TURN_NS
+from keel.timing.board import TURN_NS, Experiment, Result
 from keel.timing.experiments import (
-    Deviations,
-    Findings,
     GOAL_MODEL,
     LONG_US,
     MODELS,
     REALTIME_SIGMA_GOAL,
-    Runner,
     SAMPLES,
     SIGMA_GOALS,
+    Deviations,
+    Findings,
+    Runner,
     class_sigma,
     paper_class_sigma,
     sigma,

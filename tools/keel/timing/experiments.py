@@ -19,7 +19,7 @@ from typing import Any
 
 from rich.console import Console
 
-from keel.timing.board import Experiment, Result, TURN_NS, run_batch
+from keel.timing.board import TURN_NS, Experiment, Result, run_batch
 from keel.timing.output import Cell, table
 from keel.timing.phases import without_phases
 from keel.timing.taskset import TaskSet

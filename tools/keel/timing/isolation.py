@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from keel.timing.scheduler_bounds import Bounds, TICK, declared
+from keel.timing.scheduler_bounds import TICK, Bounds, declared
 from keel.timing.taskset import Task, TaskSet
 
 UNPROMOTED = "ISO-001"

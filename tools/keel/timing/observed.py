@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from keel.timing import textbook_tests as textbook
-from keel.timing.experiments import Deviations, Findings, GOAL_MODEL, MODELS, variants
+from keel.timing.experiments import GOAL_MODEL, MODELS, Deviations, Findings, variants
 from keel.timing.output import Cell
 from keel.timing.phases import without_phases
 from keel.timing.scheduler_bounds import TICK, bounds_of, path_bound, responses_of

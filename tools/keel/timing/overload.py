@@ -8,12 +8,11 @@ from dataclasses import replace
 
 from keel.timing import textbook_tests as textbook
 from keel.timing.board import Experiment, Result, run_batch
-from keel.timing.experiments import Findings, GOAL_MODEL, HOUR_GOAL_S, Runner, SECOND
+from keel.timing.experiments import GOAL_MODEL, HOUR_GOAL_S, SECOND, Findings, Runner
 from keel.timing.output import Cell
 from keel.timing.phases import without_phases
 from keel.timing.scheduler_bounds import realtime_bound
 from keel.timing.taskset import TaskSet
-
 
 OVERLOAD_US = 10 * SECOND
 

@@ -12,7 +12,6 @@ Exit status: 0 when all were written, 2 when one is missing or too large.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple

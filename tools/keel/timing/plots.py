@@ -7,11 +7,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from keel.base.plotting import BLUE, COLOURS, GREY, SKY, grid_along, new_figure, write_svg
-
 from keel.timing.experiments import (
-    Deviations,
     GOAL_MODEL,
     SIGMA_GOALS,
+    Deviations,
     class_sigma,
     paper_class_sigma,
     sigma,

@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from keel.base.plotting import BLUE, RED, grid_along, new_figure, write_svg
 from rich.console import Console
 
+from keel.base.plotting import BLUE, RED, grid_along, new_figure, write_svg
 from keel.timing.analysis import Analysis, ChainRow, ClassLoad
-from keel.timing.isolation import Isolation, UNPROMOTED, WHATEVER
+from keel.timing.isolation import UNPROMOTED, WHATEVER, Isolation
 from keel.timing.output import Cell, table
 
 PUBLISHED_LABELS = {

@@ -37,7 +37,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from keel.timing.taskset import Chain, PRIORITY_MAX, Task, TaskSet
+from keel.timing.taskset import PRIORITY_MAX, Chain, Task, TaskSet
 from keel.timing.textbook_tests import STEPS, conventional
 
 INSTANTS = 256  # More release instants than this are bounded by a count, not looked at.

@@ -23,7 +23,7 @@ from dataclasses import dataclass, replace
 from rich.console import Console
 
 from keel.timing import textbook_tests as textbook
-from keel.timing.analysis import Analysis, LOAD_ALARM, LOAD_TARGET, analyse
+from keel.timing.analysis import LOAD_ALARM, LOAD_TARGET, Analysis, analyse
 from keel.timing.output import Cell, table
 from keel.timing.scheduler_bounds import declared
 from keel.timing.taskset import Task, TaskSet

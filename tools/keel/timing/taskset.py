@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-from keel.config import ConfigError, Field, Mistake, Table, model_validator, parse_toml
 from keel.base.files import read_text
+from keel.config import ConfigError, Field, Mistake, Table, model_validator, parse_toml
 
 # The kernel's own limits: priority.h (KEEL_PERIOD_LIMIT_US, KEEL_PRIORITY_*), queue.h
 # (KEEL_QUEUE_CAPACITY, as it ships, and the greatest). tests/timing/test_tools.py compares them

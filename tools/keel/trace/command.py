@@ -34,18 +34,17 @@ Exit status: 0 without orphans, 1 with, 2 when they could not be looked for.
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from keel.lint import refusals
+from keel.audit import determined
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, program
 from keel.base.files import write_text
 from keel.c import source as csource
-from keel.audit import determined
 from keel.c.project import closure
+from keel.lint import refusals
 from keel.trace.functions import Function, function_problems, read_functions
 from keel.trace.requirements import FOLDER, Requirement, level_problems, read_requirements
 

@@ -14,8 +14,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from keel.c import source as csource
-from keel.judge import wp_frames as frames
 from keel.c.declarations import macros
+from keel.judge import wp_frames as frames
 
 LABEL = re.compile(r"\bensures\s+([A-Z]{3,4})_(\d{3})(?:_\w+)?\s*:")
 

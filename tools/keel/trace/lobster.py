@@ -16,7 +16,6 @@ from typing import Any
 from keel.base.errors import ToolError
 from keel.base.files import read_text, write_json, write_text
 from keel.base.run import Ended, run
-
 from keel.trace.functions import Function
 from keel.trace.requirements import FOLDER, Requirement
 from keel.trace.verdicts import HARNESS, TEST, Verdict, Verdicts, modelled

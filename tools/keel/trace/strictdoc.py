@@ -15,7 +15,6 @@ from pathlib import Path
 from keel.base.errors import ToolError
 from keel.base.files import read_text, write_text
 from keel.base.run import run
-
 from keel.trace.requirements import FOLDER
 
 CONFIG = """\

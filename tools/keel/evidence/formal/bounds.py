@@ -12,10 +12,9 @@ from typing import Any
 
 from keel.base.files import read_text
 from keel.c import source as csource
-from keel.judge.harness import Harness, read_harness
 from keel.c.project import find_units
-
 from keel.evidence.part import Item, State, Table
+from keel.judge.harness import Harness, read_harness
 
 Report = Mapping[str, Any]
 

@@ -14,10 +14,10 @@ from pathlib import Path
 
 from keel.base.errors import ToolError
 from keel.base.files import write_text
-from keel.c import source as csource
-from keel.judge.harness import Harness
 from keel.base.jobs import Runner
+from keel.c import source as csource
 from keel.c.project import closure, shown
+from keel.judge.harness import Harness
 from keel.judge.wrong_bodies import WrongBody
 
 CHECKS = ("--32", "--z3", "--overflow-check", "--unsigned-overflow-check",

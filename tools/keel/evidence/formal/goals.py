@@ -9,11 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from keel.audit import assertions
-from keel.judge.goals import read_goals
-from keel.c.project import find_units
 from keel.audit.completeness import compare_goals
-
+from keel.c.project import find_units
 from keel.evidence.part import Item
+from keel.judge.goals import read_goals
 
 Report = Mapping[str, Any]
 

@@ -13,7 +13,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from keel.base.errors import ToolError
-
 from keel.evidence.part import Item, Table
 
 FILE = "specs/soundness.md"

@@ -11,16 +11,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
-from keel.config import Field, Table, Text, read_toml
 from keel.base.errors import ToolError
 from keel.c import source as csource
-from keel.judge.harness import Harness
 from keel.c.project import closure
-from keel.judge.wrong_bodies import WrongBody, read_wrong_body
-
+from keel.config import Field, Table, Text, read_toml
 from keel.evidence.formal.bounds import Bounded
-from keel.evidence.formal.esbmc import PROVED, Question, REFUTED, narrowed
+from keel.evidence.formal.esbmc import PROVED, REFUTED, Question, narrowed
 from keel.evidence.part import Table as Shown
+from keel.judge.harness import Harness
+from keel.judge.wrong_bodies import WrongBody, read_wrong_body
 
 FILE = "specs/third_opinion.toml"
 REPORT = "opinion/report.json"

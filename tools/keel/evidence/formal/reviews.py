@@ -18,14 +18,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from keel.config import Field, Table, Text, read_toml
 from keel.base.verdict_cache import digest, digest_of_files
-from keel.judge.goals import read_goals
-from keel.judge.harness import MODELS
 from keel.c.project import Unit, find_units
-
+from keel.config import Field, Table, Text, read_toml
 from keel.evidence.part import State
 from keel.evidence.part import Table as Shown
+from keel.judge.goals import read_goals
+from keel.judge.harness import MODELS
 
 FOLDER = "specs/reviews"
 NOT_REVIEWED = "not reviewed"

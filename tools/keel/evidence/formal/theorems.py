@@ -8,7 +8,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from keel.config import Table, Text, read_toml
-
 from keel.evidence.formal.goals import requirements_in
 from keel.evidence.part import Item
 from keel.evidence.part import Table as Shown

@@ -7,12 +7,11 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from keel.release import dist
 from keel.base.files import sha256_of, write_json, write_text
 from keel.base.git import git, is_clone
 from keel.base.source import files_below
-
 from keel.evidence.part import Context, Item, Part, Table
+from keel.release import dist
 
 NO_TIME = "1970-01-01T00:00:00Z"  # Of an archive, which has no commit to ask.
 TEXT = """\

@@ -10,7 +10,6 @@ from typing import NamedTuple
 
 from keel.base.files import read_text
 from keel.c.project import Unit, find_units
-
 from keel.evidence.part import Context, Item, Part
 
 DECLARATION = re.compile(

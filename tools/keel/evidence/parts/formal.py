@@ -9,7 +9,6 @@ from typing import Any, TypeVar
 
 from keel.base.errors import ToolError
 from keel.base.files import read_text
-
 from keel.evidence.formal import bounds, goals, ledger, opinion, reviews, theorems
 from keel.evidence.part import Context, Item, Part, Table
 

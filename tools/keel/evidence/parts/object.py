@@ -9,14 +9,13 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from keel.base.files import sha256_of
+from keel.base.source import STAMP
 from keel.boards.board import board_names
 from keel.boards.rebuilt import differences
 from keel.boards.semantics import COMPILED_AS_PROVED, flag_problems
-from keel.base.files import sha256_of
-from keel.base.source import STAMP
-from keel.install import Toolchain
-
 from keel.evidence.part import Context, Item, Part, Table
+from keel.install import Toolchain
 
 PROVED = "prove/report.json"
 TARGET = "test-target/report.json"

@@ -15,7 +15,6 @@ from typing import Literal
 
 from keel import config
 from keel.config import ConfigError, Text, place_of, read_toml
-
 from keel.evidence.assemble import KINDS, PARTS
 from keel.evidence.part import Context, Item, Part, State, Table
 

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from keel.base.files import read_text
-
 from keel.evidence.markdown import paragraphs, sections, tables
 from keel.evidence.part import Context, Part, Table
 

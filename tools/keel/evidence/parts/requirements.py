@@ -9,13 +9,12 @@ from pathlib import Path
 from typing import cast
 
 from keel.base.errors import ToolError
+from keel.evidence.part import Context, Item, Part, State, Table
+from keel.evidence.traced import Traced, read
 from keel.trace import strictdoc
 from keel.trace.packages import packages
 from keel.trace.requirements import Requirement
 from keel.trace.verdicts import problems
-
-from keel.evidence.part import Context, Item, Part, State, Table
-from keel.evidence.traced import Traced, read
 
 TEXT = """\
 High-level requirements say what Keel is for. Each cites the paper that Keel implements (Hardware \

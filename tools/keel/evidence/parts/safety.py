@@ -11,7 +11,6 @@ import re
 from collections.abc import Iterator, Mapping
 
 from keel.base.files import read_text
-
 from keel.evidence.markdown import sections, tables
 from keel.evidence.part import Context, Item, Part, Table
 

@@ -10,9 +10,8 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from keel.boards.board import board_names
 from keel.analyse.eva import UNKNOWN
-
+from keel.boards.board import board_names
 from keel.evidence.part import Context, Item, Part, Table
 
 TEXT = """\

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from keel.base.errors import ToolError
-
 from keel.evidence.formal import bounds
 from keel.evidence.part import Context, Part
 from keel.evidence.strength import blocks, mutants, wrong

@@ -12,11 +12,10 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
 from keel.config import Field, Mistake, Table, Text, read_toml
-from keel.install import Found, Toolchain
-from keel.install.lock import Lock, Spec
-
 from keel.evidence.part import Context, Item, Part, State
 from keel.evidence.part import Table as Shown
+from keel.install import Found, Toolchain
+from keel.install.lock import Lock, Spec
 
 SETTINGS = "specs/tools.toml"
 QUALIFY = "qualify/report.json"

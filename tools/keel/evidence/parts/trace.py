@@ -9,14 +9,13 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from keel.base.errors import ToolError
+from keel.evidence.part import Context, Item, Part, State, Table
+from keel.evidence.traced import Traced, read
 from keel.trace import lobster
 from keel.trace.functions import Function
 from keel.trace.packages import packages
 from keel.trace.requirements import Requirement
-from keel.trace.verdicts import CBMC, GAPPA, HARNESS, TEST, Verdict, WP
-
-from keel.evidence.part import Context, Item, Part, State, Table
-from keel.evidence.traced import Traced, read
+from keel.trace.verdicts import CBMC, GAPPA, HARNESS, TEST, WP, Verdict
 
 Mutants = dict[str, Counter[str]]  # By function: how many became what.
 

@@ -13,12 +13,10 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from keel.base.files import write_text
-
 from keel.evidence import measured
-from keel.evidence.assemble import Assembled, Entry, REFERENCE
+from keel.evidence.assemble import REFERENCE, Assembled, Entry
 from keel.evidence.part import Part
-
-from keel.evidence.site.addresses import Address, PLACE, addresses, group_of, slug
+from keel.evidence.site.addresses import PLACE, Address, addresses, group_of, slug
 from keel.evidence.site.model import IN_MATRIX, Model, by_kind, count, plural
 from keel.evidence.site.traces import Tracer
 
@@ -77,10 +75,10 @@ class Site:
 
     def _traces(self) -> None:
         """The graphs: all units, and each one."""
-        drawn = Markup(self.tracer.of_all(lambda unit: f"trace-{slug(unit)}.html"))  # noqa: S704
+        drawn = Markup(self.tracer.of_all(lambda unit: f"trace-{slug(unit)}.html"))
         self._page("trace.html", f"{PLACE}/graph.html", BELOW, unit="", drawn=drawn)
         for unit in self.model.units:
-            drawn = Markup(self.tracer.of_unit(unit))  # noqa: S704
+            drawn = Markup(self.tracer.of_unit(unit))
             self._page("trace.html", f"{PLACE}/trace-{slug(unit)}.html", BELOW, unit=unit,
                        drawn=drawn)  # fmt: skip
 
@@ -93,7 +91,7 @@ class Site:
             elif entry.kind != "part":  # Its page is made above.
                 self._page("thing.html", self.places[key].page, BELOW, entry=entry,
                            related=self.model.related(entry),
-                           drawn=Markup(self.tracer.around(entry)))  # noqa: S704  # fmt: skip
+                           drawn=Markup(self.tracer.around(entry)))  # fmt: skip
         for group, entries in groups.items():
             page = self.places[entries[0].key].page
             self._page("group.html", page, BELOW, group=group, entries=entries)

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from keel.evidence.assemble import Assembled, Entry, KINDS
+from keel.evidence.assemble import KINDS, Assembled, Entry
 
 # What a reader of one thing looks for, in this order.
 ORDER = ("requirement", "unit", "function", "goal", "harness", "test", "mutant", "assumption",

@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from keel.evidence.assemble import Entry
-
 from keel.evidence.site.addresses import Address
 from keel.evidence.site.graph import Node, draw
 from keel.evidence.site.model import Model, by_kind, count, plural

@@ -13,15 +13,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from keel.config import Table, Text, model_validator, read_toml
 from keel.base.files import read_text
 from keel.c import source as csource
-from keel.judge.cbmc_answers import POINTER_CALL
-from keel.judge.harness import MODELS
 from keel.c.project import find_units
-
+from keel.config import Table, Text, model_validator, read_toml
 from keel.evidence.formal.bounds import Bounded
 from keel.evidence.part import Table as Shown
+from keel.judge.cbmc_answers import POINTER_CALL
+from keel.judge.harness import MODELS
 
 FILE = "specs/unreached.toml"
 

@@ -7,12 +7,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from keel.c.project import find_units
+from keel.evidence.part import Item, State, Table
+from keel.install import Found
 from keel.mutate import standing as mutant_standing
 from keel.mutate.standing import Standing
-from keel.c.project import find_units
-from keel.install import Found
-
-from keel.evidence.part import Item, State, Table
 
 Report = Mapping[str, Any]
 

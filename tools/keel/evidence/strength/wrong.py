@@ -11,9 +11,8 @@ from typing import Any
 
 from keel.base.files import read_text
 from keel.c.project import find_units
-from keel.judge.wrong_bodies import read_wrong_body
-
 from keel.evidence.part import Item, State, Table
+from keel.judge.wrong_bodies import read_wrong_body
 
 Report = Mapping[str, Any]
 

@@ -6,10 +6,9 @@ from __future__ import annotations
 from typing import Annotated
 
 from keel import config
-from keel.config import Field, Text, read_toml
 from keel.base.errors import ROOT
 from keel.base.files import read_text
-
+from keel.config import Field, Text, read_toml
 from keel.evidence.part import Context, Item, Part
 from keel.evidence.parts.safety import LEDGER, OWNER, constraint, entries
 

@@ -10,9 +10,8 @@ from typing import Any
 
 from keel.base.files import read_text
 from keel.c.project import find_units
-
-from keel.evidence.users.labels import links_of
 from keel.evidence.part import Context, Item, Part
+from keel.evidence.users.labels import links_of
 
 HEAD = re.compile(r"(?://[^\n]*\n)+")  # A harness's options and bounds, with their reasons.
 COVERS = re.compile(r"^// covers: (.*)$", re.MULTILINE)

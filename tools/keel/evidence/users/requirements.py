@@ -8,9 +8,8 @@ from typing import Annotated
 
 from keel import config
 from keel.config import Field, Text, read_toml
-
-from keel.evidence.users.labels import requirements_of
 from keel.evidence.part import Context, Item, Part, State
+from keel.evidence.users.labels import requirements_of
 
 FILE = "specs/requirements.toml"
 TEXT = """\

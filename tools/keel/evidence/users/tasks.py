@@ -4,9 +4,8 @@
 from __future__ import annotations
 
 from keel.base.files import write_json
-from keel.install.packages import provide
-
 from keel.evidence.part import Context, Part, Table
+from keel.install.packages import provide
 
 FILE = "specs/tasks.toml"
 

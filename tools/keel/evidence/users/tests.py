@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from keel.evidence.users.labels import links_of
 from keel.evidence.part import Context, Item, Part
+from keel.evidence.users.labels import links_of
 
 
 def make(context: Context) -> Part:
