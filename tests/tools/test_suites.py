@@ -222,13 +222,13 @@ import signal, sys
 from pathlib import Path
 signal.signal(signal.SIGINT, signal.default_int_handler)
 sys.path[:0] = [{tools!r}, {tests!r}]
-import run_tests
-from common.run import run
-from suites.outcomes import program_outcome
-from suites.running import Suite
+from keel.base.run import run
+from keel.test import command as run_tests
+from keel.test.outcomes import program_outcome
+from keel.test.suites import Suite
 from test_suites import FakeTools
 
-code = "import sys; sys.path.insert(0, {tools!r}); from common.run import run; "
+code = "import sys; sys.path.insert(0, {tools!r}); from keel.base.run import run; "
 code += "run(['sleep', '{mark}.2'])"
 commands = {{"a": ["sleep", "{mark}.1"], "b": [sys.executable, "-c", code],
             "c": ["touch", "{folder}/begun"]}}

@@ -348,7 +348,7 @@ class Unpacking(Sandbox):
 
     def test_only_one_installation_at_a_time(self) -> None:
         waiting = "import pathlib, sys; sys.path.insert(0, sys.argv[1])\n"
-        waiting += "from toolchain.cache import Cache\nfrom toolchain.tools import tell\n"
+        waiting += "from keel.install.cache import Cache\nfrom keel.install.tools import tell\n"
         waiting += "with Cache(pathlib.Path(sys.argv[2])).locked(tell):\n"
         waiting += "    print('inside', flush=True)"
         command = [sys.executable, "-c", waiting, str(ROOT / "tools"), str(self.cache)]
@@ -538,17 +538,17 @@ class Verdicts(Sandbox):
         if changed:
             with (tools / changed).open("a") as stream:
                 stream.write("# A comment.\n")
-        script = "from proofs.stamps import own_digest; print(own_digest('wp'))"
+        script = "from keel.prove.verdict_keys import own_digest; print(own_digest('wp'))"
         command = [sys.executable, "-c", script]
         return subprocess.check_output(command, cwd=tools, text=True, env=OUTSIDE)
 
     def test_the_way_provers_are_started_counts_and_the_installer_does_not(self) -> None:
         before = self.digest()
-        for file in ("toolchain/apt.py", "toolchain/tools.py", "toolchain.py"):
+        for file in ("keel/install/apt.py", "keel/install/tools.py", "keel/cli/commands.py"):
             self.assertEqual(self.digest(file), before, file)
-        started = self.digest("toolchain/provers.py")
+        started = self.digest("keel/install/provers.py")
         self.assertNotEqual(started, before)
-        self.assertNotEqual(self.digest("proofs/requirements.txt"), started)
+        self.assertNotEqual(self.digest("requirements/c-syntax.txt"), started)
 
 
 class TwoClones(Sandbox):

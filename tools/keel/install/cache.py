@@ -30,6 +30,11 @@ def default_cache() -> Path:
     return Path(base).expanduser().absolute() / "keel"
 
 
+def _filter_of(spec: Spec) -> list[str]:
+    """The program that stands before an unpacked tool, by its name and its text."""
+    return [spec.filter.name, sha256_of(spec.filter)] if spec.filter else []
+
+
 class Cache:
     """The folder of unpacked tools and findings, shared by every clone of the project."""
 
@@ -60,8 +65,7 @@ class Cache:
         tag = ""
         if spec.kind == "packages":  # Built for one version of Python.
             tag = f"-{sys.implementation.cache_tag}"
-        elif chosen := [*spec.keep, *([sha256_of(spec.filter)] if spec.filter else [])]:
-            # What is kept of it, and what stands before it.
+        elif chosen := [*spec.keep, *_filter_of(spec)]:
             tag = f"-{hashlib.sha256(' '.join(chosen).encode()).hexdigest()[:6]}"
         return self.folder / "tools" / f"{spec.name}-{spec.pin}-{spec.sha256[:12]}{tag}"
 
