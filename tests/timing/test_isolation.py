@@ -104,7 +104,7 @@ def test_a_promotion_breaks_the_stronger_bound_and_keeps_the_other(program: Path
 def test_what_is_printed_and_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("timing.__main__.ROOT", tmp_path)
+    monkeypatch.setattr("keel.timing.command.ROOT", tmp_path)
     path = tmp_path / "beside.toml"
     path.write_text(BESIDE, encoding="utf-8")
     assert main(["analyze", str(path)]) == 1

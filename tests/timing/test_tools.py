@@ -35,7 +35,7 @@ URPILOT = ROOT / "specs/tasksets/urpilot.toml"
 @pytest.fixture(autouse=True)
 def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Reports go to a folder of the test's own."""
-    monkeypatch.setattr("timing.__main__.ROOT", tmp_path)
+    monkeypatch.setattr("keel.timing.command.ROOT", tmp_path)
 
 
 @pytest.fixture(scope="module")
@@ -375,6 +375,7 @@ def test_no_room_for_phases_is_told() -> None:
 
 def test_the_program_ends_in_words_for_a_wrong_command_line() -> None:
     done = subprocess.run(
-        [sys.executable, "-m", "timing", "analyze"], capture_output=True, text=True, check=False
+        [sys.executable, str(ROOT / "tools/keel"), "timing", "analyze"],
+        capture_output=True, text=True, check=False,
     )
     assert done.returncode == 2 and "are required: taskset" in done.stderr

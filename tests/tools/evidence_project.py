@@ -24,12 +24,12 @@ provide("evidence")
 
 import test_requirements_trace as small
 from evidence_proofs import report_of
-from evidence_sample import the_program
 
 from keel.base.files import write_json, write_text
 from keel.base.junit import JUnitSuite, write_junit
 from keel.base.source import STAMP, VERDICT, stamp_of
 from keel.boards.semantics import COMPILED_AS_PROVED
+from keel.evidence import command
 from keel.evidence.assemble import assemble
 from keel.evidence.part import Context
 from keel.evidence.parts import tools as part_tools
@@ -134,7 +134,7 @@ class WholeProject(unittest.TestCase):
     def setUp(self) -> None:
         self.folder = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
         self.root, self.out = self.folder / "project", self.folder / "evidence"
-        self.program = the_program()
+        self.program = command
         for name, text in FILES.items():
             write_text(self.root / name, text)
         for file in ("keel.elf", "keel.bin", "keel.map"):
@@ -152,13 +152,13 @@ class WholeProject(unittest.TestCase):
             return {"cbmc": self.tool} if self.tool else {}
 
         for patch in (
-            mock.patch("evidence.parts.requirements.written", return_value={}),
-            mock.patch("evidence.parts.trace.second_look", return_value={}),
-            mock.patch("evidence.parts.object.differences", return_value=[]),
+            mock.patch("keel.evidence.parts.requirements.written", return_value={}),
+            mock.patch("keel.evidence.parts.trace.second_look", return_value={}),
+            mock.patch("keel.evidence.parts.object.differences", return_value=[]),
             mock.patch.object(part_tools, "VERSIONED", ("prove/report.json", "lint/report.json")),
             mock.patch.object(part_tools, "wanted", return_value={"cbmc": PINNED}),
             mock.patch.object(Toolchain, "versions", side_effect=versions),
-            mock.patch("dist.LOCK", "none"),  # No bill of materials: that is of all tools.
+            mock.patch("keel.release.dist.LOCK", "none"),  # No bill of materials: that is of all tools.
             mock.patch.multiple(self.program, ROOT=self.root, assemble=parts),
         ):
             self.enterContext(patch)

@@ -3,14 +3,11 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
-import sys
 import tempfile
 import unittest
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 from keel.install.packages import provide
@@ -99,15 +96,6 @@ def assembled(folder: Path, **parts: Callable[[Context], Part]) -> Assembled:
     """The sample, with other parts beside or instead of its own."""
     makers = {**SAMPLE, **parts}
     return assemble(context_in(folder), list(makers), lambda name: makers[name])
-
-
-def the_program() -> ModuleType:
-    """tools/keel evidence, whose name its package has as well."""
-    spec = importlib.util.spec_from_file_location("evidence_program", ROOT / "tools/keel", "evidence")
-    assert spec and spec.loader
-    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 class PartTest(unittest.TestCase):

@@ -229,7 +229,7 @@ class Files(FolderTest):
     @unittest.skipUnless(Path("/dev/full").exists(), "needs /dev/full")
     def test_a_device_that_is_really_full(self) -> None:
         """The file in which the text is drafted leads to a device that is always full."""
-        with mock.patch("common.files.threading.get_ident", return_value=7):
+        with mock.patch("keel.base.files.threading.get_ident", return_value=7):
             draft = self.folder / f".report.json.{os.getpid()}-7"
             draft.symlink_to("/dev/full")
             with self.assertRaisesRegex(ToolError, r"report\.json: No space left on device$"):

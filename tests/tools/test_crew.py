@@ -103,7 +103,7 @@ class Resumption(TreeTest):
         self.assertEqual((options.unit, options.jobs), (["box", "sail"], os.cpu_count()))
 
 
-# What stands for tools/keel mutate in the archive that is sent to a worker.
+# Stands for the tools in the archive that is sent to a worker.
 FAKE = """\
 import json, sys
 order = json.load(sys.stdin)
@@ -127,8 +127,8 @@ def dask_packages() -> str:
 class Sent(TreeTest):
     def setUp(self) -> None:
         super().setUp()
-        program = self.root / "tools/keel mutate"
-        program.parent.mkdir()
+        program = self.root / "tools/keel/__main__.py"
+        program.parent.mkdir(parents=True)
         program.write_text(FAKE, encoding="utf-8")
         self.found = mutants(self.unit.source)
         fake: Any = FakeTrial()

@@ -232,7 +232,7 @@ def random_sets() -> tuple[str, ...]:
 
 
 def vectors() -> tuple[str, ...]:
-    return (spaced(int(number_in("tools/keel test-target", r"^VECTORS = ([\d_]+)"))),)
+    return (spaced(int(number_in("tools/keel/test/emulated_tests.py", r"^VECTORS = ([\d_]+)"))),)
 
 
 def confirmed() -> tuple[str, ...]:

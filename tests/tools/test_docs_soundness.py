@@ -14,6 +14,8 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+from keel.cli.commands import COMMANDS
+
 ROOT = Path(__file__).resolve().parents[2]
 TABLE = ROOT / "specs/soundness.md"
 HEAD = ["no.", "risk", "what closes it", "which check runs", "what is left"]
@@ -23,7 +25,7 @@ SPAN = re.compile(r"`([^`]+)`")
 COMMAND = re.compile(r"make ([a-z-]+)(?: [A-Z]+=\S+)*")
 # What a cell has in a row: a command with its files, or a file alone.
 CHECK = re.compile(r"`(make [^`]+)`(?: \(((?:`[^`]+`(?:, )?)+)\))?|`([^`]+)`")
-PROGRAM = re.compile(r"\btools/[\w/]+\.py\b")
+PROGRAM = re.compile(r"\btools/keel ([a-z-]+)")
 TEST = re.compile(r"tests/(tools|timing|flight|clients)/test_\w+\.py")
 
 
@@ -79,10 +81,10 @@ def source_of(module: str) -> Path | None:
 
 
 @cache
-def sources(program: str) -> frozenset[Path]:
-    """A program and all of the tools' modules that it reaches."""
+def sources(module: str) -> frozenset[Path]:
+    """The files of a module and of all that it reaches."""
     reached: set[Path] = set()
-    waiting = [ROOT / program]
+    waiting = [path for path in [source_of(module)] if path]
     while waiting:
         path = waiting.pop()
         if path not in reached and path.is_file():
@@ -93,8 +95,8 @@ def sources(program: str) -> frozenset[Path]:
 
 def runs(target: str, name: str) -> bool:
     """Whether a target's program has a file among its sources, or names it."""
-    programs = PROGRAM.findall(recipe(target))
-    reached = {path for program in programs for path in sources(program)}
+    modules = [COMMANDS[name].module for name in PROGRAM.findall(recipe(target))]
+    reached = {path for module in modules for path in sources(module)}
     last = [part for part in Path(name).parts if "*" not in part][-1]
     words = (last, f'"{Path(last).stem}"')  # Modules that are chosen by name have no suffix.
     texts = map(text_of, reached)
@@ -166,10 +168,10 @@ class FalseRows(unittest.TestCase):
                          self.told("`make prove` (`tools/keel/judge/gone.py`)"))  # fmt: skip
 
     def test_what_does_not_run(self) -> None:
-        self.assertEqual(["7: make trace does not run tools/keel fuzz"],
-                         self.told("`make trace` (`tools/keel fuzz`)"))  # fmt: skip
-        self.assertEqual(["7: tools/keel fuzz is neither a command's nor a suite of make test"],
-                         self.told("`make trace`, `tools/keel fuzz`"))  # fmt: skip
+        self.assertEqual(["7: make trace does not run tools/keel/test/fuzz.py"],
+                         self.told("`make trace` (`tools/keel/test/fuzz.py`)"))  # fmt: skip
+        self.assertEqual(["7: tools/keel/test/fuzz.py is neither a command's nor a suite of make test"],
+                         self.told("`make trace`, `tools/keel/test/fuzz.py`"))  # fmt: skip
         self.assertEqual(["7: names no check"], self.told("somebody looks"))
 
     def test_what_is_right(self) -> None:

@@ -25,7 +25,6 @@ from evidence_sample import (
     assembled,
     formal,
     sample_tests,
-    the_program,
 )
 
 from keel.base.errors import ToolError
@@ -33,6 +32,7 @@ from keel.base.files import write_json
 from keel.base.junit import JUnitSuite, write_junit
 from keel.base.source import STAMP as MADE_FROM
 from keel.base.source import stamp_of
+from keel.evidence import command
 from keel.evidence.assemble import PARTS, maker_of
 from keel.evidence.attestation import PREDICATE
 from keel.evidence.measured import copied
@@ -349,7 +349,7 @@ class Program(InFolder):
 
     def setUp(self) -> None:
         super().setUp()
-        self.program = the_program()
+        self.program = command
         self.out = self.folder / "out"
 
     def run_it(

@@ -137,7 +137,7 @@ class Elsewhere(InFolder):
         """Why the report cannot serve."""
         tools = mock.Mock(lock=Lock.read(), **{"versions.return_value": {"z3": self.z3}})
         with mock.patch.dict(os.environ, KEEL_PROVED=proved), \
-                mock.patch("evidence.commands.Toolchain", lambda: tools):  # fmt: skip
+                mock.patch("keel.evidence.commands.Toolchain", lambda: tools):  # fmt: skip
             return handed_over(context_in(self.folder))
 
     def told_of(self, **changed: Any) -> str:

@@ -51,10 +51,10 @@ class OwnUnit(unittest.TestCase):
 
     def test_its_own_makefile_does_the_same(self) -> None:
         output = self.dry("keel-prove", f"KEEL={ROOT}", "KEEL_UNIT=monitor", "KEEL_ARGS=--fresh")
-        program = f'"{ROOT}/tools/keel prove" --project "{self.project}"'
+        program = f'"{ROOT}/tools/keel" prove --project "{self.project}"'
         self.assertIn(f"{program} --unit monitor --fresh", " ".join(output.split()))
         begun = " ".join(self.dry("keel-new", f"KEEL={ROOT}", "KEEL_UNIT=gauge").split())
-        program = f'"{ROOT}/tools/keel new" --project "{self.project}"'
+        program = f'"{ROOT}/tools/keel" new --project "{self.project}"'
         self.assertIn(f'{program} --unit "gauge"', begun)
 
     def dry(self, *words: str) -> str:
@@ -72,7 +72,7 @@ class OwnUnit(unittest.TestCase):
             for target, said in (("", "all u a"), ("test", "own test"), ("help", "own help")):
                 words = [target] if target else []
                 self.assertEqual(self.dry(*words), f"echo {said}\n")
-            program = f'"{ROOT}/tools/keel prove" --project "{self.project}"'
+            program = f'"{ROOT}/tools/keel" prove --project "{self.project}"'
             self.assertTrue(" ".join(self.dry("keel-prove").split()).endswith(program))
             self.assertIn("No rule to make target 'prove'", self.dry("prove"))
 

@@ -715,7 +715,7 @@ class Jobs(unittest.TestCase):
             self.assertEqual(ended, [])
             heard.append(one.name)
 
-        with mock.patch("proofs.running.PATIENCE_S", 0.1):
+        with mock.patch("keel.prove.progress.PATIENCE_S", 0.1):
             driver.run_jobs([job], Cache(None), Runner({}, self.folder), ONE,
                             Times(self.folder / "times.json"),
                             lambda one: ended.append(one.job.name), late)  # fmt: skip

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The types of the tools, by mypy with tools/mypy.ini, beside the libraries that they use."""
+"""The types of the tools, by mypy with pyproject.toml, beside the libraries that they use."""
 
 from __future__ import annotations
 

@@ -111,5 +111,6 @@ def main(arguments: Sequence[str]) -> int:
     command = COMMANDS[name]
     if command.group and os.environ.get(READY) != command.group:
         return start_with(command.group, [str(TOOLS / "keel"), name, *words])
+    sys.argv = [f"keel {name}", *words]  # By this name a command shows how it is used.
     status: int = importlib.import_module(command.module).main(words)
     return status

@@ -13,7 +13,7 @@ python_packages  what pip brings
 unpack, cache    the folder of unpacked tools
 provers          how provers are started for the target: verdicts depend on it
 tools            all together: the class Toolchain
-command_line     what tools/keel tools takes
+command          what python3 tools/keel tools takes
 """
 
 from keel.install.found import Found
