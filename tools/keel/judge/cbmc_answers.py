@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import json
-import os
+import posixpath
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -47,7 +47,7 @@ class Answer:
 
 def file_of(location: dict[str, Any]) -> str:
     """File of a source location."""
-    return os.path.normpath(str(location.get("file", "?")))
+    return posixpath.normpath(str(location.get("file", "?")))
 
 
 def place(location: dict[str, Any]) -> str:
@@ -114,7 +114,7 @@ def blocks(goals: Iterable[dict[str, Any]]) -> list[Block]:
     found = []
     for goal in goals:
         places = frozenset(
-            (os.path.normpath(file), line)
+            (posixpath.normpath(file), line)
             for file, functions in goal.get("basicBlockLines", {}).items()
             for ranges in functions.values()
             for line in numbers(ranges)

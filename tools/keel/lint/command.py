@@ -18,6 +18,9 @@ The workflows of .github are held against the schema of GitHub's (check-jsonsche
 looks for what they name and is not there, zizmor for what strangers may use in them. None asks the
 network.
 
+The Python of tools/ and tests/ is checked and laid out by ruff, and import-linter holds the order of
+the rooms of tools/keel; pyproject.toml has the rules.
+
 The rules of the house: see HOUSE_CHECKS in tools/keel/lint/house.py.
 
 Exit status: 0 without findings, 1 with, 2 when something could not be checked.
@@ -38,6 +41,7 @@ from keel.install.packages import provide
 from keel.lint import record
 from keel.lint.house import check_house
 from keel.lint.misra import find_violations, judge, read_deviations
+from keel.lint.python import check_python, lay_out
 from keel.lint.texts import Finding, Text, read_texts
 
 provide("ci")
@@ -93,12 +97,14 @@ def lint(tools: Toolchain, root: Path, fix: bool) -> list[Finding]:
     """Every finding, in the order of files and lines; what was found is written down."""
     if fix:
         fix_layout(tools, root, read_texts(root))
+        lay_out(tools, root)
     texts = read_texts(root)
     violations = find_violations(tools, root, texts)
     findings = {
         "layout": list(check_layout(tools, root, texts)),
         "misra": list(judge(violations, read_deviations(root), texts)),
         "house": list(check_house(texts)),
+        "python": check_python(tools, root),
         "workflows": check_workflows(tools, root, texts),
     }
     record.write(tools, root, texts, findings, violations)
@@ -108,20 +114,20 @@ def lint(tools: Toolchain, root: Path, fix: bool) -> list[Finding]:
 def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     """Entry point."""
     parser = Parser("Check layout, MISRA C:2012, the house's rules and workflows.", "lint")
-    parser.add_argument("--fix", action="store_true", help="lay out the C code first")
+    parser.add_argument("--fix", action="store_true", help="lay out the code first")
     options = parser.parse_args(arguments)
 
     def work() -> int:
         record.clear(root)
         deviations = len(read_deviations(root))
         tools = Toolchain()
-        tools.ensure("lint", "fatfs")
+        tools.ensure("lint", "fatfs", "python")
         findings = lint(tools, root, options.fix)
         for finding in findings:
             print(finding)
         number = f"{len(findings)} findings" if findings else "no finding"
         print(f"lint: {number}; layout, MISRA C:2012 with {deviations} deviations, house rules,"
-              " workflows.")
+              " Python, workflows.")
         return 1 if findings else 0
 
     return program("lint", work)
