@@ -5,7 +5,7 @@
     python3 tests/machdep/check_layouts.py    # one line; exit status 1 on a difference
 
 Size and alignment of each structure of the headers in include/ and src/, and offset and size of
-each of its fields, as four see them: CBMC (goto-cc, as proofs build), Frama-C (tools/keel/install/machdep),
+each of its fields, as four see them: CBMC (goto-cc, as proofs build), Frama-C (its machdep),
 arm-none-eabi-gcc and the host's compiler. A structure that one of them lays out in another way is
 another object: what is proved of the one says nothing of the other's bytes. The host has longer
 pointers, so of structures that hold one nothing is asked there.

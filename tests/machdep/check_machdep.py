@@ -5,7 +5,7 @@
     python3 tests/machdep/check_machdep.py              # one line; exit status 1 on a difference
     python3 tests/machdep/check_machdep.py --self-test  # every field altered must be noticed
 
-Each fact is a constant expression of C. Frama-C folds it under tools/keel/install/machdep/keel_cortex_m7.ml,
+Each fact is a constant expression of C. Frama-C folds it under keel_cortex_m7.ml,
 arm-none-eabi-gcc compiles it to a word of data; the two numbers must agree. A theorem about
 overflow under another `long`, or about a struct under another alignment, is a theorem about
 another program.

@@ -158,7 +158,8 @@ class WholeProject(unittest.TestCase):
             mock.patch.object(part_tools, "VERSIONED", ("prove/report.json", "lint/report.json")),
             mock.patch.object(part_tools, "wanted", return_value={"cbmc": PINNED}),
             mock.patch.object(Toolchain, "versions", side_effect=versions),
-            mock.patch("keel.release.dist.LOCK", "none"),  # No bill of materials: that is of all tools.
+            # No bill of materials: that is of all tools.
+            mock.patch("keel.release.dist.LOCK", "none"),
             mock.patch.multiple(self.program, ROOT=self.root, assemble=parts),
         ):
             self.enterContext(patch)

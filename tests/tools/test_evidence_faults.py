@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/keel evidence as a whole: one fault at a time in a small project or its reports, and
+"""Tests of `make evidence` as a whole: one fault at a time in a small project or its reports, and
 no package is made, the cause is named, and the package that was there stays.
 
 That each part sees each fault of its own is tested in test_evidence_<part>.py.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the part `tools` of the evidence package, and of tools/keel qualify: wrong versions, other
+"""Tests of the part `tools` of the evidence package, and of `make qualify`: wrong versions, other
 files, entries that are missing, and tools that no longer detect a fault.
 """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/keel coverage-target: conditions are evaluated as the processor's manual says, seen
+"""Tests of keel.test.object_coverage: conditions are evaluated as the processor's manual says, seen
 in a real run, and what is not seen fails without a reason that fits.
 """
 

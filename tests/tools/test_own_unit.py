@@ -121,7 +121,8 @@ class OwnUnit(unittest.TestCase):
         self.assertIn("before: 5", output)
 
     def test_what_is_not_proved_is_told_apart_from_what_could_not_be_tried(self) -> None:
-        program = [sys.executable, str(ROOT / "tools/keel"), "prove", "--project", str(self.project)]
+        tools = str(ROOT / "tools/keel")
+        program = [sys.executable, tools, "prove", "--project", str(self.project)]
 
         def status(unit: str) -> int:
             return subprocess.run([*program, "--engine", "cbmc", "--unit", unit], check=False,

@@ -10,7 +10,7 @@
 
 A package is written as a whole, and only when nothing is wrong; else the one that was there stays,
 and each problem is told in a line. With KEEL_PROVED=1 in the environment nothing is proved: the
-report of the proofs is the one that --join of tools/keel prove has written, of the same commit, files
+report of the proofs is the one that `prove --join` has written, of the same commit, files
 and tools; another one is refused. build/evidence-work has the logs of the commands that were run,
 and summary.md, a short table for CI.
 

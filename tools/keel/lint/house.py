@@ -124,7 +124,7 @@ def include_reason(path: str, quoted: bool, header: str) -> str:
     if layer != "rtos" or (unit == other_unit and path.endswith(".c")):
         return ""
     if unit not in RTOS_RANK or other_unit not in RTOS_RANK:
-        return f"{unit} or {other_unit} has no place in the order of units (tools/keel/lint/house.py)"
+        return f"{unit} or {other_unit} has no place in the order of units (keel/lint/house.py)"
     if RTOS_RANK[other_unit] >= RTOS_RANK[unit]:
         return f"{unit} includes {other_unit}, which does not stand below it"
     return ""

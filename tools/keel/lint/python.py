@@ -21,7 +21,7 @@ from keel.lint.texts import Finding
 
 SETTINGS = "pyproject.toml"
 PLACES = ("tools", "tests")
-NOT_LAID_OUT = re.compile(r"^Would reformat: (.+)$", re.MULTILINE)
+NOT_LAID_OUT = re.compile(r"^(.+?):\d+:\d+: unformatted", re.MULTILINE)
 # As import-linter tells a chain: the importer, what it imports, and the line.
 CHAIN = re.compile(r"^-?\s*(keel[\w.]*) -> (keel[\w.]*) \(l\.(\d+)", re.MULTILINE)
 CONTRACT_BROKEN = 1
@@ -61,7 +61,7 @@ def _mistakes(tools: Toolchain, root: Path) -> Iterator[Finding]:
 
 def _layout(tools: Toolchain, root: Path) -> Iterator[Finding]:
     """The files that ruff would lay out differently."""
-    done = run([*ruff(tools), "format", "--check", *PLACES], cwd=root)
+    done = run([*ruff(tools), "format", "--check", "--output-format", "concise", *PLACES], cwd=root)
     names = NOT_LAID_OUT.findall(done.output)
     if not done.good and not names:
         raise ToolError(f"ruff fails:\n{done.output.strip()}")

@@ -8,7 +8,7 @@
     python3 tools/keel prove --shard 2/4        # a quarter of it: build/prove/shard-2-of-4.json
     python3 tools/keel prove --join FILE...     # the verdict on the whole, from all four reports
     python3 tools/keel prove --project FOLDER   # a project of your own: docs/own_unit.md
-    python3 tools/keel prove --explain NAME     # why a goal, harness or assertion fails; how a wrong
+    python3 tools/keel prove --explain NAME    # why a goal, harness or assertion fails; how a wrong
                                               # body is refuted
 
 Exit status: 0 when all is proved and the goals are those of proofs/UNIT/goals.txt, 1 when not, 2
