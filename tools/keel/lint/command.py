@@ -18,8 +18,8 @@ The workflows of .github are held against the schema of GitHub's (check-jsonsche
 looks for what they name and is not there, zizmor for what strangers may use in them. None asks the
 network.
 
-ruff checks the Python of tools/ and tests/ and lays it out, and import-linter holds the order of the
-rooms of tools/keel; pyproject.toml has the rules.
+ruff checks the Python of tools/ and tests/ and lays it out, and import-linter holds the order of
+the rooms of tools/keel; pyproject.toml has the rules.
 
 The rules of the house: see HOUSE_CHECKS in tools/keel/lint/house.py.
 
