@@ -11,6 +11,7 @@ from datetime import date
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
+from keel.base.errors import ROOT
 from keel.config import Field, Mistake, Table, Text, read_toml
 from keel.evidence.part import Context, Item, Part, State
 from keel.evidence.part import Table as Shown
@@ -224,7 +225,7 @@ def lines_of(path: Path) -> int:
 
 
 def tables(settings: Settings, specs: Mapping[str, Spec], found: Mapping[str, Found],
-           report: Report, root: Path) -> Iterator[Shown]:  # fmt: skip
+           report: Report) -> Iterator[Shown]:  # fmt: skip
     """The tools, the faults, the known problems."""
     yield Shown(
         title="Tools", columns=("tool", "version", "locked", "from", "SHA-256 of the program"),
@@ -246,8 +247,8 @@ def tables(settings: Settings, specs: Mapping[str, Spec], found: Mapping[str, Fo
     yield Shown(
         title="The judge of the proofs", columns=("engine", "module", "lines"),
         rows=tuple(
-            (engine, path.resolve().relative_to(root).as_posix(), str(lines_of(path)))
-            for engine in ASKERS for path in judges(engine, root / "tools/keel")
+            (engine, path.resolve().relative_to(ROOT).as_posix(), str(lines_of(path)))
+            for engine in ASKERS for path in judges(engine)
         ),
         note="A kept verdict rests on these modules of Keel's own and on no other: they are what "
              "would need qualification. `make lint` holds what they import.",
@@ -303,7 +304,7 @@ def make(context: Context) -> Part:
             "known problems that were looked at": str(len(settings.problem)),
             "tools by review of their known problems": reviews(settings),
         },
-        text=TEXT, tables=tuple(tables(settings, specs, found, report, context.root)),
+        text=TEXT, tables=tuple(tables(settings, specs, found, report)),
         items=tuple(tool_item(one, settings, found, report) for one in settings.tool),
         files={"toolchain.lock.json": context.root / "tools/toolchain.lock.json"},
         problems=tuple(dict.fromkeys(problems)),
