@@ -2,7 +2,7 @@
 """Tests of how mutants are tried: by whom, and how who was interrupted goes on.
 
 No prover is run. The cluster is one of threads, and is skipped unless the packages of tools/
-dask.requirements.txt are there (python3 tools/keel tools ensure dask).
+packages of the group dask are there (python3 tools/keel tools ensure dask).
 """
 
 from __future__ import annotations

@@ -28,8 +28,8 @@ class Copied(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.tools = Path(folder.name) / "tools"
-        for name in ("keel", "requirements"):
-            shutil.copytree(ROOT / "tools" / name, self.tools / name)
+        shutil.copytree(ROOT / "tools/keel", self.tools / "keel")
+        shutil.copy(ROOT / "pyproject.toml", self.tools.parent)
 
     def changed_by(
         self, name: str, digest: Callable[[str, Path], str], engines: Iterable[str]

@@ -23,11 +23,12 @@ from unittest import mock
 
 from keel import install as toolchain
 from keel.base.files import sha256_of
-from keel.install import Toolchain, ToolchainError, python_packages
+from keel.install import Toolchain, ToolchainError, groups, python_packages
 from keel.install import command as command_line
 from keel.install.apt import Log, Suite
 from keel.install.cache import Cache
 from keel.install.found import Finder, answer
+from keel.install.groups import requirements_of
 from keel.install.lock import LOCK_FILE, Lock, Spec
 from keel.install.mirror import debian_mirror
 from keel.install.unpack import Tree, write_starter
@@ -304,15 +305,7 @@ class Unpacking(Sandbox):
             self.store.unpack(self.spec, fill, Finder(self.cache))
         self.assertEqual(self.trees(), [])
 
-    def packages(self, digest: str) -> Spec:
-        """A set of packages whose requirements file has this digest."""
-        path = os.path.relpath(self.folder / "packages.txt", ROOT)
-        return Spec("z-packages", "packages", path=path, file="z/version", pin="1", sha256=digest,
-                    version=r"(\d\.\d)", at_least="1", below="2")  # fmt: skip
-
-    def test_packages_are_installed_as_their_file_pins_them(self) -> None:
-        file = self.folder / "packages.txt"
-        file.write_text("z==1.5 --hash=sha256:0\n")
+    def test_packages_are_installed_as_their_group_pins_them(self) -> None:
         pip = self.folder / "pip"  # Called as a Python: -m pip install OPTIONS --target ROOT ...
         pip.write_text(
             '#!/bin/sh\nwhile [ "$1" != --target ]; do\n  case "$1" in --require-hashes) pinned=1;;'
@@ -323,12 +316,12 @@ class Unpacking(Sandbox):
         def fill(tree: Tree) -> None:
             python_packages.install(tree, [str(pip)])
 
-        spec = self.packages(sha256_of(file))
+        spec = Spec("z-packages", "packages", group="base", file="z/version", pin="1",
+                    sha256="0" * 64, version=r"(\d\.\d)", at_least="1", below="2")  # fmt: skip
         found = self.store.unpack(spec, fill, Finder(self.cache))
         self.assertEqual((found.version, found.origin), ("1.5", "cache"))
         self.assertIn(sys.implementation.cache_tag, found.commands["z-packages"])
-        with self.assertRaisesRegex(ToolchainError, "is not the pinned file"):
-            self.store.unpack(self.packages("0" * 64), fill, Finder(self.cache))
+        self.assertEqual(found.parts[0]["name"], "group base")
 
     def test_a_tool_that_does_not_work_is_not_kept(self) -> None:
         with self.assertRaisesRegex(ToolchainError, "does not work: .*version 5.0"):
@@ -535,6 +528,7 @@ class Verdicts(Sandbox):
         if not tools.exists():
             skipped = shutil.ignore_patterns("__pycache__")
             shutil.copytree(ROOT / "tools", tools, ignore=skipped)
+            shutil.copy(ROOT / "pyproject.toml", self.folder)
         if changed:
             with (tools / changed).open("a") as stream:
                 stream.write("# A comment.\n")
@@ -548,7 +542,7 @@ class Verdicts(Sandbox):
             self.assertEqual(self.digest(file), before, file)
         started = self.digest("keel/install/provers.py")
         self.assertNotEqual(started, before)
-        self.assertNotEqual(self.digest("requirements/c-syntax.txt"), started)
+        self.assertNotEqual(self.digest("keel/c/syntax.py"), started)
 
 
 class TwoClones(Sandbox):
@@ -593,27 +587,45 @@ class TheLockFile(Sandbox):
         for spec in Lock.read().tools.values():
             if spec.cached:
                 self.assertRegex(spec.sha256, r"^[0-9a-f]{64}$", spec.name)
-                self.assertTrue(spec.pin and (spec.package or spec.path), spec.name)
-            if spec.kind == "packages":
-                self.assertEqual(spec.sha256, sha256_of(ROOT / spec.path), spec.path)
-                text = (ROOT / spec.path).read_text()
-                lines = [line for line in text.splitlines() if re.match(r"[a-z]", line)]
-                self.assertTrue(lines and all("==" in line for line in lines), spec.path)
+                self.assertTrue(spec.pin and (spec.package or spec.group), spec.name)
             if not spec.cached and not spec.derived:
                 self.assertTrue(spec.at_least and spec.below and spec.packages, spec.name)
+
+    def test_every_package_of_a_group_has_its_files_and_every_file_a_group(self) -> None:
+        named = {one for group in groups.groups().values() for one in group}
+        self.assertEqual(named, set(groups.hashes()))
+        for name, items in groups.groups().items():
+            self.assertEqual(items, sorted(set(items)), name)
+
+    def group_error(self, project: str, lock: str) -> str:
+        """Why a group "a" of these two files is refused."""
+        files = self.folder / "pyproject.toml", self.folder / "packages.lock"
+        for path, text in zip(files, (project, lock), strict=True):
+            path.write_text(text, encoding="utf-8")
+        with self.assertRaises(groups.GroupError) as refused:
+            requirements_of("a", *files)
+        return str(refused.exception)
+
+    def test_a_group_that_is_not_there_or_not_pinned_is_refused(self) -> None:
+        self.assertEqual(self.group_error("[dependency-groups]\nb = []\n", ""),
+                         "pyproject.toml: there is no group a")  # fmt: skip
+
+    def test_a_package_without_a_digest_is_refused(self) -> None:
+        text = '[dependency-groups]\na = ["z==1"]\n'
+        self.assertEqual(self.group_error(text, "z==2 \\\n    --hash=sha256:" + "0" * 64 + "\n"),
+                         "packages.lock: z==1 of group a has no SHA-256")  # fmt: skip
 
     def test_a_package_has_one_version_in_all_files_of_one_program(self) -> None:
         lock = Lock.read()
         for group in ("timing-tests", "tools-tests", "fly-tests"):
             seen: dict[str, str] = {}
             for name in lock.groups[group]:
-                path = ROOT / lock.tools[name].path
-                text = path.read_text() if name.endswith("-packages") else ""
+                text = requirements_of(lock.tools[name].group) if name.endswith("-packages") else ""
                 for package, version in re.findall(r"^([a-z]\S*)==(\S+)", text, re.MULTILINE):
                     self.assertEqual(seen.setdefault(package, version), version, package)
             self.assertIn("pytest", seen)
 
     def test_no_registry_is_named(self) -> None:
-        for path in (LOCK_FILE, *Path(toolchain.__file__).parent.glob("*.py")):
+        for path in (LOCK_FILE, groups.HASHES, groups.PROJECT, *Path(toolchain.__file__).parent.glob("*.py")):
             hosts = re.findall(r"\b[a-z0-9-]+\.(?:org|com|net|io)\b|https?:", path.read_text())
             self.assertEqual(hosts, [], path.name)

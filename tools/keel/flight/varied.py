@@ -15,18 +15,21 @@ from keel.flight import library, plants
 from keel.flight.loop import Order
 from keel.flight.plants import Airframe
 from keel.flight.scenario import Quality, Scenario, Shaking
+from keel.install.groups import HASHES, PROJECT, requirements_of
 
 TAG = 0x6B65656C  # Sets these draws apart from those of the noise, which has the same seed.
 DURATION_S = 80.0
 HEALTHY = "no fault"
 TOOLS = ("tools/flight", "tools/keel/base/plotting.py")
-PINS = ("tools/requirements/fly.txt", "tools/requirements/timing.txt")
+PINS = ("fly", "timing")  # Groups of Python packages.
 
 
 def digest_of(root: Path = ROOT) -> str:
     """SHA-256 of all that a flight of a seed depends on, beside the seed."""
     total = hashlib.sha256(library.digest_of(root).encode())
-    files = [path for name in TOOLS for path in below(root / name)] + [root / pin for pin in PINS]
+    for group in PINS:
+        total.update(requirements_of(group, root / PROJECT.name, root / "tools" / HASHES.name).encode())
+    files = [path for name in TOOLS for path in below(root / name)]
     for path in files:
         total.update(path.relative_to(root).as_posix().encode())
         total.update(sha256_of(path).encode())

@@ -7,12 +7,12 @@ import hashlib
 import json
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
 from keel.base.errors import ToolError, unknown
+from keel.install.groups import TOOLS_DIR, GroupError, requirements_of
 
-TOOLS_DIR = Path(__file__).resolve().parents[2]
 LOCK_FILE = TOOLS_DIR / "toolchain.lock.json"
 
 
@@ -44,7 +44,7 @@ class Spec:
     program: str = ""
     keep: tuple[str, ...] = ()
     before: str = ""
-    requirements: str = ""
+    group: str = ""
     libraries: tuple[str, ...] = ()
     loader: str = ""
     library_path: tuple[str, ...] = ()
@@ -66,7 +66,7 @@ class Spec:
         if self.kind == "crate":
             return f"{self.package} {self.pin} of the Rust package registry"
         if self.kind == "packages":
-            return f"Python packages of {self.path}"
+            return f"Python packages of group {self.group} in pyproject.toml"
         if self.cached:
             return f"{self.package} {self.pin} of Debian {self.suite}"
         return "made from the others"
@@ -88,7 +88,7 @@ class Spec:
 
     def started(self, command: str) -> str:
         """The program behind a command of an unpacked tool, relative to its tree."""
-        if self.requirements:
+        if self.group:
             return f"bin/{command}"
         return self.program or f"usr/bin/{command}"
 
@@ -119,7 +119,17 @@ def read_spec(name: str, raw: dict[str, object]) -> Spec:
             values[key] = str(value)
         if isinstance(values[key], tuple) != str(known[key]).startswith("tuple"):
             raise ToolchainError(f"{LOCK_FILE.name}: tool {name}: {key!r} has the wrong type")
-    return Spec(name=name, **values)  # type: ignore[arg-type]
+    spec = Spec(name=name, **values)  # type: ignore[arg-type]
+    return pinned(spec) if spec.kind == "packages" else spec
+
+
+def pinned(spec: Spec) -> Spec:
+    """Packages, with the digest of all that pip is to install of them."""
+    try:
+        text = requirements_of(spec.group)
+    except GroupError as error:
+        raise ToolchainError(f"{LOCK_FILE.name}: tool {spec.name}: {error}") from error
+    return replace(spec, pin="1", sha256=hashlib.sha256(text.encode()).hexdigest())
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from keel.install.lock import TOOLS_DIR, ToolchainError
+from keel.install.groups import requirements_of
+from keel.install.lock import ToolchainError
 from keel.install.unpack import Tree, write_starter
 
 SOURCE = "Python package index, pinned"
@@ -17,14 +18,14 @@ OPTIONS = ("--require-hashes", "--no-deps", "--only-binary=:all:", "--no-compile
 
 
 def install(tree: Tree, python: Sequence[str]) -> None:
-    """Whatever the lock file has for pip: one wheel, or all that a requirements file lists."""
+    """Whatever the lock file has for pip: one wheel, or all packages of a group."""
     spec = tree.spec
     if spec.kind == "packages":
         # For the Python that runs this program, whichever one pip belongs to.
         version = f"--python-version={sys.version_info.major}.{sys.version_info.minor}"
-        pip_install(tree, python, pinned_file(tree, TOOLS_DIR.parent / spec.path), version)
-    elif spec.requirements:
-        pip_install(tree, python, pinned_file(tree, TOOLS_DIR / spec.requirements))
+        pip_install(tree, python, requirements_file(tree), version)
+    elif spec.group:
+        pip_install(tree, python, requirements_file(tree))
         for command in spec.commands:
             start = f'PYTHONPATH="$root" exec {shlex.join(python)} -m {spec.program} "$@"'
             write_starter(tree, command, start)
@@ -40,10 +41,11 @@ def install(tree: Tree, python: Sequence[str]) -> None:
             write_starter(tree, command)
 
 
-def pinned_file(tree: Tree, file: Path) -> Path:
-    """A requirements file, which pins what it lists and is itself pinned."""
-    tree.check_pin(file)
-    tree.add_part(tree.spec.path or file.name, tree.spec.pin, SOURCE, file)
+def requirements_file(tree: Tree) -> Path:
+    """What pip is to install of a group: names, versions, and the SHA-256 of the files."""
+    file = tree.scratch / f"{tree.spec.group}.txt"
+    file.write_text(requirements_of(tree.spec.group), encoding="utf-8")
+    tree.add_part(f"group {tree.spec.group}", tree.spec.pin or "1", SOURCE, file)
     return file
 
 
@@ -51,7 +53,7 @@ def pip_install(tree: Tree, python: Sequence[str], file: Path, *options: str) ->
     """Have pip install a requirements file into the tree."""
     where = ["--target", str(tree.root), "-r", str(file)]
     if tree.log.run([*python, "-m", "pip", "install", *OPTIONS, *options, *where]) != 0:
-        what = tree.spec.path or tree.spec.requirements or f"{tree.spec.package} {tree.spec.pin}"
+        what = tree.spec.group or f"{tree.spec.package} {tree.spec.pin}"
         raise ToolchainError(
             f"{tree.spec.name}: pip does not install {what}; pip says:{tree.log.tail()}"
         )

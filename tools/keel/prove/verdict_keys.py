@@ -13,11 +13,13 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from keel.install import Found
+from keel.install.groups import PROJECT, requirements_of
 
 PACKAGE = Path(__file__).resolve().parents[1]
-# What every verdict rests on: what reads C, its parser being pinned, and how provers are started:
-# for which target, under which environment, with which limits.
-READERS = ("c/source.py", "c/syntax.py", "../requirements/c-syntax.txt", "install/provers.py")
+# What every verdict rests on: what reads C, and how provers are started: for which target, under
+# which environment, with which limits.
+READERS = ("c/source.py", "c/syntax.py", "install/provers.py")
+PARSER = "c-syntax"  # The group of Python packages whose versions count as well.
 # And the room of what judges, whole.
 JUDGE = "judge"
 # What asks one engine.
@@ -94,8 +96,9 @@ def judges(engine: str, package: Path = PACKAGE) -> list[Path]:
 
 
 def own_digest(engine: str, package: Path = PACKAGE) -> str:
-    """SHA-256 over what judges an engine's verdicts."""
-    return _digest_of(judges(engine, package))
+    """SHA-256 over what judges an engine's verdicts, the parser of C included."""
+    parser = requirements_of(PARSER, package.parents[1] / PROJECT.name)
+    return hashlib.sha256(f"{_digest_of(judges(engine, package))}\n{parser}".encode()).hexdigest()
 
 
 def mutants_digest(engine: str, package: Path = PACKAGE) -> str:
