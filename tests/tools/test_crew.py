@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests of how mutants are tried: by whom, and how who was interrupted goes on.
 
-No prover is run. The cluster is one of threads, and is skipped unless the packages of tools/
+No prover is run. The cluster is one of threads, and is skipped unless the
 packages of the group dask are there (python3 tools/keel tools ensure dask).
 """
 
