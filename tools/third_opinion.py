@@ -50,7 +50,7 @@ def answer(question: esbmc.Question, asked: esbmc.Esbmc, cache: Cache, tool: str
         if opinion.good(found):
             cache.put(key, found)
     words = [f"unwound {question.unwind} times", *question.defines]
-    wrong = question.wrong.shown if question.wrong else ""
+    wrong = question.wrong.name if question.wrong else ""
     return {**found, "bounds": " ".join(words), "wrong_body": wrong}
 
 

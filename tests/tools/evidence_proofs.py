@@ -21,6 +21,7 @@ from common.source import STAMP  # noqa: E402
 from evidence.part import Context, Part  # noqa: E402
 from proofs.goals import read_goals  # noqa: E402
 from proofs.project import Unit, find_units  # noqa: E402
+from proofs.wrong import read_wrong_bodies  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 NOW = {"commit": "c", "tree": "t", "product": "p"}
@@ -52,7 +53,7 @@ def cbmc_of(unit: Unit) -> dict[str, Any]:
                "coverage": {"blocks": 30, "reached": 30 - unreached.get(f"{unit.name}/{name}", 0)}}
         for name, found in asserted.items()
     }  # fmt: skip
-    wrong = {path.stem: True for path in unit.wrong_bodies}
+    wrong = {body.name: True for body in read_wrong_bodies(unit)}
     return {"properties": 9, "proved": 9, "harnesses": harnesses, "negative": {"list": wrong}}
 
 

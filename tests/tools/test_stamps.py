@@ -65,7 +65,8 @@ class Proofs(Copied):
 
     def test_who_tells_what_others_found_judges_nothing(self) -> None:
         for name in ("report.py", "explain.py", "mutation.py", "times.py", "once.py", "unused.py",
-                     "determined.py", "rules.py", "session.py", "driver.py"):  # fmt: skip
+                     "determined.py", "rules.py", "session.py", "driver.py",
+                     "wrong.py"):  # fmt: skip
             self.assertEqual(self.voided(f"proofs/{name}"), [], name)
 
     def test_every_tool_counts_for_the_engines_that_may_start_it(self) -> None:

@@ -15,7 +15,7 @@ from .goals import read_goals
 from .harness import Harness, harnesses_of, read_harness
 from .project import KEEL, ProjectError, Unit, closure, shown
 from .settings import Exceptions
-from .wrong import WrongBody, read_wrong_body
+from .wrong import WrongBody, read_wrong_bodies
 
 
 def wp_jobs(
@@ -102,10 +102,7 @@ def cbmc_jobs(
         harnesses = {path.stem: read_harness(unit, path) for path in unit.harnesses}
         for harness in harnesses.values():
             jobs.append(_harness_job(harness, checker, root, stamp))
-        for path in unit.wrong_bodies:
-            wrong = read_wrong_body(unit, path)
-            if wrong.harness not in harnesses:
-                raise ProjectError(f"{wrong.shown}: there is no harness {wrong.harness}")
+        for wrong in read_wrong_bodies(unit):
             jobs.append(_wrong_job(wrong, harnesses[wrong.harness], checker, root, stamp))
     return jobs
 
@@ -117,7 +114,8 @@ def cbmc_key(
     """What the verdict of a harness depends on, on the unit or on a wrong body.
 
     Contracts are comments to CBMC. Directives count as they were read, not as they stand there now.
-    So do a wrong body's replacements, by what they make of the file as it is now.
+    So do a wrong body's replacements, by what they make of the file as it is now. The other wrong
+    bodies of the unit do not matter, nor where in the file it stands.
     """
     texts = {
         shown(path, root): csource.essence(csource.read(path))

@@ -24,7 +24,7 @@ SERVANTS = {
         "wp.py", "wplog.py", "verdict.py", "targets.py", "frama_modules.py", "ask_recorded.ml",
         "find_contradictions.ml", "find_assumptions.ml", "linear.py", "../toolchain/limits.py",
     ),
-    "cbmc": ("cbmc.py", "cbmc_answers.py", "cbmc_build.py", "harness.py", "wrong.py"),
+    "cbmc": ("cbmc.py", "cbmc_answers.py", "cbmc_build.py", "harness.py"),
     "gappa": ("gappa.py",),
 }
 # The tools that an engine never starts. The compiler preprocesses for all of them; Z3 solves for

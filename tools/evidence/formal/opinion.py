@@ -16,7 +16,7 @@ from common.errors import ToolError
 from proofs import csource
 from proofs.harness import Harness
 from proofs.project import closure
-from proofs.wrong import WrongBody, read_wrong_body
+from proofs.wrong import WrongBody, read_wrong_bodies
 
 from evidence.formal.bounds import Bounded
 from evidence.formal.esbmc import PROVED, REFUTED, Question, narrowed
@@ -93,11 +93,8 @@ def file_problems(
 
 def _first_wrong(harness: Harness) -> WrongBody | None:
     """A wrong body that the harness must refute; the first, if there are several."""
-    for path in harness.unit.wrong_bodies:
-        wrong = read_wrong_body(harness.unit, path)
-        if wrong.harness == harness.name:
-            return wrong
-    return None
+    every = read_wrong_bodies(harness.unit)
+    return next((wrong for wrong in every if wrong.harness == harness.name), None)
 
 
 def questions(opinions: Opinions, harnesses: Sequence[Bounded]) -> list[Question]:

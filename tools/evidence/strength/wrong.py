@@ -11,7 +11,7 @@ from typing import Any
 
 from common.files import read_text
 from proofs.project import find_units
-from proofs.wrong import read_wrong_body
+from proofs.wrong import read_wrong_bodies
 
 from evidence.part import Item, State, Table
 
@@ -43,9 +43,8 @@ class Mistake:
 
 
 def mistake_in(text: str) -> str:
-    """What the comment at the head of a file says."""
-    head = text.partition("\n[[")[0]
-    return " ".join(match[1] for match in COMMENT.finditer(head) if match[1]).strip()
+    """What the comments in a file of bounds say that are no directives."""
+    return " ".join(match[1] for match in COMMENT.finditer(text) if match[1]).strip()
 
 
 def read_mistakes(root: Path, report: Report) -> list[Mistake]:
@@ -55,10 +54,9 @@ def read_mistakes(root: Path, report: Report) -> list[Mistake]:
         said = report.get("units", {}).get(unit.name, {})
         bodies = said.get("cbmc", {}).get("negative", {}).get("list", {})
         bounds = said.get("gappa", {}).get("negative", {}).get("list", {})
-        for path in unit.wrong_bodies:
-            wrong = read_wrong_body(unit, path)
+        for wrong in read_wrong_bodies(unit):
             found.append(Mistake(
-                unit.name, wrong.name, mistake_in(read_text(path)),
+                unit.name, wrong.name, wrong.description,
                 f"harness:{unit.name}/{wrong.harness}", ", ".join(wrong.expect),
                 bodies.get(wrong.name),
             ))  # fmt: skip
