@@ -21,6 +21,7 @@ from keel.base.source import STAMP
 from keel.c.project import Unit, find_units
 from keel.evidence.part import Context, Part
 from keel.judge.goals import read_goals
+from keel.judge.wrong_bodies import read_wrong_bodies
 
 ROOT = Path(__file__).resolve().parents[2]
 NOW = {"commit": "c", "tree": "t", "product": "p"}
@@ -52,7 +53,7 @@ def cbmc_of(unit: Unit) -> dict[str, Any]:
                "coverage": {"blocks": 30, "reached": 30 - unreached.get(f"{unit.name}/{name}", 0)}}
         for name, found in asserted.items()
     }  # fmt: skip
-    wrong = {path.stem: True for path in unit.wrong_bodies}
+    wrong = {body.name: True for body in read_wrong_bodies(unit)}
     return {"properties": 9, "proved": 9, "harnesses": harnesses, "negative": {"list": wrong}}
 
 

@@ -232,10 +232,13 @@ class Mistakes(StrengthTest):
         self.assert_problem(part, "build/prove/report.json", "speaks of another source")
 
     def test_a_mistake_that_says_nothing(self) -> None:
-        path = self.root / "proofs/queue/wrong/add_overwrites.toml"
-        text = path.read_text(encoding="utf-8")
-        path.write_text(text.partition("\n")[2], encoding="utf-8")
-        self.assert_problem(self.part(), "queue/wrong-add_overwrites", "does not say")
+        name = "proofs/voter/wrong/mean_rounds_twice.g"
+        self.replace(name, "# One rounding more than there is.\n", "")
+        self.assert_problem(self.part(), "voter/wrong-mean_rounds_twice", "does not say")
+
+    def test_a_wrong_body_that_says_nothing_is_refused(self) -> None:
+        self.replace("proofs/queue/wrong.toml", "description = ", "descriptions = ")
+        self.assert_problem(self.part(), "proofs/queue/wrong.toml:", "unknown key descriptions")
 
 
 class Blocks(StrengthTest):

@@ -266,7 +266,7 @@ class Explained(WholeRunCase):
         self.assertIn("box.slot[0..1] = 7, 9", output)
 
     def test_a_wrong_body_is_shown_with_its_fault(self) -> None:
-        (self.unit.folder / "wrong" / "zero.toml").write_text(WRONG, encoding="utf-8")
+        self.unit.wrong_list.write_text(WRONG, encoding="utf-8")
         self.play(wrong=json.loads(cbmc_output(ASSERTED)))
         self.assertEqual(self.explain("zero")[0], 1)
         self.play(wrong=[*json.loads(cbmc_output(ASSERTED)), {"trace": TRACE}])

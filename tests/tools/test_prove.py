@@ -104,12 +104,29 @@ void keel_box_put_harness(void)
 }
 """
 WRONG = """\
-# It forgets the value.
+# Faults that the harness must notice.
+
+[[wrong]]
+name = "zero"
+description = "It forgets the value."
 harness = "keel_box_put_harness"
 expect = ["BOX_001"]
-[[replace]]
+
+[[wrong.replace]]
 old = "*box = value;"
 new = "*box = 0;"
+"""
+# One more, to stand behind it or before it.
+OTHER = """
+[[wrong]]
+name = "one"
+description = "It puts in a one."
+harness = "keel_box_put_harness"
+expect = ["BOX_001"]
+
+[[wrong.replace]]
+old = "*box = value;"
+new = "*box = 1;"
 """
 
 
@@ -120,7 +137,7 @@ def make_tree(root: Path) -> Unit:
         "include/keel/rtos/box.h": HEADER,
         "src/rtos/box.c": SOURCE,
         "proofs/box/keel_box_put_harness.c": HARNESS,
-        "proofs/box/wrong/zero.toml": WRONG,
+        "proofs/box/wrong.toml": WRONG,
     }
     for name, text in files.items():
         path = root / name
@@ -494,12 +511,15 @@ class Keys(TreeTest):
         ]
         return {job.name: job.key() for job in jobs}
 
-    def changed_by(self, file: str, old: str, new: str) -> set[str]:
+    def write_wrong(self, text: str) -> None:
+        self.unit.wrong_list.write_text(text, encoding="utf-8")
+
+    def changed_by(self, file: str, old: str, new: str, times: int = -1) -> set[str]:
         before = self.keys()
         path = self.root / file
         text = path.read_text(encoding="utf-8")
         self.assertIn(old, text)
-        path.write_text(text.replace(old, new), encoding="utf-8")
+        path.write_text(text.replace(old, new, times), encoding="utf-8")
         after = self.keys()
         return {name for name in after if before[name] != after[name]}
 
@@ -508,15 +528,40 @@ class Keys(TreeTest):
         self.assertEqual(changed, {"keel_box_put", "keel_box_put_harness", "zero"})
 
     def test_a_wrong_body_that_has_gone_stale_has_no_key(self) -> None:
-        with self.assertRaisesRegex(ProjectError, "zero.toml: stale"):
+        with self.assertRaisesRegex(ProjectError, "wrong.toml:3: zero: stale, src/rtos/box.c: "):
             self.changed_by("src/rtos/box.c", "*box = value;", "*box = value + 0;")
 
     def test_a_replacement_matters_to_its_wrong_body_alone(self) -> None:
-        file = "proofs/box/wrong/zero.toml"
-        self.assertEqual(self.changed_by(file, "= 0;", "= 1;"), {"zero"})
-        self.assertEqual(self.changed_by(file, "# It forgets", "# Oh, it forgets"), set())
-        smaller = 'defines = "-DBOXES=4u"\n[[replace]]'
-        self.assertEqual(self.changed_by(file, "[[replace]]", smaller), {"zero"})
+        file = "proofs/box/wrong.toml"
+        self.write_wrong(WRONG + OTHER)
+        self.assertEqual(self.changed_by(file, "= 0;", "= 2;"), {"zero"})
+        self.assertEqual(self.changed_by(file, "It forgets", "Oh, it forgets"), set())
+        smaller = 'expect = ["BOX_001"]\ndefines = "-DBOXES=4u"\n\n[[wrong.replace]]\nold'
+        before = 'expect = ["BOX_001"]\n\n[[wrong.replace]]\nold'
+        self.assertEqual(self.changed_by(file, before, smaller, 1), {"zero"})
+
+    def test_a_new_wrong_body_leaves_the_keys_of_its_neighbours(self) -> None:
+        before = self.keys()
+        for text in (WRONG + OTHER, OTHER + WRONG):
+            self.write_wrong(text)
+            after = self.keys()
+            self.assertNotIn(after.pop("one"), before.values())
+            self.assertEqual(after, before)
+
+    def test_each_key_of_a_wrong_body_but_its_description_matters(self) -> None:
+        self.write_wrong(WRONG + OTHER)
+        one = "proofs/box/wrong.toml"
+        (self.unit.folder / "keel_box_put__two_harness.c").write_text(
+            HARNESS.replace("put_harness", "put__two_harness"), encoding="utf-8"
+        )
+        two = 'harness = "keel_box_put__two_harness"\nexpect = ["BOX_001"]\n\n'
+        old = 'harness = "keel_box_put_harness"\nexpect = ["BOX_001"]\n\n'
+        self.assertEqual(self.changed_by(one, old, two, 1), {"zero"})
+        self.assertEqual(self.changed_by(one, 'expect = ["BOX_001"]', 'expect = ["BOX"]', 1),
+                         {"zero"})  # fmt: skip
+        before = self.keys()
+        self.write_wrong((WRONG + OTHER).replace('"zero"', '"null"'))
+        self.assertNotIn(self.keys()["null"], before.values())
 
     def test_the_harness_of_what_is_replaced_matters(self) -> None:
         replacing = HARNESS.replace("// covers", "// replaces: helper\n// covers")
@@ -538,9 +583,7 @@ class Keys(TreeTest):
         harness_file = "proofs/box/keel_box_put_harness.c"
         changed = self.changed_by(harness_file, "--unwind 3", "--unwind 4")
         self.assertEqual(changed, {"keel_box_put_harness", "zero"})
-        self.assertEqual(
-            self.changed_by("proofs/box/wrong/zero.toml", "BOX_001", "BOX_002"), {"zero"}
-        )
+        self.assertEqual(self.changed_by("proofs/box/wrong.toml", "BOX_001", "BOX_002"), {"zero"})
 
     def test_a_missing_include_is_an_error(self) -> None:
         with self.assertRaisesRegex(ProjectError, "nowhere.h"):
@@ -857,13 +900,13 @@ class CbmcVerdict(TreeTest):
         self.assertEqual(self.problems(output), ["ignoring forall"])
 
     def test_a_wrong_body_that_passes_is_a_failure(self) -> None:
-        body = wrong.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
+        [body] = wrong.read_wrong_bodies(self.unit)
         passes = read_answer(cbmc_output(ASSERTED))
         [problem] = refutation_problems(passes, body)
         self.assertIn("does not refute this wrong body", problem)
 
     def test_a_wrong_body_must_fail_at_its_assertion(self) -> None:
-        body = wrong.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
+        [body] = wrong.read_wrong_bodies(self.unit)
         other = read_answer(cbmc_output(item("h.assertion.2", "FAILURE", "BOX_002: x")))
         [problem] = refutation_problems(other, body)
         self.assertIn("not at BOX_001", problem)
@@ -871,7 +914,7 @@ class CbmcVerdict(TreeTest):
         self.assertEqual(refutation_problems(right, body), [])
 
     def test_a_run_that_breaks_off_refutes_nothing(self) -> None:
-        body = wrong.read_wrong_body(self.unit, self.unit.wrong_bodies[0])
+        [body] = wrong.read_wrong_bodies(self.unit)
         self.assertEqual(len(refutation_problems(read_answer("[{"), body)), 1)
 
     def test_only_the_expected_assertions_are_asked_for(self) -> None:
@@ -1017,17 +1060,21 @@ int keel_box_get_stand_in(int box)
 
 class WrongBodies(TreeTest):
     def read(self, text: str) -> wrong.WrongBody:
-        path = self.unit.wrong_bodies[0]
-        path.write_text(text, encoding="utf-8")
-        return wrong.read_wrong_body(self.unit, path)
+        self.unit.wrong_list.write_text(text, encoding="utf-8")
+        return wrong.read_wrong_bodies(self.unit)[0]
 
     def jobs(self) -> list[driver.Job]:
         checker = cbmc.Cbmc(["goto-cc"], ["cbmc"], Runner({}, self.root), self.root, self.root)
         return engines.cbmc_jobs([self.unit], checker, self.root, {})
 
-    def assert_refused(self, text: str, why: str) -> None:
-        with self.assertRaisesRegex(ProjectError, f"^proofs/box/wrong/zero.toml: .*{why}"):
+    def assert_refused(self, text: str, why: str, place: str = ":3: zero: ") -> None:
+        with self.assertRaisesRegex(ProjectError, f"^proofs/box/wrong.toml{place}.*{why}"):
             self.read(text).text()
+
+    @staticmethod
+    def with_key(line: str) -> str:
+        """The wrong body with one key more."""
+        return WRONG.replace("\n\n[[wrong.replace]]", f"\n{line}\n\n[[wrong.replace]]")
 
     def test_it_is_the_source_with_the_text_replaced(self) -> None:
         read = self.read(WRONG)
@@ -1036,7 +1083,7 @@ class WrongBodies(TreeTest):
         self.assertEqual(read.text(), SOURCE.replace("*box = value;", "*box = 0;"))
 
     def test_replacements_are_made_in_their_order(self) -> None:
-        more = '[[replace]]\nold = "    *box = 0;\\n"\nnew = ""\n'
+        more = '[[wrong.replace]]\nold = "    *box = 0;\\n"\nnew = ""\n'
         self.assertEqual(self.read(WRONG + more).text(), SOURCE.replace("    *box = value;\n", ""))
 
     def test_a_text_that_is_gone_is_an_error(self) -> None:
@@ -1053,41 +1100,80 @@ class WrongBodies(TreeTest):
         self.assert_refused(twice + 'function = "gone"\n', "there is no function gone")
 
     def test_what_is_missing_or_unknown_is_an_error(self) -> None:
+        inline = WRONG.partition("\n[[wrong.replace]]")[0]
         cases = {
-            WRONG.replace("expect", "expects"): "unknown key expects; known: defines, expect, file",
+            WRONG.replace("expect", "expects"): "unknown key expects; known: defines, description,",
             WRONG + 'count = "1"\n': "unknown key count; known: function, new, old",
+            WRONG.replace("description", "about"): "unknown key about",
+            WRONG.replace('"It forgets the value."', '""'): "`description` must be a text that is",
+            WRONG.replace('"zero"', '"../zero"'): "`name` takes letters, digits, _ and -",
             WRONG.replace('expect = ["BOX_001"]\n', ""): "`expect` must",
-            WRONG.replace("[[replace]]", 'defines = "BOXES=4u"\n[[replace]]'): "`defines` takes",
+            self.with_key('defines = "BOXES=4u"'): "`defines` takes",
             WRONG.replace('["BOX_001"]', "[]"): "`expect` must",
             WRONG.replace('["BOX_001"]', "[1]"): "`expect` must",
             WRONG.replace('harness = "keel_box_put_harness"\n', ""): "`harness` must",
+            WRONG.replace("put_harness", "get_harness"): "there is no harness keel_box_get_harness",
             WRONG.replace('old = "*box = value;"', 'old = ""'): "`old` must",
             WRONG.replace('new = "*box = 0;"\n', ""): "`new` must",
-            WRONG.partition("[[")[0]: "needs a .*replace",
-            WRONG.replace("[[replace]]", "[replace]"): "needs a .*replace",
-            WRONG.replace("[[replace]]", 'file = "gone.c"\n[[replace]]'): "no file gone.c",
-            WRONG.replace("[[replace]]", 'file = "/etc/passwd"\n[[replace]]'): "no file /etc",
-            WRONG.replace("[[replace]]", "[["): "line 4",
+            inline: "`replace` must be an array of tables, with one at least",
+            inline + "replace = []\n": "`replace` must be an array of tables, with one at least",
+            inline + "replace = [1]\n": "`replace` must hold tables only",
+            WRONG.replace("[[wrong.replace]]", "[wrong.replace]"): "`replace` must be an array",
+            self.with_key('file = "gone.c"'): "no file gone.c",
+            self.with_key('file = "/etc/passwd"'): "no file /etc",
         }
         for text, why in cases.items():
             with self.subTest(why):
-                self.assert_refused(text, why)
+                if '"../zero"' in text:
+                    self.assert_refused(text, why, ":3: ../zero: ")
+                else:
+                    self.assert_refused(text, why)
 
-    def test_a_harness_that_is_not_there_is_an_error(self) -> None:
-        self.read(WRONG.replace("put_harness", "get_harness"))
-        with self.assertRaisesRegex(ProjectError, "zero.toml: there is no harness keel_box_get"):
-            self.jobs()
+    def test_a_file_that_is_no_list_of_wrong_bodies_is_an_error(self) -> None:
+        cases = {
+            "": ": `wrong` must be an array of tables, with one at least",
+            "wrong = []\n": ": `wrong` must be an array of tables, with one at least",
+            "[wrong]\n": ": `wrong` must be an array of tables",
+            WRONG + '\n[[right]]\nname = "x"\n': ": unknown key right; known: wrong",
+            WRONG.replace("[[wrong]]", "[[", 1): ": .*line 3",
+            WRONG.replace('name = "zero"\n', ""): ":3: number 1: `name` must be a text",
+            'wrong = [{ name = "zero" }]\n': ":1: zero: `expect` must",
+        }
+        for text, why in cases.items():
+            with self.subTest(text=text):
+                self.assert_refused(text, "", why)
+
+    def test_a_name_is_of_one_wrong_body(self) -> None:
+        again = OTHER.replace('"one"', '"zero"')
+        self.assert_refused(WRONG + again, "line 3 has this name, too", ":13: zero: ")
+
+    def test_a_unit_without_the_file_has_none(self) -> None:
+        self.unit.wrong_list.unlink()
+        self.assertEqual(wrong.read_wrong_bodies(self.unit), [])
+
+    def test_wrong_bodies_stand_in_the_order_of_the_file(self) -> None:
+        self.unit.wrong_list.write_text(WRONG + OTHER, encoding="utf-8")
+        shown = [body.shown for body in wrong.read_wrong_bodies(self.unit)]
+        self.assertEqual(shown, [f"proofs/box/wrong.toml:{at}" for at in ("3: zero", "13: one")])
 
     def test_a_file_that_the_harness_does_not_see_is_an_error(self) -> None:
         (self.root / "src" / "rtos" / "sail.c").write_text(SOURCE, encoding="utf-8")
-        self.read(WRONG.replace("[[replace]]", 'file = "src/rtos/sail.c"\n[[replace]]'))
-        with self.assertRaisesRegex(ProjectError, "zero.toml: keel_box_put_harness does not"):
+        self.read(self.with_key('file = "src/rtos/sail.c"'))
+        with self.assertRaisesRegex(ProjectError, "3: zero: keel_box_put_harness does not depend"):
             [job.key() for job in self.jobs()]
 
-    def test_a_whole_copy_is_refused(self) -> None:
-        (self.unit.folder / "wrong" / "copy.c").write_text(SOURCE, encoding="utf-8")
-        with self.assertRaisesRegex(ProjectError, "wrong/copy.c: a wrong body is a .toml file"):
-            find_units(self.root)["box"].wrong_bodies
+    def test_a_file_of_its_own_is_refused(self) -> None:
+        folder = self.unit.folder / "wrong"
+        folder.mkdir()
+        (folder / "bound.g").touch()
+        self.assertEqual(len(wrong.read_wrong_bodies(self.unit)), 1)
+        for name in ("nought.toml", "copy.c"):
+            (folder / name).write_text(WRONG, encoding="utf-8")
+            why = (rf"^proofs/box/wrong/{name}: a wrong body belongs into proofs/box/wrong.toml, as"
+                   rf" a \[\[wrong\]\] with the name {name.partition('.')[0]};")  # fmt: skip
+            with self.assertRaisesRegex(ProjectError, why):
+                self.jobs()
+            (folder / name).unlink()
 
     def built(self, text: str) -> list[str]:
         """The words of the compiler's commands for a wrong body."""
@@ -1163,7 +1249,7 @@ class WrongBodies(TreeTest):
         self.assertIn("*box = 0;", text)
 
     def test_a_header_may_be_named(self) -> None:
-        text = WRONG.replace("[[replace]]", 'file = "include/keel/rtos/box.h"\n[[replace]]')
+        text = self.with_key('file = "include/keel/rtos/box.h"')
         text = text.replace("*box = value;", "int *box").replace("*box = 0;", "long *box")
         words = self.built(text)
         self.assertIn("src/rtos/box.c", words)
@@ -1250,7 +1336,7 @@ class WholeRunCase(TreeTest):
         super().setUp()
         self.verdict_folder = self.root / "verdicts"
         self.tools = FakeTools(self.root)
-        (self.unit.folder / "wrong" / "zero.toml").unlink()
+        self.unit.wrong_list.unlink()
         self.play()
         names = [f"{f}_{g}\n" for f, goals in GOALS.items() for g in goals]
         self.unit.goal_list.write_text("".join(sorted(names)), encoding="utf-8")
@@ -1329,14 +1415,17 @@ class WholeRun(WholeRunCase):
         self.assertEqual(path.read_text(encoding="utf-8"), asserted)
 
     def test_a_wrong_body_that_passes_fails(self) -> None:
-        path = self.unit.folder / "wrong" / "zero.toml"
-        path.write_text(WRONG, encoding="utf-8")
+        self.unit.wrong_list.write_text(WRONG, encoding="utf-8")
         self.play(wrong=json.loads(cbmc_output(ASSERTED)))
         self.failing("does not refute", "proved 5 of 5 goals (WP 4, CBMC 1, Gappa 0)")
+        log = json.loads((self.report_file.parent / exports.SARIF).read_text(encoding="utf-8"))
+        places = [place["physicalLocation"] for one in log["runs"][0]["results"]
+                  for place in one["locations"]]  # fmt: skip
+        self.assertIn({"artifactLocation": {"uri": "proofs/box/wrong.toml"},
+                       "region": {"startLine": 3}}, places)  # fmt: skip
 
     def test_a_wrong_body_that_fails_is_refuted(self) -> None:
-        path = self.unit.folder / "wrong" / "zero.toml"
-        path.write_text(WRONG, encoding="utf-8")
+        self.unit.wrong_list.write_text(WRONG, encoding="utf-8")
         self.play(wrong=json.loads(cbmc_output(ASSERTED | {"status": "FAILURE"})))
         status, output, report = self.prove()
         self.assertEqual(status, 0, output)

@@ -91,7 +91,7 @@ class Entries(unittest.TestCase):
 class Clones(WholeRunCase):
     def setUp(self) -> None:
         super().setUp()
-        (self.unit.folder / "wrong" / "zero.toml").write_text(WRONG, encoding="utf-8")
+        self.unit.wrong_list.write_text(WRONG, encoding="utf-8")
         self.play(wrong=json.loads(cbmc_output(self.failing())))
 
     @staticmethod

@@ -78,14 +78,15 @@ class Unit:
         """The harnesses for CBMC."""
         return sorted(self.folder.glob("*_harness.c"))
 
-    @cached_property
-    def wrong_bodies(self) -> list[Path]:
+    @property
+    def wrong_list(self) -> Path:
         """Wrong bodies, which the harnesses must refute."""
-        files = sorted(set((self.folder / "wrong").glob("*")) - set(self.wrong_statements))
-        for path in files:
-            if path.suffix != ".toml":
-                raise ProjectError(f"{path.relative_to(self.root)}: a wrong body is a .toml file")
-        return files
+        return self.folder / "wrong.toml"
+
+    @property
+    def wrong_folder(self) -> Path:
+        """What holds the bounds that Gappa must not prove, a file each."""
+        return self.folder / "wrong"
 
     @cached_property
     def statements(self) -> list[Path]:
@@ -95,7 +96,7 @@ class Unit:
     @cached_property
     def wrong_statements(self) -> list[Path]:
         """Bounds that Gappa must not prove."""
-        return sorted((self.folder / "wrong").glob("*.g"))
+        return sorted(self.wrong_folder.glob("*.g"))
 
     @property
     def own_files(self) -> list[Path]:

@@ -435,4 +435,3 @@ def main(arguments: list[str] | None = None) -> int:
         write_text(options.root / path, made[path])
     print(f"parameters: {', '.join(stale) or 'nothing'} changed")
     return 0
-

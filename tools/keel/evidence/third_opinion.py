@@ -46,7 +46,7 @@ def answer(question: esbmc.Question, asked: esbmc.Esbmc, cache: Cache, tool: str
         if opinion.good(found):
             cache.put(key, found)
     words = [f"unwound {question.unwind} times", *question.defines]
-    wrong = question.wrong.shown if question.wrong else ""
+    wrong = question.wrong.name if question.wrong else ""
     return {**found, "bounds": " ".join(words), "wrong_body": wrong}
 
 
@@ -96,4 +96,3 @@ def run(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
                           "harnesses": answers}, root, good=good)  # fmt: skip
     print(f"ESBMC agrees on {agreed} of {len(answers)} harnesses")
     return 0 if good else 1
-

@@ -25,7 +25,7 @@ from keel.judge.harness import Harness, read_harness
 from keel.judge.settings import Exceptions
 from keel.judge.wp_targets import Target, targets
 from keel.judge.wp_verdict import clause_at, place_of
-from keel.judge.wrong_bodies import WrongBody, read_wrong_body
+from keel.judge.wrong_bodies import WrongBody, read_wrong_bodies
 from keel.prove import sequents
 from keel.prove.counterexample import changes, lines, read_trace
 from keel.prove.located import in_words
@@ -66,7 +66,7 @@ def subjects(units: Iterable[Unit], report: Path) -> list[Subject]:
         goals += [goal["name"] for goal in seen.get("wp", {}).get("goal_list", [])]
         found += [Subject(GOAL, unit, name) for name in dict.fromkeys(goals)]
         found += [Subject(HARNESS, unit, path.stem) for path in unit.harnesses]
-        found += [Subject(WRONG, unit, path.stem) for path in unit.wrong_bodies]
+        found += [Subject(WRONG, unit, wrong.name) for wrong in read_wrong_bodies(unit)]
         found += [Subject(ASSERTION, unit, text, harness)
                   for harness, text in sorted(_assertions(unit, seen))]  # fmt: skip
     return found
@@ -129,8 +129,8 @@ class Explainer:
         return self._answered(f"{where}", harness, answer, complaint)
 
     def _wrong(self, subject: Subject) -> tuple[list[str], bool]:
-        path = next(path for path in subject.unit.wrong_bodies if path.stem == subject.name)
-        wrong = read_wrong_body(subject.unit, path)
+        every = read_wrong_bodies(subject.unit)
+        wrong = next(wrong for wrong in every if wrong.name == subject.name)
         harness = read_harness(subject.unit, subject.unit.folder / f"{wrong.harness}.c")
         answer, complaint = self._engines.cbmc.counterexample(harness, wrong, wrong.expect)
         found, _ = self._answered(wrong.harness, harness, answer, complaint)

@@ -67,14 +67,17 @@ def _checks(outcome: Outcome, gathered: Gathered) -> Iterator[Check]:
 
 def _single(outcome: Outcome, unit: UnitResult) -> Check:
     """A job with one answer: a wrong body, a bound."""
-    job = outcome.job
-    folder = unit.unit.folder.relative_to(unit.unit.root)
-    rule, file = {
-        "negative": ("cbmc/wrong-body", folder / "wrong" / f"{job.name}.toml"),
-        "gappa-negative": ("gappa/wrong-bound", folder / "wrong" / job.name),
+    job, failure = outcome.job, "; ".join(outcome.problems)
+    folder = unit.unit.folder
+    rule, path = {
+        "negative": ("cbmc/wrong-body", unit.unit.wrong_list),
+        "gappa-negative": ("gappa/wrong-bound", unit.unit.wrong_folder / job.name),
     }.get(job.kind, ("gappa/bound", folder / job.name))
-    engine = rule.partition("/")[0]
-    return Check(rule, f"{job.unit}.{engine}", job.name, "; ".join(outcome.problems), f"{file}:1")
+    file = path.relative_to(unit.unit.root).as_posix()
+    # What fails of a wrong body names the line of its entry; a bound has a file of its own.
+    own, line = split_place(failure)
+    place = f"{file}:{line if own == file else 1}"
+    return Check(rule, f"{job.unit}.{rule.partition('/')[0]}", job.name, failure, place)
 
 
 def suites(every: Iterable[Check]) -> dict[str, JUnitSuite]:

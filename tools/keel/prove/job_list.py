@@ -18,7 +18,7 @@ from keel.judge import wp_verdict as verdict
 from keel.judge.goals import read_goals
 from keel.judge.harness import Harness, harnesses_of, read_harness
 from keel.judge.settings import Exceptions
-from keel.judge.wrong_bodies import WrongBody, read_wrong_body
+from keel.judge.wrong_bodies import WrongBody, read_wrong_bodies
 from keel.prove import located
 from keel.prove.driver import Job
 
@@ -107,10 +107,7 @@ def cbmc_jobs(
         harnesses = {path.stem: read_harness(unit, path) for path in unit.harnesses}
         for harness in harnesses.values():
             jobs.append(_harness_job(harness, checker, root, stamp))
-        for path in unit.wrong_bodies:
-            wrong = read_wrong_body(unit, path)
-            if wrong.harness not in harnesses:
-                raise ProjectError(f"{wrong.shown}: there is no harness {wrong.harness}")
+        for wrong in read_wrong_bodies(unit):
             jobs.append(_wrong_job(wrong, harnesses[wrong.harness], checker, root, stamp))
     return jobs
 
@@ -122,7 +119,8 @@ def cbmc_key(
     """What the verdict of a harness depends on, on the unit or on a wrong body.
 
     Contracts are comments to CBMC. Directives count as they were read, not as they stand there now.
-    So do a wrong body's replacements, by what they make of the file as it is now.
+    So do a wrong body's replacements, by what they make of the file as it is now. The other wrong
+    bodies of the unit do not matter, nor where in the file it stands.
     """
     texts = {
         shown(path, root): csource.essence(csource.read(path))

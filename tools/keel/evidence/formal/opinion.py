@@ -19,7 +19,7 @@ from keel.evidence.formal.bounds import Bounded
 from keel.evidence.formal.esbmc import PROVED, REFUTED, Question, narrowed
 from keel.evidence.part import Table as Shown
 from keel.judge.harness import Harness
-from keel.judge.wrong_bodies import WrongBody, read_wrong_body
+from keel.judge.wrong_bodies import WrongBody, read_wrong_bodies
 
 FILE = "specs/third_opinion.toml"
 REPORT = "opinion/report.json"
@@ -92,11 +92,8 @@ def file_problems(
 
 def _first_wrong(harness: Harness) -> WrongBody | None:
     """A wrong body that the harness must refute; the first, if there are several."""
-    for path in harness.unit.wrong_bodies:
-        wrong = read_wrong_body(harness.unit, path)
-        if wrong.harness == harness.name:
-            return wrong
-    return None
+    every = read_wrong_bodies(harness.unit)
+    return next((wrong for wrong in every if wrong.harness == harness.name), None)
 
 
 def questions(opinions: Opinions, harnesses: Sequence[Bounded]) -> list[Question]:

@@ -12,7 +12,7 @@ from typing import Any
 from keel.base.files import read_text
 from keel.c.project import find_units
 from keel.evidence.part import Item, State, Table
-from keel.judge.wrong_bodies import read_wrong_body
+from keel.judge.wrong_bodies import read_wrong_bodies
 
 Report = Mapping[str, Any]
 
@@ -42,9 +42,8 @@ class Mistake:
 
 
 def mistake_in(text: str) -> str:
-    """What the comment at the head of a file says."""
-    head = text.partition("\n[[")[0]
-    return " ".join(match[1] for match in COMMENT.finditer(head) if match[1]).strip()
+    """What the comments in a file of bounds say that are no directives."""
+    return " ".join(match[1] for match in COMMENT.finditer(text) if match[1]).strip()
 
 
 def read_mistakes(root: Path, report: Report) -> list[Mistake]:
@@ -54,10 +53,9 @@ def read_mistakes(root: Path, report: Report) -> list[Mistake]:
         said = report.get("units", {}).get(unit.name, {})
         bodies = said.get("cbmc", {}).get("negative", {}).get("list", {})
         bounds = said.get("gappa", {}).get("negative", {}).get("list", {})
-        for path in unit.wrong_bodies:
-            wrong = read_wrong_body(unit, path)
+        for wrong in read_wrong_bodies(unit):
             found.append(Mistake(
-                unit.name, wrong.name, mistake_in(read_text(path)),
+                unit.name, wrong.name, wrong.description,
                 f"harness:{unit.name}/{wrong.harness}", ", ".join(wrong.expect),
                 bodies.get(wrong.name),
             ))  # fmt: skip
