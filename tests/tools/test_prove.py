@@ -54,7 +54,7 @@ from keel.judge import (
 )
 from keel.judge.cbmc_answers import read_answer, refutation_problems
 from keel.prove import command as prove
-from keel.prove import driver
+from keel.prove import driver, exports
 from keel.prove import job_list as engines
 from keel.prove.proof_run import Choice, Session
 from keel.prove.times import Times
