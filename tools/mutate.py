@@ -7,7 +7,7 @@
     python3 tools/mutate.py --unit queue --engine both   # each engine by itself
     python3 tools/mutate.py --unit queue --list          # the mutants, without trying them
     python3 tools/mutate.py --status                     # results kept and had, and which are stale
-    python3 tools/mutate.py --record                     # keep the results in specs/mutation
+    python3 tools/mutate.py --record                     # keep the results in specs/mutation.toml
     python3 tools/mutate.py --unit sbus --confirm 1      # CBMC confirms all executions that kill
     DASK=tcp://host:8786 python3 tools/mutate.py         # on a Dask cluster (make mutate)
 
@@ -44,6 +44,7 @@ from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
+from common.errors import ToolError  # noqa: E402
 from common.files import write_text  # noqa: E402
 from proofs.cache import Cache, digest  # noqa: E402
 from proofs.jobs import end_as_by_ctrl_c  # noqa: E402
@@ -53,7 +54,7 @@ from proofs.mutant_trees import Trees  # noqa: E402
 from proofs.mutant_verdicts import Verdict  # noqa: E402
 from proofs.mutants import Mutant, generate  # noqa: E402
 from proofs.mutation import BY_CBMC, BY_WP, CONFIRM, DRIVER, Tools, Trial  # noqa: E402
-from proofs.project import RECORDED_TIMES, ProjectError, Unit, find_units  # noqa: E402
+from proofs.project import RECORDED_TIMES, Unit, find_units  # noqa: E402
 from proofs.settings import read_exceptions  # noqa: E402
 from proofs.stamps import judges_digest, own_digest, prover_answers, tool_stamp  # noqa: E402
 from proofs.times import Times  # noqa: E402
@@ -66,6 +67,7 @@ from proofs import (  # noqa: E402
     mutant_records,
     mutant_slips,
     mutant_standing,
+    mutant_table,
     mutant_verdicts,
 )
 
@@ -100,7 +102,7 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
                         help="CBMC confirms one of N executions; default: 50")  # fmt: skip
     parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")
     parser.add_argument("--record", action="store_true",
-                        help="keep the results in specs/mutation, for make evidence")  # fmt: skip
+                        help="keep the results in specs/mutation.toml, for make evidence")  # fmt: skip
     parser.add_argument("--order", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
     for name in options.unit:
@@ -265,7 +267,7 @@ class Measurement:
                 versions = self._tools.versions("prove")
                 judges = mutant_records.killers(verdict.engines for verdict in verdicts)
                 made_of = mutant_records.origin(one.unit, harnesses, versions, judges)
-                print(mutant_records.write(one.unit, verdicts, problems, made_of))
+                print(mutant_table.keep(one.unit, verdicts, problems, made_of))
             print("\n".join(executed(one)))
             print(f"{one.unit.name}: dropped {one.dropped} that say the same as another")
             status = max(status, conclude(verdicts, problems, self.engines))
@@ -306,6 +308,8 @@ def conclude(verdicts: Sequence[Verdict], problems: Sequence[str], engines: Sequ
 
 def measure(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolchain) -> int:
     """Try the mutants of units and report; the exit status."""
+    if options.record:
+        mutant_table.read(units[0].root)  # One that is refused is told before hours of work.
     measurement = Measurement(units, options, toolchain)
     crew: Threads | Dask | None = None
     try:
@@ -328,7 +332,7 @@ def measure(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolc
 
 
 def tell_status(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolchain) -> int:
-    """What specs/mutation and build/mutate have on units, and whether it is of what is there."""
+    """What specs/mutation.toml and build/mutate have on units, and whether it is of what is there."""
     problems: list[str] = []
     tools = toolchain.versions("prove")
     for kept in mutant_standing.standings(units[0].root, units, tools, problems):
@@ -384,7 +388,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if options.status:
             return tell_status(chosen, options, toolchain)
         return measure(chosen, options, toolchain)
-    except (ProjectError, ToolchainError) as error:
+    except (ToolError, ToolchainError) as error:
         print(f"mutate: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
