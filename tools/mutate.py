@@ -102,7 +102,7 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
                         help="CBMC confirms one of N executions; default: 50")  # fmt: skip
     parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")
     parser.add_argument("--record", action="store_true",
-                        help="keep the results in specs/mutation.toml, for make evidence")  # fmt: skip
+                        help="keep the results in specs/mutation.toml")  # fmt: skip
     parser.add_argument("--order", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
     for name in options.unit:
@@ -332,7 +332,7 @@ def measure(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolc
 
 
 def tell_status(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolchain) -> int:
-    """What specs/mutation.toml and build/mutate have on units, and whether it is of what is there."""
+    """What is kept and what build/mutate has on units, and whether it is of what is there."""
     problems: list[str] = []
     tools = toolchain.versions("prove")
     for kept in mutant_standing.standings(units[0].root, units, tools, problems):

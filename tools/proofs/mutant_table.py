@@ -13,7 +13,7 @@
     killed = {executed = 57, solved = 1, wp = 1}    # by executions of harnesses, by CBMC, by WP
     stillborn = 2                                   # these do not compile
     same_code = {open_slot = [51]}                  # these compile to the same code: their lines
-    accepted = [{entry = 1, line = 57}]             # reasons: entries of proofs/UNIT/equivalent.toml
+    accepted = [{entry = 1, line = 57}]             # reasons: in proofs/UNIT/equivalent.toml
     open = [{function = "f", line = 9, original = "a", mutant = "b", status = "survived"}]
     problems = []
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Recorded results of mutation (specs/mutation.toml): scores, survivors, and what has gone stale."""
+"""Results of mutation, from specs/mutation.toml: scores, survivors, and what has gone stale."""
 
 from __future__ import annotations
 
