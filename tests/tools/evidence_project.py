@@ -83,7 +83,7 @@ FILES = {
     "specs/theorems.toml": "theorem = []\n",
     "specs/third_opinion.toml": OPINION,
     "specs/unreached.toml": "unreached = []\n",
-    "specs/reviews/widget.toml": "review = []\n",
+    "specs/reviews.toml": "review = []\n",
     "specs/tools.toml": TOOL,
     "bsp/toy/board.toml": "",
     "tools/toolchain.lock.json": "{}",

@@ -12,12 +12,10 @@ table that begins with a command are that command's.
 
 from __future__ import annotations
 
-import json
 import re
 import sys
 import tomllib
 import unittest
-from collections import Counter
 from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
@@ -148,17 +146,13 @@ def functions() -> tuple[str, ...]:
 def mutants() -> tuple[str, ...]:
     """Units with a result, and all; mutants that compile, killed, and the others, by their object
     code and by a reason."""
-    status: Counter[str] = Counter()
-    records = sorted((ROOT / "specs/mutation").glob("*.json"))
-    for path in records:
-        for one in json.loads(path.read_text(encoding="utf-8"))["mutants"]:
-            same = one.get("reason") == "same object code"
-            status["same" if same else one["status"]] += 1
-    left = status["same"] + status["equivalent"]
+    records = toml_of("specs/mutation.toml")["unit"].values()
+    killed = sum(sum(one["killed"].values()) for one in records)
+    same = sum(len(lines) for one in records for lines in one["same_code"].values())
+    accepted = sum(len(one["accepted"]) for one in records)
     units = len(list((ROOT / "proofs").glob("*/goals.txt")))
-    numbers = (len(records), units, status["killed"] + left, status["killed"], left,
-               status["same"], status["equivalent"])  # fmt: skip
-    return tuple(map(str, numbers))
+    left = same + accepted
+    return tuple(map(str, (len(records), units, killed + left, killed, left, same, accepted)))
 
 
 @cache

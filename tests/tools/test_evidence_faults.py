@@ -11,13 +11,29 @@ import json
 from typing import Any
 from unittest import mock
 
-from evidence_project import HARNESS, HEADER, WholeProject
+from evidence_project import HARNESS, HEADER, VERSION, WholeProject
 
-from keel.base.files import write_json
+from keel.base.files import write_text
 from keel.base.source import STAMP, VERDICT
 from keel.evidence.package import SUMS, digests
 
 GOAL = "keel_widget_turn_ensures_WID_001_turns"
+OLDER = f"""\
+[tools.a]
+cbmc = "{VERSION}"
+[unit.widget]
+source = "{"0" * 64}"
+proofs = "{"0" * 64}"
+tools = "a"
+killers = []
+mutants = 1
+killed = {{executed = 0, solved = 0, wp = 1}}
+stillborn = 0
+same_code = {{}}
+accepted = []
+open = []
+problems = []
+"""
 ELSEWHERE = "speaks of another source than the one that is here"
 
 
@@ -135,15 +151,12 @@ class Faults(WholeProject):
                      "tests: unit/widget/it_loops failed on the host")  # fmt: skip
 
     def test_a_stale_result_of_mutation_is_told_before_any_command_is_run(self) -> None:
-        made_of = {"source": "older", "proofs": "older"}
-        write_json(self.root / "specs/mutation/widget.json", {
-            "unit": "widget", "made_of": made_of, "problems": [], "summary": {}, "mutants": [],
-        })  # fmt: skip
+        write_text(self.root / "specs/mutation.toml", OLDER)
         with mock.patch.object(self.program, "run_commands") as run:
             status, lines = self.run_it("--dirty", "--out", str(self.out))
         run.assert_not_called()
         self.assertEqual(status, 1)
-        self.assertEqual(lines[-2], "FAILED specs/mutation/widget.json: is stale, source, proofs"
+        self.assertEqual(lines[-2], "FAILED specs/mutation.toml: widget: is stale, source, proofs"
                                     " changed since: make mutate again")  # fmt: skip
         self.assertIn("no command is run, nothing is written", lines[-1])
 

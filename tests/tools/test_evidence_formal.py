@@ -316,14 +316,14 @@ class Reviews(FormalTest):
         self.assertEqual(self.state()[1], "not reviewed")
         self.sign()
         self.assertEqual(self.state()[1:], ("signed", "A. Reader", "2026-11-30", 'read "all"'))
-        units = len(list((ROOT / "specs/reviews").glob("*.toml")))
+        units = len(reviews.proved_units(ROOT))
         self.assertEqual(self.part().summary["units reviewed by a person"], f"1 of {units}")
 
     def test_a_signature_is_stale_when_what_it_is_of_has_changed(self) -> None:
         self.sign()
         self.replace("src/rtos/queue.c", "return", "return ")
         self.assertTrue(self.state()[1].startswith("STALE"))
-        self.assert_problem(self.part(), "specs/reviews/queue.toml", "A. Reader", "stale")
+        self.assert_problem(self.part(), "specs/reviews.toml: queue: ", "A. Reader", "stale")
 
     def test_who_proves_a_goal_is_no_affair_of_a_review(self) -> None:
         self.sign()
@@ -332,12 +332,32 @@ class Reviews(FormalTest):
 
     def test_a_signature_without_a_person(self) -> None:
         self.sign()
-        self.replace("specs/reviews/queue.toml", "A. Reader", "")
-        self.assert_problem(self.part(), "specs/reviews/queue.toml", "person")
+        self.replace(reviews.FILE, '"A. Reader"', '""')
+        self.assert_problem(self.part(), "specs/reviews.toml:8: review number 1: person")
 
-    def test_a_form_that_is_missing(self) -> None:
-        (self.root / reviews.FOLDER / "queue.toml").unlink()
-        self.assert_problem(self.part(), "specs/reviews/queue.toml", "is missing")
+    def test_a_signature_that_says_too_little_or_too_much(self) -> None:
+        self.sign()
+        self.replace(reviews.FILE, 'unit = "queue"\n', "")
+        self.assert_problem(self.part(), "specs/reviews.toml:6: review number 1: unit: is missing")
+        self.replace(reviews.FILE, "[[review]]\n", '[[review]]\nunit = "queue"\nmood = "good"\n')
+        self.assert_problem(self.part(), "specs/reviews.toml:8: ", "mood: unknown key")
+
+    def test_a_signature_on_a_unit_that_is_not_there(self) -> None:
+        self.sign()
+        self.replace(reviews.FILE, 'unit = "queue"', 'unit = "cue"')
+        self.assert_problem(self.part(), "specs/reviews.toml:7: review number 1: unit: there is no"
+                                         " unit cue with proofs")  # fmt: skip
+
+    def test_a_file_that_is_missing(self) -> None:
+        (self.root / reviews.FILE).unlink()
+        self.assert_problem(self.part(), "specs/reviews.toml")
+
+    def test_of_two_signatures_each_is_of_its_unit(self) -> None:
+        self.sign()
+        review.sign(find_units(self.root)["pass"], "B. Reader", "nothing", "2026-11-30")
+        self.replace("src/rtos/queue.c", "return", "return ")
+        self.assertEqual(self.part().summary["units reviewed by a person"].split(" ")[0], "1")
+        self.assertTrue(self.state()[1].startswith("STALE"))
 
     def test_the_command_tells_and_refuses(self) -> None:
         self.sign()
@@ -347,4 +367,4 @@ class Reviews(FormalTest):
             self.replace("src/rtos/queue.c", "return", "return ")
             self.assertEqual(review.run(review.parse([]), self.root), 1)
         self.assertIn("queue        signed  A. Reader 2026-11-30", said.getvalue())
-        self.assertIn("FAILED specs/reviews/queue.toml", said.getvalue())
+        self.assertIn("FAILED specs/reviews.toml: queue: ", said.getvalue())

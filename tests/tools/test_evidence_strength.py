@@ -6,7 +6,6 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import shutil
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -14,6 +13,7 @@ from typing import Any
 
 from evidence_proofs import EvidenceTest
 
+from keel.base.errors import ToolError
 from keel.base.source import STAMP
 from keel.c.project import Unit, find_units
 from keel.evidence.part import Item, Part
@@ -21,12 +21,14 @@ from keel.evidence.parts import strength
 from keel.evidence.strength import mutants as recorded
 from keel.mutate import command as mutate
 from keel.mutate import records as mutant_records
+from keel.mutate import table as mutant_table
 from keel.mutate.operators import mutants
 from keel.mutate.verdicts import Verdict
 
 ROOT = Path(__file__).resolve().parents[2]
 
-RECORD = "specs/mutation/range.json"
+RECORD = "specs/mutation.toml"
+OF_RANGE = f"{RECORD}: range: "
 KILLED = {"cbmc": "killed: keel_range_clamp_harness: RNG_002_model"}
 
 
@@ -35,7 +37,7 @@ class StrengthTest(EvidenceTest):
 
     def setUp(self) -> None:
         super().setUp()
-        shutil.rmtree(self.root / mutant_records.FOLDER, ignore_errors=True)
+        (self.root / RECORD).unlink()
         self.report["tools"] = {"cbmc": {"version": "6.6.0", "sha256": "c", "parts": []}}
         self.verdicts = [Verdict(mutant, "killed", "", dict(KILLED))
                          for mutant in mutants(self.unit.header)][:4]  # fmt: skip
@@ -51,7 +53,22 @@ class StrengthTest(EvidenceTest):
         judges = mutant_records.killers(verdict.engines for verdict in self.verdicts)
         tools = recorded.found_of(self.report)
         made_of = mutant_records.origin(self.unit, harnesses, tools, judges)
-        return mutant_records.write(self.unit, self.verdicts, [], made_of)
+        return mutant_table.keep(self.unit, self.verdicts, [], made_of)
+
+    def explain(self, number: int, reason: str) -> None:
+        """A person accepts a mutant, with a reason."""
+        mutant = self.verdicts[number].mutant
+        lines = {"function": mutant.function, "original": mutant.before, "mutant": mutant.after,
+                 "reason": reason}  # fmt: skip
+        text = "".join(f"{key} = {json.dumps(value)}\n" for key, value in lines.items())
+        path = self.root / "proofs/range/equivalent.toml"
+        path.write_text(f"[[equivalent]]\n{text}", encoding="utf-8")
+        self.verdicts[number] = Verdict(mutant, "equivalent", reason)
+
+    def survivors(self) -> tuple[tuple[str, ...], ...]:
+        """The rows of the survivors."""
+        tables = {table.title: table for table in self.part().tables}
+        return tables["Survivors, adjudicated"].rows
 
     def part(self) -> Part:
         """The part, made from tree and report as they are now."""
@@ -73,19 +90,42 @@ class Mutants(StrengthTest):
     def test_units_without_a_result_are_shown_as_such(self) -> None:
         part = self.part()
         self.assertEqual(part.problems, ())
-        units = len(list((ROOT / "specs/reviews").glob("*.toml")))
+        units = len(list((ROOT / "proofs").glob("*/goals.txt")))
         self.assertEqual(part.summary["units whose mutants were run"], f"0 of {units}")
         self.assertEqual(self.row()[1], "not run")
 
     def test_a_result_is_scored(self) -> None:
-        self.verdicts[3] = Verdict(self.verdicts[3].mutant, "equivalent", "no difference")
+        self.explain(3, "no difference")
+        self.verdicts[2] = Verdict(self.verdicts[2].mutant, "killed", "", {"wp": "killed: a goal"})
         self.record()
         self.assertEqual(self.part().problems, ())
-        self.assertEqual(self.row()[1:], ("current", "3 of 3", "3", "0", "1", "0"))
+        self.assertEqual(self.row()[1:], ("current", "3 of 3", "2", "1", "1", "0"))
         self.assertEqual(self.part().summary["mutants killed"], "3 of 3")
-        item = self.item("range/1")
-        self.assertEqual((item.state, item.facts["verdict"]), ("good", "killed"))
-        self.assertIn("keel_range_clamp_harness", item.facts["noticed by"])
+        item = self.item("range/result")
+        self.assertEqual((item.state, item.text[:6]), ("good", "3 of 3"))
+        self.assertEqual(item.facts["harnesses that killed"], "keel_range_clamp_harness")
+
+    def test_a_survivor_has_the_reason_that_a_person_gave(self) -> None:
+        self.explain(3, "no difference")
+        self.record()
+        mutant = self.verdicts[3].mutant
+        self.assertNotIn("no difference", (self.root / RECORD).read_text(encoding="utf-8"))
+        place, change, verdict, reason = self.survivors()[0][1:]
+        self.assertEqual(place, f"{mutant.function}:{mutant.line}")
+        self.assertEqual(change, f"{mutant.before}  ->  {mutant.after}")
+        self.assertEqual((verdict, reason), ("makes no difference", "no difference"))
+
+    def test_a_reason_that_has_changed_is_shown_with_no_survivor(self) -> None:
+        self.explain(3, "no difference")
+        self.record()
+        self.replace("proofs/range/equivalent.toml", "no difference", "hardly any difference")
+        self.assert_problem(self.part(), OF_RANGE, "stale", "proofs")
+        self.assertEqual(self.survivors(), ())
+
+    def test_what_nobody_has_explained_is_not_recorded_as_explained(self) -> None:
+        self.verdicts[3] = Verdict(self.verdicts[3].mutant, "equivalent", "no difference")
+        with self.assertRaisesRegex(ToolError, "range: equivalent.toml has no reason for keel_"):
+            self.record()
 
     def told(self) -> tuple[int, str, str]:
         """What mutate --status makes of the tree: exit status, output, errors."""
@@ -104,19 +144,18 @@ class Mutants(StrengthTest):
         self.assertEqual(self.told(), (0, f"{line}current\n", ""))
         self.report["tools"]["cbmc"]["version"] = "6.7.0"
         self.assertEqual(self.told(), (0, f"{line}STALE: cbmc changed since\n", ""))
-        path = self.root / RECORD
-        path.write_text(path.read_text(encoding="utf-8")[:-20], encoding="utf-8")
+        self.replace(RECORD, "problems = []", "problems = [")
         status, _, errors = self.told()
         self.assertEqual(status, 2)
-        self.assertIn(f"mutate: {RECORD}: is not whole: ", errors)
+        self.assertRegex(errors, f"^mutate: {RECORD}:[0-9]+: no TOML: ")
 
     def test_a_result_on_another_source_is_stale_and_does_not_count(self) -> None:
         self.record()
         self.replace("include/keel/middleware/range.h", "RNG_001", "RNG_009")
-        self.assert_problem(self.part(), RECORD, "stale", "source")
+        self.assert_problem(self.part(), OF_RANGE, "stale", "source")
         self.assertIn("STALE", self.row()[1])
         self.assertEqual(self.part().summary["mutants killed"], "0 of 0")
-        self.assertEqual(self.item("range/1").state, "open")
+        self.assertEqual(self.item("range/result").state, "open")
 
     def test_other_words_of_a_comment_leave_a_result_current(self) -> None:
         self.record()
@@ -138,7 +177,7 @@ class Mutants(StrengthTest):
         self.assertEqual(self.part().problems, ())
         self.assertEqual(self.row()[1], "STALE: cbmc changed since")
         self.assertEqual(self.part().summary["mutants killed"], "0 of 0")
-        self.assertEqual(self.item("range/1").state, "open")
+        self.assertEqual(self.item("range/result").state, "open")
 
     def test_a_result_of_other_builds_of_the_same_tools_is_current(self) -> None:
         self.record()
@@ -150,12 +189,12 @@ class Mutants(StrengthTest):
     def test_a_result_on_other_proofs_is_stale(self) -> None:
         self.record()
         self.replace("proofs/range/keel_range_clamp_harness.c", "__CPROVER_assert(", "(void)(")
-        self.assert_problem(self.part(), RECORD, "stale", "proofs")
+        self.assert_problem(self.part(), OF_RANGE, "stale", "proofs")
 
     def test_without_the_harness_that_killed_it_is_stale(self) -> None:
         self.record()
         (self.root / "proofs/range/keel_range_clamp_harness.c").unlink()
-        self.assert_problem(self.part(), RECORD, "stale", "proofs")
+        self.assert_problem(self.part(), OF_RANGE, "stale", "proofs")
 
     def test_a_harness_that_killed_nothing_makes_nothing_stale(self) -> None:
         self.record()
@@ -177,28 +216,50 @@ class Mutants(StrengthTest):
     def test_a_survivor_that_nobody_has_explained(self) -> None:
         self.verdicts[1] = Verdict(self.verdicts[1].mutant, "survived", "", {"cbmc": "survived"})
         self.record()
-        self.assert_problem(self.part(), RECORD, "survived, unexplained", "->")
-        self.assertEqual(self.item("range/2").state, "bad")
-
-    def test_a_result_that_is_not_whole(self) -> None:
-        self.record()
-        path = self.root / RECORD
-        text = path.read_text(encoding="utf-8")
-        path.write_text(text[: len(text) // 2], encoding="utf-8")
-        self.assert_problem(self.part(), RECORD, "is not whole")
-        path.write_text("{}", encoding="utf-8")
-        self.assert_problem(self.part(), RECORD, "lacks unit")
+        self.assert_problem(self.part(), OF_RANGE, "survived, unexplained", "->")
+        self.assertEqual(self.item("range/survivor-1").state, "bad")
 
     def test_what_was_not_tried_whole_is_not_recorded(self) -> None:
         self.verdicts[0].status = "skipped"
         self.assertIn("left alone", self.record())
         self.assertFalse((self.root / RECORD).exists())
 
-    def test_a_record_has_a_line_for_each_mutant(self) -> None:
+    def test_a_record_replaces_that_of_its_unit_and_leaves_the_others(self) -> None:
+        (self.root / RECORD).write_text((ROOT / RECORD).read_text("utf-8"), "utf-8")
+        before = mutant_table.read(self.root)
         self.record()
-        text = (self.root / RECORD).read_text(encoding="utf-8")
-        self.assertEqual(len(json.loads(text)["mutants"]), 4)
-        self.assertEqual(sum('"function"' in line for line in text.splitlines()), 4)
+        after = mutant_table.read(self.root)
+        self.assertEqual(list(after.unit), list(before.unit))
+        changed = [name for name in before.unit if before.unit[name] != after.unit[name]
+                   or before.made_of(name) != after.made_of(name)]  # fmt: skip
+        self.assertEqual(changed, ["range"])
+        self.assertEqual(after.unit["range"].mutants, 4)
+
+    def test_a_record_is_not_added_to_a_table_that_is_refused(self) -> None:
+        self.record()
+        self.replace(RECORD, "mutants = 4", "mutants = 5")
+        before = (self.root / RECORD).read_text(encoding="utf-8")
+        with self.assertRaisesRegex(ToolError, "add up to 4"):
+            self.record()
+        self.assertEqual((self.root / RECORD).read_text(encoding="utf-8"), before)
+
+    def test_a_table_that_is_refused_says_nothing_of_any_unit(self) -> None:
+        self.record()
+        self.replace(RECORD, "mutants = 4", "mutants = 5")
+        self.assert_problem(self.part(), f"{RECORD}:", "unit: range: mutants: 5, but")
+        self.assertEqual(self.row()[1], "not run")
+
+    def test_an_entry_that_no_reason_has(self) -> None:
+        self.explain(3, "no difference")
+        self.record()
+        self.replace(RECORD, "{entry = 1", "{entry = 2")
+        self.assert_problem(self.part(), OF_RANGE, "accepted: there is no entry 2 in"
+                            " proofs/range/equivalent.toml")  # fmt: skip
+
+    def test_a_unit_that_is_not_there(self) -> None:
+        self.record()
+        self.replace(RECORD, "[unit.range]", "[unit.ranges]")
+        self.assert_problem(self.part(), f"{RECORD}: there is no unit ranges with proofs")
 
     def test_the_command_records_nothing_by_halves(self) -> None:
         for option in (["--quick"], ["--function", "f"], ["--engine", "wp"]):

@@ -6,7 +6,7 @@
     python3 tools/keel review --unit queue --sign "A. Reviewer" --remarks "no findings"
 
 CONTRIBUTING.md, "Reviewing a proof", has the questions. A signature goes into
-specs/reviews/UNIT.toml, with the digest of what it is of: it is stale as soon as that changes.
+specs/reviews.toml, with the digest of what it is of: it is stale as soon as that changes.
 
 Exit status: 0, 1 when a signature is stale, 2 for a wrong command line.
 """
@@ -21,7 +21,7 @@ from pathlib import Path
 
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import read_text, write_text
-from keel.c.project import Unit, find_units
+from keel.c.project import Unit
 from keel.evidence.formal import reviews
 
 
@@ -40,12 +40,12 @@ def parse(arguments: Sequence[str] | None) -> argparse.Namespace:
 
 
 def sign(unit: Unit, person: str, remarks: str, today: str) -> None:
-    """Add a signature to the unit's form."""
-    form = reviews.form_of(unit)
-    entry = {"person": person, "date": today, "digest": reviews.digest_of(unit),
-             "remarks": remarks}  # fmt: skip
+    """Add a signature on a unit."""
+    path = unit.root / reviews.FILE
+    entry = {"unit": unit.name, "person": person, "date": today,
+             "digest": reviews.digest_of(unit), "remarks": remarks}  # fmt: skip
     lines = [f"{name} = {json.dumps(text, ensure_ascii=False)}" for name, text in entry.items()]
-    write_text(form, "\n".join([read_text(form).rstrip(), "", "[[review]]", *lines, ""]))
+    write_text(path, "\n".join([read_text(path).rstrip(), "", "[[review]]", *lines, ""]))
 
 
 def tell(root: Path) -> int:
@@ -53,7 +53,7 @@ def tell(root: Path) -> int:
     reviewed = reviews.read_reviews(root)
     for unit, state, person, date, _ in reviews.table(reviewed).rows:
         print(f"{unit.partition(':')[2]:<12} {state}  {person} {date}".rstrip())
-    stale = list(reviews.problems(root, reviewed))
+    stale = list(reviews.problems(reviewed))
     for text in stale:
         print(f"FAILED {text}")
     return 1 if stale else 0
@@ -63,13 +63,13 @@ def run(options: argparse.Namespace, root: Path = ROOT) -> int:
     """Tell, or sign; the exit status."""
     if not options.unit:
         return tell(root)
-    units = {name: unit for name, unit in find_units(root).items() if unit.folder.is_dir()}
+    units = reviews.proved_units(root)
     if options.unit not in units:
         raise ToolError(f"there is no unit {options.unit} with proofs: {', '.join(units)}")
     unit = units[options.unit]
     if options.sign:
         sign(unit, options.sign, options.remarks, datetime.date.today().isoformat())
-        print(f"signed: {reviews.form_of(unit).relative_to(root)}")
+        print(f"signed: {reviews.FILE}")
         return 0
     for path in reviews.reviewed_files(unit):
         print(path.relative_to(root))

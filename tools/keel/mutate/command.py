@@ -5,8 +5,8 @@
     python3 tools/keel mutate --unit queue                 # CBMC first, WP if CBMC does not notice
     python3 tools/keel mutate --unit queue --engine both   # each engine by itself
     python3 tools/keel mutate --unit queue --list          # the mutants, without trying them
-    python3 tools/keel mutate --status                   # results kept and had, and which are stale
-    python3 tools/keel mutate --record                     # keep the results in specs/mutation
+    python3 tools/keel mutate --status                     # results kept and had, and which are stale
+    python3 tools/keel mutate --record                     # keep the results in specs/mutation.toml
     python3 tools/keel mutate --unit sbus --confirm 1      # CBMC confirms all executions that kill
     DASK=tcp://host:8786 python3 tools/keel mutate         # on a Dask cluster (make mutate)
 
@@ -42,10 +42,11 @@ from pathlib import Path
 from typing import Any
 
 from keel.audit import clauses, determined
+from keel.base.errors import ToolError
 from keel.base.files import write_text
 from keel.base.jobs import end_as_by_ctrl_c
 from keel.base.verdict_cache import Cache, digest
-from keel.c.project import RECORDED_TIMES, ProjectError, Unit, find_units
+from keel.c.project import RECORDED_TIMES, Unit, find_units
 from keel.install import TARGET_FLAGS, Toolchain, ToolchainError, small_environment
 from keel.judge.settings import read_exceptions
 from keel.mutate import (
@@ -61,6 +62,9 @@ from keel.mutate import (
     standing as mutant_standing,
 )
 from keel.mutate import (
+    table as mutant_table,
+)
+from keel.mutate import (
     verdicts as mutant_verdicts,
 )
 from keel.mutate.crew import Dask, Job, Threads, answer_order
@@ -70,7 +74,12 @@ from keel.mutate.operators import Mutant, generate
 from keel.mutate.trees import Trees
 from keel.mutate.verdicts import Verdict
 from keel.prove.times import Times
-from keel.prove.verdict_keys import mutants_digest, own_digest, prover_answers, tool_stamp
+from keel.prove.verdict_keys import (
+    mutants_digest,
+    own_digest,
+    prover_answers,
+    tool_stamp,
+)
 
 CLANG = "clang-19"
 ENGINES = {"wp": ("wp",), "cbmc": ("cbmc",), "both": ("cbmc", "wp"), None: ("cbmc", "wp")}
@@ -103,7 +112,7 @@ def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Nam
                         help="CBMC confirms one of N executions; default: 50")  # fmt: skip
     parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")
     parser.add_argument("--record", action="store_true",
-                        help="keep the results in specs/mutation, for make evidence")  # fmt: skip
+                        help="keep the results in specs/mutation.toml")  # fmt: skip
     parser.add_argument("--order", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
     for name in options.unit:
@@ -268,7 +277,7 @@ class Measurement:
                 versions = self._tools.versions("prove")
                 judges = mutant_records.killers(verdict.engines for verdict in verdicts)
                 made_of = mutant_records.origin(one.unit, harnesses, versions, judges)
-                print(mutant_records.write(one.unit, verdicts, problems, made_of))
+                print(mutant_table.keep(one.unit, verdicts, problems, made_of))
             print("\n".join(executed(one)))
             print(f"{one.unit.name}: dropped {one.dropped} that say the same as another")
             status = max(status, conclude(verdicts, problems, self.engines))
@@ -309,6 +318,8 @@ def conclude(verdicts: Sequence[Verdict], problems: Sequence[str], engines: Sequ
 
 def measure(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolchain) -> int:
     """Try the mutants of units and report; the exit status."""
+    if options.record:
+        mutant_table.read(units[0].root)  # One that is refused is told before hours of work.
     measurement = Measurement(units, options, toolchain)
     crew: Threads | Dask | None = None
     try:
@@ -331,7 +342,7 @@ def measure(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolc
 
 
 def tell_status(units: Sequence[Unit], options: argparse.Namespace, toolchain: Toolchain) -> int:
-    """What specs/mutation and build/mutate have on units, and whether it is of what is there."""
+    """What is kept and what build/mutate has on units, and whether it is of what is there."""
     problems: list[str] = []
     tools = toolchain.versions("prove")
     for kept in mutant_standing.standings(units[0].root, units, tools, problems):
@@ -387,7 +398,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if options.status:
             return tell_status(chosen, options, toolchain)
         return measure(chosen, options, toolchain)
-    except (ProjectError, ToolchainError) as error:
+    except (ToolError, ToolchainError) as error:
         print(f"mutate: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:

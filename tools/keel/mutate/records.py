@@ -1,42 +1,31 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Results of mutation that are kept in the repository, as having them takes hours.
+"""What a result of mutation is of, so that it is known when it says nothing about what is there.
 
-`make mutate ARGS=--record` writes specs/mutation/UNIT.json: every mutant with its line, change,
-verdict and who killed it, digests of the sources and the proofs that the result was had from, and
-the versions of the tools. Where one of these has changed, the result is stale: it says nothing
-about what is there. Of the proofs, the harnesses count that killed a mutant: whatever becomes of
-others, these kill the same, and what nobody killed has its reason. How they search does not count:
-an execution that fails is one however it was found. Other builds of the same versions are the same
-tools here: a distribution makes them anew for each release, and no commit could follow.
+Digests of the sources and the proofs that the result was had from, and the versions of the tools.
+Where one of these has changed, the result is stale. Of the proofs, the harnesses count that killed
+a mutant: whatever becomes of others, these kill the same, and what nobody killed has its reason.
+How they search does not count: an execution that fails is one however it was found. Other builds of
+the same versions are the same tools here: a distribution makes them anew for each release, and no
+commit could follow. `proofs.mutant_table` keeps the results.
 """
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
-from keel.base.files import write_text
 from keel.base.verdict_cache import digest
 from keel.c import source as csource
 from keel.c.project import Unit, closure, find_units
 from keel.install import Found
 from keel.judge.goals import read_goals
 from keel.judge.harness import Harness, read_harness
-from keel.mutate.verdicts import STATUSES, Verdict
 
-FOLDER = "specs/mutation"
 # How a comment begins that a prover reads.
 CONTRACTS = ("/*@", "//@")
 # What no mutant is judged with; and where the provers lie, which is theirs.
 NO_JUDGES = ("gcc", "newlib", "ocamlfind", "why3-config")
-
-
-def record_of(unit: Unit) -> Path:
-    """Where the result on a unit is kept."""
-    return unit.root / FOLDER / f"{unit.name}.json"
 
 
 def all_harnesses(root: Path) -> list[tuple[Harness, frozenset[Path]]]:
@@ -103,31 +92,3 @@ def version_of(tool: Found) -> str:
 
 def _shown(path: Path, root: Path) -> str:
     return path.relative_to(root.resolve()).as_posix()
-
-
-def whole(verdicts: Sequence[Verdict]) -> bool:
-    """Whether every mutant was tried."""
-    return bool(verdicts) and not any(one.status == "skipped" for one in verdicts)
-
-
-def write(
-    unit: Unit, verdicts: Sequence[Verdict], problems: Sequence[str], made_of: Mapping[str, str]
-) -> str:
-    """Keep a result, a line for each mutant; what was done, in words."""
-    shown = record_of(unit).relative_to(unit.root).as_posix()
-    if not whole(verdicts):
-        return f"{unit.name}: {shown} left alone: not every mutant was tried"
-    head = {
-        "unit": unit.name, "made_of": dict(made_of), "problems": list(problems),
-        "summary": {name: sum(one.status == name for one in verdicts) for name in STATUSES},
-    }  # fmt: skip
-    lines = ",\n".join(json.dumps(_line(one), ensure_ascii=False) for one in verdicts)
-    text = json.dumps(head, indent=1)[:-2] + f',\n "mutants": [\n{lines}\n ]\n}}\n'
-    write_text(record_of(unit), text)
-    return f"{unit.name}: {shown} written"
-
-
-def _line(verdict: Verdict) -> dict[str, Any]:
-    """A mutant; only a survivor has a reason."""
-    entry = verdict.as_dict()
-    return {name: value for name, value in entry.items() if value or name != "reason"}

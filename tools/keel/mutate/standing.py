@@ -1,41 +1,54 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the results of mutation that specs/mutation keeps are of what is there."""
+"""Whether the results of mutation that specs/mutation.toml keeps are of what is there."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from keel.base.errors import ToolError
-from keel.base.files import read_text
-from keel.c.project import Unit
+from keel.c.project import Unit, find_units
 from keel.install import Found
 from keel.mutate import records as mutant_records
-from keel.mutate.verdicts import score
-
-Record = Mapping[str, Any]
+from keel.mutate import table as mutant_table
+from keel.mutate.table import Record, Results
+from keel.mutate.verdicts import read_equivalent, score
 
 NOT_RUN = "not run"
 CURRENT = "current"
-HEAD = ("unit", "made_of", "problems", "summary", "mutants")
-MUTANT = ("function", "kind", "line", "original", "mutant", "status", "engines")
+ACCEPTED = "makes no difference"
+
+
+@dataclass(frozen=True)
+class Survivor:
+    """A mutant that no proof notices; with the reason if a person has given one."""
+
+    function: str
+    line: int
+    original: str
+    mutant: str
+    status: str
+    reason: str = ""
 
 
 @dataclass(frozen=True)
 class Standing:
-    """A unit, the result that is kept of it, and what of it is stale."""
+    """A unit, the result that is kept of it, what of it is stale, and who survived.
+
+    The survivors that were accepted are among them only while the reasons are those that the result
+    refers to.
+    """
 
     unit: str
     record: Record | None
     stale: tuple[str, ...] = ()
+    survivors: tuple[Survivor, ...] = ()
 
     @property
     def shown(self) -> str:
-        """The file."""
-        return f"{mutant_records.FOLDER}/{self.unit}.json"
+        """Where the result stands."""
+        return f"{mutant_table.FILE}: {self.unit}"
 
     @property
     def current(self) -> bool:
@@ -54,34 +67,20 @@ class Standing:
         """For the console."""
         if self.record is None:
             return f"{self.unit:<12} no result is kept"
-        return f"{self.unit:<12} {score(self.record['summary'])}; {self.how}"
-
-    @property
-    def counted(self) -> list[Record]:
-        """The mutants that compile and make a difference."""
-        every = self.record["mutants"] if self.record else []
-        return [one for one in every if one["status"] not in ("stillborn", "equivalent")]
-
-    def with_status(self, *statuses: str) -> list[Record]:
-        """The mutants with a status."""
-        every = self.record["mutants"] if self.record else []
-        return [one for one in every if one["status"] in statuses]
+        return f"{self.unit:<12} {score(self.record.summary)}; {self.how}"
 
 
-def read_record(path: Path) -> Record:
-    """A result that is kept; one that is not whole is refused."""
-    shown = f"{mutant_records.FOLDER}/{path.name}"
-    try:
-        read = json.loads(read_text(path))
-    except ValueError as error:
-        raise ToolError(f"{shown}: is not whole: {error}") from error
-    lacking = [name for name in HEAD if not isinstance(read, dict) or name not in read]
-    lacking += [name for one in ([] if lacking else read["mutants"]) for name in MUTANT
-                if name not in one][:1]  # fmt: skip
-    if lacking:
-        raise ToolError(f"{shown}: lacks {lacking[0]}: write it with make mutate ARGS=--record")
-    record: Record = read
-    return record
+def accepted(unit: Unit, record: Record) -> list[Survivor]:
+    """The survivors that people have explained, from the entries that the result refers to."""
+    entries = list(read_equivalent(unit.folder / "equivalent.toml").items())
+    found = []
+    for one in record.accepted:
+        if one.entry > len(entries):
+            raise ToolError(f"{mutant_table.FILE}: {unit.name}: accepted: there is no entry"
+                            f" {one.entry} in proofs/{unit.name}/equivalent.toml")  # fmt: skip
+        (function, original, mutant, _), reason = entries[one.entry - 1]
+        found.append(Survivor(function, one.line, original, mutant, ACCEPTED, reason))
+    return found
 
 
 def standings(
@@ -89,18 +88,25 @@ def standings(
 ) -> Iterator[Standing]:
     """Every unit with proofs, beside these tools; what cannot be read is a problem."""
     harnesses = mutant_records.all_harnesses(root)
+    proved = {name for name, unit in find_units(root).items() if unit.folder.is_dir()}
+    try:
+        results = mutant_table.read(root)
+    except ToolError as error:
+        problems += str(error).splitlines()
+        results = Results()
+    problems += [f"{mutant_table.FILE}: there is no unit {name} with proofs"
+                 for name in results.unit if name not in proved]  # fmt: skip
     for unit in units:
-        path = mutant_records.record_of(unit)
-        if not unit.folder.is_dir():
+        if unit.name not in proved:
             continue
-        record, stale = None, []
-        try:
-            record = read_record(path) if path.is_file() else None
-        except ToolError as error:
-            problems.append(str(error))
+        record, stale, survivors = results.unit.get(unit.name), [], []
         if record:
-            judges = mutant_records.killers(one["engines"] for one in record["mutants"])
-            now = mutant_records.origin(unit, harnesses, tools, judges)
-            then = record["made_of"]
+            now = mutant_records.origin(unit, harnesses, tools, record.killers)
+            then = results.made_of(unit.name)
             stale = [name for name in {**now, **then} if then.get(name) != now.get(name)]
-        yield Standing(unit.name, record, tuple(stale))
+            try:
+                survivors = accepted(unit, record) if "proofs" not in stale else []
+            except ToolError as error:
+                problems.append(str(error))
+            survivors += [Survivor(**one.model_dump()) for one in record.open]
+        yield Standing(unit.name, record, tuple(stale), tuple(survivors))

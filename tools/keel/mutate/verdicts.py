@@ -18,6 +18,8 @@ Identity = tuple[str, str, str, int]
 EXECUTED = " (executed, input "
 # What a verdict says of WP when that had no proof of the code as it is.
 UNPROVED = "the function is not proved unchanged"
+# Why a mutant makes no difference if nobody has to say so.
+SAME_CODE = "same object code"
 STATUSES = ("killed", "survived", "undecided", "equivalent", "stillborn", "skipped")
 
 

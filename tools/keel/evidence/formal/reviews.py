@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reviews by people: specs/reviews/UNIT.toml says who has looked at what, and when.
+"""Reviews by people: specs/reviews.toml says who has looked at which unit, and when.
 
     [[review]]
+    unit = "queue"
     person = "a name"
     date = "2026-11-30"
     digest = "…"          # of what was looked at, as make review UNIT=queue tells it
@@ -18,36 +19,38 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
+from keel.base.files import read_text
 from keel.base.verdict_cache import digest, digest_of_files
 from keel.c.project import Unit, find_units
-from keel.config import Field, Table, Text, read_toml
+from keel.config import Field, Mistake, Table, Text, parse_toml
 from keel.evidence.part import State
 from keel.evidence.part import Table as Shown
 from keel.judge.goals import read_goals
 from keel.judge.harness import MODELS
 
-FOLDER = "specs/reviews"
+FILE = "specs/reviews.toml"
 NOT_REVIEWED = "not reviewed"
 
 
 class Review(Table):
-    """One person's signature."""
+    """One person's signature on a unit."""
 
+    unit: Text
     person: Text
     date: Annotated[str, Field(pattern=r"^\d{4}-\d{2}-\d{2}$")]
     digest: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
     remarks: Text
 
 
-class Form(Table):
-    """The form of a unit."""
+class Reviews(Table):
+    """The file."""
 
     review: list[Review] = []
 
 
 @dataclass(frozen=True)
 class Reviewed:
-    """A unit, its form, and the digest of what is there now."""
+    """A unit, the signatures on it, and the digest of what is there now."""
 
     unit: str
     reviews: Sequence[Review]
@@ -84,35 +87,33 @@ def digest_of(unit: Unit) -> str:
     return digest([digest_of_files(files, unit.root), goals])
 
 
-def form_of(unit: Unit) -> Path:
-    """Where the form of a unit is."""
-    return unit.root / FOLDER / f"{unit.name}.toml"
+def proved_units(root: Path) -> dict[str, Unit]:
+    """The units that have proofs to review."""
+    return {name: unit for name, unit in find_units(root).items() if unit.folder.is_dir()}
 
 
 def read_reviews(root: Path) -> list[Reviewed]:
-    """The state of review of each unit that has proofs."""
+    """The state of review of each unit that has proofs; a signature on no such unit is refused."""
+    units = proved_units(root)
+
+    def strangers(read: Reviews) -> Iterator[Mistake]:
+        for number, one in enumerate(read.review):
+            if one.unit not in units:
+                yield ("review", number, "unit"), f"there is no unit {one.unit} with proofs"
+
+    signed = parse_toml(read_text(root / FILE), Reviews, FILE, strangers).review
     return [
-        Reviewed(
-            unit.name, read_toml(form_of(unit), Form).review if form_of(unit).is_file() else (),
-            digest_of(unit),
-        )
-        for unit in find_units(root).values()
-        if unit.folder.is_dir()
-    ]  # fmt: skip
+        Reviewed(name, [one for one in signed if one.unit == name], digest_of(unit))
+        for name, unit in units.items()
+    ]
 
 
-def problems(root: Path, reviewed: Sequence[Reviewed]) -> Iterator[str]:
-    """A form that is missing, or of no unit, and a signature that is stale."""
-    forms = {path.stem for path in (root / FOLDER).glob("*.toml")}
+def problems(reviewed: Sequence[Reviewed]) -> Iterator[str]:
+    """The signatures that are stale."""
     for one in reviewed:
-        shown = f"{FOLDER}/{one.unit}.toml"
-        if one.unit not in forms:
-            yield f"{shown}: is missing"
         for review in one.stale:
-            yield (f"{shown}: the review by {review.person} on {review.date} is stale: what it"
-                   f" was of has changed")  # fmt: skip
-    for name in sorted(forms - {one.unit for one in reviewed}):
-        yield f"{FOLDER}/{name}.toml: there is no unit {name} with proofs"
+            yield (f"{FILE}: {one.unit}: the review by {review.person} on {review.date} is stale:"
+                   f" what it was of has changed")  # fmt: skip
 
 
 def table(reviewed: Sequence[Reviewed]) -> Shown:

@@ -149,7 +149,7 @@ def make(context: Context) -> Part:
     given = {name: why for one in asked for name, why in opinion.reasons(one, harnesses).items()}
     problems += [text for one in asked for text in opinion.problems(answers, one, harnesses, given)]
     reviewed = _kept(problems, lambda: reviews.read_reviews(context.root))
-    problems += reviews.problems(context.root, reviewed)
+    problems += reviews.problems(reviewed)
     return Part(
         name="formal", title="Formal verification",
         summary=summary(report, items, reviewed) | opinion.summary(answers, harnesses),

@@ -14,8 +14,11 @@ A proof is worth something only if it would fail when the code were wrong. Two t
 Mutants are small changes of the code, made by rule: slips of the pen and of thought. One that no \
 proof notices shows a contract or a model that is too weak, or makes no difference, for which a \
 person has to give the reason. A run over all units takes hours, so its results are kept in the \
-repository, with digests of the sources, the proofs and the tools that they were had from; where \
-one of these has changed, the result is shown as stale and does not count.
+repository (specs/mutation.toml): how many mutants each engine killed, which harnesses did, and \
+who survived, with digests of the sources, the proofs and the tools that they were had from. \
+Where one of these has changed, the result is shown as stale and does not count. The killed \
+mutants one by one are not part of the package; make mutate tries them again, and lists them in \
+build/mutate.
 
 Wrong bodies are mistakes that people make, put into the code as it is now by each make prove; the \
 harness named with each must refute it, by the assertion named with it.
@@ -49,8 +52,7 @@ def make(context: Context) -> Part:
         summary={
             "units whose mutants were run": f"{len(current)} of {len(standings)}",
             "mutants killed": mutants.score(current),
-            "survivors unexplained": str(sum(len(one.with_status(*mutants.OPEN))
-                                             for one in current)),
+            "survivors unexplained": str(sum(len(mutants.unexplained(one)) for one in current)),
             "blocks reached by harnesses": blocks.summary(report),
             "mistakes on purpose refused": f"{sum(one.refused is True for one in mistakes)}"
                                            f" of {len(mistakes)}",

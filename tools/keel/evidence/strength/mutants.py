@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Recorded results of mutation (specs/mutation): scores, survivors, and what has gone stale."""
+"""Results of mutation, from specs/mutation.toml: scores, survivors, and what has gone stale."""
 
 from __future__ import annotations
 
@@ -11,12 +11,10 @@ from keel.c.project import find_units
 from keel.evidence.part import Item, State, Table
 from keel.install import Found
 from keel.mutate import standing as mutant_standing
-from keel.mutate.standing import Standing
+from keel.mutate.standing import Standing, Survivor
 
 Report = Mapping[str, Any]
 
-OPEN = ("survived", "undecided", "skipped")
-STATES: Mapping[str, State] = {"killed": "good", "equivalent": "told"}
 OURS = ("source", "proofs")  # Of what a result is made of, what a commit changes.
 
 
@@ -34,9 +32,14 @@ def standings(root: Path, report: Report, problems: list[str]) -> list[Standing]
     return list(mutant_standing.standings(root, units, found_of(report), problems))
 
 
-def change(mutant: Report) -> str:
+def change(mutant: Survivor) -> str:
     """What was changed, for people."""
-    return f"{mutant['original']}  ->  {mutant['mutant']}"
+    return f"{mutant.original}  ->  {mutant.mutant}"
+
+
+def unexplained(one: Standing) -> list[Survivor]:
+    """The survivors of a unit that nobody has explained."""
+    return [mutant for mutant in one.survivors if not mutant.reason]
 
 
 def problems(every: Sequence[Standing]) -> Iterator[str]:
@@ -48,14 +51,11 @@ def problems(every: Sequence[Standing]) -> Iterator[str]:
     for one in every:
         if ours := [name for name in one.stale if name in OURS]:
             yield f"{one.shown}: is stale, {', '.join(ours)} changed since: make mutate again"
-        for mutant in one.with_status(*OPEN):
-            yield (f"{one.shown}: {mutant['function']}:{mutant['line']}: {mutant['status']},"
+        for mutant in unexplained(one):
+            yield (f"{one.shown}: {mutant.function}:{mutant.line}: {mutant.status},"
                    f" unexplained: {change(mutant)}")  # fmt: skip
-        for mutant in one.with_status("equivalent"):
-            if not mutant.get("reason"):
-                yield f"{one.shown}: {mutant['function']}:{mutant['line']}: without a reason"
         if one.record:
-            yield from (f"{one.shown}: {text}" for text in one.record["problems"])
+            yield from (f"{one.shown}: {text}" for text in one.record.problems)
 
 
 def foreseen(root: Path) -> list[str]:
@@ -65,63 +65,61 @@ def foreseen(root: Path) -> list[str]:
     return [*found, *problems(every)]
 
 
-def killer(mutant: Report) -> str:
-    """Who noticed a mutant."""
-    said = [f"{engine.upper()} {text.removeprefix('killed: ')}"
-            for engine, text in mutant["engines"].items() if text.startswith("killed")]  # fmt: skip
-    return said[0] if said else ""
-
-
 def items(every: Sequence[Standing]) -> Iterator[Item]:
-    """Each mutant of each result; of a stale result none is good."""
+    """The result on each unit, and each survivor without a reason; a stale result is not good."""
     for one in every:
-        for number, mutant in enumerate(one.record["mutants"] if one.record else [], 1):
-            if mutant["status"] == "stillborn":
-                continue
-            state = STATES.get(mutant["status"], "bad")
+        if one.record is None:
+            continue
+        killed = one.record.killed
+        state: State = "bad" if one.record.open else "good"
+        yield Item(
+            kind="mutant", id=f"{one.unit}/result", title=f"{one.unit}: result of mutation",
+            text=f"{killed.total} of {one.record.counted} mutants that make a difference are"
+                 " killed.",
+            state=state if one.current else "open",
+            facts={
+                "result": one.how, "killed by executing harnesses": str(killed.executed),
+                "killed by CBMC": str(killed.solved), "killed by WP": str(killed.wp),
+                "harnesses that killed": ", ".join(one.record.killers),
+                "of the same object code": str(one.record.same),
+                "make no difference, with a reason": str(len(one.record.accepted)),
+                "do not compile": str(one.record.stillborn),
+            },
+            links=(f"unit:{one.unit}",),
+        )  # fmt: skip
+        for number, mutant in enumerate(unexplained(one), 1):
             yield Item(
-                kind="mutant", id=f"{one.unit}/{number}",
-                title=f"{mutant['function']}:{mutant['line']}: {mutant['kind']}",
-                text=change(mutant), state=state if one.current else "open",
-                facts={
-                    "verdict": mutant["status"], "noticed by": killer(mutant) or "nobody",
-                    "why it makes no difference": mutant.get("reason", ""), "result": one.how,
-                },
-                links=(f"unit:{one.unit}",),
+                kind="mutant", id=f"{one.unit}/survivor-{number}",
+                title=f"{mutant.function}:{mutant.line}", text=change(mutant),
+                state="bad" if one.current else "open",
+                facts={"verdict": mutant.status, "result": one.how}, links=(f"unit:{one.unit}",),
             )  # fmt: skip
-
-
-def killed_by(every: Sequence[Standing], engine: str) -> int:
-    """How many mutants an engine killed; where one has, the other is not asked as a rule."""
-    return sum(mutant["engines"].get(engine, "").startswith("killed")
-               for one in every for mutant in one.with_status("killed"))  # fmt: skip
 
 
 def score(every: Sequence[Standing]) -> str:
     """Killed of counted."""
-    killed = sum(len(one.with_status("killed")) for one in every)
-    return f"{killed} of {sum(len(one.counted) for one in every)}"
+    records = [one.record for one in every if one.record]
+    return f"{sum(one.killed.total for one in records)} of {sum(one.counted for one in records)}"
+
+
+def numbers(every: Sequence[Standing]) -> tuple[str, ...]:
+    """The cells of some results in the table of mutants, from the score on."""
+    records = [one.record for one in every if one.record]
+    sums = (
+        sum(one.killed.by_harnesses for one in records), sum(one.killed.wp for one in records),
+        sum(one.equivalent for one in records), sum(len(one.open) for one in records),
+    )  # fmt: skip
+    return (score(every), *map(str, sums))
 
 
 def table(every: Sequence[Standing]) -> Table:
     """A line for each unit, and one for all results that are current."""
-    rows = [
-        (
-            f"unit:{one.unit}", one.how, score([one]), str(killed_by([one], "cbmc")),
-            str(killed_by([one], "wp")), str(len(one.with_status("equivalent"))),
-            str(len(one.with_status(*OPEN))),
-        )
-        if one.record
-        else (f"unit:{one.unit}", one.how, "", "", "", "", "")
-        for one in every
-    ]  # fmt: skip
     current = [one for one in every if one.current]
+    rows = [(f"unit:{one.unit}", one.how, *(numbers([one]) if one.record else [""] * 5))
+            for one in every]  # fmt: skip
     rows.append(
-        ("all that are current", f"{len(current)} of {len(every)} units", score(current),
-         str(killed_by(current, "cbmc")), str(killed_by(current, "wp")),
-         str(sum(len(one.with_status("equivalent")) for one in current)),
-         str(sum(len(one.with_status(*OPEN)) for one in current)))
-    )  # fmt: skip
+        ("all that are current", f"{len(current)} of {len(every)} units", *numbers(current))
+    )
     return Table(
         title="Mutants",
         columns=("unit", "result", "killed", "by CBMC", "by WP", "make no difference", "open"),
@@ -135,17 +133,16 @@ def table(every: Sequence[Standing]) -> Table:
 
 
 def survivors(every: Sequence[Standing]) -> Table:
-    """What nobody notices, each with the reason that a person gave."""
+    """Each mutant that nobody notices, with the reason that a person gave."""
     rows = [
-        (f"unit:{one.unit}", f"{mutant['function']}:{mutant['line']}", change(mutant),
-         mutant["status"] if mutant["status"] in OPEN else "makes no difference",
-         mutant.get("reason", ""))
+        (f"unit:{one.unit}", f"{mutant.function}:{mutant.line}", change(mutant), mutant.status,
+         mutant.reason)
         for one in every
-        for mutant in one.with_status("equivalent", *OPEN)
-        if mutant.get("reason") != "same object code"
+        for mutant in one.survivors
     ]  # fmt: skip
     return Table(
         title="Survivors, adjudicated", columns=("unit", "place", "change", "verdict", "reason"),
         rows=tuple(rows),
-        note="Those that compile to the same object code are left out here, and counted above.",
-    )
+        note="Those that compile to the same object code are left out here, and counted above. So"
+             " are the reasons of a unit whose proofs have changed since its result.",
+    )  # fmt: skip
