@@ -113,7 +113,7 @@ KEEL_C_BEGIN
 #define KEEL_ATTITUDE_STILL_RATE_LIMIT         1.0f
 #define KEEL_ATTITUDE_STILL_ACCELERATION_LIMIT 10.0f
 
-/** What a component of the low-passed vectors is kept within: of down, in g; and of the field, of
+/** Bounds of the components of the low-passed vectors: of down, in g; and of the field, of
  * which a sample beyond is not taken, in the magnetometer's unit. */
 #define KEEL_ATTITUDE_DOWN_REACH  16.0f
 #define KEEL_ATTITUDE_FIELD_REACH 4096.0f
@@ -129,18 +129,18 @@ KEEL_C_BEGIN
 /** Half of the greatest angle turned in a step, per axis, in rad. */
 #define KEEL_ATTITUDE_HALF_ANGLE_LIMIT 0.0625f
 
-/** What is added to E about the Earth's axes where D_z < 0. */
+/** Added to E about the Earth's axes where D_z < 0. */
 #define KEEL_ATTITUDE_NUDGE_X 0.25f
 #define KEEL_ATTITUDE_NUDGE_Y 0.125f
 
 /** D_z below which measured and estimated down contradict: the cosine of the angle between. */
 #define KEEL_ATTITUDE_AGREEMENT 0.5f
 
-/** What |q|^2 is kept within, as computed: a quaternion beyond was not left by a step. */
+/** The bounds of |q|^2, as computed: a quaternion beyond was not left by a step. */
 #define KEEL_ATTITUDE_NORM_MIN 0.999755859375f
 #define KEEL_ATTITUDE_NORM_MAX 1.000244140625f
 
-/* What the last step did: keel_attitude_t, flags. */
+/* Events of the last step: keel_attitude_t, flags. */
 #define KEEL_ATTITUDE_LOST        0x01u /**< No rate came, or none that can be: the last is held. */
 #define KEEL_ATTITUDE_CLIPPED     0x02u /**< A rate is beyond clip_rate: it may have been more. */
 #define KEEL_ATTITUDE_COMPENSATED 0x04u /**< The vehicle's acceleration was taken off. */
@@ -169,7 +169,7 @@ typedef struct keel_attitude_quaternion {
     float z;
 } keel_attitude_quaternion_t;
 
-/** What an estimator is made from. */
+/** The configuration of an estimator. */
 typedef struct keel_attitude_config {
     float rate_hz;            /**< Steps per second, RATE_MIN_HZ to RATE_MAX_HZ. */
     float tilt_gain;          /**< Of E while running, 0 to GAIN_LIMIT, in 1/s. */
@@ -193,7 +193,7 @@ typedef struct keel_attitude_config {
     uint16_t field_steps;     /**< Steps for which a field's sample is good; at least 1. */
 } keel_attitude_config_t;
 
-/** What was measured. Values may be any bit pattern. */
+/** The measurements. Values may be any bit pattern. */
 typedef struct keel_attitude_sample {
     keel_attitude_vector_t gyroscope; /**< Angular rate, body, in rad/s. */
     keel_attitude_vector_t
@@ -210,7 +210,7 @@ typedef struct keel_attitude_sample {
  * enumeration's size differs between compilers. */
 typedef uint8_t keel_attitude_phase_t;
 
-/** What init computes from a configuration. */
+/** Values that init computes from a configuration. */
 typedef struct keel_attitude_scale {
     float step;      /**< T, in s. */
     float half_step; /**< T / 2, in s. */
@@ -225,7 +225,7 @@ typedef struct keel_attitude_scale {
 /** An estimator. Written by the functions below alone; all of it may be read. */
 typedef struct keel_attitude {
     keel_attitude_config_t config;         /**< As checked by init. */
-    keel_attitude_scale_t scale;           /**< What follows from it. */
+    keel_attitude_scale_t scale;           /**< Values derived from it. */
     keel_attitude_quaternion_t quaternion; /**< From body to Earth. */
     keel_attitude_vector_t bias;           /**< B, of the gyroscope, in rad/s. */
     keel_attitude_vector_t rate;           /**< W - B of the last step: for rate control. */

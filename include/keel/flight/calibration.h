@@ -85,7 +85,7 @@ typedef struct keel_calibration_correction {
     float scale[KEEL_CALIBRATION_AXES];  /**< 1: as it is. */
 } keel_calibration_correction_t;
 
-/** What an accelerometer says at rest on its six sides. */
+/** Readings of an accelerometer at rest on its six sides. */
 typedef struct keel_calibration_sides {
     float up[KEEL_CALIBRATION_AXES];   /**< On an axis that points up: gravity, were it right. */
     float down[KEEL_CALIBRATION_AXES]; /**< On one that points down: -gravity. */
@@ -104,9 +104,9 @@ typedef struct keel_calibration_rotation {
  * enumeration's size differs between compilers. */
 typedef uint8_t keel_calibration_state_t;
 
-/** What a calibration at rest is made from. */
+/** The configuration of a calibration at rest. */
 typedef struct keel_calibration_rest_config {
-    float expected[KEEL_CALIBRATION_AXES]; /**< What is right at rest, within +-LIMIT. */
+    float expected[KEEL_CALIBRATION_AXES]; /**< The right value at rest, within +-LIMIT. */
     float spread;     /**< How far a sample may lie from the first, on an axis, 0 to LIMIT. */
     float limit;      /**< The greatest offset that is believed, on an axis, 0 to LIMIT. */
     uint32_t samples; /**< Samples of a mean, 1 to SAMPLES_MAX. */
@@ -125,12 +125,12 @@ typedef struct keel_calibration_rest {
     uint16_t beyond;   /**< Refused: bit k is set when axis k was beyond the limit. */
 } keel_calibration_rest_t;
 
-/** What a calibration of a magnetometer is made from. */
+/** The configuration of a calibration of a magnetometer. */
 typedef struct keel_calibration_field_config {
     float lowest;   /**< The lowest value that the sensor gives, within +-LIMIT. */
     float highest;  /**< The highest, lowest to LIMIT. */
-    float span_min; /**< What each axis must span, above 0, to span_max. */
-    float span_max; /**< What it spans at most, without a disturbance, to 2 LIMIT. */
+    float span_min; /**< The least span of each axis, above 0, to span_max. */
+    float span_max; /**< The greatest span without a disturbance, to 2 LIMIT. */
     float limit;    /**< The greatest offset that is believed, on an axis, 0 to LIMIT. */
 } keel_calibration_field_config_t;
 

@@ -9,8 +9,8 @@
  * aircraft from being armed.
  *
  * A fact counts only once it has settled: it was seen at each look for its time without a break.
- * One that is not seen counts no longer, at once. What the pilot says is looked at in frames
- * alone: between two of them it stays as it was, and settles only in a step that has a frame. As no
+ * One that is not seen counts no longer, at once. The pilot's facts are looked at
+ * only in frames: between two of them they stay, and settle only in a step that has a frame. As no
  * time to settle is shorter than the longest silence that the link is allowed, it takes at least
  * three good frames in a row, so one or two frames, a glitch, or silence move nothing. After that
  * silence all that the pilot said is forgotten.
@@ -88,7 +88,7 @@ KEEL_C_BEGIN
 #define KEEL_MODE_FACTS       14u
 /** @} */
 
-/** @name What else moves the machine. Told in keel_mode_t.cause. */
+/** @name Other causes of a change of state, in keel_mode_t.cause. */
 /** @{ */
 #define KEEL_MODE_ARMS         0x00010000u /**< The pilot arms, and nothing is in the way. */
 #define KEEL_MODE_LINK_LOST    0x00020000u /**< IS_LINKED has not settled. */
@@ -141,7 +141,7 @@ typedef struct keel_mode_config {
     bool returns;         /**< The failsafe returns where it can; it lands otherwise. */
 } keel_mode_config_t;
 
-/** What a step is told. */
+/** The inputs of a step. */
 typedef struct keel_mode_input {
     uint32_t elapsed_us; /**< Since the last step. */
     uint32_t facts;      /**< KEEL_MODE_IS_ and KEEL_MODE_HAS_ bits; unknown ones are ignored. */
@@ -149,7 +149,7 @@ typedef struct keel_mode_input {
     uint8_t asked;       /**< Where the mode switch is; a frame with no such mode is none. */
 } keel_mode_input_t;
 
-/** What stands in the way of arming. */
+/** The obstacles to arming. */
 typedef struct keel_mode_refusal {
     uint32_t checks; /**< Required checks that do not hold. */
     uint32_t facts;  /**< IS_LINKED, IS_LOW, IS_LANDED: not settled; IS_OFF: the switch was not seen
@@ -168,10 +168,10 @@ typedef struct keel_mode {
     uint32_t seen;                       /**< Facts at the last look. */
     uint32_t settled;                    /**< Facts that count. */
     uint32_t overridden;                 /**< Alarms that the pilot took over from. */
-    uint32_t cause;                      /**< What led to this state: facts, and what moves. */
+    uint32_t cause;                      /**< The facts and other causes that led here. */
     uint32_t missing;                    /**< Estimates that the wanted mode lacks. */
     keel_mode_refusal_t blocking;        /**< In DISARMED: what stands in the way now. */
-    keel_mode_refusal_t refused;         /**< What stood in it at the last attempt to arm. */
+    keel_mode_refusal_t refused;         /**< The obstacles at the last attempt to arm. */
     uint8_t state;
     uint8_t mode;     /**< The mode in force. */
     uint8_t asked;    /**< The mode that the pilot asks for; KEEL_MODE_NONE without a link. */

@@ -101,9 +101,9 @@ typedef enum keel_crsf_taken {
 
 /** A decoder. Written by the functions below alone; all of it may be read. */
 typedef struct keel_crsf {
-    keel_crsf_config_t config;            /**< What it was made from. */
-    keel_framing_t framing;               /**< What is held of a frame. */
-    keel_crsf_count_t count;              /**< What was met. */
+    keel_crsf_config_t config;            /**< The configuration. */
+    keel_framing_t framing;               /**< The bytes held of a frame. */
+    keel_crsf_count_t count;              /**< Counts of events. */
     uint32_t channels_age_us;             /**< Since the last channels; UINT32_MAX before. */
     uint32_t link_age_us;                 /**< Since the last statistics; UINT32_MAX before. */
     uint16_t channel[KEEL_CRSF_CHANNELS]; /**< The last, raw, 0 to 2047; 0 before. */

@@ -35,7 +35,7 @@ typedef struct keel_framing {
     uint32_t strays;                  /**< Bytes that were no header, with nothing held. */
     uint8_t byte[KEEL_FRAMING_BYTES]; /**< Those held, and behind them what was before. */
     uint8_t held;                     /**< How many are held. */
-    uint8_t header[KEEL_FRAMING_HEADERS]; /**< What a frame may begin with. */
+    uint8_t header[KEEL_FRAMING_HEADERS]; /**< The bytes that may begin a frame. */
 } keel_framing_t;
 
 /*@ predicate framing_header(keel_framing_t *f, integer byte) =

@@ -77,11 +77,11 @@ typedef struct keel_ibus_count {
 
 /** A decoder. Written by the functions below alone; all of it may be read. */
 typedef struct keel_ibus {
-    keel_ibus_config_t config;            /**< What it was made from. */
-    keel_framing_t framing;               /**< What is held of a frame. */
-    keel_ibus_count_t count;              /**< What was met. */
+    keel_ibus_config_t config;            /**< The configuration. */
+    keel_framing_t framing;               /**< The bytes held of a frame. */
+    keel_ibus_count_t count;              /**< Counts of events. */
     uint32_t age_us;                      /**< Since the last right frame; UINT32_MAX before. */
-    uint16_t channel[KEEL_IBUS_CHANNELS]; /**< What it said, in us; 0 before, and where there is
+    uint16_t channel[KEEL_IBUS_CHANNELS]; /**< Its channels, in us; 0 before, and where there is
                                                none. */
 } keel_ibus_t;
 

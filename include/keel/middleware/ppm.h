@@ -59,8 +59,8 @@ typedef struct keel_ppm_count {
 
 /** A decoder. Written by the functions below alone; all of it may be read. */
 typedef struct keel_ppm {
-    keel_ppm_config_t config;            /**< What it was made from. */
-    keel_ppm_count_t count;              /**< What was met. */
+    keel_ppm_config_t config;            /**< The configuration. */
+    keel_ppm_count_t count;              /**< Counts of events. */
     uint32_t age_us;                     /**< Since channels were taken; UINT32_MAX before. */
     uint32_t quiet_us;                   /**< Since the last edge, in us. */
     uint16_t channel[KEEL_PPM_CHANNELS]; /**< The last that were taken, in us; 0 before. */

@@ -87,9 +87,9 @@ typedef struct keel_sbus_count {
 
 /** A decoder. Written by the functions below alone; all of it may be read. */
 typedef struct keel_sbus {
-    keel_sbus_config_t config;       /**< What it was made from. */
+    keel_sbus_config_t config;       /**< The configuration. */
     keel_sbus_frame_t frame;         /**< The last right frame; all 0 and failsafe before. */
-    keel_sbus_count_t count;         /**< What was met. */
+    keel_sbus_count_t count;         /**< Counts of events. */
     uint32_t age_us;                 /**< Since the last right frame, in us; UINT32_MAX before. */
     uint32_t quiet_us;               /**< Since the last byte, in us. */
     uint8_t buffer[KEEL_SBUS_BYTES]; /**< A partial frame, and behind it what was before. */

@@ -94,10 +94,10 @@ typedef struct keel_signing_count {
 typedef struct keel_signing {
     keel_signing_stream_t stream[KEEL_SIGNING_STREAMS]; /**< The streams, */
     uint32_t streams;                                   /**< and how many there are. */
-    keel_signing_count_t count;                         /**< What was met. */
+    keel_signing_count_t count;                         /**< Counts of events. */
     keel_signing_hash_fn_t hash;                        /**< SHA256. */
     uint64_t timestamp;                  /**< Our time, in 10 us since 2015 began (UTC). */
-    uint8_t text[KEEL_SIGNING_TEXT_MAX]; /**< What is hashed: the key, and behind it a frame. */
+    uint8_t text[KEEL_SIGNING_TEXT_MAX]; /**< The hash's input: the key, and then a frame. */
     uint8_t link;                        /**< The number that we give to our link. */
     bool has_key;                        /**< A key is set: frames are signed and checked. */
 } keel_signing_t;

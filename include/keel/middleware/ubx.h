@@ -55,7 +55,7 @@ KEEL_C_BEGIN
 /** Milliseconds of a week: its time of week is less. */
 #define KEEL_UBX_WEEK_MS 604800000
 
-/** @name What a decoder waits for. */
+/** @name The part that a decoder waits for. */
 /** @{ */
 #define KEEL_UBX_SEARCH 0 /**< A message. */
 #define KEEL_UBX_DATA   1 /**< A byte of its payload. */
@@ -113,13 +113,13 @@ typedef struct keel_ubx_count {
 
 /** A decoder. Written by the functions below alone; all of it may be read. */
 typedef struct keel_ubx {
-    keel_ubx_config_t config; /**< What it was made from. */
+    keel_ubx_config_t config; /**< The configuration. */
     keel_ubx_fix_t fix;       /**< The last right NAV-PVT. */
-    keel_ubx_count_t count;   /**< What was met. */
+    keel_ubx_count_t count;   /**< Counts of events. */
     bool is_advancing;        /**< Whether the time of week advanced with the last. */
     uint32_t age_us;          /**< Since the last right NAV-PVT, in us; UINT32_MAX before. */
     uint32_t quiet_us;        /**< Since the last byte, in us. */
-    keel_ubx_fix_t pending;   /**< What came of the next one. */
+    keel_ubx_fix_t pending;   /**< The next one, as far as it came. */
     uint64_t window;          /**< The last six bytes, the latest the highest; 0 for none. */
     uint16_t length;          /**< Bytes of the payload. */
     uint16_t left;            /**< How many of them are to come. */
@@ -147,7 +147,7 @@ typedef enum keel_ubx_verdict {
 
 /** A message to the receiver. */
 typedef struct keel_ubx_message {
-    uint8_t bytes[KEEL_UBX_MESSAGE_BYTES]; /**< What to send, and zeros behind it. */
+    uint8_t bytes[KEEL_UBX_MESSAGE_BYTES]; /**< The message to send, and then zeros. */
     uint8_t size;                          /**< How many of them are the message. */
 } keel_ubx_message_t;
 

@@ -23,8 +23,8 @@
 KEEL_C_BEGIN
 
 /*
- * What is assumed of the functions that the user supplies, as contracts of two that stand for any.
- * They are declared for the proofs alone; nobody defines or calls them.
+ * Assumptions on the functions that the user supplies, as contracts of two that stand for any.
+ * They are only declared for the proofs; nobody defines or calls them.
  */
 
 /* The scheduler that is running: any one. Nothing assigns it; it exists in proofs alone. */
