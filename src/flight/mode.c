@@ -87,7 +87,7 @@ static const mode_row_t modes[KEEL_MODE_NONE + 1u] = {
     [KEEL_MODE_RETURN] = {ESTIMATES, KEEL_MODE_ALTITUDE, KEEL_MODE_LAND},
     [KEEL_MODE_NONE] = {0u, KEEL_MODE_NONE, KEEL_MODE_NONE}};
 
-/* The tables are read through these alone, so what is known of them stands here. */
+/* The tables are read only through these, so the facts known of them stand here. */
 /*@ requires state < KEEL_MODE_STATES && i < EXITS;
   @ assigns \nothing;
   @ ensures \result.to < KEEL_MODE_STATES;
@@ -173,7 +173,7 @@ static uint32_t read_frame(keel_mode_t *mode, const keel_mode_input_t *input)
 }
 
 /* After too long a silence what the pilot said is forgotten; after too long without a look all
- * facts begin to settle anew. */
+ * facts begin to settle again. */
 /*@ requires \valid(mode);
   @ assigns mode->silence_us, mode->seen, mode->settled;
   @*/

@@ -52,7 +52,7 @@ typedef struct keel_altitude_sample {
     bool has_acceleration; /**< Whether there is one. */
 } keel_altitude_sample_t;
 
-/** An altitude estimator. Written by the functions below alone; all of it may be read. */
+/** An altitude estimator. Only the functions below write it; all of it may be read. */
 typedef struct keel_altitude {
     keel_axis_t axis;   /**< Above the reference: climb rate, age, quality and flags are here. */
     float reference;    /**< The first pressure, in Pa; 0 before. */

@@ -147,7 +147,7 @@ KEEL_C_BEGIN
 #define KEEL_ATTITUDE_DOWN        0x08u /**< D was taken for down, with a new sample. */
 #define KEEL_ATTITUDE_FIELD       0x10u /**< F was taken for the field, likewise. */
 #define KEEL_ATTITUDE_BIASED      0x20u /**< Still, but the mean rate is beyond bias_limit. */
-#define KEEL_ATTITUDE_CORRUPTED   0x40u /**< No unit quaternion was found: begun anew. */
+#define KEEL_ATTITUDE_CORRUPTED   0x40u /**< No unit quaternion was found: restarted. */
 
 /* How far an estimator is: keel_attitude_phase_t. */
 #define KEEL_ATTITUDE_STILL    0u /**< Waits for the vehicle to be still. */
@@ -222,7 +222,7 @@ typedef struct keel_attitude_scale {
     float still;     /**< 1 / still_steps. */
 } keel_attitude_scale_t;
 
-/** An estimator. Written by the functions below alone; all of it may be read. */
+/** An estimator. Only the functions below write it; all of it may be read. */
 typedef struct keel_attitude {
     keel_attitude_config_t config;         /**< As checked by init. */
     keel_attitude_scale_t scale;           /**< Values derived from it. */
@@ -309,7 +309,7 @@ typedef struct keel_attitude {
 keel_status_t keel_attitude_init(keel_attitude_t *attitude, const keel_attitude_config_t *config);
 
 /**
- * Begins anew: level, without bias, waiting for the vehicle to be still (requirement ATT-003). Not
+ * Starts again: level, without bias, waiting for the vehicle to be still (requirement ATT-003). Not
  * in flight.
  *
  * @param attitude the estimator, initialised
@@ -348,7 +348,7 @@ void keel_attitude_take(keel_attitude_sample_t *sample, const keel_virtual_imu_t
 
 /**
  * One step of the estimator (requirements ATT-005 to ATT-018, ATT-020). Call it at the configured
- * rate, whether there are samples or not; what it could do is told in attitude->flags.
+ * rate, whether there are samples or not; attitude->flags says what it could do.
  *
  * @param attitude the estimator, initialised
  * @param sample   what was measured since the last step

@@ -22,7 +22,7 @@
  * velocity are set to the last. So they are by the first fix, and by the first after lost_steps
  * without one. Jumps here and there are never believed, however many come.
  *
- * How good the result is, is told at each step:
+ * Each step says how good the result is:
  *
  * - KEEL_AXIS_NONE: no fix, or none for lost_steps; position and velocity are not to be used.
  * - KEEL_AXIS_POOR: neither this nor the next.
@@ -108,7 +108,7 @@ typedef struct keel_axis_sample {
  * an enumeration's size differs between compilers. */
 typedef uint8_t keel_axis_quality_t;
 
-/** An axis. Written by the functions below alone; all of it may be read. */
+/** An axis. Only the functions below write it; all of it may be read. */
 typedef struct keel_axis {
     keel_axis_config_t config;   /**< As checked by init. */
     float step;                  /**< T, in s. */

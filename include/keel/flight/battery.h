@@ -17,8 +17,8 @@
  *     cell           V / n + min(I R / n, KEEL_BATTERY_SAG_LIMIT): what a cell has without load
  *
  * Sums are kept in integers, in quanta of 2^-20 A T and 2^-12 W T: a millisecond's charge is not
- * lost beside an hour's, nothing overflows, and nothing runs backwards (requirements BAT-007 and
- * BAT-008). A negative current is told and taken for none: a battery is not charged in flight. The
+ * lost next to an hour's, nothing overflows, and nothing runs backwards (requirements BAT-007 and
+ * BAT-008). A negative current is flagged and counts as 0: a battery is not charged in flight. The
  * time left is that until the level KEEL_BATTERY_CRITICAL, not that until the battery is empty.
  *
  * Two alarms, low and critical, look at the cell's voltage and at the charge left:
@@ -33,7 +33,7 @@
  * sample raises one, whatever it says, and what flutters about a threshold does not make the alarm
  * flutter. An alarm for want of charge is not taken back, as no charge comes back.
  *
- * A module whose current does not come, is no number, or is out of the stated range is told; the
+ * A module whose current does not come, is no number, or is out of the stated range is flagged; the
  * current that came last is held. After hold_steps such steps the module is lost. The charge used
  * is then not known any more, until a restart: the count goes on with the held current, as an
  * estimate, and the level is not KEEL_BATTERY_OK. The modules may come late after a start, as long
@@ -130,7 +130,7 @@ typedef struct keel_battery_config {
     float current_min;        /**< How far offset may go below 0, -CURRENT_LIMIT to 0, in A. */
     float current_max;        /**< A module's greatest current, 0 to CURRENT_LIMIT, in A. */
     float current_expected;   /**< J at the start, in flight, 0 to TOTAL_LIMIT, in A. */
-    float cap_s;              /**< The longest time left that is told, CAP_MIN_S to CAP_MAX_S. */
+    float cap_s;              /**< The longest reported time left, CAP_MIN_S to CAP_MAX_S. */
     float low_voltage;        /**< Of a cell, critical_voltage to CELL_LIMIT, in V. */
     float critical_voltage;   /**< Of a cell, 0 to CELL_LIMIT, in V. */
     float voltage_margin;     /**< By what a cell must be above again, 0 to CELL_LIMIT, in V. */
@@ -196,7 +196,7 @@ typedef struct keel_battery_scale {
     uint32_t critical;  /**< critical_charge C, in A T. */
 } keel_battery_scale_t;
 
-/** A monitor. Written by the functions below alone; all of it may be read. */
+/** A monitor. Only the functions below write it; all of it may be read. */
 typedef struct keel_battery {
     keel_battery_config_t config;                       /**< As checked by init. */
     keel_battery_scale_t scale;                         /**< Values derived from it. */
@@ -303,7 +303,7 @@ typedef struct keel_battery {
 keel_status_t keel_battery_init(keel_battery_t *battery, const keel_battery_config_t *config);
 
 /**
- * Begins anew, with a battery that was changed or charged (requirement BAT-003). Not in flight.
+ * Starts again, with a battery that was changed or charged (requirement BAT-003). Not in flight.
  *
  * @param battery the monitor, initialised
  * @param part    the part of its charge that the battery has, 0 to 1; any bit pattern
@@ -328,7 +328,7 @@ keel_status_t keel_battery_restart(keel_battery_t *battery, float part);
 
 /**
  * One step of the monitor (requirements BAT-004 to BAT-016). Call it at the configured rate,
- * whether there are samples or not; what it met is told in battery->flags.
+ * whether there are samples or not; battery->flags says what it met.
  *
  * @param battery the monitor, initialised
  * @param sample  what was measured since the last step

@@ -75,7 +75,7 @@ KEEL_C_BEGIN
 #define KEEL_CASCADE_PITCH       4u  /**< Sine, nose up, to rad/s. */
 #define KEEL_CASCADE_NORTH_SPEED 5u  /**< m/s to m/s^2. */
 #define KEEL_CASCADE_EAST_SPEED  6u  /**< m/s to m/s^2. */
-#define KEEL_CASCADE_CLIMB       7u  /**< m/s, positive up, to thrust beside that of hovering. */
+#define KEEL_CASCADE_CLIMB       7u  /**< m/s, positive up, to thrust on top of hovering. */
 #define KEEL_CASCADE_NORTH       8u  /**< m from home to m/s. */
 #define KEEL_CASCADE_EAST        9u  /**< m from home to m/s. */
 #define KEEL_CASCADE_HEIGHT      10u /**< m above home to m/s. */
@@ -129,7 +129,7 @@ typedef struct keel_cascade_axis {
     keel_pid_t pid;
     float reach;                /**< The greatest set-point. */
     keel_cascade_limit_t limit; /**< For the axis above: do not ask for more. */
-    bool running;               /**< It controls; if not, it is entered anew. */
+    bool running;               /**< It controls; if not, it is entered again. */
     bool held;                  /**< The last step was none: the output is that before. */
 } keel_cascade_axis_t;
 
@@ -328,7 +328,7 @@ void keel_cascade_enter(keel_cascade_t *cascade, uint8_t mode);
  * One step of one axis (requirements CAS-004 to CAS-007). The stages do this for all of theirs.
  *
  * @param axis  the axis
- * @param input what it is told
+ * @param input its inputs
  */
 /*@ requires \valid(axis) && \valid_read(input) && \separated(axis, input);
   @ requires axis_valid: cascade_axis_valid(axis);

@@ -3,7 +3,7 @@
  * @file mode.h
  * @brief Arming, flight modes, failsafe and termination: one machine, driven by tables.
  *
- * Each step is told plain facts: what the pilot's last good frame said, what the estimators, the
+ * Each step takes plain facts: what the pilot's last good frame said, what the estimators, the
  * landing detector, the fence and the battery say, and which of the checks before arming hold. It
  * tells whether motors may turn, which mode is in force, why it is not another, and what keeps the
  * aircraft from being armed.
@@ -28,7 +28,7 @@
  *
  * Besides, a pilot who moves the mode switch takes over from HOLDING, RETURNING and LANDING, and a
  * kill switch held leads from each state in which motors may turn to TERMINATED, which is left by
- * keel_mode_init alone: it latches until the power is off. A pilot's return and landing, and those
+ * keel_mode_init only: it latches until the power is off. A pilot's return and landing, and those
  * for the fence and the battery, are the same states.
  */
 #ifndef KEEL_FLIGHT_MODE_H
@@ -158,7 +158,7 @@ typedef struct keel_mode_refusal {
                           IS_OUTSIDE, IS_CRITICAL, IS_EMPTY: it is so. */
 } keel_mode_refusal_t;
 
-/** A machine. Written by the functions below alone; all of it may be read. */
+/** A machine. Only the functions below write it; all of it may be read. */
 typedef struct keel_mode {
     keel_mode_config_t config;
     uint32_t settle_us[KEEL_MODE_FACTS]; /**< How long each fact takes to settle. */

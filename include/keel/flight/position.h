@@ -74,7 +74,7 @@ typedef struct keel_position_sample {
     bool has_acceleration;   /**< Whether there is one. */
 } keel_position_sample_t;
 
-/** A position estimator. Written by the functions below alone; all of it may be read. */
+/** A position estimator. Only the functions below write it; all of it may be read. */
 typedef struct keel_position {
     keel_position_config_t config; /**< As checked by init. */
     keel_axis_t north;             /**< Position, velocity, age and flags. */

@@ -18,7 +18,7 @@
  *     body rates             limit s                         of roll, pitch and yaw
  *     roll and pitch angle   tilt limit q                    with the deflections s, t of both
  *     velocity               speed limit q                   sticks q = s (1 - k t^2)
- *     heading's rate         limit s                         beside angles and velocities
+ *     heading's rate         limit s                         with angles and velocities
  *     climb rate             climb limit s or descent limit s
  *
  * A stick in a corner asks for both angles at once. k = 1 - 1/sqrt(2) rounds the corners off: the
@@ -50,7 +50,7 @@ KEEL_C_BEGIN
 #define KEEL_REFERENCE_DEAD_BAND_MIN 0.000244140625f
 #define KEEL_REFERENCE_DEAD_BAND_MAX 0.5f
 
-/** The greatest expo: the cubic alone, flat at the centre. More would not be monotone. */
+/** The greatest expo: only the cubic, flat at the centre. More would not be monotone. */
 #define KEEL_REFERENCE_EXPO_MAX 1.0f
 
 /** The least of each limit, in its own unit: 2^-10. */

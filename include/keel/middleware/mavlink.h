@@ -13,7 +13,7 @@
  * does, it goes on at the next 0xFD behind that byte, among the bytes that it holds. So a right
  * frame is taken whatever came before it, unless it begins within another one that was taken: by
  * its last byte, or, when bytes before it look like a beginning, at most 265 bytes later, or when
- * a gap is told.
+ * a gap is reported.
  *
  *     (void)keel_mavlink_take(&mavlink, byte);
  *     while ((seen = keel_mavlink_look(&mavlink)) != KEEL_MAVLINK_NOTHING) {
@@ -125,7 +125,7 @@ typedef enum keel_mavlink_look {
     KEEL_MAVLINK_FRAME    /**< A right frame: look again when it was read. */
 } keel_mavlink_look_t;
 
-/** A decoder. Written by the functions below alone; all of it may be read. */
+/** A decoder. Only the functions below write it; all of it may be read. */
 typedef struct keel_mavlink {
     const keel_mavlink_message_t *messages; /**< The messages that are known, */
     uint32_t known;                         /**< and how many there are. */

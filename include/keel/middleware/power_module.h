@@ -9,7 +9,7 @@
  * 4096, rounded to the nearest millivolt, halves up; one of the current with amperes per volt in
  * the divider's place. For a board of two modules there are two of these.
  *
- * The highest count says that it is at least so much, and is told. So is a voltage that an input
+ * The highest count says that it is at least so much, and is flagged. So is a voltage that an input
  * with nothing on it shows.
  *
  * All is integer arithmetic.
@@ -48,7 +48,7 @@ typedef struct keel_power_module_config {
     uint32_t open_mv;      /**< With nothing connected the voltage is not above this (5600). */
 } keel_power_module_config_t;
 
-/** A module. Written by keel_power_module_init alone. */
+/** A module. Only keel_power_module_init writes it. */
 typedef struct keel_power_module {
     uint64_t voltage; /**< reference_mv times divider. */
     uint64_t current; /**< reference_mv times ua_per_v. */

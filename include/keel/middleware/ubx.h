@@ -104,14 +104,14 @@ typedef struct keel_ubx_fix {
 typedef struct keel_ubx_count {
     uint32_t bytes;     /**< All that came. */
     uint32_t fixes;     /**< Right NAV-PVT of at least 84 bytes. */
-    uint32_t acks;      /**< Right ACK-ACK: the receiver has done what it was told. */
+    uint32_t acks;      /**< Right ACK-ACK: the receiver has done what was asked. */
     uint32_t naks;      /**< Right ACK-NAK: it has refused to. */
-    uint32_t others;    /**< Right messages beside those. */
+    uint32_t others;    /**< Other right messages. */
     uint32_t checksums; /**< Messages with a wrong checksum. */
     uint32_t cut;       /**< Messages that ended too soon: a gap, or a NAV-PVT began. */
 } keel_ubx_count_t;
 
-/** A decoder. Written by the functions below alone; all of it may be read. */
+/** A decoder. Only the functions below write it; all of it may be read. */
 typedef struct keel_ubx {
     keel_ubx_config_t config; /**< The configuration. */
     keel_ubx_fix_t fix;       /**< The last right NAV-PVT. */
@@ -135,7 +135,7 @@ typedef enum keel_ubx_verdict {
     KEEL_UBX_NONE,       /**< There was none. */
     KEEL_UBX_OLD,        /**< It is older than config.max_age_us. */
     KEEL_UBX_NOT_OK,     /**< The receiver does not vouch for it. */
-    KEEL_UBX_NOT_3D,     /**< It is not in three dimensions, of satellites alone. */
+    KEEL_UBX_NOT_3D,     /**< It is not in three dimensions, only by satellites. */
     KEEL_UBX_INVALID,    /**< The receiver says that the place is not to be used. */
     KEEL_UBX_WIDE,       /**< The place is less accurate than config.accuracy_mm. */
     KEEL_UBX_WIDE_SPEED, /**< The speed is less accurate than config.speed_accuracy. */
@@ -267,7 +267,7 @@ keel_status_t keel_ubx_init(keel_ubx_t *ubx, const keel_ubx_config_t *config);
  * @param ubx        the decoder, initialised
  * @param byte       what came
  * @param elapsed_us the time since the byte before, or since keel_ubx_pass_time when that was
- *                   called after it, in us; every microsecond is told once
+ *                   called after it, in us; each microsecond is passed once
  * @return whether it ended a right NAV-PVT: it is in ubx->fix then. Otherwise that is as it was
  */
 /*@ requires \valid(ubx) && ubx_valid(ubx);

@@ -103,7 +103,7 @@ typedef struct keel_ulog_topic_format {
     keel_ulog_field_t field[KEEL_ULOG_FIELDS];
 } keel_ulog_format_t;
 
-/** A message. Written by the functions below alone. */
+/** A message. Only the functions below write it. */
 typedef struct keel_ulog_message {
     uint16_t size;   /**< Of bytes; 0 when there is none. */
     bool overflowed; /**< It is none, as something did not fit. */
@@ -289,7 +289,7 @@ bool keel_ulog_logging(keel_ulog_message_t *message, uint8_t level, uint64_t tim
  * A dropout (O; requirement ULG-011): for so long nothing could be logged.
  *
  * @param message receives it
- * @param lost_us how long, in us; at least a millisecond is told, and at most 65535
+ * @param lost_us how long, in us; at least a millisecond is noted, and at most 65535
  */
 /*@ requires \valid(message);
   @ assigns message->size, message->overflowed,
