@@ -19,7 +19,7 @@ The workflows of .github are held against the schema of GitHub's (check-jsonsche
 looks for what they name and is not there, zizmor for what strangers may use in them. None asks the
 network.
 
-The rules of the house: see HOUSE_CHECKS in tools/linting/house.py.
+The rules of the house: see HOUSE_CHECKS in tools/linting/house.py, and tools/linting/prose.py.
 
 Exit status: 0 without findings, 1 with, 2 when something could not be checked.
 """
