@@ -27,8 +27,8 @@ From source to object code. The proofs speak of C with the data model of the Cor
 compiler makes of it what is flashed, and is not proved. Three arguments tie the two together:
 
 The proofs read the code that is built: they and every image name one digest of the folders \
-include and src, with no code for provers in them, and proof and build read the processor's flags from one \
-place in the tools.
+include and src, with no code for provers in them, and proof and build read the processor's flags \
+from one place in the tools.
 
 The flags allow no rewriting that the proofs do not know: no optimisation that changes \
 floating-point results, no contraction of a multiplication and an addition, and the sizes and \
