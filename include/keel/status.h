@@ -11,7 +11,7 @@
  *
  * All layers share one enumeration, as a unit hands on what a unit below it says, and callers
  * handle one type; its sections tell which layer may say what. The RTOS layer returns none of the
- * last section, so whoever uses that layer alone need not know it.
+ * last section, so whoever uses only that layer need not know it.
  */
 #ifndef KEEL_STATUS_H
 #define KEEL_STATUS_H

@@ -127,8 +127,8 @@ static keel_attitude_vector_t low_passed(keel_attitude_vector_t a, float share,
     return add(a, share, difference(sample, a));
 }
 
-/* q turned by the half angles h, and led back to length 1. What rounding does to its length is
- * bounded in proofs/attitude/norm.g, from this text. */
+/* q turned by the half angles h, and led back to length 1. From this text, proofs/attitude/norm.g
+ * bounds what rounding does to its length. */
 /*@ assigns \nothing; */
 static keel_attitude_quaternion_t turned(keel_attitude_quaternion_t q, keel_attitude_vector_t h)
 {
@@ -543,8 +543,8 @@ static keel_attitude_vector_t correction(keel_attitude_t *attitude, const axes_t
     return rate;
 }
 
-/* What was low-passed is turned along with the estimate of the Earth's frame: what is corrected has
- * not to be measured anew. This comes last in a step, and bounds what is kept. */
+/* Turns the low-passed vectors along with the estimate of the Earth's frame: so a correction need
+ * not be measured again. This comes last in a step, and bounds the vectors. */
 /*@ requires \valid(attitude);
   @ assigns attitude->down, attitude->field;
   @*/

@@ -69,7 +69,7 @@ static uint16_t one_up_to(uint16_t count, uint16_t most)
     return (count < most) ? (uint16_t)(count + 1u) : most;
 }
 
-/* By the acceleration alone. */
+/* Only by the acceleration. */
 /*@ requires \valid(axis) && \valid_read(sample) && \separated(axis, sample);
   @ assigns axis->position, axis->velocity, axis->flags;
   @*/

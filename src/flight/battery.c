@@ -321,7 +321,7 @@ static bool add_quanta(keel_battery_sum_t *sum, uint32_t quanta)
     return at_end;
 }
 
-/* What a sum amounts to. */
+/* The value of a sum. */
 /*@ requires \valid_read(sum);
   @ assigns \nothing;
   @*/
@@ -380,7 +380,7 @@ static float time_left(const keel_battery_t *battery)
     return time;
 }
 
-/* What is left, and for how long. */
+/* The charge left, and for how long. */
 /*@ requires \valid(battery);
   @ requires battery_number(battery->config.cap_s, KEEL_BATTERY_CAP_MIN_S,
   @     KEEL_BATTERY_CAP_MAX_S);

@@ -231,7 +231,7 @@ void keel_calibration_field_begin(keel_calibration_field_t *field)
     field->dropped = 0u;
 }
 
-/* What has been seen of an axis, with one value more. */
+/* Adds one value to the range that was seen of an axis. */
 /*@ requires \valid(field) && axis < KEEL_CALIBRATION_AXES && \is_finite(value);
   @ assigns field->lowest[axis], field->highest[axis];
   @*/
@@ -260,7 +260,7 @@ void keel_calibration_field_step(keel_calibration_field_t *field,
     }
 }
 
-/* What is the same on both sides of an axis: the vehicle's part. */
+/* The part that is the same on both sides of an axis: the vehicle's. */
 /*@ requires \valid_read(field) && axis < KEEL_CALIBRATION_AXES;
   @ assigns \nothing;
   @*/

@@ -260,7 +260,7 @@ void keel_cascade_axis_step(keel_cascade_axis_t *axis, const keel_cascade_input_
                          (input->setpoint > axis->reach);
 }
 
-/* What an axis asks for: nothing when it does not run. */
+/* The output of an axis: nothing when it does not run. */
 /*@ requires \valid_read(axis);
   @ assigns \nothing;
   @ ensures \result == (axis->running ? axis->pid.output : 0.0f);
@@ -270,7 +270,7 @@ static float asks_for(const keel_cascade_axis_t *axis)
     return axis->running ? axis->pid.output : 0.0f;
 }
 
-/* What an axis is asked for: where the axis above begins. */
+/* The set-point of an axis: where the axis above begins. */
 /*@ requires \valid_read(axis);
   @ assigns \nothing;
   @ ensures \result == (axis->running ? axis->pid.setpoint : 0.0f);

@@ -192,8 +192,8 @@ static bool is_command(const keel_mixer_command_t *command)
            keel_range_contains(command->thrust, 0.0f, 1.0f);
 }
 
-/* What stands for a part of a command: 0 for what is not finite, the end that is next to what is
- * out of range. */
+/* The value used for a part of a command: 0 if it is not finite, the nearest end if it is out of
+ * range. */
 /*@ requires \is_finite(lowest) && lowest <= 0;
   @ assigns \nothing;
   @ ensures tamed_part: range_contains(\result, lowest, 1);
@@ -207,7 +207,7 @@ static float tamed(float part, float lowest)
                : 0.0f;
 }
 
-/* What is done for a command that is out of range. */
+/* The command that replaces one out of range. */
 /*@ requires \valid_read(command);
   @ assigns \nothing;
   @ ensures tame_command: mixer_command(\result);
@@ -230,7 +230,7 @@ typedef struct ends {
     float greatest;
 } ends_t;
 
-/* What each motor is to do for roll and pitch, before any limit. */
+/* Each motor's part for roll and pitch, before any limit. */
 /*@ requires \valid_read(geometry) && mixer_geometry(*geometry) && \valid_read(command);
   @ requires \valid(tilt + (0 .. KEEL_MIXER_MOTORS - 1));
   @ requires \separated(geometry, tilt + (0 .. KEEL_MIXER_MOTORS - 1));
@@ -286,7 +286,7 @@ static ends_t fit_tilt(const keel_mixer_config_t *config, ends_t ends, float til
     return fitting;
 }
 
-/* What all motors do alike: thrust as asked for, or as near to it as roll and pitch allow. */
+/* The part that all motors share: thrust as asked for, or as near to it as roll and pitch allow. */
 /*@ requires \valid_read(config) && mixer_range(*config) && \valid(limited);
   @ requires \separated(config, limited);
   @ assigns *limited;
@@ -324,7 +324,7 @@ static float with_part(float done, float factor, float yaw, float part)
     return done + ((factor * yaw) * part);
 }
 
-/* What a motor does but for yaw. */
+/* A motor's output without yaw. */
 /*@ assigns \nothing; */
 static float without_yaw(float base, float tilt)
 {

@@ -10,8 +10,8 @@
 #define SWITCH    (KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF)
 #define ON_GROUND (KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW)
 
-/* What must have settled before arming, IS_OFF and IS_AT in a sense of their own (blocking), and
- * what must not be so. */
+/* The facts that must have settled before arming, IS_OFF and IS_AT in a special sense (blocking),
+ * and those that must not hold. */
 #define NEEDED    (KEEL_MODE_IS_LINKED | KEEL_MODE_IS_OFF | KEEL_MODE_IS_AT | ON_GROUND)
 #define FORBIDDEN (KEEL_MODE_IS_KILL | ALARMS)
 
@@ -69,8 +69,8 @@ static const uint8_t state_wants[KEEL_MODE_STATES] = {
     [KEEL_MODE_RETURNING] = KEEL_MODE_RETURN, [KEEL_MODE_LANDING] = KEEL_MODE_LAND,
     [KEEL_MODE_TERMINATED] = KEEL_MODE_NONE};
 
-/* What a mode rests on, and which one takes its place without: when the pilot flies, and when
- * nobody does. The latter never leads to a mode that waits for a pilot's throttle. */
+/* The facts that a mode needs, and the mode that replaces it without them: when the pilot flies,
+ * and when nobody does. The latter never leads to a mode that waits for a pilot's throttle. */
 typedef struct mode_row {
     uint32_t needs;
     uint8_t piloted;
@@ -87,7 +87,7 @@ static const mode_row_t modes[KEEL_MODE_NONE + 1u] = {
     [KEEL_MODE_RETURN] = {ESTIMATES, KEEL_MODE_ALTITUDE, KEEL_MODE_LAND},
     [KEEL_MODE_NONE] = {0u, KEEL_MODE_NONE, KEEL_MODE_NONE}};
 
-/* The tables are read through these alone, so what is known of them stands here. */
+/* The tables are read only through these, so the facts known of them stand here. */
 /*@ requires state < KEEL_MODE_STATES && i < EXITS;
   @ assigns \nothing;
   @ ensures \result.to < KEEL_MODE_STATES;
@@ -153,7 +153,7 @@ static bool has_frame(const keel_mode_input_t *input)
     return ((input->facts & KEEL_MODE_IS_LINKED) != 0u) && (input->asked < KEEL_MODE_NONE);
 }
 
-/* What a good frame says. A switch that is both on and off is neither. */
+/* Reads a good frame. A switch that is both on and off is neither. */
 /*@ requires \valid(mode) && \valid_read(input) && \separated(mode, input);
   @ assigns mode->rests_at;
   @ ensures mode->rests_at == input->asked;
@@ -173,7 +173,7 @@ static uint32_t read_frame(keel_mode_t *mode, const keel_mode_input_t *input)
 }
 
 /* After too long a silence what the pilot said is forgotten; after too long without a look all
- * facts begin to settle anew. */
+ * facts begin to settle again. */
 /*@ requires \valid(mode);
   @ assigns mode->silence_us, mode->seen, mode->settled;
   @*/
@@ -294,7 +294,7 @@ static bool is_piloted(uint8_t asked)
     return (asked != KEEL_MODE_LAND) && (asked < KEEL_MODE_RETURN);
 }
 
-/* What stands in the way of arming. */
+/* The obstacles to arming. */
 /*@ requires \valid_read(mode) && asked: mode->asked <= KEEL_MODE_NONE;
   @ assigns \nothing;
   @*/
@@ -374,7 +374,7 @@ static uint32_t requests(const keel_mode_t *mode, bool moved)
                 KEEL_MODE_ASKS_RETURN);
 }
 
-/* All that has come. What the pilot says counts in a step with a frame alone. */
+/* The facts that have come. The pilot's count only in a step with a frame. */
 /*@ requires \valid_read(mode);
   @ assigns \nothing;
   @*/
@@ -401,7 +401,7 @@ static bool is_failsafe(uint8_t state)
     return (state >= KEEL_MODE_HOLDING) && (state <= KEEL_MODE_LANDING);
 }
 
-/* Takes an exit. What first led away from the pilot stays told until he flies again. */
+/* Takes an exit. The first cause that led away from the pilot is kept until he flies again. */
 /*@ requires \valid(mode);
   @ assigns mode->state, mode->state_us, mode->cause, mode->overridden;
   @ ensures mode->state == way.to && mode->state_us == 0;
@@ -494,7 +494,7 @@ static bool is_between(uint32_t least, uint32_t value, uint32_t most)
     return (least <= value) && (value <= most);
 }
 
-/* What has to hold for a time holds for at least the longest silence. */
+/* Each fact that has to hold for a time holds for at least the longest silence. */
 /*@ requires \valid_read(config);
   @ assigns \nothing;
   @ ensures \result <==> mode_settling(config, time_us);

@@ -213,7 +213,7 @@ keel_status_t keel_pid_enter(keel_pid_t *pid, float setpoint, float measurement,
     keel_pid_reset(pid);
     pid->output = keel_range_clamp(output, pid->config.output_min, pid->config.output_max);
     if (pid->integral_gain > 0.0f) {
-        /* What the first step adds up besides: its derivative is 0, and its integral moves. */
+        /* The first step also adds these: its derivative is 0, and its integral moves. */
         const float first = setpoint - measurement;
         const float direct = direct_terms(&pid->config.gains, setpoint, first, 0.0f) +
                              (pid->integral_gain * first);

@@ -137,7 +137,7 @@ static float deflection(const keel_reference_curve_t *curve, float stick)
     return (stick < 0.0f) ? (0.0f - bent) : bent;
 }
 
-/* What a stick's deflection counts for beside that of the stick across. */
+/* The part of a stick's deflection that counts, given that of the stick across. */
 /*@ assigns \nothing; */
 static float rounded_off(float own, float across)
 {

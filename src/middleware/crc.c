@@ -5,7 +5,7 @@
 #define TOP   0x80u
 #define LEAST 1u
 
-/* What a rest is cut to: nothing is lost, but the provers need not see that. */
+/* The width to which a remainder is cut: nothing is lost, but the provers need not see that. */
 #define BYTE 0xFFu
 #define WORD 0xFFFFu
 

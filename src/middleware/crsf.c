@@ -6,7 +6,7 @@
 #define TYPE_AT    2u
 #define PAYLOAD_AT 3u
 
-/* Bytes of a frame beside those that its length counts. */
+/* Bytes of a frame besides those that its length counts. */
 #define BESIDE_LENGTH 2u
 
 /* Where what is in a frame with statistics. */

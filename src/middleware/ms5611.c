@@ -32,7 +32,7 @@
 #define TWO_23 8388608
 #define TWO_31 2147483648LL
 
-/* What the pressure follows from. */
+/* The values that give the pressure. */
 typedef struct line {
     int64_t offset;
     int64_t sensitivity;

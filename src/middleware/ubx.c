@@ -41,7 +41,7 @@
 #define SPEED_ACCURACY_END  71u
 #define INVALID_END         79u
 
-/* What CFG messages are, and what they say. */
+/* The CFG messages and their fields. */
 #define GROUP_CFG     0x06u
 #define CFG_PRT       0x00u
 #define CFG_MSG       0x01u

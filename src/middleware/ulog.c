@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "keel/middleware/ulog.h"
 
-/* What messages are, by the character that stands for it. */
+/* The kinds of messages, each by its character. */
 #define FLAG_BITS    0x42u /* B */
 #define FORMAT       0x46u /* F */
 #define ABOUT        0x49u /* I */
@@ -266,7 +266,7 @@ static void open_message(keel_ulog_message_t *message, uint8_t kind)
     message->size = KEEL_ULOG_HEAD_BYTES;
 }
 
-/* What may not be is none. */
+/* Refuses a message: it becomes none. */
 /*@ requires \valid(message);
   @ assigns message->size, message->overflowed;
   @ ensures message->size == 0 && message->overflowed != 0 && \result == 0;

@@ -148,7 +148,7 @@ keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, ui
     return choice;
 }
 
-/* When waiting alone makes the task in a slot run, which is not real-time. */
+/* When only waiting makes the task in a slot run, which is not real-time. */
 /*@ requires \valid_read(queue) && slot < KEEL_QUEUE_CAPACITY;
   @ requires period_valid(queue->period_us[slot]);
   @ requires 1 <= queue->priority[slot] <= KEEL_PRIORITY_HIGH;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "keel/rtos/load.h"
 
-/* What is at most so many windows long comes to at most so many of them. */
+/* A time of at most some number of windows comes to at most that number. */
 /*@ lemma LOD_quotient: \forall integer a, w, most;
   @     0 <= a ==> 0 < w ==> a <= w * most ==> a / w <= most;
   @*/

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "keel/rtos/priority.h"
 
-/* What sp * age must reach for eq. 3 to saturate: (max - 1) * T. */
+/* The value of sp * age from which eq. 3 saturates: (max - 1) * T. */
 /*@ requires period_valid(period_us);
   @ assigns \nothing;
   @ ensures \result == (KEEL_PRIORITY_REALTIME - 1) * period_us;

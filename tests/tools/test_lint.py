@@ -21,11 +21,9 @@ from keel.base.errors import ToolError
 from keel.base.source import STAMP, files_below, stamp_of
 from keel.install import Toolchain
 from keel.lint import command as lint
-from keel.lint import house, misra, models, record
+from keel.lint import house, misra, models, prose, record
 from keel.lint.misra import Deviation, Violation
 from keel.lint.texts import Finding, Text
-
-ROOT = Path(__file__).resolve().parents[2]
 
 
 def text(path: str, *lines: str) -> Text:
@@ -173,6 +171,50 @@ class HouseTest(unittest.TestCase):
         open_end = [*good[:4], "#endif", "#if 1", "int b;"]
         item = Text("include/keel/rtos/a.h", open_end)
         self.assertEqual(self.lines_of(house.check_guard, item), [2])
+
+
+class ProseTest(unittest.TestCase):
+    """Plain English in documents and in the kernel's comments."""
+
+    def lines_of(self, path: str, *lines: str) -> list[int]:
+        return [finding.line for finding in prose.check_prose([text(path, *lines)])]
+
+    def test_a_sentence_that_begins_with_what_or_who_is_found(self) -> None:
+        for line in ("What is left CBMC checks.", "All is well. Who knows it can tell.",
+                     "- **What holds.** All.", "1. What is left:", "| a | What is left |",
+                     "(What is more.)", "Why so? What is\nleft, is checked."):  # fmt: skip
+            with self.subTest(line):
+                self.assertEqual(self.lines_of("docs/a.md", "", *line.split("\n")), [2])
+
+    def test_a_question_a_title_and_code_are_allowed(self) -> None:
+        self.assertEqual(self.lines_of(
+            "docs/a.md", "# What is proved", "What happens then? It ends.", "Look what it does.",
+            "[What is proved](proved.md) has all.", "Whatever comes is taken.", "```", "What.",
+            "```", "See `What.`", "It says what it is.",
+        ), [])  # fmt: skip
+
+    def test_comments_of_the_kernel_are_prose_and_contracts_are_not(self) -> None:
+        path = "include/keel/rtos/a.h"
+        self.assertEqual(self.lines_of(
+            path, "/*@ // What a step keeps.", "  @*/", "int a; /**< What it is. */", "/**",
+            " * @brief What is here.", " *", " * Its size |q|", " * is |What.| long.", " */",
+            "// What else.", 'const char *b = "/* What. */";', "/* Whether it is. What",
+            " * is next? */",
+        ), [3, 5, 10])  # fmt: skip
+        self.assertEqual(self.lines_of("tests/unit/a.c", "/* What it is. */"), [])
+
+    def test_a_finding_names_file_line_and_sentence(self) -> None:
+        found = list(prose.check_prose([text("a.md", "Good.", "", "So. What is", "left, stays.")]))
+        self.assertEqual([str(one) for one in found],
+                         ["a.md:3: a sentence begins with What or Who: What is left, stays."])
+
+    def test_a_word_may_be_rare_and_not_frequent(self) -> None:
+        rest = " ".join(["word"] * 9999)
+        self.assertEqual(self.lines_of("a.md", rest, "It stands alone."), [])
+        self.assertEqual(self.lines_of("a.md", rest + ".", "It stands alone.", "Alone, it falls."),
+                         [2, 3])  # fmt: skip
+        self.assertEqual(self.lines_of("src/a.c", "/* It stands alone. */"), [])
+        self.assertEqual(self.lines_of("proofs/determined.md", "It stands alone. What?"), [])
 
 
 class IncludeTest(unittest.TestCase):

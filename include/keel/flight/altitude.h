@@ -44,7 +44,7 @@ KEEL_C_BEGIN
 /** 1 / 3. */
 #define KEEL_ALTITUDE_THIRD 0.333333343267440795898437500f
 
-/** What was measured. Numbers may be any bit pattern. */
+/** The measurements. Numbers may be any bit pattern. */
 typedef struct keel_altitude_sample {
     float pressure;        /**< Static pressure, in Pa. */
     float acceleration;    /**< Upwards, gravity taken off, in m/s^2. */
@@ -52,11 +52,11 @@ typedef struct keel_altitude_sample {
     bool has_acceleration; /**< Whether there is one. */
 } keel_altitude_sample_t;
 
-/** An altitude estimator. Written by the functions below alone; all of it may be read. */
+/** An altitude estimator. Only the functions below write it; all of it may be read. */
 typedef struct keel_altitude {
     keel_axis_t axis;   /**< Above the reference: climb rate, age, quality and flags are here. */
     float reference;    /**< The first pressure, in Pa; 0 before. */
-    float zero;         /**< What is called 0, above the reference, in m. */
+    float zero;         /**< The zero of the height, above the reference, in m. */
     float height;       /**< Above what is called 0, in m. */
     bool has_reference; /**< Whether a pressure came. */
 } keel_altitude_t;

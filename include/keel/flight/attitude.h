@@ -113,7 +113,7 @@ KEEL_C_BEGIN
 #define KEEL_ATTITUDE_STILL_RATE_LIMIT         1.0f
 #define KEEL_ATTITUDE_STILL_ACCELERATION_LIMIT 10.0f
 
-/** What a component of the low-passed vectors is kept within: of down, in g; and of the field, of
+/** Bounds of the components of the low-passed vectors: of down, in g; and of the field, of
  * which a sample beyond is not taken, in the magnetometer's unit. */
 #define KEEL_ATTITUDE_DOWN_REACH  16.0f
 #define KEEL_ATTITUDE_FIELD_REACH 4096.0f
@@ -129,25 +129,25 @@ KEEL_C_BEGIN
 /** Half of the greatest angle turned in a step, per axis, in rad. */
 #define KEEL_ATTITUDE_HALF_ANGLE_LIMIT 0.0625f
 
-/** What is added to E about the Earth's axes where D_z < 0. */
+/** Added to E about the Earth's axes where D_z < 0. */
 #define KEEL_ATTITUDE_NUDGE_X 0.25f
 #define KEEL_ATTITUDE_NUDGE_Y 0.125f
 
 /** D_z below which measured and estimated down contradict: the cosine of the angle between. */
 #define KEEL_ATTITUDE_AGREEMENT 0.5f
 
-/** What |q|^2 is kept within, as computed: a quaternion beyond was not left by a step. */
+/** The bounds of |q|^2, as computed: a quaternion beyond was not left by a step. */
 #define KEEL_ATTITUDE_NORM_MIN 0.999755859375f
 #define KEEL_ATTITUDE_NORM_MAX 1.000244140625f
 
-/* What the last step did: keel_attitude_t, flags. */
+/* Events of the last step: keel_attitude_t, flags. */
 #define KEEL_ATTITUDE_LOST        0x01u /**< No rate came, or none that can be: the last is held. */
 #define KEEL_ATTITUDE_CLIPPED     0x02u /**< A rate is beyond clip_rate: it may have been more. */
 #define KEEL_ATTITUDE_COMPENSATED 0x04u /**< The vehicle's acceleration was taken off. */
 #define KEEL_ATTITUDE_DOWN        0x08u /**< D was taken for down, with a new sample. */
 #define KEEL_ATTITUDE_FIELD       0x10u /**< F was taken for the field, likewise. */
 #define KEEL_ATTITUDE_BIASED      0x20u /**< Still, but the mean rate is beyond bias_limit. */
-#define KEEL_ATTITUDE_CORRUPTED   0x40u /**< No unit quaternion was found: begun anew. */
+#define KEEL_ATTITUDE_CORRUPTED   0x40u /**< No unit quaternion was found: restarted. */
 
 /* How far an estimator is: keel_attitude_phase_t. */
 #define KEEL_ATTITUDE_STILL    0u /**< Waits for the vehicle to be still. */
@@ -169,7 +169,7 @@ typedef struct keel_attitude_quaternion {
     float z;
 } keel_attitude_quaternion_t;
 
-/** What an estimator is made from. */
+/** The configuration of an estimator. */
 typedef struct keel_attitude_config {
     float rate_hz;            /**< Steps per second, RATE_MIN_HZ to RATE_MAX_HZ. */
     float tilt_gain;          /**< Of E while running, 0 to GAIN_LIMIT, in 1/s. */
@@ -193,7 +193,7 @@ typedef struct keel_attitude_config {
     uint16_t field_steps;     /**< Steps for which a field's sample is good; at least 1. */
 } keel_attitude_config_t;
 
-/** What was measured. Values may be any bit pattern. */
+/** The measurements. Values may be any bit pattern. */
 typedef struct keel_attitude_sample {
     keel_attitude_vector_t gyroscope; /**< Angular rate, body, in rad/s. */
     keel_attitude_vector_t
@@ -210,7 +210,7 @@ typedef struct keel_attitude_sample {
  * enumeration's size differs between compilers. */
 typedef uint8_t keel_attitude_phase_t;
 
-/** What init computes from a configuration. */
+/** Values that init computes from a configuration. */
 typedef struct keel_attitude_scale {
     float step;      /**< T, in s. */
     float half_step; /**< T / 2, in s. */
@@ -222,10 +222,10 @@ typedef struct keel_attitude_scale {
     float still;     /**< 1 / still_steps. */
 } keel_attitude_scale_t;
 
-/** An estimator. Written by the functions below alone; all of it may be read. */
+/** An estimator. Only the functions below write it; all of it may be read. */
 typedef struct keel_attitude {
     keel_attitude_config_t config;         /**< As checked by init. */
-    keel_attitude_scale_t scale;           /**< What follows from it. */
+    keel_attitude_scale_t scale;           /**< Values derived from it. */
     keel_attitude_quaternion_t quaternion; /**< From body to Earth. */
     keel_attitude_vector_t bias;           /**< B, of the gyroscope, in rad/s. */
     keel_attitude_vector_t rate;           /**< W - B of the last step: for rate control. */
@@ -309,7 +309,7 @@ typedef struct keel_attitude {
 keel_status_t keel_attitude_init(keel_attitude_t *attitude, const keel_attitude_config_t *config);
 
 /**
- * Begins anew: level, without bias, waiting for the vehicle to be still (requirement ATT-003). Not
+ * Starts again: level, without bias, waiting for the vehicle to be still (requirement ATT-003). Not
  * in flight.
  *
  * @param attitude the estimator, initialised
@@ -348,7 +348,7 @@ void keel_attitude_take(keel_attitude_sample_t *sample, const keel_virtual_imu_t
 
 /**
  * One step of the estimator (requirements ATT-005 to ATT-018, ATT-020). Call it at the configured
- * rate, whether there are samples or not; what it could do is told in attitude->flags.
+ * rate, whether there are samples or not; attitude->flags says what it could do.
  *
  * @param attitude the estimator, initialised
  * @param sample   what was measured since the last step

@@ -22,7 +22,7 @@
  * velocity are set to the last. So they are by the first fix, and by the first after lost_steps
  * without one. Jumps here and there are never believed, however many come.
  *
- * How good the result is, is told at each step:
+ * Each step says how good the result is:
  *
  * - KEEL_AXIS_NONE: no fix, or none for lost_steps; position and velocity are not to be used.
  * - KEEL_AXIS_POOR: neither this nor the next.
@@ -56,7 +56,7 @@ KEEL_C_BEGIN
 #define KEEL_AXIS_VELOCITY_GAIN_LIMIT 16.0f
 #define KEEL_AXIS_BIAS_GAIN_LIMIT     16.0f
 
-/** What is taken and kept, at most: m, m/s, m/s^2. */
+/** The greatest values that are taken and kept: m, m/s, m/s^2. */
 #define KEEL_AXIS_POSITION_LIMIT     16384.0f
 #define KEEL_AXIS_VELOCITY_LIMIT     256.0f
 #define KEEL_AXIS_ACCELERATION_LIMIT 320.0f
@@ -64,7 +64,7 @@ KEEL_C_BEGIN
 /** The greatest limit of the acceleration's bias, in m/s^2. */
 #define KEEL_AXIS_BIAS_LIMIT 8.0f
 
-/* What the last step did: keel_axis_t, flags. */
+/* Events of the last step: keel_axis_t, flags. */
 #define KEEL_AXIS_FIXED    0x01u /**< A fix was taken. */
 #define KEEL_AXIS_BEGUN    0x02u /**< Position and velocity were set to it. */
 #define KEEL_AXIS_JUMPED   0x04u /**< A fix was further off than the gates, and not taken. */
@@ -77,10 +77,10 @@ KEEL_C_BEGIN
 #define KEEL_AXIS_POOR 1u /**< Known, but see above. */
 #define KEEL_AXIS_GOOD 2u /**< Fixes come, and agree. */
 
-/** What an axis is made from. */
+/** The configuration of an axis. */
 typedef struct keel_axis_config {
     float rate_hz;         /**< Steps per second, RATE_MIN_HZ to RATE_MAX_HZ. */
-    float position_gain;   /**< What a fix makes up for in the position, 0 to PART_LIMIT. */
+    float position_gain;   /**< Part of its error that a fix corrects, 0 to PART_LIMIT. */
     float velocity_gain;   /**< In the velocity, 0 to VELOCITY_GAIN_LIMIT, in 1/s. */
     float rate_gain;       /**< In the velocity, by the fix's velocity, 0 to PART_LIMIT. */
     float bias_gain;       /**< In the bias, 0 to BIAS_GAIN_LIMIT, in 1/s^2. */
@@ -93,7 +93,7 @@ typedef struct keel_axis_config {
     uint16_t jump_fixes;   /**< Jumps that agree, of which the last is believed; at least 1. */
 } keel_axis_config_t;
 
-/** What was measured. Numbers may be any bit pattern. */
+/** The measurements. Numbers may be any bit pattern. */
 typedef struct keel_axis_sample {
     float acceleration;    /**< Along the axis, gravity taken off, in m/s^2. */
     float position;        /**< The fix's, in m. */
@@ -108,7 +108,7 @@ typedef struct keel_axis_sample {
  * an enumeration's size differs between compilers. */
 typedef uint8_t keel_axis_quality_t;
 
-/** An axis. Written by the functions below alone; all of it may be read. */
+/** An axis. Only the functions below write it; all of it may be read. */
 typedef struct keel_axis {
     keel_axis_config_t config;   /**< As checked by init. */
     float step;                  /**< T, in s. */

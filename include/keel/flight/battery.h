@@ -17,8 +17,8 @@
  *     cell           V / n + min(I R / n, KEEL_BATTERY_SAG_LIMIT): what a cell has without load
  *
  * Sums are kept in integers, in quanta of 2^-20 A T and 2^-12 W T: a millisecond's charge is not
- * lost beside an hour's, nothing overflows, and nothing runs backwards (requirements BAT-007 and
- * BAT-008). A negative current is told and taken for none: a battery is not charged in flight. The
+ * lost next to an hour's, nothing overflows, and nothing runs backwards (requirements BAT-007 and
+ * BAT-008). A negative current is flagged and counts as 0: a battery is not charged in flight. The
  * time left is that until the level KEEL_BATTERY_CRITICAL, not that until the battery is empty.
  *
  * Two alarms, low and critical, look at the cell's voltage and at the charge left:
@@ -33,9 +33,9 @@
  * sample raises one, whatever it says, and what flutters about a threshold does not make the alarm
  * flutter. An alarm for want of charge is not taken back, as no charge comes back.
  *
- * A module whose current does not come, is no number, or is out of the stated range is told; the
- * current that came last is held. After hold_steps such steps the module is lost. What was used is
- * then not known any more, until a restart: what is counted on with the held current is an
+ * A module whose current does not come, is no number, or is out of the stated range is flagged; the
+ * current that came last is held. After hold_steps such steps the module is lost. The charge used
+ * is then not known any more, until a restart: the count goes on with the held current, as an
  * estimate, and the level is not KEEL_BATTERY_OK. The modules may come late after a start, as long
  * as no motor runs.
  *
@@ -98,7 +98,7 @@ KEEL_C_BEGIN
 /** Quanta in the unit of keel_battery_sum_t. */
 #define KEEL_BATTERY_QUANTA 1048576u
 
-/* What the last step met: keel_battery_t, flags. Those of module 1 are shifted by 1. */
+/* Events of the last step: keel_battery_t, flags. Those of module 1 are shifted by 1. */
 #define KEEL_BATTERY_NO_VOLTAGE   0x0001u /**< Of module 0: none came, or none that can be. */
 #define KEEL_BATTERY_NO_CURRENT   0x0004u /**< Of module 0: none came, or none that can be. */
 #define KEEL_BATTERY_LOST         0x0010u /**< Of module 0: its current has been held too long. */
@@ -108,7 +108,7 @@ KEEL_C_BEGIN
 #define KEEL_BATTERY_SAG          0x0400u /**< The load's part in a cell is at its limit. */
 #define KEEL_BATTERY_FULL         0x0800u /**< A sum is at its end, and stays there. */
 
-/* What is known of the charge used: keel_battery_count_t. */
+/* The state of the count of charge: keel_battery_count_t. */
 #define KEEL_BATTERY_WAITING   0u /**< Not all modules have come yet. */
 #define KEEL_BATTERY_COUNTED   1u /**< Every current since the start is in it, or was held a bit. */
 #define KEEL_BATTERY_UNCOUNTED 2u /**< A module was lost: it is an estimate until a restart. */
@@ -119,7 +119,7 @@ KEEL_C_BEGIN
 #define KEEL_BATTERY_LOW      2u /**< Time to return. */
 #define KEEL_BATTERY_CRITICAL 3u /**< Time to land. */
 
-/** What a monitor is made from. */
+/** The configuration of a monitor. */
 typedef struct keel_battery_config {
     float capacity_ah;        /**< C, CAPACITY_MIN_AH to CAPACITY_MAX_AH, in Ah. */
     float initial;            /**< The part of it that the battery has, 0 to 1. */
@@ -127,10 +127,10 @@ typedef struct keel_battery_config {
     float voltage_min;        /**< A module's least voltage that can be, 0 to voltage_max, in V. */
     float voltage_max;        /**< The greatest, to VOLTAGE_LIMIT, in V. */
     float voltage_spread;     /**< By what modules may differ, 0 to VOLTAGE_LIMIT, in V. */
-    float current_min;        /**< What offset may do below 0, -CURRENT_LIMIT to 0, in A. */
+    float current_min;        /**< How far offset may go below 0, -CURRENT_LIMIT to 0, in A. */
     float current_max;        /**< A module's greatest current, 0 to CURRENT_LIMIT, in A. */
     float current_expected;   /**< J at the start, in flight, 0 to TOTAL_LIMIT, in A. */
-    float cap_s;              /**< The longest time left that is told, CAP_MIN_S to CAP_MAX_S. */
+    float cap_s;              /**< The longest reported time left, CAP_MIN_S to CAP_MAX_S. */
     float low_voltage;        /**< Of a cell, critical_voltage to CELL_LIMIT, in V. */
     float critical_voltage;   /**< Of a cell, 0 to CELL_LIMIT, in V. */
     float voltage_margin;     /**< By what a cell must be above again, 0 to CELL_LIMIT, in V. */
@@ -144,7 +144,7 @@ typedef struct keel_battery_config {
     uint8_t modules;          /**< How many there are, 1 or 2. */
 } keel_battery_config_t;
 
-/** What a power module measured. Values may be any bit pattern. */
+/** The measurements of a power module. Values may be any bit pattern. */
 typedef struct keel_battery_reading {
     float voltage;    /**< In V. */
     float current;    /**< In A, positive when it leaves the battery. */
@@ -152,13 +152,13 @@ typedef struct keel_battery_reading {
     bool has_current;
 } keel_battery_reading_t;
 
-/** What there is for a step. */
+/** The inputs of a step. */
 typedef struct keel_battery_sample {
     keel_battery_reading_t module[KEEL_BATTERY_MODULES]; /**< Those that there are. */
     bool running; /**< Whether the motors run: then J follows the current. */
 } keel_battery_sample_t;
 
-/** What is known of the charge used: KEEL_BATTERY_WAITING, ... A plain number, as structures hold
+/** The state of the count of charge: KEEL_BATTERY_WAITING, ... A plain number, as structures hold
  * it: an enumeration's size differs between compilers. */
 typedef uint8_t keel_battery_count_t;
 
@@ -179,11 +179,11 @@ typedef struct keel_battery_alarm {
 
 /** The last current of a module. */
 typedef struct keel_battery_module {
-    float current; /**< What came last, 0 to CURRENT_LIMIT, in A. */
+    float current; /**< The last value, 0 to CURRENT_LIMIT, in A. */
     uint16_t age;  /**< Steps since, to hold_steps. */
 } keel_battery_module_t;
 
-/** What init computes from a configuration. */
+/** Values that init computes from a configuration. */
 typedef struct keel_battery_scale {
     float step_s;       /**< T, in s. */
     float unit_j;       /**< 256 T: a unit of the sum of energy, in J. */
@@ -196,10 +196,10 @@ typedef struct keel_battery_scale {
     uint32_t critical;  /**< critical_charge C, in A T. */
 } keel_battery_scale_t;
 
-/** A monitor. Written by the functions below alone; all of it may be read. */
+/** A monitor. Only the functions below write it; all of it may be read. */
 typedef struct keel_battery {
     keel_battery_config_t config;                       /**< As checked by init. */
-    keel_battery_scale_t scale;                         /**< What follows from it. */
+    keel_battery_scale_t scale;                         /**< Values derived from it. */
     keel_battery_module_t module[KEEL_BATTERY_MODULES]; /**< The last currents. */
     keel_battery_sum_t charge;                          /**< Used since the start, in A T. */
     keel_battery_sum_t energy;                          /**< Used since the start, in 256 W T. */
@@ -303,7 +303,7 @@ typedef struct keel_battery {
 keel_status_t keel_battery_init(keel_battery_t *battery, const keel_battery_config_t *config);
 
 /**
- * Begins anew, with a battery that was changed or charged (requirement BAT-003). Not in flight.
+ * Starts again, with a battery that was changed or charged (requirement BAT-003). Not in flight.
  *
  * @param battery the monitor, initialised
  * @param part    the part of its charge that the battery has, 0 to 1; any bit pattern
@@ -328,7 +328,7 @@ keel_status_t keel_battery_restart(keel_battery_t *battery, float part);
 
 /**
  * One step of the monitor (requirements BAT-004 to BAT-016). Call it at the configured rate,
- * whether there are samples or not; what it met is told in battery->flags.
+ * whether there are samples or not; battery->flags says what it met.
  *
  * @param battery the monitor, initialised
  * @param sample  what was measured since the last step

@@ -26,7 +26,7 @@
  *     offset = (lowest + highest) / 2
  *
  * Soft iron and scale are not found. An axis fits once it has spanned span_min, no more than
- * span_max, as it would beside a magnet, and its offset is believed.
+ * span_max, as it would near a magnet, and its offset is believed.
  *
  * Both take an offset only when it is within `limit` on each axis, and all three or none: until
  * then, and whenever a calibration is refused, the offset before stays in force. Whatever sensors
@@ -58,7 +58,7 @@ KEEL_C_BEGIN
  * sensors of 16 bits can say in counts. */
 #define KEEL_CALIBRATION_LIMIT 32768.0f
 
-/** The sides that keel_calibration_side tells apart. 2 k: axis k points up; 2 k + 1: down. */
+/** The sides that keel_calibration_side distinguishes. 2 k: axis k points up; 2 k + 1: down. */
 #define KEEL_CALIBRATION_SIDES 6u
 
 /** The scales that are believed. */
@@ -85,7 +85,7 @@ typedef struct keel_calibration_correction {
     float scale[KEEL_CALIBRATION_AXES];  /**< 1: as it is. */
 } keel_calibration_correction_t;
 
-/** What an accelerometer says at rest on its six sides. */
+/** Readings of an accelerometer at rest on its six sides. */
 typedef struct keel_calibration_sides {
     float up[KEEL_CALIBRATION_AXES];   /**< On an axis that points up: gravity, were it right. */
     float down[KEEL_CALIBRATION_AXES]; /**< On one that points down: -gravity. */
@@ -104,15 +104,15 @@ typedef struct keel_calibration_rotation {
  * enumeration's size differs between compilers. */
 typedef uint8_t keel_calibration_state_t;
 
-/** What a calibration at rest is made from. */
+/** The configuration of a calibration at rest. */
 typedef struct keel_calibration_rest_config {
-    float expected[KEEL_CALIBRATION_AXES]; /**< What is right at rest, within +-LIMIT. */
+    float expected[KEEL_CALIBRATION_AXES]; /**< The right value at rest, within +-LIMIT. */
     float spread;     /**< How far a sample may lie from the first, on an axis, 0 to LIMIT. */
     float limit;      /**< The greatest offset that is believed, on an axis, 0 to LIMIT. */
     uint32_t samples; /**< Samples of a mean, 1 to SAMPLES_MAX. */
 } keel_calibration_rest_config_t;
 
-/** A calibration at rest. Written by the functions below alone; all of it may be read. */
+/** A calibration at rest. Only the functions below write it; all of it may be read. */
 typedef struct keel_calibration_rest {
     keel_calibration_rest_config_t config; /**< As checked by init. */
     float per_sample;                      /**< 1 / samples. */
@@ -125,12 +125,12 @@ typedef struct keel_calibration_rest {
     uint16_t beyond;   /**< Refused: bit k is set when axis k was beyond the limit. */
 } keel_calibration_rest_t;
 
-/** What a calibration of a magnetometer is made from. */
+/** The configuration of a calibration of a magnetometer. */
 typedef struct keel_calibration_field_config {
     float lowest;   /**< The lowest value that the sensor gives, within +-LIMIT. */
     float highest;  /**< The highest, lowest to LIMIT. */
-    float span_min; /**< What each axis must span, above 0, to span_max. */
-    float span_max; /**< What it spans at most, without a disturbance, to 2 LIMIT. */
+    float span_min; /**< The least span of each axis, above 0, to span_max. */
+    float span_max; /**< The greatest span without a disturbance, to 2 LIMIT. */
     float limit;    /**< The greatest offset that is believed, on an axis, 0 to LIMIT. */
 } keel_calibration_field_config_t;
 
@@ -142,7 +142,7 @@ typedef enum keel_calibration_verdict {
     KEEL_CALIBRATION_BEYOND   /**< Its offset is beyond the limit. */
 } keel_calibration_verdict_t;
 
-/** A calibration of a magnetometer. Written by the functions below alone; all may be read. */
+/** A calibration of a magnetometer. Only the functions below write it; all may be read. */
 typedef struct keel_calibration_field {
     keel_calibration_field_config_t config; /**< As checked by init. */
     float offset[KEEL_CALIBRATION_AXES];    /**< In force; 0 before the first calibration. */
@@ -533,7 +533,7 @@ keel_status_t keel_calibration_six(const keel_calibration_sides_t *sides,
  *
  * @param turn the turn
  * @param raw  the measurement; any bit pattern. A NaN stays one
- * @param out  x times raw, y times raw, z times raw; apart from raw
+ * @param out  x times raw, y times raw, z times raw; separate from raw
  */
 /*@ requires \valid_read(turn) && \valid_read(raw + (0 .. 2)) && \valid(out) &&
   @     \separated(turn, out) && \separated(raw + (0 .. 2), out);

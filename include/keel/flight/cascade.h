@@ -11,7 +11,7 @@
  *     angle     roll, pitch                 ->  body rates            -> cascade.rates
  *     rate      roll, pitch, yaw            ->  torques, thrust       -> cascade.command
  *
- * What a stage is asked for is an argument, so that the pilot's set-points (reference.h) go in at
+ * The set-point of a stage is an argument, so that the pilot's set-points (reference.h) go in at
  * any of them: keel_cascade_angle_step(&c, c.tilt, ...) follows the stage above, with the sticks'
  * angles in the place of c.tilt it follows the pilot.
  *
@@ -46,7 +46,7 @@
  *
  * A being the greatest acceleration of the vehicle towards the side, a what it brakes with at
  * least, T the reaction time, from a measurement to when the braking works that follows from the
- * next one. What this keeps is proved over the reals (proofs/cascade/fence.c): inside of the fence,
+ * next one. By a proof over the reals (proofs/cascade/fence.c) this stays inside of the fence,
  * with way to brake, at all times. That the aircraft does A, a and T is an assumption (A-34).
  *
  * No division, square root or trigonometry in a step. Single precision throughout. Sources must be
@@ -75,7 +75,7 @@ KEEL_C_BEGIN
 #define KEEL_CASCADE_PITCH       4u  /**< Sine, nose up, to rad/s. */
 #define KEEL_CASCADE_NORTH_SPEED 5u  /**< m/s to m/s^2. */
 #define KEEL_CASCADE_EAST_SPEED  6u  /**< m/s to m/s^2. */
-#define KEEL_CASCADE_CLIMB       7u  /**< m/s, positive up, to thrust beside that of hovering. */
+#define KEEL_CASCADE_CLIMB       7u  /**< m/s, positive up, to thrust on top of hovering. */
 #define KEEL_CASCADE_NORTH       8u  /**< m from home to m/s. */
 #define KEEL_CASCADE_EAST        9u  /**< m from home to m/s. */
 #define KEEL_CASCADE_HEIGHT      10u /**< m above home to m/s. */
@@ -95,20 +95,20 @@ KEEL_C_BEGIN
 /** The longest reaction time, in s. */
 #define KEEL_CASCADE_REACTION_MAX_S 4.0f
 
-/** What an acceleration in m/s^2 is as a sine: 1/g. */
+/** The factor from an acceleration in m/s^2 to a sine: 1/g. */
 #define KEEL_CASCADE_PER_GRAVITY 0.101971618831157684326171875f
 
 /** g in m/s^2; and g / sqrt 2, rounded down. */
 #define KEEL_CASCADE_GRAVITY  9.8066501617431640625f
 #define KEEL_CASCADE_DIAGONAL 6.93359375f
 
-/** What a component of the body's forward axis never exceeds. */
+/** The bound of each component of the body's forward axis. */
 #define KEEL_CASCADE_HEADING_MAX 1.0009765625f
 
 /** From this part on, an axis of the body at its limit counts for north or east. */
 #define KEEL_CASCADE_SHARE 0.5f
 
-/** What a cascade is made from. */
+/** The configuration of a cascade. */
 typedef struct keel_cascade_config {
     keel_pid_config_t pid[KEEL_CASCADE_AXES]; /**< Each at the rate of its stage. */
     float reach[KEEL_CASCADE_AXES];           /**< Greatest set-points, in the unit of the axis. */
@@ -129,15 +129,15 @@ typedef struct keel_cascade_axis {
     keel_pid_t pid;
     float reach;                /**< The greatest set-point. */
     keel_cascade_limit_t limit; /**< For the axis above: do not ask for more. */
-    bool running;               /**< It controls; if not, it is entered anew. */
+    bool running;               /**< It controls; if not, it is entered again. */
     bool held;                  /**< The last step was none: the output is that before. */
 } keel_cascade_axis_t;
 
-/** What an axis is told in a step. */
+/** The inputs of an axis in a step. */
 typedef struct keel_cascade_input {
     float setpoint;             /**< Any bit pattern. */
     float measured;             /**< Any bit pattern. */
-    float flown;                /**< What the axis below is asked for now. */
+    float flown;                /**< The set-point of the axis below now. */
     keel_cascade_limit_t below; /**< Whether the axis below, or the mixer, is at its limit. */
     bool valid;                 /**< There is a measurement, and the mode flies this axis. */
 } keel_cascade_input_t;
@@ -163,7 +163,7 @@ typedef struct keel_cascade_tilt {
     float pitch;
 } keel_cascade_tilt_t;
 
-/** What the rate stage is asked for. */
+/** The set-points of the rate stage. */
 typedef struct keel_cascade_rates {
     float roll;   /**< About x, in rad/s. */
     float pitch;  /**< About y, in rad/s. */
@@ -187,7 +187,7 @@ typedef struct keel_cascade {
     keel_cascade_fence_t fence;
     float hover;
     uint32_t axes;                  /**< Which axes the mode flies: bit 1u << axis. */
-    uint32_t gave_way;              /**< What the mixer gave up for the last command. */
+    uint32_t gave_way;              /**< The parts that the mixer gave up last. */
     keel_cascade_vector_t velocity; /**< The position stage asks for this, in m/s. */
     keel_cascade_tilt_t tilt;       /**< The velocity stage asks for this, in sines. */
     float thrust;                   /**< And for this. */
@@ -328,7 +328,7 @@ void keel_cascade_enter(keel_cascade_t *cascade, uint8_t mode);
  * One step of one axis (requirements CAS-004 to CAS-007). The stages do this for all of theirs.
  *
  * @param axis  the axis
- * @param input what it is told
+ * @param input its inputs
  */
 /*@ requires \valid(axis) && \valid_read(input) && \separated(axis, input);
   @ requires axis_valid: cascade_axis_valid(axis);

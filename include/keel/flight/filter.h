@@ -45,11 +45,11 @@ KEEL_C_BEGIN
 /** The greatest input, in the input's unit. */
 #define KEEL_FILTER_INPUT_LIMIT 1.0e6f
 
-/** What a state never exceeds: with a cut-off up to a quarter of the rate 2^22, else 2^45. */
+/** The bound of a state: with a cut-off up to a quarter of the rate 2^22, else 2^45. */
 #define KEEL_FILTER_LOW_STATE_LIMIT  4194304.0f
 #define KEEL_FILTER_HIGH_STATE_LIMIT 35184372088832.0f
 
-/** What an output never exceeds, whatever the inputs: eight times the limit of a state. In exact
+/** The bound of an output, whatever the inputs: eight times the limit of a state. In exact
  * arithmetic inputs up to M lead to less than 2.5 M, and to less than 1.3 M with cut-offs up to a
  * quarter of the rate. */
 #define KEEL_FILTER_LOW_OUTPUT_LIMIT  33554432.0f
@@ -64,7 +64,7 @@ typedef struct keel_filter {
     float a;            /**< g^2 / D, from 0 to 1. */
     float b;            /**< sqrt(2) g / D, from 0 to 0.415. */
     float c;            /**< 2 / D - 1, from -1 to 1. */
-    float energy_limit; /**< What s1^2 + s2^2 never exceeds, one of the two above. */
+    float energy_limit; /**< The bound of s1^2 + s2^2, one of the two above. */
     float s1;           /**< First integrator (band-pass). */
     float s2;           /**< Second integrator (low-pass). */
     float output;       /**< The last output, in the input's unit. */

@@ -4,7 +4,7 @@
  * @brief From torques and thrust to motors: the mixer of fig. 8.
  *
  * A command asks for a torque about each axis and for thrust; a geometry says what a motor adds to
- * each torque. What the motors cannot give is given up in a fixed order: yaw first, then thrust
+ * each torque. Beyond their range, parts give way in a fixed order: yaw first, then thrust
  * moves as far as roll and pitch need, and only what is beyond all motors' span scales roll and
  * pitch, both by one factor, so that the craft tilts about the axis that was asked for. With range
  * idle to highest, span = highest - idle, and sums over motors i:
@@ -45,14 +45,14 @@ KEEL_C_BEGIN
  * and some motor the other way. */
 #define KEEL_MIXER_AUTHORITY 0.125f
 
-/** What gave way in a step: bits of keel_mixer_t.limited. */
+/** The parts that gave way in a step: bits of keel_mixer_t.limited. */
 #define KEEL_MIXER_YAW     0x01u /**< Yaw torque is less than asked for. */
 #define KEEL_MIXER_RAISED  0x02u /**< Thrust is more than asked for. */
 #define KEEL_MIXER_LOWERED 0x04u /**< Thrust is less than asked for. */
 #define KEEL_MIXER_TILT    0x08u /**< Roll and pitch torque are less than asked for. */
 #define KEEL_MIXER_COMMAND 0x10u /**< A part of the command was not finite or out of its range. */
 
-/** What a motor adds to its output for each unit of torque that is asked for, from -1 to 1. */
+/** The part of each unit of asked torque that a motor adds to its output, from -1 to 1. */
 typedef struct keel_mixer_motor {
     float roll;
     float pitch;
@@ -83,7 +83,7 @@ typedef struct keel_mixer_config {
     float highest;                  /**< The greatest. */
 } keel_mixer_config_t;
 
-/** What is asked for. */
+/** The command. */
 typedef struct keel_mixer_command {
     float roll;   /**< Torque, -1 to 1. */
     float pitch;  /**< Torque, -1 to 1. */
@@ -95,7 +95,7 @@ typedef struct keel_mixer_command {
 typedef struct keel_mixer {
     keel_mixer_config_t config;
     float output[KEEL_MIXER_MOTORS]; /**< For each motor; 0 behind their number. */
-    uint32_t limited;                /**< What gave way in the last step, in bits */
+    uint32_t limited;                /**< The parts that gave way last, in bits. */
 } keel_mixer_t;
 
 /*@ predicate mixer_factor(float value) = \is_finite(value) && -1 <= value <= 1;

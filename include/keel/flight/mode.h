@@ -3,14 +3,14 @@
  * @file mode.h
  * @brief Arming, flight modes, failsafe and termination: one machine, driven by tables.
  *
- * Each step is told plain facts: what the pilot's last good frame said, what the estimators, the
+ * Each step takes plain facts: what the pilot's last good frame said, what the estimators, the
  * landing detector, the fence and the battery say, and which of the checks before arming hold. It
  * tells whether motors may turn, which mode is in force, why it is not another, and what keeps the
  * aircraft from being armed.
  *
  * A fact counts only once it has settled: it was seen at each look for its time without a break.
- * One that is not seen counts no longer, at once. What the pilot says is looked at in frames
- * alone: between two of them it stays as it was, and settles only in a step that has a frame. As no
+ * One that is not seen counts no longer, at once. The pilot's facts are looked at
+ * only in frames: between two of them they stay, and settle only in a step that has a frame. As no
  * time to settle is shorter than the longest silence that the link is allowed, it takes at least
  * three good frames in a row, so one or two frames, a glitch, or silence move nothing. After that
  * silence all that the pilot said is forgotten.
@@ -28,7 +28,7 @@
  *
  * Besides, a pilot who moves the mode switch takes over from HOLDING, RETURNING and LANDING, and a
  * kill switch held leads from each state in which motors may turn to TERMINATED, which is left by
- * keel_mode_init alone: it latches until the power is off. A pilot's return and landing, and those
+ * keel_mode_init only: it latches until the power is off. A pilot's return and landing, and those
  * for the fence and the battery, are the same states.
  */
 #ifndef KEEL_FLIGHT_MODE_H
@@ -88,7 +88,7 @@ KEEL_C_BEGIN
 #define KEEL_MODE_FACTS       14u
 /** @} */
 
-/** @name What else moves the machine. Told in keel_mode_t.cause. */
+/** @name Other causes of a change of state, in keel_mode_t.cause. */
 /** @{ */
 #define KEEL_MODE_ARMS         0x00010000u /**< The pilot arms, and nothing is in the way. */
 #define KEEL_MODE_LINK_LOST    0x00020000u /**< IS_LINKED has not settled. */
@@ -141,7 +141,7 @@ typedef struct keel_mode_config {
     bool returns;         /**< The failsafe returns where it can; it lands otherwise. */
 } keel_mode_config_t;
 
-/** What a step is told. */
+/** The inputs of a step. */
 typedef struct keel_mode_input {
     uint32_t elapsed_us; /**< Since the last step. */
     uint32_t facts;      /**< KEEL_MODE_IS_ and KEEL_MODE_HAS_ bits; unknown ones are ignored. */
@@ -149,7 +149,7 @@ typedef struct keel_mode_input {
     uint8_t asked;       /**< Where the mode switch is; a frame with no such mode is none. */
 } keel_mode_input_t;
 
-/** What stands in the way of arming. */
+/** The obstacles to arming. */
 typedef struct keel_mode_refusal {
     uint32_t checks; /**< Required checks that do not hold. */
     uint32_t facts;  /**< IS_LINKED, IS_LOW, IS_LANDED: not settled; IS_OFF: the switch was not seen
@@ -158,7 +158,7 @@ typedef struct keel_mode_refusal {
                           IS_OUTSIDE, IS_CRITICAL, IS_EMPTY: it is so. */
 } keel_mode_refusal_t;
 
-/** A machine. Written by the functions below alone; all of it may be read. */
+/** A machine. Only the functions below write it; all of it may be read. */
 typedef struct keel_mode {
     keel_mode_config_t config;
     uint32_t settle_us[KEEL_MODE_FACTS]; /**< How long each fact takes to settle. */
@@ -168,10 +168,10 @@ typedef struct keel_mode {
     uint32_t seen;                       /**< Facts at the last look. */
     uint32_t settled;                    /**< Facts that count. */
     uint32_t overridden;                 /**< Alarms that the pilot took over from. */
-    uint32_t cause;                      /**< What led to this state: facts, and what moves. */
+    uint32_t cause;                      /**< The facts and other causes that led here. */
     uint32_t missing;                    /**< Estimates that the wanted mode lacks. */
     keel_mode_refusal_t blocking;        /**< In DISARMED: what stands in the way now. */
-    keel_mode_refusal_t refused;         /**< What stood in it at the last attempt to arm. */
+    keel_mode_refusal_t refused;         /**< The obstacles at the last attempt to arm. */
     uint8_t state;
     uint8_t mode;     /**< The mode in force. */
     uint8_t asked;    /**< The mode that the pilot asks for; KEEL_MODE_NONE without a link. */

@@ -44,7 +44,7 @@ KEEL_C_BEGIN
 /** The greatest limit of an output or an integral. */
 #define KEEL_PID_OUTPUT_LIMIT 1.0e9f
 
-/** What ki T and the derivative never exceed, in any state: 2^30 and 2^70, far from overflow. */
+/** The bounds of ki T and the derivative, in any state: 2^30 and 2^70, far from overflow. */
 #define KEEL_PID_INTEGRAL_GAIN_LIMIT 1073741824.0f
 #define KEEL_PID_DERIVATIVE_LIMIT    1180591620717411303424.0f
 
@@ -62,7 +62,7 @@ typedef struct keel_pid_gains {
     float kff; /**< Feed-forward on the set-point, in u/e. */
 } keel_pid_gains_t;
 
-/** What a controller is made from. */
+/** The configuration of a controller. */
 typedef struct keel_pid_config {
     keel_pid_gains_t gains; /**< May be changed later: keel_pid_set_gains. */
     float rate_hz;          /**< Steps per second: see keel_filter_init. */
@@ -82,7 +82,7 @@ typedef struct keel_pid {
     keel_pid_config_t config; /**< As checked by init, with the gains in force. */
     keel_filter_t filter;     /**< The low-pass of the error. */
     float integral_gain;      /**< ki T. */
-    float integral;           /**< What the integral contributes, in the output's unit. */
+    float integral;           /**< The integral's contribution, in the output's unit. */
     float setpoint;           /**< The last set-point; 0 before the first step. */
     float error;              /**< The last error; 0 before the first step. */
     float derivative;         /**< The last d(e_f)/dt, in e/s; 0 before the second step. */

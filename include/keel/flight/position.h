@@ -16,8 +16,8 @@
  * Each direction has an axis (axis.h) of its own, with the same configuration, which joins the
  * receiver's positions and velocities with acceleration. The quality is that of the worse one. A
  * fix can be used when the receiver calls it valid, its accuracy is not beyond what is configured,
- * there is an origin, and it lies near that; its velocity when that is accurate enough, too. What
- * is beyond the limits or the gates of an axis, that axis tells.
+ * there is an origin, and it lies near that; its velocity when that is accurate enough, too. The
+ * axis reports a value that is beyond its limits or its gates.
  *
  * No division and no library call in a step.
  */
@@ -47,14 +47,14 @@ KEEL_C_BEGIN
 #define KEEL_POSITION_ACCURACY_LIMIT       100.0f
 #define KEEL_POSITION_SPEED_ACCURACY_LIMIT 10.0f
 
-/** What a position estimator is made from. */
+/** The configuration of a position estimator. */
 typedef struct keel_position_config {
     keel_axis_config_t axis; /**< Of both directions. */
     float accuracy;          /**< Of a fix, at worst, 0 to ACCURACY_LIMIT, in m. */
     float speed_accuracy;    /**< Of its velocity, 0 to SPEED_ACCURACY_LIMIT, in m/s. */
 } keel_position_config_t;
 
-/** What a receiver says. Numbers may be any bit pattern. */
+/** A receiver's fix. Numbers may be any bit pattern. */
 typedef struct keel_position_fix {
     int32_t latitude;     /**< In 1e-7 degrees, north positive. */
     int32_t longitude;    /**< In 1e-7 degrees, east positive. */
@@ -65,7 +65,7 @@ typedef struct keel_position_fix {
     bool is_valid;        /**< Whether the receiver calls it a good fix, in three dimensions. */
 } keel_position_fix_t;
 
-/** What was measured. Numbers may be any bit pattern. */
+/** The measurements. Numbers may be any bit pattern. */
 typedef struct keel_position_sample {
     keel_position_fix_t fix; /**< The receiver's. */
     float north;             /**< Acceleration, in m/s^2. */
@@ -74,7 +74,7 @@ typedef struct keel_position_sample {
     bool has_acceleration;   /**< Whether there is one. */
 } keel_position_sample_t;
 
-/** A position estimator. Written by the functions below alone; all of it may be read. */
+/** A position estimator. Only the functions below write it; all of it may be read. */
 typedef struct keel_position {
     keel_position_config_t config; /**< As checked by init. */
     keel_axis_t north;             /**< Position, velocity, age and flags. */

@@ -18,7 +18,7 @@
  *     body rates             limit s                         of roll, pitch and yaw
  *     roll and pitch angle   tilt limit q                    with the deflections s, t of both
  *     velocity               speed limit q                   sticks q = s (1 - k t^2)
- *     heading's rate         limit s                         beside angles and velocities
+ *     heading's rate         limit s                         with angles and velocities
  *     climb rate             climb limit s or descent limit s
  *
  * A stick in a corner asks for both angles at once. k = 1 - 1/sqrt(2) rounds the corners off: the
@@ -50,7 +50,7 @@ KEEL_C_BEGIN
 #define KEEL_REFERENCE_DEAD_BAND_MIN 0.000244140625f
 #define KEEL_REFERENCE_DEAD_BAND_MAX 0.5f
 
-/** The greatest expo: the cubic alone, flat at the centre. More would not be monotone. */
+/** The greatest expo: only the cubic, flat at the centre. More would not be monotone. */
 #define KEEL_REFERENCE_EXPO_MAX 1.0f
 
 /** The least of each limit, in its own unit: 2^-10. */
@@ -65,7 +65,7 @@ KEEL_C_BEGIN
 /** k, 1 - 1/sqrt(2) rounded up, so that a corner is not beyond the disc. */
 #define KEEL_REFERENCE_CORNER 0.292893230915069580078125f
 
-/** What makes up for the rounding of 1 / (1 - d): 1 + 2^-22. So the end of the stick is reached,
+/** Compensates for the rounding of 1 / (1 - d): 1 + 2^-22. So the end of the stick is reached,
  * some 2^-22 before it is. */
 #define KEEL_REFERENCE_REACH 1.0000002384185791015625f
 
@@ -75,7 +75,7 @@ typedef struct keel_reference_shape {
     float expo;      /**< From 0, straight, to KEEL_REFERENCE_EXPO_MAX. */
 } keel_reference_shape_t;
 
-/** What full sticks ask for, each from KEEL_REFERENCE_LIMIT_MIN to the greatest of its kind. */
+/** Set-points of full sticks, each from KEEL_REFERENCE_LIMIT_MIN to the greatest of its kind. */
 typedef struct keel_reference_limits {
     float roll_rate;    /**< Body rate, in rad/s. */
     float pitch_rate;   /**< Body rate, in rad/s. */
@@ -87,13 +87,13 @@ typedef struct keel_reference_limits {
     float descent_rate; /**< Downwards, a positive number, in m/s. */
 } keel_reference_limits_t;
 
-/** What a reference generator is made from. */
+/** The configuration of a reference generator. */
 typedef struct keel_reference_config {
     keel_reference_shape_t roll;    /**< The roll stick. */
     keel_reference_shape_t pitch;   /**< The pitch stick. */
     keel_reference_shape_t yaw;     /**< The yaw stick. */
     keel_reference_shape_t climb;   /**< The climb stick. */
-    keel_reference_limits_t limits; /**< What full sticks ask for. */
+    keel_reference_limits_t limits; /**< The set-points of full sticks. */
 } keel_reference_config_t;
 
 /** The sticks, each from -1 to 1. */
@@ -104,7 +104,7 @@ typedef struct keel_reference_sticks {
     float climb; /**< Positive: up. */
 } keel_reference_sticks_t;
 
-/** What the sticks ask for. Body axes: x forwards, y to the right, z down. */
+/** The set-points that the sticks ask for. Body axes: x forwards, y to the right, z down. */
 typedef struct keel_reference_setpoints {
     float roll_rate;    /**< About x, in rad/s. */
     float pitch_rate;   /**< About y, in rad/s. */
@@ -132,7 +132,7 @@ typedef struct keel_reference {
     keel_reference_curve_t yaw;           /**< Of the yaw stick. */
     keel_reference_curve_t climb;         /**< Of the climb stick. */
     keel_reference_limits_t limits;       /**< As checked by init. */
-    keel_reference_setpoints_t setpoints; /**< What the last sticks asked for; all 0 before. */
+    keel_reference_setpoints_t setpoints; /**< Those of the last sticks; all 0 before. */
 } keel_reference_t;
 
 /*@ predicate reference_between(float value, real least, real greatest) =

@@ -24,19 +24,19 @@ KEEL_C_BEGIN
 /** x^8 + x^7 + x^6 + x^4 + x^2 + 1, the highest power first and left out. */
 #define KEEL_CRC8_POLYNOMIAL 0xD5u
 
-/** What keel_crc8 begins with. */
+/** The first remainder of keel_crc8. */
 #define KEEL_CRC8_FIRST 0u
 
 /** x^16 + x^12 + x^5 + 1, the lowest power first. */
 #define KEEL_CRC16_POLYNOMIAL 0x8408u
 
-/** What keel_crc16 begins with. */
+/** The first remainder of keel_crc16. */
 #define KEEL_CRC16_FIRST 0xFFFFu
 
 /** IEEE 802.3's polynomial of degree 32, the lowest power first. */
 #define KEEL_CRC32_POLYNOMIAL 0xEDB88320u
 
-/** What keel_crc32 begins with. */
+/** The first remainder of keel_crc32. */
 #define KEEL_CRC32_FIRST 0xFFFFFFFFu
 
 /*@ // The rest after so many bits, the highest first, that are in it already.

@@ -12,7 +12,7 @@
  * newer senders have, what is known is taken. Frames of other types, and those that are too short,
  * are counted and skipped.
  *
- * Where a frame begins is told by gaps and headers. A byte that comes late begins a frame; and what
+ * Gaps and headers show where a frame begins. A byte that comes late begins a frame; and what
  * can be no frame, by its length or its CRC, is searched for the next byte that may be a header. So
  * - a right frame that begins after a gap, or with nothing held, is taken by its last byte,
  *   whatever was before, when no gap is within it;
@@ -20,7 +20,7 @@
  *   whatever was before, unless some of its bytes were taken as another frame, whose CRC was right.
  *   A gap before then drops it, so that nothing old delays the frame behind the gap.
  *
- * A receiver that loses the radio stops sending channels, or goes on with those that it was told to
+ * A receiver that loses the radio stops sending channels, or goes on with those that it was set to
  * send then; its statistics say a link quality of 0. keel_crsf_is_lost tells both.
  *
  * Channels are scaled as SBUS's are: keel_sbus_us gives the length of a pulse.
@@ -99,11 +99,11 @@ typedef enum keel_crsf_taken {
     KEEL_CRSF_TOOK_OTHER     /**< One that is skipped: of another type. */
 } keel_crsf_taken_t;
 
-/** A decoder. Written by the functions below alone; all of it may be read. */
+/** A decoder. Only the functions below write it; all of it may be read. */
 typedef struct keel_crsf {
-    keel_crsf_config_t config;            /**< What it was made from. */
-    keel_framing_t framing;               /**< What is held of a frame. */
-    keel_crsf_count_t count;              /**< What was met. */
+    keel_crsf_config_t config;            /**< The configuration. */
+    keel_framing_t framing;               /**< The bytes held of a frame. */
+    keel_crsf_count_t count;              /**< Counts of events. */
     uint32_t channels_age_us;             /**< Since the last channels; UINT32_MAX before. */
     uint32_t link_age_us;                 /**< Since the last statistics; UINT32_MAX before. */
     uint16_t channel[KEEL_CRSF_CHANNELS]; /**< The last, raw, 0 to 2047; 0 before. */
@@ -226,7 +226,7 @@ keel_status_t keel_crsf_init(keel_crsf_t *crsf, const keel_crsf_config_t *config
  * @param crsf       the decoder, initialised
  * @param byte       what came
  * @param elapsed_us the time since the byte before, or since keel_crsf_pass_time when that was
- *                   called after it, in us; every microsecond is told once
+ *                   called after it, in us; each microsecond is passed once
  * @return what right frame was taken, if any: it is in crsf->channel or crsf->link then; what no
  *         frame was taken of is as it was
  */

@@ -5,7 +5,7 @@
  *
  * A frame begins with a header byte, one of up to KEEL_FRAMING_HEADERS. Bytes are held from a
  * header on, up to KEEL_FRAMING_BYTES of them; a byte that comes late drops those before it and
- * begins anew. The decoder looks at what is held after each byte: what is a frame, or cannot be
+ * starts again. The decoder looks at what is held after each byte: what is a frame, or cannot be
  * one, it drops, and what is held then begins at the next header behind it. So no byte is thrown
  * away that may begin a frame.
  *
@@ -26,7 +26,7 @@ KEEL_C_BEGIN
 /** How many bytes may be headers; where fewer are, one of them stands again. */
 #define KEEL_FRAMING_HEADERS 4
 
-/** The bytes of a port from a header on. Written by the functions below alone; all of it may be
+/** The bytes of a port from a header on. Only the functions below write it; all of it may be
  *  read. */
 typedef struct keel_framing {
     uint32_t gap_us;                  /**< Silence that drops what is held, when it is longer. */
@@ -35,7 +35,7 @@ typedef struct keel_framing {
     uint32_t strays;                  /**< Bytes that were no header, with nothing held. */
     uint8_t byte[KEEL_FRAMING_BYTES]; /**< Those held, and behind them what was before. */
     uint8_t held;                     /**< How many are held. */
-    uint8_t header[KEEL_FRAMING_HEADERS]; /**< What a frame may begin with. */
+    uint8_t header[KEEL_FRAMING_HEADERS]; /**< The bytes that may begin a frame. */
 } keel_framing_t;
 
 /*@ predicate framing_header(keel_framing_t *f, integer byte) =

@@ -12,13 +12,13 @@
  * 10 to 12 channel 18. A frame does not say which it is; `extended` does.
  *
  * IBUS has no flag for a lost radio: a receiver that loses it goes on with the last channels, or
- * with those that it was told to send then, or stops. Tell it to stop; or to send a throttle below
+ * with those that it was set to send then, or stops. Set it to stop; or to send a throttle below
  * `lowest`, so that its frames are refused: then age_us tells in either case. Some set upper bits
  * of channels instead; when `extended` is not set, those frames are refused, too, when the channel
  * is judged, as it is beyond any range. A frame of 18 channels is refused for the same bits: they
  * are not masked without being asked for, as then a lost radio would look like a pilot.
  *
- * Judge the sticks alone: other channels may say anything, as a knob at 150 % does and a channel
+ * Judge only the sticks: other channels may say anything, as a knob at 150 % does and a channel
  * that the receiver does not have, and whoever uses one takes what is beyond its end as the end.
  *
  * Frames are found by their headers and by gaps: a byte that comes late begins a frame, and when
@@ -75,13 +75,13 @@ typedef struct keel_ibus_count {
     uint32_t ranges;  /**< Frames refused for a channel that is judged and out of its range. */
 } keel_ibus_count_t;
 
-/** A decoder. Written by the functions below alone; all of it may be read. */
+/** A decoder. Only the functions below write it; all of it may be read. */
 typedef struct keel_ibus {
-    keel_ibus_config_t config;            /**< What it was made from. */
-    keel_framing_t framing;               /**< What is held of a frame. */
-    keel_ibus_count_t count;              /**< What was met. */
+    keel_ibus_config_t config;            /**< The configuration. */
+    keel_framing_t framing;               /**< The bytes held of a frame. */
+    keel_ibus_count_t count;              /**< Counts of events. */
     uint32_t age_us;                      /**< Since the last right frame; UINT32_MAX before. */
-    uint16_t channel[KEEL_IBUS_CHANNELS]; /**< What it said, in us; 0 before, and where there is
+    uint16_t channel[KEEL_IBUS_CHANNELS]; /**< Its channels, in us; 0 before, and where there is
                                                none. */
 } keel_ibus_t;
 
@@ -171,7 +171,7 @@ keel_status_t keel_ibus_init(keel_ibus_t *ibus, const keel_ibus_config_t *config
  * @param ibus       the decoder, initialised
  * @param byte       what came
  * @param elapsed_us the time since the byte before, or since keel_ibus_pass_time when that was
- *                   called after it, in us; every microsecond is told once
+ *                   called after it, in us; each microsecond is passed once
  * @return whether it ended a right frame: it is in ibus->channel then. Otherwise that is as it was
  */
 /*@ requires \valid(ibus) && ibus_valid(ibus);

@@ -43,17 +43,17 @@ KEEL_C_BEGIN
 #error "KEEL_LOG_RING_BYTES: 2 to 2^30"
 #endif
 
-/** The loss since it was last told. */
+/** The loss since the last report. */
 typedef struct keel_log_ring_loss {
     uint32_t records;  /**< How many records; stays at UINT32_MAX. */
     uint64_t since_us; /**< The time of the first of them; 0 when none is lost. */
 } keel_log_ring_loss_t;
 
-/** A ring. Written by the functions below alone. */
+/** A ring. Only the functions below write it. */
 typedef struct keel_log_ring {
     uint32_t head;                       /**< Where the next byte goes; the writer's. */
     uint32_t tail;                       /**< Where the next byte comes from; the reader's. */
-    keel_log_ring_loss_t loss;           /**< Not told yet; the writer's. */
+    keel_log_ring_loss_t loss;           /**< Not reported yet; the writer's. */
     uint8_t buffer[KEEL_LOG_RING_BYTES]; /**< From tail up to head: held; else: the writer's. */
 } keel_log_ring_t;
 

@@ -13,7 +13,7 @@
  * does, it goes on at the next 0xFD behind that byte, among the bytes that it holds. So a right
  * frame is taken whatever came before it, unless it begins within another one that was taken: by
  * its last byte, or, when bytes before it look like a beginning, at most 265 bytes later, or when
- * a gap is told.
+ * a gap is reported.
  *
  *     (void)keel_mavlink_take(&mavlink, byte);
  *     while ((seen = keel_mavlink_look(&mavlink)) != KEEL_MAVLINK_NOTHING) {
@@ -84,7 +84,7 @@ KEEL_C_BEGIN
 /** A message that is known. */
 typedef struct keel_mavlink_message {
     uint32_t id;       /**< 0 to KEEL_MAVLINK_ID_MAX. */
-    uint8_t crc_extra; /**< What stands for its layout, by its definition. */
+    uint8_t crc_extra; /**< Stands for its layout, by its definition. */
     uint8_t shortest;  /**< The fewest bytes that a frame of it may have. As trailing zeros are left
                             out, senders make do with 1, however long the message is. */
     uint8_t longest;   /**< The most; not below shortest. The length of all its fields, or
@@ -125,19 +125,19 @@ typedef enum keel_mavlink_look {
     KEEL_MAVLINK_FRAME    /**< A right frame: look again when it was read. */
 } keel_mavlink_look_t;
 
-/** A decoder. Written by the functions below alone; all of it may be read. */
+/** A decoder. Only the functions below write it; all of it may be read. */
 typedef struct keel_mavlink {
     const keel_mavlink_message_t *messages; /**< The messages that are known, */
     uint32_t known;                         /**< and how many there are. */
     keel_mavlink_frame_t frame;             /**< The last right frame; all 0 before. */
-    keel_mavlink_count_t count;             /**< What was met. */
+    keel_mavlink_count_t count;             /**< Counts of events. */
     uint32_t message;                       /**< The place of the last header's message that fit. */
     uint16_t held;                          /**< How many bytes are held. */
     uint16_t awaited; /**< How many the next look needs: a header, or, when that fits, the frame. */
     uint8_t bytes[KEEL_MAVLINK_FRAME_MAX]; /**< Those held, and behind them what was before. */
 } keel_mavlink_t;
 
-/** Who sends. Two senders of one system and component share one. */
+/** A sender. Two senders of one system and component share one. */
 typedef struct keel_mavlink_sender {
     uint8_t system;    /**< 1 to 255. */
     uint8_t component; /**< 1 to 255. */

@@ -3,8 +3,8 @@
  * @file ms5611.h
  * @brief The barometer MS5611-01BA03: from what it reads to pressure and temperature.
  *
- * The sensor tells two raw readings of 24 bits, D1 (pressure) and D2 (temperature). What they
- * amount to is computed with six coefficients, which its maker measured and wrote into its PROM, by
+ * The sensor tells two raw readings of 24 bits, D1 (pressure) and D2 (temperature). Six
+ * coefficients, which its maker measured and wrote into its PROM, turn them into values by
  * the formulas of its data sheet, second order at low temperatures included; all divisions cut off
  * towards zero, as C's do.
  *
@@ -45,7 +45,7 @@ typedef struct keel_ms5611 {
     uint16_t temperature_slope; /**< C6, hundredths of a degree a step of D2; 2^-23. */
 } keel_ms5611_t;
 
-/** What was measured. */
+/** The measurements. */
 typedef struct keel_ms5611_sample {
     int32_t pressure_pa;      /**< In Pa; KEEL_MS5611_PRESSURE_MIN to _MAX. */
     int32_t temperature_cdeg; /**< In hundredths of a degree Celsius; the limits alike. */
@@ -162,7 +162,7 @@ uint8_t keel_ms5611_crc(const uint16_t *word);
 keel_status_t keel_ms5611_init(keel_ms5611_t *ms5611, const uint16_t *word);
 
 /**
- * What two readings amount to (requirements MSC-004 to MSC-008), whatever the coefficients are.
+ * The values of two readings (requirements MSC-004 to MSC-008), whatever the coefficients are.
  *
  * @param ms5611 the sensor's coefficients
  * @param d1     the raw pressure

@@ -22,7 +22,7 @@ KEEL_C_BEGIN
 /** The largest magnitude of a sample, in the channel's unit. */
 #define KEEL_OVERSAMPLE_RANGE 1.0e9f
 
-/** A channel. Written by the functions below alone; all of it may be read. */
+/** A channel. Only the functions below write it; all of it may be read. */
 typedef struct keel_oversample {
     float sum;       /**< Of the samples since the last take. */
     float least;     /**< The smallest of them; KEEL_OVERSAMPLE_RANGE when there is none. */
@@ -95,13 +95,13 @@ keel_status_t keel_oversample_init(keel_oversample_t *oversample, uint16_t facto
 keel_status_t keel_oversample_add(keel_oversample_t *oversample, float value);
 
 /**
- * Takes the mean and begins anew: the foreground's part (requirements OVS-004 to OVS-006).
+ * Takes the mean and starts again: the foreground's part (requirements OVS-004 to OVS-006).
  *
  * @param oversample the channel
  * @param mean       the mean of the samples since the last take, within the smallest and the
  *                   largest of them; left as it is when there is none
  * @return KEEL_OK, or KEEL_ERR_STATE when no sample was added: the missing and the extra runs are
- *         counted all the same and the channel begins anew, but the mean stays
+ *         counted all the same and the channel starts again, but the mean stays
  */
 /*@ requires \valid(oversample) && oversample_valid(oversample);
   @ requires \valid(mean) && \separated(oversample, mean);

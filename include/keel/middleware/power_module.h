@@ -9,7 +9,7 @@
  * 4096, rounded to the nearest millivolt, halves up; one of the current with amperes per volt in
  * the divider's place. For a board of two modules there are two of these.
  *
- * The highest count says that it is at least so much, and is told. So is a voltage that an input
+ * The highest count says that it is at least so much, and is flagged. So is a voltage that an input
  * with nothing on it shows.
  *
  * All is integer arithmetic.
@@ -31,14 +31,14 @@ KEEL_C_BEGIN
 #define KEEL_POWER_MODULE_REFERENCE_MAX 5000
 #define KEEL_POWER_MODULE_SCALE_MAX     1000000000
 
-/** @name What is told of a reading. */
+/** @name The flags of a reading. */
 /** @{ */
 #define KEEL_POWER_MODULE_OPEN        0x1 /**< Nothing is connected: the voltage is too low. */
 #define KEEL_POWER_MODULE_TOP_VOLTAGE 0x2 /**< The voltage is this or more. */
 #define KEEL_POWER_MODULE_TOP_CURRENT 0x4 /**< The current is this or more. */
 /** @} */
 
-/** What a module is made from. In brackets: those of Pixhawk 4 and its like. */
+/** The configuration of a module. In brackets: those of Pixhawk 4 and its like. */
 typedef struct keel_power_module_config {
     uint32_t reference_mv; /**< The ADC's, in mV; 1 to KEEL_POWER_MODULE_REFERENCE_MAX (3300). */
     uint32_t divider;      /**< Volts of the battery for a volt at the ADC, in millionths; 1 to
@@ -48,14 +48,14 @@ typedef struct keel_power_module_config {
     uint32_t open_mv;      /**< With nothing connected the voltage is not above this (5600). */
 } keel_power_module_config_t;
 
-/** A module. Written by keel_power_module_init alone. */
+/** A module. Only keel_power_module_init writes it. */
 typedef struct keel_power_module {
     uint64_t voltage; /**< reference_mv times divider. */
     uint64_t current; /**< reference_mv times ua_per_v. */
     uint32_t open_mv; /**< As configured. */
 } keel_power_module_t;
 
-/** What a module says. */
+/** A module's reading. */
 typedef struct keel_power_module_reading {
     uint32_t voltage_mv; /**< In mV. */
     uint32_t current_ma; /**< In mA. */

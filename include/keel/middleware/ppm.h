@@ -8,7 +8,7 @@
  * next begins, with a longer time, the sync gap; there is one every 20 to 22.5 ms. Capturing edges
  * is the timer driver's affair.
  *
- * Judge the sticks alone: another channel may be of any length below the sync gap, as that of a
+ * Judge only the sticks: another channel may be of any length below the sync gap, as that of a
  * knob at 150 % is, and whoever uses one takes what is beyond its end as the end.
  *
  * PPM has no check at all. So channels are taken only when as many frames in a row as are
@@ -16,8 +16,8 @@
  * another number of them, and a jump in time another frame. That number stays as it is until a row
  * of another begins. An edge that is somewhat early or late is believed.
  *
- * A receiver that loses the radio stops sending edges, or goes on with channels that it was told to
- * send then; only the former can be told: by age_us.
+ * A receiver that loses the radio stops sending edges, or goes on with channels that it was set to
+ * send then; only the former shows: in age_us.
  *
  * All is integer arithmetic. All counts and times stay at UINT32_MAX.
  */
@@ -57,10 +57,10 @@ typedef struct keel_ppm_count {
     uint32_t gaps;    /**< Frames that were right so far, and silence ended. */
 } keel_ppm_count_t;
 
-/** A decoder. Written by the functions below alone; all of it may be read. */
+/** A decoder. Only the functions below write it; all of it may be read. */
 typedef struct keel_ppm {
-    keel_ppm_config_t config;            /**< What it was made from. */
-    keel_ppm_count_t count;              /**< What was met. */
+    keel_ppm_config_t config;            /**< The configuration. */
+    keel_ppm_count_t count;              /**< Counts of events. */
     uint32_t age_us;                     /**< Since channels were taken; UINT32_MAX before. */
     uint32_t quiet_us;                   /**< Since the last edge, in us. */
     uint16_t channel[KEEL_PPM_CHANNELS]; /**< The last that were taken, in us; 0 before. */

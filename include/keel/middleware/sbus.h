@@ -24,7 +24,7 @@
  * alone: other channels may say anything, as a knob at 110 % does and a channel that the receiver
  * does not have, and whoever uses one takes what is beyond its end as the end.
  *
- * A receiver that loses the radio goes on sending frames, with the channels that it was told to
+ * A receiver that loses the radio goes on sending frames, with the channels that it was set to
  * send then: frame.lost and frame.failsafe tell so, not age_us.
  *
  * All is integer arithmetic. All counts and times stay at UINT32_MAX.
@@ -85,11 +85,11 @@ typedef struct keel_sbus_count {
     uint32_t gaps;    /**< Partial frames that a gap ended. */
 } keel_sbus_count_t;
 
-/** A decoder. Written by the functions below alone; all of it may be read. */
+/** A decoder. Only the functions below write it; all of it may be read. */
 typedef struct keel_sbus {
-    keel_sbus_config_t config;       /**< What it was made from. */
+    keel_sbus_config_t config;       /**< The configuration. */
     keel_sbus_frame_t frame;         /**< The last right frame; all 0 and failsafe before. */
-    keel_sbus_count_t count;         /**< What was met. */
+    keel_sbus_count_t count;         /**< Counts of events. */
     uint32_t age_us;                 /**< Since the last right frame, in us; UINT32_MAX before. */
     uint32_t quiet_us;               /**< Since the last byte, in us. */
     uint8_t buffer[KEEL_SBUS_BYTES]; /**< A partial frame, and behind it what was before. */
@@ -169,7 +169,7 @@ keel_status_t keel_sbus_init(keel_sbus_t *sbus, const keel_sbus_config_t *config
  * @param sbus       the decoder, initialised
  * @param byte       what came
  * @param elapsed_us the time since the byte before, or since keel_sbus_pass_time when that was
- *                   called after it, in us; every microsecond is told once
+ *                   called after it, in us; each microsecond is passed once
  * @return whether it ended a right frame: it is in sbus->frame then. Otherwise that is as it was
  */
 /*@ requires \valid(sbus) && sbus_valid(sbus);

@@ -9,7 +9,7 @@
  * link), or of a new stream and more than a minute behind our time. Without a key all frames are
  * taken, signed or not, as nothing can be checked.
  *
- * The key is set by keel_signing_set_key alone: whoever calls that does so for somebody at the
+ * Only keel_signing_set_key sets the key: whoever calls that does so for somebody at the
  * vehicle (a local console), never for a message from a link.
  *
  * A frame moves a stream's time, and ours, only after its signature was found right: otherwise
@@ -64,7 +64,7 @@ KEEL_C_BEGIN
  */
 typedef void (*keel_signing_hash_fn_t)(const uint8_t *data, uint32_t size, uint8_t *digest);
 
-/* Any such function. It is declared for the proofs alone; nobody defines or calls it. */
+/* Any such function. It is only declared for the proofs; nobody defines or calls it. */
 /*@ requires \valid_read(data + (0 .. size - 1)) &&
   @     \valid(digest + (0 .. KEEL_SIGNING_DIGEST_BYTES - 1)) &&
   @     \separated(data + (0 .. size - 1), digest + (0 .. KEEL_SIGNING_DIGEST_BYTES - 1));
@@ -90,14 +90,14 @@ typedef struct keel_signing_count {
     uint32_t full;     /**< Frames of a new stream refused as there is no room for one. */
 } keel_signing_count_t;
 
-/** A key and what was signed with it. Written by the functions below alone. It holds the key. */
+/** A key and what was signed with it. Only the functions below write it. It holds the key. */
 typedef struct keel_signing {
     keel_signing_stream_t stream[KEEL_SIGNING_STREAMS]; /**< The streams, */
     uint32_t streams;                                   /**< and how many there are. */
-    keel_signing_count_t count;                         /**< What was met. */
+    keel_signing_count_t count;                         /**< Counts of events. */
     keel_signing_hash_fn_t hash;                        /**< SHA256. */
     uint64_t timestamp;                  /**< Our time, in 10 us since 2015 began (UTC). */
-    uint8_t text[KEEL_SIGNING_TEXT_MAX]; /**< What is hashed: the key, and behind it a frame. */
+    uint8_t text[KEEL_SIGNING_TEXT_MAX]; /**< The hash's input: the key, and then a frame. */
     uint8_t link;                        /**< The number that we give to our link. */
     bool has_key;                        /**< A key is set: frames are signed and checked. */
 } keel_signing_t;

@@ -55,7 +55,7 @@ KEEL_C_BEGIN
 /** Milliseconds of a week: its time of week is less. */
 #define KEEL_UBX_WEEK_MS 604800000
 
-/** @name What a decoder waits for. */
+/** @name The part that a decoder waits for. */
 /** @{ */
 #define KEEL_UBX_SEARCH 0 /**< A message. */
 #define KEEL_UBX_DATA   1 /**< A byte of its payload. */
@@ -104,22 +104,22 @@ typedef struct keel_ubx_fix {
 typedef struct keel_ubx_count {
     uint32_t bytes;     /**< All that came. */
     uint32_t fixes;     /**< Right NAV-PVT of at least 84 bytes. */
-    uint32_t acks;      /**< Right ACK-ACK: the receiver has done what it was told. */
+    uint32_t acks;      /**< Right ACK-ACK: the receiver has done what was asked. */
     uint32_t naks;      /**< Right ACK-NAK: it has refused to. */
-    uint32_t others;    /**< Right messages beside those. */
+    uint32_t others;    /**< Other right messages. */
     uint32_t checksums; /**< Messages with a wrong checksum. */
     uint32_t cut;       /**< Messages that ended too soon: a gap, or a NAV-PVT began. */
 } keel_ubx_count_t;
 
-/** A decoder. Written by the functions below alone; all of it may be read. */
+/** A decoder. Only the functions below write it; all of it may be read. */
 typedef struct keel_ubx {
-    keel_ubx_config_t config; /**< What it was made from. */
+    keel_ubx_config_t config; /**< The configuration. */
     keel_ubx_fix_t fix;       /**< The last right NAV-PVT. */
-    keel_ubx_count_t count;   /**< What was met. */
+    keel_ubx_count_t count;   /**< Counts of events. */
     bool is_advancing;        /**< Whether the time of week advanced with the last. */
     uint32_t age_us;          /**< Since the last right NAV-PVT, in us; UINT32_MAX before. */
     uint32_t quiet_us;        /**< Since the last byte, in us. */
-    keel_ubx_fix_t pending;   /**< What came of the next one. */
+    keel_ubx_fix_t pending;   /**< The next one, as far as it came. */
     uint64_t window;          /**< The last six bytes, the latest the highest; 0 for none. */
     uint16_t length;          /**< Bytes of the payload. */
     uint16_t left;            /**< How many of them are to come. */
@@ -135,7 +135,7 @@ typedef enum keel_ubx_verdict {
     KEEL_UBX_NONE,       /**< There was none. */
     KEEL_UBX_OLD,        /**< It is older than config.max_age_us. */
     KEEL_UBX_NOT_OK,     /**< The receiver does not vouch for it. */
-    KEEL_UBX_NOT_3D,     /**< It is not in three dimensions, of satellites alone. */
+    KEEL_UBX_NOT_3D,     /**< It is not in three dimensions, only by satellites. */
     KEEL_UBX_INVALID,    /**< The receiver says that the place is not to be used. */
     KEEL_UBX_WIDE,       /**< The place is less accurate than config.accuracy_mm. */
     KEEL_UBX_WIDE_SPEED, /**< The speed is less accurate than config.speed_accuracy. */
@@ -147,7 +147,7 @@ typedef enum keel_ubx_verdict {
 
 /** A message to the receiver. */
 typedef struct keel_ubx_message {
-    uint8_t bytes[KEEL_UBX_MESSAGE_BYTES]; /**< What to send, and zeros behind it. */
+    uint8_t bytes[KEEL_UBX_MESSAGE_BYTES]; /**< The message to send, and then zeros. */
     uint8_t size;                          /**< How many of them are the message. */
 } keel_ubx_message_t;
 
@@ -267,7 +267,7 @@ keel_status_t keel_ubx_init(keel_ubx_t *ubx, const keel_ubx_config_t *config);
  * @param ubx        the decoder, initialised
  * @param byte       what came
  * @param elapsed_us the time since the byte before, or since keel_ubx_pass_time when that was
- *                   called after it, in us; every microsecond is told once
+ *                   called after it, in us; each microsecond is passed once
  * @return whether it ended a right NAV-PVT: it is in ubx->fix then. Otherwise that is as it was
  */
 /*@ requires \valid(ubx) && ubx_valid(ubx);

@@ -45,7 +45,7 @@ KEEL_C_BEGIN
 #error "KEEL_ULOG_FIELDS: 1 to 255"
 #endif
 
-/* What always fits: flag bits, keys, parameters and subscriptions. */
+/* These always fit: flag bits, keys, parameters and subscriptions. */
 #if (KEEL_ULOG_MESSAGE_BYTES < 43u) || (KEEL_ULOG_MESSAGE_BYTES > 65535u) ||                       \
     (KEEL_ULOG_MESSAGE_BYTES < (KEEL_ULOG_NAME_LENGTH + 24u))
 #error "KEEL_ULOG_MESSAGE_BYTES: at least 43, and 24 more than a name, at most 65535"
@@ -96,14 +96,14 @@ typedef struct keel_ulog_field {
     uint8_t count; /**< 1: a value; more: an array of so many. */
 } keel_ulog_field_t;
 
-/** What a topic's data are. */
+/** The format of a topic's data. */
 typedef struct keel_ulog_topic_format {
     keel_ulog_name_t name;
     uint8_t fields; /**< How many, up to KEEL_ULOG_FIELDS. */
     keel_ulog_field_t field[KEEL_ULOG_FIELDS];
 } keel_ulog_format_t;
 
-/** A message. Written by the functions below alone. */
+/** A message. Only the functions below write it. */
 typedef struct keel_ulog_message {
     uint16_t size;   /**< Of bytes; 0 when there is none. */
     bool overflowed; /**< It is none, as something did not fit. */
@@ -120,7 +120,7 @@ typedef struct keel_ulog_message {
   @*/
 
 /**
- * What a file begins with (requirement ULG-001): the magic bytes, the version, the time.
+ * The head of a file (requirement ULG-001): the magic bytes, the version, the time.
  *
  * @param message  receives it
  * @param start_us when logging begins, in us
@@ -289,7 +289,7 @@ bool keel_ulog_logging(keel_ulog_message_t *message, uint8_t level, uint64_t tim
  * A dropout (O; requirement ULG-011): for so long nothing could be logged.
  *
  * @param message receives it
- * @param lost_us how long, in us; at least a millisecond is told, and at most 65535
+ * @param lost_us how long, in us; at least a millisecond is noted, and at most 65535
  */
 /*@ requires \valid(message);
   @ assigns message->size, message->overflowed,

@@ -40,7 +40,7 @@ typedef struct keel_virtual_imu_sample {
     bool present;                           /**< Whether the unit gave a sample. */
 } keel_virtual_imu_sample_t;
 
-/** A virtual unit. Written by the functions below alone; all of it may be read. */
+/** A virtual unit. Only the functions below write it; all of it may be read. */
 typedef struct keel_virtual_imu {
     keel_voter_t channel[KEEL_VIRTUAL_IMU_CHANNELS]; /**< The output is channel[k].vote.output. */
     uint8_t used[KEEL_VOTER_SENSORS];    /**< Per unit: its channels that contributed. */

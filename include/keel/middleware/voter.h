@@ -121,11 +121,11 @@ typedef struct keel_voter_sensor {
     bool latched;             /**< Whether it is latched as faulty. */
 } keel_voter_sensor_t;
 
-/** A channel. Written by the functions below alone; all of it may be read. */
+/** A channel. Only the functions below write it; all of it may be read. */
 typedef struct keel_voter {
     keel_voter_config_t config;
     float agree;    /**< a of the next vote: config.agree, until keel_voter_scale is called. */
-    float disagree; /**< n a: samples this far apart, or farther, do not agree at all. */
+    float disagree; /**< n a: samples that differ by this or more do not agree at all. */
     keel_voter_sensor_t sensor[KEEL_VOTER_SENSORS];
     keel_vote_t vote; /**< The last one. */
     bool unanimous;   /**< All weights were 1 in it, and nothing is counted against any sensor. */

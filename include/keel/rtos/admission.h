@@ -116,7 +116,7 @@ void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
                          uint32_t utilisation_limit_ppm);
 
 /**
- * Admits one more task, or refuses it and leaves the totals alone (requirement ADM-002).
+ * Admits one more task, or refuses it and keeps the totals (requirement ADM-002).
  *
  * @param admission totals of the tasks admitted so far
  * @param priority  the task's static priority

@@ -73,7 +73,7 @@ static inline void keel_clock_init(keel_clock_t *clock, uint32_t raw_us)
  * @param clock  the clock, whose time is below KEEL_CLOCK_TIME_LIMIT_US
  * @param raw_us the counter now, read less than 2^31 us after the last reading
  * @return KEEL_OK, or KEEL_ERR_CLOCK when the reading lies behind the last one: a step of
- *         KEEL_CLOCK_STEP_LIMIT_US or more cannot be told from a step backwards
+ *         KEEL_CLOCK_STEP_LIMIT_US or more looks like a step backwards
  */
 /*@ requires \valid(clock);
   @ requires clock->now_us <= KEEL_CLOCK_TIME_LIMIT_US;

@@ -82,7 +82,7 @@ typedef struct keel_lateness {
 
 /**
  * Tells how late a task starts at the latest (requirements LAT-001 and LAT-002). May be called at
- * any time; what is told is of the tasks that are queued then.
+ * any time; the result is for the tasks that are queued then.
  *
  * @param scheduler the scheduler
  * @param task      the task; it is compared, never read

@@ -23,18 +23,18 @@
 KEEL_C_BEGIN
 
 /*
- * What is assumed of the functions that the user supplies, as contracts of two that stand for any.
- * They are declared for the proofs alone; nobody defines or calls them.
+ * Assumptions on the functions that the user supplies, as contracts of two that stand for any.
+ * They are only declared for the proofs; nobody defines or calls them.
  */
 
-/* The scheduler that is running: any one. Nothing assigns it; it exists in proofs alone. */
+/* The scheduler that is running: any one. Nothing assigns it; it only exists in proofs. */
 //@ ghost extern keel_scheduler_t *running_scheduler;
 
 /* Any clock: it writes nothing that the kernel reads. */
 /*@ assigns \nothing; */
 uint32_t keel_any_clock(void *context);
 
-/* Any moment: what is proved of it holds of each. Nothing assigns it; it exists in proofs alone. */
+/* Any moment: what is proved of it holds of each. Nothing assigns it; it only exists in proofs. */
 //@ ghost extern uint64_t asked_us;
 
 /*@ // Of the tasks that the pass has looked at none is left that was due at the moment asked about.

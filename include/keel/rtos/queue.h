@@ -3,7 +3,7 @@
  * @file queue.h
  * @brief The one task queue that both halves of the scheduler share: no gaps, nothing outside.
  *
- * A queue holds its tasks itself. What is known of a task lies in a slot, by field, and a slot
+ * A queue holds its tasks itself. A slot has the data of a task, by field, and a slot
  * never moves; the queue proper is an order of slots, one byte each: those in use in queue order,
  * then the free ones. So a task is put in its place, or taken out, by moving a few bytes, there is
  * always a free slot to take, and no pointer leads from one task to another.
@@ -160,7 +160,7 @@ typedef struct keel_queue {
     (q)->task[x], (q)->release_us[x], (q)->period_us[x], (q)->budget_us[x], (q)->priority[x],      \
         (q)->skipped[x], STATS_FIELDS((q)->stats[x])
 
-/* What it counts of a task that was just added. */
+/* The counts of a task that was just added. */
 #define SLOT_FRESH(q, x) ((q)->skipped[x] == 0 && STATS_FRESH((q)->stats[x]))
 /* clang-format on */
 

@@ -44,7 +44,7 @@ typedef struct keel_scheduler_config {
     bool without_promotion;         /**< Whether a task that does not fit the slack never runs. */
 } keel_scheduler_config_t;
 
-/* What the scheduler is doing. Plain numbers: an enumeration's size differs between compilers. */
+/* The stage of the scheduler. Plain numbers: an enumeration's size differs between compilers. */
 #define KEEL_STAGE_SETUP    0 /**< Tasks are being added; not started. */
 #define KEEL_STAGE_READY    1 /**< Between two passes. */
 #define KEEL_STAGE_PASS     2 /**< In a pass, about to decide. */
@@ -62,7 +62,7 @@ typedef struct keel_scheduler_config {
  * known, and adding and removing a task leave it so. A task that is taken into service moves its
  * release on, so a bound survives it; who finds a bound passed looks at all tasks and renews it.
  *
- * What a pass keeps of itself is signed, which nothing else is here: provers know memory by its
+ * The data of a pass are signed, unlike all others here: provers know memory by its
  * type.
  */
 typedef struct keel_scheduler {
@@ -79,7 +79,7 @@ typedef struct keel_scheduler {
     keel_queue_t queue;             /**< The tasks. */
 } keel_scheduler_t;
 
-/** What is known of a task while it is queued. */
+/** The data of a task while it is queued. */
 typedef struct keel_task_report {
     uint64_t release_us; /**< The next release to serve, on the task's grid, in us. */
     uint16_t skipped;    /**< Whole periods passed unserved; stays at UINT16_MAX. */

@@ -92,7 +92,7 @@ KEEL_C_BEGIN
 uint32_t keel_spread_divisor(uint32_t a, uint32_t b);
 
 /**
- * Sets the first releases of the tasks so that they keep apart (requirements SPR-001 and SPR-002).
+ * Sets the first releases of the tasks so that they do not meet (requirements SPR-001 and SPR-002).
  *
  * The tasks are placed one after the other: the real-time ones in queue order, then the others by
  * period, the shortest first, equal ones in queue order. Each gets the first phase below its period

@@ -23,7 +23,7 @@ KEEL_C_BEGIN
 /**
  * So many runs in a row within the budget, and a task's overruns are forgotten.
  *
- * A task that fits no gap with its overrun runs by promotion alone, about once in 15 / sp periods:
+ * A task that fits no gap with its overrun runs only by promotion, about once in 15 / sp periods:
  * after about 120 / sp of them it is forgotten. On the other side an overrun that comes when none
  * is remembered, and so surprises a decision, comes at most once in any nine runs. A smaller number
  * would sooner forget what happens again.

@@ -23,7 +23,7 @@ KEEL_C_BEGIN
 typedef void (*keel_task_fn_t)(void *context);
 
 /**
- * A task, as its programmer declares it. What scheduling reads is copied when the task is added;
+ * A task, as its programmer declares it. Adding it copies the fields that scheduling reads;
  * name, body and context are read while it is in the queue, and must not change meanwhile.
  */
 typedef struct keel_task_config {

@@ -259,11 +259,11 @@ def shown(number: Number, kind: str) -> str:
 
 
 PAGE = """\
-A value is taken only when it is within its range and all units accept the configuration that
-results; otherwise nothing changes, and the reason is told. It is saved on the ground, and a
-power cut leaves the set that was saved before, or this one.
+The copter takes a value only when it is within its range and all units accept the resulting
+configuration; otherwise nothing changes, and a text gives the reason. It saves the value on the
+ground, and a power cut leaves the set that was saved before, or this one.
 
-On the ground it is in force at once; what is set in flight is so once the copter is disarmed.
+On the ground it is in force at once; set in flight, it is so once the copter is disarmed.
 Where the table says "restart" it is in force from the next start on: a text says so when it is
 set, again when the copter is armed, and whenever a station asks for the list.
 
@@ -287,7 +287,7 @@ def page(file: File, source: str) -> str:
     """The page of the documentation."""
     lines = [
         "# Parameters", "",
-        f"These can be set without compiling anew: {len(file.parameters)} parameters of",
+        f"These can be set without compiling again: {len(file.parameters)} parameters of",
         f"`examples/{file.name}`. This page, the C table and the metadata for ground stations are",
         f"made from `{source}` by `make tables`.", "",
         *PAGE.splitlines(), "",

@@ -21,7 +21,8 @@ network.
 ruff checks the Python of tools/ and tests/ and lays it out, and import-linter holds the order of
 the rooms of tools/keel; pyproject.toml has the rules.
 
-The rules of the house: see HOUSE_CHECKS in tools/keel/lint/house.py.
+The rules of the house: see HOUSE_CHECKS in tools/keel/lint/house.py, and
+tools/keel/lint/prose.py.
 
 Exit status: 0 without findings, 1 with, 2 when something could not be checked.
 """

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import PurePosixPath
 
 from keel.lint.models import check_models
+from keel.lint.prose import check_prose
 from keel.lint.texts import Finding, Text
 
 LINE_LIMIT = 100
@@ -184,3 +185,4 @@ def check_house(texts: Sequence[Text]) -> Iterator[Finding]:
             yield from check(text)
     yield from check_reached(texts)
     yield from check_models(texts, LAYERS)
+    yield from check_prose(texts)

@@ -130,8 +130,8 @@ def together(tasks: TaskSet, results: Deviations) -> list[Together]:
 NOTE_TOGETHER = (
     "Least: what any scheduler leaves that preempts nothing, starts a due task whenever the "
     "processor is free, and serves tasks\nreleased together in one fixed order: each run ahead "
-    "adds C^2 / 24 us^2 to the mean square of the deviation (keel/timing/\nleast_deviation.py). "
-    "What Keel deviates beyond that comes from the order of the queue among equals, and from its "
+    "adds C^2 / 24 us^2 to the mean square of the deviation (tools/timing/\nleast_deviation.py). "
+    "The rest of Keel's deviation comes from the order of the queue among equals, and from its "
     "guard. 1000 periods\nscatter by 2 to 3 % around the expected value. Phases remove the "
     "collisions, and all of this."
 )

@@ -23,8 +23,8 @@ SENTENCE = re.compile(
     r"/\*\*[\s*]*(.*?)(?:\s\((?:requirement|eq|[A-Z]{3}-)|(?<!eq)\.\s|\n \*\n|\s*\*/)", re.DOTALL
 )
 TEXT = """\
-What each public function promises, and what it asks for: its comment, its contract in ACSL and its
-prototype, as they stand in the header. The contract is what the formal proofs are about."""
+The promises and the preconditions of each public function: its comment, its contract in ACSL and
+its prototype, as they stand in the header. The formal proofs are about the contract."""
 
 
 class Declared(NamedTuple):

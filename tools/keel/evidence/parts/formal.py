@@ -27,7 +27,7 @@ memory is read by the type by which it was written. Smoke tests look for precond
 hold and for code that cannot be reached; they are best effort. CBMC proves bit by bit, within the \
 bounds of each harness; the table of harnesses says what these leave out, and what covers that.
 
-What follows is the soundness case as the repository has it; its tables stand below.
+The soundness case follows as the repository has it; its tables stand below.
 
 """
 

@@ -23,16 +23,16 @@ FILES = ("keel.elf", "keel.bin", "keel.map")
 
 TEXT = """\
 From source to object code. The proofs speak of C with the data model of the Cortex-M7; the \
-compiler makes of it what is flashed, and is not proved. What ties the two together:
+compiler makes of it what is flashed, and is not proved. Three arguments tie the two together:
 
-What is proved is what is built: the proofs and every image name one digest of the folders include \
-and src, with no code for provers in them, and proof and build read the processor's flags from one \
-place in the tools.
+The proofs read the code that is built: they and every image name one digest of the folders \
+include and src, with no code for provers in them, and proof and build read the processor's flags \
+from one place in the tools.
 
 The flags allow no rewriting that the proofs do not know: no optimisation that changes \
 floating-point results, no contraction of a multiplication and an addition, and the sizes and \
-signs of types as the proofs have them. What C leaves undefined is proved not to happen, so that \
-an optimiser may not build on it.
+signs of types as the proofs have them. The proofs show that no undefined behaviour happens, so \
+that an optimiser may not build on it.
 
 The object code was executed: 100 000 random vectors of each unit give the same bits in the \
 host's build and in the build for the target, on a Cortex-M7 that QEMU emulates; the unit tests \

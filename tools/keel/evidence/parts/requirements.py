@@ -93,7 +93,7 @@ def of_the_paper(known: Iterable[Requirement]) -> Table:
         columns=("source", "requirement", "title"),
         rows=tuple((one.of("SOURCE"), f"requirement:{one.uid}", one.of("TITLE"))
                    for one in known if one.of("SOURCE")),
-        note="What the paper describes and Keel does not have is in no requirement: the flight"
+        note="No requirement names what the paper describes and Keel does not have: the flight"
              " modes, the cascade, the mixer, the black box, parameters, USB, the other sensors,"
              " and the hardware.",
     )  # fmt: skip

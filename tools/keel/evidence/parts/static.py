@@ -143,7 +143,7 @@ def stack_table(reports: Mapping[str, Report]) -> Table:
         title="Worst-case stack, in bytes",
         columns=("board", "of", "bound", "room", "painted", "deepest path"),
         rows=tuple(row for board, report in reports.items() for row in stack_rows(board, report)),
-        note="What may be called through a pointer is written by hand (specs/stack.toml), where a "
+        note="People write down the targets of calls through pointers (specs/stack.toml), where a "
              "target that is missing shows as a function that nobody calls. Painted: how deep the "
              "stack was when this very image ran on the emulated board; the bounds of boards that "
              "no emulator runs are compared with nothing.",

@@ -31,7 +31,7 @@ TQL = {1: "TQL-1", 2: "TQL-4", 3: "TQL-5", 0: "none"}  # DO-178C, table 12-1, le
 CONFIDENCE = {("TI2", "TD2"): "TCL2", ("TI2", "TD3"): "TCL3"}  # ISO 26262-8, table 3; else TCL1.
 
 TEXT = """\
-What each tool is trusted with stands in specs/tools.toml, with what would notice an error of it. \
+The task of each tool stands in specs/tools.toml, with what would notice an error of it. \
 The classification by DO-330 (for software of level A), ISO 26262 and IEC 61508 is a proposal: \
 whether a tool needs qualification, and what suffices for it, the applicant agrees on with the \
 authority. No tool here comes with a vendor's qualification kit.
@@ -195,7 +195,7 @@ def tool_item(one: Tool, settings: Settings, found: Mapping[str, Found], report:
     seen = found.get(one.name)
     runs = [run for run in report.get("runs", ()) if run["tool"] == one.name]
     known = [problem for problem in settings.problem if problem.tool == one.name]
-    text = "\n\n".join([one.use, f"What notices an error of it: {one.instead}.",
+    text = "\n\n".join([one.use, f"Checks that notice an error of it: {one.instead}.",
                         *(f"{problem.what}. Here: {problem.here}." for problem in known)])
     facts = {
         "version": seen.version if seen else "missing",
@@ -235,7 +235,7 @@ def tables(settings: Settings, specs: Mapping[str, Spec], found: Mapping[str, Fo
             for name, spec in specs.items()
             if any(one.name == name for one in settings.tool)
         ),
-        note="What comes from the host's packages is known by the version and the hash of its "
+        note="A tool of the host's packages is known by the version and the hash of its "
              "program; its libraries follow the host's suite.",
     )  # fmt: skip
     yield Shown(

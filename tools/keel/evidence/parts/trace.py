@@ -22,13 +22,13 @@ Mutants = dict[str, Counter[str]]  # By function: how many became what.
 TEXT = """\
 Every requirement is followed down to the clauses that state it, the functions whose contracts \
 have them, the goals and assertions that prove them, the harnesses and the tests; every clause, \
-function, harness, model and test that bears an id is followed up. What stands alone in either \
-direction is a problem, and no package is made.
+function, harness, model and test that bears an id is followed up. One without a counterpart in \
+either direction is a problem, and no package is made.
 
 A function that a header offers traces to the requirements whose ids the clauses of its contract \
 bear. A static function has no requirement of its own: it traces by its callers, to all that they \
-trace to. What the trace does not show is whether a clause says what its sentence says: that is \
-for a review."""
+trace to. The trace does not show whether a clause says what its sentence says: that is for a \
+review."""
 
 
 def unit_of(path: str) -> str:
