@@ -25,6 +25,8 @@ from keel.lint import house, misra, models, prose, record
 from keel.lint.misra import Deviation, Violation
 from keel.lint.texts import Finding, Text
 
+ROOT = Path(__file__).resolve().parents[2]
+
 
 def text(path: str, *lines: str) -> Text:
     return Text(path, list(lines))
