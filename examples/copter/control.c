@@ -54,7 +54,7 @@ static uint8_t mode_of_axes(const copter_t *copter)
     if (machine->state == KEEL_MODE_ARMED) {
         return KEEL_MODE_NONE;
     }
-    if ((mode == KEEL_MODE_LAND) && ((machine->settled & KEEL_MODE_HAS_PLACE) != 0u)) {
+    if ((mode == KEEL_MODE_LAND) && ((machine->settled & KEEL_MODE_POSITION_VALID) != 0u)) {
         mode = KEEL_MODE_POSITION;
     }
     if (((mode == KEEL_MODE_POSITION) || (mode == KEEL_MODE_RETURN)) &&

@@ -232,7 +232,7 @@ typedef struct copter_pilot {
     copter_pilot_ear_t ear; /**< What was there a second ago. */
     keel_reference_sticks_t sticks;
     keel_reference_t reference; /**< What the sticks ask for. */
-    uint32_t facts;             /**< KEEL_MODE_IS_LINKED, ... of the pilot's last frame. */
+    uint32_t facts;             /**< KEEL_MODE_RC_LINKED, ... of the pilot's last frame. */
     bool calibrates;            /**< It asks for a calibration of the magnetometer. */
     uint8_t asked;              /**< The mode that it asks for. */
 } copter_pilot_t;
@@ -338,7 +338,7 @@ typedef struct copter_health {
     uint32_t overruns;   /**< Runs of all tasks that were longer than their budgets. */
     uint32_t skipped;    /**< Periods of all tasks that passed without a run. */
     uint32_t stack_free; /**< In bytes. */
-    uint32_t checks;     /**< KEEL_MODE_CHECK_LOAD, if it holds. */
+    uint32_t checks;     /**< KEEL_MODE_CHECK_CPU_LOAD, if it holds. */
     copter_chip_t chip;  /**< As the last run of ADC found it. */
 } copter_health_t;
 

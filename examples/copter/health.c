@@ -30,7 +30,8 @@ void copter_scheduler_analysis(copter_t *copter)
     self->load_ppm = keel_load_ppm(&self->window, now_us, copter->scheduler.busy_us);
     keel_load_begin(&self->window, now_us, copter->scheduler.busy_us);
     count_faults(copter);
-    self->checks = (self->load_ppm <= copter_settings.load_limit_ppm) ? KEEL_MODE_CHECK_LOAD : 0u;
+    self->checks = (self->load_ppm <= copter_settings.load_limit_ppm) ? KEEL_MODE_CHECK_CPU_LOAD
+                                                                      : 0u;
 }
 
 void copter_stack(copter_t *copter)

@@ -62,7 +62,7 @@ static uint32_t ask_for(copter_t *copter, const copter_command_t *command, uint8
     if (!is_safe(mode)) {
         return refuse(copter, MAV_RESULT_DENIED, "only by the pilot's switch");
     }
-    if ((machine->settled & KEEL_MODE_IS_LINKED) == 0u) {
+    if ((machine->settled & KEEL_MODE_RC_LINKED) == 0u) {
         return refuse(copter, MAV_RESULT_TEMPORARILY_REJECTED, "no radio link");
     }
     if (is_last(mode) && !machine->motors) {

@@ -80,12 +80,12 @@ static uint8_t mode_of(uint16_t channel)
 
 static uint32_t facts_of(const uint16_t channel[])
 {
-    uint32_t facts = KEEL_MODE_IS_LINKED;
+    uint32_t facts = KEEL_MODE_RC_LINKED;
 
-    facts |= (channel[ARM] > ON) ? KEEL_MODE_IS_ON : 0u;
-    facts |= (channel[ARM] < OFF) ? KEEL_MODE_IS_OFF : 0u;
-    facts |= (channel[KILL] > ON) ? KEEL_MODE_IS_KILL : 0u;
-    facts |= (channel[THROTTLE] < LOW) ? KEEL_MODE_IS_LOW : 0u;
+    facts |= (channel[ARM] > ON) ? KEEL_MODE_ARM_SWITCH_ON : 0u;
+    facts |= (channel[ARM] < OFF) ? KEEL_MODE_ARM_SWITCH_OFF : 0u;
+    facts |= (channel[KILL] > ON) ? KEEL_MODE_KILL_SWITCH_ON : 0u;
+    facts |= (channel[THROTTLE] < LOW) ? KEEL_MODE_THROTTLE_LOW : 0u;
     return facts;
 }
 

@@ -99,8 +99,8 @@ static bool is_alone(uint8_t state)
 static uint8_t status_of(const copter_t *copter)
 {
     const keel_mode_t *const mode = &copter->state.mode;
-    const uint32_t alarms = KEEL_MODE_LINK_LOST | KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL |
-                            KEEL_MODE_IS_EMPTY;
+    const uint32_t alarms = KEEL_MODE_RC_LOST | KEEL_MODE_FENCE_BREACHED |
+                            KEEL_MODE_BATTERY_CRITICAL | KEEL_MODE_BATTERY_EMPTY;
 
     if (mode->state == KEEL_MODE_TERMINATED) {
         return (uint8_t)MAV_STATE_FLIGHT_TERMINATION;
@@ -172,12 +172,12 @@ static uint32_t healthy(const copter_t *copter)
            when((blocking & KEEL_MODE_CHECK_ACCELEROMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_ACCEL) |
            when((blocking & KEEL_MODE_CHECK_MAGNETOMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_MAG) |
            when((copter->estimate.altitude.axis.quality == KEEL_AXIS_GOOD) &&
-                    ((blocking & COPTER_CHECK_PRESSURE) == 0u),
+                    ((blocking & COPTER_CHECK_GROUND_PRESSURE) == 0u),
                 MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE) |
            when(copter->estimate.position.quality == KEEL_AXIS_GOOD, MAV_SYS_STATUS_SENSOR_GPS) |
-           when((mode->settled & KEEL_MODE_IS_LINKED) != 0u, MAV_SYS_STATUS_SENSOR_RC_RECEIVER) |
+           when((mode->settled & KEEL_MODE_RC_LINKED) != 0u, MAV_SYS_STATUS_SENSOR_RC_RECEIVER) |
            when(copter->energy.battery.level == KEEL_BATTERY_OK, MAV_SYS_STATUS_SENSOR_BATTERY) |
-           when((mode->seen & KEEL_MODE_IS_OUTSIDE) == 0u, MAV_SYS_STATUS_GEOFENCE) |
+           when((mode->seen & KEEL_MODE_FENCE_BREACHED) == 0u, MAV_SYS_STATUS_GEOFENCE) |
            when(mode->motors || ((blocking == 0u) && (mode->blocking.facts == 0u)),
                 MAV_SYS_STATUS_PREARM_CHECK);
 }
@@ -213,7 +213,7 @@ static void fence_status(const copter_state_t *state, uint8_t *payload)
                                    [COPTER_SIDE_LOW] = FENCE_BREACH_MINALT,
                                    [COPTER_SIDE_HIGH] = FENCE_BREACH_MAXALT,
                                    [COPTER_SIDE_AROUND] = FENCE_BREACH_BOUNDARY};
-    const bool is_outside = (state->mode.seen & KEEL_MODE_IS_OUTSIDE) != 0u;
+    const bool is_outside = (state->mode.seen & KEEL_MODE_FENCE_BREACHED) != 0u;
     const message_fence_status_t message = {
         .breach_time = (uint32_t)(state->breach.last_us / US_PER_MS),
         .breach_count = at_most(state->breach.count),

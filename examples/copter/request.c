@@ -26,8 +26,8 @@ static bool take_over(copter_moved_t *moved, bool says)
 
 static void apply_arm(copter_request_t *request, keel_mode_input_t *input)
 {
-    const uint32_t both = KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF;
-    const uint32_t to = request->arms ? KEEL_MODE_IS_ON : KEEL_MODE_IS_OFF;
+    const uint32_t both = KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_ARM_SWITCH_OFF;
+    const uint32_t to = request->arms ? KEEL_MODE_ARM_SWITCH_ON : KEEL_MODE_ARM_SWITCH_OFF;
 
     if (take_over(&request->arm, (input->facts & to) != 0u)) {
         request->arm.is_moved = false;
@@ -74,8 +74,8 @@ static void answer(copter_moved_t *moved, bool done, bool refused, uint32_t elap
 void copter_request_follow(copter_request_t *request, const keel_mode_t *machine,
                            uint32_t elapsed_us)
 {
-    const bool linked = (machine->settled & KEEL_MODE_IS_LINKED) != 0u;
-    const bool rests = (machine->settled & KEEL_MODE_IS_AT) != 0u;
+    const bool linked = (machine->settled & KEEL_MODE_RC_LINKED) != 0u;
+    const bool rests = (machine->settled & KEEL_MODE_SWITCH_UNMOVED) != 0u;
     const bool is_asked = rests && (machine->asked == request->asked);
     const bool has_mode = !machine->motors || (machine->mode == request->asked);
 

@@ -169,9 +169,10 @@ const copter_settings_t copter_defaults =
               .return_us = 120000000u,
               .required = KEEL_MODE_CHECK_GYROSCOPE | KEEL_MODE_CHECK_ACCELEROMETER |
                           KEEL_MODE_CHECK_MAGNETOMETER | KEEL_MODE_CHECK_BAROMETER |
-                          KEEL_MODE_CHECK_POSITIONING | KEEL_MODE_CHECK_CALIBRATION |
-                          KEEL_MODE_CHECK_LEVEL | KEEL_MODE_CHECK_BATTERY | KEEL_MODE_CHECK_LOAD |
-                          KEEL_MODE_CHECK_HOME | COPTER_CHECK_PRESSURE,
+                          KEEL_MODE_CHECK_POSITION_ESTIMATE | KEEL_MODE_CHECK_CALIBRATION |
+                          KEEL_MODE_CHECK_LEVEL_ATTITUDE | KEEL_MODE_CHECK_BATTERY_LEVEL |
+                          KEEL_MODE_CHECK_CPU_LOAD | KEEL_MODE_CHECK_HOME_POSITION |
+                          COPTER_CHECK_GROUND_PRESSURE,
               .returns = true},
      .cascade =
          {.pid =

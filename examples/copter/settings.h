@@ -22,7 +22,7 @@
 #include <stdint.h>
 
 /** A check before arming beside KEEL_MODE_CHECK_: the pressure may be that of the ground. */
-#define COPTER_CHECK_PRESSURE 0x1000u
+#define COPTER_CHECK_GROUND_PRESSURE 0x1000u
 
 /** How often units vote, in Hz: table 2, foreground IMU. */
 #define COPTER_VOTE_HZ 500.0f

@@ -37,31 +37,31 @@ static const word_t checks[] = {
     {KEEL_MODE_CHECK_ACCELEROMETER, "accelerometers do not agree"},
     {KEEL_MODE_CHECK_MAGNETOMETER, "magnetometer"},
     {KEEL_MODE_CHECK_BAROMETER, "no good altitude"},
-    {KEEL_MODE_CHECK_POSITIONING, "no good position"},
+    {KEEL_MODE_CHECK_POSITION_ESTIMATE, "no good position"},
     {KEEL_MODE_CHECK_CALIBRATION, "not calibrated"},
-    {KEEL_MODE_CHECK_LEVEL, "not level"},
-    {KEEL_MODE_CHECK_BATTERY, "battery"},
+    {KEEL_MODE_CHECK_LEVEL_ATTITUDE, "not level"},
+    {KEEL_MODE_CHECK_BATTERY_LEVEL, "battery"},
     {KEEL_MODE_CHECK_MOTORS, "motors"},
-    {KEEL_MODE_CHECK_LOAD, "processor load"},
+    {KEEL_MODE_CHECK_CPU_LOAD, "processor load"},
     {KEEL_MODE_CHECK_STORAGE, "storage"},
-    {KEEL_MODE_CHECK_HOME, "no home"},
-    {COPTER_CHECK_PRESSURE, "pressure not of the ground: an MS5607?"},
+    {KEEL_MODE_CHECK_HOME_POSITION, "no home"},
+    {COPTER_CHECK_GROUND_PRESSURE, "pressure not of the ground: an MS5607?"},
 };
 
 static const word_t facts[] = {
-    {KEEL_MODE_IS_LINKED, "no radio link"},
-    {KEEL_MODE_IS_ON, "arm switch"},
-    {KEEL_MODE_IS_OFF, "arm switch not off"},
-    {KEEL_MODE_IS_LOW, "throttle not low"},
-    {KEEL_MODE_IS_KILL, "kill switch"},
-    {KEEL_MODE_IS_AT, "mode switch not at a mode to fly"},
-    {KEEL_MODE_IS_LANDED, "not landed"},
-    {KEEL_MODE_HAS_ANGLE, "no attitude"},
-    {KEEL_MODE_HAS_HEIGHT, "no altitude"},
-    {KEEL_MODE_HAS_PLACE, "no position"},
-    {KEEL_MODE_IS_OUTSIDE, "outside the fence"},
-    {KEEL_MODE_IS_CRITICAL, "battery critical"},
-    {KEEL_MODE_IS_EMPTY, "battery empty"},
+    {KEEL_MODE_RC_LINKED, "no radio link"},
+    {KEEL_MODE_ARM_SWITCH_ON, "arm switch"},
+    {KEEL_MODE_ARM_SWITCH_OFF, "arm switch not off"},
+    {KEEL_MODE_THROTTLE_LOW, "throttle not low"},
+    {KEEL_MODE_KILL_SWITCH_ON, "kill switch"},
+    {KEEL_MODE_SWITCH_UNMOVED, "mode switch not at a mode to fly"},
+    {KEEL_MODE_LANDED, "not landed"},
+    {KEEL_MODE_ATTITUDE_VALID, "no attitude"},
+    {KEEL_MODE_ALTITUDE_VALID, "no altitude"},
+    {KEEL_MODE_POSITION_VALID, "no position"},
+    {KEEL_MODE_FENCE_BREACHED, "outside the fence"},
+    {KEEL_MODE_BATTERY_CRITICAL, "battery critical"},
+    {KEEL_MODE_BATTERY_EMPTY, "battery empty"},
 };
 
 /* A text for each bit. */
@@ -124,7 +124,7 @@ static uint32_t arm(copter_t *copter)
     }
     if ((machine->blocking.checks != 0u) || (machine->blocking.facts != 0u) || !machine->ready) {
         tell_refusal(copter->telemetry, &machine->blocking);
-        if ((machine->settled & KEEL_MODE_IS_LINKED) == 0u) {
+        if ((machine->settled & KEEL_MODE_RC_LINKED) == 0u) {
             copter_text(copter->telemetry, (uint8_t)MAV_SEVERITY_WARNING,
                         "not armed: ", "no radio link for long enough");
         } else if (!machine->ready) {

@@ -131,7 +131,7 @@ static void tell_state(copter_t *copter)
 
         copter_text(self, alone ? (uint8_t)MAV_SEVERITY_WARNING : (uint8_t)MAV_SEVERITY_INFO,
                     states[mode->state],
-                    ((mode->cause & KEEL_MODE_LINK_LOST) != 0u) ? ": radio link lost" : "");
+                    ((mode->cause & KEEL_MODE_RC_LOST) != 0u) ? ": radio link lost" : "");
         self->state = mode->state;
         if (mode->state == KEEL_MODE_ARMED) {
             copter_tell_parameters(copter);
@@ -429,7 +429,7 @@ void copter_telemetry(copter_t *copter)
 
     tell_state(copter);
     tell_mode(self, copter_mode_told(copter));
-    tell_fence(self, (copter->state.mode.seen & KEEL_MODE_IS_OUTSIDE) != 0u);
+    tell_fence(self, (copter->state.mode.seen & KEEL_MODE_FENCE_BREACHED) != 0u);
     tell_radio(self, &copter->pilot);
     tell_height(self, &copter->estimate.vertical);
     tell_crash(self, copter->estimate.vertical.is_crashed);

@@ -67,7 +67,7 @@ int blocks_by_pressure(void)
     copter_settings = copter_defaults;
     (void)copter_state_init(&copter.state);
     copter_state_machine(&copter);
-    return (copter.state.mode.blocking.checks & COPTER_CHECK_PRESSURE) != 0u;
+    return (copter.state.mode.blocking.checks & COPTER_CHECK_GROUND_PRESSURE) != 0u;
 }
 int healthy_barometer(void)
 {
