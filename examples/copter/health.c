@@ -37,7 +37,7 @@ void copter_scheduler_analysis(copter_t *copter)
 void copter_stack(copter_t *copter)
 {
     copter->health.stack_free = copter->port->stack_free(copter->port->context);
-    copter_tuning_step(&copter->tuning);
+    copter_parameter_store_step(&copter->parameters);
 }
 
 void copter_adc(copter_t *copter)

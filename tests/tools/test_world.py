@@ -23,10 +23,10 @@ from common.run import output_of  # noqa: E402
 from copter_shim import copter_of  # noqa: E402
 
 SHIM = """\
-#include "world.h"
+#include "wmm.h"
 void field(int latitude, int longitude, double *out)
 {
-    const copter_world_field_t found = copter_world_field(latitude, longitude);
+    const copter_wmm_field_t found = copter_wmm_field(latitude, longitude);
     out[0] = found.north; out[1] = found.east; out[2] = found.down;
 }
 """

@@ -4,7 +4,7 @@
 
 #include "keel/middleware/range.h"
 
-keel_status_t copter_state_init(copter_state_t *state)
+keel_status_t copter_state_machine_init(copter_state_t *state)
 {
     return keel_mode_init(&state->mode, &copter_settings.mode);
 }
@@ -60,14 +60,14 @@ static bool has_home(const copter_t *copter)
 static uint32_t facts_of(const copter_t *copter)
 {
     const copter_estimate_t *const estimate = &copter->estimate;
-    const keel_battery_level_t level = copter->energy.battery.level;
+    const keel_battery_level_t level = copter->power.battery.level;
     const uint32_t before = copter->state.mode.seen;
     const bool has_place = is_good(estimate->position.quality, before, KEEL_MODE_POSITION_VALID) &&
-                           copter->inertia.attitude.heading_valid;
+                           copter->imu.attitude.heading_valid;
 
     return when(estimate->is_landed, KEEL_MODE_LANDED) |
            when(has_place && is_home(copter), KEEL_MODE_AT_HOME) |
-           when(copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING, KEEL_MODE_ATTITUDE_VALID) |
+           when(copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING, KEEL_MODE_ATTITUDE_VALID) |
            when(is_good(estimate->vertical.quality, before, KEEL_MODE_ALTITUDE_VALID),
                 KEEL_MODE_ALTITUDE_VALID) |
            when(has_place, KEEL_MODE_POSITION_VALID) |
@@ -90,16 +90,16 @@ static bool are_confirmed(const keel_virtual_imu_t *imu, uint32_t from, uint32_t
 
 /* An MS5607 whose readings are taken for an MS5611's shows half of the pressure, and all else of it
  * looks right. Without a pressure there is nothing to say. */
-static bool may_be_of_ground(const copter_air_t *air)
+static bool may_be_of_ground(const copter_barometer_t *barometer)
 {
-    return (air->samples == 0u) ||
-           keel_range_contains(air->pressure_pa, copter_settings.ground_least,
+    return (barometer->samples == 0u) ||
+           keel_range_contains(barometer->pressure_pa, copter_settings.ground_least,
                                copter_settings.ground_most);
 }
 
 static uint32_t checks_of(const copter_t *copter)
 {
-    const keel_virtual_imu_t *const imu = &copter->inertia.imu;
+    const keel_virtual_imu_t *const imu = &copter->imu.virtual_imu;
     const copter_estimate_t *const estimate = &copter->estimate;
 
     return copter->health.checks | copter->calibration.checks |
@@ -109,10 +109,10 @@ static uint32_t checks_of(const copter_t *copter)
                 KEEL_MODE_CHECK_GYROSCOPE) |
            when(estimate->altitude.axis.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_BAROMETER) |
            when(estimate->position.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_POSITION_ESTIMATE) |
-           when(copter->inertia.down.z >= copter_settings.level, KEEL_MODE_CHECK_LEVEL_ATTITUDE) |
-           when(copter->energy.battery.level == KEEL_BATTERY_OK, KEEL_MODE_CHECK_BATTERY_LEVEL) |
+           when(copter->imu.down.z >= copter_settings.level, KEEL_MODE_CHECK_LEVEL_ATTITUDE) |
+           when(copter->power.battery.level == KEEL_BATTERY_OK, KEEL_MODE_CHECK_BATTERY_LEVEL) |
            when(estimate->position.has_origin, KEEL_MODE_CHECK_HOME_POSITION) |
-           when(may_be_of_ground(&copter->air), COPTER_CHECK_GROUND_PRESSURE);
+           when(may_be_of_ground(&copter->barometer), COPTER_CHECK_GROUND_PRESSURE);
 }
 
 /* Counts when the aircraft goes out of the fence. */
@@ -142,9 +142,9 @@ void copter_state_machine(copter_t *copter)
     self->frames = copter->pilot.frames;
     self->stepped_us = now_us;
     watch_fence(copter, input.facts);
-    copter_request_apply(&copter->request, frame, &input);
+    copter_action_request_apply(&copter->request, frame, &input);
     keel_mode_step(&self->mode, &input);
-    copter_request_follow(&copter->request, &self->mode, input.elapsed_us);
+    copter_action_request_follow(&copter->request, &self->mode, input.elapsed_us);
     if (was_disarmed && self->mode.motors) {
         self->homes++;
     }
