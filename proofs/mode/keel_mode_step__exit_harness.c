@@ -2,7 +2,7 @@
 // cbmc: --unwind 15 --external-sat-solver cadical
 // sources: src/flight/mode.c
 // checks: assertions
-// covers: keel_mode_step move
+// covers: keel_mode_step change_state
 //
 // From every valid machine whose motors may turn, three frames with the kill switch on, just within
 // the longest silence of each other, lead to TERMINATED. kill_us is such that three frames suffice:

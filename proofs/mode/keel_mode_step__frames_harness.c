@@ -2,7 +2,7 @@
 // cbmc: --unwind 15 --external-sat-solver cadical
 // sources: src/flight/mode.c
 // checks: assertions
-// covers: keel_mode_step look settle read_frame forget
+// covers: keel_mode_step look_at_facts settle_facts read_frame forget_stale_facts
 //
 // What the pilot says counts only from the third frame in a row that says it, and after its time:
 // by induction, with a count of these frames and the time since the first beside the machine. Any

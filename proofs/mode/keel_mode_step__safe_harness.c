@@ -2,8 +2,8 @@
 // cbmc: --unwind 15 --external-sat-solver cadical
 // sources: src/flight/mode.c
 // checks: assertions
-// covers: keel_mode_step look settle exit_of wanted_by needs_of instead_of heed_mode_switch
-// covers: heed_arm_switch try_to_arm events_of move choose
+// covers: keel_mode_step look_at_facts settle_facts exit_of wanted_by needs_of instead_of
+// covers: heed_mode_switch heed_arm_switch try_to_arm events_of change_state choose_mode
 //
 // What is safe, of one step from any valid machine, for every input of any bit pattern; that init
 // makes a valid machine and a step keeps it so are MOD_002_valid and MOD_003_valid, so this holds

@@ -11,7 +11,7 @@
 #define ON_GROUND (KEEL_MODE_LANDED | KEEL_MODE_THROTTLE_LOW)
 
 /* What must have settled before arming, ARM_SWITCH_OFF and SWITCH_UNMOVED in a sense of their own
- * (blocking), and what must not be so. */
+ * (arming_refusal), and what must not be so. */
 #define NEEDED                                                                                     \
     (KEEL_MODE_RC_LINKED | KEEL_MODE_ARM_SWITCH_OFF | KEEL_MODE_SWITCH_UNMOVED | ON_GROUND)
 #define FORBIDDEN (KEEL_MODE_KILL_SWITCH_ON | ALARMS)
@@ -183,7 +183,7 @@ static uint32_t read_frame(keel_mode_t *mode, const keel_mode_input_t *input)
 /*@ requires \valid(mode);
   @ assigns mode->silence_us, mode->seen, mode->settled;
   @*/
-static void forget(keel_mode_t *mode, uint32_t elapsed_us)
+static void forget_stale_facts(keel_mode_t *mode, uint32_t elapsed_us)
 {
     mode->silence_us = add_us(mode->silence_us, elapsed_us);
     if (mode->silence_us >= mode->config.loss_us) {
@@ -199,7 +199,7 @@ static void forget(keel_mode_t *mode, uint32_t elapsed_us)
 /*@ requires \valid(mode);
   @ assigns mode->settled, mode->seen, mode->held_us[0 .. KEEL_MODE_FACTS - 1];
   @*/
-static void settle(keel_mode_t *mode, uint32_t now, uint32_t may, uint32_t elapsed_us)
+static void settle_facts(keel_mode_t *mode, uint32_t now, uint32_t may, uint32_t elapsed_us)
 {
     const uint32_t before = mode->seen;
     const uint32_t waiting = now & ~mode->settled;
@@ -233,24 +233,24 @@ static void settle(keel_mode_t *mode, uint32_t now, uint32_t may, uint32_t elaps
   @     mode->rests_at;
   @ ensures mode->rests_at <= KEEL_MODE_NONE;
   @*/
-static void look(keel_mode_t *mode, const keel_mode_input_t *input, bool frame)
+static void look_at_facts(keel_mode_t *mode, const keel_mode_input_t *input, bool frame)
 {
     uint32_t now = input->facts & AIRCRAFT;
 
-    forget(mode, input->elapsed_us);
+    forget_stale_facts(mode, input->elapsed_us);
     if (frame) {
         now |= read_frame(mode, input);
         mode->silence_us = 0u;
     } else {
         now |= mode->seen & PILOT;
     }
-    settle(mode, now, frame ? (PILOT | AIRCRAFT) : AIRCRAFT, input->elapsed_us);
+    settle_facts(mode, now, frame ? (PILOT | AIRCRAFT) : AIRCRAFT, input->elapsed_us);
 }
 
 /*@ requires \valid_read(mode);
   @ assigns \nothing;
   @*/
-static bool has(const keel_mode_t *mode, uint32_t facts)
+static bool has_settled(const keel_mode_t *mode, uint32_t facts)
 {
     return (mode->settled & facts) == facts;
 }
@@ -267,9 +267,9 @@ static bool heed_mode_switch(keel_mode_t *mode, bool frame)
 {
     bool moved = false;
 
-    if (!has(mode, KEEL_MODE_RC_LINKED)) {
+    if (!has_settled(mode, KEEL_MODE_RC_LINKED)) {
         mode->asked = KEEL_MODE_NONE;
-    } else if (frame && has(mode, KEEL_MODE_SWITCH_UNMOVED)) {
+    } else if (frame && has_settled(mode, KEEL_MODE_SWITCH_UNMOVED)) {
         moved = (mode->asked != KEEL_MODE_NONE) && (mode->asked != mode->rests_at);
         mode->asked = mode->rests_at;
     } else {
@@ -284,11 +284,11 @@ static bool heed_mode_switch(keel_mode_t *mode, bool frame)
   @*/
 static bool heed_arm_switch(keel_mode_t *mode)
 {
-    const bool up = has(mode, KEEL_MODE_RC_LINKED);
-    const bool on = has(mode, KEEL_MODE_ARM_SWITCH_ON);
+    const bool up = has_settled(mode, KEEL_MODE_RC_LINKED);
+    const bool on = has_settled(mode, KEEL_MODE_ARM_SWITCH_ON);
     const bool attempt = mode->ready && up && on;
 
-    mode->ready = up && !on && (mode->ready || has(mode, KEEL_MODE_ARM_SWITCH_OFF));
+    mode->ready = up && !on && (mode->ready || has_settled(mode, KEEL_MODE_ARM_SWITCH_OFF));
     return attempt;
 }
 
@@ -304,7 +304,7 @@ static bool is_piloted(uint8_t asked)
 /*@ requires \valid_read(mode) && asked: mode->asked <= KEEL_MODE_NONE;
   @ assigns \nothing;
   @*/
-static keel_mode_refusal_t blocking(const keel_mode_t *mode, uint32_t checks, bool attempt)
+static keel_mode_refusal_t arming_refusal(const keel_mode_t *mode, uint32_t checks, bool attempt)
 {
     uint32_t good = mode->settled &
                     (NEEDED & ~(KEEL_MODE_ARM_SWITCH_OFF | KEEL_MODE_SWITCH_UNMOVED));
@@ -313,7 +313,8 @@ static keel_mode_refusal_t blocking(const keel_mode_t *mode, uint32_t checks, bo
     if (attempt || mode->ready) {
         good |= KEEL_MODE_ARM_SWITCH_OFF;
     }
-    if (has(mode, KEEL_MODE_SWITCH_UNMOVED | needs_of(mode->asked)) && is_piloted(mode->asked)) {
+    if (has_settled(mode, KEEL_MODE_SWITCH_UNMOVED | needs_of(mode->asked)) &&
+        is_piloted(mode->asked)) {
         good |= KEEL_MODE_SWITCH_UNMOVED;
     }
     refusal.checks = mode->config.required & ~checks;
@@ -333,7 +334,7 @@ static bool try_to_arm(keel_mode_t *mode, uint32_t checks, bool attempt)
         mode->blocking = none;
         return false;
     }
-    mode->blocking = blocking(mode, checks, attempt);
+    mode->blocking = arming_refusal(mode, checks, attempt);
     if (attempt) {
         mode->refused = mode->blocking;
     }
@@ -345,7 +346,7 @@ static bool try_to_arm(keel_mode_t *mode, uint32_t checks, bool attempt)
 /*@ assigns \nothing;
   @ ensures \result == (condition ? event : 0);
   @*/
-static uint32_t when(bool condition, uint32_t event)
+static uint32_t event_when(bool condition, uint32_t event)
 {
     return condition ? event : 0u;
 }
@@ -371,14 +372,15 @@ static bool is_time_up(const keel_mode_t *mode)
 /*@ requires \valid_read(mode);
   @ assigns \nothing;
   @*/
-static uint32_t requests(const keel_mode_t *mode, bool moved)
+static uint32_t pilot_requests(const keel_mode_t *mode, bool moved)
 {
     const bool asks = moved || (mode->state == KEEL_MODE_FLYING);
 
-    return when(moved && is_piloted(mode->asked), KEEL_MODE_PILOT_TAKES_OVER) |
-           when(asks && (mode->asked == KEEL_MODE_LAND), KEEL_MODE_PILOT_ASKS_LAND) |
-           when(asks && (mode->asked == KEEL_MODE_RETURN) && has(mode, KEEL_MODE_POSITION_VALID),
-                KEEL_MODE_PILOT_ASKS_RETURN);
+    return event_when(moved && is_piloted(mode->asked), KEEL_MODE_PILOT_TAKES_OVER) |
+           event_when(asks && (mode->asked == KEEL_MODE_LAND), KEEL_MODE_PILOT_ASKS_LAND) |
+           event_when(asks && (mode->asked == KEEL_MODE_RETURN) &&
+                          has_settled(mode, KEEL_MODE_POSITION_VALID),
+                      KEEL_MODE_PILOT_ASKS_RETURN);
 }
 
 /* All that has come. What the pilot says counts in a step with a frame alone. */
@@ -387,15 +389,17 @@ static uint32_t requests(const keel_mode_t *mode, bool moved)
   @*/
 static uint32_t events_of(const keel_mode_t *mode, bool frame)
 {
-    const bool landed = has(mode, KEEL_MODE_LANDED);
+    const bool landed = has_settled(mode, KEEL_MODE_LANDED);
 
     return (mode->settled & ~mode->overridden & (frame ? (PILOT | AIRCRAFT) : AIRCRAFT)) |
-           when(!has(mode, KEEL_MODE_RC_LINKED), KEEL_MODE_RC_LOST) |
-           when((mode->seen & ON_GROUND) != ON_GROUND, KEEL_MODE_LEAVES_GROUND) |
-           when(has(mode, ON_GROUND), KEEL_MODE_TOUCHES_DOWN) |
-           when(landed && (mode->state_us >= mode->config.landed_us), KEEL_MODE_STAYS_LANDED) |
-           when(is_time_up(mode), KEEL_MODE_STATE_TIMES_OUT) |
-           when(mode->config.returns && has(mode, KEEL_MODE_POSITION_VALID), KEEL_MODE_CAN_RETURN);
+           event_when(!has_settled(mode, KEEL_MODE_RC_LINKED), KEEL_MODE_RC_LOST) |
+           event_when((mode->seen & ON_GROUND) != ON_GROUND, KEEL_MODE_LEAVES_GROUND) |
+           event_when(has_settled(mode, ON_GROUND), KEEL_MODE_TOUCHES_DOWN) |
+           event_when(landed && (mode->state_us >= mode->config.landed_us),
+                      KEEL_MODE_STAYS_LANDED) |
+           event_when(is_time_up(mode), KEEL_MODE_STATE_TIMES_OUT) |
+           event_when(mode->config.returns && has_settled(mode, KEEL_MODE_POSITION_VALID),
+                      KEEL_MODE_CAN_RETURN);
 }
 
 /* --- Where it leads --------------------------------------------------------------------------- */
@@ -413,7 +417,7 @@ static bool is_failsafe(uint8_t state)
   @ assigns mode->state, mode->state_us, mode->cause, mode->overridden;
   @ ensures mode->state == way.to && mode->state_us == 0;
   @*/
-static void leave(keel_mode_t *mode, mode_exit_t way, uint32_t events)
+static void take_exit(keel_mode_t *mode, mode_exit_t way, uint32_t events)
 {
     const uint32_t cause = way.any & events;
 
@@ -432,7 +436,7 @@ static void leave(keel_mode_t *mode, mode_exit_t way, uint32_t events)
   @ assigns mode->state, mode->state_us, mode->cause, mode->overridden;
   @ ensures mode->state < KEEL_MODE_STATES;
   @*/
-static void move(keel_mode_t *mode, uint32_t events)
+static void change_state(keel_mode_t *mode, uint32_t events)
 {
     const uint8_t state = mode->state;
 
@@ -444,7 +448,7 @@ static void move(keel_mode_t *mode, uint32_t events)
         const mode_exit_t way = exit_of(state, i);
 
         if (((way.any & events) != 0u) && ((way.also & events) == way.also)) {
-            leave(mode, way, events);
+            take_exit(mode, way, events);
             return;
         }
     }
@@ -456,7 +460,7 @@ static void move(keel_mode_t *mode, uint32_t events)
   @ assigns mode->missing, mode->mode, mode->motors;
   @ ensures mode->mode <= KEEL_MODE_NONE;
   @*/
-static void choose(keel_mode_t *mode)
+static void choose_mode(keel_mode_t *mode)
 {
     const bool piloted = (mode->state == KEEL_MODE_ARMED) || (mode->state == KEEL_MODE_FLYING);
     uint8_t chosen = piloted ? mode->asked : wanted_by(mode->state);
@@ -480,15 +484,15 @@ void keel_mode_step(keel_mode_t *mode, const keel_mode_input_t *input)
     bool attempt;
     uint32_t events;
 
-    look(mode, input, frame);
-    mode->overridden &= has(mode, KEEL_MODE_RC_LINKED) ? mode->settled : 0u;
+    look_at_facts(mode, input, frame);
+    mode->overridden &= has_settled(mode, KEEL_MODE_RC_LINKED) ? mode->settled : 0u;
     mode->state_us = add_us(mode->state_us, input->elapsed_us);
     moved = heed_mode_switch(mode, frame);
     attempt = heed_arm_switch(mode);
-    events = events_of(mode, frame) | requests(mode, moved) |
-             when(try_to_arm(mode, input->checks, attempt), KEEL_MODE_PILOT_ARMS);
-    move(mode, events);
-    choose(mode);
+    events = events_of(mode, frame) | pilot_requests(mode, moved) |
+             event_when(try_to_arm(mode, input->checks, attempt), KEEL_MODE_PILOT_ARMS);
+    change_state(mode, events);
+    choose_mode(mode);
 }
 
 /* --- The beginning ---------------------------------------------------------------------------- */
