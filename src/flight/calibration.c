@@ -416,7 +416,7 @@ keel_status_t keel_calibration_six(const keel_calibration_sides_t *sides,
 /*@ requires \valid_read(row + (0 .. 2)) && \valid_read(raw + (0 .. 2));
   @ assigns \nothing;
   @*/
-static float dot_product(const float row[KEEL_CALIBRATION_AXES],
+static float row_product(const float row[KEEL_CALIBRATION_AXES],
                          const float raw[KEEL_CALIBRATION_AXES])
 {
     return ((row[0] * raw[0]) + (row[1] * raw[1])) + (row[2] * raw[2]);
@@ -425,7 +425,7 @@ static float dot_product(const float row[KEEL_CALIBRATION_AXES],
 void keel_calibration_turn(const keel_calibration_rotation_t *turn,
                            const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out)
 {
-    out->axis[0] = dot_product(turn->x, raw);
-    out->axis[1] = dot_product(turn->y, raw);
-    out->axis[2] = dot_product(turn->z, raw);
+    out->axis[0] = row_product(turn->x, raw);
+    out->axis[1] = row_product(turn->y, raw);
+    out->axis[2] = row_product(turn->z, raw);
 }
