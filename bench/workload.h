@@ -119,9 +119,9 @@ static keel_mode_input_t mode_workload(keel_mode_t *mode, uint32_t settle_us, bo
     for (uint32_t n = 0u; n < STEPS; n++) {
         keel_mode_step(mode, &input);
     }
-    input.facts ^= KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF;
+    input.facts ^= KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_ARM_SWITCH_OFF;
     for (uint32_t n = 0u; n < STEPS; n++) {
-        input.facts ^= (n == (STEPS / 2u)) ? (KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW) : 0u;
+        input.facts ^= (n == (STEPS / 2u)) ? (KEEL_MODE_LANDED | KEEL_MODE_THROTTLE_LOW) : 0u;
         keel_mode_step(mode, &input);
     }
     return input;

@@ -29,7 +29,7 @@ keel_status_t copter_calibration_init(copter_calibration_t *calibration)
     status = (status == KEEL_OK)
                  ? keel_calibration_rest_init(&calibration->rest, &copter_settings.rest)
                  : status;
-    status = (status == KEEL_OK) ? copter_accelerometers_init(&calibration->accelerometers)
+    status = (status == KEEL_OK) ? copter_accel_calibration_init(&calibration->accelerometers)
                                  : status;
     begin_rest(calibration);
     copter_calibration_set(calibration);
@@ -38,14 +38,14 @@ keel_status_t copter_calibration_init(copter_calibration_t *calibration)
 
 void copter_calibration_set(copter_calibration_t *calibration)
 {
-    calibration->compass = copter_settings.compass;
-    copter_accelerometers_set(&calibration->accelerometers);
+    calibration->magnetometer = copter_settings.magnetometer;
+    copter_accel_calibration_set(&calibration->accelerometers);
 }
 
 void copter_calibration_correct(const copter_calibration_t *calibration, uint32_t unit,
                                 float value[KEEL_VIRTUAL_IMU_CHANNELS])
 {
-    const copter_accelerometers_t *const accelerometers = &calibration->accelerometers;
+    const copter_accel_calibration_t *const accelerometers = &calibration->accelerometers;
     keel_calibration_vector_t force;
     keel_calibration_vector_t rate;
 
@@ -87,7 +87,7 @@ static bool are_calibrated(const copter_t *copter)
     const copter_calibration_t *const self = &copter->calibration;
 
     return are_taken(self) &&
-           ((copter->compass.samples == 0u) || (self->rest.state == KEEL_CALIBRATION_DONE));
+           ((copter->magnetometer.samples == 0u) || (self->rest.state == KEEL_CALIBRATION_DONE));
 }
 
 bool copter_has_moved(const keel_calibration_rest_t *rest)
@@ -98,7 +98,7 @@ bool copter_has_moved(const keel_calibration_rest_t *rest)
 static void step_gyroscopes(copter_t *copter)
 {
     for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
-        const keel_virtual_imu_sample_t *const sample = &copter->inertia.unit[unit];
+        const keel_virtual_imu_sample_t *const sample = &copter->imu.unit[unit];
 
         if (sample->present) {
             keel_calibration_rest_step(&copter->calibration.gyroscope[unit],
@@ -107,13 +107,13 @@ static void step_gyroscopes(copter_t *copter)
     }
 }
 
-static void step_rest(copter_calibration_t *self, const copter_compass_t *compass)
+static void step_rest(copter_calibration_t *self, const copter_magnetometer_t *magnetometer)
 {
-    const float calm[KEEL_CALIBRATION_AXES] = {compass->calm[0].output, compass->calm[1].output,
-                                               compass->calm[2].output};
+    const float calm[KEEL_CALIBRATION_AXES] = {
+        magnetometer->calm[0].output, magnetometer->calm[1].output, magnetometer->calm[2].output};
 
-    if (self->rest_taken != compass->samples) {
-        self->rest_taken = compass->samples;
+    if (self->rest_taken != magnetometer->samples) {
+        self->rest_taken = magnetometer->samples;
         keel_calibration_rest_step(&self->rest, calm);
     }
 }
@@ -126,7 +126,7 @@ static void seek_rest(copter_t *copter)
     bool moves = false;
 
     step_gyroscopes(copter);
-    step_rest(self, &copter->compass);
+    step_rest(self, &copter->magnetometer);
     for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
         moves = moves || copter_has_moved(&self->gyroscope[unit]);
     }
@@ -150,11 +150,11 @@ void copter_calibration_imu(copter_t *copter)
     if (!before && are_taken(self)) {
         self->done++;
     }
-    copter_accelerometers_step(copter);
+    copter_accel_calibration_step(copter);
     set_check(self, KEEL_MODE_CHECK_CALIBRATION,
               are_calibrated(copter) &&
                   (self->accelerometers.levelling == (uint8_t)COPTER_LEVELLING_NONE) &&
-                  (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING));
+                  (copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING));
 }
 
 /* An axis that was turned too little can be turned on. All else begins anew. */
@@ -187,7 +187,7 @@ static void end_field(copter_calibration_t *self)
     self->field_end = (uint8_t)verdict_of(&self->field);
     if (keel_calibration_field_finish(&self->field) == KEEL_OK) {
         for (uint32_t k = 0u; k < KEEL_CALIBRATION_AXES; k++) {
-            self->compass.offset[k] = self->field.offset[k];
+            self->magnetometer.offset[k] = self->field.offset[k];
         }
     }
     self->field_ends++;
@@ -197,7 +197,7 @@ static void end_field(copter_calibration_t *self)
  * calibrated stays. */
 static void heed_place(copter_calibration_t *self, const copter_estimate_t *estimate)
 {
-    const copter_world_field_t field = estimate->field;
+    const copter_wmm_field_t field = estimate->field;
 
     if ((self->fields == estimate->fields) || (self->field.state == KEEL_CALIBRATION_COLLECTING)) {
         return;
@@ -217,7 +217,7 @@ static void heed_place(copter_calibration_t *self, const copter_estimate_t *esti
 void copter_calibration_magnetometer(copter_t *copter)
 {
     copter_calibration_t *const self = &copter->calibration;
-    const keel_attitude_vector_t raw = copter->compass.raw;
+    const keel_attitude_vector_t raw = copter->magnetometer.raw;
     const float sample[KEEL_CALIBRATION_AXES] = {raw.x, raw.y, raw.z};
 
     heed_place(self, &copter->estimate);
@@ -230,5 +230,5 @@ void copter_calibration_magnetometer(copter_t *copter)
         /* Nobody asks. */
     }
     /* The field is what the settings expect when the heading follows it. */
-    set_check(self, KEEL_MODE_CHECK_MAGNETOMETER, copter->inertia.attitude.heading_valid);
+    set_check(self, KEEL_MODE_CHECK_MAGNETOMETER, copter->imu.attitude.heading_valid);
 }

@@ -5,8 +5,8 @@
  *
  * Each of the functions below returns one of MAV_RESULT, and says by a text why, if it refuses:
  * ACCEPTED when it is done; IN_PROGRESS when the state machine has been asked, whose answer
- * copter_take_answers passes on; DENIED for what can never be as it was asked for; UNSUPPORTED for
- * what this aircraft does not do; TEMPORARILY_REJECTED for what it does not do now.
+ * copter_mavlink_pass_answers passes on; DENIED for what can never be as it was asked for;
+ * UNSUPPORTED for what this aircraft does not do; TEMPORARILY_REJECTED for what it does not do now.
  */
 #ifndef COPTER_COMMAND_H
 #define COPTER_COMMAND_H
@@ -38,7 +38,7 @@ bool copter_command_is_empty(float param);
 
 /** @name Modes: mode_commands.c. */
 /** @{ */
-/** DO_SET_MODE: a number of modes.h; or PX4's main mode and sub-mode, as MAVSDK sends them. */
+/** DO_SET_MODE: a number of mavlink_modes.h; or PX4's main mode and sub-mode, as by MAVSDK. */
 uint32_t copter_command_set_mode(copter_t *copter, const copter_command_t *command);
 /** SET_MODE. */
 uint32_t copter_command_set_mode_by_number(copter_t *copter, const copter_command_t *command,
@@ -53,7 +53,7 @@ uint32_t copter_command_hold(copter_t *copter, const copter_command_t *command);
 uint32_t copter_command_take_off(copter_t *copter, const copter_command_t *command);
 /** @} */
 
-/** @name Calibration: calibration_kept.c. */
+/** @name Calibration: calibration_commands.c. */
 /** @{ */
 /** PREFLIGHT_CALIBRATION: accelerometers on six sides, how they are mounted; nothing: ends it. */
 uint32_t copter_command_calibrate(copter_t *copter, const copter_command_t *command);

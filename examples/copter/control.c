@@ -54,7 +54,7 @@ static uint8_t mode_of_axes(const copter_t *copter)
     if (machine->state == KEEL_MODE_ARMED) {
         return KEEL_MODE_NONE;
     }
-    if ((mode == KEEL_MODE_LAND) && ((machine->settled & KEEL_MODE_HAS_PLACE) != 0u)) {
+    if ((mode == KEEL_MODE_LAND) && ((machine->settled & KEEL_MODE_POSITION_VALID) != 0u)) {
         mode = KEEL_MODE_POSITION;
     }
     if (((mode == KEEL_MODE_POSITION) || (mode == KEEL_MODE_RETURN)) &&
@@ -211,9 +211,8 @@ void copter_angle_control(copter_t *copter)
     const keel_reference_setpoints_t *const pilot = &copter->pilot.reference.setpoints;
     const keel_cascade_tilt_t sticks = {.roll = pilot->roll, .pitch = pilot->pitch};
 
-    keel_cascade_angle_step(cascade, sticks_tilt(copter) ? sticks : cascade->tilt,
-                            copter->inertia.down,
-                            copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING);
+    keel_cascade_angle_step(cascade, sticks_tilt(copter) ? sticks : cascade->tilt, copter->imu.down,
+                            copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING);
 }
 
 /* The throttle's middle hovers. */
@@ -226,12 +225,12 @@ static float thrust_of(float stick)
 
 /* What lifts as much as this does when the aircraft is level; beyond a right angle nothing does.
  * Without an attitude it is taken to be level. */
-static float tilted(float thrust, const copter_inertia_t *inertia)
+static float tilted(float thrust, const copter_imu_t *imu)
 {
-    const float down = inertia->down.z;
+    const float down = imu->down.z;
     float lifts = thrust;
 
-    if (inertia->attitude.phase == KEEL_ATTITUDE_RUNNING) {
+    if (imu->attitude.phase == KEEL_ATTITUDE_RUNNING) {
         if (down <= 0.0f) {
             lifts = 0.0f;
         } else if (down < TILT_LEAST) {
@@ -262,7 +261,7 @@ static keel_cascade_rates_t rates_of(const copter_t *copter)
         asked.thrust = thrust_of(copter->pilot.sticks.climb);
     } else {
         asked.thrust = tilted(sinks_blindly(copter) ? copter->control.sink : cascade->thrust,
-                              &copter->inertia);
+                              &copter->imu);
     }
     return asked;
 }
@@ -271,7 +270,7 @@ void copter_angle_rate_control(copter_t *copter)
 {
     copter_control_t *const self = &copter->control;
 
-    keel_cascade_rate_step(&self->cascade, rates_of(copter), copter->inertia.attitude.rate,
+    keel_cascade_rate_step(&self->cascade, rates_of(copter), copter->imu.attitude.rate,
                            self->mixer.limited);
     keel_mixer_step(&self->mixer, &self->cascade.command,
                     copter->state.mode.motors && !copter->estimate.vertical.is_crashed);

@@ -68,12 +68,16 @@ static keel_status_t first_of(const keel_status_t status[], uint32_t count)
 
 static keel_status_t make(copter_t *copter)
 {
-    const keel_status_t status[] = {
-        copter_inertia_init(&copter->inertia),       copter_calibration_init(&copter->calibration),
-        copter_compass_init(&copter->compass),       copter_air_init(&copter->air),
-        copter_satellites_init(&copter->satellites), copter_pilot_init(&copter->pilot),
-        copter_energy_init(&copter->energy),         copter_estimate_init(&copter->estimate),
-        copter_state_init(&copter->state),           copter_control_init(&copter->control)};
+    const keel_status_t status[] = {copter_imu_init(&copter->imu),
+                                    copter_calibration_init(&copter->calibration),
+                                    copter_magnetometer_init(&copter->magnetometer),
+                                    copter_barometer_init(&copter->barometer),
+                                    copter_gps_init(&copter->gps),
+                                    copter_pilot_init(&copter->pilot),
+                                    copter_power_init(&copter->power),
+                                    copter_estimate_init(&copter->estimate),
+                                    copter_state_machine_init(&copter->state),
+                                    copter_control_init(&copter->control)};
 
     return first_of(status, sizeof status / sizeof status[0]);
 }
@@ -145,7 +149,7 @@ keel_status_t copter_add(copter_t *copter, const copter_own_task_t *own)
  * All take their settings: the check of the parameters has asked them. */
 void copter_retune(copter_t *copter)
 {
-    if (copter_tuning_apply(&copter->tuning)) {
+    if (copter_parameter_store_apply(&copter->parameters)) {
         (void)copter_control_init(&copter->control);
         copter_calibration_set(&copter->calibration);
         (void)keel_reference_init(&copter->pilot.reference, &copter_settings.reference);
@@ -158,7 +162,7 @@ keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool pla
     keel_status_t status;
 
     *copter = (copter_t){.port = port, .plain_mean = plain_mean};
-    status = copter_tuning_start(&copter->tuning, port->memory);
+    status = copter_parameter_store_start(&copter->parameters, port->memory);
     if (status == KEEL_OK) {
         status = make(copter);
     }

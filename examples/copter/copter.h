@@ -6,17 +6,17 @@
  * Which task hands what to whom. Each structure below is written by the tasks named beside it
  * alone; what flows from left to right flows through it.
  *
- *     background IMU -> foreground IMU --(inertia)--> navigation --(estimate)--+
- *     background, foreground magnetometer --(compass)--^   ^                   |
- *     background, foreground barometer ----(air)-----------+                   v
- *     GPS ---------------------------------(satellites)----+      +--- position control
+ *     background IMU -> foreground IMU --(imu)------> navigation --(estimate)--+
+ *     background, foreground magnetometer (magnetometer)^  ^                   |
+ *     background, foreground barometer ---(barometer)------+                   v
+ *     GPS --------------------------------(gps)------------+      +--- position control
  *     background, foreground radio --------(pilot)--> state machine    angle control
- *     background, foreground power module -(energy)------^   |    |    angle rate control
+ *     background, foreground power module -(power)-------^   |    |    angle rate control
  *                                                            +--(state)-----> | (control)
  *                                                                             v
  *                                                                           motors
  *
- * Besides, telemetry (telemetry.h) tells all of it, and asks the state machine (request.h).
+ * Besides, telemetry (telemetry.h) tells all of it, and asks the state machine (action_request.h).
  *
  * The tasks do not interrupt one another (they run to their end, one at a time), so a structure is
  * never seen half written. No task computes what is a unit's to compute.
@@ -24,6 +24,7 @@
 #ifndef COPTER_H
 #define COPTER_H
 
+#include "action_request.h"
 #include "common/task_table.h"
 #include "keel/flight/altitude.h"
 #include "keel/flight/attitude.h"
@@ -41,13 +42,12 @@
 #include "keel/rtos/load.h"
 #include "keel/rtos/scheduler.h"
 #include "log.h"
+#include "parameter_store.h"
 #include "port.h"
-#include "radio.h"
-#include "request.h"
+#include "rc.h"
 #include "settings.h"
-#include "tuning.h"
 #include "urpilot_tasks.h"
-#include "world.h"
+#include "wmm.h"
 
 /** Tasks beside table 2's, and all together. */
 #define COPTER_OWN_TASKS 4u
@@ -86,14 +86,14 @@ typedef struct copter_doubt {
 } copter_doubt_t;
 
 /** Written by background and foreground IMU. */
-typedef struct copter_inertia {
+typedef struct copter_imu {
     keel_oversample_t channel[COPTER_IMUS][KEEL_VIRTUAL_IMU_CHANNELS];
     uint64_t sampled_us[COPTER_IMUS];            /**< When each unit last gave a sample. */
     int16_t temperature[COPTER_IMUS];            /**< Of it, in 0.01 degrees Celsius. */
     keel_virtual_imu_sample_t unit[COPTER_IMUS]; /**< As measured, without calibration. */
     bool rests[COPTER_IMUS];                     /**< Whether a unit said the same as before. */
     keel_filter_t filter[COPTER_IMUS][KEEL_VIRTUAL_IMU_CHANNELS]; /**< Of what is voted on. */
-    keel_virtual_imu_t imu;
+    keel_virtual_imu_t virtual_imu;
     keel_virtual_imu_sample_t slow_unit[COPTER_IMUS]; /**< What drifts in them. */
     keel_virtual_imu_t slow;
     uint32_t votes;               /**< How many there were. */
@@ -102,14 +102,14 @@ typedef struct copter_inertia {
     keel_attitude_t attitude;
     uint32_t calibrations;               /**< What was taken of calibration.done. */
     uint32_t fields;                     /**< What was taken of estimate.fields. */
-    uint32_t field_taken;                /**< What was taken of compass.samples. */
+    uint32_t field_taken;                /**< What was taken of magnetometer.samples. */
     keel_attitude_vector_t down;         /**< As the body sees it. */
     keel_attitude_vector_t force_sum;    /**< Of the steps of this block. */
     uint32_t forces;                     /**< How many are in it. */
     uint32_t steps;                      /**< Of this block. */
     copter_force_t force[COPTER_BLOCKS]; /**< Block n is at n modulo COPTER_BLOCKS. */
     uint32_t blocks;                     /**< How many there were. */
-} copter_inertia_t;
+} copter_imu_t;
 
 /** A calibration of accelerometers that a ground station asked for. */
 typedef enum copter_levelling {
@@ -128,7 +128,7 @@ typedef enum copter_levelled {
 } copter_levelled_t;
 
 /** Written by calibration IMU; asked for by telemetry. */
-typedef struct copter_accelerometers {
+typedef struct copter_accel_calibration {
     keel_calibration_rest_t rest[COPTER_IMUS];
     keel_calibration_sides_t sides[COPTER_IMUS];
     keel_calibration_correction_t correction[COPTER_IMUS]; /**< In force. */
@@ -143,43 +143,43 @@ typedef struct copter_accelerometers {
     uint8_t shown;     /**< The vehicle's side then, if it is one of them. */
     uint8_t levelling; /**< What goes on: copter_levelling_t. */
     uint8_t end;       /**< How the last one ended: copter_levelled_t. */
-} copter_accelerometers_t;
+} copter_accel_calibration_t;
 
 /** Written by calibration IMU and calibration magnetometer. */
 typedef struct copter_calibration {
-    copter_accelerometers_t accelerometers;
+    copter_accel_calibration_t accelerometers;
     keel_calibration_rest_t gyroscope[COPTER_IMUS];
     keel_calibration_rest_t rest; /**< Of the field: while it turns, nothing rests. */
-    uint32_t rest_taken;          /**< What was taken of compass.samples. */
+    uint32_t rest_taken;          /**< What was taken of magnetometer.samples. */
     keel_calibration_field_t field;
-    keel_calibration_correction_t compass; /**< In force, in microtesla. */
-    uint32_t field_ends;                   /**< How often the pilot ended it. */
-    uint8_t field_end;                     /**< With what: keel_calibration_verdict_t. */
-    bool field_asked;                      /**< He asked for it in the last run. */
-    uint32_t done;                         /**< How often all gyroscopes were calibrated. */
+    keel_calibration_correction_t magnetometer; /**< In force, in microtesla. */
+    uint32_t field_ends;                        /**< How often the pilot ended it. */
+    uint8_t field_end;                          /**< With what: keel_calibration_verdict_t. */
+    bool field_asked;                           /**< He asked for it in the last run. */
+    uint32_t done;                              /**< How often all gyroscopes were calibrated. */
     uint32_t turns;  /**< How often the field turned while gyroscopes saw nothing move. */
     uint32_t fields; /**< What was taken of estimate.fields. */
     uint32_t checks; /**< KEEL_MODE_CHECK_CALIBRATION and _MAGNETOMETER, as far as they hold. */
 } copter_calibration_t;
 
 /** Written by background and foreground magnetometer. */
-typedef struct copter_compass {
+typedef struct copter_magnetometer {
     keel_oversample_t axis[3];
     keel_filter_t calm[3];        /**< Of raw, what is slower than a second or so. */
     keel_attitude_vector_t raw;   /**< Body, in microtesla, as measured. */
     keel_attitude_vector_t field; /**< The same less what the aircraft adds. */
     uint32_t samples;             /**< How many there were. */
-} copter_compass_t;
+} copter_magnetometer_t;
 
 /** Written by background and foreground barometer. */
-typedef struct copter_air {
+typedef struct copter_barometer {
     keel_oversample_t pressure;
     float pressure_pa;
     int16_t temperature; /**< Of the last sample that counted, in 0.01 degrees Celsius. */
     uint32_t samples;    /**< How many there were. */
     uint32_t repeats;    /**< How often the last pressure came again, until it counts as stuck. */
     uint64_t sampled_us; /**< When that sample came. */
-} copter_air_t;
+} copter_barometer_t;
 
 /** A fix, as navigation takes it. */
 typedef struct copter_fix {
@@ -205,7 +205,7 @@ typedef struct copter_date {
 } copter_date_t;
 
 /** Written by GPS. */
-typedef struct copter_satellites {
+typedef struct copter_gps {
     keel_ubx_t receiver;
     copter_date_t date;
     copter_fix_t fix;
@@ -213,7 +213,7 @@ typedef struct copter_satellites {
     uint64_t fixed_us;
     keel_attitude_vector_t acceleration; /**< Of the aircraft, Earth, by the last two fixes. */
     bool is_accelerated;                 /**< Whether that is known. */
-} copter_satellites_t;
+} copter_gps_t;
 
 /** The counts a second ago, to which those of now are compared. */
 typedef struct copter_pilot_ear {
@@ -226,29 +226,29 @@ typedef struct copter_pilot_ear {
 
 /** Written by background and foreground radio. */
 typedef struct copter_pilot {
-    copter_radio_t radio;
+    copter_rc_t rc;
     uint32_t frames;        /**< How many frames the pilot sent, and are in what follows. */
-    uint32_t read;          /**< Of radio.frames, the last one looked at. */
+    uint32_t read;          /**< Of rc.frames, the last one looked at. */
     copter_pilot_ear_t ear; /**< What was there a second ago. */
     keel_reference_sticks_t sticks;
     keel_reference_t reference; /**< What the sticks ask for. */
-    uint32_t facts;             /**< KEEL_MODE_IS_LINKED, ... of the pilot's last frame. */
+    uint32_t facts;             /**< KEEL_MODE_RC_LINKED, ... of the pilot's last frame. */
     bool calibrates;            /**< It asks for a calibration of the magnetometer. */
     uint8_t asked;              /**< The mode that it asks for. */
 } copter_pilot_t;
 
 /** Written by background and foreground power module. */
-typedef struct copter_energy {
+typedef struct copter_power {
     keel_battery_sample_t sample; /**< What came since the last step. */
     keel_battery_t battery;
     bool is_known; /**< Its voltage at rest has said what it has. */
-} copter_energy_t;
+} copter_power_t;
 
 /** What tells the height. */
 typedef enum copter_height {
     COPTER_HEIGHT_NONE = 0, /**< Nothing: the climb rate is the acceleration's, for a while. */
     COPTER_HEIGHT_BAROMETER,
-    COPTER_HEIGHT_SATELLITES /**< The barometer is silent. */
+    COPTER_HEIGHT_GPS /**< The barometer is silent. */
 } copter_height_t;
 
 /** What the inertial units say of the way up, in a step. */
@@ -259,13 +259,13 @@ typedef struct copter_vertical_force {
 
 /** Height without the barometer, and what the aircraft's weight asks for. */
 typedef struct copter_vertical {
-    keel_axis_t satellites; /**< The receiver's height, above where it first could be used. */
-    float zero;             /**< That place, above mean sea level, in m. */
-    float offset;           /**< How much higher the receiver's height is than the barometer's. */
-    float speed;            /**< Upwards by acceleration alone, of the last seconds, in m/s. */
-    float hover;            /**< The thrust that hovers, as learnt in flight, 0 to 1. */
-    uint32_t lying;         /**< Steps in a row in which it lay on its side. */
-    uint32_t touching;      /**< Steps in a row in which it did not sink, but was to. */
+    keel_axis_t gps;   /**< The receiver's height, above where it first could be used. */
+    float zero;        /**< That place, above mean sea level, in m. */
+    float offset;      /**< How much higher the receiver's height is than the barometer's. */
+    float speed;       /**< Upwards by acceleration alone, of the last seconds, in m/s. */
+    float hover;       /**< The thrust that hovers, as learnt in flight, 0 to 1. */
+    uint32_t lying;    /**< Steps in a row in which it lay on its side. */
+    uint32_t touching; /**< Steps in a row in which it did not sink, but was to. */
     keel_axis_quality_t quality; /**< Of the height that is told. */
     uint8_t source;              /**< Of the height that is told: copter_height_t. */
     bool has_zero;
@@ -282,13 +282,13 @@ typedef struct copter_estimate {
     keel_cascade_estimate_t here;   /**< For the cascade: from home. */
     float home_north;               /**< Of the position's origin, in m. */
     float home_east;                /**< Of the position's origin, in m. */
-    uint32_t blocks;                /**< What was taken of inertia.blocks. */
-    uint32_t pressures;             /**< What was taken of air.samples. */
-    uint32_t fixes;                 /**< What was taken of satellites.fixes. */
+    uint32_t blocks;                /**< What was taken of imu.blocks. */
+    uint32_t pressures;             /**< What was taken of barometer.samples. */
+    uint32_t fixes;                 /**< What was taken of gps.fixes. */
     uint32_t homes;                 /**< What was taken of state.homes. */
     uint32_t resets;                /**< How often the place jumped, as fixes contradicted it. */
     keel_cascade_vector_t reset_by; /**< How far it jumped the last time, in m. */
-    copter_world_field_t field;     /**< The Earth's magnetic field at the origin. */
+    copter_wmm_field_t field;       /**< The Earth's magnetic field at the origin. */
     uint32_t fields;                /**< How often an origin was set. */
     bool is_landed;                 /**< Nothing moves, and the motors hardly push. */
     bool touches;                   /**< It is to sink and does not: it may have landed. */
@@ -338,7 +338,7 @@ typedef struct copter_health {
     uint32_t overruns;   /**< Runs of all tasks that were longer than their budgets. */
     uint32_t skipped;    /**< Periods of all tasks that passed without a run. */
     uint32_t stack_free; /**< In bytes. */
-    uint32_t checks;     /**< KEEL_MODE_CHECK_LOAD, if it holds. */
+    uint32_t checks;     /**< KEEL_MODE_CHECK_CPU_LOAD, if it holds. */
     copter_chip_t chip;  /**< As the last run of ADC found it. */
 } copter_health_t;
 
@@ -364,20 +364,20 @@ typedef struct copter_own_task {
 /** A copter. Read it freely. */
 struct copter {
     const copter_port_t *port;
-    copter_inertia_t inertia;
+    copter_imu_t imu;
     copter_calibration_t calibration;
-    copter_compass_t compass;
-    copter_air_t air;
-    copter_satellites_t satellites;
+    copter_magnetometer_t magnetometer;
+    copter_barometer_t barometer;
+    copter_gps_t gps;
     copter_pilot_t pilot;
-    copter_energy_t energy;
+    copter_power_t power;
     copter_estimate_t estimate;
     copter_state_t state;
     copter_control_t control;
     copter_health_t health;
     copter_log_t log;
-    copter_tuning_t tuning;
-    copter_request_t request;           /**< Written by telemetry and the state machine. */
+    copter_parameter_store_t parameters;
+    copter_action_request_t request;    /**< Written by telemetry and the state machine. */
     struct copter_telemetry *telemetry; /**< Null without. */
     keel_scheduler_t scheduler;
     copter_task_t task[COPTER_TASKS];
@@ -455,19 +455,19 @@ const keel_task_config_t *copter_declaration(uint32_t row);
 
 /** @name The bodies of the tasks, by the files that have them. */
 /** @{ */
-keel_status_t copter_inertia_init(copter_inertia_t *inertia);
+keel_status_t copter_imu_init(copter_imu_t *imu);
 void copter_background_imu(copter_t *copter);
 void copter_foreground_imu(copter_t *copter);
 
-keel_status_t copter_compass_init(copter_compass_t *compass);
+keel_status_t copter_magnetometer_init(copter_magnetometer_t *magnetometer);
 void copter_background_magnetometer(copter_t *copter);
 void copter_foreground_magnetometer(copter_t *copter);
 
-keel_status_t copter_air_init(copter_air_t *air);
+keel_status_t copter_barometer_init(copter_barometer_t *barometer);
 void copter_background_barometer(copter_t *copter);
 void copter_foreground_barometer(copter_t *copter);
 
-keel_status_t copter_satellites_init(copter_satellites_t *satellites);
+keel_status_t copter_gps_init(copter_gps_t *gps);
 void copter_gps(copter_t *copter);
 
 /** Remembers a byte of the satellite receiver. */
@@ -482,7 +482,7 @@ keel_status_t copter_pilot_init(copter_pilot_t *pilot);
 void copter_background_radio(copter_t *copter);
 void copter_foreground_radio(copter_t *copter);
 
-keel_status_t copter_energy_init(copter_energy_t *energy);
+keel_status_t copter_power_init(copter_power_t *power);
 void copter_background_power_module(copter_t *copter);
 void copter_foreground_power_module(copter_t *copter);
 
@@ -498,7 +498,7 @@ void copter_vertical_tell(copter_estimate_t *estimate);
 /** Whether it stands on the ground or lies there, and what hovers; behind copter_vertical_tell. */
 void copter_vertical_conclude(copter_t *copter);
 
-keel_status_t copter_state_init(copter_state_t *state);
+keel_status_t copter_state_machine_init(copter_state_t *state);
 void copter_state_machine(copter_t *copter);
 
 keel_status_t copter_control_init(copter_control_t *control);
@@ -518,13 +518,13 @@ void copter_calibration_set(copter_calibration_t *calibration);
 /** Corrects what a unit says, its specific force first, and turns it into the vehicle's axes. */
 void copter_calibration_correct(const copter_calibration_t *calibration, uint32_t unit,
                                 float value[KEEL_VIRTUAL_IMU_CHANNELS]);
-keel_status_t copter_accelerometers_init(copter_accelerometers_t *self);
+keel_status_t copter_accel_calibration_init(copter_accel_calibration_t *self);
 /** Takes corrections and turn from the settings. */
-void copter_accelerometers_set(copter_accelerometers_t *self);
+void copter_accel_calibration_set(copter_accel_calibration_t *self);
 /** Begins to calibrate them, or ends that. */
-void copter_accelerometers_ask(copter_accelerometers_t *self, uint8_t levelling);
+void copter_accel_calibration_ask(copter_accel_calibration_t *self, uint8_t levelling);
 /** A run of calibration IMU, behind what it does for gyroscopes. */
-void copter_accelerometers_step(copter_t *copter);
+void copter_accel_calibration_step(copter_t *copter);
 void copter_calibration_imu(copter_t *copter);
 void copter_calibration_magnetometer(copter_t *copter);
 /** @} */

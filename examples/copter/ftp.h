@@ -12,7 +12,7 @@
 #ifndef COPTER_FTP_H
 #define COPTER_FTP_H
 
-#include "messages.h"
+#include "mavlink_messages.h"
 
 #include <stdbool.h>
 #include <stdint.h>

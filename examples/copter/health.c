@@ -30,13 +30,14 @@ void copter_scheduler_analysis(copter_t *copter)
     self->load_ppm = keel_load_ppm(&self->window, now_us, copter->scheduler.busy_us);
     keel_load_begin(&self->window, now_us, copter->scheduler.busy_us);
     count_faults(copter);
-    self->checks = (self->load_ppm <= copter_settings.load_limit_ppm) ? KEEL_MODE_CHECK_LOAD : 0u;
+    self->checks = (self->load_ppm <= copter_settings.load_limit_ppm) ? KEEL_MODE_CHECK_CPU_LOAD
+                                                                      : 0u;
 }
 
 void copter_stack(copter_t *copter)
 {
     copter->health.stack_free = copter->port->stack_free(copter->port->context);
-    copter_tuning_step(&copter->tuning);
+    copter_parameter_store_step(&copter->parameters);
 }
 
 void copter_adc(copter_t *copter)

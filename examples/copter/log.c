@@ -54,8 +54,8 @@ static void define_trace(copter_log_t *log, uint32_t number)
 /* The value in force. A bool is an int32 of 0 or 1. */
 static bool define_parameter(copter_t *copter, uint16_t index)
 {
-    const keel_parameters_t *const table = &copter->tuning.table;
-    const keel_parameter_value_t value = copter->tuning.in_force[index].value;
+    const keel_parameters_t *const table = &copter->parameters.table;
+    const keel_parameter_value_t value = copter->parameters.in_force[index].value;
     const uint32_t bits = keel_parameter_bits(value);
     keel_ulog_name_t name = {.text = {0}};
     uint8_t bytes[sizeof bits];
@@ -259,7 +259,7 @@ static void log_parameter(copter_t *copter)
     const uint16_t index = (uint16_t)((log->looked_at + 1u) % COPTER_PARAMETER_COUNT);
 
     log->looked_at = index;
-    if ((keel_parameter_bits(copter->tuning.in_force[index].value) != log->parameter[index]) &&
+    if ((keel_parameter_bits(copter->parameters.in_force[index].value) != log->parameter[index]) &&
         define_parameter(copter, index)) {
         store(log, copter->scheduler.clock.now_us);
     }

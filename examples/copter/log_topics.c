@@ -20,16 +20,16 @@
 #define PLACES(text, member) FIELD(text, KEEL_ULOG_INT32, 4u, member)
 #define BOOLS(text, member)  FIELD(text, KEEL_ULOG_BOOL, 1u, member)
 
-#define VOTE(text, number) FLOATS(text, inertia.imu.channel[number].vote.output)
+#define VOTE(text, number) FLOATS(text, imu.virtual_imu.channel[number].vote.output)
 
 #define IMU(number)                                                                                \
     {                                                                                              \
         .name = {"imu"}, .instance = (number), .row = URPILOT_FOREGROUND_IMU, .every = 1u,         \
         .gives_way = true, .fields = 4u, .field = {                                                \
-            FLOATS("value", inertia.unit[number].value),                                           \
-            WORDS("age_us", inertia.unit[number].age_us),                                          \
-            SHORTS("temperature_cdeg", inertia.temperature[number]),                               \
-            BOOLS("present", inertia.unit[number].present)                                         \
+            FLOATS("value", imu.unit[number].value),                                               \
+            WORDS("age_us", imu.unit[number].age_us),                                              \
+            SHORTS("temperature_cdeg", imu.temperature[number]),                                   \
+            BOOLS("present", imu.unit[number].present)                                             \
         }                                                                                          \
     }
 
@@ -44,20 +44,20 @@ const copter_topic_t copter_topic[] = {
      .every = 5u,
      .fields = 10u,
      .field = {VOTE("force_x", 0), VOTE("force_y", 1), VOTE("force_z", 2), VOTE("rate_x", 3),
-               VOTE("rate_y", 4), VOTE("rate_z", 5), BYTES("used", inertia.imu.used),
-               BYTES("latched", inertia.imu.latched),
-               BYTES("force_state", inertia.accelerometer.state),
-               BYTES("rate_state", inertia.gyroscope.state)}},
+               VOTE("rate_y", 4), VOTE("rate_z", 5), BYTES("used", imu.virtual_imu.used),
+               BYTES("latched", imu.virtual_imu.latched),
+               BYTES("force_state", imu.accelerometer.state),
+               BYTES("rate_state", imu.gyroscope.state)}},
     {.name = {"attitude"},
      .row = URPILOT_FOREGROUND_IMU,
      .every = 5u,
      .fields = 7u,
-     .field = {FLOATS("q", inertia.attitude.quaternion), FLOATS("bias", inertia.attitude.bias),
-               FLOATS("rate", inertia.attitude.rate),
-               FLOATS("heading_error", inertia.attitude.heading_error),
-               WORDS("flags", inertia.attitude.flags),
-               BOOLS("heading_valid", inertia.attitude.heading_valid),
-               BYTES("phase", inertia.attitude.phase)}},
+     .field = {FLOATS("q", imu.attitude.quaternion), FLOATS("bias", imu.attitude.bias),
+               FLOATS("rate", imu.attitude.rate),
+               FLOATS("heading_error", imu.attitude.heading_error),
+               WORDS("flags", imu.attitude.flags),
+               BOOLS("heading_valid", imu.attitude.heading_valid),
+               BYTES("phase", imu.attitude.phase)}},
     {.name = {"control"},
      .row = URPILOT_ANGLE_RATE_CONTROL,
      .every = 5u,
@@ -77,44 +77,42 @@ const copter_topic_t copter_topic[] = {
      .row = URPILOT_FOREGROUND_MAGNETOMETER,
      .every = 1u,
      .fields = 3u,
-     .field = {FLOATS("raw", compass.raw), FLOATS("field", compass.field),
-               WORDS("samples", compass.samples)}},
+     .field = {FLOATS("raw", magnetometer.raw), FLOATS("field", magnetometer.field),
+               WORDS("samples", magnetometer.samples)}},
     {.name = {"air"},
      .row = URPILOT_FOREGROUND_BAROMETER,
      .every = 1u,
      .fields = 3u,
-     .field = {FLOATS("pressure_pa", air.pressure_pa), WORDS("samples", air.samples),
-               SHORTS("temperature_cdeg", air.temperature)}},
+     .field = {FLOATS("pressure_pa", barometer.pressure_pa), WORDS("samples", barometer.samples),
+               SHORTS("temperature_cdeg", barometer.temperature)}},
     {.name = {"satellites"},
      .row = URPILOT_GPS,
      .every = 5u,
      .fields = 9u,
-     .field = {LONGS("utc_us", satellites.date.utc_us), PLACES("latitude", satellites.fix.latitude),
-               PLACES("longitude", satellites.fix.longitude),
-               FLOATS("velocity_north", satellites.fix.north),
-               FLOATS("velocity_east", satellites.fix.east),
-               FLOATS("accuracy", satellites.fix.accuracy),
-               FLOATS("speed_accuracy", satellites.fix.speed_accuracy),
-               WORDS("fixes", satellites.fixes), BOOLS("valid", satellites.fix.is_valid)}},
+     .field = {LONGS("utc_us", gps.date.utc_us), PLACES("latitude", gps.fix.latitude),
+               PLACES("longitude", gps.fix.longitude), FLOATS("velocity_north", gps.fix.north),
+               FLOATS("velocity_east", gps.fix.east), FLOATS("accuracy", gps.fix.accuracy),
+               FLOATS("speed_accuracy", gps.fix.speed_accuracy), WORDS("fixes", gps.fixes),
+               BOOLS("valid", gps.fix.is_valid)}},
     {.name = {"pilot"},
      .row = URPILOT_FOREGROUND_RADIO,
      .every = 5u,
      .fields = 9u,
-     .field = {HALVES("channel_us", pilot.radio.channel), WORDS("frames", pilot.frames),
-               WORDS("received", pilot.radio.frames), WORDS("refused", pilot.ear.refused),
+     .field = {HALVES("channel_us", pilot.rc.channel), WORDS("frames", pilot.frames),
+               WORDS("received", pilot.rc.frames), WORDS("refused", pilot.ear.refused),
                WORDS("facts", pilot.facts), BYTES("asked", pilot.asked),
-               BYTES("heard", pilot.ear.heard), BYTES("protocol", pilot.radio.protocol),
-               BOOLS("lost", pilot.radio.is_lost)}},
+               BYTES("heard", pilot.ear.heard), BYTES("protocol", pilot.rc.protocol),
+               BOOLS("lost", pilot.rc.is_lost)}},
     {.name = {"energy"},
      .row = URPILOT_FOREGROUND_POWER_MODULE,
      .every = 1u,
      .fields = 7u,
-     .field = {FLOATS("voltage", energy.battery.voltage), FLOATS("current", energy.battery.current),
-               FLOATS("cell_voltage", energy.battery.cell_voltage),
-               FLOATS("charge_c", energy.battery.charge_c),
-               FLOATS("remaining", energy.battery.remaining),
-               FLOATS("remaining_s", energy.battery.remaining_s),
-               BYTES("level", energy.battery.level)}},
+     .field = {FLOATS("voltage", power.battery.voltage), FLOATS("current", power.battery.current),
+               FLOATS("cell_voltage", power.battery.cell_voltage),
+               FLOATS("charge_c", power.battery.charge_c),
+               FLOATS("remaining", power.battery.remaining),
+               FLOATS("remaining_s", power.battery.remaining_s),
+               BYTES("level", power.battery.level)}},
     {.name = {"estimate"},
      .row = URPILOT_NAVIGATION,
      .every = 1u,

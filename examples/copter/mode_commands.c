@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Modes that ground stations ask for. Whatever the command, it moves the mode switch (request.h) to
- * a mode that flies without anybody's hand at the throttle. */
+/* Modes that ground stations ask for. Whatever the command, it moves the mode switch
+ * (action_request.h) to a mode that flies without anybody's hand at the throttle. */
 #include "command.h"
 #include "keel/middleware/range.h"
-#include "modes.h"
+#include "mavlink_modes.h"
 
 #define CUSTOM      (MAV_MODE_FLAG_CUSTOM_MODE_ENABLED)
 #define BYTE_MOST   255.0f
@@ -52,7 +52,7 @@ static uint32_t ask_for(copter_t *copter, const copter_command_t *command, uint8
 {
     copter_telemetry_t *const self = copter->telemetry;
     const keel_mode_t *const machine = &copter->state.mode;
-    const copter_request_t *const request = &copter->request;
+    const copter_action_request_t *const request = &copter->request;
 
     if (request->mode.answer == COPTER_ANSWER_WAITS) {
         return (copter_command_is_again(&self->mode_waiter, command) && (mode == request->asked))
@@ -62,13 +62,13 @@ static uint32_t ask_for(copter_t *copter, const copter_command_t *command, uint8
     if (!is_safe(mode)) {
         return refuse(copter, MAV_RESULT_DENIED, "only by the pilot's switch");
     }
-    if ((machine->settled & KEEL_MODE_IS_LINKED) == 0u) {
+    if ((machine->settled & KEEL_MODE_RC_LINKED) == 0u) {
         return refuse(copter, MAV_RESULT_TEMPORARILY_REJECTED, "no radio link");
     }
     if (is_last(mode) && !machine->motors) {
         return refuse(copter, MAV_RESULT_TEMPORARILY_REJECTED, "not flying");
     }
-    copter_request_mode(&copter->request, mode, copter->pilot.asked);
+    copter_action_request_mode(&copter->request, mode, copter->pilot.asked);
     self->mode_waiter = copter_command_waiter(command);
     return MAV_RESULT_IN_PROGRESS;
 }
@@ -88,7 +88,7 @@ static uint32_t hold(copter_t *copter, const copter_command_t *command)
 /* By its number. */
 static uint32_t ask_for_number(copter_t *copter, const copter_command_t *command, uint32_t number)
 {
-    const uint8_t mode = copter_mode_of_number(number);
+    const uint8_t mode = copter_mavlink_mode_of_number(number);
 
     return (mode == (uint8_t)KEEL_MODE_NONE)
                ? refuse(copter, MAV_RESULT_DENIED, "there is no such one")
@@ -131,7 +131,7 @@ uint32_t copter_command_set_mode_by_number(copter_t *copter, const copter_comman
 
 uint32_t copter_command_set_standard_mode(copter_t *copter, const copter_command_t *command)
 {
-    const uint8_t mode = copter_mode_of_standard(whole_of(command->param[0], BYTE_MOST));
+    const uint8_t mode = copter_mavlink_mode_of_standard(whole_of(command->param[0], BYTE_MOST));
 
     /* The standard has FAILED for a mode that there is not. */
     return (mode == (uint8_t)KEEL_MODE_NONE)

@@ -71,7 +71,7 @@ static void find_origin(copter_t *copter, const copter_fix_t *fix)
         (!self->position.has_origin ||
          (!copter->state.mode.motors && is_elsewhere(&self->position, fix))) &&
         (keel_position_set_origin(&self->position, fix->latitude, fix->longitude) == KEEL_OK)) {
-        self->field = copter_world_field(fix->latitude, fix->longitude);
+        self->field = copter_wmm_field(fix->latitude, fix->longitude);
         self->fields++;
     }
 }
@@ -101,29 +101,28 @@ static void step_estimators(copter_t *copter, const frame_t *frame, const copter
                             bool last)
 {
     copter_estimate_t *const self = &copter->estimate;
-    const bool has_force = force->is_known &&
-                           (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING);
+    const bool has_force = force->is_known && (copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING);
     const copter_vertical_force_t lift = {.acceleration = -dot(force->mean, frame->down) -
                                                           KEEL_CASCADE_GRAVITY,
                                           .is_known = has_force};
     const keel_altitude_sample_t vertical = {
-        .pressure = copter->air.pressure_pa,
+        .pressure = copter->barometer.pressure_pa,
         .acceleration = lift.acceleration,
-        .has_pressure = last && (copter->air.samples != self->pressures),
+        .has_pressure = last && (copter->barometer.samples != self->pressures),
         .has_acceleration = has_force};
     const keel_position_sample_t horizontal = {
-        .fix = fix_of(&copter->satellites.fix),
+        .fix = fix_of(&copter->gps.fix),
         .north = dot(force->mean, frame->north),
         .east = dot(force->mean, frame->east),
-        .has_fix = last && (copter->satellites.fixes != self->fixes),
-        .has_acceleration = has_force && copter->inertia.attitude.heading_valid};
+        .has_fix = last && (copter->gps.fixes != self->fixes),
+        .has_acceleration = has_force && copter->imu.attitude.heading_valid};
 
     if (last) {
-        self->pressures = copter->air.samples;
-        self->fixes = copter->satellites.fixes;
+        self->pressures = copter->barometer.samples;
+        self->fixes = copter->gps.fixes;
     }
     if (horizontal.has_fix) {
-        find_origin(copter, &copter->satellites.fix);
+        find_origin(copter, &copter->gps.fix);
     }
     keel_altitude_step(&self->altitude, &vertical);
     copter_vertical_step(copter, &lift, horizontal.has_fix);
@@ -134,18 +133,18 @@ static void step_estimators(copter_t *copter, const frame_t *frame, const copter
 static void catch_up(copter_t *copter, const frame_t *frame)
 {
     copter_estimate_t *const self = &copter->estimate;
-    const copter_inertia_t *const inertia = &copter->inertia;
+    const copter_imu_t *const imu = &copter->imu;
     const keel_cascade_vector_t before = {
         self->position.north.position, self->position.east.position, self->altitude.axis.position};
 
-    if ((inertia->blocks - self->blocks) > COPTER_BLOCKS) {
-        self->blocks = inertia->blocks - COPTER_BLOCKS;
+    if ((imu->blocks - self->blocks) > COPTER_BLOCKS) {
+        self->blocks = imu->blocks - COPTER_BLOCKS;
     }
-    while (self->blocks != inertia->blocks) {
-        const copter_force_t *const force = &inertia->force[self->blocks % COPTER_BLOCKS];
+    while (self->blocks != imu->blocks) {
+        const copter_force_t *const force = &imu->force[self->blocks % COPTER_BLOCKS];
 
         self->blocks++;
-        step_estimators(copter, frame, force, self->blocks == inertia->blocks);
+        step_estimators(copter, frame, force, self->blocks == imu->blocks);
     }
     tell_reset(self, &before);
 }
@@ -166,7 +165,7 @@ static void find_home(copter_t *copter)
 void copter_navigation(copter_t *copter)
 {
     copter_estimate_t *const self = &copter->estimate;
-    const frame_t frame = frame_of(&copter->inertia.attitude);
+    const frame_t frame = frame_of(&copter->imu.attitude);
 
     catch_up(copter, &frame);
     find_home(copter);

@@ -439,7 +439,7 @@ void copter_apply_parameters(copter_settings_t *settings, const keel_parameter_e
     settings->battery.critical_voltage = entry[37].value.real;
     settings->battery.low_charge = entry[38].value.real;
     settings->battery.critical_charge = entry[39].value.real;
-    settings->radio.protocol = (uint8_t)entry[40].value.whole;
+    settings->rc.protocol = (uint8_t)entry[40].value.whole;
     settings->mode.returns = entry[41].value.whole != 0;
     settings->mode.loss_us = (uint32_t)entry[42].value.whole;
     settings->mode.hold_us = (uint32_t)entry[43].value.whole;
@@ -459,12 +459,12 @@ void copter_apply_parameters(copter_settings_t *settings, const keel_parameter_e
     settings->attitude.north = entry[57].value.real;
     settings->attitude.east = entry[58].value.real;
     settings->position.accuracy = entry[59].value.real;
-    settings->compass.offset[0] = entry[60].value.real;
-    settings->compass.offset[1] = entry[61].value.real;
-    settings->compass.offset[2] = entry[62].value.real;
-    settings->compass.scale[0] = entry[63].value.real;
-    settings->compass.scale[1] = entry[64].value.real;
-    settings->compass.scale[2] = entry[65].value.real;
+    settings->magnetometer.offset[0] = entry[60].value.real;
+    settings->magnetometer.offset[1] = entry[61].value.real;
+    settings->magnetometer.offset[2] = entry[62].value.real;
+    settings->magnetometer.scale[0] = entry[63].value.real;
+    settings->magnetometer.scale[1] = entry[64].value.real;
+    settings->magnetometer.scale[2] = entry[65].value.real;
     settings->correction[0].offset[0] = entry[66].value.real;
     settings->correction[0].offset[1] = entry[67].value.real;
     settings->correction[0].offset[2] = entry[68].value.real;

@@ -31,7 +31,7 @@
 
 keel_status_t copter_pilot_init(copter_pilot_t *pilot)
 {
-    const keel_status_t status = copter_radio_init(&pilot->radio, &copter_settings.radio);
+    const keel_status_t status = copter_rc_init(&pilot->rc, &copter_settings.rc);
 
     pilot->asked = KEEL_MODE_NONE;
     return (status == KEEL_OK) ? keel_reference_init(&pilot->reference, &copter_settings.reference)
@@ -53,9 +53,9 @@ void copter_background_radio(copter_t *copter)
     copter_byte_t byte;
 
     for (uint32_t i = 0u; (i < COPTER_BYTES) && has_time(port, began_us) &&
-                          port->read_byte(port->context, COPTER_RADIO, &byte);
+                          port->read_byte(port->context, COPTER_RC, &byte);
          i++) {
-        (void)copter_radio_take(&self->radio, &byte);
+        (void)copter_rc_take(&self->rc, &byte);
     }
 }
 
@@ -80,12 +80,12 @@ static uint8_t mode_of(uint16_t channel)
 
 static uint32_t facts_of(const uint16_t channel[])
 {
-    uint32_t facts = KEEL_MODE_IS_LINKED;
+    uint32_t facts = KEEL_MODE_RC_LINKED;
 
-    facts |= (channel[ARM] > ON) ? KEEL_MODE_IS_ON : 0u;
-    facts |= (channel[ARM] < OFF) ? KEEL_MODE_IS_OFF : 0u;
-    facts |= (channel[KILL] > ON) ? KEEL_MODE_IS_KILL : 0u;
-    facts |= (channel[THROTTLE] < LOW) ? KEEL_MODE_IS_LOW : 0u;
+    facts |= (channel[ARM] > ON) ? KEEL_MODE_ARM_SWITCH_ON : 0u;
+    facts |= (channel[ARM] < OFF) ? KEEL_MODE_ARM_SWITCH_OFF : 0u;
+    facts |= (channel[KILL] > ON) ? KEEL_MODE_KILL_SWITCH_ON : 0u;
+    facts |= (channel[THROTTLE] < LOW) ? KEEL_MODE_THROTTLE_LOW : 0u;
     return facts;
 }
 
@@ -119,25 +119,25 @@ static void listen(copter_pilot_t *self)
     if (ear->runs < RUNS_OF_A_SECOND) {
         return;
     }
-    copter_radio_count(&self->radio, all);
+    copter_rc_count(&self->rc, all);
     for (uint32_t i = 0u; i < COPTER_REFUSALS; i++) {
         refused[i] = all[i] - ear->refused[i];
         ear->refused[i] = all[i];
     }
     ear->heard = (uint8_t)((self->frames != ear->frames)
                                ? COPTER_HEARD_PILOT
-                               : silence_of(self->radio.frames != ear->received, refused));
+                               : silence_of(self->rc.frames != ear->received, refused));
     ear->runs = 0u;
-    ear->received = self->radio.frames;
+    ear->received = self->rc.frames;
     ear->frames = self->frames;
 }
 
 /* A frame of the pilot. */
 static void obey(copter_pilot_t *self)
 {
-    const uint16_t *const channel = self->radio.channel;
+    const uint16_t *const channel = self->rc.channel;
 
-    self->read = self->radio.frames;
+    self->read = self->rc.frames;
     self->sticks = (keel_reference_sticks_t){.roll = stick_of(channel[ROLL]),
                                              .pitch = stick_of(channel[PITCH]),
                                              .yaw = stick_of(channel[YAW]),
@@ -153,7 +153,7 @@ void copter_foreground_radio(copter_t *copter)
 {
     copter_pilot_t *const self = &copter->pilot;
 
-    if ((self->radio.frames != self->read) && !self->radio.is_lost) {
+    if ((self->rc.frames != self->read) && !self->rc.is_lost) {
         obey(self);
     }
     listen(self);

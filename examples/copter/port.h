@@ -15,37 +15,37 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define COPTER_IMUS    3u
-#define COPTER_MODULES 2u
-#define COPTER_MOTORS  4u
+#define COPTER_IMUS          3u
+#define COPTER_POWER_MODULES 2u
+#define COPTER_MOTORS        4u
 
 /** Bytes of a chip's own number: 96 bits, as an STM32's. */
 #define COPTER_UID_BYTES 12u
 
 /** @name Receivers: devices that send bytes. */
 /** @{ */
-#define COPTER_RADIO     0u /**< The pilot's receiver: radio.h; of PPM, a byte is an edge. */
+#define COPTER_RC        0u /**< The pilot's receiver: rc.h; of PPM, a byte is an edge. */
 #define COPTER_GPS       1u /**< The satellite receiver: UBX, NAV-PVT. */
 #define COPTER_RECEIVERS 2u
 /** @} */
 
 /** A sample of an inertial measurement unit, body axes. */
-typedef struct copter_inertial {
+typedef struct copter_imu_sample {
     float accelerometer[3]; /**< Specific force, in m/s^2. */
     float gyroscope[3];     /**< In rad/s. */
     int16_t temperature;    /**< Of the unit, in hundredths of a degree Celsius. */
-} copter_inertial_t;
+} copter_imu_sample_t;
 
 /** A sample of a magnetometer, body axes. */
-typedef struct copter_field {
+typedef struct copter_magnetometer_sample {
     float value[3]; /**< In microtesla. */
-} copter_field_t;
+} copter_magnetometer_sample_t;
 
 /** A sample of a barometer. */
-typedef struct copter_pressure {
+typedef struct copter_barometer_sample {
     float pressure_pa;   /**< In Pa. */
     int16_t temperature; /**< Of the sensor, in hundredths of a degree Celsius. */
-} copter_pressure_t;
+} copter_barometer_sample_t;
 
 /** A byte from a receiver. */
 typedef struct copter_byte {
@@ -72,9 +72,9 @@ typedef struct copter_port {
     keel_clock_fn_t read_clock;
     void *clock;   /**< Handed to read_clock. */
     void *context; /**< Handed to all others. */
-    bool (*read_imu)(void *context, uint32_t unit, copter_inertial_t *sample);
-    bool (*read_magnetometer)(void *context, copter_field_t *sample);
-    bool (*read_barometer)(void *context, copter_pressure_t *sample);
+    bool (*read_imu)(void *context, uint32_t unit, copter_imu_sample_t *sample);
+    bool (*read_magnetometer)(void *context, copter_magnetometer_sample_t *sample);
+    bool (*read_barometer)(void *context, copter_barometer_sample_t *sample);
     /** Hands over the next byte; a run may leave some for the one 10 ms later. */
     bool (*read_byte)(void *context, uint32_t receiver, copter_byte_t *byte);
     bool (*read_power)(void *context, uint32_t module, copter_power_reading_t *reading);

@@ -50,7 +50,7 @@ uint32_t copter_command_reboot(copter_t *copter, const copter_command_t *command
 void copter_reboot_step(copter_t *copter)
 {
     copter_telemetry_t *const self = copter->telemetry;
-    const bool saves = self->saves || (copter->tuning.saved == KEEL_SLOTS_BUSY);
+    const bool saves = self->saves || (copter->parameters.saved == KEEL_SLOTS_BUSY);
 
     if (self->reboots_us == 0u) {
         return;

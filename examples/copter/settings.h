@@ -17,12 +17,12 @@
 #include "keel/flight/reference.h"
 #include "keel/middleware/ubx.h"
 #include "keel/middleware/virtual_imu.h"
-#include "radio.h"
+#include "rc.h"
 
 #include <stdint.h>
 
 /** A check before arming beside KEEL_MODE_CHECK_: the pressure may be that of the ground. */
-#define COPTER_CHECK_PRESSURE 0x1000u
+#define COPTER_CHECK_GROUND_PRESSURE 0x1000u
 
 /** How often units vote, in Hz: table 2, foreground IMU. */
 #define COPTER_VOTE_HZ 500.0f
@@ -41,12 +41,12 @@ typedef struct copter_settings {
     keel_calibration_correction_t correction[3]; /**< Of each accelerometer. */
     float trim[2];                               /**< Roll and pitch that are mounted, in rad. */
     float board[3];                              /**< The board's roll, pitch, yaw, in rad. */
-    keel_calibration_correction_t compass;       /**< Of the magnetometer, in microtesla. */
+    keel_calibration_correction_t magnetometer;  /**< Of the magnetometer, in microtesla. */
     keel_attitude_config_t attitude;
     keel_axis_config_t altitude;
     keel_position_config_t position;
-    copter_radio_config_t radio;
-    keel_ubx_config_t satellites;
+    copter_rc_config_t rc;
+    keel_ubx_config_t gps;
     keel_reference_config_t reference;
     keel_battery_config_t battery;
     keel_mode_config_t mode;
@@ -75,8 +75,8 @@ typedef struct copter_settings {
 /** A quadcopter of 1.4 kg: the F450 that JSBSim comes with. */
 extern const copter_settings_t copter_defaults;
 
-/** The settings in force: the defaults with the parameters. copter_tuning_start and
- * copter_tuning_apply alone write them. */
+/** The settings in force: the defaults with the parameters. copter_parameter_store_start and
+ * copter_parameter_store_apply alone write them. */
 extern copter_settings_t copter_settings;
 
 #endif

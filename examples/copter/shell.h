@@ -14,7 +14,7 @@
 #define COPTER_SHELL_H
 
 #include "console.h"
-#include "messages.h"
+#include "mavlink_messages.h"
 
 #include <stdbool.h>
 #include <stdint.h>

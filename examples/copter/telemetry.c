@@ -3,7 +3,7 @@
 #include "telemetry.h"
 
 #include "command.h"
-#include "modes.h"
+#include "mavlink_modes.h"
 
 #include <stddef.h>
 
@@ -67,11 +67,11 @@ static keel_status_t start_link(copter_telemetry_t *self, uint32_t number)
     link->parameter = COPTER_PARAMETER_COUNT - 1u; /* The first one is next. */
     link->sender = (keel_mavlink_sender_t){.system = self->system,
                                            .component = (uint8_t)MAV_COMP_ID_AUTOPILOT1};
-    copter_turns_init(&link->turns, self->config.link[number].bytes_per_s);
+    copter_link_schedule_init(&link->schedule, self->config.link[number].bytes_per_s);
     for (uint32_t i = 0u; i < MESSAGES_SENT; i++) {
-        copter_turns_repeat(&link->turns, i, interval_us[i]);
+        copter_link_schedule_repeat(&link->schedule, i, interval_us[i]);
     }
-    copter_turns_ask(&link->turns, SENT_HEARTBEAT);
+    copter_link_schedule_ask(&link->schedule, SENT_HEARTBEAT);
     return keel_mavlink_init(&link->decoder, messages_taken, MESSAGES_TAKEN);
 }
 
@@ -131,10 +131,10 @@ static void tell_state(copter_t *copter)
 
         copter_text(self, alone ? (uint8_t)MAV_SEVERITY_WARNING : (uint8_t)MAV_SEVERITY_INFO,
                     states[mode->state],
-                    ((mode->cause & KEEL_MODE_LINK_LOST) != 0u) ? ": radio link lost" : "");
+                    ((mode->cause & KEEL_MODE_RC_LOST) != 0u) ? ": radio link lost" : "");
         self->state = mode->state;
         if (mode->state == KEEL_MODE_ARMED) {
-            copter_tell_parameters(copter);
+            copter_mavlink_tell_parameters(copter);
         }
     }
 }
@@ -143,7 +143,7 @@ static void tell_state(copter_t *copter)
 static void tell_at_once(copter_telemetry_t *self, uint32_t sent)
 {
     for (uint32_t i = 0u; i < COPTER_LINKS; i++) {
-        copter_turns_ask(&self->link[i].turns, sent);
+        copter_link_schedule_ask(&self->link[i].schedule, sent);
     }
 }
 
@@ -174,7 +174,7 @@ static void tell_radio(copter_telemetry_t *self, const copter_pilot_t *pilot)
         copter_text(self,
                     (heard == COPTER_HEARD_PILOT) ? (uint8_t)MAV_SEVERITY_INFO
                                                   : (uint8_t)MAV_SEVERITY_WARNING,
-                    "radio: ", copter_radio_words(heard, pilot->radio.protocol));
+                    "radio: ", copter_rc_words(heard, pilot->rc.protocol));
         self->heard = pilot->ear.heard;
     }
 }
@@ -182,10 +182,9 @@ static void tell_radio(copter_telemetry_t *self, const copter_pilot_t *pilot)
 /* Says where the height comes from when that is another. That there is one at first is no news. */
 static void tell_height(copter_telemetry_t *self, const copter_vertical_t *vertical)
 {
-    static const char *const words[] = {
-        [COPTER_HEIGHT_NONE] = "not known",
-        [COPTER_HEIGHT_BAROMETER] = "by the barometer",
-        [COPTER_HEIGHT_SATELLITES] = "barometer fails, by satellites"};
+    static const char *const words[] = {[COPTER_HEIGHT_NONE] = "not known",
+                                        [COPTER_HEIGHT_BAROMETER] = "by the barometer",
+                                        [COPTER_HEIGHT_GPS] = "barometer fails, by satellites"};
 
     if (vertical->source != self->height) {
         if (self->had_height) {
@@ -223,7 +222,7 @@ static const char *vote_words(uint8_t state)
     return (state < (sizeof words / sizeof words[0])) ? words[state] : "";
 }
 
-/* Says when votes come about in another way: see inertia.c for how long one stands. */
+/* Says when votes come about in another way: see imu.c for how long one stands. */
 static void tell_votes(copter_telemetry_t *self, uint8_t *told, const char *which, uint8_t state)
 {
     if (state != *told) {
@@ -259,11 +258,11 @@ static void tell_units(copter_telemetry_t *self, const keel_virtual_imu_t *imu)
     }
 }
 
-static void tell_inertia(copter_telemetry_t *self, const copter_inertia_t *inertia)
+static void tell_imu(copter_telemetry_t *self, const copter_imu_t *imu)
 {
-    tell_votes(self, &self->accelerometers, "accelerometers: ", inertia->accelerometer.state);
-    tell_votes(self, &self->gyroscopes, "gyroscopes: ", inertia->gyroscope.state);
-    tell_units(self, &inertia->imu);
+    tell_votes(self, &self->accelerometers, "accelerometers: ", imu->accelerometer.state);
+    tell_votes(self, &self->gyroscopes, "gyroscopes: ", imu->gyroscope.state);
+    tell_units(self, &imu->virtual_imu);
 }
 
 /* Whoever does not sign, where frames are signed, is not heard. */
@@ -272,7 +271,7 @@ static void take(copter_t *copter, uint32_t number, const keel_mavlink_frame_t *
     copter_telemetry_t *const self = copter->telemetry;
 
     if (keel_signing_accepts(&self->signing, frame)) {
-        copter_take(copter, number);
+        copter_mavlink_receive(copter, number);
     } else {
         self->link[number].refused++;
     }
@@ -328,28 +327,28 @@ static void ask_for_queues(const copter_telemetry_t *self, copter_link_t *link)
         wanted = wanted || (link->wanted[i] != 0u);
     }
     if (wanted) {
-        copter_turns_ask(&link->turns, SENT_PARAM_VALUE);
+        copter_link_schedule_ask(&link->schedule, SENT_PARAM_VALUE);
     }
     if (link->errors > 0u) {
-        copter_turns_ask(&link->turns, SENT_PARAM_ERROR);
+        copter_link_schedule_ask(&link->schedule, SENT_PARAM_ERROR);
     }
     if (link->modes != 0u) {
-        copter_turns_ask(&link->turns, SENT_AVAILABLE_MODES);
+        copter_link_schedule_ask(&link->schedule, SENT_AVAILABLE_MODES);
     }
     if (link->acks > 0u) {
-        copter_turns_ask(&link->turns, SENT_COMMAND_ACK);
+        copter_link_schedule_ask(&link->schedule, SENT_COMMAND_ACK);
     }
     if (link->texts != self->texts) {
-        copter_turns_ask(&link->turns, SENT_STATUSTEXT);
+        copter_link_schedule_ask(&link->schedule, SENT_STATUSTEXT);
     }
     if (link->replies.count > 0u) {
-        copter_turns_ask(&link->turns, link->replies.reply[0].sent);
+        copter_link_schedule_ask(&link->schedule, link->replies.reply[0].sent);
     }
     if (link->ftp.count > 0u) {
-        copter_turns_ask(&link->turns, SENT_FILE_TRANSFER_PROTOCOL);
+        copter_link_schedule_ask(&link->schedule, SENT_FILE_TRANSFER_PROTOCOL);
     }
     if (copter_shell_waits(&link->shell)) {
-        copter_turns_ask(&link->turns, SENT_SERIAL_CONTROL);
+        copter_link_schedule_ask(&link->schedule, SENT_SERIAL_CONTROL);
     }
 }
 
@@ -359,37 +358,37 @@ static void send_next(copter_t *copter, uint32_t number)
     copter_telemetry_t *const self = copter->telemetry;
     const copter_lines_t *const lines = &self->config.lines;
     copter_link_t *const link = &self->link[number];
-    const uint32_t next = copter_turns_next(&link->turns);
+    const uint32_t next = copter_link_schedule_next(&link->schedule);
     uint8_t payload[KEEL_MAVLINK_PAYLOAD_MAX] = {0};
     keel_mavlink_packet_t packet;
     uint32_t length;
     uint32_t size = 0u;
 
-    if (next == COPTER_TURNS_NONE) {
+    if (next == COPTER_LINK_SCHEDULE_NONE) {
         return;
     }
     length = messages_sent[next].longest;
-    if (!copter_turns_affords(&link->turns, length + AROUND) ||
+    if (!copter_link_schedule_affords(&link->schedule, length + AROUND) ||
         (lines->room(lines->context, number) < (length + AROUND))) {
         return;
     }
-    if (copter_report(copter, link, next, payload)) {
+    if (copter_mavlink_report(copter, link, next, payload)) {
         size = keel_signing_write(&self->signing, &link->sender, &messages_sent[next], payload,
                                   (uint8_t)length, &packet);
         lines->write(lines->context, number, packet.bytes, size);
     }
-    copter_turns_sent(&link->turns, next, size);
+    copter_link_schedule_sent(&link->schedule, next, size);
 }
 
 /* Parameters are saved on the ground, and the last of several that were set saves them all. */
 static void save_parameters(copter_t *copter)
 {
     copter_telemetry_t *const self = copter->telemetry;
-    copter_tuning_t *const tuning = &copter->tuning;
+    copter_parameter_store_t *const store = &copter->parameters;
 
-    if (self->saves && !copter->state.mode.motors && (tuning->saved != KEEL_SLOTS_BUSY)) {
+    if (self->saves && !copter->state.mode.motors && (store->saved != KEEL_SLOTS_BUSY)) {
         self->saves = false;
-        if (copter_tuning_save(tuning) != KEEL_OK) {
+        if (copter_parameter_store_save(store) != KEEL_OK) {
             copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "parameters: ", "not saved");
         }
     }
@@ -403,7 +402,8 @@ static void run_link(copter_t *copter, uint32_t number)
 
     link->ran_us = now_us;
     receive(copter, number);
-    copter_turns_step(&link->turns, (passed_us < MILLION) ? (uint32_t)passed_us : MILLION);
+    copter_link_schedule_step(&link->schedule,
+                              (passed_us < MILLION) ? (uint32_t)passed_us : MILLION);
     ask_for_queues(copter->telemetry, link);
     send_next(copter, number);
 }
@@ -428,14 +428,14 @@ void copter_telemetry(copter_t *copter)
     copter_telemetry_t *const self = copter->telemetry;
 
     tell_state(copter);
-    tell_mode(self, copter_mode_told(copter));
-    tell_fence(self, (copter->state.mode.seen & KEEL_MODE_IS_OUTSIDE) != 0u);
+    tell_mode(self, copter_mavlink_mode_told(copter));
+    tell_fence(self, (copter->state.mode.seen & KEEL_MODE_FENCE_BREACHED) != 0u);
     tell_radio(self, &copter->pilot);
     tell_height(self, &copter->estimate.vertical);
     tell_crash(self, copter->estimate.vertical.is_crashed);
-    tell_inertia(self, &copter->inertia);
+    tell_imu(self, &copter->imu);
     copter_keep_calibration(copter);
-    copter_take_answers(copter);
+    copter_mavlink_pass_answers(copter);
     save_parameters(copter);
     copter_reboot_step(copter);
     self->turn = next_link(self);

@@ -4,13 +4,13 @@
  * @brief Telemetry by MAVLink 2: what the copter tells ground stations, and what they may ask.
  *
  * A copter has up to COPTER_LINKS links, each with its own decoder, intervals, answers and bytes
- * per second (turns.h). Nothing waits: what finds no room on a link is sent later, and what does
- * not fit into a queue is not sent; texts that a link missed are counted. A run is for one link,
- * looks at no more than COPTER_LINK_BYTES of it and COPTER_LINK_LOOKS beginnings of frames, acts on
- * at most one frame, and sends at most one: so its time is bounded, whatever comes.
+ * per second (link_schedule.h). Nothing waits: what finds no room on a link is sent later, and what
+ * does not fit into a queue is not sent; texts that a link missed are counted. A run is for one
+ * link, looks at no more than COPTER_LINK_BYTES of it and COPTER_LINK_LOOKS beginnings of frames,
+ * acts on at most one frame, and sends at most one: so its time is bounded, whatever comes.
  *
- * Requests of a ground station are in take.c, and those of parameters in take_parameters.c.
- * Commands that move the aircraft go through request.h.
+ * Requests of a ground station are in mavlink_receiver.c, and those of parameters in
+ * mavlink_parameters.c. Commands that move the aircraft go through action_request.h.
  */
 #ifndef COPTER_TELEMETRY_H
 #define COPTER_TELEMETRY_H
@@ -19,10 +19,10 @@
 #include "ftp.h"
 #include "keel/middleware/mavlink.h"
 #include "keel/middleware/signing.h"
-#include "lists.h"
-#include "messages.h"
+#include "link_schedule.h"
+#include "mavlink_empty_lists.h"
+#include "mavlink_messages.h"
 #include "shell.h"
-#include "turns.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -77,7 +77,7 @@ typedef struct copter_telemetry_config {
 typedef struct copter_link {
     keel_mavlink_t decoder;
     keel_mavlink_sender_t sender;
-    copter_turns_t turns;
+    copter_link_schedule_t schedule;
     uint8_t bytes[COPTER_LINK_BYTES]; /**< That came: of count, those from looked_at on wait. */
     uint32_t count;
     uint32_t looked_at;
@@ -97,7 +97,7 @@ typedef struct copter_link {
     uint32_t parameter;            /**< The one sent last. */
     uint32_t named;                /**< Of the values of NAMED_VALUE_INT, the next one. */
     uint32_t modes;                /**< Modes to be sent as AVAILABLE_MODES, a bit each. */
-    copter_replies_t replies;      /**< Of lists.h, to be sent. */
+    copter_replies_t replies;      /**< Of mavlink_empty_lists.h, to be sent. */
     copter_ftp_t ftp;
     copter_shell_t shell;
 } copter_link_t;
@@ -177,28 +177,31 @@ bool copter_is_meant(const copter_link_t *link, uint8_t system, uint8_t componen
 /** @name The parts of telemetry. */
 /** @{ */
 /** Acts on the frame that a link's decoder has. */
-void copter_take(copter_t *copter, uint32_t link);
+void copter_mavlink_receive(copter_t *copter, uint32_t link);
 /** Tells parameters, or why not. */
-void copter_take_read(copter_t *copter, uint32_t link, const keel_mavlink_frame_t *from,
-                      const message_param_request_read_t *message);
-void copter_take_list(copter_t *copter, uint32_t link);
+void copter_mavlink_read_parameter(copter_t *copter, uint32_t link,
+                                   const keel_mavlink_frame_t *from,
+                                   const message_param_request_read_t *message);
+void copter_mavlink_list_parameters(copter_t *copter, uint32_t link);
 /** Sets a parameter, if the link may. */
-void copter_take_set(copter_t *copter, uint32_t link, const keel_mavlink_frame_t *from,
-                     const message_param_set_t *message, bool may);
+void copter_mavlink_set_parameter(copter_t *copter, uint32_t link, const keel_mavlink_frame_t *from,
+                                  const message_param_set_t *message, bool may);
 /** Says in words which parameters wait for a restart, and which stored values were not taken. */
-void copter_tell_parameters(copter_t *copter);
-/** The same, for requests about missions and logs (lists.h). */
-void copter_take_lists(copter_t *copter, uint32_t link);
+void copter_mavlink_tell_parameters(copter_t *copter);
+/** The same, for requests about missions and logs (mavlink_empty_lists.h). */
+void copter_mavlink_receive_list(copter_t *copter, uint32_t link);
 /** Fills the payload of an answer to those, if it is the next one of a link. */
-bool copter_report_lists(copter_link_t *link, uint32_t sent, uint8_t *payload);
+bool copter_mavlink_report_list(copter_link_t *link, uint32_t sent, uint8_t *payload);
 /** Tells of calibrations, and sets and saves the parameters of those that ended. */
 void copter_keep_calibration(copter_t *copter);
-/** Tells that a parameter is set, as by copter_take_set: to all, saved, in force on the ground. */
-void copter_parameter_is_set(copter_t *copter, uint16_t index);
+/** Tells all that a parameter is set, as by copter_mavlink_set_parameter; it is saved, and put in
+ * force on the ground. */
+void copter_mavlink_parameter_is_set(copter_t *copter, uint16_t index);
 /** Answers those whose requests the state machine decided. */
-void copter_take_answers(copter_t *copter);
+void copter_mavlink_pass_answers(copter_t *copter);
 /** Fills the payload of one of messages_sent; returns whether there is anything to say. */
-bool copter_report(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload);
+bool copter_mavlink_report(const copter_t *copter, copter_link_t *link, uint32_t sent,
+                           uint8_t *payload);
 /** @} */
 
 #endif

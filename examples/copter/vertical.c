@@ -25,7 +25,7 @@
 keel_status_t copter_vertical_init(copter_vertical_t *vertical)
 {
     vertical->hover = copter_settings.cascade.hover;
-    return keel_axis_init(&vertical->satellites, &copter_settings.position.axis);
+    return keel_axis_init(&vertical->gps, &copter_settings.position.axis);
 }
 
 /* Where the receiver's height counts from: where it was when it first could be used. */
@@ -37,8 +37,8 @@ static void find_zero(copter_vertical_t *self, const copter_fix_t *fix, bool usa
     }
 }
 
-static void step_satellites(copter_vertical_t *self, const copter_fix_t *fix, bool has_fix,
-                            const copter_vertical_force_t *force)
+static void step_gps(copter_vertical_t *self, const copter_fix_t *fix, bool has_fix,
+                     const copter_vertical_force_t *force)
 {
     const bool usable = has_fix && fix->is_valid &&
                         (fix->height_accuracy <= copter_settings.height_accuracy);
@@ -54,17 +54,16 @@ static void step_satellites(copter_vertical_t *self, const copter_fix_t *fix, bo
                                                            copter_settings.position.speed_accuracy,
                                            .is_usable = usable};
 
-        keel_axis_step(&self->satellites, &sample);
+        keel_axis_step(&self->gps, &sample);
     }
 }
 
 /* Both heights count from the same place while both are known. */
 static void compare(copter_vertical_t *self, const keel_altitude_t *altitude)
 {
-    const float apart = self->satellites.position - altitude->height;
+    const float apart = self->gps.position - altitude->height;
 
-    if ((altitude->axis.quality == KEEL_AXIS_NONE) ||
-        (self->satellites.quality == KEEL_AXIS_NONE)) {
+    if ((altitude->axis.quality == KEEL_AXIS_NONE) || (self->gps.quality == KEEL_AXIS_NONE)) {
         return;
     }
     self->offset = self->has_offset ? (self->offset + (OFFSET_PART * (apart - self->offset)))
@@ -77,9 +76,8 @@ static uint8_t source_of(const copter_vertical_t *self, const keel_altitude_t *a
     if (altitude->axis.quality != KEEL_AXIS_NONE) {
         return COPTER_HEIGHT_BAROMETER;
     }
-    return ((self->satellites.quality != KEEL_AXIS_NONE) && self->has_offset)
-               ? COPTER_HEIGHT_SATELLITES
-               : COPTER_HEIGHT_NONE;
+    return ((self->gps.quality != KEEL_AXIS_NONE) && self->has_offset) ? COPTER_HEIGHT_GPS
+                                                                       : COPTER_HEIGHT_NONE;
 }
 
 void copter_vertical_step(copter_t *copter, const copter_vertical_force_t *force, bool has_fix)
@@ -88,7 +86,7 @@ void copter_vertical_step(copter_t *copter, const copter_vertical_force_t *force
     const keel_altitude_t *const altitude = &copter->estimate.altitude;
     const float known = force->is_known ? force->acceleration : 0.0f;
 
-    step_satellites(self, &copter->satellites.fix, has_fix, force);
+    step_gps(self, &copter->gps.fix, has_fix, force);
     compare(self, altitude);
     self->speed += PERIOD_S * ((known - altitude->axis.bias) - (self->speed / SPEED_S));
     self->speed = keel_range_clamp(self->speed, -KEEL_AXIS_VELOCITY_LIMIT,
@@ -106,10 +104,10 @@ void copter_vertical_tell(copter_estimate_t *estimate)
         here->position.up = estimate->altitude.height;
         here->velocity.up = estimate->altitude.axis.velocity;
         self->quality = estimate->altitude.axis.quality;
-    } else if (source == COPTER_HEIGHT_SATELLITES) {
-        here->position.up = self->satellites.position - self->offset;
-        here->velocity.up = self->satellites.velocity;
-        self->quality = self->satellites.quality;
+    } else if (source == COPTER_HEIGHT_GPS) {
+        here->position.up = self->gps.position - self->offset;
+        here->velocity.up = self->gps.velocity;
+        self->quality = self->gps.quality;
     } else {
         here->velocity.up = self->speed;
         self->quality = KEEL_AXIS_NONE;
@@ -129,22 +127,22 @@ static bool is_within(float value, float limit)
 
 static bool turns_little(const copter_t *copter)
 {
-    const keel_attitude_vector_t rate = copter->inertia.attitude.rate;
+    const keel_attitude_vector_t rate = copter->imu.attitude.rate;
 
     return is_within(rate.x, copter_settings.landed_rate) &&
            is_within(rate.y, copter_settings.landed_rate) &&
            is_within(rate.z, copter_settings.landed_rate);
 }
 
-static keel_attitude_vector_t last_force(const copter_inertia_t *inertia)
+static keel_attitude_vector_t last_force(const copter_imu_t *imu)
 {
-    return inertia->force[(inertia->blocks - 1u) % COPTER_BLOCKS].mean;
+    return imu->force[(imu->blocks - 1u) % COPTER_BLOCKS].mean;
 }
 
 /* Whether the aircraft neither turns, nor rises or sinks, nor slides to a stop. */
 static bool is_calm(const copter_t *copter)
 {
-    const keel_attitude_vector_t force = last_force(&copter->inertia);
+    const keel_attitude_vector_t force = last_force(&copter->imu);
 
     return turns_little(copter) && is_within(force.x, copter_settings.landed_force) &&
            is_within(force.y, copter_settings.landed_force) &&
@@ -194,11 +192,11 @@ static void heed_touch(copter_t *copter)
 /* Something carries it, and that is not the motors: it lies still, and on its side or its back. */
 static bool lies(const copter_t *copter)
 {
-    const keel_attitude_vector_t force = last_force(&copter->inertia);
-    const keel_attitude_vector_t down = copter->inertia.down;
+    const keel_attitude_vector_t force = last_force(&copter->imu);
+    const keel_attitude_vector_t down = copter->imu.down;
     const float support = -((force.x * down.x) + (force.y * down.y) + (force.z * down.z));
 
-    return (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING) && (down.z < ON_ITS_SIDE) &&
+    return (copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING) && (down.z < ON_ITS_SIDE) &&
            turns_little(copter) && keel_range_contains(support, SUPPORT_LEAST, SUPPORT_MOST);
 }
 
@@ -222,14 +220,13 @@ static void heed_crash(copter_t *copter)
 static void learn_hover(copter_t *copter)
 {
     copter_vertical_t *const self = &copter->estimate.vertical;
-    const float lift = -last_force(&copter->inertia).z;
+    const float lift = -last_force(&copter->imu).z;
     const float thrust = copter->control.cascade.command.thrust;
     const uint32_t gave_way = copter->control.mixer.limited &
                               (KEEL_MIXER_RAISED | KEEL_MIXER_LOWERED);
     const float configured = copter_settings.cascade.hover;
 
-    if (self->is_up && (gave_way == 0u) && (lift > LIFT_LEAST) &&
-        (copter->inertia.down.z > UPRIGHT)) {
+    if (self->is_up && (gave_way == 0u) && (lift > LIFT_LEAST) && (copter->imu.down.z > UPRIGHT)) {
         const float hovers = (thrust * KEEL_CASCADE_GRAVITY) / lift;
 
         self->hover = keel_range_clamp(self->hover + (HOVER_PART * (hovers - self->hover)),

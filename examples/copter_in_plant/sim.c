@@ -77,7 +77,7 @@ static bool is_new(uint32_t *last, uint32_t count)
     return moved;
 }
 
-static bool read_imu(void *context, uint32_t unit, copter_inertial_t *sample)
+static bool read_imu(void *context, uint32_t unit, copter_imu_sample_t *sample)
 {
     const sim_imu_t *const imu = &sensors.imu[unit];
     const bool there = is_new(&taken.imu[unit], imu->count);
@@ -91,7 +91,7 @@ static bool read_imu(void *context, uint32_t unit, copter_inertial_t *sample)
     return there;
 }
 
-static bool read_magnetometer(void *context, copter_field_t *sample)
+static bool read_magnetometer(void *context, copter_magnetometer_sample_t *sample)
 {
     const bool there = is_new(&taken.magnetometer, sensors.magnetometer.count);
 
@@ -102,14 +102,14 @@ static bool read_magnetometer(void *context, copter_field_t *sample)
     return there;
 }
 
-static bool read_barometer(void *context, copter_pressure_t *sample)
+static bool read_barometer(void *context, copter_barometer_sample_t *sample)
 {
     const bool there = is_new(&taken.barometer, sensors.barometer.count);
 
     (void)context;
     if (there) {
-        *sample = (copter_pressure_t){.pressure_pa = sensors.barometer.pressure,
-                                      .temperature = sensors.barometer.temperature};
+        *sample = (copter_barometer_sample_t){.pressure_pa = sensors.barometer.pressure,
+                                              .temperature = sensors.barometer.temperature};
     }
     return there;
 }
@@ -383,15 +383,15 @@ static void show_state(void)
     view.cause = mode->cause;
     view.blocking_checks = mode->blocking.checks;
     view.blocking_facts = mode->blocking.facts;
-    view.battery_level = copter.energy.battery.level;
-    view.battery_left = copter.energy.battery.remaining;
+    view.battery_level = copter.power.battery.level;
+    view.battery_left = copter.power.battery.remaining;
     view.load_ppm = copter.health.load_ppm;
 }
 
 static void show_inertia(void)
 {
-    const copter_inertia_t *const inertia = &copter.inertia;
-    const keel_attitude_t *const attitude = &inertia->attitude;
+    const copter_imu_t *const imu = &copter.imu;
+    const keel_attitude_t *const attitude = &imu->attitude;
 
     view.phase = attitude->phase;
     view.heading_valid = attitude->heading_valid ? 1u : 0u;
@@ -403,12 +403,12 @@ static void show_inertia(void)
     show_vector(view.bias, attitude->bias);
     show_vector(view.rate, attitude->rate);
     for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
-        view.vote[k] = inertia->imu.channel[k].vote.output;
-        view.vote_state[k] = inertia->imu.channel[k].vote.state;
+        view.vote[k] = imu->virtual_imu.channel[k].vote.output;
+        view.vote_state[k] = imu->virtual_imu.channel[k].vote.state;
     }
     for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
-        view.used[unit] = inertia->imu.used[unit];
-        view.latched[unit] = inertia->imu.latched[unit];
+        view.used[unit] = imu->virtual_imu.used[unit];
+        view.latched[unit] = imu->virtual_imu.latched[unit];
     }
 }
 

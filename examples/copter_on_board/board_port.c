@@ -24,7 +24,7 @@
 /* --- Sensors. --- */
 
 /* One unit has a driver: the vote gets no sample of the others, and calibration does not end. */
-static bool read_imu(void *context, uint32_t unit, copter_inertial_t *sample)
+static bool read_imu(void *context, uint32_t unit, copter_imu_sample_t *sample)
 {
     board_port_t *const board = context;
     keel_chip_motion_t motion;
@@ -46,14 +46,14 @@ static bool read_imu(void *context, uint32_t unit, copter_inertial_t *sample)
 }
 
 /* Its bus has no driver yet. */
-static bool read_magnetometer(void *context, copter_field_t *sample)
+static bool read_magnetometer(void *context, copter_magnetometer_sample_t *sample)
 {
     (void)context;
     (void)sample;
     return false;
 }
 
-static bool read_barometer(void *context, copter_pressure_t *sample)
+static bool read_barometer(void *context, copter_barometer_sample_t *sample)
 {
     board_port_t *const board = context;
     const uint32_t now_us = keel_board_clock_us(NULL);
@@ -86,7 +86,7 @@ static bool read_byte(void *context, uint32_t receiver, copter_byte_t *byte)
 /* The next channel of the modules in turn. A conversion takes 12 us. */
 static void measure(board_port_t *board)
 {
-    const uint32_t channel = board->measured % (CHANNELS * COPTER_MODULES);
+    const uint32_t channel = board->measured % (CHANNELS * COPTER_POWER_MODULES);
     board_module_t *const module = &board->module[channel / CHANNELS];
     const bool is_current = (channel % CHANNELS) != 0u;
     uint16_t count;

@@ -43,7 +43,7 @@ typedef struct board_port {
     bool wants_temperature;   /**< The chip's temperature is measured next. */
     keel_ms5611_device_t barometer;
     keel_power_module_t scale; /**< Of both power modules. */
-    board_module_t module[COPTER_MODULES];
+    board_module_t module[COPTER_POWER_MODULES];
     keel_medium_t medium;
     keel_disk_t disk;
     keel_black_box_t box;

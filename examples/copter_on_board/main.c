@@ -68,8 +68,8 @@ static void print_report(void)
     print_number(" imu ", board.samples);
     print_number(" failed ", board.failures);
     print_number(" barometer ", board.pressures);
-    print_number(" pa ", (uint64_t)copter.air.pressure_pa);
-    print_number(" battery ", copter.energy.battery.level);
+    print_number(" pa ", (uint64_t)copter.barometer.pressure_pa);
+    print_number(" battery ", copter.power.battery.level);
     print_number(" kept ", board.box.kept);
     keel_console_text("\n");
 }

@@ -70,7 +70,7 @@ static bool is_due(desk_t *desk, desk_device_t *device, uint32_t period_us)
     return due;
 }
 
-static bool read_imu(void *context, uint32_t unit, copter_inertial_t *sample)
+static bool read_imu(void *context, uint32_t unit, copter_imu_sample_t *sample)
 {
     desk_t *const desk = context;
 
@@ -86,7 +86,7 @@ static bool read_imu(void *context, uint32_t unit, copter_inertial_t *sample)
     return true;
 }
 
-static bool read_magnetometer(void *context, copter_field_t *sample)
+static bool read_magnetometer(void *context, copter_magnetometer_sample_t *sample)
 {
     desk_t *const desk = context;
 
@@ -99,7 +99,7 @@ static bool read_magnetometer(void *context, copter_field_t *sample)
     return true;
 }
 
-static bool read_barometer(void *context, copter_pressure_t *sample)
+static bool read_barometer(void *context, copter_barometer_sample_t *sample)
 {
     desk_t *const desk = context;
 
@@ -187,7 +187,7 @@ static bool read_byte(void *context, uint32_t number, copter_byte_t *byte)
         if (!is_due(desk, &from->device, period_us[number])) {
             return false;
         }
-        if (number == COPTER_RADIO) {
+        if (number == COPTER_RC) {
             write_sbus(from, desk->read_clock(desk->clock));
         } else {
             write_ubx(desk, from, desk->read_clock(desk->clock));

@@ -40,7 +40,7 @@ typedef struct desk {
     desk_device_t magnetometer;
     desk_device_t barometer;
     desk_receiver_t receiver[COPTER_RECEIVERS];
-    desk_device_t power[COPTER_MODULES];
+    desk_device_t power[COPTER_POWER_MODULES];
     uint32_t dither;            /**< The state of a pseudo-random sequence. */
     float motor[COPTER_MOTORS]; /**< What the motors were last told. */
 } desk_t;

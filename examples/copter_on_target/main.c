@@ -66,8 +66,8 @@ static void print_copter(void)
 
     print_number("copter state ", mode->state);
     print_number(" mode ", mode->mode);
-    print_number(" phase ", copter.inertia.attitude.phase);
-    print_number(" level ", copter.energy.battery.level);
+    print_number(" phase ", copter.imu.attitude.phase);
+    print_number(" level ", copter.power.battery.level);
     print_number(" load ", copter.health.load_ppm);
     for (uint32_t i = 0u; i < COPTER_MOTORS; i++) {
         print_number(" motor ", (uint32_t)(desk.motor[i] * MILLION));

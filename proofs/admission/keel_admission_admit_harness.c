@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 34 --external-sat-solver cadical
 // sources: src/rtos/admission.c specs/model/admission.c
-// covers: keel_admission_admit minimum utilisation_of gap_of model_admission_admit
+// covers: keel_admission_admit lesser_of utilisation_of gap_of model_admission_admit
 //
 // Totals, guard and limit have their full width. Bounded to periods up to 2^3 us and budgets below
 // 2^6 us, as the utilisation divides. The contract under WP has no such bound and determines every

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 47 --external-sat-solver cadical
 // sources: src/flight/attitude.c specs/model/attitude.c
-// covers: keel_attitude_step take_rate take_field judge_field judge_heading miss_field lose counted
-// covers: correction take_force gain_of has_force judge_tilt follow_bias turn_along rotate turned
-// covers: to_earth to_body low_passed
-// covers: keel_attitude_is_unit await_still conclude_still axes_of is_within dot cross add scaled
-// covers: difference clamped
+// covers: keel_attitude_step take_rate take_field judge_field judge_heading miss_field
+// covers: lose_attitude counted_step rate_correction take_force gain_of has_force judge_tilt
+// covers: follow_bias turn_along rotate_attitude turned_quaternion to_earth to_body low_passed
+// covers: keel_attitude_is_unit await_still conclude_still axes_of is_within dot_product
+// covers: cross_product add_scaled scaled_vector vector_difference clamped_vector
 // covers: model_attitude_step rate_step field_step heading_validity field_missing align_again
 // covers: rate_of_correction down_step force_came tilt_validity bias_step turn_step still_step
-// covers: of_earth of_body towards turned_by
-// covers: model_attitude_is_unit mean_of_still north_of east_of down_of vector_to from_to
-// covers: product_of sum_of apart nearest nearest_vector next_count
+// covers: of_earth of_body towards turned_by model_attitude_is_unit mean_of_still north_of east_of
+// covers: down_of vector_to from_to product_of sum_of apart nearest nearest_vector next_count
 //
 // Chosen estimators and samples, each in a case of its own: all that a step does is reached, and no
 // operation on them overflows, gives a NaN or leaves an object. Of all others WP proves the latter,

@@ -2,9 +2,9 @@
 # goals: 2
 #
 # The length of the quaternion (ATT-010): one step from any that keel_attitude_is_unit takes for one.
-# The step is that of `turned` in src/flight/attitude.c, operation by operation in single precision;
-# `rnd=` rounds each of them to nearest, ties to even. tests/tools/test_attitude_norm.py compares the
-# two texts. Hypotheses: G is what keel_attitude_is_unit computes of |q|^2, less 1, and is within 2^-12;
+# The step is that of `turned_quaternion` in src/flight/attitude.c, operation by operation in single
+# precision; `rnd=` rounds each of them to nearest, ties to even. tests/tools/test_attitude_norm.py
+# compares the two texts. Hypotheses: G is what keel_attitude_is_unit computes of |q|^2, less 1, and is within 2^-12;
 # each component is within 1 + 2^-10, as follows (keel_attitude_is_unit__finite_harness); each half
 # angle is within 2^-4, to which the code clamps it. Goals: ATT_010_length, |p|^2 - 1 + 2^-14 is within
 # 1.125 2^-14, which is |p|^2 from 1 - 1.30e-4 to 1 + 7.63e-6; and ATT_010_guard, the same as

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 26 --external-sat-solver cadical
 // sources: src/flight/axis.c specs/model/axis.c
-// covers: keel_axis_step predict one_up_to fix_counts judge_fix judge_jump set_to_fix correct
-// covers: quality_of
-// covers: model_axis_step integrate fix_usable begin_at make_up meet_fix meet_jump next_in lies_in
+// covers: keel_axis_step predict_state one_up_to fix_counts judge_fix judge_jump set_to_fix
+// covers: correct_state quality_of model_axis_step integrate fix_usable begin_at make_up meet_fix
+// covers: meet_jump next_in lies_in
 //
 // Chosen axes and samples, each in a case of its own: the same as the model's. All of them are
 // dealt with in keel_axis_step_harness; wrong bodies are refuted here, for where floats differ z3

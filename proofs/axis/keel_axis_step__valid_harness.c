@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --refine
 // sources: src/flight/axis.c
-// covers: keel_axis_step predict one_up_to fix_counts judge_fix judge_jump set_to_fix correct quality_of
+// covers: keel_axis_step predict_state one_up_to fix_counts judge_fix judge_jump set_to_fix
+// covers: correct_state quality_of
 //
 // Any valid axis, any bit pattern for all that was measured: a step keeps it valid, and no
 // operation on it overflows or gives a NaN.

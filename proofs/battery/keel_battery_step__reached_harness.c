@@ -2,8 +2,8 @@
 // cbmc: --unwind 34 --external-sat-solver cadical
 // sources: src/flight/battery.c specs/model/battery.c
 // covers: keel_battery_step take_current take_currents has_voltage take_lower take_voltage
-// covers: counted_up whole_of add_quanta amount add_up less time_left estimate_rest unload_cell
-// covers: weigh judge_alarm judge_count judge_level
+// covers: counted_up whole_of add_quanta amount_of_sum add_up_step less_or_zero time_left
+// covers: estimate_rest unload_cell weigh_evidence judge_alarm judge_count judge_level
 // covers: model_battery_step current_of_module voltage_counts voltage_of_modules one_step_older
 // covers: integer_of sum_up value_of less_by rest_and_time alarm_step alarm_with level_step
 // covers: lies_between brought_between

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 4 --external-sat-solver cadical
 // sources: src/flight/calibration.c specs/model/calibration.c
-// covers: keel_calibration_field_init field_range_fits field_limits_fit keel_calibration_field_begin
-// covers: model_calibration_field_init model_calibration_field_begin set_all lies_in
+// covers: keel_calibration_field_init field_range_fits field_limits_fit
+// covers: keel_calibration_field_begin model_calibration_field_init model_calibration_field_begin
+// covers: set_axes lies_in
 //
 // Any bit pattern for all of a configuration: the same as the model's, bit for bit, and the
 // contract of init, clause by clause; what is made is valid, as every step keeps it.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 4 --external-sat-solver cadical
 // sources: src/flight/calibration.c specs/model/calibration.c
-// covers: keel_calibration_field_step widen are_within one_up
+// covers: keel_calibration_field_step widen_range are_within one_up
 // covers: model_calibration_field_step all_lie_in lies_in counted_once
 //
 // Any calibration at all, any bit pattern for what was measured: the same as the model's, bit for

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 4 --external-sat-solver cadical
 // sources: src/flight/calibration.c specs/model/calibration.c
-// covers: keel_calibration_rest_begin set_all model_calibration_rest_begin
+// covers: keel_calibration_rest_begin set_axes model_calibration_rest_begin
 //
 // Any calibration at all: the same as the model's, bit for bit; a valid one stays valid.
 #include "../../specs/model/calibration.h"

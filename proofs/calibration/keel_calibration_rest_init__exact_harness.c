@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 8 --external-sat-solver cadical
 // sources: src/flight/calibration.c specs/model/calibration.c
-// covers: keel_calibration_rest_init set_all keel_calibration_rest_begin
+// covers: keel_calibration_rest_init set_axes keel_calibration_rest_begin
 // covers: model_calibration_rest_init model_calibration_rest_begin
 //
 // Chosen configurations: two that are taken, and one for each reason to refuse. Wrong bodies are

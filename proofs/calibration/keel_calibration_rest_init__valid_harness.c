@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 4 --external-sat-solver cadical
 // sources: src/flight/calibration.c
-// covers: keel_calibration_rest_init rest_limits_fit are_within set_all keel_calibration_rest_begin
+// covers: keel_calibration_rest_init rest_limits_fit are_within set_axes
+// covers: keel_calibration_rest_begin
 //
 // Any bit pattern for all of a configuration: the contract of init, clause by clause; what is made
 // is valid, as every step keeps it (keel_calibration_rest_step__valid_harness).

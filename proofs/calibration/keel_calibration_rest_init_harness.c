@@ -2,8 +2,9 @@
 // cbmc: --unwind 4 --z3 --fpa
 // checks: assertions
 // sources: src/flight/calibration.c specs/model/calibration.c
-// covers: keel_calibration_rest_init rest_limits_fit are_within set_all keel_calibration_rest_begin
-// covers: model_calibration_rest_init model_calibration_rest_begin all_lie_in lies_in
+// covers: keel_calibration_rest_init rest_limits_fit are_within set_axes
+// covers: keel_calibration_rest_begin model_calibration_rest_init model_calibration_rest_begin
+// covers: all_lie_in lies_in
 //
 // Any bit pattern for all of a configuration: the same as the model's, bit for bit. The solver sees
 // that both compute the same only where nothing else is asked: overflow and NaN are checked in

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 15 --external-sat-solver cadical
 // sources: src/flight/calibration.c specs/model/calibration.c
-// covers: keel_calibration_rest_step are_within set_all begin_run continue_run break_run one_up
+// covers: keel_calibration_rest_step are_within set_axes begin_run continue_run break_run one_up
 // covers: axes_beyond end_rest
 // covers: model_calibration_rest_step all_lie_in lies_in counted_once give_up compare_with_first
 // covers: judge_mean

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/calibration.c
-// covers: keel_calibration_rest_step are_within set_all begin_run continue_run break_run
+// covers: keel_calibration_rest_step are_within set_axes begin_run continue_run break_run
 // covers: axes_beyond end_rest one_up
 //
 // Any valid calibration, any bit pattern for what was measured: a step keeps it valid, and no

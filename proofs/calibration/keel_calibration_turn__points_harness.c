@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 8 --external-sat-solver cadical
 // sources: src/flight/calibration.c specs/model/calibration.c
-// covers: keel_calibration_turn along model_calibration_turn
+// covers: keel_calibration_turn row_product model_calibration_turn
 //
 // A chosen turn: the same as the model's, with all checks. Wrong bodies are refuted here.
 #include "../../specs/model/calibration.h"

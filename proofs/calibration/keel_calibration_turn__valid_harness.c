@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --refine
 // sources: src/flight/calibration.c
-// covers: keel_calibration_turn along
+// covers: keel_calibration_turn row_product
 //
 // Rows of numbers up to 1, and what a correction gives: the result is within four times of it, and
 // nothing overflows.

@@ -2,7 +2,7 @@
 // cbmc: --unwind 4 --z3 --fpa
 // checks: assertions
 // sources: src/flight/calibration.c specs/model/calibration.c
-// covers: keel_calibration_turn along model_calibration_turn
+// covers: keel_calibration_turn row_product model_calibration_turn
 //
 // Any bit pattern: the same as the model's, bit for bit.
 #include "../../specs/model/calibration.h"

@@ -3,10 +3,11 @@
 // sources: src/flight/cascade.c src/flight/pid.c src/flight/filter.c
 // sources: specs/model/cascade.c specs/model/cascade_parts.c specs/model/pid.c specs/model/filter.c
 // sources: specs/model/pid_within.c
-// covers: keel_cascade_velocity_step drive drive_with is_direction is_side_near near_sides admitted
-// covers: holds shared_limit keel_cascade_axis_step within_reach asks_for is_asked_for is_flown
-// covers: model_cascade_velocity_step driven side_near no_more axis_output output_of setpoint_of
-// covers: number_within nearest_within model_cascade_axis_step lies_within next_to
+// covers: keel_cascade_velocity_step drive_tilts drive_with is_direction is_side_near near_sides
+// covers: admitted_speed limit_stops_growth shared_limit keel_cascade_axis_step within_reach
+// covers: asks_for is_asked_for is_flown model_cascade_velocity_step driven side_near no_more
+// covers: axis_output output_of setpoint_of number_within nearest_within model_cascade_axis_step
+// covers: lies_within next_to
 //
 // A chosen cascade at chosen places, one after another: the same as the model's. All of them are
 // dealt with in keel_cascade_velocity_step_harness; wrong bodies are refuted here, and in

@@ -2,7 +2,7 @@
 // cbmc: --unwind 34
 // sources: src/rtos/decision.c src/rtos/priority.c specs/model/decision.c
 // replaces: keel_priority_dynamic
-// covers: keel_decision_other priority_of fits model_decision_other
+// covers: keel_decision_other priority_of task_fits model_decision_other
 // defines: -DKEEL_QUEUE_CAPACITY=2u
 //
 // Bounded to a capacity of 2 tasks, periods and budgets of 6 bits and times of 10, with which the

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 9 --external-sat-solver cadical
 // sources: src/flight/mixer.c specs/model/mixer.c specs/model/range.c
-// covers: keel_mixer_check has_factors is_factor turns model_mixer_check
+// covers: keel_mixer_check has_factors is_factor turns_about_axes model_mixer_check
 //
 // Any bit pattern of a configuration.
 #include "mixer_proof.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 9 --external-sat-solver cadical
 // sources: src/flight/mixer.c specs/model/mixer.c specs/model/range.c
-// covers: keel_mixer_init keel_mixer_check stop has_factors is_factor turns model_mixer_init
+// covers: keel_mixer_init keel_mixer_check stop_motors has_factors is_factor turns_about_axes
+// covers: model_mixer_init
 //
 // Any bit pattern of a configuration, and of what was there before.
 #include "../common/unchanged.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 12 --external-sat-solver cadical
 // sources: src/flight/mixer.c
-// covers: keel_mixer_step stop set_tilt fit_tilt fit_thrust put_out_all put_out_part part_of_yaw
+// covers: keel_mixer_step stop_motors set_tilt fit_tilt fit_thrust put_out_all put_out_part
+// covers: part_of_yaw
 //
 // What gives way in which order, by hand: a quadcopter's X whose outputs are from 1/4 to 3/4, with
 // commands that lead to exact sums.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 13 --external-sat-solver cadical
 // sources: src/flight/mixer.c specs/model/mixer.c specs/model/range.c
-// covers: keel_mixer_step turn is_command is_factor tame tamed
+// covers: keel_mixer_step turn_motors is_command is_factor tamed_command tame_part
 // covers: set_tilt fit_tilt fit_thrust put_out_all
 // covers: with_yaw with_part without_yaw part_of_yaw fitting_part put_out_part
-// covers: stop model_mixer_step
+// covers: stop_motors model_mixer_step
 //
 // Chosen commands to four motors, with all that can give way: the same as the model's, and no
 // operation overflows or gives a NaN: that is shown for these commands alone. For every command

@@ -2,7 +2,7 @@
 // cbmc: --unwind 9 --external-sat-solver cadical
 // checks: assertions
 // sources: src/flight/mixer.c specs/model/mixer.c specs/model/range.c
-// covers: keel_mixer_step stop model_mixer_step
+// covers: keel_mixer_step stop_motors model_mixer_step
 //
 // Disarmed, any bit pattern of everything but the number of motors: the same as the model's step.
 // There is no motor here, which makes the armed step short, and would show if only motors were

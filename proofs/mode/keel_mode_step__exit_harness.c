@@ -2,7 +2,7 @@
 // cbmc: --unwind 15 --external-sat-solver cadical
 // sources: src/flight/mode.c
 // checks: assertions
-// covers: keel_mode_step move
+// covers: keel_mode_step change_state
 //
 // From every valid machine whose motors may turn, three frames with the kill switch on, just within
 // the longest silence of each other, lead to TERMINATED. kill_us is such that three frames suffice:
@@ -19,7 +19,7 @@ void keel_mode_step__exit_harness(void)
     for (uint32_t n = 0u; n < 3u; n++) {
         input = nondet_mode_input();
         __CPROVER_assume(input.asked < KEEL_MODE_NONE);
-        input.facts |= KEEL_MODE_IS_LINKED | KEEL_MODE_IS_KILL;
+        input.facts |= KEEL_MODE_RC_LINKED | KEEL_MODE_KILL_SWITCH_ON;
         input.elapsed_us = mode.config.loss_us - 1u;
         keel_mode_step(&mode, &input);
     }

@@ -2,7 +2,7 @@
 // cbmc: --unwind 15 --external-sat-solver cadical
 // sources: src/flight/mode.c
 // checks: assertions
-// covers: keel_mode_step look settle read_frame forget
+// covers: keel_mode_step look_at_facts settle_facts read_frame forget_stale_facts
 //
 // What the pilot says counts only from the third frame in a row that says it, and after its time:
 // by induction, with a count of these frames and the time since the first beside the machine. Any
@@ -30,10 +30,10 @@ static bool witnessed(const keel_mode_t *mode, uint32_t i, const witness_t *witn
 /* Whether a frame says so. */
 static bool said(const keel_mode_t *before, const keel_mode_input_t *input, uint32_t i)
 {
-    const uint32_t both = KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF;
+    const uint32_t both = KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_ARM_SWITCH_OFF;
     const bool neither = (input->facts & both) == both;
 
-    if ((1u << i) == KEEL_MODE_IS_AT) {
+    if ((1u << i) == KEEL_MODE_SWITCH_UNMOVED) {
         return input->asked == before->rests_at;
     }
     return is_set(input->facts, 1u << i) && (!is_set(both, 1u << i) || !neither);

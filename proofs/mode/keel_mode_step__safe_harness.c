@@ -2,8 +2,8 @@
 // cbmc: --unwind 15 --external-sat-solver cadical
 // sources: src/flight/mode.c
 // checks: assertions
-// covers: keel_mode_step look settle exit_of wanted_by needs_of instead_of heed_mode_switch
-// covers: heed_arm_switch try_to_arm events_of move choose
+// covers: keel_mode_step look_at_facts settle_facts exit_of wanted_by needs_of instead_of
+// covers: heed_mode_switch heed_arm_switch try_to_arm events_of change_state choose_mode
 //
 // What is safe, of one step from any valid machine, for every input of any bit pattern; that init
 // makes a valid machine and a step keeps it so are MOD_002_valid and MOD_003_valid, so this holds
@@ -39,10 +39,10 @@ static bool alone(const keel_mode_t *of)
 
 static uint32_t needs(uint8_t of)
 {
-    return (of == KEEL_MODE_ANGLE)      ? KEEL_MODE_HAS_ANGLE
-           : (of == KEEL_MODE_ALTITUDE) ? (KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT)
+    return (of == KEEL_MODE_ANGLE)      ? KEEL_MODE_ATTITUDE_VALID
+           : (of == KEEL_MODE_ALTITUDE) ? (KEEL_MODE_ATTITUDE_VALID | KEEL_MODE_ALTITUDE_VALID)
            : ((of == KEEL_MODE_POSITION) || (of == KEEL_MODE_RETURN))
-               ? (KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT | KEEL_MODE_HAS_PLACE)
+               ? (KEEL_MODE_ATTITUDE_VALID | KEEL_MODE_ALTITUDE_VALID | KEEL_MODE_POSITION_VALID)
                : 0u;
 }
 
@@ -50,21 +50,23 @@ static void check_arming(void)
 {
     const bool starts = !old.motors && mode.motors;
     const bool attempt = was(KEEL_MODE_DISARMED) && old.ready &&
-                         counts(KEEL_MODE_IS_ON | KEEL_MODE_IS_LINKED);
+                         counts(KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_RC_LINKED);
 
     __CPROVER_assert(!starts || (attempt && frame && is(KEEL_MODE_ARMED)),
                      "MOD_004_attempt: motors start only as the switch goes on, in a frame");
     __CPROVER_assert(!starts || ((mode.config.required & ~input.checks) == 0u),
                      "MOD_004_checks: all required checks hold in that step");
-    __CPROVER_assert(!starts || (counts(KEEL_MODE_IS_LOW | KEEL_MODE_IS_LANDED) &&
-                                 !is_set(mode.seen, KEEL_MODE_IS_KILL | ALARMS)),
+    __CPROVER_assert(!starts || (counts(KEEL_MODE_THROTTLE_LOW | KEEL_MODE_LANDED) &&
+                                 !is_set(mode.seen, KEEL_MODE_KILL_SWITCH_ON | ALARMS)),
                      "MOD_004_facts: throttle low, landed, no kill, no alarm");
     __CPROVER_assert(!starts || ((mode.asked < KEEL_MODE_RETURN) &&
                                  (mode.asked != KEEL_MODE_LAND) && (mode.mode == mode.asked)),
                      "MOD_004_mode: the mode that is asked for is in force");
-    __CPROVER_assert(!mode.ready || old.ready || counts(KEEL_MODE_IS_OFF | KEEL_MODE_IS_LINKED),
+    __CPROVER_assert(!mode.ready || old.ready ||
+                         counts(KEEL_MODE_ARM_SWITCH_OFF | KEEL_MODE_RC_LINKED),
                      "MOD_004_off: ready only after off was seen with a link");
-    __CPROVER_assert(!mode.ready || (counts(KEEL_MODE_IS_LINKED) && !counts(KEEL_MODE_IS_ON)),
+    __CPROVER_assert(!mode.ready ||
+                         (counts(KEEL_MODE_RC_LINKED) && !counts(KEEL_MODE_ARM_SWITCH_ON)),
                      "MOD_004_once: not ready without a link, nor after an attempt");
     __CPROVER_assert(!attempt || is(KEEL_MODE_ARMED) ||
                          (((mode.refused.checks | mode.refused.facts) != 0u) &&
@@ -77,25 +79,25 @@ static void check_arming(void)
 
 static void check_stopping(void)
 {
-    const bool kill = frame && counts(KEEL_MODE_IS_KILL) && is(KEEL_MODE_TERMINATED);
-    const bool sat = was(KEEL_MODE_LANDING) && counts(KEEL_MODE_IS_LANDED) &&
+    const bool kill = frame && counts(KEEL_MODE_KILL_SWITCH_ON) && is(KEEL_MODE_TERMINATED);
+    const bool sat = was(KEEL_MODE_LANDING) && counts(KEEL_MODE_LANDED) &&
                      (sum_here(old.state_us, input.elapsed_us) >= mode.config.landed_us);
-    const bool rests = is_set(mode.seen, KEEL_MODE_IS_LANDED) &&
-                       is_set(mode.seen, KEEL_MODE_IS_LOW);
+    const bool rests = is_set(mode.seen, KEEL_MODE_LANDED) &&
+                       is_set(mode.seen, KEEL_MODE_THROTTLE_LOW);
     const bool idle = sum_here(old.state_us, input.elapsed_us) >= mode.config.idle_us;
     const bool disarms = was(KEEL_MODE_ARMED) && rests && !broken &&
-                         ((frame && counts(KEEL_MODE_IS_OFF)) || idle);
+                         ((frame && counts(KEEL_MODE_ARM_SWITCH_OFF)) || idle);
 
     __CPROVER_assert(!old.motors || mode.motors || kill || sat || disarms,
                      "MOD_006_stops: on the ground, or by the kill switch held, and else never");
     __CPROVER_assert(!was(KEEL_MODE_FLYING) || is(KEEL_MODE_FLYING) || !is(KEEL_MODE_ARMED) ||
-                         counts(KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW),
+                         counts(KEEL_MODE_LANDED | KEEL_MODE_THROTTLE_LOW),
                      "MOD_006_ground: armed on the ground only when it has landed, throttle low");
     __CPROVER_assert(!is(KEEL_MODE_TERMINATED) || was(KEEL_MODE_TERMINATED) || kill,
                      "MOD_010_kill: terminated only by the kill switch held, in a frame");
     __CPROVER_assert(!was(KEEL_MODE_TERMINATED) || (is(KEEL_MODE_TERMINATED) && !mode.motors),
                      "MOD_010_latches: nothing leads out, and motors stand still");
-    __CPROVER_assert(!old.motors || !frame || !counts(KEEL_MODE_IS_KILL) ||
+    __CPROVER_assert(!old.motors || !frame || !counts(KEEL_MODE_KILL_SWITCH_ON) ||
                          is(KEEL_MODE_TERMINATED),
                      "MOD_010_obeys: a kill switch held terminates from every state");
 }
@@ -120,7 +122,7 @@ static void check_link(void)
     __CPROVER_assert(!is(KEEL_MODE_RETURNING) || lasts(KEEL_MODE_RETURNING, mode.config.return_us),
                      "MOD_007_return_ends: returning ends when its time is up");
     __CPROVER_assert(!alone(&old) || !piloted(&mode) ||
-                         (frame && counts(KEEL_MODE_IS_LINKED | KEEL_MODE_IS_AT) &&
+                         (frame && counts(KEEL_MODE_RC_LINKED | KEEL_MODE_SWITCH_UNMOVED) &&
                           (old.asked != KEEL_MODE_NONE) && (mode.asked != old.asked)),
                      "MOD_008_moves: the pilot flies again only as he moves the mode switch");
     __CPROVER_assert(!was(KEEL_MODE_FLYING) || !is(KEEL_MODE_FLYING) ||

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 15 --external-sat-solver cadical
 // sources: src/flight/mode.c specs/model/mode.c
-// covers: keel_mode_step look forget settle read_frame has_frame add_us has exit_of wanted_by
-// covers: needs_of instead_of heed_mode_switch heed_arm_switch is_piloted blocking try_to_arm when
-// covers: is_time_up requests events_of is_failsafe leave move choose model_mode_step
+// covers: keel_mode_step look_at_facts forget_stale_facts settle_facts read_frame has_frame add_us
+// covers: has_settled exit_of wanted_by needs_of instead_of heed_mode_switch heed_arm_switch
+// covers: is_piloted arming_refusal try_to_arm event_when is_time_up pilot_requests events_of
+// covers: is_failsafe take_exit change_state choose_mode model_mode_step
 //
 // Every valid machine, every input of any bit pattern.
 #include "mode_proof.h"

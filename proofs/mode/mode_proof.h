@@ -12,9 +12,9 @@
 
 #define FACTS KEEL_MODE_FACTS
 #define PILOT                                                                                      \
-    (KEEL_MODE_IS_LINKED | KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF | KEEL_MODE_IS_LOW |                 \
-     KEEL_MODE_IS_KILL | KEEL_MODE_IS_AT)
-#define ALARMS (KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL | KEEL_MODE_IS_EMPTY)
+    (KEEL_MODE_RC_LINKED | KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_ARM_SWITCH_OFF |                    \
+     KEEL_MODE_THROTTLE_LOW | KEEL_MODE_KILL_SWITCH_ON | KEEL_MODE_SWITCH_UNMOVED)
+#define ALARMS (KEEL_MODE_FENCE_BREACHED | KEEL_MODE_BATTERY_CRITICAL | KEEL_MODE_BATTERY_EMPTY)
 
 bool nondet_bool(void);
 uint8_t nondet_u8(void);
@@ -87,7 +87,7 @@ static bool valid_here(const keel_mode_t *mode)
         c->regain_us,   c->request_us, c->request_us, c->request_us,  c->kill_us,
         c->request_us,  c->landed_us,  c->alarm_us,   c->estimate_us, c->estimate_us,
         c->estimate_us, c->alarm_us,   c->alarm_us,   c->alarm_us};
-    const bool up = is_set(mode->settled, KEEL_MODE_IS_LINKED);
+    const bool up = is_set(mode->settled, KEEL_MODE_RC_LINKED);
     bool valid = config_valid_here(c) && (mode->state < KEEL_MODE_STATES) &&
                  (mode->mode <= KEEL_MODE_NONE) && (mode->asked <= KEEL_MODE_NONE) &&
                  (mode->rests_at <= KEEL_MODE_NONE);
@@ -97,7 +97,7 @@ static bool valid_here(const keel_mode_t *mode)
     }
     return valid && (mode->motors == runs(mode)) && ((mode->settled & ~mode->seen & PILOT) == 0u) &&
            ((mode->overridden & ~ALARMS) == 0u) && (!up || (mode->silence_us < c->loss_us)) &&
-           (!mode->ready || (up && !is_set(mode->settled, KEEL_MODE_IS_ON))) &&
+           (!mode->ready || (up && !is_set(mode->settled, KEEL_MODE_ARM_SWITCH_ON))) &&
            (!piloted(mode) || (up && (mode->asked != KEEL_MODE_NONE))) &&
            ((mode->mode == KEEL_MODE_NONE) == !runs(mode)) &&
            ((mode->state == KEEL_MODE_DISARMED) || (mode->cause != 0u));
@@ -112,7 +112,7 @@ static uint32_t sum_here(uint32_t a_us, uint32_t b_us)
 
 static bool frame_here(const keel_mode_input_t *input)
 {
-    return is_set(input->facts, KEEL_MODE_IS_LINKED) && (input->asked < KEEL_MODE_NONE);
+    return is_set(input->facts, KEEL_MODE_RC_LINKED) && (input->asked < KEEL_MODE_NONE);
 }
 
 static bool mode_config_same(const keel_mode_config_t *a, const keel_mode_config_t *b)

@@ -4,8 +4,8 @@
 // sources: specs/model/pass.c specs/model/clock.c specs/model/stats.c
 // replaces: keel_decision_realtime keel_decision_earliest_us keel_decision_other
 // replaces: keel_decision_event_us keel_queue_advance
-// covers: keel_pass_next dispatch find_realtime find_earliest_realtime choose_other remember
-// covers: serve_other find_wake close_pass model_pass_next serve
+// covers: keel_pass_next dispatch_task find_realtime find_earliest_realtime choose_other
+// covers: remember_earliest serve_other find_wake close_pass model_pass_next serve
 // defines: -DKEEL_QUEUE_CAPACITY=4u
 //
 // Bounded to a capacity of 4 tasks, with which the solver comes to an end in half a minute; the

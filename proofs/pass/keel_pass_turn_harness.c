@@ -2,7 +2,7 @@
 // cbmc: --unwind 4 --no-array-field-sensitivity
 // sources: src/rtos/pass.c specs/model/pass_turn.c
 // replaces: keel_pass_next keel_pass_finish
-// covers: keel_pass_turn decide run_task model_pass_turn
+// covers: keel_pass_turn decide_turn run_task model_pass_turn
 //
 // One turn, from any state of the scheduler, with any number of tasks. Next, the bodies, the clock
 // and finish are unknown functions, the same for the code and for the model, of what they are given

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/pid.c src/flight/filter.c
-// covers: keel_pid_step differentiate winds_up put_out limit_reached direct_terms is_input
+// covers: keel_pid_step differentiate_error winds_up put_out limit_reached direct_terms is_input
 //
 // Eq. 4 and the limits, on small whole numbers, whose sums and products are exact: a rate of 2 Hz,
 // a low-pass that follows at once (a = 1, the rest 0), ki T instead of ki.

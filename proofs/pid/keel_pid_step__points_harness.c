@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 16 --external-sat-solver cadical
 // sources: src/flight/pid.c src/flight/filter.c specs/model/pid.c specs/model/filter.c
-// covers: keel_pid_step differentiate put_out limit_reached direct_terms
+// covers: keel_pid_step differentiate_error put_out limit_reached direct_terms
 // covers: model_pid_step without_integral side_of differentiated
 //
 // Chosen controllers and inputs, where sums are rounded: the same as the model's. All of them are

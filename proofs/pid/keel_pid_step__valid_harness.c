@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --external-sat-solver cadical
 // sources: src/flight/pid.c src/flight/filter.c
-// covers: keel_pid_step differentiate winds_up put_out limit_reached direct_terms is_input
+// covers: keel_pid_step differentiate_error winds_up put_out limit_reached direct_terms is_input
 //
 // Any valid controller, any bit pattern for both inputs: one step of the induction that keeps the
 // output and the integral within their limits. What the step computes is in keel_pid_step_harness.

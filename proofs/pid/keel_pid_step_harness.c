@@ -2,7 +2,7 @@
 // cbmc: --z3 --fpa
 // checks: assertions
 // sources: src/flight/pid.c src/flight/filter.c specs/model/pid.c specs/model/filter.c
-// covers: keel_pid_step differentiate winds_up put_out limit_reached direct_terms is_input
+// covers: keel_pid_step differentiate_error winds_up put_out limit_reached direct_terms is_input
 // covers: model_pid_step without_integral side_of differentiated
 //
 // Any controller at all, any bit pattern for both inputs: the same as the model's, bit for bit. The

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 19 --external-sat-solver cadical
 // sources: src/flight/position.c src/flight/axis.c specs/model/position.c specs/model/axis.c
-// covers: keel_position_step eastwards is_near metres_of
+// covers: keel_position_step longitude_eastwards is_near metres_of
 // covers: model_position_step way_east way_fits way_in_metres good_to
 //
 // Chosen estimators and samples, each in a case of its own: the same as the model's. All of them

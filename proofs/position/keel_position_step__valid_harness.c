@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --refine
 // sources: src/flight/position.c
-// covers: keel_position_step eastwards is_near metres_of
+// covers: keel_position_step longitude_eastwards is_near metres_of
 // replaces: keel_axis_step
 //
 // Any valid estimator, any bit pattern for all that was measured: the contract of a step, clause by

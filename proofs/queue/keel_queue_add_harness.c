@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 34 --no-array-field-sensitivity
 // sources: src/rtos/queue.c specs/model/queue.c
-// covers: keel_queue_add fill_slot open_place enqueue model_queue_add
+// covers: keel_queue_add fill_slot open_place enqueue_task model_queue_add
 #include "../common/queue_contracts.h"
 
 void keel_queue_add_harness(void)

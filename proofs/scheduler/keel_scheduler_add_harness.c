@@ -6,7 +6,8 @@
 // sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/stats.c
 // replaces: keel_admission_queue keel_admission_admit keel_queue_add
 // defines: -DKEEL_QUEUE_CAPACITY=8u
-// covers: keel_scheduler_add admit_one_more admit_queue insert put_in model_scheduler_add refusal_of
+// covers: keel_scheduler_add admit_one_more admit_queue insert_task add_to_queue
+// covers: model_scheduler_add refusal_of
 //
 // Any arguments, at any stage. Bounded to a capacity of 8 tasks, with which the solver comes to an
 // end in half a minute; the contract under WP has no bound and determines every field.

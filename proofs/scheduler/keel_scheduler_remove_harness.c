@@ -6,7 +6,7 @@
 // sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/stats.c
 // replaces: keel_queue_remove
 // defines: -DKEEL_QUEUE_CAPACITY=16u
-// covers: keel_scheduler_remove take_out shift_up model_scheduler_remove
+// covers: keel_scheduler_remove remove_task shift_pass model_scheduler_remove
 //
 // Bounded to a capacity of 16 tasks, with which the solver comes to an end in half a minute; the
 // contract under WP has no bound and determines every field.

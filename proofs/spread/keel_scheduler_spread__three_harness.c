@@ -4,7 +4,7 @@
 // sources: src/rtos/spread.c specs/model/spread.c
 // replaces: keel_spread_divisor
 // defines: -DKEEL_QUEUE_CAPACITY=3u -DKEEL_SPREAD_ROUNDS_MAX=3u
-// covers: keel_scheduler_spread place_all place first_phase_us one_round next_free need_us
+// covers: keel_scheduler_spread place_tasks place_task first_phase_us one_round next_free need_us
 // covers: next_other begin_placing not_placed model_scheduler_spread
 //
 // A third task, which the others send to and fro. Chosen points: every period is 5 us, budgets are

@@ -4,7 +4,7 @@
 // sources: src/rtos/spread.c specs/model/spread.c
 // replaces: keel_spread_divisor
 // defines: -DKEEL_QUEUE_CAPACITY=2u -DKEEL_SPREAD_ROUNDS_MAX=2u
-// covers: keel_scheduler_spread place_all place first_phase_us one_round need_us
+// covers: keel_scheduler_spread place_tasks place_task first_phase_us one_round need_us
 // covers: next_other begin_placing not_placed model_scheduler_spread
 //
 // Any arguments, at any stage. Bounded to 2 tasks, periods and budgets up to 2^2 us and guards up

@@ -2,7 +2,7 @@
 // cbmc: --unwind 46 --external-sat-solver cadical
 // defines: -DKEEL_ULOG_MESSAGE_BYTES=43u -DKEEL_ULOG_NAME_LENGTH=4u -DKEEL_ULOG_FIELDS=2u
 // sources: src/middleware/ulog.c specs/model/ulog.c
-// covers: keel_ulog_add refuse put_bytes model_ulog_add
+// covers: keel_ulog_add refuse_message put_bytes model_ulog_add
 //
 // Any message, whole or none, and up to 8 bytes: some fit, some do not. WP has no such bound.
 #include "ulog_proof.h"

@@ -2,7 +2,7 @@
 // cbmc: --unwind 46 --external-sat-solver cadical
 // defines: -DKEEL_ULOG_MESSAGE_BYTES=43u -DKEEL_ULOG_NAME_LENGTH=4u -DKEEL_ULOG_FIELDS=2u
 // sources: src/middleware/ulog.c specs/model/ulog.c
-// covers: keel_ulog_format is_format_known refuse put_field log_byte close_message finish
+// covers: keel_ulog_format is_format_known refuse_message put_field log_byte close_message finish
 //
 // Any first field, a second one with which the message may be too long, and any number of them.
 #include "ulog_proof.h"

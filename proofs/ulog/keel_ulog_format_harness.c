@@ -2,7 +2,7 @@
 // cbmc: --unwind 46 --external-sat-solver cadical
 // defines: -DKEEL_ULOG_MESSAGE_BYTES=43u -DKEEL_ULOG_NAME_LENGTH=4u -DKEEL_ULOG_FIELDS=1u
 // sources: src/middleware/ulog.c specs/model/ulog.c
-// covers: keel_ulog_format is_format_known refuse put_field put_type put_name put_decimal
+// covers: keel_ulog_format is_format_known refuse_message put_field put_type put_name put_decimal
 // covers: type_letter open_message
 // covers: model_ulog_format append append_field append_type append_name append_array start
 // covers: none

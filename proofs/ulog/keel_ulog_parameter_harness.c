@@ -2,7 +2,7 @@
 // cbmc: --unwind 46 --external-sat-solver cadical
 // defines: -DKEEL_ULOG_MESSAGE_BYTES=43u -DKEEL_ULOG_NAME_LENGTH=4u -DKEEL_ULOG_FIELDS=2u
 // sources: src/middleware/ulog.c specs/model/ulog.c
-// covers: keel_ulog_parameter refuse put_name put_bytes set_key_length
+// covers: keel_ulog_parameter refuse_message put_name put_bytes set_key_length
 // covers: model_ulog_parameter
 //
 // Any value of any type.

@@ -3,7 +3,7 @@
 // sources: src/middleware/virtual_imu.c src/middleware/voter.c
 // defines: -DKEEL_VOTER_SENSORS=2u
 // replaces: keel_voter_scale keel_voter_step keel_voter_reconsider keel_voter_step_unanimous
-// covers: keel_virtual_imu_step note channel_bit
+// covers: keel_virtual_imu_step note_verdicts channel_bit
 //
 // Every valid virtual unit of two units and every sample; a channel's vote leaves any valid
 // channel behind. Each channel is valid when its vote is taken. How many units there are does not

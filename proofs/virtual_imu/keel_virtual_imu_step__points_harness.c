@@ -2,7 +2,7 @@
 // cbmc: --unwind 8 --object-bits 10 --max-field-sensitivity-array-size 4
 // sources: src/middleware/virtual_imu.c src/middleware/voter.c specs/model/virtual_imu.c
 // sources: specs/model/voter.c specs/model/voter_parts.c specs/model/range.c
-// covers: keel_virtual_imu_step note channel_bit model_virtual_imu_step
+// covers: keel_virtual_imu_step note_verdicts channel_bit model_virtual_imu_step
 //
 // Two chosen votes from one state: a unit is late for the accelerometer alone, another one is off
 // in a channel of the gyroscope, where the first bad vote latches, and the third gives its sample

@@ -3,7 +3,7 @@
 // sources: src/middleware/virtual_imu.c src/middleware/voter.c specs/model/virtual_imu.c
 // defines: -DVOTER_FLOATS_OPEN
 // replaces: keel_voter_scale keel_voter_step keel_voter_reconsider keel_voter_step_unanimous
-// covers: keel_virtual_imu_step note channel_bit model_virtual_imu_step
+// covers: keel_virtual_imu_step note_verdicts channel_bit model_virtual_imu_step
 //
 // Every virtual unit of 2 to 4 units, every bit pattern of the samples. What a vote comes to is
 // unknown: the model's vote on a channel comes to anything that its contract allows. The code must

@@ -2,7 +2,7 @@
 // cbmc: --unwind 5 --external-sat-solver cadical
 // sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
 // replaces: keel_voter_within
-// covers: keel_voter_reconsider speaks_for inspect is_stale one_more
+// covers: keel_voter_reconsider speaks_for inspect_sample is_stale one_more
 // covers: model_voter_reconsider
 //
 // Every valid channel of 2 to 4 sensors after a vote, every bit pattern of the samples. "Within a"

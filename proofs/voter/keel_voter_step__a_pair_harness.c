@@ -3,8 +3,9 @@
 // sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
 // defines: -DKEEL_VOTER_SENSORS=3u
 // replaces: keel_voter_agreement keel_voter_weight keel_voter_combine
-// covers: keel_voter_step inspect inspect_all compare_with_last is_stale compare_all weigh_all take_middle
-// covers: judge conclude clear condemn one_more add_saturated is_unanimous model_voter_step
+// covers: keel_voter_step inspect_sample inspect_samples compare_with_last is_stale compare_samples
+// covers: weigh_sensors take_middle judge_sensors conclude_vote clear_sensor condemn_sensor
+// covers: one_more add_saturated is_unanimous model_voter_step
 //
 // A whole vote of three sensors, in an array of as many: what keel_voter_step_harness.c proves for
 // two to four, once more for these, in less time. Most faults show here.

@@ -3,8 +3,8 @@
 // sources: src/middleware/voter.c
 // defines: -DKEEL_VOTER_SENSORS=3u
 // replaces: keel_voter_mean
-// covers: keel_voter_step compare_all weigh_all judge conclude keel_voter_agreement keel_voter_weight
-// covers: keel_voter_combine
+// covers: keel_voter_step compare_samples weigh_sensors judge_sensors conclude_vote
+// covers: keel_voter_agreement keel_voter_weight keel_voter_combine
 //
 // Eq. 16 to 18 in numbers: a = 1, n = 3, two or three sensors of which each may be absent, samples
 // in halves from -4 to 3.5. Agreements are then quarters, weights eighths, and all sums exact.

@@ -2,8 +2,9 @@
 // cbmc: --unwind 5 --refine
 // sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
 // replaces: keel_voter_agreement keel_voter_weight keel_voter_combine
-// covers: keel_voter_step inspect inspect_all compare_with_last is_stale compare_all weigh_all take_middle
-// covers: judge conclude clear condemn one_more add_saturated is_unanimous model_voter_step
+// covers: keel_voter_step inspect_sample inspect_samples compare_with_last is_stale compare_samples
+// covers: weigh_sensors take_middle judge_sensors conclude_vote clear_sensor condemn_sensor
+// covers: one_more add_saturated is_unanimous model_voter_step
 //
 // A whole vote: every valid channel of 2 to 4 sensors, every bit pattern of the samples. Agreement,
 // weight and mean are any functions of their arguments with their contracts, the same for the model

@@ -5,7 +5,8 @@
 #define PILOT_FACTS 6u
 #define PILOT       0x003Fu
 #define AIRCRAFT    0x3FC0u
-#define ALARMS      (KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL | KEEL_MODE_IS_EMPTY)
+
+#define ALARMS (KEEL_MODE_FENCE_BREACHED | KEEL_MODE_BATTERY_CRITICAL | KEEL_MODE_BATTERY_EMPTY)
 
 /* --- MOD-001, MOD-002 ------------------------------------------------------------------------- */
 
@@ -42,15 +43,17 @@ keel_status_t model_mode_init(keel_mode_t *mode, const keel_mode_config_t *confi
     }
     /* MOD-002 */
     mode->config = *config;
-    settles(mode->settle_us, KEEL_MODE_IS_LINKED, config->regain_us);
+    settles(mode->settle_us, KEEL_MODE_RC_LINKED, config->regain_us);
     settles(mode->settle_us,
-            KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF | KEEL_MODE_IS_LOW | KEEL_MODE_IS_AT,
+            KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_ARM_SWITCH_OFF | KEEL_MODE_THROTTLE_LOW |
+                KEEL_MODE_SWITCH_UNMOVED,
             config->request_us);
-    settles(mode->settle_us, KEEL_MODE_IS_KILL, config->kill_us);
-    settles(mode->settle_us, KEEL_MODE_IS_LANDED, config->landed_us);
-    settles(mode->settle_us, KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT | KEEL_MODE_HAS_PLACE,
+    settles(mode->settle_us, KEEL_MODE_KILL_SWITCH_ON, config->kill_us);
+    settles(mode->settle_us, KEEL_MODE_LANDED, config->landed_us);
+    settles(mode->settle_us,
+            KEEL_MODE_ATTITUDE_VALID | KEEL_MODE_ALTITUDE_VALID | KEEL_MODE_POSITION_VALID,
             config->estimate_us);
-    settles(mode->settle_us, KEEL_MODE_IS_HOME | ALARMS, config->alarm_us);
+    settles(mode->settle_us, KEEL_MODE_AT_HOME | ALARMS, config->alarm_us);
     for (uint32_t i = 0u; i < KEEL_MODE_FACTS; i++) {
         mode->held_us[i] = 0u;
     }
@@ -86,7 +89,7 @@ static uint32_t sum_us(uint32_t a_us, uint32_t b_us)
 
 static bool is_frame(const keel_mode_input_t *input)
 {
-    return ((input->facts & KEEL_MODE_IS_LINKED) != 0u) && (input->asked <= KEEL_MODE_RETURN);
+    return ((input->facts & KEEL_MODE_RC_LINKED) != 0u) && (input->asked <= KEEL_MODE_RETURN);
 }
 
 /* Whether the input says so, in a step with a frame if the fact is the pilot's. */
@@ -94,13 +97,13 @@ static bool says(const keel_mode_t *mode, const keel_mode_input_t *input, uint32
 {
     bool told = (input->facts & fact) != 0u;
 
-    if (fact == KEEL_MODE_IS_ON) {
-        told = told && ((input->facts & KEEL_MODE_IS_OFF) == 0u);
+    if (fact == KEEL_MODE_ARM_SWITCH_ON) {
+        told = told && ((input->facts & KEEL_MODE_ARM_SWITCH_OFF) == 0u);
     }
-    if (fact == KEEL_MODE_IS_OFF) {
-        told = told && ((input->facts & KEEL_MODE_IS_ON) == 0u);
+    if (fact == KEEL_MODE_ARM_SWITCH_OFF) {
+        told = told && ((input->facts & KEEL_MODE_ARM_SWITCH_ON) == 0u);
     }
-    if (fact == KEEL_MODE_IS_AT) {
+    if (fact == KEEL_MODE_SWITCH_UNMOVED) {
         told = input->asked == mode->rests_at;
     }
     return told;
@@ -153,13 +156,13 @@ static uint32_t needs_of(uint8_t mode)
     uint32_t needs = 0u;
 
     if ((mode >= KEEL_MODE_ANGLE) && (mode <= KEEL_MODE_RETURN)) {
-        needs |= KEEL_MODE_HAS_ANGLE;
+        needs |= KEEL_MODE_ATTITUDE_VALID;
     }
     if ((mode >= KEEL_MODE_ALTITUDE) && (mode <= KEEL_MODE_RETURN)) {
-        needs |= KEEL_MODE_HAS_HEIGHT;
+        needs |= KEEL_MODE_ALTITUDE_VALID;
     }
     if ((mode >= KEEL_MODE_POSITION) && (mode <= KEEL_MODE_RETURN)) {
-        needs |= KEEL_MODE_HAS_PLACE;
+        needs |= KEEL_MODE_POSITION_VALID;
     }
     return needs;
 }
@@ -224,15 +227,15 @@ static keel_mode_refusal_t in_the_way(const keel_mode_t *mode, uint32_t checks, 
     keel_mode_refusal_t way;
 
     way.checks = mode->config.required & ~checks;
-    way.facts = mode->seen & (KEEL_MODE_IS_KILL | ALARMS);
-    way.facts |= counts(mode, KEEL_MODE_IS_LINKED) ? 0u : KEEL_MODE_IS_LINKED;
-    way.facts |= counts(mode, KEEL_MODE_IS_LOW) ? 0u : KEEL_MODE_IS_LOW;
-    way.facts |= counts(mode, KEEL_MODE_IS_LANDED) ? 0u : KEEL_MODE_IS_LANDED;
-    way.facts |= (attempt || mode->ready) ? 0u : KEEL_MODE_IS_OFF;
-    way.facts |= (counts(mode, KEEL_MODE_IS_AT) && flown_by_pilot(mode->asked) &&
+    way.facts = mode->seen & (KEEL_MODE_KILL_SWITCH_ON | ALARMS);
+    way.facts |= counts(mode, KEEL_MODE_RC_LINKED) ? 0u : KEEL_MODE_RC_LINKED;
+    way.facts |= counts(mode, KEEL_MODE_THROTTLE_LOW) ? 0u : KEEL_MODE_THROTTLE_LOW;
+    way.facts |= counts(mode, KEEL_MODE_LANDED) ? 0u : KEEL_MODE_LANDED;
+    way.facts |= (attempt || mode->ready) ? 0u : KEEL_MODE_ARM_SWITCH_OFF;
+    way.facts |= (counts(mode, KEEL_MODE_SWITCH_UNMOVED) && flown_by_pilot(mode->asked) &&
                   (missing_of(mode, mode->asked) == 0u))
                      ? 0u
-                     : KEEL_MODE_IS_AT;
+                     : KEEL_MODE_SWITCH_UNMOVED;
     return way;
 }
 
@@ -278,32 +281,32 @@ static bool asks(const keel_mode_t *mode, const happens_t *happens, uint8_t aske
 
 static bool asks_return(const keel_mode_t *mode, const happens_t *happens)
 {
-    return asks(mode, happens, KEEL_MODE_RETURN) && counts(mode, KEEL_MODE_HAS_PLACE);
+    return asks(mode, happens, KEEL_MODE_RETURN) && counts(mode, KEEL_MODE_POSITION_VALID);
 }
 
 static uint32_t asks_land(const keel_mode_t *mode, const happens_t *happens)
 {
-    return if_so(asks(mode, happens, KEEL_MODE_LAND), KEEL_MODE_ASKS_LAND);
+    return if_so(asks(mode, happens, KEEL_MODE_LAND), KEEL_MODE_PILOT_ASKS_LAND);
 }
 
 /* An urgent cause leads home where that can be, else down. */
 static void go_home_or_down(keel_mode_t *mode, uint32_t cause)
 {
-    const bool home = mode->config.returns && counts(mode, KEEL_MODE_HAS_PLACE);
+    const bool home = mode->config.returns && counts(mode, KEEL_MODE_POSITION_VALID);
 
     go_to(mode, home ? KEEL_MODE_RETURNING : KEEL_MODE_LANDING, cause);
 }
 
 static void from_armed(keel_mode_t *mode, const happens_t *happens)
 {
-    const uint32_t disarms = if_so(happens->frame && counts(mode, KEEL_MODE_IS_OFF),
-                                   KEEL_MODE_IS_OFF) |
-                             if_so(lasts(mode, mode->config.idle_us), KEEL_MODE_TIME_UP);
+    const uint32_t disarms = if_so(happens->frame && counts(mode, KEEL_MODE_ARM_SWITCH_OFF),
+                                   KEEL_MODE_ARM_SWITCH_OFF) |
+                             if_so(lasts(mode, mode->config.idle_us), KEEL_MODE_STATE_TIMES_OUT);
 
-    if (!counts(mode, KEEL_MODE_IS_LINKED)) {
-        go_to(mode, KEEL_MODE_LANDING, KEEL_MODE_LINK_LOST);
-    } else if (!seen(mode, KEEL_MODE_IS_LANDED) || !seen(mode, KEEL_MODE_IS_LOW)) {
-        go_to(mode, KEEL_MODE_FLYING, KEEL_MODE_LEAVES);
+    if (!counts(mode, KEEL_MODE_RC_LINKED)) {
+        go_to(mode, KEEL_MODE_LANDING, KEEL_MODE_RC_LOST);
+    } else if (!seen(mode, KEEL_MODE_LANDED) || !seen(mode, KEEL_MODE_THROTTLE_LOW)) {
+        go_to(mode, KEEL_MODE_FLYING, KEEL_MODE_LEAVES_GROUND);
     } else if (disarms != 0u) {
         go_to(mode, KEEL_MODE_DISARMED, disarms);
     } else {
@@ -313,18 +316,18 @@ static void from_armed(keel_mode_t *mode, const happens_t *happens)
 
 static void from_flying(keel_mode_t *mode, const happens_t *happens)
 {
-    const uint32_t down = alarms(mode, KEEL_MODE_IS_EMPTY) | asks_land(mode, happens);
-    const uint32_t urgent = alarms(mode, KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL);
+    const uint32_t down = alarms(mode, KEEL_MODE_BATTERY_EMPTY) | asks_land(mode, happens);
+    const uint32_t urgent = alarms(mode, KEEL_MODE_FENCE_BREACHED | KEEL_MODE_BATTERY_CRITICAL);
 
-    if (!counts(mode, KEEL_MODE_IS_LINKED)) {
-        go_to(mode, KEEL_MODE_HOLDING, KEEL_MODE_LINK_LOST);
+    if (!counts(mode, KEEL_MODE_RC_LINKED)) {
+        go_to(mode, KEEL_MODE_HOLDING, KEEL_MODE_RC_LOST);
     } else if (down != 0u) {
         go_to(mode, KEEL_MODE_LANDING, down);
     } else if (asks_return(mode, happens)) {
-        go_to(mode, KEEL_MODE_RETURNING, KEEL_MODE_ASKS_RETURN);
+        go_to(mode, KEEL_MODE_RETURNING, KEEL_MODE_PILOT_ASKS_RETURN);
     } else if (urgent != 0u) {
         go_home_or_down(mode, urgent);
-    } else if (counts(mode, KEEL_MODE_IS_LANDED) && counts(mode, KEEL_MODE_IS_LOW)) {
+    } else if (counts(mode, KEEL_MODE_LANDED) && counts(mode, KEEL_MODE_THROTTLE_LOW)) {
         go_to(mode, KEEL_MODE_ARMED, KEEL_MODE_TOUCHES_DOWN);
     } else {
         /* Stays. */
@@ -333,15 +336,15 @@ static void from_flying(keel_mode_t *mode, const happens_t *happens)
 
 static void from_holding(keel_mode_t *mode, const happens_t *happens)
 {
-    const uint32_t down = alarms(mode, KEEL_MODE_IS_EMPTY) | asks_land(mode, happens) |
-                          if_so(counts(mode, KEEL_MODE_IS_LANDED), KEEL_MODE_IS_LANDED);
-    const uint32_t urgent = alarms(mode, KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL) |
-                            if_so(lasts(mode, mode->config.hold_us), KEEL_MODE_TIME_UP);
+    const uint32_t down = alarms(mode, KEEL_MODE_BATTERY_EMPTY) | asks_land(mode, happens) |
+                          if_so(counts(mode, KEEL_MODE_LANDED), KEEL_MODE_LANDED);
+    const uint32_t urgent = alarms(mode, KEEL_MODE_FENCE_BREACHED | KEEL_MODE_BATTERY_CRITICAL) |
+                            if_so(lasts(mode, mode->config.hold_us), KEEL_MODE_STATE_TIMES_OUT);
 
     if (down != 0u) {
         go_to(mode, KEEL_MODE_LANDING, down);
     } else if (asks_return(mode, happens)) {
-        go_to(mode, KEEL_MODE_RETURNING, KEEL_MODE_ASKS_RETURN);
+        go_to(mode, KEEL_MODE_RETURNING, KEEL_MODE_PILOT_ASKS_RETURN);
     } else if (urgent != 0u) {
         go_home_or_down(mode, urgent);
     } else {
@@ -351,9 +354,9 @@ static void from_holding(keel_mode_t *mode, const happens_t *happens)
 
 static void from_returning(keel_mode_t *mode, const happens_t *happens)
 {
-    const uint32_t down = alarms(mode, KEEL_MODE_IS_EMPTY) | asks_land(mode, happens) |
-                          (mode->settled & (KEEL_MODE_IS_LANDED | KEEL_MODE_IS_HOME)) |
-                          if_so(lasts(mode, mode->config.return_us), KEEL_MODE_TIME_UP);
+    const uint32_t down = alarms(mode, KEEL_MODE_BATTERY_EMPTY) | asks_land(mode, happens) |
+                          (mode->settled & (KEEL_MODE_LANDED | KEEL_MODE_AT_HOME)) |
+                          if_so(lasts(mode, mode->config.return_us), KEEL_MODE_STATE_TIMES_OUT);
 
     if (down != 0u) {
         go_to(mode, KEEL_MODE_LANDING, down);
@@ -363,9 +366,9 @@ static void from_returning(keel_mode_t *mode, const happens_t *happens)
 static void from_landing(keel_mode_t *mode, const happens_t *happens)
 {
     if (asks_return(mode, happens)) {
-        go_to(mode, KEEL_MODE_RETURNING, KEEL_MODE_ASKS_RETURN);
-    } else if (counts(mode, KEEL_MODE_IS_LANDED) && lasts(mode, mode->config.landed_us)) {
-        go_to(mode, KEEL_MODE_DISARMED, KEEL_MODE_SITS);
+        go_to(mode, KEEL_MODE_RETURNING, KEEL_MODE_PILOT_ASKS_RETURN);
+    } else if (counts(mode, KEEL_MODE_LANDED) && lasts(mode, mode->config.landed_us)) {
+        go_to(mode, KEEL_MODE_DISARMED, KEEL_MODE_STAYS_LANDED);
     } else {
         /* Stays. */
     }
@@ -378,13 +381,13 @@ static void go_on(keel_mode_t *mode, const happens_t *happens)
     const bool alone = (mode->state == KEEL_MODE_HOLDING) || (mode->state == KEEL_MODE_RETURNING) ||
                        (mode->state == KEEL_MODE_LANDING);
 
-    if (motors && happens->frame && counts(mode, KEEL_MODE_IS_KILL)) {
-        go_to(mode, KEEL_MODE_TERMINATED, KEEL_MODE_IS_KILL); /* MOD-010 */
+    if (motors && happens->frame && counts(mode, KEEL_MODE_KILL_SWITCH_ON)) {
+        go_to(mode, KEEL_MODE_TERMINATED, KEEL_MODE_KILL_SWITCH_ON); /* MOD-010 */
     } else if (alone && happens->moved && flown_by_pilot(mode->asked)) {
-        go_to(mode, KEEL_MODE_FLYING, KEEL_MODE_TAKES_OVER); /* MOD-008 */
+        go_to(mode, KEEL_MODE_FLYING, KEEL_MODE_PILOT_TAKES_OVER); /* MOD-008 */
         mode->overridden = mode->settled & ALARMS;
     } else if (happens->arms) {
-        go_to(mode, KEEL_MODE_ARMED, KEEL_MODE_ARMS);
+        go_to(mode, KEEL_MODE_ARMED, KEEL_MODE_PILOT_ARMS);
     } else if (mode->state == KEEL_MODE_ARMED) {
         from_armed(mode, happens);
     } else if (mode->state == KEEL_MODE_FLYING) {
@@ -417,14 +420,14 @@ void model_mode_step(keel_mode_t *mode, const keel_mode_input_t *input)
     mode->silence_us = happens.frame ? 0u : sum_us(old.silence_us, input->elapsed_us);
     mode->rests_at = happens.frame ? input->asked : old.rests_at;
     mode->state_us = sum_us(old.state_us, input->elapsed_us);
-    up = counts(mode, KEEL_MODE_IS_LINKED);
-    on = counts(mode, KEEL_MODE_IS_ON);
+    up = counts(mode, KEEL_MODE_RC_LINKED);
+    on = counts(mode, KEEL_MODE_ARM_SWITCH_ON);
     /* MOD-011: an alarm that ends, or a link that is lost, ends what was overridden. */
     mode->overridden = up ? (old.overridden & mode->settled) : 0u;
     /* MOD-008: what the mode switch asks for, and whether it was moved. */
     if (!up) {
         mode->asked = KEEL_MODE_NONE;
-    } else if (happens.frame && counts(mode, KEEL_MODE_IS_AT)) {
+    } else if (happens.frame && counts(mode, KEEL_MODE_SWITCH_UNMOVED)) {
         mode->asked = input->asked;
         happens.moved = (old.asked != KEEL_MODE_NONE) && (old.asked != input->asked);
     } else {
@@ -432,7 +435,7 @@ void model_mode_step(keel_mode_t *mode, const keel_mode_input_t *input)
     }
     /* MOD-004: switching on after off, with a link all the time, is an attempt. */
     attempt = old.ready && up && on;
-    mode->ready = up && !on && (old.ready || counts(mode, KEEL_MODE_IS_OFF));
+    mode->ready = up && !on && (old.ready || counts(mode, KEEL_MODE_ARM_SWITCH_OFF));
     /* MOD-005 */
     mode->blocking.checks = 0u;
     mode->blocking.facts = 0u;

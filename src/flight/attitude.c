@@ -24,13 +24,13 @@ static bool is_within(keel_attitude_vector_t v, float most)
 }
 
 /*@ assigns \nothing; */
-static float dot(keel_attitude_vector_t a, keel_attitude_vector_t b)
+static float dot_product(keel_attitude_vector_t a, keel_attitude_vector_t b)
 {
     return ((a.x * b.x) + (a.y * b.y)) + (a.z * b.z);
 }
 
 /*@ assigns \nothing; */
-static keel_attitude_vector_t cross(keel_attitude_vector_t a, keel_attitude_vector_t b)
+static keel_attitude_vector_t cross_product(keel_attitude_vector_t a, keel_attitude_vector_t b)
 {
     const keel_attitude_vector_t product = {(a.y * b.z) - (a.z * b.y), (a.z * b.x) - (a.x * b.z),
                                             (a.x * b.y) - (a.y * b.x)};
@@ -40,7 +40,8 @@ static keel_attitude_vector_t cross(keel_attitude_vector_t a, keel_attitude_vect
 
 /* a + k b. */
 /*@ assigns \nothing; */
-static keel_attitude_vector_t add(keel_attitude_vector_t a, float k, keel_attitude_vector_t b)
+static keel_attitude_vector_t add_scaled(keel_attitude_vector_t a, float k,
+                                         keel_attitude_vector_t b)
 {
     const keel_attitude_vector_t sum = {a.x + (k * b.x), a.y + (k * b.y), a.z + (k * b.z)};
 
@@ -48,7 +49,7 @@ static keel_attitude_vector_t add(keel_attitude_vector_t a, float k, keel_attitu
 }
 
 /*@ assigns \nothing; */
-static keel_attitude_vector_t scaled(float k, keel_attitude_vector_t a)
+static keel_attitude_vector_t scaled_vector(float k, keel_attitude_vector_t a)
 {
     const keel_attitude_vector_t product = {k * a.x, k * a.y, k * a.z};
 
@@ -56,7 +57,7 @@ static keel_attitude_vector_t scaled(float k, keel_attitude_vector_t a)
 }
 
 /*@ assigns \nothing; */
-static keel_attitude_vector_t difference(keel_attitude_vector_t a, keel_attitude_vector_t b)
+static keel_attitude_vector_t vector_difference(keel_attitude_vector_t a, keel_attitude_vector_t b)
 {
     const keel_attitude_vector_t rest = {a.x - b.x, a.y - b.y, a.z - b.z};
 
@@ -67,7 +68,7 @@ static keel_attitude_vector_t difference(keel_attitude_vector_t a, keel_attitude
   @ assigns \nothing;
   @ ensures attitude_within(\result, most);
   @*/
-static keel_attitude_vector_t clamped(keel_attitude_vector_t a, float most)
+static keel_attitude_vector_t clamped_vector(keel_attitude_vector_t a, float most)
 {
     const keel_attitude_vector_t near = {keel_range_clamp(a.x, -most, most),
                                          keel_range_clamp(a.y, -most, most),
@@ -104,8 +105,8 @@ static axes_t axes_of(keel_attitude_quaternion_t q)
   @*/
 static keel_attitude_vector_t to_earth(const axes_t *axes, keel_attitude_vector_t v)
 {
-    const keel_attitude_vector_t seen = {dot(axes->north, v), dot(axes->east, v),
-                                         dot(axes->down, v)};
+    const keel_attitude_vector_t seen = {dot_product(axes->north, v), dot_product(axes->east, v),
+                                         dot_product(axes->down, v)};
 
     return seen;
 }
@@ -116,7 +117,8 @@ static keel_attitude_vector_t to_earth(const axes_t *axes, keel_attitude_vector_
   @*/
 static keel_attitude_vector_t to_body(const axes_t *axes, keel_attitude_vector_t v)
 {
-    return add(add(scaled(v.x, axes->north), v.y, axes->east), v.z, axes->down);
+    return add_scaled(add_scaled(scaled_vector(v.x, axes->north), v.y, axes->east), v.z,
+                      axes->down);
 }
 
 /* A first-order low pass. */
@@ -124,13 +126,14 @@ static keel_attitude_vector_t to_body(const axes_t *axes, keel_attitude_vector_t
 static keel_attitude_vector_t low_passed(keel_attitude_vector_t a, float share,
                                          keel_attitude_vector_t sample)
 {
-    return add(a, share, difference(sample, a));
+    return add_scaled(a, share, vector_difference(sample, a));
 }
 
 /* q turned by the half angles h, and led back to length 1. From this text, proofs/attitude/norm.g
  * bounds what rounding does to its length. */
 /*@ assigns \nothing; */
-static keel_attitude_quaternion_t turned(keel_attitude_quaternion_t q, keel_attitude_vector_t h)
+static keel_attitude_quaternion_t turned_quaternion(keel_attitude_quaternion_t q,
+                                                    keel_attitude_vector_t h)
 {
     const float w = q.w - (((q.x * h.x) + (q.y * h.y)) + (q.z * h.z));
     const float x = q.x + (((q.w * h.x) + (q.y * h.z)) - (q.z * h.y));
@@ -149,7 +152,7 @@ static keel_attitude_quaternion_t turned(keel_attitude_quaternion_t q, keel_atti
   @ ensures !up && count > 0 ==> \result == count - 1;
   @ ensures !up && count == 0 ==> \result == 0;
   @*/
-static uint16_t counted(uint16_t count, bool up, uint16_t most)
+static uint16_t counted_step(uint16_t count, bool up, uint16_t most)
 {
     if (up) {
         return (count < most) ? (uint16_t)(count + 1u) : most;
@@ -294,7 +297,7 @@ void keel_attitude_take(keel_attitude_sample_t *sample, const keel_virtual_imu_t
   @ assigns attitude->settled, attitude->heading_settled, attitude->heading_valid,
   @     attitude->phase;
   @*/
-static void lose(keel_attitude_t *attitude)
+static void lose_attitude(keel_attitude_t *attitude)
 {
     attitude->settled = 0u;
     attitude->heading_settled = 0u;
@@ -323,7 +326,7 @@ static void take_rate(keel_attitude_t *attitude, const keel_attitude_sample_t *s
     } else {
         attitude->flags = KEEL_ATTITUDE_LOST;
     }
-    attitude->lost = counted(attitude->lost, !fits, most);
+    attitude->lost = counted_step(attitude->lost, !fits, most);
     if (came) {
         attitude->gyroscope = sample->gyroscope;
     } else if (attitude->lost >= most) {
@@ -332,9 +335,9 @@ static void take_rate(keel_attitude_t *attitude, const keel_attitude_sample_t *s
         /* Held. */
     }
     if ((attitude->lost >= most) && (attitude->phase == KEEL_ATTITUDE_RUNNING)) {
-        lose(attitude);
+        lose_attitude(attitude);
     }
-    attitude->rate = difference(attitude->gyroscope, attitude->bias);
+    attitude->rate = vector_difference(attitude->gyroscope, attitude->bias);
 }
 
 /* Whether the heading is valid, by one more sample of the field. */
@@ -347,12 +350,12 @@ static void judge_heading(keel_attitude_t *attitude, bool ahead)
     const float square = attitude->heading_error * attitude->heading_error;
 
     if (attitude->heading_valid) {
-        attitude->heading_settled = counted(attitude->heading_settled, ahead, most);
+        attitude->heading_settled = counted_step(attitude->heading_settled, ahead, most);
         attitude->heading_valid = attitude->heading_settled > 0u;
     } else if (attitude->phase == KEEL_ATTITUDE_RUNNING) {
         const bool near = ahead && (square <= attitude->scale.tolerance);
 
-        attitude->heading_settled = near ? counted(attitude->heading_settled, true, most) : 0u;
+        attitude->heading_settled = near ? counted_step(attitude->heading_settled, true, most) : 0u;
         attitude->heading_valid = attitude->heading_settled >= most;
     } else {
         /* Not before tilt is. */
@@ -451,15 +454,16 @@ static void take_force(keel_attitude_t *attitude, const keel_attitude_sample_t *
 {
     if (forced) {
         const float share = attitude->scale.step * gain_of(attitude, attitude->config.force_gain);
-        keel_attitude_vector_t down = scaled(-PER_GRAVITY, to_earth(axes, sample->accelerometer));
+        keel_attitude_vector_t down = scaled_vector(-PER_GRAVITY,
+                                                    to_earth(axes, sample->accelerometer));
 
         if (sample->has_acceleration &&
             is_within(sample->acceleration, KEEL_ATTITUDE_FORCE_LIMIT)) {
-            down = add(down, PER_GRAVITY, sample->acceleration);
+            down = add_scaled(down, PER_GRAVITY, sample->acceleration);
             attitude->flags |= KEEL_ATTITUDE_COMPENSATED;
         }
         attitude->down = low_passed(attitude->down, share, down);
-        if (keel_range_contains(dot(attitude->down, attitude->down), KEEL_ATTITUDE_DOWN_MIN,
+        if (keel_range_contains(dot_product(attitude->down, attitude->down), KEEL_ATTITUDE_DOWN_MIN,
                                 KEEL_ATTITUDE_DOWN_MAX)) {
             attitude->flags |= KEEL_ATTITUDE_DOWN;
         }
@@ -476,15 +480,17 @@ static void judge_tilt(keel_attitude_t *attitude, keel_attitude_vector_t error, 
     const uint16_t most = attitude->config.settle_steps;
 
     if (attitude->phase == KEEL_ATTITUDE_RUNNING) {
-        attitude->settled = counted(attitude->settled, cosine >= KEEL_ATTITUDE_AGREEMENT, most);
+        attitude->settled = counted_step(attitude->settled, cosine >= KEEL_ATTITUDE_AGREEMENT,
+                                         most);
         if (attitude->settled == 0u) {
-            lose(attitude);
+            lose_attitude(attitude);
         }
     } else if (attitude->phase == KEEL_ATTITUDE_ALIGNING) {
-        const bool near = (cosine > 0.0f) && (dot(error, error) <= attitude->scale.tolerance) &&
+        const bool near = (cosine > 0.0f) &&
+                          (dot_product(error, error) <= attitude->scale.tolerance) &&
                           (attitude->lost == 0u);
 
-        attitude->settled = near ? counted(attitude->settled, true, most) : 0u;
+        attitude->settled = near ? counted_step(attitude->settled, true, most) : 0u;
         if (attitude->settled >= most) {
             attitude->phase = KEEL_ATTITUDE_RUNNING;
         } else {
@@ -505,14 +511,14 @@ static void follow_bias(keel_attitude_t *attitude, const axes_t *axes, keel_atti
 {
     if ((attitude->phase == KEEL_ATTITUDE_RUNNING) && (attitude->lost == 0u) &&
         (attitude->down.z >= KEEL_ATTITUDE_AGREEMENT) &&
-        (dot(attitude->rate, attitude->rate) <= attitude->scale.quiet)) {
+        (dot_product(attitude->rate, attitude->rate) <= attitude->scale.quiet)) {
         const float heading = attitude->heading_valid ? attitude->heading_error : 0.0f;
         const keel_attitude_vector_t whole = {error.x, error.y, heading};
-        const keel_attitude_vector_t part = clamped(whole, attitude->config.tolerance);
+        const keel_attitude_vector_t part = clamped_vector(whole, attitude->config.tolerance);
 
-        attitude->bias = clamped(add(attitude->bias, -attitude->scale.bias_step,
-                                     to_body(axes, part)),
-                                 attitude->config.bias_limit);
+        attitude->bias = clamped_vector(add_scaled(attitude->bias, -attitude->scale.bias_step,
+                                                   to_body(axes, part)),
+                                        attitude->config.bias_limit);
     }
 }
 
@@ -523,7 +529,7 @@ static void follow_bias(keel_attitude_t *attitude, const axes_t *axes, keel_atti
   @ assigns attitude->bias, attitude->settled, attitude->heading_settled,
   @     attitude->heading_valid, attitude->phase;
   @*/
-static keel_attitude_vector_t correction(keel_attitude_t *attitude, const axes_t *axes)
+static keel_attitude_vector_t rate_correction(keel_attitude_t *attitude, const axes_t *axes)
 {
     keel_attitude_vector_t rate = {0.0f, 0.0f, 0.0f};
 
@@ -534,9 +540,9 @@ static keel_attitude_vector_t correction(keel_attitude_t *attitude, const axes_t
         judge_tilt(attitude, error, attitude->down.z);
         follow_bias(attitude, axes, error);
         if (attitude->down.z < 0.0f) {
-            error = add(error, 1.0f, nudge);
+            error = add_scaled(error, 1.0f, nudge);
         }
-        rate = scaled(gain_of(attitude, attitude->config.tilt_gain), error);
+        rate = scaled_vector(gain_of(attitude, attitude->config.tilt_gain), error);
     }
     rate.z = attitude->heading_error * (attitude->heading_valid ? attitude->config.heading_gain
                                                                 : attitude->config.align_gain);
@@ -550,12 +556,14 @@ static keel_attitude_vector_t correction(keel_attitude_t *attitude, const axes_t
   @*/
 static void turn_along(keel_attitude_t *attitude, keel_attitude_vector_t rate)
 {
-    const keel_attitude_vector_t angle = scaled(attitude->scale.step, rate);
+    const keel_attitude_vector_t angle = scaled_vector(attitude->scale.step, rate);
 
-    attitude->down = clamped(add(attitude->down, 1.0f, cross(angle, attitude->down)),
-                             KEEL_ATTITUDE_DOWN_REACH);
-    attitude->field = clamped(add(attitude->field, 1.0f, cross(angle, attitude->field)),
-                              KEEL_ATTITUDE_FIELD_REACH);
+    attitude->down = clamped_vector(add_scaled(attitude->down, 1.0f,
+                                               cross_product(angle, attitude->down)),
+                                    KEEL_ATTITUDE_DOWN_REACH);
+    attitude->field = clamped_vector(add_scaled(attitude->field, 1.0f,
+                                                cross_product(angle, attitude->field)),
+                                     KEEL_ATTITUDE_FIELD_REACH);
 }
 
 bool keel_attitude_is_unit(keel_attitude_quaternion_t q)
@@ -569,13 +577,14 @@ bool keel_attitude_is_unit(keel_attitude_quaternion_t q)
   @ assigns attitude->quaternion, attitude->down, attitude->field, attitude->flags,
   @     attitude->settled, attitude->heading_settled, attitude->heading_valid, attitude->phase;
   @*/
-static void rotate(keel_attitude_t *attitude, keel_attitude_vector_t rate)
+static void rotate_attitude(keel_attitude_t *attitude, keel_attitude_vector_t rate)
 {
     const keel_attitude_quaternion_t level = {1.0f, 0.0f, 0.0f, 0.0f};
     const keel_attitude_vector_t zero = {0.0f, 0.0f, 0.0f};
-    const keel_attitude_vector_t half = clamped(scaled(attitude->scale.half_step, rate),
-                                                KEEL_ATTITUDE_HALF_ANGLE_LIMIT);
-    const keel_attitude_quaternion_t next = turned(attitude->quaternion, half);
+    const keel_attitude_vector_t half = clamped_vector(scaled_vector(attitude->scale.half_step,
+                                                                     rate),
+                                                       KEEL_ATTITUDE_HALF_ANGLE_LIMIT);
+    const keel_attitude_quaternion_t next = turned_quaternion(attitude->quaternion, half);
 
     if (keel_attitude_is_unit(next)) {
         attitude->quaternion = next;
@@ -585,7 +594,7 @@ static void rotate(keel_attitude_t *attitude, keel_attitude_vector_t rate)
         attitude->field = zero;
         attitude->flags |= KEEL_ATTITUDE_CORRUPTED;
         if (attitude->phase == KEEL_ATTITUDE_RUNNING) {
-            lose(attitude);
+            lose_attitude(attitude);
         }
     }
 }
@@ -596,8 +605,8 @@ static void rotate(keel_attitude_t *attitude, keel_attitude_vector_t rate)
   @*/
 static void conclude_still(keel_attitude_t *attitude)
 {
-    const keel_attitude_vector_t mean = add(attitude->first_rate, attitude->scale.still,
-                                            attitude->sum);
+    const keel_attitude_vector_t mean = add_scaled(attitude->first_rate, attitude->scale.still,
+                                                   attitude->sum);
 
     attitude->still = 0u;
     if (is_within(mean, attitude->config.bias_limit)) {
@@ -620,16 +629,17 @@ static void await_still(keel_attitude_t *attitude, const keel_attitude_sample_t 
                         bool forced)
 {
     const keel_attitude_vector_t zero = {0.0f, 0.0f, 0.0f};
-    const keel_attitude_vector_t moved = difference(attitude->gyroscope, attitude->first_rate);
+    const keel_attitude_vector_t moved = vector_difference(attitude->gyroscope,
+                                                           attitude->first_rate);
 
     if (((attitude->flags & (KEEL_ATTITUDE_LOST | KEEL_ATTITUDE_CLIPPED)) != 0u) || !forced) {
         attitude->still = 0u;
     } else {
         if ((attitude->still > 0u) && is_within(moved, attitude->config.still_rate) &&
-            is_within(difference(sample->accelerometer, attitude->first_force),
+            is_within(vector_difference(sample->accelerometer, attitude->first_force),
                       attitude->config.still_acceleration)) {
-            attitude->sum = add(attitude->sum, 1.0f, moved);
-            attitude->still = counted(attitude->still, true, attitude->config.still_steps);
+            attitude->sum = add_scaled(attitude->sum, 1.0f, moved);
+            attitude->still = counted_step(attitude->still, true, attitude->config.still_steps);
         } else {
             attitude->first_rate = attitude->gyroscope;
             attitude->first_force = sample->accelerometer;
@@ -651,9 +661,9 @@ void keel_attitude_step(keel_attitude_t *attitude, const keel_attitude_sample_t 
     take_rate(attitude, sample);
     take_field(attitude, sample, &axes);
     take_force(attitude, sample, &axes, forced);
-    rate = correction(attitude, &axes);
+    rate = rate_correction(attitude, &axes);
     turn_along(attitude, rate);
-    rotate(attitude, add(attitude->rate, 1.0f, to_body(&axes, rate)));
+    rotate_attitude(attitude, add_scaled(attitude->rate, 1.0f, to_body(&axes, rate)));
     if (attitude->phase == KEEL_ATTITUDE_STILL) {
         await_still(attitude, sample, forced);
     }

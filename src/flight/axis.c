@@ -73,7 +73,7 @@ static uint16_t one_up_to(uint16_t count, uint16_t most)
 /*@ requires \valid(axis) && \valid_read(sample) && \separated(axis, sample);
   @ assigns axis->position, axis->velocity, axis->flags;
   @*/
-static void predict(keel_axis_t *axis, const keel_axis_sample_t *sample)
+static void predict_state(keel_axis_t *axis, const keel_axis_sample_t *sample)
 {
     const bool sees = sample->has_acceleration &&
                       keel_range_contains(sample->acceleration, -KEEL_AXIS_ACCELERATION_LIMIT,
@@ -122,7 +122,7 @@ static void set_to_fix(keel_axis_t *axis, const keel_axis_sample_t *sample)
   @ assigns axis->position, axis->velocity, axis->bias, axis->age, axis->agreed, axis->jumped,
   @     axis->flags;
   @*/
-static void correct(keel_axis_t *axis, float way, float rate)
+static void correct_state(keel_axis_t *axis, float way, float rate)
 {
     const keel_axis_config_t *const config = &axis->config;
 
@@ -181,7 +181,7 @@ static void judge_fix(keel_axis_t *axis, const keel_axis_sample_t *sample)
     if (axis->age >= config->lost_steps) {
         set_to_fix(axis, sample);
     } else if (near) {
-        correct(axis, way, rate);
+        correct_state(axis, way, rate);
     } else {
         judge_jump(axis, sample);
     }
@@ -208,7 +208,7 @@ static keel_axis_quality_t quality_of(const keel_axis_t *axis)
 
 void keel_axis_step(keel_axis_t *axis, const keel_axis_sample_t *sample)
 {
-    predict(axis, sample);
+    predict_state(axis, sample);
     axis->age = one_up_to(axis->age, axis->config.lost_steps);
     if (fix_counts(sample)) {
         judge_fix(axis, sample);

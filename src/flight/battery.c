@@ -325,7 +325,7 @@ static bool add_quanta(keel_battery_sum_t *sum, uint32_t quanta)
 /*@ requires \valid_read(sum);
   @ assigns \nothing;
   @*/
-static float amount(const keel_battery_sum_t *sum, float unit)
+static float amount_of_sum(const keel_battery_sum_t *sum, float unit)
 {
     return ((float)sum->whole + ((float)sum->part * PER_QUANTUM)) * unit;
 }
@@ -336,7 +336,7 @@ static float amount(const keel_battery_sum_t *sum, float unit)
   @ assigns battery->charge, battery->energy, battery->charge_c, battery->energy_j,
   @     battery->flags;
   @*/
-static void add_up(keel_battery_t *battery)
+static void add_up_step(keel_battery_t *battery)
 {
     const float power = battery->voltage * battery->current;
     const bool charge = add_quanta(&battery->charge,
@@ -344,14 +344,14 @@ static void add_up(keel_battery_t *battery)
     const bool energy = add_quanta(&battery->energy, whole_of(power * PER_WATT, ENERGY_MOST));
 
     battery->flags |= (charge || energy) ? KEEL_BATTERY_FULL : 0u;
-    battery->charge_c = amount(&battery->charge, battery->scale.step_s);
-    battery->energy_j = amount(&battery->energy, battery->scale.unit_j);
+    battery->charge_c = amount_of_sum(&battery->charge, battery->scale.step_s);
+    battery->energy_j = amount_of_sum(&battery->energy, battery->scale.unit_j);
 }
 
 /*@ assigns \nothing;
   @ ensures \result == (whole > part ? whole - part : 0);
   @*/
-static uint32_t less(uint32_t whole, uint32_t part)
+static uint32_t less_or_zero(uint32_t whole, uint32_t part)
 {
     return (whole > part) ? (whole - part) : 0u;
 }
@@ -366,7 +366,7 @@ static uint32_t less(uint32_t whole, uint32_t part)
 static float time_left(const keel_battery_t *battery)
 {
     const float cap = battery->config.cap_s;
-    const uint32_t usable = less(battery->left, battery->scale.critical);
+    const uint32_t usable = less_or_zero(battery->left, battery->scale.critical);
     const float charge = (float)usable * battery->scale.step_s;
     float time = cap;
 
@@ -390,7 +390,7 @@ static void estimate_rest(keel_battery_t *battery, bool running)
 {
     const float change = battery->scale.gain * (battery->current - battery->smoothed);
 
-    battery->left = less(battery->initial, battery->charge.whole);
+    battery->left = less_or_zero(battery->initial, battery->charge.whole);
     battery->remaining = keel_range_clamp((float)battery->left * battery->scale.per_capacity, 0.0f,
                                           1.0f);
     battery->smoothed = keel_range_clamp(battery->smoothed + (running ? change : 0.0f), 0.0f,
@@ -417,7 +417,7 @@ static void unload_cell(keel_battery_t *battery, bool is_lost)
   @     battery_alarm(*alarm, most) && battery_steady(\old(*alarm), *alarm, most) &&
   @     (\old(alarm->raised) && !alarm->raised ==> against && !speaks);
   @*/
-static void weigh(keel_battery_alarm_t *alarm, bool speaks, bool against, uint16_t most)
+static void weigh_evidence(keel_battery_alarm_t *alarm, bool speaks, bool against, uint16_t most)
 {
     if (speaks) {
         alarm->count = counted_up(alarm->count, most);
@@ -441,7 +441,8 @@ static void judge_alarm(keel_battery_alarm_t *alarm, const keel_battery_t *batte
     const bool is_spent = battery->left <= charge;
     const bool is_below = is_spent || (fresh && (unloaded <= voltage));
 
-    weigh(alarm, is_below, fresh && (unloaded >= (voltage + margin)), battery->config.settle_steps);
+    weigh_evidence(alarm, is_below, fresh && (unloaded >= (voltage + margin)),
+                   battery->config.settle_steps);
 }
 
 /* Whether all that was used is known: from when the modules have all come, until one is lost. */
@@ -498,7 +499,7 @@ void keel_battery_step(keel_battery_t *battery, const keel_battery_sample_t *sam
     battery->flags = 0u;
     is_lost = take_currents(battery, sample);
     fresh = take_voltage(battery, sample);
-    add_up(battery);
+    add_up_step(battery);
     estimate_rest(battery, sample->running);
     unload_cell(battery, is_lost);
     judge_alarm(&battery->low, battery, fresh, config->low_voltage, battery->scale.low);

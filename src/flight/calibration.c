@@ -33,7 +33,7 @@ static bool are_within(const float three[KEEL_CALIBRATION_AXES], float least, fl
   @ assigns three[0 .. 2];
   @ ensures three[0] == value && three[1] == value && three[2] == value;
   @*/
-static void set_all(float three[KEEL_CALIBRATION_AXES], float value)
+static void set_axes(float three[KEEL_CALIBRATION_AXES], float value)
 {
     three[0] = value;
     three[1] = value;
@@ -62,7 +62,7 @@ keel_status_t keel_calibration_rest_init(keel_calibration_rest_t *rest,
     }
     rest->config = *config;
     rest->per_sample = 1.0f / (float)config->samples;
-    set_all(rest->offset, 0.0f);
+    set_axes(rest->offset, 0.0f);
     keel_calibration_rest_begin(rest);
     rest->state = KEEL_CALIBRATION_IDLE;
     return KEEL_OK;
@@ -70,8 +70,8 @@ keel_status_t keel_calibration_rest_init(keel_calibration_rest_t *rest,
 
 void keel_calibration_rest_begin(keel_calibration_rest_t *rest)
 {
-    set_all(rest->first, 0.0f);
-    set_all(rest->sum, 0.0f);
+    set_axes(rest->first, 0.0f);
+    set_axes(rest->sum, 0.0f);
     rest->count = 0u;
     rest->state = KEEL_CALIBRATION_COLLECTING;
     rest->restarts = 0u;
@@ -86,7 +86,7 @@ static void begin_run(keel_calibration_rest_t *rest, const float sample[KEEL_CAL
     rest->first[0] = sample[0];
     rest->first[1] = sample[1];
     rest->first[2] = sample[2];
-    set_all(rest->sum, 0.0f);
+    set_axes(rest->sum, 0.0f);
     rest->count = 1u;
 }
 
@@ -217,7 +217,7 @@ keel_status_t keel_calibration_field_init(keel_calibration_field_t *field,
         return KEEL_ERR_LIMITS;
     }
     field->config = *config;
-    set_all(field->offset, 0.0f);
+    set_axes(field->offset, 0.0f);
     keel_calibration_field_begin(field);
     field->state = KEEL_CALIBRATION_IDLE;
     return KEEL_OK;
@@ -225,8 +225,8 @@ keel_status_t keel_calibration_field_init(keel_calibration_field_t *field,
 
 void keel_calibration_field_begin(keel_calibration_field_t *field)
 {
-    set_all(field->lowest, field->config.highest);
-    set_all(field->highest, field->config.lowest);
+    set_axes(field->lowest, field->config.highest);
+    set_axes(field->highest, field->config.lowest);
     field->state = KEEL_CALIBRATION_COLLECTING;
     field->dropped = 0u;
 }
@@ -235,7 +235,7 @@ void keel_calibration_field_begin(keel_calibration_field_t *field)
 /*@ requires \valid(field) && axis < KEEL_CALIBRATION_AXES && \is_finite(value);
   @ assigns field->lowest[axis], field->highest[axis];
   @*/
-static void widen(keel_calibration_field_t *field, uint32_t axis, float value)
+static void widen_range(keel_calibration_field_t *field, uint32_t axis, float value)
 {
     if (value < field->lowest[axis]) {
         field->lowest[axis] = value;
@@ -252,9 +252,9 @@ void keel_calibration_field_step(keel_calibration_field_t *field,
         return;
     }
     if (are_within(sample, field->config.lowest, field->config.highest)) {
-        widen(field, 0u, sample[0]);
-        widen(field, 1u, sample[1]);
-        widen(field, 2u, sample[2]);
+        widen_range(field, 0u, sample[0]);
+        widen_range(field, 1u, sample[1]);
+        widen_range(field, 2u, sample[2]);
     } else {
         field->dropped = one_up(field->dropped);
     }
@@ -416,7 +416,8 @@ keel_status_t keel_calibration_six(const keel_calibration_sides_t *sides,
 /*@ requires \valid_read(row + (0 .. 2)) && \valid_read(raw + (0 .. 2));
   @ assigns \nothing;
   @*/
-static float along(const float row[KEEL_CALIBRATION_AXES], const float raw[KEEL_CALIBRATION_AXES])
+static float row_product(const float row[KEEL_CALIBRATION_AXES],
+                         const float raw[KEEL_CALIBRATION_AXES])
 {
     return ((row[0] * raw[0]) + (row[1] * raw[1])) + (row[2] * raw[2]);
 }
@@ -424,7 +425,7 @@ static float along(const float row[KEEL_CALIBRATION_AXES], const float raw[KEEL_
 void keel_calibration_turn(const keel_calibration_rotation_t *turn,
                            const float raw[KEEL_CALIBRATION_AXES], keel_calibration_vector_t *out)
 {
-    out->axis[0] = along(turn->x, raw);
-    out->axis[1] = along(turn->y, raw);
-    out->axis[2] = along(turn->z, raw);
+    out->axis[0] = row_product(turn->x, raw);
+    out->axis[1] = row_product(turn->y, raw);
+    out->axis[2] = row_product(turn->z, raw);
 }

@@ -391,7 +391,7 @@ static keel_cascade_limit_t near_sides(const keel_cascade_fence_t *fence, float 
 
 /* A speed, but none towards a side that is near. */
 /*@ assigns \nothing; */
-static float admitted(keel_cascade_limit_t near, float speed)
+static float admitted_speed(keel_cascade_limit_t near, float speed)
 {
     const bool stops = (near.at_max && (speed > 0.0f)) || (near.at_min && (speed < 0.0f));
 
@@ -410,7 +410,7 @@ static float drive_with(keel_cascade_t *cascade, uint32_t axis, keel_cascade_inp
     const keel_cascade_limit_t near = near_sides(&cascade->fence, cascade->axis[axis + STAGE].reach,
                                                  position, input->measured);
 
-    input->setpoint = admitted(near, input->setpoint);
+    input->setpoint = admitted_speed(near, input->setpoint);
     input->valid = input->valid && is_flown(cascade, axis);
     keel_cascade_axis_step(own, input);
     own->limit.at_min = own->limit.at_min || near.at_min;
@@ -421,7 +421,7 @@ static float drive_with(keel_cascade_t *cascade, uint32_t axis, keel_cascade_inp
 /* Whether an axis of the body at its limit keeps one of the Earth's from growing, of which the part
  * `share` lies along it. */
 /*@ assigns \nothing; */
-static bool holds(keel_cascade_limit_t limit, float share)
+static bool limit_stops_growth(keel_cascade_limit_t limit, float share)
 {
     return (limit.at_max && (share > KEEL_CASCADE_SHARE)) ||
            (limit.at_min && (share < -KEEL_CASCADE_SHARE));
@@ -432,9 +432,9 @@ static bool holds(keel_cascade_limit_t limit, float share)
 static keel_cascade_limit_t shared_limit(keel_cascade_limit_t forward, float forward_share,
                                          keel_cascade_limit_t right, float right_share)
 {
-    const keel_cascade_limit_t limit = {holds(forward, -forward_share) ||
-                                            holds(right, -right_share),
-                                        holds(forward, forward_share) || holds(right, right_share)};
+    const keel_cascade_limit_t limit = {
+        limit_stops_growth(forward, -forward_share) || limit_stops_growth(right, -right_share),
+        limit_stops_growth(forward, forward_share) || limit_stops_growth(right, right_share)};
 
     return limit;
 }
@@ -451,8 +451,8 @@ static bool is_direction(float part)
   @ requires cascade_number(cascade->axis[KEEL_CASCADE_PITCH].reach, 0, KEEL_CASCADE_DISTANCE_MAX);
   @ assigns cascade->axis[KEEL_CASCADE_NORTH_SPEED .. KEEL_CASCADE_EAST_SPEED], cascade->tilt;
   @*/
-static void drive(keel_cascade_t *cascade, keel_cascade_vector_t asked,
-                  const keel_cascade_estimate_t *estimate)
+static void drive_tilts(keel_cascade_t *cascade, keel_cascade_vector_t asked,
+                        const keel_cascade_estimate_t *estimate)
 {
     const keel_cascade_axis_t *const roll = &cascade->axis[KEEL_CASCADE_ROLL];
     const keel_cascade_axis_t *const pitch = &cascade->axis[KEEL_CASCADE_PITCH];
@@ -499,7 +499,7 @@ void keel_cascade_velocity_step(keel_cascade_t *cascade, keel_cascade_vector_t a
 
     climb.below.at_min = (cascade->gave_way & KEEL_MIXER_RAISED) != 0u;
     climb.below.at_max = (cascade->gave_way & KEEL_MIXER_LOWERED) != 0u;
-    drive(cascade, asked, estimate);
+    drive_tilts(cascade, asked, estimate);
     lift = drive_with(cascade, KEEL_CASCADE_CLIMB, &climb, estimate->position.up);
     cascade->thrust = keel_range_clamp(cascade->hover + lift, 0.0f, 1.0f);
 }

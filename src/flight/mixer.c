@@ -117,7 +117,7 @@ static bool has_factors(const keel_mixer_geometry_t *geometry)
 /*@ requires \valid_read(geometry) && geometry->motors <= KEEL_MIXER_MOTORS;
   @ assigns \nothing;
   @*/
-static bool turns(const keel_mixer_geometry_t *geometry, float way)
+static bool turns_about_axes(const keel_mixer_geometry_t *geometry, float way)
 {
     bool rolls = false;
     bool pitches = false;
@@ -144,7 +144,8 @@ keel_status_t keel_mixer_check(const keel_mixer_config_t *config)
     if ((geometry->motors < KEEL_MIXER_MOTORS_MIN) || (geometry->motors > KEEL_MIXER_MOTORS)) {
         return KEEL_ERR_MOTORS;
     }
-    if (!has_factors(geometry) || !turns(geometry, 1.0f) || !turns(geometry, -1.0f)) {
+    if (!has_factors(geometry) || !turns_about_axes(geometry, 1.0f) ||
+        !turns_about_axes(geometry, -1.0f)) {
         return KEEL_ERR_GEOMETRY;
     }
     return (keel_range_contains(config->idle, KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX) &&
@@ -157,7 +158,7 @@ keel_status_t keel_mixer_check(const keel_mixer_config_t *config)
   @ assigns mixer->output[0 .. KEEL_MIXER_MOTORS - 1], mixer->limited;
   @ ensures mixer_stopped(mixer) && mixer->limited == 0;
   @*/
-static void stop(keel_mixer_t *mixer)
+static void stop_motors(keel_mixer_t *mixer)
 {
     mixer->limited = 0u;
     /*@ loop invariant 0 <= i <= KEEL_MIXER_MOTORS;
@@ -177,7 +178,7 @@ keel_status_t keel_mixer_init(keel_mixer_t *mixer, const keel_mixer_config_t *co
 
     if (status == KEEL_OK) {
         mixer->config = *config;
-        stop(mixer);
+        stop_motors(mixer);
     }
     return status;
 }
@@ -200,7 +201,7 @@ static bool is_command(const keel_mixer_command_t *command)
   @ ensures tamed_same: range_contains(part, lowest, 1) ==> \result == part;
   @ ensures tamed_zero: !\is_finite(part) ==> \result == 0;
   @*/
-static float tamed(float part, float lowest)
+static float tame_part(float part, float lowest)
 {
     return keel_range_contains(part, -KEEL_RANGE_LARGEST, KEEL_RANGE_LARGEST)
                ? keel_range_clamp(part, lowest, 1.0f)
@@ -212,13 +213,13 @@ static float tamed(float part, float lowest)
   @ assigns \nothing;
   @ ensures tame_command: mixer_command(\result);
   @*/
-static keel_mixer_command_t tame(const keel_mixer_command_t *command)
+static keel_mixer_command_t tamed_command(const keel_mixer_command_t *command)
 {
     const keel_mixer_command_t within = {
-        .roll = tamed(command->roll, -1.0f),
-        .pitch = tamed(command->pitch, -1.0f),
-        .yaw = tamed(command->yaw, -1.0f),
-        .thrust = tamed(command->thrust, 0.0f),
+        .roll = tame_part(command->roll, -1.0f),
+        .pitch = tame_part(command->pitch, -1.0f),
+        .yaw = tame_part(command->yaw, -1.0f),
+        .thrust = tame_part(command->thrust, 0.0f),
     };
 
     return within;
@@ -427,11 +428,11 @@ static void put_out_part(keel_mixer_t *mixer, const float tilt[], float base, fl
   @ assigns mixer->output[0 .. mixer->config.geometry.motors - 1], mixer->limited;
   @ ensures mixer_turning(mixer);
   @*/
-static void turn(keel_mixer_t *mixer, const keel_mixer_command_t *command)
+static void turn_motors(keel_mixer_t *mixer, const keel_mixer_command_t *command)
 {
     const keel_mixer_config_t *const config = &mixer->config;
     const bool valid = is_command(command);
-    const keel_mixer_command_t wish = valid ? *command : tame(command);
+    const keel_mixer_command_t wish = valid ? *command : tamed_command(command);
     uint32_t limited = valid ? 0u : KEEL_MIXER_COMMAND;
     float tilt[KEEL_MIXER_MOTORS];
     ends_t ends = set_tilt(&config->geometry, &wish, tilt);
@@ -451,7 +452,7 @@ static void turn(keel_mixer_t *mixer, const keel_mixer_command_t *command)
 void keel_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, bool armed)
 {
     if (armed) {
-        turn(mixer, command);
+        turn_motors(mixer, command);
         /*@ assert config: mixer_geometry(mixer->config.geometry) &&
           @     mixer_range(mixer->config); */
         /*@ assert same_motors: mixer->config.geometry.motors ==
@@ -460,6 +461,6 @@ void keel_mixer_step(keel_mixer_t *mixer, const keel_mixer_command_t *command, b
           @     mixer->config.geometry.motors <= i < KEEL_MIXER_MOTORS ==>
           @     \is_finite(mixer->output[i]) && mixer->output[i] == 0; */
     } else {
-        stop(mixer);
+        stop_motors(mixer);
     }
 }

@@ -2,18 +2,19 @@
 #include "keel/flight/mode.h"
 
 #define PILOT                                                                                      \
-    (KEEL_MODE_IS_LINKED | KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF | KEEL_MODE_IS_LOW |                 \
-     KEEL_MODE_IS_KILL | KEEL_MODE_IS_AT)
-#define ESTIMATES (KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT | KEEL_MODE_HAS_PLACE)
-#define ALARMS    (KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL | KEEL_MODE_IS_EMPTY)
-#define AIRCRAFT  (KEEL_MODE_IS_LANDED | KEEL_MODE_IS_HOME | ESTIMATES | ALARMS)
-#define SWITCH    (KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF)
-#define ON_GROUND (KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW)
+    (KEEL_MODE_RC_LINKED | KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_ARM_SWITCH_OFF |                    \
+     KEEL_MODE_THROTTLE_LOW | KEEL_MODE_KILL_SWITCH_ON | KEEL_MODE_SWITCH_UNMOVED)
+#define ESTIMATES (KEEL_MODE_ATTITUDE_VALID | KEEL_MODE_ALTITUDE_VALID | KEEL_MODE_POSITION_VALID)
+#define ALARMS    (KEEL_MODE_FENCE_BREACHED | KEEL_MODE_BATTERY_CRITICAL | KEEL_MODE_BATTERY_EMPTY)
+#define AIRCRAFT  (KEEL_MODE_LANDED | KEEL_MODE_AT_HOME | ESTIMATES | ALARMS)
+#define SWITCH    (KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_ARM_SWITCH_OFF)
+#define ON_GROUND (KEEL_MODE_LANDED | KEEL_MODE_THROTTLE_LOW)
 
-/* The facts that must have settled before arming, IS_OFF and IS_AT in a special sense (blocking),
- * and those that must not hold. */
-#define NEEDED    (KEEL_MODE_IS_LINKED | KEEL_MODE_IS_OFF | KEEL_MODE_IS_AT | ON_GROUND)
-#define FORBIDDEN (KEEL_MODE_IS_KILL | ALARMS)
+/* The facts that must have settled before arming, ARM_SWITCH_OFF and SWITCH_UNMOVED in a special
+ * sense (arming_refusal), and those that must not hold. */
+#define NEEDED                                                                                     \
+    (KEEL_MODE_RC_LINKED | KEEL_MODE_ARM_SWITCH_OFF | KEEL_MODE_SWITCH_UNMOVED | ON_GROUND)
+#define FORBIDDEN (KEEL_MODE_KILL_SWITCH_ON | ALARMS)
 
 /* --- The tables ------------------------------------------------------------------------------- */
 
@@ -29,37 +30,42 @@ typedef struct mode_exit {
 /* Of each state the exits; the first that applies is taken. Those that a state does not need are
  * zeros, which never apply. TERMINATED has none. */
 static const mode_exit_t exits[KEEL_MODE_STATES][EXITS] = {
-    [KEEL_MODE_DISARMED] = {{KEEL_MODE_ARMS, 0u, KEEL_MODE_ARMED}},
-    [KEEL_MODE_ARMED] = {{KEEL_MODE_IS_KILL, 0u, KEEL_MODE_TERMINATED},
-                         {KEEL_MODE_LINK_LOST, 0u, KEEL_MODE_LANDING},
-                         {KEEL_MODE_LEAVES, 0u, KEEL_MODE_FLYING},
-                         {KEEL_MODE_IS_OFF | KEEL_MODE_TIME_UP, 0u, KEEL_MODE_DISARMED}},
-    [KEEL_MODE_FLYING] = {{KEEL_MODE_IS_KILL, 0u, KEEL_MODE_TERMINATED},
-                          {KEEL_MODE_LINK_LOST, 0u, KEEL_MODE_HOLDING},
-                          {KEEL_MODE_IS_EMPTY | KEEL_MODE_ASKS_LAND, 0u, KEEL_MODE_LANDING},
-                          {KEEL_MODE_ASKS_RETURN, 0u, KEEL_MODE_RETURNING},
-                          {KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL, KEEL_MODE_CAN_RETURN,
-                           KEEL_MODE_RETURNING},
-                          {KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL, 0u, KEEL_MODE_LANDING},
+    [KEEL_MODE_DISARMED] = {{KEEL_MODE_PILOT_ARMS, 0u, KEEL_MODE_ARMED}},
+    [KEEL_MODE_ARMED] = {{KEEL_MODE_KILL_SWITCH_ON, 0u, KEEL_MODE_TERMINATED},
+                         {KEEL_MODE_RC_LOST, 0u, KEEL_MODE_LANDING},
+                         {KEEL_MODE_LEAVES_GROUND, 0u, KEEL_MODE_FLYING},
+                         {KEEL_MODE_ARM_SWITCH_OFF | KEEL_MODE_STATE_TIMES_OUT, 0u,
+                          KEEL_MODE_DISARMED}},
+    [KEEL_MODE_FLYING] = {{KEEL_MODE_KILL_SWITCH_ON, 0u, KEEL_MODE_TERMINATED},
+                          {KEEL_MODE_RC_LOST, 0u, KEEL_MODE_HOLDING},
+                          {KEEL_MODE_BATTERY_EMPTY | KEEL_MODE_PILOT_ASKS_LAND, 0u,
+                           KEEL_MODE_LANDING},
+                          {KEEL_MODE_PILOT_ASKS_RETURN, 0u, KEEL_MODE_RETURNING},
+                          {KEEL_MODE_FENCE_BREACHED | KEEL_MODE_BATTERY_CRITICAL,
+                           KEEL_MODE_CAN_RETURN, KEEL_MODE_RETURNING},
+                          {KEEL_MODE_FENCE_BREACHED | KEEL_MODE_BATTERY_CRITICAL, 0u,
+                           KEEL_MODE_LANDING},
                           {KEEL_MODE_TOUCHES_DOWN, 0u, KEEL_MODE_ARMED}},
-    [KEEL_MODE_HOLDING] = {{KEEL_MODE_IS_KILL, 0u, KEEL_MODE_TERMINATED},
-                           {KEEL_MODE_TAKES_OVER, 0u, KEEL_MODE_FLYING},
-                           {KEEL_MODE_IS_EMPTY | KEEL_MODE_IS_LANDED | KEEL_MODE_ASKS_LAND, 0u,
-                            KEEL_MODE_LANDING},
-                           {KEEL_MODE_ASKS_RETURN, 0u, KEEL_MODE_RETURNING},
-                           {KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL | KEEL_MODE_TIME_UP,
+    [KEEL_MODE_HOLDING] = {{KEEL_MODE_KILL_SWITCH_ON, 0u, KEEL_MODE_TERMINATED},
+                           {KEEL_MODE_PILOT_TAKES_OVER, 0u, KEEL_MODE_FLYING},
+                           {KEEL_MODE_BATTERY_EMPTY | KEEL_MODE_LANDED | KEEL_MODE_PILOT_ASKS_LAND,
+                            0u, KEEL_MODE_LANDING},
+                           {KEEL_MODE_PILOT_ASKS_RETURN, 0u, KEEL_MODE_RETURNING},
+                           {KEEL_MODE_FENCE_BREACHED | KEEL_MODE_BATTERY_CRITICAL |
+                                KEEL_MODE_STATE_TIMES_OUT,
                             KEEL_MODE_CAN_RETURN, KEEL_MODE_RETURNING},
-                           {KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL | KEEL_MODE_TIME_UP, 0u,
-                            KEEL_MODE_LANDING}},
-    [KEEL_MODE_RETURNING] = {{KEEL_MODE_IS_KILL, 0u, KEEL_MODE_TERMINATED},
-                             {KEEL_MODE_TAKES_OVER, 0u, KEEL_MODE_FLYING},
-                             {KEEL_MODE_IS_EMPTY | KEEL_MODE_IS_LANDED | KEEL_MODE_IS_HOME |
-                                  KEEL_MODE_ASKS_LAND | KEEL_MODE_TIME_UP,
+                           {KEEL_MODE_FENCE_BREACHED | KEEL_MODE_BATTERY_CRITICAL |
+                                KEEL_MODE_STATE_TIMES_OUT,
+                            0u, KEEL_MODE_LANDING}},
+    [KEEL_MODE_RETURNING] = {{KEEL_MODE_KILL_SWITCH_ON, 0u, KEEL_MODE_TERMINATED},
+                             {KEEL_MODE_PILOT_TAKES_OVER, 0u, KEEL_MODE_FLYING},
+                             {KEEL_MODE_BATTERY_EMPTY | KEEL_MODE_LANDED | KEEL_MODE_AT_HOME |
+                                  KEEL_MODE_PILOT_ASKS_LAND | KEEL_MODE_STATE_TIMES_OUT,
                               0u, KEEL_MODE_LANDING}},
-    [KEEL_MODE_LANDING] = {{KEEL_MODE_IS_KILL, 0u, KEEL_MODE_TERMINATED},
-                           {KEEL_MODE_TAKES_OVER, 0u, KEEL_MODE_FLYING},
-                           {KEEL_MODE_ASKS_RETURN, 0u, KEEL_MODE_RETURNING},
-                           {KEEL_MODE_SITS, 0u, KEEL_MODE_DISARMED}},
+    [KEEL_MODE_LANDING] = {{KEEL_MODE_KILL_SWITCH_ON, 0u, KEEL_MODE_TERMINATED},
+                           {KEEL_MODE_PILOT_TAKES_OVER, 0u, KEEL_MODE_FLYING},
+                           {KEEL_MODE_PILOT_ASKS_RETURN, 0u, KEEL_MODE_RETURNING},
+                           {KEEL_MODE_STAYS_LANDED, 0u, KEEL_MODE_DISARMED}},
     [KEEL_MODE_TERMINATED] = {{0u, 0u, KEEL_MODE_TERMINATED}}};
 
 /* The mode that each state wants where the pilot does not fly. */
@@ -80,8 +86,8 @@ typedef struct mode_row {
 static const mode_row_t modes[KEEL_MODE_NONE + 1u] = {
     [KEEL_MODE_ACRO] = {0u, KEEL_MODE_ACRO, KEEL_MODE_ACRO},
     [KEEL_MODE_LAND] = {0u, KEEL_MODE_LAND, KEEL_MODE_LAND},
-    [KEEL_MODE_ANGLE] = {KEEL_MODE_HAS_ANGLE, KEEL_MODE_ACRO, KEEL_MODE_LAND},
-    [KEEL_MODE_ALTITUDE] = {KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT, KEEL_MODE_ANGLE,
+    [KEEL_MODE_ANGLE] = {KEEL_MODE_ATTITUDE_VALID, KEEL_MODE_ACRO, KEEL_MODE_LAND},
+    [KEEL_MODE_ALTITUDE] = {KEEL_MODE_ATTITUDE_VALID | KEEL_MODE_ALTITUDE_VALID, KEEL_MODE_ANGLE,
                             KEEL_MODE_LAND},
     [KEEL_MODE_POSITION] = {ESTIMATES, KEEL_MODE_ALTITUDE, KEEL_MODE_ALTITUDE},
     [KEEL_MODE_RETURN] = {ESTIMATES, KEEL_MODE_ALTITUDE, KEEL_MODE_LAND},
@@ -133,7 +139,7 @@ static uint8_t instead_of(uint8_t mode, bool piloted)
   @*/
 static uint32_t bit_of(uint32_t i)
 {
-    return KEEL_MODE_IS_EMPTY >> ((KEEL_MODE_FACTS - 1u) - i);
+    return KEEL_MODE_BATTERY_EMPTY >> ((KEEL_MODE_FACTS - 1u) - i);
 }
 
 /*@ assigns \nothing;
@@ -150,7 +156,7 @@ static uint32_t add_us(uint32_t time_us, uint32_t more_us)
   @*/
 static bool has_frame(const keel_mode_input_t *input)
 {
-    return ((input->facts & KEEL_MODE_IS_LINKED) != 0u) && (input->asked < KEEL_MODE_NONE);
+    return ((input->facts & KEEL_MODE_RC_LINKED) != 0u) && (input->asked < KEEL_MODE_NONE);
 }
 
 /* Reads a good frame. A switch that is both on and off is neither. */
@@ -160,13 +166,13 @@ static bool has_frame(const keel_mode_input_t *input)
   @*/
 static uint32_t read_frame(keel_mode_t *mode, const keel_mode_input_t *input)
 {
-    uint32_t facts = input->facts & (PILOT & ~KEEL_MODE_IS_AT);
+    uint32_t facts = input->facts & (PILOT & ~KEEL_MODE_SWITCH_UNMOVED);
 
     if ((facts & SWITCH) == SWITCH) {
         facts &= ~SWITCH;
     }
     if (input->asked == mode->rests_at) {
-        facts |= KEEL_MODE_IS_AT;
+        facts |= KEEL_MODE_SWITCH_UNMOVED;
     }
     mode->rests_at = input->asked;
     return facts;
@@ -177,7 +183,7 @@ static uint32_t read_frame(keel_mode_t *mode, const keel_mode_input_t *input)
 /*@ requires \valid(mode);
   @ assigns mode->silence_us, mode->seen, mode->settled;
   @*/
-static void forget(keel_mode_t *mode, uint32_t elapsed_us)
+static void forget_stale_facts(keel_mode_t *mode, uint32_t elapsed_us)
 {
     mode->silence_us = add_us(mode->silence_us, elapsed_us);
     if (mode->silence_us >= mode->config.loss_us) {
@@ -193,7 +199,7 @@ static void forget(keel_mode_t *mode, uint32_t elapsed_us)
 /*@ requires \valid(mode);
   @ assigns mode->settled, mode->seen, mode->held_us[0 .. KEEL_MODE_FACTS - 1];
   @*/
-static void settle(keel_mode_t *mode, uint32_t now, uint32_t may, uint32_t elapsed_us)
+static void settle_facts(keel_mode_t *mode, uint32_t now, uint32_t may, uint32_t elapsed_us)
 {
     const uint32_t before = mode->seen;
     const uint32_t waiting = now & ~mode->settled;
@@ -227,24 +233,24 @@ static void settle(keel_mode_t *mode, uint32_t now, uint32_t may, uint32_t elaps
   @     mode->rests_at;
   @ ensures mode->rests_at <= KEEL_MODE_NONE;
   @*/
-static void look(keel_mode_t *mode, const keel_mode_input_t *input, bool frame)
+static void look_at_facts(keel_mode_t *mode, const keel_mode_input_t *input, bool frame)
 {
     uint32_t now = input->facts & AIRCRAFT;
 
-    forget(mode, input->elapsed_us);
+    forget_stale_facts(mode, input->elapsed_us);
     if (frame) {
         now |= read_frame(mode, input);
         mode->silence_us = 0u;
     } else {
         now |= mode->seen & PILOT;
     }
-    settle(mode, now, frame ? (PILOT | AIRCRAFT) : AIRCRAFT, input->elapsed_us);
+    settle_facts(mode, now, frame ? (PILOT | AIRCRAFT) : AIRCRAFT, input->elapsed_us);
 }
 
 /*@ requires \valid_read(mode);
   @ assigns \nothing;
   @*/
-static bool has(const keel_mode_t *mode, uint32_t facts)
+static bool has_settled(const keel_mode_t *mode, uint32_t facts)
 {
     return (mode->settled & facts) == facts;
 }
@@ -261,9 +267,9 @@ static bool heed_mode_switch(keel_mode_t *mode, bool frame)
 {
     bool moved = false;
 
-    if (!has(mode, KEEL_MODE_IS_LINKED)) {
+    if (!has_settled(mode, KEEL_MODE_RC_LINKED)) {
         mode->asked = KEEL_MODE_NONE;
-    } else if (frame && has(mode, KEEL_MODE_IS_AT)) {
+    } else if (frame && has_settled(mode, KEEL_MODE_SWITCH_UNMOVED)) {
         moved = (mode->asked != KEEL_MODE_NONE) && (mode->asked != mode->rests_at);
         mode->asked = mode->rests_at;
     } else {
@@ -278,11 +284,11 @@ static bool heed_mode_switch(keel_mode_t *mode, bool frame)
   @*/
 static bool heed_arm_switch(keel_mode_t *mode)
 {
-    const bool up = has(mode, KEEL_MODE_IS_LINKED);
-    const bool on = has(mode, KEEL_MODE_IS_ON);
+    const bool up = has_settled(mode, KEEL_MODE_RC_LINKED);
+    const bool on = has_settled(mode, KEEL_MODE_ARM_SWITCH_ON);
     const bool attempt = mode->ready && up && on;
 
-    mode->ready = up && !on && (mode->ready || has(mode, KEEL_MODE_IS_OFF));
+    mode->ready = up && !on && (mode->ready || has_settled(mode, KEEL_MODE_ARM_SWITCH_OFF));
     return attempt;
 }
 
@@ -298,16 +304,18 @@ static bool is_piloted(uint8_t asked)
 /*@ requires \valid_read(mode) && asked: mode->asked <= KEEL_MODE_NONE;
   @ assigns \nothing;
   @*/
-static keel_mode_refusal_t blocking(const keel_mode_t *mode, uint32_t checks, bool attempt)
+static keel_mode_refusal_t arming_refusal(const keel_mode_t *mode, uint32_t checks, bool attempt)
 {
-    uint32_t good = mode->settled & (NEEDED & ~(KEEL_MODE_IS_OFF | KEEL_MODE_IS_AT));
+    uint32_t good = mode->settled &
+                    (NEEDED & ~(KEEL_MODE_ARM_SWITCH_OFF | KEEL_MODE_SWITCH_UNMOVED));
     keel_mode_refusal_t refusal;
 
     if (attempt || mode->ready) {
-        good |= KEEL_MODE_IS_OFF;
+        good |= KEEL_MODE_ARM_SWITCH_OFF;
     }
-    if (has(mode, KEEL_MODE_IS_AT | needs_of(mode->asked)) && is_piloted(mode->asked)) {
-        good |= KEEL_MODE_IS_AT;
+    if (has_settled(mode, KEEL_MODE_SWITCH_UNMOVED | needs_of(mode->asked)) &&
+        is_piloted(mode->asked)) {
+        good |= KEEL_MODE_SWITCH_UNMOVED;
     }
     refusal.checks = mode->config.required & ~checks;
     refusal.facts = (NEEDED & ~good) | (mode->seen & FORBIDDEN);
@@ -326,7 +334,7 @@ static bool try_to_arm(keel_mode_t *mode, uint32_t checks, bool attempt)
         mode->blocking = none;
         return false;
     }
-    mode->blocking = blocking(mode, checks, attempt);
+    mode->blocking = arming_refusal(mode, checks, attempt);
     if (attempt) {
         mode->refused = mode->blocking;
     }
@@ -338,7 +346,7 @@ static bool try_to_arm(keel_mode_t *mode, uint32_t checks, bool attempt)
 /*@ assigns \nothing;
   @ ensures \result == (condition ? event : 0);
   @*/
-static uint32_t when(bool condition, uint32_t event)
+static uint32_t event_when(bool condition, uint32_t event)
 {
     return condition ? event : 0u;
 }
@@ -364,14 +372,15 @@ static bool is_time_up(const keel_mode_t *mode)
 /*@ requires \valid_read(mode);
   @ assigns \nothing;
   @*/
-static uint32_t requests(const keel_mode_t *mode, bool moved)
+static uint32_t pilot_requests(const keel_mode_t *mode, bool moved)
 {
     const bool asks = moved || (mode->state == KEEL_MODE_FLYING);
 
-    return when(moved && is_piloted(mode->asked), KEEL_MODE_TAKES_OVER) |
-           when(asks && (mode->asked == KEEL_MODE_LAND), KEEL_MODE_ASKS_LAND) |
-           when(asks && (mode->asked == KEEL_MODE_RETURN) && has(mode, KEEL_MODE_HAS_PLACE),
-                KEEL_MODE_ASKS_RETURN);
+    return event_when(moved && is_piloted(mode->asked), KEEL_MODE_PILOT_TAKES_OVER) |
+           event_when(asks && (mode->asked == KEEL_MODE_LAND), KEEL_MODE_PILOT_ASKS_LAND) |
+           event_when(asks && (mode->asked == KEEL_MODE_RETURN) &&
+                          has_settled(mode, KEEL_MODE_POSITION_VALID),
+                      KEEL_MODE_PILOT_ASKS_RETURN);
 }
 
 /* The facts that have come. The pilot's count only in a step with a frame. */
@@ -380,15 +389,17 @@ static uint32_t requests(const keel_mode_t *mode, bool moved)
   @*/
 static uint32_t events_of(const keel_mode_t *mode, bool frame)
 {
-    const bool landed = has(mode, KEEL_MODE_IS_LANDED);
+    const bool landed = has_settled(mode, KEEL_MODE_LANDED);
 
     return (mode->settled & ~mode->overridden & (frame ? (PILOT | AIRCRAFT) : AIRCRAFT)) |
-           when(!has(mode, KEEL_MODE_IS_LINKED), KEEL_MODE_LINK_LOST) |
-           when((mode->seen & ON_GROUND) != ON_GROUND, KEEL_MODE_LEAVES) |
-           when(has(mode, ON_GROUND), KEEL_MODE_TOUCHES_DOWN) |
-           when(landed && (mode->state_us >= mode->config.landed_us), KEEL_MODE_SITS) |
-           when(is_time_up(mode), KEEL_MODE_TIME_UP) |
-           when(mode->config.returns && has(mode, KEEL_MODE_HAS_PLACE), KEEL_MODE_CAN_RETURN);
+           event_when(!has_settled(mode, KEEL_MODE_RC_LINKED), KEEL_MODE_RC_LOST) |
+           event_when((mode->seen & ON_GROUND) != ON_GROUND, KEEL_MODE_LEAVES_GROUND) |
+           event_when(has_settled(mode, ON_GROUND), KEEL_MODE_TOUCHES_DOWN) |
+           event_when(landed && (mode->state_us >= mode->config.landed_us),
+                      KEEL_MODE_STAYS_LANDED) |
+           event_when(is_time_up(mode), KEEL_MODE_STATE_TIMES_OUT) |
+           event_when(mode->config.returns && has_settled(mode, KEEL_MODE_POSITION_VALID),
+                      KEEL_MODE_CAN_RETURN);
 }
 
 /* --- Where it leads --------------------------------------------------------------------------- */
@@ -406,7 +417,7 @@ static bool is_failsafe(uint8_t state)
   @ assigns mode->state, mode->state_us, mode->cause, mode->overridden;
   @ ensures mode->state == way.to && mode->state_us == 0;
   @*/
-static void leave(keel_mode_t *mode, mode_exit_t way, uint32_t events)
+static void take_exit(keel_mode_t *mode, mode_exit_t way, uint32_t events)
 {
     const uint32_t cause = way.any & events;
 
@@ -414,7 +425,7 @@ static void leave(keel_mode_t *mode, mode_exit_t way, uint32_t events)
         mode->cause = 0u;
     }
     mode->cause |= cause;
-    if ((cause & KEEL_MODE_TAKES_OVER) != 0u) {
+    if ((cause & KEEL_MODE_PILOT_TAKES_OVER) != 0u) {
         mode->overridden = mode->settled & ALARMS;
     }
     mode->state = way.to;
@@ -425,7 +436,7 @@ static void leave(keel_mode_t *mode, mode_exit_t way, uint32_t events)
   @ assigns mode->state, mode->state_us, mode->cause, mode->overridden;
   @ ensures mode->state < KEEL_MODE_STATES;
   @*/
-static void move(keel_mode_t *mode, uint32_t events)
+static void change_state(keel_mode_t *mode, uint32_t events)
 {
     const uint8_t state = mode->state;
 
@@ -437,7 +448,7 @@ static void move(keel_mode_t *mode, uint32_t events)
         const mode_exit_t way = exit_of(state, i);
 
         if (((way.any & events) != 0u) && ((way.also & events) == way.also)) {
-            leave(mode, way, events);
+            take_exit(mode, way, events);
             return;
         }
     }
@@ -449,7 +460,7 @@ static void move(keel_mode_t *mode, uint32_t events)
   @ assigns mode->missing, mode->mode, mode->motors;
   @ ensures mode->mode <= KEEL_MODE_NONE;
   @*/
-static void choose(keel_mode_t *mode)
+static void choose_mode(keel_mode_t *mode)
 {
     const bool piloted = (mode->state == KEEL_MODE_ARMED) || (mode->state == KEEL_MODE_FLYING);
     uint8_t chosen = piloted ? mode->asked : wanted_by(mode->state);
@@ -473,15 +484,15 @@ void keel_mode_step(keel_mode_t *mode, const keel_mode_input_t *input)
     bool attempt;
     uint32_t events;
 
-    look(mode, input, frame);
-    mode->overridden &= has(mode, KEEL_MODE_IS_LINKED) ? mode->settled : 0u;
+    look_at_facts(mode, input, frame);
+    mode->overridden &= has_settled(mode, KEEL_MODE_RC_LINKED) ? mode->settled : 0u;
     mode->state_us = add_us(mode->state_us, input->elapsed_us);
     moved = heed_mode_switch(mode, frame);
     attempt = heed_arm_switch(mode);
-    events = events_of(mode, frame) | requests(mode, moved) |
-             when(try_to_arm(mode, input->checks, attempt), KEEL_MODE_ARMS);
-    move(mode, events);
-    choose(mode);
+    events = events_of(mode, frame) | pilot_requests(mode, moved) |
+             event_when(try_to_arm(mode, input->checks, attempt), KEEL_MODE_PILOT_ARMS);
+    change_state(mode, events);
+    choose_mode(mode);
 }
 
 /* --- The beginning ---------------------------------------------------------------------------- */
@@ -547,13 +558,13 @@ static uint32_t settle_us_of(const keel_mode_config_t *config, uint32_t bit)
 {
     uint32_t time_us = config->alarm_us;
 
-    if (bit == KEEL_MODE_IS_LINKED) {
+    if (bit == KEEL_MODE_RC_LINKED) {
         time_us = config->regain_us;
-    } else if (bit == KEEL_MODE_IS_KILL) {
+    } else if (bit == KEEL_MODE_KILL_SWITCH_ON) {
         time_us = config->kill_us;
     } else if ((bit & PILOT) != 0u) {
         time_us = config->request_us;
-    } else if (bit == KEEL_MODE_IS_LANDED) {
+    } else if (bit == KEEL_MODE_LANDED) {
         time_us = config->landed_us;
     } else if ((bit & ESTIMATES) != 0u) {
         time_us = config->estimate_us;

@@ -114,7 +114,7 @@ keel_status_t keel_pid_set_gains(keel_pid_t *pid, const keel_pid_gains_t *gains)
 /*@ requires \valid(pid) && filter_valid(pid->filter);
   @ assigns pid->filter.s1, pid->filter.s2, pid->filter.output, pid->derivative;
   @*/
-static keel_status_t differentiate(keel_pid_t *pid, float error)
+static keel_status_t differentiate_error(keel_pid_t *pid, float error)
 {
     const float before = pid->started ? pid->filter.output : error;
     const keel_status_t status = pid->started ? keel_filter_step(&pid->filter, error)
@@ -194,7 +194,7 @@ keel_status_t keel_pid_step(keel_pid_t *pid, float setpoint, float measurement)
         return KEEL_ERR_INPUT;
     }
     error = setpoint - measurement;
-    if (differentiate(pid, error) != KEEL_OK) {
+    if (differentiate_error(pid, error) != KEEL_OK) {
         return KEEL_ERR_INPUT;
     }
     direct = direct_terms(&pid->config.gains, setpoint, error, pid->derivative);

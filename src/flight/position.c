@@ -83,7 +83,7 @@ keel_status_t keel_position_set_origin(keel_position_t *position, int32_t latitu
 
 /* How far a longitude is east of another, across the 180th meridian where that is nearer. */
 /*@ assigns \nothing; */
-static int64_t eastwards(int32_t from, int32_t to)
+static int64_t longitude_eastwards(int32_t from, int32_t to)
 {
     int64_t way = (int64_t)to - (int64_t)from;
 
@@ -117,7 +117,7 @@ void keel_position_step(keel_position_t *position, const keel_position_sample_t 
     const keel_position_config_t *const config = &position->config;
     const keel_position_fix_t *const fix = &sample->fix;
     const int64_t north = (int64_t)fix->latitude - (int64_t)position->latitude;
-    const int64_t east = eastwards(position->longitude, fix->longitude);
+    const int64_t east = longitude_eastwards(position->longitude, fix->longitude);
     keel_axis_sample_t measured = {
         .acceleration = sample->north,
         .position = metres_of(north, position->north_scale),

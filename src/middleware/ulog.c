@@ -271,7 +271,7 @@ static void open_message(keel_ulog_message_t *message, uint8_t kind)
   @ assigns message->size, message->overflowed;
   @ ensures message->size == 0 && message->overflowed != 0 && \result == 0;
   @*/
-static bool refuse(keel_ulog_message_t *message)
+static bool refuse_message(keel_ulog_message_t *message)
 {
     message->size = 0u;
     message->overflowed = true;
@@ -374,7 +374,7 @@ static void put_field(keel_ulog_message_t *message, const keel_ulog_field_t *fie
 bool keel_ulog_format(keel_ulog_message_t *message, const keel_ulog_format_t *format)
 {
     if (!is_format_known(format)) {
-        return refuse(message);
+        return refuse_message(message);
     }
     open_message(message, FORMAT);
     put_name(message, &format->name);
@@ -410,7 +410,7 @@ bool keel_ulog_parameter(keel_ulog_message_t *message, const keel_ulog_name_t *n
                          const uint8_t *value)
 {
     if ((type != KEEL_ULOG_INT32) && (type != KEEL_ULOG_FLOAT)) {
-        return refuse(message);
+        return refuse_message(message);
     }
     open_message(message, PARAMETER);
     log_byte(message, 0u);
@@ -442,7 +442,7 @@ bool keel_ulog_add(keel_ulog_message_t *message, const uint8_t *bytes, uint16_t 
 {
     if ((message->size < KEEL_ULOG_HEAD_BYTES) ||
         (count > (KEEL_ULOG_MESSAGE_BYTES - message->size))) {
-        return refuse(message);
+        return refuse_message(message);
     }
     message->overflowed = false;
     put_bytes(message, bytes, count);

@@ -55,7 +55,7 @@ static uint32_t channel_bit(uint32_t channel)
   @ requires imu->channel[channel].config.sensors <= KEEL_VOTER_SENSORS;
   @ assigns imu->used[0 .. KEEL_VOTER_SENSORS - 1], imu->latched[0 .. KEEL_VOTER_SENSORS - 1];
   @*/
-static void note(keel_virtual_imu_t *imu, uint32_t channel)
+static void note_verdicts(keel_virtual_imu_t *imu, uint32_t channel)
 {
     const keel_voter_t *const voter = &imu->channel[channel];
     const uint32_t bit = channel_bit(channel);
@@ -121,7 +121,7 @@ void keel_virtual_imu_step(keel_virtual_imu_t *imu, const keel_virtual_imu_sampl
         if (!complete || !keel_voter_step_unanimous(&imu->channel[k], one, oldest_us)) {
             keel_voter_step(&imu->channel[k], one, elapsed_us);
             keel_voter_reconsider(&imu->channel[k], one);
-            note(imu, k);
+            note_verdicts(imu, k);
         }
     }
 }

@@ -183,7 +183,7 @@ static uint16_t one_more(uint16_t value)
   @ requires \is_finite(config->lowest) && \is_finite(config->highest);
   @ assigns \nothing;
   @*/
-static uint8_t inspect(const keel_voter_config_t *config, const keel_voter_sample_t *sample)
+static uint8_t inspect_sample(const keel_voter_config_t *config, const keel_voter_sample_t *sample)
 {
     if (!sample->present) {
         return KEEL_VOTER_MISSING;
@@ -229,7 +229,7 @@ static void compare_with_last(keel_voter_sensor_t *sensor, float value)
   @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].unchanged_votes,
   @     voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1];
   @*/
-static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sample[])
+static uint32_t inspect_samples(keel_voter_t *voter, const keel_voter_sample_t sample[])
 {
     const keel_voter_config_t *const config = &voter->config;
     uint32_t usable = 0u;
@@ -242,7 +242,7 @@ static uint32_t inspect_all(keel_voter_t *voter, const keel_voter_sample_t sampl
       @*/
     for (uint32_t i = 0u; i < voter->config.sensors; i++) {
         keel_voter_sensor_t *const sensor = &voter->sensor[i];
-        uint8_t reason = inspect(config, &sample[i]);
+        uint8_t reason = inspect_sample(config, &sample[i]);
 
         if ((reason == KEEL_VOTER_USED) || (reason >= KEEL_VOTER_OUT_OF_RANGE)) {
             compare_with_last(sensor, sample[i].value);
@@ -269,8 +269,8 @@ typedef struct agreements {
   @     KEEL_VOTER_AGREE_MIN <= voter->agree <= KEEL_VOTER_AGREE_MAX;
   @ assigns agreement->of[0 .. KEEL_VOTER_SENSORS - 1][0 .. KEEL_VOTER_SENSORS - 2];
   @*/
-static void compare_all(const keel_voter_t *voter, const keel_voter_sample_t sample[],
-                        agreements_t *agreement)
+static void compare_samples(const keel_voter_t *voter, const keel_voter_sample_t sample[],
+                            agreements_t *agreement)
 {
     const uint8_t *const reason = voter->vote.reason;
     const uint32_t sensors = voter->config.sensors;
@@ -313,8 +313,8 @@ static uint32_t add_saturated(uint32_t a, uint32_t b)
   @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
   @ assigns voter->vote.state, voter->vote.output, voter->vote.held, voter->vote.held_us;
   @*/
-static void conclude(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t usable,
-                     bool agreed, uint32_t elapsed_us)
+static void conclude_vote(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t usable,
+                          bool agreed, uint32_t elapsed_us)
 {
     keel_vote_t *const vote = &voter->vote;
 
@@ -340,7 +340,7 @@ static void conclude(keel_voter_t *voter, const keel_voter_sample_t sample[], ui
   @ ensures clear: sensor->condemned_votes == 0;
   @ ensures leak: sensor->density == \max(\old(sensor->density) - 1, 0);
   @*/
-static void clear(keel_voter_sensor_t *sensor)
+static void clear_sensor(keel_voter_sensor_t *sensor)
 {
     sensor->condemned_votes = 0u;
     if (sensor->density > 0u) {
@@ -357,7 +357,7 @@ static void clear(keel_voter_sensor_t *sensor)
   @ ensures latch: sensor->latched <==> (sensor->condemned_votes >= config->latch_count ||
   @     (config->density_limit > 0 && sensor->density >= config->density_limit));
   @*/
-static void condemn(const keel_voter_config_t *config, keel_voter_sensor_t *sensor)
+static void condemn_sensor(const keel_voter_config_t *config, keel_voter_sensor_t *sensor)
 {
     sensor->condemned_votes = one_more(sensor->condemned_votes);
     sensor->density = one_more(sensor->density);
@@ -406,7 +406,7 @@ static void take_middle(keel_voter_t *voter, const keel_voter_sample_t sample[])
   @ requires \valid_read(agreement) && \separated(voter, agreement);
   @ assigns voter->vote.weight[0 .. KEEL_VOTER_SENSORS - 1];
   @*/
-static bool weigh_all(keel_voter_t *voter, const agreements_t *agreement, uint32_t usable)
+static bool weigh_sensors(keel_voter_t *voter, const agreements_t *agreement, uint32_t usable)
 {
     const uint32_t sensors = voter->config.sensors;
     bool agreed = false;
@@ -435,7 +435,7 @@ static bool weigh_all(keel_voter_t *voter, const agreements_t *agreement, uint32
   @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].latched,
   @     voter->vote.reason[0 .. KEEL_VOTER_SENSORS - 1], voter->vote.contributing;
   @*/
-static void judge(keel_voter_t *voter, uint32_t usable, bool agreed)
+static void judge_sensors(keel_voter_t *voter, uint32_t usable, bool agreed)
 {
     keel_vote_t *const vote = &voter->vote;
     const uint32_t sensors = voter->config.sensors;
@@ -454,10 +454,10 @@ static void judge(keel_voter_t *voter, uint32_t usable, bool agreed)
         }
         if (vote->reason[i] == KEEL_VOTER_USED) {
             contributing++;
-            clear(&voter->sensor[i]);
+            clear_sensor(&voter->sensor[i]);
         } else if (((vote->reason[i] >= KEEL_VOTER_MISSING) && (usable > 0u)) ||
                    ((vote->reason[i] == KEEL_VOTER_OUTVOTED) && agreed)) {
-            condemn(&voter->config, &voter->sensor[i]);
+            condemn_sensor(&voter->config, &voter->sensor[i]);
         } else {
             /* Latched already, or nobody knows. */
         }
@@ -489,17 +489,17 @@ static bool is_unanimous(const keel_voter_t *voter)
 
 void keel_voter_step(keel_voter_t *voter, const keel_voter_sample_t sample[], uint32_t elapsed_us)
 {
-    const uint32_t usable = inspect_all(voter, sample);
+    const uint32_t usable = inspect_samples(voter, sample);
     agreements_t agreement;
     bool agreed;
 
-    compare_all(voter, sample, &agreement);
-    agreed = weigh_all(voter, &agreement, usable);
+    compare_samples(voter, sample, &agreement);
+    agreed = weigh_sensors(voter, &agreement, usable);
     if (!agreed && (usable > 2u)) {
         take_middle(voter, sample);
     }
-    judge(voter, usable, agreed);
-    conclude(voter, sample, usable, agreed, elapsed_us);
+    judge_sensors(voter, usable, agreed);
+    conclude_vote(voter, sample, usable, agreed, elapsed_us);
     voter->unanimous = is_unanimous(voter);
 }
 
@@ -574,7 +574,8 @@ static bool speaks_for(const keel_voter_t *voter, const keel_voter_sensor_t *sen
     const float output = voter->vote.output;
     const float value = sample->value;
 
-    if ((inspect(&voter->config, sample) != KEEL_VOTER_USED) || is_stale(&voter->config, sensor)) {
+    if ((inspect_sample(&voter->config, sample) != KEEL_VOTER_USED) ||
+        is_stale(&voter->config, sensor)) {
         return false;
     }
     if (voter->vote.contributing == 0u) {

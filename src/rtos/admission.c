@@ -17,7 +17,7 @@ void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
 /*@ assigns \nothing;
   @ ensures \result == \min(a, b);
   @*/
-static uint64_t minimum(uint64_t a, uint64_t b)
+static uint64_t lesser_of(uint64_t a, uint64_t b)
 {
     return (a < b) ? a : b;
 }
@@ -53,8 +53,8 @@ keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priorit
 
     if (priority == KEEL_PRIORITY_REALTIME) {
         demand_us += budget_us;
-        shortest_us = minimum(shortest_us, period_us);
-        gap_us = minimum(gap_us, gap_of(period_us, budget_us));
+        shortest_us = lesser_of(shortest_us, period_us);
+        gap_us = lesser_of(gap_us, gap_of(period_us, budget_us));
     } else if (budget_us > other_us) {
         other_us = budget_us;
     } else {

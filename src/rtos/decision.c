@@ -96,7 +96,7 @@ static uint32_t priority_of(const keel_queue_t *queue, uint32_t slot, uint64_t n
   @ assigns \nothing;
   @ ensures \result <==> task_worst(queue, slot) <= room_us;
   @*/
-static bool fits(const keel_queue_t *queue, uint32_t slot, uint32_t room_us)
+static bool task_fits(const keel_queue_t *queue, uint32_t slot, uint32_t room_us)
 {
     return (queue->budget_us[slot] <= room_us) && (queue->stats[slot].remembered_us <= room_us);
 }
@@ -139,7 +139,7 @@ keel_choice_t keel_decision_other(const keel_queue_t *queue, uint64_t now_us, ui
 
             if ((priority > choice.priority) &&
                 (((priority == KEEL_PRIORITY_REALTIME) && !without_promotion) ||
-                 fits(queue, slot, room_us))) {
+                 task_fits(queue, slot, room_us))) {
                 choice.position = i;
                 choice.priority = priority;
             }

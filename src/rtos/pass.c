@@ -26,8 +26,8 @@
   @ ensures others: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==> k != position ==>
   @     left_alone{Pre, Post}(scheduler, k);
   @*/
-static const keel_task_config_t *dispatch(keel_scheduler_t *scheduler, uint32_t position,
-                                          uint32_t cursor, int16_t stage)
+static const keel_task_config_t *dispatch_task(keel_scheduler_t *scheduler, uint32_t position,
+                                               uint32_t cursor, int16_t stage)
 {
     const uint32_t slot = scheduler->queue.order[position];
 
@@ -142,7 +142,7 @@ static keel_choice_t choose_other(const keel_scheduler_t *scheduler, uint64_t re
   @ ensures time: scheduler->clock.now_us == \old(scheduler->clock.now_us) &&
   @     scheduler->wake_us == \old(scheduler->wake_us);
   @*/
-static void remember(keel_scheduler_t *scheduler, uint64_t realtime_us, uint64_t other_us)
+static void remember_earliest(keel_scheduler_t *scheduler, uint64_t realtime_us, uint64_t other_us)
 {
     scheduler->earliest_realtime_us = realtime_us;
     scheduler->earliest_other_us = other_us;
@@ -182,7 +182,7 @@ static const keel_task_config_t *serve_other(keel_scheduler_t *scheduler, uint32
       @     promotions_at(scheduler, k) == \at(promotions_at(scheduler, k), Pre);
       @*/
     //@ assert state: scheduler_state(scheduler);
-    return dispatch(scheduler, position, (uint32_t)scheduler->pass_end, KEEL_STAGE_OTHER);
+    return dispatch_task(scheduler, position, (uint32_t)scheduler->pass_end, KEEL_STAGE_OTHER);
 }
 
 /* Until when nothing can run that may not run now: an other task's release or promotion, or the
@@ -250,7 +250,7 @@ static void close_pass(keel_scheduler_t *scheduler, uint64_t realtime_us, uint64
 {
     const uint64_t wake_us = find_wake(scheduler, realtime_us, other_us);
 
-    remember(scheduler, realtime_us, other_us);
+    remember_earliest(scheduler, realtime_us, other_us);
     scheduler->wake_us = wake_us;
     scheduler->cursor = scheduler->pass_end;
     scheduler->stage = KEEL_STAGE_READY;
@@ -309,7 +309,7 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
     }
     position = find_realtime(scheduler);
     if (position < (uint32_t)scheduler->pass_end) {
-        return dispatch(scheduler, position, position + 1u, KEEL_STAGE_REALTIME);
+        return dispatch_task(scheduler, position, position + 1u, KEEL_STAGE_REALTIME);
     }
     realtime_us = find_earliest_realtime(scheduler);
     choice = choose_other(scheduler, realtime_us);
@@ -317,7 +317,7 @@ const keel_task_config_t *keel_pass_next(keel_scheduler_t *scheduler)
         close_pass(scheduler, realtime_us, choice.earliest_us);
         return NULL;
     }
-    remember(scheduler, realtime_us, choice.earliest_us);
+    remember_earliest(scheduler, realtime_us, choice.earliest_us);
     /*@ assert same: \forall integer k; 0 <= k < KEEL_QUEUE_CAPACITY ==>
       @     left_alone{Pre, Here}(scheduler, k);
       @*/
@@ -497,7 +497,7 @@ static keel_status_t run_task(keel_scheduler_t *scheduler, const keel_task_confi
   @     asked_us <= \old(scheduler->clock.now_us) ==> \old(served(scheduler)) ==>
   @     served(scheduler);
   @*/
-static const keel_task_config_t *decide(keel_scheduler_t *scheduler)
+static const keel_task_config_t *decide_turn(keel_scheduler_t *scheduler)
 {
     const keel_task_config_t *const task = keel_pass_next(scheduler);
 
@@ -537,7 +537,7 @@ static const keel_task_config_t *decide(keel_scheduler_t *scheduler)
 
 keel_status_t keel_pass_turn(keel_scheduler_t *scheduler)
 {
-    const keel_task_config_t *const task = decide(scheduler);
+    const keel_task_config_t *const task = decide_turn(scheduler);
 
     if (task == NULL) {
         return KEEL_OK;

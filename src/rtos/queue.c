@@ -157,7 +157,7 @@ static uint8_t close_place(keel_queue_t *queue, uint32_t place)
   @     \old(queue_place(queue, queue->priority[slot])) + 1, queue->count);
   @ ensures free: order_same{Pre, Post}(queue, queue->count, KEEL_QUEUE_CAPACITY);
   @*/
-static void enqueue(keel_queue_t *queue, uint8_t slot, const keel_task_config_t *task)
+static void enqueue_task(keel_queue_t *queue, uint8_t slot, const keel_task_config_t *task)
 {
     const bool realtime = queue->priority[slot] == KEEL_PRIORITY_REALTIME;
     const uint32_t place = realtime ? queue->realtime_count : queue->count;
@@ -220,7 +220,7 @@ void keel_queue_add(keel_queue_t *queue, const keel_task_config_t *task, uint64_
     /*@ assert place: queue_place(queue, queue->priority[slot])
       @     == \at(queue_place(queue, task->priority), Pre);
       @*/
-    enqueue(queue, slot, task);
+    enqueue_task(queue, slot, task);
     //@ assert priority: queue->priority[slot] == task->priority;
     //@ assert task: queue->task[slot] == task;
     /*@ assert before: order_same{Pre, Here}(queue, 0,

@@ -127,7 +127,7 @@ static keel_status_t admit_one_more(const keel_scheduler_t *scheduler,
   @ ensures limit: scheduler->config.utilisation_limit_ppm ==
   @     \old(scheduler->config.utilisation_limit_ppm);
   @*/
-static void put_in(keel_scheduler_t *scheduler, const keel_task_config_t *task)
+static void add_to_queue(keel_scheduler_t *scheduler, const keel_task_config_t *task)
 {
     keel_queue_add(&scheduler->queue, task, scheduler->clock.now_us + task->phase_us);
     /*@ assert slot: 0 <= \at(scheduler->queue.order[scheduler->queue.count], Pre) <
@@ -156,11 +156,11 @@ static void put_in(keel_scheduler_t *scheduler, const keel_task_config_t *task)
   @ ensures wake: nothing_known(scheduler);
   @ ensures running: running_joined{Pre, Post}(scheduler, task->priority);
   @*/
-static void insert(keel_scheduler_t *scheduler, const keel_task_config_t *task)
+static void insert_task(keel_scheduler_t *scheduler, const keel_task_config_t *task)
 {
     const int16_t place = (int16_t)scheduler->queue.realtime_count;
 
-    put_in(scheduler, task);
+    add_to_queue(scheduler, task);
     /*@ assert slot: 0 <= \at(scheduler->queue.order[scheduler->queue.count], Pre) <
       @     KEEL_QUEUE_CAPACITY;
       @*/
@@ -202,7 +202,7 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, const keel_task_co
             return status;
         }
     }
-    insert(scheduler, task);
+    insert_task(scheduler, task);
     return KEEL_OK;
 }
 
@@ -212,7 +212,7 @@ keel_status_t keel_scheduler_add(keel_scheduler_t *scheduler, const keel_task_co
   @ assigns scheduler->cursor, scheduler->pass_end, scheduler->running;
   @ ensures pass: pass_left{Pre, Post}(scheduler, position);
   @*/
-static void shift_up(keel_scheduler_t *scheduler, uint32_t position)
+static void shift_pass(keel_scheduler_t *scheduler, uint32_t position)
 {
     const int16_t gone = (int16_t)position;
 
@@ -247,9 +247,9 @@ static void shift_up(keel_scheduler_t *scheduler, uint32_t position)
   @ ensures pass: pass_left{Pre, Post}(scheduler, position);
   @ ensures wake: nothing_known(scheduler);
   @*/
-static void take_out(keel_scheduler_t *scheduler, uint32_t position)
+static void remove_task(keel_scheduler_t *scheduler, uint32_t position)
 {
-    shift_up(scheduler, position);
+    shift_pass(scheduler, position);
     keel_queue_remove(&scheduler->queue, position);
     scheduler->earliest_realtime_us = 0u;
     scheduler->earliest_other_us = 0u;
@@ -267,7 +267,7 @@ keel_status_t keel_scheduler_remove(keel_scheduler_t *scheduler, const keel_task
     if (position == scheduler->queue.count) {
         return KEEL_ERR_UNKNOWN_TASK;
     }
-    take_out(scheduler, position);
+    remove_task(scheduler, position);
     return KEEL_OK;
 }
 

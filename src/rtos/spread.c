@@ -166,7 +166,7 @@ static uint32_t first_phase_us(const keel_queue_t *queue, const progress_t *prog
   @ ensures queued: placed_queued(queue, progress);
   @ ensures apart: placed_apart(queue, progress, guard_us);
   @*/
-static void place(keel_queue_t *queue, progress_t *progress, uint32_t slot, uint32_t guard_us)
+static void place_task(keel_queue_t *queue, progress_t *progress, uint32_t slot, uint32_t guard_us)
 {
     const uint32_t phase_us = first_phase_us(queue, progress, slot, guard_us);
 
@@ -232,7 +232,7 @@ static void begin_placing(progress_t *progress)
   @ ensures phases: phases_only{Pre, Post}(queue);
   @ ensures free: free_untouched{Pre, Post}(queue);
   @*/
-static void place_all(keel_queue_t *queue, progress_t *progress, uint32_t guard_us)
+static void place_tasks(keel_queue_t *queue, progress_t *progress, uint32_t guard_us)
 {
     begin_placing(progress);
     /*@ loop invariant range: 0 <= i <= queue->realtime_count;
@@ -244,7 +244,7 @@ static void place_all(keel_queue_t *queue, progress_t *progress, uint32_t guard_
       @ loop variant queue->realtime_count - i;
       @*/
     for (uint32_t i = 0u; i < queue->realtime_count; i++) {
-        place(queue, progress, queue->order[i], guard_us);
+        place_task(queue, progress, queue->order[i], guard_us);
     }
     /*@ loop invariant range: queue->realtime_count <= i <= queue->count;
       @ loop invariant queued: placed_queued(queue, progress);
@@ -255,7 +255,7 @@ static void place_all(keel_queue_t *queue, progress_t *progress, uint32_t guard_
       @ loop variant queue->count - i;
       @*/
     for (uint32_t i = queue->realtime_count; i < queue->count; i++) {
-        place(queue, progress, next_other(queue, progress), guard_us);
+        place_task(queue, progress, next_other(queue, progress), guard_us);
     }
 }
 
@@ -295,7 +295,7 @@ keel_status_t keel_scheduler_spread(keel_scheduler_t *scheduler, uint32_t *crowd
     if (scheduler->stage != KEEL_STAGE_SETUP) {
         return KEEL_ERR_STATE;
     }
-    place_all(&scheduler->queue, &progress, scheduler->config.guard_us);
+    place_tasks(&scheduler->queue, &progress, scheduler->config.guard_us);
     *crowded = not_placed(&scheduler->queue, &progress);
     scheduler->earliest_realtime_us = 0u;
     scheduler->earliest_other_us = 0u;

@@ -64,7 +64,7 @@ int main(void)
         {0.0f, 0.0f, 0.0f, 0.0f},
     };
     const copter_port_t port = board_port_start(&board);
-    copter_inertial_t sample;
+    copter_imu_sample_t sample;
 
     (void)port.read_imu(&board, 0u, &sample);
     keel_console_text("body");

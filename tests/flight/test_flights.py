@@ -69,6 +69,8 @@ def test_the_names_are_those_of_the_headers() -> None:
                                 "terminated"]  # fmt: skip
     assert library.modes() == ["acro", "land", "angle", "altitude", "position", "return", "none"]
     assert library.checks_of(0x0101) == ["gyroscope", "motors"]
+    assert library.facts_of(0x2001) == ["rc_linked", "battery_empty"]
+    assert len(library.facts_of(0xFFFFFFFF)) == 14
 
 
 def test_declarations_lose_comments_and_keep_numbers() -> None:

@@ -120,7 +120,7 @@ static void measure(const stream_t *what)
     line = (line_t){.stream = what};
     copter = (copter_t){.port = &port};
     copter_settings = copter_defaults;
-    copter_settings.radio.protocol = what->set;
+    copter_settings.rc.protocol = what->set;
     if (copter_pilot_init(&copter.pilot) != KEEL_OK) {
         keel_console_text("refused\n");
     }
@@ -132,16 +132,16 @@ static void measure(const stream_t *what)
         copter_background_radio(&copter);
         took_us = keel_board_clock_us(NULL) - took_us;
         longest_us = (took_us > longest_us) ? took_us : longest_us;
-        if ((found == 0u) && (copter.pilot.radio.protocol != COPTER_PROTOCOL_ANY)) {
+        if ((found == 0u) && (copter.pilot.rc.protocol != COPTER_PROTOCOL_ANY)) {
             found = run;
         }
     }
     keel_console_text("radio ");
     keel_console_text(what->name);
-    print_number(": protocol ", copter.pilot.radio.protocol);
+    print_number(": protocol ", copter.pilot.rc.protocol);
     print_number(" found ", found);
     print_number(" sent ", line.whole);
-    print_number(" frames ", copter.pilot.radio.frames);
+    print_number(" frames ", copter.pilot.rc.frames);
     print_number(" longest ", longest_us);
     print_number(" behind ", (line.now_us - line.last_us) / 1000u);
     keel_console_text("\n");

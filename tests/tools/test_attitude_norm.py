@@ -38,8 +38,8 @@ def as_gappa(text: str) -> str:
 
 
 def in_code() -> dict[str, str]:
-    """What `turned` computes, by name; the components that it returns are pw to pz."""
-    body = body_of("turned")
+    """What `turned_quaternion` computes, by name; the components that it returns are pw to pz."""
+    body = body_of("turned_quaternion")
     found = {name: parsed(as_gappa(text)) for name, text in CONSTANT.findall(body)}
     components = COMPONENTS.findall(body)[0].split(",")
     return found | {f"p{axis}": parsed(text) for axis, text in zip("wxyz", components, strict=True)}
@@ -83,8 +83,8 @@ class AttitudeNorm(unittest.TestCase):
         self.assertEqual([found[f"q{axis}"] for axis in "wxyz"], [float.fromhex(component[0])] * 4)
 
     def test_what_the_code_turns_is_clamped_and_asked_of(self) -> None:
-        body = " ".join(body_of("rotate").split())
-        self.assertIn("half = clamped(scaled(attitude->scale.half_step, rate), "
+        body = " ".join(body_of("rotate_attitude").split())
+        self.assertIn("half = clamped_vector(scaled_vector(attitude->scale.half_step, rate), "
                       "KEEL_ATTITUDE_HALF_ANGLE_LIMIT);", body)  # fmt: skip
-        self.assertIn("next = turned(attitude->quaternion, half); if (keel_attitude_is_unit(next))",
-                      body)  # fmt: skip
+        self.assertIn("next = turned_quaternion(attitude->quaternion, half); "
+                      "if (keel_attitude_is_unit(next))", body)  # fmt: skip

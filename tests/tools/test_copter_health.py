@@ -21,12 +21,12 @@ SHIM = """\
 static copter_t copter;
 static copter_link_t link_of_test;
 static copter_port_t port;
-static copter_pressure_t breath;
+static copter_barometer_sample_t breath;
 static copter_chip_t chip;
 static bool breathes;
 static int asked;
 const int PRESSURE = SENT_SCALED_PRESSURE, NAMED = SENT_NAMED_VALUE_INT;
-static bool read_breath(void *context, copter_pressure_t *sample)
+static bool read_breath(void *context, copter_barometer_sample_t *sample)
 {
     (void)context;
     if (breathes) { *sample = breath; }
@@ -47,30 +47,30 @@ int start(int measures)
                            .read_chip = measures ? read_chip_of_test : NULL};
     copter.port = &port;
     asked = 0;
-    return (int)copter_air_init(&copter.air);
+    return (int)copter_barometer_init(&copter.barometer);
 }
 void at(double seconds) { copter.scheduler.clock.now_us = (uint64_t)(1e6 * seconds); }
 void background(int there, double pressure, int temperature)
 {
     breathes = there != 0;
-    breath = (copter_pressure_t){(float)pressure, (int16_t)temperature};
+    breath = (copter_barometer_sample_t){(float)pressure, (int16_t)temperature};
     copter_background_barometer(&copter);
 }
 void foreground(void) { copter_foreground_barometer(&copter); }
-int air_temperature(void) { return copter.air.temperature; }
-double air_pressure(void) { return copter.air.pressure_pa; }
+int air_temperature(void) { return copter.barometer.temperature; }
+double air_pressure(void) { return copter.barometer.pressure_pa; }
 int blocks_by_pressure(void)
 {
     copter_settings = copter_defaults;
-    (void)copter_state_init(&copter.state);
+    (void)copter_state_machine_init(&copter.state);
     copter_state_machine(&copter);
-    return (copter.state.mode.blocking.checks & COPTER_CHECK_PRESSURE) != 0u;
+    return (copter.state.mode.blocking.checks & COPTER_CHECK_GROUND_PRESSURE) != 0u;
 }
 int healthy_barometer(void)
 {
     uint8_t payload[KEEL_MAVLINK_PAYLOAD_MAX] = {0};
     copter.estimate.altitude.axis.quality = KEEL_AXIS_GOOD;
-    (void)copter_report(&copter, &link_of_test, SENT_SYS_STATUS, payload);
+    (void)copter_mavlink_report(&copter, &link_of_test, SENT_SYS_STATUS, payload);
     return (payload[8] & MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE) != 0;
 }
 int measure(int has_supply, int supply, int has_temperature, int temperature)
@@ -84,12 +84,12 @@ int has_supply(void) { return copter.health.chip.has_supply; }
 int has_temperature(void) { return copter.health.chip.has_temperature; }
 int supply(void) { return copter.health.chip.supply_mv; }
 int temperature(void) { return copter.health.chip.temperature; }
-void battery(double volts) { copter.energy.battery.voltage = (float)volts; }
+void battery(double volts) { copter.power.battery.voltage = (float)volts; }
 void stack(uint32_t bytes) { copter.health.stack_free = bytes; }
 int report(int sent, uint8_t *payload)
 {
     memset(payload, 0, KEEL_MAVLINK_PAYLOAD_MAX);
-    return copter_report(&copter, &link_of_test, (uint32_t)sent, payload);
+    return copter_mavlink_report(&copter, &link_of_test, (uint32_t)sent, payload);
 }
 """
 OK = 0

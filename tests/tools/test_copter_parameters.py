@@ -18,9 +18,9 @@ ROOT = Path(__file__).resolve().parents[2]
 # A copter's parameters behind functions of plain numbers.
 SHIM = """\
 #include "file_medium.h"
-#include "tuning.h"
+#include "parameter_store.h"
 #include <string.h>
-static copter_tuning_t all;
+static copter_parameter_store_t all;
 static keel_medium_t memory;
 static char path[512];
 static keel_medium_t whole;
@@ -41,12 +41,12 @@ int start(const char *file)
 {
     memset(&all, 0x5A, sizeof all);
     memset(&copter_settings, 0x5A, sizeof copter_settings);
-    if (file == NULL) { return (int)copter_tuning_start(&all, NULL); }
+    if (file == NULL) { return (int)copter_parameter_store_start(&all, NULL); }
     strncpy(path, file, sizeof path - 1u);
     whole = file_medium(path);
     memory = whole;
     memory.write = cut;
-    return (int)copter_tuning_start(&all, &memory);
+    return (int)copter_parameter_store_start(&all, &memory);
 }
 int is_default(void)
 {
@@ -59,10 +59,10 @@ int set(const char *name, int type, double number)
                                           type == 0 ? 0 : (int32_t)number};
     return (int)keel_parameters_set_by_name(&all.table, name, value);
 }
-int apply(void) { return copter_tuning_apply(&all); }
+int apply(void) { return copter_parameter_store_apply(&all); }
 int differs(const char *name)
 {
-    return copter_tuning_differs(&all, keel_parameters_find(&all.table, name));
+    return copter_parameter_store_differs(&all, keel_parameters_find(&all.table, name));
 }
 void look(float *number)
 {
@@ -72,8 +72,8 @@ void look(float *number)
     }
 }
 double idle_thrust(void) { return copter_settings.mixer.idle; }
-int save(void) { return (int)copter_tuning_save(&all); }
-int step(void) { copter_tuning_step(&all); return (int)all.saved; }
+int save(void) { return (int)copter_parameter_store_save(&all); }
+int step(void) { copter_parameter_store_step(&all); return (int)all.saved; }
 int found(void) { return (int)all.found; }
 int taken(void) { return (int)all.loaded.taken; }
 double critical(void) { return copter_settings.battery.critical_voltage; }
@@ -110,7 +110,7 @@ class CopterParameters(unittest.TestCase):
         shim.write_text(SHIM, encoding="utf-8")
         folders = ("include", "bsp", "examples/copter", "examples/copter_in_plant")
         copter = [ROOT / "examples/copter" / f"{name}.c"
-                  for name in ("parameters", "parameter_table", "settings", "tuning")]  # fmt: skip
+                  for name in ("parameters", "parameter_table", "parameter_store", "settings")]
         sources = [*copter, ROOT / "examples/copter_in_plant/file_medium.c",
                    ROOT / "bsp/common/slots.c",
                    *sorted((ROOT / "src/middleware").glob("*.c")),

@@ -39,7 +39,7 @@ static uint32_t read_clock(void *context)
 static bool read_byte(void *context, uint32_t receiver, copter_byte_t *byte)
 {
     (void)context;
-    if ((left == 0u) || (receiver != COPTER_RADIO)) { return false; }
+    if ((left == 0u) || (receiver != COPTER_RC)) { return false; }
     *byte = (copter_byte_t){.value = *data++, .elapsed_us = *times++};
     left--;
     now_us += byte_us;
@@ -52,7 +52,7 @@ int start(int protocol)
     byte_us = 0u;
     copter.port = &port;
     copter_settings = copter_defaults;
-    copter_settings.radio.protocol = (uint8_t)protocol;
+    copter_settings.rc.protocol = (uint8_t)protocol;
     return (int)copter_pilot_init(&copter.pilot);
 }
 void hand(const uint8_t *bytes, const uint32_t *us, uint32_t count)
@@ -72,16 +72,16 @@ int run_of(const uint8_t *bytes, const uint32_t *us, uint32_t count, uint32_t co
     copter_background_radio(&copter);
     return (int)(count - left);
 }
-int heard(void) { return (int)copter.pilot.radio.frames; }
-int protocol(void) { return copter.pilot.radio.protocol; }
+int heard(void) { return (int)copter.pilot.rc.frames; }
+int protocol(void) { return copter.pilot.rc.protocol; }
 int frames(void) { return (int)copter.pilot.frames; }
-int channel(int i) { return copter.pilot.radio.channel[i]; }
+int channel(int i) { return copter.pilot.rc.channel[i]; }
 double roll(void) { return copter.pilot.sticks.roll; }
 int asked(void) { return copter.pilot.asked; }
 int last_mode(void) { return KEEL_MODE_NONE - 1; }
 const char *words(void)
 {
-    return copter_radio_words((copter_heard_t)copter.pilot.ear.heard, copter.pilot.radio.protocol);
+    return copter_rc_words((copter_heard_t)copter.pilot.ear.heard, copter.pilot.rc.protocol);
 }
 """
 

@@ -19,10 +19,10 @@ from keel.base.run import output_of
 ROOT = Path(__file__).resolve().parents[2]
 
 SHIM = """\
-#include "world.h"
+#include "wmm.h"
 void field(int latitude, int longitude, double *out)
 {
-    const copter_world_field_t found = copter_world_field(latitude, longitude);
+    const copter_wmm_field_t found = copter_wmm_field(latitude, longitude);
     out[0] = found.north; out[1] = found.east; out[2] = found.down;
 }
 """

@@ -21,9 +21,10 @@ static const keel_mode_config_t usual = {
     .return_us = 3000000u,
     .required = KEEL_MODE_CHECK_GYROSCOPE | KEEL_MODE_CHECK_ACCELEROMETER |
                 KEEL_MODE_CHECK_MAGNETOMETER | KEEL_MODE_CHECK_BAROMETER |
-                KEEL_MODE_CHECK_POSITIONING | KEEL_MODE_CHECK_CALIBRATION | KEEL_MODE_CHECK_LEVEL |
-                KEEL_MODE_CHECK_BATTERY | KEEL_MODE_CHECK_MOTORS | KEEL_MODE_CHECK_LOAD |
-                KEEL_MODE_CHECK_STORAGE | KEEL_MODE_CHECK_HOME,
+                KEEL_MODE_CHECK_POSITION_ESTIMATE | KEEL_MODE_CHECK_CALIBRATION |
+                KEEL_MODE_CHECK_LEVEL_ATTITUDE | KEEL_MODE_CHECK_BATTERY_LEVEL |
+                KEEL_MODE_CHECK_MOTORS | KEEL_MODE_CHECK_CPU_LOAD | KEEL_MODE_CHECK_STORAGE |
+                KEEL_MODE_CHECK_HOME_POSITION,
     .returns = true,
 };
 
@@ -34,8 +35,9 @@ static void begin(const keel_mode_config_t *config)
 {
     TEST_ASSERT_EQUAL(KEEL_OK, keel_mode_init(&machine, config));
     in.elapsed_us = STEP_US;
-    in.facts = KEEL_MODE_IS_LINKED | KEEL_MODE_IS_OFF | KEEL_MODE_IS_LOW | KEEL_MODE_IS_LANDED |
-               KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT | KEEL_MODE_HAS_PLACE;
+    in.facts = KEEL_MODE_RC_LINKED | KEEL_MODE_ARM_SWITCH_OFF | KEEL_MODE_THROTTLE_LOW |
+               KEEL_MODE_LANDED | KEEL_MODE_ATTITUDE_VALID | KEEL_MODE_ALTITUDE_VALID |
+               KEEL_MODE_POSITION_VALID;
     in.checks = usual.required;
     in.asked = KEEL_MODE_POSITION;
 }
@@ -68,14 +70,14 @@ static void run(uint32_t steps)
 
 static void switch_on(void)
 {
-    clear(KEEL_MODE_IS_OFF);
-    set(KEEL_MODE_IS_ON);
+    clear(KEEL_MODE_ARM_SWITCH_OFF);
+    set(KEEL_MODE_ARM_SWITCH_ON);
 }
 
 static void switch_off(void)
 {
-    clear(KEEL_MODE_IS_ON);
-    set(KEEL_MODE_IS_OFF);
+    clear(KEEL_MODE_ARM_SWITCH_ON);
+    set(KEEL_MODE_ARM_SWITCH_OFF);
 }
 
 /* The next n steps end in this state, and the one before them did not. */
@@ -98,7 +100,7 @@ static void arm(void)
 static void fly(void)
 {
     arm();
-    clear(KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW);
+    clear(KEEL_MODE_LANDED | KEEL_MODE_THROTTLE_LOW);
     run(100u);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_FLYING, machine.state);
 }
@@ -107,7 +109,7 @@ static void fly(void)
 static void lose_link(void)
 {
     fly();
-    clear(KEEL_MODE_IS_LINKED);
+    clear(KEEL_MODE_RC_LINKED);
     expect_after(25u, KEEL_MODE_HOLDING); /* 250 ms. */
 }
 
@@ -200,30 +202,30 @@ static void MOD_002_begins_disarmed(void)
 static void MOD_003_a_fact_counts_after_its_time(void)
 {
     run(70u); /* The first look, and 690 ms. */
-    TEST_ASSERT_EQUAL_HEX32(0u, machine.settled & KEEL_MODE_HAS_ANGLE);
+    TEST_ASSERT_EQUAL_HEX32(0u, machine.settled & KEEL_MODE_ATTITUDE_VALID);
     run(1u);
-    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_HAS_ANGLE, machine.settled & KEEL_MODE_HAS_ANGLE);
-    clear(KEEL_MODE_HAS_ANGLE);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_ATTITUDE_VALID, machine.settled & KEEL_MODE_ATTITUDE_VALID);
+    clear(KEEL_MODE_ATTITUDE_VALID);
     run(1u);
-    TEST_ASSERT_EQUAL_HEX32(0u, machine.settled & KEEL_MODE_HAS_ANGLE);
-    set(KEEL_MODE_HAS_ANGLE);
+    TEST_ASSERT_EQUAL_HEX32(0u, machine.settled & KEEL_MODE_ATTITUDE_VALID);
+    set(KEEL_MODE_ATTITUDE_VALID);
     run(70u);
-    TEST_ASSERT_EQUAL_HEX32(0u, machine.settled & KEEL_MODE_HAS_ANGLE);
+    TEST_ASSERT_EQUAL_HEX32(0u, machine.settled & KEEL_MODE_ATTITUDE_VALID);
 }
 
 static void MOD_003_two_frames_do_not_count(void)
 {
     fly();
-    set(KEEL_MODE_IS_KILL); /* kill_us is 400 ms. */
+    set(KEEL_MODE_KILL_SWITCH_ON); /* kill_us is 400 ms. */
     run(1u);
-    clear(KEEL_MODE_IS_LINKED);
+    clear(KEEL_MODE_RC_LINKED);
     run(23u);
-    set(KEEL_MODE_IS_LINKED);
+    set(KEEL_MODE_RC_LINKED);
     run(1u); /* The second frame, 240 ms later. */
-    clear(KEEL_MODE_IS_LINKED);
+    clear(KEEL_MODE_RC_LINKED);
     run(24u); /* Held for 480 ms, but by two frames. */
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_FLYING, machine.state);
-    set(KEEL_MODE_IS_LINKED);
+    set(KEEL_MODE_RC_LINKED);
     in.elapsed_us = 9999u; /* Just within the longest silence. */
     run(1u);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_TERMINATED, machine.state);
@@ -233,9 +235,9 @@ static void MOD_003_silence_forgets_the_pilot(void)
 {
     run(100u);
     TEST_ASSERT_TRUE(machine.ready);
-    clear(KEEL_MODE_IS_LINKED);
+    clear(KEEL_MODE_RC_LINKED);
     run(24u);
-    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_IS_LINKED, machine.settled & KEEL_MODE_IS_LINKED);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_RC_LINKED, machine.settled & KEEL_MODE_RC_LINKED);
     run(1u);
     TEST_ASSERT_EQUAL_HEX32(0u, (machine.settled | machine.seen) & 0x3Fu);
     TEST_ASSERT_FALSE(machine.ready);
@@ -243,7 +245,7 @@ static void MOD_003_silence_forgets_the_pilot(void)
 
 static void MOD_003_a_stall_begins_anew(void)
 {
-    set(KEEL_MODE_IS_HOME);
+    set(KEEL_MODE_AT_HOME);
     run(2u); /* Counts after 600 ms of looks. */
     in.elapsed_us = 10000000u;
     run(1u);
@@ -271,15 +273,16 @@ static void MOD_004_a_switch_that_was_never_off_arms_nothing(void)
     switch_on();
     run(1000u);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_DISARMED, machine.state);
-    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_IS_OFF, machine.blocking.facts);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_ARM_SWITCH_OFF, machine.blocking.facts);
 }
 
 static void MOD_004_both_positions_are_neither(void)
 {
     run(150u);
-    set(KEEL_MODE_IS_ON);
+    set(KEEL_MODE_ARM_SWITCH_ON);
     run(100u);
-    TEST_ASSERT_EQUAL_HEX32(0u, machine.seen & (KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF));
+    TEST_ASSERT_EQUAL_HEX32(0u,
+                            machine.seen & (KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_ARM_SWITCH_OFF));
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_DISARMED, machine.state);
 }
 
@@ -311,11 +314,11 @@ static void attempt_refused(uint32_t checks, uint32_t facts)
 
 static void MOD_005_each_refusal_is_named(void)
 {
-    const uint32_t not_so[] = {KEEL_MODE_IS_LOW, KEEL_MODE_IS_LANDED};
-    const uint32_t is_so[] = {KEEL_MODE_IS_KILL, KEEL_MODE_IS_OUTSIDE, KEEL_MODE_IS_CRITICAL,
-                              KEEL_MODE_IS_EMPTY};
+    const uint32_t not_so[] = {KEEL_MODE_THROTTLE_LOW, KEEL_MODE_LANDED};
+    const uint32_t is_so[] = {KEEL_MODE_KILL_SWITCH_ON, KEEL_MODE_FENCE_BREACHED,
+                              KEEL_MODE_BATTERY_CRITICAL, KEEL_MODE_BATTERY_EMPTY};
 
-    for (uint32_t check = 0x0001u; check <= KEEL_MODE_CHECK_HOME; check <<= 1) {
+    for (uint32_t check = 0x0001u; check <= KEEL_MODE_CHECK_HOME_POSITION; check <<= 1) {
         in.checks = usual.required & ~check;
         run(150u);
         attempt_refused(check, 0u);
@@ -342,12 +345,12 @@ static void MOD_005_a_mode_that_cannot_be_flown_refuses(void)
     for (size_t i = 0u; i < (sizeof asked / sizeof asked[0]); i++) {
         in.asked = asked[i];
         run(150u);
-        attempt_refused(0u, KEEL_MODE_IS_AT);
+        attempt_refused(0u, KEEL_MODE_SWITCH_UNMOVED);
     }
     in.asked = KEEL_MODE_POSITION;
-    clear(KEEL_MODE_HAS_PLACE);
+    clear(KEEL_MODE_POSITION_VALID);
     run(150u);
-    attempt_refused(0u, KEEL_MODE_IS_AT);
+    attempt_refused(0u, KEEL_MODE_SWITCH_UNMOVED);
     in.asked = KEEL_MODE_ALTITUDE;
     run(150u);
     switch_on();
@@ -356,10 +359,10 @@ static void MOD_005_a_mode_that_cannot_be_flown_refuses(void)
 
 static void MOD_005_without_a_link_that_is_named(void)
 {
-    clear(KEEL_MODE_IS_LINKED);
+    clear(KEEL_MODE_RC_LINKED);
     run(150u);
-    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_IS_LINKED | KEEL_MODE_IS_OFF | KEEL_MODE_IS_LOW |
-                                KEEL_MODE_IS_AT,
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_RC_LINKED | KEEL_MODE_ARM_SWITCH_OFF |
+                                KEEL_MODE_THROTTLE_LOW | KEEL_MODE_SWITCH_UNMOVED,
                             machine.blocking.facts);
 }
 
@@ -382,7 +385,7 @@ static void MOD_006_the_switch_disarms_nothing_in_flight(void)
 static void MOD_006_false_landing_with_throttle_stops_nothing(void)
 {
     fly();
-    set(KEEL_MODE_IS_LANDED);
+    set(KEEL_MODE_LANDED);
     switch_off();
     run(10000u);
     TEST_ASSERT_TRUE(machine.motors);
@@ -391,10 +394,10 @@ static void MOD_006_false_landing_with_throttle_stops_nothing(void)
 static void MOD_006_lands_and_disarms(void)
 {
     fly();
-    set(KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW);
+    set(KEEL_MODE_LANDED | KEEL_MODE_THROTTLE_LOW);
     expect_after(101u, KEEL_MODE_ARMED);
     expect_after(500u, KEEL_MODE_DISARMED); /* Idle for 5 s. */
-    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_TIME_UP, machine.cause);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_STATE_TIMES_OUT, machine.cause);
 }
 
 static void MOD_007_holds_returns_lands_disarms(void)
@@ -405,10 +408,10 @@ static void MOD_007_holds_returns_lands_disarms(void)
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_RETURN, machine.mode);
     expect_after(300u, KEEL_MODE_LANDING);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_LAND, machine.mode);
-    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_LINK_LOST | KEEL_MODE_TIME_UP, machine.cause);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_RC_LOST | KEEL_MODE_STATE_TIMES_OUT, machine.cause);
     run(10000u);
     TEST_ASSERT_TRUE(machine.motors);
-    set(KEEL_MODE_IS_LANDED);
+    set(KEEL_MODE_LANDED);
     expect_after(101u, KEEL_MODE_DISARMED);
 }
 
@@ -416,7 +419,7 @@ static void MOD_007_returns_until_home(void)
 {
     lose_link();
     run(200u);
-    set(KEEL_MODE_IS_HOME);
+    set(KEEL_MODE_AT_HOME);
     expect_after(61u, KEEL_MODE_LANDING);
 }
 
@@ -425,7 +428,7 @@ static void MOD_007_lands_where_it_cannot_return(void)
     keel_mode_config_t config = usual;
 
     lose_link();
-    clear(KEEL_MODE_HAS_PLACE);
+    clear(KEEL_MODE_POSITION_VALID);
     expect_after(200u, KEEL_MODE_LANDING);
     config.returns = false;
     begin(&config);
@@ -437,7 +440,7 @@ static void MOD_007_lands_where_it_cannot_return(void)
 static void MOD_007_lands_from_the_ground(void)
 {
     arm();
-    clear(KEEL_MODE_IS_LINKED);
+    clear(KEEL_MODE_RC_LINKED);
     expect_after(25u, KEEL_MODE_LANDING);
     expect_after(100u, KEEL_MODE_DISARMED); /* Landed for long, but so long in this state. */
 }
@@ -445,14 +448,14 @@ static void MOD_007_lands_from_the_ground(void)
 static void MOD_008_link_that_is_back_resumes_nothing(void)
 {
     lose_link();
-    set(KEEL_MODE_IS_LINKED);
+    set(KEEL_MODE_RC_LINKED);
     in.asked = KEEL_MODE_ANGLE; /* Moved while there was no link. */
     run(150u);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_HOLDING, machine.state);
     in.asked = KEEL_MODE_ALTITUDE;
     expect_after(32u, KEEL_MODE_FLYING);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ALTITUDE, machine.mode);
-    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_TAKES_OVER, machine.cause);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_PILOT_TAKES_OVER, machine.cause);
 }
 
 /* A move counts after the frame that moves, the first that rests, and 300 ms. */
@@ -476,18 +479,18 @@ static void MOD_008_taking_over_from_return_and_landing(void)
 static void MOD_009_gives_way_at_once_and_comes_back_later(void)
 {
     fly();
-    clear(KEEL_MODE_HAS_PLACE);
+    clear(KEEL_MODE_POSITION_VALID);
     run(1u);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ALTITUDE, machine.mode);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_POSITION, machine.asked);
-    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_HAS_PLACE, machine.missing);
-    clear(KEEL_MODE_HAS_HEIGHT);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_POSITION_VALID, machine.missing);
+    clear(KEEL_MODE_ALTITUDE_VALID);
     run(1u);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ANGLE, machine.mode);
-    clear(KEEL_MODE_HAS_ANGLE);
+    clear(KEEL_MODE_ATTITUDE_VALID);
     run(1u);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ACRO, machine.mode);
-    set(KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT | KEEL_MODE_HAS_PLACE);
+    set(KEEL_MODE_ATTITUDE_VALID | KEEL_MODE_ALTITUDE_VALID | KEEL_MODE_POSITION_VALID);
     run(70u);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ACRO, machine.mode);
     run(1u);
@@ -497,7 +500,7 @@ static void MOD_009_gives_way_at_once_and_comes_back_later(void)
 static void MOD_009_return_without_a_position_holds_the_altitude(void)
 {
     fly();
-    clear(KEEL_MODE_HAS_PLACE);
+    clear(KEEL_MODE_POSITION_VALID);
     in.asked = KEEL_MODE_RETURN;
     run(100u);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_FLYING, machine.state);
@@ -507,10 +510,10 @@ static void MOD_009_return_without_a_position_holds_the_altitude(void)
 static void MOD_009_alone_it_lands_rather_than_wait_for_a_throttle(void)
 {
     lose_link();
-    clear(KEEL_MODE_HAS_PLACE);
+    clear(KEEL_MODE_POSITION_VALID);
     run(1u);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_ALTITUDE, machine.mode);
-    clear(KEEL_MODE_HAS_HEIGHT);
+    clear(KEEL_MODE_ALTITUDE_VALID);
     run(1u);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_LAND, machine.mode);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_HOLDING, machine.state);
@@ -519,52 +522,52 @@ static void MOD_009_alone_it_lands_rather_than_wait_for_a_throttle(void)
 static void MOD_010_kill_terminates_for_good(void)
 {
     fly();
-    set(KEEL_MODE_IS_KILL);
+    set(KEEL_MODE_KILL_SWITCH_ON);
     expect_after(41u, KEEL_MODE_TERMINATED);
     TEST_ASSERT_FALSE(machine.motors);
     begin(&usual);
     arm();
-    set(KEEL_MODE_IS_KILL);
+    set(KEEL_MODE_KILL_SWITCH_ON);
     expect_after(41u, KEEL_MODE_TERMINATED);
-    clear(KEEL_MODE_IS_KILL);
-    set(KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW);
+    clear(KEEL_MODE_KILL_SWITCH_ON);
+    set(KEEL_MODE_LANDED | KEEL_MODE_THROTTLE_LOW);
     switch_off();
     run(1000u);
     switch_on();
     run(1000u);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_TERMINATED, machine.state);
-    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_IS_KILL, machine.cause);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_KILL_SWITCH_ON, machine.cause);
 }
 
 static void MOD_010_kill_terminates_without_a_pilot(void)
 {
     lose_link();
-    set(KEEL_MODE_IS_LINKED | KEEL_MODE_IS_KILL);
+    set(KEEL_MODE_RC_LINKED | KEEL_MODE_KILL_SWITCH_ON);
     expect_after(41u, KEEL_MODE_TERMINATED);
 }
 
 static void MOD_011_alarms_lead_home_or_down(void)
 {
     fly();
-    set(KEEL_MODE_IS_CRITICAL);
+    set(KEEL_MODE_BATTERY_CRITICAL);
     expect_after(61u, KEEL_MODE_RETURNING);
-    set(KEEL_MODE_IS_EMPTY);
+    set(KEEL_MODE_BATTERY_EMPTY);
     expect_after(61u, KEEL_MODE_LANDING);
-    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_IS_CRITICAL | KEEL_MODE_IS_EMPTY, machine.cause);
+    TEST_ASSERT_EQUAL_HEX32(KEEL_MODE_BATTERY_CRITICAL | KEEL_MODE_BATTERY_EMPTY, machine.cause);
 }
 
 static void MOD_011_the_pilot_overrides_an_alarm(void)
 {
     fly();
-    set(KEEL_MODE_IS_OUTSIDE);
+    set(KEEL_MODE_FENCE_BREACHED);
     expect_after(61u, KEEL_MODE_RETURNING);
     in.asked = KEEL_MODE_ANGLE;
     expect_after(32u, KEEL_MODE_FLYING);
     run(1000u);
     TEST_ASSERT_EQUAL_UINT8(KEEL_MODE_FLYING, machine.state);
-    clear(KEEL_MODE_IS_OUTSIDE);
+    clear(KEEL_MODE_FENCE_BREACHED);
     run(1u);
-    set(KEEL_MODE_IS_OUTSIDE); /* Another breach. */
+    set(KEEL_MODE_FENCE_BREACHED); /* Another breach. */
     expect_after(61u, KEEL_MODE_RETURNING);
 }
 
@@ -572,7 +575,7 @@ static void MOD_011_the_pilot_overrides_an_alarm(void)
 static void MOD_003_sums_of_time_do_not_wrap(void)
 {
     run(150u);
-    clear(KEEL_MODE_IS_LINKED);
+    clear(KEEL_MODE_RC_LINKED);
     in.elapsed_us = UINT32_MAX;
     run(2u);
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, machine.silence_us);
@@ -580,7 +583,7 @@ static void MOD_003_sums_of_time_do_not_wrap(void)
     run(2u);
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, machine.silence_us);
     TEST_ASSERT_FALSE(machine.ready);
-    set(KEEL_MODE_IS_LINKED);
+    set(KEEL_MODE_RC_LINKED);
     run(100u);
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, machine.state_us);
 }
@@ -588,7 +591,7 @@ static void MOD_003_sums_of_time_do_not_wrap(void)
 static void MOD_010_terminated_for_longer_than_can_be_counted(void)
 {
     fly();
-    set(KEEL_MODE_IS_KILL);
+    set(KEEL_MODE_KILL_SWITCH_ON);
     run(60u);
     in.elapsed_us = UINT32_MAX;
     run(2u);

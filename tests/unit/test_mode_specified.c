@@ -27,29 +27,31 @@ void tearDown(void)
 /* Phrases of a flight that last long enough for facts to settle, with faults in between. */
 static void change(void)
 {
-    const uint32_t estimates = any() & (KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT);
-    const uint32_t ground = KEEL_MODE_IS_LINKED | KEEL_MODE_IS_LOW | KEEL_MODE_IS_LANDED |
-                            KEEL_MODE_HAS_ANGLE | KEEL_MODE_HAS_HEIGHT | KEEL_MODE_HAS_PLACE;
+    const uint32_t estimates = any() & (KEEL_MODE_ATTITUDE_VALID | KEEL_MODE_ALTITUDE_VALID);
+    const uint32_t ground = KEEL_MODE_RC_LINKED | KEEL_MODE_THROTTLE_LOW | KEEL_MODE_LANDED |
+                            KEEL_MODE_ATTITUDE_VALID | KEEL_MODE_ALTITUDE_VALID |
+                            KEEL_MODE_POSITION_VALID;
 
     switch (any() % 256u) {
     case 0u:
     case 1u:
-        in.facts = ground | KEEL_MODE_IS_OFF;
+        in.facts = ground | KEEL_MODE_ARM_SWITCH_OFF;
         in.asked = (uint8_t)(any() % 5u);
         break;
     case 2u:
     case 3u:
-        in.facts = ground | KEEL_MODE_IS_ON;
+        in.facts = ground | KEEL_MODE_ARM_SWITCH_ON;
         break;
     case 4u:
     case 5u:
-        in.facts = KEEL_MODE_IS_LINKED | KEEL_MODE_IS_ON | KEEL_MODE_HAS_PLACE | estimates;
+        in.facts = KEEL_MODE_RC_LINKED | KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_POSITION_VALID |
+                   estimates;
         break;
     case 6u:
-        in.facts &= ~KEEL_MODE_IS_LINKED;
+        in.facts &= ~KEEL_MODE_RC_LINKED;
         break;
     case 7u:
-        in.facts |= KEEL_MODE_IS_LINKED;
+        in.facts |= KEEL_MODE_RC_LINKED;
         break;
     case 8u:
     case 9u:

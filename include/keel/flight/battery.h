@@ -39,8 +39,8 @@
  * estimate, and the level is not KEEL_BATTERY_OK. The modules may come late after a start, as long
  * as no motor runs.
  *
- * For the mode machine, KEEL_BATTERY_LOW is KEEL_MODE_IS_CRITICAL (time to return), and
- * KEEL_BATTERY_CRITICAL is KEEL_MODE_IS_EMPTY (time to land).
+ * For the mode machine, KEEL_BATTERY_LOW is KEEL_MODE_BATTERY_CRITICAL (time to return), and
+ * KEEL_BATTERY_CRITICAL is KEEL_MODE_BATTERY_EMPTY (time to land).
  *
  * Single precision; one division in a step, and no library call. Sources must be compiled without
  * contraction of products and sums (ISO C mode, -std=c99, as all builds of Keel do).

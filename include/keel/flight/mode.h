@@ -65,57 +65,57 @@ KEEL_C_BEGIN
 #define KEEL_MODE_NONE     6u /**< None: motors stand still, or the pilot has not said. */
 /** @} */
 
-/** @name Facts of the pilot: of frames. */
+/** @name Facts of the pilot: of frames. RC is radio control. */
 /** @{ */
-#define KEEL_MODE_IS_LINKED 0x0001u /**< A whole frame came, without its failsafe flag. */
-#define KEEL_MODE_IS_ON     0x0002u /**< The arm switch is on. */
-#define KEEL_MODE_IS_OFF    0x0004u /**< The arm switch is off. Between the two it is neither. */
-#define KEEL_MODE_IS_LOW    0x0008u /**< The throttle is low. */
-#define KEEL_MODE_IS_KILL   0x0010u /**< The kill switch is on. */
-#define KEEL_MODE_IS_AT     0x0020u /**< The mode switch is where it was. Not an input. */
+#define KEEL_MODE_RC_LINKED      0x0001u /**< A whole frame came, without its failsafe flag. */
+#define KEEL_MODE_ARM_SWITCH_ON  0x0002u /**< The arm switch is on. */
+#define KEEL_MODE_ARM_SWITCH_OFF 0x0004u /**< It is off. Between the two it is neither. */
+#define KEEL_MODE_THROTTLE_LOW   0x0008u /**< The throttle is low. */
+#define KEEL_MODE_KILL_SWITCH_ON 0x0010u /**< The kill switch is on. */
+#define KEEL_MODE_SWITCH_UNMOVED 0x0020u /**< The mode switch is where it was. Not an input. */
 /** @} */
 
 /** @name Facts of the aircraft: at every step. */
 /** @{ */
-#define KEEL_MODE_IS_LANDED   0x0040u /**< It stands on the ground. */
-#define KEEL_MODE_IS_HOME     0x0080u /**< It is where a return leads to. */
-#define KEEL_MODE_HAS_ANGLE   0x0100u /**< The attitude is estimated well. */
-#define KEEL_MODE_HAS_HEIGHT  0x0200u /**< The altitude is estimated well. */
-#define KEEL_MODE_HAS_PLACE   0x0400u /**< The position is estimated well. */
-#define KEEL_MODE_IS_OUTSIDE  0x0800u /**< The fence is breached. */
-#define KEEL_MODE_IS_CRITICAL 0x1000u /**< The battery is just enough to return. */
-#define KEEL_MODE_IS_EMPTY    0x2000u /**< The battery is just enough to land. */
-#define KEEL_MODE_FACTS       14u
+#define KEEL_MODE_LANDED           0x0040u /**< It stands on the ground. */
+#define KEEL_MODE_AT_HOME          0x0080u /**< It is where a return leads to. */
+#define KEEL_MODE_ATTITUDE_VALID   0x0100u /**< The attitude is estimated well. */
+#define KEEL_MODE_ALTITUDE_VALID   0x0200u /**< The altitude is estimated well. */
+#define KEEL_MODE_POSITION_VALID   0x0400u /**< The position is estimated well. */
+#define KEEL_MODE_FENCE_BREACHED   0x0800u /**< The fence is breached. */
+#define KEEL_MODE_BATTERY_CRITICAL 0x1000u /**< The battery is just enough to return. */
+#define KEEL_MODE_BATTERY_EMPTY    0x2000u /**< The battery is just enough to land. */
+#define KEEL_MODE_FACTS            14u
 /** @} */
 
 /** @name Other causes of a change of state, in keel_mode_t.cause. */
 /** @{ */
-#define KEEL_MODE_ARMS         0x00010000u /**< The pilot arms, and nothing is in the way. */
-#define KEEL_MODE_LINK_LOST    0x00020000u /**< IS_LINKED has not settled. */
-#define KEEL_MODE_LEAVES       0x00040000u /**< Not landed, or the throttle not low. */
-#define KEEL_MODE_TOUCHES_DOWN 0x00080000u /**< Landed and throttle low, both settled. */
-#define KEEL_MODE_SITS         0x00100000u /**< Landed, settled, for that time in this state. */
-#define KEEL_MODE_TIME_UP      0x00200000u /**< The state has lasted for its time. */
-#define KEEL_MODE_TAKES_OVER   0x00400000u /**< The pilot moved the mode switch to fly himself. */
-#define KEEL_MODE_ASKS_LAND    0x00800000u /**< The pilot asks for LAND. */
-#define KEEL_MODE_ASKS_RETURN  0x01000000u /**< The pilot asks for RETURN, with a position. */
-#define KEEL_MODE_CAN_RETURN   0x02000000u /**< There is a position, and the failsafe returns. */
+#define KEEL_MODE_PILOT_ARMS        0x00010000u /**< The pilot arms, and nothing is in the way. */
+#define KEEL_MODE_RC_LOST           0x00020000u /**< RC_LINKED has not settled. */
+#define KEEL_MODE_LEAVES_GROUND     0x00040000u /**< Not landed, or the throttle not low. */
+#define KEEL_MODE_TOUCHES_DOWN      0x00080000u /**< Landed and throttle low, both settled. */
+#define KEEL_MODE_STAYS_LANDED      0x00100000u /**< Landed, settled, for that time in the state. */
+#define KEEL_MODE_STATE_TIMES_OUT   0x00200000u /**< The state has lasted for its time. */
+#define KEEL_MODE_PILOT_TAKES_OVER  0x00400000u /**< The pilot moved the mode switch to fly. */
+#define KEEL_MODE_PILOT_ASKS_LAND   0x00800000u /**< The pilot asks for LAND. */
+#define KEEL_MODE_PILOT_ASKS_RETURN 0x01000000u /**< The pilot asks for RETURN, with a position. */
+#define KEEL_MODE_CAN_RETURN        0x02000000u /**< It has a position, and the failsafe returns. */
 /** @} */
 
 /** @name Checks before arming, by the application. All other bits are free for it. */
 /** @{ */
-#define KEEL_MODE_CHECK_GYROSCOPE     0x0001u
-#define KEEL_MODE_CHECK_ACCELEROMETER 0x0002u
-#define KEEL_MODE_CHECK_MAGNETOMETER  0x0004u
-#define KEEL_MODE_CHECK_BAROMETER     0x0008u
-#define KEEL_MODE_CHECK_POSITIONING   0x0010u
-#define KEEL_MODE_CHECK_CALIBRATION   0x0020u
-#define KEEL_MODE_CHECK_LEVEL         0x0040u
-#define KEEL_MODE_CHECK_BATTERY       0x0080u
-#define KEEL_MODE_CHECK_MOTORS        0x0100u
-#define KEEL_MODE_CHECK_LOAD          0x0200u
-#define KEEL_MODE_CHECK_STORAGE       0x0400u
-#define KEEL_MODE_CHECK_HOME          0x0800u
+#define KEEL_MODE_CHECK_GYROSCOPE         0x0001u
+#define KEEL_MODE_CHECK_ACCELEROMETER     0x0002u
+#define KEEL_MODE_CHECK_MAGNETOMETER      0x0004u
+#define KEEL_MODE_CHECK_BAROMETER         0x0008u
+#define KEEL_MODE_CHECK_POSITION_ESTIMATE 0x0010u
+#define KEEL_MODE_CHECK_CALIBRATION       0x0020u
+#define KEEL_MODE_CHECK_LEVEL_ATTITUDE    0x0040u
+#define KEEL_MODE_CHECK_BATTERY_LEVEL     0x0080u
+#define KEEL_MODE_CHECK_MOTORS            0x0100u
+#define KEEL_MODE_CHECK_CPU_LOAD          0x0200u
+#define KEEL_MODE_CHECK_STORAGE           0x0400u
+#define KEEL_MODE_CHECK_HOME_POSITION     0x0800u
 /** @} */
 
 /** Range of the longest silence, in us: it catches a time in ms. */
@@ -144,7 +144,7 @@ typedef struct keel_mode_config {
 /** The inputs of a step. */
 typedef struct keel_mode_input {
     uint32_t elapsed_us; /**< Since the last step. */
-    uint32_t facts;      /**< KEEL_MODE_IS_ and KEEL_MODE_HAS_ bits; unknown ones are ignored. */
+    uint32_t facts;      /**< Facts of the pilot and of the aircraft; unknown bits are ignored. */
     uint32_t checks;     /**< The checks that hold now: a bit not set has not been shown. */
     uint8_t asked;       /**< Where the mode switch is; a frame with no such mode is none. */
 } keel_mode_input_t;
@@ -152,10 +152,11 @@ typedef struct keel_mode_input {
 /** The obstacles to arming. */
 typedef struct keel_mode_refusal {
     uint32_t checks; /**< Required checks that do not hold. */
-    uint32_t facts;  /**< IS_LINKED, IS_LOW, IS_LANDED: not settled; IS_OFF: the switch was not seen
-                          off since the link came up or since the last attempt; IS_AT: the mode
-                          switch does not rest at a mode that the pilot can fly now; IS_KILL,
-                          IS_OUTSIDE, IS_CRITICAL, IS_EMPTY: it is so. */
+    uint32_t facts;  /**< RC_LINKED, THROTTLE_LOW, LANDED: not settled; ARM_SWITCH_OFF: the switch
+                          was not seen off since the link came up or since the last attempt;
+                          SWITCH_UNMOVED: the mode switch does not rest at a mode that the pilot can
+                          fly now; KILL_SWITCH_ON, FENCE_BREACHED, BATTERY_CRITICAL, BATTERY_EMPTY:
+                          it is so. */
 } keel_mode_refusal_t;
 
 /** A machine. Only the functions below write it; all of it may be read. */
@@ -195,7 +196,7 @@ typedef struct keel_mode {
   @
   @ // A good frame: one that tells a mode.
   @ predicate mode_frame(keel_mode_input_t *i) =
-  @     mode_has(i->facts, KEEL_MODE_IS_LINKED) && i->asked < KEEL_MODE_NONE;
+  @     mode_has(i->facts, KEEL_MODE_RC_LINKED) && i->asked < KEEL_MODE_NONE;
   @
   @ // What has to hold for a time holds for at least the longest silence.
   @ predicate mode_settling(keel_mode_config_t *c, integer time_us) =
@@ -230,10 +231,10 @@ typedef struct keel_mode {
   @     mode_config_valid(&m->config) && mode_numbers_valid(m) && mode_settle_valid(m) &&
   @     (m->motors <==> mode_runs(m)) && (m->mode == KEEL_MODE_NONE <==> !mode_runs(m)) &&
   @     mode_lacks(m->settled & ~m->seen, 0x3F) && mode_lacks(m->overridden, ~0x3800) &&
-  @     (mode_has(m->settled, KEEL_MODE_IS_LINKED) ==> m->silence_us < m->config.loss_us) &&
-  @     (m->ready ==> mode_has(m->settled, KEEL_MODE_IS_LINKED) &&
-  @         mode_lacks(m->settled, KEEL_MODE_IS_ON)) &&
-  @     (mode_piloted(m->state) ==> mode_has(m->settled, KEEL_MODE_IS_LINKED) &&
+  @     (mode_has(m->settled, KEEL_MODE_RC_LINKED) ==> m->silence_us < m->config.loss_us) &&
+  @     (m->ready ==> mode_has(m->settled, KEEL_MODE_RC_LINKED) &&
+  @         mode_lacks(m->settled, KEEL_MODE_ARM_SWITCH_ON)) &&
+  @     (mode_piloted(m->state) ==> mode_has(m->settled, KEEL_MODE_RC_LINKED) &&
   @         m->asked != KEEL_MODE_NONE) &&
   @     (m->state != KEEL_MODE_DISARMED ==> m->cause != 0);
   @*/
@@ -279,31 +280,31 @@ keel_status_t keel_mode_init(keel_mode_t *mode, const keel_mode_config_t *config
   @ ensures MOD_003_valid: mode_valid(mode);
   @ ensures MOD_004_attempt: !\old(mode->motors) && mode->motors ==>
   @     \old(mode->state) == KEEL_MODE_DISARMED && \old(mode->ready) && mode_frame(input) &&
-  @     mode_has(mode->settled, KEEL_MODE_IS_ON | KEEL_MODE_IS_LINKED);
+  @     mode_has(mode->settled, KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_RC_LINKED);
   @ ensures MOD_004_checks: !\old(mode->motors) && mode->motors ==>
   @     mode_has(input->checks, mode->config.required);
   @ ensures MOD_004_facts: !\old(mode->motors) && mode->motors ==>
-  @     mode_has(mode->settled, KEEL_MODE_IS_LOW | KEEL_MODE_IS_LANDED) &&
-  @     mode_lacks(mode->seen, KEEL_MODE_IS_KILL | KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL |
-  @         KEEL_MODE_IS_EMPTY);
+  @     mode_has(mode->settled, KEEL_MODE_THROTTLE_LOW | KEEL_MODE_LANDED) &&
+  @     mode_lacks(mode->seen, KEEL_MODE_KILL_SWITCH_ON | KEEL_MODE_FENCE_BREACHED |
+  @         KEEL_MODE_BATTERY_CRITICAL | KEEL_MODE_BATTERY_EMPTY);
   @ ensures MOD_004_mode: !\old(mode->motors) && mode->motors ==> mode->mode == mode->asked;
   @ ensures MOD_004_off: mode->ready && !\old(mode->ready) ==>
-  @     mode_has(mode->settled, KEEL_MODE_IS_OFF | KEEL_MODE_IS_LINKED);
-  @ ensures MOD_004_once: mode->ready ==> mode_has(mode->settled, KEEL_MODE_IS_LINKED) &&
-  @     mode_lacks(mode->settled, KEEL_MODE_IS_ON);
+  @     mode_has(mode->settled, KEEL_MODE_ARM_SWITCH_OFF | KEEL_MODE_RC_LINKED);
+  @ ensures MOD_004_once: mode->ready ==> mode_has(mode->settled, KEEL_MODE_RC_LINKED) &&
+  @     mode_lacks(mode->settled, KEEL_MODE_ARM_SWITCH_ON);
   @ ensures MOD_005_named: \old(mode->state) == KEEL_MODE_DISARMED && \old(mode->ready) &&
-  @     mode_has(mode->settled, KEEL_MODE_IS_ON | KEEL_MODE_IS_LINKED) && !mode->motors ==>
+  @     mode_has(mode->settled, KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_RC_LINKED) && !mode->motors ==>
   @         (mode->refused.checks != 0 || mode->refused.facts != 0) &&
   @         mode->refused == mode->blocking;
   @ ensures MOD_006_stops: \old(mode->motors) && !mode->motors ==>
   @     mode->state == KEEL_MODE_TERMINATED ||
   @     (\old(mode->state) == KEEL_MODE_LANDING &&
-  @         mode_has(mode->settled, KEEL_MODE_IS_LANDED)) ||
+  @         mode_has(mode->settled, KEEL_MODE_LANDED)) ||
   @     (\old(mode->state) == KEEL_MODE_ARMED &&
-  @         mode_has(mode->seen, KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW));
+  @         mode_has(mode->seen, KEEL_MODE_LANDED | KEEL_MODE_THROTTLE_LOW));
   @ ensures MOD_006_ground: \old(mode->state) == KEEL_MODE_FLYING &&
   @     mode->state == KEEL_MODE_ARMED ==>
-  @         mode_has(mode->settled, KEEL_MODE_IS_LANDED | KEEL_MODE_IS_LOW);
+  @         mode_has(mode->settled, KEEL_MODE_LANDED | KEEL_MODE_THROTTLE_LOW);
   @ ensures MOD_007_lost: \old(mode->silence_us) + input->elapsed_us >= mode->config.loss_us ==>
   @     !mode_piloted(mode->state);
   @ ensures MOD_007_hold_ends: mode->state == KEEL_MODE_HOLDING ==>
@@ -317,7 +318,7 @@ keel_status_t keel_mode_init(keel_mode_t *mode, const keel_mode_config_t *config
   @ ensures MOD_008_moves: mode_alone(\old(mode->state)) && mode_piloted(mode->state) ==>
   @     mode_frame(input) && \old(mode->asked) != KEEL_MODE_NONE &&
   @     mode->asked != \old(mode->asked) &&
-  @     mode_has(mode->settled, KEEL_MODE_IS_LINKED | KEEL_MODE_IS_AT);
+  @     mode_has(mode->settled, KEEL_MODE_RC_LINKED | KEEL_MODE_SWITCH_UNMOVED);
   @ ensures MOD_009_why: mode_piloted(mode->state) ==>
   @     mode->mode == mode->asked || mode->missing != 0;
   @ ensures MOD_009_alone: mode_alone(mode->state) ==> mode->mode == KEEL_MODE_LAND ||
@@ -325,13 +326,13 @@ keel_status_t keel_mode_init(keel_mode_t *mode, const keel_mode_config_t *config
   @ ensures MOD_009_cause: mode_alone(mode->state) ==> mode->cause != 0;
   @ ensures MOD_010_kill: mode->state == KEEL_MODE_TERMINATED &&
   @     \old(mode->state) != KEEL_MODE_TERMINATED ==>
-  @         mode_frame(input) && mode_has(mode->settled, KEEL_MODE_IS_KILL);
+  @         mode_frame(input) && mode_has(mode->settled, KEEL_MODE_KILL_SWITCH_ON);
   @ ensures MOD_010_latches: \old(mode->state) == KEEL_MODE_TERMINATED ==>
   @     mode->state == KEEL_MODE_TERMINATED && !mode->motors;
   @ ensures MOD_011_overridden: mode_has(\old(mode->overridden), mode->overridden) ||
   @     mode->state == KEEL_MODE_FLYING;
   @ ensures MOD_012_exit: \old(mode->motors) && mode_frame(input) &&
-  @     mode_has(mode->settled, KEEL_MODE_IS_KILL) ==> mode->state == KEEL_MODE_TERMINATED;
+  @     mode_has(mode->settled, KEEL_MODE_KILL_SWITCH_ON) ==> mode->state == KEEL_MODE_TERMINATED;
   @*/
 void keel_mode_step(keel_mode_t *mode, const keel_mode_input_t *input);
 

@@ -21,7 +21,7 @@ from typing import Protocol
 from keel.base.errors import ROOT
 from keel.base.files import write_text
 
-TABLE = ROOT / "examples/copter/world_table.c"
+TABLE = ROOT / "examples/copter/wmm_table.c"
 
 # The middle of the model's years.
 YEAR = 2027.5
@@ -37,9 +37,9 @@ HEAD = """\
 /* Made by tools/keel world. The Earth's field at sea level in the middle of {year:.0f}, by WMM2025
  * (NOAA, BGS): rows are latitudes from -80 degrees, columns longitudes from -180 degrees, {step}
  * apart; north, east and down in {unit} nT. */
-#include "world.h"
+#include "wmm.h"
 
-const int16_t copter_world_table[COPTER_WORLD_ROWS][COPTER_WORLD_COLUMNS][3] = {{
+const int16_t copter_wmm_table[COPTER_WMM_ROWS][COPTER_WMM_COLUMNS][3] = {{
 """
 
 

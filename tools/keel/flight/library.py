@@ -229,8 +229,13 @@ def modes() -> list[str]:
 
 def named(group: str) -> list[str]:
     """A group of consecutive numbers of mode.h."""
-    part = mode_header().partition(f"@name {group}.")[2].partition("/** @} */")[0]
-    return [name.lower() for name in re.findall(r"#define KEEL_MODE_(\w+)\s+\d+u /\*\*", part)]
+    found = re.findall(r"#define KEEL_MODE_(\w+)\s+\d+u /\*\*", lines_of(f"{group}."))
+    return [name.lower() for name in found]
+
+
+def lines_of(group: str) -> str:
+    """What mode.h says between the beginning of a group, by its first words, and its end."""
+    return mode_header().partition(f"@name {group}")[2].partition("/** @} */")[0]
 
 
 def checks_of(bits: int) -> Sequence[str]:
@@ -241,5 +246,6 @@ def checks_of(bits: int) -> Sequence[str]:
 
 def facts_of(bits: int) -> Sequence[str]:
     """The same for facts."""
-    known = {**numbered("KEEL_MODE_IS_"), **numbered("KEEL_MODE_HAS_")}
-    return [name for name, bit in known.items() if bits & bit]
+    part = lines_of("Facts of the pilot:") + lines_of("Facts of the aircraft:")
+    known = re.findall(r"#define KEEL_MODE_(\w+)\s+(0x[0-9A-Fa-f]+)u /\*\*", part)
+    return [name.lower() for name, bit in known if bits & int(bit, 0)]

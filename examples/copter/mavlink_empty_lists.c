@@ -160,7 +160,7 @@ static void take_log_erase(copter_t *copter, const keel_mavlink_frame_t *frame, 
     }
 }
 
-void copter_take_lists(copter_t *copter, uint32_t link)
+void copter_mavlink_receive_list(copter_t *copter, uint32_t link)
 {
     const keel_mavlink_frame_t *const frame = &copter->telemetry->link[link].decoder.frame;
 
@@ -237,7 +237,7 @@ static void pack_log_entry(uint8_t *payload)
     message_log_entry_pack(&message, payload);
 }
 
-bool copter_report_lists(copter_link_t *link, uint32_t sent, uint8_t *payload)
+bool copter_mavlink_report_list(copter_link_t *link, uint32_t sent, uint8_t *payload)
 {
     copter_replies_t *const replies = &link->replies;
     const copter_reply_t answer = replies->reply[0];

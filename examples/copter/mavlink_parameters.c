@@ -40,7 +40,7 @@ static void want_on_all(copter_telemetry_t *self, uint32_t index)
 static void say(copter_t *copter, uint32_t severity, uint16_t index, const char *what)
 {
     copter_text(copter->telemetry, (uint8_t)severity,
-                keel_parameters_name(&copter->tuning.table, index), what);
+                keel_parameters_name(&copter->parameters.table, index), what);
 }
 
 /* The request is refused: the sender is to be told. */
@@ -107,7 +107,7 @@ static const char *set(keel_parameters_t *table, uint16_t index, const message_p
 /* The value is set, but another one flies. */
 static void tell_wait(copter_t *copter, uint16_t index)
 {
-    if (!copter_tuning_differs(&copter->tuning, index)) {
+    if (!copter_parameter_store_differs(&copter->parameters, index)) {
         return;
     }
     if (copter_parameter[index].restarts) {
@@ -119,14 +119,14 @@ static void tell_wait(copter_t *copter, uint16_t index)
     }
 }
 
-void copter_tell_parameters(copter_t *copter)
+void copter_mavlink_tell_parameters(copter_t *copter)
 {
-    const copter_tuning_t *const tuning = &copter->tuning;
+    const copter_parameter_store_t *const store = &copter->parameters;
     uint32_t told = 0u;
 
     for (uint16_t i = 0u; (i < COPTER_PARAMETER_COUNT) && (told < MOST_TOLD); i++) {
-        const bool waits = copter_parameter[i].restarts && copter_tuning_differs(tuning, i);
-        const bool is_lost = tuning->entry[i].refused != KEEL_OK;
+        const bool waits = copter_parameter[i].restarts && copter_parameter_store_differs(store, i);
+        const bool is_lost = store->entry[i].refused != KEEL_OK;
 
         if (waits) {
             tell_wait(copter, i);
@@ -137,18 +137,19 @@ void copter_tell_parameters(copter_t *copter)
         }
         told += (waits || is_lost) ? 1u : 0u;
     }
-    if (tuning->loaded.unknown > 0u) {
+    if (store->loaded.unknown > 0u) {
         copter_text(copter->telemetry, (uint8_t)MAV_SEVERITY_WARNING,
                     "parameters: ", "unknown ones are stored");
     }
 }
 
-void copter_take_read(copter_t *copter, uint32_t link, const keel_mavlink_frame_t *from,
-                      const message_param_request_read_t *message)
+void copter_mavlink_read_parameter(copter_t *copter, uint32_t link,
+                                   const keel_mavlink_frame_t *from,
+                                   const message_param_request_read_t *message)
 {
     copter_link_t *const to = &copter->telemetry->link[link];
     const uint32_t index = (message->param_index == NO_INDEX)
-                               ? keel_parameters_find(&copter->tuning.table, message->param_id)
+                               ? keel_parameters_find(&copter->parameters.table, message->param_id)
                                : (uint32_t)message->param_index;
 
     if (index < COPTER_PARAMETER_COUNT) {
@@ -158,27 +159,27 @@ void copter_take_read(copter_t *copter, uint32_t link, const keel_mavlink_frame_
     }
 }
 
-void copter_take_list(copter_t *copter, uint32_t link)
+void copter_mavlink_list_parameters(copter_t *copter, uint32_t link)
 {
     for (uint32_t i = 0u; i < COPTER_PARAMETER_COUNT; i++) {
         want(&copter->telemetry->link[link], i);
     }
-    copter_tell_parameters(copter);
+    copter_mavlink_tell_parameters(copter);
 }
 
-void copter_parameter_is_set(copter_t *copter, uint16_t index)
+void copter_mavlink_parameter_is_set(copter_t *copter, uint16_t index)
 {
     copter->telemetry->saves = true;
     copter->telemetry->applies = true;
     want_on_all(copter->telemetry, index);
 }
 
-void copter_take_set(copter_t *copter, uint32_t link, const keel_mavlink_frame_t *from,
-                     const message_param_set_t *message, bool may)
+void copter_mavlink_set_parameter(copter_t *copter, uint32_t link, const keel_mavlink_frame_t *from,
+                                  const message_param_set_t *message, bool may)
 {
     copter_telemetry_t *const self = copter->telemetry;
     copter_link_t *const to = &self->link[link];
-    keel_parameters_t *const table = &copter->tuning.table;
+    keel_parameters_t *const table = &copter->parameters.table;
     const uint16_t index = keel_parameters_find(table, message->param_id);
     const char *reason;
 
@@ -194,7 +195,7 @@ void copter_take_set(copter_t *copter, uint32_t link, const keel_mavlink_frame_t
     }
     reason = set(table, index, message);
     if (reason == NULL) {
-        copter_parameter_is_set(copter, index);
+        copter_mavlink_parameter_is_set(copter, index);
         tell_wait(copter, index);
     } else {
         say(copter, MAV_SEVERITY_WARNING, index, reason);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
- * @file world.h
+ * @file wmm.h
  * @brief The Earth's magnetic field by place.
  *
  * A table of the World Magnetic Model WMM2025 (NOAA, BGS), 10 degrees apart, on the line between
@@ -10,23 +10,23 @@
  * 2.2 %. There the model's north drifts by up to 0.4 degrees a year, by 0.1 at half of the places
  * (tests/tools/test_world.py). It ends with 2029, and has errors of its own.
  */
-#ifndef COPTER_WORLD_H
-#define COPTER_WORLD_H
+#ifndef COPTER_WMM_H
+#define COPTER_WMM_H
 
 #include <stdint.h>
 
-#define COPTER_WORLD_ROWS    17u /**< Latitudes, from 80 degrees south to 80 degrees north. */
-#define COPTER_WORLD_COLUMNS 36u /**< Longitudes, from 180 degrees west on. */
+#define COPTER_WMM_ROWS    17u /**< Latitudes, from 80 degrees south to 80 degrees north. */
+#define COPTER_WMM_COLUMNS 36u /**< Longitudes, from 180 degrees west on. */
 
 /** The table, in 3 nT: north, east, down. */
-extern const int16_t copter_world_table[COPTER_WORLD_ROWS][COPTER_WORLD_COLUMNS][3];
+extern const int16_t copter_wmm_table[COPTER_WMM_ROWS][COPTER_WMM_COLUMNS][3];
 
 /** A field, Earth, in microtesla. */
-typedef struct copter_world_field {
+typedef struct copter_wmm_field {
     float north;
     float east;
     float down;
-} copter_world_field_t;
+} copter_wmm_field_t;
 
 /**
  * The field at a place.
@@ -34,6 +34,6 @@ typedef struct copter_world_field {
  * @param latitude  in 1e-7 degrees; beyond 80 degrees counts as that
  * @param longitude in 1e-7 degrees; beyond 180 degrees counts as that
  */
-copter_world_field_t copter_world_field(int32_t latitude, int32_t longitude);
+copter_wmm_field_t copter_wmm_field(int32_t latitude, int32_t longitude);
 
 #endif

@@ -14,7 +14,7 @@
 #define TRIM_MOST   0.2f  /* TRIM_ROLL and TRIM_PITCH take as much. */
 #define OFFSET_MOST 2.0f  /* ACC1_OFF_X and so on take as much. */
 
-static void begin(copter_accelerometers_t *self)
+static void begin(copter_accel_calibration_t *self)
 {
     for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
         keel_calibration_rest_begin(&self->rest[unit]);
@@ -22,7 +22,7 @@ static void begin(copter_accelerometers_t *self)
     self->side = (uint8_t)KEEL_CALIBRATION_SIDES;
 }
 
-keel_status_t copter_accelerometers_init(copter_accelerometers_t *self)
+keel_status_t copter_accel_calibration_init(copter_accel_calibration_t *self)
 {
     keel_status_t status = KEEL_OK;
 
@@ -74,7 +74,7 @@ static bool is_none(float angle)
     return (angle >= 0.0f) && (angle <= 0.0f);
 }
 
-void copter_accelerometers_set(copter_accelerometers_t *self)
+void copter_accel_calibration_set(copter_accel_calibration_t *self)
 {
     const float *const board = copter_settings.board;
     const float *const trim = copter_settings.trim;
@@ -89,13 +89,13 @@ void copter_accelerometers_set(copter_accelerometers_t *self)
     }
 }
 
-static void finish(copter_accelerometers_t *self, copter_levelled_t end)
+static void finish(copter_accel_calibration_t *self, copter_levelled_t end)
 {
     self->levelling = (uint8_t)COPTER_LEVELLING_NONE;
     self->end = (uint8_t)end;
 }
 
-void copter_accelerometers_ask(copter_accelerometers_t *self, uint8_t levelling)
+void copter_accel_calibration_ask(copter_accel_calibration_t *self, uint8_t levelling)
 {
     if (levelling == (uint8_t)COPTER_LEVELLING_NONE) {
         finish(self, COPTER_LEVELLED_CANCELLED);
@@ -111,7 +111,7 @@ void copter_accelerometers_ask(copter_accelerometers_t *self, uint8_t levelling)
 static void step_rests(copter_t *copter)
 {
     for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
-        const keel_virtual_imu_sample_t *const sample = &copter->inertia.unit[unit];
+        const keel_virtual_imu_sample_t *const sample = &copter->imu.unit[unit];
 
         if (sample->present) {
             keel_calibration_rest_step(&copter->calibration.accelerometers.rest[unit],
@@ -121,7 +121,7 @@ static void step_rests(copter_t *copter)
 }
 
 /* Whether all rest together since so many samples; begins again when one moves. */
-static bool have_rested(copter_accelerometers_t *self, uint32_t count)
+static bool have_rested(copter_accel_calibration_t *self, uint32_t count)
 {
     bool rest = true;
     bool moves = false;
@@ -137,7 +137,7 @@ static bool have_rested(copter_accelerometers_t *self, uint32_t count)
 }
 
 /* The side on which all units lie, by their first samples or by their means. */
-static uint8_t side_of(const copter_accelerometers_t *self, bool by_means)
+static uint8_t side_of(const copter_accel_calibration_t *self, bool by_means)
 {
     const keel_calibration_rest_t *const rest = self->rest;
     const uint32_t side = keel_calibration_side(by_means ? rest[0].offset : rest[0].first,
@@ -153,7 +153,7 @@ static uint8_t side_of(const copter_accelerometers_t *self, bool by_means)
 }
 
 /* The board may be mounted so that the vehicle's side is another. */
-static uint8_t shown_side(const copter_accelerometers_t *self)
+static uint8_t shown_side(const copter_accel_calibration_t *self)
 {
     keel_calibration_vector_t turned;
     uint32_t side;
@@ -164,7 +164,7 @@ static uint8_t shown_side(const copter_accelerometers_t *self)
 }
 
 /* Corrections of all units are taken, or none is. Parameters that keep them put them in force. */
-static void finish_sides(copter_accelerometers_t *self)
+static void finish_sides(copter_accel_calibration_t *self)
 {
     keel_calibration_correction_t found[COPTER_IMUS];
     keel_status_t status = KEEL_OK;
@@ -178,7 +178,7 @@ static void finish_sides(copter_accelerometers_t *self)
     finish(self, (status == KEEL_OK) ? COPTER_LEVELLED_DONE : COPTER_LEVELLED_BEYOND);
 }
 
-static void take_side(copter_accelerometers_t *self, uint8_t side)
+static void take_side(copter_accel_calibration_t *self, uint8_t side)
 {
     const uint32_t axis = side / 2u;
     const bool is_up = (side % 2u) == 0u;
@@ -192,7 +192,7 @@ static void take_side(copter_accelerometers_t *self, uint8_t side)
     self->waited = 0u;
 }
 
-static void step_sides(copter_accelerometers_t *self)
+static void step_sides(copter_accel_calibration_t *self)
 {
     if (have_rested(self, FEEL_COUNT)) {
         self->side = side_of(self, false);
@@ -213,7 +213,7 @@ static void step_sides(copter_accelerometers_t *self)
 }
 
 /* What the units' mean says of gravity is straight down once it is rolled and pitched back. */
-static void step_level(copter_accelerometers_t *self)
+static void step_level(copter_accel_calibration_t *self)
 {
     keel_calibration_vector_t mean = {{0.0f, 0.0f, 0.0f}};
     keel_calibration_vector_t down;
@@ -238,9 +238,9 @@ static void step_level(copter_accelerometers_t *self)
                      : COPTER_LEVELLED_BEYOND);
 }
 
-void copter_accelerometers_step(copter_t *copter)
+void copter_accel_calibration_step(copter_t *copter)
 {
-    copter_accelerometers_t *const self = &copter->calibration.accelerometers;
+    copter_accel_calibration_t *const self = &copter->calibration.accelerometers;
 
     if (self->levelling == (uint8_t)COPTER_LEVELLING_NONE) {
         return;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
- * @file modes.h
+ * @file mavlink_modes.h
  * @brief The modes of mode.h as ground stations know them: numbers, names, standard modes.
  *
  * MAVLink leaves `custom_mode` to the autopilot, and stations read it by a table that they bring
@@ -10,8 +10,8 @@
  * the same: MAVSDK shows the right name, and ArduCopter's table has a name for none of them. A
  * station that asks for AVAILABLE_MODES needs no table.
  */
-#ifndef COPTER_MODES_H
-#define COPTER_MODES_H
+#ifndef COPTER_MAVLINK_MODES_H
+#define COPTER_MAVLINK_MODES_H
 
 #include "telemetry.h"
 
@@ -26,25 +26,25 @@
 #define COPTER_MODE_HOLD 3u
 
 /** The mode that is told: the one in force; without one, the one that the pilot asks for. */
-uint8_t copter_mode_told(const copter_t *copter);
+uint8_t copter_mavlink_mode_told(const copter_t *copter);
 
 /** A mode's number in custom_mode. */
-uint32_t copter_mode_number(uint8_t mode);
+uint32_t copter_mavlink_mode_number(uint8_t mode);
 
 /** The mode of a number; KEEL_MODE_NONE when it is none. */
-uint8_t copter_mode_of_number(uint32_t number);
+uint8_t copter_mavlink_mode_of_number(uint32_t number);
 
 /** The mode that does what one of MAVLink's standard modes does; KEEL_MODE_NONE without one. */
-uint8_t copter_mode_of_standard(uint32_t standard);
+uint8_t copter_mavlink_mode_of_standard(uint32_t standard);
 
 /** Wants AVAILABLE_MODES on a link: of a mode by its index, from 1; of all for 0. Returns whether
  * there is such an index. */
-bool copter_modes_want(copter_link_t *link, float index);
+bool copter_mavlink_modes_want(copter_link_t *link, float index);
 
 /** Fills CURRENT_MODE. */
-void copter_modes_current(const copter_t *copter, uint8_t *payload);
+void copter_mavlink_modes_current(const copter_t *copter, uint8_t *payload);
 
 /** Fills AVAILABLE_MODES of the next mode that is wanted; returns whether one is. */
-bool copter_modes_available(copter_link_t *link, uint8_t *payload);
+bool copter_mavlink_modes_available(copter_link_t *link, uint8_t *payload);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The pilot's receiver: which protocol it speaks, and what its frames say in microseconds. */
-#include "radio.h"
+#include "rc.h"
 
 /* So many frames are enough to know a protocol by. */
 static const uint8_t enough[COPTER_PROTOCOLS] = {[COPTER_PROTOCOL_SBUS] = 20u,
@@ -13,18 +13,18 @@ static keel_status_t first_of(keel_status_t a, keel_status_t b)
     return (a != KEEL_OK) ? a : b;
 }
 
-keel_status_t copter_radio_init(copter_radio_t *self, const copter_radio_config_t *config)
+keel_status_t copter_rc_init(copter_rc_t *self, const copter_rc_config_t *config)
 {
     keel_status_t status;
 
-    *self = (copter_radio_t){.protocol = config->protocol};
+    *self = (copter_rc_t){.protocol = config->protocol};
     status = keel_sbus_init(&self->sbus, &config->sbus);
     status = first_of(status, keel_crsf_init(&self->crsf, &config->crsf));
     status = first_of(status, keel_ibus_init(&self->ibus, &config->ibus));
     return first_of(status, keel_ppm_init(&self->ppm, &config->ppm));
 }
 
-static bool take_by(copter_radio_t *self, uint8_t protocol, const copter_byte_t *byte)
+static bool take_by(copter_rc_t *self, uint8_t protocol, const copter_byte_t *byte)
 {
     bool taken = false;
 
@@ -48,7 +48,7 @@ static bool take_by(copter_radio_t *self, uint8_t protocol, const copter_byte_t 
 
 /* One more frame of a protocol, while none is known. A frame with a checksum is no other by
  * chance. */
-static void hear(copter_radio_t *self, uint8_t protocol)
+static void hear(copter_rc_t *self, uint8_t protocol)
 {
     const uint8_t row = (uint8_t)(self->row[protocol] + 1u);
     const bool is_checked = (protocol == COPTER_PROTOCOL_CRSF) ||
@@ -64,7 +64,7 @@ static void hear(copter_radio_t *self, uint8_t protocol)
 }
 
 /* CRSF's channels are scaled as SBUS's. */
-static uint16_t channel_us(const copter_radio_t *self, uint32_t index)
+static uint16_t channel_us(const copter_rc_t *self, uint32_t index)
 {
     uint16_t us = 0u;
 
@@ -85,7 +85,7 @@ static uint16_t channel_us(const copter_radio_t *self, uint32_t index)
     return us;
 }
 
-static void publish(copter_radio_t *self)
+static void publish(copter_rc_t *self)
 {
     const keel_sbus_frame_t *const sbus = &self->sbus.frame;
     const keel_crsf_t *const crsf = &self->crsf;
@@ -99,7 +99,7 @@ static void publish(copter_radio_t *self)
     self->frames++;
 }
 
-void copter_radio_count(const copter_radio_t *self, uint32_t refused[COPTER_REFUSALS])
+void copter_rc_count(const copter_rc_t *self, uint32_t refused[COPTER_REFUSALS])
 {
     const keel_sbus_count_t *const sbus = &self->sbus.count;
     const keel_crsf_t *const crsf = &self->crsf;
@@ -117,7 +117,7 @@ void copter_radio_count(const copter_radio_t *self, uint32_t refused[COPTER_REFU
 }
 
 /* All decoders take a byte, until one of them is known. */
-static bool listen(copter_radio_t *self, const copter_byte_t *byte)
+static bool listen(copter_rc_t *self, const copter_byte_t *byte)
 {
     bool taken = false;
 
@@ -130,7 +130,7 @@ static bool listen(copter_radio_t *self, const copter_byte_t *byte)
     return taken;
 }
 
-bool copter_radio_take(copter_radio_t *self, const copter_byte_t *byte)
+bool copter_rc_take(copter_rc_t *self, const copter_byte_t *byte)
 {
     const bool taken = (self->protocol == COPTER_PROTOCOL_ANY)
                            ? listen(self, byte)
@@ -142,7 +142,7 @@ bool copter_radio_take(copter_radio_t *self, const copter_byte_t *byte)
     return taken;
 }
 
-const char *copter_radio_words(copter_heard_t heard, uint8_t protocol)
+const char *copter_rc_words(copter_heard_t heard, uint8_t protocol)
 {
     static const char *const name[COPTER_PROTOCOLS] = {
         "listening", "heard by SBUS", "heard by CRSF", "heard by IBUS", "heard by PPM"};

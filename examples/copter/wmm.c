@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "world.h"
+#include "wmm.h"
 
 #define STEP     100000000 /* 10 degrees. */
 #define NORTH    INT32_C(800000000)
@@ -35,20 +35,20 @@ static float between(float first, float then, float part)
     return first + (part * (then - first));
 }
 
-copter_world_field_t copter_world_field(int32_t latitude, int32_t longitude)
+copter_wmm_field_t copter_wmm_field(int32_t latitude, int32_t longitude)
 {
-    const place_t row = place_of(latitude, NORTH, COPTER_WORLD_ROWS - 1u);
-    const place_t column = place_of(longitude, EAST, COPTER_WORLD_COLUMNS);
-    const uint32_t next = (column.step + 1u) % COPTER_WORLD_COLUMNS;
+    const place_t row = place_of(latitude, NORTH, COPTER_WMM_ROWS - 1u);
+    const place_t column = place_of(longitude, EAST, COPTER_WMM_COLUMNS);
+    const uint32_t next = (column.step + 1u) % COPTER_WMM_COLUMNS;
     float part[3];
 
     for (uint32_t k = 0u; k < 3u; k++) {
-        const float south = between((float)copter_world_table[row.step][column.step][k],
-                                    (float)copter_world_table[row.step][next][k], column.part);
-        const float north = between((float)copter_world_table[row.step + 1u][column.step][k],
-                                    (float)copter_world_table[row.step + 1u][next][k], column.part);
+        const float south = between((float)copter_wmm_table[row.step][column.step][k],
+                                    (float)copter_wmm_table[row.step][next][k], column.part);
+        const float north = between((float)copter_wmm_table[row.step + 1u][column.step][k],
+                                    (float)copter_wmm_table[row.step + 1u][next][k], column.part);
 
         part[k] = PER_UNIT * between(south, north, row.part);
     }
-    return (copter_world_field_t){part[0], part[1], part[2]};
+    return (copter_wmm_field_t){part[0], part[1], part[2]};
 }

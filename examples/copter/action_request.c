@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Requests of a ground station to the state machine. */
-#include "request.h"
+#include "action_request.h"
 
 static const copter_moved_t asked_now = {.answer = COPTER_ANSWER_WAITS, .is_moved = true};
 
-void copter_request_arm(copter_request_t *request, bool arms)
+void copter_action_request_arm(copter_action_request_t *request, bool arms)
 {
     request->arm = asked_now;
     request->arms = arms;
 }
 
-void copter_request_mode(copter_request_t *request, uint8_t mode, uint8_t pilot_mode)
+void copter_action_request_mode(copter_action_request_t *request, uint8_t mode, uint8_t pilot_mode)
 {
     request->mode = asked_now;
     request->asked = mode;
@@ -21,13 +21,13 @@ void copter_request_mode(copter_request_t *request, uint8_t mode, uint8_t pilot_
 static bool take_over(copter_moved_t *moved, bool says)
 {
     moved->frames = says ? (moved->frames + 1u) : 0u;
-    return moved->frames >= COPTER_REQUEST_FRAMES;
+    return moved->frames >= COPTER_ACTION_REQUEST_FRAMES;
 }
 
-static void apply_arm(copter_request_t *request, keel_mode_input_t *input)
+static void apply_arm(copter_action_request_t *request, keel_mode_input_t *input)
 {
-    const uint32_t both = KEEL_MODE_IS_ON | KEEL_MODE_IS_OFF;
-    const uint32_t to = request->arms ? KEEL_MODE_IS_ON : KEEL_MODE_IS_OFF;
+    const uint32_t both = KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_ARM_SWITCH_OFF;
+    const uint32_t to = request->arms ? KEEL_MODE_ARM_SWITCH_ON : KEEL_MODE_ARM_SWITCH_OFF;
 
     if (take_over(&request->arm, (input->facts & to) != 0u)) {
         request->arm.is_moved = false;
@@ -35,7 +35,7 @@ static void apply_arm(copter_request_t *request, keel_mode_input_t *input)
     input->facts = (input->facts & ~both) | to;
 }
 
-static void apply_mode(copter_request_t *request, keel_mode_input_t *input)
+static void apply_mode(copter_action_request_t *request, keel_mode_input_t *input)
 {
     if (take_over(&request->mode, input->asked != request->pilot_mode)) {
         request->mode.is_moved = false;
@@ -44,7 +44,8 @@ static void apply_mode(copter_request_t *request, keel_mode_input_t *input)
     }
 }
 
-void copter_request_apply(copter_request_t *request, bool frame, keel_mode_input_t *input)
+void copter_action_request_apply(copter_action_request_t *request, bool frame,
+                                 keel_mode_input_t *input)
 {
     if (frame && request->arm.is_moved) {
         apply_arm(request, input);
@@ -63,7 +64,7 @@ static void answer(copter_moved_t *moved, bool done, bool refused, uint32_t elap
     moved->age_us += elapsed_us;
     if (done) {
         moved->answer = COPTER_ANSWER_DONE;
-    } else if (refused || !moved->is_moved || (moved->age_us >= COPTER_REQUEST_TIME_US)) {
+    } else if (refused || !moved->is_moved || (moved->age_us >= COPTER_ACTION_REQUEST_TIME_US)) {
         moved->answer = COPTER_ANSWER_REFUSED;
         moved->is_moved = false;
     } else {
@@ -71,11 +72,11 @@ static void answer(copter_moved_t *moved, bool done, bool refused, uint32_t elap
     }
 }
 
-void copter_request_follow(copter_request_t *request, const keel_mode_t *machine,
-                           uint32_t elapsed_us)
+void copter_action_request_follow(copter_action_request_t *request, const keel_mode_t *machine,
+                                  uint32_t elapsed_us)
 {
-    const bool linked = (machine->settled & KEEL_MODE_IS_LINKED) != 0u;
-    const bool rests = (machine->settled & KEEL_MODE_IS_AT) != 0u;
+    const bool linked = (machine->settled & KEEL_MODE_RC_LINKED) != 0u;
+    const bool rests = (machine->settled & KEEL_MODE_SWITCH_UNMOVED) != 0u;
     const bool is_asked = rests && (machine->asked == request->asked);
     const bool has_mode = !machine->motors || (machine->mode == request->asked);
 

@@ -10,37 +10,37 @@
 #define SLOW           10u   /* Votes to one of what drifts. */
 #define DOUBT_VOTES    1000u /* What was so within 2 s is told as it is. */
 
-keel_status_t copter_inertia_init(copter_inertia_t *inertia)
+keel_status_t copter_imu_init(copter_imu_t *imu)
 {
-    keel_status_t status = keel_virtual_imu_init(&inertia->imu, &copter_settings.imu);
+    keel_status_t status = keel_virtual_imu_init(&imu->virtual_imu, &copter_settings.imu);
 
     if (status == KEEL_OK) {
-        status = keel_virtual_imu_init(&inertia->slow, &copter_settings.slow);
+        status = keel_virtual_imu_init(&imu->slow, &copter_settings.slow);
     }
     if (status == KEEL_OK) {
-        status = keel_attitude_init(&inertia->attitude, &copter_settings.attitude);
+        status = keel_attitude_init(&imu->attitude, &copter_settings.attitude);
     }
     for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
         for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
             const float cutoff_hz = (k < ACCELEROMETER) ? copter_settings.accelerometer_hz
                                                         : copter_settings.gyroscope_hz;
 
-            (void)keel_oversample_init(&inertia->channel[unit][k], OVERSAMPLING);
+            (void)keel_oversample_init(&imu->channel[unit][k], OVERSAMPLING);
             if (status == KEEL_OK) {
-                status = keel_filter_init(&inertia->filter[unit][k], COPTER_VOTE_HZ, cutoff_hz);
+                status = keel_filter_init(&imu->filter[unit][k], COPTER_VOTE_HZ, cutoff_hz);
             }
         }
-        inertia->unit[unit].present = false; /* So that its filters begin with what it says. */
+        imu->unit[unit].present = false; /* So that its filters begin with what it says. */
     }
     return status;
 }
 
 void copter_background_imu(copter_t *copter)
 {
-    copter_inertia_t *const self = &copter->inertia;
+    copter_imu_t *const self = &copter->imu;
 
     for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
-        copter_inertial_t sample;
+        copter_imu_sample_t sample;
 
         if (copter->port->read_imu(copter->port->context, unit, &sample)) {
             for (uint32_t k = 0u; k < ACCELEROMETER; k++) {
@@ -56,7 +56,7 @@ void copter_background_imu(copter_t *copter)
 
 /* A sample of a unit since the last vote; it is absent unless all its channels have, and rests if
  * all say what they said before. */
-static void take(copter_inertia_t *self, uint32_t unit, uint64_t now_us)
+static void take(copter_imu_t *self, uint32_t unit, uint64_t now_us)
 {
     keel_virtual_imu_sample_t *const sample = &self->unit[unit];
     bool rests = sample->present;
@@ -86,7 +86,7 @@ static float filtered(keel_filter_t *filter, float value, bool goes_on)
 /* A unit votes with its sample as calibrations correct it, filtered, as vibration differs from unit
  * to unit. Filters start anew behind a gap. They rest while the unit does: a unit that repeats
  * itself gave no sample, and the voter is to see it. */
-static void prepare(copter_inertia_t *self, uint32_t unit, const copter_calibration_t *calibration,
+static void prepare(copter_imu_t *self, uint32_t unit, const copter_calibration_t *calibration,
                     bool goes_on, keel_virtual_imu_sample_t *sample)
 {
     keel_filter_t *const filter = self->filter[unit];
@@ -102,7 +102,7 @@ static void prepare(copter_inertia_t *self, uint32_t unit, const copter_calibrat
 /* A drift within the vote's thresholds, which are as wide as units differ while they move and
  * shake, would carry the mean away for long. It shows where motion and vibration are averaged out:
  * there thresholds are narrow, and what is voted out is not heard in the vote that flies. */
-static void vote_on_drift(copter_inertia_t *self, keel_virtual_imu_sample_t unit[])
+static void vote_on_drift(copter_imu_t *self, keel_virtual_imu_sample_t unit[])
 {
     for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
         keel_virtual_imu_sample_t *const slow = &self->slow_unit[i];
@@ -158,7 +158,7 @@ static void take_mean(keel_attitude_sample_t *sample, const keel_virtual_imu_sam
 }
 
 /* Navigation looks once in a block of steps: it gets their mean. */
-static void keep_force(copter_inertia_t *self, const keel_attitude_sample_t *sample)
+static void keep_force(copter_imu_t *self, const keel_attitude_sample_t *sample)
 {
     copter_force_t *const block = &self->force[self->blocks % COPTER_BLOCKS];
 
@@ -186,7 +186,7 @@ static void keep_force(copter_inertia_t *self, const keel_attitude_sample_t *sam
 }
 
 /* With other offsets of the gyroscopes their common bias is another one. */
-static void heed_calibration(copter_inertia_t *self, const copter_calibration_t *calibration)
+static void heed_calibration(copter_imu_t *self, const copter_calibration_t *calibration)
 {
     if (self->calibrations != calibration->done) {
         self->calibrations = calibration->done;
@@ -200,7 +200,7 @@ static bool is_apart(float one, float other)
 }
 
 /* Where the field's direction is another than was taken, heading is found anew; on the ground. */
-static void heed_field(copter_inertia_t *self, const copter_estimate_t *estimate)
+static void heed_field(copter_imu_t *self, const copter_estimate_t *estimate)
 {
     keel_attitude_config_t config = self->attitude.config;
 
@@ -219,8 +219,8 @@ static void heed_field(copter_inertia_t *self, const copter_estimate_t *estimate
 
 void copter_foreground_imu(copter_t *copter)
 {
-    copter_inertia_t *const self = &copter->inertia;
-    const copter_satellites_t *const satellites = &copter->satellites;
+    copter_imu_t *const self = &copter->imu;
+    const copter_gps_t *const gps = &copter->gps;
     keel_virtual_imu_sample_t unit[COPTER_IMUS];
     keel_attitude_sample_t sample = {.has_magnetometer = false};
 
@@ -233,18 +233,18 @@ void copter_foreground_imu(copter_t *copter)
         prepare(self, i, &copter->calibration, goes_on, &unit[i]);
     }
     vote_on_drift(self, unit);
-    keel_virtual_imu_step(&self->imu, unit, VOTE_PERIOD_US);
-    doubt(&self->accelerometer, &self->imu.channel[0]);
-    doubt(&self->gyroscope, &self->imu.channel[ACCELEROMETER]);
-    keel_attitude_take(&sample, &self->imu);
+    keel_virtual_imu_step(&self->virtual_imu, unit, VOTE_PERIOD_US);
+    doubt(&self->accelerometer, &self->virtual_imu.channel[0]);
+    doubt(&self->gyroscope, &self->virtual_imu.channel[ACCELEROMETER]);
+    keel_attitude_take(&sample, &self->virtual_imu);
     if (copter->plain_mean) {
         take_mean(&sample, unit);
     }
-    sample.has_magnetometer = copter->compass.samples != self->field_taken;
-    sample.magnetometer = copter->compass.field;
-    sample.has_acceleration = satellites->is_accelerated && self->attitude.heading_valid;
-    sample.acceleration = satellites->acceleration;
-    self->field_taken = copter->compass.samples;
+    sample.has_magnetometer = copter->magnetometer.samples != self->field_taken;
+    sample.magnetometer = copter->magnetometer.field;
+    sample.has_acceleration = gps->is_accelerated && self->attitude.heading_valid;
+    sample.acceleration = gps->acceleration;
+    self->field_taken = copter->magnetometer.samples;
     keel_attitude_step(&self->attitude, &sample);
     self->down = keel_attitude_down(&self->attitude);
     keep_force(self, &sample);

@@ -4,7 +4,7 @@
 
 #include "keel/middleware/range.h"
 
-keel_status_t copter_state_init(copter_state_t *state)
+keel_status_t copter_state_machine_init(copter_state_t *state)
 {
     return keel_mode_init(&state->mode, &copter_settings.mode);
 }
@@ -60,21 +60,21 @@ static bool has_home(const copter_t *copter)
 static uint32_t facts_of(const copter_t *copter)
 {
     const copter_estimate_t *const estimate = &copter->estimate;
-    const keel_battery_level_t level = copter->energy.battery.level;
+    const keel_battery_level_t level = copter->power.battery.level;
     const uint32_t before = copter->state.mode.seen;
-    const bool has_place = is_good(estimate->position.quality, before, KEEL_MODE_HAS_PLACE) &&
-                           copter->inertia.attitude.heading_valid;
+    const bool has_place = is_good(estimate->position.quality, before, KEEL_MODE_POSITION_VALID) &&
+                           copter->imu.attitude.heading_valid;
 
-    return when(estimate->is_landed, KEEL_MODE_IS_LANDED) |
-           when(has_place && is_home(copter), KEEL_MODE_IS_HOME) |
-           when(copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING, KEEL_MODE_HAS_ANGLE) |
-           when(is_good(estimate->vertical.quality, before, KEEL_MODE_HAS_HEIGHT),
-                KEEL_MODE_HAS_HEIGHT) |
-           when(has_place, KEEL_MODE_HAS_PLACE) |
+    return when(estimate->is_landed, KEEL_MODE_LANDED) |
+           when(has_place && is_home(copter), KEEL_MODE_AT_HOME) |
+           when(copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING, KEEL_MODE_ATTITUDE_VALID) |
+           when(is_good(estimate->vertical.quality, before, KEEL_MODE_ALTITUDE_VALID),
+                KEEL_MODE_ALTITUDE_VALID) |
+           when(has_place, KEEL_MODE_POSITION_VALID) |
            when(has_place && has_home(copter) && (side_of(copter) != COPTER_SIDE_NONE),
-                KEEL_MODE_IS_OUTSIDE) |
-           when(level >= KEEL_BATTERY_LOW, KEEL_MODE_IS_CRITICAL) |
-           when(level >= KEEL_BATTERY_CRITICAL, KEEL_MODE_IS_EMPTY);
+                KEEL_MODE_FENCE_BREACHED) |
+           when(level >= KEEL_BATTERY_LOW, KEEL_MODE_BATTERY_CRITICAL) |
+           when(level >= KEEL_BATTERY_CRITICAL, KEEL_MODE_BATTERY_EMPTY);
 }
 
 /* Whether the votes of some channels are each confirmed by a second unit. */
@@ -90,16 +90,16 @@ static bool are_confirmed(const keel_virtual_imu_t *imu, uint32_t from, uint32_t
 
 /* An MS5607 whose readings are taken for an MS5611's shows half of the pressure, and all else of it
  * looks right. Without a pressure there is nothing to say. */
-static bool may_be_of_ground(const copter_air_t *air)
+static bool may_be_of_ground(const copter_barometer_t *barometer)
 {
-    return (air->samples == 0u) ||
-           keel_range_contains(air->pressure_pa, copter_settings.ground_least,
+    return (barometer->samples == 0u) ||
+           keel_range_contains(barometer->pressure_pa, copter_settings.ground_least,
                                copter_settings.ground_most);
 }
 
 static uint32_t checks_of(const copter_t *copter)
 {
-    const keel_virtual_imu_t *const imu = &copter->inertia.imu;
+    const keel_virtual_imu_t *const imu = &copter->imu.virtual_imu;
     const copter_estimate_t *const estimate = &copter->estimate;
 
     return copter->health.checks | copter->calibration.checks |
@@ -108,11 +108,11 @@ static uint32_t checks_of(const copter_t *copter)
            when(are_confirmed(imu, KEEL_VIRTUAL_IMU_ACCELEROMETER, KEEL_VIRTUAL_IMU_CHANNELS),
                 KEEL_MODE_CHECK_GYROSCOPE) |
            when(estimate->altitude.axis.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_BAROMETER) |
-           when(estimate->position.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_POSITIONING) |
-           when(copter->inertia.down.z >= copter_settings.level, KEEL_MODE_CHECK_LEVEL) |
-           when(copter->energy.battery.level == KEEL_BATTERY_OK, KEEL_MODE_CHECK_BATTERY) |
-           when(estimate->position.has_origin, KEEL_MODE_CHECK_HOME) |
-           when(may_be_of_ground(&copter->air), COPTER_CHECK_PRESSURE);
+           when(estimate->position.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_POSITION_ESTIMATE) |
+           when(copter->imu.down.z >= copter_settings.level, KEEL_MODE_CHECK_LEVEL_ATTITUDE) |
+           when(copter->power.battery.level == KEEL_BATTERY_OK, KEEL_MODE_CHECK_BATTERY_LEVEL) |
+           when(estimate->position.has_origin, KEEL_MODE_CHECK_HOME_POSITION) |
+           when(may_be_of_ground(&copter->barometer), COPTER_CHECK_GROUND_PRESSURE);
 }
 
 /* Counts when the aircraft goes out of the fence. */
@@ -120,8 +120,8 @@ static void watch_fence(copter_t *copter, uint32_t facts)
 {
     copter_state_t *const self = &copter->state;
 
-    if (((facts & KEEL_MODE_IS_OUTSIDE) != 0u) &&
-        ((self->mode.seen & KEEL_MODE_IS_OUTSIDE) == 0u)) {
+    if (((facts & KEEL_MODE_FENCE_BREACHED) != 0u) &&
+        ((self->mode.seen & KEEL_MODE_FENCE_BREACHED) == 0u)) {
         self->breach.count++;
         self->breach.last_us = copter->scheduler.clock.now_us;
         self->breach.side = (uint8_t)side_of(copter);
@@ -142,9 +142,9 @@ void copter_state_machine(copter_t *copter)
     self->frames = copter->pilot.frames;
     self->stepped_us = now_us;
     watch_fence(copter, input.facts);
-    copter_request_apply(&copter->request, frame, &input);
+    copter_action_request_apply(&copter->request, frame, &input);
     keel_mode_step(&self->mode, &input);
-    copter_request_follow(&copter->request, &self->mode, input.elapsed_us);
+    copter_action_request_follow(&copter->request, &self->mode, input.elapsed_us);
     if (was_disarmed && self->mode.motors) {
         self->homes++;
     }

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
- * @file lists.h
+ * @file mavlink_empty_lists.h
  * @brief What ground stations load from others, and the copter has none of: missions, fences,
  * rally points, and logs by telemetry.
  *
  * Each request is answered at once: a list is empty, and what would fill it is refused. Without an
  * answer a station asks again for many seconds, and tells its user of an error then.
  */
-#ifndef COPTER_LISTS_H
-#define COPTER_LISTS_H
+#ifndef COPTER_MAVLINK_EMPTY_LISTS_H
+#define COPTER_MAVLINK_EMPTY_LISTS_H
 
 #include "keel/middleware/mavlink.h"
 

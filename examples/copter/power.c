@@ -38,7 +38,7 @@ static float charge_at(float cell_voltage)
 
 /* A pack that was not charged is not counted as full: once, before motors ever turn, its voltage at
  * rest says what it has. The configured charge stands where that is less. */
-static void look_at_rest(copter_energy_t *self)
+static void look_at_rest(copter_power_t *self)
 {
     if (!self->is_known && !self->sample.running && (self->battery.level != KEEL_BATTERY_UNKNOWN)) {
         keel_battery_config_t config = self->battery.config;
@@ -52,15 +52,15 @@ static void look_at_rest(copter_energy_t *self)
     }
 }
 
-keel_status_t copter_energy_init(copter_energy_t *energy)
+keel_status_t copter_power_init(copter_power_t *power)
 {
-    return keel_battery_init(&energy->battery, &copter_settings.battery);
+    return keel_battery_init(&power->battery, &copter_settings.battery);
 }
 
 void copter_background_power_module(copter_t *copter)
 {
-    for (uint32_t i = 0u; i < COPTER_MODULES; i++) {
-        keel_battery_reading_t *const module = &copter->energy.sample.module[i];
+    for (uint32_t i = 0u; i < COPTER_POWER_MODULES; i++) {
+        keel_battery_reading_t *const module = &copter->power.sample.module[i];
         copter_power_reading_t reading;
 
         if (copter->port->read_power(copter->port->context, i, &reading)) {
@@ -74,12 +74,12 @@ void copter_background_power_module(copter_t *copter)
 
 void copter_foreground_power_module(copter_t *copter)
 {
-    copter_energy_t *const self = &copter->energy;
+    copter_power_t *const self = &copter->power;
 
     self->sample.running = copter->state.mode.motors;
     keel_battery_step(&self->battery, &self->sample);
     look_at_rest(self);
-    for (uint32_t i = 0u; i < COPTER_MODULES; i++) {
+    for (uint32_t i = 0u; i < COPTER_POWER_MODULES; i++) {
         self->sample.module[i].has_voltage = false;
         self->sample.module[i].has_current = false;
     }

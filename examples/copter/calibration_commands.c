@@ -68,7 +68,7 @@ static void say(copter_telemetry_t *self, const char *what)
 }
 
 /* A side that is new, and how many there are. */
-static void tell_sides(copter_telemetry_t *self, const copter_accelerometers_t *from)
+static void tell_sides(copter_telemetry_t *self, const copter_accel_calibration_t *from)
 {
     uint32_t count = 0u;
 
@@ -107,7 +107,7 @@ static void tell_end(copter_telemetry_t *self, uint8_t levelling, uint8_t end)
     }
 }
 
-static void tell_levelling(copter_telemetry_t *self, const copter_accelerometers_t *from)
+static void tell_levelling(copter_telemetry_t *self, const copter_accel_calibration_t *from)
 {
     if (self->levelling == (uint8_t)COPTER_LEVELLING_SIDES) {
         tell_sides(self, from);
@@ -130,7 +130,7 @@ static uint32_t begin_levelling(copter_t *copter, copter_levelling_t levelling)
     if (self->levelling != (uint8_t)COPTER_LEVELLING_NONE) {
         return MAV_RESULT_TEMPORARILY_REJECTED;
     }
-    copter_accelerometers_ask(&copter->calibration.accelerometers, (uint8_t)levelling);
+    copter_accel_calibration_ask(&copter->calibration.accelerometers, (uint8_t)levelling);
     say(self, (levelling == COPTER_LEVELLING_LEVEL) ? "calibration started: 2 level"
                                                     : "calibration started: 2 accel");
     self->levelling = (uint8_t)levelling;
@@ -142,8 +142,8 @@ static uint32_t begin_levelling(copter_t *copter, copter_levelling_t levelling)
 static uint32_t end_levelling(copter_t *copter)
 {
     if (copter->telemetry->levelling != (uint8_t)COPTER_LEVELLING_NONE) {
-        copter_accelerometers_ask(&copter->calibration.accelerometers,
-                                  (uint8_t)COPTER_LEVELLING_NONE);
+        copter_accel_calibration_ask(&copter->calibration.accelerometers,
+                                     (uint8_t)COPTER_LEVELLING_NONE);
     }
     return MAV_RESULT_ACCEPTED;
 }
@@ -193,14 +193,14 @@ static float found(const copter_calibration_t *from, uint32_t kept)
 static void keep_next(copter_t *copter)
 {
     copter_telemetry_t *const self = copter->telemetry;
-    keel_parameters_t *const table = &copter->tuning.table;
+    keel_parameters_t *const table = &copter->parameters.table;
     const char *const name = kept_name[self->keeps];
     const uint16_t index = keel_parameters_find(table, name);
     const keel_parameter_value_t value = {.type = KEEL_PARAMETER_FLOAT,
                                           .real = found(&copter->calibration, self->keeps)};
 
     if (keel_parameters_set(table, index, value) == KEEL_OK) {
-        copter_parameter_is_set(copter, index);
+        copter_mavlink_parameter_is_set(copter, index);
     } else {
         copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, name, ": not kept");
     }

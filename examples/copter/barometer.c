@@ -5,15 +5,15 @@
 #define OVERSAMPLING 2u  /* Background runs in a foreground period. */
 #define STUCK        25u /* So many equal pressures in a row, half a second of them. */
 
-keel_status_t copter_air_init(copter_air_t *air)
+keel_status_t copter_barometer_init(copter_barometer_t *barometer)
 {
-    return keel_oversample_init(&air->pressure, OVERSAMPLING);
+    return keel_oversample_init(&barometer->pressure, OVERSAMPLING);
 }
 
 void copter_background_barometer(copter_t *copter)
 {
-    copter_air_t *const self = &copter->air;
-    copter_pressure_t sample;
+    copter_barometer_t *const self = &copter->barometer;
+    copter_barometer_sample_t sample;
 
     if (copter->port->read_barometer(copter->port->context, &sample) &&
         (keel_oversample_add(&self->pressure, sample.pressure_pa) == KEEL_OK)) {
@@ -26,7 +26,7 @@ void copter_background_barometer(copter_t *copter)
  * Its pressures are no samples then. */
 void copter_foreground_barometer(copter_t *copter)
 {
-    copter_air_t *const self = &copter->air;
+    copter_barometer_t *const self = &copter->barometer;
     const float before = self->pressure_pa;
 
     if (keel_oversample_take(&self->pressure, &self->pressure_pa) == KEEL_OK) {

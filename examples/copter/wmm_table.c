@@ -2,9 +2,9 @@
 /* Made by tools/keel world. The Earth's field at sea level in the middle of 2027, by WMM2025
  * (NOAA, BGS): rows are latitudes from -80 degrees, columns longitudes from -180 degrees, 10
  * apart; north, east and down in 3 nT. */
-#include "world.h"
+#include "wmm.h"
 
-const int16_t copter_world_table[COPTER_WORLD_ROWS][COPTER_WORLD_COLUMNS][3] = {
+const int16_t copter_wmm_table[COPTER_WMM_ROWS][COPTER_WMM_COLUMNS][3] = {
     /* clang-format off */
     {{-2574, 3264, -19643}, {-1927, 3926, -19370}, {-1204, 4461, -19034}, {-425, 4865, -18645},
      {392, 5133, -18213}, {1229, 5260, -17748}, {2067, 5243, -17261}, {2885, 5082, -16765},

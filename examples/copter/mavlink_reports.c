@@ -2,7 +2,7 @@
 /* Telemetry's reports: each message is made from the copter's structures. */
 #include "keel/middleware/range.h"
 #include "keel/version.h"
-#include "modes.h"
+#include "mavlink_modes.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -99,8 +99,8 @@ static bool is_alone(uint8_t state)
 static uint8_t status_of(const copter_t *copter)
 {
     const keel_mode_t *const mode = &copter->state.mode;
-    const uint32_t alarms = KEEL_MODE_LINK_LOST | KEEL_MODE_IS_OUTSIDE | KEEL_MODE_IS_CRITICAL |
-                            KEEL_MODE_IS_EMPTY;
+    const uint32_t alarms = KEEL_MODE_RC_LOST | KEEL_MODE_FENCE_BREACHED |
+                            KEEL_MODE_BATTERY_CRITICAL | KEEL_MODE_BATTERY_EMPTY;
 
     if (mode->state == KEEL_MODE_TERMINATED) {
         return (uint8_t)MAV_STATE_FLIGHT_TERMINATION;
@@ -111,8 +111,8 @@ static uint8_t status_of(const copter_t *copter)
     if (mode->motors) {
         return (uint8_t)MAV_STATE_ACTIVE;
     }
-    return (uint8_t)((copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING) ? MAV_STATE_STANDBY
-                                                                               : MAV_STATE_BOOT);
+    return (uint8_t)((copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING) ? MAV_STATE_STANDBY
+                                                                           : MAV_STATE_BOOT);
 }
 
 /* What flies: the pilot's sticks, or the aircraft by itself; and whether it is stabilised. */
@@ -131,9 +131,9 @@ static uint32_t flags_of(const keel_mode_t *machine, uint8_t told)
 static void heartbeat(const copter_t *copter, uint8_t *payload)
 {
     const keel_mode_t *const machine = &copter->state.mode;
-    const uint8_t told = copter_mode_told(copter);
+    const uint8_t told = copter_mavlink_mode_told(copter);
     const message_heartbeat_t message = {
-        .custom_mode = copter_mode_number(told),
+        .custom_mode = copter_mavlink_mode_number(told),
         .type = (uint8_t)MAV_TYPE_QUADROTOR,
         .autopilot = (uint8_t)MAV_AUTOPILOT_GENERIC,
         .base_mode = (uint8_t)(MAV_MODE_FLAG_CUSTOM_MODE_ENABLED |
@@ -147,7 +147,7 @@ static void heartbeat(const copter_t *copter, uint8_t *payload)
 
 static uint16_t volts(const copter_t *copter)
 {
-    return plain(copter->energy.battery.voltage * MILLI);
+    return plain(copter->power.battery.voltage * MILLI);
 }
 
 static int8_t charge_left(const keel_battery_t *battery)
@@ -172,12 +172,12 @@ static uint32_t healthy(const copter_t *copter)
            when((blocking & KEEL_MODE_CHECK_ACCELEROMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_ACCEL) |
            when((blocking & KEEL_MODE_CHECK_MAGNETOMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_MAG) |
            when((copter->estimate.altitude.axis.quality == KEEL_AXIS_GOOD) &&
-                    ((blocking & COPTER_CHECK_PRESSURE) == 0u),
+                    ((blocking & COPTER_CHECK_GROUND_PRESSURE) == 0u),
                 MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE) |
            when(copter->estimate.position.quality == KEEL_AXIS_GOOD, MAV_SYS_STATUS_SENSOR_GPS) |
-           when((mode->settled & KEEL_MODE_IS_LINKED) != 0u, MAV_SYS_STATUS_SENSOR_RC_RECEIVER) |
-           when(copter->energy.battery.level == KEEL_BATTERY_OK, MAV_SYS_STATUS_SENSOR_BATTERY) |
-           when((mode->seen & KEEL_MODE_IS_OUTSIDE) == 0u, MAV_SYS_STATUS_GEOFENCE) |
+           when((mode->settled & KEEL_MODE_RC_LINKED) != 0u, MAV_SYS_STATUS_SENSOR_RC_RECEIVER) |
+           when(copter->power.battery.level == KEEL_BATTERY_OK, MAV_SYS_STATUS_SENSOR_BATTERY) |
+           when((mode->seen & KEEL_MODE_FENCE_BREACHED) == 0u, MAV_SYS_STATUS_GEOFENCE) |
            when(mode->motors || ((blocking == 0u) && (mode->blocking.facts == 0u)),
                 MAV_SYS_STATUS_PREARM_CHECK);
 }
@@ -196,8 +196,8 @@ static void sys_status(const copter_t *copter, const copter_link_t *link, uint8_
         .onboard_control_sensors_health = healthy(copter),
         .load = (uint16_t)(copter->health.load_ppm / US_PER_MS),
         .voltage_battery = volts(copter),
-        .current_battery = small(copter->energy.battery.current * CENTI),
-        .battery_remaining = charge_left(&copter->energy.battery),
+        .current_battery = small(copter->power.battery.current * CENTI),
+        .battery_remaining = charge_left(&copter->power.battery),
         .errors_comm = at_most(errors),
         .errors_count1 = at_most(copter->health.overruns),
         .errors_count2 = at_most(copter->health.skipped),
@@ -213,7 +213,7 @@ static void fence_status(const copter_state_t *state, uint8_t *payload)
                                    [COPTER_SIDE_LOW] = FENCE_BREACH_MINALT,
                                    [COPTER_SIDE_HIGH] = FENCE_BREACH_MAXALT,
                                    [COPTER_SIDE_AROUND] = FENCE_BREACH_BOUNDARY};
-    const bool is_outside = (state->mode.seen & KEEL_MODE_IS_OUTSIDE) != 0u;
+    const bool is_outside = (state->mode.seen & KEEL_MODE_FENCE_BREACHED) != 0u;
     const message_fence_status_t message = {
         .breach_time = (uint32_t)(state->breach.last_us / US_PER_MS),
         .breach_count = at_most(state->breach.count),
@@ -227,8 +227,8 @@ static void fence_status(const copter_state_t *state, uint8_t *payload)
  * hundredth of a degree for 0. The messages of all three units are alike. */
 static bool scaled_imu(const copter_t *copter, uint32_t unit, uint8_t *payload)
 {
-    const keel_virtual_imu_sample_t *const sample = &copter->inertia.unit[unit];
-    const int16_t temperature = copter->inertia.temperature[unit];
+    const keel_virtual_imu_sample_t *const sample = &copter->imu.unit[unit];
+    const int16_t temperature = copter->imu.temperature[unit];
     const float *const value = sample->value;
     const float milli_g = MILLI / KEEL_CASCADE_GRAVITY;
     const message_scaled_imu_t message = {.time_boot_ms = now_ms(copter),
@@ -248,14 +248,14 @@ static bool scaled_imu(const copter_t *copter, uint32_t unit, uint8_t *payload)
 /* Pressure and the barometer's temperature, as long as it measures. */
 static bool scaled_pressure(const copter_t *copter, uint8_t *payload)
 {
-    const copter_air_t *const air = &copter->air;
-    const uint64_t age_us = copter->scheduler.clock.now_us - air->sampled_us;
+    const copter_barometer_t *const barometer = &copter->barometer;
+    const uint64_t age_us = copter->scheduler.clock.now_us - barometer->sampled_us;
     const message_scaled_pressure_t message = {.time_boot_ms = now_ms(copter),
-                                               .press_abs = air->pressure_pa / CENTI,
-                                               .temperature = air->temperature};
+                                               .press_abs = barometer->pressure_pa / CENTI,
+                                               .temperature = barometer->temperature};
 
     message_scaled_pressure_pack(&message, payload);
-    return (air->samples > 0u) && (age_us <= FRESH_US);
+    return (barometer->samples > 0u) && (age_us <= FRESH_US);
 }
 
 /* Values that no message of MAVLink's is for. The chip's supply, of 3.3 V, is not the Vcc of
@@ -291,13 +291,13 @@ static void named_value_int(const copter_t *copter, copter_link_t *link, uint8_t
 
 static bool gps_raw_int(const copter_t *copter, uint8_t *payload)
 {
-    const copter_satellites_t *const satellites = &copter->satellites;
-    const copter_fix_t *const fix = &satellites->fix;
-    const keel_ubx_fix_t *const received = &satellites->receiver.fix;
+    const copter_gps_t *const gps = &copter->gps;
+    const copter_fix_t *const fix = &gps->fix;
+    const keel_ubx_fix_t *const received = &gps->receiver.fix;
     const float speed = sqrtf((fix->north * fix->north) + (fix->east * fix->east));
     const float course = atan2f(fix->east, fix->north) * DEGREES;
     const message_gps_raw_int_t message = {
-        .time_usec = satellites->fixed_us,
+        .time_usec = gps->fixed_us,
         .lat = fix->latitude,
         .lon = fix->longitude,
         .alt = received->height_mm,
@@ -312,12 +312,12 @@ static bool gps_raw_int(const copter_t *copter, uint8_t *payload)
         .vel_acc = (uint32_t)millimetres(within(fix->speed_accuracy, 0.0f, FAR_M))};
 
     message_gps_raw_int_pack(&message, payload);
-    return satellites->fixes > 0u;
+    return gps->fixes > 0u;
 }
 
 static bool attitude(const copter_t *copter, uint8_t *payload)
 {
-    const keel_attitude_t *const from = &copter->inertia.attitude;
+    const keel_attitude_t *const from = &copter->imu.attitude;
     float angle[3];
 
     angles_of(&from->quaternion, angle);
@@ -337,7 +337,7 @@ static bool attitude(const copter_t *copter, uint8_t *payload)
 
 static bool attitude_quaternion(const copter_t *copter, uint8_t *payload)
 {
-    const keel_attitude_t *const from = &copter->inertia.attitude;
+    const keel_attitude_t *const from = &copter->imu.attitude;
     const message_attitude_quaternion_t message = {.time_boot_ms = now_ms(copter),
                                                    .q1 = from->quaternion.w,
                                                    .q2 = from->quaternion.x,
@@ -363,7 +363,7 @@ static bool vfr_hud(const copter_t *copter, uint8_t *payload)
     float angle[3];
     float heading;
 
-    angles_of(&copter->inertia.attitude.quaternion, angle);
+    angles_of(&copter->imu.attitude.quaternion, angle);
     heading = angle[2] * DEGREES;
     {
         const message_vfr_hud_t message = {
@@ -376,7 +376,7 @@ static bool vfr_hud(const copter_t *copter, uint8_t *payload)
 
         message_vfr_hud_pack(&message, payload);
     }
-    return here->has_height && (copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING);
+    return here->has_height && (copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING);
 }
 
 /* Nothing looks down: terrain and clearance are what stands for unknown. */
@@ -401,7 +401,7 @@ static bool altitude_of(const copter_t *copter, uint8_t *payload)
 static void system_time(const copter_t *copter, uint8_t *payload)
 {
     const message_system_time_t message = {
-        .time_unix_usec = copter_utc_us(&copter->satellites.date, copter->scheduler.clock.now_us),
+        .time_unix_usec = copter_utc_us(&copter->gps.date, copter->scheduler.clock.now_us),
         .time_boot_ms = now_ms(copter)};
 
     message_system_time_pack(&message, payload);
@@ -464,8 +464,8 @@ static bool global_position_int(const copter_t *copter, uint8_t *payload)
     if (!position->has_origin) {
         return false;
     }
-    angles_of(&copter->inertia.attitude.quaternion, angle);
-    if (copter->inertia.attitude.heading_valid) {
+    angles_of(&copter->imu.attitude.quaternion, angle);
+    if (copter->imu.attitude.heading_valid) {
         const float heading = angle[2] * DEGREES;
 
         message.hdg = plain(((heading < 0.0f) ? (heading + FULL_TURN) : heading) * CENTI);
@@ -498,7 +498,7 @@ static void servo_output_raw(const copter_t *copter, uint8_t *payload)
 static bool rc_channels(const copter_t *copter, uint8_t *payload)
 {
     const uint16_t none = (uint16_t)UNKNOWN_16;
-    const uint16_t *const channel = copter->pilot.radio.channel;
+    const uint16_t *const channel = copter->pilot.rc.channel;
     message_rc_channels_t message;
 
     message = (message_rc_channels_t){.time_boot_ms = now_ms(copter),
@@ -524,7 +524,7 @@ static bool rc_channels(const copter_t *copter, uint8_t *payload)
                                       .rssi = (uint8_t)UNKNOWN_8};
 
     message_rc_channels_pack(&message, payload);
-    return copter->pilot.radio.frames > 0u;
+    return copter->pilot.rc.frames > 0u;
 }
 
 static uint8_t charge_of(keel_battery_level_t level)
@@ -545,7 +545,7 @@ static uint8_t charge_of(keel_battery_level_t level)
 
 static void battery_status(const copter_t *copter, uint8_t *payload)
 {
-    const keel_battery_t *const battery = &copter->energy.battery;
+    const keel_battery_t *const battery = &copter->power.battery;
     const bool known = battery->level != KEEL_BATTERY_UNKNOWN;
     message_battery_status_t message = {
         .current_consumed = known ? (int32_t)within(battery->charge_c / 3.6f, 0.0f, FAR_M) : -1,
@@ -603,9 +603,9 @@ static void estimator_status(const copter_t *copter, uint8_t *payload)
     const bool has_height = estimate->here.has_height;
     const message_estimator_status_t message = {
         .time_usec = copter->scheduler.clock.now_us,
-        .pos_horiz_accuracy = copter->satellites.fix.accuracy,
+        .pos_horiz_accuracy = copter->gps.fix.accuracy,
         .pos_vert_accuracy = 1.0f,
-        .flags = (uint16_t)(when(copter->inertia.attitude.phase == KEEL_ATTITUDE_RUNNING,
+        .flags = (uint16_t)(when(copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING,
                                  ESTIMATOR_ATTITUDE) |
                             when(has_place, ESTIMATOR_VELOCITY_HORIZ | ESTIMATOR_POS_HORIZ_REL |
                                                 ESTIMATOR_POS_HORIZ_ABS) |
@@ -795,7 +795,7 @@ static bool stations(const copter_t *copter, copter_link_t *link, uint32_t sent,
         said = serial_control(copter, link, payload);
         break;
     default:
-        said = copter_report_lists(link, sent, payload);
+        said = copter_mavlink_report_list(link, sent, payload);
         break;
     }
     return said;
@@ -810,7 +810,7 @@ static bool answers(const copter_t *copter, copter_link_t *link, uint32_t sent, 
         said = command_ack(link, payload);
         break;
     case SENT_PARAM_VALUE:
-        said = param_value(&copter->tuning.table, link, payload);
+        said = param_value(&copter->parameters.table, link, payload);
         break;
     case SENT_PARAM_ERROR:
         said = param_error(link, payload);
@@ -825,7 +825,7 @@ static bool answers(const copter_t *copter, copter_link_t *link, uint32_t sent, 
         message_timesync_pack(&link->timesync, payload);
         break;
     case SENT_AVAILABLE_MODES:
-        said = copter_modes_available(link, payload);
+        said = copter_mavlink_modes_available(link, payload);
         break;
     default:
         said = stations(copter, link, sent, payload);
@@ -876,7 +876,8 @@ static bool places(const copter_t *copter, copter_link_t *link, uint32_t sent, u
     return said;
 }
 
-bool copter_report(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
+bool copter_mavlink_report(const copter_t *copter, copter_link_t *link, uint32_t sent,
+                           uint8_t *payload)
 {
     bool said = true;
 
@@ -900,7 +901,7 @@ bool copter_report(const copter_t *copter, copter_link_t *link, uint32_t sent, u
         autopilot_version(copter, payload);
         break;
     case SENT_CURRENT_MODE:
-        copter_modes_current(copter, payload);
+        copter_mavlink_modes_current(copter, payload);
         break;
     case SENT_ESTIMATOR_STATUS:
         estimator_status(copter, payload);

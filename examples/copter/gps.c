@@ -9,9 +9,9 @@
 /* Millimetres and milliseconds in metres and seconds. */
 #define MILLI 1.0e-3f
 
-keel_status_t copter_satellites_init(copter_satellites_t *satellites)
+keel_status_t copter_gps_init(copter_gps_t *gps)
 {
-    return keel_ubx_init(&satellites->receiver, &copter_settings.satellites);
+    return keel_ubx_init(&gps->receiver, &copter_settings.gps);
 }
 
 static copter_fix_t fix_of(const keel_ubx_t *receiver)
@@ -32,7 +32,7 @@ static copter_fix_t fix_of(const keel_ubx_t *receiver)
 }
 
 /* By the receiver's times: a run of this task may come late, a fix be lost on the way. */
-static void derive(copter_satellites_t *self, const copter_fix_t *before)
+static void derive(copter_gps_t *self, const copter_fix_t *before)
 {
     const uint32_t apart_ms = self->fix.tow_ms - before->tow_ms;
 
@@ -49,7 +49,7 @@ static void derive(copter_satellites_t *self, const copter_fix_t *before)
 
 void copter_gps(copter_t *copter)
 {
-    copter_satellites_t *const self = &copter->satellites;
+    copter_gps_t *const self = &copter->gps;
     const copter_port_t *const port = copter->port;
     const uint64_t now_us = copter->scheduler.clock.now_us;
     copter_byte_t byte;

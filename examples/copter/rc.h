@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
- * @file radio.h
+ * @file rc.h
  * @brief The pilot's receiver, whatever of four protocols it speaks.
  *
  * All decoders listen until one of them has taken enough frames; from then on, until the next
  * start, that one alone does. SBUS has no checksum, so it must be heard for longer, and a right
  * frame of a protocol that has one begins anew what was heard of the others.
  */
-#ifndef COPTER_RADIO_H
-#define COPTER_RADIO_H
+#ifndef COPTER_RC_H
+#define COPTER_RC_H
 
 #include "keel/middleware/crsf.h"
 #include "keel/middleware/ibus.h"
@@ -52,16 +52,16 @@ typedef enum copter_heard {
 } copter_heard_t;
 
 /** The configurations of all decoders. */
-typedef struct copter_radio_config {
+typedef struct copter_rc_config {
     uint8_t protocol; /**< COPTER_PROTOCOL_... */
     keel_sbus_config_t sbus;
     keel_crsf_config_t crsf;
     keel_ibus_config_t ibus;
     keel_ppm_config_t ppm;
-} copter_radio_config_t;
+} copter_rc_config_t;
 
 /** A receiver. Read it freely. */
-typedef struct copter_radio {
+typedef struct copter_rc {
     keel_sbus_t sbus;
     keel_crsf_t crsf;
     keel_ibus_t ibus;
@@ -71,26 +71,26 @@ typedef struct copter_radio {
     uint8_t protocol;                  /**< Which is heard; COPTER_PROTOCOL_ANY: none yet. */
     uint8_t row[COPTER_PROTOCOLS];     /**< Frames of each, while none is. */
     bool is_lost; /**< The last frame is not the pilot's: repeated or made up. */
-} copter_radio_t;
+} copter_rc_t;
 
 /**
  * Begins to listen.
  *
  * @return KEEL_OK, or what the first decoder that refuses its configuration says
  */
-keel_status_t copter_radio_init(copter_radio_t *self, const copter_radio_config_t *config);
+keel_status_t copter_rc_init(copter_rc_t *self, const copter_rc_config_t *config);
 
 /**
  * Takes a byte, or an edge of PPM.
  *
  * @return whether it ended a frame of the protocol that is heard
  */
-bool copter_radio_take(copter_radio_t *self, const copter_byte_t *byte);
+bool copter_rc_take(copter_rc_t *self, const copter_byte_t *byte);
 
 /** How many frames were refused for each reason, of all protocols that were listened to. */
-void copter_radio_count(const copter_radio_t *self, uint32_t refused[COPTER_REFUSALS]);
+void copter_rc_count(const copter_rc_t *self, uint32_t refused[COPTER_REFUSALS]);
 
 /** Why nobody heard the pilot, in at most 43 letters; or which protocol he is heard by. */
-const char *copter_radio_words(copter_heard_t heard, uint8_t protocol);
+const char *copter_rc_words(copter_heard_t heard, uint8_t protocol);
 
 #endif

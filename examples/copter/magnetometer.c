@@ -6,30 +6,30 @@
 #define RATE_HZ      50.0f /* Table 2: foreground magnetometer. */
 #define CALM_HZ      0.5f  /* Of 2.2 uT of noise a sample this leaves 0.25. */
 
-keel_status_t copter_compass_init(copter_compass_t *compass)
+keel_status_t copter_magnetometer_init(copter_magnetometer_t *magnetometer)
 {
     keel_status_t status = KEEL_OK;
 
     for (uint32_t k = 0u; (k < 3u) && (status == KEEL_OK); k++) {
-        (void)keel_oversample_init(&compass->axis[k], OVERSAMPLING);
-        status = keel_filter_init(&compass->calm[k], RATE_HZ, CALM_HZ);
+        (void)keel_oversample_init(&magnetometer->axis[k], OVERSAMPLING);
+        status = keel_filter_init(&magnetometer->calm[k], RATE_HZ, CALM_HZ);
     }
     return status;
 }
 
 void copter_background_magnetometer(copter_t *copter)
 {
-    copter_field_t sample;
+    copter_magnetometer_sample_t sample;
 
     if (copter->port->read_magnetometer(copter->port->context, &sample)) {
         for (uint32_t k = 0u; k < 3u; k++) {
-            (void)keel_oversample_add(&copter->compass.axis[k], sample.value[k]);
+            (void)keel_oversample_add(&copter->magnetometer.axis[k], sample.value[k]);
         }
     }
 }
 
 /* It begins at the first sample. A value that is no number changes nothing. */
-static void calm_down(copter_compass_t *self, const float field[3])
+static void calm_down(copter_magnetometer_t *self, const float field[3])
 {
     for (uint32_t k = 0u; k < 3u; k++) {
         (void)((self->samples == 0u) ? keel_filter_reset(&self->calm[k], field[k])
@@ -39,7 +39,7 @@ static void calm_down(copter_compass_t *self, const float field[3])
 
 void copter_foreground_magnetometer(copter_t *copter)
 {
-    copter_compass_t *const self = &copter->compass;
+    copter_magnetometer_t *const self = &copter->magnetometer;
     float field[3] = {0.0f, 0.0f, 0.0f};
     bool whole = true;
 
@@ -51,7 +51,7 @@ void copter_foreground_magnetometer(copter_t *copter)
     if (whole) {
         keel_calibration_vector_t out;
 
-        keel_calibration_correct(&copter->calibration.compass, field, &out);
+        keel_calibration_correct(&copter->calibration.magnetometer, field, &out);
         calm_down(self, field);
         self->raw = (keel_attitude_vector_t){field[0], field[1], field[2]};
         self->field = (keel_attitude_vector_t){out.axis[0], out.axis[1], out.axis[2]};

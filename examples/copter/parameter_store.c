@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "tuning.h"
+#include "parameter_store.h"
 
 #include "keel/flight/altitude.h"
 
@@ -72,98 +72,100 @@ static keel_status_t check_settings(void *context, const keel_parameter_entry_t 
     return try_units(&tried);
 }
 
-static void load(copter_tuning_t *tuning, const keel_medium_t *memory)
+static void load(copter_parameter_store_t *store, const keel_medium_t *memory)
 {
     const keel_slots_config_t config = {.medium = *memory,
                                         .address = {COPTER_PARAMETER_FIRST, COPTER_PARAMETER_OTHER},
                                         .room = COPTER_PARAMETER_BYTES};
 
-    if (keel_slots_init(&tuning->slots, &config) == KEEL_OK) {
-        tuning->has_memory = true;
-        tuning->found = keel_slots_load(&tuning->slots, tuning->image, &tuning->length);
+    if (keel_slots_init(&store->slots, &config) == KEEL_OK) {
+        store->has_memory = true;
+        store->found = keel_slots_load(&store->slots, store->image, &store->length);
     }
-    if (tuning->found == KEEL_SLOTS_DONE) {
-        tuning->loaded = keel_parameters_load(&tuning->table, tuning->image, tuning->length);
+    if (store->found == KEEL_SLOTS_DONE) {
+        store->loaded = keel_parameters_load(&store->table, store->image, store->length);
     }
 }
 
-bool copter_tuning_differs(const copter_tuning_t *tuning, uint16_t index)
+bool copter_parameter_store_differs(const copter_parameter_store_t *store, uint16_t index)
 {
-    return keel_parameter_bits(tuning->entry[index].value) !=
-           keel_parameter_bits(tuning->in_force[index].value);
+    return keel_parameter_bits(store->entry[index].value) !=
+           keel_parameter_bits(store->in_force[index].value);
 }
 
 /* Whether it changes anything. A parameter that waits for a restart stays as it is unless this is
  * one. Those are all parameters of the units that have them, so each unit's settings are either as
  * they were, or as the check has seen them. */
-static bool put_in_force(copter_tuning_t *tuning, bool is_start)
+static bool put_in_force(copter_parameter_store_t *store, bool is_start)
 {
     bool changes = is_start;
 
     for (uint16_t i = 0u; i < COPTER_PARAMETER_COUNT; i++) {
-        if (is_start || (!copter_parameter[i].restarts && copter_tuning_differs(tuning, i))) {
-            tuning->in_force[i] = tuning->entry[i];
+        if (is_start ||
+            (!copter_parameter[i].restarts && copter_parameter_store_differs(store, i))) {
+            store->in_force[i] = store->entry[i];
             changes = true;
         }
     }
     if (changes) {
-        set_fields(&copter_settings, tuning->in_force);
+        set_fields(&copter_settings, store->in_force);
     }
     return changes;
 }
 
-keel_status_t copter_tuning_start(copter_tuning_t *tuning, const keel_medium_t *memory)
+keel_status_t copter_parameter_store_start(copter_parameter_store_t *store,
+                                           const keel_medium_t *memory)
 {
     const keel_parameters_config_t config = {.table = copter_parameter,
-                                             .entry = tuning->entry,
+                                             .entry = store->entry,
                                              .count = COPTER_PARAMETER_COUNT,
                                              .check = check_settings,
                                              .context = NULL};
-    const keel_status_t status = keel_parameters_init(&tuning->table, &config);
+    const keel_status_t status = keel_parameters_init(&store->table, &config);
 
     if (status != KEEL_OK) {
         return status;
     }
-    tuning->loaded = (keel_parameters_loaded_t){.taken = 0u};
-    tuning->found = KEEL_SLOTS_NONE;
-    tuning->saved = KEEL_SLOTS_DONE;
-    tuning->has_memory = false;
+    store->loaded = (keel_parameters_loaded_t){.taken = 0u};
+    store->found = KEEL_SLOTS_NONE;
+    store->saved = KEEL_SLOTS_DONE;
+    store->has_memory = false;
     if (memory != NULL) {
-        load(tuning, memory);
+        load(store, memory);
     }
-    put_in_force(tuning, true);
+    put_in_force(store, true);
     return KEEL_OK;
 }
 
-bool copter_tuning_apply(copter_tuning_t *tuning)
+bool copter_parameter_store_apply(copter_parameter_store_t *store)
 {
-    return put_in_force(tuning, false);
+    return put_in_force(store, false);
 }
 
-keel_status_t copter_tuning_save(copter_tuning_t *tuning)
+keel_status_t copter_parameter_store_save(copter_parameter_store_t *store)
 {
     keel_status_t status = KEEL_ERR_NULL;
 
-    if (tuning->has_memory && (tuning->saved != KEEL_SLOTS_BUSY)) {
-        status = keel_parameters_pack(&tuning->table, tuning->image, COPTER_PARAMETER_BYTES,
-                                      &tuning->length);
-    } else if (tuning->has_memory) {
+    if (store->has_memory && (store->saved != KEEL_SLOTS_BUSY)) {
+        status = keel_parameters_pack(&store->table, store->image, COPTER_PARAMETER_BYTES,
+                                      &store->length);
+    } else if (store->has_memory) {
         status = KEEL_ERR_STATE;
     } else {
         status = KEEL_ERR_NULL;
     }
     if (status == KEEL_OK) {
-        status = keel_slots_begin(&tuning->slots, tuning->image, tuning->length);
+        status = keel_slots_begin(&store->slots, store->image, store->length);
     }
     if (status == KEEL_OK) {
-        tuning->saved = KEEL_SLOTS_BUSY;
+        store->saved = KEEL_SLOTS_BUSY;
     }
     return status;
 }
 
-void copter_tuning_step(copter_tuning_t *tuning)
+void copter_parameter_store_step(copter_parameter_store_t *store)
 {
-    for (uint32_t i = 0u; (i < STEPS_PER_RUN) && (tuning->saved == KEEL_SLOTS_BUSY); i++) {
-        tuning->saved = keel_slots_step(&tuning->slots);
+    for (uint32_t i = 0u; (i < STEPS_PER_RUN) && (store->saved == KEEL_SLOTS_BUSY); i++) {
+        store->saved = keel_slots_step(&store->slots);
     }
 }

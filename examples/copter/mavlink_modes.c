@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "modes.h"
+#include "mavlink_modes.h"
 
 #include "keel/middleware/range.h"
 
@@ -38,19 +38,19 @@ static const row_t rows[COPTER_MODES] = {
                           .standard = (uint8_t)MAV_STANDARD_MODE_SAFE_RECOVERY},
 };
 
-uint8_t copter_mode_told(const copter_t *copter)
+uint8_t copter_mavlink_mode_told(const copter_t *copter)
 {
     const keel_mode_t *const machine = &copter->state.mode;
 
     return machine->motors ? machine->mode : machine->asked;
 }
 
-uint32_t copter_mode_number(uint8_t mode)
+uint32_t copter_mavlink_mode_number(uint8_t mode)
 {
     return (mode < COPTER_MODES) ? rows[mode].number : COPTER_MODE_NUMBER_NONE;
 }
 
-uint8_t copter_mode_of_number(uint32_t number)
+uint8_t copter_mavlink_mode_of_number(uint32_t number)
 {
     uint8_t found = (uint8_t)KEEL_MODE_NONE;
 
@@ -65,7 +65,7 @@ static uint8_t standard_of(uint8_t mode)
     return (mode < COPTER_MODES) ? rows[mode].standard : (uint8_t)MAV_STANDARD_MODE_NON_STANDARD;
 }
 
-uint8_t copter_mode_of_standard(uint32_t standard)
+uint8_t copter_mavlink_mode_of_standard(uint32_t standard)
 {
     uint8_t found = (uint8_t)KEEL_MODE_NONE;
 
@@ -78,7 +78,7 @@ uint8_t copter_mode_of_standard(uint32_t standard)
     return found;
 }
 
-bool copter_modes_want(copter_link_t *link, float index)
+bool copter_mavlink_modes_want(copter_link_t *link, float index)
 {
     const bool known = keel_range_contains(index, 0.0f, (float)COPTER_MODES);
     const uint32_t number = known ? (uint32_t)index : 0u;
@@ -90,19 +90,19 @@ bool copter_modes_want(copter_link_t *link, float index)
     return whole;
 }
 
-void copter_modes_current(const copter_t *copter, uint8_t *payload)
+void copter_mavlink_modes_current(const copter_t *copter, uint8_t *payload)
 {
-    const uint8_t mode = copter_mode_told(copter);
+    const uint8_t mode = copter_mavlink_mode_told(copter);
     const uint8_t asked = copter->state.mode.asked;
     const message_current_mode_t message = {
-        .custom_mode = copter_mode_number(mode),
+        .custom_mode = copter_mavlink_mode_number(mode),
         .intended_custom_mode = (asked < COPTER_MODES) ? rows[asked].number : 0u, /* Not known. */
         .standard_mode = standard_of(mode)};
 
     message_current_mode_pack(&message, payload);
 }
 
-bool copter_modes_available(copter_link_t *link, uint8_t *payload)
+bool copter_mavlink_modes_available(copter_link_t *link, uint8_t *payload)
 {
     uint8_t mode = 0u;
     message_available_modes_t message = {.number_modes = COPTER_MODES};

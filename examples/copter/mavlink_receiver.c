@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Requests of a ground station:
  *
- *     parameters                      list, read, set: see take_parameters.c
+ *     parameters                      list, read, set: see mavlink_parameters.c
  *     COMMAND_LONG, COMMAND_INT       COMPONENT_ARM_DISARM, SET_MESSAGE_INTERVAL, REQUEST_MESSAGE,
  *                                     and those of command.h; others are answered with UNSUPPORTED
  *     SET_MODE                        as DO_SET_MODE
  *     PING, TIMESYNC                  answered
- *     missions, logs                  as lists.h says
+ *     missions, logs                  as mavlink_empty_lists.h says
  *     FILE_TRANSFER_PROTOCOL          as ftp.h says
  *     SERIAL_CONTROL                  as shell.h says
  *
- * Arming, disarming and modes are asked of the state machine, as request.h says. It answers, and
- * what it refuses is answered with TEMPORARILY_REJECTED and a text for each thing that stands in
- * the way. DENIED is what can never be: to force it, to stop motors in flight, a mode in which the
- * throttle is the thrust, as whoever asks does not hold the throttle. */
+ * Arming, disarming and modes are asked of the state machine, as action_request.h says. It answers,
+ * and what it refuses is answered with TEMPORARILY_REJECTED and a text for each thing that stands
+ * in the way. DENIED is what can never be: to force it, to stop motors in flight, a mode in which
+ * the throttle is the thrust, as whoever asks does not hold the throttle. */
 #include "command.h"
 #include "keel/middleware/range.h"
-#include "modes.h"
+#include "mavlink_modes.h"
 
 #include <math.h>
 
@@ -37,31 +37,31 @@ static const word_t checks[] = {
     {KEEL_MODE_CHECK_ACCELEROMETER, "accelerometers do not agree"},
     {KEEL_MODE_CHECK_MAGNETOMETER, "magnetometer"},
     {KEEL_MODE_CHECK_BAROMETER, "no good altitude"},
-    {KEEL_MODE_CHECK_POSITIONING, "no good position"},
+    {KEEL_MODE_CHECK_POSITION_ESTIMATE, "no good position"},
     {KEEL_MODE_CHECK_CALIBRATION, "not calibrated"},
-    {KEEL_MODE_CHECK_LEVEL, "not level"},
-    {KEEL_MODE_CHECK_BATTERY, "battery"},
+    {KEEL_MODE_CHECK_LEVEL_ATTITUDE, "not level"},
+    {KEEL_MODE_CHECK_BATTERY_LEVEL, "battery"},
     {KEEL_MODE_CHECK_MOTORS, "motors"},
-    {KEEL_MODE_CHECK_LOAD, "processor load"},
+    {KEEL_MODE_CHECK_CPU_LOAD, "processor load"},
     {KEEL_MODE_CHECK_STORAGE, "storage"},
-    {KEEL_MODE_CHECK_HOME, "no home"},
-    {COPTER_CHECK_PRESSURE, "pressure not of the ground: an MS5607?"},
+    {KEEL_MODE_CHECK_HOME_POSITION, "no home"},
+    {COPTER_CHECK_GROUND_PRESSURE, "pressure not of the ground: an MS5607?"},
 };
 
 static const word_t facts[] = {
-    {KEEL_MODE_IS_LINKED, "no radio link"},
-    {KEEL_MODE_IS_ON, "arm switch"},
-    {KEEL_MODE_IS_OFF, "arm switch not off"},
-    {KEEL_MODE_IS_LOW, "throttle not low"},
-    {KEEL_MODE_IS_KILL, "kill switch"},
-    {KEEL_MODE_IS_AT, "mode switch not at a mode to fly"},
-    {KEEL_MODE_IS_LANDED, "not landed"},
-    {KEEL_MODE_HAS_ANGLE, "no attitude"},
-    {KEEL_MODE_HAS_HEIGHT, "no altitude"},
-    {KEEL_MODE_HAS_PLACE, "no position"},
-    {KEEL_MODE_IS_OUTSIDE, "outside the fence"},
-    {KEEL_MODE_IS_CRITICAL, "battery critical"},
-    {KEEL_MODE_IS_EMPTY, "battery empty"},
+    {KEEL_MODE_RC_LINKED, "no radio link"},
+    {KEEL_MODE_ARM_SWITCH_ON, "arm switch"},
+    {KEEL_MODE_ARM_SWITCH_OFF, "arm switch not off"},
+    {KEEL_MODE_THROTTLE_LOW, "throttle not low"},
+    {KEEL_MODE_KILL_SWITCH_ON, "kill switch"},
+    {KEEL_MODE_SWITCH_UNMOVED, "mode switch not at a mode to fly"},
+    {KEEL_MODE_LANDED, "not landed"},
+    {KEEL_MODE_ATTITUDE_VALID, "no attitude"},
+    {KEEL_MODE_ALTITUDE_VALID, "no altitude"},
+    {KEEL_MODE_POSITION_VALID, "no position"},
+    {KEEL_MODE_FENCE_BREACHED, "outside the fence"},
+    {KEEL_MODE_BATTERY_CRITICAL, "battery critical"},
+    {KEEL_MODE_BATTERY_EMPTY, "battery empty"},
 };
 
 /* A text for each bit. */
@@ -124,7 +124,7 @@ static uint32_t arm(copter_t *copter)
     }
     if ((machine->blocking.checks != 0u) || (machine->blocking.facts != 0u) || !machine->ready) {
         tell_refusal(copter->telemetry, &machine->blocking);
-        if ((machine->settled & KEEL_MODE_IS_LINKED) == 0u) {
+        if ((machine->settled & KEEL_MODE_RC_LINKED) == 0u) {
             copter_text(copter->telemetry, (uint8_t)MAV_SEVERITY_WARNING,
                         "not armed: ", "no radio link for long enough");
         } else if (!machine->ready) {
@@ -135,7 +135,7 @@ static uint32_t arm(copter_t *copter)
         }
         return MAV_RESULT_TEMPORARILY_REJECTED;
     }
-    copter_request_arm(&copter->request, true);
+    copter_action_request_arm(&copter->request, true);
     return MAV_RESULT_IN_PROGRESS;
 }
 
@@ -151,7 +151,7 @@ static uint32_t disarm(copter_t *copter)
                     "not disarmed: ", "not on the ground");
         return MAV_RESULT_DENIED;
     }
-    copter_request_arm(&copter->request, false);
+    copter_action_request_arm(&copter->request, false);
     return MAV_RESULT_IN_PROGRESS;
 }
 
@@ -220,7 +220,8 @@ static uint32_t set_interval(copter_t *copter, const copter_command_t *command)
     } else {
         /* Never. */
     }
-    copter_turns_repeat(&copter->telemetry->link[command->link].turns, sent, interval_us);
+    copter_link_schedule_repeat(&copter->telemetry->link[command->link].schedule, sent,
+                                interval_us);
     return MAV_RESULT_ACCEPTED;
 }
 
@@ -230,10 +231,10 @@ static uint32_t request_message(copter_t *copter, const copter_command_t *comman
 
     if ((sent == NOT_FOUND) || is_answer(sent) ||
         ((sent == SENT_AVAILABLE_MODES) &&
-         !copter_modes_want(&copter->telemetry->link[command->link], command->param[1]))) {
+         !copter_mavlink_modes_want(&copter->telemetry->link[command->link], command->param[1]))) {
         return MAV_RESULT_DENIED;
     }
-    copter_turns_ask(&copter->telemetry->link[command->link].turns, sent);
+    copter_link_schedule_ask(&copter->telemetry->link[command->link].schedule, sent);
     return MAV_RESULT_ACCEPTED;
 }
 
@@ -371,7 +372,7 @@ static void take_read(copter_t *copter, const keel_mavlink_frame_t *frame, uint3
     message_param_request_read_unpack(&message, frame->payload);
     if (copter_is_meant(&copter->telemetry->link[link], message.target_system,
                         message.target_component)) {
-        copter_take_read(copter, link, frame, &message);
+        copter_mavlink_read_parameter(copter, link, frame, &message);
     }
 }
 
@@ -382,7 +383,7 @@ static void take_list(copter_t *copter, const keel_mavlink_frame_t *frame, uint3
     message_param_request_list_unpack(&message, frame->payload);
     if (copter_is_meant(&copter->telemetry->link[link], message.target_system,
                         message.target_component)) {
-        copter_take_list(copter, link);
+        copter_mavlink_list_parameters(copter, link);
     }
 }
 
@@ -393,7 +394,8 @@ static void take_set(copter_t *copter, const keel_mavlink_frame_t *frame, uint32
     message_param_set_unpack(&message, frame->payload);
     if (copter_is_meant(&copter->telemetry->link[link], message.target_system,
                         message.target_component)) {
-        copter_take_set(copter, link, frame, &message, may_command(copter->telemetry, link));
+        copter_mavlink_set_parameter(copter, link, frame, &message,
+                                     may_command(copter->telemetry, link));
     }
 }
 
@@ -407,7 +409,7 @@ static void take_ping(copter_t *copter, const keel_mavlink_frame_t *frame, uint3
         to->ping = message;
         to->ping.target_system = frame->system;
         to->ping.target_component = frame->component;
-        copter_turns_ask(&to->turns, SENT_PING);
+        copter_link_schedule_ask(&to->schedule, SENT_PING);
     }
 }
 
@@ -420,7 +422,7 @@ static void take_timesync(copter_t *copter, const keel_mavlink_frame_t *frame, u
     if (message.tc1 == 0) {
         to->timesync = (message_timesync_t){
             .tc1 = (int64_t)(copter->scheduler.clock.now_us * 1000u), .ts1 = message.ts1};
-        copter_turns_ask(&to->turns, SENT_TIMESYNC);
+        copter_link_schedule_ask(&to->schedule, SENT_TIMESYNC);
     }
 }
 
@@ -448,7 +450,7 @@ static void take_shell(copter_t *copter, const keel_mavlink_frame_t *frame, uint
     }
 }
 
-void copter_take(copter_t *copter, uint32_t link)
+void copter_mavlink_receive(copter_t *copter, uint32_t link)
 {
     const keel_mavlink_frame_t *const frame = &copter->telemetry->link[link].decoder.frame;
 
@@ -484,7 +486,7 @@ void copter_take(copter_t *copter, uint32_t link)
         take_shell(copter, frame, link);
         break;
     default:
-        copter_take_lists(copter, link);
+        copter_mavlink_receive_list(copter, link);
         break;
     }
 }
@@ -501,11 +503,11 @@ static void answer(copter_telemetry_t *self, copter_moved_t *moved, copter_waite
     waiter->command = 0u;
 }
 
-void copter_take_answers(copter_t *copter)
+void copter_mavlink_pass_answers(copter_t *copter)
 {
     copter_telemetry_t *const self = copter->telemetry;
     const keel_mode_t *const machine = &copter->state.mode;
-    copter_request_t *const request = &copter->request;
+    copter_action_request_t *const request = &copter->request;
 
     if (request->arm.answer > COPTER_ANSWER_WAITS) {
         if ((request->arm.answer == COPTER_ANSWER_REFUSED) && request->arms) {
